@@ -1,0 +1,246 @@
+"""An experiment as the runner left it: experiment.json, results.csv, cost.csv and the series of its runs.
+
+Everything that is read is checked here, so that figures and page can trust it.
+
+A run's drift numbers are those of I(t) - I(0) in the unit of the invariant I; slopes are per unit of time.
+`precision` double has unit round-off u = 2^-53, quad u = 2^-113. Series in quad hold 36 digits: the difference
+I(t) - I(0) is formed in decimal arithmetic before anything is rounded to double.
+"""
+import collections
+import dataclasses
+import decimal
+import math
+import pathlib
+
+from files import InputError, allow, parse, read_csv, read_json, read_table, require
+
+UNIT_ROUND_OFF = {"double": 2.0**-53, "quad": 2.0**-113}
+RUN_COLUMNS = ("case", "method", "step", "time", "steps", "precision", "status", "message", "error_max",
+               "error_final", "structure_residual", "rhs_per_step", "jacobians_per_step", "iterations_per_step",
+               "factorisations_per_step", "run")
+COST_COLUMNS = ("case", "method", "step", "ns_per_step", "ns_per_step_min", "ns_per_step_max")
+MEASURES = ("max", "rms", "final", "slope", "slope_low", "slope_high", "oscillation", "exponent", "class")
+
+
+def step_key(step):
+    """Steps that agree to 12 digits are the same step."""
+    return f"{step:.12g}"
+
+
+@dataclasses.dataclass
+class Cost:
+    ns: float  # per step, the median
+    low: float
+    high: float
+
+
+@dataclasses.dataclass
+class Run:
+    cells: dict
+    where: str  # "results.csv, line 7"
+    cost: Cost | None = None
+
+    def __post_init__(self):
+        self.case, self.method, self.slug = (self.cells[k] for k in ("case", "method", "run"))
+        self.status, self.message = self.cells["status"], self.cells["message"]
+        self.failed = self.status != "converged"
+        self.step, self.steps = self.number("step"), self.number("steps")
+        if not (self.step > 0 and math.isfinite(self.step)):
+            raise InputError(f"{self.where}, column step: expected a positive number, got '{self.cells['step']}'")
+
+    def number(self, column):
+        """The cell as a float; an empty cell or an absent column is nan."""
+        return parse(self.cells.get(column, ""), f"{self.where}, column {column}")
+
+    def drift(self, invariant, measure):
+        return self.number(f"{invariant}:{measure}")
+
+    def drift_class(self, invariant):
+        return self.cells.get(f"{invariant}:class", "")
+
+    @property
+    def total_ns(self):
+        return self.cost.ns * self.steps if self.cost else math.nan
+
+    @property
+    def total_rhs(self):
+        return self.number("rhs_per_step") * self.steps
+
+
+@dataclasses.dataclass
+class Series:
+    time: list
+    time_unit: str
+    initial: float  # I(0)
+    change: list  # I(t) - I(0)
+    unit: str
+    residual: list  # structure residual, nan where it was not measured
+
+    @property
+    def scale(self):
+        return max(1.0, abs(self.initial)) if math.isfinite(self.initial) else 1.0
+
+    def rises(self):
+        """The largest rise up to t, max of I(t2) - I(t1) over t1 <= t2 <= t: zero for a quantity that never grows."""
+        lowest, largest, out = math.inf, 0.0, []
+        for x in self.change:
+            lowest = min(lowest, x)
+            largest = max(largest, x - lowest)
+            out.append(largest)
+        return out
+
+
+class Experiment:
+    def __init__(self, folder):
+        self.folder = pathlib.Path(folder)
+        if not self.folder.is_dir():
+            raise InputError(f"{folder}: expected the directory of an experiment")
+        self.head = read_json(self.folder / "experiment.json")
+        require(self.head, "experiment.json", name=str, title=str, cases=list, methods=list)
+        allow(self.head, "experiment.json", description=str, reference=list, citation=list, notes=list, versions=dict)
+        if self.head.get("schema") != 1:
+            raise InputError(f"experiment.json: expected \"schema\": 1, got {self.head.get('schema')!r}")
+        if self.head.get("reference") and "citation" not in self.head:
+            raise InputError("experiment.json: 'reference' names sources, but the list 'citation' is missing")
+        self.cases, self.methods = self.head["cases"], self.head["methods"]
+        for i, case in enumerate(self.cases):
+            require(case, f"experiment.json, case {i + 1}", name=str, precision=str)
+            allow(case, f"experiment.json, case {case['name']}", title=str, parameters=dict, time_unit=str,
+                  conserved=str, structure=str)
+            if case["precision"] not in UNIT_ROUND_OFF:
+                raise InputError(f"experiment.json, case {case['name']}: expected precision double or quad, "
+                                 f"got '{case['precision']}'")
+        for i, method in enumerate(self.methods):
+            require(method, f"experiment.json, method {i + 1}", label=str)
+            allow(method, f"experiment.json, method {method['label']}", parameters=dict, claims=list)
+        self.labels = [m["label"] for m in self.methods]
+        for kind, names in (("case", [c["name"] for c in self.cases]), ("method", self.labels)):
+            for name, n in collections.Counter(names).items():
+                if n > 1:
+                    raise InputError(f"experiment.json: {kind} '{name}' appears {n} times, expected once")
+        self.runs, self.invariants = self._read_runs()
+        self.timed = self._read_costs()
+        self._series, self._summaries = {}, {}
+
+    def _read_runs(self):
+        columns, rows = read_table(self.folder / "results.csv", RUN_COLUMNS)
+        invariants = [c[:-len(":max")] for c in columns if c.endswith(":max")]
+        for name in invariants:
+            for m in MEASURES:
+                if f"{name}:{m}" not in columns:
+                    raise InputError(f"results.csv: column '{name}:{m}' is missing")
+        runs, known = [], {c["name"] for c in self.cases}
+        for where, cells in rows:
+            run = Run(cells, where)
+            if run.case not in known:
+                raise InputError(f"{where}: case '{run.case}' is not in experiment.json")
+            if run.method not in self.labels:
+                raise InputError(f"{where}: method '{run.method}' is not in experiment.json")
+            runs.append(run)
+        if not runs:
+            raise InputError("results.csv: expected at least one run, found none")
+        runs.sort(key=lambda r: (self.labels.index(r.method), -r.step))
+        for case in self.cases:
+            name = case.get("conserved")
+            if name and name not in invariants:
+                raise InputError(f"results.csv: column '{name}:max' is missing (the conserved quantity of case "
+                                 f"{case['name']})")
+        return runs, invariants
+
+    def _read_costs(self):
+        """Attach timings to runs; False where there is none at all."""
+        path = self.folder / "cost.csv"
+        if not path.exists():
+            return False
+        costs = {}
+        for where, cells in read_table(path, COST_COLUMNS)[1]:
+            step, ns, low, high = (parse(cells[k], f"{where}, column {k}")
+                                   for k in ("step", "ns_per_step", "ns_per_step_min", "ns_per_step_max"))
+            if ns > 0:
+                costs[cells["case"], cells["method"], step_key(step)] = Cost(ns, low, high)
+        for run in self.runs:
+            run.cost = costs.get((run.case, run.method, step_key(run.step)))
+        return any(run.cost for run in self.runs)
+
+    def runs_of(self, case):
+        return [r for r in self.runs if r.case == case["name"]]
+
+    def common_step(self, case):
+        """The step at which most methods finished; the largest of several, where methods differ most."""
+        runs = self.runs_of(case)
+        counts = collections.Counter(step_key(r.step) for r in runs if not r.failed)
+        return max({r.step for r in runs}, key=lambda h: (counts[step_key(h)], h), default=math.nan)
+
+    def at_common_step(self, case):
+        """One run of each method: at the common step, or at the nearest step the method has."""
+        target, chosen = self.common_step(case), {}
+        for run in self.runs_of(case):
+            best = chosen.get(run.method)
+            if best is None or abs(math.log(run.step / target)) < abs(math.log(best.step / target)):
+                chosen[run.method] = run
+        return list(chosen.values())
+
+    def series(self, run, invariant):
+        """The run's series with one invariant (or None), or None where the run left no series."""
+        key = (run.slug, invariant)
+        if key not in self._series:
+            path = self.folder / "runs" / run.slug / "series.csv"
+            found = bool(run.slug) and path.exists()
+            self._series[key] = read_series(path, invariant, run.cells["precision"]) if found else None
+        return self._series[key]
+
+    def expectation(self, case, invariant):
+        """(expected, unit) of an invariant as the runs' summaries state them; conserved where none does."""
+        for run in self.runs_of(case):
+            path = self.folder / "runs" / run.slug / "summary.json"
+            if not run.slug or not path.exists():
+                continue
+            if run.slug not in self._summaries:
+                self._summaries[run.slug] = invariants_of(path)
+            for entry in self._summaries[run.slug]:
+                if entry.get("name") == invariant:
+                    return entry.get("expected") or "none", entry.get("unit") or ""
+        return "conserved", ""
+
+
+def invariants_of(path):
+    summary, where = read_json(path), "/".join(path.parts[-3:])
+    allow(summary, where, invariants=list)
+    for i, entry in enumerate(summary.get("invariants") or []):
+        require(entry, f"{where}, invariant {i + 1}", name=str)
+    return summary.get("invariants") or []
+
+
+def read_series(path, invariant, precision):
+    where = "/".join(path.parts[-3:])
+    columns, rows = read_csv(path, where)
+    names, units = zip(*map(split_unit, columns)) if columns else ((), ())
+    if not names or names[0] != "t":
+        raise InputError(f"{where}: the first column is expected to be 't [unit]'")
+    if invariant is not None and invariant not in names:
+        raise InputError(f"{where}: column '{invariant}' is missing")
+
+    def column(name):
+        if name not in names:
+            return [math.nan] * len(rows)
+        k = names.index(name)
+        return [parse(row[k], f"{where}, line {line}, column {name}") for line, row in rows]
+
+    values = column(invariant)
+    initial = values[0] if values else math.nan
+    change = [x - initial for x in values]
+    if precision == "quad" and math.isfinite(initial):
+        k = names.index(invariant)
+        with decimal.localcontext() as context:
+            context.prec = 50
+            start = decimal.Decimal(rows[0][1][k])
+            change = [float(decimal.Decimal(row[k]) - start) if math.isfinite(x) else x
+                      for (_, row), x in zip(rows, values)]
+    unit = units[names.index(invariant)] if invariant is not None else ""
+    return Series(column("t"), units[0], initial, change, unit, column("structure_residual"))
+
+
+def split_unit(cell):
+    """'energy [J]' -> ('energy', 'J')"""
+    name, bracket, unit = cell.rpartition(" [")
+    return (name, unit[:-1]) if bracket and unit.endswith("]") else (cell, "")

@@ -1,0 +1,191 @@
+"""What an experiment shows, in sentences computed from its data: structure, drift, observed order, cost, failures.
+
+Thresholds, all stated in the text they produce:
+- a structure residual is at round-off up to ROUND_OFF u, u the unit round-off of the run's precision;
+- the order of a method is the slope of log error over log step between its two smallest steps whose error is above
+  ABOVE_ROUND_OFF u, and so free of round-off;
+- "cheapest at error e" compares runs that were made, without interpolation.
+"""
+import math
+
+from experiment import UNIT_ROUND_OFF
+from figures import precision_measure, step_text, with_unit
+
+ROUND_OFF = 1000
+ABOVE_ROUND_OFF = 1e5
+ORDER_TOLERANCE = 0.3
+CLASSES = ("exact", "bounded", "random-walk", "linear", "exponential", "undetermined")
+
+
+def number(x):
+    """Three digits: 0.123, 1200, 1.23e-6; a dash where there is no number."""
+    if math.isnan(x):
+        return "–"
+    if x == 0 or 0.01 <= abs(x) < 999.5 or math.isinf(x):
+        return f"{x:.3g}"
+    if 999.5 <= abs(x) < 1e6:
+        return f"{x:.0f}"
+    mantissa, _, exponent = f"{x:.2e}".partition("e")
+    return f"{float(mantissa):g}e{int(exponent)}"
+
+
+def duration(ns):
+    for size, unit in ((1e9, "s"), (1e6, "ms"), (1e3, "µs")):
+        if ns >= size:
+            return f"{number(ns / size)} {unit}"
+    return "–" if math.isnan(ns) else f"{number(ns)} ns"
+
+
+def slope_unit(unit, time_unit):
+    unit = "" if unit == "1" else unit
+    return f"{unit or 1}/{time_unit}" if time_unit else unit
+
+
+def listed(items):
+    items = list(items)
+    return items[0] if len(items) == 1 else ", ".join(items[:-1]) + " and " + items[-1] if items else "none"
+
+
+def grouped(*groups):
+    """["word: names"] of the groups (word, names) that are not empty."""
+    return [f"{word}: {listed(names)}" for word, names in groups if names]
+
+
+def findings(experiment, case):
+    """[(subject, sentence, [items])] of one case."""
+    makers = (structure, drift, order, cost, failures)
+    return [found for maker in makers for found in maker(experiment, case)]
+
+
+def slope(points):
+    """Slope of log y over log x between two points."""
+    (x1, y1), (x2, y2) = points
+    return math.log(y1 / y2) / math.log(x1 / x2)
+
+
+def limit(case):
+    return ROUND_OFF * UNIT_ROUND_OFF[case["precision"]]
+
+
+def structure(experiment, case):
+    keep, lose, kind = [], [], case.get("structure") or "symplectic"
+    for method in experiment.labels:
+        residuals = [(r.step, r.number("structure_residual")) for r in experiment.runs_of(case)
+                     if r.method == method and not r.failed]
+        residuals = [p for p in residuals if not math.isnan(p[1])]
+        above = [p for p in residuals if p[1] > limit(case)]
+        if residuals and not above:
+            keep.append(method)
+        elif above:
+            falls = len(above) > 1 and above[-1][0] != above[-2][0] and math.isfinite(above[-2][1] + above[-1][1])
+            rate = f", falling as h^{slope(above[-2:]):.1f}" if falls else ""
+            lose.append(f"{method} (up to {number(max(p[1] for p in above))}{rate})")
+    if not keep and not lose:
+        return []
+    text = (f"The {kind} structure is kept to round-off by {len(keep)} of {len(keep) + len(lose)} methods (residual at "
+            f"most {ROUND_OFF} u = {number(limit(case))} at every step).")
+    return [("Structure", text, grouped(("kept", keep), ("not kept", lose)))]
+
+
+def drift(experiment, case):
+    name = case.get("conserved")
+    if not name:
+        return []
+    expected, unit = experiment.expectation(case, name)
+    runs = [r for r in experiment.at_common_step(case) if not r.failed]
+    at = "at " + step_text(experiment.common_step(case), case)
+    if expected == "decreasing":
+        return rising(experiment, case, name, runs, at)
+    rate = slope_unit(unit, case.get("time_unit") or "")
+    items = []
+    for kind in CLASSES:
+        some = [(r, number(r.drift(name, "max"))) for r in runs if r.drift_class(name) == kind]
+        if kind == "linear":
+            shown = [f"{r.method} at {number(r.drift(name, 'slope'))} [{number(r.drift(name, 'slope_low'))}, "
+                     f"{number(r.drift(name, 'slope_high'))}] {rate}".rstrip() for r, top in some]
+        elif kind == "random-walk":
+            shown = [f"{r.method} (as t^{number(r.drift(name, 'exponent'))}, at most {top})" for r, top in some]
+        else:
+            shown = [r.method + ("" if kind == "exact" else f" (at most {top})") for r, top in some]
+        if some:
+            items.append(f"{kind}: {listed(shown)}")
+    subject = "Drift" if expected == "conserved" else "Change"
+    return [(subject, f"{subject} of {with_unit(name, unit)} {at}, by class:", items)] if items else []
+
+
+def largest_rise(experiment, run, name):
+    """The largest rise of an invariant in a run, over max(1, |I(0)|); nan without a series."""
+    series = experiment.series(run, name)
+    return series.rises()[-1] / series.scale if series and series.time else math.nan
+
+
+def rising(experiment, case, name, runs, at):
+    """Findings on a quantity that is expected to decrease: who lets it rise."""
+    rises = {r.method: largest_rise(experiment, r, name) for r in runs}
+    never = [m for m, x in rises.items() if x <= limit(case)]
+    does = [f"{m} (by {number(x)})" for m, x in rises.items() if x > limit(case)]
+    text = (f"{name} is expected to decrease, so its change is not an error. Whether it rises {at} by more than "
+            f"{ROUND_OFF} u between any two samples:")
+    items = grouped(("never rises", never), ("rises", does))
+    return [("Decrease", text, items)] if items else []
+
+
+def order(experiment, case):
+    agree, differ = [], []
+    for method in experiment.methods:
+        points = [(r.step, r.number("error_max")) for r in experiment.runs_of(case)
+                  if r.method == method["label"] and not r.failed
+                  and r.number("error_max") > ABOVE_ROUND_OFF * UNIT_ROUND_OFF[case["precision"]]][-2:]
+        if len(points) < 2 or points[0][0] == points[1][0] or not math.isfinite(points[0][1] + points[1][1]):
+            continue
+        seen, declared = slope(points), method.get("order")
+        if isinstance(declared, (int, float)) and abs(seen - declared) <= ORDER_TOLERANCE:
+            agree.append(f"{method['label']} ({seen:.2f})")
+        else:
+            expected = "" if declared is None else f", declared {declared}"
+            differ.append(f"{method['label']} ({seen:.2f}{expected})")
+    text = "Order seen in the largest error between the two smallest steps above round-off:"
+    items = grouped((f"within {ORDER_TOLERANCE} of the declared order", agree), ("other", differ))
+    return [("Order", text, items)] if items else []
+
+
+def cost(experiment, case):
+    error, _ = precision_measure(experiment, case)
+    runs = [r for r in experiment.runs_of(case) if not r.failed and error is not None and math.isfinite(error(r))]
+    methods = {r.method for r in runs}
+    if len(methods) < 2:
+        return []
+    if all(r.cost for r in runs):
+        work, show, kind = (lambda r: r.total_ns), duration, "processor time"
+    elif all(r.total_rhs > 0 for r in runs):
+        work, show, kind = (lambda r: r.total_rhs), number, "right-hand sides"
+    else:
+        return []
+    what = "error" if any(math.isfinite(r.number("error_max")) for r in runs) else "drift"
+    items = []
+    for target in targets(min(error(r) for r in runs if r.method == m) for m in methods):
+        best = {}
+        for r in runs:
+            if error(r) <= target * (1 + 1e-8) and (r.method not in best or work(r) < work(best[r.method])):
+                best[r.method] = r
+        ranked = sorted(best.values(), key=work)
+        first = ranked[0]
+        next_best = [f"{r.method} ({work(r) / work(first):.2g}×)" for r in ranked[1:4]]
+        then = f", then {listed(next_best)}" if next_best else ""
+        items.append(f"{what} at most {number(target)}: {first.method} at {step_text(first.step, case)} "
+                     f"({show(work(first))}){then}; {len(ranked)} of {len(methods)} methods reach it")
+    return [("Cost", f"Cheapest run in {kind}:", items)] if items else []
+
+
+def targets(best):
+    """Powers of ten worth asking for: the smallest that three quarters of the methods reach, and that two reach."""
+    reached = sorted(best)
+    wanted = (reached[max(1, math.ceil(0.75 * len(reached)) - 1)], reached[1])
+    return sorted({10.0 ** math.ceil(math.log10(x) - 1e-9) for x in wanted if x > 0}, reverse=True)
+
+
+def failures(experiment, case):
+    runs = experiment.runs_of(case)
+    failed = [f"{r.method} at {step_text(r.step, case)}: {r.status}{', ' + r.message if r.message else ''}"
+              for r in runs if r.failed]
+    return [("Failures", f"{len(failed)} of {len(runs)} runs failed:", failed)] if failed else []

@@ -1,0 +1,63 @@
+#!/usr/bin/env python3
+"""Figures and report of an experiment:  python3 report.py EXPERIMENT_DIR
+
+Reads experiment.json, results.csv, cost.csv (if timings were measured) and runs/*/series.csv with summary.json, as
+`pfaff compare` leaves them. Writes figures/{drift,work_precision,structure}_<case>.{svg,png} and report.html beside
+them, the same bytes for the same data. Needs matplotlib and nothing else. Exit status: 0 fine, 2 wrong usage or
+input, with one line on stderr.
+"""
+import os
+import sys
+
+from experiment import Experiment
+from files import InputError
+
+
+def write(path, content):
+    """Write to a temporary name beside `path`, then rename: a reader never sees half a file."""
+    temporary = path.with_name(f".{path.name}.{os.getpid()}")
+    try:
+        temporary.write_bytes(content.encode("utf-8") if isinstance(content, str) else content)
+        temporary.replace(path)
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
+def report(folder):
+    experiment = Experiment(folder)
+    from figures import drawings  # after the input has been read: importing matplotlib takes a second
+    from page import page
+    target, drawn = experiment.folder / "figures", {}
+    target.mkdir(exist_ok=True)
+    for case in experiment.cases:
+        drawn[case["name"]] = []
+        for drawing in drawings(experiment, case):
+            sheet = drawing.draw(True)
+            wide = sheet.svg(f"{drawing.name}-wide")
+            write(target / f"{drawing.name}.svg", f'<?xml version="1.0" encoding="utf-8"?>\n{wide}')
+            write(target / f"{drawing.name}.png", sheet.png())
+            drawn[case["name"]].append((drawing, wide, drawing.draw(False).svg(f"{drawing.name}-narrow")))
+    write(experiment.folder / "report.html", page(experiment, drawn))
+    return experiment.folder / "report.html"
+
+
+def main(arguments):
+    if arguments in (["-h"], ["--help"]):
+        print(__doc__.strip())
+        return 0
+    if len(arguments) != 1:
+        print("report.py: expected one argument, the directory of an experiment", file=sys.stderr)
+        return 2
+    try:
+        print(report(arguments[0]), file=sys.stderr)
+    except (InputError, OSError) as error:
+        print(f"report.py: {' '.join(str(error).split())}", file=sys.stderr)
+        return 2
+    except ImportError as error:
+        print(f"report.py: {error.name} is missing; on Debian, install python3-matplotlib", file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,118 @@
+"""Logarithmic axes for errors: where zero goes, where an explosion ends, which ticks are labelled; and envelopes.
+
+Zero has no place on a logarithmic axis: it is drawn on a line of its own below the smallest positive value, labelled 0.
+Values far above everything useful (a method that exploded) leave the frame at the top.
+"""
+import bisect
+import math
+
+EXPLOSION = 1e4  # values above this times max(1, the smallest of the lines' maxima) leave the frame
+
+
+def positive(values):
+    return [v for v in values if v > 0 and math.isfinite(v)]
+
+
+class ErrorAxis:
+    """The y axis for several lines of errors >= 0 and a level (round-off) that is to be seen."""
+
+    def __init__(self, lines, level=None, explosion=EXPLOSION):
+        tops = [max(p) for p in map(positive, lines) if p]
+        limit = explosion * max(1.0, min(tops)) if tops else 1.0
+        kept = [v for line in lines for v in positive(line) if v <= limit] + ([level] if level else [])
+        kept = kept or [1e-16]
+        self.clipped = any(v > limit for line in lines for v in line if not math.isnan(v))
+        self.zeros = any(v == 0 for line in lines for v in line)
+        self.low = math.floor(math.log10(min(kept)) - 0.15)
+        self.high = max(math.ceil(math.log10(max(kept)) + 0.1), self.low + 1)
+        self.stride = math.ceil((self.high - self.low) / 7)
+        self.floor = 10.0 ** (self.low - 0.6 * self.stride)
+
+    def place(self, values):
+        """Zeros to their line; what is not a number stays a gap."""
+        return [self.floor if v == 0 else v if math.isfinite(v) else math.nan for v in values]
+
+    def apply(self, axes):
+        axes.set_yscale("log")
+        powers = list(range(self.high, self.low - 1, -self.stride))
+        ticks, labels = [10.0**k for k in powers], [f"$10^{{{k}}}$" for k in powers]
+        bottom = 10.0**self.low
+        if self.zeros:
+            bottom = self.floor * 10.0 ** (-0.3 * self.stride)
+            ticks.append(self.floor)
+            labels.append("0")
+        axes.set_yticks(ticks, labels)
+        axes.set_yticks([], minor=True)
+        axes.set_ylim(bottom, 10.0**self.high)
+
+    def remarks(self):
+        return ((["Exact zeros are drawn on the line labelled 0."] if self.zeros else [])
+                + (["Values far beyond the rest leave the frame at the top."] if self.clipped else []))
+
+
+def decade_axis(axes, values):
+    """A logarithmic x axis over whole decades."""
+    kept = positive(values) or [1.0]
+    low, high = math.floor(math.log10(min(kept)) + 1e-9), math.ceil(math.log10(max(kept)) - 1e-9)
+    high = max(high, low + 1)
+    log_ticks(axes, range(low, high + 1, math.ceil((high - low) / 5)))
+    axes.set_xlim(10.0**low / 1.15, 10.0**high * 1.15)
+
+
+def time_axis(axes, begin, end):
+    """Logarithmic over two decades or more, otherwise (and for begin = 0) linear."""
+    if not logarithmic(begin, end):
+        axes.set_xlim(0, 1.02 * end if end > 0 else 1)
+        axes.locator_params(axis="x", nbins=5)
+        return
+    low, high = math.ceil(math.log10(begin) - 1e-9), math.floor(math.log10(end) + 1e-9)
+    log_ticks(axes, range(low, high + 1, max(1, math.ceil((high - low) / 5))))
+    axes.set_xlim(begin / 1.1, end * 1.1)
+
+
+def logarithmic(begin, end):
+    return begin > 0 and end / begin >= 100
+
+
+def log_ticks(axes, powers):
+    axes.set_xscale("log")
+    axes.set_xticks([10.0**k for k in powers], [f"$10^{{{k}}}$" for k in powers])
+    axes.set_xticks([], minor=True)
+
+
+def step_axis(axes, steps):
+    """A logarithmic x axis that labels the steps themselves, as many as have room."""
+    steps = sorted(set(steps))
+    span = math.log(steps[-1] / steps[0]) or 1.0
+    labelled = []
+    for h in steps:
+        if not labelled or math.log(h / labelled[-1]) / span >= 0.14:
+            labelled.append(h)
+    axes.set_xscale("log")
+    axes.set_xticks(labelled, [f"{h:.3g}" for h in labelled])
+    axes.set_xticks([], minor=True)
+    axes.set_xlim(steps[0] * math.exp(-0.06 * span), steps[-1] * math.exp(0.06 * span))
+
+
+def envelope(times, values, linear=False):
+    """(times, values): the largest value in each of 80 parts of the time after 0, where it occurs.
+
+    Parts are equal in log t where a time axis over them is logarithmic; in linear time they hold ten samples or more
+    on average, so that residuals which are zero now and then still make a line. Few samples are returned as they are.
+    """
+    points = [(t, v) for t, v in zip(times, values) if t > 0 and not math.isnan(v)]
+    bins = min(80, max(10, len(points) // 10)) if linear else 80
+    if len(points) <= bins:
+        return [t for t, _ in points], [v for _, v in points]
+    begin, end = points[0][0], points[-1][0]
+    if not linear and logarithmic(begin, end):
+        edges = [begin * (end / begin) ** (k / bins) for k in range(1, bins)]
+    else:
+        edges = [begin + (end - begin) * k / bins for k in range(1, bins)]
+    best = {}
+    for t, v in points:
+        k = bisect.bisect_left(edges, t)
+        if k not in best or v > best[k][1]:
+            best[k] = (t, v)
+    kept = [best[k] for k in sorted(best)]
+    return [t for t, _ in kept], [v for _, v in kept]

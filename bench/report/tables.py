@@ -1,0 +1,171 @@
+"""The tables of the report: what was run, the results of a case, and its other invariants."""
+import html
+import math
+
+from figures import heading, step_text, with_unit
+from findings import duration, largest_rise, number, slope_unit
+
+
+def text(value):
+    return html.escape(str(value))
+
+
+def settings(parameters):
+    return ", ".join(f"{k} = {v}" for k, v in (parameters or {}).items()) or "–"
+
+
+def table(caption, columns, bodies):
+    """A table of [[row]] grouped by body; a row is (class, cells); a column is (title, class).
+
+    The first cell heads its row, and all rows of the body that begin with the same one. Cells and titles are HTML.
+    Columns whose cells are all a dash are left out.
+    """
+    rows = [cells for body in bodies for _, cells in body]
+    kept = [k for k in range(len(columns)) if k == 0 or any(cells[k] != "–" for cells in rows)]
+    out = [f'<p class="caption">{caption}</p>', '<div class="scroll" tabindex="0"><table>', "<thead><tr>"]
+    out += [f'<th scope="col"{cell_class(columns[k][1])}>{columns[k][0]}</th>' for k in kept]
+    out.append("</tr></thead>")
+    for body in bodies:
+        out.append("<tbody>")
+        above = None
+        for row_class, cells in body:
+            span = sum(other[0] == cells[0] for _, other in body)
+            head = f'<th scope="{"row" if span == 1 else "rowgroup"}" rowspan="{span}">{cells[0]}</th>'
+            out.append(f"<tr{cell_class(row_class)}>" + (head if cells[0] != above else "")
+                       + "".join(f"<td{cell_class(columns[k][1])}>{cells[k]}</td>" for k in kept[1:]) + "</tr>")
+            above = cells[0]
+        out.append("</tbody>")
+    return "\n".join(out + ["</table></div>"])
+
+
+def cell_class(name):
+    return f' class="{name}"' if name else ""
+
+
+def cases(experiment):
+    columns = [("Case", ""), ("System", ""), ("Parameters", "wrap"), ("Duration", "number"), ("Steps", "wrap"),
+               ("Precision", ""), ("Drift of", ""), ("Structure", ""), ("Reference solution", "")]
+    rows = []
+    for case in experiment.cases:
+        steps = sorted({r.step for r in experiment.runs_of(case)}, reverse=True)
+        rows.append(("", [text(x if x not in (None, "") else "–") for x in (
+            heading(case), case.get("system"), settings(case.get("parameters")),
+            f"{case['time']} {case.get('time_unit') or ''}".strip() if "time" in case else "",
+            f"{', '.join(f'{h:.4g}' for h in steps)} {case.get('time_unit') or ''}".strip(), case["precision"],
+            case.get("conserved"), case.get("structure"), case.get("reference_solution"))]))
+    return table("Cases", columns, [rows])
+
+
+def methods(experiment):
+    columns = [("Method", ""), ("Integrator", ""), ("Parameters", "wrap"), ("Order", "number"), ("Claims", "wrap")]
+    return table("Methods", columns, [[("", [text(x if x not in (None, "") else "–") for x in (
+        m["label"], m.get("integrator"), settings(m.get("parameters")), m.get("order"), ", ".join(m.get("claims") or [])
+    )]) for m in experiment.methods]])
+
+
+def overview(experiment):
+    """Method by case: class and size of the drift at the common step, and the structure residual."""
+    columns = [("Method", "")]
+    for case in experiment.cases:
+        name = case.get("conserved")
+        about = with_unit(name, experiment.expectation(case, name)[1]) if name else "no conserved quantity"
+        columns.append((f"{text(heading(case))}<br><small>{text(about)}</small>", ""))
+    chosen = {(c["name"], r.method): (c, r) for c in experiment.cases for r in experiment.at_common_step(c)}
+    rows = []
+    for label in experiment.labels:
+        cells = [chosen.get((c["name"], label)) for c in experiment.cases]
+        if any(cells):
+            rows.append(("", [text(label), *(overview_cell(experiment, *cell) if cell else "–" for cell in cells)]))
+    steps = ", ".join(f"{heading(c)}: {step_text(experiment.common_step(c), c)}" for c in experiment.cases)
+    return table("<strong>At a glance.</strong> Class and size of the drift of each case's conserved quantity (of one that "
+                 "is expected to decrease, its largest rise over max(1, |I(0)|)), and the structure "
+                 f"residual, at the step that most methods share ({text(steps)}).", columns, [rows])
+
+
+def overview_cell(experiment, case, run):
+    if run.failed:
+        return f"<strong>✗ {text(run.status)}</strong>"
+    name, residual = case.get("conserved"), run.number("structure_residual")
+    shown = []
+    if name and experiment.expectation(case, name)[0] == "decreasing":
+        shown = [f"rises by {number(largest_rise(experiment, run, name))}"]
+    elif name:
+        shown = [f"{text(run.drift_class(name))} {number(run.drift(name, 'max'))}".strip()]
+    shown += [] if math.isnan(residual) else [f"<small>structure {number(residual)}</small>"]
+    return "<br>".join(shown) or "–"
+
+
+def results(experiment, case):
+    name, time_unit = case.get("conserved"), case.get("time_unit") or ""
+    expected, unit = experiment.expectation(case, name) if name else ("", "")
+    word = "drift" if expected == "conserved" else "change"
+    columns = [("Method", ""), (text(with_unit("Step", time_unit)), "number"), ("Status", "status"),
+               ("Largest error", "number"), ("Final error", "number"),
+               (f"Largest {word}" + (f"<br>of {text(with_unit(name, unit))}" if name else ""), "number"),
+               (f"Class of {word}", ""), (f"Slope [interval]<br>in {text(slope_unit(unit, time_unit))}", ""),
+               ("Structure<br>residual", "number"), ("Time per step<br>(range)", "number"), ("Time of run", "number"),
+               ("Work per step", "")]
+    bodies = {}
+    for r in experiment.runs_of(case):
+        status = text(r.status) + (f": {text(r.message)}" if r.failed and r.message else "")
+        bodies.setdefault(r.method, []).append(("failed" if r.failed else "", [
+            text(r.method), f"{r.step:.4g}", ("✗ " if r.failed else "") + status, number(r.number("error_max")),
+            number(r.number("error_final")), number(r.drift(name, "max")) if name else "–",
+            drift_class(r, name), slope(r, name), number(r.number("structure_residual")), per_step(r),
+            duration(r.total_ns), work(r)]))
+    about = ["Errors are relative to the norm of the reference solution."] if case.get("reference_solution") else []
+    if expected == "decreasing":
+        about.append(f"{text(name)} is expected to decrease: its change is not an error.")
+    about.append("Work per step: f right-hand sides, J Jacobians, it Newton iterations, LU factorisations.")
+    if not any(r.cost for r in experiment.runs_of(case)):
+        about.append("Timings were not measured.")
+    return table(f"<strong>Results: {text(heading(case))}.</strong> {' '.join(about)}", columns, list(bodies.values()))
+
+
+def drift_class(run, name):
+    kind = text(run.drift_class(name)) if name else ""
+    exponent, oscillation = (run.drift(name, m) if name else math.nan for m in ("exponent", "oscillation"))
+    if kind == "random-walk" and not math.isnan(exponent):
+        kind += f", t<sup>{number(exponent)}</sup>"
+    if not math.isnan(oscillation):
+        kind += f"<br><small>oscillation {number(oscillation)}</small>"
+    return kind or "–"
+
+
+def slope(run, name):
+    if not name or math.isnan(run.drift(name, "slope")):
+        return "–"
+    low, high = number(run.drift(name, "slope_low")), number(run.drift(name, "slope_high"))
+    interval = f"<br><small>[{low}, {high}]</small>" if "–" not in (low, high) else ""
+    return number(run.drift(name, "slope")) + interval
+
+
+def per_step(run):
+    if not run.cost:
+        return "–"
+    low, high = number(run.cost.low), number(run.cost.high)
+    return f"{number(run.cost.ns)} ns" + (f"<br><small>({low}–{high})</small>" if "–" not in (low, high) else "")
+
+
+def work(run):
+    parts = [(run.number(f"{column}_per_step"), symbol) for column, symbol in (
+        ("rhs", "f"), ("jacobians", "J"), ("iterations", "it"), ("factorisations", "LU"))]
+    return " · ".join(f"{number(x)} {symbol}" for x, symbol in parts if x > 0) or "–"
+
+
+def invariants(experiment, case):
+    """The largest change of every other invariant at the common step, with its class."""
+    runs = experiment.at_common_step(case)
+    names = [n for n in experiment.invariants if n != case.get("conserved")
+             and any(not math.isnan(r.drift(n, "max")) for r in runs)]
+    if not names:
+        return ""
+    columns = [("Method", ""), (text(with_unit("Step", case.get("time_unit"))), "number")]
+    for n in names:
+        expected, unit = experiment.expectation(case, n)
+        columns.append((text(with_unit(n, unit)) + (f"<br><small>expected: {text(expected)}</small>"), ""))
+    rows = [("failed" if r.failed else "", [text(r.method), f"{r.step:.4g}", *(
+        f"{number(r.drift(n, 'max'))}<br><small>{text(r.drift_class(n))}</small>" if not math.isnan(r.drift(n, "max"))
+        else "–" for n in names)]) for r in runs]
+    return table(f"<strong>Other invariants and constraints: {text(heading(case))}.</strong> Largest change since the "
+                 "start and its class.", columns, [rows])

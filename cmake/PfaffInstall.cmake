@@ -1,0 +1,19 @@
+# Installation and the package that find_package(Pfaff) finds.
+include(CMakePackageConfigHelpers)
+
+install(TARGETS pfaff pfaff_bench EXPORT PfaffTargets
+        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS pfaff_app RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(DIRECTORY core brackets systems integrators DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pfaff
+        FILES_MATCHING PATTERN "*.hpp")
+install(DIRECTORY bench/measure bench/runner bench/verification bench/reproduce
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pfaff/bench FILES_MATCHING PATTERN "*.hpp")
+install(DIRECTORY bench/report bench/experiments DESTINATION ${CMAKE_INSTALL_DATADIR}/pfaff
+        PATTERN "__pycache__" EXCLUDE)
+install(FILES references.bib DESTINATION ${CMAKE_INSTALL_DATADIR}/pfaff)
+install(EXPORT PfaffTargets NAMESPACE Pfaff:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Pfaff)
+configure_package_config_file(cmake/PfaffConfig.cmake.in ${PROJECT_BINARY_DIR}/PfaffConfig.cmake
+                              INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Pfaff)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/PfaffConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/PfaffConfig.cmake ${PROJECT_BINARY_DIR}/PfaffConfigVersion.cmake
+        DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Pfaff)

@@ -1,0 +1,27 @@
+# What every target of Pfaff has in common. No global flags: each target says what it needs.
+function(pfaff_target target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF CXX_VISIBILITY_PRESET default)
+  # Contraction changes results between machines, so it is set explicitly; runs record it.
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -ffp-contract=off)
+  if(PFAFF_WERROR)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+  if(PFAFF_MARCH)
+    target_compile_options(${target} PRIVATE -march=${PFAFF_MARCH})
+  endif()
+  if(PFAFF_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=${PFAFF_SANITIZE} -fno-omit-frame-pointer
+                                             -fno-sanitize-recover=all)
+    target_link_options(${target} PRIVATE -fsanitize=${PFAFF_SANITIZE})
+  endif()
+  target_compile_definitions(${target} PRIVATE
+    PFAFF_BUILD_FLAGS="${CMAKE_BUILD_TYPE} ${CMAKE_CXX_FLAGS_${pfaff_build_type}} -ffp-contract=off ${PFAFF_MARCH}"
+    PFAFF_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
+  set_target_properties(${target} PROPERTIES INSTALL_RPATH "$ORIGIN:$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
+endfunction()
+
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+string(TOUPPER ${CMAKE_BUILD_TYPE} pfaff_build_type)

@@ -1,0 +1,80 @@
+// What the author of a bracket structure includes: registration object Bracket<B>.
+//
+// B is a struct in an anonymous namespace with `dimension` (static constexpr int or member function), optional
+// parameters, and
+//   template <class T> void sharp(const T& t, In<T> z, In<T> covector, Out<T> vector) const;   // Pi(z, t) covector
+#pragma once
+
+#include <memory>
+
+#include <pfaff/core/registry/plugin.hpp>
+#include <pfaff/core/registry/registry.hpp>
+#include <pfaff/core/tape/recorder.hpp>
+
+namespace pfaff {
+
+enum class Symmetry { skew, symmetric, none };
+
+constexpr std::string_view to_string(Symmetry symmetry) {
+  return symmetry == Symmetry::skew ? "skew" : symmetry == Symmetry::symmetric ? "symmetric" : "none";
+}
+
+/// What is said, and claimed, about a bracket.
+struct BracketDescriptor {
+  std::string name;
+  std::string title;
+  std::string reference;
+  Symmetry symmetry = Symmetry::skew;
+  bool jacobi = true;  // claims the Jacobi identity
+};
+
+/// A bracket with its parameters fixed: its sharp map as a tape of (z, covector), 2 n inputs, n outputs.
+struct BracketInstance {
+  int dimension = 0;
+  Assignments parameters;
+  std::shared_ptr<const Tape> sharp;
+};
+
+/// A registered bracket.
+class BracketPlugin : public Plugin {
+ public:
+  BracketPlugin(BracketDescriptor descriptor, std::vector<Parameter> parameters, const std::type_info& type,
+                const std::source_location& where)
+      : Plugin(descriptor.name, std::move(parameters), type, where), descriptor_(std::move(descriptor)) {}
+  [[nodiscard]] const BracketDescriptor& descriptor() const { return descriptor_; }
+  [[nodiscard]] virtual BracketInstance make(const Assignments& assignments) const = 0;
+
+ private:
+  BracketDescriptor descriptor_;
+};
+
+/// Records the sharp map of a bracket object.
+template <class B> std::shared_ptr<const Tape> sharp_tape(const B& bracket, int dimension) {
+  return std::make_shared<const Tape>(
+      record(2 * dimension, dimension, [&](const Recorded& t, std::span<const Recorded> x, std::span<Recorded> out) {
+        const auto n = static_cast<std::size_t>(dimension);
+        bracket.sharp(t, x.first(n), x.subspan(n), out);
+      }));
+}
+
+/// Registers B when the library that holds it is loaded.
+template <class B> class Bracket final : public BracketPlugin {
+ public:
+  explicit Bracket(BracketDescriptor descriptor, const std::source_location& where = std::source_location::current())
+      : BracketPlugin(std::move(descriptor), parameters_of<B>(), typeid(B), where) {
+    brackets().add(this);
+  }
+  [[nodiscard]] BracketInstance make(const Assignments& assignments) const override {
+    B object;
+    assign_all(parameters(), &object, assignments, "bracket " + name());
+    int dimension = 0;
+    if constexpr (requires { object.dimension(); }) {
+      dimension = object.dimension();
+    } else {
+      dimension = B::dimension;
+    }
+    return {dimension, resolved(parameters(), &object), sharp_tape(object, dimension)};
+  }
+};
+
+}  // namespace pfaff

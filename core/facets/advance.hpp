@@ -1,0 +1,60 @@
+// advance: the loop around a method's step, at integer times t0 + k h.
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+#include <pfaff/core/facets/problem.hpp>
+#include <pfaff/core/solve/status.hpp>
+
+namespace pfaff {
+
+/// The workspace of methods that need none.
+struct NoWork {
+  template <class M, class P> NoWork(const M& /*method*/, const P& /*problem*/) {}
+};
+
+namespace detail {
+template <class M, class P> struct WorkOf { using type = NoWork; };
+template <class M, class P> requires requires { typename M::template Work<P>; }
+struct WorkOf<M, P> { using type = typename M::template Work<P>; };
+}  // namespace detail
+
+/// What a method keeps between steps of one integration: buffers, compensation, history.
+template <class M, class P> using Work = typename detail::WorkOf<M, P>::type;
+
+/// A method that can step on problems of type P.
+template <class M, class P>
+concept Steps = requires(const M& m, const P& p, const Scalar<P>& t, State<P>& z) {
+  typename Work<M, P>;
+} && requires(const M& m, const P& p, const Scalar<P>& t, State<P>& z, Work<M, P>& w) {
+  { m.step(p, t, t, z, w) } -> std::same_as<Status>;
+};
+
+/// Takes steps first, first + 1, … first + count - 1 of size h from time t0, in place. Stops at the first step that
+/// does not converge, leaving z as it was before that step; `completed` says how many were taken.
+template <class M, class P> requires Steps<M, P>
+Status advance(const M& method, const P& problem, const Scalar<P>& t0, std::int64_t first, const Scalar<P>& h,
+               std::int64_t count, State<P>& z, Work<M, P>& work, std::int64_t& completed) {
+  using W = Work<M, P>;
+  const auto loop = [&](State<P>& state, W& w) {
+    for (completed = 0; completed < count; ++completed) {
+      const Scalar<P> t = t0 + Scalar<P>(static_cast<double>(first + completed)) * h;
+      if (const Status status = method.step(problem, t, h, state, w); status != Status::converged) return status;
+    }
+    return Status::converged;
+  };
+  if constexpr (std::is_trivially_copyable_v<State<P>> && std::is_trivially_copyable_v<W>) {
+    // Local copies stay in registers through the loop.
+    State<P> state = z;
+    W local = work;
+    const Status status = loop(state, local);
+    z = state;
+    work = local;
+    return status;
+  } else {
+    return loop(z, work);
+  }
+}
+
+}  // namespace pfaff

@@ -1,0 +1,205 @@
+#include <pfaff/core/facets/model.hpp>
+
+#include <stdexcept>
+
+#include <pfaff/core/tape/derivatives.hpp>
+
+namespace pfaff {
+
+std::string to_string(FacetSet set) {
+  std::string text;
+  for (unsigned k = 0; k < static_cast<unsigned>(Facet::count); ++k)
+    if (set.has(static_cast<Facet>(k))) text += (text.empty() ? "" : ", ") + std::string(to_string(static_cast<Facet>(k)));
+  return text;
+}
+
+namespace {
+using Arguments = std::span<const Recorded>;
+using Results = std::span<Recorded>;
+
+void copy(const std::vector<Recorded>& from, Results to) {
+  for (std::size_t k = 0; k < from.size(); ++k) to[k] = from[k];
+}
+std::shared_ptr<const Tape> shared(Tape tape) { return std::make_shared<const Tape>(std::move(tape)); }
+
+// J v for the canonical bracket on (q, p): (v_p, -v_q).
+void canonical_sharp(Arguments covector, Results vector) {
+  const std::size_t half = covector.size() / 2;
+  for (std::size_t k = 0; k < half; ++k) {
+    vector[k] = covector[half + k];
+    vector[half + k] = -covector[k];
+  }
+}
+std::vector<Recorded> gradient_of(const Tape& scalar, const Recorded& t, Arguments z) {
+  const std::vector<Recorded> one{Recorded(1)};
+  return gradient(scalar, t, z, one);
+}
+
+// Pulls the action form F.dz - B dt back through the chart's inverse z = zeta(y, t). There the structure is constant
+// and canonical, so the field is J (grad_y B~ + d_t F~) with F~_i = F_j d zeta_j / d y_i and B~ = B - F.d_t zeta.
+Tape pulled_back_field(const Tape& one_form, const Tape& birkhoffian, const Tape& inverse) {
+  const int n = inverse.inputs;
+  const auto size = static_cast<std::size_t>(n);
+  const Tape form = record(n, n, [&](const Recorded& t, Arguments y, Results out) {
+    const auto z = evaluate(inverse, t, y);
+    const auto f = evaluate(one_form, t, z);
+    copy(gradient(inverse, t, y, f), out);
+  });
+  const Tape function = record(n, 1, [&](const Recorded& t, Arguments y, Results out) {
+    const auto z = evaluate(inverse, t, y);
+    const auto f = evaluate(one_form, t, z);
+    const auto z_t = time_derivative(inverse, t, y);
+    out[0] = evaluate(birkhoffian, t, z)[0];
+    for (std::size_t k = 0; k < size; ++k) out[0] = out[0] - f[k] * z_t[k];
+  });
+  return record(n, n, [&](const Recorded& t, Arguments y, Results out) {
+    auto covector = gradient_of(function, t, y);
+    const auto form_t = time_derivative(form, t, y);
+    for (std::size_t k = 0; k < size; ++k) covector[k] = covector[k] + form_t[k];
+    canonical_sharp(covector, out);
+  });
+}
+}  // namespace
+
+Model::Model(ModelSource source) : source_(std::move(source)) {
+  const auto& g = source_.given;
+  const auto has = [&](Formula f) { return g[index(f)] != nullptr; };
+  const auto offer = [&](Facet f) { facets_ = facets_.with(f); };
+  const bool separable = has(Formula::kinetic) && has(Formula::potential);
+  const bool hamiltonian = separable || has(Formula::hamiltonian);
+  const bool birkhoffian = has(Formula::birkhoffian) && has(Formula::one_form);
+  if (hamiltonian) offer(Facet::hamiltonian);
+  if (separable) offer(Facet::separable);
+  if (birkhoffian) offer(Facet::birkhoffian);
+  if (has(Formula::field) || hamiltonian || birkhoffian) offer(Facet::vector_field);
+  if ((has(Formula::chart) && has(Formula::chart_inverse)) || (source_.canonical && hamiltonian))
+    offer(Facet::darboux_chart);
+  if (!source_.invariants.empty()) offer(Facet::invariants);
+  if (has(Formula::exact_solution)) offer(Facet::exact_solution);
+}
+
+std::shared_ptr<const Tape> Model::tape(Formula formula) const {
+  const std::lock_guard lock(mutex_);
+  auto& slot = tapes_[index(formula)];
+  if (slot == nullptr) slot = given(formula) ? source_.given[index(formula)] : derived(formula);
+  if (slot == nullptr) throw std::logic_error("system " + name() + " does not give this formula");
+  return slot;
+}
+
+std::shared_ptr<const Tape> Model::derived(Formula formula) const {
+  const int n = source_.dimension;
+  const auto size = static_cast<std::size_t>(n);
+  const bool birkhoffian = facets_.has(Facet::birkhoffian);
+  const bool chart_given = given(Formula::chart);
+  const auto identity = [&] {
+    return shared(record(n, n, [](const Recorded&, Arguments z, Results out) {
+      for (std::size_t k = 0; k < z.size(); ++k) out[k] = z[k];
+    }));
+  };
+  switch (formula) {
+    case Formula::hamiltonian: {
+      if (!facets_.has(Facet::separable)) return nullptr;
+      const auto kinetic = tape(Formula::kinetic), potential = tape(Formula::potential);
+      return shared(record(n, 1, [&](const Recorded& t, Arguments z, Results out) {
+        out[0] = evaluate(*kinetic, t, z.subspan(size / 2))[0] + evaluate(*potential, t, z.first(size / 2))[0];
+      }));
+    }
+    case Formula::hamiltonian_gradient: {
+      if (!facets_.has(Facet::hamiltonian)) return nullptr;
+      const auto energy = tape(Formula::hamiltonian);
+      return shared(record(n, n, [&](const Recorded& t, Arguments z, Results out) {
+        copy(gradient_of(*energy, t, z), out);
+      }));
+    }
+    case Formula::velocity:
+    case Formula::force: {
+      if (!facets_.has(Facet::separable)) return nullptr;
+      const bool force = formula == Formula::force;
+      const auto energy = tape(force ? Formula::potential : Formula::kinetic);
+      return shared(record(n / 2, n / 2, [&](const Recorded& t, Arguments x, Results out) {
+        const auto slope = gradient_of(*energy, t, x);
+        for (std::size_t k = 0; k < slope.size(); ++k) out[k] = force ? -slope[k] : slope[k];
+      }));
+    }
+    case Formula::field: {
+      if (facets_.has(Facet::hamiltonian)) {
+        const auto energy = tape(Formula::hamiltonian);
+        const auto tensor = source_.canonical ? nullptr : tape(Formula::poisson_tensor);
+        return shared(record(n, n, [&](const Recorded& t, Arguments z, Results out) {
+          const auto slope = gradient_of(*energy, t, z);
+          if (tensor == nullptr) return canonical_sharp(slope, out);
+          const auto pi = evaluate(*tensor, t, z);
+          for (std::size_t i = 0; i < size; ++i) {
+            out[i] = Recorded(0);
+            for (std::size_t j = 0; j < size; ++j) out[i] = out[i] + pi[i * size + j] * slope[j];
+          }
+        }));
+      }
+      if (!birkhoffian) return nullptr;
+      const auto function = tape(Formula::birkhoffian), form = tape(Formula::one_form);
+      const auto structure = tape(Formula::structure);
+      return shared(record(n, n, [&](const Recorded& t, Arguments z, Results out) {
+        auto covector = gradient_of(*function, t, z);
+        const auto form_t = time_derivative(*form, t, z);
+        for (std::size_t k = 0; k < size; ++k) covector[k] = covector[k] + form_t[k];
+        copy(solve(evaluate(*structure, t, z), covector), out);
+      }));
+    }
+    case Formula::field_jacobian: return shared(jacobian_tape(*tape(Formula::field)));
+    case Formula::structure: {
+      if (!birkhoffian && !source_.canonical) return nullptr;
+      const auto form = birkhoffian ? tape(Formula::one_form) : nullptr;
+      return shared(record(n, n * n, [&](const Recorded& t, Arguments z, Results out) {
+        if (form == nullptr) {  // F = (p, 0) up to a gradient: K = [[0, -1], [1, 0]]
+          for (std::size_t k = 0; k < size / 2; ++k) {
+            out[k * size + size / 2 + k] = Recorded(-1);
+            out[(size / 2 + k) * size + k] = Recorded(1);
+          }
+          return;
+        }
+        const auto slope = jacobian(*form, t, z);  // slope[j][i] = d_i F_j
+        for (std::size_t i = 0; i < size; ++i)
+          for (std::size_t j = 0; j < size; ++j) out[i * size + j] = slope[j * size + i] - slope[i * size + j];
+      }));
+    }
+    case Formula::poisson_tensor: {
+      if (source_.canonical)
+        return shared(record(n, n * n, [&](const Recorded&, Arguments, Results out) {
+          for (std::size_t k = 0; k < size / 2; ++k) {
+            out[k * size + size / 2 + k] = Recorded(1);
+            out[(size / 2 + k) * size + k] = Recorded(-1);
+          }
+        }));
+      if (!birkhoffian) return nullptr;
+      const auto structure = tape(Formula::structure);
+      return shared(record(n, n * n, [&](const Recorded& t, Arguments z, Results out) {
+        const auto k = evaluate(*structure, t, z);
+        for (std::size_t column = 0; column < size; ++column) {
+          std::vector<Recorded> unit(size);
+          unit[column] = Recorded(1);
+          const auto x = solve(k, unit);
+          for (std::size_t row = 0; row < size; ++row) out[row * size + column] = x[row];
+        }
+      }));
+    }
+    case Formula::chart:
+    case Formula::chart_inverse:
+      return facets_.has(Facet::darboux_chart) && !chart_given ? identity() : nullptr;
+    case Formula::chart_field: {
+      if (!facets_.has(Facet::darboux_chart)) return nullptr;
+      if (!chart_given) return tape(Formula::field);
+      if (given(Formula::chart_hamiltonian)) {
+        const auto energy = tape(Formula::chart_hamiltonian);
+        return shared(record(n, n, [&](const Recorded& t, Arguments y, Results out) {
+          canonical_sharp(gradient_of(*energy, t, y), out);
+        }));
+      }
+      return shared(pulled_back_field(*tape(Formula::one_form), *tape(Formula::birkhoffian),
+                                      *tape(Formula::chart_inverse)));
+    }
+    case Formula::chart_field_jacobian: return shared(jacobian_tape(*tape(Formula::chart_field)));
+    default: return nullptr;
+  }
+}
+
+}  // namespace pfaff

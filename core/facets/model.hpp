@@ -1,0 +1,107 @@
+// Model: one instance of a system, its parameters fixed, as a set of formulas.
+//
+// A model is immutable and shared between threads. What the author wrote is recorded as tapes; everything else that
+// a facet promises is derived from those on first use: the field of a Hamiltonian through its bracket or of a
+// Birkhoffian system as K^-1 (grad B + F_t) (REFERENCE C1), forces, Jacobians, the field in the Darboux chart.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <pfaff/core/facets/facet.hpp>
+#include <pfaff/core/tape/tape.hpp>
+
+namespace pfaff {
+
+/// What a named quantity does along exact solutions.
+enum class Behaviour { conserved, decreasing, increasing, free };
+
+constexpr std::string_view to_string(Behaviour behaviour) {
+  constexpr std::array<std::string_view, 4> names{"conserved", "decreasing", "increasing", "free"};
+  return names[static_cast<std::size_t>(behaviour)];
+}
+
+/// A named quantity I(z, t). `quadratic` marks those that are quadratic forms in z, with constant coefficients.
+struct Invariant {
+  std::string name;
+  std::string unit;
+  Behaviour behaviour = Behaviour::conserved;
+  bool quadratic = false;
+};
+inline Invariant conserved(std::string name, std::string unit) {
+  return {std::move(name), std::move(unit), Behaviour::conserved, false};
+}
+inline Invariant conserved_quadratic(std::string name, std::string unit) {
+  return {std::move(name), std::move(unit), Behaviour::conserved, true};
+}
+inline Invariant decreasing(std::string name, std::string unit) {
+  return {std::move(name), std::move(unit), Behaviour::decreasing, false};
+}
+
+/// A state variable.
+struct Coordinate {
+  std::string name;
+  std::string unit;
+};
+
+/// A formula that its author compiled for doubles: called with the system, t, arguments and results.
+using CompiledFormula = void (*)(const void* system, const double& t, const double* arguments, double* results);
+
+/// What a system's author provides, before anything is derived.
+struct ModelSource {
+  std::string name;
+  int dimension = 0;
+  bool canonical = false;  // the bracket is the canonical one on (q, p)
+  std::vector<Coordinate> coordinates;
+  std::vector<Invariant> invariants;
+  std::vector<Real> initial;
+  std::string time_unit = "s";
+  std::vector<std::pair<std::string, std::string>> parameters;  // resolved: name, value
+  std::array<std::shared_ptr<const Tape>, formula_count> given;
+  std::array<CompiledFormula, formula_count> compiled{};
+  std::shared_ptr<const void> system;  // keeps the author's object alive for compiled formulas
+};
+
+class Model {
+ public:
+  explicit Model(ModelSource source);
+
+  [[nodiscard]] const std::string& name() const { return source_.name; }
+  [[nodiscard]] int dimension() const { return source_.dimension; }
+  [[nodiscard]] const std::vector<Coordinate>& coordinates() const { return source_.coordinates; }
+  [[nodiscard]] const std::vector<Invariant>& invariants() const { return source_.invariants; }
+  [[nodiscard]] const std::vector<Real>& initial() const { return source_.initial; }
+  [[nodiscard]] const std::string& time_unit() const { return source_.time_unit; }
+  [[nodiscard]] const std::vector<std::pair<std::string, std::string>>& parameters() const {
+    return source_.parameters;
+  }
+  [[nodiscard]] FacetSet facets() const { return facets_; }
+  /// True when the canonical bracket on (q, p) is the system's own.
+  [[nodiscard]] bool canonical() const { return source_.canonical; }
+
+  /// The tape of a formula, derived on first use. Throws std::logic_error when the facets do not give it.
+  [[nodiscard]] std::shared_ptr<const Tape> tape(Formula formula) const;
+  /// The same derived even where the author wrote it; null where it cannot be derived.
+  [[nodiscard]] std::shared_ptr<const Tape> derived(Formula formula) const;
+  /// True where the author wrote the formula.
+  [[nodiscard]] bool given(Formula formula) const { return source_.given[index(formula)] != nullptr; }
+  /// The author's double version and the object to call it with; null when there is none.
+  [[nodiscard]] CompiledFormula compiled(Formula formula) const { return source_.compiled[index(formula)]; }
+  [[nodiscard]] const void* system() const { return source_.system.get(); }
+
+  /// Does the field depend on time explicitly? Do the field in the chart, and the structure?
+  [[nodiscard]] bool autonomous() const { return tape(Formula::field)->autonomous(); }
+  [[nodiscard]] bool chart_autonomous() const { return tape(Formula::chart_field)->autonomous(); }
+
+ private:
+  ModelSource source_;
+  FacetSet facets_;
+  mutable std::recursive_mutex mutex_;
+  mutable std::array<std::shared_ptr<const Tape>, formula_count> tapes_;
+};
+
+}  // namespace pfaff

@@ -1,0 +1,269 @@
+// What the author of an integrator includes: the facets' concepts and the registration object Method<M>.
+//
+// M is a struct in an anonymous namespace that holds parameters only and steps:
+//   template <class P> struct Work { Work(const M&, const P&); … };                        // optional
+//   template <HasVectorField P>
+//   Status step(const P&, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>&) const;
+// Optional members: order(model) and preserves(model) where a claim depends on parameters or problem; validate(),
+// called once parameters are set; coefficients(), a mutable span over the numbers that define the method (the
+// control that changes one of them by 1e-6 needs it); refuses(model), a reason or an empty string;
+// advance_to(problem, t, end, tolerance, z, work) for methods that choose their steps.
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include <pfaff/core/facets/advance.hpp>
+#include <pfaff/core/facets/scalars.hpp>
+#include <pfaff/core/registry/plugin.hpp>
+#include <pfaff/core/registry/registry.hpp>
+#include <pfaff/core/solve/summation.hpp>
+
+namespace pfaff {
+
+/// What a method may claim to keep, each with the scope in which it is tested.
+enum class Claim {
+  none,                 // an explicit "no structure claimed"
+  symmetric,            // step(-h) undoes step(h); every system
+  symplectic,           // M^T J M = J; canonical systems
+  k_symplectic,         // M^T K(z', t') M = K(z, t); systems with a Darboux chart
+  quadratic_invariants  // keeps every quadratic invariant; systems that have one
+};
+
+constexpr std::string_view to_string(Claim claim) {
+  constexpr std::array<std::string_view, 5> names{"none", "symmetric", "symplectic", "K-symplectic",
+                                                  "quadratic-invariants"};
+  return names[static_cast<std::size_t>(claim)];
+}
+
+/// What is said about a method, once.
+struct MethodDescriptor {
+  std::string name;       // kebab-case
+  std::string title;      // one line
+  std::string reference;  // bib key and equations
+  int order = 0;          // 0: M::order(model) says
+  std::vector<Claim> preserves{};
+  bool double_coefficients = false;  // third-party methods whose coefficients are doubles: no claims in quad
+};
+
+/// One integration of one model: state outside, history inside. Made by MethodInstance::stepper.
+template <class T> class Stepper {
+ public:
+  virtual ~Stepper() = default;
+  /// Steps first … first + count - 1 of size h (of either sign) from t0; see pfaff::advance.
+  virtual Status advance(const T& t0, std::int64_t first, const T& h, std::int64_t count, std::span<T> z,
+                         std::int64_t& completed) = 0;
+  /// From t to `end` with steps of the method's choosing at `tolerance`; t is left where it got to.
+  virtual Status advance_to(T& t, const T& end, const T& tolerance, std::span<T> z) = 0;
+  /// Drops history and compensation: the next step depends on its state alone.
+  virtual void forget() = 0;
+  [[nodiscard]] virtual const Counters& counters() const = 0;
+};
+
+/// A method with its parameters fixed.
+class MethodInstance {
+ public:
+  virtual ~MethodInstance() = default;
+  [[nodiscard]] virtual const MethodDescriptor& descriptor() const = 0;
+  [[nodiscard]] virtual Assignments parameters() const = 0;
+  /// Facets the method cannot do without.
+  [[nodiscard]] virtual FacetSet needs() const = 0;
+  /// Order claimed on this model.
+  [[nodiscard]] virtual int order(const Model& model) const = 0;
+  [[nodiscard]] virtual std::vector<Claim> preserves(const Model& model) const = 0;
+  /// Why the method cannot run on this model, naming both sides; empty when it can.
+  [[nodiscard]] virtual std::string refuses(const Model& model) const = 0;
+  /// True when the method can choose its steps (advance_to).
+  [[nodiscard]] virtual bool adaptive() const = 0;
+  /// How many numbers define the method (0: not exposed), and the same method with one of them changed.
+  [[nodiscard]] virtual std::size_t coefficient_count() const = 0;
+  [[nodiscard]] virtual std::unique_ptr<MethodInstance> with_changed_coefficient(std::size_t index,
+                                                                                 Quad amount) const = 0;
+
+  [[nodiscard]] virtual std::unique_ptr<Stepper<double>> stepper(std::shared_ptr<const Model> model, double) const = 0;
+  [[nodiscard]] virtual std::unique_ptr<Stepper<Quad>> stepper(std::shared_ptr<const Model> model, Quad) const = 0;
+  [[nodiscard]] virtual std::unique_ptr<Stepper<StepDual<double>>> stepper(std::shared_ptr<const Model> model,
+                                                                           StepDual<double>) const = 0;
+  [[nodiscard]] virtual std::unique_ptr<Stepper<StepDual<Quad>>> stepper(std::shared_ptr<const Model> model,
+                                                                         StepDual<Quad>) const = 0;
+};
+
+/// A registered method.
+class MethodPlugin : public Plugin {
+ public:
+  MethodPlugin(MethodDescriptor descriptor, std::vector<Parameter> parameters, const std::type_info& type,
+               const std::source_location& where)
+      : Plugin(descriptor.name, std::move(parameters), type, where), descriptor_(std::move(descriptor)) {}
+  [[nodiscard]] const MethodDescriptor& descriptor() const { return descriptor_; }
+  [[nodiscard]] virtual std::unique_ptr<MethodInstance> make(const Assignments& assignments) const = 0;
+
+ private:
+  MethodDescriptor descriptor_;
+};
+
+namespace detail {
+
+template <class M, class P> class SteppingOn final : public Stepper<Scalar<P>> {
+ public:
+  using T = Scalar<P>;
+  SteppingOn(const M& method, std::shared_ptr<const Model> model)
+      : method_(method), problem_(std::move(model)), state_(problem_.make_state()),
+        work_(std::make_unique<Work<M, P>>(method_, problem_)) {}
+
+  Status advance(const T& t0, std::int64_t first, const T& h, std::int64_t count, std::span<T> z,
+                 std::int64_t& completed) override {
+    std::copy(z.begin(), z.end(), state_.begin());
+    const Status status = pfaff::advance(method_, problem_, t0, first, h, count, state_, *work_, completed);
+    std::copy(state_.begin(), state_.end(), z.begin());
+    problem_.counters().steps += completed;
+    return status == Status::converged ? finite(z) : status;
+  }
+
+  Status advance_to(T& t, const T& end, const T& tolerance, std::span<T> z) override {
+    if constexpr (requires { method_.advance_to(problem_, t, end, tolerance, state_, *work_); }) {
+      std::copy(z.begin(), z.end(), state_.begin());
+      const Status status = method_.advance_to(problem_, t, end, tolerance, state_, *work_);
+      std::copy(state_.begin(), state_.end(), z.begin());
+      return status == Status::converged ? finite(z) : status;
+    } else {
+      (void)t, (void)end, (void)tolerance, (void)z;
+      throw InputError("this integrator takes fixed steps only; give --step");
+    }
+  }
+
+  void forget() override { work_ = std::make_unique<Work<M, P>>(method_, problem_); }
+  [[nodiscard]] const Counters& counters() const override { return problem_.counters(); }
+
+ private:
+  static Status finite(std::span<const T> z) {
+    for (const T& x : z)
+      if (!isfinite(value_of(x))) return Status::non_finite;
+    return Status::converged;
+  }
+
+  M method_;
+  P problem_;
+  State<P> state_;
+  std::unique_ptr<Work<M, P>> work_;
+};
+
+// A facet is needed when the method cannot step on problems that have every facet but this one.
+template <class M, unsigned K> constexpr FacetSet needed_facet() {
+  constexpr Facet f = static_cast<Facet>(K);
+  if constexpr (Steps<M, Problem<double, dynamic, FacetSet::all().without(f)>>) {
+    return {};
+  } else {
+    return FacetSet{}.with(f);
+  }
+}
+template <class M, unsigned... K> constexpr FacetSet needed_facets(std::integer_sequence<unsigned, K...>) {
+  return {(needed_facet<M, K>().bits | ...)};
+}
+
+}  // namespace detail
+
+/// The facets without which M does not step.
+template <class M> constexpr FacetSet needs_of() {
+  return detail::needed_facets<M>(std::make_integer_sequence<unsigned, static_cast<unsigned>(Facet::count)>());
+}
+
+namespace detail {
+
+template <class M> class Instance final : public MethodInstance {
+ public:
+  Instance(const MethodPlugin& plugin, M method) : plugin_(plugin), method_(std::move(method)) {}
+
+  [[nodiscard]] const MethodDescriptor& descriptor() const override { return plugin_.descriptor(); }
+  [[nodiscard]] Assignments parameters() const override { return resolved(plugin_.parameters(), &method_); }
+  [[nodiscard]] FacetSet needs() const override { return needs_of<M>(); }
+  [[nodiscard]] int order(const Model& model) const override {
+    if constexpr (requires { method_.order(model); }) {
+      return method_.order(model);
+    } else {
+      return plugin_.descriptor().order;
+    }
+  }
+  [[nodiscard]] std::vector<Claim> preserves(const Model& model) const override {
+    if constexpr (requires { method_.preserves(model); }) {
+      return method_.preserves(model);
+    } else {
+      return plugin_.descriptor().preserves;
+    }
+  }
+  [[nodiscard]] std::string refuses(const Model& model) const override {
+    if (!model.facets().includes(needs()))
+      return plugin_.name() + " needs " + to_string(needs()) + "; " + model.name() + " offers " +
+             to_string(model.facets());
+    if constexpr (requires { method_.refuses(model); }) return method_.refuses(model);
+    return {};
+  }
+  [[nodiscard]] bool adaptive() const override {
+    using P = Problem<double>;
+    return requires(const P& p, double& t, State<P>& z, Work<M, P>& w) { method_.advance_to(p, t, t, t, z, w); };
+  }
+  [[nodiscard]] std::size_t coefficient_count() const override {
+    if constexpr (requires(M m) { m.coefficients(); }) {
+      M copy = method_;
+      return copy.coefficients().size();
+    } else {
+      return 0;
+    }
+  }
+  [[nodiscard]] std::unique_ptr<MethodInstance> with_changed_coefficient(std::size_t index,
+                                                                         Quad amount) const override {
+    M copy = method_;
+    if constexpr (requires(M m) { m.coefficients(); }) copy.coefficients()[index] += amount;
+    return std::make_unique<Instance>(plugin_, std::move(copy));
+  }
+
+  [[nodiscard]] std::unique_ptr<Stepper<double>> stepper(std::shared_ptr<const Model> model, double) const override {
+    constexpr bool sizes = [] {
+      if constexpr (requires { M::fixed_sizes; }) return M::fixed_sizes;
+      return true;
+    }();
+    if constexpr (sizes) {  // the sizes worth a copy of the code each
+      if (model->dimension() == 2) return make<Problem<double, 2>>(std::move(model));
+      if (model->dimension() == 4) return make<Problem<double, 4>>(std::move(model));
+      if (model->dimension() == 6) return make<Problem<double, 6>>(std::move(model));
+    }
+    return make<Problem<double>>(std::move(model));
+  }
+  [[nodiscard]] std::unique_ptr<Stepper<Quad>> stepper(std::shared_ptr<const Model> model, Quad) const override {
+    return make<Problem<Quad>>(std::move(model));
+  }
+  [[nodiscard]] std::unique_ptr<Stepper<StepDual<double>>> stepper(std::shared_ptr<const Model> model,
+                                                                   StepDual<double>) const override {
+    return make<Problem<StepDual<double>>>(std::move(model));
+  }
+  [[nodiscard]] std::unique_ptr<Stepper<StepDual<Quad>>> stepper(std::shared_ptr<const Model> model,
+                                                                 StepDual<Quad>) const override {
+    return make<Problem<StepDual<Quad>>>(std::move(model));
+  }
+
+ private:
+  template <class P> auto make(std::shared_ptr<const Model> model) const {
+    return std::make_unique<SteppingOn<M, P>>(method_, std::move(model));
+  }
+
+  const MethodPlugin& plugin_;
+  M method_;
+};
+
+}  // namespace detail
+
+/// Registers M when the library that holds it is loaded.
+template <class M> class Method final : public MethodPlugin {
+ public:
+  explicit Method(MethodDescriptor descriptor, const std::source_location& where = std::source_location::current())
+      : MethodPlugin(std::move(descriptor), parameters_of<M>(), typeid(M), where) {
+    integrators().add(this);
+  }
+  [[nodiscard]] std::unique_ptr<MethodInstance> make(const Assignments& assignments) const override {
+    M method;
+    assign_all(parameters(), &method, assignments, "integrator " + name());
+    if constexpr (requires { method.validate(); }) method.validate();
+    return std::make_unique<detail::Instance<M>>(*this, std::move(method));
+  }
+};
+
+}  // namespace pfaff

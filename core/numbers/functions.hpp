@@ -1,0 +1,70 @@
+// What every formula may use: the argument types In and Out, elementary functions, select, structural zeros.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <span>
+#include <type_traits>
+
+#include <pfaff/core/numbers/quad.hpp>
+#include <pfaff/core/numbers/real.hpp>
+
+namespace pfaff {
+
+/// A read-only vector argument of a formula. T is deduced from another argument or given.
+template <class T> using In = std::span<const std::type_identity_t<T>>;
+/// A vector that a formula fills.
+template <class T> using Out = std::span<std::type_identity_t<T>>;
+
+// The standard functions for double; every other scalar brings its own, found by argument-dependent lookup.
+using std::abs;
+using std::cos;
+using std::exp;
+using std::isfinite;
+using std::isnan;
+using std::log;
+using std::pow;
+using std::sin;
+using std::sqrt;
+
+/// x^y for a constant exponent; the form every scalar offers.
+inline double pow(double x, const Real& y) { return std::pow(x, y.value()); }
+inline Quad pow(Quad x, const Real& y) { return pow(x, y.quad()); }
+
+/// The branch of a formula: `positive` where condition > 0, `otherwise` elsewhere (both are evaluated).
+inline double select(double condition, double positive, double otherwise) {
+  return condition > 0 ? positive : otherwise;
+}
+inline Quad select(Quad condition, Quad positive, Quad otherwise) {
+  return condition > Quad(0) ? positive : otherwise;
+}
+
+/// True only for a scalar that is zero by construction; lets a formula skip work. False for plain numbers.
+template <class T> constexpr bool structurally_zero(const T& /*x*/) { return false; }
+
+/// Sine and cosine of one argument.
+template <class T> void sine_cosine(const T& x, T& sine, T& cosine) {
+  sine = sin(x);
+  cosine = cos(x);
+}
+inline void sine_cosine(const Quad& x, Quad& sine, Quad& cosine) {
+  __float128 s = 0, c = 0;
+  sincosq(x.native(), &s, &c);
+  sine = Quad(s);
+  cosine = Quad(c);
+}
+
+/// The number type under a scalar: T itself for plain numbers, the type of the value for duals.
+template <class T> struct ValueOf { using type = T; };
+template <class T> using Value = typename ValueOf<T>::type;
+
+/// The number under a scalar, derivatives dropped.
+inline double value_of(double x) { return x; }
+inline Quad value_of(Quad x) { return x; }
+
+/// Unit round-off of a scalar's numbers: 2^-53 in double, 2^-113 in quad.
+template <class T> constexpr Value<T> unit_roundoff() {
+  return std::numeric_limits<Value<T>>::epsilon() / Value<T>(2);
+}
+
+}  // namespace pfaff

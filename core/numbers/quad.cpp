@@ -1,0 +1,28 @@
+#include <pfaff/core/numbers/quad.hpp>
+
+#include <array>
+
+extern "C" {
+int quadmath_snprintf(char*, std::size_t, const char*, ...) noexcept;  // NOLINT: libquadmath's own signature
+__float128 strtoflt128(const char*, char**) noexcept;
+}
+
+namespace pfaff {
+
+bool parse(std::string_view text, Quad& result) {
+  if (text.empty()) return false;
+  const std::string buffer(text);
+  char* end = nullptr;
+  const __float128 value = strtoflt128(buffer.c_str(), &end);
+  if (end != buffer.c_str() + buffer.size()) return false;
+  result = Quad(value);
+  return true;
+}
+
+std::string to_string(Quad x, int digits) {
+  std::array<char, 128> buffer{};
+  quadmath_snprintf(buffer.data(), buffer.size(), "%.*Qg", digits, x.native());
+  return buffer.data();
+}
+
+}  // namespace pfaff

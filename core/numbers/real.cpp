@@ -1,0 +1,174 @@
+#include <pfaff/core/numbers/real.hpp>
+
+#include <charconv>
+#include <limits>
+#include <numeric>
+
+namespace pfaff {
+
+namespace {
+__extension__ typedef __int128 Wide;  // NOLINT(modernize-use-using)
+
+Wide greatest_common_divisor(Wide a, Wide b) {
+  if (a < 0) a = -a;
+  if (b < 0) b = -b;
+  while (b != 0) {
+    const Wide r = a % b;
+    a = b;
+    b = r;
+  }
+  return a;
+}
+
+// A decimal text as digits * 10^exponent, where the digits fit in 64 bits.
+struct Decimal {
+  std::int64_t digits = 0;
+  int exponent = 0;
+};
+
+std::optional<Decimal> as_decimal(std::string_view text) {
+  Decimal d;
+  bool negative = false;
+  std::size_t i = 0;
+  if (i < text.size() && (text[i] == '-' || text[i] == '+')) negative = text[i++] == '-';
+  bool point = false;
+  int count = 0;
+  for (; i < text.size() && ((text[i] >= '0' && text[i] <= '9') || text[i] == '.'); ++i) {
+    if (text[i] == '.') {
+      if (point) return std::nullopt;
+      point = true;
+      continue;
+    }
+    if (d.digits > (std::numeric_limits<std::int64_t>::max() - 9) / 10) return std::nullopt;
+    d.digits = d.digits * 10 + (text[i] - '0');
+    ++count;
+    if (point) --d.exponent;
+  }
+  if (count == 0) return std::nullopt;
+  if (i < text.size()) {
+    if (text[i] != 'e' && text[i] != 'E') return std::nullopt;
+    ++i;
+    if (i < text.size() && text[i] == '+') ++i;
+    int e = 0;
+    const auto [end, error] = std::from_chars(text.data() + i, text.data() + text.size(), e);
+    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    d.exponent += e;
+  }
+  if (negative) d.digits = -d.digits;
+  return d;
+}
+}  // namespace
+
+// The sum, difference, product or quotient of two Reals: the fraction when it fits, else its quad value.
+Real Real::fold(const Real& a, const Real& b, Quad value, Wide numerator, Wide denominator) {
+  constexpr Wide limit = std::numeric_limits<std::int64_t>::max() / 2;  // sums of products stay in 128 bits
+  if (a.is_fraction() && b.is_fraction() && denominator != 0) {
+    const Wide g = greatest_common_divisor(numerator, denominator);
+    if (g != 0) {
+      numerator /= g;
+      denominator /= g;
+    }
+    if (denominator < 0) {
+      numerator = -numerator;
+      denominator = -denominator;
+    }
+    if (numerator <= limit && numerator >= -limit && denominator <= limit)
+      return Real::fraction(static_cast<std::int64_t>(numerator), static_cast<std::int64_t>(denominator));
+  }
+  return Real(value);
+}
+
+Real Real::fraction(std::int64_t numerator, std::int64_t denominator) {
+  Real r;
+  const std::int64_t g = std::gcd(numerator, denominator);
+  if (g > 1) {
+    numerator /= g;
+    denominator /= g;
+  }
+  r.numerator_ = numerator;
+  r.denominator_ = denominator;
+  r.quad_ = Quad(static_cast<long>(numerator)) / Quad(static_cast<long>(denominator));
+  r.rounded_ = static_cast<double>(r.quad_);
+  return r;
+}
+
+std::optional<Real> Real::parse(std::string_view text) {
+  if (const auto slash = text.find('/'); slash != std::string_view::npos) {
+    const auto a = parse(text.substr(0, slash));
+    const auto b = parse(text.substr(slash + 1));
+    if (!a || !b || b->is(0)) return std::nullopt;
+    return *a / *b;
+  }
+  Quad value;
+  if (text.empty() || text.find_first_not_of("0123456789+-.eE") != std::string_view::npos ||
+      !pfaff::parse(text, value))
+    return std::nullopt;
+  Real result(value);
+  if (const auto decimal = as_decimal(text); decimal && decimal->exponent <= 18 && decimal->exponent >= -18) {
+    std::int64_t power = 1;
+    for (int k = 0; k < std::abs(decimal->exponent); ++k) power *= 10;
+    const Wide numerator = decimal->exponent > 0 ? static_cast<Wide>(decimal->digits) * power
+                                                     : static_cast<Wide>(decimal->digits);
+    result = Real::fold(Real(0), Real(0), value, numerator, decimal->exponent < 0 ? power : 1);
+  }
+  // The double nearest to the text itself, not to its quad rounding.
+  double nearest = 0;
+  const std::string_view digits = text.front() == '+' ? text.substr(1) : text;
+  if (std::from_chars(digits.data(), digits.data() + digits.size(), nearest).ec == std::errc())
+    result.rounded_ = nearest;
+  return result;
+}
+
+Real operator-(const Real& a) {
+  Real r = a;
+  r.rounded_ = -r.rounded_;
+  r.quad_ = -r.quad_;
+  r.numerator_ = -r.numerator_;
+  return r;
+}
+Real operator+(const Real& a, const Real& b) {
+  const Wide an = a.numerator_, ad = a.denominator_, bn = b.numerator_, bd = b.denominator_;
+  return Real::fold(a, b, a.quad_ + b.quad_, an * bd + bn * ad, ad * bd);
+}
+Real operator-(const Real& a, const Real& b) { return a + (-b); }
+Real operator*(const Real& a, const Real& b) {
+  const Wide an = a.numerator_, ad = a.denominator_, bn = b.numerator_, bd = b.denominator_;
+  return Real::fold(a, b, a.quad_ * b.quad_, an * bn, ad * bd);
+}
+Real operator/(const Real& a, const Real& b) {
+  const Wide an = a.numerator_, ad = a.denominator_, bn = b.numerator_, bd = b.denominator_;
+  return Real::fold(a, b, a.quad_ / b.quad_, an * bd, ad * bn);
+}
+
+namespace {
+// A function value is a fraction only where it is a small integer exactly (sin 0, cos 0, exp 0, sqrt 4).
+Real of_function(Quad value) {
+  const auto approximate = static_cast<double>(value);
+  if (approximate > -1e6 && approximate < 1e6)
+    if (const int whole = static_cast<int>(approximate); value == Quad(whole)) return Real(whole);
+  return Real(value);
+}
+}  // namespace
+
+Real sqrt(const Real& x) { return of_function(sqrt(x.quad())); }
+Real exp(const Real& x) { return of_function(exp(x.quad())); }
+Real log(const Real& x) { return of_function(log(x.quad())); }
+Real sin(const Real& x) { return of_function(sin(x.quad())); }
+Real cos(const Real& x) { return of_function(cos(x.quad())); }
+Real pow(const Real& x, const Real& y) { return of_function(pow(x.quad(), y.quad())); }
+
+std::string to_string(const Real& x) {
+  for (int digits = 1; digits <= 17; ++digits) {  // the shortest decimal that is this constant
+    std::string text = to_string(x.quad(), digits);
+    Quad back;
+    if (parse(text, back) && back == x.quad()) return text;
+  }
+  if (x.is_fraction()) return std::to_string(x.numerator()) + "/" + std::to_string(x.denominator());
+  return to_string(x.quad());
+}
+
+namespace literals {
+Real operator""_r(const char* text) { return *Real::parse(text); }
+}  // namespace literals
+
+}  // namespace pfaff

@@ -1,0 +1,95 @@
+// Parameters: declared once by a plug-in, seen by the command line, experiments, `describe` and the docs.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <pfaff/core/numbers/real.hpp>
+#include <pfaff/core/registry/errors.hpp>
+
+namespace pfaff {
+
+/// A named, ranged setting of a plug-in.
+struct Parameter {
+  enum class Kind { real, integer, choice };
+
+  std::string name;
+  std::string unit;     // empty for pure numbers
+  std::string meaning;
+  Kind kind = Kind::real;
+  double minimum = 0, maximum = 0;   // numbers only, both ends included
+  std::vector<std::string> choices;  // choices only
+
+  /// Writes and reads the member of the plug-in object this parameter stands for.
+  std::function<void(void* object, const std::string& text)> write;
+  std::function<std::string(const void* object)> read;
+
+  /// Sets the parameter from text. Throws InputError naming the parameter, its range and what was given.
+  void assign(void* object, const std::string& text, std::string_view owner) const;
+};
+
+/// "0 .. 10 1/s" or "P|S".
+std::string range_of(const Parameter& parameter);
+
+/// A real parameter of plug-in struct S.
+template <class S>
+Parameter parameter(Real S::*member, std::string name, std::string unit, double minimum, double maximum,
+                    std::string meaning = {}) {
+  Parameter p{std::move(name), std::move(unit), std::move(meaning), Parameter::Kind::real, minimum, maximum, {}, {}, {}};
+  p.write = [member](void* object, const std::string& text) { static_cast<S*>(object)->*member = *Real::parse(text); };
+  p.read = [member](const void* object) { return to_string(static_cast<const S*>(object)->*member); };
+  return p;
+}
+
+/// An integer parameter.
+template <class S>
+Parameter parameter(int S::*member, std::string name, std::string unit, int minimum, int maximum,
+                    std::string meaning = {}) {
+  Parameter p{std::move(name), std::move(unit), std::move(meaning), Parameter::Kind::integer,
+              static_cast<double>(minimum), static_cast<double>(maximum), {}, {}, {}};
+  p.write = [member](void* object, const std::string& text) { static_cast<S*>(object)->*member = std::stoi(text); };
+  p.read = [member](const void* object) { return std::to_string(static_cast<const S*>(object)->*member); };
+  return p;
+}
+
+/// A choice among names.
+template <class S>
+Parameter parameter(std::string S::*member, std::string name, std::vector<std::string> choices,
+                    std::string meaning = {}) {
+  Parameter p{std::move(name), {}, std::move(meaning), Parameter::Kind::choice, 0, 0, std::move(choices), {}, {}};
+  p.write = [member](void* object, const std::string& text) { static_cast<S*>(object)->*member = text; };
+  p.read = [member](const void* object) { return static_cast<const S*>(object)->*member; };
+  return p;
+}
+
+/// A yes/no setting.
+template <class S> Parameter parameter(bool S::*member, std::string name, std::string meaning = {}) {
+  Parameter p{std::move(name), {}, std::move(meaning), Parameter::Kind::choice, 0, 0, {"yes", "no"}, {}, {}};
+  p.write = [member](void* object, const std::string& text) { static_cast<S*>(object)->*member = text == "yes"; };
+  p.read = [member](const void* object) { return std::string(static_cast<const S*>(object)->*member ? "yes" : "no"); };
+  return p;
+}
+
+/// name = value settings from the command line or a file, in order.
+using Assignments = std::vector<std::pair<std::string, std::string>>;
+
+/// Applies `assignments` to `object`. Throws InputError for unknown names (with the nearest) and bad values.
+void assign_all(const std::vector<Parameter>& parameters, void* object, const Assignments& assignments,
+                const std::string& owner);
+
+/// Every parameter with its present value.
+Assignments resolved(const std::vector<Parameter>& parameters, const void* object);
+
+/// The parameters of plug-in struct S; empty where it declares none.
+template <class S> std::vector<Parameter> parameters_of() {
+  if constexpr (requires { S::parameters(); }) {
+    return S::parameters();
+  } else {
+    return {};
+  }
+}
+
+}  // namespace pfaff

@@ -1,0 +1,91 @@
+// Convergence at round-off: when an iteration has nothing left to gain.
+//
+// Corrections are judged componentwise against the size of the component and of its change over the step, so that
+// variables of very different magnitude (an exponentially growing chart momentum beside a decaying coordinate) are
+// all solved to their own round-off. Derivative parts of duals are judged in the same way, so that a differentiated
+// step is the derivative of the converged step. An iteration ends when every correction is below one unit of
+// round-off, or will be after the next contraction, or when corrections stagnate near round-off.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+#include <pfaff/core/numbers/dual.hpp>
+#include <pfaff/core/solve/status.hpp>
+
+namespace pfaff {
+
+/// max over parts of |delta| / scale, where scale is the larger of two reference values, part by part.
+template <class T> Value<T> relative_size(const T& delta, const T& reference, const T& change) {
+  const Value<T> d = abs(value_of(delta));
+  const Value<T> scale = std::max(abs(value_of(reference)), abs(value_of(change)));
+  if (!(d > Value<T>(0))) return d;  // zero, or NaN, which must not vanish
+  return scale > Value<T>(0) ? d / scale : std::numeric_limits<Value<T>>::infinity();
+}
+template <class T, int N>
+Value<T> relative_size(const Dual<T, N>& delta, const Dual<T, N>& reference, const Dual<T, N>& change) {
+  Value<T> size = relative_size(delta.value, reference.value, change.value);
+  // One scale for all directions of a component: some of its derivatives may be zero or nearly so.
+  Value<T> scale(0), largest(0);
+  for (std::size_t k = 0; k < N; ++k) {
+    scale = std::max({scale, abs(value_of(reference.derivative[k])), abs(value_of(change.derivative[k]))});
+    largest = std::max(largest, abs(value_of(delta.derivative[k])));
+    if (isnan(value_of(delta.derivative[k]))) return value_of(delta.derivative[k]);
+  }
+  if (largest > Value<T>(0))
+    size = std::max(size, scale > Value<T>(0) ? largest / scale : std::numeric_limits<Value<T>>::infinity());
+  return size;
+}
+
+/// Watches the corrections of one iteration.
+template <class T> class Convergence {
+ public:
+  using Number = Value<T>;
+
+  /// Call before the corrections of an iteration are added.
+  void begin_iteration() {
+    previous_ = size_;
+    size_ = Number(0);
+    finite_ = true;
+    ++iterations_;
+  }
+  /// One component's correction.
+  void add(const T& delta, const T& reference, const T& change) {
+    const Number s = relative_size(delta, reference, change);
+    if (isnan(s)) finite_ = false;
+    if (s > size_) size_ = s;
+  }
+  /// True when the iteration should stop; `status()` then says how. Corrections already seen are to be applied.
+  bool finished(int limit) {
+    const Number u = unit_roundoff<T>();
+    if (!finite_) return stop(Status::non_finite);
+    if (size_ <= u) return stop(Status::converged);
+    if (iterations_ >= 2) {
+      const Number ratio = size_ / previous_;
+      // The next correction would be ratio * size.
+      if (ratio < Number(0.5) && ratio * size_ <= u / Number(4)) return stop(Status::converged);
+      if (!(size_ < previous_)) {
+        // Round-off noise of a converged iteration, amplified by the sums it passes through.
+        if (size_ <= Number(256) * u || (++stalls_ >= 3 && size_ <= Number(65536) * u)) return stop(Status::converged);
+      }
+    }
+    if (iterations_ >= limit) return stop(Status::not_converged);
+    return false;
+  }
+  /// The last contraction ratio; 1 before two iterations are done.
+  [[nodiscard]] Number ratio() const { return iterations_ < 2 ? Number(1) : size_ / previous_; }
+  [[nodiscard]] int iterations() const { return iterations_; }
+  [[nodiscard]] Status status() const { return status_; }
+
+ private:
+  bool stop(Status status) {
+    status_ = status;
+    return true;
+  }
+  Number size_{0}, previous_{0};
+  int iterations_ = 0, stalls_ = 0;
+  bool finite_ = true;
+  Status status_ = Status::not_converged;
+};
+
+}  // namespace pfaff

@@ -1,0 +1,33 @@
+// Simplified Newton iteration to round-off, with a status.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <pfaff/core/linear/lu.hpp>
+#include <pfaff/core/solve/convergence.hpp>
+
+namespace pfaff {
+
+/// Solves residual(x) = 0 with corrections -matrix^-1 residual, the matrix being an approximate Jacobian that is
+/// factored already. T may be a dual over the matrix's numbers: derivatives converge with the values.
+/// `residual(x, r)` fills r; `reference` and `change` give the sizes each component is judged by (Convergence);
+/// `correction` and `r` are buffers of x's size. On return x is the last iterate.
+template <class T, class Residual>
+Status newton(const LU<Value<T>>& matrix, Residual&& residual, std::span<T> x, std::span<const T> reference,
+              std::span<T> r, std::span<T> correction, int limit, int& iterations) {
+  Convergence<T> convergence;
+  do {
+    residual(x, r);
+    matrix.solve(r.data(), correction.data());
+    convergence.begin_iteration();
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      x[k] = x[k] - correction[k];
+      convergence.add(correction[k], reference[k], x[k]);
+    }
+  } while (!convergence.finished(limit));
+  iterations = convergence.iterations();
+  return convergence.status();
+}
+
+}  // namespace pfaff

@@ -1,0 +1,327 @@
+#include <pfaff/core/tape/recorder.hpp>
+
+#include <algorithm>
+
+namespace pfaff {
+
+bool Tape::autonomous() const {
+  std::vector<char> timed(code.size(), 0);
+  for (std::size_t k = 0; k < code.size(); ++k) {
+    const Instruction& i = code[k];
+    const auto from = [&](int slot) { return timed[static_cast<std::size_t>(slot)]; };
+    switch (i.operation) {
+      case Operation::constant:
+      case Operation::input: break;
+      case Operation::time: timed[k] = 1; break;
+      case Operation::add:
+      case Operation::subtract:
+      case Operation::multiply:
+      case Operation::divide: timed[k] = from(i.a) | from(i.b); break;
+      case Operation::select: timed[k] = from(i.a) | from(i.b) | from(i.c); break;
+      case Operation::solve: {
+        const LinearSystem& s = solves[static_cast<std::size_t>(i.a)];
+        for (const int slot : s.matrix) timed[k] |= from(slot);
+        for (const int slot : s.right_hand_side) timed[k] |= from(slot);
+        break;
+      }
+      case Operation::solve_next: timed[k] = timed[k - 1]; break;
+      default: timed[k] = from(i.a); break;
+    }
+  }
+  return std::none_of(outputs.begin(), outputs.end(),
+                      [&](int slot) { return timed[static_cast<std::size_t>(slot)] != 0; });
+}
+
+bool Tape::state_independent() const {
+  return std::all_of(outputs.begin(), outputs.end(), [&](int slot) { return slot < state_begin; });
+}
+
+namespace {
+Recorder* recorder_of(const Recorded& a, const Recorded& b) {
+  return a.recorder() != nullptr ? a.recorder() : b.recorder();
+}
+Recorded binary(Operation operation, const Recorded& a, const Recorded& b) {
+  Recorder* r = recorder_of(a, b);
+  int left = r->slot_of(a), right = r->slot_of(b);
+  // One order for commutative operations, so that a b and b a are shared.
+  if ((operation == Operation::add || operation == Operation::multiply) && right < left) std::swap(left, right);
+  return r->append({operation, left, right, 0});
+}
+Recorded unary(Operation operation, const Recorded& a) {
+  return a.recorder()->append({operation, a.slot(), 0, 0});
+}
+}  // namespace
+
+Recorded operator-(const Recorded& a) {
+  if (a.is_constant()) return Recorded(-a.constant());
+  return unary(Operation::negate, a);
+}
+Recorded operator+(const Recorded& a, const Recorded& b) {
+  if (a.is_constant() && b.is_constant()) return Recorded(a.constant() + b.constant());
+  if (a.is(0)) return b;
+  if (b.is(0)) return a;
+  return binary(Operation::add, a, b);
+}
+Recorded operator-(const Recorded& a, const Recorded& b) {
+  if (a.is_constant() && b.is_constant()) return Recorded(a.constant() - b.constant());
+  if (a.is(0)) return -b;
+  if (b.is(0)) return a;
+  if (a.recorder() == b.recorder() && a.slot() == b.slot()) return Recorded(0);
+  return binary(Operation::subtract, a, b);
+}
+Recorded operator*(const Recorded& a, const Recorded& b) {
+  if (a.is_constant() && b.is_constant()) return Recorded(a.constant() * b.constant());
+  if (a.is(0) || b.is(0)) return Recorded(0);
+  if (a.is(1)) return b;
+  if (b.is(1)) return a;
+  if (a.is(-1)) return -b;
+  if (b.is(-1)) return -a;
+  return binary(Operation::multiply, a, b);
+}
+Recorded operator/(const Recorded& a, const Recorded& b) {
+  if (b.is_constant()) {
+    if (a.is_constant()) return Recorded(a.constant() / b.constant());
+    // Division by a power of two is a multiplication without a rounding.
+    for (const int power : {1, 2, 4, 8, 16})
+      if (b.is(power)) return a * Recorded(Real::fraction(1, power));
+  }
+  if (a.is(0)) return Recorded(0);
+  return binary(Operation::divide, a, b);
+}
+
+Recorded sqrt(const Recorded& x) {
+  return x.is_constant() ? Recorded(sqrt(x.constant())) : unary(Operation::square_root, x);
+}
+Recorded exp(const Recorded& x) {
+  return x.is_constant() ? Recorded(exp(x.constant())) : unary(Operation::exponential, x);
+}
+Recorded log(const Recorded& x) {
+  return x.is_constant() ? Recorded(log(x.constant())) : unary(Operation::logarithm, x);
+}
+Recorded sin(const Recorded& x) {
+  return x.is_constant() ? Recorded(sin(x.constant())) : x.recorder()->append_sine(x.slot(), false);
+}
+Recorded cos(const Recorded& x) {
+  return x.is_constant() ? Recorded(cos(x.constant())) : x.recorder()->append_sine(x.slot(), true);
+}
+
+Recorded pow(const Recorded& x, const Real& y) {
+  if (x.is_constant()) return Recorded(pow(x.constant(), y));
+  const bool small = y.is_fraction() && y.denominator() <= 2 && std::abs(y.numerator()) <= 32;
+  if (!small) return x.recorder()->append({Operation::power, x.slot(), x.recorder()->constant_index(y), 0});
+  const auto magnitude = std::abs(y.numerator());
+  auto whole = y.denominator() == 1 ? magnitude : magnitude / 2;
+  Recorded result = y.denominator() == 1 ? Recorded(1) : sqrt(x);
+  for (Recorded square = x; whole > 0; whole /= 2, square = whole > 0 ? square * square : square)
+    if (whole % 2 == 1) result = result * square;
+  return y.numerator() < 0 ? Recorded(1) / result : result;
+}
+Recorded pow(const Recorded& x, const Recorded& y) {
+  return y.is_constant() ? pow(x, y.constant()) : exp(y * log(x));
+}
+
+Recorded select(const Recorded& condition, const Recorded& positive, const Recorded& otherwise) {
+  if (condition.is_constant()) return condition.constant() > Real(0) ? positive : otherwise;
+  Recorder* r = condition.recorder();
+  return r->append({Operation::select, condition.slot(), r->slot_of(positive), r->slot_of(otherwise)});
+}
+
+std::vector<Recorded> solve(std::span<const Recorded> matrix, std::span<const Recorded> right_hand_side) {
+  const std::size_t n = right_hand_side.size();
+  std::vector<Recorded> x(n);
+  std::vector<std::size_t> column_of(n, n);
+  std::vector<char> used(n, 0);
+  bool monomial = true;
+  for (std::size_t i = 0; i < n && monomial; ++i)
+    for (std::size_t j = 0; j < n; ++j)
+      if (!structurally_zero(matrix[i * n + j])) {
+        monomial = monomial && column_of[i] == n && used[j] == 0;
+        column_of[i] = j;
+        used[j] = 1;
+      }
+  monomial = monomial && std::find(column_of.begin(), column_of.end(), n) == column_of.end();
+  if (monomial) {
+    for (std::size_t i = 0; i < n; ++i) x[column_of[i]] = right_hand_side[i] / matrix[i * n + column_of[i]];
+    return x;
+  }
+  Recorder* recorder = nullptr;
+  for (const Recorded& e : matrix) recorder = recorder != nullptr ? recorder : e.recorder();
+  for (const Recorded& e : right_hand_side) recorder = recorder != nullptr ? recorder : e.recorder();
+  LinearSystem system{static_cast<int>(n), {}, {}};
+  for (const Recorded& e : matrix) system.matrix.push_back(recorder->slot_of(e));
+  for (const Recorded& e : right_hand_side) system.right_hand_side.push_back(recorder->slot_of(e));
+  return recorder->append_solve(std::move(system));
+}
+
+Recorder::Recorder(int inputs) : inputs_(inputs) {
+  time_slot_ = append({Operation::time, 0, 0, 0}).slot();
+  for (int k = 0; k < inputs; ++k) append({Operation::input, k, 0, 0});
+}
+
+std::vector<Recorded> Recorder::inputs() {
+  std::vector<Recorded> z;
+  for (int k = 0; k < inputs_; ++k) z.emplace_back(this, time_slot_ + 1 + k);
+  return z;
+}
+
+int Recorder::constant_index(const Real& value) {
+  for (std::size_t k = 0; k < constants_.size(); ++k)
+    if (constants_[k] == value && constants_[k].is_fraction() == value.is_fraction()) return static_cast<int>(k);
+  constants_.push_back(value);
+  return static_cast<int>(constants_.size()) - 1;
+}
+
+int Recorder::slot_of(const Recorded& x) {
+  if (!x.is_constant()) return x.slot();
+  return append({Operation::constant, constant_index(x.constant()), 0, 0}).slot();
+}
+
+Recorded Recorder::append(const Instruction& instruction) {
+  const auto [where, added] = known_.try_emplace(instruction, static_cast<int>(code_.size()));
+  if (added) code_.push_back(instruction);
+  return {this, where->second};
+}
+
+Recorded Recorder::append_sine(int argument, bool cosine) {
+  const auto known = known_.find({Operation::sine, argument, 0, 0});
+  int slot = 0;
+  if (known != known_.end()) {
+    slot = known->second;
+  } else {
+    slot = append({Operation::sine, argument, 0, 0}).slot();
+    append({Operation::cosine, argument, 0, 0});
+  }
+  return {this, slot + (cosine ? 1 : 0)};
+}
+
+std::vector<Recorded> Recorder::append_solve(LinearSystem system) {
+  const int size = system.size;
+  solves_.push_back(std::move(system));
+  const int first = static_cast<int>(code_.size());
+  const int index = static_cast<int>(solves_.size()) - 1;
+  std::vector<Recorded> x;
+  for (int k = 0; k < size; ++k) {
+    code_.push_back({k == 0 ? Operation::solve : Operation::solve_next, index, k, 0});
+    x.emplace_back(this, first + k);
+  }
+  return x;
+}
+
+namespace {
+// Calls visit(slot) for every slot an instruction reads (groups: for the group's first instruction only).
+template <class Visit> void operands(const Instruction& i, const std::vector<LinearSystem>& solves, Visit&& visit) {
+  switch (i.operation) {
+    case Operation::constant:
+    case Operation::time:
+    case Operation::input:
+    case Operation::solve_next: return;
+    case Operation::add:
+    case Operation::subtract:
+    case Operation::multiply:
+    case Operation::divide:
+      visit(i.a);
+      visit(i.b);
+      return;
+    case Operation::select:
+      visit(i.a);
+      visit(i.b);
+      visit(i.c);
+      return;
+    case Operation::solve:
+      for (const int slot : solves[static_cast<std::size_t>(i.a)].matrix) visit(slot);
+      for (const int slot : solves[static_cast<std::size_t>(i.a)].right_hand_side) visit(slot);
+      return;
+    default: visit(i.a); return;
+  }
+}
+// The first instruction of the group that writes slot k.
+std::size_t group_start(const std::vector<Instruction>& code, std::size_t k) {
+  if (code[k].operation == Operation::cosine) return k - 1;
+  if (code[k].operation == Operation::solve_next) return k - static_cast<std::size_t>(code[k].b);
+  return k;
+}
+}  // namespace
+
+Tape Recorder::finish(std::span<const Recorded> outputs) {
+  std::vector<int> results;
+  for (const Recorded& output : outputs) results.push_back(slot_of(output));
+
+  // What is needed: groups (sine with cosine, all components of a solve) are kept whole.
+  const std::size_t n = code_.size();
+  std::vector<char> needed(n, 0);
+  for (const int slot : results) needed[static_cast<std::size_t>(slot)] = 1;
+  for (std::size_t k = n; k-- > 0;) {
+    if (needed[k] == 0) continue;
+    const std::size_t start = group_start(code_, k);
+    for (std::size_t g = start; g < n && group_start(code_, g) == start; ++g) needed[g] = 1;
+    operands(code_[start], solves_, [&](int slot) { needed[static_cast<std::size_t>(slot)] = 1; });
+  }
+
+  // Dependence: 0 constants, 1 time, 2 state.
+  std::vector<int> level(n, 0);
+  for (std::size_t k = 0; k < n; ++k) {
+    if (code_[k].operation == Operation::time) level[k] = 1;
+    if (code_[k].operation == Operation::input) level[k] = 2;
+    const std::size_t start = group_start(code_, k);
+    if (start != k) level[k] = level[start];
+    operands(code_[k], solves_,
+             [&](int slot) { level[k] = std::max(level[k], level[static_cast<std::size_t>(slot)]); });
+    // A function of constants alone that could not be folded is evaluated with the time part.
+    if (code_[k].operation != Operation::constant) level[k] = std::max(level[k], 1);
+  }
+
+  Tape tape;
+  tape.inputs = inputs_;
+  std::vector<int> place(n, -1);
+  for (int l = 0; l <= 2; ++l) {
+    if (l == 1) tape.time_begin = static_cast<int>(tape.code.size());
+    if (l == 2) tape.state_begin = static_cast<int>(tape.code.size());
+    for (std::size_t k = 0; k < n; ++k)
+      if (needed[k] != 0 && level[k] == l) {
+        place[k] = static_cast<int>(tape.code.size());
+        tape.code.push_back(code_[k]);
+      }
+  }
+  const auto moved = [&](int slot) { return place[static_cast<std::size_t>(slot)]; };
+  for (Instruction& i : tape.code) {
+    switch (i.operation) {
+      case Operation::constant:
+        tape.constants.push_back(constants_[static_cast<std::size_t>(i.a)]);
+        i.a = static_cast<int>(tape.constants.size()) - 1;
+        break;
+      case Operation::time:
+      case Operation::input:
+      case Operation::solve_next: break;
+      case Operation::add:
+      case Operation::subtract:
+      case Operation::multiply:
+      case Operation::divide:
+        i.a = moved(i.a);
+        i.b = moved(i.b);
+        break;
+      case Operation::power:
+        i.a = moved(i.a);
+        tape.constants.push_back(constants_[static_cast<std::size_t>(i.b)]);
+        i.b = static_cast<int>(tape.constants.size()) - 1;
+        break;
+      case Operation::select:
+        i.a = moved(i.a);
+        i.b = moved(i.b);
+        i.c = moved(i.c);
+        break;
+      case Operation::solve: {
+        LinearSystem system = solves_[static_cast<std::size_t>(i.a)];
+        for (int& slot : system.matrix) slot = moved(slot);
+        for (int& slot : system.right_hand_side) slot = moved(slot);
+        tape.solves.push_back(std::move(system));
+        i.a = static_cast<int>(tape.solves.size()) - 1;
+        break;
+      }
+      default: i.a = moved(i.a); break;
+    }
+  }
+  for (const int slot : results) tape.outputs.push_back(moved(slot));
+  return tape;
+}
+
+}  // namespace pfaff

@@ -1,0 +1,147 @@
+// Boost.Odeint's steppers as registered methods: what everyone has, as the yardstick.
+//
+// Traps of that library that do not arise here, because Pfaff drives the steps itself: its steppers are copied into
+// the integrate functions (state and history with them), and integrate_times and integrate_adaptive shorten steps to
+// hit output times, which breaks the structure of fixed-step methods. Coefficients are doubles, so no claims are made
+// in quad. The adaptive step is the controlled dopri5 with absolute and relative tolerance alike.
+#include <algorithm>
+#include <boost/numeric/odeint/algebra/algebra_dispatcher.hpp>
+#include <boost/numeric/odeint/algebra/range_algebra.hpp>
+#include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
+#include <boost/numeric/odeint/stepper/generation/generation_runge_kutta_dopri5.hpp>
+#include <boost/numeric/odeint/stepper/generation/make_controlled.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta4.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
+#include <boost/numeric/odeint/stepper/symplectic_rkn_sb3a_mclachlan.hpp>
+
+#include <pfaff/core/integrator.hpp>
+
+namespace {
+using namespace pfaff;
+namespace odeint = boost::numeric::odeint;
+
+// odeint knows std::array and std::vector.
+template <class T, int N> struct Container { using type = std::array<T, static_cast<std::size_t>(N)>; };
+template <class T> struct Container<T, dynamic> { using type = std::vector<T>; };
+template <class P> using ContainerOf = typename Container<Scalar<P>, P::extent>::type;
+template <class P, int Size> using HalfOf =
+    typename Container<Scalar<P>, P::extent == dynamic ? dynamic : P::extent / 2>::type;
+
+template <class C> C sized(std::size_t n) {
+  if constexpr (requires(C c) { c.resize(n); }) {
+    return C(n);
+  } else {
+    return C{};
+  }
+}
+
+// A stepper of the vector field, one fixed step at a time.
+template <template <class...> class OdeintStepper> struct FieldStepper {
+  template <class P> struct Work {
+    using T = Scalar<P>;
+    OdeintStepper<ContainerOf<P>, double, ContainerOf<P>, T, odeint::range_algebra> stepper;
+    ContainerOf<P> state;
+    Work(const FieldStepper& /*method*/, const P& p) : state(sized<ContainerOf<P>>(p.size())) {}
+  };
+
+  template <HasVectorField P>
+  Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
+    std::copy(z.begin(), z.end(), w.state.begin());
+    w.stepper.do_step(
+        [&](const ContainerOf<P>& x, ContainerOf<P>& rate, const Scalar<P>& time) { p.field(time, x, rate); },
+        w.state, t, h);
+    std::copy(w.state.begin(), w.state.end(), z.begin());
+    return Status::converged;
+  }
+};
+
+template <class... A> using Rk4Stepper = odeint::runge_kutta4<A...>;
+struct OdeintRk4 : FieldStepper<Rk4Stepper> {};
+
+// dopri5 keeps its last slope (FSAL) between steps; here every step starts from its own state, so that a step is a
+// function of (t, z, h) alone.
+template <class... A> using Dopri5Stepper = odeint::runge_kutta_dopri5<A...>;
+struct OdeintDopri5 : FieldStepper<Dopri5Stepper> {
+  template <HasVectorField P>
+  Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
+    w.stepper.reset();
+    return FieldStepper::step(p, t, h, z, w);
+  }
+
+  template <HasVectorField P> requires std::is_same_v<Scalar<P>, double>
+  Status advance_to(const P& p, double& t, double end, double tolerance, State<P>& z, Work<P>& w) const {
+    auto controlled = odeint::make_controlled(tolerance, tolerance, w.stepper);
+    std::copy(z.begin(), z.end(), w.state.begin());
+    const auto system = [&](const ContainerOf<P>& x, ContainerOf<P>& rate, double time) { p.field(time, x, rate); };
+    const double direction = end < t ? -1 : 1;
+    double h = direction * std::min(std::abs(end - t), 0.01);
+    Status status = Status::converged;
+    for (int rejected = 0; direction * (end - t) > 0;) {
+      if (direction * (t + h - end) > 0) h = end - t;
+      const double last = h;
+      if (controlled.try_step(system, w.state, t, h) == odeint::success) {
+        ++p.counters().steps;
+        rejected = 0;
+        // The last step ends at `end` but for round-off.
+        if (std::abs(end - t) <= 4 * std::numeric_limits<double>::epsilon() * std::max(std::abs(end), std::abs(last)))
+          t = end;
+      } else if (++rejected > 100 || !(std::abs(h) > 1e-14 * std::abs(t))) {
+        status = Status::not_converged;
+        break;
+      }
+    }
+    std::copy(w.state.begin(), w.state.end(), z.begin());
+    return status;
+  }
+};
+
+// McLachlan's symplectic Runge-Kutta-Nystroem method of order 4 on (q, p).
+struct OdeintMcLachlan {
+  template <class P> struct Work {
+    using T = Scalar<P>;
+    using Half = HalfOf<P, 0>;
+    odeint::symplectic_rkn_sb3a_mclachlan<Half, Half, double, Half, Half, T, odeint::range_algebra> stepper;
+    std::pair<Half, Half> state;
+    Work(const OdeintMcLachlan& /*method*/, const P& p)
+        : state(sized<Half>(p.size() / 2), sized<Half>(p.size() / 2)) {}
+  };
+
+  [[nodiscard]] static std::string refuses(const Model& model) {
+    return model.autonomous() ? std::string()
+                              : "odeint-mclachlan takes no time in its force; " + model.name() + " depends on time";
+  }
+
+  template <HasSeparable P>
+  Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
+    using Half = HalfOf<P, 0>;
+    const auto half = static_cast<std::ptrdiff_t>(z.size() / 2);
+    std::copy(z.begin(), z.begin() + half, w.state.first.begin());
+    std::copy(z.begin() + half, z.end(), w.state.second.begin());
+    const auto velocity = [&](const Half& momentum, Half& v) { p.velocity(t, momentum, v); };
+    const auto force = [&](const Half& q, Half& f) { p.force(t, q, f); };
+    w.stepper.do_step(std::make_pair(velocity, force), w.state, t, h);
+    std::copy(w.state.first.begin(), w.state.first.end(), z.begin());
+    std::copy(w.state.second.begin(), w.state.second.end(), z.begin() + half);
+    return Status::converged;
+  }
+};
+
+const Method<OdeintRk4> rk4{{.name = "odeint-rk4",
+                             .title = "Boost.Odeint runge_kutta4",
+                             .reference = "ahnert-mulansky2011",
+                             .order = 4,
+                             .preserves = {Claim::none},
+                             .double_coefficients = true}};
+const Method<OdeintDopri5> dopri5{{.name = "odeint-dopri5",
+                                   .title = "Boost.Odeint runge_kutta_dopri5 (Dormand-Prince)",
+                                   .reference = "ahnert-mulansky2011; dormand-prince1980",
+                                   .order = 5,
+                                   .preserves = {Claim::none},
+                                   .double_coefficients = true}};
+const Method<OdeintMcLachlan> mclachlan{{.name = "odeint-mclachlan",
+                                         .title = "Boost.Odeint symplectic_rkn_sb3a_mclachlan",
+                                         .reference = "ahnert-mulansky2011; mclachlan1995",
+                                         .order = 4,
+                                         .preserves = {Claim::symplectic, Claim::symmetric},
+                                         .double_coefficients = true}};
+}  // namespace

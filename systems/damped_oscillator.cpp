@@ -1,0 +1,76 @@
+// The linear damped oscillator r'' + nu r' + r = 0 in Birkhoff's form, z = (r, p), p = r' (su-qin (92)-(95), REFERENCE
+// C7).
+//
+//   F = e^{nu t} (p/2, -r/2),   B = e^{nu t} (r^2 + nu r p + p^2)/2,   K = e^{nu t} [[0, -1], [1, 0]]
+//
+// B is conserved along solutions. Darboux chart y = (r, e^{nu t} p). Linear: it hides order errors of nonlinear
+// methods, so orders are verified on the damped pendulum as well.
+#include <pfaff/core/system.hpp>
+
+namespace {
+using namespace pfaff;
+
+struct DampedOscillator {
+  static constexpr int dimension = 2;
+  Real nu = 0.3_r;
+  static std::vector<Parameter> parameters() {
+    return {parameter(&DampedOscillator::nu, "nu", "1/s", 0, 10, "damping rate")};
+  }
+
+  template <class T> T birkhoffian(const T& t, In<T> z) const {
+    return exp(nu * t) * (z[0] * z[0] + nu * z[0] * z[1] + z[1] * z[1]) / 2;
+  }
+  template <class T> void one_form(const T& t, In<T> z, Out<T> form) const {
+    const T growth = exp(nu * t);
+    form[0] = growth * z[1] / 2;
+    form[1] = -(growth * z[0]) / 2;
+  }
+  template <class T> void chart(const T& t, In<T> z, Out<T> y) const {
+    y[0] = z[0];
+    y[1] = exp(nu * t) * z[1];
+  }
+  template <class T> void chart_inverse(const T& t, In<T> y, Out<T> z) const {
+    z[0] = y[0];
+    z[1] = exp(-(nu * t)) * y[1];
+  }
+  template <class T> T chart_hamiltonian(const T& t, In<T> y) const {
+    return (exp(-(nu * t)) * (y[1] * y[1]) + exp(nu * t) * (y[0] * y[0])) / 2;
+  }
+  template <class T> void field(const T& /*t*/, In<T> z, Out<T> rate) const {
+    rate[0] = z[1];
+    rate[1] = -(nu * z[1]) - z[0];
+  }
+  template <class T> void invariants(const T& t, In<T> z, Out<T> values) const {
+    values[0] = birkhoffian(t, z);
+    values[1] = (z[0] * z[0] + z[1] * z[1]) / 2;
+  }
+  // r = e^{-nu s/2} (r0 C + (p0 + nu r0/2) S) with C, S the cosine and sine of w = sqrt(1 - nu^2/4), hyperbolic when
+  // overdamped, (1, s) when critical.
+  template <class T> void exact_solution(const T& s, const T& /*t0*/, In<T> z0, Out<T> z) const {
+    const Real square = Real(1) - nu * nu / Real(4);
+    const T decay = exp(-(nu * s) / 2);
+    T c(1), sine(s), slope(0);  // C, S / w and C' = -w^2 S/w
+    if (square > Real(0)) {
+      const Real w = sqrt(square);
+      c = cos(w * s);
+      sine = sin(w * s) / w;
+    } else if (square < Real(0)) {
+      const Real w = sqrt(-square);
+      c = (exp(w * s) + exp(-(w * s))) / 2;
+      sine = (exp(w * s) - exp(-(w * s))) / (2 * w);
+    }
+    slope = -(square * sine);
+    const T b = z0[1] + nu * z0[0] / 2;
+    z[0] = decay * (z0[0] * c + b * sine);
+    z[1] = decay * (z0[0] * slope + b * c) - nu * z[0] / 2;
+  }
+};
+
+const System<DampedOscillator> registered{
+    {.name = "damped-oscillator",
+     .title = "damped oscillator in Birkhoff's form, r'' + nu r' + r = 0",
+     .reference = "su-qin (92)-(95), REFERENCE C7",
+     .coordinates = {{"r", "m"}, {"p", "m/s"}},
+     .initial = {1, 0},
+     .invariants = {conserved("birkhoffian", "m^2/s^2"), decreasing("energy", "m^2/s^2")}}};
+}  // namespace
