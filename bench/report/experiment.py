@@ -231,11 +231,9 @@ def read_series(path, invariant, precision):
     change = [x - initial for x in values]
     if precision == "quad" and math.isfinite(initial):
         k = names.index(invariant)
-        with decimal.localcontext() as context:
-            context.prec = 50
-            start = decimal.Decimal(rows[0][1][k])
-            change = [float(decimal.Decimal(row[k]) - start) if math.isfinite(x) else x
-                      for (_, row), x in zip(rows, values)]
+        start = decimal.Decimal(rows[0][1][k])  # operands keep all their digits; only the difference is rounded
+        change = [float(decimal.Decimal(row[k]) - start) if math.isfinite(x) else x
+                  for (_, row), x in zip(rows, values)]
     unit = units[names.index(invariant)] if invariant is not None else ""
     return Series(column("t"), units[0], initial, change, unit, column("structure_residual"))
 

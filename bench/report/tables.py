@@ -77,8 +77,8 @@ def overview(experiment):
         if any(cells):
             rows.append(("", [text(label), *(overview_cell(experiment, *cell) if cell else "–" for cell in cells)]))
     steps = ", ".join(f"{heading(c)}: {step_text(experiment.common_step(c), c)}" for c in experiment.cases)
-    return table("<strong>At a glance.</strong> Class and size of the drift of each case's conserved quantity (of one that "
-                 "is expected to decrease, its largest rise over max(1, |I(0)|)), and the structure "
+    return table("<strong>At a glance.</strong> Class and size of the drift of each case's conserved quantity (of one "
+                 "that is expected to decrease, its largest rise over max(1, |I(0)|)), and the structure "
                  f"residual, at the step that most methods share ({text(steps)}).", columns, [rows])
 
 
