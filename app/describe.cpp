@@ -1,0 +1,184 @@
+// pfaff describe NAME and pfaff cite NAME: everything known about a plug-in or an experiment.
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include <pfaff/app/command.hpp>
+#include <pfaff/app/terminal.hpp>
+#include <pfaff/bench/runner/citations.hpp>
+#include <pfaff/bench/runner/experiment.hpp>
+#include <pfaff/core/bracket.hpp>
+
+namespace pfaff::app {
+
+namespace {
+
+nlohmann::json parameters_of(const Plugin& plugin, const Assignments& defaults) {
+  nlohmann::json list = nlohmann::json::array();
+  for (std::size_t k = 0; k < plugin.parameters().size(); ++k) {
+    const Parameter& p = plugin.parameters()[k];
+    list.push_back({{"name", p.name}, {"default", defaults[k].second}, {"range", range_of(p)}, {"unit", p.unit},
+                    {"meaning", p.meaning}});
+  }
+  return list;
+}
+
+nlohmann::json describe_system(const SystemPlugin& plugin) {
+  const auto model = plugin.make({});
+  nlohmann::json j{{"kind", "system"}, {"name", plugin.name()}, {"title", plugin.descriptor().title},
+                   {"reference", plugin.descriptor().reference}, {"dimension", model->dimension()},
+                   {"time_unit", model->time_unit()}, {"facets", to_string(model->facets())},
+                   {"autonomous", model->autonomous()}, {"parameters", parameters_of(plugin, model->parameters())}};
+  for (std::size_t k = 0; k < model->coordinates().size(); ++k)
+    j["coordinates"].push_back({{"name", model->coordinates()[k].name}, {"unit", model->coordinates()[k].unit},
+                                {"initial", to_string(model->initial()[k])}});
+  j["invariants"] = nlohmann::json::array();
+  for (const Invariant& i : model->invariants())
+    j["invariants"].push_back({{"name", i.name}, {"unit", i.unit}, {"expected", to_string(i.behaviour)}});
+  j["integrators"] = nlohmann::json::array();
+  for (const MethodPlugin* method : integrators().all())
+    if (method->make({})->refuses(*model).empty()) j["integrators"].push_back(method->name());
+  return j;
+}
+
+nlohmann::json describe_method(const MethodPlugin& plugin) {
+  const auto method = plugin.make({});
+  nlohmann::json j{{"kind", "integrator"}, {"name", plugin.name()}, {"title", plugin.descriptor().title},
+                   {"reference", plugin.descriptor().reference}, {"needs", to_string(method->needs())},
+                   {"adaptive", method->adaptive()}, {"parameters", parameters_of(plugin, method->parameters())}};
+  j["systems"] = nlohmann::json::array();
+  for (const SystemPlugin* system : systems().all()) {
+    const auto model = system->make({});
+    if (!method->refuses(*model).empty()) continue;
+    nlohmann::json claims = nlohmann::json::array();
+    for (const Claim claim : method->preserves(*model)) claims.push_back(to_string(claim));
+    j["systems"].push_back({{"name", system->name()}, {"order", method->order(*model)}, {"preserves", claims}});
+  }
+  return j;
+}
+
+nlohmann::json describe_bracket(const BracketPlugin& plugin) {
+  const BracketInstance bracket = plugin.make({});
+  return {{"kind", "bracket"}, {"name", plugin.name()}, {"title", plugin.descriptor().title},
+          {"reference", plugin.descriptor().reference}, {"dimension", bracket.dimension},
+          {"symmetry", to_string(plugin.descriptor().symmetry)}, {"jacobi", plugin.descriptor().jacobi},
+          {"parameters", parameters_of(plugin, bracket.parameters)}};
+}
+
+nlohmann::json describe_experiment(const std::string& name) {
+  const Experiment e = read_experiment(name, false);
+  nlohmann::json j{{"kind", "experiment"}, {"name", e.name}, {"title", e.title}, {"description", e.description},
+                   {"reference", e.reference}, {"runs", expand(e).size()}};
+  for (const ExperimentMethod& m : e.methods) j["methods"].push_back(m.label);
+  for (const ExperimentCase& c : e.cases) j["cases"].push_back({{"name", c.name}, {"title", c.title}, {"steps", c.steps}});
+  return j;
+}
+
+nlohmann::json describe(const std::string& name) {
+  if (const auto* system = systems().find(name)) return describe_system(*system);
+  if (const auto* method = integrators().find(name)) return describe_method(*method);
+  if (const auto* bracket = brackets().find(name)) return describe_bracket(*bracket);
+  std::vector<std::string> names = experiment_names();
+  if (std::find(names.begin(), names.end(), name) != names.end()) return describe_experiment(name);
+  for (const auto& more : {systems().names(), integrators().names(), brackets().names()})
+    names.insert(names.end(), more.begin(), more.end());
+  throw InputError(unknown_name("name", name, names));
+}
+
+std::string text_of(const nlohmann::json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+  return value.dump();
+}
+
+// Scalars as "key  value", lists of objects as indented tables, lists of names joined.
+void print(const nlohmann::json& j) {
+  std::vector<std::vector<std::string>> scalars;
+  for (const char* first : {"name", "kind", "title", "reference"})
+    if (j.contains(first)) scalars.push_back({first, text_of(j[first])});
+  for (const auto& [key, value] : j.items()) {
+    if (key == "name" || key == "kind" || key == "title" || key == "reference" || key == "schema") continue;
+    if (!value.is_array()) scalars.push_back({key, text_of(value)});
+    if (value.is_array() && !value.empty() && value[0].is_string()) {
+      std::string joined;
+      for (const auto& item : value) joined += (joined.empty() ? "" : ", ") + item.get<std::string>();
+      scalars.push_back({key, joined});
+    }
+  }
+  std::cout << table(scalars);
+  for (const auto& [key, value] : j.items()) {
+    if (!value.is_array() || value.empty() || !value[0].is_object()) continue;
+    std::cout << '\n' << key << '\n';
+    std::vector<std::vector<std::string>> rows(1);
+    std::vector<std::string> columns;  // the plug-in's own order of importance
+    for (const char* column : {"name", "initial", "default", "range", "order", "expected", "unit", "title", "steps",
+                               "preserves", "meaning"})
+      if (value[0].contains(column) && !(column == std::string("unit") && value[0].contains("range")))
+        columns.emplace_back(column);
+    for (const std::string& column : columns) rows[0].push_back(rows[0].empty() ? "  " + column : column);
+    for (const auto& item : value) {
+      std::vector<std::string> row;
+      for (const std::string& column : columns) {
+        std::string cell = text_of(item[column]);
+        if (item[column].is_array()) {
+          cell.clear();
+          for (const auto& part : item[column]) cell += (cell.empty() ? "" : ", ") + part.get<std::string>();
+        }
+        row.push_back(row.empty() ? "  " + cell : cell);
+      }
+      rows.push_back(row);
+    }
+    std::cout << table(rows);
+  }
+}
+
+int cite(const std::vector<std::string>& names, bool json) {
+  nlohmann::json j{{"schema", 1}, {"entries", nlohmann::json::array()}};
+  std::vector<std::string> keys;
+  for (const std::string& name : names) {
+    std::vector<std::string> found;
+    if (!bibtex(name).empty()) {
+      found = {name};
+    } else {
+      const nlohmann::json described = describe(name);
+      const auto& reference = described["reference"];
+      found = reference.is_array() ? reference.get<std::vector<std::string>>() : keys_in(reference);
+    }
+    for (const std::string& key : found)
+      if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
+  }
+  for (const std::string& key : keys) {
+    j["entries"].push_back({{"key", key}, {"citation", citation(key)}, {"bibtex", bibtex(key)}});
+    if (!json) std::cout << bibtex(key) << '\n';
+  }
+  if (json) std::cout << j.dump(1) << '\n';
+  return 0;
+}
+
+}  // namespace
+
+void add_describe(CLI::App& app, Common& common, Action& action) {
+  CLI::App* sub = subcommand(app, common, "describe", "Everything about a system, an integrator, a bracket or an experiment");
+  auto name = std::make_shared<std::string>();
+  sub->add_option("name", *name, "Its name, as in pfaff list")->required();
+  sub->callback([name, &common, &action] {
+    action = [name, &common] {
+      nlohmann::json j = describe(*name);
+      j["schema"] = 1;
+      if (common.json) {
+        std::cout << j.dump(1) << '\n';
+      } else {
+        print(j);
+      }
+      return 0;
+    };
+  });
+}
+
+void add_cite(CLI::App& app, Common& common, Action& action) {
+  CLI::App* sub = subcommand(app, common, "cite", "BibTeX entries behind a plug-in, an experiment or a key");
+  auto names = std::make_shared<std::vector<std::string>>();
+  sub->add_option("name", *names, "Names or keys")->required();
+  sub->callback([names, &common, &action] { action = [names, &common] { return cite(*names, common.json); }; });
+}
+
+}  // namespace pfaff::app

@@ -1,0 +1,126 @@
+// pfaff run: one run, to a directory or to standard output.
+#include <fstream>
+#include <iostream>
+
+#include <pfaff/app/command.hpp>
+#include <pfaff/app/terminal.hpp>
+#include <pfaff/bench/runner/files.hpp>
+#include <pfaff/bench/runner/record.hpp>
+
+namespace pfaff::app {
+
+namespace {
+
+struct Options {
+  RunSettings settings;
+  std::vector<std::string> set;
+  std::string precision = "double", out, state, config;
+};
+
+std::string number_text(const nlohmann::json& value, const std::string& where) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_number()) return value.dump();
+  throw InputError(where + ": expected numbers or decimal strings");
+}
+
+// --state FILE: {t, z} or {t, q, p}.
+void read_state(const std::string& path, RunSettings& settings) {
+  const nlohmann::json j = nlohmann::json::parse(read_file(path), nullptr, false);
+  if (!j.is_object()) throw InputError(path + ": expected a JSON object with t and z (or q and p)");
+  for (const auto& [key, value] : j.items())
+    if (key != "t" && key != "z" && key != "q" && key != "p" && key != "schema")
+      throw InputError(path + ": " + unknown_name("key", key, {"t", "z", "q", "p"}));
+  if (j.contains("t")) settings.t0 = number_text(j["t"], path);
+  std::vector<nlohmann::json> parts;
+  if (j.contains("z")) parts = {j["z"]};
+  if (j.contains("q") && j.contains("p")) parts = {j["q"], j["p"]};
+  if (parts.empty()) throw InputError(path + ": expected z, or q and p");
+  settings.initial.clear();
+  for (const nlohmann::json& part : parts) {
+    if (!part.is_array()) throw InputError(path + ": expected a list of numbers");
+    for (const nlohmann::json& x : part) settings.initial.push_back(number_text(x, path));
+  }
+}
+
+int run(Options options, bool json) {
+  options.settings.set = parse_settings(options.set);
+  options.settings.precision = parse_precision(options.precision);
+  if (!options.state.empty()) read_state(options.state, options.settings);
+  const ResolvedRun resolved = resolve(options.settings);
+  const bool to_stdout = options.out == "-";
+  if (!to_stdout) make_output_directory(options.out);
+
+  std::unique_ptr<ReferenceSolution> reference;
+  if (resolved.model->facets().has(Facet::exact_solution)) {
+    std::vector<Quad> initial;
+    for (const Real& x : resolved.initial) initial.push_back(x.quad());
+    reference = std::make_unique<ReferenceSolution>(resolved.model, resolved.t0.quad(), initial, resolved.time.quad());
+  }
+  RunRecord record;
+  {
+    ProgressLine line;
+    record = execute(resolved, reference.get(),
+                     [&](double fraction) { line.show(resolved.model->name() + ", " + options.settings.integrator, fraction); });
+  }
+  if (to_stdout) {
+    std::cout << series_csv(resolved, record);
+  } else {
+    const std::filesystem::path directory = options.out;
+    const nlohmann::json j = summary(resolved, record);
+    write_file(directory / "config.toml", config_text(resolved));
+    write_file(directory / "series.csv", series_csv(resolved, record));
+    write_file(directory / "summary.json", j.dump(1) + "\n");
+    if (json) {
+      std::cout << j.dump(1) << '\n';
+    } else {
+      std::vector<std::vector<std::string>> rows{
+          {"status", std::string(to_string(record.status)) + " after " + std::to_string(record.completed) + " steps"}};
+      const auto scientific = [](double x) {
+        char text[32];
+        std::snprintf(text, sizeof text, "%.3g", x);
+        return std::string(text);
+      };
+      if (record.error_max)
+        rows.push_back({"error", "max " + scientific(*record.error_max) + ", final " + scientific(*record.error_final)});
+      if (record.structure_residual) rows.push_back({"structure", "residual " + scientific(*record.structure_residual)});
+      for (const auto& i : j["invariants"])
+        if (i.contains("max"))
+          rows.push_back({i["name"], "drift max " + scientific(i["max"]) + ", rms " + scientific(i["rms"]) + ", slope " +
+                                         scientific(i["slope"]) + ", " + i["class"].get<std::string>()});
+      rows.push_back({"written", options.out + "/{config.toml, series.csv, summary.json}"});
+      std::cout << table(rows);
+    }
+  }
+  if (record.status != Status::converged) {
+    std::cerr << "pfaff: the run ended early: " << record.message << " (" << to_string(record.status)
+              << "); completed samples are kept\n";
+    return 1;
+  }
+  return 0;
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, Common& common, Action& action) {
+  CLI::App* sub = subcommand(app, common, "run", "Integrate one system with one method");
+  auto options = std::make_shared<Options>();
+  RunSettings& s = options->settings;
+  sub->add_option("--system", s.system, "Name of the system")->required();
+  sub->add_option("--integrator", s.integrator, "Name of the integrator")->required();
+  sub->add_option("--step", s.step, "Step h > 0");
+  sub->add_option("--tolerance", s.tolerance, "Absolute and relative tolerance, for methods that choose their steps");
+  sub->add_option("--time", s.time, "Duration of the run")->required();
+  sub->add_option("--every", s.every, "Sample every k-th step (default: about a thousand samples)")
+      ->check(CLI::PositiveNumber);
+  sub->add_option("--set", options->set, "KEY=VALUE: a parameter (nu=0.3, integrator.order=4) or initial=a,b,...")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->take_all();
+  sub->add_option("--state", options->state, "JSON file with the initial state: t, and z or q and p")->type_name("FILE");
+  sub->add_option("--precision", options->precision, "double or quad");
+  sub->add_option("--out", options->out, "New directory for the run, or - for its series on standard output")
+      ->required();
+  sub->callback([options, &common, &action] { action = [options, &common] { return run(*options, common.json); }; });
+}
+
+}  // namespace pfaff::app

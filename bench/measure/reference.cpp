@@ -1,0 +1,99 @@
+#include <pfaff/bench/measure/reference.hpp>
+
+#include <algorithm>
+
+namespace pfaff {
+
+TaylorExpansion::TaylorExpansion(const Model& model)
+    : n_(static_cast<std::size_t>(model.dimension())), series_(model.tape(Formula::field), order, 1),
+      coefficients_(n_ * (order + 1)), level_(n_) {}
+
+void TaylorExpansion::expand(Quad t, const Quad* z) {
+  const Quad one(1);
+  series_.set_time(&t, &one);
+  std::copy(z, z + n_, coefficients_.begin());
+  for (std::size_t l = 0; l < order; ++l) {
+    series_.set_input(l, coefficients_.data() + l * n_);
+    series_.advance(l);
+    for (std::size_t k = 0; k < n_; ++k)
+      coefficients_[(l + 1) * n_ + k] = *series_.output(k, l) / Quad(static_cast<int>(l + 1));
+  }
+}
+
+Quad TaylorExpansion::safe_step() const {
+  // The radius of convergence from the last two degrees; e^-2.8 of it leaves e^{-2.8 * 28} = 8e-35 of the first term.
+  const auto size = [&](std::size_t degree) {
+    Quad largest(0);
+    for (std::size_t k = 0; k < n_; ++k) largest = std::max(largest, abs(coefficients_[degree * n_ + k]));
+    return largest;
+  };
+  const Quad scale = std::max(size(0), Quad(1e-30));
+  Quad step(1e300);
+  for (const std::size_t degree : {order - 1, order}) {
+    const Quad ratio = size(static_cast<std::size_t>(degree)) / scale;
+    if (ratio > Quad(0)) step = std::min(step, exp(-log(ratio) / Quad(static_cast<int>(degree))));
+  }
+  return std::min(step * exp(Quad(-2.9)), Quad(1));
+}
+
+void TaylorExpansion::evaluate(Quad s, Quad* z) const {
+  for (std::size_t k = 0; k < n_; ++k) {
+    z[k] = coefficients_[order * n_ + k];
+    for (std::size_t l = order; l-- > 0;) z[k] = z[k] * s + coefficients_[l * n_ + k];
+  }
+}
+
+void taylor_flow(const Model& model, Quad t, Quad elapsed, std::vector<Quad>& z) {
+  TaylorExpansion expansion(model);
+  const Quad sign(elapsed < Quad(0) ? -1 : 1);
+  Quad left = abs(elapsed);
+  while (left > Quad(0)) {
+    expansion.expand(t, z.data());
+    const Quad step = std::min(left, expansion.safe_step());
+    expansion.evaluate(sign * step, z.data());
+    t += sign * step;
+    left -= step;
+  }
+}
+
+ReferenceSolution::ReferenceSolution(std::shared_ptr<const Model> model, Quad t0, std::vector<Quad> initial,
+                                     Quad duration)
+    : model_(std::move(model)), t0_(t0), initial_(std::move(initial)) {
+  if (model_->facets().has(Facet::exact_solution)) {
+    problem_ = std::make_shared<const Problem<Quad>>(model_);
+    return;
+  }
+  TaylorExpansion expansion(*model_);
+  std::vector<Quad> z = initial_;
+  for (Quad t = t0; t <= t0 + duration;) {
+    expansion.expand(t, z.data());
+    pieces_.push_back({t, expansion.coefficients()});
+    const Quad step = expansion.safe_step();
+    expansion.evaluate(step, z.data());
+    t += step;
+    if (!isfinite(z[0])) break;  // the solution leaves the domain; later times give what is known up to here
+  }
+}
+
+std::vector<Quad> ReferenceSolution::at(Quad t) const {
+  const std::size_t n = initial_.size();
+  std::vector<Quad> z(n);
+  if (problem_ != nullptr) {
+    // A problem evaluates with buffers of its own, so every call has one.
+    const Problem<Quad> problem(model_);
+    std::vector<Quad> arguments = initial_;
+    arguments.push_back(t0_);
+    problem.exact_solution(t - t0_, arguments, z);
+    return z;
+  }
+  const auto after = std::upper_bound(pieces_.begin(), pieces_.end(), t,
+                                      [](Quad time, const Piece& piece) { return time < piece.begin; });
+  const Piece& piece = after == pieces_.begin() ? pieces_.front() : *std::prev(after);
+  const Quad s = t - piece.begin;
+  const std::size_t degrees = piece.coefficients.size() / n;
+  for (std::size_t k = 0; k < n; ++k)
+    for (std::size_t l = degrees; l-- > 0;) z[k] = z[k] * s + piece.coefficients[l * n + k];
+  return z;
+}
+
+}  // namespace pfaff

@@ -1,0 +1,60 @@
+// Reference solutions to 30 digits and more: the closed form where a system has one, else Taylor series in quad.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <vector>
+
+#include <pfaff/core/facets/problem.hpp>
+#include <pfaff/core/tape/series.hpp>
+
+namespace pfaff {
+
+/// One Taylor step of a field in quad: order 28 and a step for which the last terms are below round-off.
+class TaylorExpansion {
+ public:
+  explicit TaylorExpansion(const Model& model);
+
+  /// Expands the solution through z at time t. `coefficients()[degree * n + k]` are then its Taylor coefficients.
+  void expand(Quad t, const Quad* z);
+  [[nodiscard]] const std::vector<Quad>& coefficients() const { return coefficients_; }
+  /// A step after which the truncated series is good to round-off.
+  [[nodiscard]] Quad safe_step() const;
+  /// The polynomial at `s` after the point of expansion.
+  void evaluate(Quad s, Quad* z) const;
+
+ private:
+  static constexpr int order = 28;
+  std::size_t n_;
+  SeriesReplay<Quad> series_;
+  std::vector<Quad> coefficients_, level_;
+};
+
+/// The flow of a model from (t, z) over `elapsed`, by Taylor steps in quad.
+void taylor_flow(const Model& model, Quad t, Quad elapsed, std::vector<Quad>& z);
+
+/// The solution of an initial value problem at any later time up to `end`, kept as it is computed.
+/// Immutable once made; shared between threads.
+class ReferenceSolution {
+ public:
+  /// From `initial` at `t0` to t0 + `duration` (> 0).
+  ReferenceSolution(std::shared_ptr<const Model> model, Quad t0, std::vector<Quad> initial, Quad duration);
+
+  /// "exact" for a closed form, "30-digit" for the Taylor series.
+  [[nodiscard]] std::string_view kind() const { return problem_ != nullptr ? "exact" : "30-digit"; }
+  /// The state at time t.
+  [[nodiscard]] std::vector<Quad> at(Quad t) const;
+
+ private:
+  struct Piece {
+    Quad begin;
+    std::vector<Quad> coefficients;
+  };
+  std::shared_ptr<const Model> model_;
+  Quad t0_;
+  std::vector<Quad> initial_;
+  std::shared_ptr<const Problem<Quad>> problem_;  // closed form only
+  std::vector<Piece> pieces_;
+};
+
+}  // namespace pfaff

@@ -1,0 +1,89 @@
+#include <pfaff/bench/measure/structure.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pfaff {
+
+template <class T>
+StepDifferentiator<T>::StepDifferentiator(const MethodInstance& method, std::shared_ptr<const Model> model)
+    : stepper_(method.stepper(std::move(model), StepDual<T>())) {}
+
+template <class T>
+StepJacobian<T> StepDifferentiator<T>::operator()(const T& t, const T& h, const std::vector<T>& z) {
+  const std::size_t n = z.size();
+  StepJacobian<T> result;
+  result.z.resize(n);
+  result.jacobian.resize(n * n);
+  std::vector<StepDual<T>> dual(n);
+  for (std::size_t first = 0; first < n; first += step_directions) {
+    const std::size_t count = std::min<std::size_t>(step_directions, n - first);
+    for (std::size_t k = 0; k < n; ++k) dual[k] = StepDual<T>(z[k]);
+    for (std::size_t k = 0; k < count; ++k) dual[first + k].derivative[k] = T(1);
+    stepper_->forget();
+    std::int64_t completed = 0;
+    const Status status = stepper_->advance(StepDual<T>(t), 0, StepDual<T>(h), 1, dual, completed);
+    if (status != Status::converged) result.status = status;
+    for (std::size_t i = 0; i < n; ++i) {
+      result.z[i] = dual[i].value;
+      for (std::size_t k = 0; k < count; ++k) result.jacobian[i * n + first + k] = dual[i].derivative[k];
+    }
+  }
+  return result;
+}
+
+template <class T> T congruence_residual(const std::vector<T>& m, const std::vector<T>& k1, const std::vector<T>& k0) {
+  const auto n = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(m.size()))));
+  T worst(0), scale(0);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j) {
+      T sum(0), size(0);
+      for (std::size_t a = 0; a < n; ++a)
+        for (std::size_t b = 0; b < n; ++b) {
+          const T term = m[a * n + i] * k1[a * n + b] * m[b * n + j];
+          sum = sum + term;
+          size = size + abs(term);
+        }
+      const T difference = abs(sum - k0[i * n + j]);
+      if (isnan(difference)) return difference;
+      worst = std::max(worst, difference);
+      scale = std::max(scale, size);
+    }
+  return worst / scale;
+}
+
+template <class T>
+StructureResidual<T>::StructureResidual(const MethodInstance& method, std::shared_ptr<const Model> model)
+    : differentiate_(method, model), problem_(model),
+      poisson_(!model->facets().has(Facet::birkhoffian) && !model->facets().has(Facet::darboux_chart)) {}
+
+template <class T> bool StructureResidual<T>::applies(const Model& model) {
+  return model.facets().has(Facet::birkhoffian) || model.facets().has(Facet::hamiltonian);
+}
+
+template <class T> T StructureResidual<T>::operator()(const T& t, const T& h, const std::vector<T>& z) {
+  const StepJacobian<T> step = differentiate_(t, h, z);
+  if (step.status != Status::converged) return std::numeric_limits<T>::quiet_NaN();
+  const std::size_t n = z.size();
+  std::vector<T> before(n * n), after(n * n);
+  if (!poisson_) {
+    problem_.structure(t, z, before);
+    problem_.structure(t + h, step.z, after);
+    return congruence_residual(step.jacobian, after, before);
+  }
+  problem_.poisson_tensor(t, z, before);
+  problem_.poisson_tensor(t + h, step.z, after);
+  std::vector<T> transposed(n * n);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j) transposed[j * n + i] = step.jacobian[i * n + j];
+  return congruence_residual(transposed, before, after);
+}
+
+template class StepDifferentiator<double>;
+template class StepDifferentiator<Quad>;
+template class StructureResidual<double>;
+template class StructureResidual<Quad>;
+template double congruence_residual(const std::vector<double>&, const std::vector<double>&, const std::vector<double>&);
+template Quad congruence_residual(const std::vector<Quad>&, const std::vector<Quad>&, const std::vector<Quad>&);
+
+}  // namespace pfaff

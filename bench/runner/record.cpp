@@ -1,0 +1,196 @@
+#include <pfaff/bench/runner/record.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace pfaff {
+
+namespace {
+
+// Observes a run of scalar T as it goes.
+template <class T> class Observer {
+ public:
+  Observer(const ResolvedRun& run, const ReferenceSolution* reference, RunRecord& record)
+      : run_(run), reference_(reference), record_(record), problem_(run.model),
+        values_(run.model->invariants().size()) {
+    if (StructureResidual<T>::applies(*run.model) && !run.adaptive()) residual_.emplace(*run.method, run.model);
+    for (const Invariant& invariant : run.model->invariants())
+      if (invariant.behaviour == Behaviour::conserved) drift_.emplace_back();
+  }
+
+  // Drift sees every step; `keep` adds a row to the series, `structure` a residual to the row.
+  void observe(const T& t, const std::vector<T>& z, bool keep, bool structure) {
+    if (!values_.empty()) problem_.invariants(t, z, values_);
+    if (initial_.empty()) initial_ = values_;
+    std::size_t k = 0;
+    for (std::size_t i = 0; i < values_.size(); ++i)
+      if (run_.model->invariants()[i].behaviour == Behaviour::conserved)
+        drift_[k++].add(static_cast<double>(t), static_cast<double>(values_[i] - initial_[i]));
+    if (!keep) return;
+    Sample sample{Quad(t), {z.begin(), z.end()}, {values_.begin(), values_.end()}, {}, {}};
+    if (reference_ != nullptr) sample.error = relative_error(sample);
+    if (structure && residual_) {
+      const T r = (*residual_)(t, T(run_.step), z);
+      if (isfinite(r)) sample.structure = Quad(r);
+      if (isfinite(r)) worst(record_.structure_residual, static_cast<double>(r));
+    }
+    if (sample.error) {
+      worst(record_.error_max, static_cast<double>(*sample.error));
+      record_.error_final = static_cast<double>(*sample.error);
+    }
+    record_.samples.push_back(std::move(sample));
+  }
+
+  void finish() {
+    for (const DriftAccumulator& d : drift_) record_.drift.push_back(d.result());
+  }
+
+ private:
+  static void worst(std::optional<double>& slot, double value) {
+    if (!slot || value > *slot || std::isnan(value)) slot = value;
+  }
+  [[nodiscard]] Quad relative_error(const Sample& sample) const {
+    const std::vector<Quad> exact = reference_->at(sample.t);
+    Quad distance(0), norm(0);
+    for (std::size_t k = 0; k < exact.size(); ++k) {
+      const Quad d = sample.state[k] - exact[k];
+      distance += d * d;
+      norm += exact[k] * exact[k];
+    }
+    return sqrt(distance / norm);
+  }
+
+  const ResolvedRun& run_;
+  const ReferenceSolution* reference_;
+  RunRecord& record_;
+  Problem<T> problem_;
+  std::optional<StructureResidual<T>> residual_;
+  std::vector<T> values_, initial_;
+  std::vector<DriftAccumulator> drift_;
+};
+
+std::string failure(Status status, const std::string& when) {
+  switch (status) {
+    case Status::not_converged: return "the implicit solve did not converge " + when;
+    case Status::singular: return "a linear system was singular " + when;
+    case Status::non_finite: return "the state or the structure left the range of numbers " + when;
+    case Status::converged: break;
+  }
+  return {};
+}
+
+template <class T> void execute_fixed(const ResolvedRun& run, Observer<T>& observer, RunRecord& record,
+                                      const Progress& progress) {
+  const auto stepper = run.method->stepper(run.model, T());
+  std::vector<T> z;
+  for (const Real& x : run.initial) z.push_back(T(x));
+  const T t0(run.t0), h(run.step);
+  const auto time = [&](std::int64_t k) { return t0 + T(static_cast<double>(k)) * h; };
+  // Drift is watched at every step up to two million, evenly beyond that.
+  const std::int64_t stride = std::min(run.every, std::max<std::int64_t>(1, run.steps / 2000000));
+  const std::int64_t rows = run.steps / run.every + 1;
+  const std::int64_t structure_rows = std::max<std::int64_t>(1, rows / 50);
+  observer.observe(time(0), z, true, true);
+  std::int64_t row = 0;
+  for (std::int64_t k = 0; k < run.steps;) {
+    const std::int64_t next_row = std::min(run.steps, (k / run.every + 1) * run.every);
+    const std::int64_t count = std::min(stride, next_row - k);
+    std::int64_t completed = 0;
+    const Status status = stepper->advance(t0, k, h, count, z, completed);
+    record.completed = k + completed;
+    if (status != Status::converged) {
+      record.status = status;
+      record.message = failure(status, "at t = " + to_string(Quad(time(k + completed)), 10));
+      break;
+    }
+    k += count;
+    const bool keep = k % run.every == 0 || k == run.steps;
+    if (keep) ++row;
+    observer.observe(time(k), z, keep, keep && (row % structure_rows == 0 || k == run.steps));
+    if (progress && keep) progress(static_cast<double>(k) / static_cast<double>(run.steps));
+  }
+  record.counters = stepper->counters();
+}
+
+void execute_adaptive(const ResolvedRun& run, Observer<double>& observer, RunRecord& record,
+                      const Progress& progress) {
+  constexpr int intervals = 1000;
+  const auto stepper = run.method->stepper(run.model, double());
+  std::vector<double> z;
+  for (const Real& x : run.initial) z.push_back(x.value());
+  double t = run.t0.value();
+  observer.observe(t, z, true, false);
+  for (int k = 1; k <= intervals; ++k) {
+    const double end = run.t0.value() + run.time.value() * k / intervals;
+    const Status status = stepper->advance_to(t, end, run.tolerance.value(), z);
+    if (status != Status::converged) {
+      record.status = status;
+      record.message = "the step control gave up at t = " + to_string(Quad(t), 10);
+      break;
+    }
+    observer.observe(t, z, true, false);
+    if (progress) progress(static_cast<double>(k) / intervals);
+  }
+  record.counters = stepper->counters();
+  record.completed = record.counters.steps;
+}
+
+}  // namespace
+
+RunRecord execute(const ResolvedRun& run, const ReferenceSolution* reference, const Progress& progress) {
+  RunRecord record;
+  if (run.settings.precision == Precision::quad) {
+    Observer<Quad> observer(run, reference, record);
+    execute_fixed(run, observer, record, progress);
+    observer.finish();
+  } else {
+    Observer<double> observer(run, reference, record);
+    if (run.adaptive()) {
+      execute_adaptive(run, observer, record, progress);
+    } else {
+      execute_fixed(run, observer, record, progress);
+    }
+    observer.finish();
+  }
+  return record;
+}
+
+namespace {
+template <class T> StepTime time_in(const ResolvedRun& run, double seconds) {
+  using Clock = std::chrono::steady_clock;
+  const auto stepper = run.method->stepper(run.model, T());
+  const auto elapsed = [&](std::int64_t count) {
+    std::vector<T> z;
+    for (const Real& x : run.initial) z.push_back(T(x));
+    stepper->forget();
+    std::int64_t completed = 0;
+    const auto begin = Clock::now();
+    (void)stepper->advance(T(run.t0), 0, T(run.step), count, z, completed);
+    const std::chrono::duration<double> time = Clock::now() - begin;
+    return completed > 0 ? time.count() / static_cast<double>(completed) : 0.0;
+  };
+  std::int64_t count = std::min<std::int64_t>(run.steps, 200);
+  const double rough = elapsed(count);  // warm-up
+  constexpr int repetitions = 7;
+  if (rough > 0)
+    count = std::clamp<std::int64_t>(static_cast<std::int64_t>(seconds / repetitions / rough), 1, run.steps);
+  StepTime result;
+  result.repetitions = repetitions;
+  std::vector<double> times;
+  const auto begin = Clock::now();
+  for (int k = 0; k < repetitions; ++k) times.push_back(elapsed(count) * 1e9);
+  result.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  std::sort(times.begin(), times.end());
+  result.median = times[repetitions / 2];
+  result.minimum = times.front();
+  result.maximum = times.back();
+  return result;
+}
+}  // namespace
+
+StepTime time_steps(const ResolvedRun& run, double seconds) {
+  return run.settings.precision == Precision::quad ? time_in<Quad>(run, seconds) : time_in<double>(run, seconds);
+}
+
+}  // namespace pfaff

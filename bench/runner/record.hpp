@@ -1,0 +1,57 @@
+// What a run leaves in memory: samples, drift, accuracy, structure, cost counts.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include <pfaff/bench/measure/drift.hpp>
+#include <pfaff/bench/measure/reference.hpp>
+#include <pfaff/bench/measure/structure.hpp>
+#include <pfaff/bench/runner/settings.hpp>
+
+namespace pfaff {
+
+/// One observed instant; numbers are kept in quad and printed in the run's precision.
+struct Sample {
+  Quad t;
+  std::vector<Quad> state, invariants;
+  std::optional<Quad> error;      // relative to the reference solution's norm
+  std::optional<Quad> structure;  // structure residual of one step from here
+};
+
+struct RunRecord {
+  Status status = Status::converged;
+  std::string message;  // why a run ended early, one line
+  std::int64_t completed = 0;
+  std::vector<Sample> samples;
+  std::vector<Drift> drift;  // one for each invariant expected to be conserved, in the model's order
+  std::optional<double> error_max, error_final, structure_residual;
+  Counters counters;
+};
+
+/// Called now and then with the fraction of a run that is done.
+using Progress = std::function<void(double fraction)>;
+
+/// Runs to the end, or to where the method fails: every completed sample is kept.
+/// `reference` may be null. Structure residuals are measured at about fifty samples where the model has a structure.
+RunRecord execute(const ResolvedRun& run, const ReferenceSolution* reference, const Progress& progress = {});
+
+/// Nanoseconds per step, timed alone: one warm-up, then repeated runs from the initial state.
+struct StepTime {
+  double median = 0, minimum = 0, maximum = 0, seconds = 0;
+  int repetitions = 0;
+};
+StepTime time_steps(const ResolvedRun& run, double seconds);
+
+/// The text of series.csv.
+std::string series_csv(const ResolvedRun& run, const RunRecord& record);
+/// The content of summary.json.
+nlohmann::json summary(const ResolvedRun& run, const RunRecord& record);
+/// Versions and flags of this build.
+nlohmann::json versions();
+
+}  // namespace pfaff

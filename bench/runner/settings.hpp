@@ -1,0 +1,55 @@
+// Settings of a run: what the user asked for, resolved against the plug-ins and checked before work starts.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/system.hpp>
+
+namespace pfaff {
+
+enum class Precision { double_precision, quad };
+
+/// "double" or "quad"; InputError otherwise.
+Precision parse_precision(const std::string& text);
+std::string_view to_string(Precision precision);
+
+/// A run as it is asked for: all numbers as text, so that each precision parses them exactly.
+struct RunSettings {
+  std::string system, integrator;
+  Assignments set;                   // nu=0.3, system.nu=0.3, integrator.order=4, initial=1,0.5
+  std::vector<std::string> initial;  // empty: the system's own
+  std::string t0 = "0", step, tolerance, time;
+  std::int64_t every = 0;  // 0: chosen for about a thousand samples
+  Precision precision = Precision::double_precision;
+};
+
+/// A checked run, ready to start.
+struct ResolvedRun {
+  RunSettings settings;
+  std::shared_ptr<const Model> model;
+  std::shared_ptr<const MethodInstance> method;
+  std::vector<Real> initial;
+  Real t0, step, tolerance, time;
+  std::int64_t steps = 0;  // fixed steps only
+  std::int64_t every = 1;
+  [[nodiscard]] bool adaptive() const { return !settings.tolerance.empty(); }
+};
+
+/// Settings split by whom they belong to. A bare key that both sides know must be given as system.KEY or
+/// integrator.KEY (InputError); `initial` is taken out.
+struct SplitSettings {
+  Assignments system, integrator;
+  std::vector<std::string> initial;
+};
+SplitSettings split_settings(const SystemPlugin& system, const MethodPlugin* method, const Assignments& set);
+
+/// Checks everything about a run: names, parameters, fit of method and system, state, step, horizon.
+ResolvedRun resolve(const RunSettings& settings);
+
+/// A run as the text of its config.toml, from which it can be run again.
+std::string config_text(const ResolvedRun& run);
+
+}  // namespace pfaff

@@ -1,0 +1,100 @@
+// The texts of a run's files.
+#include <boost/version.hpp>
+#include <sstream>
+
+#include <pfaff/bench/runner/record.hpp>
+
+namespace pfaff {
+
+namespace {
+std::string number(const Quad& x, Precision precision) {
+  return precision == Precision::quad ? to_string(x, 36) : to_string(Quad(static_cast<double>(x)), 17);
+}
+std::string header(const std::string& name, const std::string& unit) {
+  return name + " [" + (unit.empty() ? "1" : unit) + "]";
+}
+nlohmann::json optional(const std::optional<double>& x) { return x ? nlohmann::json(*x) : nlohmann::json(nullptr); }
+}  // namespace
+
+std::string series_csv(const ResolvedRun& run, const RunRecord& record) {
+  const bool error = !record.samples.empty() && record.samples.front().error.has_value();
+  const bool structure = record.structure_residual.has_value();
+  std::ostringstream text;
+  text << header("t", run.model->time_unit());
+  for (const Coordinate& c : run.model->coordinates()) text << ',' << header(c.name, c.unit);
+  for (const Invariant& i : run.model->invariants()) text << ',' << header(i.name, i.unit);
+  if (error) text << ",error [1]";
+  if (structure) text << ",structure_residual [1]";
+  text << '\n';
+  const Precision p = run.settings.precision;
+  for (const Sample& sample : record.samples) {
+    text << number(sample.t, p);
+    for (const Quad& x : sample.state) text << ',' << number(x, p);
+    for (const Quad& x : sample.invariants) text << ',' << number(x, p);
+    if (error) text << ',' << (sample.error ? to_string(*sample.error, 6) : "");
+    if (structure) text << ',' << (sample.structure ? to_string(*sample.structure, 6) : "");
+    text << '\n';
+  }
+  return text.str();
+}
+
+nlohmann::json versions() {
+  return {{"pfaff", PFAFF_VERSION_TEXT},
+          {"compiler", std::string("gcc ") + __VERSION__},
+          {"standard", __cplusplus},
+          {"flags", PFAFF_BUILD_FLAGS},
+          {"boost", BOOST_LIB_VERSION}};
+}
+
+nlohmann::json summary(const ResolvedRun& run, const RunRecord& record) {
+  nlohmann::json j;
+  j["schema"] = 1;
+  j["system"] = run.model->name();
+  j["integrator"] = run.settings.integrator;
+  for (const auto& [key, value] : run.model->parameters()) j["parameters"]["system." + key] = value;
+  for (const auto& [key, value] : run.method->parameters()) j["parameters"]["integrator." + key] = value;
+  j["precision"] = to_string(run.settings.precision);
+  j["time"] = to_string(run.time);
+  if (run.adaptive()) {
+    j["tolerance"] = to_string(run.tolerance);
+  } else {
+    j["step"] = to_string(run.step);
+    j["steps"] = run.steps;
+  }
+  j["completed"] = record.completed;
+  j["status"] = to_string(record.status);
+  j["message"] = record.message;
+  j["series"] = "series.csv";
+  std::size_t k = 0;
+  j["invariants"] = nlohmann::json::array();
+  for (std::size_t i = 0; i < run.model->invariants().size(); ++i) {
+    const Invariant& invariant = run.model->invariants()[i];
+    nlohmann::json entry{{"name", invariant.name}, {"unit", invariant.unit},
+                         {"expected", to_string(invariant.behaviour)}};
+    if (!record.samples.empty()) entry["initial"] = static_cast<double>(record.samples.front().invariants[i]);
+    if (invariant.behaviour == Behaviour::conserved) {
+      const Drift& d = record.drift[k++];
+      entry["max"] = d.maximum;
+      entry["rms"] = d.rms;
+      entry["final"] = d.final_value;
+      entry["slope"] = d.slope;
+      entry["slope_interval"] = {d.slope_low, d.slope_high};
+      entry["oscillation"] = d.oscillation_amplitude;
+      entry["exponent"] = optional(d.growth_exponent);
+      entry["rate"] = optional(d.growth_rate);
+      entry["class"] = to_string(d.drift_class);
+      entry["samples"] = d.samples;
+    }
+    j["invariants"].push_back(entry);
+  }
+  j["error_max"] = optional(record.error_max);
+  j["error_final"] = optional(record.error_final);
+  j["structure_residual"] = optional(record.structure_residual);
+  const Counters& c = record.counters;
+  j["counts"] = {{"steps", c.steps}, {"right_hand_sides", c.fields}, {"jacobians", c.jacobians},
+                 {"iterations", c.iterations}, {"factorisations", c.factorisations}};
+  j["versions"] = versions();
+  return j;
+}
+
+}  // namespace pfaff
