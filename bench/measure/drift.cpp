@@ -1,325 +1,297 @@
 #include <pfaff/bench/measure/drift.hpp>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
-#include <cstdlib>
-#include <cstdio>
+
+#include <pfaff/bench/measure/low_frequency.hpp>
+
 namespace pfaff {
 namespace {
-constexpr std::size_t most = 32;
-using Vector = std::vector<double>;
-using Coefficients = std::array<double, most>;
 
-struct Series { Vector t, y, f, w; void taper() { w.resize(t.size()); double sum = 0; for (std::size_t i = 0; i < t.size(); ++i) sum += w[i] = f[i] * t[i] * (1 - t[i]); for (double& v : w) v /= sum; } };
+using low_frequency::Projection;
+using low_frequency::Samples;
+using Block = DriftAccumulator::Block;
 
-struct Basis {
-  std::vector<Vector> p;  // p[n] degree n+1
-  double scale;           // sd of t
-  const Series& s;
-  Basis(const Series& series, std::size_t q) : s(series) {
-    const auto& t = s.t; const auto& w = s.w;
-    std::size_t B = t.size();
-    std::vector<Vector> all{Vector(B, 1.0)};
-    for (std::size_t n = 1; n <= q; ++n) {
-      Vector v(B);
-      for (std::size_t i = 0; i < B; ++i) v[i] = (2 * t[i] - 1) * all[n - 1][i];
-      for (int pass = 0; pass < 2; ++pass)
-        for (const auto& u : all) {
-          double dot = 0;
-          for (std::size_t i = 0; i < B; ++i) dot += w[i] * u[i] * v[i];
-          for (std::size_t i = 0; i < B; ++i) v[i] -= dot * u[i];
-        }
-      double norm = 0;
-      for (std::size_t i = 0; i < B; ++i) norm += w[i] * v[i] * v[i];
-      norm = std::sqrt(norm);
-      if (n == 1) scale = norm / 2;
-      for (auto& x : v) x /= norm;
-      all.push_back(v);
-    }
-    p.assign(all.begin() + 1, all.end());
-  }
-  Coefficients project(const Vector& f) const {
-    Coefficients c{};
-    for (std::size_t n = 0; n < p.size(); ++n)
-      for (std::size_t i = 0; i < f.size(); ++i) c[n] += s.w[i] * p[n][i] * f[i];
-    return c;
-  }
+constexpr std::size_t fewest_samples = 32;  // to be classified
+constexpr std::size_t envelope_points = 128;
+constexpr double largest_error = 1e150;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Prior weights of the explanations. A trend that is not a line must be shown, not merely suggested.
+constexpr low_frequency::PerNoise no_trend_prior{0.42, 0.42, 0.04};
+constexpr double linear_prior = 0.09, other_trend_prior = 0.03;
+
+/// A trend: s^parameter, or exp(parameter s), on scaled time s.
+struct Trend {
+  bool exponential;
+  double parameter;
+
+  double operator()(double s) const { return exponential ? std::exp(parameter * s) : std::pow(s, parameter); }
+};
+constexpr std::array<Trend, 14> trends{{{false, 0.8},
+                                        {false, 1},
+                                        {false, 1.25},
+                                        {false, 1.5},
+                                        {false, 2},
+                                        {false, 2.5},
+                                        {false, 3},
+                                        {false, 4},
+                                        {false, 6},
+                                        {true, 3},
+                                        {true, 5},
+                                        {true, 8},
+                                        {true, 12},
+                                        {true, 16}}};
+
+struct Verdict {
+  DriftClass drift_class = DriftClass::undetermined;
+  double probability = 0;
+  std::optional<double> exponent, rate;  // rate per unit of scaled time
 };
 
-enum Group { steady, walk, smooth, groups };
-struct Cell {
-  double b, c, d; Group group; double prior;
-  std::array<Coefficients, most> L;
-  void whiten(Coefficients& x, std::size_t q) const {
-    for (std::size_t i = 0; i < q; ++i) {
-      for (std::size_t j = 0; j < i; ++j) x[i] -= L[i][j] * x[j];
-      x[i] /= L[i][i];
+Block merged(const Block& a, const Block& b) {
+  const std::size_t count = a.count + b.count;
+  const double share = double(b.count) / double(count);
+  const auto mean = [share](double x, double y) { return x + share * (y - x); };
+  return {count,
+          mean(a.time, b.time),
+          mean(a.mean, b.mean),
+          std::min(a.minimum, b.minimum),
+          std::max(a.maximum, b.maximum),
+          mean(a.mean_square, b.mean_square)};
+}
+
+/// The parameter near that of `start` that explains the data best, by golden section; 1 stays 1 if it is as
+/// good.
+double refined(const Projection& data, Trend start) {
+  const auto evidence = [&](double x) { return data.with_trend(Trend{start.exponential, x}); };
+  double low = 0.75 * start.parameter, high = 1.34 * start.parameter;
+  constexpr double ratio = 0.6180339887498949;
+  double left = high - ratio * (high - low), right = low + ratio * (high - low);
+  double at_left = evidence(left), at_right = evidence(right);
+  while (high - low > 1e-3 * high) {
+    if (at_left > at_right) {
+      high = right, right = left, at_right = at_left;
+      left = high - ratio * (high - low), at_left = evidence(left);
+    } else {
+      low = left, left = right, at_left = at_right;
+      right = low + ratio * (high - low), at_right = evidence(right);
     }
   }
-  double log_det(std::size_t q) const { double s = 0; for (std::size_t i = 0; i < q; ++i) s += 2*std::log(L[i][i]); return s; }
+  const double best = (low + high) / 2;
+  return start.parameter == 1 && evidence(best) < evidence(1) + 2 ? 1 : best;
+}
+
+Verdict classify(const Projection& data, const low_frequency::Slope& slope) {
+  const Projection::NoiseEvidence noise = data.without_trend();
+  low_frequency::PerNoise plain{};
+  std::array<double, trends.size()> with_trend{};
+  double top = -infinity;
+  for (std::size_t kind = 0; kind < plain.size(); ++kind)
+    top = std::max(top, plain[kind] = noise.log_evidence[kind] + std::log(no_trend_prior[kind]));
+  for (std::size_t i = 0; i < trends.size(); ++i) {
+    const bool line = !trends[i].exponential && trends[i].parameter == 1;
+    const double prior = line ? linear_prior : other_trend_prior / double(trends.size() - 1);
+    top = std::max(top, with_trend[i] = data.with_trend(trends[i]) + std::log(prior));
+  }
+  double trend = 0, total = 0;
+  for (double& value : with_trend) trend += value = std::exp(value - top);
+  for (double& value : plain) total += value = std::exp(value - top);
+  total += trend;
+
+  const auto best = std::size_t(std::max_element(plain.begin(), plain.end()) - plain.begin());
+  if (trend > 0.5 * total) {
+    const Trend likely =
+        trends[std::size_t(std::max_element(with_trend.begin(), with_trend.end()) - with_trend.begin())];
+    const double parameter = refined(data, likely), probability = trend / total;
+    if (likely.exponential) return {DriftClass::exponential, probability, {}, parameter};
+    if (parameter > 1.25) return {DriftClass::polynomial, probability, parameter, {}};
+    if (parameter >= 0.75 && std::abs(slope.value) > slope.half_width)
+      return {DriftClass::linear, probability, parameter, {}};
+  }
+  const double probability = plain[best] / total;
+  if (probability <= 0.5 || best == low_frequency::smooth) return {};
+  if (best == low_frequency::walk) return {DriftClass::random_walk, probability, noise.walk_exponent, {}};
+  return {DriftClass::bounded, probability, 0.0, {}};
+}
+
+/// Sum of squared residuals of the least-squares line through (x, y), and its slope.
+struct Line {
+  double slope, residual, total;
 };
-
-double student(double x, int nu) {  // P(T <= x)
-  double theta = std::atan(x / std::sqrt(double(nu))), c2 = std::pow(std::cos(theta), 2), term = nu % 2 ? std::cos(theta) : 1, sum = 0;
-  for (int k = nu % 2 ? 3 : 2; k <= nu; k += 2) { sum += term; term *= c2 * (k - 1) / k; }
-  sum *= std::sin(theta);
-  return 0.5 + 0.5 * (nu % 2 ? (theta + sum) * 2 / std::numbers::pi : sum);
-}
-std::vector<Cell> make_cells() {
-  constexpr std::size_t N = 400;
-  Series s; s.t.resize(N); s.f.assign(N, 1.0 / N); s.y.assign(N,0);
-  for (std::size_t i = 0; i < N; ++i) s.t[i] = (double(i) + 0.5) / N;
-  s.taper();
-  Basis basis(s, most);
-  std::vector<Cell> cells;
-  using Matrix = std::array<Coefficients, most>;
-  auto covariance = [&](double c, double d) {
-      Vector psi(N, 1.0);
-      for (std::size_t k = 1; k < N; ++k) psi[k] = psi[k - 1] * std::exp(-c / N) * (double(k) - 1 + d) / double(k);
-      std::vector<Vector> z(most, Vector(N));
-      for (std::size_t n = 0; n < most; ++n)
-        for (std::size_t j = 0; j < N; ++j)
-          for (std::size_t i = j; i < (d > 0 ? N : j + 1); ++i) z[n][j] += psi[i - j] * basis.p[n][i] * s.w[i];
-      Matrix V{};
-      double trace = 0;
-      for (std::size_t n = 0; n < most; ++n)
-        for (std::size_t m = 0; m <= n; ++m) {
-          for (std::size_t j = 0; j < N; ++j) V[n][m] += z[n][j] * z[m][j];
-          if (n == m) trace += V[n][n];
-        }
-      for (auto& row : V) for (auto& x : row) x *= double(most) / trace;
-      return V;
-  };
-  const Matrix W = covariance(0, 0);
-  auto push = [&](Group group, double prior, double b, double c, double d, const Matrix& V) {
-    Cell cell{b, c, d, group, prior, {}};
-    auto& L = cell.L;
-    for (std::size_t i = 0; i < most; ++i)
-      for (std::size_t j = 0; j <= i; ++j) {
-        double sum = (1 - b) * V[i][j] + b * W[i][j];
-        for (std::size_t k = 0; k < j; ++k) sum -= L[i][k] * L[j][k];
-        L[i][j] = i == j ? std::sqrt(std::max(sum,1e-300)) : sum / L[j][j];
-      }
-    cells.push_back(cell);
-  };
-  struct Shape { Group g; double c, d; };
-  std::vector<Shape> shapes{{steady,0,-1},{steady,0,-1.5},{steady,0,.25},{steady,0,.5},{walk,0,.75},{walk,0,1},{walk,0,1.25},{walk,0,1.5},{smooth,0,2},{smooth,0,3},{steady,8,2},{steady,8,3}};
-  for (double c : {16.,32.,64.}) for (double d : {.5,1.,2.,3.}) shapes.push_back({steady,c,d});
-  for (auto& c : shapes) { auto V = covariance(c.c, c.d); for (double b : {1e-4, 1e-3, 1e-2, 0.1, 0.5}) if (c.g != smooth || b <= .01) push(c.g, c.d < 0 ? 0.5 : 1, b, c.c, c.d, V); }
-  std::array<double, groups> count{};
-  for (auto& c : cells) count[c.group] += c.prior;
-  for (auto& c : cells) c.prior *= (c.group == steady ? 0.5 : 1) / count[c.group];
-  push(steady, 0.5, 1, 0, 0, W);
-  return cells;
-}
-const std::vector<Cell>& table() { static const std::vector<Cell> c = make_cells(); return c; }
-
-double dot(const Coefficients& a, const Coefficients& b, std::size_t q) { double s = 0; for (std::size_t i = 0; i < q; ++i) s += a[i] * b[i]; return s; }
-
-struct Verdict { DriftClass kind; double probability; std::optional<double> exponent; double slope, low, high; };
-
-double env(const char* n, double d) { return std::getenv(n) ? std::atof(std::getenv(n)) : d; }
-const double class_prior[] = {env("CS", .5), env("CW", .25), env("CM", .05)};
-const double slope_prior[] = {env("SS", .94), env("SW", .05), env("SM", .01)};
-double trend_prior = std::getenv("TP") ? std::atof(std::getenv("TP")) : 0.2;
-
-Verdict judge(const Series& s, double amplitude) {
-  std::size_t B = s.t.size();
-  std::size_t q = std::min({most, std::size_t(2 * std::sqrt(double(B))), B - 1});
-  Basis basis(s, q);
-  Coefficients Y = basis.project(s.y);
-  double eps = std::numeric_limits<double>::epsilon() * amplitude;
-  double floor = double(q) * eps * eps;
-  double h = double(q) / 2;
-  // whitened data
-  const auto& cells = table();
-  std::size_t M = cells.size();
-  std::vector<Coefficients> Yw(M, Y);
-  Vector yy(M), ld(M);
-  for (std::size_t m = 0; m < M; ++m) { cells[m].whiten(Yw[m], q); yy[m] = dot(Yw[m], Yw[m], q); ld[m] = cells[m].log_det(q); }
-  // none
-  Vector none(M);
-  for (std::size_t m = 0; m < M; ++m) none[m] = std::log(cells[m].prior * class_prior[cells[m].group]) - 0.5 * ld[m] - h * std::log(yy[m] + floor);
-  auto evidence = [&](double p, Vector* out) {
-    Vector f(B);
-    for (std::size_t i = 0; i < B; ++i) f[i] = p > 0 ? std::pow(s.t[i], p) : std::exp(-p * s.t[i]);
-    Coefficients x = basis.project(f);
-    double best = -1e300; Vector e(M);
-    for (std::size_t m = 0; m < M; ++m) {
-      if (cells[m].group == smooth || cells[m].c == 8) { e[m] = -1e300; continue; }
-      Coefficients xw = x; cells[m].whiten(xw, q);
-      double xx = dot(xw, xw, q), xy = dot(xw, Yw[m], q);
-      double rss = std::max(yy[m] - xy * xy / xx, 0.0);
-      e[m] = std::log(cells[m].prior * (cells[m].group == steady ? .7 : .3)) - 0.5 * ld[m] - h * std::log(rss + floor) - 0.5 * std::log(double(q));
-      best = std::max(best, e[m]);
-    }
-    if (out) *out = e;
-    double sum = 0; for (double v : e) sum += std::exp(v - best);
-    return best + std::log(sum);
-  };
-  std::vector<double> ps{0.8, 1, 1.25, 1.5, 2, 2.5, 3, 4, 6, -16, -12, -8, -5, -3};
-  Vector pe; double top = *std::max_element(none.begin(), none.end());
-  for (double p : ps) { pe.push_back(evidence(p, nullptr) + std::log(trend_prior * (p == 1 ? 0.5 : 0.033))); top = std::max(top, pe.back()); }
-  std::array<double, groups> g{}; double walk_d = 0, tot = 0;
-  for (std::size_t m = 0; m < M; ++m) { double v = std::exp(none[m] - top); g[cells[m].group] += v; if (cells[m].group == walk) walk_d += v * cells[m].d; tot += v; }
-  double trend = 0; for (double v : pe) trend += std::exp(v - top);
-  tot += trend;
-  if (std::getenv("DV")) std::printf("  steady %.3g walk %.3g smooth %.3g trend %.3g\n", g[0]/tot, g[1]/tot, g[2]/tot, trend/tot);
-  // slope
-  Vector se(M), wt(M); double best = -1e300;
-  for (std::size_t m = 0; m < M; ++m) {
-    Coefficients xw{}; xw[0] = 1; cells[m].whiten(xw, q);
-    double xx = dot(xw, xw, q), xy = dot(xw, Yw[m], q);
-    double rss = std::max(yy[m] - xy * xy / xx, 0.0) + floor;
-    se[m] = std::sqrt(rss / double(q - 1)) * cells[m].L[0][0];
-    wt[m] = std::log(cells[m].prior * slope_prior[cells[m].group]) - 0.5 * ld[m] - 0.5 * std::log(xx) - (h - 0.5) * std::log(rss);
-    best = std::max(best, wt[m]);
+Line fit_line(const std::vector<double>& x, const std::vector<double>& y) {
+  double mean_x = 0, mean_y = 0, xx = 0, xy = 0, yy = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double dx = x[i] - mean_x, dy = y[i] - mean_y;
+    mean_x += dx / double(i + 1);
+    mean_y += dy / double(i + 1);
+    xx += dx * (x[i] - mean_x);
+    xy += dx * (y[i] - mean_y);
+    yy += dy * (y[i] - mean_y);
   }
-  double sum = 0, hi = 0, lo = 0;
-  for (std::size_t m = 0; m < M; ++m) { wt[m] = std::exp(wt[m] - best); if (wt[m] < 1e-5) wt[m] = 0; sum += wt[m]; if (wt[m] > 0) hi = std::max(hi, se[m] * 13); }
-  for (int i = 0; i < 40; ++i) {
-      double x = (lo + hi) / 2, cdf = 0;
-      for (std::size_t m = 0; m < M; ++m) if (wt[m] > 0) cdf += wt[m] / sum * student(x / se[m], int(q) - 1);
-      (cdf < 0.975 ? lo : hi) = x;
-  }
-  std::size_t kk = std::size_t(std::max_element(pe.begin(), pe.end()) - pe.begin());
-  if (ps[kk] > 0 && ps[kk] <= 1.25 && hi >= std::abs(Y[0])) trend = 0;
-  Verdict out{};
-  double bestg = std::max({g[0], g[1], g[2], trend});
-  out.probability = bestg / tot;
-  if (bestg == trend) {
-    std::size_t k = std::size_t(std::max_element(pe.begin(), pe.end()) - pe.begin());
-    double lo = ps[k ? k - 1 : 0], hi = ps[std::min(k + 1, ps.size() - 1)];
-    if (!k) lo = 0.75; if (ps[k] < 0) { lo = 1.4 * ps[k]; hi = 0.7 * ps[k]; } else if (hi < 0) hi = 8;
-    constexpr double r = 0.6180339887498949;
-    double a = hi - r * (hi - lo), b2 = lo + r * (hi - lo), fa = evidence(a, nullptr), fb = evidence(b2, nullptr);
-    while (hi - lo > 1e-4) {
-      if (fa > fb) { hi = b2; b2 = a; fb = fa; a = hi - r * (hi - lo); fa = evidence(a, nullptr); }
-      else { lo = a; a = b2; fa = fb; b2 = lo + r * (hi - lo); fb = evidence(b2, nullptr); }
-    }
-    double p = (lo + hi) / 2; 
-    if (ps[k] == 1 && evidence(p, nullptr) - evidence(1, nullptr) < 2) p = 1;
-    out.exponent = p;
-    out.kind = p < 0 ? DriftClass::exponential : p < 0.25 ? DriftClass::bounded : p < 0.75 ? DriftClass::random_walk : p <= 1.25 ? DriftClass::linear : DriftClass::polynomial;
-  } else if (bestg == g[walk]) { out.kind = DriftClass::random_walk; out.exponent = walk_d / g[walk] - 0.5; }
-  else if (bestg == g[steady]) { out.kind = DriftClass::bounded; out.exponent = 0; }
-  else out.kind = DriftClass::undetermined;
-  out.slope = Y[0] / basis.scale; out.low = (Y[0] - hi) / basis.scale; out.high = (Y[0] + hi) / basis.scale;
-  return out;
+  return {xy / xx, yy - xy * xy / xx, yy};
 }
-// least squares of y on x; returns {slope, residual sum of squares, total}
-std::array<double, 3> line(const Vector& x, const Vector& y) {
-  double n = double(x.size()), mx = 0, my = 0, sxx = 0, sxy = 0, syy = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) { mx += x[i] / n; my += y[i] / n; }
-  for (std::size_t i = 0; i < x.size(); ++i) { sxx += (x[i]-mx)*(x[i]-mx); sxy += (x[i]-mx)*(y[i]-my); syy += (y[i]-my)*(y[i]-my); }
-  return {sxy / sxx, syy - sxy * sxy / sxx, syy};
-}
-std::optional<double> exponential_rate(const Series& g) {
-  double floor = 1e300; for (double v : g.y) if (v > 0) floor = std::min(floor, v);
+
+/// Rate per unit of s at which the envelope grows exponentially, once it has left ten times its smallest
+/// value.
+std::optional<double> exponential_rate(const Samples& envelope) {
+  double floor = infinity;
+  for (double value : envelope.value)
+    if (value > 0) floor = std::min(floor, value);
   std::size_t start = 0;
-  for (std::size_t i = 0; i < g.y.size(); ++i) if (g.y[i] <= 10 * floor) start = i + 1;
-  Vector t, lt, l;
-  for (std::size_t i = start; i < g.y.size(); ++i) { t.push_back(g.t[i]); lt.push_back(std::log(g.t[i])); l.push_back(std::log(g.y[i])); }
-  if (t.size() < 6) return {};
-  auto e = line(t, l), p = line(lt, l);
-  if (e[0] * (t.back() - t.front()) < 3 || e[1] > 0.1 * e[2] || e[1] > 0.25 * p[1]) return {};
-  return e[0];
+  for (std::size_t i = 0; i < envelope.value.size(); ++i)
+    if (envelope.value[i] <= 10 * floor) start = i + 1;
+  std::vector<double> s, log_s, log_value;
+  for (std::size_t i = start; i < envelope.value.size(); ++i) {
+    s.push_back(envelope.s[i]);
+    log_s.push_back(std::log(envelope.s[i]));
+    log_value.push_back(std::log(envelope.value[i]));
+  }
+  if (s.size() < 6) return {};
+  const Line exponential = fit_line(s, log_value), power = fit_line(log_s, log_value);
+  const bool grows = exponential.slope * (s.back() - s.front()) > 3;
+  const bool fits =
+      exponential.residual < 0.1 * exponential.total && exponential.residual < 0.25 * power.residual;
+  return grows && fits ? std::optional(exponential.slope) : std::nullopt;
 }
+
+/// Does the last quarter of the series exceed the first twofold?
+bool doubles(const std::vector<double>& value) {
+  double early = 0, late = 0;
+  for (std::size_t i = 0; i < value.size() / 4; ++i) {
+    early += value[i];
+    late += value[value.size() - 1 - i];
+  }
+  return late > 2 * early;
+}
+
 }  // namespace
 
-const char* to_string(DriftClass kind) {
-  switch (kind) {
-    case DriftClass::exact: return "exact";
-    case DriftClass::bounded: return "bounded";
-    case DriftClass::random_walk: return "random_walk";
-    case DriftClass::linear: return "linear";
-    case DriftClass::polynomial: return "polynomial";
-    case DriftClass::exponential: return "exponential";
-    case DriftClass::undetermined: return "undetermined";
+const char* to_string(DriftClass drift_class) {
+  switch (drift_class) {
+    case DriftClass::exact:
+      return "exact";
+    case DriftClass::bounded:
+      return "bounded";
+    case DriftClass::random_walk:
+      return "random_walk";
+    case DriftClass::linear:
+      return "linear";
+    case DriftClass::polynomial:
+      return "polynomial";
+    case DriftClass::exponential:
+      return "exponential";
+    case DriftClass::undetermined:
+      break;
   }
   return "undetermined";
 }
-DriftAccumulator::DriftAccumulator(std::size_t capacity) : capacity_(std::max<std::size_t>(capacity & ~std::size_t{1}, 64)) { blocks_.reserve(capacity_); }
-DriftAccumulator::Block DriftAccumulator::merged(const Block& a, const Block& b) {
-  Block m;
-  m.count = a.count + b.count;
-  double f = double(b.count) / double(m.count);
-  m.time = a.time + f * (b.time - a.time);
-  m.mean = a.mean + f * (b.mean - a.mean);
-  m.mean_square = a.mean_square + f * (b.mean_square - a.mean_square);
-  m.minimum = std::min(a.minimum, b.minimum);
-  m.maximum = std::max(a.maximum, b.maximum);
-  return m;
+
+DriftAccumulator::DriftAccumulator(std::size_t capacity)
+    : capacity_(std::max<std::size_t>(capacity + capacity % 2, 64)) {
+  blocks_.reserve(capacity_);
 }
+
 void DriftAccumulator::add(double t, double error) {
-  if (!std::isfinite(t) || !(std::abs(error) < 1e150)) {
-    if (non_finite_++ == 0) bad_time_ = t;
+  if (!std::isfinite(t) || !(std::abs(error) <= largest_error)) {
+    if (non_finite_++ == 0) non_finite_time_ = t;
     return;
   }
-  if (non_finite_) return;
-  if (samples_ == 0) first_time_ = t;
-  ++samples_;
-  double n = double(samples_), dt = t - mean_time_, de = error - mean_;
-  mean_time_ += dt / n; mean_ += de / n;
-  time_time_ += dt * (t - mean_time_); time_error_ += dt * (error - mean_); error_error_ += de * (error - mean_);
-  final_ = error; last_time_ = t;
-  Block one{1, t, error, error, error, error * error};
-  if (!blocks_.empty() && blocks_.back().count < length_) { blocks_.back() = merged(blocks_.back(), one); return; }
+  if (non_finite_ > 0) return;
+  if (samples_++ == 0) first_time_ = t;
+  last_time_ = t;
+  last_error_ = error;
+  const double dt = t - moments_.mean_time, de = error - moments_.mean;
+  moments_.mean_time += dt / double(samples_);
+  moments_.mean += de / double(samples_);
+  moments_.time_time += dt * (t - moments_.mean_time);
+  moments_.time_error += dt * (error - moments_.mean);
+  moments_.error_error += de * (error - moments_.mean);
+
+  const Block sample{1, t, error, error, error, error * error};
+  if (!blocks_.empty() && blocks_.back().count < block_length_) {
+    blocks_.back() = merged(blocks_.back(), sample);
+    return;
+  }
   if (blocks_.size() == capacity_) {
     for (std::size_t i = 0; i < capacity_ / 2; ++i) blocks_[i] = merged(blocks_[2 * i], blocks_[2 * i + 1]);
     blocks_.resize(capacity_ / 2);
-    length_ *= 2;
+    block_length_ *= 2;
   }
-  blocks_.push_back(one);
+  blocks_.push_back(sample);
 }
+
 Drift DriftAccumulator::result() const {
-  Drift r;
-  r.samples = samples_; r.non_finite = non_finite_;
-  if (non_finite_) r.non_finite_time = bad_time_;
-  if (!samples_) return r;
-  double square = 0;
-  for (const auto& b : blocks_) {
-    r.maximum = std::max({r.maximum, std::abs(b.minimum), std::abs(b.maximum)});
-    square += b.mean_square * (double(b.count) / double(samples_));
+  Drift drift;
+  drift.samples = samples_;
+  drift.non_finite = non_finite_;
+  if (non_finite_ > 0) drift.non_finite_time = non_finite_time_;
+  drift.slope_low = -infinity, drift.slope_high = infinity;
+  if (samples_ == 0) return drift;
+
+  const double line = moments_.time_time > 0 ? moments_.time_error / moments_.time_time : 0;
+  double mean_square = 0, above = -infinity, below = infinity;
+  for (const Block& block : blocks_) {
+    drift.maximum = std::max({drift.maximum, std::abs(block.minimum), std::abs(block.maximum)});
+    mean_square += block.mean_square * (double(block.count) / double(samples_));
+    const double trend = moments_.mean + line * (block.time - moments_.mean_time);
+    above = std::max(above, block.maximum - trend);
+    below = std::min(below, block.minimum - trend);
   }
-  r.rms = std::sqrt(square); r.final = final_;
-  if (samples_ < 4 || !(time_time_ > 0)) return r;
-  double slope = time_error_ / time_time_;
-  r.oscillation_rms = std::sqrt(std::max(error_error_ - slope * time_error_, 0.0) / double(samples_));
-  double up = -1e300, down = 1e300;
-  for (const auto& b : blocks_) { double trend = mean_ + slope * (b.time - mean_time_); up = std::max(up, b.maximum - trend); down = std::min(down, b.minimum - trend); }
-  r.oscillation_amplitude = (up - down) / 2;
-  Series s, g;
-  const Block& last = blocks_.back();
-  (void)last; double span = (last_time_ - first_time_) * double(samples_) / double(samples_ - 1), origin = first_time_ - span / double(2 * samples_);
-  for (const auto& b : blocks_) {
-    s.t.push_back((b.time - origin) / span); s.f.push_back(double(b.count)); s.y.push_back(b.mean);
+  drift.rms = std::sqrt(mean_square);
+  drift.final_value = last_error_;
+  drift.slope = line;
+  drift.oscillation_amplitude = (above - below) / 2;
+  drift.oscillation_rms =
+      std::sqrt(std::max(moments_.error_error - line * moments_.time_error, 0.0) / double(samples_));
+  if (drift.maximum == 0 && samples_ > 1) {
+    drift.slope_low = drift.slope_high = 0;
+    if (non_finite_ > 0) return drift;
+    drift.drift_class = DriftClass::exact;
+    drift.probability = 1;
+    return drift;
   }
-  if (r.maximum == 0) { r.kind = DriftClass::exact; r.probability = 1; r.growth_exponent = 0; return r; }
-  s.taper();
-  Verdict v = judge(s, r.maximum);
-  r.kind = v.kind; r.probability = v.probability; r.growth_exponent = v.exponent;
-  r.slope = v.slope / span; r.slope_low = v.low / span; r.slope_high = v.high / span;
-  if (span < 0) std::swap(r.slope_low, r.slope_high);
-  std::size_t per = (blocks_.size() + 127) / 128;
-  for (std::size_t i = 0; i + per <= blocks_.size(); i += per) {
-    Block m = blocks_[i];
-    for (std::size_t j = 1; j < per; ++j) m = merged(m, blocks_[i + j]);
-    g.t.push_back((m.time - origin) / span); g.y.push_back(std::sqrt(m.mean_square)); g.f.push_back(double(m.count));
+  if (samples_ < 4 || !(moments_.time_time > 0)) return drift;
+
+  // Sample k of n sits at s = (k + 1/2) / n.
+  const double span = (last_time_ - first_time_) * double(samples_) / double(samples_ - 1);
+  const double origin = first_time_ - span / double(2 * samples_);
+  Samples means, envelope;
+  const auto append = [&](Samples& to, const Block& block, double value) {
+    to.s.push_back((block.time - origin) / span);
+    to.value.push_back(value);
+    to.count.push_back(double(block.count));
+  };
+  for (const Block& block : blocks_) append(means, block, block.mean);
+  const double resolution = std::numeric_limits<double>::epsilon() * drift.maximum;
+  const Projection data(means, resolution);
+  const low_frequency::Slope slope = data.slope();
+  drift.slope = slope.value / span;
+  drift.slope_low = drift.slope - slope.half_width / std::abs(span);
+  drift.slope_high = drift.slope + slope.half_width / std::abs(span);
+  if (samples_ < fewest_samples || non_finite_ > 0) return drift;
+
+  Verdict verdict = classify(data, slope);
+  const std::size_t group = (blocks_.size() + envelope_points - 1) / envelope_points;
+  for (std::size_t first = 0; first + group <= blocks_.size(); first += group) {
+    Block block = blocks_[first];
+    for (std::size_t i = 1; i < group; ++i) block = merged(block, blocks_[first + i]);
+    append(envelope, block, std::sqrt(block.mean_square));
   }
-  g.taper();
-  if (r.kind == DriftClass::exponential) { r.growth_rate = -*r.growth_exponent / span; r.growth_exponent.reset(); }
-  if (auto rate = exponential_rate(g)) { r.kind = DriftClass::exponential; r.growth_rate = *rate / span; r.growth_exponent.reset(); }
-  else if (r.kind == DriftClass::bounded) {
-    std::size_t k = g.y.size() / 4; double early = 0, late = 0;
-    for (std::size_t i = 0; i < k; ++i) { early += g.y[i]; late += g.y[g.y.size() - 1 - i]; }
-    if (late > 2 * early) {
-      Verdict e = judge(g, r.maximum);
-      if (e.kind != DriftClass::bounded && e.kind != DriftClass::undetermined) { r.kind = e.kind; r.growth_exponent = e.exponent; r.probability = e.probability; }
-    }
+  if (const std::optional<double> rate = exponential_rate(envelope)) {
+    verdict = {DriftClass::exponential, 1.0, {}, rate};
+  } else if (verdict.drift_class == DriftClass::bounded && doubles(envelope.value)) {
+    const Projection amplitude(envelope, resolution);
+    const Verdict growth = classify(amplitude, amplitude.slope());
+    if (growth.drift_class != DriftClass::undetermined) verdict = growth;
   }
-  if (samples_ < 32 || non_finite_) { r.kind = DriftClass::undetermined; r.growth_exponent.reset(); }
-  return r;
+  drift.drift_class = verdict.drift_class;
+  drift.probability = verdict.probability;
+  drift.growth_exponent = verdict.exponent;
+  if (verdict.rate) drift.growth_rate = *verdict.rate / span;
+  return drift;
 }
+
 }  // namespace pfaff
