@@ -26,6 +26,9 @@ class Real {
   static Real fraction(std::int64_t numerator, std::int64_t denominator);
   /// A constant known to quad precision only.
   explicit constexpr Real(Quad value) : rounded_(static_cast<double>(value)), quad_(value), denominator_(0) {}
+  /// A double is not the decimal it was written as (and would be cut to an int): use 0.3_r, or Real(Quad(x)) for the
+  /// binary number itself.
+  template <std::floating_point F> Real(F value) = delete;
 
   /// Parses "0.1", "-2.5e-3" or "a/b"; nullopt when the text is not a number.
   static std::optional<Real> parse(std::string_view text);

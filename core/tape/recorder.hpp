@@ -4,6 +4,7 @@
 // and one, shares common subexpressions, and keeps sine and cosine of one argument together.
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <span>
 #include <unordered_map>
@@ -22,6 +23,8 @@ class Recorded {
   Recorded() = default;
   Recorded(int value) : constant_(value) {}                              // NOLINT(google-explicit-constructor)
   explicit Recorded(const Real& value) : constant_(value) {}
+  /// Would be cut to an int: constants of a formula are ints and Reals.
+  template <std::floating_point F> Recorded(F value) = delete;
   Recorded(Recorder* recorder, int slot) : recorder_(recorder), slot_(slot) {}
 
   [[nodiscard]] bool is_constant() const { return recorder_ == nullptr; }
