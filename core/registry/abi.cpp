@@ -1,0 +1,87 @@
+#include <pfaff/core/registry/abi.hpp>
+
+#include <link.h>
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include <pfaff/core/registry/errors.hpp>
+
+namespace pfaff {
+
+namespace {
+// Reads `count` bytes at `offset`; false past the end.
+bool read_at(std::ifstream& file, std::uint64_t offset, void* to, std::uint64_t count) {
+  file.clear();
+  file.seekg(static_cast<std::streamoff>(offset));
+  file.read(static_cast<char*>(to), static_cast<std::streamsize>(count));
+  return file && static_cast<std::uint64_t>(file.gcount()) == count;
+}
+
+// Adds the texts of Pfaff's notes among the notes in `bytes`.
+void collect_stamps(const std::vector<char>& bytes, std::vector<std::string>& stamps) {
+  const auto padded = [](std::size_t size) { return (size + 3) / 4 * 4; };
+  ElfW(Nhdr) note;
+  for (std::size_t at = 0; at + sizeof note <= bytes.size();) {
+    std::memcpy(&note, bytes.data() + at, sizeof note);
+    const std::size_t owner = at + sizeof note, text = owner + padded(note.n_namesz);
+    if (text > bytes.size() || note.n_descsz > bytes.size() - text) return;
+    if (note.n_namesz == sizeof("Pfaff") && std::memcmp(bytes.data() + owner, "Pfaff", sizeof("Pfaff")) == 0) {
+      const std::string stamp(bytes.data() + text, note.n_descsz);
+      stamps.push_back(stamp.substr(0, stamp.find('\0')));
+    }
+    at = text + padded(note.n_descsz);
+  }
+}
+
+std::vector<std::string> words(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> result;
+  for (std::string word; stream >> word;) result.push_back(word);
+  return result;
+}
+
+// The words of `a` that are not in `b`; all of them when that leaves none.
+std::string difference(const std::string& a, const std::string& b) {
+  const std::vector<std::string> other = words(b);
+  std::string result;
+  for (const std::string& word : words(a))
+    if (std::find(other.begin(), other.end(), word) == other.end()) result += (result.empty() ? "" : " ") + word;
+  return result.empty() ? a : result;
+}
+}  // namespace
+
+std::vector<std::string> abi_stamps(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw InputError("plug-in '" + path + "': cannot be read");
+  ElfW(Ehdr) header;
+  constexpr unsigned char native = sizeof(void*) == 8 ? ELFCLASS64 : ELFCLASS32;
+  if (!read_at(file, 0, &header, sizeof header) || std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0 ||
+      header.e_ident[EI_CLASS] != native || header.e_type != ET_DYN || header.e_phentsize != sizeof(ElfW(Phdr)))
+    throw InputError("plug-in '" + path + "': expected a shared object built against Pfaff");
+  std::vector<std::string> stamps;
+  for (std::uint64_t k = 0; k < header.e_phnum; ++k) {
+    ElfW(Phdr) segment;
+    constexpr std::uint64_t most = 1U << 20U;  // notes are small; a larger size is a damaged file's
+    if (!read_at(file, header.e_phoff + k * sizeof segment, &segment, sizeof segment)) break;
+    if (segment.p_type != PT_NOTE || segment.p_filesz > most) continue;
+    std::vector<char> bytes(segment.p_filesz);
+    if (read_at(file, segment.p_offset, bytes.data(), bytes.size())) collect_stamps(bytes, stamps);
+  }
+  return stamps;
+}
+
+void require_same_abi(const std::string& path) {
+  const std::vector<std::string> stamps = abi_stamps(path);
+  if (stamps.empty())
+    throw InputError("plug-in '" + path + "': has no Pfaff ABI stamp; expected a shared object built against Pfaff");
+  const std::string own = PFAFF_ABI_STAMP;
+  for (const std::string& stamp : stamps)
+    if (stamp != own)
+      throw InputError("plug-in '" + path + "': built for " + difference(stamp, own) + "; expected " +
+                       difference(own, stamp));
+}
+
+}  // namespace pfaff
