@@ -93,7 +93,10 @@ template <class T, int N> Dual<T, N> cos(const Dual<T, N>& x) {
 }
 /// x^y for a constant exponent.
 template <class T, int N> Dual<T, N> pow(const Dual<T, N>& x, const Real& y) {
-  return chain(x, T(pow(x.value, T(y))), T(T(y) * pow(x.value, T(y - Real(1)))));
+  // The exponent stays a Real on the way down: a nested dual would go through the logarithm otherwise, which negative
+  // bases do not have.
+  if (y.is(0)) return chain(x, T(1), T(0));
+  return chain(x, T(pow(x.value, y)), T(T(y) * pow(x.value, y - Real(1))));
 }
 template <class T, int N> Dual<T, N> pow(const Dual<T, N>& x, const Dual<T, N>& y) { return exp(y * log(x)); }
 
