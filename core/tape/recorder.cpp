@@ -1,6 +1,7 @@
 #include <pfaff/core/tape/recorder.hpp>
 
 #include <algorithm>
+#include <limits>
 
 namespace pfaff {
 
@@ -126,6 +127,36 @@ Recorded select(const Recorded& condition, const Recorded& positive, const Recor
   return r->append({Operation::select, condition.slot(), r->slot_of(positive), r->slot_of(otherwise)});
 }
 
+namespace {
+// The solution of a system of constants by elimination: fractions stay fractions. NaN where the matrix is singular.
+std::vector<Recorded> solve_constants(std::span<const Recorded> matrix, std::span<const Recorded> right_hand_side) {
+  const std::size_t n = right_hand_side.size();
+  std::vector<Real> a, b;
+  for (const Recorded& e : matrix) a.push_back(e.constant());
+  for (const Recorded& e : right_hand_side) b.push_back(e.constant());
+  for (std::size_t k = 0; k < n; ++k) {
+    std::size_t pivot = k;
+    for (std::size_t i = k + 1; i < n; ++i)
+      if (abs(a[i * n + k].quad()) > abs(a[pivot * n + k].quad())) pivot = i;
+    if (a[pivot * n + k].is(0)) return std::vector<Recorded>(n, Recorded(Real(std::numeric_limits<Quad>::quiet_NaN())));
+    for (std::size_t j = 0; j < n; ++j) std::swap(a[k * n + j], a[pivot * n + j]);
+    std::swap(b[k], b[pivot]);
+    for (std::size_t i = k + 1; i < n; ++i) {
+      const Real factor = a[i * n + k] / a[k * n + k];
+      for (std::size_t j = k + 1; j < n; ++j) a[i * n + j] = a[i * n + j] - factor * a[k * n + j];
+      b[i] = b[i] - factor * b[k];
+    }
+  }
+  std::vector<Recorded> x(n);
+  for (std::size_t i = n; i-- > 0;) {
+    for (std::size_t j = i + 1; j < n; ++j) b[i] = b[i] - a[i * n + j] * b[j];
+    b[i] = b[i] / a[i * n + i];
+    x[i] = Recorded(b[i]);
+  }
+  return x;
+}
+}  // namespace
+
 std::vector<Recorded> solve(std::span<const Recorded> matrix, std::span<const Recorded> right_hand_side) {
   const std::size_t n = right_hand_side.size();
   std::vector<Recorded> x(n);
@@ -147,6 +178,7 @@ std::vector<Recorded> solve(std::span<const Recorded> matrix, std::span<const Re
   Recorder* recorder = nullptr;
   for (const Recorded& e : matrix) recorder = recorder != nullptr ? recorder : e.recorder();
   for (const Recorded& e : right_hand_side) recorder = recorder != nullptr ? recorder : e.recorder();
+  if (recorder == nullptr) return solve_constants(matrix, right_hand_side);
   LinearSystem system{static_cast<int>(n), {}, {}};
   for (const Recorded& e : matrix) system.matrix.push_back(recorder->slot_of(e));
   for (const Recorded& e : right_hand_side) system.right_hand_side.push_back(recorder->slot_of(e));
