@@ -1,6 +1,7 @@
 #include <pfaff/core/numbers/real.hpp>
 
 #include <charconv>
+#include <cstdlib>
 #include <limits>
 #include <numeric>
 
@@ -51,7 +52,7 @@ std::optional<Decimal> as_decimal(std::string_view text) {
     if (i < text.size() && text[i] == '+') ++i;
     int e = 0;
     const auto [end, error] = std::from_chars(text.data() + i, text.data() + text.size(), e);
-    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    if (error != std::errc() || end != text.data() + text.size() || e > 100000 || e < -100000) return std::nullopt;
     d.exponent += e;
   }
   if (negative) d.digits = -d.digits;
@@ -94,6 +95,7 @@ Real Real::fraction(std::int64_t numerator, std::int64_t denominator) {
 
 std::optional<Real> Real::parse(std::string_view text) {
   if (const auto slash = text.find('/'); slash != std::string_view::npos) {
+    if (text.find('/', slash + 1) != std::string_view::npos) return std::nullopt;
     const auto a = parse(text.substr(0, slash));
     const auto b = parse(text.substr(slash + 1));
     if (!a || !b || b->is(0)) return std::nullopt;
@@ -101,7 +103,7 @@ std::optional<Real> Real::parse(std::string_view text) {
   }
   Quad value;
   if (text.empty() || text.find_first_not_of("0123456789+-.eE") != std::string_view::npos ||
-      !pfaff::parse(text, value))
+      !pfaff::parse(text, value) || !isfinite(value))
     return std::nullopt;
   Real result(value);
   if (const auto decimal = as_decimal(text); decimal && decimal->exponent <= 18 && decimal->exponent >= -18) {
