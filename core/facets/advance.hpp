@@ -31,6 +31,23 @@ concept Steps = requires(const M& m, const P& p, const Scalar<P>& t, State<P>& z
   { m.step(p, t, t, z, w) } -> std::same_as<Status>;
 };
 
+namespace detail {
+/// loop(method) with `compensated` a constant in each of two copies of the loop, so that no step tests it.
+template <class M, class Loop> Status unswitched(const M& method, Loop&& loop) {
+  if constexpr (std::is_trivially_copyable_v<M> && requires { method.compensated; }) {
+    M local = method;
+    if (method.compensated) {
+      local.compensated = true;
+      return loop(local);
+    }
+    local.compensated = false;
+    return loop(local);
+  } else {
+    return loop(method);
+  }
+}
+}  // namespace detail
+
 /// Takes steps first, first + 1, … first + count - 1 of size h from time t0, in place. Stops at the first step that
 /// does not converge, leaving z as it was before that step; `completed` says how many were taken.
 template <class M, class P> requires Steps<M, P>
@@ -38,11 +55,17 @@ Status advance(const M& method, const P& problem, const Scalar<P>& t0, std::int6
                std::int64_t count, State<P>& z, Work<M, P>& work, std::int64_t& completed) {
   using W = Work<M, P>;
   const auto loop = [&](State<P>& state, W& w) {
-    for (completed = 0; completed < count; ++completed) {
-      const Scalar<P> t = t0 + Scalar<P>(static_cast<double>(first + completed)) * h;
-      if (const Status status = method.step(problem, t, h, state, w); status != Status::converged) return status;
-    }
-    return Status::converged;
+    return detail::unswitched(method, [&](const M& m) {
+      std::int64_t taken = 0;
+      Status status = Status::converged;
+      for (; taken < count; ++taken) {
+        const Scalar<P> t = t0 + Scalar<P>(static_cast<double>(first + taken)) * h;
+        status = m.step(problem, t, h, state, w);
+        if (status != Status::converged) break;
+      }
+      completed = taken;
+      return status;
+    });
   };
   if constexpr (std::is_trivially_copyable_v<State<P>> && std::is_trivially_copyable_v<W>) {
     // Local copies stay in registers through the loop.

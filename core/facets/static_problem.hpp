@@ -1,0 +1,183 @@
+// StaticProblem: the struct of a system's author seen as a problem, its type and its size known to the
+// compiler.
+//
+// No registry, no tape, no indirect call: formulas are inlined into the method's loop, which then costs what
+// a hand-written one costs. Formulas that the author did not write are derived with dual numbers: forces and
+// velocities as gradients of the energies, the field of a Hamiltonian as J grad H, Jacobians. For methods
+// that expand the field in series it is recorded when they are set up; the Darboux chart of a canonical
+// system is the identity.
+//
+// Limits: S::dimension is a constant, and only what dual numbers give cheaply is derived. Birkhoffian systems
+// and those with a bracket of their own have a static field where their author wrote one.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <utility>
+
+#include <pfaff/core/facets/problem.hpp>
+#include <pfaff/core/numbers/dual.hpp>
+#include <pfaff/core/tape/recorder.hpp>
+
+namespace pfaff {
+
+/// Counters that count nothing.
+struct Uncounted {
+  struct Nothing {
+    constexpr void operator++() const {}
+    constexpr void operator+=(std::int64_t /*amount*/) const {}
+  };
+  Nothing steps, fields, jacobians, iterations, factorisations;
+};
+
+namespace detail {
+
+// What an author's struct S writes, seen with the scalar T.
+template <class S, class T>
+concept WritesSeparable = requires(const S& s, const T& t, In<T> x) {
+  s.kinetic(t, x);
+  s.potential(t, x);
+};
+template <class S, class T>
+concept WritesHamiltonian = requires(const S& s, const T& t, In<T> z) {
+  s.hamiltonian(t, z);
+}
+&&!requires(const S& s) { s.bracket(); };
+template <class S, class T>
+concept WritesField = requires(const S& s, const T& t, In<T> z, Out<T> o) {
+  s.field(t, z, o);
+};
+template <class S, class T>
+concept WritesForce = requires(const S& s, const T& t, In<T> q, Out<T> o) {
+  s.force(t, q, o);
+};
+template <class S, class T>
+concept WritesVelocity = requires(const S& s, const T& t, In<T> p, Out<T> o) {
+  s.velocity(t, p, o);
+};
+
+/// slope = the gradient at x of energy(t, x), a function of N numbers, in one pass of dual numbers.
+template <int N, class T, class Energy>
+void dual_gradient(const Energy& energy, const T& t, In<T> x, Out<T> slope) {
+  using D = Dual<T, N>;
+  Vector<D, N> point;
+  for (int k = 0; k < N; ++k)
+    point[static_cast<std::size_t>(k)] = D::variable(x[static_cast<std::size_t>(k)], k);
+  const D value = energy(D(t), In<D>(point));
+  for (std::size_t k = 0; k < N; ++k) slope[k] = value.derivative[k];
+}
+
+}  // namespace detail
+
+/// The system S with states of T. A copy of the author's object lives inside.
+template <class S, class T = double>
+class StaticProblem {
+ public:
+  using Scalar = T;
+  static constexpr int extent = S::dimension;
+  using State = Vector<T, extent>;
+  static constexpr bool separable = detail::WritesSeparable<S, T>;
+  static constexpr bool canonical = separable || detail::WritesHamiltonian<S, T>;
+  static constexpr bool has_field = canonical || detail::WritesField<S, T>;
+
+  explicit StaticProblem(S system = {}) : system_(std::move(system)) {}
+
+  [[nodiscard]] static constexpr std::size_t size() { return static_cast<std::size_t>(extent); }
+  [[nodiscard]] State make_state() const { return {}; }
+  [[nodiscard]] Uncounted counters() const { return {}; }
+  [[nodiscard]] const S& system() const { return system_; }
+  /// Nothing needs preparing.
+  void prepare(Formula /*formula*/) const {}
+
+  /// rate = X(z, t).
+  void field(const T& t, In<T> z, Out<T> rate) const requires has_field { field_of<T>(t, z, rate); }
+  /// matrix[i n + j] = dX_i / dz_j.
+  void field_jacobian(const T& t, In<T> z, Out<T> matrix) const requires has_field {
+    using D = Dual<T, extent>;
+    Vector<D, extent> point, rate;
+    for (std::size_t k = 0; k < size(); ++k) point[k] = D::variable(z[k], static_cast<int>(k));
+    field_of<D>(D(t), point, rate);
+    for (std::size_t i = 0; i < size(); ++i)
+      for (std::size_t j = 0; j < size(); ++j) matrix[i * size() + j] = rate[i].derivative[j];
+  }
+  /// H(z, t).
+  [[nodiscard]] T hamiltonian(const T& t, In<T> z) const requires canonical {
+    return hamiltonian_of<T>(t, z);
+  }
+  /// -dV/dq.
+  void force(const T& t, In<T> q, Out<T> f) const requires separable { force_of<T>(t, q, f); }
+  /// dT/dp.
+  void velocity(const T& t, In<T> p, Out<T> v) const requires separable { velocity_of<T>(t, p, v); }
+
+  /// y = z: canonical coordinates are Darboux's.
+  void chart(const T& /*t*/, In<T> z, Out<T> y) const requires canonical {
+    std::copy(z.begin(), z.end(), y.begin());
+  }
+  void chart_inverse(const T& /*t*/, In<T> y, Out<T> z) const requires canonical {
+    std::copy(y.begin(), y.end(), z.begin());
+  }
+  void chart_field(const T& t, In<T> y, Out<T> rate) const requires canonical { field_of<T>(t, y, rate); }
+  void chart_field_jacobian(const T& t, In<T> y, Out<T> matrix) const requires canonical {
+    field_jacobian(t, y, matrix);
+  }
+  [[nodiscard]] std::shared_ptr<const Tape> chart_field_tape() const requires canonical {
+    return std::make_shared<const Tape>(
+        record(extent, extent, [&](const Recorded& t, std::span<const Recorded> y, std::span<Recorded> rate) {
+          field_of<Recorded>(t, y, rate);
+        }));
+  }
+
+ private:
+  static constexpr int half = extent / 2;
+
+  // The formulas with any scalar U: that of the states, or a dual or recording one.
+  template <class U>
+  U hamiltonian_of(const U& t, In<U> z) const {
+    if constexpr (separable) {
+      return system_.kinetic(t, z.subspan(half)) + system_.potential(t, z.first(half));
+    } else {
+      return system_.hamiltonian(t, z);
+    }
+  }
+  template <class U>
+  void force_of(const U& t, In<U> q, Out<U> f) const {
+    if constexpr (detail::WritesForce<S, U>) {
+      system_.force(t, q, f);
+    } else {
+      detail::dual_gradient<half>([&]<class D>(const D& s, In<D> x) { return system_.potential(s, x); }, t, q,
+                                  f);
+      for (U& x : f) x = -x;
+    }
+  }
+  template <class U>
+  void velocity_of(const U& t, In<U> p, Out<U> v) const {
+    if constexpr (detail::WritesVelocity<S, U>) {
+      system_.velocity(t, p, v);
+    } else {
+      detail::dual_gradient<half>([&]<class D>(const D& s, In<D> x) { return system_.kinetic(s, x); }, t, p,
+                                  v);
+    }
+  }
+  template <class U>
+  void field_of(const U& t, In<U> z, Out<U> rate) const {
+    if constexpr (detail::WritesField<S, U>) {
+      system_.field(t, z, rate);
+    } else if constexpr (separable) {
+      velocity_of<U>(t, z.subspan(half), rate.first(half));
+      force_of<U>(t, z.first(half), rate.subspan(half));
+    } else {  // J grad H
+      Vector<U, extent> slope;
+      detail::dual_gradient<extent>([&]<class D>(const D& s, In<D> x) { return hamiltonian_of<D>(s, x); }, t,
+                                    z, slope);
+      for (std::size_t k = 0; k < half; ++k) {
+        rate[k] = slope[half + k];
+        rate[half + k] = -slope[k];
+      }
+    }
+  }
+
+  S system_;
+};
+
+}  // namespace pfaff
