@@ -1,8 +1,8 @@
 // The mathematical pendulum, H = p^2/2 - omega^2 cos q.
 //
-// Exact solution: x = sin q/2, y = p/(2 omega), z = cos q/2 move by x' = omega y z, y' = -omega x z, z' = -omega x y,
-// Jacobi's functions (whittaker1937 section 44), from any state, swinging or revolving. Near the separatrix it is as
-// good as the problem is: a change d of the initial state is d e^{omega t} later.
+// Exact solution: x = sin q/2, y = p/(2 omega), z = cos q/2 move by x' = omega y z, y' = -omega x z, z' =
+// -omega x y, Jacobi's functions (whittaker1937 section 44), from any state, swinging or revolving. Near the
+// separatrix it is as good as the problem is: a change d of the initial state is d e^{omega t} later.
 #pragma once
 
 #include <vector>
@@ -40,8 +40,8 @@ struct Pendulum {
   void invariants(const T& t, In<T> z, Out<T> values) const {
     values[0] = kinetic(t, z.subspan(1)) + potential(t, z.first(1));
   }
-  // The half angle q/2 follows from its sine and cosine without a jump: swinging, it stays within a right angle of the
-  // multiple of pi it started near; revolving, within 180 degrees of its mean motion.
+  // The half angle q/2 follows from its sine and cosine without a jump: swinging, it stays within a right
+  // angle of the multiple of pi it started near; revolving, within 180 degrees of its mean motion.
   template <class T>
   void exact_solution(const T& elapsed, const T& /*t0*/, In<T> z0, Out<T> z) const {
     const T half = z0[0] / 2, x = sin(half), c = cos(half);
