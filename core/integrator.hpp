@@ -6,7 +6,8 @@
 //   Status step(const P&, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>&) const;
 // Optional members: order(model) and preserves(model) where a claim depends on parameters or problem; validate(),
 // called once parameters are set; coefficients(), a mutable span over the numbers that define the method (the
-// control that changes one of them by 1e-6 needs it); refuses(model), a reason or an empty string;
+// control that changes one of them by 1e-6 needs it); refuses(model), a reason or an empty string; instances(full), the
+// parameters that verification runs through;
 // advance_to(problem, t, end, tolerance, z, work) for methods that choose their steps.
 #pragma once
 
@@ -96,6 +97,8 @@ class MethodPlugin : public Plugin {
       : Plugin(descriptor.name, std::move(parameters), type, where), descriptor_(std::move(descriptor)) {}
   [[nodiscard]] const MethodDescriptor& descriptor() const { return descriptor_; }
   [[nodiscard]] virtual std::unique_ptr<MethodInstance> make(const Assignments& assignments) const = 0;
+  /// The parameters the method's claims are verified with; `full` asks for more than a quick check needs.
+  [[nodiscard]] virtual std::vector<Assignments> instances(bool full) const = 0;
 
  private:
   MethodDescriptor descriptor_;
@@ -263,6 +266,10 @@ template <class M> class Method final : public MethodPlugin {
     assign_all(parameters(), &method, assignments, "integrator " + name());
     if constexpr (requires { method.validate(); }) method.validate();
     return std::make_unique<detail::Instance<M>>(*this, std::move(method));
+  }
+  [[nodiscard]] std::vector<Assignments> instances(bool full) const override {
+    if constexpr (requires { M::instances(full); }) return M::instances(full);
+    return {{}};
   }
 };
 

@@ -32,6 +32,17 @@ struct GeneratingFunction {
             parameter(&G::form, "form", {"midpoint", "qhat-p", "q-phat"}, "which old and new coordinates w mixes"),
             parameter(&G::compensated, "compensated", "compensated summation")};
   }
+  /// Every order to 12 in the variant it takes by default; variant P of even orders, and the mixed forms.
+  static std::vector<Assignments> instances(bool full) {
+    std::vector<Assignments> list;
+    const int highest = full ? 20 : 12;
+    for (int m = 1; m <= highest; ++m) list.push_back({{"order", std::to_string(m)}});
+    for (int m = 2; m <= highest; m += 2) list.push_back({{"order", std::to_string(m)}, {"variant", "P"}});
+    for (int m = 1; m <= (full ? 12 : 6); ++m)
+      for (const char* mixed : {"qhat-p", "q-phat"})
+        list.push_back({{"order", std::to_string(m)}, {"form", mixed}});
+    return list;
+  }
   void validate() {
     const bool even = truncation % 2 == 0;
     if (variant == "S" && !even)
@@ -159,6 +170,7 @@ struct GeneratingFunction {
     do {
       w.gradient(w.w.data(), w.psi.data());
       ++p.counters().iterations;
+      p.counters().fields += static_cast<std::int64_t>(w.gradient.evaluations());
       for (std::size_t k = 0; k < w.n; ++k) w.residual[k] = w.gradient.share(k) * w.psi[k] - w.d[k];
       w.matrix.solve(w.residual.data(), w.correction.data());
       convergence.begin_iteration();

@@ -43,6 +43,8 @@ template <class T> class GeneratingGradient {
   /// P_k: the weight of the new coordinate k in w.
   [[nodiscard]] const T& share(std::size_t k) const { return share_[k]; }
   [[nodiscard]] std::size_t size() const { return n_; }
+  /// Field evaluations that one psi amounts to: nodes times levels of the series.
+  [[nodiscard]] std::size_t evaluations() const { return lanes_ * levels_; }
 
   /// Sets the step; what depends on time alone is expanded here, once per step.
   void set_step(const T& t, const T& tau) {

@@ -15,18 +15,20 @@ template <class T> class Observer {
       : run_(run), reference_(reference), record_(record), problem_(run.model),
         values_(run.model->invariants().size()) {
     if (StructureResidual<T>::applies(*run.model) && !run.adaptive()) residual_.emplace(*run.method, run.model);
-    for (const Invariant& invariant : run.model->invariants())
-      if (invariant.behaviour == Behaviour::conserved) drift_.emplace_back();
+    drift_.resize(values_.size());
+    lowest_.assign(values_.size(), std::numeric_limits<T>::infinity());
+    record_.rise.assign(values_.size(), 0.0);
   }
 
   // Drift sees every step; `keep` adds a row to the series, `structure` a residual to the row.
   void observe(const T& t, const std::vector<T>& z, bool keep, bool structure) {
     if (!values_.empty()) problem_.invariants(t, z, values_);
     if (initial_.empty()) initial_ = values_;
-    std::size_t k = 0;
-    for (std::size_t i = 0; i < values_.size(); ++i)
-      if (run_.model->invariants()[i].behaviour == Behaviour::conserved)
-        drift_[k++].add(static_cast<double>(t), static_cast<double>(values_[i] - initial_[i]));
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+      drift_[i].add(static_cast<double>(t), static_cast<double>(values_[i] - initial_[i]));
+      lowest_[i] = std::min(lowest_[i], values_[i]);
+      record_.rise[i] = std::max(record_.rise[i], static_cast<double>(values_[i] - lowest_[i]));
+    }
     if (!keep) return;
     Sample sample{Quad(t), {z.begin(), z.end()}, {values_.begin(), values_.end()}, {}, {}};
     if (reference_ != nullptr) sample.error = relative_error(sample);
@@ -66,7 +68,7 @@ template <class T> class Observer {
   RunRecord& record_;
   Problem<T> problem_;
   std::optional<StructureResidual<T>> residual_;
-  std::vector<T> values_, initial_;
+  std::vector<T> values_, initial_, lowest_;
   std::vector<DriftAccumulator> drift_;
 };
 

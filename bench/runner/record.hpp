@@ -28,7 +28,8 @@ struct RunRecord {
   std::string message;  // why a run ended early, one line
   std::int64_t completed = 0;
   std::vector<Sample> samples;
-  std::vector<Drift> drift;  // one for each invariant expected to be conserved, in the model's order
+  std::vector<Drift> drift;  // one for each invariant, in the model's order; meant for those expected to be conserved
+  std::vector<double> rise;  // the largest rise of each above what it was before; for those expected to decrease
   std::optional<double> error_max, error_final, structure_residual;
   Counters counters;
 };

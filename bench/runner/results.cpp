@@ -69,7 +69,7 @@ std::string results_csv(const std::vector<ExperimentRun>& runs, const std::vecto
   std::vector<std::string> invariants;
   for (const nlohmann::json& s : summaries)
     for (const nlohmann::json& i : s["invariants"])
-      if (i["expected"] == "conserved" && std::find(invariants.begin(), invariants.end(), i["name"]) == invariants.end())
+      if (i["expected"] != "free" && std::find(invariants.begin(), invariants.end(), i["name"]) == invariants.end())
         invariants.push_back(i["name"]);
   std::ostringstream text;
   text << "case,system,method,integrator,parameters,step,time,steps,precision,status,message,error_max,error_final,"
@@ -135,8 +135,10 @@ std::string results_table(const fs::path& directory, const Experiment& experimen
     std::array<char, 160> line{};
     text << '\n' << c.title << "  (" << c.system << ", T = " << c.time << ")\n";
     const std::string drift = c.conserved.empty() ? "drift" : "drift of " + c.conserved;
-    std::snprintf(line.data(), line.size(), "%-15s %6s %9s %9s  %-34s %9s %9s\n", "method", "h", "error max",
-                  "final", (drift + ": max, slope, class").substr(0, 34).c_str(), "structure", "ns/step");
+    std::snprintf(line.data(), line.size(), "%-22s %19s  %-34s %9s %9s\n", "", "error", drift.c_str(), "structure", "cost");
+    text << line.data();
+    std::snprintf(line.data(), line.size(), "%-15s %6s %9s %9s  %-9s %-10s %-13s %9s %9s\n", "method", "h", "max",
+                  "final", "max", "slope", "class", "residual", "ns/step");
     text << line.data();
     for (std::size_t k = 0; k < runs.size(); ++k) {
       if (runs[k].which != &c) continue;
@@ -151,8 +153,10 @@ std::string results_table(const fs::path& directory, const Experiment& experimen
       std::string measured = "-";
       for (const nlohmann::json& i : s["invariants"])
         if (i["name"] == c.conserved && i.contains("max"))
-          measured = scientific(i["max"]) + "  " + number(i["slope"].get<double>(), "%+.1e") + "  " +
+          measured = scientific(i["max"]) + "   " + number(i["slope"].get<double>(), "%+.1e") + "   " +
                      i["class"].get<std::string>();
+        else if (i["name"] == c.conserved && i.contains("largest_rise"))
+          measured = "largest rise " + scientific(i["largest_rise"]);
       const auto cost = costs.find(cost_key(runs[k]));
       std::snprintf(line.data(), line.size(), "%-15.15s %6s %9s %9s  %-34s %9s %9s\n", runs[k].method->label.c_str(),
                     runs[k].step.c_str(), scientific(s["error_max"]).c_str(), scientific(s["error_final"]).c_str(),

@@ -65,7 +65,6 @@ nlohmann::json summary(const ResolvedRun& run, const RunRecord& record) {
   j["status"] = to_string(record.status);
   j["message"] = record.message;
   j["series"] = "series.csv";
-  std::size_t k = 0;
   j["invariants"] = nlohmann::json::array();
   for (std::size_t i = 0; i < run.model->invariants().size(); ++i) {
     const Invariant& invariant = run.model->invariants()[i];
@@ -73,7 +72,7 @@ nlohmann::json summary(const ResolvedRun& run, const RunRecord& record) {
                          {"expected", to_string(invariant.behaviour)}};
     if (!record.samples.empty()) entry["initial"] = static_cast<double>(record.samples.front().invariants[i]);
     if (invariant.behaviour == Behaviour::conserved) {
-      const Drift& d = record.drift[k++];
+      const Drift& d = record.drift[i];
       entry["max"] = d.maximum;
       entry["rms"] = d.rms;
       entry["final"] = d.final_value;
@@ -84,6 +83,8 @@ nlohmann::json summary(const ResolvedRun& run, const RunRecord& record) {
       entry["rate"] = optional(d.growth_rate);
       entry["class"] = to_string(d.drift_class);
       entry["samples"] = d.samples;
+    } else if (invariant.behaviour == Behaviour::decreasing) {
+      entry["largest_rise"] = record.rise[i];
     }
     j["invariants"].push_back(entry);
   }

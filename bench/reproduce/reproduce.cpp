@@ -1,0 +1,44 @@
+#include <pfaff/bench/reproduce/reproduce.hpp>
+
+#include <algorithm>
+
+#include <pfaff/core/registry/errors.hpp>
+
+namespace pfaff {
+
+std::vector<std::string> papers() { return {"su-qin"}; }
+
+std::vector<ReproducedRow> reproduce(const std::string& paper, const std::string& section) {
+  const std::vector<std::string> known = papers();
+  if (std::find(known.begin(), known.end(), paper) == known.end())
+    throw InputError(unknown_name("paper", paper, known));
+  std::vector<ReproducedRow> rows = reproduce_su_qin();
+  if (section.empty()) return rows;
+  std::vector<std::string> sections;
+  for (const ReproducedRow& row : rows)
+    if (std::find(sections.begin(), sections.end(), row.section) == sections.end()) sections.push_back(row.section);
+  if (std::find(sections.begin(), sections.end(), section) == sections.end())
+    throw InputError(unknown_name("section", section, sections));
+  std::erase_if(rows, [&](const ReproducedRow& row) { return row.section != section; });
+  return rows;
+}
+
+bool ok(const std::vector<ReproducedRow>& rows) {
+  return std::all_of(rows.begin(), rows.end(), [](const ReproducedRow& row) {
+    return row.status == "reproduced" || row.status == "erratum" || row.status == "qualitative";
+  });
+}
+
+nlohmann::json to_json(const std::string& paper, const std::vector<ReproducedRow>& rows) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const ReproducedRow& r : rows) {
+    nlohmann::json row{{"id", r.id}, {"section", r.section}, {"equation", r.equation}, {"printed", r.printed},
+                       {"ours", r.ours}, {"difference", r.difference}, {"tolerance", r.tolerance},
+                       {"status", r.status}};
+    row["erratum"] = r.erratum.empty() ? nlohmann::json(nullptr) : nlohmann::json(r.erratum);
+    list.push_back(row);
+  }
+  return {{"schema", 1}, {"paper", paper}, {"ok", ok(rows)}, {"rows", list}};
+}
+
+}  // namespace pfaff

@@ -1,0 +1,34 @@
+// Reproductions: what a paper prints, what we get, and what to call the difference.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace pfaff {
+
+/// One published value. Status: reproduced, erratum (names its entry), qualitative (the claim tested is stated), or
+/// failed.
+struct ReproducedRow {
+  std::string id, section, equation;
+  std::string printed, ours;
+  double difference = 0, tolerance = 0;
+  std::string status;
+  std::string erratum;  // the entry in the list of misprints, or the claim tested
+};
+
+/// Papers that can be reproduced.
+std::vector<std::string> papers();
+
+/// The rows of a paper, of one section or of all (empty). InputError for unknown names.
+std::vector<ReproducedRow> reproduce(const std::string& paper, const std::string& section);
+
+nlohmann::json to_json(const std::string& paper, const std::vector<ReproducedRow>& rows);
+/// True when every row is reproduced, an erratum shown to be one, or qualitative.
+bool ok(const std::vector<ReproducedRow>& rows);
+
+/// Su & Qin, section 5: the damped oscillator.
+std::vector<ReproducedRow> reproduce_su_qin();
+
+}  // namespace pfaff

@@ -1,0 +1,267 @@
+// The claims of systems and brackets: that what was written agrees with what is derived, that structures are what they
+// are said to be, that invariants and exact solutions are right. Measured at random points with a fixed seed.
+#include <cmath>
+#include <random>
+
+#include <pfaff/bench/measure/reference.hpp>
+#include <pfaff/bench/verification/check.hpp>
+#include <pfaff/core/bracket.hpp>
+#include <pfaff/core/tape/derivatives.hpp>
+#include <pfaff/core/tape/replay.hpp>
+
+namespace pfaff {
+
+namespace {
+
+using Arguments = std::span<const Recorded>;
+using Results = std::span<Recorded>;
+constexpr int points = 20;
+
+Check named(const std::string& plugin, const std::string& claim, const std::string& system, const char* precision,
+            double measured, double tolerance) {
+  Check check;
+  check.plugin = plugin;
+  check.claim = claim;
+  check.scope = "every point";
+  check.system = system;
+  check.precision = precision;
+  check.measured = measured;
+  check.tolerance = tolerance;
+  check.result = measured <= tolerance ? CheckResult::pass : CheckResult::fail;
+  return check;
+}
+
+// Largest value of a tape's outputs at random states within 1/20 of the model's generic state.
+template <class T> T largest(const std::shared_ptr<const Tape>& tape, const std::vector<Real>& centre) {
+  std::mt19937_64 random(20041);
+  std::uniform_real_distribution<double> offset(-0.05, 0.05);
+  Replay<T> replay(tape);
+  std::vector<T> z(centre.size()), out(tape->outputs.size());
+  T worst(0);
+  for (int k = 0; k < points; ++k) {
+    for (std::size_t i = 0; i < z.size(); ++i) z[i] = T(centre[i]) + T(offset(random));
+    replay(T(1 + offset(random)), z.data(), out.data());
+    for (const T& x : out) worst = isnan(x) ? x : std::max(worst, abs(x));
+  }
+  return worst;
+}
+
+// A tape made of recorded expressions of (t, z).
+template <class F> std::shared_ptr<const Tape> expression(int inputs, int outputs, F&& f) {
+  return std::make_shared<const Tape>(record(inputs, outputs, std::forward<F>(f)));
+}
+
+void both(std::vector<Check>& checks, const std::string& plugin, const std::string& claim, const std::string& system,
+          const std::shared_ptr<const Tape>& residual, const std::vector<Real>& centre) {
+  // A handful of operations on numbers of order one to ten, their derivatives included.
+  checks.push_back(named(plugin, claim, system, "double", largest<double>(residual, centre), 1e-13));
+  checks.push_back(named(plugin, claim, system, "quad", static_cast<double>(largest<Quad>(residual, centre)), 1e-31));
+}
+
+// [Pi, Pi]^{ijk} = sum_l Pi^il d_l Pi^jk + cyclic, and the symmetric part, as tapes.
+std::shared_ptr<const Tape> jacobiator(const Tape& tensor, int n) {
+  const auto size = static_cast<std::size_t>(n);
+  return expression(n, n * n * n, [&](const Recorded& t, Arguments z, Results out) {
+    const auto pi = evaluate(tensor, t, z);
+    const auto slope = jacobian(tensor, t, z);  // slope[(i n + j) n + l]
+    for (std::size_t i = 0; i < size; ++i)
+      for (std::size_t j = 0; j < size; ++j)
+        for (std::size_t k = 0; k < size; ++k) {
+          Recorded sum(0);
+          for (std::size_t l = 0; l < size; ++l)
+            sum = sum + pi[i * size + l] * slope[(j * size + k) * size + l] +
+                  pi[j * size + l] * slope[(k * size + i) * size + l] + pi[k * size + l] * slope[(i * size + j) * size + l];
+          out[(i * size + j) * size + k] = sum;
+        }
+  });
+}
+std::shared_ptr<const Tape> symmetric_part(const Tape& tensor, int n) {
+  const auto size = static_cast<std::size_t>(n);
+  return expression(n, n * n, [&](const Recorded& t, Arguments z, Results out) {
+    const auto pi = evaluate(tensor, t, z);
+    for (std::size_t i = 0; i < size; ++i)
+      for (std::size_t j = 0; j < size; ++j) out[i * size + j] = pi[i * size + j] + pi[j * size + i];
+  });
+}
+
+void invariants(std::vector<Check>& checks, const SystemPlugin& plugin, const Model& model) {
+  const auto& list = model.invariants();
+  if (list.empty()) return;
+  const int n = model.dimension();
+  const auto values = model.tape(Formula::invariants), field = model.tape(Formula::field);
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    // dI/dt along the field.
+    const auto rate = expression(n, 1, [&](const Recorded& t, Arguments z, Results out) {
+      const auto x = evaluate(*field, t, z);
+      out[0] = directional_derivative(*values, t, Recorded(1), z, x)[k];
+    });
+    if (list[k].behaviour == Behaviour::conserved) {
+      both(checks, plugin.name(), "conserves " + list[k].name, plugin.name(), rate, generic_state(model));
+    } else if (list[k].behaviour == Behaviour::decreasing || list[k].behaviour == Behaviour::increasing) {
+      const bool falls = list[k].behaviour == Behaviour::decreasing;
+      // The positive part of the forbidden sign.
+      const auto wrong = expression(n, 1, [&](const Recorded& t, Arguments z, Results out) {
+        const Recorded r = evaluate(*rate, t, z)[0];
+        out[0] = falls ? select(r, r, Recorded(0)) : select(r, Recorded(0), -r);
+      });
+      both(checks, plugin.name(), (falls ? "decreases " : "increases ") + list[k].name, plugin.name(), wrong,
+           generic_state(model));
+    }
+  }
+}
+
+// The exact solution satisfies the differential equation and starts where it should.
+void exact_solution(std::vector<Check>& checks, const SystemPlugin& plugin, const Model& model) {
+  const int n = model.dimension();
+  const auto size = static_cast<std::size_t>(n);
+  const auto solution = model.tape(Formula::exact_solution), field = model.tape(Formula::field);
+  std::vector<Real> centre = generic_state(model);
+  centre.push_back(Real(0));
+  const auto defect = expression(n + 1, 2 * n, [&](const Recorded& s, Arguments z, Results out) {
+    const auto state = evaluate(*solution, s, z);
+    const auto rate = time_derivative(*solution, s, z);
+    const auto x = evaluate(*field, z[size] + s, state);
+    const auto start = evaluate(*solution, Recorded(0), z);
+    for (std::size_t k = 0; k < size; ++k) {
+      out[k] = rate[k] - x[k];
+      out[size + k] = start[k] - z[k];
+    }
+  });
+  both(checks, plugin.name(), "exact solution", plugin.name(), defect, centre);
+}
+
+void darboux(std::vector<Check>& checks, const SystemPlugin& plugin, const Model& model) {
+  const int n = model.dimension();
+  const auto size = static_cast<std::size_t>(n), half = size / 2;
+  const auto chart = model.tape(Formula::chart), inverse = model.tape(Formula::chart_inverse);
+  const auto structure = model.tape(Formula::structure);
+  // Y_z^T K_c Y_z - K with K_c = [[0, -I], [I, 0]].
+  const auto pulled_back = expression(n, n * n, [&](const Recorded& t, Arguments z, Results out) {
+    const auto y = jacobian(*chart, t, z);
+    const auto k = evaluate(*structure, t, z);
+    for (std::size_t i = 0; i < size; ++i)
+      for (std::size_t j = 0; j < size; ++j) {
+        out[i * size + j] = -k[i * size + j];
+        for (std::size_t a = 0; a < half; ++a)
+          out[i * size + j] = out[i * size + j] + y[(half + a) * size + i] * y[a * size + j] -
+                              y[a * size + i] * y[(half + a) * size + j];
+      }
+  });
+  both(checks, plugin.name(), "chart is Darboux", plugin.name(), pulled_back, generic_state(model));
+  const auto round_trip = expression(n, n, [&](const Recorded& t, Arguments z, Results out) {
+    const auto back = evaluate(*inverse, t, evaluate(*chart, t, z));
+    for (std::size_t k = 0; k < size; ++k) out[k] = back[k] - z[k];
+  });
+  both(checks, plugin.name(), "chart inverse", plugin.name(), round_trip, generic_state(model));
+  // The field in the chart is the field: Y_z X + Y_t.
+  const auto field = model.tape(Formula::field), in_chart = model.tape(Formula::chart_field);
+  const auto carried = expression(n, n, [&](const Recorded& t, Arguments z, Results out) {
+    const auto x = evaluate(*field, t, z);
+    const auto moved = directional_derivative(*chart, t, Recorded(1), z, x);
+    const auto y = evaluate(*in_chart, t, evaluate(*chart, t, z));
+    for (std::size_t k = 0; k < size; ++k) out[k] = moved[k] - y[k];
+  });
+  both(checks, plugin.name(), "field in the chart", plugin.name(), carried, generic_state(model));
+}
+
+}  // namespace
+
+std::vector<Check> check_system(const SystemPlugin& plugin) {
+  const auto model = plugin.make({});
+  const int n = model->dimension();
+  std::vector<Check> checks;
+  const std::vector<Real> centre = generic_state(*model);
+  // What the author wrote against what is derived without it.
+  constexpr std::array<std::pair<Formula, const char*>, 4> overrides{{{Formula::field, "field"},
+                                                                      {Formula::force, "force"},
+                                                                      {Formula::velocity, "velocity"},
+                                                                      {Formula::chart_field, "chart field"}}};
+  for (const auto& [formula, name] : overrides) {
+    if (!model->given(formula)) continue;
+    const auto derived = model->derived(formula);
+    if (derived == nullptr) continue;
+    const auto given = model->tape(formula);
+    const auto difference =
+        expression(given->inputs, static_cast<int>(given->outputs.size()), [&](const Recorded& t, Arguments z, Results out) {
+          const auto a = evaluate(*given, t, z), b = evaluate(*derived, t, z);
+          for (std::size_t k = 0; k < a.size(); ++k) out[k] = a[k] - b[k];
+        });
+    const std::vector<Real> where(centre.begin(), centre.begin() + given->inputs);
+    both(checks, plugin.name(), std::string("written ") + name + " is the derived one", plugin.name(), difference, where);
+  }
+  if (model->facets().has(Facet::hamiltonian) || model->facets().has(Facet::birkhoffian)) {
+    const auto tensor = model->tape(Formula::poisson_tensor);
+    both(checks, plugin.name(), "bracket is skew", plugin.name(), symmetric_part(*tensor, n), centre);
+    both(checks, plugin.name(), "Jacobi identity", plugin.name(), jacobiator(*tensor, n), centre);
+  }
+  if (model->facets().has(Facet::darboux_chart)) darboux(checks, plugin, *model);
+  invariants(checks, plugin, *model);
+  if (model->facets().has(Facet::exact_solution)) exact_solution(checks, plugin, *model);
+  return checks;
+}
+
+namespace {
+// The tensor of a sharp map, column by column.
+std::shared_ptr<const Tape> tensor_of(const Tape& sharp, int n) {
+  const auto size = static_cast<std::size_t>(n);
+  return expression(n, n * n, [&](const Recorded& t, Arguments z, Results out) {
+    for (std::size_t j = 0; j < size; ++j) {
+      std::vector<Recorded> x(z.begin(), z.end());
+      x.resize(2 * size);
+      x[size + j] = Recorded(1);
+      const auto column = evaluate(sharp, t, x);
+      for (std::size_t i = 0; i < size; ++i) out[i * size + j] = column[i];
+    }
+  });
+}
+std::vector<Real> bracket_point(int n) {
+  std::vector<Real> z;
+  for (int k = 0; k < n; ++k) z.push_back(Real::fraction(3 + 2 * k, 7));
+  return z;
+}
+}  // namespace
+
+std::vector<Check> check_bracket(const std::string& name) {
+  const BracketPlugin& plugin = brackets().get(name, "bracket");
+  const BracketInstance bracket = plugin.make({});
+  const auto tensor = tensor_of(*bracket.sharp, bracket.dimension);
+  std::vector<Check> checks;
+  const std::vector<Real> centre = bracket_point(bracket.dimension);
+  if (plugin.descriptor().symmetry == Symmetry::skew)
+    both(checks, name, "skew", "", symmetric_part(*tensor, bracket.dimension), centre);
+  if (plugin.descriptor().jacobi)
+    both(checks, name, "Jacobi identity", "", jacobiator(*tensor, bracket.dimension), centre);
+  return checks;
+}
+
+std::vector<Check> check_false_brackets() {
+  std::vector<Check> checks;
+  // {f, g} = a.(grad f x grad g) obeys Jacobi exactly when a.curl a = 0; here a = (y, -x, 1), a.curl a = -2.
+  const auto twisted = record(3, 9, [](const Recorded&, Arguments z, Results out) {
+    const std::array<Recorded, 3> a{z[1], -z[0], Recorded(1)};
+    out[1] = a[2];
+    out[3] = -a[2];
+    out[5] = a[0];
+    out[7] = -a[0];
+    out[6] = a[1];
+    out[2] = -a[1];
+  });
+  const auto lopsided = record(2, 4, [](const Recorded&, Arguments z, Results out) {
+    out[1] = z[0];
+    out[2] = z[0] * Recorded(Real::fraction(-999999, 1000000));
+  });
+  const auto control = [&](const char* plugin, const char* claim, double measured) {
+    Check check = named(plugin, claim, "", "quad", measured, 1e-31);
+    check.scope = "control";
+    check.control = true;
+    check.result = measured <= check.tolerance ? CheckResult::pass : CheckResult::rejected;
+    checks.push_back(check);
+  };
+  control("bracket a x grad, a.curl a = -2", "Jacobi identity",
+          static_cast<double>(largest<Quad>(jacobiator(twisted, 3), bracket_point(3))));
+  control("bracket skew but for 1e-6", "skew",
+          static_cast<double>(largest<Quad>(symmetric_part(lopsided, 2), bracket_point(2))));
+  return checks;
+}
+
+}  // namespace pfaff
