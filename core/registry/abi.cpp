@@ -20,19 +20,18 @@ bool read_at(std::ifstream& file, std::uint64_t offset, void* to, std::uint64_t 
   return file && static_cast<std::uint64_t>(file.gcount()) == count;
 }
 
-// Adds the texts of Pfaff's notes among the notes in `bytes`.
+// Adds the texts of Pfaff's notes among the notes in `bytes`. Notes are looked for at every word instead of being
+// followed from one to the next, so that padding between them, as compilers and sanitizers add it, hides none.
 void collect_stamps(const std::vector<char>& bytes, std::vector<std::string>& stamps) {
-  const auto padded = [](std::size_t size) { return (size + 3) / 4 * 4; };
-  ElfW(Nhdr) note;
-  for (std::size_t at = 0; at + sizeof note <= bytes.size();) {
+  constexpr std::size_t owner_room = 8;
+  for (std::size_t at = 0; at + sizeof(ElfW(Nhdr)) + owner_room <= bytes.size(); at += 4) {
+    ElfW(Nhdr) note;
     std::memcpy(&note, bytes.data() + at, sizeof note);
-    const std::size_t owner = at + sizeof note, text = owner + padded(note.n_namesz);
-    if (text > bytes.size() || note.n_descsz > bytes.size() - text) return;
-    if (note.n_namesz == sizeof("Pfaff") && std::memcmp(bytes.data() + owner, "Pfaff", sizeof("Pfaff")) == 0) {
-      const std::string stamp(bytes.data() + text, note.n_descsz);
-      stamps.push_back(stamp.substr(0, stamp.find('\0')));
-    }
-    at = text + padded(note.n_descsz);
+    const char* owner = bytes.data() + at + sizeof note;
+    const std::size_t room = bytes.size() - at - sizeof note - owner_room;
+    if (note.n_namesz != sizeof("Pfaff") || std::memcmp(owner, "Pfaff", sizeof("Pfaff")) != 0) continue;
+    const std::string stamp(owner + owner_room, std::min<std::size_t>(note.n_descsz, room));
+    stamps.push_back(stamp.substr(0, stamp.find('\0')));
   }
 }
 

@@ -56,8 +56,8 @@ template <std::size_t size> struct AbiNote {
 };
 
 /// One in every translation unit that includes a plug-in header; kept although nothing refers to it.
-[[gnu::used, gnu::section(".note.pfaff")]] static constexpr AbiNote<sizeof(PFAFF_ABI_STAMP)> abi_note{
-    sizeof("Pfaff"), sizeof(PFAFF_ABI_STAMP), 1, "Pfaff", PFAFF_ABI_STAMP};
+[[gnu::used, gnu::section(".note.pfaff"), gnu::aligned(4)]] static constexpr AbiNote<sizeof(PFAFF_ABI_STAMP)>
+    abi_note{sizeof("Pfaff"), sizeof(PFAFF_ABI_STAMP), 1, "Pfaff", PFAFF_ABI_STAMP};
 
 /// The stamps in a shared object, one from each of its translation units, without loading it. InputError for files
 /// that cannot be read or are none.

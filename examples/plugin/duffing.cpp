@@ -1,0 +1,26 @@
+// The undamped Duffing oscillator, H = p^2/2 + alpha q^2/2 + beta q^4/4.
+#include <pfaff/core/system.hpp>
+
+namespace {
+using namespace pfaff;
+
+struct Duffing {
+  static constexpr int dimension = 2;
+  Real alpha = -1, beta = 1;
+  static std::vector<Parameter> parameters() {
+    return {parameter(&Duffing::alpha, "alpha", "1/s^2", -10, 10, "linear stiffness"),
+            parameter(&Duffing::beta, "beta", "1/(m s)^2", 0, 10, "cubic stiffness")};
+  }
+  template <class T> T kinetic(const T& /*t*/, In<T> p) const { return p[0] * p[0] / 2; }
+  template <class T> T potential(const T& /*t*/, In<T> q) const {
+    const T square = q[0] * q[0];
+    return alpha * square / 2 + beta * square * square / 4;
+  }
+};
+
+const System<Duffing> registered{{.name = "duffing",
+                                  .title = "Duffing oscillator, q'' + alpha q + beta q^3 = 0",
+                                  .reference = "duffing1918",
+                                  .coordinates = {{"q", "m"}, {"p", "m/s"}},
+                                  .initial = {0.5_r, 0}}};
+}  // namespace

@@ -1,0 +1,54 @@
+#!/usr/bin/env bash
+# What a researcher does: install Pfaff, build a plug-in and a program against it elsewhere, run both.
+#   out_of_tree_test.sh SOURCE BUILD CMAKE FLAGS
+set -euo pipefail
+source=$1
+build=$2
+cmake=$3
+flags=$4
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+
+fail() {
+  printf 'FAILED %s\n' "$*" >&2
+  exit 1
+}
+
+# Installed into a path with a space, then moved: the package finds itself wherever it is.
+"$cmake" --install "$build" --prefix "$scratch/first place" >/dev/null
+mv "$scratch/first place" "$scratch/moved here"
+prefix="$scratch/moved here"
+pfaff="$prefix/bin/pfaff"
+unset LD_LIBRARY_PATH PFAFF_PLUGIN_PATH
+
+for example in plugin program; do
+  "$cmake" -S "$source/examples/$example" -B "$scratch/$example" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" \
+    -DCMAKE_CXX_FLAGS="$flags" >"$scratch/log" 2>&1 || fail "$example: $(<"$scratch/log")"
+  "$cmake" --build "$scratch/$example" >"$scratch/log" 2>&1 || fail "$example: $(<"$scratch/log")"
+  if grep 'warning:' "$scratch/log"; then fail "$example: compiles with complaints"; fi
+done
+
+"$scratch/program/energy" >"$scratch/out"
+awk '$1 == "verlet" { verlet = $2 } $1 == "rk4" { rk4 = $2 }
+     END { exit !(verlet > 0 && verlet < 0.1 && rk4 > 3 * verlet) }' "$scratch/out" ||
+  fail "energy: $(<"$scratch/out")"
+
+plugin="$scratch/plugin/duffing.so"
+"$pfaff" list systems --plugin "$plugin" | grep -q '^ *duffing ' || fail "duffing is not listed"
+PFAFF_PLUGIN_PATH="$scratch/plugin" "$pfaff" list integrators | grep -q '^ *ralston ' || fail "ralston is not listed"
+"$pfaff" list systems | grep -q '^ *duffing ' && fail "duffing is listed without its plug-in"
+
+# The new integrator on the new system, against a method of the library at a tenth of the step: order 3.
+for run in 'ralston 0.02' 'ralston 0.01' 'rk4 0.001'; do
+  "$pfaff" run --plugin "$plugin" --system duffing --integrator "${run% *}" --step "${run#* }" --time 5 --out - |
+    tail -n 1 >>"$scratch/ends"
+done
+awk -F, '{ q[NR] = $2 } function size(x) { return x < 0 ? -x : x }
+         END { coarse = size(q[1] - q[3]); fine = size(q[2] - q[3]); ratio = coarse / fine
+               print "errors", coarse, fine, "ratio", ratio; exit !(fine < 1e-5 && ratio > 6.5 && ratio < 9.5) }' \
+  "$scratch/ends" || fail "ralston on duffing: $(<"$scratch/ends")"
+
+# The new integrator on a system of the library.
+"$pfaff" run --plugin "$plugin" --system henon-heiles --integrator ralston --step 0.1 --time 1 --out - >"$scratch/out"
+[[ $(wc -l <"$scratch/out") -ge 3 ]] || fail "ralston on henon-heiles: $(<"$scratch/out")"
+echo "out of tree: as expected"

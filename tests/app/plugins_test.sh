@@ -1,0 +1,76 @@
+#!/usr/bin/env bash
+# Plug-ins and the program: the templates load and register, files that do not fit are refused with exit status 2 and
+# one line on stderr before anything in them has run.   plugins_test.sh PROGRAM DIRECTORY
+set -euo pipefail
+pfaff=$1
+plugins=$2
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+export PFAFF_WITNESS="$scratch/loaded"
+failures=0
+
+fail() {
+  printf 'FAILED %s\n' "$*" >&2
+  failures=$((failures + 1))
+}
+
+# run_pfaff ARGUMENT...: leaves $status and the files out and err.
+run_pfaff() {
+  rm -f "$PFAFF_WITNESS"
+  status=0
+  "$pfaff" "$@" >"$scratch/out" 2>"$scratch/err" || status=$?
+}
+
+# refused NAME FILE TEXT: refused before loading, saying TEXT.
+refused() {
+  run_pfaff list systems --plugin "$2"
+  [[ $status == 2 ]] || fail "$1: exit status $status, expected 2"
+  [[ $(wc -l <"$scratch/err") == 1 ]] || fail "$1: expected one line, got: $(<"$scratch/err")"
+  [[ ! -s $scratch/out ]] || fail "$1: wrote to stdout"
+  grep -qF -- "$3" "$scratch/err" || fail "$1: expected '$3' in: $(<"$scratch/err")"
+  [[ ! -e $PFAFF_WITNESS ]] || fail "$1: was loaded"
+}
+
+# The control: the witness does leave its file when it is loaded.
+run_pfaff list systems --plugin "$plugins/fits.so"
+[[ $status == 0 && -e $PFAFF_WITNESS ]] || fail "fits.so: was not loaded: $(<"$scratch/err")"
+
+refused other-version "$plugins/other-version.so" 'built for pfaff=0.0.9; expected pfaff='
+refused two-stamps "$plugins/two-stamps.so" 'built for pfaff=0.0.8; expected pfaff='
+refused no-stamp "$plugins/no-stamp.so" 'has no Pfaff ABI stamp'
+refused fast-math "$plugins/fast-math.so" 'built for arithmetic=fast; expected arithmetic=strict'
+if [[ -e $plugins/other-alignment.so ]]; then
+  refused other-alignment "$plugins/other-alignment.so" 'built for alignment='
+fi
+refused missing "$scratch/missing.so" 'cannot be read'
+refused directory "$scratch" 'expected a shared object'
+printf 'pfaff-abi-stamp\n' >"$scratch/text.so"
+refused text "$scratch/text.so" 'expected a shared object'
+head -c 100 "$plugins/fits.so" >"$scratch/short.so"
+refused short "$scratch/short.so" 'plug-in'
+
+# In a directory of PFAFF_PLUGIN_PATH the same holds, and what fits loads from there.
+mkdir "$scratch/good" "$scratch/bad dir"
+cp "$plugins/fits.so" "$scratch/good"
+cp "$plugins/other-version.so" "$scratch/bad dir"
+PFAFF_PLUGIN_PATH="$scratch/good" run_pfaff list systems
+[[ $status == 0 && -e $PFAFF_WITNESS ]] || fail "PFAFF_PLUGIN_PATH: not loaded: $(<"$scratch/err")"
+PFAFF_PLUGIN_PATH="$scratch/bad dir" run_pfaff list systems
+[[ $status == 2 && ! -e $PFAFF_WITNESS ]] || fail "PFAFF_PLUGIN_PATH: exit status $status for a file that does not fit"
+PFAFF_PLUGIN_PATH="$scratch/nowhere" run_pfaff list systems
+[[ $status == 2 ]] || fail "PFAFF_PLUGIN_PATH: exit status $status for a directory that is not there"
+
+# The templates register, run together, and cannot be registered from two files.
+for kind in system integrator bracket; do
+  run_pfaff list "${kind}s" --plugin "$plugins/templates.so"
+  grep -q "template-$kind " "$scratch/out" || fail "template-$kind is not listed"
+done
+run_pfaff run --plugin "$plugins/templates.so" --system template-system --integrator template-integrator \
+  --step 0.1 --time 1 --out -
+[[ $status == 0 && $(wc -l <"$scratch/out") -ge 3 ]] || fail "the templates do not run: $(<"$scratch/err")"
+cp "$plugins/templates.so" "$scratch/copy.so"
+run_pfaff list systems --plugin "$plugins/templates.so" --plugin "$scratch/copy.so"
+[[ $status == 2 ]] || fail "two copies of the templates: exit status $status, expected 2"
+grep -q 'registered twice' "$scratch/err" || fail "two copies of the templates: $(<"$scratch/err")"
+
+[[ $failures == 0 ]] && echo "plug-ins: as expected"
