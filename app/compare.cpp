@@ -15,21 +15,27 @@ int compare(const std::vector<std::string>& names, bool quick, const std::string
   for (const std::string& name : names) {
     const Experiment experiment = read_experiment(name, quick);
     std::filesystem::path directory = out;
-    if (out.empty()) directory = std::filesystem::path("pfaff-out") / (experiment.name + (quick ? "-quick" : ""));
+    if (out.empty())
+      directory = std::filesystem::path("pfaff-out") / (experiment.name + (quick ? "-quick" : ""));
     if (!out.empty() && names.size() > 1) directory /= experiment.name;
     ExperimentOutcome outcome;
     {
       ProgressLine line;
-      outcome = run_experiment(experiment, directory, [&](const std::string& what, std::size_t done, std::size_t all) {
-        line.show(what, all == 0 ? 1.0 : static_cast<double>(done) / static_cast<double>(all));
-      });
+      outcome = run_experiment(
+          experiment, directory, [&](const std::string& what, std::size_t done, std::size_t all) {
+            line.show(what, all == 0 ? 1.0 : static_cast<double>(done) / static_cast<double>(all));
+          });
     }
     failed = failed || outcome.failed == outcome.runs;
-    j["experiments"].push_back({{"name", experiment.name}, {"directory", directory.string()},
-                                {"runs", outcome.runs}, {"resumed", outcome.resumed}, {"failed", outcome.failed},
+    j["experiments"].push_back({{"name", experiment.name},
+                                {"directory", directory.string()},
+                                {"runs", outcome.runs},
+                                {"resumed", outcome.resumed},
+                                {"failed", outcome.failed},
                                 {"report", outcome.report.string()}});
     if (!json)
-      std::cout << experiment.title << '\n' << outcome.table << '\n'
+      std::cout << experiment.title << '\n'
+                << outcome.table << '\n'
                 << outcome.runs << " runs (" << outcome.resumed << " resumed, " << outcome.failed
                 << " ended early)\nresults  " << (directory / "results.csv").string() << "\nreport   "
                 << outcome.report.string() << '\n';
@@ -49,7 +55,8 @@ void add_compare(CLI::App& app, Common& common, Action& action) {
   sub->add_option("experiment", *names, "Name of one that ships (pfaff list experiments), or a TOML file");
   sub->add_flag("--all", *all, "Every experiment that ships");
   sub->add_flag("--quick", *quick, "Shorter horizons and fewer steps, to look at");
-  sub->add_option("--out", *out, "Directory of the results (default pfaff-out/NAME); resumed if it holds some");
+  sub->add_option("--out", *out,
+                  "Directory of the results (default pfaff-out/NAME); resumed if it holds some");
   sub->callback([=, &common, &action] {
     action = [=, &common] {
       if (*all == !names->empty()) throw InputError("compare: expected the name of an experiment, or --all");

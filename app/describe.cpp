@@ -16,7 +16,10 @@ nlohmann::json parameters_of(const Plugin& plugin, const Assignments& defaults) 
   nlohmann::json list = nlohmann::json::array();
   for (std::size_t k = 0; k < plugin.parameters().size(); ++k) {
     const Parameter& p = plugin.parameters()[k];
-    list.push_back({{"name", p.name}, {"default", defaults[k].second}, {"range", range_of(p)}, {"unit", p.unit},
+    list.push_back({{"name", p.name},
+                    {"default", defaults[k].second},
+                    {"range", range_of(p)},
+                    {"unit", p.unit},
                     {"meaning", p.meaning}});
   }
   return list;
@@ -24,12 +27,18 @@ nlohmann::json parameters_of(const Plugin& plugin, const Assignments& defaults) 
 
 nlohmann::json describe_system(const SystemPlugin& plugin) {
   const auto model = plugin.make({});
-  nlohmann::json j{{"kind", "system"}, {"name", plugin.name()}, {"title", plugin.descriptor().title},
-                   {"reference", plugin.descriptor().reference}, {"dimension", model->dimension()},
-                   {"time_unit", model->time_unit()}, {"facets", to_string(model->facets())},
-                   {"autonomous", model->autonomous()}, {"parameters", parameters_of(plugin, model->parameters())}};
+  nlohmann::json j{{"kind", "system"},
+                   {"name", plugin.name()},
+                   {"title", plugin.descriptor().title},
+                   {"reference", plugin.descriptor().reference},
+                   {"dimension", model->dimension()},
+                   {"time_unit", model->time_unit()},
+                   {"facets", to_string(model->facets())},
+                   {"autonomous", model->autonomous()},
+                   {"parameters", parameters_of(plugin, model->parameters())}};
   for (std::size_t k = 0; k < model->coordinates().size(); ++k)
-    j["coordinates"].push_back({{"name", model->coordinates()[k].name}, {"unit", model->coordinates()[k].unit},
+    j["coordinates"].push_back({{"name", model->coordinates()[k].name},
+                                {"unit", model->coordinates()[k].unit},
                                 {"initial", to_string(model->initial()[k])}});
   j["invariants"] = nlohmann::json::array();
   for (const Invariant& i : model->invariants())
@@ -42,34 +51,44 @@ nlohmann::json describe_system(const SystemPlugin& plugin) {
 
 nlohmann::json describe_method(const MethodPlugin& plugin) {
   const auto method = plugin.make({});
-  nlohmann::json j{{"kind", "integrator"}, {"name", plugin.name()}, {"title", plugin.descriptor().title},
-                   {"reference", plugin.descriptor().reference}, {"needs", to_string(method->needs())},
-                   {"adaptive", method->adaptive()}, {"parameters", parameters_of(plugin, method->parameters())}};
+  nlohmann::json j{{"kind", "integrator"},
+                   {"name", plugin.name()},
+                   {"title", plugin.descriptor().title},
+                   {"reference", plugin.descriptor().reference},
+                   {"needs", to_string(method->needs())},
+                   {"adaptive", method->adaptive()},
+                   {"parameters", parameters_of(plugin, method->parameters())}};
   j["systems"] = nlohmann::json::array();
   for (const SystemPlugin* system : systems().all()) {
     const auto model = system->make({});
     if (!method->refuses(*model).empty()) continue;
     nlohmann::json claims = nlohmann::json::array();
     for (const Claim claim : method->preserves(*model)) claims.push_back(to_string(claim));
-    j["systems"].push_back({{"name", system->name()}, {"order", method->order(*model)}, {"preserves", claims}});
+    j["systems"].push_back(
+        {{"name", system->name()}, {"order", method->order(*model)}, {"preserves", claims}});
   }
   return j;
 }
 
 nlohmann::json describe_bracket(const BracketPlugin& plugin) {
   const BracketInstance bracket = plugin.make({});
-  return {{"kind", "bracket"}, {"name", plugin.name()}, {"title", plugin.descriptor().title},
-          {"reference", plugin.descriptor().reference}, {"dimension", bracket.dimension},
-          {"symmetry", to_string(plugin.descriptor().symmetry)}, {"jacobi", plugin.descriptor().jacobi},
+  return {{"kind", "bracket"},
+          {"name", plugin.name()},
+          {"title", plugin.descriptor().title},
+          {"reference", plugin.descriptor().reference},
+          {"dimension", bracket.dimension},
+          {"symmetry", to_string(plugin.descriptor().symmetry)},
+          {"jacobi", plugin.descriptor().jacobi},
           {"parameters", parameters_of(plugin, bracket.parameters)}};
 }
 
 nlohmann::json describe_experiment(const std::string& name) {
   const Experiment e = read_experiment(name, false);
-  nlohmann::json j{{"kind", "experiment"}, {"name", e.name}, {"title", e.title}, {"description", e.description},
-                   {"reference", e.reference}, {"runs", expand(e).size()}};
+  nlohmann::json j{{"kind", "experiment"},         {"name", e.name},           {"title", e.title},
+                   {"description", e.description}, {"reference", e.reference}, {"runs", expand(e).size()}};
   for (const ExperimentMethod& m : e.methods) j["methods"].push_back(m.label);
-  for (const ExperimentCase& c : e.cases) j["cases"].push_back({{"name", c.name}, {"title", c.title}, {"steps", c.steps}});
+  for (const ExperimentCase& c : e.cases)
+    j["cases"].push_back({{"name", c.name}, {"title", c.title}, {"steps", c.steps}});
   return j;
 }
 
@@ -110,8 +129,8 @@ void print(const nlohmann::json& j) {
     std::cout << '\n' << key << '\n';
     std::vector<std::vector<std::string>> rows(1);
     std::vector<std::string> columns;  // the plug-in's own order of importance
-    for (const char* column : {"name", "initial", "default", "range", "order", "expected", "unit", "title", "steps",
-                               "preserves", "meaning"})
+    for (const char* column : {"name", "initial", "default", "range", "order", "expected", "unit", "title",
+                               "steps", "preserves", "meaning"})
       if (value[0].contains(column) && !(column == std::string("unit") && value[0].contains("range")))
         columns.emplace_back(column);
     for (const std::string& column : columns) rows[0].push_back(rows[0].empty() ? "  " + column : column);
@@ -157,7 +176,8 @@ int cite(const std::vector<std::string>& names, bool json) {
 }  // namespace
 
 void add_describe(CLI::App& app, Common& common, Action& action) {
-  CLI::App* sub = subcommand(app, common, "describe", "Everything about a system, an integrator, a bracket or an experiment");
+  CLI::App* sub = subcommand(app, common, "describe",
+                             "Everything about a system, an integrator, a bracket or an experiment");
   auto name = std::make_shared<std::string>();
   sub->add_option("name", *name, "Its name, as in pfaff list")->required();
   sub->callback([name, &common, &action] {
@@ -178,7 +198,8 @@ void add_cite(CLI::App& app, Common& common, Action& action) {
   CLI::App* sub = subcommand(app, common, "cite", "BibTeX entries behind a plug-in, an experiment or a key");
   auto names = std::make_shared<std::vector<std::string>>();
   sub->add_option("name", *names, "Names or keys")->required();
-  sub->callback([names, &common, &action] { action = [names, &common] { return cite(*names, common.json); }; });
+  sub->callback(
+      [names, &common, &action] { action = [names, &common] { return cite(*names, common.json); }; });
 }
 
 }  // namespace pfaff::app

@@ -12,7 +12,8 @@ namespace pfaff::app {
 namespace {
 using Rows = std::vector<std::pair<std::string, std::string>>;  // name, title
 
-template <class P> Rows rows_of(const Registry<P>& registry) {
+template <class P>
+Rows rows_of(const Registry<P>& registry) {
   Rows rows;
   for (const P* plugin : registry.all()) rows.emplace_back(plugin->name(), plugin->descriptor().title);
   return rows;
@@ -23,7 +24,8 @@ Rows rows_of_kind(const std::string& kind) {
   if (kind == "integrators") return rows_of(integrators());
   if (kind == "brackets") return rows_of(brackets());
   Rows rows;
-  for (const std::string& name : experiment_names()) rows.emplace_back(name, read_experiment(name, false).title);
+  for (const std::string& name : experiment_names())
+    rows.emplace_back(name, read_experiment(name, false).title);
   return rows;
 }
 

@@ -1,7 +1,7 @@
 // The program `pfaff`.
 //
-// Exit status: 0 fine, 1 a check failed or a run ended early, 2 wrong usage or input. Nothing but the result goes to
-// stdout; errors are one line on stderr.
+// Exit status: 0 fine, 1 a check failed or a run ended early, 2 wrong usage or input. Nothing but the result
+// goes to stdout; errors are one line on stderr.
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
@@ -18,7 +18,8 @@ namespace pfaff::app {
 CLI::App* subcommand(CLI::App& app, Common& common, const std::string& name, const std::string& what) {
   CLI::App* sub = app.add_subcommand(name, what);
   sub->add_flag("--json", common.json, "Print JSON instead of text");
-  sub->add_option("--plugin", common.plugins, "Load a plug-in's shared object; may be repeated")->type_name("FILE");
+  sub->add_option("--plugin", common.plugins, "Load a plug-in's shared object; may be repeated")
+      ->type_name("FILE");
   return sub;
 }
 
@@ -59,7 +60,8 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& error, int a
   std::vector<std::string> commands;
   for (const CLI::App* sub : app.get_subcommands(nullptr)) commands.push_back(sub->get_name());
   const std::string command = argc > 1 ? argv[1] : "";
-  if (command.empty()) return "a command is missing; expected one of: list, describe, run, compare, reproduce, verify";
+  if (command.empty())
+    return "a command is missing; expected one of: list, describe, run, compare, reproduce, verify";
   if (command[0] != '-' && std::find(commands.begin(), commands.end(), command) == commands.end())
     return unknown_name("command", command, commands);
   if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError)) {

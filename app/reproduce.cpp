@@ -19,7 +19,9 @@ int run(const std::string& paper, const std::string& section, bool json) {
       continue;
     }
     std::vector<std::vector<std::string>> lines{{"published", "printed", "ours", "difference", "status"}};
-    const auto shortened = [](const std::string& text) { return text.size() > 20 ? text.substr(0, 18) + ".." : text; };
+    const auto shortened = [](const std::string& text) {
+      return text.size() > 20 ? text.substr(0, 18) + ".." : text;
+    };
     int reproduced = 0, errata = 0, qualitative = 0;
     for (const ReproducedRow& r : rows) {
       std::array<char, 32> difference{};
@@ -34,20 +36,23 @@ int run(const std::string& paper, const std::string& section, bool json) {
     std::cout << name << '\n' << table(lines);
     for (const ReproducedRow& r : rows)
       if (!r.erratum.empty()) std::cout << r.status << "  " << r.id << ": " << r.erratum << '\n';
-    std::cout << '\n' << rows.size() << " rows: " << reproduced << " reproduced, " << errata << " errata, " << qualitative
-              << " qualitative" << (ok(rows) ? "" : ", the rest FAILED") << '\n';
+    std::cout << '\n'
+              << rows.size() << " rows: " << reproduced << " reproduced, " << errata << " errata, "
+              << qualitative << " qualitative" << (ok(rows) ? "" : ", the rest FAILED") << '\n';
   }
   return good ? 0 : 1;
 }
 }  // namespace
 
 void add_reproduce(CLI::App& app, Common& common, Action& action) {
-  CLI::App* sub = subcommand(app, common, "reproduce", "Published values beside ours: reproduced, erratum or qualitative");
+  CLI::App* sub = subcommand(app, common, "reproduce",
+                             "Published values beside ours: reproduced, erratum or qualitative");
   auto paper = std::make_shared<std::string>();
   auto section = std::make_shared<std::string>();
   sub->add_option("paper", *paper, "su-qin; all of them without");
   sub->add_option("--section", *section, "One section only");
-  sub->callback([=, &common, &action] { action = [=, &common] { return run(*paper, *section, common.json); }; });
+  sub->callback(
+      [=, &common, &action] { action = [=, &common] { return run(*paper, *section, common.json); }; });
 }
 
 }  // namespace pfaff::app

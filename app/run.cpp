@@ -43,8 +43,21 @@ void read_state(const std::string& path, RunSettings& settings) {
 }
 
 int run(Options options, bool json) {
-  options.settings.set = parse_settings(options.set);
-  options.settings.precision = parse_precision(options.precision);
+  if (!options.config.empty()) {
+    RunSettings from_file = read_config(options.config);
+    if (!options.settings.system.empty() || !options.settings.integrator.empty() ||
+        !options.settings.time.empty() || !options.settings.step.empty() || !options.set.empty() ||
+        !options.settings.tolerance.empty())
+      throw InputError("--config holds the whole run; expected no other settings beside it");
+    options.settings = std::move(from_file);
+  } else {
+    if (options.settings.system.empty()) throw InputError("--system is missing (see pfaff list systems)");
+    if (options.settings.integrator.empty())
+      throw InputError("--integrator is missing (see pfaff list integrators)");
+    if (options.settings.time.empty()) throw InputError("--time is missing: the duration of the run");
+    options.settings.set = parse_settings(options.set);
+    options.settings.precision = parse_precision(options.precision);
+  }
   if (!options.state.empty()) read_state(options.state, options.settings);
   const ResolvedRun resolved = resolve(options.settings);
   const bool to_stdout = options.out == "-";
@@ -54,13 +67,15 @@ int run(Options options, bool json) {
   if (resolved.model->facets().has(Facet::exact_solution)) {
     std::vector<Quad> initial;
     for (const Real& x : resolved.initial) initial.push_back(x.quad());
-    reference = std::make_unique<ReferenceSolution>(resolved.model, resolved.t0.quad(), initial, resolved.time.quad());
+    reference = std::make_unique<ReferenceSolution>(resolved.model, resolved.t0.quad(), initial,
+                                                    resolved.time.quad());
   }
   RunRecord record;
   {
     ProgressLine line;
-    record = execute(resolved, reference.get(),
-                     [&](double fraction) { line.show(resolved.model->name() + ", " + options.settings.integrator, fraction); });
+    record = execute(resolved, reference.get(), [&](double fraction) {
+      line.show(resolved.model->name() + ", " + options.settings.integrator, fraction);
+    });
   }
   if (to_stdout) {
     std::cout << series_csv(resolved, record);
@@ -74,19 +89,23 @@ int run(Options options, bool json) {
       std::cout << j.dump(1) << '\n';
     } else {
       std::vector<std::vector<std::string>> rows{
-          {"status", std::string(to_string(record.status)) + " after " + std::to_string(record.completed) + " steps"}};
+          {"status",
+           std::string(to_string(record.status)) + " after " + std::to_string(record.completed) + " steps"}};
       const auto scientific = [](double x) {
         char text[32];
         std::snprintf(text, sizeof text, "%.3g", x);
         return std::string(text);
       };
       if (record.error_max)
-        rows.push_back({"error", "max " + scientific(*record.error_max) + ", final " + scientific(*record.error_final)});
-      if (record.structure_residual) rows.push_back({"structure", "residual " + scientific(*record.structure_residual)});
+        rows.push_back(
+            {"error", "max " + scientific(*record.error_max) + ", final " + scientific(*record.error_final)});
+      if (record.structure_residual)
+        rows.push_back({"structure", "residual " + scientific(*record.structure_residual)});
       for (const auto& i : j["invariants"])
         if (i.contains("max"))
-          rows.push_back({i["name"], "drift max " + scientific(i["max"]) + ", rms " + scientific(i["rms"]) + ", slope " +
-                                         scientific(i["slope"]) + ", " + i["class"].get<std::string>()});
+          rows.push_back({i["name"], "drift max " + scientific(i["max"]) + ", rms " + scientific(i["rms"]) +
+                                         ", slope " + scientific(i["slope"]) + ", " +
+                                         i["class"].get<std::string>()});
       rows.push_back({"written", options.out + "/{config.toml, series.csv, summary.json}"});
       std::cout << table(rows);
     }
@@ -105,22 +124,28 @@ void add_run(CLI::App& app, Common& common, Action& action) {
   CLI::App* sub = subcommand(app, common, "run", "Integrate one system with one method");
   auto options = std::make_shared<Options>();
   RunSettings& s = options->settings;
-  sub->add_option("--system", s.system, "Name of the system")->required();
-  sub->add_option("--integrator", s.integrator, "Name of the integrator")->required();
+  sub->add_option("--system", s.system, "Name of the system");
+  sub->add_option("--integrator", s.integrator, "Name of the integrator");
   sub->add_option("--step", s.step, "Step h > 0");
-  sub->add_option("--tolerance", s.tolerance, "Absolute and relative tolerance, for methods that choose their steps");
-  sub->add_option("--time", s.time, "Duration of the run")->required();
+  sub->add_option("--tolerance", s.tolerance,
+                  "Absolute and relative tolerance, for methods that choose their steps");
+  sub->add_option("--time", s.time, "Duration of the run");
   sub->add_option("--every", s.every, "Sample every k-th step (default: about a thousand samples)")
       ->check(CLI::PositiveNumber);
-  sub->add_option("--set", options->set, "KEY=VALUE: a parameter (nu=0.3, integrator.order=4) or initial=a,b,...")
+  sub->add_option("--set", options->set,
+                  "KEY=VALUE: a parameter (nu=0.3, integrator.order=4) or initial=a,b,...")
       ->type_name("KEY=VALUE")
       ->expected(1)
       ->take_all();
-  sub->add_option("--state", options->state, "JSON file with the initial state: t, and z or q and p")->type_name("FILE");
+  sub->add_option("--state", options->state, "JSON file with the initial state: t, and z or q and p")
+      ->type_name("FILE");
   sub->add_option("--precision", options->precision, "double or quad");
+  sub->add_option("--config", options->config, "config.toml of an earlier run, to run it again")
+      ->type_name("FILE");
   sub->add_option("--out", options->out, "New directory for the run, or - for its series on standard output")
       ->required();
-  sub->callback([options, &common, &action] { action = [options, &common] { return run(*options, common.json); }; });
+  sub->callback(
+      [options, &common, &action] { action = [options, &common] { return run(*options, common.json); }; });
 }
 
 }  // namespace pfaff::app

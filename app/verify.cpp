@@ -37,12 +37,14 @@ void print(const std::vector<Check>& checks) {
   for (const Check& c : checks) {
     if (!good(c))
       failures.push_back({"  " + c.plugin + parameters_of(c), c.claim, c.system, c.precision,
-                          "measured " + scientific(c.measured) + ", expected " + scientific(c.expected) + " within " +
-                              scientific(c.tolerance) + (c.reason.empty() ? "" : " (" + c.reason + ")")});
+                          "measured " + scientific(c.measured) + ", expected " + scientific(c.expected) +
+                              " within " + scientific(c.tolerance) +
+                              (c.reason.empty() ? "" : " (" + c.reason + ")")});
     if (c.control) {
-      controls.push_back({"  " + c.plugin + parameters_of(c) + ": " + c.claim, c.system, scientific(c.measured),
-                          c.claim.starts_with("order") ? scientific(c.expected) : "<= " + scientific(c.tolerance),
-                          std::string(to_string(c.result))});
+      controls.push_back(
+          {"  " + c.plugin + parameters_of(c) + ": " + c.claim, c.system, scientific(c.measured),
+           c.claim.starts_with("order") ? scientific(c.expected) : "<= " + scientific(c.tolerance),
+           std::string(to_string(c.result))});
       continue;
     }
     const std::array<std::string, 3> key{c.claim, c.system, c.precision};
@@ -56,14 +58,17 @@ void print(const std::vector<Check>& checks) {
       count.worst = std::max(count.worst, c.claim == "order" ? c.expected - c.measured : c.measured);
   }
   std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a < b; });
-  std::vector<std::vector<std::string>> rows{{"claim", "system", "precision", "pass", "fail", "outside", "worst in scope"}};
+  std::vector<std::vector<std::string>> rows{
+      {"claim", "system", "precision", "pass", "fail", "outside", "worst in scope"}};
   for (const auto& key : order) {
     const Count& n = counts[key];
-    rows.push_back({key[0], key[1].empty() ? "-" : key[1], key[2], std::to_string(n.passed), std::to_string(n.failed),
-                    std::to_string(n.measured), n.passed > 0 ? scientific(n.worst) : "-"});
+    rows.push_back({key[0], key[1].empty() ? "-" : key[1], key[2], std::to_string(n.passed),
+                    std::to_string(n.failed), std::to_string(n.measured),
+                    n.passed > 0 ? scientific(n.worst) : "-"});
   }
   std::cout << table(rows)
-            << "(outside: out of the claim's scope, measured but not judged; worst of order: claimed less measured)\n";
+            << "(outside: out of the claim's scope, measured but not judged; worst of order: claimed less "
+               "measured)\n";
   if (controls.size() > 1) {
     std::cout << "\ncontrols, false claims that must be rejected\n";
     // One line a plug-in and system is enough to read; every control is in --json.
@@ -88,7 +93,8 @@ int run(const std::vector<std::string>& names, bool full, bool json) {
       line.show(what, static_cast<double>(done) / static_cast<double>(all));
     });
   }
-  std::map<std::string, int> totals{{"pass", 0}, {"fail", 0}, {"measured", 0}, {"rejected", 0}, {"skipped", 0}};
+  std::map<std::string, int> totals{
+      {"pass", 0}, {"fail", 0}, {"measured", 0}, {"rejected", 0}, {"skipped", 0}};
   bool ok = true;
   for (const Check& c : checks) {
     ++totals[std::string(to_string(c.result))];
@@ -97,12 +103,14 @@ int run(const std::vector<std::string>& names, bool full, bool json) {
   if (json) {
     nlohmann::json list = nlohmann::json::array();
     for (const Check& c : checks) list.push_back(to_json(c));
-    std::cout << nlohmann::json{{"schema", 1}, {"ok", ok}, {"counts", totals}, {"checks", list}}.dump(1) << '\n';
+    std::cout << nlohmann::json{{"schema", 1}, {"ok", ok}, {"counts", totals}, {"checks", list}}.dump(1)
+              << '\n';
   } else {
     print(checks);
-    std::cout << '\n' << totals["pass"] << " pass, " << totals["fail"] << " fail, " << totals["measured"]
-              << " measured outside their scope, " << totals["rejected"] << " controls rejected: " << (ok ? "ok" : "NOT OK")
-              << '\n';
+    std::cout << '\n'
+              << totals["pass"] << " pass, " << totals["fail"] << " fail, " << totals["measured"]
+              << " measured outside their scope, " << totals["rejected"]
+              << " controls rejected: " << (ok ? "ok" : "NOT OK") << '\n';
   }
   return ok ? 0 : 1;
 }
@@ -113,7 +121,8 @@ void add_verify(CLI::App& app, Common& common, Action& action) {
   CLI::App* sub = subcommand(app, common, "verify", "Test every claim of every plug-in, in double and quad");
   auto names = std::make_shared<std::vector<std::string>>();
   auto full = std::make_shared<bool>(false);
-  sub->add_option("name", *names, "Plug-ins, or systems, brackets, integrators, controls; everything without");
+  sub->add_option("name", *names,
+                  "Plug-ins, or systems, brackets, integrators, controls; everything without");
   sub->add_flag("--full", *full, "Higher orders and more variants");
   sub->callback([=, &common, &action] { action = [=, &common] { return run(*names, *full, common.json); }; });
 }

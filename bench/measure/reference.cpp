@@ -5,8 +5,10 @@
 namespace pfaff {
 
 TaylorExpansion::TaylorExpansion(const Model& model)
-    : n_(static_cast<std::size_t>(model.dimension())), series_(model.tape(Formula::field), order, 1),
-      coefficients_(n_ * (order + 1)), level_(n_) {}
+    : n_(static_cast<std::size_t>(model.dimension())),
+      series_(model.tape(Formula::field), order, 1),
+      coefficients_(n_ * (order + 1)),
+      level_(n_) {}
 
 void TaylorExpansion::expand(Quad t, const Quad* z) {
   const Quad one(1);
@@ -21,7 +23,8 @@ void TaylorExpansion::expand(Quad t, const Quad* z) {
 }
 
 Quad TaylorExpansion::safe_step() const {
-  // The radius of convergence from the last two degrees; e^-2.8 of it leaves e^{-2.8 * 28} = 8e-35 of the first term.
+  // The radius of convergence from the last two degrees; e^-2.8 of it leaves e^{-2.8 * 28} = 8e-35 of the
+  // first term.
   const auto size = [&](std::size_t degree) {
     Quad largest(0);
     for (std::size_t k = 0; k < n_; ++k) largest = std::max(largest, abs(coefficients_[degree * n_ + k]));

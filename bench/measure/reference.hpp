@@ -1,4 +1,5 @@
-// Reference solutions to 30 digits and more: the closed form where a system has one, else Taylor series in quad.
+// Reference solutions to 30 digits and more: the closed form where a system has one, else Taylor series in
+// quad.
 #pragma once
 
 #include <map>
@@ -15,7 +16,8 @@ class TaylorExpansion {
  public:
   explicit TaylorExpansion(const Model& model);
 
-  /// Expands the solution through z at time t. `coefficients()[degree * n + k]` are then its Taylor coefficients.
+  /// Expands the solution through z at time t. `coefficients()[degree * n + k]` are then its Taylor
+  /// coefficients.
   void expand(Quad t, const Quad* z);
   [[nodiscard]] const std::vector<Quad>& coefficients() const { return coefficients_; }
   /// A step after which the truncated series is good to round-off.

@@ -32,7 +32,8 @@ StepJacobian<T> StepDifferentiator<T>::operator()(const T& t, const T& h, const 
   return result;
 }
 
-template <class T> T congruence_residual(const std::vector<T>& m, const std::vector<T>& k1, const std::vector<T>& k0) {
+template <class T>
+T congruence_residual(const std::vector<T>& m, const std::vector<T>& k1, const std::vector<T>& k0) {
   const auto n = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(m.size()))));
   T worst(0), scale(0);
   for (std::size_t i = 0; i < n; ++i)
@@ -54,14 +55,17 @@ template <class T> T congruence_residual(const std::vector<T>& m, const std::vec
 
 template <class T>
 StructureResidual<T>::StructureResidual(const MethodInstance& method, std::shared_ptr<const Model> model)
-    : differentiate_(method, model), problem_(model),
+    : differentiate_(method, model),
+      problem_(model),
       poisson_(!model->facets().has(Facet::birkhoffian) && !model->facets().has(Facet::darboux_chart)) {}
 
-template <class T> bool StructureResidual<T>::applies(const Model& model) {
+template <class T>
+bool StructureResidual<T>::applies(const Model& model) {
   return model.facets().has(Facet::birkhoffian) || model.facets().has(Facet::hamiltonian);
 }
 
-template <class T> T StructureResidual<T>::operator()(const T& t, const T& h, const std::vector<T>& z) {
+template <class T>
+T StructureResidual<T>::operator()(const T& t, const T& h, const std::vector<T>& z) {
   const StepJacobian<T> step = differentiate_(t, h, z);
   if (step.status != Status::converged) return std::numeric_limits<T>::quiet_NaN();
   const std::size_t n = z.size();
@@ -83,7 +87,9 @@ template class StepDifferentiator<double>;
 template class StepDifferentiator<Quad>;
 template class StructureResidual<double>;
 template class StructureResidual<Quad>;
-template double congruence_residual(const std::vector<double>&, const std::vector<double>&, const std::vector<double>&);
-template Quad congruence_residual(const std::vector<Quad>&, const std::vector<Quad>&, const std::vector<Quad>&);
+template double congruence_residual(const std::vector<double>&, const std::vector<double>&,
+                                    const std::vector<double>&);
+template Quad congruence_residual(const std::vector<Quad>&, const std::vector<Quad>&,
+                                  const std::vector<Quad>&);
 
 }  // namespace pfaff

@@ -9,15 +9,17 @@
 namespace pfaff {
 
 /// A step and its Jacobian M_ij = d z'_i / d z_j at one point.
-template <class T> struct StepJacobian {
+template <class T>
+struct StepJacobian {
   Status status = Status::converged;
   std::vector<T> z;         // after the step
   std::vector<T> jacobian;  // row-major
 };
 
-/// Differentiates single steps of a method on a model. The derivative is that of the converged step: each evaluation
-/// starts without history, and the implicit solve converges in its derivative parts too.
-template <class T> class StepDifferentiator {
+/// Differentiates single steps of a method on a model. The derivative is that of the converged step: each
+/// evaluation starts without history, and the implicit solve converges in its derivative parts too.
+template <class T>
+class StepDifferentiator {
  public:
   StepDifferentiator(const MethodInstance& method, std::shared_ptr<const Model> model);
   StepJacobian<T> operator()(const T& t, const T& h, const std::vector<T>& z);
@@ -27,13 +29,14 @@ template <class T> class StepDifferentiator {
 };
 
 /// Measures M^T K(z', t') M - K(z, t), or M Pi(z, t) M^T - Pi(z', t') for systems with a Poisson tensor only.
-template <class T> class StructureResidual {
+template <class T>
+class StructureResidual {
  public:
   StructureResidual(const MethodInstance& method, std::shared_ptr<const Model> model);
   /// True when the model has a structure to keep.
   [[nodiscard]] static bool applies(const Model& model);
-  /// The largest entry of the residual over the largest entry of |M|^T |K| |M|: round-off for a structure-preserving
-  /// step. NaN when the step fails.
+  /// The largest entry of the residual over the largest entry of |M|^T |K| |M|: round-off for a
+  /// structure-preserving step. NaN when the step fails.
   T operator()(const T& t, const T& h, const std::vector<T>& z);
 
  private:
@@ -43,6 +46,7 @@ template <class T> class StructureResidual {
 };
 
 /// The same for a given Jacobian: max |M^T K1 M - K0| / max |M|^T |K1| |M|, all n x n row-major.
-template <class T> T congruence_residual(const std::vector<T>& m, const std::vector<T>& k1, const std::vector<T>& k0);
+template <class T>
+T congruence_residual(const std::vector<T>& m, const std::vector<T>& k1, const std::vector<T>& k0);
 
 }  // namespace pfaff

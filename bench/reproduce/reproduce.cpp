@@ -16,7 +16,8 @@ std::vector<ReproducedRow> reproduce(const std::string& paper, const std::string
   if (section.empty()) return rows;
   std::vector<std::string> sections;
   for (const ReproducedRow& row : rows)
-    if (std::find(sections.begin(), sections.end(), row.section) == sections.end()) sections.push_back(row.section);
+    if (std::find(sections.begin(), sections.end(), row.section) == sections.end())
+      sections.push_back(row.section);
   if (std::find(sections.begin(), sections.end(), section) == sections.end())
     throw InputError(unknown_name("section", section, sections));
   std::erase_if(rows, [&](const ReproducedRow& row) { return row.section != section; });
@@ -32,9 +33,9 @@ bool ok(const std::vector<ReproducedRow>& rows) {
 nlohmann::json to_json(const std::string& paper, const std::vector<ReproducedRow>& rows) {
   nlohmann::json list = nlohmann::json::array();
   for (const ReproducedRow& r : rows) {
-    nlohmann::json row{{"id", r.id}, {"section", r.section}, {"equation", r.equation}, {"printed", r.printed},
-                       {"ours", r.ours}, {"difference", r.difference}, {"tolerance", r.tolerance},
-                       {"status", r.status}};
+    nlohmann::json row{
+        {"id", r.id},     {"section", r.section},       {"equation", r.equation},   {"printed", r.printed},
+        {"ours", r.ours}, {"difference", r.difference}, {"tolerance", r.tolerance}, {"status", r.status}};
     row["erratum"] = r.erratum.empty() ? nlohmann::json(nullptr) : nlohmann::json(r.erratum);
     list.push_back(row);
   }

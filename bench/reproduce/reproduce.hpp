@@ -8,8 +8,8 @@
 
 namespace pfaff {
 
-/// One published value. Status: reproduced, erratum (names its entry), qualitative (the claim tested is stated), or
-/// failed.
+/// One published value. Status: reproduced, erratum (names its entry), qualitative (the claim tested is
+/// stated), or failed.
 struct ReproducedRow {
   std::string id, section, equation;
   std::string printed, ours;

@@ -1,7 +1,7 @@
-// Su & Qin, section 5: the damped oscillator r'' + nu r' + r = 0, equations (92)-(107), rebuilt in quad through the same
-// plug-ins that any other system uses, at nu = 3/10, t0 = 7/10, tau = 1/5. Printed formulas are evaluated as printed;
-// where that contradicts the definitions, the row is an erratum, its entry named, and the corrected formula is shown
-// to be ours.
+// Su & Qin, section 5: the damped oscillator r'' + nu r' + r = 0, equations (92)-(107), rebuilt in quad
+// through the same plug-ins that any other system uses, at nu = 3/10, t0 = 7/10, tau = 1/5. Printed formulas
+// are evaluated as printed; where that contradicts the definitions, the row is an erratum, its entry named,
+// and the corrected formula is shown to be ours.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -51,17 +51,19 @@ class SuQin {
     return static_cast<double>(worst);
   }
   static Numbers list(const Matrix& m) { return {m.begin(), m.end()}; }
-  void row(const std::string& equation, const std::string& what, const Numbers& printed, const Numbers& ours) {
-    ReproducedRow r{equation + " " + what, "5", equation, shown(printed), shown(ours), distance(printed, ours),
-                    at_round_off, "", ""};
+  void row(const std::string& equation, const std::string& what, const Numbers& printed,
+           const Numbers& ours) {
+    ReproducedRow r{equation + " " + what, "5",         equation,
+                    shown(printed),        shown(ours), distance(printed, ours),
+                    at_round_off,          "",          ""};
     r.status = r.difference <= at_round_off ? "reproduced" : "failed";
     rows_.push_back(r);
   }
   // A misprint: the printed value must differ from ours clearly, and the corrected one must not.
-  void erratum(const std::string& equation, const std::string& what, const Numbers& printed, const Numbers& corrected,
-               const Numbers& ours, const std::string& entry) {
-    ReproducedRow r{equation + " " + what, "5", equation, shown(printed), shown(ours), distance(printed, ours),
-                    at_round_off, "", entry};
+  void erratum(const std::string& equation, const std::string& what, const Numbers& printed,
+               const Numbers& corrected, const Numbers& ours, const std::string& entry) {
+    ReproducedRow r{equation + " " + what,   "5",          equation, shown(printed), shown(ours),
+                    distance(printed, ours), at_round_off, "",       entry};
     r.status = r.difference > 1e-6 && distance(corrected, ours) <= at_round_off ? "erratum" : "failed";
     rows_.push_back(r);
   }
@@ -82,8 +84,8 @@ class SuQin {
     row("(94)", "K^-1", {Quad(0), Quad(1) / e0_, -Quad(1) / e0_, Quad(0)}, pi);
     row("(94)", "F", {e0_ * z[1] / Quad(2), -(e0_ * z[0]) / Quad(2)}, f);
     const Quad half = e0_ / Quad(2), r2 = z[0] * z[0], rp = z[0] * z[1], p2 = z[1] * z[1];
-    erratum("(94)", "B", {half * (r2 + rp + p2)}, {half * (r2 + nu_ * rp + p2)}, {problem.birkhoffian(t0_, z)},
-            "(94): the middle term is nu r p");
+    erratum("(94)", "B", {half * (r2 + rp + p2)}, {half * (r2 + nu_ * rp + p2)},
+            {problem.birkhoffian(t0_, z)}, "(94): the middle term is nu r p");
   }
 
   // (95)-(98): alpha through the plug-in's chart, R^ = dy_p, P^ = dy_r, R = mean y_r, P = -mean y_p.
@@ -118,33 +120,40 @@ class SuQin {
   void alpha() {
     const Numbers hat{Quad(0.3), Quad(-0.2)}, z{Quad(0.5), Quad(0.1)};
     const Quad half = Quad(1) / Quad(2), zero(0), one(1);
-    row("(95)", "alpha", {e_ * hat[1] - e0_ * z[1], hat[0] - z[0], (hat[0] + z[0]) * half,
-                          -(e_ * hat[1] + e0_ * z[1]) * half}, alpha_of(hat, z));
+    row("(95)", "alpha",
+        {e_ * hat[1] - e0_ * z[1], hat[0] - z[0], (hat[0] + z[0]) * half, -(e_ * hat[1] + e0_ * z[1]) * half},
+        alpha_of(hat, z));
     const auto a = columns([&](const Numbers& x) { return alpha_of({x[0], x[1]}, {x[2], x[3]}); });
-    row("(96)", "alpha_*", {zero, e_, zero, -e0_, one, zero, -one, zero, half, zero, half, zero, zero, -e_ * half, zero,
-                            -e0_ * half}, a);
+    row("(96)", "alpha_*",
+        {zero, e_, zero, -e0_, one, zero, -one, zero, half, zero, half, zero, zero, -e_ * half, zero,
+         -e0_ * half},
+        a);
     // (34): alpha_*^T J_4n alpha_* = diag(K, -K0); (35) puts diag(J_2n, -J_2n) in the middle instead.
     const auto congruence = [&](const std::array<std::array<int, 4>, 4>& middle) {
       Numbers result(16);
       for (std::size_t i = 0; i < 4; ++i)
         for (std::size_t j = 0; j < 4; ++j)
           for (std::size_t r = 0; r < 4; ++r)
-            for (std::size_t c = 0; c < 4; ++c) result[i * 4 + j] += a[r * 4 + i] * Quad(middle[r][c]) * a[c * 4 + j];
+            for (std::size_t c = 0; c < 4; ++c)
+              result[i * 4 + j] += a[r * 4 + i] * Quad(middle[r][c]) * a[c * 4 + j];
       return result;
     };
-    const Numbers structure{zero, -e_, zero, zero, e_, zero, zero, zero, zero, zero, zero, e0_, zero, zero, -e0_, zero};
+    const Numbers structure{zero, -e_,  zero, zero, e_,   zero, zero, zero,
+                            zero, zero, zero, e0_,  zero, zero, -e0_, zero};
     const auto j4 = congruence({{{0, 0, 1, 0}, {0, 0, 0, 1}, {-1, 0, 0, 0}, {0, -1, 0, 0}}});
     row("(34)", "alpha_*^T J alpha_* = diag(K, -K0) for (95)", structure, j4);
-    erratum("(35)", "the middle matrix", congruence({{{0, 1, 0, 0}, {-1, 0, 0, 0}, {0, 0, 0, -1}, {0, 0, 1, 0}}}), j4,
-            structure, "(35): the middle matrix is J_4n");
+    erratum("(35)", "the middle matrix",
+            congruence({{{0, 1, 0, 0}, {-1, 0, 0, 0}, {0, 0, 0, -1}, {0, 0, 1, 0}}}), j4, structure,
+            "(35): the middle matrix is J_4n");
     const Numbers w{Quad(0.2), Quad(-0.4), Quad(0.6), Quad(0.3)};
     const Numbers inverse{w[2] + w[1] * half, (w[0] * half - w[3]) / e_, w[2] - w[1] * half,
                           -(w[0] * half + w[3]) / e0_};
     Numbers printed = inverse;
     printed[3] = -(half * e0_ * w[0]) - w[3] / e0_;
     erratum("(97)", "alpha^-1", printed, inverse, alpha_inverse(w), "(97): p has e^{-nu t0} in front of R^");
-    row("(98)", "alpha_*^-1", {zero, half, one, zero, half / e_, zero, zero, -one / e_, zero, -half, one, zero,
-                               -half / e0_, zero, zero, -one / e0_},
+    row("(98)", "alpha_*^-1",
+        {zero, half, one, zero, half / e_, zero, zero, -one / e_, zero, -half, one, zero, -half / e0_, zero,
+         zero, -one / e0_},
         columns([&](const Numbers& x) { return alpha_inverse(x); }));
   }
 
@@ -158,15 +167,15 @@ class SuQin {
     Replay<Quad>(model_->tape(Formula::chart_field))(t_, y.data(), rate.data());
     const Quad half = Quad(1) / Quad(2);
     row("(99)", "dw^/dt, dw/dt",
-        {-half * e_ * w[1] - e_ * w[2], half / e_ * w[0] - w[3] / e_, half * half / e_ * w[0] - half / e_ * w[3],
-         half * half * e_ * w[1] + half * e_ * w[2]},
+        {-half * e_ * w[1] - e_ * w[2], half / e_ * w[0] - w[3] / e_,
+         half * half / e_ * w[0] - half / e_ * w[3], half * half * e_ * w[1] + half * e_ * w[2]},
         {rate[1], rate[0], rate[0] * half, -rate[1] * half});
   }
 
   // (100), (104): coefficients of the generating function, as (R, P) components of phi_w^(k) at w = (R, P).
   Numbers coefficient(int k, const Numbers& w) const {
-    GeneratingGradient<Quad> gradient(model_->tape(Formula::chart_field), std::max(k, 1), false, GeneratingForm::midpoint,
-                                      gauss_coefficients((std::max(k, 1) + 1) / 2));
+    GeneratingGradient<Quad> gradient(model_->tape(Formula::chart_field), std::max(k, 1), false,
+                                      GeneratingForm::midpoint, gauss_coefficients((std::max(k, 1) + 1) / 2));
     gradient.set_step(t0_, tau_);
     const Numbers y{w[0], -w[1]};
     Numbers terms(gradient.term_count() * 2);
@@ -183,7 +192,8 @@ class SuQin {
     row("(100)", "phi_w^(1)", {-e0_ * w[0], -w[1] / e0_}, coefficient(1, w));
     row("(104)", "phi_w^(2)", {-nu_ / Quad(2) * e0_ * w[0], nu_ / Quad(2) / e0_ * w[1]}, coefficient(2, w));
     // (101): w^ = phi_w^(1) tau is what the scheme of order 1 solves.
-    const StepJacobian<Quad> step = step_of("generating-function", {{"order", "1"}, {"variant", "P"}}, {Quad(0.5), Quad(0.1)});
+    const StepJacobian<Quad> step =
+        step_of("generating-function", {{"order", "1"}, {"variant", "P"}}, {Quad(0.5), Quad(0.1)});
     const Numbers a = alpha_of(step.z, {Quad(0.5), Quad(0.1)});
     row("(101)", "w^ = tau phi_w^(1)(w)", {-tau_ * e0_ * a[2], -tau_ / e0_ * a[3]}, {a[0], a[1]});
   }
@@ -231,14 +241,20 @@ class SuQin {
     row("(103)", "A^T K(t1) A = K(t0)", {Quad(0)}, {congruence_residual(one.jacobian, k1, k0)});
 
     const auto two = step_of("generating-function", {{"order", "2"}, {"variant", "P"}}, z);
-    erratum("(105)", "transition matrix, order 2, as printed", list(transition(tau_, true)), list(transition(tau_, false)),
-            two.jacobian, "(105): the lower left entry has b");
+    erratum("(105)", "transition matrix, order 2, as printed", list(transition(tau_, true)),
+            list(transition(tau_, false)), two.jacobian, "(105): the lower left entry has b");
     {
       const double slope = local_order(true);
       const Quad det = determinant(transition(tau_, true));
-      ReproducedRow r{"(105) as printed: symplectic, of order 2", "5", "(105)", "det e^{-nu tau}, order 2",
+      ReproducedRow r{"(105) as printed: symplectic, of order 2",
+                      "5",
+                      "(105)",
+                      "det e^{-nu tau}, order 2",
                       "det off by " + to_string(abs(det - e), 3) + ", order " + to_string(Quad(slope), 3),
-                      static_cast<double>(abs(det - e)), at_round_off, "", "(105): the lower left entry has b"};
+                      static_cast<double>(abs(det - e)),
+                      at_round_off,
+                      "",
+                      "(105): the lower left entry has b"};
       r.status = r.difference > 1e-6 && slope < 1.9 ? "erratum" : "failed";
       rows_.push_back(r);
     }
@@ -246,26 +262,35 @@ class SuQin {
     row("(105)", "corrected: K-symplectic", {Quad(0)}, {congruence_residual(two.jacobian, k1, k0)});
     {
       const double slope = local_order(false);
-      ReproducedRow r{"(105) corrected: order 2", "5", "(105)", "2", to_string(Quad(slope), 4), std::abs(slope - 2), 0.01,
-                      "", ""};
+      ReproducedRow r{"(105) corrected: order 2", "5",  "(105)", "2", to_string(Quad(slope), 4),
+                      std::abs(slope - 2),        0.01, "",      ""};
       r.status = r.difference <= r.tolerance ? "reproduced" : "failed";
       rows_.push_back(r);
     }
-    // (106): a and b are what the generating gradient's matrix at order 2 says: N = phi^(1) tau + phi^(2) tau^2.
+    // (106): a and b are what the generating gradient's matrix at order 2 says: N = phi^(1) tau + phi^(2)
+    // tau^2.
     const Numbers at{Quad(1), Quad(1)};
     const Numbers c1 = coefficient(1, at), c2 = coefficient(2, at);
     row("(106)", "a, b", {Quad(2) * tau_ - nu_ * tau_ * tau_, Quad(2) * tau_ + nu_ * tau_ * tau_},
-        {-Quad(2) * e0_ * (c1[1] * tau_ + c2[1] * tau_ * tau_), -Quad(2) / e0_ * (c1[0] * tau_ + c2[0] * tau_ * tau_)});
+        {-Quad(2) * e0_ * (c1[1] * tau_ + c2[1] * tau_ * tau_),
+         -Quad(2) / e0_ * (c1[0] * tau_ + c2[0] * tau_ * tau_)});
 
     const Quad d = tau_ * tau_ + Quad(2) * nu_ * tau_ + Quad(4);
-    const Matrix centre{(Quad(4) + Quad(2) * nu_ * tau_ - tau_ * tau_) / d, Quad(4) * tau_ / d, -Quad(4) * tau_ / d,
-                        (Quad(4) - Quad(2) * nu_ * tau_ - tau_ * tau_) / d};
+    const Matrix centre{(Quad(4) + Quad(2) * nu_ * tau_ - tau_ * tau_) / d, Quad(4) * tau_ / d,
+                        -Quad(4) * tau_ / d, (Quad(4) - Quad(2) * nu_ * tau_ - tau_ * tau_) / d};
     const auto euler = step_of("implicit-midpoint", {}, z);
     row("(107)", "Euler centre scheme", list(centre), euler.jacobian);
     {
       const Quad residual = congruence_residual(euler.jacobian, k1, k0);
-      ReproducedRow r{"(107) is not K-symplectic", "5", "(107)", "not symplectic", "residual " + to_string(residual, 3),
-                      static_cast<double>(residual), 1e-6, "", "the residual of A^T K A = K exceeds 1e-6"};
+      ReproducedRow r{"(107) is not K-symplectic",
+                      "5",
+                      "(107)",
+                      "not symplectic",
+                      "residual " + to_string(residual, 3),
+                      static_cast<double>(residual),
+                      1e-6,
+                      "",
+                      "the residual of A^T K A = K exceeds 1e-6"};
       r.status = residual > Quad(1e-6) ? "qualitative" : "failed";
       rows_.push_back(r);
     }

@@ -26,7 +26,8 @@ const std::map<std::string, std::string>& entries() {
       const std::string entry = text.substr(begin, end - begin);
       const std::size_t brace = entry.find('{'), comma = entry.find(',');
       if (brace != std::string::npos && comma != std::string::npos)
-        result[entry.substr(brace + 1, comma - brace - 1)] = entry.substr(0, entry.find_last_not_of("\n ") + 1);
+        result[entry.substr(brace + 1, comma - brace - 1)] =
+            entry.substr(0, entry.find_last_not_of("\n ") + 1);
       begin = next == std::string::npos ? next : next + 1;
     }
     return result;
@@ -36,7 +37,8 @@ const std::map<std::string, std::string>& entries() {
 
 std::string field(const std::string& entry, const std::string& name) {
   std::smatch match;
-  const std::regex pattern("[\\s,]" + name + "\\s*=\\s*[{\"]((?:[^{}\"]|\\{[^{}]*\\})*)[}\"]", std::regex::icase);
+  const std::regex pattern("[\\s,]" + name + "\\s*=\\s*[{\"]((?:[^{}\"]|\\{[^{}]*\\})*)[}\"]",
+                           std::regex::icase);
   if (!std::regex_search(entry, match, pattern)) return {};
   std::string value = std::regex_replace(match[1].str(), std::regex("[{}]"), "");
   value = std::regex_replace(value, std::regex("\\s+"), " ");
@@ -55,7 +57,8 @@ std::string citation(const std::string& key) {
   std::string line = field(entry, "author");
   line = std::regex_replace(line, std::regex(" and "), "; ");
   for (const char* name : {"title", "journal", "publisher"})
-    if (const std::string value = field(entry, name); !value.empty()) line += (line.empty() ? "" : ", ") + value;
+    if (const std::string value = field(entry, name); !value.empty())
+      line += (line.empty() ? "" : ", ") + value;
   if (const std::string volume = field(entry, "volume"); !volume.empty()) line += " " + volume;
   if (const std::string year = field(entry, "year"); !year.empty()) line += " (" + year + ")";
   if (const std::string pages = field(entry, "pages"); !pages.empty()) line += " " + pages;

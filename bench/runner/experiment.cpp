@@ -31,33 +31,49 @@ std::string slug_of(const std::string& text) {
 }
 
 nlohmann::json description(const Experiment& experiment, const std::vector<ExperimentRun>& runs) {
-  nlohmann::json j{{"schema", 1}, {"name", experiment.name}, {"title", experiment.title},
-                   {"description", experiment.description}, {"reference", experiment.reference},
-                   {"notes", experiment.notes}, {"quick", experiment.quick}, {"versions", versions()}};
+  nlohmann::json j{{"schema", 1},
+                   {"name", experiment.name},
+                   {"title", experiment.title},
+                   {"description", experiment.description},
+                   {"reference", experiment.reference},
+                   {"notes", experiment.notes},
+                   {"quick", experiment.quick},
+                   {"versions", versions()}};
   j["citation"] = nlohmann::json::array();
   for (const std::string& key : experiment.reference) j["citation"].push_back(citation(key));
   for (const ExperimentCase& c : experiment.cases) {
-    const auto run = std::find_if(runs.begin(), runs.end(), [&](const ExperimentRun& r) { return r.which == &c; });
+    const auto run =
+        std::find_if(runs.begin(), runs.end(), [&](const ExperimentRun& r) { return r.which == &c; });
     const Model& model = *run->resolved.model;
     nlohmann::json parameters = nlohmann::json::object();
     for (const auto& [key, value] : model.parameters()) parameters[key] = value;
     const FacetSet f = model.facets();
-    j["cases"].push_back({{"name", c.name}, {"title", c.title}, {"system", c.system}, {"parameters", parameters},
-                          {"time", to_string(run->resolved.time)}, {"time_unit", model.time_unit()},
-                          {"precision", to_string(c.precision)}, {"conserved", c.conserved},
+    j["cases"].push_back({{"name", c.name},
+                          {"title", c.title},
+                          {"system", c.system},
+                          {"parameters", parameters},
+                          {"time", to_string(run->resolved.time)},
+                          {"time_unit", model.time_unit()},
+                          {"precision", to_string(c.precision)},
+                          {"conserved", c.conserved},
                           {"structure", f.has(Facet::birkhoffian)   ? nlohmann::json("K-symplectic")
                                         : f.has(Facet::hamiltonian) ? nlohmann::json("symplectic")
                                                                     : nlohmann::json(nullptr)},
                           {"reference_solution", f.has(Facet::exact_solution) ? "exact" : "30-digit"}});
   }
   for (const ExperimentMethod& m : experiment.methods) {
-    const auto run = std::find_if(runs.begin(), runs.end(), [&](const ExperimentRun& r) { return r.method == &m; });
+    const auto run =
+        std::find_if(runs.begin(), runs.end(), [&](const ExperimentRun& r) { return r.method == &m; });
     if (run == runs.end()) continue;
     nlohmann::json parameters = nlohmann::json::object(), claims = nlohmann::json::array();
     for (const auto& [key, value] : run->resolved.method->parameters()) parameters[key] = value;
-    for (const Claim claim : run->resolved.method->preserves(*run->resolved.model)) claims.push_back(to_string(claim));
-    j["methods"].push_back({{"label", m.label}, {"integrator", m.integrator}, {"parameters", parameters},
-                            {"order", run->resolved.method->order(*run->resolved.model)}, {"claims", claims}});
+    for (const Claim claim : run->resolved.method->preserves(*run->resolved.model))
+      claims.push_back(to_string(claim));
+    j["methods"].push_back({{"label", m.label},
+                            {"integrator", m.integrator},
+                            {"parameters", parameters},
+                            {"order", run->resolved.method->order(*run->resolved.model)},
+                            {"claims", claims}});
   }
   return j;
 }
@@ -69,8 +85,8 @@ bool done_already(const fs::path& directory, const std::string& config) {
          read_file(directory / "config.toml") == config;
 }
 
-void leave(const fs::path& directory, const ResolvedRun& run, const std::string& config, const RunRecord& record,
-           const ExperimentRun& which) {
+void leave(const fs::path& directory, const ResolvedRun& run, const std::string& config,
+           const RunRecord& record, const ExperimentRun& which) {
   const fs::path unfinished = directory.string() + ".part";
   std::error_code error;
   fs::remove_all(unfinished, error);
@@ -91,7 +107,8 @@ std::vector<ExperimentRun> expand(const Experiment& experiment) {
   std::vector<ExperimentRun> runs;
   for (const ExperimentCase& c : experiment.cases)
     for (const ExperimentMethod& m : experiment.methods) {
-      if (!c.methods.empty() && std::find(c.methods.begin(), c.methods.end(), m.label) == c.methods.end()) continue;
+      if (!c.methods.empty() && std::find(c.methods.begin(), c.methods.end(), m.label) == c.methods.end())
+        continue;
       for (const std::string& step : c.steps) {
         ExperimentRun run{&c, &m, step, slug_of(c.name + "-" + m.label + "-h" + step), {}};
         RunSettings settings;
@@ -106,7 +123,8 @@ std::vector<ExperimentRun> expand(const Experiment& experiment) {
         try {
           run.resolved = resolve(settings);
         } catch (const InputError& error) {
-          throw InputError(experiment.name + ", case " + c.name + ", method " + m.label + ": " + error.what());
+          throw InputError(experiment.name + ", case " + c.name + ", method " + m.label + ": " +
+                           error.what());
         }
         const auto& invariants = run.resolved.model->invariants();
         std::vector<std::string> names;
@@ -132,8 +150,9 @@ ExperimentOutcome run_experiment(const Experiment& experiment, const fs::path& d
     nlohmann::json theirs = nlohmann::json::parse(read_file(identity), nullptr, false);
     if (theirs.is_object()) theirs["versions"] = mine["versions"];
     if (theirs != mine)
-      throw InputError("output directory '" + directory.string() +
-                       "' holds another experiment; expected a new directory or the same experiment to resume");
+      throw InputError(
+          "output directory '" + directory.string() +
+          "' holds another experiment; expected a new directory or the same experiment to resume");
   } else {
     make_output_directory(directory);
   }
@@ -169,7 +188,8 @@ ExperimentOutcome run_experiment(const Experiment& experiment, const fs::path& d
     const RunRecord record = execute(run.resolved, references.at(run.which).get());
     leave(directory / "runs" / run.slug, run.resolved, config_text(run.resolved), record, run);
     const std::lock_guard lock(mutex);
-    if (progress) progress(run.which->name + ", " + run.method->label + ", h = " + run.step, ++done, runs.size());
+    if (progress)
+      progress(run.which->name + ", " + run.method->label + ", h = " + run.step, ++done, runs.size());
   });
 
   const std::vector<nlohmann::json> summaries = read_summaries(directory, runs);

@@ -19,9 +19,9 @@ struct ExperimentCase {
   std::string name, title, system, time;
   Assignments set;
   std::vector<std::string> initial, steps;
-  std::string conserved;               // the invariant whose drift is shown
+  std::string conserved;  // the invariant whose drift is shown
   Precision precision = Precision::double_precision;
-  std::vector<std::string> methods;    // labels; empty: all
+  std::vector<std::string> methods;  // labels; empty: all
 };
 
 struct Experiment {
@@ -35,8 +35,8 @@ struct Experiment {
 /// Names of the experiments that ship.
 std::vector<std::string> experiment_names();
 
-/// Reads an experiment by the name of one that ships or by the path of a TOML file. `quick` takes each case's [quick]
-/// overrides. InputError for unknown keys (with the nearest) and wrong types.
+/// Reads an experiment by the name of one that ships or by the path of a TOML file. `quick` takes each case's
+/// [quick] overrides. InputError for unknown keys (with the nearest) and wrong types.
 Experiment read_experiment(const std::string& name_or_path, bool quick);
 
 /// One run of an experiment.
@@ -60,8 +60,8 @@ struct ExperimentOutcome {
 /// Reports progress of the whole: what is being done, runs done, runs in all.
 using ExperimentProgress = std::function<void(const std::string& what, std::size_t done, std::size_t all)>;
 
-/// Runs what `directory` does not hold yet, then writes results.csv, cost.csv (timed alone, serially), figures and
-/// report.html. A directory that holds another experiment is refused (InputError).
+/// Runs what `directory` does not hold yet, then writes results.csv, cost.csv (timed alone, serially),
+/// figures and report.html. A directory that holds another experiment is refused (InputError).
 ExperimentOutcome run_experiment(const Experiment& experiment, const std::filesystem::path& directory,
                                  const ExperimentProgress& progress);
 

@@ -42,7 +42,8 @@ std::string read_file(const fs::path& path) {
 void make_output_directory(const fs::path& path) {
   std::error_code error;
   if (fs::exists(path, error) && !(fs::is_directory(path, error) && fs::is_empty(path, error)))
-    throw InputError("output directory '" + path.string() + "' exists already; expected a new or an empty one");
+    throw InputError("output directory '" + path.string() +
+                     "' exists already; expected a new or an empty one");
   fs::create_directories(path, error);
   if (error) throw InputError("output directory '" + path.string() + "' cannot be made: " + error.message());
   const fs::path probe = path / ".probe";

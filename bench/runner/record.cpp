@@ -9,12 +9,17 @@ namespace pfaff {
 namespace {
 
 // Observes a run of scalar T as it goes.
-template <class T> class Observer {
+template <class T>
+class Observer {
  public:
   Observer(const ResolvedRun& run, const ReferenceSolution* reference, RunRecord& record)
-      : run_(run), reference_(reference), record_(record), problem_(run.model),
+      : run_(run),
+        reference_(reference),
+        record_(record),
+        problem_(run.model),
         values_(run.model->invariants().size()) {
-    if (StructureResidual<T>::applies(*run.model) && !run.adaptive()) residual_.emplace(*run.method, run.model);
+    if (StructureResidual<T>::applies(*run.model) && !run.adaptive())
+      residual_.emplace(*run.method, run.model);
     drift_.resize(values_.size());
     lowest_.assign(values_.size(), std::numeric_limits<T>::infinity());
     record_.rise.assign(values_.size(), 0.0);
@@ -74,16 +79,21 @@ template <class T> class Observer {
 
 std::string failure(Status status, const std::string& when) {
   switch (status) {
-    case Status::not_converged: return "the implicit solve did not converge " + when;
-    case Status::singular: return "a linear system was singular " + when;
-    case Status::non_finite: return "the state or the structure left the range of numbers " + when;
-    case Status::converged: break;
+    case Status::not_converged:
+      return "the implicit solve did not converge " + when;
+    case Status::singular:
+      return "a linear system was singular " + when;
+    case Status::non_finite:
+      return "the state or the structure left the range of numbers " + when;
+    case Status::converged:
+      break;
   }
   return {};
 }
 
-template <class T> void execute_fixed(const ResolvedRun& run, Observer<T>& observer, RunRecord& record,
-                                      const Progress& progress) {
+template <class T>
+void execute_fixed(const ResolvedRun& run, Observer<T>& observer, RunRecord& record,
+                   const Progress& progress) {
   const auto stepper = run.method->stepper(run.model, T());
   std::vector<T> z;
   for (const Real& x : run.initial) z.push_back(T(x));
@@ -159,7 +169,8 @@ RunRecord execute(const ResolvedRun& run, const ReferenceSolution* reference, co
 }
 
 namespace {
-template <class T> StepTime time_in(const ResolvedRun& run, double seconds) {
+template <class T>
+StepTime time_in(const ResolvedRun& run, double seconds) {
   using Clock = std::chrono::steady_clock;
   const auto stepper = run.method->stepper(run.model, T());
   const auto elapsed = [&](std::int64_t count) {
@@ -192,7 +203,8 @@ template <class T> StepTime time_in(const ResolvedRun& run, double seconds) {
 }  // namespace
 
 StepTime time_steps(const ResolvedRun& run, double seconds) {
-  return run.settings.precision == Precision::quad ? time_in<Quad>(run, seconds) : time_in<double>(run, seconds);
+  return run.settings.precision == Precision::quad ? time_in<Quad>(run, seconds)
+                                                   : time_in<double>(run, seconds);
 }
 
 }  // namespace pfaff

@@ -28,8 +28,10 @@ struct RunRecord {
   std::string message;  // why a run ended early, one line
   std::int64_t completed = 0;
   std::vector<Sample> samples;
-  std::vector<Drift> drift;  // one for each invariant, in the model's order; meant for those expected to be conserved
-  std::vector<double> rise;  // the largest rise of each above what it was before; for those expected to decrease
+  std::vector<Drift>
+      drift;  // one for each invariant, in the model's order; meant for those expected to be conserved
+  std::vector<double>
+      rise;  // the largest rise of each above what it was before; for those expected to decrease
   std::optional<double> error_max, error_final, structure_residual;
   Counters counters;
 };
@@ -38,7 +40,8 @@ struct RunRecord {
 using Progress = std::function<void(double fraction)>;
 
 /// Runs to the end, or to where the method fails: every completed sample is kept.
-/// `reference` may be null. Structure residuals are measured at about fifty samples where the model has a structure.
+/// `reference` may be null. Structure residuals are measured at about fifty samples where the model has a
+/// structure.
 RunRecord execute(const ResolvedRun& run, const ReferenceSolution* reference, const Progress& progress = {});
 
 /// Nanoseconds per step, timed alone: one warm-up, then repeated runs from the initial state.

@@ -31,7 +31,8 @@ std::string quoted(const std::string& text) {
 }
 std::string parameters_of(const ExperimentRun& run) {
   std::string text;
-  for (const auto& [key, value] : run.resolved.method->parameters()) text += (text.empty() ? "" : " ") + key + "=" + value;
+  for (const auto& [key, value] : run.resolved.method->parameters())
+    text += (text.empty() ? "" : " ") + key + "=" + value;
   return text;
 }
 
@@ -40,7 +41,9 @@ struct CostRow {
   std::string text;
   double median = 0;
 };
-std::string cost_key(const ExperimentRun& run) { return run.which->name + "," + run.method->label + "," + run.step; }
+std::string cost_key(const ExperimentRun& run) {
+  return run.which->name + "," + run.method->label + "," + run.step;
+}
 
 std::map<std::string, CostRow> read_costs(const fs::path& path) {
   std::map<std::string, CostRow> rows;
@@ -51,42 +54,48 @@ std::map<std::string, CostRow> read_costs(const fs::path& path) {
   std::getline(stream, line);
   while (std::getline(stream, line)) {
     std::size_t comma = 0;
-    for (int k = 0; k < 3 && comma != std::string::npos; ++k) comma = line.find(',', comma + (k == 0 ? 0 : 1));
+    for (int k = 0; k < 3 && comma != std::string::npos; ++k)
+      comma = line.find(',', comma + (k == 0 ? 0 : 1));
     if (comma != std::string::npos) rows[line.substr(0, comma)] = {line, std::atof(line.c_str() + comma + 1)};
   }
   return rows;
 }
 }  // namespace
 
-std::vector<nlohmann::json> read_summaries(const fs::path& directory, const std::vector<ExperimentRun>& runs) {
+std::vector<nlohmann::json> read_summaries(const fs::path& directory,
+                                           const std::vector<ExperimentRun>& runs) {
   std::vector<nlohmann::json> summaries;
   for (const ExperimentRun& run : runs)
     summaries.push_back(nlohmann::json::parse(read_file(directory / "runs" / run.slug / "summary.json")));
   return summaries;
 }
 
-std::string results_csv(const std::vector<ExperimentRun>& runs, const std::vector<nlohmann::json>& summaries) {
+std::string results_csv(const std::vector<ExperimentRun>& runs,
+                        const std::vector<nlohmann::json>& summaries) {
   std::vector<std::string> invariants;
   for (const nlohmann::json& s : summaries)
     for (const nlohmann::json& i : s["invariants"])
-      if (i["expected"] != "free" && std::find(invariants.begin(), invariants.end(), i["name"]) == invariants.end())
+      if (i["expected"] != "free" &&
+          std::find(invariants.begin(), invariants.end(), i["name"]) == invariants.end())
         invariants.push_back(i["name"]);
   std::ostringstream text;
-  text << "case,system,method,integrator,parameters,step,time,steps,precision,status,message,error_max,error_final,"
+  text << "case,system,method,integrator,parameters,step,time,steps,precision,status,message,error_max,error_"
+          "final,"
           "structure_residual,rhs_per_step,jacobians_per_step,iterations_per_step,factorisations_per_step";
   for (const std::string& name : invariants)
-    for (const char* m : {"max", "rms", "final", "slope", "slope_low", "slope_high", "oscillation", "exponent", "class"})
+    for (const char* m :
+         {"max", "rms", "final", "slope", "slope_low", "slope_high", "oscillation", "exponent", "class"})
       text << ',' << name << ':' << m;
   text << ",run\n";
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const ExperimentRun& run = runs[k];
     const nlohmann::json& s = summaries[k];
     const double steps = std::max(1.0, s["counts"]["steps"].get<double>());
-    text << run.which->name << ',' << run.which->system << ',' << run.method->label << ',' << run.method->integrator
-         << ',' << quoted(parameters_of(run)) << ',' << run.step << ',' << to_string(run.resolved.time) << ','
-         << s["completed"] << ',' << s["precision"].get<std::string>() << ',' << s["status"].get<std::string>() << ','
-         << quoted(s["message"]) << ',' << cell(s["error_max"]) << ',' << cell(s["error_final"]) << ','
-         << cell(s["structure_residual"]);
+    text << run.which->name << ',' << run.which->system << ',' << run.method->label << ','
+         << run.method->integrator << ',' << quoted(parameters_of(run)) << ',' << run.step << ','
+         << to_string(run.resolved.time) << ',' << s["completed"] << ',' << s["precision"].get<std::string>()
+         << ',' << s["status"].get<std::string>() << ',' << quoted(s["message"]) << ','
+         << cell(s["error_max"]) << ',' << cell(s["error_final"]) << ',' << cell(s["structure_residual"]);
     for (const char* count : {"right_hand_sides", "jacobians", "iterations", "factorisations"})
       text << ',' << number(s["counts"][count].get<double>() / steps, "%.6g");
     for (const std::string& name : invariants) {
@@ -96,21 +105,24 @@ std::string results_csv(const std::vector<ExperimentRun>& runs, const std::vecto
       for (const char* m : {"max", "rms", "final", "slope"}) text << ',' << (found ? cell((*found)[m]) : "");
       text << ',' << (found ? cell((*found)["slope_interval"][0]) : "") << ','
            << (found ? cell((*found)["slope_interval"][1]) : "");
-      for (const char* m : {"oscillation", "exponent", "class"}) text << ',' << (found ? cell((*found)[m]) : "");
+      for (const char* m : {"oscillation", "exponent", "class"})
+        text << ',' << (found ? cell((*found)[m]) : "");
     }
     text << ',' << run.slug << '\n';
   }
   return text.str();
 }
 
-void write_costs(const fs::path& directory, const Experiment& experiment, const std::vector<ExperimentRun>& runs,
-                 const ExperimentProgress& progress) {
+void write_costs(const fs::path& directory, const Experiment& experiment,
+                 const std::vector<ExperimentRun>& runs, const ExperimentProgress& progress) {
   const fs::path path = directory / "cost.csv";
   const auto known = read_costs(path);
   std::string text = "case,method,step,ns_per_step,ns_per_step_min,ns_per_step_max,repetitions,seconds\n";
   std::size_t done = 0;
   for (const ExperimentRun& run : runs) {
-    if (progress) progress("timing " + run.which->name + ", " + run.method->label + ", h = " + run.step, done, runs.size());
+    if (progress)
+      progress("timing " + run.which->name + ", " + run.method->label + ", h = " + run.step, done,
+               runs.size());
     ++done;
     if (const auto row = known.find(cost_key(run)); row != known.end()) {
       text += row->second.text + "\n";
@@ -125,7 +137,8 @@ void write_costs(const fs::path& directory, const Experiment& experiment, const 
 }
 
 std::string results_table(const fs::path& directory, const Experiment& experiment,
-                          const std::vector<ExperimentRun>& runs, const std::vector<nlohmann::json>& summaries) {
+                          const std::vector<ExperimentRun>& runs,
+                          const std::vector<nlohmann::json>& summaries) {
   const auto costs = read_costs(directory / "cost.csv");
   std::ostringstream text;
   const auto scientific = [](const nlohmann::json& value) {
@@ -135,16 +148,17 @@ std::string results_table(const fs::path& directory, const Experiment& experimen
     std::array<char, 160> line{};
     text << '\n' << c.title << "  (" << c.system << ", T = " << c.time << ")\n";
     const std::string drift = c.conserved.empty() ? "drift" : "drift of " + c.conserved;
-    std::snprintf(line.data(), line.size(), "%-22s %19s  %-34s %9s %9s\n", "", "error", drift.c_str(), "structure", "cost");
+    std::snprintf(line.data(), line.size(), "%-23s %19s  %-34s %9s %9s\n", "", "error", drift.c_str(),
+                  "structure", "cost");
     text << line.data();
-    std::snprintf(line.data(), line.size(), "%-15s %6s %9s %9s  %-9s %-10s %-13s %9s %9s\n", "method", "h", "max",
-                  "final", "max", "slope", "class", "residual", "ns/step");
+    std::snprintf(line.data(), line.size(), "%-16s %6s %9s %9s  %-9s %-10s %-13s %9s %9s\n", "method", "h",
+                  "max", "final", "max", "slope", "class", "residual", "ns/step");
     text << line.data();
     for (std::size_t k = 0; k < runs.size(); ++k) {
       if (runs[k].which != &c) continue;
       const nlohmann::json& s = summaries[k];
       if (s["status"] != "converged") {
-        std::snprintf(line.data(), line.size(), "%-15.15s %6s  %s: %.60s\n", runs[k].method->label.c_str(),
+        std::snprintf(line.data(), line.size(), "%-16.16s %6s  %s: %.60s\n", runs[k].method->label.c_str(),
                       runs[k].step.c_str(), s["status"].get<std::string>().c_str(),
                       s["message"].get<std::string>().c_str());
         text << line.data();
@@ -158,9 +172,10 @@ std::string results_table(const fs::path& directory, const Experiment& experimen
         else if (i["name"] == c.conserved && i.contains("largest_rise"))
           measured = "largest rise " + scientific(i["largest_rise"]);
       const auto cost = costs.find(cost_key(runs[k]));
-      std::snprintf(line.data(), line.size(), "%-15.15s %6s %9s %9s  %-34s %9s %9s\n", runs[k].method->label.c_str(),
-                    runs[k].step.c_str(), scientific(s["error_max"]).c_str(), scientific(s["error_final"]).c_str(),
-                    measured.c_str(), scientific(s["structure_residual"]).c_str(),
+      std::snprintf(line.data(), line.size(), "%-16.16s %6s %9s %9s  %-34s %9s %9s\n",
+                    runs[k].method->label.c_str(), runs[k].step.c_str(), scientific(s["error_max"]).c_str(),
+                    scientific(s["error_final"]).c_str(), measured.c_str(),
+                    scientific(s["structure_residual"]).c_str(),
                     cost == costs.end() ? "-" : number(cost->second.median, "%.0f").c_str());
       text << line.data();
     }

@@ -22,9 +22,11 @@ void write_costs(const std::filesystem::path& directory, const Experiment& exper
 
 /// The terminal's table: status, error, drift, structure, cost of every run; at most 100 columns.
 std::string results_table(const std::filesystem::path& directory, const Experiment& experiment,
-                          const std::vector<ExperimentRun>& runs, const std::vector<nlohmann::json>& summaries);
+                          const std::vector<ExperimentRun>& runs,
+                          const std::vector<nlohmann::json>& summaries);
 
-/// Draws the figures and writes report.html with the report scripts. RunError with their message when they fail.
+/// Draws the figures and writes report.html with the report scripts. RunError with their message when they
+/// fail.
 std::filesystem::path make_report(const std::filesystem::path& directory);
 
 }  // namespace pfaff

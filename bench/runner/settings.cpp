@@ -49,8 +49,8 @@ SplitSettings split_settings(const SystemPlugin& system, const MethodPlugin* met
     } else {
       const bool of_system = knows(system, key), of_method = method != nullptr && knows(*method, key);
       if (of_system && of_method)
-        throw InputError("parameter '" + key + "' belongs to both " + system.name() + " and " + method->name() +
-                         "; expected system." + key + " or integrator." + key);
+        throw InputError("parameter '" + key + "' belongs to both " + system.name() + " and " +
+                         method->name() + "; expected system." + key + " or integrator." + key);
       if (!of_system && !of_method) {
         std::vector<std::string> names{"initial"};
         for (const Parameter& p : system.parameters()) names.push_back(p.name);
@@ -81,10 +81,12 @@ ResolvedRun resolve(const RunSettings& settings) {
   run.initial = run.model->initial();
   if (!initial.empty()) {
     if (initial.size() != static_cast<std::size_t>(run.model->dimension()))
-      throw InputError("initial state of " + system.name() + ": expected " + std::to_string(run.model->dimension()) +
-                       " numbers, got " + std::to_string(initial.size()));
+      throw InputError("initial state of " + system.name() + ": expected " +
+                       std::to_string(run.model->dimension()) + " numbers, got " +
+                       std::to_string(initial.size()));
     for (std::size_t k = 0; k < initial.size(); ++k)
-      run.initial[k] = number(initial[k], "initial " + run.model->coordinates()[k].name + " of " + system.name());
+      run.initial[k] =
+          number(initial[k], "initial " + run.model->coordinates()[k].name + " of " + system.name());
   }
   run.t0 = number(settings.t0, "initial time");
   run.time = number(settings.time, "--time");
@@ -110,16 +112,20 @@ ResolvedRun resolve(const RunSettings& settings) {
       throw InputError("--tolerance: adaptive steps are available in double only");
     return run;
   }
-  if (settings.step.empty()) throw InputError("--step is missing (or --tolerance for methods that choose their steps)");
+  if (settings.step.empty())
+    throw InputError("--step is missing (or --tolerance for methods that choose their steps)");
   run.step = number(settings.step, "--step");
   if (!(run.step > Real(0))) throw InputError("--step: expected a number > 0, got '" + settings.step + "'");
   if (run.step > run.time)
-    throw InputError("--step: expected at most the duration " + settings.time + ", got '" + settings.step + "'");
+    throw InputError("--step: expected at most the duration " + settings.time + ", got '" + settings.step +
+                     "'");
   const double ratio = (run.time / run.step).value();
-  if (ratio > 1e15) throw InputError("--step: " + settings.step + " is too small for a duration of " + settings.time);
+  if (ratio > 1e15)
+    throw InputError("--step: " + settings.step + " is too small for a duration of " + settings.time);
   // The horizon is a whole number of steps; a duration that is not is shortened to one.
   const double nearest = std::round(ratio);
-  run.steps = static_cast<std::int64_t>(std::abs(ratio - nearest) < 1e-9 * nearest ? nearest : std::floor(ratio));
+  run.steps =
+      static_cast<std::int64_t>(std::abs(ratio - nearest) < 1e-9 * nearest ? nearest : std::floor(ratio));
   run.every = settings.every > 0 ? settings.every : std::max<std::int64_t>(1, (run.steps + 999) / 1000);
   return run;
 }
@@ -127,8 +133,9 @@ ResolvedRun resolve(const RunSettings& settings) {
 std::string config_text(const ResolvedRun& run) {
   std::ostringstream text;
   const auto quoted = [](const std::string& s) { return '"' + s + '"'; };
-  text << "schema = 1\nsystem = " << quoted(run.model->name()) << "\nintegrator = "
-       << quoted(run.settings.integrator) << "\nprecision = " << quoted(std::string(to_string(run.settings.precision)))
+  text << "schema = 1\nsystem = " << quoted(run.model->name())
+       << "\nintegrator = " << quoted(run.settings.integrator)
+       << "\nprecision = " << quoted(std::string(to_string(run.settings.precision)))
        << "\nt0 = " << quoted(to_string(run.t0)) << "\ntime = " << quoted(to_string(run.time)) << '\n';
   if (run.adaptive()) {
     text << "tolerance = " << quoted(to_string(run.tolerance)) << '\n';
@@ -136,9 +143,11 @@ std::string config_text(const ResolvedRun& run) {
     text << "step = " << quoted(to_string(run.step)) << "\nevery = " << run.every << '\n';
   }
   text << "initial = [";
-  for (std::size_t k = 0; k < run.initial.size(); ++k) text << (k == 0 ? "" : ", ") << quoted(to_string(run.initial[k]));
+  for (std::size_t k = 0; k < run.initial.size(); ++k)
+    text << (k == 0 ? "" : ", ") << quoted(to_string(run.initial[k]));
   text << "]\n\n[set]\n";
-  for (const auto& [key, value] : run.model->parameters()) text << "\"system." << key << "\" = " << quoted(value) << '\n';
+  for (const auto& [key, value] : run.model->parameters())
+    text << "\"system." << key << "\" = " << quoted(value) << '\n';
   for (const auto& [key, value] : run.method->parameters())
     text << "\"integrator." << key << "\" = " << quoted(value) << '\n';
   return text.str();

@@ -51,5 +51,7 @@ ResolvedRun resolve(const RunSettings& settings);
 
 /// A run as the text of its config.toml, from which it can be run again.
 std::string config_text(const ResolvedRun& run);
+/// The settings in a config.toml. InputError for unknown keys and wrong types.
+RunSettings read_config(const std::string& path);
 
 }  // namespace pfaff

@@ -13,7 +13,9 @@ std::string number(const Quad& x, Precision precision) {
 std::string header(const std::string& name, const std::string& unit) {
   return name + " [" + (unit.empty() ? "1" : unit) + "]";
 }
-nlohmann::json optional(const std::optional<double>& x) { return x ? nlohmann::json(*x) : nlohmann::json(nullptr); }
+nlohmann::json optional(const std::optional<double>& x) {
+  return x ? nlohmann::json(*x) : nlohmann::json(nullptr);
+}
 }  // namespace
 
 std::string series_csv(const ResolvedRun& run, const RunRecord& record) {
@@ -68,8 +70,8 @@ nlohmann::json summary(const ResolvedRun& run, const RunRecord& record) {
   j["invariants"] = nlohmann::json::array();
   for (std::size_t i = 0; i < run.model->invariants().size(); ++i) {
     const Invariant& invariant = run.model->invariants()[i];
-    nlohmann::json entry{{"name", invariant.name}, {"unit", invariant.unit},
-                         {"expected", to_string(invariant.behaviour)}};
+    nlohmann::json entry{
+        {"name", invariant.name}, {"unit", invariant.unit}, {"expected", to_string(invariant.behaviour)}};
     if (!record.samples.empty()) entry["initial"] = static_cast<double>(record.samples.front().invariants[i]);
     if (invariant.behaviour == Behaviour::conserved) {
       const Drift& d = record.drift[i];
@@ -92,8 +94,11 @@ nlohmann::json summary(const ResolvedRun& run, const RunRecord& record) {
   j["error_final"] = optional(record.error_final);
   j["structure_residual"] = optional(record.structure_residual);
   const Counters& c = record.counters;
-  j["counts"] = {{"steps", c.steps}, {"right_hand_sides", c.fields}, {"jacobians", c.jacobians},
-                 {"iterations", c.iterations}, {"factorisations", c.factorisations}};
+  j["counts"] = {{"steps", c.steps},
+                 {"right_hand_sides", c.fields},
+                 {"jacobians", c.jacobians},
+                 {"iterations", c.iterations},
+                 {"factorisations", c.factorisations}};
   j["versions"] = versions();
   return j;
 }

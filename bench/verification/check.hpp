@@ -12,8 +12,9 @@
 
 namespace pfaff {
 
-/// pass: the claim holds. fail: it does not. measured: outside the claim's scope, shown only. rejected: a control, a
-/// claim known to be false, was found to be false, as it must be. skipped: could not be measured, with the reason.
+/// pass: the claim holds. fail: it does not. measured: outside the claim's scope, shown only. rejected: a
+/// control, a claim known to be false, was found to be false, as it must be. skipped: could not be measured,
+/// with the reason.
 enum class CheckResult { pass, fail, measured, rejected, skipped };
 std::string_view to_string(CheckResult result);
 
@@ -31,14 +32,15 @@ bool good(const Check& check);
 
 nlohmann::json to_json(const Check& check);
 
-/// A point on a system where claims are measured: the initial state moved off any symmetry, at a time that is not 0.
+/// A point on a system where claims are measured: the initial state moved off any symmetry, at a time that is
+/// not 0.
 std::vector<Real> generic_state(const Model& model);
 inline const Real generic_time = Real::fraction(37, 100);
 
-/// Measured order of a method from local errors in quad against Taylor series: log2 of successive errors under
-/// halving of the step, minus one, taken down until three slopes agree to 0.02, or, where round-off comes first,
-/// extrapolated from the last two. Methods with double coefficients are measured in quad arithmetic down to the error
-/// of their coefficients.
+/// Measured order of a method from local errors in quad against Taylor series: log2 of successive errors
+/// under halving of the step, minus one, taken down until three slopes agree to 0.02, or, where round-off
+/// comes first, extrapolated from the last two. Methods with double coefficients are measured in quad
+/// arithmetic down to the error of their coefficients.
 struct MeasuredOrder {
   double slope = 0;
   bool settled = false;
@@ -49,7 +51,8 @@ MeasuredOrder measure_order(const MethodInstance& method, const std::shared_ptr<
 double order_at_small_steps(const MethodInstance& method, const std::shared_ptr<const Model>& model);
 
 /// Checks of one method with given parameters on one system, in double and quad.
-std::vector<Check> check_method(const MethodPlugin& plugin, const Assignments& parameters, const SystemPlugin& system);
+std::vector<Check> check_method(const MethodPlugin& plugin, const Assignments& parameters,
+                                const SystemPlugin& system);
 /// The method with one coefficient changed by 1e-6 must lose its order or its structure.
 std::vector<Check> check_changed_coefficient(const MethodPlugin& plugin, const Assignments& parameters,
                                              const SystemPlugin& system);
@@ -57,15 +60,17 @@ std::vector<Check> check_changed_coefficient(const MethodPlugin& plugin, const A
 std::vector<Check> check_system(const SystemPlugin& system);
 /// Symmetry and Jacobi identity of a bracket.
 std::vector<Check> check_bracket(const std::string& plugin);
-/// Brackets that are not what they are claimed to be, which must be rejected: one without Jacobi's identity, one not
-/// quite skew.
+/// Brackets that are not what they are claimed to be, which must be rejected: one without Jacobi's identity,
+/// one not quite skew.
 std::vector<Check> check_false_brackets();
-/// Methods that are not what they are claimed to be: RK4 symplectic and K-symplectic, su-qin (105) as printed.
+/// Methods that are not what they are claimed to be: RK4 symplectic and K-symplectic, su-qin (105) as
+/// printed.
 std::vector<Check> check_false_methods();
 
-/// Everything, or what the names select (plug-ins or "su-qin" groups); jobs run in parallel, results in fixed order.
-/// `full` adds the large orders.
-std::vector<Check> verify(const std::vector<std::string>& names, bool full,
-                          const std::function<void(const std::string& what, std::size_t done, std::size_t all)>& progress);
+/// Everything, or what the names select (plug-ins or "su-qin" groups); jobs run in parallel, results in fixed
+/// order. `full` adds the large orders.
+std::vector<Check> verify(
+    const std::vector<std::string>& names, bool full,
+    const std::function<void(const std::string& what, std::size_t done, std::size_t all)>& progress);
 
 }  // namespace pfaff

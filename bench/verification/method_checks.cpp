@@ -1,4 +1,5 @@
-// The claims of methods: order, structure, symmetry, invariants, agreement of precisions, the step's Jacobian.
+// The claims of methods: order, structure, symmetry, invariants, agreement of precisions, the step's
+// Jacobian.
 #include <algorithm>
 #include <cmath>
 
@@ -9,21 +10,30 @@ namespace pfaff {
 
 namespace {
 
-// Steps at which claims are measured: small enough for every implicit solve, large enough to show a false claim.
+// Steps at which claims are measured: small enough for every implicit solve, large enough to show a false
+// claim.
 const Real check_step = Real::fraction(1, 10);
 
-template <class T> std::vector<T> state_of(const Model& model) {
+template <class T>
+std::vector<T> state_of(const Model& model) {
   std::vector<T> z;
   for (const Real& x : generic_state(model)) z.push_back(T(x));
   return z;
 }
 
-// Round-off that a step may show: 1e-14 in double and 1e-31 in quad, the accuracy the reference values are held to;
-// about 100 and 1000 units of round-off, for sums over stages and the conditioning of a step.
-template <class T> constexpr double tolerance() { return std::is_same_v<T, Quad> ? 1e-31 : 1e-14; }
-template <class T> constexpr const char* precision_name() { return std::is_same_v<T, Quad> ? "quad" : "double"; }
+// Round-off that a step may show: 1e-14 in double and 1e-31 in quad, the accuracy the reference values are
+// held to; about 100 and 1000 units of round-off, for sums over stages and the conditioning of a step.
+template <class T>
+constexpr double tolerance() {
+  return std::is_same_v<T, Quad> ? 1e-31 : 1e-14;
+}
+template <class T>
+constexpr const char* precision_name() {
+  return std::is_same_v<T, Quad> ? "quad" : "double";
+}
 
-template <class T> T norm_of(const std::vector<T>& z) {
+template <class T>
+T norm_of(const std::vector<T>& z) {
   T largest(0);
   for (const T& x : z) largest = std::max(largest, abs(x));
   return largest;
@@ -68,8 +78,8 @@ class MethodChecker {
     return checks_.back();
   }
   // A residual that must be at round-off where the claim is made, and is shown where it is not.
-  void residual(const std::string& claim, const std::string& scope, bool in_scope, const char* precision, double value,
-                double limit) {
+  void residual(const std::string& claim, const std::string& scope, bool in_scope, const char* precision,
+                double value, double limit) {
     Check& check = add(claim, scope, precision);
     check.measured = value;
     check.tolerance = limit;
@@ -94,8 +104,8 @@ class MethodChecker {
       check.reason = order.reason;
       return;
     }
-    // Exactly the order where nothing can add to it: a structure that depends on time (nu = 0.3), and the extra order
-    // of odd generating functions. Elsewhere a method may do better than it claims.
+    // Exactly the order where nothing can add to it: a structure that depends on time (nu = 0.3), and the
+    // extra order of odd generating functions. Elsewhere a method may do better than it claims.
     const bool nonautonomous = model_->facets().has(Facet::darboux_chart) && !model_->chart_autonomous();
     const bool gained = plugin_.name() == "generating-function" && !nonautonomous;
     const bool both_sides = (nonautonomous || gained) && !doubles;
@@ -118,7 +128,8 @@ class MethodChecker {
              static_cast<double>(difference / std::max(Quad(1), norm_of(quad))), tolerance<double>());
   }
 
-  // The Jacobian of the converged step against central differences of order 4 in quad: error delta^4 + u/delta.
+  // The Jacobian of the converged step against central differences of order 4 in quad: error delta^4 +
+  // u/delta.
   void jacobian() {
     const std::vector<Quad> z = state_of<Quad>(*model_);
     const Quad t(generic_time), h(check_step), delta(1e-7);
@@ -143,7 +154,8 @@ class MethodChecker {
              static_cast<double>(worst / std::max(Quad(1), norm_of(step.jacobian))), 1e-24);
   }
 
-  template <class T> void structure() {
+  template <class T>
+  void structure() {
     if (!StructureResidual<T>::applies(*model_)) return;
     const bool birkhoffian = model_->facets().has(Facet::birkhoffian);
     const bool charted = model_->facets().has(Facet::darboux_chart);
@@ -157,7 +169,8 @@ class MethodChecker {
     residual(claim, scope, in_scope, precision_name<T>(), static_cast<double>(value), tolerance<T>());
   }
 
-  template <class T> void symmetry() {
+  template <class T>
+  void symmetry() {
     const auto stepper = method_->stepper(model_, T());
     const std::vector<T> start = state_of<T>(*model_);
     std::vector<T> z = start;
@@ -168,12 +181,15 @@ class MethodChecker {
     if (status == Status::converged) status = stepper->advance(t + h, 0, -h, 1, z, completed);
     T distance(0);
     for (std::size_t k = 0; k < z.size(); ++k) distance = std::max(distance, abs(z[k] - start[k]));
-    const double value = status == Status::converged ? static_cast<double>(distance / std::max(T(1), norm_of(start)))
-                                                     : std::numeric_limits<double>::quiet_NaN();
-    residual("symmetric", "every system", claims(Claim::symmetric), precision_name<T>(), value, tolerance<T>());
+    const double value = status == Status::converged
+                             ? static_cast<double>(distance / std::max(T(1), norm_of(start)))
+                             : std::numeric_limits<double>::quiet_NaN();
+    residual("symmetric", "every system", claims(Claim::symmetric), precision_name<T>(), value,
+             tolerance<T>());
   }
 
-  template <class T> void quadratic_invariants() {
+  template <class T>
+  void quadratic_invariants() {
     const auto& list = model_->invariants();
     if (std::none_of(list.begin(), list.end(), [](const Invariant& i) { return i.quadratic; })) return;
     const Problem<T> problem(model_);
@@ -185,9 +201,10 @@ class MethodChecker {
     problem.invariants(T(generic_time) + T(check_step), z, after);
     T worst(0);
     for (std::size_t k = 0; k < list.size(); ++k)
-      if (list[k].quadratic) worst = std::max(worst, abs(after[k] - before[k]) / std::max(T(1), abs(before[k])));
-    residual("quadratic-invariants", "quadratic invariants", claims(Claim::quadratic_invariants), precision_name<T>(),
-             static_cast<double>(worst), tolerance<T>());
+      if (list[k].quadratic)
+        worst = std::max(worst, abs(after[k] - before[k]) / std::max(T(1), abs(before[k])));
+    residual("quadratic-invariants", "quadratic invariants", claims(Claim::quadratic_invariants),
+             precision_name<T>(), static_cast<double>(worst), tolerance<T>());
   }
 
   const MethodPlugin& plugin_;
@@ -201,7 +218,8 @@ class MethodChecker {
 
 }  // namespace
 
-std::vector<Check> check_method(const MethodPlugin& plugin, const Assignments& parameters, const SystemPlugin& system) {
+std::vector<Check> check_method(const MethodPlugin& plugin, const Assignments& parameters,
+                                const SystemPlugin& system) {
   return MethodChecker(plugin, parameters, system).run();
 }
 
@@ -223,7 +241,8 @@ std::vector<Check> check_changed_coefficient(const MethodPlugin& plugin, const A
     check.expected = method->order(*model);
     check.tolerance = 0.1;
     check.measured = order_at_small_steps(*changed, model);
-    check.result = check.measured < check.expected - check.tolerance ? CheckResult::rejected : CheckResult::pass;
+    check.result =
+        check.measured < check.expected - check.tolerance ? CheckResult::rejected : CheckResult::pass;
     if (check.result == CheckResult::pass && StructureResidual<Quad>::applies(*model)) {
       // The order survives; the structure must not.
       std::vector<Quad> z;

@@ -31,7 +31,8 @@ double logarithm2(Quad x) { return std::log2(static_cast<double>(x)); }
 }  // namespace
 
 MeasuredOrder measure_order(const MethodInstance& method, const std::shared_ptr<const Model>& model) {
-  // Below the floor round-off is more than a hundredth of the error: that of quad, or of coefficients in double.
+  // Below the floor round-off is more than a hundredth of the error: that of quad, or of coefficients in
+  // double.
   const Quad floor(method.descriptor().double_coefficients ? 1e-16 : 1e-32);
   MeasuredOrder result;
   std::vector<double> slopes;
@@ -43,7 +44,8 @@ MeasuredOrder measure_order(const MethodInstance& method, const std::shared_ptr<
     if (last_error > Quad(0)) slopes.push_back(logarithm2(last_error / error) - 1);
     last_error = error;
     const std::size_t n = slopes.size();
-    if (n >= 4 && std::abs(slopes[n - 1] - slopes[n - 2]) < 0.01 && std::abs(slopes[n - 2] - slopes[n - 3]) < 0.02) {
+    if (n >= 4 && std::abs(slopes[n - 1] - slopes[n - 2]) < 0.01 &&
+        std::abs(slopes[n - 2] - slopes[n - 3]) < 0.02) {
       result.slope = slopes.back();
       result.settled = true;
       return result;
@@ -53,7 +55,8 @@ MeasuredOrder measure_order(const MethodInstance& method, const std::shared_ptr<
     result.reason = "no two errors above round-off";
     return result;
   }
-  // Round-off came first. Slopes approach the order in proportion to h: where they contract, one extrapolation.
+  // Round-off came first. Slopes approach the order in proportion to h: where they contract, one
+  // extrapolation.
   const std::size_t n = slopes.size();
   result.slope = slopes.back();
   if (n >= 3 && std::abs(slopes[n - 1] - slopes[n - 2]) < 0.75 * std::abs(slopes[n - 2] - slopes[n - 3]))

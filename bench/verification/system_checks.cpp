@@ -1,5 +1,6 @@
-// The claims of systems and brackets: that what was written agrees with what is derived, that structures are what they
-// are said to be, that invariants and exact solutions are right. Measured at random points with a fixed seed.
+// The claims of systems and brackets: that what was written agrees with what is derived, that structures are
+// what they are said to be, that invariants and exact solutions are right. Measured at random points with a
+// fixed seed.
 #include <cmath>
 #include <random>
 
@@ -17,8 +18,8 @@ using Arguments = std::span<const Recorded>;
 using Results = std::span<Recorded>;
 constexpr int points = 20;
 
-Check named(const std::string& plugin, const std::string& claim, const std::string& system, const char* precision,
-            double measured, double tolerance) {
+Check named(const std::string& plugin, const std::string& claim, const std::string& system,
+            const char* precision, double measured, double tolerance) {
   Check check;
   check.plugin = plugin;
   check.claim = claim;
@@ -32,7 +33,8 @@ Check named(const std::string& plugin, const std::string& claim, const std::stri
 }
 
 // Largest value of a tape's outputs at random states within 1/20 of the model's generic state.
-template <class T> T largest(const std::shared_ptr<const Tape>& tape, const std::vector<Real>& centre) {
+template <class T>
+T largest(const std::shared_ptr<const Tape>& tape, const std::vector<Real>& centre) {
   std::mt19937_64 random(20041);
   std::uniform_real_distribution<double> offset(-0.05, 0.05);
   Replay<T> replay(tape);
@@ -47,15 +49,18 @@ template <class T> T largest(const std::shared_ptr<const Tape>& tape, const std:
 }
 
 // A tape made of recorded expressions of (t, z).
-template <class F> std::shared_ptr<const Tape> expression(int inputs, int outputs, F&& f) {
+template <class F>
+std::shared_ptr<const Tape> expression(int inputs, int outputs, F&& f) {
   return std::make_shared<const Tape>(record(inputs, outputs, std::forward<F>(f)));
 }
 
-void both(std::vector<Check>& checks, const std::string& plugin, const std::string& claim, const std::string& system,
-          const std::shared_ptr<const Tape>& residual, const std::vector<Real>& centre) {
+void both(std::vector<Check>& checks, const std::string& plugin, const std::string& claim,
+          const std::string& system, const std::shared_ptr<const Tape>& residual,
+          const std::vector<Real>& centre) {
   // A handful of operations on numbers of order one to ten, their derivatives included.
   checks.push_back(named(plugin, claim, system, "double", largest<double>(residual, centre), 1e-13));
-  checks.push_back(named(plugin, claim, system, "quad", static_cast<double>(largest<Quad>(residual, centre)), 1e-31));
+  checks.push_back(
+      named(plugin, claim, system, "quad", static_cast<double>(largest<Quad>(residual, centre)), 1e-31));
 }
 
 // [Pi, Pi]^{ijk} = sum_l Pi^il d_l Pi^jk + cyclic, and the symmetric part, as tapes.
@@ -70,7 +75,8 @@ std::shared_ptr<const Tape> jacobiator(const Tape& tensor, int n) {
           Recorded sum(0);
           for (std::size_t l = 0; l < size; ++l)
             sum = sum + pi[i * size + l] * slope[(j * size + k) * size + l] +
-                  pi[j * size + l] * slope[(k * size + i) * size + l] + pi[k * size + l] * slope[(i * size + j) * size + l];
+                  pi[j * size + l] * slope[(k * size + i) * size + l] +
+                  pi[k * size + l] * slope[(i * size + j) * size + l];
           out[(i * size + j) * size + k] = sum;
         }
   });
@@ -181,13 +187,14 @@ std::vector<Check> check_system(const SystemPlugin& plugin) {
     const auto derived = model->derived(formula);
     if (derived == nullptr) continue;
     const auto given = model->tape(formula);
-    const auto difference =
-        expression(given->inputs, static_cast<int>(given->outputs.size()), [&](const Recorded& t, Arguments z, Results out) {
-          const auto a = evaluate(*given, t, z), b = evaluate(*derived, t, z);
-          for (std::size_t k = 0; k < a.size(); ++k) out[k] = a[k] - b[k];
-        });
+    const auto difference = expression(given->inputs, static_cast<int>(given->outputs.size()),
+                                       [&](const Recorded& t, Arguments z, Results out) {
+                                         const auto a = evaluate(*given, t, z), b = evaluate(*derived, t, z);
+                                         for (std::size_t k = 0; k < a.size(); ++k) out[k] = a[k] - b[k];
+                                       });
     const std::vector<Real> where(centre.begin(), centre.begin() + given->inputs);
-    both(checks, plugin.name(), std::string("written ") + name + " is the derived one", plugin.name(), difference, where);
+    both(checks, plugin.name(), std::string("written ") + name + " is the derived one", plugin.name(),
+         difference, where);
   }
   if (model->facets().has(Facet::hamiltonian) || model->facets().has(Facet::birkhoffian)) {
     const auto tensor = model->tape(Formula::poisson_tensor);

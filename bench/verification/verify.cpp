@@ -23,10 +23,10 @@ bool good(const Check& check) {
 nlohmann::json to_json(const Check& c) {
   nlohmann::json parameters = nlohmann::json::object();
   for (const auto& [key, value] : c.parameters) parameters[key] = value;
-  return {{"plugin", c.plugin},       {"claim", c.claim},         {"scope", c.scope},
-          {"system", c.system},       {"precision", c.precision}, {"parameters", parameters},
-          {"measured", c.measured},   {"expected", c.expected},   {"tolerance", c.tolerance},
-          {"in_scope", c.in_scope},   {"control", c.control},     {"result", to_string(c.result)},
+  return {{"plugin", c.plugin},     {"claim", c.claim},         {"scope", c.scope},
+          {"system", c.system},     {"precision", c.precision}, {"parameters", parameters},
+          {"measured", c.measured}, {"expected", c.expected},   {"tolerance", c.tolerance},
+          {"in_scope", c.in_scope}, {"control", c.control},     {"result", to_string(c.result)},
           {"reason", c.reason}};
 }
 
@@ -41,7 +41,8 @@ std::vector<Real> generic_state(const Model& model) {
 
 std::vector<Check> check_false_methods() {
   std::vector<Check> checks;
-  const auto control = [&](const std::string& plugin, const std::string& claim, const std::string& system) -> Check& {
+  const auto control = [&](const std::string& plugin, const std::string& claim,
+                           const std::string& system) -> Check& {
     Check check;
     check.plugin = plugin;
     check.claim = claim;
@@ -55,19 +56,21 @@ std::vector<Check> check_false_methods() {
   const auto decide = [](Check& check) {
     check.result = check.measured <= check.tolerance ? CheckResult::pass : CheckResult::rejected;
   };
-  for (const auto& [name, claim] : {std::pair{"pendulum", "symplectic"}, std::pair{"damped-pendulum", "K-symplectic"}}) {
+  for (const auto& [name, claim] :
+       {std::pair{"pendulum", "symplectic"}, std::pair{"damped-pendulum", "K-symplectic"}}) {
     const auto model = systems().get(name, "system").make({});
     const auto method = integrators().get("rk4", "integrator").make({});
     std::vector<Quad> z;
     for (const Real& x : generic_state(*model)) z.push_back(x.quad());
     Check& check = control("rk4", claim, name);
-    check.measured = static_cast<double>(StructureResidual<Quad>(*method, model)(generic_time.quad(), Quad(0.1), z));
+    check.measured =
+        static_cast<double>(StructureResidual<Quad>(*method, model)(generic_time.quad(), Quad(0.1), z));
     check.tolerance = 1e-31;
     decide(check);
   }
-  // su-qin (105) as printed, -8 a e^{-nu tau} instead of -8 b e^{-nu tau}: its determinant is not e^{-nu tau}, and it
-  // leaves an error of order tau^2 against the exact transition matrix, whose lower left entry is
-  // -e^{-nu tau/2} sin(w tau)/w with w^2 = 1 - nu^2/4.
+  // su-qin (105) as printed, -8 a e^{-nu tau} instead of -8 b e^{-nu tau}: its determinant is not e^{-nu
+  // tau}, and it leaves an error of order tau^2 against the exact transition matrix, whose lower left entry
+  // is -e^{-nu tau/2} sin(w tau)/w with w^2 = 1 - nu^2/4.
   const Quad nu(Real::fraction(3, 10));
   const auto lower_left = [&](Quad tau) {
     const Quad a = Quad(2) * tau - nu * tau * tau, b = Quad(2) * tau + nu * tau * tau;
@@ -76,7 +79,8 @@ std::vector<Check> check_false_methods() {
   const Quad tau(0.1);
   const Quad a = Quad(2) * tau - nu * tau * tau, b = Quad(2) * tau + nu * tau * tau, d = Quad(16) + a * b;
   const Quad decay = exp(-(nu * tau));
-  const Quad determinant = (Quad(16) - a * b) / d * ((Quad(16) - a * b) / d) * decay - Quad(8) * a / d * lower_left(tau);
+  const Quad determinant =
+      (Quad(16) - a * b) / d * ((Quad(16) - a * b) / d) * decay - Quad(8) * a / d * lower_left(tau);
   Check& structure = control("su-qin (105) as printed", "K-symplectic", "damped-oscillator");
   structure.measured = static_cast<double>(abs(determinant - decay));
   structure.tolerance = 1e-31;
@@ -87,7 +91,8 @@ std::vector<Check> check_false_methods() {
   order.expected = 2;
   order.tolerance = 0.1;
   order.measured = static_cast<double>(log(error(Quad(1e-4)) / error(Quad(1e-5))) / log(Quad(10))) - 1;
-  order.result = order.measured < order.expected - order.tolerance ? CheckResult::rejected : CheckResult::pass;
+  order.result =
+      order.measured < order.expected - order.tolerance ? CheckResult::rejected : CheckResult::pass;
   return checks;
 }
 
@@ -115,10 +120,12 @@ std::vector<Job> jobs_of(const std::vector<std::string>& names, bool full) {
     for (const SystemPlugin* system : systems().all()) {
       if (!wanted(method->name()) && !wanted(system->name()) && !wanted("integrators")) continue;
       const auto model = system->make({});
-      // Controls need a nonlinear system that fits: the damped pendulum for chart methods, the pendulum for the rest.
-      bool controlled = system->name() == (method->make({})->refuses(*systems().get("damped-pendulum", "").make({})).empty()
-                                               ? "damped-pendulum"
-                                               : "pendulum");
+      // Controls need a nonlinear system that fits: the damped pendulum for chart methods, the pendulum for
+      // the rest.
+      bool controlled =
+          system->name() == (method->make({})->refuses(*systems().get("damped-pendulum", "").make({})).empty()
+                                 ? "damped-pendulum"
+                                 : "pendulum");
       for (const Assignments& parameters : method->instances(full)) {
         if (!method->make(parameters)->refuses(*model).empty()) continue;
         std::string what = method->name();
@@ -143,7 +150,8 @@ std::vector<Check> verify(const std::vector<std::string>& names, bool full,
   for (const auto& more : {systems().names(), integrators().names(), brackets().names()})
     known.insert(known.end(), more.begin(), more.end());
   for (const std::string& name : names)
-    if (std::find(known.begin(), known.end(), name) == known.end()) throw InputError(unknown_name("name", name, known));
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw InputError(unknown_name("name", name, known));
   const std::vector<Job> jobs = jobs_of(names, full);
   std::vector<std::vector<Check>> results(jobs.size());
   std::mutex mutex;
