@@ -75,6 +75,47 @@ std::vector<Recorded> time_derivative(const Tape& tape, const Recorded& t, std::
   return directional_derivative(tape, t, Recorded(1), z, std::vector<Recorded>(z.size()));
 }
 
+namespace {
+// When an instruction's value is used: always, or only where a condition is positive because every use is in a branch
+// of a select. A branch that is not taken has the adjoint 0, but 0 times the derivative of a root of a negative number
+// is NaN; its contributions are therefore selected away too.
+class Guard {
+ public:
+  static Guard always() { return Guard(true, Recorded()); }
+  Guard() = default;
+
+  /// Used inside a branch taken where `condition` > 0 (`taken`) or elsewhere, of a select that has this guard.
+  [[nodiscard]] Guard within(const Recorded& condition, bool taken) const {
+    const Recorded branch = taken ? condition : negated(condition);
+    return Guard(false, always_ ? branch : select(condition_, branch, Recorded(-1)));
+  }
+  /// Used here and there.
+  void join(const Guard& other) {
+    if (always_ || other.always_) {
+      *this = always();
+    } else if (!used_) {
+      *this = other;
+    } else if (same(condition_, negated(other.condition_)) || same(negated(condition_), other.condition_)) {
+      *this = always();
+    } else if (!same(condition_, other.condition_)) {
+      condition_ = select(condition_, Recorded(1), other.condition_);
+    }
+  }
+  /// `contribution` where the value is used, 0 elsewhere.
+  [[nodiscard]] Recorded operator()(const Recorded& contribution) const {
+    return always_ || contribution.is_constant() ? contribution : select(condition_, contribution, Recorded(0));
+  }
+
+ private:
+  Guard(bool always, const Recorded& condition) : used_(true), always_(always), condition_(condition) {}
+  static Recorded negated(const Recorded& condition) { return select(condition, Recorded(-1), Recorded(1)); }
+  static bool same(const Recorded& a, const Recorded& b) { return !a.is_constant() && a.slot() == b.slot(); }
+
+  bool used_ = false, always_ = false;
+  Recorded condition_;
+};
+}  // namespace
+
 std::vector<Recorded> gradient(const Tape& tape, const Recorded& t, std::span<const Recorded> z,
                                std::span<const Recorded> weights) {
   Replay<Recorded> replay(borrow(tape));
@@ -82,17 +123,23 @@ std::vector<Recorded> gradient(const Tape& tape, const Recorded& t, std::span<co
   replay(t, z.data(), outputs.data());
   const std::vector<Recorded>& x = replay.slots();
   std::vector<Recorded> adjoint(x.size()), result(z.size());
+  std::vector<Guard> guards(x.size());
   const auto at = [&](int slot) -> const Recorded& { return x[static_cast<std::size_t>(slot)]; };
-  const auto add = [&](int slot, const Recorded& value) {
+  const auto add_within = [&](const Guard& guard, int slot, const Recorded& value) {
+    if (structurally_zero(value)) return;
     Recorded& a = adjoint[static_cast<std::size_t>(slot)];
     a = a + value;
+    guards[static_cast<std::size_t>(slot)].join(guard);
   };
-  for (std::size_t k = 0; k < weights.size(); ++k) add(tape.outputs[k], weights[k]);
+  for (std::size_t k = 0; k < weights.size(); ++k) add_within(Guard::always(), tape.outputs[k], weights[k]);
 
   // Functions of constants and time alone have no gradient: the sweep stops at the first state instruction.
   for (std::size_t k = x.size(); k-- > static_cast<std::size_t>(tape.state_begin);) {
     const Instruction& i = tape.code[k];
     const Recorded& w = adjoint[k];
+    // An adjoint handed on as it is, and one times a derivative.
+    const auto pass = [&](int slot, const Recorded& value) { add_within(guards[k], slot, value); };
+    const auto add = [&](int slot, const Recorded& value) { add_within(guards[k], slot, guards[k](value)); };
     if (i.operation == Operation::solve) {
       // A x = b: b_bar = A^-T x_bar, A_bar = -b_bar x^T.
       const auto s = static_cast<std::size_t>(i.a);
@@ -102,6 +149,7 @@ std::vector<Recorded> gradient(const Tape& tape, const Recorded& t, std::span<co
       bool zero = true;
       for (std::size_t r = 0; r < n; ++r) {
         bar[r] = adjoint[k + r];
+        if (!structurally_zero(bar[r])) guards[k].join(guards[k + r]);
         zero = zero && structurally_zero(bar[r]);
         for (std::size_t c = 0; c < n; ++c) transposed[c * n + r] = at(system.matrix[r * n + c]);
       }
@@ -116,14 +164,14 @@ std::vector<Recorded> gradient(const Tape& tape, const Recorded& t, std::span<co
     if (structurally_zero(w)) continue;
     switch (i.operation) {
       case Operation::input: result[static_cast<std::size_t>(i.a)] = w; break;
-      case Operation::negate: add(i.a, -w); break;
+      case Operation::negate: pass(i.a, -w); break;
       case Operation::add:
-        add(i.a, w);
-        add(i.b, w);
+        pass(i.a, w);
+        pass(i.b, w);
         break;
       case Operation::subtract:
-        add(i.a, w);
-        add(i.b, -w);
+        pass(i.a, w);
+        pass(i.b, -w);
         break;
       case Operation::multiply:
         add(i.a, w * at(i.b));
@@ -144,8 +192,8 @@ std::vector<Recorded> gradient(const Tape& tape, const Recorded& t, std::span<co
         break;
       }
       case Operation::select:
-        add(i.b, select(at(i.a), w, Recorded(0)));
-        add(i.c, select(at(i.a), Recorded(0), w));
+        add_within(guards[k].within(at(i.a), true), i.b, select(at(i.a), w, Recorded(0)));
+        add_within(guards[k].within(at(i.a), false), i.c, select(at(i.a), Recorded(0), w));
         break;
       default: break;
     }
