@@ -1,0 +1,121 @@
+// When an iteration has nothing left to gain, and sums that do not lose what they round off.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include <pfaff/core/solve/convergence.hpp>
+#include <pfaff/core/solve/summation.hpp>
+
+namespace {
+using namespace pfaff;
+
+// Feeds the corrections of one component of size 1; returns the status and how many were taken.
+template <class Corrections>
+std::pair<Status, int> watch(const Corrections& correction, int limit = 60) {
+  Convergence<double> c;
+  do {
+    c.begin_iteration();
+    c.add(correction(c.iterations()), 1.0, 1.0);
+  } while (!c.finished(limit));
+  return {c.status(), c.iterations()};
+}
+
+TEST(Convergence, StopsAtRoundOffAndNotBefore) {
+  const auto [halving, halvings] = watch([](int k) { return std::ldexp(1.0, -k); });
+  EXPECT_EQ(halving, Status::converged);
+  EXPECT_EQ(halvings, 53);
+  // A contraction of 1e-3 is stopped one iteration early: the next correction would be nothing.
+  const auto [fast, steps] = watch([](int k) { return std::pow(1e-3, k); });
+  EXPECT_EQ(fast, Status::converged);
+  EXPECT_EQ(steps, 5);  // 1e-15, the next one 1e-18
+  // A quadratic iteration is, too.
+  EXPECT_EQ(watch([](int k) { return std::pow(0.1, std::pow(2, k)); }).second, 4);
+}
+
+TEST(Convergence, NoiseNearRoundOffCountsAsConverged) {
+  const auto noise = [](int k) { return k < 5 ? std::pow(0.01, k) : 2e-15 * (1 + k % 2); };
+  EXPECT_EQ(watch(noise).first, Status::converged);
+  // Controls: noise at 1e-9 does not, nor does slow convergence cut short, nor growth.
+  EXPECT_EQ(watch([](int k) { return k < 4 ? std::pow(0.01, k) : 1e-9 * (1 + k % 2); }).first,
+            Status::not_converged);
+  EXPECT_EQ(watch([](int k) { return std::pow(0.9, k); }).first, Status::not_converged);
+  EXPECT_EQ(watch([](int k) { return std::pow(1.1, k); }).first, Status::not_converged);
+}
+
+TEST(Convergence, SeesNaNInAnyComponentAndDerivative) {
+  Convergence<double> c;
+  c.begin_iteration();
+  c.add(NAN, 1, 1);
+  c.add(0, 1, 1);
+  EXPECT_TRUE(c.finished(10));
+  EXPECT_EQ(c.status(), Status::non_finite);
+  Convergence<Dual<double, 2>> d;
+  d.begin_iteration();
+  Dual<double, 2> delta(0.0);
+  delta.derivative[1] = NAN;
+  d.add(delta, Dual<double, 2>(1), Dual<double, 2>(1));
+  EXPECT_TRUE(d.finished(10));
+  EXPECT_EQ(d.status(), Status::non_finite);
+}
+
+TEST(Convergence, JudgesEveryPartByItsOwnSize) {
+  EXPECT_DOUBLE_EQ(relative_size(1e-30, 1e-20, 0.0), 1e-10);
+  EXPECT_DOUBLE_EQ(relative_size(1e-30, 0.0, -1e-25), 1e-5);
+  EXPECT_EQ(relative_size(0.0, 0.0, 0.0), 0);
+  EXPECT_EQ(relative_size(1e-300, 0.0, 0.0), std::numeric_limits<double>::infinity());
+  EXPECT_TRUE(std::isnan(relative_size(static_cast<double>(NAN), 1.0, 1.0)));
+  using D = Dual<double, 2>;
+  D delta(1e-16), reference(1.0);
+  delta.derivative = {1e-8, 0};
+  reference.derivative = {1e-4, 1e-2};  // one scale for all directions
+  EXPECT_DOUBLE_EQ(relative_size(delta, reference, D(0)), 1e-6);
+}
+
+TEST(Convergence, KnowsItsContraction) {
+  Convergence<double> c;
+  EXPECT_EQ(c.ratio(), 1);
+  for (const double delta : {1e-2, 1e-3}) {
+    c.begin_iteration();
+    c.add(delta, 1, 1);
+    EXPECT_FALSE(c.finished(10));
+  }
+  EXPECT_NEAR(c.ratio(), 0.1, 1e-15);
+}
+
+// Ten million additions of 0.1. The exact sum of the doubles is n * 0.1 in quad.
+TEST(Summation, KeepsWhatItRoundsOff) {
+  constexpr int n = 10'000'000;
+  double compensated = 0, carry = 0, plain = 0, unused = 0;
+  for (int k = 0; k < n; ++k) {
+    add_to(compensated, carry, 0.1, true);
+    add_to(plain, unused, 0.1, false);
+  }
+  const Quad exact = Quad(n) * Quad(0.1);
+  // One unit in the last place of 1e6, 1.2e-10.
+  const double bound = 1.2e-10;
+  EXPECT_LE(static_cast<double>(abs(Quad(compensated) - exact)), bound);
+  EXPECT_LE(static_cast<double>(abs(Quad(compensated) + Quad(carry) - exact)), 1e-16 * n * 1e-9);
+  EXPECT_GT(static_cast<double>(abs(Quad(plain) - exact)), 1e5 * bound);  // control
+  EXPECT_EQ(unused, 0);
+}
+
+TEST(Summation, WorksForSignsDualsAndQuads) {
+  // A random walk with increments of both signs, in duals, against the sum in quad.
+  using D = Dual<double, 1>;
+  D sum(1.0), carry(0.0);
+  Quad value(1), slope(0), fine(1), fine_carry(0);
+  for (int k = 0; k < 100000; ++k) {
+    D increment(std::sin(k * 0.7) * 1e-3);
+    increment.derivative[0] = std::cos(k * 0.3) * 1e-2 + 1e-2;
+    compensated_add(sum, carry, increment);
+    compensated_add(fine, fine_carry, Quad(increment.value));
+    value += Quad(increment.value);
+    slope += Quad(increment.derivative[0]);
+  }
+  EXPECT_LE(static_cast<double>(abs(Quad(sum.value) - value)), 2.3e-16);
+  EXPECT_LE(static_cast<double>(abs(Quad(sum.derivative[0]) - slope)), 1e3 * 1.2e-16);
+  EXPECT_LE(static_cast<double>(abs(fine - value)), 1e-30);
+}
+
+}  // namespace

@@ -1,0 +1,53 @@
+// Texts of errors: the nearest name, or what there is to choose from.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include <pfaff/core/registry/errors.hpp>
+#include <pfaff/core/registry/registry.hpp>
+#include <pfaff/core/system.hpp>
+
+namespace {
+using namespace pfaff;
+
+const std::vector<std::string> names{"damped-oscillator", "damped-pendulum", "henon-heiles", "kepler",
+                                     "pendulum"};
+
+TEST(Errors, NearestFindsSlipsOfTheKeyboard) {
+  EXPECT_EQ(nearest("damped-oscilator", names), "damped-oscillator");
+  EXPECT_EQ(nearest("keppler", names), "kepler");
+  EXPECT_EQ(nearest("kelper", names), "kepler");
+  EXPECT_EQ(nearest("damped_pendulum", names), "damped-pendulum");
+  EXPECT_EQ(nearest("pendulum", names), "pendulum");
+  EXPECT_EQ(nearest("hen", names), "henon-heiles");  // typed short
+  EXPECT_EQ(nearest("hennon-heiles", names), "henon-heiles");
+}
+
+TEST(Errors, NearestIsEmptyWhenNothingIsNear) {
+  EXPECT_EQ(nearest("rigid-body-in-a-box", names), "");
+  EXPECT_EQ(nearest("zzzzzz", names), "");
+  EXPECT_EQ(nearest("kepler", {}), "");
+}
+
+TEST(Errors, UnknownNameSuggestsOrLists) {
+  EXPECT_EQ(unknown_name("system", "damped-oscilator", names),
+            "unknown system 'damped-oscilator'; did you mean 'damped-oscillator'?");
+  EXPECT_EQ(unknown_name("system", "zzzzzzzz", {"kepler", "pendulum"}),
+            "unknown system 'zzzzzzzz'; expected one of: kepler, pendulum");
+  EXPECT_EQ(unknown_name("parameter", "mass", {}), "unknown parameter 'mass'; there is none to choose from");
+}
+
+TEST(Errors, RegistriesNameTheNearestPlugin) {
+  EXPECT_EQ(systems().get("kepler", "system").name(), "kepler");
+  EXPECT_EQ(systems().find("keppler"), nullptr);
+  try {
+    (void)systems().get("keppler", "system");
+    FAIL() << "an unknown name was accepted";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "unknown system 'keppler'; did you mean 'kepler'?");
+  }
+  const auto all = systems().names();
+  EXPECT_TRUE(std::is_sorted(all.begin(), all.end()));
+}
+
+}  // namespace
