@@ -44,25 +44,29 @@ struct DampedOscillator {
     values[0] = birkhoffian(t, z);
     values[1] = (z[0] * z[0] + z[1] * z[1]) / 2;
   }
-  // r = e^{-nu s/2} (r0 C + (p0 + nu r0/2) S) with C, S the cosine and sine of w = sqrt(1 - nu^2/4), hyperbolic when
-  // overdamped, (1, s) when critical.
+  // r = r0 C + (p0 + nu r0/2) S with C = e^{-nu s/2} cos w s, S = e^{-nu s/2} sin(w s)/w, w = sqrt(1 - nu^2/4);
+  // hyperbolic functions when overdamped, C = e^{-s} and S = s e^{-s} when critical.
   template <class T> void exact_solution(const T& s, const T& /*t0*/, In<T> z0, Out<T> z) const {
     const Real square = Real(1) - nu * nu / Real(4);
     const T decay = exp(-(nu * s) / 2);
-    T c(1), sine(s), slope(0);  // C, S / w and C' = -w^2 S/w
+    T c = decay, sine = decay * s;
     if (square > Real(0)) {
       const Real w = sqrt(square);
-      c = cos(w * s);
-      sine = sin(w * s) / w;
+      c = decay * cos(w * s);
+      sine = decay * sin(w * s) / w;
     } else if (square < Real(0)) {
-      const Real w = sqrt(-square);
-      c = (exp(w * s) + exp(-(w * s))) / 2;
-      sine = (exp(w * s) - exp(-(w * s))) / (2 * w);
+      // The rates w - nu/2 = -1/(w + nu/2) and -(w + nu/2), without overflow and cancellation; sinh x from its series
+      // where x < 1.
+      const Real w = sqrt(-square), rate = w + nu / 2;
+      const T slow = exp(-(s / rate)), fast = exp(-(rate * s)), x2 = w * s * (w * s);
+      T series(1);
+      for (int k = 16; k > 0; --k) series = 1 + series * x2 / (2 * k * (2 * k + 1));
+      c = (slow + fast) / 2;
+      sine = select(1 - x2, decay * s * series, (slow - fast) / (2 * w));
     }
-    slope = -(square * sine);
     const T b = z0[1] + nu * z0[0] / 2;
-    z[0] = decay * (z0[0] * c + b * sine);
-    z[1] = decay * (z0[0] * slope + b * c) - nu * z[0] / 2;
+    z[0] = z0[0] * c + b * sine;
+    z[1] = b * c - square * z0[0] * sine - nu * z[0] / 2;
   }
 };
 
