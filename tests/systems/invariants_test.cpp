@@ -1,0 +1,157 @@
+// What systems say of their invariants, from the derivative along the field.
+#include <gtest/gtest.h>
+
+#include <pfaff/core/tape/derivatives.hpp>
+#include <pfaff/core/tape/replay.hpp>
+
+#include "samples.hpp"
+
+namespace {
+using namespace pfaff;
+using pfaff::testing::Samples;
+using Arguments = std::span<const Recorded>;
+using Results = std::span<Recorded>;
+
+constexpr int points = 30;
+
+// For every invariant: its rate along the field, and the sum of the sizes of the terms that make it.
+struct Rates {
+  explicit Rates(const Model& model)
+      : size(model.invariants().size()),
+        replay(std::make_shared<const Tape>(tape_of(model))),
+        values(3 * size) {}
+
+  void evaluate(Quad t, const std::vector<Quad>& z) { replay(t, z.data(), values.data()); }
+  [[nodiscard]] Quad rate(std::size_t k) const { return values[k]; }
+  [[nodiscard]] Quad scale(std::size_t k) const { return values[size + k]; }
+  /// The rate of the first coordinate, which is no invariant.
+  [[nodiscard]] Quad control(std::size_t k) const { return values[2 * size + k]; }
+
+  static Tape tape_of(const Model& model) {
+    const auto invariants = model.tape(Formula::invariants), field = model.tape(Formula::field);
+    const int n = model.dimension(), m = static_cast<int>(model.invariants().size());
+    return record(n, 3 * m, [&](const Recorded& t, Arguments z, Results out) {
+      const auto size = static_cast<std::size_t>(m);
+      const auto x = evaluate_field(*field, t, z);
+      const auto rate = directional_derivative(*invariants, t, Recorded(1), z, x);
+      const auto timed = time_derivative(*invariants, t, z);
+      const auto slopes = jacobian(*invariants, t, z);
+      const auto size_of = [](const Recorded& a) { return select(a, a, -a); };
+      for (std::size_t k = 0; k < size; ++k) {
+        out[k] = rate[k];
+        out[size + k] = size_of(timed[k]);
+        for (std::size_t i = 0; i < z.size(); ++i)
+          out[size + k] = out[size + k] + size_of(slopes[k * z.size() + i] * x[i]);
+        out[2 * size + k] = x[0];
+      }
+    });
+  }
+  static std::vector<Recorded> evaluate_field(const Tape& field, const Recorded& t, Arguments z) {
+    return pfaff::evaluate(field, t, z);
+  }
+
+  std::size_t size;
+  Replay<Quad> replay;
+  std::vector<Quad> values;
+};
+
+TEST(Invariants, BehaveAsDeclared) {
+  int conserved = 0, decreasing = 0;
+  for (const SystemPlugin* plugin : systems().all()) {
+    Samples samples(31);
+    for (int k = 0; k < points; ++k) {
+      const Assignments parameters = samples.parameters(*plugin);
+      const auto model = plugin->make(parameters);
+      if (!model->facets().has(Facet::invariants)) continue;
+      Rates rates(*model);
+      const auto z = samples.state(*model, 0.3);
+      const Quad t = samples.quad(0, 3);
+      SCOPED_TRACE(plugin->name() + " " + pfaff::testing::describe(parameters, z));
+      rates.evaluate(t, z);
+      for (std::size_t i = 0; i < rates.size; ++i) {
+        const Invariant& invariant = model->invariants()[i];
+        const Quad rate = rates.rate(i), scale = rates.scale(i);
+        ASSERT_TRUE(isfinite(rate)) << invariant.name;
+        // Terms that cancel, each good to a few roundings.
+        const Quad noise = Quad(1e-32) * scale;
+        switch (invariant.behaviour) {
+          case Behaviour::conserved:
+            ++conserved;
+            EXPECT_LE(abs(rate), noise) << invariant.name;
+            EXPECT_GT(scale, Quad(0)) << invariant.name << " is constant: it says nothing";
+            // Control: with a millionth of a coordinate added it is not conserved.
+            EXPECT_GT(abs(rate + Quad(1e-6) * rates.control(i)), noise) << invariant.name;
+            break;
+          case Behaviour::decreasing:
+            ++decreasing;
+            EXPECT_LT(rate, -noise) << invariant.name;
+            break;
+          case Behaviour::increasing:
+            EXPECT_GT(rate, noise) << invariant.name;
+            break;
+          case Behaviour::free:
+            break;
+        }
+      }
+    }
+  }
+  EXPECT_GE(conserved, points * 8);
+  EXPECT_GE(decreasing, points * 2);
+}
+
+// I(z) = z.Q z/2 with constant Q: the Hessian is the same everywhere and I is homogeneous of degree two.
+TEST(Invariants, MarkedQuadraticAreQuadraticForms) {
+  int quadratic = 0, others = 0;
+  for (const SystemPlugin* plugin : systems().all()) {
+    const auto model = plugin->make({});
+    const std::size_t n = static_cast<std::size_t>(model->dimension());
+    if (!model->facets().has(Facet::invariants)) continue;
+    const auto invariants = model->tape(Formula::invariants);
+    Samples samples(32);
+    for (std::size_t i = 0; i < model->invariants().size(); ++i) {
+      const Tape one = record(model->dimension(), 1, [&](const Recorded& t, Arguments z, Results out) {
+        out[0] = evaluate(*invariants, t, z)[i];
+      });
+      Replay<Quad> value(std::make_shared<const Tape>(one));
+      Replay<Quad> hessian(std::make_shared<const Tape>(jacobian_tape(jacobian_tape(one))));
+      Quad worst(0);
+      for (int k = 0; k < points; ++k) {
+        const auto z = samples.state(*model, 0.3), other = samples.state(*model, 0.3);
+        std::vector<Quad> a(n * n), b(n * n);
+        const Quad t = samples.quad(0, 3), later = samples.quad(0, 3);
+        hessian(t, z.data(), a.data());
+        hessian(later, other.data(), b.data());
+        Quad form(0), direct(0);
+        for (std::size_t r = 0; r < n; ++r)
+          for (std::size_t c = 0; c < n; ++c) {
+            worst = std::max(worst, abs(a[r * n + c] - b[r * n + c]));
+            form += z[r] * a[r * n + c] * z[c] / Quad(2);
+          }
+        value(t, z.data(), &direct);
+        worst = std::max(worst, abs(form - direct));
+      }
+      const std::string name = plugin->name() + " " + model->invariants()[i].name;
+      if (model->invariants()[i].quadratic) {
+        ++quadratic;
+        EXPECT_LE(worst, Quad(1e-31)) << name;
+      } else if (model->invariants()[i].behaviour == Behaviour::conserved) {
+        ++others;  // the controls: a conserved one that is not marked fails the same test
+        EXPECT_GT(worst, Quad(1e-6)) << name << " is quadratic: mark it";
+      }
+    }
+  }
+  EXPECT_GE(quadratic, 4);
+  EXPECT_GE(others, 4);
+}
+
+TEST(Invariants, SystemsWithoutDissipationParametersConserveWhatTheyDissipate) {
+  // Control of `decreasing`: at nu = 0 the mechanical energy no longer decreases.
+  for (const char* name : {"damped-oscillator", "damped-pendulum"}) {
+    const auto model = systems().get(name, "system").make({{"nu", "0"}});
+    Rates rates(*model);
+    rates.evaluate(Quad(0.4), {Quad(0.9), Quad(-0.7)});
+    EXPECT_LE(abs(rates.rate(rates.size - 1)), Quad(1e-33));
+  }
+}
+
+}  // namespace
