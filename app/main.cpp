@@ -64,11 +64,10 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& error, int a
     return "a command is missing; expected one of: list, describe, run, compare, reproduce, verify";
   if (command[0] != '-' && std::find(commands.begin(), commands.end(), command) == commands.end())
     return unknown_name("command", command, commands);
-  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError)) {
+  if (std::find(commands.begin(), commands.end(), command) != commands.end()) {
     std::vector<std::string> options;
-    if (std::find(commands.begin(), commands.end(), command) != commands.end())
-      for (const CLI::Option* option : app.get_subcommand(command)->get_options())
-        for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
+    for (const CLI::Option* option : app.get_subcommand(command)->get_options())
+      for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
     for (int k = 2; k < argc; ++k) {
       const std::string argument = argv[k];
       const std::string name = argument.substr(0, argument.find('='));

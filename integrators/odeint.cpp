@@ -8,8 +8,6 @@
 #include <boost/numeric/odeint/algebra/algebra_dispatcher.hpp>
 #include <boost/numeric/odeint/algebra/range_algebra.hpp>
 #include <boost/numeric/odeint/stepper/controlled_runge_kutta.hpp>
-#include <boost/numeric/odeint/stepper/generation/generation_runge_kutta_dopri5.hpp>
-#include <boost/numeric/odeint/stepper/generation/make_controlled.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta4.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
 #include <boost/numeric/odeint/stepper/symplectic_rkn_sb3a_mclachlan.hpp>
@@ -41,6 +39,7 @@ template <template <class...> class OdeintStepper> struct FieldStepper {
     using T = Scalar<P>;
     OdeintStepper<ContainerOf<P>, double, ContainerOf<P>, T, odeint::range_algebra> stepper;
     ContainerOf<P> state;
+    double next_step = 0.01;  // of an adaptive run, from one call to the next
     Work(const FieldStepper& /*method*/, const P& p) : state(sized<ContainerOf<P>>(p.size())) {}
   };
 
@@ -70,18 +69,23 @@ struct OdeintDopri5 : FieldStepper<Dopri5Stepper> {
 
   template <HasVectorField P> requires std::is_same_v<Scalar<P>, double>
   Status advance_to(const P& p, double& t, double end, double tolerance, State<P>& z, Work<P>& w) const {
-    auto controlled = odeint::make_controlled(tolerance, tolerance, w.stepper);
+    using Stepper = decltype(w.stepper);
+    using Checker = odeint::default_error_checker<double, typename Stepper::algebra_type, typename Stepper::operations_type>;
+    odeint::controlled_runge_kutta<Stepper, Checker> controlled(Checker(tolerance, tolerance));
     std::copy(z.begin(), z.end(), w.state.begin());
     const auto system = [&](const ContainerOf<P>& x, ContainerOf<P>& rate, double time) { p.field(time, x, rate); };
     const double direction = end < t ? -1 : 1;
-    double h = direction * std::min(std::abs(end - t), 0.01);
+    double h = direction * std::min(std::abs(end - t), w.next_step);
     Status status = Status::converged;
     for (int rejected = 0; direction * (end - t) > 0;) {
       if (direction * (t + h - end) > 0) h = end - t;
       const double last = h;
+      const bool clipped = last == end - t;
       if (controlled.try_step(system, w.state, t, h) == odeint::success) {
         ++p.counters().steps;
         rejected = 0;
+        // A step shortened to reach the end says nothing about the next one, unless it could have been longer.
+        if (!clipped || std::abs(h) > w.next_step) w.next_step = std::abs(h);
         // The last step ends at `end` but for round-off.
         if (std::abs(end - t) <= 4 * std::numeric_limits<double>::epsilon() * std::max(std::abs(end), std::abs(last)))
           t = end;

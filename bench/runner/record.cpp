@@ -127,7 +127,7 @@ void execute_fixed(const ResolvedRun& run, Observer<T>& observer, RunRecord& rec
 
 void execute_adaptive(const ResolvedRun& run, Observer<double>& observer, RunRecord& record,
                       const Progress& progress) {
-  constexpr int intervals = 1000;
+  constexpr int intervals = 200;  // samples shorten steps: few enough not to matter
   const auto stepper = run.method->stepper(run.model, double());
   std::vector<double> z;
   for (const Real& x : run.initial) z.push_back(x.value());
