@@ -1,0 +1,58 @@
+// What `pfaff verify` asserts, asserted here: every claim of every plug-in in double and quad, with its
+// controls.
+#include <gtest/gtest.h>
+
+#include <pfaff/bench/verification/check.hpp>
+#include <pfaff/core/bracket.hpp>
+
+namespace pfaff {
+namespace {
+
+std::string described(const Check& c) {
+  std::string text = c.plugin;
+  for (const auto& [key, value] : c.parameters) text += " " + key + "=" + value;
+  return text + ": " + c.claim + " on " + c.system + " in " + c.precision + ", measured " +
+         std::to_string(c.measured) + ", expected " + std::to_string(c.expected) + ", tolerance " +
+         std::to_string(c.tolerance) + " " + c.reason;
+}
+
+TEST(Claims, HoldAndControlsAreRejected) {
+  const auto checks = verify({}, false, {});
+  for (const Check& c : checks) EXPECT_TRUE(good(c)) << described(c);
+  EXPECT_GT(checks.size(), 1000U);
+}
+
+TEST(Claims, EveryMethodHasAnOrderAndAStructureClaimOrNone) {
+  for (const MethodPlugin* plugin : integrators().all()) {
+    const auto method = plugin->make({});
+    bool tried = false;
+    for (const SystemPlugin* system : systems().all()) {
+      const auto model = system->make({});
+      if (!method->refuses(*model).empty()) continue;
+      tried = true;
+      EXPECT_GT(method->order(*model), 0) << plugin->name();
+      EXPECT_FALSE(method->preserves(*model).empty()) << plugin->name();
+    }
+    EXPECT_TRUE(tried) << plugin->name() << " fits no system";
+  }
+}
+
+TEST(Claims, EveryMethodOfOursHasAChangedCoefficientControl) {
+  for (const MethodPlugin* plugin : integrators().all()) {
+    if (plugin->descriptor().double_coefficients) continue;
+    EXPECT_GT(plugin->make({})->coefficient_count(), 0U) << plugin->name();
+  }
+}
+
+TEST(Claims, MeasuredOrdersOnTheDampedPendulumInQuad) {
+  const auto model = systems().get("damped-pendulum", "").make({{"nu", "0.3"}});
+  for (int order = 1; order <= 10; ++order) {
+    const auto method = integrators()
+                            .get("generating-function", "")
+                            .make({{"order", std::to_string(order)}, {"variant", "P"}});
+    EXPECT_NEAR(measure_order(*method, model).slope, order, 0.1);
+  }
+}
+
+}  // namespace
+}  // namespace pfaff
