@@ -16,8 +16,12 @@ namespace {
 // One rounding is 1.1e-16 or 9.6e-35; a step makes a few dozen of them, a trajectory a few hundred.
 constexpr double in_double = 1e-14, in_quad = 1e-30;
 
-nlohmann::json golden(const std::string& name) {
-  return nlohmann::json::parse(std::ifstream(std::string(PFAFF_GOLDEN) + "/" + name));
+// A list of reference values, never empty.
+std::vector<nlohmann::json> golden(const std::string& file, const std::string& list) {
+  const auto j = nlohmann::json::parse(std::ifstream(std::string(PFAFF_GOLDEN) + "/" + file + ".json"));
+  const auto entries = j.at(list).get<std::vector<nlohmann::json>>();
+  EXPECT_FALSE(entries.empty()) << file << ' ' << list;
+  return entries;
 }
 std::string text(const nlohmann::json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
@@ -57,14 +61,14 @@ void expect_transition(const nlohmann::json& entry, double tolerance) {
 }
 
 TEST(GoldenOscillator, TransitionMatricesOfOrders1To8) {
-  for (const auto& entry : golden("damped_oscillator.json")["transition"]) {
+  for (const auto& entry : golden("damped_oscillator", "transition")) {
     expect_transition<double>(entry, in_double);
     expect_transition<Quad>(entry, in_quad);
   }
 }
 
 TEST(GoldenOscillator, ImplicitMidpointIsTheEulerCentreScheme) {
-  for (const auto& entry : golden("damped_oscillator.json")["transition"]) {
+  for (const auto& entry : golden("damped_oscillator", "transition")) {
     const auto method = integrators().get("implicit-midpoint", "integrator").make({});
     StepDifferentiator<Quad> differentiate(*method, system_with("damped-oscillator", entry["nu"]));
     const auto step = differentiate(Quad(0), number<Quad>(entry["tau"]), {Quad(1), Quad(0)});
@@ -74,7 +78,7 @@ TEST(GoldenOscillator, ImplicitMidpointIsTheEulerCentreScheme) {
 }
 
 TEST(GoldenOscillator, VariantSOfOrder2IsTheMidpointExpandedScheme) {
-  for (const auto& entry : golden("damped_oscillator.json")["transition"]) {
+  for (const auto& entry : golden("damped_oscillator", "transition")) {
     const auto method = integrators().get("generating-function", "").make({{"order", "2"}, {"variant", "S"}});
     StepDifferentiator<Quad> differentiate(*method, system_with("damped-oscillator", entry["nu"]));
     const auto step = differentiate(Quad(0), number<Quad>(entry["tau"]), {Quad(1), Quad(0)});
@@ -97,7 +101,7 @@ std::vector<Quad> coefficient(const Model& model, Quad t0, int k, Quad r, Quad p
 }
 
 TEST(GoldenOscillator, CoefficientsOfTheGeneratingGradient) {
-  for (const auto& entry : golden("damped_oscillator.json")["phi_k_numeric"]) {
+  for (const auto& entry : golden("damped_oscillator", "phi_k_numeric")) {
     const auto model = system_with("damped-oscillator", entry["nu"]);
     for (int k = 1; k <= 8; ++k) {
       const auto& n = entry["N"][static_cast<std::size_t>(k)];
@@ -112,7 +116,7 @@ TEST(GoldenOscillator, CoefficientsOfTheGeneratingGradient) {
 }
 
 TEST(GoldenPendulum, CoefficientsOfTheGeneratingGradient) {
-  for (const auto& entry : golden("damped_pendulum.json")["phi_w"]) {
+  for (const auto& entry : golden("damped_pendulum", "phi_w")) {
     const auto model = system_with("damped-pendulum", entry["nu"]);
     for (int k = 1; k <= 6; ++k) {
       const auto ours = coefficient(*model, number<Quad>(entry["t0"]), k, number<Quad>(entry["R"]),
@@ -141,14 +145,14 @@ void expect_one_step(const nlohmann::json& entry, double tolerance) {
 }
 
 TEST(GoldenPendulum, OneStepMapsAndTheirJacobians) {
-  for (const auto& entry : golden("damped_pendulum.json")["one_step"]) {
+  for (const auto& entry : golden("damped_pendulum", "one_step")) {
     expect_one_step<double>(entry, in_double);
     expect_one_step<Quad>(entry, in_quad);
   }
 }
 
 TEST(GoldenPendulum, AnotherOrderIsSeen) {  // control: the tolerance tells orders apart
-  const auto entry = golden("damped_pendulum.json")["one_step"][0];
+  const auto entry = golden("damped_pendulum", "one_step")[0];
   StepDifferentiator<double> differentiate(*paper_scheme("6"), system_with("damped-pendulum", entry["nu"]));
   const auto step = differentiate(number<double>(entry["t0"]), number<double>(entry["tau"]),
                                   {number<double>(entry["r"]), number<double>(entry["p"])});
@@ -170,7 +174,7 @@ void expect_trajectory(const nlohmann::json& entry, double tolerance) {
 }
 
 TEST(GoldenPendulum, TrajectoriesWithHistoryAndCompensation) {
-  for (const auto& entry : golden("damped_pendulum.json")["trajectories"]) {
+  for (const auto& entry : golden("damped_pendulum", "trajectories")) {
     expect_trajectory<double>(entry, in_double);
     expect_trajectory<Quad>(entry, in_quad);
   }
