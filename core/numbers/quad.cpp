@@ -1,6 +1,7 @@
 #include <pfaff/core/numbers/quad.hpp>
 
 #include <array>
+#include <cctype>
 
 extern "C" {
 int quadmath_snprintf(char*, std::size_t, const char*, ...) noexcept;  // NOLINT: libquadmath's own signature
@@ -10,7 +11,7 @@ __float128 strtoflt128(const char*, char**) noexcept;
 namespace pfaff {
 
 bool parse(std::string_view text, Quad& result) {
-  if (text.empty()) return false;
+  if (text.empty() || std::isspace(static_cast<unsigned char>(text.front())) != 0) return false;
   const std::string buffer(text);
   char* end = nullptr;
   const __float128 value = strtoflt128(buffer.c_str(), &end);

@@ -85,7 +85,7 @@ TEST(Quad, TextOf36DigitsIdentifiesANumber) {
 
 TEST(Quad, ParseTakesTheWholeTextOrNothing) {
   Quad x(7);
-  for (const char* text : {"", "1e", "1x", "1 ", "--1", "one", "1.2.3"}) {
+  for (const char* text : {"", "1e", "1x", "1 ", " 1", "\n1", "--1", "one", "1.2.3"}) {
     EXPECT_FALSE(parse(text, x)) << "'" << text << "'";
     EXPECT_EQ(x, Quad(7));
   }
