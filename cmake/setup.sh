@@ -23,7 +23,12 @@ needed=(
   "python3 program:python3"
   "python3-matplotlib module:matplotlib"
 )
-[[ ${1:-} == --lint ]] && needed+=("git program:git" "clang-format program:clang-format" "clang-tidy program:clang-tidy")
+[[ ${1:-} == --lint ]] && needed+=(
+  "git program:git"
+  "clang-format program:clang-format"
+  "clang-tidy program:clang-tidy"
+  "shellcheck program:shellcheck"
+)
 
 # Can it be seen at all, however it came here?
 visible() {

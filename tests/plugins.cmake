@@ -1,4 +1,4 @@
-# Plug-ins outside the library: the templates of CONTRIBUTING.md as they stand, files that must be refused before
+# Plug-ins outside the library (and one check of the citations): the templates of CONTRIBUTING.md as they stand, files that must be refused before
 # they are loaded, and the examples built against the installed package.
 set(pfaff_plugins ${CMAKE_CURRENT_BINARY_DIR}/plugins)
 
@@ -33,6 +33,7 @@ endif()
 target_compile_definitions(core_tests PRIVATE PFAFF_TEST_PLUGINS="${pfaff_plugins}")
 add_dependencies(core_tests fits_plugin starts-fast_plugin other-version_plugin no-stamp_plugin two-stamps_plugin
                  fast-math_plugin templates_plugin)
+add_test(NAME app/references COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/app/references_test.sh ${PROJECT_SOURCE_DIR})
 add_test(NAME app/plugins COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/app/plugins_test.sh $<TARGET_FILE:pfaff_app> ${pfaff_plugins})
 set(flags "$<$<BOOL:${PFAFF_MARCH}>:-march=${PFAFF_MARCH}>$<$<BOOL:${PFAFF_SANITIZE}>:-fsanitize=${PFAFF_SANITIZE}>")
 add_test(NAME app/out_of_tree COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/app/out_of_tree_test.sh

@@ -136,7 +136,7 @@ const std::vector<Cell>& grid() {
   return cells;
 }
 
-/// P(T <= x) of Student's distribution, n >= 1 degrees of freedom [abramowitz1964 (26.7.3), (26.7.4)].
+/// P(T <= x) of Student's distribution, n >= 1 degrees of freedom [abramowitz-stegun1964 (26.7.3), (26.7.4)].
 double student(double x, std::size_t n) {
   const double angle = std::atan(x / std::sqrt(double(n))), cosine = std::cos(angle);
   double term = n % 2 == 1 ? cosine : 1, sum = 0;
