@@ -1,5 +1,5 @@
-# Plug-ins outside the library (and one check of the citations): the templates of CONTRIBUTING.md as they stand, files that must be refused before
-# they are loaded, and the examples built against the installed package.
+# Plug-ins outside the library: the templates of CONTRIBUTING.md as they stand, files that must be refused before
+# they are loaded, and the examples built against the installed package. One more test looks at the citations.
 set(pfaff_plugins ${CMAKE_CURRENT_BINARY_DIR}/plugins)
 
 function(pfaff_test_plugin name)
