@@ -202,10 +202,10 @@ fs::path make_report(const fs::path& directory) {
   while (std::fgets(buffer.data(), static_cast<int>(buffer.size()), pipe) != nullptr) output += buffer.data();
   const int status = pclose(pipe);
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
-    const std::size_t last = output.find_last_not_of('\n');
-    const std::size_t line = output.rfind('\n', last);
+    while (!output.empty() && output.back() == '\n') output.pop_back();
+    const std::size_t newline = output.rfind('\n');
     throw RunError("the report could not be made (results.csv and cost.csv are complete): " +
-                   output.substr(line == std::string::npos ? 0 : line + 1, last - line));
+                   (newline == std::string::npos ? output : output.substr(newline + 1)));
   }
   return directory / "report.html";
 }
