@@ -1,5 +1,5 @@
 // The bracket of a Birkhoffian system: {f, g} = grad f . K^-1 grad g with K_ij = d_i F_j - d_j F_i taken from its
-// one-form F by differentiation (REFERENCE C1; su-qin (5), (67)). Skew because K is, and a Poisson bracket because K
+// one-form F by differentiation (su-qin (5), (67)). Skew because K is, and a Poisson bracket because K
 // is closed.
 #pragma once
 

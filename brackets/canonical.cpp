@@ -15,7 +15,7 @@ struct Canonical : CanonicalBracket {
 
 const Bracket<Canonical> registered{{.name = "canonical",
                                      .title = "canonical bracket {q_i, p_j} = delta_ij",
-                                     .reference = "REFERENCE, conventions",
+                                     .reference = "marsden-ratiu1999 2.7",
                                      .symmetry = Symmetry::skew,
                                      .jacobi = true}};
 }  // namespace

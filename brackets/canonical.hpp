@@ -1,4 +1,4 @@
-// The canonical bracket on (q, p): {f, g} = f_q.g_p - f_p.g_q, sharp map J (REFERENCE, conventions).
+// The canonical bracket on (q, p): {f, g} = f_q.g_p - f_p.g_q, sharp map J (marsden-ratiu1999 2.7).
 #pragma once
 
 #include <pfaff/core/numbers/functions.hpp>

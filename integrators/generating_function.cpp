@@ -1,4 +1,4 @@
-// K(z,t)-symplectic schemes of any order from truncated generating functions (su-qin (87)-(88), REFERENCE C6).
+// K(z,t)-symplectic schemes of any order from truncated generating functions (su-qin (87)-(88)).
 //
 // In Darboux coordinates y = chart(z, t), with w = P y' + (I - P) y:   y' = y + psi(w),
 // psi the gradient of the generating function truncated at tau^m (generating_gradient.hpp). Exactly K-symplectic for

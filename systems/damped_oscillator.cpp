@@ -1,5 +1,5 @@
-// The linear damped oscillator r'' + nu r' + r = 0 in Birkhoff's form, z = (r, p), p = r' (su-qin (92)-(95), REFERENCE
-// C7).
+// The linear damped oscillator r'' + nu r' + r = 0 in Birkhoff's form, z = (r, p), p = r' (su-qin (92)-(95), with
+// the middle term of B corrected, docs/errata.md).
 //
 //   F = e^{nu t} (p/2, -r/2),   B = e^{nu t} (r^2 + nu r p + p^2)/2,   K = e^{nu t} [[0, -1], [1, 0]]
 //
@@ -73,7 +73,7 @@ struct DampedOscillator {
 const System<DampedOscillator> registered{
     {.name = "damped-oscillator",
      .title = "damped oscillator in Birkhoff's form, r'' + nu r' + r = 0",
-     .reference = "su-qin (92)-(95), REFERENCE C7",
+     .reference = "su-qin (92)-(95)",
      .coordinates = {{"r", "m"}, {"p", "m/s"}},
      .initial = {1, 0},
      .invariants = {conserved("birkhoffian", "m^2/s^2"), decreasing("energy", "m^2/s^2")}}};

@@ -1,4 +1,4 @@
-// The damped pendulum r'' + nu r' + sin r = 0 in Birkhoff's form, z = (r, p), p = r' (REFERENCE C8; su-qin (92)-(94)
+// The damped pendulum r'' + nu r' + sin r = 0 in Birkhoff's form, z = (r, p), p = r' (after su-qin (92)-(94)
 // with sin r for r).
 //
 //   F = e^{nu t} (p/2, -r/2),   B = e^{nu t} (p^2/2 + nu r p/2 - cos r),   K = e^{nu t} [[0, -1], [1, 0]]
@@ -47,7 +47,7 @@ struct DampedPendulum {
 
 const System<DampedPendulum> registered{{.name = "damped-pendulum",
                                          .title = "damped pendulum in Birkhoff's form, r'' + nu r' + sin r = 0",
-                                         .reference = "su-qin (92)-(95), REFERENCE C8",
+                                         .reference = "su-qin (92)-(95)",
                                          .coordinates = {{"r", "rad"}, {"p", "rad/s"}},
                                          .initial = {1, 0.5_r},
                                          .invariants = {decreasing("energy", "rad^2/s^2")}}};

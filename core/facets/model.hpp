@@ -2,7 +2,7 @@
 //
 // A model is immutable and shared between threads. What the author wrote is recorded as tapes; everything else that
 // a facet promises is derived from those on first use: the field of a Hamiltonian through its bracket or of a
-// Birkhoffian system as K^-1 (grad B + F_t) (REFERENCE C1), forces, Jacobians, the field in the Darboux chart.
+// Birkhoffian system as K^-1 (grad B + F_t) (su-qin (4), (67)), forces, Jacobians, the field in the Darboux chart.
 #pragma once
 
 #include <array>
