@@ -1,7 +1,7 @@
 // Su & Qin, section 5: the damped oscillator r'' + nu r' + r = 0, equations (92)-(107), rebuilt in quad
 // through the same plug-ins that any other system uses, at nu = 3/10, t0 = 7/10, tau = 1/5. Printed formulas
-// are evaluated as printed; where that contradicts the definitions, the row is an erratum, its entry in docs/errata.md named,
-// and the corrected formula is shown to be ours.
+// are evaluated as printed; where that contradicts the definitions, the row is an erratum, its entry in
+// docs/errata.md named, and the corrected formula is shown to be ours.
 #include <algorithm>
 #include <array>
 #include <cmath>
