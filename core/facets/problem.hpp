@@ -49,8 +49,10 @@ template <class T, int N = dynamic, FacetSet Facets = FacetSet::all()> class Pro
   [[nodiscard]] Counters& counters() const { return counters_; }
   [[nodiscard]] const std::shared_ptr<const Model>& model() const { return model_; }
 
-  /// Makes an evaluator before the first step, so that no step allocates.
-  void prepare(Formula formula) const { evaluators_[index(formula)] = make_evaluator<T>(model_, formula); }
+  /// Makes an evaluator before the first step, so that no step allocates. Kept out of line, and out of every use.
+  [[gnu::noinline]] void prepare(Formula formula) const {
+    evaluators_[index(formula)] = make_evaluator<T>(model_, formula);
+  }
 
   /// rate = X(z, t).
   void field(const T& t, In<T> z, Out<T> rate) const requires(Facets.has(Facet::vector_field)) {
@@ -131,9 +133,8 @@ template <class T, int N = dynamic, FacetSet Facets = FacetSet::all()> class Pro
 
  private:
   void use(Formula formula, const T& t, const T* arguments, T* results) const {
-    Evaluator<T>& evaluator = evaluators_[index(formula)];
-    if (evaluator.call == nullptr) [[unlikely]]
-      evaluator = make_evaluator<T>(model_, formula);
+    const Evaluator<T>& evaluator = evaluators_[index(formula)];
+    if (evaluator.call == nullptr) [[unlikely]] prepare(formula);
     evaluator.call(evaluator.context, t, arguments, results);
   }
 

@@ -19,8 +19,10 @@ namespace pfaff {
 template <class T> Value<T> relative_size(const T& delta, const T& reference, const T& change) {
   const Value<T> d = abs(value_of(delta));
   const Value<T> scale = std::max(abs(value_of(reference)), abs(value_of(change)));
-  if (!(d > Value<T>(0))) return d;  // zero, or NaN, which must not vanish
-  return scale > Value<T>(0) ? d / scale : std::numeric_limits<Value<T>>::infinity();
+  // A NaN must not vanish. Whether the correction is zero decides nothing where it can be divided: a branch that ends
+  // every iteration at random would cost more than the division.
+  if (scale > Value<T>(0)) return d / scale;
+  return d > Value<T>(0) ? std::numeric_limits<Value<T>>::infinity() : d;
 }
 template <class T, int N>
 Value<T> relative_size(const Dual<T, N>& delta, const Dual<T, N>& reference, const Dual<T, N>& change) {

@@ -1,0 +1,66 @@
+// Extrapolation of what changes smoothly from step to step, by backward differences.
+//
+// The value expected next is the last value and its differences, as many of them as decreased in the last
+// step (a prediction with d of them would have missed it by the d-th). Rough or noisy sequences use fewer.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+
+#include <pfaff/core/linear/vector.hpp>
+#include <pfaff/core/numbers/functions.hpp>
+
+namespace pfaff {
+
+/// Differences worth keeping: in steps that resolve the motion so many reach round-off.
+template <class T>
+inline constexpr int difference_levels = std::numeric_limits<Value<T>>::digits / 10;
+
+/// Predicts `Size` numbers from up to `Levels` past steps, at most difference_levels; either may be dynamic.
+template <class T, int Size, int Levels>
+class DifferencePredictor {
+ public:
+  DifferencePredictor(std::size_t size, std::size_t levels) : levels_(levels), differences_(size * levels) {}
+
+  /// The k-th number expected; zero as long as nothing is known.
+  [[nodiscard]] T expected(std::size_t k) const {
+    T sum(0);
+    for (std::size_t d = 0; d < useful_; ++d) sum = sum + differences_[k * levels() + d];
+    return sum;
+  }
+
+  /// Expects nothing more of the past.
+  void forget() { useful_ = 0; }
+
+  /// Takes the numbers that came, actual(k) for every k.
+  template <class Actual>
+  void remember(const Actual& actual) {
+    std::array<Value<T>, static_cast<std::size_t>(difference_levels<T>)> size{};
+    for (std::size_t k = 0; k < differences_.size() / levels(); ++k) {
+      T difference = actual(k);
+      for (std::size_t d = 0; d < levels(); ++d) {
+        T& kept = differences_[k * levels() + d];
+        const T previous = kept;
+        kept = difference;
+        size[d] += abs(value_of(difference));
+        difference = difference - previous;
+      }
+    }
+    useful_ = 1;
+    while (useful_ < levels() && size[useful_] < size[useful_ - 1]) ++useful_;
+  }
+
+ private:
+  static constexpr int total = Size == dynamic || Levels == dynamic ? dynamic : Size * Levels;
+
+  [[nodiscard]] std::size_t levels() const {
+    return Levels == dynamic ? levels_ : static_cast<std::size_t>(Levels);
+  }
+
+  std::size_t levels_, useful_ = 0;
+  Vector<T, total> differences_;  // [number][level]
+};
+
+}  // namespace pfaff
