@@ -122,6 +122,13 @@ std::shared_ptr<const Tape> Model::derived(Formula formula) const {
       }));
     }
     case Formula::field: {
+      if (facets_.has(Facet::separable)) {  // from the author's force and velocity where there are any
+        const auto velocity = tape(Formula::velocity), force = tape(Formula::force);
+        return shared(record(n, n, [&](const Recorded& t, Arguments z, Results out) {
+          copy(evaluate(*velocity, t, z.subspan(size / 2)), out.first(size / 2));
+          copy(evaluate(*force, t, z.first(size / 2)), out.subspan(size / 2));
+        }));
+      }
       if (facets_.has(Facet::hamiltonian)) {
         const auto energy = tape(Formula::hamiltonian);
         const auto tensor = source_.canonical ? nullptr : tape(Formula::poisson_tensor);
