@@ -26,7 +26,7 @@ Numbers values(const Tape& tape, Quad t, const Numbers& z) {
 }
 
 struct Residuals {
-  double skew = 0, closed = 0, darboux = 0, inverse = 0, field = 0, poisson = 0;
+  double skew = 0, closed = 0, darboux = 0, inverse = 0, field = 0, poisson = 0, chart_field = 0;
 };
 
 // The largest residual of each identity over random points, relative to 1 + |K|.
@@ -40,6 +40,11 @@ Residuals residuals(const Model& model, Samples& samples) {
             gradient(*model.tape(Formula::birkhoffian), t, z, std::vector<Recorded>{Recorded(1)});
         const auto timed = time_derivative(*model.tape(Formula::one_form), t, z);
         for (std::size_t k = 0; k < z.size(); ++k) out[k] = slope[k] + timed[k];
+      });
+  const Tape chart_rate =
+      record(model.dimension(), model.dimension(), [&](const Recorded& t, Arguments z, Results out) {
+        const auto timed = time_derivative(*chart, t, z);
+        std::copy(timed.begin(), timed.end(), out.begin());
       });
   Residuals r;
   for (int point = 0; point < points; ++point) {
@@ -71,7 +76,13 @@ Residuals residuals(const Model& model, Samples& samples) {
       note(r.field, solved);
     }
     const Numbers y = values(*chart, t, z), back = values(*model.tape(Formula::chart_inverse), t, y);
-    for (std::size_t i = 0; i < n; ++i) note(r.inverse, back[i] - z[i]);
+    const Numbers rate = values(*model.tape(Formula::chart_field), t, y), chart_t = values(chart_rate, t, z);
+    for (std::size_t i = 0; i < n; ++i) {
+      note(r.inverse, back[i] - z[i]);
+      Quad pushed = chart_t[i];  // y' = chart_z X + chart_t
+      for (std::size_t j = 0; j < n; ++j) pushed += m[i * n + j] * x[j];
+      note(r.chart_field, rate[i] - pushed);
+    }
   }
   return r;
 }
@@ -84,6 +95,7 @@ void expect_sound(const Model& model, Samples& samples) {
   EXPECT_LE(r.inverse, bound) << model.name();
   EXPECT_LE(r.field, bound) << model.name();
   EXPECT_LE(r.poisson, bound) << model.name();
+  EXPECT_LE(r.chart_field, bound) << model.name();
 }
 
 TEST(Birkhoffian, SystemsSatisfyTheirIdentities) {
@@ -101,8 +113,9 @@ TEST(Birkhoffian, SystemsSatisfyTheirIdentities) {
 }
 
 // Two coupled oscillators in coordinates that mix everything, to try what two dimensions cannot: the chart is
-// y = (z1, z2, e^t z3 + z1 z2, z4 (1 + z2^2)), so that F = (y3, y4, 0, 0) and B = H(y). `wrong` spoils the
-// chart.
+// y = (z1, z2, e^t z3 + z1 z2, z4 (1 + z2^2)), so that F = (y3, y4, 0, 0) and B = H(y); plus the gauge
+// d(e^{2t} z1 z3), or the parts of the field in the chart that come from time would vanish. `wrong` spoils
+// the chart.
 struct Folded {
   static constexpr int dimension = 4;
   int wrong = 0;
@@ -110,13 +123,14 @@ struct Folded {
   template <class T>
   T birkhoffian(const T& t, In<T> z) const {
     const T y3 = exp(t) * z[2] + z[0] * z[1], y4 = z[3] * (1 + z[1] * z[1]);
-    return (y3 * y3 + y4 * y4 + z[0] * z[0]) / 2 - cos(z[0] - z[1]);
+    return (y3 * y3 + y4 * y4 + z[0] * z[0]) / 2 - cos(z[0] - z[1]) - 2 * exp(2 * t) * z[0] * z[2];
   }
   template <class T>
   void one_form(const T& t, In<T> z, Out<T> form) const {
-    form[0] = exp(t) * z[2] + z[0] * z[1];
+    form[0] = exp(t) * z[2] + z[0] * z[1] + exp(2 * t) * z[2];
     form[1] = z[3] * (1 + z[1] * z[1]);
-    form[2] = form[3] = T(0);
+    form[2] = exp(2 * t) * z[0];
+    form[3] = T(0);
   }
   template <class T>
   void chart(const T& t, In<T> z, Out<T> y) const {
