@@ -59,7 +59,7 @@ fs::path data_directory() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   if (!error) {
-    const fs::path installed = program.parent_path().parent_path() / PFAFF_INSTALLED_DATA;
+    fs::path installed = program.parent_path().parent_path() / PFAFF_INSTALLED_DATA;
     if (fs::exists(installed / "experiments", error)) return installed;
   }
   return fs::path(PFAFF_SOURCE_DIRECTORY) / "bench";

@@ -169,7 +169,7 @@ std::string to_string(const Real& x) {
   return to_string(x.quad());
 }
 
-namespace literals {
+inline namespace literals {
 Real operator""_r(const char* text) { return *Real::parse(text); }
 }  // namespace literals
 
