@@ -42,7 +42,10 @@ class SuQin {
 
   static std::string shown(const Numbers& x) {
     std::string text;
-    for (const Quad& v : x) text += (text.empty() ? "" : " ") + to_string(v, 6);
+    for (const Quad& v : x) {
+      if (!text.empty()) text += ' ';
+      text += to_string(v, 6);
+    }
     return text;
   }
   static double distance(const Numbers& a, const Numbers& b) {

@@ -24,7 +24,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::string nearest(std::string_view name, const std::vector<std::string>& candidates) {
   std::string best;
-  std::size_t distance = std::max<std::size_t>(2, name.size() / 2);
+  // Half of the name may be wrong, of short ones one letter: 'h' is not near 'nu'.
+  std::size_t distance = std::max<std::size_t>(1, name.size() / 2);
   for (const std::string& candidate : candidates) {
     // A name typed short is near to what it begins.
     const bool prefix = name.size() >= 3 && candidate.starts_with(name);
