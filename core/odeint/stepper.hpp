@@ -1,11 +1,13 @@
-// Pfaff's methods as steppers of Boost.Odeint: any method that needs a vector field only models its Stepper concept.
+// Pfaff's methods as steppers of Boost.Odeint: any method that needs a vector field only models its Stepper
+// concept.
 //
 //   OdeintStepper<MyMethod, std::vector<double>> stepper{MyMethod{}};
 //   boost::numeric::odeint::integrate_const(stepper, system, x, t0, t1, h);
 //
-// Every step is a function of (t, x, dt) alone: odeint copies its steppers, and may change system, state or step between
-// calls, so no history or compensation is carried from one step to the next. integrate_times and integrate_adaptive
-// shorten steps to hit output times, which spoils what fixed steps preserve: use integrate_const or integrate_n_steps.
+// Every step is a function of (t, x, dt) alone: odeint copies its steppers, and may change system, state or
+// step between calls, so no history or compensation is carried from one step to the next. integrate_times and
+// integrate_adaptive shorten steps to hit output times, which spoils what fixed steps preserve: use
+// integrate_const or integrate_n_steps.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +23,8 @@ namespace pfaff {
 
 /// An odeint system function, system(x, dxdt, t), as a problem that offers a vector field and nothing else.
 /// `X` is odeint's state type (std::vector or std::array of doubles).
-template <class System, class X> class FunctionProblem {
+template <class System, class X>
+class FunctionProblem {
  public:
   using Scalar = typename X::value_type;
   using State = Vector<Scalar, dynamic>;
@@ -44,9 +47,10 @@ template <class System, class X> class FunctionProblem {
   mutable Counters counters_;
 };
 
-/// Method M as an odeint stepper of states X. A step that does not converge throws std::runtime_error: odeint's concept
-/// has no status.
-template <class M, class X = std::vector<double>> class OdeintStepper {
+/// Method M as an odeint stepper of states X. A step that does not converge throws std::runtime_error:
+/// odeint's concept has no status.
+template <class M, class X = std::vector<double>>
+class OdeintStepper {
  public:
   using state_type = X;
   using deriv_type = X;
@@ -60,9 +64,11 @@ template <class M, class X = std::vector<double>> class OdeintStepper {
   [[nodiscard]] order_type order() const { return order_; }
 
   /// One step of size dt from x at t, in place.
-  template <class System> void do_step(System system, X& x, time_type t, time_type dt) {
+  template <class System>
+  void do_step(System system, X& x, time_type t, time_type dt) {
     using P = FunctionProblem<System, X>;
-    static_assert(Steps<M, P>, "this method needs more than a vector field; use it through a system of Pfaff's");
+    static_assert(Steps<M, P>,
+                  "this method needs more than a vector field; use it through a system of Pfaff's");
     const P problem(system, x);
     Work<M, P> work(method_, problem);
     auto z = problem.make_state();

@@ -1,0 +1,80 @@
+// What every benchmark here measures: chunks of 1000 steps of size 0.01 from the same start, in nanoseconds a
+// step.
+//
+// Names are system/method/path. Paths: by-hand (a loop of doubles), static (concrete system and method),
+// registered (through the registries), and the last two with forces derived from the energies instead of the
+// author's; odeint.
+#pragma once
+
+#include <benchmark/benchmark.h>
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include <pfaff/core/numbers/functions.hpp>
+#include <pfaff/systems/harmonic_oscillator.hpp>
+#include <pfaff/systems/kepler.hpp>
+#include <pfaff/systems/pendulum.hpp>
+
+namespace pfaff::micro {
+
+inline constexpr std::int64_t chunk = 1000;
+inline constexpr double step_size = 0.01;
+
+/// The name a system is registered with and where its runs start.
+template <class S>
+struct Case;
+template <>
+struct Case<HarmonicOscillator> {
+  static constexpr const char* name = "harmonic-oscillator";
+  static constexpr std::array<double, 2> start{1, 0};
+};
+template <>
+struct Case<Pendulum> {
+  static constexpr const char* name = "pendulum";
+  static constexpr std::array<double, 2> start{1, 0.5};
+};
+template <>
+struct Case<Kepler> {
+  static constexpr const char* name = "kepler";
+  static constexpr std::array<double, 4> start{0.4, 0, 0, 2};
+};
+
+/// A system of which only the energies are known: what is derived from them, at what cost.
+template <class S>
+struct EnergiesOnly {
+  static constexpr int dimension = S::dimension;
+  S system;
+  template <class T>
+  T kinetic(const T& t, In<T> p) const {
+    return system.kinetic(t, p);
+  }
+  template <class T>
+  T potential(const T& t, In<T> q) const {
+    return system.potential(t, q);
+  }
+};
+
+/// Adds the benchmark of run(z, h), which takes a chunk of steps of size h from z in place. Neither is known
+/// to the compiler.
+template <class S, class Run>
+void add(const std::string& method, const std::string& path, Run run) {
+  const std::string name = std::string(Case<S>::name) + "/" + method + "/" + path;
+  benchmark::RegisterBenchmark(name.c_str(), [run](benchmark::State& state) mutable {
+    const volatile double unknown = step_size;
+    for (auto _ : state) {
+      auto z = Case<S>::start;
+      // By address: DoNotOptimize(z) itself spoils the value with GCC in Benchmark 1.7.
+      benchmark::DoNotOptimize(z.data());
+      run(z, unknown);
+      benchmark::DoNotOptimize(z.data());
+    }
+    const auto steps = static_cast<double>(state.iterations() * chunk);
+    state.SetItemsProcessed(state.iterations() * chunk);
+    state.counters["ns_per_step"] =
+        benchmark::Counter(1e-9 * steps, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  });
+}
+
+}  // namespace pfaff::micro

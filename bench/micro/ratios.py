@@ -1,0 +1,100 @@
+#!/usr/bin/env python3
+"""Runs pfaff_micro and prints nanoseconds a step and the ratios that matter, each with its target.
+
+    bench/micro/ratios.py build/bench/bench/micro/pfaff_micro [--repetitions N] [--json FILE]
+
+Repetitions are interleaved at random, so that a disturbance does not fall on one benchmark alone; of each the fastest
+is taken, which other programs disturb least. Exit status 1 when a target is missed, 2 for wrong usage.
+"""
+import argparse
+import json
+import subprocess
+import sys
+
+SYSTEMS = ["harmonic-oscillator", "pendulum", "kepler"]
+METHODS = ["verlet-plain", "verlet", "rk4-plain", "rk4", "implicit-midpoint", "gauss-4", "gauss-8",
+           "generating-function-4", "generating-function-8"]
+PATHS = ["by-hand", "static", "static-derived", "registered", "registered-derived", "odeint"]
+# Boost.Odeint's nearest: the same method, or the one with as many forces a step. It does not compensate.
+RIVALS = {"verlet-plain": "velocity-verlet", "rk4-plain": "rk4"}
+ONLY_ODEINT = ["symplectic-euler", "dopri5", "mclachlan"]
+
+
+def measure(program, repetitions, seconds):
+    """{(system, method, path): fastest ns a step}"""
+    command = [program, "--benchmark_format=json", f"--benchmark_repetitions={repetitions}",
+               "--benchmark_enable_random_interleaving=true", f"--benchmark_min_time={seconds}"]
+    output = subprocess.run(command, check=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL).stdout
+    times = {}
+    for run in json.loads(output)["benchmarks"]:
+        if run["run_type"] == "iteration":
+            key = tuple(run["run_name"].split("/")[:3])
+            times[key] = min(times.get(key, float("inf")), run["ns_per_step"])
+    return times
+
+
+def targets(times):
+    """Rows (what, numerator, denominator, limit or None)."""
+    rows = []
+    for system in SYSTEMS:
+        for method in ["verlet-plain", "verlet"]:
+            rows.append((f"{system} {method}: static / by hand", (system, method, "static"),
+                         (system, method, "by-hand"), 1.10))
+    for method in METHODS:
+        limit = 2.0 if method in ("verlet-plain", "verlet", "implicit-midpoint") else None
+        rows.append((f"kepler {method}: registered / static", ("kepler", method, "registered"),
+                     ("kepler", method, "static"), limit))
+    for system in SYSTEMS:
+        for path in ["static", "registered"]:
+            rows.append((f"{system} verlet, {path}: derived / written force", (system, "verlet", path + "-derived"),
+                         (system, "verlet", path), None))
+    for system in SYSTEMS:
+        for method, rival in RIVALS.items():
+            rows.append((f"{system} {method}: static / Odeint's {rival}", (system, method, "static"),
+                         (system, rival, "odeint"), None))
+    return [row for row in rows if row[1] in times and row[2] in times]
+
+
+def print_times(times):
+    print("ns a step" + " " * 21 + "".join(f"{path.replace('registered', 'reg.'):>14}" for path in PATHS))
+    for system in SYSTEMS:
+        print(system)
+        for method in METHODS + ONLY_ODEINT:
+            cells = [times.get((system, RIVALS.get(method, method) if path == "odeint" else method, path))
+                     for path in PATHS]
+            if any(cells):
+                print(f"  {method:<28}" + "".join(f"{cell:14.2f}" if cell else " " * 14 for cell in cells))
+
+
+def print_ratios(rows, times):
+    print(f"\n{'ratio':<64}{'measured':>10}{'target':>10}")
+    missed = 0
+    for what, numerator, denominator, limit in rows:
+        ratio = times[numerator] / times[denominator]
+        missed += limit is not None and ratio > limit
+        verdict = "" if limit is None else f"{limit:>10.2f}" + ("" if ratio <= limit else "  missed")
+        print(f"{what:<64}{ratio:>10.2f}{verdict}")
+    return missed
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("program", help="the built pfaff_micro")
+    parser.add_argument("--repetitions", type=int, default=15)
+    parser.add_argument("--seconds", type=float, default=0.01, help="least duration of a repetition")
+    parser.add_argument("--json", help="also write the times here")
+    options = parser.parse_args()
+    try:
+        times = measure(options.program, options.repetitions, options.seconds)
+    except (OSError, subprocess.CalledProcessError) as error:
+        print(f"ratios.py: {options.program}: {error}", file=sys.stderr)
+        return 2
+    if options.json:
+        with open(options.json, "w", encoding="utf-8") as file:
+            json.dump({"/".join(key): value for key, value in times.items()}, file, indent=1)
+    print_times(times)
+    return 1 if print_ratios(targets(times), times) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

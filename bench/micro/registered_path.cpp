@@ -1,0 +1,45 @@
+// The same methods as every program of Pfaff runs them: found by name, one indirect call for each formula.
+#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/system.hpp>
+
+#include "cases.hpp"
+
+namespace {
+using namespace pfaff;
+using namespace pfaff::micro;
+
+using SharedModel = std::shared_ptr<const Model>;
+
+template <class S>
+void add_registered(const std::string& name, const std::string& path, const SharedModel& model,
+                    const std::string& integrator, const Assignments& parameters = {}) {
+  const auto method = integrators().get(integrator, "integrator").make(parameters);
+  add<S>(name, path,
+         [stepper = std::shared_ptr<Stepper<double>>(method->stepper(model, 0.0))](auto& z, double h) {
+           std::int64_t completed = 0;
+           stepper->advance(0, 0, h, chunk, z, completed);
+         });
+}
+
+template <class S>
+void add_methods() {
+  const SharedModel model = systems().get(Case<S>::name, "system").make({});
+  const SharedModel energies =
+      make_model({.name = "energies-only", .title = {}, .reference = {}}, EnergiesOnly<S>());
+  const Assignments plain{{"compensated", "no"}};
+  add_registered<S>("verlet", "registered", model, "verlet");
+  add_registered<S>("verlet-plain", "registered", model, "verlet", plain);
+  add_registered<S>("verlet", "registered-derived", energies, "verlet");
+  add_registered<S>("verlet-plain", "registered-derived", energies, "verlet", plain);
+  add_registered<S>("rk4", "registered", model, "rk4");
+  add_registered<S>("rk4-plain", "registered", model, "rk4", plain);
+  add_registered<S>("implicit-midpoint", "registered", model, "implicit-midpoint");
+  add_registered<S>("gauss-4", "registered", model, "gauss", {{"stages", "2"}});
+  add_registered<S>("gauss-8", "registered", model, "gauss", {{"stages", "4"}});
+  add_registered<S>("generating-function-4", "registered", model, "generating-function", {{"order", "4"}});
+  add_registered<S>("generating-function-8", "registered", model, "generating-function", {{"order", "8"}});
+}
+
+[[maybe_unused]] const bool added =
+    (add_methods<HarmonicOscillator>(), add_methods<Pendulum>(), add_methods<Kepler>(), true);
+}  // namespace
