@@ -9,6 +9,7 @@
 
 #include <array>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <pfaff/core/facets/problem.hpp>
@@ -41,16 +42,19 @@ struct Splitting {
 
   template <HasSeparable P>
   Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
-    // Unrolled by hand: with every offset a constant the compiler keeps state and carries in registers.
-    [&]<std::size_t... K>(std::index_sequence<K...>) {
-      Scalar<P> time = t;
-      (act<K>(p, time, w.a[K] * h, z, w), ...);
-    }
-    (std::make_index_sequence<N>());
+    act_all(std::make_index_sequence<N>(), p, t, h, z, w);
     return Status::converged;
   }
 
  private:
+  // Unrolled by hand: with constant offsets the compiler keeps state and carries in registers.
+  template <std::size_t... K, class P>
+  void act_all(std::index_sequence<K...>, const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z,
+               Work<P>& w) const {
+    Scalar<P> time = t;
+    (act<K>(p, time, w.a[K] * h, z, w), ...);
+  }
+
   template <std::size_t K, class P>
   void act(const P& p, Scalar<P>& time, const Scalar<P>& length, State<P>& z, Work<P>& w) const {
     using T = Scalar<P>;

@@ -3,6 +3,7 @@
 
     bench/micro/ratios.py build/bench/bench/micro/pfaff_micro [--repetitions N] [--json FILE]
 
+Paths: a loop by hand; static and registered path, each also with forces derived from the energies; Boost.Odeint.
 Repetitions are interleaved at random, so that a disturbance does not fall on one benchmark alone; of each the fastest
 is taken, which other programs disturb least. Exit status 1 when a target is missed, 2 for wrong usage.
 """
@@ -14,7 +15,8 @@ import sys
 SYSTEMS = ["harmonic-oscillator", "pendulum", "kepler"]
 METHODS = ["verlet-plain", "verlet", "rk4-plain", "rk4", "implicit-midpoint", "gauss-4", "gauss-8",
            "generating-function-4", "generating-function-8"]
-PATHS = ["by-hand", "static", "static-derived", "registered", "registered-derived", "odeint"]
+PATHS = {"by-hand": "by hand", "static": "static", "static-derived": "derived", "registered": "registered",
+         "registered-derived": "derived", "odeint": "odeint"}
 # Boost.Odeint's nearest: the same method, or the one with as many forces a step. It does not compensate.
 RIVALS = {"verlet-plain": "velocity-verlet", "rk4-plain": "rk4"}
 ONLY_ODEINT = ["symplectic-euler", "dopri5", "mclachlan"]
@@ -56,14 +58,15 @@ def targets(times):
 
 
 def print_times(times):
-    print("ns a step" + " " * 21 + "".join(f"{path.replace('registered', 'reg.'):>14}" for path in PATHS))
+    print(f"{'ns a step':<30}" + "".join(f"{title:>11}" for title in PATHS.values()))
     for system in SYSTEMS:
         print(system)
         for method in METHODS + ONLY_ODEINT:
-            cells = [times.get((system, RIVALS.get(method, method) if path == "odeint" else method, path))
+            names = [RIVALS.get(method, method if method in ONLY_ODEINT else "") if path == "odeint" else method
                      for path in PATHS]
+            cells = [times.get((system, name, path)) for name, path in zip(names, PATHS)]
             if any(cells):
-                print(f"  {method:<28}" + "".join(f"{cell:14.2f}" if cell else " " * 14 for cell in cells))
+                print(f"  {method:<28}" + "".join(f"{cell:11.2f}" if cell else " " * 11 for cell in cells))
 
 
 def print_ratios(rows, times):
