@@ -1,5 +1,5 @@
-// K^-1 of a sample one-form as a plug-in, F = e^{nu t} (p (1 + r^2)/2, -r (1 + p^2)/2): a structure that depends on
-// state and time, K = -e^{nu t} (1 + (r^2 + p^2)/2) J.
+// K^-1 of a sample one-form as a plug-in, F = e^{nu t} (p (1 + r^2)/2, -r (1 + p^2)/2): a structure that
+// depends on state and time, K = -e^{nu t} (1 + (r^2 + p^2)/2) J.
 #include <pfaff/brackets/birkhoffian.hpp>
 #include <pfaff/core/bracket.hpp>
 
@@ -12,12 +12,14 @@ struct Birkhoffian {
   static std::vector<Parameter> parameters() {
     return {parameter(&Birkhoffian::nu, "nu", "1/s", -10, 10, "growth rate of the structure")};
   }
-  template <class T> void sharp(const T& t, In<T> z, In<T> covector, Out<T> vector) const {
-    const Tape one_form = record(2, 2, [&](const Recorded& time, std::span<const Recorded> x, std::span<Recorded> form) {
-      const Recorded growth = exp(nu * time);
-      form[0] = growth * x[1] * (Recorded(1) + x[0] * x[0]) / 2;
-      form[1] = -(growth * x[0] * (Recorded(1) + x[1] * x[1])) / 2;
-    });
+  template <class T>
+  void sharp(const T& t, In<T> z, In<T> covector, Out<T> vector) const {
+    const Tape one_form =
+        record(2, 2, [&](const Recorded& time, std::span<const Recorded> x, std::span<Recorded> form) {
+          const Recorded growth = exp(nu * time);
+          form[0] = growth * x[1] * (Recorded(1) + x[0] * x[0]) / 2;
+          form[1] = -(growth * x[0] * (Recorded(1) + x[1] * x[1])) / 2;
+        });
     BirkhoffianBracket(one_form).sharp(t, z, covector, vector);
   }
 };

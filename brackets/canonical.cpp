@@ -8,7 +8,8 @@ using namespace pfaff;
 struct Canonical : CanonicalBracket {
   int degrees = 2;
   static std::vector<Parameter> parameters() {
-    return {parameter(&Canonical::degrees, "degrees", "", 1, 1000, "degrees of freedom n; the dimension is 2 n")};
+    return {
+        parameter(&Canonical::degrees, "degrees", "", 1, 1000, "degrees of freedom n; the dimension is 2 n")};
   }
   [[nodiscard]] int dimension() const { return 2 * degrees; }
 };

@@ -7,7 +7,8 @@ namespace pfaff {
 
 /// {q_i, p_j} = delta_ij on 2 n-dimensional phase space.
 struct CanonicalBracket {
-  template <class T> void sharp(const T& /*t*/, In<T> /*z*/, In<T> covector, Out<T> vector) const {
+  template <class T>
+  void sharp(const T& /*t*/, In<T> /*z*/, In<T> covector, Out<T> vector) const {
     const std::size_t half = covector.size() / 2;
     for (std::size_t k = 0; k < half; ++k) {
       vector[k] = covector[half + k];

@@ -1,5 +1,5 @@
-// A constant Poisson tensor as a plug-in: three dimensions, {x, y} = c, {y, z} = a, {z, x} = b; the linear function
-// a x + b y + c z is its Casimir.
+// A constant Poisson tensor as a plug-in: three dimensions, {x, y} = c, {y, z} = a, {z, x} = b; the linear
+// function a x + b y + c z is its Casimir.
 #include <pfaff/brackets/constant_poisson.hpp>
 #include <pfaff/core/bracket.hpp>
 
@@ -14,7 +14,8 @@ struct ConstantPoisson {
             parameter(&ConstantPoisson::b, "b", "", -1e6, 1e6, "{z, x}"),
             parameter(&ConstantPoisson::c, "c", "", -1e6, 1e6, "{x, y}")};
   }
-  template <class T> void sharp(const T& t, In<T> z, In<T> covector, Out<T> vector) const {
+  template <class T>
+  void sharp(const T& t, In<T> z, In<T> covector, Out<T> vector) const {
     ConstantBracket{3, {0, c, -b, -c, 0, a, b, -a, 0}}.sharp(t, z, covector, vector);
   }
 };

@@ -1,5 +1,5 @@
-// Poisson brackets with a constant tensor: {f, g} = f_i P_ij g_j. Jacobi holds for every constant skew P; P may be
-// singular, its null covectors being the gradients of linear Casimirs.
+// Poisson brackets with a constant tensor: {f, g} = f_i P_ij g_j. Jacobi holds for every constant skew P; P
+// may be singular, its null covectors being the gradients of linear Casimirs.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,8 @@ struct ConstantBracket {
   int size = 0;
   std::vector<Real> tensor;
 
-  template <class T> void sharp(const T& /*t*/, In<T> /*z*/, In<T> covector, Out<T> vector) const {
+  template <class T>
+  void sharp(const T& /*t*/, In<T> /*z*/, In<T> covector, Out<T> vector) const {
     const auto n = static_cast<std::size_t>(size);
     for (std::size_t i = 0; i < n; ++i) {
       vector[i] = T(0);

@@ -7,7 +7,8 @@ using namespace pfaff;
 
 struct LiePoisson {
   static constexpr int dimension = 3;
-  template <class T> void sharp(const T& t, In<T> z, In<T> covector, Out<T> vector) const {
+  template <class T>
+  void sharp(const T& t, In<T> z, In<T> covector, Out<T> vector) const {
     LiePoissonBracket::rigid_body().sharp(t, z, covector, vector);
   }
 };

@@ -1,5 +1,5 @@
-// Lie-Poisson brackets: {f, g}(z) = z_k c_ij^k f_i g_j with the structure constants c of a Lie algebra, up to the sign
-// of the left-invariant convention. The Casimirs of so(3)* are the functions of |z|^2.
+// Lie-Poisson brackets: {f, g}(z) = z_k c_ij^k f_i g_j with the structure constants c of a Lie algebra, up to
+// the sign of the left-invariant convention. The Casimirs of so(3)* are the functions of |z|^2.
 #pragma once
 
 #include <vector>
@@ -19,10 +19,12 @@ struct LiePoissonBracket {
   std::vector<StructureConstant> constants;
   Real sign = 1;
 
-  template <class T> void sharp(const T& /*t*/, In<T> z, In<T> covector, Out<T> vector) const {
+  template <class T>
+  void sharp(const T& /*t*/, In<T> z, In<T> covector, Out<T> vector) const {
     for (T& v : vector) v = T(0);
     for (const StructureConstant& c : constants) {
-      const auto i = static_cast<std::size_t>(c.i), j = static_cast<std::size_t>(c.j), k = static_cast<std::size_t>(c.k);
+      const auto i = static_cast<std::size_t>(c.i), j = static_cast<std::size_t>(c.j),
+                 k = static_cast<std::size_t>(c.k);
       const T element = T(sign * c.value) * z[k];
       vector[i] = vector[i] + element * covector[j];
       vector[j] = vector[j] - element * covector[i];

@@ -1,8 +1,9 @@
 // What the author of a bracket structure includes: registration object Bracket<B>.
 //
-// B is a struct in an anonymous namespace with `dimension` (static constexpr int or member function), optional
-// parameters, and
-//   template <class T> void sharp(const T& t, In<T> z, In<T> covector, Out<T> vector) const;   // Pi(z, t) covector
+// B is a struct in an anonymous namespace with `dimension` (static constexpr int or member function),
+// optional parameters, and
+//   template <class T> void sharp(const T& t, In<T> z, In<T> covector, Out<T> vector) const;   // Pi(z, t)
+//   covector
 #pragma once
 
 #include <memory>
@@ -49,18 +50,21 @@ class BracketPlugin : public Plugin {
 };
 
 /// Records the sharp map of a bracket object.
-template <class B> std::shared_ptr<const Tape> sharp_tape(const B& bracket, int dimension) {
-  return std::make_shared<const Tape>(
-      record(2 * dimension, dimension, [&](const Recorded& t, std::span<const Recorded> x, std::span<Recorded> out) {
+template <class B>
+std::shared_ptr<const Tape> sharp_tape(const B& bracket, int dimension) {
+  return std::make_shared<const Tape>(record(
+      2 * dimension, dimension, [&](const Recorded& t, std::span<const Recorded> x, std::span<Recorded> out) {
         const auto n = static_cast<std::size_t>(dimension);
         bracket.sharp(t, x.first(n), x.subspan(n), out);
       }));
 }
 
 /// Registers B when the library that holds it is loaded.
-template <class B> class Bracket final : public BracketPlugin {
+template <class B>
+class Bracket final : public BracketPlugin {
  public:
-  explicit Bracket(BracketDescriptor descriptor, const std::source_location& where = std::source_location::current())
+  explicit Bracket(BracketDescriptor descriptor,
+                   const std::source_location& where = std::source_location::current())
       : BracketPlugin(std::move(descriptor), parameters_of<B>(), typeid(B), where) {
     brackets().add(this);
   }

@@ -4,11 +4,11 @@
 //   template <class P> struct Work { Work(const M&, const P&); … };                        // optional
 //   template <HasVectorField P>
 //   Status step(const P&, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>&) const;
-// Optional members: order(model) and preserves(model) where a claim depends on parameters or problem; validate(),
-// called once parameters are set; coefficients(), a mutable span over the numbers that define the method (the
-// control that changes one of them by 1e-6 needs it); refuses(model), a reason or an empty string; instances(full), the
-// parameters that verification runs through;
-// advance_to(problem, t, end, tolerance, z, work) for methods that choose their steps.
+// Optional members: order(model) and preserves(model) where a claim depends on parameters or problem;
+// validate(), called once parameters are set; coefficients(), a mutable span over the numbers that define the
+// method (the control that changes one of them by 1e-6 needs it); refuses(model), a reason or an empty
+// string; instances(full), the parameters that verification runs through; advance_to(problem, t, end,
+// tolerance, z, work) for methods that choose their steps.
 #pragma once
 
 #include <memory>
@@ -48,7 +48,8 @@ struct MethodDescriptor {
 };
 
 /// One integration of one model: state outside, history inside. Made by MethodInstance::stepper.
-template <class T> class Stepper {
+template <class T>
+class Stepper {
  public:
   virtual ~Stepper() = default;
   /// Steps first … first + count - 1 of size h (of either sign) from t0; see pfaff::advance.
@@ -81,8 +82,10 @@ class MethodInstance {
   [[nodiscard]] virtual std::unique_ptr<MethodInstance> with_changed_coefficient(std::size_t index,
                                                                                  Quad amount) const = 0;
 
-  [[nodiscard]] virtual std::unique_ptr<Stepper<double>> stepper(std::shared_ptr<const Model> model, double) const = 0;
-  [[nodiscard]] virtual std::unique_ptr<Stepper<Quad>> stepper(std::shared_ptr<const Model> model, Quad) const = 0;
+  [[nodiscard]] virtual std::unique_ptr<Stepper<double>> stepper(std::shared_ptr<const Model> model,
+                                                                 double) const = 0;
+  [[nodiscard]] virtual std::unique_ptr<Stepper<Quad>> stepper(std::shared_ptr<const Model> model,
+                                                               Quad) const = 0;
   [[nodiscard]] virtual std::unique_ptr<Stepper<StepDual<double>>> stepper(std::shared_ptr<const Model> model,
                                                                            StepDual<double>) const = 0;
   [[nodiscard]] virtual std::unique_ptr<Stepper<StepDual<Quad>>> stepper(std::shared_ptr<const Model> model,
@@ -106,11 +109,14 @@ class MethodPlugin : public Plugin {
 
 namespace detail {
 
-template <class M, class P> class SteppingOn final : public Stepper<Scalar<P>> {
+template <class M, class P>
+class SteppingOn final : public Stepper<Scalar<P>> {
  public:
   using T = Scalar<P>;
   SteppingOn(const M& method, std::shared_ptr<const Model> model)
-      : method_(method), problem_(std::move(model)), state_(problem_.make_state()),
+      : method_(method),
+        problem_(std::move(model)),
+        state_(problem_.make_state()),
         work_(std::make_unique<Work<M, P>>(method_, problem_)) {}
 
   Status advance(const T& t0, std::int64_t first, const T& h, std::int64_t count, std::span<T> z,
@@ -151,7 +157,8 @@ template <class M, class P> class SteppingOn final : public Stepper<Scalar<P>> {
 };
 
 // A facet is needed when the method cannot step on problems that have every facet but this one.
-template <class M, unsigned K> constexpr FacetSet needed_facet() {
+template <class M, unsigned K>
+constexpr FacetSet needed_facet() {
   constexpr Facet f = static_cast<Facet>(K);
   if constexpr (Steps<M, Problem<double, dynamic, FacetSet::all().without(f)>>) {
     return {};
@@ -159,20 +166,24 @@ template <class M, unsigned K> constexpr FacetSet needed_facet() {
     return FacetSet{}.with(f);
   }
 }
-template <class M, unsigned... K> constexpr FacetSet needed_facets(std::integer_sequence<unsigned, K...>) {
+template <class M, unsigned... K>
+constexpr FacetSet needed_facets(std::integer_sequence<unsigned, K...>) {
   return {(needed_facet<M, K>().bits | ...)};
 }
 
 }  // namespace detail
 
 /// The facets without which M does not step.
-template <class M> constexpr FacetSet needs_of() {
-  return detail::needed_facets<M>(std::make_integer_sequence<unsigned, static_cast<unsigned>(Facet::count)>());
+template <class M>
+constexpr FacetSet needs_of() {
+  return detail::needed_facets<M>(
+      std::make_integer_sequence<unsigned, static_cast<unsigned>(Facet::count)>());
 }
 
 namespace detail {
 
-template <class M> class Instance final : public MethodInstance {
+template <class M>
+class Instance final : public MethodInstance {
  public:
   Instance(const MethodPlugin& plugin, M method) : plugin_(plugin), method_(std::move(method)) {}
 
@@ -202,7 +213,9 @@ template <class M> class Instance final : public MethodInstance {
   }
   [[nodiscard]] bool adaptive() const override {
     using P = Problem<double>;
-    return requires(const P& p, double& t, State<P>& z, Work<M, P>& w) { method_.advance_to(p, t, t, t, z, w); };
+    return requires(const P& p, double& t, State<P>& z, Work<M, P>& w) {
+      method_.advance_to(p, t, t, t, z, w);
+    };
   }
   [[nodiscard]] std::size_t coefficient_count() const override {
     if constexpr (requires(M m) { m.coefficients(); }) {
@@ -219,7 +232,8 @@ template <class M> class Instance final : public MethodInstance {
     return std::make_unique<Instance>(plugin_, std::move(copy));
   }
 
-  [[nodiscard]] std::unique_ptr<Stepper<double>> stepper(std::shared_ptr<const Model> model, double) const override {
+  [[nodiscard]] std::unique_ptr<Stepper<double>> stepper(std::shared_ptr<const Model> model,
+                                                         double) const override {
     constexpr bool sizes = [] {
       if constexpr (requires { M::fixed_sizes; }) return M::fixed_sizes;
       return true;
@@ -231,7 +245,8 @@ template <class M> class Instance final : public MethodInstance {
     }
     return make<Problem<double>>(std::move(model));
   }
-  [[nodiscard]] std::unique_ptr<Stepper<Quad>> stepper(std::shared_ptr<const Model> model, Quad) const override {
+  [[nodiscard]] std::unique_ptr<Stepper<Quad>> stepper(std::shared_ptr<const Model> model,
+                                                       Quad) const override {
     return make<Problem<Quad>>(std::move(model));
   }
   [[nodiscard]] std::unique_ptr<Stepper<StepDual<double>>> stepper(std::shared_ptr<const Model> model,
@@ -244,7 +259,8 @@ template <class M> class Instance final : public MethodInstance {
   }
 
  private:
-  template <class P> auto make(std::shared_ptr<const Model> model) const {
+  template <class P>
+  auto make(std::shared_ptr<const Model> model) const {
     return std::make_unique<SteppingOn<M, P>>(method_, std::move(model));
   }
 
@@ -255,9 +271,11 @@ template <class M> class Instance final : public MethodInstance {
 }  // namespace detail
 
 /// Registers M when the library that holds it is loaded.
-template <class M> class Method final : public MethodPlugin {
+template <class M>
+class Method final : public MethodPlugin {
  public:
-  explicit Method(MethodDescriptor descriptor, const std::source_location& where = std::source_location::current())
+  explicit Method(MethodDescriptor descriptor,
+                  const std::source_location& where = std::source_location::current())
       : MethodPlugin(std::move(descriptor), parameters_of<M>(), typeid(M), where) {
     integrators().add(this);
   }

@@ -3,14 +3,15 @@
 // S is a struct in an anonymous namespace with `dimension` (static constexpr int, or a member function), Real
 // members for its parameters, and any of these templates over the scalar T (t: time, z: state):
 //   field(t, z, rate)                        dz/dt
-//   kinetic(t, p), potential(t, q)           canonical separable H = T + V; optional force(t, q, f), velocity(t, p, v)
-//   hamiltonian(t, z), bracket()             H and the bracket that makes the field (canonical without bracket())
-//   birkhoffian(t, z), one_form(t, z, F)     the action form F.dz - B dt
+//   kinetic(t, p), potential(t, q)           canonical separable H = T + V; optional force(t, q, f),
+//   velocity(t, p, v) hamiltonian(t, z), bracket()             H and the bracket that makes the field
+//   (canonical without bracket()) birkhoffian(t, z), one_form(t, z, F)     the action form F.dz - B dt
 //   chart(t, z, y), chart_inverse(t, y, z)   Darboux coordinates; optional chart_hamiltonian(t, y)
 //   invariants(t, z, values)                 in the order of the descriptor's list
 //   exact_solution(elapsed, t0, z0, z)       the flow
 //   initial(z)                               instead of the descriptor's list, when it depends on parameters
-// Whatever is not written is derived; whatever could be derived but is written is checked against the derivation.
+// Whatever is not written is derived; whatever could be derived but is written is checked against the
+// derivation.
 #pragma once
 
 #include <memory>
@@ -52,7 +53,8 @@ namespace detail {
 using RecordedIn = std::span<const Recorded>;
 using RecordedOut = std::span<Recorded>;
 
-template <class S> int dimension_of(const S& s) {
+template <class S>
+int dimension_of(const S& s) {
   if constexpr (requires { s.dimension(); }) {
     return s.dimension();
   } else {
@@ -61,9 +63,11 @@ template <class S> int dimension_of(const S& s) {
 }
 
 /// Collects the formulas of one author's object.
-template <class S> class Collector {
+template <class S>
+class Collector {
  public:
-  Collector(std::shared_ptr<const S> system, ModelSource& source) : system_(std::move(system)), source_(source) {
+  Collector(std::shared_ptr<const S> system, ModelSource& source)
+      : system_(std::move(system)), source_(source) {
     source_.system = system_;
   }
 
@@ -79,12 +83,18 @@ template <class S> class Collector {
         self.field(t, In<double>(z, m), Out<double>(o, m));
       });
     }
-    if constexpr (requires(const R& t, RecordedIn z) { s.potential(t, z); s.kinetic(t, z); }) {
+    if constexpr (requires(const R& t, RecordedIn z) {
+                    s.potential(t, z);
+                    s.kinetic(t, z);
+                  }) {
       source_.canonical = true;
-      give(Formula::kinetic, n / 2, 1, [&](const R& t, RecordedIn p, RecordedOut o) { o[0] = s.kinetic(t, p); });
-      give(Formula::potential, n / 2, 1, [&](const R& t, RecordedIn q, RecordedOut o) { o[0] = s.potential(t, q); });
+      give(Formula::kinetic, n / 2, 1,
+           [&](const R& t, RecordedIn p, RecordedOut o) { o[0] = s.kinetic(t, p); });
+      give(Formula::potential, n / 2, 1,
+           [&](const R& t, RecordedIn q, RecordedOut o) { o[0] = s.potential(t, q); });
       if constexpr (requires(const R& t, RecordedIn q, RecordedOut o) { s.force(t, q, o); }) {
-        give(Formula::force, n / 2, n / 2, [&](const R& t, RecordedIn q, RecordedOut o) { s.force(t, q, o); });
+        give(Formula::force, n / 2, n / 2,
+             [&](const R& t, RecordedIn q, RecordedOut o) { s.force(t, q, o); });
         compile(Formula::force, [](const void* object, const double& t, const double* q, double* o) {
           const S& self = *static_cast<const S*>(object);
           const auto m = static_cast<std::size_t>(dimension_of(self) / 2);
@@ -92,7 +102,8 @@ template <class S> class Collector {
         });
       }
       if constexpr (requires(const R& t, RecordedIn p, RecordedOut o) { s.velocity(t, p, o); }) {
-        give(Formula::velocity, n / 2, n / 2, [&](const R& t, RecordedIn p, RecordedOut o) { s.velocity(t, p, o); });
+        give(Formula::velocity, n / 2, n / 2,
+             [&](const R& t, RecordedIn p, RecordedOut o) { s.velocity(t, p, o); });
         compile(Formula::velocity, [](const void* object, const double& t, const double* p, double* o) {
           const S& self = *static_cast<const S*>(object);
           const auto m = static_cast<std::size_t>(dimension_of(self) / 2);
@@ -108,7 +119,8 @@ template <class S> class Collector {
       }
     }
     if constexpr (requires(const R& t, RecordedIn z) { s.hamiltonian(t, z); }) {
-      give(Formula::hamiltonian, n, 1, [&](const R& t, RecordedIn z, RecordedOut o) { o[0] = s.hamiltonian(t, z); });
+      give(Formula::hamiltonian, n, 1,
+           [&](const R& t, RecordedIn z, RecordedOut o) { o[0] = s.hamiltonian(t, z); });
       if constexpr (requires { s.bracket(); }) {
         const auto bracket = s.bracket();
         give(Formula::poisson_tensor, n, n * n, [&](const R& t, RecordedIn z, RecordedOut o) {
@@ -125,13 +137,21 @@ template <class S> class Collector {
         source_.canonical = true;
       }
     }
-    if constexpr (requires(const R& t, RecordedIn z, RecordedOut o) { s.birkhoffian(t, z); s.one_form(t, z, o); }) {
-      give(Formula::birkhoffian, n, 1, [&](const R& t, RecordedIn z, RecordedOut o) { o[0] = s.birkhoffian(t, z); });
+    if constexpr (requires(const R& t, RecordedIn z, RecordedOut o) {
+                    s.birkhoffian(t, z);
+                    s.one_form(t, z, o);
+                  }) {
+      give(Formula::birkhoffian, n, 1,
+           [&](const R& t, RecordedIn z, RecordedOut o) { o[0] = s.birkhoffian(t, z); });
       give(Formula::one_form, n, n, [&](const R& t, RecordedIn z, RecordedOut o) { s.one_form(t, z, o); });
     }
-    if constexpr (requires(const R& t, RecordedIn z, RecordedOut o) { s.chart(t, z, o); s.chart_inverse(t, z, o); }) {
+    if constexpr (requires(const R& t, RecordedIn z, RecordedOut o) {
+                    s.chart(t, z, o);
+                    s.chart_inverse(t, z, o);
+                  }) {
       give(Formula::chart, n, n, [&](const R& t, RecordedIn z, RecordedOut o) { s.chart(t, z, o); });
-      give(Formula::chart_inverse, n, n, [&](const R& t, RecordedIn y, RecordedOut o) { s.chart_inverse(t, y, o); });
+      give(Formula::chart_inverse, n, n,
+           [&](const R& t, RecordedIn y, RecordedOut o) { s.chart_inverse(t, y, o); });
     }
     if constexpr (requires(const R& t, RecordedIn y) { s.chart_hamiltonian(t, y); })
       give(Formula::chart_hamiltonian, n, 1,
@@ -152,7 +172,8 @@ template <class S> class Collector {
   }
 
  private:
-  template <class F> void give(Formula formula, int inputs, int outputs, F&& f) {
+  template <class F>
+  void give(Formula formula, int inputs, int outputs, F&& f) {
     source_.given[index(formula)] = std::make_shared<const Tape>(record(inputs, outputs, f));
   }
   void compile(Formula formula, CompiledFormula f) { source_.compiled[index(formula)] = f; }
@@ -164,7 +185,8 @@ template <class S> class Collector {
 }  // namespace detail
 
 /// A model of an author's object (what System<S>::make does, for objects made in a program).
-template <class S> std::shared_ptr<const Model> make_model(const SystemDescriptor& descriptor, const S& object) {
+template <class S>
+std::shared_ptr<const Model> make_model(const SystemDescriptor& descriptor, const S& object) {
   auto system = std::make_shared<const S>(object);
   ModelSource source;
   source.name = descriptor.name;
@@ -180,9 +202,11 @@ template <class S> std::shared_ptr<const Model> make_model(const SystemDescripto
 }
 
 /// Registers S when the library that holds it is loaded.
-template <class S> class System final : public SystemPlugin {
+template <class S>
+class System final : public SystemPlugin {
  public:
-  explicit System(SystemDescriptor descriptor, const std::source_location& where = std::source_location::current())
+  explicit System(SystemDescriptor descriptor,
+                  const std::source_location& where = std::source_location::current())
       : SystemPlugin(std::move(descriptor), parameters_of<S>(), typeid(S), where) {
     systems().add(this);
   }

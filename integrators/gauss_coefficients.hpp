@@ -16,8 +16,8 @@ struct GaussCoefficients {
   std::vector<Quad> matrix;   // a_ij, row-major
 };
 
-/// Nodes by Newton's method on the Legendre polynomial, weights from its derivative, a_ij = integral of the j-th
-/// Lagrange polynomial over [0, c_i] by the quadrature itself, which is exact for it.
+/// Nodes by Newton's method on the Legendre polynomial, weights from its derivative, a_ij = integral of the
+/// j-th Lagrange polynomial over [0, c_i] by the quadrature itself, which is exact for it.
 GaussCoefficients gauss_coefficients(int stages);
 
 /// The value at x of the j-th Lagrange polynomial through `nodes`.

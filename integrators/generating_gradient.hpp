@@ -1,13 +1,15 @@
-// The gradient of a truncated generating function, psi(w) = sum_{k <= m} tau^k phi_w^(k)(w), in Darboux coordinates,
-// for any order m, from one truncated Taylor series of the field at s = ceil(m/2) nodes.
+// The gradient of a truncated generating function, psi(w) = sum_{k <= m} tau^k phi_w^(k)(w), in Darboux
+// coordinates, for any order m, from one truncated Taylor series of the field at s = ceil(m/2) nodes.
 //
 // tau^k phi_w^(k)(w) is the degree-k part in tau of the s-stage Gauss collocation solution taken at fixed
-// w = P y' + (I - P) y, because the collocation agrees with the flow up to tau^{2s} in any coordinates; and level
-// l + 1 of its stages needs only level l of the field, so the implicit collocation is one explicit pass.
-// In these coordinates psi = y' - y; the paper's (R^, P^) of su-qin (95) is (psi_p, psi_q) at w = (R, -P).
+// w = P y' + (I - P) y, because the collocation agrees with the flow up to tau^{2s} in any coordinates; and
+// level l + 1 of its stages needs only level l of the field, so the implicit collocation is one explicit
+// pass. In these coordinates psi = y' - y; the paper's (R^, P^) of su-qin (95) is (psi_p, psi_q) at w = (R,
+// -P).
 //
-// Variant P expands at t0 (su-qin (79)-(88)), any m; variant S at the mid-time t0 + tau/2, even m, P = I/2: the stages
-// mirror each other under tau -> -tau, so half of them are kept and only odd degrees of psi remain.
+// Variant P expands at t0 (su-qin (79)-(88)), any m; variant S at the mid-time t0 + tau/2, even m, P = I/2:
+// the stages mirror each other under tau -> -tau, so half of them are kept and only odd degrees of psi
+// remain.
 #pragma once
 
 #include <memory>
@@ -18,24 +20,33 @@
 
 namespace pfaff {
 
-/// Which mix of old and new coordinates the generating function takes: w = P y' + (I - P) y with P = I/2 (Poincare's
-/// midpoint form), diag(I, 0) (new q with old p) or diag(0, I) (old q with new p).
+/// Which mix of old and new coordinates the generating function takes: w = P y' + (I - P) y with P = I/2
+/// (Poincare's midpoint form), diag(I, 0) (new q with old p) or diag(0, I) (old q with new p).
 enum class GeneratingForm { midpoint, new_q_old_p, old_q_new_p };
 
-template <class T> class GeneratingGradient {
+template <class T>
+class GeneratingGradient {
  public:
   /// Of order `order` for the field in `chart_field` (n -> n), expanded at the mid-time when `symmetric`.
   GeneratingGradient(std::shared_ptr<const Tape> chart_field, int order, bool symmetric, GeneratingForm form,
                      const GaussCoefficients& gauss)
-      : symmetric_(symmetric), n_(static_cast<std::size_t>(chart_field->inputs)),
-        s_(static_cast<std::size_t>(gauss.stages)), lanes_(symmetric ? (s_ + 1) / 2 : s_),
+      : symmetric_(symmetric),
+        n_(static_cast<std::size_t>(chart_field->inputs)),
+        s_(static_cast<std::size_t>(gauss.stages)),
+        lanes_(symmetric ? (s_ + 1) / 2 : s_),
         levels_(static_cast<std::size_t>(symmetric ? order - 1 : order)),
-        series_(std::move(chart_field), static_cast<int>(levels_), static_cast<int>(lanes_)), share_(n_),
-        input_(n_ * lanes_), base_(lanes_), rate_(lanes_), t_(0), tau_(0) {
+        series_(std::move(chart_field), static_cast<int>(levels_), static_cast<int>(lanes_)),
+        share_(n_),
+        input_(n_ * lanes_),
+        base_(lanes_),
+        rate_(lanes_),
+        t_(0),
+        tau_(0) {
     for (std::size_t k = 0; k < n_; ++k) {
       const bool is_q = k < n_ / 2;
-      share_[k] = form == GeneratingForm::midpoint ? T(Real::fraction(1, 2))
-                  : (form == GeneratingForm::new_q_old_p) == is_q ? T(1) : T(0);
+      share_[k] = form == GeneratingForm::midpoint                ? T(Real::fraction(1, 2))
+                  : (form == GeneratingForm::new_q_old_p) == is_q ? T(1)
+                                                                  : T(0);
     }
     fold(gauss);
   }
@@ -71,8 +82,9 @@ template <class T> class GeneratingGradient {
   [[nodiscard]] std::size_t term_count() const { return levels_ + 2; }
 
  private:
-  // Coefficients for the lanes kept. With a~_ij = a_ij - b_j/2 and mirrored stages X_j'(-s) = X_j(s), lane j stands
-  // for j and j': a~_ij + a~_ij' acts on even levels, a~_ij - a~_ij' on odd ones; the centre node counts once.
+  // Coefficients for the lanes kept. With a~_ij = a_ij - b_j/2 and mirrored stages X_j'(-s) = X_j(s), lane j
+  // stands for j and j': a~_ij + a~_ij' acts on even levels, a~_ij - a~_ij' on odd ones; the centre node
+  // counts once.
   void fold(const GaussCoefficients& g) {
     const std::size_t first = s_ - lanes_;
     for (std::size_t i = first; i < s_; ++i) {
@@ -95,7 +107,8 @@ template <class T> class GeneratingGradient {
     }
   }
 
-  template <class Take> void expand(const T* w, Take&& take) {
+  template <class Take>
+  void expand(const T* w, Take&& take) {
     for (std::size_t k = 0; k < n_; ++k)
       for (std::size_t lane = 0; lane < lanes_; ++lane) input_[k * lanes_ + lane] = w[k];
     for (std::size_t level = 0; level < levels_; ++level) {

@@ -1,9 +1,10 @@
 // Boost.Odeint's steppers as registered methods: what everyone has, as the yardstick.
 //
-// Traps of that library that do not arise here, because Pfaff drives the steps itself: its steppers are copied into
-// the integrate functions (state and history with them), and integrate_times and integrate_adaptive shorten steps to
-// hit output times, which breaks the structure of fixed-step methods. Coefficients are doubles, so no claims are made
-// in quad. The adaptive step is the controlled dopri5 with absolute and relative tolerance alike.
+// Traps of that library that do not arise here, because Pfaff drives the steps itself: its steppers are
+// copied into the integrate functions (state and history with them), and integrate_times and
+// integrate_adaptive shorten steps to hit output times, which breaks the structure of fixed-step methods.
+// Coefficients are doubles, so no claims are made in quad. The adaptive step is the controlled dopri5 with
+// absolute and relative tolerance alike.
 #include <algorithm>
 #include <boost/numeric/odeint/algebra/algebra_dispatcher.hpp>
 #include <boost/numeric/odeint/algebra/range_algebra.hpp>
@@ -19,13 +20,21 @@ using namespace pfaff;
 namespace odeint = boost::numeric::odeint;
 
 // odeint knows std::array and std::vector.
-template <class T, int N> struct Container { using type = std::array<T, static_cast<std::size_t>(N)>; };
-template <class T> struct Container<T, dynamic> { using type = std::vector<T>; };
-template <class P> using ContainerOf = typename Container<Scalar<P>, P::extent>::type;
-template <class P, int Size> using HalfOf =
-    typename Container<Scalar<P>, P::extent == dynamic ? dynamic : P::extent / 2>::type;
+template <class T, int N>
+struct Container {
+  using type = std::array<T, static_cast<std::size_t>(N)>;
+};
+template <class T>
+struct Container<T, dynamic> {
+  using type = std::vector<T>;
+};
+template <class P>
+using ContainerOf = typename Container<Scalar<P>, P::extent>::type;
+template <class P, int Size>
+using HalfOf = typename Container<Scalar<P>, P::extent == dynamic ? dynamic : P::extent / 2>::type;
 
-template <class C> C sized(std::size_t n) {
+template <class C>
+C sized(std::size_t n) {
   if constexpr (requires(C c) { c.resize(n); }) {
     return C(n);
   } else {
@@ -34,8 +43,10 @@ template <class C> C sized(std::size_t n) {
 }
 
 // A stepper of the vector field, one fixed step at a time.
-template <template <class...> class OdeintStepper> struct FieldStepper {
-  template <class P> struct Work {
+template <template <class...> class OdeintStepper>
+struct FieldStepper {
+  template <class P>
+  struct Work {
     using T = Scalar<P>;
     OdeintStepper<ContainerOf<P>, double, ContainerOf<P>, T, odeint::range_algebra> stepper;
     ContainerOf<P> state;
@@ -54,12 +65,14 @@ template <template <class...> class OdeintStepper> struct FieldStepper {
   }
 };
 
-template <class... A> using Rk4Stepper = odeint::runge_kutta4<A...>;
+template <class... A>
+using Rk4Stepper = odeint::runge_kutta4<A...>;
 struct OdeintRk4 : FieldStepper<Rk4Stepper> {};
 
-// dopri5 keeps its last slope (FSAL) between steps; here every step starts from its own state, so that a step is a
-// function of (t, z, h) alone.
-template <class... A> using Dopri5Stepper = odeint::runge_kutta_dopri5<A...>;
+// dopri5 keeps its last slope (FSAL) between steps; here every step starts from its own state, so that a step
+// is a function of (t, z, h) alone.
+template <class... A>
+using Dopri5Stepper = odeint::runge_kutta_dopri5<A...>;
 struct OdeintDopri5 : FieldStepper<Dopri5Stepper> {
   template <HasVectorField P>
   Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
@@ -67,13 +80,18 @@ struct OdeintDopri5 : FieldStepper<Dopri5Stepper> {
     return FieldStepper::step(p, t, h, z, w);
   }
 
-  template <HasVectorField P> requires std::is_same_v<Scalar<P>, double>
-  Status advance_to(const P& p, double& t, double end, double tolerance, State<P>& z, Work<P>& w) const {
+  template <HasVectorField P>
+  requires std::is_same_v < Scalar<P>,
+  double >
+      Status advance_to(const P& p, double& t, double end, double tolerance, State<P>& z, Work<P>& w) const {
     using Stepper = decltype(w.stepper);
-    using Checker = odeint::default_error_checker<double, typename Stepper::algebra_type, typename Stepper::operations_type>;
+    using Checker = odeint::default_error_checker<double, typename Stepper::algebra_type,
+                                                  typename Stepper::operations_type>;
     odeint::controlled_runge_kutta<Stepper, Checker> controlled(Checker(tolerance, tolerance));
     std::copy(z.begin(), z.end(), w.state.begin());
-    const auto system = [&](const ContainerOf<P>& x, ContainerOf<P>& rate, double time) { p.field(time, x, rate); };
+    const auto system = [&](const ContainerOf<P>& x, ContainerOf<P>& rate, double time) {
+      p.field(time, x, rate);
+    };
     const double direction = end < t ? -1 : 1;
     double h = direction * std::min(std::abs(end - t), w.next_step);
     Status status = Status::converged;
@@ -84,10 +102,12 @@ struct OdeintDopri5 : FieldStepper<Dopri5Stepper> {
       if (controlled.try_step(system, w.state, t, h) == odeint::success) {
         ++p.counters().steps;
         rejected = 0;
-        // A step shortened to reach the end says nothing about the next one, unless it could have been longer.
+        // A step shortened to reach the end says nothing about the next one, unless it could have been
+        // longer.
         if (!clipped || std::abs(h) > w.next_step) w.next_step = std::abs(h);
         // The last step ends at `end` but for round-off.
-        if (std::abs(end - t) <= 4 * std::numeric_limits<double>::epsilon() * std::max(std::abs(end), std::abs(last)))
+        if (std::abs(end - t) <=
+            4 * std::numeric_limits<double>::epsilon() * std::max(std::abs(end), std::abs(last)))
           t = end;
       } else if (++rejected > 100 || !(std::abs(h) > 1e-14 * std::abs(t))) {
         status = Status::not_converged;
@@ -101,7 +121,8 @@ struct OdeintDopri5 : FieldStepper<Dopri5Stepper> {
 
 // McLachlan's symplectic Runge-Kutta-Nystroem method of order 4 on (q, p).
 struct OdeintMcLachlan {
-  template <class P> struct Work {
+  template <class P>
+  struct Work {
     using T = Scalar<P>;
     using Half = HalfOf<P, 0>;
     odeint::symplectic_rkn_sb3a_mclachlan<Half, Half, double, Half, Half, T, odeint::range_algebra> stepper;
@@ -111,8 +132,9 @@ struct OdeintMcLachlan {
   };
 
   [[nodiscard]] static std::string refuses(const Model& model) {
-    return model.autonomous() ? std::string()
-                              : "odeint-mclachlan takes no time in its force; " + model.name() + " depends on time";
+    return model.autonomous()
+               ? std::string()
+               : "odeint-mclachlan takes no time in its force; " + model.name() + " depends on time";
   }
 
   template <HasSeparable P>

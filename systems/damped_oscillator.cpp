@@ -1,10 +1,10 @@
-// The linear damped oscillator r'' + nu r' + r = 0 in Birkhoff's form, z = (r, p), p = r' (su-qin (92)-(95), with
-// the middle term of B corrected, docs/errata.md).
+// The linear damped oscillator r'' + nu r' + r = 0 in Birkhoff's form, z = (r, p), p = r' (su-qin (92)-(95),
+// with the middle term of B corrected, docs/errata.md).
 //
 //   F = e^{nu t} (p/2, -r/2),   B = e^{nu t} (r^2 + nu r p + p^2)/2,   K = e^{nu t} [[0, -1], [1, 0]]
 //
-// B is conserved along solutions. Darboux chart y = (r, e^{nu t} p). Linear: it hides order errors of nonlinear
-// methods, so orders are verified on the damped pendulum as well.
+// B is conserved along solutions. Darboux chart y = (r, e^{nu t} p). Linear: it hides order errors of
+// nonlinear methods, so orders are verified on the damped pendulum as well.
 #include <pfaff/core/system.hpp>
 
 namespace {
@@ -17,36 +17,44 @@ struct DampedOscillator {
     return {parameter(&DampedOscillator::nu, "nu", "1/s", 0, 10, "damping rate")};
   }
 
-  template <class T> T birkhoffian(const T& t, In<T> z) const {
+  template <class T>
+  T birkhoffian(const T& t, In<T> z) const {
     return exp(nu * t) * (z[0] * z[0] + nu * z[0] * z[1] + z[1] * z[1]) / 2;
   }
-  template <class T> void one_form(const T& t, In<T> z, Out<T> form) const {
+  template <class T>
+  void one_form(const T& t, In<T> z, Out<T> form) const {
     const T growth = exp(nu * t);
     form[0] = growth * z[1] / 2;
     form[1] = -(growth * z[0]) / 2;
   }
-  template <class T> void chart(const T& t, In<T> z, Out<T> y) const {
+  template <class T>
+  void chart(const T& t, In<T> z, Out<T> y) const {
     y[0] = z[0];
     y[1] = exp(nu * t) * z[1];
   }
-  template <class T> void chart_inverse(const T& t, In<T> y, Out<T> z) const {
+  template <class T>
+  void chart_inverse(const T& t, In<T> y, Out<T> z) const {
     z[0] = y[0];
     z[1] = exp(-(nu * t)) * y[1];
   }
-  template <class T> T chart_hamiltonian(const T& t, In<T> y) const {
+  template <class T>
+  T chart_hamiltonian(const T& t, In<T> y) const {
     return (exp(-(nu * t)) * (y[1] * y[1]) + exp(nu * t) * (y[0] * y[0])) / 2;
   }
-  template <class T> void field(const T& /*t*/, In<T> z, Out<T> rate) const {
+  template <class T>
+  void field(const T& /*t*/, In<T> z, Out<T> rate) const {
     rate[0] = z[1];
     rate[1] = -(nu * z[1]) - z[0];
   }
-  template <class T> void invariants(const T& t, In<T> z, Out<T> values) const {
+  template <class T>
+  void invariants(const T& t, In<T> z, Out<T> values) const {
     values[0] = birkhoffian(t, z);
     values[1] = (z[0] * z[0] + z[1] * z[1]) / 2;
   }
-  // r = r0 C + (p0 + nu r0/2) S with C = e^{-nu s/2} cos w s, S = e^{-nu s/2} sin(w s)/w, w = sqrt(1 - nu^2/4);
-  // hyperbolic functions when overdamped, C = e^{-s} and S = s e^{-s} when critical.
-  template <class T> void exact_solution(const T& s, const T& /*t0*/, In<T> z0, Out<T> z) const {
+  // r = r0 C + (p0 + nu r0/2) S with C = e^{-nu s/2} cos w s, S = e^{-nu s/2} sin(w s)/w, w = sqrt(1 -
+  // nu^2/4); hyperbolic functions when overdamped, C = e^{-s} and S = s e^{-s} when critical.
+  template <class T>
+  void exact_solution(const T& s, const T& /*t0*/, In<T> z0, Out<T> z) const {
     const Real square = Real(1) - nu * nu / Real(4);
     const T decay = exp(-(nu * s) / 2);
     T c = decay, sine = decay * s;
@@ -55,8 +63,8 @@ struct DampedOscillator {
       c = decay * cos(w * s);
       sine = decay * sin(w * s) / w;
     } else if (square < Real(0)) {
-      // The rates w - nu/2 = -1/(w + nu/2) and -(w + nu/2), without overflow and cancellation; sinh x from its series
-      // where x < 1.
+      // The rates w - nu/2 = -1/(w + nu/2) and -(w + nu/2), without overflow and cancellation; sinh x from
+      // its series where x < 1.
       const Real w = sqrt(-square), rate = w + nu / 2;
       const T slow = exp(-(s / rate)), fast = exp(-(rate * s)), x2 = w * s * (w * s);
       T series(1);

@@ -3,8 +3,8 @@
 //
 //   F = e^{nu t} (p/2, -r/2),   B = e^{nu t} (p^2/2 + nu r p/2 - cos r),   K = e^{nu t} [[0, -1], [1, 0]]
 //
-// Darboux chart y = (r, e^{nu t} p), where the Hamiltonian is H = e^{-nu t} y_2^2/2 - e^{nu t} cos y_1. The flow keeps
-// K(z, t); the mechanical energy p^2/2 - cos r decreases at the rate nu p^2.
+// Darboux chart y = (r, e^{nu t} p), where the Hamiltonian is H = e^{-nu t} y_2^2/2 - e^{nu t} cos y_1. The
+// flow keeps K(z, t); the mechanical energy p^2/2 - cos r decreases at the rate nu p^2.
 #include <pfaff/core/system.hpp>
 
 namespace {
@@ -17,38 +17,46 @@ struct DampedPendulum {
     return {parameter(&DampedPendulum::nu, "nu", "1/s", 0, 10, "damping rate")};
   }
 
-  template <class T> T birkhoffian(const T& t, In<T> z) const {
+  template <class T>
+  T birkhoffian(const T& t, In<T> z) const {
     return exp(nu * t) * (z[1] * z[1] / 2 + nu * z[0] * z[1] / 2 - cos(z[0]));
   }
-  template <class T> void one_form(const T& t, In<T> z, Out<T> form) const {
+  template <class T>
+  void one_form(const T& t, In<T> z, Out<T> form) const {
     const T growth = exp(nu * t);
     form[0] = growth * z[1] / 2;
     form[1] = -(growth * z[0]) / 2;
   }
-  template <class T> void chart(const T& t, In<T> z, Out<T> y) const {
+  template <class T>
+  void chart(const T& t, In<T> z, Out<T> y) const {
     y[0] = z[0];
     y[1] = exp(nu * t) * z[1];
   }
-  template <class T> void chart_inverse(const T& t, In<T> y, Out<T> z) const {
+  template <class T>
+  void chart_inverse(const T& t, In<T> y, Out<T> z) const {
     z[0] = y[0];
     z[1] = exp(-(nu * t)) * y[1];
   }
-  template <class T> T chart_hamiltonian(const T& t, In<T> y) const {
+  template <class T>
+  T chart_hamiltonian(const T& t, In<T> y) const {
     return exp(-(nu * t)) * (y[1] * y[1]) / 2 - exp(nu * t) * cos(y[0]);
   }
-  template <class T> void field(const T& /*t*/, In<T> z, Out<T> rate) const {
+  template <class T>
+  void field(const T& /*t*/, In<T> z, Out<T> rate) const {
     rate[0] = z[1];
     rate[1] = -(nu * z[1]) - sin(z[0]);
   }
-  template <class T> void invariants(const T& /*t*/, In<T> z, Out<T> values) const {
+  template <class T>
+  void invariants(const T& /*t*/, In<T> z, Out<T> values) const {
     values[0] = z[1] * z[1] / 2 - cos(z[0]);
   }
 };
 
-const System<DampedPendulum> registered{{.name = "damped-pendulum",
-                                         .title = "damped pendulum in Birkhoff's form, r'' + nu r' + sin r = 0",
-                                         .reference = "su-qin (92)-(95)",
-                                         .coordinates = {{"r", "rad"}, {"p", "rad/s"}},
-                                         .initial = {1, 0.5_r},
-                                         .invariants = {decreasing("energy", "rad^2/s^2")}}};
+const System<DampedPendulum> registered{
+    {.name = "damped-pendulum",
+     .title = "damped pendulum in Birkhoff's form, r'' + nu r' + sin r = 0",
+     .reference = "su-qin (92)-(95)",
+     .coordinates = {{"r", "rad"}, {"p", "rad/s"}},
+     .initial = {1, 0.5_r},
+     .invariants = {decreasing("energy", "rad^2/s^2")}}};
 }  // namespace

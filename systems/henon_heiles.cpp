@@ -10,19 +10,26 @@ struct HenonHeiles {
   static std::vector<Parameter> parameters() {
     return {parameter(&HenonHeiles::lambda, "lambda", "", 0, 10, "strength of the cubic coupling")};
   }
-  template <class T> T kinetic(const T& /*t*/, In<T> p) const { return (p[0] * p[0] + p[1] * p[1]) / 2; }
-  template <class T> T potential(const T& /*t*/, In<T> q) const {
+  template <class T>
+  T kinetic(const T& /*t*/, In<T> p) const {
+    return (p[0] * p[0] + p[1] * p[1]) / 2;
+  }
+  template <class T>
+  T potential(const T& /*t*/, In<T> q) const {
     return (q[0] * q[0] + q[1] * q[1]) / 2 + lambda * (q[0] * q[0] * q[1] - q[1] * q[1] * q[1] / 3);
   }
-  template <class T> void force(const T& /*t*/, In<T> q, Out<T> f) const {
+  template <class T>
+  void force(const T& /*t*/, In<T> q, Out<T> f) const {
     f[0] = -q[0] - lambda * (2 * q[0] * q[1]);
     f[1] = -q[1] - lambda * (q[0] * q[0] - q[1] * q[1]);
   }
-  template <class T> void velocity(const T& /*t*/, In<T> p, Out<T> v) const {
+  template <class T>
+  void velocity(const T& /*t*/, In<T> p, Out<T> v) const {
     v[0] = p[0];
     v[1] = p[1];
   }
-  template <class T> void invariants(const T& t, In<T> z, Out<T> values) const {
+  template <class T>
+  void invariants(const T& t, In<T> z, Out<T> values) const {
     values[0] = kinetic(t, z.subspan(2)) + potential(t, z.first(2));
   }
 };

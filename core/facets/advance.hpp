@@ -11,29 +11,39 @@ namespace pfaff {
 
 /// The workspace of methods that need none.
 struct NoWork {
-  template <class M, class P> NoWork(const M& /*method*/, const P& /*problem*/) {}
+  template <class M, class P>
+  NoWork(const M& /*method*/, const P& /*problem*/) {}
 };
 
 namespace detail {
-template <class M, class P> struct WorkOf { using type = NoWork; };
-template <class M, class P> requires requires { typename M::template Work<P>; }
-struct WorkOf<M, P> { using type = typename M::template Work<P>; };
+template <class M, class P>
+struct WorkOf {
+  using type = NoWork;
+};
+template <class M, class P>
+requires requires { typename M::template Work<P>; }
+struct WorkOf<M, P> {
+  using type = typename M::template Work<P>;
+};
 }  // namespace detail
 
 /// What a method keeps between steps of one integration: buffers, compensation, history.
-template <class M, class P> using Work = typename detail::WorkOf<M, P>::type;
+template <class M, class P>
+using Work = typename detail::WorkOf<M, P>::type;
 
 /// A method that can step on problems of type P.
 template <class M, class P>
 concept Steps = requires(const M& m, const P& p, const Scalar<P>& t, State<P>& z) {
   typename Work<M, P>;
-} && requires(const M& m, const P& p, const Scalar<P>& t, State<P>& z, Work<M, P>& w) {
+}
+&&requires(const M& m, const P& p, const Scalar<P>& t, State<P>& z, Work<M, P>& w) {
   { m.step(p, t, t, z, w) } -> std::same_as<Status>;
 };
 
 namespace detail {
 /// loop(method) with `compensated` a constant in each of two copies of the loop, so that no step tests it.
-template <class M, class Loop> Status unswitched(const M& method, Loop&& loop) {
+template <class M, class Loop>
+Status unswitched(const M& method, Loop&& loop) {
   if constexpr (std::is_trivially_copyable_v<M> && requires { method.compensated; }) {
     M local = method;
     if (method.compensated) {
@@ -48,11 +58,12 @@ template <class M, class Loop> Status unswitched(const M& method, Loop&& loop) {
 }
 }  // namespace detail
 
-/// Takes steps first, first + 1, … first + count - 1 of size h from time t0, in place. Stops at the first step that
-/// does not converge, leaving z as it was before that step; `completed` says how many were taken.
-template <class M, class P> requires Steps<M, P>
-Status advance(const M& method, const P& problem, const Scalar<P>& t0, std::int64_t first, const Scalar<P>& h,
-               std::int64_t count, State<P>& z, Work<M, P>& work, std::int64_t& completed) {
+/// Takes steps first, first + 1, … first + count - 1 of size h from time t0, in place. Stops at the first
+/// step that does not converge, leaving z as it was before that step; `completed` says how many were taken.
+template <class M, class P>
+requires Steps<M, P> Status advance(const M& method, const P& problem, const Scalar<P>& t0,
+                                    std::int64_t first, const Scalar<P>& h, std::int64_t count, State<P>& z,
+                                    Work<M, P>& work, std::int64_t& completed) {
   using W = Work<M, P>;
   const auto loop = [&](State<P>& state, W& w) {
     return detail::unswitched(method, [&](const M& m) {

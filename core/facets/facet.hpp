@@ -1,7 +1,7 @@
 // The facets: what a system may offer and what a method may need. This list is the only one.
 //
-// It drives the members of Problem, the concepts that methods are constrained by, the needs that the registry finds
-// out, and the message when a pairing does not fit.
+// It drives the members of Problem, the concepts that methods are constrained by, the needs that the registry
+// finds out, and the message when a pairing does not fit.
 #pragma once
 
 #include <array>
@@ -24,7 +24,8 @@ enum class Facet : unsigned {
 
 constexpr std::string_view to_string(Facet facet) {
   constexpr std::array<std::string_view, static_cast<std::size_t>(Facet::count)> names{
-      "vector-field", "hamiltonian", "separable", "birkhoffian", "darboux-chart", "invariants", "exact-solution"};
+      "vector-field",  "hamiltonian", "separable",     "birkhoffian",
+      "darboux-chart", "invariants",  "exact-solution"};
   return names[static_cast<std::size_t>(facet)];
 }
 
@@ -35,7 +36,9 @@ struct FacetSet {
   static constexpr FacetSet all() { return {(1U << static_cast<unsigned>(Facet::count)) - 1U}; }
   [[nodiscard]] constexpr bool has(Facet f) const { return (bits >> static_cast<unsigned>(f) & 1U) != 0; }
   [[nodiscard]] constexpr FacetSet with(Facet f) const { return {bits | 1U << static_cast<unsigned>(f)}; }
-  [[nodiscard]] constexpr FacetSet without(Facet f) const { return {bits & ~(1U << static_cast<unsigned>(f))}; }
+  [[nodiscard]] constexpr FacetSet without(Facet f) const {
+    return {bits & ~(1U << static_cast<unsigned>(f))};
+  }
   [[nodiscard]] constexpr bool includes(FacetSet other) const { return (bits & other.bits) == other.bits; }
   friend constexpr bool operator==(FacetSet, FacetSet) = default;
 };

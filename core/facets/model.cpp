@@ -9,7 +9,8 @@ namespace pfaff {
 std::string to_string(FacetSet set) {
   std::string text;
   for (unsigned k = 0; k < static_cast<unsigned>(Facet::count); ++k)
-    if (set.has(static_cast<Facet>(k))) text += (text.empty() ? "" : ", ") + std::string(to_string(static_cast<Facet>(k)));
+    if (set.has(static_cast<Facet>(k)))
+      text += (text.empty() ? "" : ", ") + std::string(to_string(static_cast<Facet>(k)));
   return text;
 }
 
@@ -35,8 +36,9 @@ std::vector<Recorded> gradient_of(const Tape& scalar, const Recorded& t, Argumen
   return gradient(scalar, t, z, one);
 }
 
-// Pulls the action form F.dz - B dt back through the chart's inverse z = zeta(y, t). There the structure is constant
-// and canonical, so the field is J (grad_y B~ + d_t F~) with F~_i = F_j d zeta_j / d y_i and B~ = B - F.d_t zeta.
+// Pulls the action form F.dz - B dt back through the chart's inverse z = zeta(y, t). There the structure is
+// constant and canonical, so the field is J (grad_y B~ + d_t F~) with F~_i = F_j d zeta_j / d y_i and B~ = B
+// - F.d_t zeta.
 Tape pulled_back_field(const Tape& one_form, const Tape& birkhoffian, const Tape& inverse) {
   const int n = inverse.inputs;
   const auto size = static_cast<std::size_t>(n);
@@ -101,15 +103,15 @@ std::shared_ptr<const Tape> Model::derived(Formula formula) const {
       if (!facets_.has(Facet::separable)) return nullptr;
       const auto kinetic = tape(Formula::kinetic), potential = tape(Formula::potential);
       return shared(record(n, 1, [&](const Recorded& t, Arguments z, Results out) {
-        out[0] = evaluate(*kinetic, t, z.subspan(size / 2))[0] + evaluate(*potential, t, z.first(size / 2))[0];
+        out[0] =
+            evaluate(*kinetic, t, z.subspan(size / 2))[0] + evaluate(*potential, t, z.first(size / 2))[0];
       }));
     }
     case Formula::hamiltonian_gradient: {
       if (!facets_.has(Facet::hamiltonian)) return nullptr;
       const auto energy = tape(Formula::hamiltonian);
-      return shared(record(n, n, [&](const Recorded& t, Arguments z, Results out) {
-        copy(gradient_of(*energy, t, z), out);
-      }));
+      return shared(record(
+          n, n, [&](const Recorded& t, Arguments z, Results out) { copy(gradient_of(*energy, t, z), out); }));
     }
     case Formula::velocity:
     case Formula::force: {
@@ -152,7 +154,8 @@ std::shared_ptr<const Tape> Model::derived(Formula formula) const {
         copy(solve(evaluate(*structure, t, z), covector), out);
       }));
     }
-    case Formula::field_jacobian: return shared(jacobian_tape(*tape(Formula::field)));
+    case Formula::field_jacobian:
+      return shared(jacobian_tape(*tape(Formula::field)));
     case Formula::structure: {
       if (!birkhoffian && !source_.canonical) return nullptr;
       const auto form = birkhoffian ? tape(Formula::one_form) : nullptr;
@@ -166,7 +169,8 @@ std::shared_ptr<const Tape> Model::derived(Formula formula) const {
         }
         const auto slope = jacobian(*form, t, z);  // slope[j][i] = d_i F_j
         for (std::size_t i = 0; i < size; ++i)
-          for (std::size_t j = 0; j < size; ++j) out[i * size + j] = slope[j * size + i] - slope[i * size + j];
+          for (std::size_t j = 0; j < size; ++j)
+            out[i * size + j] = slope[j * size + i] - slope[i * size + j];
       }));
     }
     case Formula::poisson_tensor: {
@@ -204,8 +208,10 @@ std::shared_ptr<const Tape> Model::derived(Formula formula) const {
       return shared(pulled_back_field(*tape(Formula::one_form), *tape(Formula::birkhoffian),
                                       *tape(Formula::chart_inverse)));
     }
-    case Formula::chart_field_jacobian: return shared(jacobian_tape(*tape(Formula::chart_field)));
-    default: return nullptr;
+    case Formula::chart_field_jacobian:
+      return shared(jacobian_tape(*tape(Formula::chart_field)));
+    default:
+      return nullptr;
   }
 }
 

@@ -1,8 +1,9 @@
 // Model: one instance of a system, its parameters fixed, as a set of formulas.
 //
-// A model is immutable and shared between threads. What the author wrote is recorded as tapes; everything else that
-// a facet promises is derived from those on first use: the field of a Hamiltonian through its bracket or of a
-// Birkhoffian system as K^-1 (grad B + F_t) (su-qin (4), (67)), forces, Jacobians, the field in the Darboux chart.
+// A model is immutable and shared between threads. What the author wrote is recorded as tapes; everything
+// else that a facet promises is derived from those on first use: the field of a Hamiltonian through its
+// bracket or of a Birkhoffian system as K^-1 (grad B + F_t) (su-qin (4), (67)), forces, Jacobians, the field
+// in the Darboux chart.
 #pragma once
 
 #include <array>
@@ -25,7 +26,8 @@ constexpr std::string_view to_string(Behaviour behaviour) {
   return names[static_cast<std::size_t>(behaviour)];
 }
 
-/// A named quantity I(z, t). `quadratic` marks those that are quadratic forms in z, with constant coefficients.
+/// A named quantity I(z, t). `quadratic` marks those that are quadratic forms in z, with constant
+/// coefficients.
 struct Invariant {
   std::string name;
   std::string unit;
@@ -49,7 +51,8 @@ struct Coordinate {
 };
 
 /// A formula that its author compiled for doubles: called with the system, t, arguments and results.
-using CompiledFormula = void (*)(const void* system, const double& t, const double* arguments, double* results);
+using CompiledFormula = void (*)(const void* system, const double& t, const double* arguments,
+                                 double* results);
 
 /// What a system's author provides, before anything is derived.
 struct ModelSource {

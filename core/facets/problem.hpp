@@ -1,8 +1,8 @@
 // Problem: a model as a method sees it, for one scalar and one size.
 //
-// A problem owns the evaluators and their buffers, so each stepper has its own; the model behind it is shared. Its
-// members exist facet by facet, which is what the concepts at the end, the registry's search for a method's needs and
-// the erased path all rest on. A facet evaluation costs one virtual call.
+// A problem owns the evaluators and their buffers, so each stepper has its own; the model behind it is
+// shared. Its members exist facet by facet, which is what the concepts at the end, the registry's search for
+// a method's needs and the erased path all rest on. A facet evaluation costs one virtual call.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,8 @@
 namespace pfaff {
 
 /// A formula ready to be evaluated with scalar T: one indirect call, whether compiled or replayed.
-template <class T> struct Evaluator {
+template <class T>
+struct Evaluator {
   void (*call)(const void* context, const T& t, const T* arguments, T* results) = nullptr;
   const void* context = nullptr;
   std::shared_ptr<const void> owner;  // of what `context` points to
@@ -23,19 +24,21 @@ template <class T> struct Evaluator {
 
 /// The author's compiled formula where there is one (doubles only), else a replay of the tape.
 /// Instantiated for double, Quad and the duals over them that step Jacobians use.
-template <class T> Evaluator<T> make_evaluator(const std::shared_ptr<const Model>& model, Formula formula);
+template <class T>
+Evaluator<T> make_evaluator(const std::shared_ptr<const Model>& model, Formula formula);
 
 /// The work a method has done. Counted outside the static path.
 struct Counters {
   std::int64_t steps = 0;
-  std::int64_t fields = 0;          // right-hand sides (one of a separable system: a force)
+  std::int64_t fields = 0;  // right-hand sides (one of a separable system: a force)
   std::int64_t jacobians = 0;
   std::int64_t iterations = 0;      // of implicit solves
   std::int64_t factorisations = 0;  // of matrices
 };
 
 /// A model seen through the facets `Facets`, with states of T and N components.
-template <class T, int N = dynamic, FacetSet Facets = FacetSet::all()> class Problem {
+template <class T, int N = dynamic, FacetSet Facets = FacetSet::all()>
+class Problem {
  public:
   using Scalar = T;
   using State = Vector<T, N>;
@@ -49,7 +52,8 @@ template <class T, int N = dynamic, FacetSet Facets = FacetSet::all()> class Pro
   [[nodiscard]] Counters& counters() const { return counters_; }
   [[nodiscard]] const std::shared_ptr<const Model>& model() const { return model_; }
 
-  /// Makes an evaluator before the first step, so that no step allocates. Kept out of line, and out of every use.
+  /// Makes an evaluator before the first step, so that no step allocates. Kept out of line, and out of every
+  /// use.
   [[gnu::noinline]] void prepare(Formula formula) const {
     evaluators_[index(formula)] = make_evaluator<T>(model_, formula);
   }
@@ -118,7 +122,8 @@ template <class T, int N = dynamic, FacetSet Facets = FacetSet::all()> class Pro
     use(Formula::chart_field_jacobian, t, y.data(), matrix.data());
   }
   /// The tape of Y, for methods that expand it in series.
-  [[nodiscard]] std::shared_ptr<const Tape> chart_field_tape() const requires(Facets.has(Facet::darboux_chart)) {
+  [[nodiscard]] std::shared_ptr<const Tape> chart_field_tape() const
+      requires(Facets.has(Facet::darboux_chart)) {
     return model_->tape(Formula::chart_field);
   }
   /// Values of the named invariants, in the model's order.
@@ -134,7 +139,8 @@ template <class T, int N = dynamic, FacetSet Facets = FacetSet::all()> class Pro
  private:
   void use(Formula formula, const T& t, const T* arguments, T* results) const {
     const Evaluator<T>& evaluator = evaluators_[index(formula)];
-    if (evaluator.call == nullptr) [[unlikely]] prepare(formula);
+    if (evaluator.call == nullptr) [[unlikely]]
+      prepare(formula);
     evaluator.call(evaluator.context, t, arguments, results);
   }
 
@@ -145,19 +151,27 @@ template <class T, int N = dynamic, FacetSet Facets = FacetSet::all()> class Pro
 };
 
 /// The scalar and the state of a problem type.
-template <class P> using Scalar = typename P::Scalar;
-template <class P> using State = typename P::State;
+template <class P>
+using Scalar = typename P::Scalar;
+template <class P>
+using State = typename P::State;
 
 // What a method may ask of a problem. P may be a Problem, a StaticProblem, or anything with these members.
-template <class P> concept HasVectorField = requires(const P& p, const Scalar<P>& t, State<P>& z) { p.field(t, z, z); };
-template <class P> concept HasFieldJacobian = requires(const P& p, const Scalar<P>& t, State<P>& z) {
+template <class P>
+concept HasVectorField = requires(const P& p, const Scalar<P>& t, State<P>& z) {
+  p.field(t, z, z);
+};
+template <class P>
+concept HasFieldJacobian = requires(const P& p, const Scalar<P>& t, State<P>& z) {
   p.field_jacobian(t, z, z);
 };
-template <class P> concept HasSeparable = requires(const P& p, const Scalar<P>& t, State<P>& z) {
+template <class P>
+concept HasSeparable = requires(const P& p, const Scalar<P>& t, State<P>& z) {
   p.force(t, z, z);
   p.velocity(t, z, z);
 };
-template <class P> concept HasDarbouxChart = requires(const P& p, const Scalar<P>& t, State<P>& z) {
+template <class P>
+concept HasDarbouxChart = requires(const P& p, const Scalar<P>& t, State<P>& z) {
   p.chart(t, z, z);
   p.chart_inverse(t, z, z);
   p.chart_field(t, z, z);

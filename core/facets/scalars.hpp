@@ -9,6 +9,7 @@ namespace pfaff {
 inline constexpr int step_directions = 4;
 
 /// A number with the derivatives of a step in it.
-template <class T> using StepDual = Dual<T, step_directions>;
+template <class T>
+using StepDual = Dual<T, step_directions>;
 
 }  // namespace pfaff

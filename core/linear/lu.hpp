@@ -1,9 +1,10 @@
-// LU factorisation with row pivoting of small dense matrices over any scalar, without allocation after set-up.
+// LU factorisation with row pivoting of small dense matrices over any scalar, without allocation after
+// set-up.
 //
-// Pivots are chosen by the magnitude of the numbers under the scalar, rows scaled by their largest entry, so that
-// a system whose rows carry different units (a Darboux chart spanning many decades) is factored as well as a
-// balanced one. Right-hand sides may be of a richer scalar than the matrix (a dual right-hand side against a plain
-// matrix, as a simplified Newton iteration needs).
+// Pivots are chosen by the magnitude of the numbers under the scalar, rows scaled by their largest entry, so
+// that a system whose rows carry different units (a Darboux chart spanning many decades) is factored as well
+// as a balanced one. Right-hand sides may be of a richer scalar than the matrix (a dual right-hand side
+// against a plain matrix, as a simplified Newton iteration needs).
 #pragma once
 
 #include <cstddef>
@@ -15,7 +16,8 @@
 namespace pfaff {
 
 /// Factors P A = L U of an n x n matrix.
-template <class T> class LU {
+template <class T>
+class LU {
  public:
   explicit LU(std::size_t n) : n_(n), factors_(n * n), order_(n), scale_(n) {}
 
@@ -62,7 +64,8 @@ template <class T> class LU {
   }
 
   /// solution = A^-1 right_hand_side; the two must not overlap. B is T or a dual over T.
-  template <class B> void solve(const B* right_hand_side, B* solution) const {
+  template <class B>
+  void solve(const B* right_hand_side, B* solution) const {
     for (std::size_t i = 0; i < n_; ++i) {
       B sum = right_hand_side[order_[i]];
       for (std::size_t j = 0; j < i; ++j) sum = sum - factors_[i * n_ + j] * solution[j];

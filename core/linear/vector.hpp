@@ -12,7 +12,8 @@ namespace pfaff {
 inline constexpr int dynamic = -1;
 
 /// N numbers of type T, on the stack.
-template <class T, int N> class Vector {
+template <class T, int N>
+class Vector {
  public:
   Vector() = default;
   explicit Vector(std::size_t /*size*/) {}
@@ -32,7 +33,8 @@ template <class T, int N> class Vector {
 };
 
 /// A vector whose size is set when it is made; copying between equal sizes does not allocate.
-template <class T> class Vector<T, dynamic> : public std::vector<T> {
+template <class T>
+class Vector<T, dynamic> : public std::vector<T> {
  public:
   using std::vector<T>::vector;
   using value_type = T;

@@ -12,9 +12,11 @@
 namespace pfaff {
 
 /// A read-only vector argument of a formula. T is deduced from another argument or given.
-template <class T> using In = std::span<const std::type_identity_t<T>>;
+template <class T>
+using In = std::span<const std::type_identity_t<T>>;
 /// A vector that a formula fills.
-template <class T> using Out = std::span<std::type_identity_t<T>>;
+template <class T>
+using Out = std::span<std::type_identity_t<T>>;
 
 // The standard functions for double; every other scalar brings its own, found by argument-dependent lookup.
 using std::abs;
@@ -40,10 +42,14 @@ inline Quad select(Quad condition, Quad positive, Quad otherwise) {
 }
 
 /// True only for a scalar that is zero by construction; lets a formula skip work. False for plain numbers.
-template <class T> constexpr bool structurally_zero(const T& /*x*/) { return false; }
+template <class T>
+constexpr bool structurally_zero(const T& /*x*/) {
+  return false;
+}
 
 /// Sine and cosine of one argument.
-template <class T> void sine_cosine(const T& x, T& sine, T& cosine) {
+template <class T>
+void sine_cosine(const T& x, T& sine, T& cosine) {
   sine = sin(x);
   cosine = cos(x);
 }
@@ -55,15 +61,20 @@ inline void sine_cosine(const Quad& x, Quad& sine, Quad& cosine) {
 }
 
 /// The number type under a scalar: T itself for plain numbers, the type of the value for duals.
-template <class T> struct ValueOf { using type = T; };
-template <class T> using Value = typename ValueOf<T>::type;
+template <class T>
+struct ValueOf {
+  using type = T;
+};
+template <class T>
+using Value = typename ValueOf<T>::type;
 
 /// The number under a scalar, derivatives dropped.
 inline double value_of(double x) { return x; }
 inline Quad value_of(Quad x) { return x; }
 
 /// Unit round-off of a scalar's numbers: 2^-53 in double, 2^-113 in quad.
-template <class T> constexpr Value<T> unit_roundoff() {
+template <class T>
+constexpr Value<T> unit_roundoff() {
   return std::numeric_limits<Value<T>>::epsilon() / Value<T>(2);
 }
 

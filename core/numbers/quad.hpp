@@ -1,8 +1,8 @@
 // Quad: IEEE binary128 arithmetic as a number type of its own.
 //
-// A thin value type over the compiler's __float128 (113-bit significand, unit round-off 2^-113 = 9.6e-35). The
-// functions of libquadmath are declared here instead of including its header, which clang does not ship and which
-// multiplies compile times. Everything is inline except parsing and printing.
+// A thin value type over the compiler's __float128 (113-bit significand, unit round-off 2^-113 = 9.6e-35).
+// The functions of libquadmath are declared here instead of including its header, which clang does not ship
+// and which multiplies compile times. Everything is inline except parsing and printing.
 #pragma once
 
 #include <concepts>
@@ -26,8 +26,8 @@ namespace pfaff {
 class Quad {
  public:
   constexpr Quad() = default;
-  constexpr Quad(int value) : value_(value) {}                          // NOLINT(google-explicit-constructor)
-  constexpr Quad(double value) : value_(value) {}                       // NOLINT(google-explicit-constructor)
+  constexpr Quad(int value) : value_(value) {}     // NOLINT(google-explicit-constructor)
+  constexpr Quad(double value) : value_(value) {}  // NOLINT(google-explicit-constructor)
   constexpr explicit Quad(long value) : value_(value) {}
   constexpr explicit Quad(__float128 value) : value_(value) {}
 
@@ -35,10 +35,22 @@ class Quad {
   constexpr explicit operator double() const { return static_cast<double>(value_); }
   [[nodiscard]] constexpr __float128 native() const { return value_; }
 
-  constexpr Quad& operator+=(Quad other) { value_ += other.value_; return *this; }
-  constexpr Quad& operator-=(Quad other) { value_ -= other.value_; return *this; }
-  constexpr Quad& operator*=(Quad other) { value_ *= other.value_; return *this; }
-  constexpr Quad& operator/=(Quad other) { value_ /= other.value_; return *this; }
+  constexpr Quad& operator+=(Quad other) {
+    value_ += other.value_;
+    return *this;
+  }
+  constexpr Quad& operator-=(Quad other) {
+    value_ -= other.value_;
+    return *this;
+  }
+  constexpr Quad& operator*=(Quad other) {
+    value_ *= other.value_;
+    return *this;
+  }
+  constexpr Quad& operator/=(Quad other) {
+    value_ /= other.value_;
+    return *this;
+  }
 
   friend constexpr Quad operator-(Quad a) { return Quad(-a.value_); }
   friend constexpr Quad operator+(Quad a, Quad b) { return Quad(a.value_ + b.value_); }

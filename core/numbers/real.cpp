@@ -52,7 +52,8 @@ std::optional<Decimal> as_decimal(std::string_view text) {
     if (i < text.size() && text[i] == '+') ++i;
     int e = 0;
     const auto [end, error] = std::from_chars(text.data() + i, text.data() + text.size(), e);
-    if (error != std::errc() || end != text.data() + text.size() || e > 100000 || e < -100000) return std::nullopt;
+    if (error != std::errc() || end != text.data() + text.size() || e > 100000 || e < -100000)
+      return std::nullopt;
     d.exponent += e;
   }
   if (negative) d.digits = -d.digits;
@@ -110,7 +111,7 @@ std::optional<Real> Real::parse(std::string_view text) {
     std::int64_t power = 1;
     for (int k = 0; k < std::abs(decimal->exponent); ++k) power *= 10;
     const Wide numerator = decimal->exponent > 0 ? static_cast<Wide>(decimal->digits) * power
-                                                     : static_cast<Wide>(decimal->digits);
+                                                 : static_cast<Wide>(decimal->digits);
     result = Real::fold(Real(0), Real(0), value, numerator, decimal->exponent < 0 ? power : 1);
   }
   // The double nearest to the text itself, not to its quad rounding.

@@ -1,8 +1,8 @@
 // Real: an exact decimal or rational constant, before it takes a precision.
 //
 // Parameters and literals of a formula are Reals. A Real converts to every scalar with one rounding, so that
-// `0.3_r` is 3/10 to the last bit in double and in quad, and stays the exact fraction 3/10 for scalars that can
-// hold it (rationals, the recording scalar). Products such as `nu * x` take the scalar of x.
+// `0.3_r` is 3/10 to the last bit in double and in quad, and stays the exact fraction 3/10 for scalars that
+// can hold it (rationals, the recording scalar). Products such as `nu * x` take the scalar of x.
 #pragma once
 
 #include <concepts>
@@ -20,15 +20,16 @@ namespace pfaff {
 class Real {
  public:
   constexpr Real() = default;
-  constexpr Real(int value)                                             // NOLINT(google-explicit-constructor)
+  constexpr Real(int value)  // NOLINT(google-explicit-constructor)
       : rounded_(value), quad_(value), numerator_(value), denominator_(1) {}
   /// A fraction; `denominator` > 0.
   static Real fraction(std::int64_t numerator, std::int64_t denominator);
   /// A constant known to quad precision only.
   explicit constexpr Real(Quad value) : rounded_(static_cast<double>(value)), quad_(value), denominator_(0) {}
-  /// A double is not the decimal it was written as (and would be cut to an int): use 0.3_r, or Real(Quad(x)) for the
-  /// binary number itself.
-  template <std::floating_point F> Real(F value) = delete;
+  /// A double is not the decimal it was written as (and would be cut to an int): use 0.3_r, or Real(Quad(x))
+  /// for the binary number itself.
+  template <std::floating_point F>
+  Real(F value) = delete;
 
   /// Parses "0.1", "-2.5e-3" or "a/b"; nullopt when the text is not a number.
   static std::optional<Real> parse(std::string_view text);
@@ -59,7 +60,7 @@ class Real {
   double rounded_ = 0;
   Quad quad_{0};
   std::int64_t numerator_ = 0;
-  std::int64_t denominator_ = 1;  // 0: not a fraction of 64-bit integers
+  std::int64_t denominator_ = 1;        // 0: not a fraction of 64-bit integers
   __extension__ typedef __int128 Wide;  // NOLINT(modernize-use-using): only a typedef takes __extension__
   static Real fold(const Real& a, const Real& b, Quad value, Wide numerator, Wide denominator);
 };
@@ -75,22 +76,48 @@ Real pow(const Real& x, const Real& y);
 std::string to_string(const Real& x);
 
 inline namespace literals {
-/// 0.3_r: a decimal literal, exact in every scalar. Ill-formed text cannot occur (the compiler has parsed it).
+/// 0.3_r: a decimal literal, exact in every scalar. Ill-formed text cannot occur (the compiler has parsed
+/// it).
 Real operator""_r(const char* text);
 }  // namespace literals
 
 /// What a formula may be evaluated with besides Real itself and integers.
 template <class T>
-concept FormulaScalar = !std::is_integral_v<std::remove_cvref_t<T>> && !std::same_as<std::remove_cvref_t<T>, Real> &&
-                        std::constructible_from<T, const Real&>;
+concept FormulaScalar =
+    !std::is_integral_v<std::remove_cvref_t<T>> && !std::same_as<std::remove_cvref_t<T>, Real> &&
+    std::constructible_from<T, const Real&>;
 
-template <FormulaScalar T> T operator+(const Real& a, const T& b) { return T(a) + b; }
-template <FormulaScalar T> T operator-(const Real& a, const T& b) { return T(a) - b; }
-template <FormulaScalar T> T operator*(const Real& a, const T& b) { return T(a) * b; }
-template <FormulaScalar T> T operator/(const Real& a, const T& b) { return T(a) / b; }
-template <FormulaScalar T> T operator+(const T& a, const Real& b) { return a + T(b); }
-template <FormulaScalar T> T operator-(const T& a, const Real& b) { return a - T(b); }
-template <FormulaScalar T> T operator*(const T& a, const Real& b) { return a * T(b); }
-template <FormulaScalar T> T operator/(const T& a, const Real& b) { return a / T(b); }
+template <FormulaScalar T>
+T operator+(const Real& a, const T& b) {
+  return T(a) + b;
+}
+template <FormulaScalar T>
+T operator-(const Real& a, const T& b) {
+  return T(a) - b;
+}
+template <FormulaScalar T>
+T operator*(const Real& a, const T& b) {
+  return T(a) * b;
+}
+template <FormulaScalar T>
+T operator/(const Real& a, const T& b) {
+  return T(a) / b;
+}
+template <FormulaScalar T>
+T operator+(const T& a, const Real& b) {
+  return a + T(b);
+}
+template <FormulaScalar T>
+T operator-(const T& a, const Real& b) {
+  return a - T(b);
+}
+template <FormulaScalar T>
+T operator*(const T& a, const Real& b) {
+  return a * T(b);
+}
+template <FormulaScalar T>
+T operator/(const T& a, const Real& b) {
+  return a / T(b);
+}
 
 }  // namespace pfaff

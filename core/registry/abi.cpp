@@ -20,8 +20,9 @@ bool read_at(std::ifstream& file, std::uint64_t offset, void* to, std::uint64_t 
   return file && static_cast<std::uint64_t>(file.gcount()) == count;
 }
 
-// Adds the texts of Pfaff's notes among the notes in `bytes`. Notes are looked for at every word instead of being
-// followed from one to the next, so that padding between them, as compilers and sanitizers add it, hides none.
+// Adds the texts of Pfaff's notes among the notes in `bytes`. Notes are looked for at every word instead of
+// being followed from one to the next, so that padding between them, as compilers and sanitizers add it,
+// hides none.
 void collect_stamps(const std::vector<char>& bytes, std::vector<std::string>& stamps) {
   constexpr std::size_t owner_room = 8;
   for (std::size_t at = 0; at + sizeof(ElfW(Nhdr)) + owner_room <= bytes.size(); at += 4) {
@@ -47,7 +48,8 @@ std::string difference(const std::string& a, const std::string& b) {
   const std::vector<std::string> other = words(b);
   std::string result;
   for (const std::string& word : words(a))
-    if (std::find(other.begin(), other.end(), word) == other.end()) result += (result.empty() ? "" : " ") + word;
+    if (std::find(other.begin(), other.end(), word) == other.end())
+      result += (result.empty() ? "" : " ") + word;
   return result.empty() ? a : result;
 }
 }  // namespace
@@ -58,7 +60,8 @@ std::vector<std::string> abi_stamps(const std::string& path) {
   ElfW(Ehdr) header;
   constexpr unsigned char native = sizeof(void*) == 8 ? ELFCLASS64 : ELFCLASS32;
   if (!read_at(file, 0, &header, sizeof header) || std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0 ||
-      header.e_ident[EI_CLASS] != native || header.e_type != ET_DYN || header.e_phentsize != sizeof(ElfW(Phdr)))
+      header.e_ident[EI_CLASS] != native || header.e_type != ET_DYN ||
+      header.e_phentsize != sizeof(ElfW(Phdr)))
     throw InputError("plug-in '" + path + "': expected a shared object built against Pfaff");
   std::vector<std::string> stamps;
   for (std::uint64_t k = 0; k < header.e_phnum; ++k) {
@@ -75,7 +78,8 @@ std::vector<std::string> abi_stamps(const std::string& path) {
 void require_same_abi(const std::string& path) {
   const std::vector<std::string> stamps = abi_stamps(path);
   if (stamps.empty())
-    throw InputError("plug-in '" + path + "': has no Pfaff ABI stamp; expected a shared object built against Pfaff");
+    throw InputError("plug-in '" + path +
+                     "': has no Pfaff ABI stamp; expected a shared object built against Pfaff");
   const std::string own = PFAFF_ABI_STAMP;
   for (const std::string& stamp : stamps)
     if (stamp != own)

@@ -38,9 +38,11 @@ std::string nearest(std::string_view name, const std::vector<std::string>& candi
   return best;
 }
 
-std::string unknown_name(std::string_view kind, std::string_view name, const std::vector<std::string>& candidates) {
+std::string unknown_name(std::string_view kind, std::string_view name,
+                         const std::vector<std::string>& candidates) {
   std::string text = "unknown " + std::string(kind) + " '" + std::string(name) + "'";
-  if (const std::string near = nearest(name, candidates); !near.empty()) return text + "; did you mean '" + near + "'?";
+  if (const std::string near = nearest(name, candidates); !near.empty())
+    return text + "; did you mean '" + near + "'?";
   if (candidates.empty()) return text + "; there is none to choose from";
   text += "; expected one of: ";
   for (std::size_t k = 0; k < candidates.size(); ++k) text += (k == 0 ? "" : ", ") + candidates[k];

@@ -24,6 +24,7 @@ class RunError : public std::runtime_error {
 std::string nearest(std::string_view name, const std::vector<std::string>& candidates);
 
 /// "unknown system 'damped-oscilator'; did you mean 'damped-oscillator'?" or with the list of valid names.
-std::string unknown_name(std::string_view kind, std::string_view name, const std::vector<std::string>& candidates);
+std::string unknown_name(std::string_view kind, std::string_view name,
+                         const std::vector<std::string>& candidates);
 
 }  // namespace pfaff

@@ -17,7 +17,7 @@ struct Parameter {
   enum class Kind { real, integer, choice };
 
   std::string name;
-  std::string unit;     // empty for pure numbers
+  std::string unit;  // empty for pure numbers
   std::string meaning;
   Kind kind = Kind::real;
   double minimum = 0, maximum = 0;   // numbers only, both ends included
@@ -38,8 +38,18 @@ std::string range_of(const Parameter& parameter);
 template <class S>
 Parameter parameter(Real S::*member, std::string name, std::string unit, double minimum, double maximum,
                     std::string meaning = {}) {
-  Parameter p{std::move(name), std::move(unit), std::move(meaning), Parameter::Kind::real, minimum, maximum, {}, {}, {}};
-  p.write = [member](void* object, const std::string& text) { static_cast<S*>(object)->*member = *Real::parse(text); };
+  Parameter p{std::move(name),
+              std::move(unit),
+              std::move(meaning),
+              Parameter::Kind::real,
+              minimum,
+              maximum,
+              {},
+              {},
+              {}};
+  p.write = [member](void* object, const std::string& text) {
+    static_cast<S*>(object)->*member = *Real::parse(text);
+  };
   p.read = [member](const void* object) { return to_string(static_cast<const S*>(object)->*member); };
   return p;
 }
@@ -48,9 +58,18 @@ Parameter parameter(Real S::*member, std::string name, std::string unit, double 
 template <class S>
 Parameter parameter(int S::*member, std::string name, std::string unit, int minimum, int maximum,
                     std::string meaning = {}) {
-  Parameter p{std::move(name), std::move(unit), std::move(meaning), Parameter::Kind::integer,
-              static_cast<double>(minimum), static_cast<double>(maximum), {}, {}, {}};
-  p.write = [member](void* object, const std::string& text) { static_cast<S*>(object)->*member = std::stoi(text); };
+  Parameter p{std::move(name),
+              std::move(unit),
+              std::move(meaning),
+              Parameter::Kind::integer,
+              static_cast<double>(minimum),
+              static_cast<double>(maximum),
+              {},
+              {},
+              {}};
+  p.write = [member](void* object, const std::string& text) {
+    static_cast<S*>(object)->*member = std::stoi(text);
+  };
   p.read = [member](const void* object) { return std::to_string(static_cast<const S*>(object)->*member); };
   return p;
 }
@@ -59,17 +78,23 @@ Parameter parameter(int S::*member, std::string name, std::string unit, int mini
 template <class S>
 Parameter parameter(std::string S::*member, std::string name, std::vector<std::string> choices,
                     std::string meaning = {}) {
-  Parameter p{std::move(name), {}, std::move(meaning), Parameter::Kind::choice, 0, 0, std::move(choices), {}, {}};
+  Parameter p{
+      std::move(name), {}, std::move(meaning), Parameter::Kind::choice, 0, 0, std::move(choices), {}, {}};
   p.write = [member](void* object, const std::string& text) { static_cast<S*>(object)->*member = text; };
   p.read = [member](const void* object) { return static_cast<const S*>(object)->*member; };
   return p;
 }
 
 /// A yes/no setting.
-template <class S> Parameter parameter(bool S::*member, std::string name, std::string meaning = {}) {
+template <class S>
+Parameter parameter(bool S::*member, std::string name, std::string meaning = {}) {
   Parameter p{std::move(name), {}, std::move(meaning), Parameter::Kind::choice, 0, 0, {"yes", "no"}, {}, {}};
-  p.write = [member](void* object, const std::string& text) { static_cast<S*>(object)->*member = text == "yes"; };
-  p.read = [member](const void* object) { return std::string(static_cast<const S*>(object)->*member ? "yes" : "no"); };
+  p.write = [member](void* object, const std::string& text) {
+    static_cast<S*>(object)->*member = text == "yes";
+  };
+  p.read = [member](const void* object) {
+    return std::string(static_cast<const S*>(object)->*member ? "yes" : "no");
+  };
   return p;
 }
 
@@ -84,7 +109,8 @@ void assign_all(const std::vector<Parameter>& parameters, void* object, const As
 Assignments resolved(const std::vector<Parameter>& parameters, const void* object);
 
 /// The parameters of plug-in struct S; empty where it declares none.
-template <class S> std::vector<Parameter> parameters_of() {
+template <class S>
+std::vector<Parameter> parameters_of() {
   if constexpr (requires { S::parameters(); }) {
     return S::parameters();
   } else {

@@ -16,7 +16,10 @@ class Plugin {
  public:
   Plugin(std::string name, std::vector<Parameter> parameters, const std::type_info& type,
          const std::source_location& where)
-      : name_(std::move(name)), parameters_(std::move(parameters)), type_(type.name()), file_(where.file_name()) {}
+      : name_(std::move(name)),
+        parameters_(std::move(parameters)),
+        type_(type.name()),
+        file_(where.file_name()) {}
   Plugin(const Plugin&) = delete;
   Plugin& operator=(const Plugin&) = delete;
   virtual ~Plugin() = default;

@@ -16,7 +16,8 @@ class MethodPlugin;
 class BracketPlugin;
 
 /// All plug-ins of one kind.
-template <class P> class Registry {
+template <class P>
+class Registry {
  public:
   /// Adds a plug-in with static lifetime.
   void add(const P* plugin) {
@@ -51,8 +52,9 @@ template <class P> class Registry {
 
  private:
   std::pair<typename std::vector<const P*>::iterator, bool> find_place(const std::string& name) {
-    auto place = std::lower_bound(plugins_.begin(), plugins_.end(), name,
-                                  [](const P* plugin, const std::string& key) { return plugin->name() < key; });
+    auto place =
+        std::lower_bound(plugins_.begin(), plugins_.end(), name,
+                         [](const P* plugin, const std::string& key) { return plugin->name() < key; });
     return {place, place != plugins_.end() && (*place)->name() == name};
   }
 
@@ -65,8 +67,8 @@ Registry<SystemPlugin>& systems();
 Registry<MethodPlugin>& integrators();
 Registry<BracketPlugin>& brackets();
 
-/// Loads a plug-in's shared object and with it its registrations. Refuses, before loading, a file whose ABI stamp is
-/// missing or different (InputError).
+/// Loads a plug-in's shared object and with it its registrations. Refuses, before loading, a file whose ABI
+/// stamp is missing or different (InputError).
 void load_plugin(const std::string& path);
 
 }  // namespace pfaff

@@ -1,10 +1,11 @@
 // Convergence at round-off: when an iteration has nothing left to gain.
 //
-// Corrections are judged componentwise against the size of the component and of its change over the step, so that
-// variables of very different magnitude (an exponentially growing chart momentum beside a decaying coordinate) are
-// all solved to their own round-off. Derivative parts of duals are judged in the same way, so that a differentiated
-// step is the derivative of the converged step. An iteration ends when every correction is below one unit of
-// round-off, or will be after the next contraction, or when corrections stagnate near round-off.
+// Corrections are judged componentwise against the size of the component and of its change over the step, so
+// that variables of very different magnitude (an exponentially growing chart momentum beside a decaying
+// coordinate) are all solved to their own round-off. Derivative parts of duals are judged in the same way, so
+// that a differentiated step is the derivative of the converged step. An iteration ends when every correction
+// is below one unit of round-off, or will be after the next contraction, or when corrections stagnate near
+// round-off.
 #pragma once
 
 #include <algorithm>
@@ -16,11 +17,12 @@
 namespace pfaff {
 
 /// max over parts of |delta| / scale, where scale is the larger of two reference values, part by part.
-template <class T> Value<T> relative_size(const T& delta, const T& reference, const T& change) {
+template <class T>
+Value<T> relative_size(const T& delta, const T& reference, const T& change) {
   const Value<T> d = abs(value_of(delta));
   const Value<T> scale = std::max(abs(value_of(reference)), abs(value_of(change)));
-  // A NaN must not vanish. Whether the correction is zero decides nothing where it can be divided: a branch that ends
-  // every iteration at random would cost more than the division.
+  // A NaN must not vanish. Whether the correction is zero decides nothing where it can be divided: a branch
+  // that ends every iteration at random would cost more than the division.
   if (scale > Value<T>(0)) return d / scale;
   return d > Value<T>(0) ? std::numeric_limits<Value<T>>::infinity() : d;
 }
@@ -40,7 +42,8 @@ Value<T> relative_size(const Dual<T, N>& delta, const Dual<T, N>& reference, con
 }
 
 /// Watches the corrections of one iteration.
-template <class T> class Convergence {
+template <class T>
+class Convergence {
  public:
   using Number = Value<T>;
 
@@ -57,7 +60,8 @@ template <class T> class Convergence {
     if (isnan(s)) finite_ = false;
     if (s > size_) size_ = s;
   }
-  /// True when the iteration should stop; `status()` then says how. Corrections already seen are to be applied.
+  /// True when the iteration should stop; `status()` then says how. Corrections already seen are to be
+  /// applied.
   bool finished(int limit) {
     const Number u = unit_roundoff<T>();
     if (!finite_) return stop(Status::non_finite);
@@ -68,7 +72,8 @@ template <class T> class Convergence {
       if (ratio < Number(0.5) && ratio * size_ <= u / Number(4)) return stop(Status::converged);
       if (!(size_ < previous_)) {
         // Round-off noise of a converged iteration, amplified by the sums it passes through.
-        if (size_ <= Number(256) * u || (++stalls_ >= 3 && size_ <= Number(65536) * u)) return stop(Status::converged);
+        if (size_ <= Number(256) * u || (++stalls_ >= 3 && size_ <= Number(65536) * u))
+          return stop(Status::converged);
       }
     }
     if (iterations_ >= limit) return stop(Status::not_converged);

@@ -14,10 +14,14 @@ enum class Status {
 
 constexpr std::string_view to_string(Status status) {
   switch (status) {
-    case Status::converged: return "converged";
-    case Status::not_converged: return "not_converged";
-    case Status::singular: return "singular";
-    case Status::non_finite: return "non_finite";
+    case Status::converged:
+      return "converged";
+    case Status::not_converged:
+      return "not_converged";
+    case Status::singular:
+      return "singular";
+    case Status::non_finite:
+      return "non_finite";
   }
   return "unknown";
 }

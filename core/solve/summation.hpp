@@ -1,8 +1,8 @@
 // Compensated summation: state updates whose rounding errors do not accumulate step by step.
 //
-// Each addition keeps the part that was rounded off and returns it to the next increment (Kahan), so that n updates
-// lose about one unit in the last place instead of n; an integrator's error then follows Brouwer's law: its round-off
-// is that of its increments alone.
+// Each addition keeps the part that was rounded off and returns it to the next increment (Kahan), so that n
+// updates lose about one unit in the last place instead of n; an integrator's error then follows Brouwer's
+// law: its round-off is that of its increments alone.
 #pragma once
 
 #include <pfaff/core/numbers/functions.hpp>
@@ -11,7 +11,8 @@ namespace pfaff {
 
 /// sum += increment, where `carry` holds what earlier additions lost. Needs |increment| <= |sum| or so, the
 /// situation of a time step; componentwise for duals.
-template <class T> inline void compensated_add(T& sum, T& carry, const T& increment) {
+template <class T>
+inline void compensated_add(T& sum, T& carry, const T& increment) {
   const T corrected = increment + carry;
   const T total = sum + corrected;
   carry = corrected - (total - sum);
@@ -19,7 +20,8 @@ template <class T> inline void compensated_add(T& sum, T& carry, const T& increm
 }
 
 /// The same with a choice: plain addition when `compensated` is false.
-template <class T> inline void add_to(T& sum, T& carry, const T& increment, bool compensated) {
+template <class T>
+inline void add_to(T& sum, T& carry, const T& increment, bool compensated) {
   if (compensated) {
     compensated_add(sum, carry, increment);
   } else {

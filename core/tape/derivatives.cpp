@@ -5,13 +5,16 @@
 namespace pfaff {
 
 namespace {
-template <class T> struct Operands {
+template <class T>
+struct Operands {
   std::vector<T> matrix, right_hand_side;
 };
-template <class T> Operands<T> operands_of(const LinearSystem& system, const std::vector<T>& slots) {
+template <class T>
+Operands<T> operands_of(const LinearSystem& system, const std::vector<T>& slots) {
   Operands<T> o;
   for (const int slot : system.matrix) o.matrix.push_back(slots[static_cast<std::size_t>(slot)]);
-  for (const int slot : system.right_hand_side) o.right_hand_side.push_back(slots[static_cast<std::size_t>(slot)]);
+  for (const int slot : system.right_hand_side)
+    o.right_hand_side.push_back(slots[static_cast<std::size_t>(slot)]);
   return o;
 }
 std::shared_ptr<const Tape> borrow(const Tape& tape) { return {std::shared_ptr<const Tape>(), &tape}; }
@@ -24,7 +27,8 @@ void TapeSolver<Recorded>::operator()(const LinearSystem& system, std::vector<Re
   for (std::size_t i = 0; i < size_; ++i) slots[first + i] = x[i];
 }
 
-void TapeSolver<Dual<Recorded, 1>>::operator()(const LinearSystem& system, std::vector<Dual<Recorded, 1>>& slots,
+void TapeSolver<Dual<Recorded, 1>>::operator()(const LinearSystem& system,
+                                               std::vector<Dual<Recorded, 1>>& slots,
                                                std::size_t first) const {
   const auto o = operands_of(system, slots);
   std::vector<Recorded> a, da, b;
@@ -55,7 +59,8 @@ std::vector<Recorded> evaluate(const Tape& tape, const Recorded& t, std::span<co
 }
 
 std::vector<Recorded> directional_derivative(const Tape& tape, const Recorded& t, const Recorded& t_direction,
-                                             std::span<const Recorded> z, std::span<const Recorded> direction) {
+                                             std::span<const Recorded> z,
+                                             std::span<const Recorded> direction) {
   using Directional = Dual<Recorded, 1>;
   Replay<Directional> replay(borrow(tape));
   std::vector<Directional> x(z.size()), y(tape.outputs.size());
@@ -76,15 +81,16 @@ std::vector<Recorded> time_derivative(const Tape& tape, const Recorded& t, std::
 }
 
 namespace {
-// When an instruction's value is used: always, or only where a condition is positive because every use is in a branch
-// of a select. A branch that is not taken has the adjoint 0, but 0 times the derivative of a root of a negative number
-// is NaN; its contributions are therefore selected away too.
+// When an instruction's value is used: always, or only where a condition is positive because every use is in
+// a branch of a select. A branch that is not taken has the adjoint 0, but 0 times the derivative of a root of
+// a negative number is NaN; its contributions are therefore selected away too.
 class Guard {
  public:
   static Guard always() { return Guard(true, Recorded()); }
   Guard() = default;
 
-  /// Used inside a branch taken where `condition` > 0 (`taken`) or elsewhere, of a select that has this guard.
+  /// Used inside a branch taken where `condition` > 0 (`taken`) or elsewhere, of a select that has this
+  /// guard.
   [[nodiscard]] Guard within(const Recorded& condition, bool taken) const {
     const Recorded branch = taken ? condition : negated(condition);
     return Guard(false, always_ ? branch : select(condition_, branch, Recorded(-1)));
@@ -103,7 +109,8 @@ class Guard {
   }
   /// `contribution` where the value is used, 0 elsewhere.
   [[nodiscard]] Recorded operator()(const Recorded& contribution) const {
-    return always_ || contribution.is_constant() ? contribution : select(condition_, contribution, Recorded(0));
+    return always_ || contribution.is_constant() ? contribution
+                                                 : select(condition_, contribution, Recorded(0));
   }
 
  private:
@@ -163,8 +170,12 @@ std::vector<Recorded> gradient(const Tape& tape, const Recorded& t, std::span<co
     }
     if (structurally_zero(w)) continue;
     switch (i.operation) {
-      case Operation::input: result[static_cast<std::size_t>(i.a)] = w; break;
-      case Operation::negate: pass(i.a, -w); break;
+      case Operation::input:
+        result[static_cast<std::size_t>(i.a)] = w;
+        break;
+      case Operation::negate:
+        pass(i.a, -w);
+        break;
       case Operation::add:
         pass(i.a, w);
         pass(i.b, w);
@@ -181,11 +192,21 @@ std::vector<Recorded> gradient(const Tape& tape, const Recorded& t, std::span<co
         add(i.a, w / at(i.b));
         add(i.b, -(w * x[k] / at(i.b)));
         break;
-      case Operation::square_root: add(i.a, w / (Recorded(2) * x[k])); break;
-      case Operation::exponential: add(i.a, w * x[k]); break;
-      case Operation::logarithm: add(i.a, w / at(i.a)); break;
-      case Operation::sine: add(i.a, w * x[k + 1]); break;
-      case Operation::cosine: add(i.a, -(w * x[k - 1])); break;
+      case Operation::square_root:
+        add(i.a, w / (Recorded(2) * x[k]));
+        break;
+      case Operation::exponential:
+        add(i.a, w * x[k]);
+        break;
+      case Operation::logarithm:
+        add(i.a, w / at(i.a));
+        break;
+      case Operation::sine:
+        add(i.a, w * x[k + 1]);
+        break;
+      case Operation::cosine:
+        add(i.a, -(w * x[k - 1]));
+        break;
       case Operation::power: {
         const Real& y = tape.constants[static_cast<std::size_t>(i.b)];
         add(i.a, w * (Recorded(y) * pow(at(i.a), y - Real(1))));
@@ -195,7 +216,8 @@ std::vector<Recorded> gradient(const Tape& tape, const Recorded& t, std::span<co
         add_within(guards[k].within(at(i.a), true), i.b, select(at(i.a), w, Recorded(0)));
         add_within(guards[k].within(at(i.a), false), i.c, select(at(i.a), Recorded(0), w));
         break;
-      default: break;
+      default:
+        break;
     }
   }
   return result;

@@ -12,9 +12,11 @@ namespace pfaff {
 /// The outputs of `tape` as recorded expressions of recorded arguments (composition of formulas).
 std::vector<Recorded> evaluate(const Tape& tape, const Recorded& t, std::span<const Recorded> z);
 
-/// One directional derivative (forward mode) of every output: d/ds f(t + s t_direction, z + s direction) at s = 0.
+/// One directional derivative (forward mode) of every output: d/ds f(t + s t_direction, z + s direction) at s
+/// = 0.
 std::vector<Recorded> directional_derivative(const Tape& tape, const Recorded& t, const Recorded& t_direction,
-                                             std::span<const Recorded> z, std::span<const Recorded> direction);
+                                             std::span<const Recorded> z,
+                                             std::span<const Recorded> direction);
 
 /// The gradient in z (reverse mode) of sum_k weights[k] * output k. Cost: a small multiple of one evaluation,
 /// whatever the dimension.

@@ -1,7 +1,7 @@
 // The recording scalar and the recorder that turns a templated formula into a Tape.
 //
-// Recording folds constants exactly (fractions stay fractions), drops additions of zero and multiplications by zero
-// and one, shares common subexpressions, and keeps sine and cosine of one argument together.
+// Recording folds constants exactly (fractions stay fractions), drops additions of zero and multiplications
+// by zero and one, shares common subexpressions, and keeps sine and cosine of one argument together.
 #pragma once
 
 #include <concepts>
@@ -21,10 +21,11 @@ class Recorder;
 class Recorded {
  public:
   Recorded() = default;
-  Recorded(int value) : constant_(value) {}                              // NOLINT(google-explicit-constructor)
+  Recorded(int value) : constant_(value) {}  // NOLINT(google-explicit-constructor)
   explicit Recorded(const Real& value) : constant_(value) {}
   /// Would be cut to an int: constants of a formula are ints and Reals.
-  template <std::floating_point F> Recorded(F value) = delete;
+  template <std::floating_point F>
+  Recorded(F value) = delete;
   Recorded(Recorder* recorder, int slot) : recorder_(recorder), slot_(slot) {}
 
   [[nodiscard]] bool is_constant() const { return recorder_ == nullptr; }
@@ -61,8 +62,8 @@ Recorded pow(const Recorded& x, const Recorded& y);
 Recorded select(const Recorded& condition, const Recorded& positive, const Recorded& otherwise);
 inline bool structurally_zero(const Recorded& x) { return x.is(0); }
 
-/// Solves the n x n system `matrix` (row-major) x = `right_hand_side`; a matrix with one entry in every row and
-/// column becomes divisions, everything else one pivoted solve when the tape is replayed.
+/// Solves the n x n system `matrix` (row-major) x = `right_hand_side`; a matrix with one entry in every row
+/// and column becomes divisions, everything else one pivoted solve when the tape is replayed.
 std::vector<Recorded> solve(std::span<const Recorded> matrix, std::span<const Recorded> right_hand_side);
 
 /// Collects instructions; one recorder per tape.
@@ -103,7 +104,8 @@ class Recorder {
 };
 
 /// Records formula(t, z, outputs) with `inputs` state variables and `outputs` results.
-template <class Formula> Tape record(int inputs, int outputs, Formula&& formula) {
+template <class Formula>
+Tape record(int inputs, int outputs, Formula&& formula) {
   Recorder recorder(inputs);
   const std::vector<Recorded> z = recorder.inputs();
   std::vector<Recorded> results(static_cast<std::size_t>(outputs));

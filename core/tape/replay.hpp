@@ -15,7 +15,8 @@
 namespace pfaff {
 
 /// Solves the dense systems of a tape; specialised for scalars that record instead of computing.
-template <class T> class TapeSolver {
+template <class T>
+class TapeSolver {
  public:
   explicit TapeSolver(int size) : lu_(static_cast<std::size_t>(size)), b_(lu_.size()), x_(lu_.size()) {}
 
@@ -40,7 +41,8 @@ template <class T> class TapeSolver {
   std::vector<T> b_, x_;
 };
 
-template <> class TapeSolver<Recorded> {
+template <>
+class TapeSolver<Recorded> {
  public:
   explicit TapeSolver(int size) : size_(static_cast<std::size_t>(size)) {}
   void operator()(const LinearSystem& system, std::vector<Recorded>& slots, std::size_t first) const;
@@ -50,7 +52,8 @@ template <> class TapeSolver<Recorded> {
 };
 
 /// A x = b and its derivative A x' = b' - A' x, both recorded.
-template <> class TapeSolver<Dual<Recorded, 1>> {
+template <>
+class TapeSolver<Dual<Recorded, 1>> {
  public:
   explicit TapeSolver(int size) : size_(static_cast<std::size_t>(size)) {}
   void operator()(const LinearSystem& system, std::vector<Dual<Recorded, 1>>& slots, std::size_t first) const;
@@ -60,7 +63,8 @@ template <> class TapeSolver<Dual<Recorded, 1>> {
 };
 
 /// Evaluates one tape again and again.
-template <class T> class Replay {
+template <class T>
+class Replay {
  public:
   explicit Replay(std::shared_ptr<const Tape> tape) : tape_(std::move(tape)), slots_(tape_->code.size()) {
     for (std::size_t k = 0; k < static_cast<std::size_t>(tape_->time_begin); ++k)
@@ -97,27 +101,56 @@ template <class T> class Replay {
     for (std::size_t k = begin; k < end; ++k) {
       const Instruction i = code[k];
       switch (i.operation) {
-        case Operation::constant: break;
-        case Operation::time: x[k] = time_; break;
-        case Operation::input: x[k] = z[i.a]; break;
-        case Operation::negate: x[k] = -at(i.a); break;
-        case Operation::add: x[k] = at(i.a) + at(i.b); break;
-        case Operation::subtract: x[k] = at(i.a) - at(i.b); break;
-        case Operation::multiply: x[k] = at(i.a) * at(i.b); break;
-        case Operation::divide: x[k] = at(i.a) / at(i.b); break;
-        case Operation::square_root: x[k] = sqrt(at(i.a)); break;
-        case Operation::exponential: x[k] = exp(at(i.a)); break;
-        case Operation::logarithm: x[k] = log(at(i.a)); break;
-        case Operation::sine: sine_cosine(at(i.a), x[k], x[k + 1]); break;
-        case Operation::cosine: break;
-        case Operation::power: x[k] = pow(at(i.a), tape_->constants[static_cast<std::size_t>(i.b)]); break;
-        case Operation::select: x[k] = select(at(i.a), at(i.b), at(i.c)); break;
+        case Operation::constant:
+          break;
+        case Operation::time:
+          x[k] = time_;
+          break;
+        case Operation::input:
+          x[k] = z[i.a];
+          break;
+        case Operation::negate:
+          x[k] = -at(i.a);
+          break;
+        case Operation::add:
+          x[k] = at(i.a) + at(i.b);
+          break;
+        case Operation::subtract:
+          x[k] = at(i.a) - at(i.b);
+          break;
+        case Operation::multiply:
+          x[k] = at(i.a) * at(i.b);
+          break;
+        case Operation::divide:
+          x[k] = at(i.a) / at(i.b);
+          break;
+        case Operation::square_root:
+          x[k] = sqrt(at(i.a));
+          break;
+        case Operation::exponential:
+          x[k] = exp(at(i.a));
+          break;
+        case Operation::logarithm:
+          x[k] = log(at(i.a));
+          break;
+        case Operation::sine:
+          sine_cosine(at(i.a), x[k], x[k + 1]);
+          break;
+        case Operation::cosine:
+          break;
+        case Operation::power:
+          x[k] = pow(at(i.a), tape_->constants[static_cast<std::size_t>(i.b)]);
+          break;
+        case Operation::select:
+          x[k] = select(at(i.a), at(i.b), at(i.c));
+          break;
         case Operation::solve: {
           const auto s = static_cast<std::size_t>(i.a);
           solvers_[s](tape_->solves[s], slots_, k);
           break;
         }
-        case Operation::solve_next: break;
+        case Operation::solve_next:
+          break;
       }
     }
   }

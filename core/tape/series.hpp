@@ -1,13 +1,14 @@
 // SeriesReplay: a tape evaluated in truncated power series, level by level, at several nodes (lanes) at once.
 //
-// Every slot holds x(s) = sum_l x_l s^l. Level l of every instruction needs levels 0..l of its operands only, so a
-// caller may compute level l of its own unknowns from level l-1 of the outputs and go on (online evaluation): this
-// is what turns an implicit collocation into one explicit pass (GENERATING-FUNCTION schemes) and an ODE into its
-// Taylor series. Slots that depend on time alone are computed for all levels when the time is set.
+// Every slot holds x(s) = sum_l x_l s^l. Level l of every instruction needs levels 0..l of its operands only,
+// so a caller may compute level l of its own unknowns from level l-1 of the outputs and go on (online
+// evaluation): this is what turns an implicit collocation into one explicit pass (GENERATING-FUNCTION
+// schemes) and an ODE into its Taylor series. Slots that depend on time alone are computed for all levels
+// when the time is set.
 //
-// Recurrences at level l, sums over i: product sum a_i b_{l-i}; quotient (a_l - sum_{i>=1} b_i q_{l-i}) / b_0;
-// exp (1/l) sum i a_i e_{l-i}; sine and cosine coupled; log, sqrt; a^r: sum (i r - (l - i)) a_i p_{l-i} / (l a_0);
-// linear solve A_0 x_l = b_l - sum_{i>=1} A_i x_{l-i} with one factorisation of A_0.
+// Recurrences at level l, sums over i: product sum a_i b_{l-i}; quotient (a_l - sum_{i>=1} b_i q_{l-i}) /
+// b_0; exp (1/l) sum i a_i e_{l-i}; sine and cosine coupled; log, sqrt; a^r: sum (i r - (l - i)) a_i p_{l-i}
+// / (l a_0); linear solve A_0 x_l = b_l - sum_{i>=1} A_i x_{l-i} with one factorisation of A_0.
 #pragma once
 
 #include <cstddef>
@@ -15,12 +16,13 @@
 #include <vector>
 
 #include <pfaff/core/linear/lu.hpp>
-#include <pfaff/core/tape/tape.hpp>
 #include <pfaff/core/numbers/dual.hpp>
+#include <pfaff/core/tape/tape.hpp>
 
 namespace pfaff {
 
-template <class T> class SeriesReplay {
+template <class T>
+class SeriesReplay {
  public:
   /// Series of `levels` terms (degrees 0 .. levels-1) in `lanes` lanes.
   SeriesReplay(std::shared_ptr<const Tape> tape, int levels, int lanes)
@@ -62,7 +64,9 @@ template <class T> class SeriesReplay {
   }
 
   /// Computes level `level` of every state-dependent slot; levels below must be done, inputs set.
-  void advance(std::size_t level) { run(static_cast<std::size_t>(tape_->state_begin), tape_->code.size(), level); }
+  void advance(std::size_t level) {
+    run(static_cast<std::size_t>(tape_->state_begin), tape_->code.size(), level);
+  }
 
   /// Level `level` of output k, one number per lane.
   const T* output(std::size_t k, std::size_t level) const {
@@ -78,11 +82,13 @@ template <class T> class SeriesReplay {
 
   // sum_{i=first}^{last} weight(i) a_i b_{level-i}, added to `to` in every lane.
   template <class Weight>
-  void convolve(T* to, const T* a, const T* b, std::size_t level, std::size_t first, std::size_t last, Weight weight) {
+  void convolve(T* to, const T* a, const T* b, std::size_t level, std::size_t first, std::size_t last,
+                Weight weight) {
     for (std::size_t i = first; i <= last; ++i) {
       const T* ai = a + i * lanes_;
       const T* bi = b + (level - i) * lanes_;
-      for (std::size_t lane = 0; lane < lanes_; ++lane) to[lane] = to[lane] + weight(i) * (ai[lane] * bi[lane]);
+      for (std::size_t lane = 0; lane < lanes_; ++lane)
+        to[lane] = to[lane] + weight(i) * (ai[lane] * bi[lane]);
     }
   }
   void convolve(T* to, const T* a, const T* b, std::size_t level, std::size_t first, std::size_t last) {
@@ -117,16 +123,35 @@ template <class T> class SeriesReplay {
       case Operation::constant:
       case Operation::input:
       case Operation::cosine:
-      case Operation::solve_next: break;
-      case Operation::time: each([&](std::size_t n) { return t0_[n]; }); break;
-      case Operation::negate: each([&](std::size_t n) { return -a[n]; }); break;
-      case Operation::add: each([&, b = b()](std::size_t n) { return a[n] + b[n]; }); break;
-      case Operation::subtract: each([&, b = b()](std::size_t n) { return a[n] - b[n]; }); break;
-      case Operation::multiply: each([&, b = b()](std::size_t n) { return a[n] * b[n]; }); break;
-      case Operation::divide: each([&, b = b()](std::size_t n) { return a[n] / b[n]; }); break;
-      case Operation::square_root: each([&](std::size_t n) { return sqrt(a[n]); }); break;
-      case Operation::exponential: each([&](std::size_t n) { return exp(a[n]); }); break;
-      case Operation::logarithm: each([&](std::size_t n) { return log(a[n]); }); break;
+      case Operation::solve_next:
+        break;
+      case Operation::time:
+        each([&](std::size_t n) { return t0_[n]; });
+        break;
+      case Operation::negate:
+        each([&](std::size_t n) { return -a[n]; });
+        break;
+      case Operation::add:
+        each([&, b = b()](std::size_t n) { return a[n] + b[n]; });
+        break;
+      case Operation::subtract:
+        each([&, b = b()](std::size_t n) { return a[n] - b[n]; });
+        break;
+      case Operation::multiply:
+        each([&, b = b()](std::size_t n) { return a[n] * b[n]; });
+        break;
+      case Operation::divide:
+        each([&, b = b()](std::size_t n) { return a[n] / b[n]; });
+        break;
+      case Operation::square_root:
+        each([&](std::size_t n) { return sqrt(a[n]); });
+        break;
+      case Operation::exponential:
+        each([&](std::size_t n) { return exp(a[n]); });
+        break;
+      case Operation::logarithm:
+        each([&](std::size_t n) { return log(a[n]); });
+        break;
       case Operation::sine:
         for (std::size_t lane = 0; lane < lanes_; ++lane) sine_cosine(a[lane], x[lane], slot(k + 1, 0)[lane]);
         break;
@@ -138,7 +163,9 @@ template <class T> class SeriesReplay {
           return select(a[n], b[n], c[n]);
         });
         break;
-      case Operation::solve: solve(k, 0); break;
+      case Operation::solve:
+        solve(k, 0);
+        break;
     }
   }
 
@@ -163,11 +190,20 @@ template <class T> class SeriesReplay {
       case Operation::constant:
       case Operation::input:
       case Operation::cosine:
-      case Operation::solve_next: break;
-      case Operation::time: each([&](std::size_t n) { return l == 1 ? t1_[n] : T(0); }); break;
-      case Operation::negate: each([&](std::size_t n) { return -a[at + n]; }); break;
-      case Operation::add: each([&](std::size_t n) { return a[at + n] + b[at + n]; }); break;
-      case Operation::subtract: each([&](std::size_t n) { return a[at + n] - b[at + n]; }); break;
+      case Operation::solve_next:
+        break;
+      case Operation::time:
+        each([&](std::size_t n) { return l == 1 ? t1_[n] : T(0); });
+        break;
+      case Operation::negate:
+        each([&](std::size_t n) { return -a[at + n]; });
+        break;
+      case Operation::add:
+        each([&](std::size_t n) { return a[at + n] + b[at + n]; });
+        break;
+      case Operation::subtract:
+        each([&](std::size_t n) { return a[at + n] - b[at + n]; });
+        break;
       case Operation::multiply:
         if (constant(i.a)) {
           each([&](std::size_t n) { return a[n] * b[at + n]; });
@@ -227,7 +263,9 @@ template <class T> class SeriesReplay {
         each([&](std::size_t n) { return select(a[n], p[n], q[n]); });
         break;
       }
-      case Operation::solve: solve(k, l); break;
+      case Operation::solve:
+        solve(k, l);
+        break;
     }
   }
 
@@ -249,7 +287,8 @@ template <class T> class SeriesReplay {
       for (std::size_t r = 0; r < n; ++r) {
         rhs_[r] = slot(static_cast<std::size_t>(system.right_hand_side[r]), level)[lane];
         for (std::size_t i = 1; i <= level; ++i)
-          for (std::size_t c = 0; c < n; ++c) rhs_[r] = rhs_[r] - matrix(r, c, i) * slot(k + c, level - i)[lane];
+          for (std::size_t c = 0; c < n; ++c)
+            rhs_[r] = rhs_[r] - matrix(r, c, i) * slot(k + c, level - i)[lane];
       }
       if (regular) lu.solve(rhs_.data(), solution_.data());
       for (std::size_t c = 0; c < n; ++c)

@@ -1,10 +1,10 @@
 // Tape: a formula as straight-line code in single-assignment form.
 //
-// A formula (t, z) -> outputs is recorded once (recorder.hpp) and replayed with any scalar: doubles, quads, duals
-// (replay.hpp), truncated series (series.hpp), or the recording scalar itself, which is how formulas are composed
-// and differentiated (derivatives.hpp). Instruction k writes slot k. Instructions are ordered so that constants
-// come first, then what depends on time alone, then what depends on the state: a replay at an unchanged time
-// starts at `state_begin`.
+// A formula (t, z) -> outputs is recorded once (recorder.hpp) and replayed with any scalar: doubles, quads,
+// duals (replay.hpp), truncated series (series.hpp), or the recording scalar itself, which is how formulas
+// are composed and differentiated (derivatives.hpp). Instruction k writes slot k. Instructions are ordered so
+// that constants come first, then what depends on time alone, then what depends on the state: a replay at an
+// unchanged time starts at `state_begin`.
 #pragma once
 
 #include <cstdint>
@@ -41,7 +41,8 @@ struct Instruction {
   friend bool operator==(const Instruction&, const Instruction&) = default;
 };
 
-/// A dense linear system whose matrix (row-major) and right-hand side are slots. It is pivoted when it is solved.
+/// A dense linear system whose matrix (row-major) and right-hand side are slots. It is pivoted when it is
+/// solved.
 struct LinearSystem {
   int size = 0;
   std::vector<int> matrix;

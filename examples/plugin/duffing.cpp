@@ -11,8 +11,12 @@ struct Duffing {
     return {parameter(&Duffing::alpha, "alpha", "1/s^2", -10, 10, "linear stiffness"),
             parameter(&Duffing::beta, "beta", "1/(m s)^2", 0, 10, "cubic stiffness")};
   }
-  template <class T> T kinetic(const T& /*t*/, In<T> p) const { return p[0] * p[0] / 2; }
-  template <class T> T potential(const T& /*t*/, In<T> q) const {
+  template <class T>
+  T kinetic(const T& /*t*/, In<T> p) const {
+    return p[0] * p[0] / 2;
+  }
+  template <class T>
+  T potential(const T& /*t*/, In<T> q) const {
     const T square = q[0] * q[0];
     return alpha * square / 2 + beta * square * square / 4;
   }

@@ -1,11 +1,13 @@
-// Ralston's explicit Runge-Kutta method of order 3: nodes 1/2 and 3/4, weights 2/9, 1/3, 4/9. Keeps no structure.
+// Ralston's explicit Runge-Kutta method of order 3: nodes 1/2 and 3/4, weights 2/9, 1/3, 4/9. Keeps no
+// structure.
 #include <pfaff/core/integrator.hpp>
 
 namespace {
 using namespace pfaff;
 
 struct Ralston {
-  template <class P> struct Work {
+  template <class P>
+  struct Work {
     State<P> a, b, c, point;
     Work(const Ralston& /*method*/, const P& p)
         : a(p.make_state()), b(p.make_state()), c(p.make_state()), point(p.make_state()) {}

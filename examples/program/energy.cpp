@@ -1,4 +1,5 @@
-// Integrates the pendulum with a symplectic method and with one that is not, and prints what becomes of the energy.
+// Integrates the pendulum with a symplectic method and with one that is not, and prints what becomes of the
+// energy.
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
 
@@ -10,8 +11,8 @@
 namespace {
 
 // The largest energy error along `steps` steps of size h, looked at every hundred steps.
-double energy_error(const pfaff::MethodInstance& method, const std::shared_ptr<const pfaff::Model>& model, double h,
-                    std::int64_t steps) {
+double energy_error(const pfaff::MethodInstance& method, const std::shared_ptr<const pfaff::Model>& model,
+                    double h, std::int64_t steps) {
   std::vector<double> z;
   for (const pfaff::Real& x : model->initial()) z.push_back(x.value());
   const pfaff::Problem<double> problem(model);
@@ -39,7 +40,8 @@ int main() {
     const auto model = pfaff::systems().get("pendulum", "system").make({{"omega", "2"}});
     for (const char* name : {"verlet", "rk4"}) {
       const auto method = pfaff::integrators().get(name, "integrator").make({});
-      if (const std::string reason = method->refuses(*model); !reason.empty()) throw pfaff::InputError(reason);
+      if (const std::string reason = method->refuses(*model); !reason.empty())
+        throw pfaff::InputError(reason);
       std::printf("%-8s %.1e\n", name, energy_error(*method, model, 0.1, 1'000'000));
     }
   } catch (const std::exception& error) {

@@ -1,7 +1,7 @@
 // <one line: the bracket>, the log-canonical bracket in three dimensions, {z_i, z_j} = a_ij z_i z_j, a skew.
 //
-// Copy to brackets/<name>.cpp. The sharp map is all there is to write. The symmetry and the Jacobi identity that the
-// descriptor claims are tested.
+// Copy to brackets/<name>.cpp. The sharp map is all there is to write. The symmetry and the Jacobi identity
+// that the descriptor claims are tested.
 #include <pfaff/core/bracket.hpp>
 
 namespace {
@@ -11,12 +11,14 @@ struct LogCanonical {
   static constexpr int dimension = 3;
   Real a12 = 1, a23 = 2, a31 = 0.5_r;
   static std::vector<Parameter> parameters() {
-    return {parameter(&LogCanonical::a12, "a12", "", -10, 10), parameter(&LogCanonical::a23, "a23", "", -10, 10),
+    return {parameter(&LogCanonical::a12, "a12", "", -10, 10),
+            parameter(&LogCanonical::a23, "a23", "", -10, 10),
             parameter(&LogCanonical::a31, "a31", "", -10, 10)};
   }
 
   // vector = Pi(z, t) covector
-  template <class T> void sharp(const T& /*t*/, In<T> z, In<T> covector, Out<T> vector) const {
+  template <class T>
+  void sharp(const T& /*t*/, In<T> z, In<T> covector, Out<T> vector) const {
     const T x = z[0] * covector[0], y = z[1] * covector[1], w = z[2] * covector[2];
     vector[0] = z[0] * (a12 * y - a31 * w);
     vector[1] = z[1] * (a23 * w - a12 * x);

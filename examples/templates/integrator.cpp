@@ -1,10 +1,10 @@
 // <one line: the method>, the explicit midpoint rule with a free node:
 //   z' = z + h ((1 - b) X(z, t) + b X(z + c h X(z, t), t + c h)),  b = 1/(2 c).   Order 2, no structure kept.
 //
-// Copy to integrators/<name>.cpp. `step` is all there is to write; the concept on it (HasVectorField, HasSeparable,
-// HasDarbouxChart, ...; core/facets/problem.hpp) says which systems the method runs on. Order and structure are claims
-// that are tested on every system in their scope. Steps of several stages with less to write: z = z + ..., as in
-// examples/plugin/ralston.cpp.
+// Copy to integrators/<name>.cpp. `step` is all there is to write; the concept on it (HasVectorField,
+// HasSeparable, HasDarbouxChart, ...; core/facets/problem.hpp) says which systems the method runs on. Order
+// and structure are claims that are tested on every system in their scope. Steps of several stages with less
+// to write: z = z + ..., as in examples/plugin/ralston.cpp.
 #include <pfaff/core/integrator.hpp>
 
 namespace {
@@ -20,16 +20,21 @@ struct TwoStage {  // parameters only: the object is shared between runs and nev
   std::span<Quad> coefficients() { return tableau; }
 
   // Optional: buffers and history of one run. Nothing is allocated inside a step.
-  template <class P> struct Work {
+  template <class P>
+  struct Work {
     Scalar<P> c, b;
     State<P> first, second, point, carry;
     Work(const TwoStage& method, const P& p)
-        : c(Real(method.tableau[0])), b(Real(method.tableau[1])), first(p.make_state()), second(p.make_state()),
-          point(p.make_state()), carry(p.make_state()) {}
+        : c(Real(method.tableau[0])),
+          b(Real(method.tableau[1])),
+          first(p.make_state()),
+          second(p.make_state()),
+          point(p.make_state()),
+          carry(p.make_state()) {}
   };
 
-  // z at t becomes z at t + h, for every scalar: double, quad, and duals over both. An implicit method returns the
-  // status of its solver (core/solve/newton.hpp).
+  // z at t becomes z at t + h, for every scalar: double, quad, and duals over both. An implicit method
+  // returns the status of its solver (core/solve/newton.hpp).
   template <HasVectorField P>
   Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
     p.field(t, z, w.first);

@@ -1,4 +1,5 @@
-// The ABI stamp as the loader sees it: notes found and compared, damaged files refused, arithmetic left alone.
+// The ABI stamp as the loader sees it: notes found and compared, damaged files refused, arithmetic left
+// alone.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -37,17 +38,20 @@ TEST(AbiStamp, ARefusalNamesWhatDiffersAndNothingElse) {
   EXPECT_EQ(text.find("compiler="), std::string::npos) << text;
 }
 
-// Neither a crash nor acceptance of half a file: every prefix through the headers and notes, then with bytes changed.
+// Neither a crash nor acceptance of half a file: every prefix through the headers and notes, then with bytes
+// changed.
 TEST(AbiStamp, DamagedFilesAreRefused) {
   std::ifstream file(plugin("other-version"), std::ios::binary);
   const std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   ASSERT_GT(bytes.size(), 2048U);
-  const auto path = std::filesystem::temp_directory_path() / ("pfaff-damaged-" + std::to_string(getpid()) + ".so");
+  const auto path =
+      std::filesystem::temp_directory_path() / ("pfaff-damaged-" + std::to_string(getpid()) + ".so");
   const auto written = [&](const std::string& content) {
     std::ofstream(path, std::ios::binary) << content;
     return path.string();
   };
-  for (std::size_t size = 0; size < 2048; size += 7) EXPECT_NE(refusal(written(bytes.substr(0, size))), "") << size;
+  for (std::size_t size = 0; size < 2048; size += 7)
+    EXPECT_NE(refusal(written(bytes.substr(0, size))), "") << size;
   for (std::size_t at = 16; at < 1024; ++at) {
     std::string damaged = bytes;
     damaged[at] = static_cast<char>(~damaged[at]);

@@ -59,7 +59,8 @@ class RandomSystem {
     ModelSource source;
     source.name = "random";
     source.dimension = size;
-    for (int k = 0; k < size; ++k) source.coordinates.push_back({std::string("z").append(std::to_string(k)), ""});
+    for (int k = 0; k < size; ++k)
+      source.coordinates.push_back({std::string("z").append(std::to_string(k)), ""});
     source.initial = {Real::fraction(3, 10), Real::fraction(-1, 5), Real::fraction(1, 10),
                       Real::fraction(2, 5)};
     const auto give = [&](Formula formula, int outputs, auto&& f) {
