@@ -1,0 +1,129 @@
+// No step allocates: every registered method, with all the parameters its claims are verified for, on every
+// system that fits, in double and quad. The global operator new of this program counts while it is told to.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/system.hpp>
+
+namespace {
+std::atomic<bool> counting = false;
+std::atomic<long> allocations = 0;
+
+void* allocate(std::size_t size, std::size_t alignment) {
+  if (counting) ++allocations;
+  const std::size_t whole = (size + alignment - 1) / alignment * alignment;
+  void* memory = alignment <= alignof(std::max_align_t) ? std::malloc(size == 0 ? 1 : size)
+                                                        : std::aligned_alloc(alignment, whole);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+}  // namespace
+
+// The array forms call these.
+void* operator new(std::size_t size) { return allocate(size, alignof(std::max_align_t)); }
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  return allocate(size, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t /*alignment*/) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t /*size*/, std::align_val_t /*alignment*/) noexcept {
+  std::free(memory);
+}
+
+namespace pfaff {
+namespace {
+
+template <class Work>
+long allocations_of(Work&& work) {
+  allocations = 0;
+  counting = true;
+  work();
+  counting = false;
+  return allocations;
+}
+
+// Allocations of `steps` steps of size h after a first one, from the model's initial state.
+template <class T>
+long allocations_of_steps(Stepper<T>& stepper, const Model& model, const T& h, std::int64_t steps) {
+  std::vector<T> z;
+  for (const Real& x : model.initial()) z.push_back(T(x));
+  std::int64_t completed = 0;
+  EXPECT_EQ(stepper.advance(T(0), 0, h, 1, z, completed), Status::converged);
+  return allocations_of([&] {
+    for (std::int64_t k = 1; k <= steps; ++k) stepper.advance(T(0), k, h, 1, z, completed);
+  });
+}
+
+template <class T>
+void no_method_allocates() {
+  int tried = 0;
+  for (const MethodPlugin* plugin : integrators().all())
+    for (const Assignments& parameters : plugin->instances(false)) {
+      const auto method = plugin->make(parameters);
+      for (const SystemPlugin* system : systems().all()) {
+        const auto model = system->make({});
+        if (!method->refuses(*model).empty()) continue;
+        const auto stepper = method->stepper(model, T(0));
+        EXPECT_EQ(allocations_of_steps(*stepper, *model, T(Real::fraction(1, 100)), 4), 0)
+            << plugin->name() << " " << (parameters.empty() ? "" : parameters[0].second) << " on "
+            << model->name();
+        ++tried;
+      }
+    }
+  EXPECT_GT(tried, 50);
+}
+
+TEST(Allocation, NoStepAllocatesInDouble) { no_method_allocates<double>(); }
+TEST(Allocation, NoStepAllocatesInQuad) { no_method_allocates<Quad>(); }
+
+TEST(Allocation, NeitherDoesNewtonsIteration) {
+  // omega h = 10: fixed-point iteration diverges.
+  const auto model = systems().get("harmonic-oscillator", "system").make({{"omega", "100"}});
+  for (const char* name : {"implicit-midpoint", "gauss"}) {
+    const auto stepper = integrators().get(name, "integrator").make({})->stepper(model, 0.0);
+    EXPECT_EQ(allocations_of_steps(*stepper, *model, 0.1, 4), 0) << name;
+    EXPECT_EQ(stepper->counters().factorisations, 5) << name;
+  }
+}
+
+// What the counter must see: a method that makes a vector in each step.
+struct Careless {
+  template <HasVectorField P>
+  Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, NoWork& /*work*/) const {
+    std::vector<Scalar<P>> rate(z.size());
+    p.field(t, z, rate);
+    for (std::size_t k = 0; k < z.size(); ++k) z[k] = z[k] + h * rate[k];
+    return Status::converged;
+  }
+};
+
+TEST(Allocation, OfACarelessMethodIsSeen) {
+  const Problem<double> problem(systems().get("kepler", "system").make({}));
+  problem.prepare(Formula::field);
+  auto z = problem.make_state();
+  z[0] = 1;
+  NoWork work(Careless(), problem);
+  std::int64_t completed = 0;
+  const long seen =
+      allocations_of([&] { advance(Careless(), problem, 0.0, 0, 0.01, 10, z, work, completed); });
+  EXPECT_EQ(completed, 10);
+  EXPECT_EQ(seen, 10);
+}
+
+TEST(Allocation, InsideTheLibraryIsSeen) {
+  const auto model = systems().get("kepler", "system").make({});
+  const auto method = integrators().get("gauss", "integrator").make({});
+  EXPECT_GT(allocations_of([&] { method->stepper(model, 0.0); }), 1);
+}
+
+TEST(Allocation, OfOverAlignedNumbersIsSeen) {
+  EXPECT_EQ(allocations_of([] { std::vector<StepDual<double>> numbers(3); }), 1);
+}
+
+}  // namespace
+}  // namespace pfaff
