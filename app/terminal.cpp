@@ -33,41 +33,61 @@ std::size_t width(const std::string& text) {
 }
 }  // namespace
 
+namespace {
+// A cell as lines of at most `limit` columns, broken between words; its indent is kept.
+std::vector<std::string> wrapped(const std::string& cell, std::size_t limit) {
+  const std::size_t indent = std::min(cell.find_first_not_of(' '), cell.size());
+  std::vector<std::string> lines{std::string(indent, ' ')};
+  std::istringstream words(cell);
+  for (std::string word; words >> word;) {
+    const bool begun = width(lines.back()) > indent;
+    if (begun && width(lines.back()) + 1 + width(word) > limit) {
+      lines.push_back(std::string(indent, ' ') + word);
+    } else {
+      lines.back() += (begun ? " " : "") + word;
+    }
+  }
+  return lines;
+}
+}  // namespace
+
 std::string table(const std::vector<std::vector<std::string>>& rows) {
-  constexpr std::size_t line = 100, gap = 2;
+  constexpr std::size_t line = 100, gap = 2, narrowest = 16;
   std::vector<std::size_t> widths;
   for (const auto& row : rows)
     for (std::size_t c = 0; c < row.size(); ++c) {
       if (c == widths.size()) widths.push_back(0);
       widths[c] = std::max(widths[c], width(row[c]));
     }
-  std::size_t indent = 0;
-  for (std::size_t c = 0; c + 1 < widths.size(); ++c) indent += widths[c] + gap;
+  // Too wide a table gives up room in its widest columns.
+  for (;;) {
+    std::size_t all = widths.empty() ? 0 : gap * (widths.size() - 1);
+    for (const std::size_t w : widths) all += w;
+    const auto widest = std::max_element(widths.begin(), widths.end());
+    if (all <= line || *widest <= narrowest) break;
+    std::size_t next = narrowest;  // no narrower than the runner-up, which then shares the loss
+    for (auto w = widths.begin(); w != widths.end(); ++w)
+      if (w != widest) next = std::max(next, *w);
+    const std::size_t fits = *widest > all - line ? *widest - (all - line) : 0;
+    *widest = std::min(*widest - 1, std::max(fits, next));
+  }
   std::ostringstream text;
   for (const auto& row : rows) {
-    std::string out;
+    std::vector<std::vector<std::string>> cells;
+    std::size_t height = 1;
     for (std::size_t c = 0; c < row.size(); ++c) {
-      if (c + 1 < widths.size()) {
-        out += row[c];
-        if (c + 1 < row.size()) out += std::string(widths[c] - width(row[c]) + gap, ' ');
-        continue;
-      }
-      std::istringstream words(row[c]);
-      std::size_t column = indent;
-      for (std::string word; words >> word;) {
-        if (column > indent && column + 1 + width(word) > line) {
-          out += "\n" + std::string(indent, ' ');
-          column = indent;
-        }
-        if (column > indent) {
-          out += ' ';
-          ++column;
-        }
-        out += word;
-        column += width(word);
-      }
+      cells.push_back(wrapped(row[c], widths[c]));
+      height = std::max(height, cells.back().size());
     }
-    text << out << '\n';
+    for (std::size_t k = 0; k < height; ++k) {
+      std::string out;
+      for (std::size_t c = 0; c < cells.size(); ++c) {
+        const std::string part = k < cells[c].size() ? cells[c][k] : "";
+        out += part + std::string(widths[c] + gap - std::min(width(part), widths[c] + gap - 1), ' ');
+      }
+      const std::size_t end = out.find_last_not_of(' ');
+      text << out.substr(0, end == std::string::npos ? 0 : end + 1) << '\n';
+    }
   }
   return text.str();
 }

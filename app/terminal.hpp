@@ -23,7 +23,7 @@ class ProgressLine {
   std::chrono::steady_clock::time_point begin_, last_;
 };
 
-/// Rows under a header, columns as wide as needed, the last one wrapped at 100 columns.
+/// Rows under a header, columns as wide as needed; where they pass 100 columns the widest are wrapped.
 std::string table(const std::vector<std::vector<std::string>>& rows);
 
 }  // namespace pfaff::app
