@@ -63,7 +63,12 @@ nlohmann::json describe_method(const MethodPlugin& plugin) {
     const auto model = system->make({});
     if (!method->refuses(*model).empty()) continue;
     nlohmann::json claims = nlohmann::json::array();
-    for (const Claim claim : method->preserves(*model)) claims.push_back(to_string(claim));
+    // Symplectic is said of the canonical structure; other systems have one of their own.
+    const bool canonical =
+        model->facets().has(Facet::darboux_chart) && !model->facets().has(Facet::birkhoffian);
+    for (const Claim claim : method->preserves(*model))
+      if (claim != Claim::symplectic || canonical) claims.push_back(to_string(claim));
+    if (claims.empty()) claims.push_back(to_string(Claim::none));
     j["systems"].push_back(
         {{"name", system->name()}, {"order", method->order(*model)}, {"preserves", claims}});
   }
@@ -92,14 +97,19 @@ nlohmann::json describe_experiment(const std::string& name) {
   return j;
 }
 
-nlohmann::json describe(const std::string& name) {
+// Whatever has a name, plug-ins first; a system and an experiment may share theirs.
+nlohmann::json describe(const std::string& name, const std::vector<std::string>& also_known = {}) {
   if (const auto* system = systems().find(name)) return describe_system(*system);
   if (const auto* method = integrators().find(name)) return describe_method(*method);
   if (const auto* bracket = brackets().find(name)) return describe_bracket(*bracket);
-  std::vector<std::string> names = experiment_names();
-  if (std::find(names.begin(), names.end(), name) != names.end()) return describe_experiment(name);
-  for (const auto& more : {systems().names(), integrators().names(), brackets().names()})
-    names.insert(names.end(), more.begin(), more.end());
+  const std::vector<std::string> experiments = experiment_names();
+  if (std::find(experiments.begin(), experiments.end(), name) != experiments.end())
+    return describe_experiment(name);
+  std::vector<std::string> names;
+  for (const auto& more :
+       {systems().names(), integrators().names(), brackets().names(), experiments, also_known})
+    for (const std::string& one : more)
+      if (std::find(names.begin(), names.end(), one) == names.end()) names.push_back(one);
   throw InputError(unknown_name("name", name, names));
 }
 
@@ -109,6 +119,12 @@ std::string text_of(const nlohmann::json& value) {
   return value.dump();
 }
 
+// A unit, 1 where there is none, as in the header of series.csv.
+std::string unit_of(const nlohmann::json& value) {
+  const std::string unit = text_of(value);
+  return unit.empty() ? "1" : unit;
+}
+
 // Scalars as "key  value", lists of objects as indented tables, lists of names joined.
 void print(const nlohmann::json& j) {
   std::vector<std::vector<std::string>> scalars;
@@ -116,7 +132,7 @@ void print(const nlohmann::json& j) {
     if (j.contains(first)) scalars.push_back({first, text_of(j[first])});
   for (const auto& [key, value] : j.items()) {
     if (key == "name" || key == "kind" || key == "title" || key == "reference" || key == "schema") continue;
-    if (!value.is_array()) scalars.push_back({key, text_of(value)});
+    if (!value.is_array()) scalars.push_back({key, key == "time_unit" ? unit_of(value) : text_of(value)});
     if (value.is_array() && !value.empty() && value[0].is_string()) {
       std::string joined;
       for (const auto& item : value) joined += (joined.empty() ? "" : ", ") + item.get<std::string>();
@@ -137,7 +153,7 @@ void print(const nlohmann::json& j) {
     for (const auto& item : value) {
       std::vector<std::string> row;
       for (const std::string& column : columns) {
-        std::string cell = text_of(item[column]);
+        std::string cell = column == "unit" ? unit_of(item[column]) : text_of(item[column]);
         if (item[column].is_array()) {
           cell.clear();
           for (const auto& part : item[column]) cell += (cell.empty() ? "" : ", ") + part.get<std::string>();
@@ -158,7 +174,7 @@ int cite(const std::vector<std::string>& names, bool json) {
     if (!bibtex(name).empty()) {
       found = {name};
     } else {
-      const nlohmann::json described = describe(name);
+      const nlohmann::json described = describe(name, citation_keys());
       const auto& reference = described["reference"];
       found = reference.is_array() ? reference.get<std::vector<std::string>>() : keys_in(reference);
     }
@@ -179,7 +195,7 @@ void add_describe(CLI::App& app, Common& common, Action& action) {
   CLI::App* sub = subcommand(app, common, "describe",
                              "Everything about a system, an integrator, a bracket or an experiment");
   auto name = std::make_shared<std::string>();
-  sub->add_option("name", *name, "Its name, as in pfaff list")->required();
+  sub->add_option("name", *name, "Its name, as in pfaff list")->type_name("NAME")->required();
   sub->callback([name, &common, &action] {
     action = [name, &common] {
       nlohmann::json j = describe(*name);
@@ -197,7 +213,9 @@ void add_describe(CLI::App& app, Common& common, Action& action) {
 void add_cite(CLI::App& app, Common& common, Action& action) {
   CLI::App* sub = subcommand(app, common, "cite", "BibTeX entries behind a plug-in, an experiment or a key");
   auto names = std::make_shared<std::vector<std::string>>();
-  sub->add_option("name", *names, "Names or keys")->required();
+  sub->add_option("name", *names, "Names, as in pfaff list, or keys of references.bib")
+      ->type_name("NAME")
+      ->required();
   sub->callback(
       [names, &common, &action] { action = [names, &common] { return cite(*names, common.json); }; });
 }
