@@ -52,11 +52,12 @@ void add_compare(CLI::App& app, Common& common, Action& action) {
   auto quick = std::make_shared<bool>(false);
   auto all = std::make_shared<bool>(false);
   auto out = std::make_shared<std::string>();
-  sub->add_option("experiment", *names, "Name of one that ships (pfaff list experiments), or a TOML file");
+  sub->add_option("experiment", *names, "Name of one that ships (pfaff list experiments), or a TOML file")
+      ->type_name("NAME|FILE");
   sub->add_flag("--all", *all, "Every experiment that ships");
   sub->add_flag("--quick", *quick, "Shorter horizons and fewer steps, to look at");
-  sub->add_option("--out", *out,
-                  "Directory of the results (default pfaff-out/NAME); resumed if it holds some");
+  sub->add_option("--out", *out, "Where results go (default pfaff-out/NAME), or resume from")
+      ->type_name("DIR");
   sub->callback([=, &common, &action] {
     action = [=, &common] {
       if (*all == !names->empty()) throw InputError("compare: expected the name of an experiment, or --all");

@@ -2,6 +2,7 @@
 //
 // Exit status: 0 fine, 1 a check failed or a run ended early, 2 wrong usage or input. Nothing but the result
 // goes to stdout; errors are one line on stderr.
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
@@ -17,6 +18,7 @@ namespace pfaff::app {
 
 CLI::App* subcommand(CLI::App& app, Common& common, const std::string& name, const std::string& what) {
   CLI::App* sub = app.add_subcommand(name, what);
+  sub->group("Commands");
   sub->add_flag("--json", common.json, "Print JSON instead of text");
   sub->add_option("--plugin", common.plugins, "Load a plug-in's shared object; may be repeated")
       ->type_name("FILE");
@@ -60,20 +62,27 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& error, int a
   std::vector<std::string> commands;
   for (const CLI::App* sub : app.get_subcommands(nullptr)) commands.push_back(sub->get_name());
   const std::string command = argc > 1 ? argv[1] : "";
-  if (command.empty())
-    return "a command is missing; expected one of: list, describe, run, compare, reproduce, verify";
-  if (command[0] != '-' && std::find(commands.begin(), commands.end(), command) == commands.end())
+  if (command.empty() || command[0] == '-') {
+    std::string text = command.empty() ? "a command is missing; expected one of: "
+                                       : "expected a command before '" + command + "', one of: ";
+    for (std::size_t k = 0; k < commands.size(); ++k) text += (k == 0 ? "" : ", ") + commands[k];
+    return text + " (see pfaff --help)";
+  }
+  if (std::find(commands.begin(), commands.end(), command) == commands.end())
     return unknown_name("command", command, commands);
-  if (std::find(commands.begin(), commands.end(), command) != commands.end()) {
-    std::vector<std::string> options;
-    for (const CLI::Option* option : app.get_subcommand(command)->get_options())
-      for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
-    for (int k = 2; k < argc; ++k) {
-      const std::string argument = argv[k];
-      const std::string name = argument.substr(0, argument.find('='));
-      if (name.starts_with("--") && std::find(options.begin(), options.end(), name) == options.end())
-        return unknown_name("option", name, options) + " (of pfaff " + command + ")";
-    }
+  // An option that is not known explains whatever else is missing. Values of options do not count, nor does
+  // what follows `--`.
+  const CLI::App& sub = *app.get_subcommand(command);
+  std::vector<std::string> options;
+  for (const CLI::Option* option : sub.get_options())
+    for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
+  for (int k = 2; k < argc && argv[k] != std::string("--"); ++k) {
+    const std::string argument = argv[k];
+    const std::string name = argument.substr(0, argument.find('='));
+    if (!name.starts_with("--")) continue;
+    const CLI::Option* option = sub.get_option_no_throw(name);
+    if (option == nullptr) return unknown_name("option", name, options) + " (of pfaff " + command + ")";
+    if (option->get_items_expected_min() > 0 && name == argument) ++k;
   }
   std::string text = error.what();
   for (char& c : text)
@@ -82,7 +91,10 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& error, int a
 }
 
 int run(int argc, char** argv) {
+  // A reader that closes its end early is an error to report, not a reason to die of.
+  std::signal(SIGPIPE, SIG_IGN);
   CLI::App app{"Pfaff: structure-preserving integration, what drifts and what it costs", "pfaff"};
+  app.get_formatter()->label("SUBCOMMAND", "COMMAND");
   app.set_version_flag("--version", std::string("pfaff ") + PFAFF_VERSION_TEXT);
   app.require_subcommand(1);
   Common common;
@@ -94,6 +106,9 @@ int run(int argc, char** argv) {
   add_compare(app, common, action);
   add_reproduce(app, common, action);
   add_verify(app, common, action);
+  app.footer(
+      "pfaff COMMAND --help shows the options of a command.\n"
+      "Exit status: 0 fine, 1 a check failed or a run ended early, 2 wrong usage or input.\n");
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {

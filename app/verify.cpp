@@ -121,8 +121,8 @@ void add_verify(CLI::App& app, Common& common, Action& action) {
   CLI::App* sub = subcommand(app, common, "verify", "Test every claim of every plug-in, in double and quad");
   auto names = std::make_shared<std::vector<std::string>>();
   auto full = std::make_shared<bool>(false);
-  sub->add_option("name", *names,
-                  "Plug-ins, or systems, brackets, integrators, controls; everything without");
+  sub->add_option("name", *names, "Plug-ins, systems, brackets, integrators or controls; all without")
+      ->type_name("NAME");
   sub->add_flag("--full", *full, "Higher orders and more variants");
   sub->callback([=, &common, &action] { action = [=, &common] { return run(*names, *full, common.json); }; });
 }
