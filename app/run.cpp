@@ -14,7 +14,16 @@ namespace {
 struct Options {
   RunSettings settings;
   std::vector<std::string> set;
-  std::string precision = "double", out, state, config;
+  std::string every, precision, out, state, config;
+};
+
+// Numbers keep the digits they are written with, which a double would not.
+struct ExactNumbers : nlohmann::detail::json_sax_dom_parser<nlohmann::json> {
+  explicit ExactNumbers(nlohmann::json& result) : json_sax_dom_parser(result, false) {}
+  bool number_float(double /*rounded*/, const std::string& written) {
+    std::string text = written;
+    return string(text);
+  }
 };
 
 std::string number_text(const nlohmann::json& value, const std::string& where) {
@@ -25,41 +34,54 @@ std::string number_text(const nlohmann::json& value, const std::string& where) {
 
 // --state FILE: {t, z} or {t, q, p}.
 void read_state(const std::string& path, RunSettings& settings) {
-  const nlohmann::json j = nlohmann::json::parse(read_file(path), nullptr, false);
-  if (!j.is_object()) throw InputError(path + ": expected a JSON object with t and z (or q and p)");
+  nlohmann::json j;
+  ExactNumbers reader(j);
+  if (!nlohmann::json::sax_parse(read_file(path), &reader) || !j.is_object())
+    throw InputError(path + ": expected a JSON object with t and z (or q and p)");
   for (const auto& [key, value] : j.items())
     if (key != "t" && key != "z" && key != "q" && key != "p" && key != "schema")
       throw InputError(path + ": " + unknown_name("key", key, {"t", "z", "q", "p"}));
   if (j.contains("t")) settings.t0 = number_text(j["t"], path);
   std::vector<nlohmann::json> parts;
   if (j.contains("z")) parts = {j["z"]};
-  if (j.contains("q") && j.contains("p")) parts = {j["q"], j["p"]};
-  if (parts.empty()) throw InputError(path + ": expected z, or q and p");
-  settings.initial.clear();
+  if (j.contains("q") != j.contains("p") || j.contains("q") == j.contains("z"))
+    throw InputError(path + ": expected z, or q and p");
+  if (j.contains("q")) parts = {j["q"], j["p"]};
   for (const nlohmann::json& part : parts) {
     if (!part.is_array()) throw InputError(path + ": expected a list of numbers");
     for (const nlohmann::json& x : part) settings.initial.push_back(number_text(x, path));
   }
+  if (settings.initial.empty()) throw InputError(path + ": expected numbers, got an empty list");
 }
 
-int run(Options options, bool json) {
+// What the options ask for, from a config.toml or from the options themselves, unresolved.
+RunSettings settings_of(const Options& options) {
+  if (options.out.empty())
+    throw InputError("--out is missing: a new directory for the run, or - for its series on standard output");
+  RunSettings settings = options.settings;
   if (!options.config.empty()) {
-    RunSettings from_file = read_config(options.config);
-    if (!options.settings.system.empty() || !options.settings.integrator.empty() ||
-        !options.settings.time.empty() || !options.settings.step.empty() || !options.set.empty() ||
-        !options.settings.tolerance.empty())
-      throw InputError("--config holds the whole run; expected no other settings beside it");
-    options.settings = std::move(from_file);
-  } else {
-    if (options.settings.system.empty()) throw InputError("--system is missing (see pfaff list systems)");
-    if (options.settings.integrator.empty())
-      throw InputError("--integrator is missing (see pfaff list integrators)");
-    if (options.settings.time.empty()) throw InputError("--time is missing: the duration of the run");
-    options.settings.set = parse_settings(options.set);
-    options.settings.precision = parse_precision(options.precision);
+    for (const std::string& other : {settings.system, settings.integrator, settings.time, settings.step,
+                                     settings.tolerance, options.every, options.precision, options.state})
+      if (!other.empty() || !options.set.empty())
+        throw InputError("--config holds the whole run; expected no other settings beside it");
+    return read_config(options.config);
   }
-  if (!options.state.empty()) read_state(options.state, options.settings);
-  const ResolvedRun resolved = resolve(options.settings);
+  if (settings.system.empty()) throw InputError("--system is missing (see pfaff list systems)");
+  if (settings.integrator.empty()) throw InputError("--integrator is missing (see pfaff list integrators)");
+  if (settings.time.empty()) throw InputError("--time is missing: the duration of the run");
+  settings.set = parse_settings(options.set);
+  if (!options.precision.empty()) settings.precision = parse_precision(options.precision);
+  if (!options.every.empty()) settings.every = parse_every(options.every, "--every");
+  if (!options.state.empty()) {
+    for (const auto& [key, value] : settings.set)
+      if (key == "initial") throw InputError("--state and --set initial exclude each other");
+    read_state(options.state, settings);
+  }
+  return settings;
+}
+
+int run(const Options& options, bool json) {
+  const ResolvedRun resolved = resolve(settings_of(options));
   const bool to_stdout = options.out == "-";
   if (!to_stdout) make_output_directory(options.out);
 
@@ -74,11 +96,12 @@ int run(Options options, bool json) {
   {
     ProgressLine line;
     record = execute(resolved, reference.get(), [&](double fraction) {
-      line.show(resolved.model->name() + ", " + options.settings.integrator, fraction);
+      line.show(resolved.model->name() + ", " + resolved.settings.integrator, fraction);
     });
   }
   if (to_stdout) {
-    std::cout << series_csv(resolved, record);
+    std::cout << series_csv(resolved, record) << std::flush;
+    if (!std::cout) throw RunError("cannot write to standard output");
   } else {
     const std::filesystem::path directory = options.out;
     const nlohmann::json j = summary(resolved, record);
@@ -124,26 +147,25 @@ void add_run(CLI::App& app, Common& common, Action& action) {
   CLI::App* sub = subcommand(app, common, "run", "Integrate one system with one method");
   auto options = std::make_shared<Options>();
   RunSettings& s = options->settings;
-  sub->add_option("--system", s.system, "Name of the system");
-  sub->add_option("--integrator", s.integrator, "Name of the integrator");
-  sub->add_option("--step", s.step, "Step h > 0");
-  sub->add_option("--tolerance", s.tolerance,
-                  "Absolute and relative tolerance, for methods that choose their steps");
-  sub->add_option("--time", s.time, "Duration of the run");
-  sub->add_option("--every", s.every, "Sample every k-th step (default: about a thousand samples)")
-      ->check(CLI::PositiveNumber);
-  sub->add_option("--set", options->set,
-                  "KEY=VALUE: a parameter (nu=0.3, integrator.order=4) or initial=a,b,...")
+  sub->add_option("--system", s.system, "Name of the system")->type_name("NAME");
+  sub->add_option("--integrator", s.integrator, "Name of the integrator")->type_name("NAME");
+  sub->add_option("--step", s.step, "Step h > 0")->type_name("h");
+  sub->add_option("--tolerance", s.tolerance, "Instead of --step, for methods that choose their steps")
+      ->type_name("e");
+  sub->add_option("--time", s.time, "Duration of the run, of which whole steps are taken")->type_name("T");
+  sub->add_option("--every", options->every, "Sample every k-th step (default: about a thousand samples)")
+      ->type_name("k");
+  sub->add_option("--set", options->set, "A parameter (nu=0.3, integrator.order=4) or initial=a,b,...")
       ->type_name("KEY=VALUE")
       ->expected(1)
       ->take_all();
   sub->add_option("--state", options->state, "JSON file with the initial state: t, and z or q and p")
       ->type_name("FILE");
-  sub->add_option("--precision", options->precision, "double or quad");
+  sub->add_option("--precision", options->precision, "double (default) or quad")->type_name("NAME");
   sub->add_option("--config", options->config, "config.toml of an earlier run, to run it again")
       ->type_name("FILE");
   sub->add_option("--out", options->out, "New directory for the run, or - for its series on standard output")
-      ->required();
+      ->type_name("DIR|-");
   sub->callback(
       [options, &common, &action] { action = [options, &common] { return run(*options, common.json); }; });
 }

@@ -17,11 +17,8 @@ RunSettings read_config(const std::string& path) {
   settings.time = keys.required("time");
   settings.step = keys.text("step", "");
   settings.tolerance = keys.text("tolerance", "");
-  const std::string every = keys.text("every", "0");
-  const auto number = Real::parse(every);
-  if (!number || !number->is_fraction() || number->denominator() != 1 || number->numerator() < 0)
-    throw InputError(path + ": key 'every': expected a whole number of steps, got '" + every + "'");
-  settings.every = number->numerator();
+  if (const std::string every = keys.text("every", ""); !every.empty())
+    settings.every = parse_every(every, path + ": key 'every'");
   settings.initial = keys.list("initial");
   settings.set = keys.assignments("set");
   keys.finish();

@@ -11,12 +11,18 @@ Precision parse_precision(const std::string& text) {
   if (text == "quad") return Precision::quad;
   throw InputError(unknown_name("precision", text, {"double", "quad"}));
 }
+std::int64_t parse_every(const std::string& text, const std::string& where) {
+  const auto number = Real::parse(text);
+  if (!number || !number->is_fraction() || number->denominator() != 1 || number->numerator() < 1)
+    throw InputError(where + ": expected a whole number of steps > 0, got '" + text + "'");
+  return number->numerator();
+}
 std::string_view to_string(Precision precision) { return precision == Precision::quad ? "quad" : "double"; }
 
 namespace {
 std::vector<std::string> split_commas(const std::string& text) {
   std::vector<std::string> parts;
-  std::stringstream stream(text);
+  std::stringstream stream(text + ',');  // so that nothing after the last comma is a part too
   for (std::string part; std::getline(stream, part, ',');) {
     const auto first = part.find_first_not_of(' '), last = part.find_last_not_of(' ');
     parts.push_back(first == std::string::npos ? "" : part.substr(first, last - first + 1));
@@ -56,6 +62,10 @@ SplitSettings split_settings(const SystemPlugin& system, const MethodPlugin* met
         for (const Parameter& p : system.parameters()) names.push_back(p.name);
         if (method != nullptr)
           for (const Parameter& p : method->parameters()) names.push_back(p.name);
+        if (key.find('.') != std::string::npos) {
+          for (std::size_t k = 0, bare = names.size(); k < bare; ++k)
+            names[k] = (k == 0 ? "" : knows(system, names[k]) ? "system." : "integrator.") + names[k];
+        }
         throw InputError(unknown_name("parameter", key, names) + " (of " + system.name() +
                          (method != nullptr ? " or " + method->name() : "") + ")");
       }
@@ -79,8 +89,15 @@ ResolvedRun resolve(const RunSettings& settings) {
 
   const auto& initial = settings.initial.empty() ? split.initial : settings.initial;
   run.initial = run.model->initial();
+  const auto dimension = static_cast<std::size_t>(run.model->dimension());
+  if (run.model->coordinates().size() != dimension)
+    throw InputError("system " + system.name() + " names " + std::to_string(run.model->coordinates().size()) +
+                     " coordinates; expected " + std::to_string(dimension));
+  if (initial.empty() && run.initial.size() != dimension)
+    throw InputError("system " + system.name() + " has no initial state of its own; expected --set initial=");
+  run.initial.resize(dimension);
   if (!initial.empty()) {
-    if (initial.size() != static_cast<std::size_t>(run.model->dimension()))
+    if (initial.size() != dimension)
       throw InputError("initial state of " + system.name() + ": expected " +
                        std::to_string(run.model->dimension()) + " numbers, got " +
                        std::to_string(initial.size()));

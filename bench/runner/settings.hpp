@@ -16,6 +16,9 @@ enum class Precision { double_precision, quad };
 Precision parse_precision(const std::string& text);
 std::string_view to_string(Precision precision);
 
+/// A whole number of steps > 0; InputError, naming `where`, otherwise.
+std::int64_t parse_every(const std::string& text, const std::string& where);
+
 /// A run as it is asked for: all numbers as text, so that each precision parses them exactly.
 struct RunSettings {
   std::string system, integrator;
