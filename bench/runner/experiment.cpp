@@ -78,11 +78,12 @@ nlohmann::json description(const Experiment& experiment, const std::vector<Exper
   return j;
 }
 
-// A run is done when its directory holds a summary made from the same settings.
+// A run is done when its directory holds a whole summary made from the same settings.
 bool done_already(const fs::path& directory, const std::string& config) {
   std::error_code error;
   return fs::exists(directory / "summary.json", error) && fs::exists(directory / "config.toml", error) &&
-         read_file(directory / "config.toml") == config;
+         read_file(directory / "config.toml") == config &&
+         nlohmann::json::accept(read_file(directory / "summary.json"));
 }
 
 void leave(const fs::path& directory, const ResolvedRun& run, const std::string& config,
@@ -132,6 +133,13 @@ std::vector<ExperimentRun> expand(const Experiment& experiment) {
         if (!c.conserved.empty() && std::find(names.begin(), names.end(), c.conserved) == names.end())
           throw InputError(experiment.name + ", case " + c.name + ": " +
                            unknown_name("invariant", c.conserved, names));
+        // Runs are kept by this name: two of the same would overwrite each other.
+        for (const ExperimentRun& other : runs)
+          if (other.slug == run.slug)
+            throw InputError(experiment.name + ": case " + c.name + ", method " + m.label + ", step " + step +
+                             " and case " + other.which->name + ", method " + other.method->label +
+                             ", step " + other.step + " would share the directory runs/" + run.slug +
+                             "; expected different names");
         runs.push_back(std::move(run));
       }
     }

@@ -27,7 +27,10 @@ std::string cell(const nlohmann::json& value) {
   return number(value.get<double>());
 }
 std::string quoted(const std::string& text) {
-  return text.find_first_of(",\"") == std::string::npos ? text : '"' + text + '"';
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string result = "\"";
+  for (const char c : text) result += c == '"' ? "\"\"" : std::string(1, c);
+  return result + '"';
 }
 std::string parameters_of(const ExperimentRun& run) {
   std::string text;
@@ -42,22 +45,21 @@ struct CostRow {
   double median = 0;
 };
 std::string cost_key(const ExperimentRun& run) {
-  return run.which->name + "," + run.method->label + "," + run.step;
+  return quoted(run.which->name) + "," + quoted(run.method->label) + "," + quoted(run.step);
 }
 
-std::map<std::string, CostRow> read_costs(const fs::path& path) {
+// Rows of the runs asked for.
+std::map<std::string, CostRow> read_costs(const fs::path& path, const std::vector<ExperimentRun>& runs) {
   std::map<std::string, CostRow> rows;
   std::error_code error;
   if (!fs::exists(path, error)) return rows;
   std::istringstream stream(read_file(path));
   std::string line;
   std::getline(stream, line);
-  while (std::getline(stream, line)) {
-    std::size_t comma = 0;
-    for (int k = 0; k < 3 && comma != std::string::npos; ++k)
-      comma = line.find(',', comma + (k == 0 ? 0 : 1));
-    if (comma != std::string::npos) rows[line.substr(0, comma)] = {line, std::atof(line.c_str() + comma + 1)};
-  }
+  while (std::getline(stream, line))
+    for (const ExperimentRun& run : runs)
+      if (const std::string key = cost_key(run); line.starts_with(key + ","))
+        rows[key] = {line, std::atof(line.c_str() + key.size() + 1)};
   return rows;
 }
 }  // namespace
@@ -91,8 +93,8 @@ std::string results_csv(const std::vector<ExperimentRun>& runs,
     const ExperimentRun& run = runs[k];
     const nlohmann::json& s = summaries[k];
     const double steps = std::max(1.0, s["counts"]["steps"].get<double>());
-    text << run.which->name << ',' << run.which->system << ',' << run.method->label << ','
-         << run.method->integrator << ',' << quoted(parameters_of(run)) << ',' << run.step << ','
+    text << quoted(run.which->name) << ',' << run.which->system << ',' << quoted(run.method->label) << ','
+         << run.method->integrator << ',' << quoted(parameters_of(run)) << ',' << quoted(run.step) << ','
          << to_string(run.resolved.time) << ',' << s["completed"] << ',' << s["precision"].get<std::string>()
          << ',' << s["status"].get<std::string>() << ',' << quoted(s["message"]) << ','
          << cell(s["error_max"]) << ',' << cell(s["error_final"]) << ',' << cell(s["structure_residual"]);
@@ -116,7 +118,7 @@ std::string results_csv(const std::vector<ExperimentRun>& runs,
 void write_costs(const fs::path& directory, const Experiment& experiment,
                  const std::vector<ExperimentRun>& runs, const ExperimentProgress& progress) {
   const fs::path path = directory / "cost.csv";
-  const auto known = read_costs(path);
+  const auto known = read_costs(path, runs);
   std::string text = "case,method,step,ns_per_step,ns_per_step_min,ns_per_step_max,repetitions,seconds\n";
   std::size_t done = 0;
   for (const ExperimentRun& run : runs) {
@@ -139,7 +141,7 @@ void write_costs(const fs::path& directory, const Experiment& experiment,
 std::string results_table(const fs::path& directory, const Experiment& experiment,
                           const std::vector<ExperimentRun>& runs,
                           const std::vector<nlohmann::json>& summaries) {
-  const auto costs = read_costs(directory / "cost.csv");
+  const auto costs = read_costs(directory / "cost.csv", runs);
   std::ostringstream text;
   const auto scientific = [](const nlohmann::json& value) {
     return value.is_null() ? std::string("-") : number(value.get<double>(), "%.1e");

@@ -58,6 +58,8 @@ class Keys {
   }
   const toml::table* table(std::string_view key) {
     const toml::node* node = find(key);
+    if (node != nullptr && !node->is_table())
+      throw InputError(where_ + ": key '" + std::string(key) + "': expected a table");
     return node == nullptr ? nullptr : node->as_table();
   }
   std::vector<const toml::table*> tables(std::string_view key) {
