@@ -72,7 +72,14 @@ nlohmann::json summary(const ResolvedRun& run, const RunRecord& record) {
     const Invariant& invariant = run.model->invariants()[i];
     nlohmann::json entry{
         {"name", invariant.name}, {"unit", invariant.unit}, {"expected", to_string(invariant.behaviour)}};
-    if (!record.samples.empty()) entry["initial"] = static_cast<double>(record.samples.front().invariants[i]);
+    if (!record.samples.empty()) {
+      const Quad& initial = record.samples.front().invariants[i];
+      if (run.settings.precision == Precision::quad) {
+        entry["initial"] = to_string(initial, 36);
+      } else {
+        entry["initial"] = static_cast<double>(initial);
+      }
+    }
     if (invariant.behaviour == Behaviour::conserved) {
       const Drift& d = record.drift[i];
       entry["max"] = d.maximum;
