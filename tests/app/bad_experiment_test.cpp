@@ -1,0 +1,91 @@
+// Experiments that are not well formed: one line that says where, exit status 2, nothing written.
+#include "command.hpp"
+
+namespace {
+
+using namespace pfaff::testing;
+using Arguments = std::vector<std::string>;
+
+const std::string good = R"(schema = 1
+title = "A test"
+[[method]]
+label = "RK4"
+integrator = "rk4"
+[[case]]
+name = "short"
+system = "damped-oscillator"
+time = "2"
+steps = ["0.5"]
+)";
+
+// The experiment with `what` replaced, or `what` added at its end where it is not there.
+void refused(const std::string& what, const std::string& by, const Arguments& fragments) {
+  std::string text = good;
+  if (what.empty()) {
+    text += by;
+  } else {
+    ASSERT_NE(text.find(what), std::string::npos) << what;
+    text.replace(text.find(what), what.size(), by);
+  }
+  const TemporaryDirectory files;
+  write(files / "test.toml", text);
+  SCOPED_TRACE(by);
+  expect_refused({"compare", files / "test.toml", "--out", "out"}, fragments);
+}
+
+TEST(BadExperiment, UnknownKeys) {
+  refused("title", "titel", {"test.toml", "'title' is missing"});
+  refused("title = \"A test\"\n", "title = \"A test\"\nnote = []\n", {"unknown key 'note'", "'notes'?"});
+  refused("", "stpes = [1]\n", {"[[case]]", "unknown key 'stpes'", "did you mean 'steps'?"});
+  refused("label = \"RK4\"", "label = \"RK4\"\nintergator = 1", {"[[method]]", "did you mean 'integrator'?"});
+  refused("", "[case.quick]\ntimes = 1\n", {"[case.quick]", "unknown key 'times'", "did you mean 'time'?"});
+  refused("", "set = { mu = 1 }\n", {"case short", "unknown parameter 'mu'", "did you mean 'nu'?"});
+  refused("", "conserved = \"enrgy\"\n",
+          {"case short", "unknown invariant 'enrgy'", "did you mean 'energy'?"});
+}
+
+TEST(BadExperiment, UnknownNames) {
+  refused("\"rk4\"", "\"rk5\"", {"method RK4", "unknown integrator 'rk5'", "did you mean 'rk4'?"});
+  refused("damped-oscillator", "damped-oscilator", {"unknown system", "did you mean 'damped-oscillator'?"});
+  refused("", "methods = [\"RK 4\"]\n", {"[[case]] short", "unknown method 'RK 4'", "did you mean 'RK4'?"});
+  refused("", "precision = \"singel\"\n", {"unknown precision 'singel'"});
+  refused("\"rk4\"", "\"verlet\"", {"verlet needs separable; damped-oscillator offers vector-field"});
+}
+
+TEST(BadExperiment, WrongTypes) {
+  refused("steps = [\"0.5\"]", "steps = 0.5", {"[[case]]", "'steps'", "expected a list"});
+  refused("steps = [\"0.5\"]", "steps = [[0.5]]", {"'steps'", "expected a number or a string"});
+  refused("steps = [\"0.5\"]", "steps = []", {"short", "'steps' is missing"});
+  refused("time = \"2\"", "time = [2]", {"'time'", "expected a number or a string"});
+  refused("", "set = 3\n", {"'set'", "expected a table"});
+  refused("", "quick = 3\n", {"'quick'", "expected a table"});
+  refused("[[case]]", "[case]", {"expected at least one [[case]]"});
+  refused("[[method]]", "[[methods]]", {"expected at least one [[method]]"});
+  refused("schema = 1", "schema = 2", {"'schema'", "expected 1, got 2"});
+  refused("schema = 1\n", "", {"'schema' is missing"});
+}
+
+TEST(BadExperiment, NumbersOutOfRange) {
+  refused("\"0.5\"", "\"-0.5\"", {"case short", "--step: expected a number > 0"});
+  refused("\"0.5\"", "\"5\"", {"case short", "at most the duration 2"});
+  refused("\"0.5\"", "\"half\"", {"'half'"});
+  refused("\"2\"", "inf", {"'inf'"});
+  refused("", "set = { nu = 11 }\n", {"case short", "'nu'", "0 .. 10", "'11'"});
+  refused("", "initial = [1]\n", {"case short", "expected 2 numbers, got 1"});
+}
+
+TEST(BadExperiment, SyntaxErrorsNameTheLine) {
+  refused("label = \"RK4\"", "label = RK4\"", {"test.toml:4:"});
+  refused("", "initial = [1, 0\n", {"test.toml:11:"});
+  refused("", "time = 3\n", {"test.toml:11:"});  // twice
+}
+
+// Runs are kept by name: two that would share one directory are refused, not mixed.
+TEST(BadExperiment, RunsWithTheSameName) {
+  const std::string second = "[[method]]\nlabel = \"rk4\"\nintegrator = \"gauss\"\n";
+  refused("[[case]]", second + "[[case]]", {"would share the directory runs/short-rk4-h0.5"});
+  refused("[\"0.5\"]", "[\"0.5\", \"0.5\"]", {"would share the directory runs/short-rk4-h0.5"});
+  refused("", good.substr(good.find("[[case]]")), {"would share the directory runs/short-rk4-h0.5"});
+}
+
+}  // namespace

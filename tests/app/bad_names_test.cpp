@@ -1,0 +1,85 @@
+// Names that do not exist: one line, the nearest one offered, exit status 2, nothing written.
+#include "command.hpp"
+
+namespace {
+
+using namespace pfaff::testing;
+
+const std::vector<std::string> pendulum{
+    "run",    "--out", "-",      "--system", "damped-pendulum", "--integrator", "rk4",
+    "--step", "0.1",   "--time", "1"};
+
+TEST(BadNames, Commands) {
+  expect_refused(
+      {}, {"a command is missing", "list", "describe", "cite", "run", "compare", "reproduce", "verify"});
+  expect_refused({"lst"}, {"unknown command 'lst'", "did you mean 'list'?"});
+  expect_refused({"verfy", "rk4"}, {"unknown command 'verfy'", "did you mean 'verify'?"});
+  expect_refused({"xyzzy"}, {"unknown command 'xyzzy'", "expected one of", "compare"});
+  expect_refused({"--json", "list"}, {"expected a command before '--json'", "see pfaff --help"});
+}
+
+TEST(BadNames, Options) {
+  expect_refused({"list", "--jsn"}, {"unknown option '--jsn'", "did you mean '--json'?", "pfaff list"});
+  expect_refused(pendulum + std::vector<std::string>{"--presision", "quad"},
+                 {"unknown option '--presision'", "did you mean '--precision'?"});
+  expect_refused(pendulum + std::vector<std::string>{"--presision=quad"}, {"did you mean '--precision'?"});
+  // Said before anything that is missing because of it.
+  expect_refused({"run", "--sytem", "kepler"}, {"unknown option '--sytem'", "did you mean '--system'?"});
+  expect_refused({"run", "--ot", "-"}, {"unknown option '--ot'", "did you mean '--out'?"});
+  expect_refused({"compare", "kepler", "--quik"}, {"did you mean '--quick'?"});
+  expect_refused(pendulum + std::vector<std::string>{"more"}, {"more", "not expected"});
+  expect_refused(pendulum + std::vector<std::string>{"--precision"}, {"--precision"});
+  expect_refused(pendulum + std::vector<std::string>{"--step", "0.2"}, {"--step"});
+}
+
+TEST(BadNames, SystemsAndMethods) {
+  expect_refused({"run", "--out", "-", "--system", "damped-pendulm", "--integrator", "rk4", "--time", "1",
+                  "--step", "0.1"},
+                 {"unknown system 'damped-pendulm'", "did you mean 'damped-pendulum'?"});
+  expect_refused({"run", "--out", "-", "--system", "damped-pendulum", "--integrator", "rk5", "--time", "1",
+                  "--step", "0.1"},
+                 {"unknown integrator 'rk5'", "did you mean 'rk4'?"});
+  expect_refused(pendulum + std::vector<std::string>{"--precision", "qad"},
+                 {"unknown precision 'qad'", "did you mean 'quad'?"});
+}
+
+TEST(BadNames, Parameters) {
+  const auto with = [](const std::string& setting) {
+    return pendulum + std::vector<std::string>{"--set", setting};
+  };
+  expect_refused(with("mu=0.3"), {"unknown parameter 'mu'", "did you mean 'nu'?", "damped-pendulum", "rk4"});
+  expect_refused(with("system.mu=0.3"), {"unknown parameter 'mu'", "did you mean 'nu'?", "damped-pendulum"});
+  expect_refused(with("integrator.compensate=no"), {"did you mean 'compensated'?", "rk4"});
+  expect_refused(with("sytem.nu=0.3"), {"unknown parameter 'sytem.nu'", "did you mean 'system.nu'?"});
+  expect_refused(with("intial=1,2"), {"unknown parameter 'intial'", "did you mean 'initial'?"});
+  expect_refused(with("order=4"), {"unknown parameter 'order'", "nu"});
+}
+
+TEST(BadNames, EverythingElse) {
+  expect_refused({"list", "sytems"}, {"unknown kind 'sytems'", "did you mean 'systems'?"});
+  expect_refused({"describe", "verlot"}, {"unknown name 'verlot'", "did you mean 'verlet'?"});
+  expect_refused({"describe"}, {"name is required"});
+  expect_refused({"cite", "su-qn"}, {"unknown name 'su-qn'", "did you mean 'su-qin'?"});
+  expect_refused({"cite", "verlet", "keplr"}, {"unknown name 'keplr'", "did you mean 'kepler'?"});
+  expect_refused({"compare", "damped-oscilator"},
+                 {"unknown experiment 'damped-oscilator'", "did you mean 'damped-oscillator'?"});
+  expect_refused({"compare"}, {"expected the name of an experiment, or --all"});
+  expect_refused({"compare", "kepler", "--all"}, {"expected the name of an experiment, or --all"});
+  expect_refused({"compare", "missing.toml"}, {"cannot read missing.toml"});
+  expect_refused({"reproduce", "su-qn"}, {"unknown paper 'su-qn'", "did you mean 'su-qin'?"});
+  expect_refused({"reproduce", "su-qin", "--section", "7"}, {"unknown section '7'", "5"});
+  expect_refused({"verify", "rk5"}, {"unknown name 'rk5'", "did you mean 'rk4'?"});
+  expect_refused({"verify", "rk4", "contrls"}, {"unknown name 'contrls'", "did you mean 'controls'?"});
+  expect_refused({"list", "--plugin", "missing.so"}, {"missing.so"});
+}
+
+TEST(BadNames, AMethodThatDoesNotFitNamesBothSides) {
+  expect_refused({"run", "--out", "-", "--system", "damped-pendulum", "--integrator", "verlet", "--time", "1",
+                  "--step", "0.1"},
+                 {"verlet needs separable; damped-pendulum offers vector-field, birkhoffian"});
+  expect_refused({"run", "--out", "run", "--system", "free-rigid-body", "--integrator", "generating-function",
+                  "--time", "1", "--step", "0.1"},
+                 {"generating-function needs darboux-chart; free-rigid-body offers vector-field"});
+}
+
+}  // namespace

@@ -1,0 +1,95 @@
+// Output that cannot be written: refused before work starts (2), or reported after it (1), never half there.
+#include "command.hpp"
+
+namespace {
+
+using namespace pfaff::testing;
+using Arguments = std::vector<std::string>;
+
+Arguments run_to(const std::string& out, const std::string& time = "1") {
+  return {"run",     "--system", "damped-pendulum", "--integrator", "rk4",   "--step", "0.1",
+          "--every", "1",        "--time",          time,           "--out", out};
+}
+
+TEST(BadOutput, ADirectoryThatHoldsSomethingIsLeftAlone) {
+  const TemporaryDirectory files;
+  fs::create_directory(files.path() / "kept");
+  write(files / "kept/notes.txt", "mine");
+  expect_complaint(run_pfaff(run_to(files / "kept")), 2, {"'" + files / "kept" + "' exists already"}, "run");
+  EXPECT_EQ(text_of(files / "kept/notes.txt"), "mine");
+  EXPECT_EQ(std::distance(fs::directory_iterator(files.path() / "kept"), {}), 1);
+
+  write(files / "file", "mine");
+  expect_complaint(run_pfaff(run_to(files / "file")), 2, {"exists already"}, "run to a file");
+  EXPECT_EQ(text_of(files / "file"), "mine");
+  expect_complaint(run_pfaff({"compare", "kepler", "--quick", "--out", files / "kept"}), 2,
+                   {"exists already"}, "compare");
+  EXPECT_EQ(std::distance(fs::directory_iterator(files.path() / "kept"), {}), 1);
+}
+
+TEST(BadOutput, AnEmptyDirectoryIsTaken) {
+  const TemporaryDirectory files;
+  EXPECT_EQ(run_pfaff(run_to(files.path().string())).status, 0);
+  EXPECT_TRUE(fs::exists(files.path() / "summary.json"));
+}
+
+// Places where nobody can write, root included.
+TEST(BadOutput, AParentThatCannotBeWritten) {
+  const TemporaryDirectory files;
+  write(files / "file", "mine");
+  expect_complaint(run_pfaff(run_to(files / "file/run")), 2, {"file/run' cannot be made"},
+                   "run under a file");
+  EXPECT_EQ(text_of(files / "file"), "mine");
+  expect_refused(run_to("/proc/run"), {"'/proc/run'", "cannot be made"});
+  expect_refused(run_to("/proc/self/fdinfo"), {"'/proc/self/fdinfo'"});
+  expect_refused({"compare", "kepler", "--quick", "--out", "/proc/run"}, {"'/proc/run'", "cannot be made"});
+}
+
+TEST(BadOutput, FullDiskAfterTheWork) {
+  // Room for config.toml and summary.json, not for a series of 1001 samples.
+  const TemporaryDirectory files;
+  Circumstances full;
+  full.largest_file = 16384;
+  expect_complaint(run_pfaff(run_to(files / "run", "100"), full), 1, {"cannot write", "series.csv"},
+                   "full disk");
+  for (const auto& entry : fs::directory_iterator(files.path() / "run"))
+    EXPECT_EQ(entry.path().filename(), "config.toml") << "half-written: " << entry.path();
+  // Control: with room for it, the same run is written.
+  full.largest_file = 1 << 20;
+  EXPECT_EQ(run_pfaff(run_to(files / "again", "100"), full).status, 0);
+  EXPECT_GT(fs::file_size(files.path() / "again/series.csv"), 16384U);
+}
+
+TEST(BadOutput, FullDiskBeforeTheWork) {
+  const TemporaryDirectory files;
+  Circumstances full;
+  full.largest_file = 0;
+  expect_complaint(run_pfaff(run_to(files / "run"), full), 2, {"cannot be written to"}, "full disk");
+  EXPECT_TRUE(fs::is_empty(files.path() / "run"));
+}
+
+TEST(BadOutput, FullDiskInAnExperiment) {
+  const TemporaryDirectory files;
+  Circumstances full;
+  full.largest_file = 16384;
+  const Arguments compare{"compare", "kepler", "--quick", "--out", files / "kepler"};
+  expect_complaint(run_pfaff(compare, full), 1, {"cannot write", "series.csv"}, "compare");
+  EXPECT_FALSE(fs::exists(files.path() / "kepler/results.csv"));
+  for (const auto& run : fs::directory_iterator(files.path() / "kepler/runs"))
+    EXPECT_TRUE(run.path().extension() == ".part") << "counts as done: " << run.path();
+}
+
+TEST(BadOutput, StandardOutputThatTakesNothing) {
+  Circumstances full;
+  full.standard_output = "/dev/full";
+  Circumstances gone;
+  gone.nobody_reads = true;
+  for (const auto& [where, name] : {std::pair{&full, "/dev/full"}, std::pair{&gone, "closed pipe"}})
+    for (const Arguments& command :
+         {run_to("-"), run_to("-", "1000"), Arguments{"list"}, Arguments{"list", "--json"},
+          Arguments{"describe", "kepler"}, Arguments{"cite", "verlet"}, Arguments{"reproduce", "su-qin"}})
+      expect_complaint(run_pfaff(command, *where), 1, {"cannot write to standard output"},
+                       std::string(name) + ": " + joined(command));
+}
+
+}  // namespace

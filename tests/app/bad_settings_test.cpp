@@ -1,0 +1,167 @@
+// Settings of a run that make no sense: one line that says what was expected, exit status 2, nothing written.
+#include "command.hpp"
+
+namespace {
+
+using namespace pfaff::testing;
+using Arguments = std::vector<std::string>;
+
+Arguments run_of(const std::string& system, const std::string& integrator, const Arguments& more) {
+  return Arguments{"run", "--out", "run", "--system", system, "--integrator", integrator} + more;
+}
+Arguments pendulum(const Arguments& more) { return run_of("damped-pendulum", "rk4", more); }
+Arguments set(const std::string& setting) {
+  return pendulum({"--step", "0.1", "--time", "1", "--set", setting});
+}
+
+TEST(BadSettings, Parameters) {
+  expect_refused(set("nu=abc"), {"'nu'", "damped-pendulum", "0 .. 10 1/s", "'abc'"});
+  expect_refused(set("nu="), {"'nu'", "0 .. 10 1/s", "''"});
+  expect_refused(set("nu=11"), {"'nu'", "0 .. 10 1/s", "'11'"});
+  expect_refused(set("nu=-0.1"), {"'nu'", "0 .. 10 1/s", "'-0.1'"});
+  expect_refused(set("nu=nan"), {"'nu'", "'nan'"});
+  expect_refused(set("nu=inf"), {"'nu'", "'inf'"});
+  expect_refused(set("nu"), {"--set", "KEY=VALUE", "'nu'"});
+  expect_refused(set("=0.3"), {"--set", "KEY=VALUE", "'=0.3'"});
+  const auto generating = [](const std::string& a, const std::string& b) {
+    return run_of("damped-pendulum", "generating-function",
+                  {"--step", "0.1", "--time", "1", "--set", a, "--set", b});
+  };
+  expect_refused(generating("order=3.5", "variant=P"), {"'order'", "an integer in 1 .. 40", "'3.5'"});
+  expect_refused(generating("order=0", "variant=P"), {"'order'", "1 .. 40", "'0'"});
+  expect_refused(generating("order=99999999999999999999", "variant=P"), {"'order'", "1 .. 40"});
+  expect_refused(generating("order=2", "variant=Q"), {"'variant'", "P|S", "'Q'"});
+  expect_refused(generating("order=3", "variant=S"), {"variant S", "even order", "order 3"});
+}
+
+TEST(BadSettings, InitialState) {
+  expect_refused(set("initial=1"), {"initial state of damped-pendulum", "expected 2 numbers, got 1"});
+  expect_refused(set("initial=1,2,3"), {"expected 2 numbers, got 3"});
+  expect_refused(set("initial=1,2,"), {"expected 2 numbers, got 3"});
+  expect_refused(set("initial="), {"initial state of damped-pendulum", "expected 2 numbers"});
+  expect_refused(set("initial=nan,1"), {"initial r of damped-pendulum", "finite", "'nan'"});
+  expect_refused(set("initial=1,inf"), {"initial p of damped-pendulum", "finite", "'inf'"});
+  expect_refused(set("initial=1,-1e999"), {"initial p", "finite", "'-1e999'"});
+  expect_refused(set("initial=1,two"), {"initial p", "'two'"});
+  expect_refused(set("initial=1,0x10"), {"initial p", "'0x10'"});
+  expect_refused(set("initial=1/0,1"), {"initial r", "'1/0'"});
+  expect_refused(set("initial=1;2"), {"expected 2 numbers, got 1"});
+}
+
+TEST(BadSettings, AStateWhereTheFieldIsNotFinite) {
+  expect_refused(run_of("kepler", "verlet", {"--step", "0.1", "--time", "1", "--set", "initial=0,0,1,0"}),
+                 {"initial state of kepler", "not finite"});
+}
+
+TEST(BadSettings, StateFile) {
+  const TemporaryDirectory files;
+  const auto refused = [&](const std::string& content, const Arguments& fragments) {
+    write(files / "state.json", content);
+    expect_refused(pendulum({"--step", "0.1", "--time", "1", "--state", files / "state.json"}),
+                   Arguments{"state.json"} + fragments);
+  };
+  refused(R"({"t": 0, "z": [1, 0], "zz": 1})", {"unknown key 'zz'", "did you mean 'z'?"});
+  refused(R"({"t": 0})", {"expected z, or q and p"});
+  refused(R"({"q": [1]})", {"expected z, or q and p"});
+  refused(R"({"z": [1, 0], "q": [1], "p": [0]})", {"expected z, or q and p"});
+  refused(R"({"z": 1})", {"expected a list of numbers"});
+  refused(R"({"z": []})", {"expected numbers, got an empty list"});
+  refused(R"({"z": [1, null]})", {"expected numbers or decimal strings"});
+  refused(R"({"t": [0], "z": [1, 0]})", {"expected numbers or decimal strings"});
+  refused("z = [1, 0]", {"expected a JSON object"});
+  refused(R"({"z": [1, 0])", {"expected a JSON object"});
+  refused("[1, 0]", {"expected a JSON object"});
+  refused("", {"expected a JSON object"});
+  const auto with_state = pendulum({"--step", "0.1", "--time", "1", "--state", files / "state.json"});
+  write(files / "state.json", R"({"z": [1, 0, 2]})");
+  expect_refused(with_state, {"expected 2 numbers, got 3"});
+  write(files / "state.json", R"({"z": ["1", "nan"]})");
+  expect_refused(with_state, {"initial p", "'nan'"});
+  write(files / "state.json", R"({"t": "x", "z": [1, 0]})");
+  expect_refused(with_state, {"initial time", "'x'"});
+  write(files / "state.json", R"({"z": [1, 0]})");
+  expect_refused(with_state + Arguments{"--set", "initial=1,0"}, {"--state", "--set initial", "exclude"});
+  expect_refused(pendulum({"--step", "0.1", "--time", "1", "--state", files / "missing.json"}),
+                 {"cannot read", "missing.json"});
+  expect_refused(pendulum({"--step", "0.1", "--time", "1", "--state", files.path().string()}),
+                 {"cannot read"});
+}
+
+TEST(BadSettings, Step) {
+  expect_refused(pendulum({"--time", "1"}), {"--step is missing", "--tolerance"});
+  for (const std::string bad : {"0", "-0.1", "0/1"})
+    expect_refused(pendulum({"--time", "1", "--step", bad}),
+                   {"--step: expected a number > 0", "'" + bad + "'"});
+  for (const std::string bad : {"nan", "inf", "1e999", "h", "0.1s", "1/2/3"})
+    expect_refused(pendulum({"--time", "1", "--step", bad}), {"--step: expected a finite", "'" + bad + "'"});
+  expect_refused(pendulum({"--time", "1", "--step", "2"}),
+                 {"--step: expected at most the duration 1", "'2'"});
+  expect_refused(pendulum({"--time", "1", "--step", "1e-30"}), {"--step: 1e-30 is too small"});
+}
+
+TEST(BadSettings, Time) {
+  expect_refused(pendulum({"--step", "0.1"}), {"--time is missing"});
+  for (const std::string bad : {"0", "-1"})
+    expect_refused(pendulum({"--step", "0.1", "--time", bad}),
+                   {"--time: expected a duration > 0", "'" + bad + "'"});
+  for (const std::string bad : {"nan", "inf", "ten"})
+    expect_refused(pendulum({"--step", "0.1", "--time", bad}),
+                   {"--time: expected a finite", "'" + bad + "'"});
+}
+
+TEST(BadSettings, Tolerance) {
+  expect_refused(pendulum({"--time", "1", "--tolerance", "1e-6"}), {"rk4 takes fixed steps only", "--step"});
+  const auto dopri = [](const Arguments& more) {
+    return run_of("damped-pendulum", "odeint-dopri5", Arguments{"--time", "1"} + more);
+  };
+  expect_refused(dopri({"--tolerance", "1e-6", "--step", "0.1"}),
+                 {"--step and --tolerance exclude each other"});
+  for (const std::string bad : {"0", "-1e-6", "2"})
+    expect_refused(dopri({"--tolerance", bad}),
+                   {"--tolerance: expected a number in (0, 1]", "'" + bad + "'"});
+  expect_refused(dopri({"--tolerance", "small"}), {"--tolerance: expected a finite", "'small'"});
+}
+
+TEST(BadSettings, QuadNeedsCoefficientsInQuad) {
+  for (const std::string method : {"odeint-dopri5", "odeint-rk4"})
+    expect_refused(run_of("damped-pendulum", method, {"--time", "1", "--step", "0.1", "--precision", "quad"}),
+                   {method, "double only", "--precision double"});
+}
+
+TEST(BadSettings, Every) {
+  for (const std::string bad : {"0", "-1", "1.5", "x", "1000000000000000000000"})
+    expect_refused(pendulum({"--time", "1", "--step", "0.1", "--every", bad}),
+                   {"--every: expected a whole number of steps > 0", "'" + bad + "'"});
+}
+
+TEST(BadSettings, WhatIsMissing) {
+  expect_refused({"run"}, {"--out is missing"});
+  expect_refused({"run", "--out", ""}, {"--out is missing"});
+  expect_refused({"run", "--out", "run"}, {"--system is missing", "pfaff list systems"});
+  expect_refused({"run", "--out", "run", "--system", "kepler"}, {"--integrator is missing"});
+}
+
+TEST(BadSettings, ConfigFile) {
+  const TemporaryDirectory files;
+  const std::string good =
+      "schema = 1\nsystem = \"damped-pendulum\"\nintegrator = \"rk4\"\ntime = \"1\"\nstep = \"0.1\"\n";
+  const auto refused = [&](const std::string& content, const Arguments& fragments,
+                           const Arguments& more = {}) {
+    write(files / "config.toml", content);
+    expect_refused(Arguments{"run", "--out", "run", "--config", files / "config.toml"} + more, fragments);
+  };
+  refused(good + "stpe = 1\n", {"config.toml", "unknown key 'stpe'", "did you mean 'step'?"});
+  refused(good + "every = 0\n", {"config.toml", "'every'", "whole number of steps > 0", "'0'"});
+  refused(good + "initial = 1\n", {"config.toml", "'initial'", "expected a list"});
+  refused(good + "set = 1\n", {"config.toml", "'set'", "expected a table"});
+  refused(good + "[set]\nmu = 1\n", {"unknown parameter 'mu'", "did you mean 'nu'?"});
+  refused("schema = 2\n", {"'schema'", "expected 1, got 2"});
+  refused("schema = 1\n", {"'system' is missing"});
+  refused(good + "t0 = \n", {"config.toml:6"});
+  for (const Arguments& beside :
+       {Arguments{"--step", "0.2"}, Arguments{"--precision", "quad"}, Arguments{"--every", "2"},
+        Arguments{"--set", "nu=1"}, Arguments{"--state", "s.json"}, Arguments{"--system", "kepler"}})
+    refused(good, {"--config holds the whole run"}, beside);
+}
+
+}  // namespace

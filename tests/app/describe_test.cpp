@@ -1,0 +1,144 @@
+// pfaff list, describe, cite and --help: what they say, in JSON and on a screen of 100 columns.
+#include <algorithm>
+#include <set>
+
+#include "command.hpp"
+
+namespace {
+
+using namespace pfaff::testing;
+using Arguments = std::vector<std::string>;
+
+std::string printed(const Arguments& arguments) {
+  const Outcome outcome = run_pfaff(arguments);
+  EXPECT_EQ(outcome.status, 0) << joined(arguments) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  return outcome.out;
+}
+nlohmann::json asked(const Arguments& arguments) {
+  const auto j = json_of(printed(arguments + Arguments{"--json"}));
+  EXPECT_EQ(j["schema"], 1) << joined(arguments);
+  return j;
+}
+std::set<std::string> names_of(const nlohmann::json& list) {
+  std::set<std::string> names;
+  for (const auto& item : list) names.insert(item["name"]);
+  return names;
+}
+std::set<std::string> keys_of(const nlohmann::json& object) {
+  std::set<std::string> keys;
+  for (const auto& [key, value] : object.items()) keys.insert(key);
+  return keys;
+}
+void expect_narrow(const std::string& text) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_LE(std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xC0) != 0x80; }), 100)
+        << line;
+    EXPECT_FALSE(line.ends_with(' ')) << "'" << line << "'";
+  }
+}
+
+TEST(List, KindsAndNames) {
+  const auto all = asked({"list"});
+  EXPECT_EQ(keys_of(all),
+            (std::set<std::string>{"schema", "systems", "integrators", "brackets", "experiments"}));
+  for (const char* name : {"damped-oscillator", "damped-pendulum", "henon-heiles", "kepler"})
+    EXPECT_TRUE(names_of(all["systems"]).contains(name)) << name;
+  for (const char* name : {"generating-function", "gauss", "verlet", "rk4"})
+    EXPECT_TRUE(names_of(all["integrators"]).contains(name)) << name;
+  for (const char* kind : {"systems", "integrators", "brackets", "experiments"}) {
+    EXPECT_EQ(asked({"list", kind})[kind], all[kind]);
+    const std::string text = printed({"list", kind});
+    for (const auto& item : all[kind]) {
+      EXPECT_FALSE(item["title"].get<std::string>().empty());
+      EXPECT_NE(text.find("  " + item["name"].get<std::string>() + " "), std::string::npos) << item["name"];
+    }
+  }
+}
+
+TEST(Describe, Systems) {
+  const auto j = asked({"describe", "damped-pendulum"});
+  EXPECT_EQ(j["kind"], "system");
+  EXPECT_EQ(j["dimension"], 2);
+  EXPECT_NE(j["facets"].get<std::string>().find("birkhoffian"), std::string::npos);
+  const nlohmann::json r{{"name", "r"}, {"unit", "rad"}, {"initial", "1"}};
+  EXPECT_EQ(j["coordinates"][0], r);
+  EXPECT_EQ(j["invariants"][0]["name"], "energy");
+  EXPECT_EQ(j["invariants"][0]["expected"], "decreasing");
+  EXPECT_EQ(j["parameters"][0]["name"], "nu");
+  EXPECT_EQ(j["parameters"][0]["default"], "0.3");
+  EXPECT_EQ(j["parameters"][0]["range"], "0 .. 10 1/s");
+  std::set<std::string> fitting;
+  for (const auto& name : j["integrators"]) fitting.insert(name);
+  EXPECT_TRUE(fitting.contains("generating-function"));
+  EXPECT_FALSE(fitting.contains("verlet"));
+}
+
+TEST(Describe, Integrators) {
+  const auto j = asked({"describe", "verlet"});
+  EXPECT_EQ(j["kind"], "integrator");
+  EXPECT_EQ(j["needs"], "separable");
+  EXPECT_EQ(j["adaptive"], false);
+  EXPECT_TRUE(names_of(j["systems"]).contains("kepler"));
+  EXPECT_FALSE(names_of(j["systems"]).contains("damped-pendulum"));
+  for (const auto& system : j["systems"]) EXPECT_EQ(system["order"], 2);
+  // What is said to be kept is kept there: the midpoint rule's claim is about the canonical structure.
+  const auto midpoint = asked({"describe", "implicit-midpoint"});
+  for (const auto& system : midpoint["systems"]) {
+    const auto& preserves = system["preserves"];
+    const bool said = std::find(preserves.begin(), preserves.end(), "symplectic") != preserves.end();
+    EXPECT_EQ(said, !system["name"].get<std::string>().starts_with("damped-") &&
+                        system["name"] != "free-rigid-body")
+        << system;
+  }
+}
+
+TEST(Describe, EverythingThatIsListedWithin100Columns) {
+  const auto all = asked({"list"});
+  expect_narrow(printed({"list"}));
+  for (const char* kind : {"systems", "integrators", "brackets", "experiments"})
+    for (const std::string& name : names_of(all[kind])) {
+      const std::string text = printed({"describe", name});
+      expect_narrow(text);
+      const auto j = asked({"describe", name});
+      EXPECT_EQ(j["name"], name);
+      if (kind != std::string("experiments")) {
+        EXPECT_EQ(j["kind"].get<std::string>() + "s", kind);
+      }
+      EXPECT_FALSE(j["title"].get<std::string>().empty()) << name;
+      for (const auto& key : j.value("parameters", nlohmann::json::array()))
+        EXPECT_NE(text.find(key["name"].get<std::string>()), std::string::npos) << name << ' ' << key;
+    }
+}
+
+TEST(Cite, PlugInsAndKeys) {
+  const auto j = asked({"cite", "damped-pendulum", "su-qin"});
+  ASSERT_EQ(j["entries"].size(), 1U) << "each key once";
+  EXPECT_EQ(j["entries"][0]["key"], "su-qin");
+  EXPECT_NE(j["entries"][0]["bibtex"].get<std::string>().find("{su-qin,"), std::string::npos);
+  EXPECT_NE(j["entries"][0]["citation"].get<std::string>().find("Su"), std::string::npos);
+  EXPECT_EQ(printed({"cite", "su-qin"}), j["entries"][0]["bibtex"].get<std::string>() + "\n");
+  // Everything that is listed has something to cite.
+  const auto all = asked({"list"});
+  for (const char* kind : {"systems", "integrators", "brackets", "experiments"})
+    for (const std::string& name : names_of(all[kind]))
+      EXPECT_FALSE(asked({"cite", name})["entries"].empty()) << kind << ' ' << name;
+}
+
+TEST(Help, EveryCommand) {
+  const std::string help = printed({"--help"});
+  expect_narrow(help);
+  EXPECT_NE(help.find("Exit status: 0 fine"), std::string::npos);
+  EXPECT_TRUE(help.ends_with('\n'));
+  for (const std::string command : {"list", "describe", "cite", "run", "compare", "reproduce", "verify"}) {
+    EXPECT_NE(help.find("\n  " + command + " "), std::string::npos) << command;
+    const std::string text = printed({command, "--help"});
+    expect_narrow(text);
+    EXPECT_NE(text.find("--json"), std::string::npos);
+    EXPECT_NE(text.find("--plugin FILE"), std::string::npos);
+  }
+  EXPECT_EQ(printed({"--version"}).substr(0, 6), "pfaff ");
+}
+
+}  // namespace

@@ -1,0 +1,186 @@
+// pfaff compare: repeatable, resumable, complete.
+#include <algorithm>
+#include <chrono>
+#include <regex>
+#include <set>
+#include <thread>
+
+#include "command.hpp"
+
+namespace {
+
+using namespace pfaff::testing;
+using Arguments = std::vector<std::string>;
+
+// Two short cases, one of which no method survives, and one long run, so that a kill falls before the end.
+const std::string experiment = R"(schema = 1
+title = "A test"
+reference = ["su-qin"]
+[[method]]
+label = "GF 2, symmetric"
+integrator = "generating-function"
+set = { order = 2 }
+[[method]]
+label = "RK4"
+integrator = "rk4"
+[[case]]
+name = "short"
+system = "damped-oscillator"
+time = "20"
+steps = ["0.5", "0.1"]
+conserved = "birkhoffian"
+[[case]]
+name = "range"
+system = "damped-oscillator"
+set = { nu = 10 }
+time = "100"
+steps = ["0.1"]
+methods = ["GF 2, symmetric"]
+conserved = "birkhoffian"
+[[case]]
+name = "long"
+system = "damped-pendulum"
+time = "1000"
+steps = ["0.01"]
+precision = "quad"
+methods = ["RK4"]
+conserved = "energy"
+)";
+constexpr std::size_t all_runs = 6;
+
+Arguments compare(const TemporaryDirectory& files, const std::string& out) {
+  return {"compare", files / "test.toml", "--quick", "--json", "--out", files / out};
+}
+nlohmann::json completed(const Outcome& outcome) {
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  const auto j = json_of(outcome.out);
+  EXPECT_EQ(j["schema"], 1);
+  EXPECT_EQ(j["experiments"][0]["runs"], all_runs);
+  return j["experiments"][0];
+}
+std::set<std::string> runs_in(const fs::path& experiment_directory) {
+  std::set<std::string> names;
+  std::error_code error;
+  for (const auto& run : fs::directory_iterator(experiment_directory / "runs", error))
+    if (run.path().extension() != ".part") names.insert(run.path().filename());
+  return names;
+}
+
+// Everything a page fetches is inside it.
+void expect_self_contained(const std::string& page, std::size_t figures) {
+  const std::regex attribute(
+      R"re(<([a-zA-Z]+)[^<>]*?\s(?:src|href|xlink:href|srcset)\s*=\s*["']([^"']*)["'])re");
+  for (std::sregex_iterator match(page.begin(), page.end(), attribute), end; match != end; ++match) {
+    const std::string tag = (*match)[1], target = (*match)[2];
+    EXPECT_TRUE(target.starts_with("#") || target.starts_with("data:") || tag == "a") << tag << ' ' << target;
+  }
+  for (const char* fetch : {"<link", "<script", "<iframe", "@import", "url(http", "url(//"})
+    EXPECT_EQ(page.find(fetch), std::string::npos) << fetch;
+  std::size_t drawings = 0;
+  for (std::size_t at = page.find("<svg "); at != std::string::npos; at = page.find("<svg ", at + 1))
+    ++drawings;
+  EXPECT_GE(drawings, figures);  // some in two shapes, for wide screens and narrow ones
+}
+
+TEST(Experiment, KilledAndResumedItGivesTheSameResults) {
+  const TemporaryDirectory files;
+  write(files / "test.toml", experiment);
+  {
+    Program program(compare(files, "killed"));
+    while (!program.ended() && runs_in(files.path() / "killed").empty())
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    program.kill();
+    EXPECT_EQ(program.wait().status, 128 + SIGKILL);
+  }
+  const auto done = runs_in(files.path() / "killed");
+  EXPECT_FALSE(done.empty());
+  EXPECT_LT(done.size(), all_runs);
+  EXPECT_FALSE(done.contains("long-rk4-h0.01"));
+  EXPECT_FALSE(fs::exists(files.path() / "killed/results.csv"));
+  for (const std::string& run : done) {  // what counts as done is whole
+    const fs::path directory = files.path() / "killed/runs" / run;
+    EXPECT_EQ(json_of(text_of(directory / "summary.json"))["schema"], 1);
+    EXPECT_TRUE(text_of(directory / "series.csv").ends_with('\n'));
+  }
+  const auto resumed = completed(run_pfaff(compare(files, "killed")));
+  EXPECT_EQ(resumed["resumed"], done.size());
+  EXPECT_EQ(resumed["failed"], 1);
+  const auto whole = completed(run_pfaff(compare(files, "whole")));
+  EXPECT_EQ(whole["resumed"], 0);
+  const std::string results = text_of(files / "whole/results.csv");
+  EXPECT_EQ(results, text_of(files / "killed/results.csv"));
+  EXPECT_EQ(runs_in(files.path() / "whole"), runs_in(files.path() / "killed"));
+  for (const std::string& run : runs_in(files.path() / "whole"))
+    for (const char* name : {"config.toml", "series.csv", "summary.json"})
+      EXPECT_EQ(text_of(files.path() / "whole/runs" / run / name),
+                text_of(files.path() / "killed/runs" / run / name));
+
+  // The failed run is in the table, with its class.
+  const std::size_t failed = results.find("\nrange,");
+  ASSERT_NE(failed, std::string::npos);
+  const std::string line = results.substr(failed + 1, results.find('\n', failed + 1) - failed - 1);
+  EXPECT_NE(line.find(",non_finite,"), std::string::npos) << line;
+  EXPECT_NE(line.find("range of numbers at t = 71"), std::string::npos) << line;
+  EXPECT_EQ(std::count(results.begin(), results.end(), '\n'), static_cast<std::ptrdiff_t>(all_runs) + 1);
+  EXPECT_NE(results.find("short,damped-oscillator,\"GF 2, symmetric\",generating-function,"),
+            std::string::npos);
+
+  const std::string cost = text_of(files / "whole/cost.csv");
+  EXPECT_TRUE(cost.starts_with("case,method,step,ns_per_step,"));
+  EXPECT_EQ(std::count(cost.begin(), cost.end(), '\n'), static_cast<std::ptrdiff_t>(all_runs) + 1);
+  EXPECT_NE(cost.find("\nshort,\"GF 2, symmetric\",0.5,"), std::string::npos);
+
+  std::size_t figures = 0;
+  for (const auto& figure : fs::directory_iterator(files.path() / "whole/figures")) {
+    figures += figure.path().extension() == ".svg";
+    EXPECT_GT(fs::file_size(figure.path()), 1000U);
+  }
+  EXPECT_GT(figures, 2U);
+  expect_self_contained(text_of(files / "whole/report.html"), figures);
+
+  // A run whose summary is damaged is run again; the rest, costs included, stays.
+  const fs::path damaged = files.path() / "whole/runs" / *done.begin() / "summary.json";
+  write(damaged, text_of(damaged).substr(0, 100));
+  EXPECT_EQ(completed(run_pfaff(compare(files, "whole")))["resumed"], all_runs - 1);
+  EXPECT_EQ(text_of(files / "whole/results.csv"), results);
+  EXPECT_EQ(text_of(files / "whole/cost.csv"), cost);
+
+  // The directory is this experiment's: another one is refused and changes nothing.
+  std::string other = experiment;
+  other.replace(other.find("time = \"20\""), 11, "time = \"30\"");
+  write(files / "test.toml", other);
+  expect_complaint(run_pfaff(compare(files, "whole")), 2, {"whole' holds another experiment"}, "compare");
+  EXPECT_EQ(text_of(files / "whole/results.csv"), results);
+}
+
+TEST(Experiment, QuickRunOfOneThatShips) {
+  const TemporaryDirectory files;
+  Circumstances here;
+  here.directory = files.path();
+  const Outcome outcome = run_pfaff({"compare", "--quick", "damped-oscillator"}, here);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_NE(outcome.out.find("40 runs (0 resumed, 0 ended early)"), std::string::npos);
+  for (const char* shown : {"GF 8", "Euler centre", "RK4", "ns/step", "drift of birkhoffian", "report.html"})
+    EXPECT_NE(outcome.out.find(shown), std::string::npos) << shown;
+  std::istringstream lines(outcome.out);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100U) << line;
+  for (const char* name : {"experiment.json", "results.csv", "cost.csv", "report.html", "figures", "runs"})
+    EXPECT_TRUE(fs::exists(files.path() / "pfaff-out/damped-oscillator-quick" / name)) << name;
+  EXPECT_EQ(runs_in(files.path() / "pfaff-out/damped-oscillator-quick").size(), 40U);
+  // What the paper is about: the structure stays at round-off for its schemes, and for no other.
+  for (const auto& run : runs_in(files.path() / "pfaff-out/damped-oscillator-quick")) {
+    const auto j =
+        json_of(text_of(files.path() / "pfaff-out/damped-oscillator-quick/runs" / run / "summary.json"));
+    const double residual = j["structure_residual"];
+    if (run.find("-gf-") != std::string::npos) {
+      EXPECT_LT(residual, 1e-14) << run;
+    }
+    if (run.find("rk4") != std::string::npos) {
+      EXPECT_GT(residual, 1e-7) << run;
+    }
+  }
+}
+
+}  // namespace

@@ -1,0 +1,166 @@
+// pfaff verify and pfaff reproduce: their formats, and that nothing claimed goes untested.
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "command.hpp"
+
+namespace {
+
+using namespace pfaff::testing;
+using Arguments = std::vector<std::string>;
+
+nlohmann::json passed(const Arguments& arguments) {
+  const Outcome outcome = run_pfaff(arguments + Arguments{"--json"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  const auto j = json_of(outcome.out);
+  EXPECT_EQ(j["schema"], 1);
+  EXPECT_EQ(j["ok"], true);
+  return j;
+}
+std::set<std::string> keys_of(const nlohmann::json& object) {
+  std::set<std::string> keys;
+  for (const auto& [key, value] : object.items()) keys.insert(key);
+  return keys;
+}
+bool of_structure(const std::string& claim) {
+  return claim == "K-symplectic" || claim == "symplectic" || claim == "poisson";
+}
+
+TEST(Verify, EveryClaimOfEveryMethod) {
+  const auto j = passed({"verify"});
+  EXPECT_EQ(keys_of(j), (std::set<std::string>{"schema", "ok", "counts", "checks"}));
+  std::map<std::string, int> counts{
+      {"pass", 0}, {"fail", 0}, {"measured", 0}, {"rejected", 0}, {"skipped", 0}};
+  std::map<std::string, std::set<std::string>> ordered, structured, measured, passed_structure;
+  int controls = 0;
+  for (const auto& c : j["checks"]) {
+    for (const char* key : {"plugin", "claim", "scope", "system", "precision", "parameters", "measured",
+                            "expected", "tolerance", "in_scope", "control", "result"})
+      EXPECT_TRUE(c.contains(key)) << key;
+    const std::string result = c["result"], claim = c["claim"], plugin = c["plugin"];
+    ++counts[result];
+    controls += c["control"].get<bool>();
+    EXPECT_EQ(result == "rejected", c["control"].get<bool>()) << c;
+    EXPECT_EQ(result == "measured", !c["in_scope"].get<bool>()) << c;
+    if (result == "skipped") {
+      EXPECT_FALSE(c.value("reason", "").empty()) << c;
+    }
+    if (c["control"]) continue;
+    if (claim == "order" && result == "pass") ordered[plugin].insert(c["system"]);
+    if (!of_structure(claim)) continue;
+    structured[plugin].insert(c["system"]);
+    if (result == "measured") measured[plugin].insert(c["system"]);
+    if (result == "pass")
+      passed_structure[plugin].insert(c["system"].get<std::string>() + " " +
+                                      c["precision"].get<std::string>());
+  }
+  EXPECT_EQ(j["counts"], nlohmann::json(counts));
+  EXPECT_EQ(counts["fail"], 0);
+  EXPECT_GT(controls, 20);
+  const auto listed = json_of(run_pfaff({"list", "integrators", "--json"}).out);
+  for (const auto& item : listed["integrators"]) {
+    const std::string method = item["name"];
+    const auto described = json_of(run_pfaff({"describe", method, "--json"}).out);
+    for (const auto& system : described["systems"]) {
+      const std::string name = system["name"];
+      EXPECT_TRUE(ordered[method].contains(name)) << method << ": no order on " << name;
+      const bool claims = std::any_of(system["preserves"].begin(), system["preserves"].end(),
+                                      [](const auto& c) { return of_structure(c); });
+      if (claims) {
+        EXPECT_TRUE(passed_structure[method].contains(name + " double")) << method << ' ' << name;
+        if (method.find("odeint") == std::string::npos) {
+          EXPECT_TRUE(passed_structure[method].contains(name + " quad")) << method << ' ' << name;
+        }
+      }
+    }
+    EXPECT_FALSE(structured[method].empty()) << method << " has no claim of structure, nor its lack measured";
+  }
+}
+
+TEST(Verify, Controls) {
+  const auto j = passed({"verify", "controls"});
+  std::set<std::string> rejected;
+  for (const auto& c : j["checks"]) {
+    EXPECT_EQ(c["control"], true);
+    EXPECT_EQ(c["result"], "rejected");
+    rejected.insert(c["plugin"].get<std::string>() + ": " + c["claim"].get<std::string>());
+  }
+  for (const char* control : {"rk4: symplectic", "rk4: K-symplectic", "su-qin (105) as printed: K-symplectic",
+                              "su-qin (105) as printed: order"})
+    EXPECT_TRUE(rejected.contains(control)) << control;
+}
+
+TEST(Verify, ChangedCoefficientsAreRejected) {
+  for (const std::string method : {"rk4", "verlet", "implicit-midpoint"}) {
+    int changed = 0;
+    const auto j = passed({"verify", method});
+    for (const auto& c : j["checks"])
+      if (c["plugin"] == method && c["claim"].get<std::string>().find("changed by 1e-6") != std::string::npos)
+        ++changed;
+    EXPECT_GT(changed, 0) << method;
+  }
+}
+
+TEST(Verify, Text) {
+  const Outcome outcome = run_pfaff({"verify", "verlet"});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_TRUE(outcome.out.ends_with(": ok\n"));
+  for (const char* shown : {"claim", "worst in scope", "symplectic", "controls rejected", "0 fail"})
+    EXPECT_NE(outcome.out.find(shown), std::string::npos) << shown << '\n' << outcome.out;
+  std::istringstream lines(outcome.out);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100U) << line;
+}
+
+TEST(Reproduce, SuQin) {
+  const auto j = passed({"reproduce", "su-qin"});
+  EXPECT_EQ(keys_of(j), (std::set<std::string>{"schema", "paper", "ok", "rows"}));
+  EXPECT_EQ(j["paper"], "su-qin");
+  std::set<std::string> equations, entries;
+  int errata = 0;
+  for (const auto& row : j["rows"]) {
+    EXPECT_EQ(keys_of(row), (std::set<std::string>{"id", "section", "equation", "printed", "ours",
+                                                   "difference", "tolerance", "status", "erratum"}));
+    const std::string status = row["status"], equation = row["equation"];
+    equations.insert(equation);
+    EXPECT_FALSE(row["printed"].get<std::string>().empty()) << row;
+    EXPECT_FALSE(row["ours"].get<std::string>().empty()) << row;
+    if (status == "reproduced") {
+      EXPECT_LE(row["difference"].get<double>(), row["tolerance"].get<double>()) << row;
+      EXPECT_TRUE(row["erratum"].is_null()) << row;
+    } else if (status == "erratum") {
+      EXPECT_GT(row["difference"].get<double>(), 1e-6) << row;
+      EXPECT_TRUE(row["erratum"].get<std::string>().starts_with(equation)) << row;
+      entries.insert(row["erratum"]);
+      ++errata;
+    } else {
+      EXPECT_EQ(status, "qualitative") << row;
+      EXPECT_FALSE(row["erratum"].get<std::string>().empty()) << row;
+    }
+  }
+  EXPECT_EQ(errata, 5);
+  for (const char* misprint : {"(35)", "(94)", "(97)", "(105)"})
+    EXPECT_TRUE(std::any_of(entries.begin(), entries.end(), [&](const std::string& e) {
+      return e.starts_with(misprint);
+    })) << misprint;
+  for (int k = 93; k <= 107; ++k) {
+    const std::string number = "(" + std::to_string(k);
+    EXPECT_TRUE(std::any_of(equations.begin(), equations.end(), [&](const std::string& e) {
+      return e.starts_with(number);
+    })) << number;
+  }
+}
+
+TEST(Reproduce, Text) {
+  const Outcome outcome = run_pfaff({"reproduce"});
+  EXPECT_EQ(outcome.status, 0);
+  for (const char* shown : {"su-qin\n", "reproduced", "erratum", "qualitative", "difference"})
+    EXPECT_NE(outcome.out.find(shown), std::string::npos) << shown;
+  EXPECT_EQ(outcome.out.find("FAILED"), std::string::npos);
+  std::istringstream lines(outcome.out);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100U) << line;
+  EXPECT_EQ(run_pfaff({"reproduce", "su-qin", "--section", "5"}).status, 0);
+}
+
+}  // namespace
