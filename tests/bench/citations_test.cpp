@@ -1,0 +1,121 @@
+// Citations from references.bib, files that are whole or not there, and what counts as good.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include <unistd.h>
+
+#include <pfaff/bench/runner/citations.hpp>
+#include <pfaff/bench/runner/experiment.hpp>
+#include <pfaff/bench/runner/files.hpp>
+#include <pfaff/bench/verification/check.hpp>
+#include <pfaff/core/bracket.hpp>
+
+namespace {
+
+using namespace pfaff;
+namespace fs = std::filesystem;
+
+TEST(Citations, EntriesAreWholeAndLinesAreFromThem) {
+  ASSERT_FALSE(citation_keys().empty());
+  for (const std::string& key : citation_keys()) {
+    const std::string entry = bibtex(key);
+    EXPECT_TRUE(entry.starts_with("@")) << key;
+    EXPECT_TRUE(entry.ends_with("}")) << key;
+    EXPECT_EQ(std::count(entry.begin(), entry.end(), '{'), std::count(entry.begin(), entry.end(), '}'))
+        << key;
+    const std::string line = citation(key);
+    EXPECT_NE(line, key) << key;
+    EXPECT_EQ(line.find_first_of("{}\n"), std::string::npos) << line;
+  }
+  EXPECT_EQ(bibtex("nobody1900"), "");
+  EXPECT_EQ(citation("nobody1900"), "nobody1900");
+}
+
+TEST(Citations, KeysAreFoundInReferences) {
+  EXPECT_EQ(keys_in("su-qin (92); hairer-lubich-wanner2006 II.1"),
+            (std::vector<std::string>{"hairer-lubich-wanner2006", "su-qin"}));
+  EXPECT_TRUE(keys_in("nothing of ours").empty());
+  for (const auto* plugin : systems().all())
+    EXPECT_FALSE(keys_in(plugin->descriptor().reference).empty()) << plugin->name();
+  for (const auto* plugin : integrators().all())
+    EXPECT_FALSE(keys_in(plugin->descriptor().reference).empty()) << plugin->name();
+}
+
+TEST(Citations, ExperimentsCiteWhatIsThere) {
+  for (const std::string& name : experiment_names())
+    for (const std::string& key : read_experiment(name, false).reference)
+      EXPECT_FALSE(bibtex(key).empty()) << name << ": " << key;
+}
+
+class Files : public ::testing::Test {
+ protected:
+  fs::path directory;
+  void SetUp() override {
+    std::string name = ::testing::TempDir() + "pfaff-files-XXXXXX";
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    directory = name;
+  }
+  void TearDown() override { fs::remove_all(directory); }
+};
+
+TEST_F(Files, AreWholeOrWereNeverThere) {
+  write_file(directory / "a", "first");
+  write_file(directory / "a", "second");
+  EXPECT_EQ(read_file(directory / "a"), "second");
+  EXPECT_THROW(write_file(directory / "missing/a", "text"), RunError);
+  fs::create_directory(directory / "taken");
+  write_file(directory / "taken/inside", "kept");
+  EXPECT_THROW(write_file(directory / "taken", "text"), RunError);  // cannot be renamed onto a directory
+  EXPECT_EQ(read_file(directory / "taken/inside"), "kept");
+  EXPECT_THROW((void)read_file(directory / "missing"), InputError);
+  EXPECT_THROW((void)read_file(directory), InputError);
+}
+
+TEST_F(Files, OutputDirectories) {
+  make_output_directory(directory / "new/deep");
+  EXPECT_TRUE(fs::is_empty(directory / "new/deep"));
+  make_output_directory(directory / "new/deep");
+  write_file(directory / "new/deep/a", "kept");
+  EXPECT_THROW(make_output_directory(directory / "new/deep"), InputError);
+  EXPECT_THROW(make_output_directory(directory / "new/deep/a"), InputError);
+  EXPECT_EQ(read_file(directory / "new/deep/a"), "kept");
+}
+
+TEST(Checks, AControlIsGoodOnlyWhenRejected) {
+  Check check;
+  for (const auto& [result, as_claim, as_control] :
+       {std::tuple{CheckResult::pass, true, false}, std::tuple{CheckResult::fail, false, false},
+        std::tuple{CheckResult::measured, true, false}, std::tuple{CheckResult::rejected, true, true},
+        std::tuple{CheckResult::skipped, true, false}}) {
+    check.result = result;
+    check.control = false;
+    if (result != CheckResult::rejected) {
+      EXPECT_EQ(good(check), as_claim) << to_string(result);
+    }
+    check.control = true;
+    EXPECT_EQ(good(check), as_control) << to_string(result);
+  }
+}
+
+TEST(Checks, FalseMethodsAndBracketsAreRejected) {
+  for (const auto& checks : {check_false_methods(), check_false_brackets()}) {
+    EXPECT_FALSE(checks.empty());
+    for (const Check& c : checks) {
+      EXPECT_TRUE(c.control) << c.plugin;
+      EXPECT_EQ(c.result, CheckResult::rejected) << c.plugin << ": " << c.claim;
+    }
+  }
+}
+
+TEST(Checks, JsonHasTheAgreedKeys) {
+  const auto j = to_json(check_false_methods().front());
+  for (const char* key : {"plugin", "claim", "scope", "system", "precision", "parameters", "measured",
+                          "expected", "tolerance", "in_scope", "control", "result"})
+    EXPECT_TRUE(j.contains(key)) << key;
+  EXPECT_EQ(j["result"], "rejected");
+  EXPECT_EQ(j["plugin"], "rk4");
+}
+
+}  // namespace

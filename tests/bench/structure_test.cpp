@@ -1,0 +1,84 @@
+// The Jacobian of a step and what it does to the structure: round-off where it is kept, and clearly not
+// elsewhere.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include <pfaff/bench/measure/structure.hpp>
+#include <pfaff/core/system.hpp>
+
+namespace {
+
+using namespace pfaff;
+
+std::shared_ptr<const Model> model_of(const std::string& name, const Assignments& set = {}) {
+  return systems().get(name, "system").make(set);
+}
+std::unique_ptr<MethodInstance> method_of(const std::string& name, const Assignments& set = {}) {
+  return integrators().get(name, "integrator").make(set);
+}
+// Off any symmetry, at a time that is not 0.
+template <class T>
+double residual(const MethodInstance& method, const std::shared_ptr<const Model>& model) {
+  std::vector<T> z;
+  for (const Real& x : model->initial()) z.push_back(T(x) + T(0.07 + 0.03 * static_cast<double>(z.size())));
+  return static_cast<double>(StructureResidual<T>(method, model)(T(0.37), T(0.1), z));
+}
+
+TEST(Structure, RungeKuttaDoesNotKeepIt) {
+  const auto rk4 = method_of("rk4");
+  for (const char* name : {"pendulum", "damped-pendulum", "henon-heiles", "kepler"}) {
+    EXPECT_GT(residual<double>(*rk4, model_of(name)), 1e-9) << name;
+    EXPECT_NEAR(residual<Quad>(*rk4, model_of(name)) / residual<double>(*rk4, model_of(name)), 1, 1e-3)
+        << name;
+  }
+}
+
+TEST(Structure, GeneratingFunctionsKeepItToRoundOffInBothPrecisions) {
+  for (const char* order : {"1", "2", "3", "6"})
+    for (const char* name : {"damped-pendulum", "damped-oscillator", "pendulum", "kepler"}) {
+      const auto method = method_of("generating-function", {{"order", order}, {"variant", "P"}});
+      EXPECT_LE(residual<double>(*method, model_of(name)), 1e-14) << name << ' ' << order;
+      EXPECT_LE(residual<Quad>(*method, model_of(name)), 1e-31) << name << ' ' << order;
+    }
+}
+
+// The midpoint rule keeps constant structures and not e^{nu t} K: the residual is that of the structure it is
+// given.
+TEST(Structure, TheMidpointRuleKeepsConstantStructureOnly) {
+  const auto midpoint = method_of("implicit-midpoint");
+  EXPECT_LE(residual<Quad>(*midpoint, model_of("pendulum")), 1e-31);
+  EXPECT_GT(residual<Quad>(*midpoint, model_of("damped-pendulum")), 1e-6);
+  EXPECT_LE(residual<Quad>(*midpoint, model_of("damped-pendulum", {{"nu", "0"}})), 1e-31);
+}
+
+TEST(Structure, VerletInQuad) { EXPECT_LE(residual<Quad>(*method_of("verlet"), model_of("kepler")), 1e-31); }
+
+TEST(Structure, AppliesWhereThereIsOne) {
+  EXPECT_TRUE(StructureResidual<double>::applies(*model_of("damped-pendulum")));
+  EXPECT_TRUE(StructureResidual<double>::applies(*model_of("kepler")));
+}
+
+TEST(Structure, JacobianOfAStepOfRK4IsItsStabilityPolynomial) {
+  const auto model = model_of("harmonic-oscillator");
+  const Quad h(0.5);
+  const auto step = StepDifferentiator<Quad>(*method_of("rk4"), model)(Quad(0), h, {Quad(0.3), Quad(-0.2)});
+  // R(A h) with A = [[0, 1], [-1, 0]]: 1 - h^2/2 + h^4/24 on the diagonal, h - h^3/6 off it.
+  const Quad c = Quad(1) - h * h / Quad(2) + h * h * h * h / Quad(24), s = h - h * h * h / Quad(6);
+  const std::vector<Quad> expected{c, s, -s, c};
+  ASSERT_EQ(step.status, Status::converged);
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_LE(abs(step.jacobian[k] - expected[k]), Quad(1e-32)) << k;
+  EXPECT_LE(abs(step.z[0] - (c * Quad(0.3) - s * Quad(0.2))), Quad(1e-32));
+}
+
+TEST(Structure, CongruenceByHand) {
+  const std::vector<double> k{0, -1, 1, 0};
+  EXPECT_EQ(congruence_residual<double>({1, 0, 0, 1}, k, k), 0);
+  EXPECT_EQ(congruence_residual<double>({2, 0, 0, 0.5}, k, k), 0);  // determinant 1
+  EXPECT_EQ(congruence_residual<double>({1, 7, 0, 1}, k, k), 0);
+  EXPECT_EQ(congruence_residual<double>({2, 0, 0, 1}, k, k), 0.5);  // M^T K M = 2 K: |2 - 1| / 2
+  EXPECT_EQ(congruence_residual<double>({1, 0, 0, 1}, {0, -3, 3, 0}, k), 2.0 / 3);
+  EXPECT_TRUE(std::isnan(congruence_residual<double>({NAN, 0, 0, 1}, k, k)));
+}
+
+}  // namespace
