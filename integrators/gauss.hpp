@@ -212,9 +212,10 @@ struct Gauss : Collocation<> {
             parameter<Gauss>(static_cast<bool Gauss::*>(&Gauss::compensated), "compensated",
                              "compensated summation")};
   }
-  static std::vector<Assignments> instances(bool full) {
+  /// Up to six stages: beyond, quad has too few digits between the first error and round-off to see a slope.
+  static std::vector<Assignments> instances(bool /*full*/) {
     std::vector<Assignments> list;
-    for (int s = 1; s <= (full ? 10 : 6); ++s) list.push_back({{"stages", std::to_string(s)}});
+    for (int s = 1; s <= 6; ++s) list.push_back({{"stages", std::to_string(s)}});
     return list;
   }
   void validate() { tableau = gauss_coefficients(stages); }
