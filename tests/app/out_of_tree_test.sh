@@ -25,7 +25,7 @@ for example in plugin program; do
   "$cmake" -S "$source/examples/$example" -B "$scratch/$example" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" \
     -DCMAKE_CXX_FLAGS="$flags" >"$scratch/log" 2>&1 || fail "$example: $(<"$scratch/log")"
   "$cmake" --build "$scratch/$example" >"$scratch/log" 2>&1 || fail "$example: $(<"$scratch/log")"
-  if grep 'warning:' "$scratch/log"; then fail "$example: compiles with complaints"; fi
+  if grep -E 'warning:|note:' "$scratch/log"; then fail "$example: compiles with complaints"; fi
 done
 
 "$scratch/program/energy" >"$scratch/out"
