@@ -122,7 +122,7 @@ void exact_solution(std::vector<Check>& checks, const SystemPlugin& plugin, cons
   const auto size = static_cast<std::size_t>(n);
   const auto solution = model.tape(Formula::exact_solution), field = model.tape(Formula::field);
   std::vector<Real> centre = generic_state(model);
-  centre.push_back(Real(0));
+  centre.emplace_back(0);
   const auto defect = expression(n + 1, 2 * n, [&](const Recorded& s, Arguments z, Results out) {
     const auto state = evaluate(*solution, s, z);
     const auto rate = time_derivative(*solution, s, z);
