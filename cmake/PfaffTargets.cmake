@@ -7,7 +7,7 @@ function(pfaff_target target)
   # concatenations of strings where there are none (its bug 105651).
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-psabi
                                            -ffp-contract=off
-                                           $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow;-Wno-restrict>)
+                                           $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow;-Wno-restrict;-Wno-array-bounds>)
   if(PFAFF_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
