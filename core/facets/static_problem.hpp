@@ -1,5 +1,10 @@
-// StaticProblem: the struct of a system's author seen as a problem, its type and its size known to the
-// compiler.
+// StaticProblem: the struct of a system's author as a problem whose type and size the compiler knows.
+//
+//   using P = StaticProblem<Kepler>;
+//   const P problem;
+//   const Verlet method;
+//   Work<Verlet, P> work(method, problem);
+//   advance(method, problem, t0, 0, h, steps, z, work, completed);
 //
 // No registry, no tape, no indirect call: formulas are inlined into the method's loop, which then costs what
 // a hand-written one costs. Formulas that the author did not write are derived with dual numbers: forces and
