@@ -7,7 +7,10 @@ function(pfaff_target target)
   # concatenations of strings where there are none (its bug 105651).
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-psabi
                                            -ffp-contract=off
-                                           $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow;-Wno-restrict;-Wno-array-bounds>)
+                                           $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow;-Wno-restrict;-Wno-array-bounds>
+                                           # GCC joins neighbouring results into vector loads; behind a call
+                                           # those wait for scalar stores to leave the store buffer.
+                                           $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>)
   if(PFAFF_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
