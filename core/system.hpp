@@ -6,7 +6,8 @@
 //   kinetic(t, p), potential(t, q)           canonical separable H = T + V; optional force(t, q, f),
 //   velocity(t, p, v) hamiltonian(t, z), bracket()             H and the bracket that makes the field
 //   (canonical without bracket()) birkhoffian(t, z), one_form(t, z, F)     the action form F.dz - B dt
-//   chart(t, z, y), chart_inverse(t, y, z)   Darboux coordinates; optional chart_hamiltonian(t, y)
+//   chart(t, z, y), chart_inverse(t, y, z)   Darboux coordinates; optional chart_hamiltonian(t, y),
+//   chart_field(t, y, rate)
 //   invariants(t, z, values)                 in the order of the descriptor's list
 //   exact_solution(elapsed, t0, z0, z)       the flow
 //   initial(z)                               instead of the descriptor's list, when it depends on parameters
@@ -16,6 +17,7 @@
 
 #include <memory>
 
+#include <pfaff/core/facets/compiled_series.hpp>
 #include <pfaff/core/facets/model.hpp>
 #include <pfaff/core/registry/plugin.hpp>
 #include <pfaff/core/registry/registry.hpp>
@@ -152,10 +154,25 @@ class Collector {
       give(Formula::chart, n, n, [&](const R& t, RecordedIn z, RecordedOut o) { s.chart(t, z, o); });
       give(Formula::chart_inverse, n, n,
            [&](const R& t, RecordedIn y, RecordedOut o) { s.chart_inverse(t, y, o); });
+      compile(Formula::chart, [](const void* object, const double& t, const double* z, double* y) {
+        const S& self = *static_cast<const S*>(object);
+        const auto m = static_cast<std::size_t>(dimension_of(self));
+        self.chart(t, In<double>(z, m), Out<double>(y, m));
+      });
+      compile(Formula::chart_inverse, [](const void* object, const double& t, const double* y, double* z) {
+        const S& self = *static_cast<const S*>(object);
+        const auto m = static_cast<std::size_t>(dimension_of(self));
+        self.chart_inverse(t, In<double>(y, m), Out<double>(z, m));
+      });
     }
     if constexpr (requires(const R& t, RecordedIn y) { s.chart_hamiltonian(t, y); })
       give(Formula::chart_hamiltonian, n, 1,
            [&](const R& t, RecordedIn y, RecordedOut o) { o[0] = s.chart_hamiltonian(t, y); });
+    if constexpr (WritesChartField<S, R>)
+      give(Formula::chart_field, n, n,
+           [&](const R& t, RecordedIn y, RecordedOut o) { s.chart_field(t, y, o); });
+    if constexpr (CompilesChartField<S>)
+      if (WritesChartField<S, R> || source_.given[index(Formula::chart)] == nullptr) compile_chart_field();
     if constexpr (requires(const R& t, RecordedIn z, RecordedOut o) { s.invariants(t, z, o); })
       give(Formula::invariants, n, static_cast<int>(source_.invariants.size()),
            [&](const R& t, RecordedIn z, RecordedOut o) { s.invariants(t, z, o); });
@@ -175,6 +192,25 @@ class Collector {
   template <class F>
   void give(Formula formula, int inputs, int outputs, F&& f) {
     source_.given[index(formula)] = std::make_shared<const Tape>(record(inputs, outputs, f));
+  }
+  void compile_chart_field() requires CompilesChartField<S> {
+    source_.chart_field_series = &compiled_series<S>();
+    compile(Formula::chart_field, [](const void* object, const double& t, const double* y, double* rate) {
+      constexpr auto size = static_cast<std::size_t>(S::dimension);
+      chart_field_of<S, double>(*static_cast<const S*>(object), t, In<double>(y, size),
+                                Out<double>(rate, size));
+    });
+    if constexpr (S::dimension <= 6)  // columns of duals: beyond, the tape is as fast
+      compile(Formula::chart_field_jacobian,
+              [](const void* object, const double& t, const double* y, double* matrix) {
+                constexpr auto size = static_cast<std::size_t>(S::dimension);
+                using D = Dual<double, S::dimension>;
+                std::array<D, size> point, rate;
+                for (std::size_t k = 0; k < size; ++k) point[k] = D::variable(y[k], static_cast<int>(k));
+                chart_field_of<S, D>(*static_cast<const S*>(object), D(t), point, rate);
+                for (std::size_t i = 0; i < size; ++i)
+                  for (std::size_t j = 0; j < size; ++j) matrix[i * size + j] = rate[i].derivative[j];
+              });
   }
   void compile(Formula formula, CompiledFormula f) { source_.compiled[index(formula)] = f; }
 

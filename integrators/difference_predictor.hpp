@@ -18,7 +18,11 @@ namespace pfaff {
 template <class T>
 inline constexpr int difference_levels = std::numeric_limits<Value<T>>::digits / 10;
 
-/// Predicts `Size` numbers from up to `Levels` past steps, at most difference_levels; either may be dynamic.
+/// No predictor keeps more.
+inline constexpr int most_difference_levels = 12;
+
+/// Predicts `Size` numbers from up to `Levels` past steps, at most most_difference_levels; either may be
+/// dynamic.
 template <class T, int Size, int Levels>
 class DifferencePredictor {
  public:
@@ -37,7 +41,7 @@ class DifferencePredictor {
   /// Takes the numbers that came, actual(k) for every k.
   template <class Actual>
   void remember(const Actual& actual) {
-    std::array<Value<T>, static_cast<std::size_t>(difference_levels<T>)> size{};
+    std::array<Value<T>, static_cast<std::size_t>(most_difference_levels)> size{};
     for (std::size_t k = 0; k < differences_.size() / levels(); ++k) {
       T difference = actual(k);
       for (std::size_t d = 0; d < levels(); ++d) {

@@ -1,17 +1,19 @@
 // K(z,t)-symplectic schemes of any order from truncated generating functions (su-qin (87)-(88)).
 //
 // In Darboux coordinates y = chart(z, t), with w = P y' + (I - P) y:   y' = y + psi(w),
-// psi the gradient of the generating function truncated at tau^m (generating_gradient.hpp). Exactly
-// K-symplectic for every m and every step for which it can be solved; order m, and m + 1 for odd m in the
-// midpoint form where the field in the chart does not depend on time. With m = 1 and the midpoint form this
-// is su-qin (102), with m = 2 variant P the corrected (105). Variant S, even m, expands at the mid-time:
-// symmetric as well.
+// psi the gradient of the generating function truncated at tau^m (generating_gradient.hpp), P a normal
+// Darboux matrix (generating_share.hpp). Exactly K-symplectic for every m and every step for which it can be
+// solved; order m, and m + 1 for odd m in the midpoint form where the field in the chart does not depend on
+// time. With m = 1 and the midpoint form this is su-qin (102), with m = 2 variant P the corrected (105).
+// Variant S, even m, expands at the mid-time: symmetric as well. Degrees beyond m, from the same nodes, bring
+// the error constant close to that of Gauss collocation in the chart.
 //
-// The structure holds to the accuracy of the implicit solve, which therefore ends at round-off in every
-// component: a chart such as (r, e^{nu t} p) mixes numbers forty decades apart.
+// The step solves w = y + P psi(w): predicted from past steps, corrected by one factorisation of I - tau P
+// Y_y, or, for many degrees of freedom, without derivatives. The structure holds to the accuracy of this
+// solve, which therefore ends at round-off in every component: a chart such as (r, e^{nu t} p) mixes numbers
+// forty decades apart.
 #pragma once
 
-#include <algorithm>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -19,31 +21,40 @@
 
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/solve/convergence.hpp>
-#include <pfaff/integrators/generating_gradient.hpp>
+#include <pfaff/integrators/difference_predictor.hpp>
+#include <pfaff/integrators/gradient_evaluator.hpp>
 
 namespace pfaff {
 
 /// The scheme of order `truncation`. Call validate() once the parameters are set.
 struct GeneratingFunction {
   static constexpr std::size_t history_length = 8;
+  /// Up to so many coordinates the correction factors a matrix.
+  static constexpr std::size_t largest_matrix = 8;
   static constexpr bool fixed_sizes = false;  // the work is in the series, whose size is its own
-  int truncation = 4;
+  int truncation = 4, extra = 0;
   std::string variant = "auto", form = "midpoint";
+  std::vector<Real> normal;
   bool compensated = true;
   GaussCoefficients gauss;
 
   static std::vector<Parameter> parameters() {
     using G = GeneratingFunction;
-    return {parameter(&G::truncation, "order", "", 1, 40,
-                      "degree m at which the generating function is truncated"),
-            parameter(
-                &G::variant, "variant", {"auto", "P", "S"},
-                "P expands at the start of the step, S at its middle (even orders); auto: S where it can be"),
-            parameter(&G::form, "form", {"midpoint", "qhat-p", "q-phat"},
-                      "which old and new coordinates w mixes"),
-            parameter(&G::compensated, "compensated", "compensated summation")};
+    return {
+        parameter(&G::truncation, "order", "", 1, 40,
+                  "degree m at which the generating function is truncated"),
+        parameter(
+            &G::variant, "variant", {"auto", "P", "S"},
+            "P expands at the start of the step, S at its middle (even orders); auto: S where it can be"),
+        parameter(&G::form, "form", {"midpoint", "qhat-p", "q-phat", "normal"},
+                  "which old and new coordinates w mixes"),
+        parameter(&G::normal, "normal", "", -100, 100,
+                  "form normal: V of P = (I + V)/2 by rows, or a,b,c,d for its blocks a I, b I, c I, d I"),
+        parameter(&G::extra, "extra", "", 0, 8, "degrees kept beyond m, from the same nodes (even)"),
+        parameter(&G::compensated, "compensated", "compensated summation")};
   }
-  /// Every order to 12 in the variant it takes by default; variant P of even orders, and the mixed forms.
+  /// Every order to 12 in the variant it takes by default; variant P of even orders, the other forms, extra
+  /// degrees.
   static std::vector<Assignments> instances(bool full) {
     std::vector<Assignments> list;
     const int highest = full ? 16 : 12;  // beyond 16 quad has too few digits to see a slope
@@ -52,25 +63,47 @@ struct GeneratingFunction {
     for (int m = 1; m <= (full ? 12 : 6); ++m)
       for (const char* mixed : {"qhat-p", "q-phat"})
         list.push_back({{"order", std::to_string(m)}, {"form", mixed}});
+    for (int m = 1; m <= (full ? 12 : 4); ++m)
+      list.push_back({{"order", std::to_string(m)}, {"form", "normal"}, {"normal", "0.3,0.2,-0.4,-0.3"}});
+    for (int m = 1; m <= (full ? 12 : 8); ++m)
+      list.push_back({{"order", std::to_string(m)}, {"extra", m % 4 < 2 ? "2" : "4"}});
     return list;
   }
   void validate() {
-    const bool even = truncation % 2 == 0;
-    if (variant == "S" && !even)
-      throw InputError("integrator generating-function: variant S needs an even order, got order " +
-                       std::to_string(truncation) + "; expected variant P or an even order");
-    if (variant == "S" && form != "midpoint")
-      throw InputError("integrator generating-function: variant S needs form midpoint, got '" + form + "'");
+    const auto refuse = [](const std::string& text) {
+      throw InputError("integrator generating-function: " + text);
+    };
+    if (variant == "S" && truncation % 2 != 0)
+      refuse("variant S needs an even order, got order " + std::to_string(truncation) +
+             "; expected variant P or an even order");
+    if (variant == "S" && form != "midpoint") refuse("variant S needs form midpoint, got '" + form + "'");
+    if (extra % 2 != 0) refuse("extra degrees come in pairs, got " + std::to_string(extra));
+    if ((form == "normal") != !normal.empty())
+      refuse(form == "normal" ? "form normal needs its matrix, e.g. normal=0.3,0.2,-0.4,-0.3"
+                              : "a matrix is given with form " + form + "; expected form normal");
     gauss = gauss_coefficients((truncation + 1) / 2);
   }
   [[nodiscard]] bool symmetric_variant() const {
     return variant == "S" || (variant == "auto" && truncation % 2 == 0 && form == "midpoint");
   }
-  [[nodiscard]] GeneratingForm generating_form() const {
-    if (form == "midpoint") return GeneratingForm::midpoint;
-    return form == "qhat-p" ? GeneratingForm::new_q_old_p : GeneratingForm::old_q_new_p;
+  [[nodiscard]] GeneratingShare share() const {
+    if (form == "normal") return GeneratingShare(normal);
+    return form == "midpoint" ? GeneratingForm::midpoint
+           : form == "qhat-p" ? GeneratingForm::new_q_old_p
+                              : GeneratingForm::old_q_new_p;
+  }
+  [[nodiscard]] std::string refuses(const Model& model) const {
+    const auto n = static_cast<std::size_t>(model.dimension());
+    if (!share().fits(n))
+      return "generating-function's matrix has " + std::to_string(normal.size()) + " entries; " +
+             model.name() + " takes 4 or " + std::to_string(n * n);
+    if (const Quad defect = share().defect(n); defect > Quad(1e-30))
+      return "generating-function's matrix V is not in sp(" + std::to_string(n) + "): J V + V^T J is " +
+             to_string(defect, 3) + ", expected 0";
+    return {};
   }
   [[nodiscard]] int order(const Model& model) const {
+    if (extra > 0) return 2 * gauss.stages;
     const bool gains = truncation % 2 == 1 && form == "midpoint" && model.chart_autonomous();
     return truncation + (gains ? 1 : 0);
   }
@@ -87,17 +120,20 @@ struct GeneratingFunction {
   struct Work {
     using T = Scalar<P>;
     std::size_t n;
-    GeneratingGradient<T> gradient;
-    std::vector<T> y, carry, d, w, psi, residual, correction, jacobian, last_z;
-    std::vector<T> differences;  // backward differences of d over past steps, [k][component]
-    std::size_t depth = 0;       // how many of them are known
+    ShareMatrix<T> share;
+    bool midpoint;
+    GradientEvaluator<T> gradient;
+    std::vector<T> y, carry, d, w, psi, residual, correction, moved, rate, start, jacobian, last_z;
+    DifferencePredictor<T, dynamic, dynamic> past;  // of d
     LU<Value<T>> matrix;
     T last_t{0}, last_h{0};
-    bool continues = false;
+    bool continues = false, predicts = false;
 
     Work(const GeneratingFunction& m, const P& p)
         : n(p.size()),
-          gradient(p.chart_field_tape(), m.truncation, m.symmetric_variant(), m.generating_form(), m.gauss),
+          share(m.share(), n),
+          midpoint(m.share().midpoint(n)),
+          gradient(p, m.truncation, m.symmetric_variant(), m.extra, m.share(), m.gauss),
           y(n),
           carry(n),
           d(n),
@@ -105,16 +141,20 @@ struct GeneratingFunction {
           psi(n),
           residual(n),
           correction(n),
-          jacobian(n * n),
+          moved(n),
+          rate(n),
+          start(n),
+          jacobian(factors() ? n * n : 0),
           last_z(n),
-          differences((history_length + 1) * n),
-          matrix(n) {
+          past(n, history_length),
+          matrix(factors() ? n : 0) {
       p.prepare(Formula::chart_field);
-      p.prepare(Formula::chart_field_jacobian);
+      if (factors()) p.prepare(Formula::chart_field_jacobian);
       p.prepare(Formula::chart);
       p.prepare(Formula::chart_inverse);
     }
 
+    [[nodiscard]] bool factors() const { return n <= largest_matrix; }
     // True when this step goes on where the last one ended: its chart coordinates and history are still good.
     [[nodiscard]] bool continued(const T& t, const T& h, const State<P>& z) const {
       if constexpr (!std::is_same_v<T, Value<T>>) return false;
@@ -124,91 +164,42 @@ struct GeneratingFunction {
         if (value_of(z[k]) != value_of(last_z[k])) return false;
       return true;
     }
-
-    // d = P psi of the past steps extrapolated by backward differences, as many as help.
-    void predict() {
-      std::size_t terms = 1;
-      const auto size = [&](std::size_t k) {
-        Value<T> sum(0);
-        for (std::size_t i = 0; i < n; ++i) {
-          const Value<T> scale = abs(value_of(differences[i]));
-          if (scale > Value<T>(0)) sum = sum + abs(value_of(differences[k * n + i])) / scale;
-        }
-        return sum;
-      };
-      for (Value<T> last = size(0); terms < depth; ++terms) {
-        const Value<T> next = size(terms);
-        if (!(next < last)) break;
-        last = next;
-      }
-      for (std::size_t i = 0; i < n; ++i) {
-        d[i] = T(0);
-        for (std::size_t k = 0; k < terms; ++k) d[i] = d[i] + differences[k * n + i];
-      }
+    // w = y + d, with what the sums so far have rounded off.
+    void place() {
+      for (std::size_t k = 0; k < n; ++k) w[k] = y[k] + (d[k] + carry[k]);
     }
-    void remember() {
-      for (std::size_t i = 0; i < n; ++i) {
-        T difference = d[i];
-        for (std::size_t k = 0; k <= std::min(depth, history_length); ++k) {
-          const T previous = differences[k * n + i];
-          differences[k * n + i] = difference;
-          difference = difference - previous;
-        }
-      }
-      depth = std::min(depth + 1, history_length);
+    Status fail(Status status) {
+      continues = false;
+      return status;
     }
   };
 
   template <HasDarbouxChart P>
   Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
     using T = Scalar<P>;
-    const T middle = t + h / T(2);
-    if (!w.continued(t, h, z)) {
-      p.chart(t, z, w.y);
-      for (T& x : w.carry) x = T(0);
-      w.depth = 0;
-    }
-    if (w.depth > 0) {
-      w.predict();
-    } else {  // half an Euler step from the middle of half an Euler step
-      p.chart_field(t, w.y, w.psi);
-      for (std::size_t k = 0; k < w.n; ++k) w.w[k] = w.y[k] + h / T(2) * w.psi[k];
-      p.chart_field(middle, w.w, w.psi);
-      for (std::size_t k = 0; k < w.n; ++k) w.d[k] = w.gradient.share(k) * h * w.psi[k];
-    }
-    place(w);
-    p.chart_field_jacobian(middle, w.w, w.jacobian);
-    for (std::size_t i = 0; i < w.n; ++i)
-      for (std::size_t j = 0; j < w.n; ++j)
-        w.matrix(i, j) = (i == j ? Value<T>(1) : Value<T>(0)) -
-                         value_of(w.gradient.share(i)) * value_of(h) * value_of(w.jacobian[i * w.n + j]);
-    ++p.counters().factorisations;
-    for (const T& x : w.jacobian)
-      if (!isfinite(value_of(x))) return fail(w, Status::non_finite);
-    if (!w.matrix.factor()) return fail(w, Status::singular);
-
+    predict(p, t, h, z, w);
+    if (const Status status = factor(p, t, h, w); status != Status::converged) return w.fail(status);
     w.gradient.set_step(t, h);
     Convergence<T> convergence;
     do {
       w.gradient(w.w.data(), w.psi.data());
       ++p.counters().iterations;
       p.counters().fields += static_cast<std::int64_t>(w.gradient.evaluations());
-      for (std::size_t k = 0; k < w.n; ++k) w.residual[k] = w.gradient.share(k) * w.psi[k] - w.d[k];
-      w.matrix.solve(w.residual.data(), w.correction.data());
+      for (std::size_t k = 0; k < w.n; ++k) w.residual[k] = w.share.row(k, w.psi.data()) - w.d[k];
+      correct(p, t, h, w);
       convergence.begin_iteration();
       for (std::size_t k = 0; k < w.n; ++k) {
         w.d[k] = w.d[k] + w.correction[k];
         convergence.add(w.correction[k], w.y[k], w.psi[k]);
       }
-      place(w);
+      w.place();
     } while (!convergence.finished(50));
-    if (convergence.status() != Status::converged) return fail(w, convergence.status());
+    if (convergence.status() != Status::converged) return w.fail(convergence.status());
 
-    const bool midpoint = generating_form() == GeneratingForm::midpoint;
-    if (!midpoint) w.gradient(w.w.data(), w.psi.data());
+    if (!w.midpoint) w.gradient(w.w.data(), w.psi.data());
     for (std::size_t k = 0; k < w.n; ++k)
-      add_to(w.y[k], w.carry[k], midpoint ? w.d[k] + w.d[k] : w.psi[k], compensated);
-    w.remember();
+      add_to(w.y[k], w.carry[k], w.midpoint ? w.d[k] + w.d[k] : w.psi[k], compensated);
+    w.past.remember([&w](std::size_t k) { return w.d[k]; });
     w.last_t = t + h;
     w.last_h = h;
     p.chart_inverse(w.last_t, w.y, z);
@@ -218,15 +209,72 @@ struct GeneratingFunction {
   }
 
  private:
-  // w = y + d, with what the sums so far have rounded off.
-  template <class W>
-  static void place(W& w) {
-    for (std::size_t k = 0; k < w.n; ++k) w.w[k] = w.y[k] + (w.d[k] + w.carry[k]);
+  // The first w: from past steps, or half an Euler step from the middle of half an Euler step.
+  template <class P>
+  static void predict(const P& p, const Scalar<P>& t, const Scalar<P>& h, const State<P>& z, Work<P>& w) {
+    using T = Scalar<P>;
+    if (w.continued(t, h, z)) {
+      for (std::size_t k = 0; k < w.n; ++k) w.d[k] = w.past.expected(k);
+    } else {
+      p.chart(t, z, w.y);
+      for (T& x : w.carry) x = T(0);
+      w.past.forget();
+      p.chart_field(t, w.y, w.rate);
+      for (std::size_t k = 0; k < w.n; ++k) w.w[k] = w.y[k] + h / T(2) * w.rate[k];
+      p.chart_field(t + h / T(2), w.w, w.rate);
+      for (std::size_t k = 0; k < w.n; ++k) w.d[k] = h * w.share.row(k, w.rate.data());
+    }
+    w.place();
   }
-  template <class W>
-  static Status fail(W& w, Status status) {
-    w.continues = false;
-    return status;
+
+  // I - h P Y_y at the predicted point and the mid-time, where the correction uses it.
+  template <class P>
+  static Status factor(const P& p, const Scalar<P>& t, const Scalar<P>& h, Work<P>& w) {
+    using T = Scalar<P>;
+    if (!w.factors()) return Status::converged;
+    p.chart_field_jacobian(t + h / T(2), w.w, w.jacobian);
+    for (const T& x : w.jacobian)
+      if (!isfinite(value_of(x))) return Status::non_finite;
+    for (std::size_t i = 0; i < w.n; ++i)
+      for (std::size_t j = 0; j < w.n; ++j) {
+        Value<T> sum(0);
+        if (w.share.diagonal()) {
+          sum = value_of(w.share(i, i)) * value_of(w.jacobian[i * w.n + j]);
+        } else {
+          for (std::size_t k = 0; k < w.n; ++k)
+            sum = sum + value_of(w.share(i, k)) * value_of(w.jacobian[k * w.n + j]);
+        }
+        w.matrix(i, j) = (i == j ? Value<T>(1) : Value<T>(0)) - value_of(h) * sum;
+      }
+    ++p.counters().factorisations;
+    return w.matrix.factor() ? Status::converged : Status::singular;
+  }
+
+  // (I - h P Y_y) correction = residual. Without a matrix: correction = residual + h P (Y(w + correction) -
+  // Y(w)), a few times; the error of either is O(h^3), the part of psi's Jacobian beyond the field's.
+  template <class P>
+  static void correct(const P& p, const Scalar<P>& t, const Scalar<P>& h, Work<P>& w) {
+    using T = Scalar<P>;
+    if (w.factors()) return w.matrix.solve(w.residual.data(), w.correction.data());
+    const T middle = t + h / T(2);
+    p.chart_field(middle, w.w, w.start);
+    w.correction = w.residual;
+    Value<T> last = std::numeric_limits<Value<T>>::infinity();
+    for (int iteration = 0; iteration < 12; ++iteration) {
+      for (std::size_t k = 0; k < w.n; ++k) w.moved[k] = w.w[k] + w.correction[k];
+      p.chart_field(middle, w.moved, w.rate);
+      for (std::size_t k = 0; k < w.n; ++k) w.moved[k] = w.rate[k] - w.start[k];
+      Value<T> change(0), size(0);
+      for (std::size_t k = 0; k < w.n; ++k) {
+        const T next = w.residual[k] + h * w.share.row(k, w.moved.data());
+        change = std::max(change, relative_size(T(next - w.correction[k]), w.y[k], w.psi[k]));
+        size = std::max(size, relative_size(next, w.y[k], w.psi[k]));
+        w.correction[k] = next;
+      }
+      // Closer than the next evaluation of psi can tell, or as close as differences of the field come.
+      if (!(change > Value<T>(1e-3) * size) || !(change < last)) return;
+      last = change;
+    }
   }
 };
 

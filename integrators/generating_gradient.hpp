@@ -7,62 +7,51 @@
 // pass. In these coordinates psi = y' - y; the paper's (R^, P^) of su-qin (95) is (psi_p, psi_q) at w = (R,
 // -P).
 //
-// Variant P expands at t0 (su-qin (79)-(88)), any m; variant S at the mid-time t0 + tau/2, even m, P = I/2:
-// the stages mirror each other under tau -> -tau, so half of them are kept and only odd degrees of psi
-// remain.
+// Variant P expands at t0 (su-qin (79)-(88)), any m; variant S at the mid-time t0 + tau/2, even m, P = I/2
+// (generating_nodes.hpp). Degrees beyond m may be had from the same nodes: psi is then no longer that of the
+// flow beyond m, but still a gradient, in Darboux coordinates, and closer to the flow's.
 #pragma once
 
 #include <memory>
 #include <vector>
 
 #include <pfaff/core/tape/series.hpp>
-#include <pfaff/integrators/gauss_coefficients.hpp>
+#include <pfaff/integrators/generating_nodes.hpp>
+#include <pfaff/integrators/generating_share.hpp>
 
 namespace pfaff {
 
-/// Which mix of old and new coordinates the generating function takes: w = P y' + (I - P) y with P = I/2
-/// (Poincare's midpoint form), diag(I, 0) (new q with old p) or diag(0, I) (old q with new p).
-enum class GeneratingForm { midpoint, new_q_old_p, old_q_new_p };
-
+/// psi for any scalar, any size and any share P, from the tape of the field.
 template <class T>
 class GeneratingGradient {
  public:
-  /// Of order `order` for the field in `chart_field` (n -> n), expanded at the mid-time when `symmetric`.
-  GeneratingGradient(std::shared_ptr<const Tape> chart_field, int order, bool symmetric, GeneratingForm form,
-                     const GaussCoefficients& gauss)
-      : symmetric_(symmetric),
+  /// Truncated at degree `order` (+ `extra`) for the field in `chart_field` (n -> n), expanded at the
+  /// mid-time when `symmetric`, which needs the midpoint form.
+  GeneratingGradient(std::shared_ptr<const Tape> chart_field, int order, bool symmetric,
+                     const GeneratingShare& share, const GaussCoefficients& gauss, int extra = 0)
+      : nodes_(order, symmetric, extra, gauss),
         n_(static_cast<std::size_t>(chart_field->inputs)),
-        s_(static_cast<std::size_t>(gauss.stages)),
-        lanes_(symmetric ? (s_ + 1) / 2 : s_),
-        levels_(static_cast<std::size_t>(symmetric ? order - 1 : order)),
-        series_(std::move(chart_field), static_cast<int>(levels_), static_cast<int>(lanes_)),
-        share_(n_),
-        input_(n_ * lanes_),
-        base_(lanes_),
-        rate_(lanes_),
-        t_(0),
-        tau_(0) {
-    for (std::size_t k = 0; k < n_; ++k) {
-      const bool is_q = k < n_ / 2;
-      share_[k] = form == GeneratingForm::midpoint                ? T(Real::fraction(1, 2))
-                  : (form == GeneratingForm::new_q_old_p) == is_q ? T(1)
-                                                                  : T(0);
-    }
-    fold(gauss);
-  }
+        series_(std::move(chart_field), static_cast<int>(nodes_.levels), static_cast<int>(nodes_.lanes)),
+        share_(share, n_),
+        node_(numbers(nodes_.node)),
+        weight_(numbers(nodes_.weight)),
+        even_(numbers(nodes_.even)),
+        odd_(numbers(nodes_.odd)),
+        term_(n_),
+        input_(n_ * nodes_.lanes),
+        base_(nodes_.lanes),
+        rate_(nodes_.lanes),
+        tau_(0) {}
 
-  /// P_k: the weight of the new coordinate k in w.
-  [[nodiscard]] const T& share(std::size_t k) const { return share_[k]; }
   [[nodiscard]] std::size_t size() const { return n_; }
   /// Field evaluations that one psi amounts to: nodes times levels of the series.
-  [[nodiscard]] std::size_t evaluations() const { return lanes_ * levels_; }
+  [[nodiscard]] std::size_t evaluations() const { return nodes_.evaluations(); }
 
   /// Sets the step; what depends on time alone is expanded here, once per step.
   void set_step(const T& t, const T& tau) {
-    t_ = t;
     tau_ = tau;
-    for (std::size_t lane = 0; lane < lanes_; ++lane) {
-      base_[lane] = symmetric_ ? t + tau / T(2) : t;
+    for (std::size_t lane = 0; lane < nodes_.lanes; ++lane) {
+      base_[lane] = nodes_.symmetric ? t + tau / T(2) : t;
       rate_[lane] = tau * node_[lane];
     }
     series_.set_time(base_.data(), rate_.data());
@@ -74,72 +63,62 @@ class GeneratingGradient {
     expand(w, [&](std::size_t k, std::size_t /*degree*/, const T& term) { psi[k] = psi[k] + term; });
   }
 
-  /// The terms tau^k phi_w^(k) one by one: terms[degree * n + component], degrees 0 .. order.
+  /// The terms tau^k phi_w^(k) one by one: terms[degree * n + component], term_count() degrees from 0.
   void terms(const T* w, T* terms) {
-    for (std::size_t k = 0; k < n_ * (levels_ + 2); ++k) terms[k] = T(0);
+    for (std::size_t k = 0; k < n_ * term_count(); ++k) terms[k] = T(0);
     expand(w, [&](std::size_t k, std::size_t degree, const T& term) { terms[degree * n_ + k] = term; });
   }
-  [[nodiscard]] std::size_t term_count() const { return levels_ + 2; }
+  [[nodiscard]] std::size_t term_count() const { return nodes_.levels + 2; }
 
  private:
-  // Coefficients for the lanes kept. With a~_ij = a_ij - b_j/2 and mirrored stages X_j'(-s) = X_j(s), lane j
-  // stands for j and j': a~_ij + a~_ij' acts on even levels, a~_ij - a~_ij' on odd ones; the centre node
-  // counts once.
-  void fold(const GaussCoefficients& g) {
-    const std::size_t first = s_ - lanes_;
-    for (std::size_t i = first; i < s_; ++i) {
-      node_.push_back(T(Real(symmetric_ ? g.nodes[i] - Quad(1) / Quad(2) : g.nodes[i])));
-      const bool centre = s_ - 1 - i == i;
-      weight_.push_back(T(Real(symmetric_ && !centre ? g.weights[i] + g.weights[s_ - 1 - i] : g.weights[i])));
-      for (std::size_t j = first; j < s_; ++j) {
-        if (!symmetric_) {
-          even_.push_back(T(Real(g.matrix[i * s_ + j])));
-          odd_.push_back(even_.back());
-          continue;
-        }
-        const std::size_t mirror = s_ - 1 - j;
-        const Quad half = Quad(1) / Quad(2);
-        const Quad a = g.matrix[i * s_ + j] - g.weights[j] * half;
-        const Quad b = mirror == j ? Quad(0) : g.matrix[i * s_ + mirror] - g.weights[mirror] * half;
-        even_.push_back(T(Real(a + b)));
-        odd_.push_back(T(Real(a - b)));
-      }
-    }
+  static std::vector<T> numbers(const std::vector<Quad>& exact) {
+    std::vector<T> rounded;
+    for (const Quad& x : exact) rounded.push_back(T(Real(x)));
+    return rounded;
   }
 
   template <class Take>
   void expand(const T* w, Take&& take) {
+    const std::size_t lanes = nodes_.lanes;
     for (std::size_t k = 0; k < n_; ++k)
-      for (std::size_t lane = 0; lane < lanes_; ++lane) input_[k * lanes_ + lane] = w[k];
-    for (std::size_t level = 0; level < levels_; ++level) {
+      for (std::size_t lane = 0; lane < lanes; ++lane) input_[k * lanes + lane] = w[k];
+    for (std::size_t level = 0; level < nodes_.levels; ++level) {
       series_.set_input(level, input_.data());
       series_.advance(level);
-      const bool even = level % 2 == 0;
-      const std::vector<T>& matrix = even ? even_ : odd_;
-      for (std::size_t k = 0; k < n_; ++k) {
-        const T* x = series_.output(k, level);
-        T term(0);
-        if (!symmetric_ || even) {
-          for (std::size_t j = 0; j < lanes_; ++j) term = term + weight_[j] * x[j];
-          term = tau_ * term;
-          take(k, level + 1, term);
+      if (nodes_.counts(level))
+        for (std::size_t k = 0; k < n_; ++k) {
+          const T* x = series_.output(k, level);
+          term_[k] = weight_[0] * x[0];
+          for (std::size_t j = 1; j < lanes; ++j) term_[k] = term_[k] + weight_[j] * x[j];
+          term_[k] = tau_ * term_[k];
+          take(k, level + 1, term_[k]);
         }
-        if (level + 1 == levels_) continue;
-        for (std::size_t i = 0; i < lanes_; ++i) {
-          T sum(0);
-          for (std::size_t j = 0; j < lanes_; ++j) sum = sum + matrix[i * lanes_ + j] * x[j];
-          input_[k * lanes_ + i] = symmetric_ ? tau_ * sum : tau_ * sum - share_[k] * term;
-        }
+      if (level + 1 < nodes_.levels) next_stages(level);
+    }
+  }
+  void next_stages(std::size_t level) {
+    const std::size_t lanes = nodes_.lanes;
+    const std::vector<T>& matrix = level % 2 == 0 ? even_ : odd_;
+    for (std::size_t k = 0; k < n_; ++k) {
+      const T* x = series_.output(k, level);
+      // Variant P measures stages from w, which moves by P psi; in variant S that is folded into the
+      // matrices.
+      const T moved = nodes_.symmetric ? T(0) : share_.row(k, term_.data());
+      for (std::size_t i = 0; i < lanes; ++i) {
+        T sum = matrix[i * lanes] * x[0];
+        for (std::size_t j = 1; j < lanes; ++j) sum = sum + matrix[i * lanes + j] * x[j];
+        input_[k * lanes + i] = nodes_.symmetric ? tau_ * sum : tau_ * sum - moved;
       }
     }
   }
 
-  bool symmetric_;
-  std::size_t n_, s_, lanes_, levels_;
+  GeneratingNodes nodes_;
+  std::size_t n_;
   SeriesReplay<T> series_;
-  std::vector<T> share_, node_, weight_, even_, odd_;
-  std::vector<T> input_, base_, rate_;
-  T t_, tau_;
+  ShareMatrix<T> share_;
+  std::vector<T> node_, weight_, even_, odd_;
+  std::vector<T> term_, input_, base_, rate_;
+  T tau_;
 };
 
 }  // namespace pfaff

@@ -42,6 +42,12 @@ struct DampedOscillator {
     return (exp(-(nu * t)) * (y[1] * y[1]) + exp(nu * t) * (y[0] * y[0])) / 2;
   }
   template <class T>
+  void chart_field(const T& t, In<T> y, Out<T> rate) const {
+    const T growth = exp(nu * t);
+    rate[0] = y[1] / growth;
+    rate[1] = -(growth * y[0]);
+  }
+  template <class T>
   void field(const T& /*t*/, In<T> z, Out<T> rate) const {
     rate[0] = z[1];
     rate[1] = -(nu * z[1]) - z[0];

@@ -42,6 +42,12 @@ struct DampedPendulum {
     return exp(-(nu * t)) * (y[1] * y[1]) / 2 - exp(nu * t) * cos(y[0]);
   }
   template <class T>
+  void chart_field(const T& t, In<T> y, Out<T> rate) const {
+    const T growth = exp(nu * t);
+    rate[0] = y[1] / growth;
+    rate[1] = -(growth * sin(y[0]));
+  }
+  template <class T>
   void field(const T& /*t*/, In<T> z, Out<T> rate) const {
     rate[0] = z[1];
     rate[1] = -(nu * z[1]) - sin(z[0]);

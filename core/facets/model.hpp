@@ -54,6 +54,8 @@ struct Coordinate {
 using CompiledFormula = void (*)(const void* system, const double& t, const double* arguments,
                                  double* results);
 
+struct CompiledSeries;
+
 /// What a system's author provides, before anything is derived.
 struct ModelSource {
   std::string name;
@@ -66,6 +68,7 @@ struct ModelSource {
   std::vector<std::pair<std::string, std::string>> parameters;  // resolved: name, value
   std::array<std::shared_ptr<const Tape>, formula_count> given;
   std::array<CompiledFormula, formula_count> compiled{};
+  const CompiledSeries* chart_field_series = nullptr;
   std::shared_ptr<const void> system;  // keeps the author's object alive for compiled formulas
 };
 
@@ -94,6 +97,8 @@ class Model {
   [[nodiscard]] bool given(Formula formula) const { return source_.given[index(formula)] != nullptr; }
   /// The author's double version and the object to call it with; null when there is none.
   [[nodiscard]] CompiledFormula compiled(Formula formula) const { return source_.compiled[index(formula)]; }
+  /// The author's field in the chart compiled for series; null when there is none.
+  [[nodiscard]] const CompiledSeries* chart_field_series() const { return source_.chart_field_series; }
   [[nodiscard]] const void* system() const { return source_.system.get(); }
 
   /// Does the field depend on time explicitly? Do the field in the chart, and the structure?

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 
+#include <pfaff/core/facets/compiled_series.hpp>
 #include <pfaff/core/facets/model.hpp>
 #include <pfaff/core/linear/vector.hpp>
 #include <pfaff/core/numbers/functions.hpp>
@@ -125,6 +126,10 @@ class Problem {
   [[nodiscard]] std::shared_ptr<const Tape> chart_field_tape() const
       requires(Facets.has(Facet::darboux_chart)) {
     return model_->tape(Formula::chart_field);
+  }
+  /// Y compiled for series, where its author wrote it.
+  [[nodiscard]] BoundSeries chart_field_series() const requires(Facets.has(Facet::darboux_chart)) {
+    return {model_->chart_field_series(), model_->system()};
   }
   /// Values of the named invariants, in the model's order.
   void invariants(const T& t, In<T> z, Out<T> values) const requires(Facets.has(Facet::invariants)) {

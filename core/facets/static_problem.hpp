@@ -21,6 +21,7 @@
 #include <memory>
 #include <utility>
 
+#include <pfaff/core/facets/compiled_series.hpp>
 #include <pfaff/core/facets/problem.hpp>
 #include <pfaff/core/numbers/dual.hpp>
 #include <pfaff/core/tape/recorder.hpp>
@@ -131,6 +132,10 @@ class StaticProblem {
         record(extent, extent, [&](const Recorded& t, std::span<const Recorded> y, std::span<Recorded> rate) {
           field_of<Recorded>(t, y, rate);
         }));
+  }
+  [[nodiscard]] BoundSeries chart_field_series() const requires canonical {
+    if constexpr (detail::CompilesChartField<S>) return {&compiled_series<S>(), &system_};
+    return {};
   }
 
  private:

@@ -14,6 +14,20 @@ std::string number(double x) {
 }
 }  // namespace
 
+std::optional<std::vector<Real>> parse_list(std::string_view text) {
+  std::vector<Real> numbers;
+  while (!text.empty()) {
+    const std::size_t comma = text.find(',');
+    const auto number = Real::parse(text.substr(0, comma));
+    if (!number) return std::nullopt;
+    numbers.push_back(*number);
+    if (comma == std::string_view::npos) break;
+    text.remove_prefix(comma + 1);
+    if (text.empty()) return std::nullopt;
+  }
+  return numbers;
+}
+
 std::string range_of(const Parameter& p) {
   if (p.kind == Parameter::Kind::choice) {
     std::string text;
@@ -35,6 +49,14 @@ void Parameter::assign(void* object, const std::string& text, std::string_view o
     write(object, text);
     return;
   }
+  const auto in_range = [this](const Real& x) { return x.value() >= minimum && x.value() <= maximum; };
+  if (kind == Kind::list) {
+    const auto numbers = parse_list(text);
+    if (!numbers || !std::all_of(numbers->begin(), numbers->end(), in_range))
+      refuse("numbers separated by commas, each");
+    write(object, text);
+    return;
+  }
   const auto value = Real::parse(text);
   if (kind == Kind::integer) {
     int whole = 0;
@@ -44,7 +66,7 @@ void Parameter::assign(void* object, const std::string& text, std::string_view o
     write(object, text);
     return;
   }
-  if (!value || !(value->value() >= minimum) || !(value->value() <= maximum)) refuse("a number");
+  if (!value || !in_range(*value)) refuse("a number");
   write(object, text);
 }
 

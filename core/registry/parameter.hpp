@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -14,7 +15,7 @@ namespace pfaff {
 
 /// A named, ranged setting of a plug-in.
 struct Parameter {
-  enum class Kind { real, integer, choice };
+  enum class Kind { real, integer, choice, list };
 
   std::string name;
   std::string unit;  // empty for pure numbers
@@ -33,6 +34,9 @@ struct Parameter {
 
 /// "0 .. 10 1/s" or "P|S".
 std::string range_of(const Parameter& parameter);
+
+/// The numbers of "1,-0.5,1/3", none for an empty text; nullopt where one is not a number.
+std::optional<std::vector<Real>> parse_list(std::string_view text);
 
 /// A real parameter of plug-in struct S.
 template <class S>
@@ -94,6 +98,31 @@ Parameter parameter(bool S::*member, std::string name, std::string meaning = {})
   };
   p.read = [member](const void* object) {
     return std::string(static_cast<const S*>(object)->*member ? "yes" : "no");
+  };
+  return p;
+}
+
+/// A list of real numbers, each in the range, written with commas: "1,-0.5,1/3".
+template <class S>
+Parameter parameter(std::vector<Real> S::*member, std::string name, std::string unit, double minimum,
+                    double maximum, std::string meaning = {}) {
+  Parameter p{std::move(name),
+              std::move(unit),
+              std::move(meaning),
+              Parameter::Kind::list,
+              minimum,
+              maximum,
+              {},
+              {},
+              {}};
+  p.write = [member](void* object, const std::string& text) {
+    static_cast<S*>(object)->*member = *parse_list(text);
+  };
+  p.read = [member](const void* object) {
+    std::string text;
+    for (const Real& x : static_cast<const S*>(object)->*member)
+      text += (text.empty() ? "" : ",") + to_string(x);
+    return text;
   };
   return p;
 }

@@ -1,0 +1,99 @@
+// Pack: W doubles that are added and multiplied together, in the widest vector registers the build may use.
+//
+// For code that does the same to several nodes at once. Registers of 16 bytes belong to every machine of this
+// architecture; those of 32 bytes are used where the build allows them. The lanes of a pack that a caller has
+// no use for should hold copies of one that it has, never rubbish: arithmetic on rubbish can be very slow.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace pfaff {
+
+namespace detail {
+#ifdef __AVX__
+inline constexpr int widest_register = 4;
+#else
+inline constexpr int widest_register = 2;
+#endif
+template <int Doubles>
+struct RegisterOf {
+  // NOLINTNEXTLINE(modernize-use-using): an alias of a dependent size loses the attribute
+  typedef double type __attribute__((vector_size(static_cast<unsigned>(Doubles) * sizeof(double))));
+};
+template <>
+struct RegisterOf<1> {
+  using type = double;
+};
+}  // namespace detail
+
+/// W doubles, W = 1, 2 or 4.
+template <int W>
+class Pack {
+ public:
+  static constexpr int register_width = W < detail::widest_register ? W : detail::widest_register;
+  static constexpr std::size_t count = W / register_width;
+  using Register = typename detail::RegisterOf<register_width>::type;
+
+  Pack() = default;
+  /// The same number in every lane.
+  Pack(double x) {  // NOLINT(google-explicit-constructor)
+    for (Register& r : registers_) r = broadcast(x);
+  }
+
+  [[nodiscard]] double operator[](std::size_t lane) const {
+    if constexpr (register_width == 1)
+      return registers_[lane];
+    else
+      return registers_[lane / register_width][lane % register_width];
+  }
+  void set(std::size_t lane, double x) {
+    if constexpr (register_width == 1)
+      registers_[lane] = x;
+    else
+      registers_[lane / register_width][lane % register_width] = x;
+  }
+  /// The sum over all lanes.
+  [[nodiscard]] double sum() const {
+    double total = (*this)[0];
+    for (std::size_t lane = 1; lane < W; ++lane) total += (*this)[lane];
+    return total;
+  }
+
+  friend Pack operator-(const Pack& a) {
+    Pack r;
+    for (std::size_t k = 0; k < count; ++k) r.registers_[k] = -a.registers_[k];
+    return r;
+  }
+  friend Pack operator+(const Pack& a, const Pack& b) {
+    Pack r;
+    for (std::size_t k = 0; k < count; ++k) r.registers_[k] = a.registers_[k] + b.registers_[k];
+    return r;
+  }
+  friend Pack operator-(const Pack& a, const Pack& b) {
+    Pack r;
+    for (std::size_t k = 0; k < count; ++k) r.registers_[k] = a.registers_[k] - b.registers_[k];
+    return r;
+  }
+  friend Pack operator*(const Pack& a, const Pack& b) {
+    Pack r;
+    for (std::size_t k = 0; k < count; ++k) r.registers_[k] = a.registers_[k] * b.registers_[k];
+    return r;
+  }
+  friend Pack operator/(const Pack& a, const Pack& b) {
+    Pack r;
+    for (std::size_t k = 0; k < count; ++k) r.registers_[k] = a.registers_[k] / b.registers_[k];
+    return r;
+  }
+
+ private:
+  static Register broadcast(double x) {
+    if constexpr (register_width == 1)
+      return x;
+    else
+      return x - Register{};
+  }
+  std::array<Register, count> registers_{};
+};
+
+}  // namespace pfaff

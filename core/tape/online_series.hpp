@@ -1,0 +1,276 @@
+// OnlineSeries: the scalar with which a formula, run once for each level, extends its own truncated power
+// series by that level, in W lanes at once. The compiled counterpart of SeriesReplay (series.hpp, where the
+// recurrences are).
+//
+// Every operation of the formula takes the next slot of the workspace, slot[levels], and computes one
+// coefficient there from the coefficients below it. Slots are counted in the order in which the formula runs,
+// which is the same at every level; once all is inlined the count, what is constant and what depends on time
+// alone are known to the compiler, and what is left are the recurrences themselves on fixed addresses. So the
+// formula must run the same operations every time: no branch on values, as for every formula here. What
+// depends on time alone is computed in a pass of its own.
+//
+// Limits: levels <= series_capacity; a formula whose size is a constant. Lanes share one time at level 0.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+#include <pfaff/core/numbers/functions.hpp>
+#include <pfaff/core/numbers/pack.hpp>
+
+namespace pfaff {
+
+/// Coefficients kept for each slot.
+inline constexpr int series_capacity = 16;
+
+/// Which slots are computed when a formula runs: none (they are counted only), those of time alone, or those
+/// that depend on the state.
+enum class SeriesPass { none, time, state };
+
+/// One run of a formula: which level it computes, and the slots taken so far.
+template <int W>
+struct SeriesRun {
+  Pack<W>* slots;  // [slot][series_capacity]
+  int level;
+  SeriesPass pass;
+  int next = 0;
+  int timed = 0;              // how many of them depend on time alone, the time itself not counted
+  int angle = -1, sine = -1;  // the last argument of a sine or cosine, and the slot of its sine
+};
+
+// Everything here must be inlined into the formula for the slots to be known where it is compiled.
+#define PFAFF_INLINE [[gnu::always_inline]] inline
+
+template <int W>
+class OnlineSeries {
+  using P = Pack<W>;
+
+ public:
+  OnlineSeries() = default;
+  PFAFF_INLINE OnlineSeries(int value) : constant_(value) {}  // NOLINT(google-explicit-constructor)
+  PFAFF_INLINE explicit OnlineSeries(const Real& value) : constant_(value.value()) {}
+  /// The series in a slot of the run.
+  PFAFF_INLINE OnlineSeries(SeriesRun<W>& run, int slot, bool of_time)
+      : run_(&run), slot_(slot), of_time_(of_time) {}
+
+  /// The slot of this series; one is taken for a constant.
+  PFAFF_INLINE int placed(SeriesRun<W>& run) const {
+    if (run_ != nullptr) return slot_;
+    const int slot = run.next++;
+    if (run.pass == SeriesPass::state)
+      run.slots[slot * series_capacity + run.level] = run.level == 0 ? P(constant_) : P(0);
+    return slot;
+  }
+
+  PFAFF_INLINE friend OnlineSeries operator-(const OnlineSeries& a) {
+    if (a.is_constant()) return number(-a.constant_);
+    const OnlineSeries r = a.same_kind();
+    if (r.active()) r.store(-a.at(a.level()));
+    return r;
+  }
+  PFAFF_INLINE friend OnlineSeries operator+(const OnlineSeries& a, const OnlineSeries& b) {
+    if (a.is_constant() && b.is_constant()) return number(a.constant_ + b.constant_);
+    if (a.is_constant()) return b + a;
+    const OnlineSeries r = a.kind_with(b);
+    if (!r.active()) return r;
+    const int l = a.level();
+    r.store(!b.is_constant() ? a.at(l) + b.at(l) : l == 0 ? a.at(0) + P(b.constant_) : a.at(l));
+    return r;
+  }
+  PFAFF_INLINE friend OnlineSeries operator-(const OnlineSeries& a, const OnlineSeries& b) {
+    if (b.is_constant()) return a + number(-b.constant_);
+    const OnlineSeries r = b.kind_with(a);
+    if (!r.active()) return r;
+    const int l = b.level();
+    r.store(!a.is_constant() ? a.at(l) - b.at(l) : l == 0 ? P(a.constant_) - b.at(0) : -b.at(l));
+    return r;
+  }
+  PFAFF_INLINE friend OnlineSeries operator*(const OnlineSeries& a, const OnlineSeries& b) {
+    if (a.is_constant() && b.is_constant()) return number(a.constant_ * b.constant_);
+    if (a.is_constant()) return b * a;
+    const OnlineSeries r = a.kind_with(b);
+    if (!r.active()) return r;
+    const int l = a.level();
+    if (b.is_constant()) {
+      r.store(a.at(l) * P(b.constant_));
+    } else if (a.slot_ == b.slot_) {
+      r.store(square(a, l));
+    } else {
+      P sum = a.at(0) * b.at(l);
+      for (int i = 1; i <= l; ++i) sum = sum + a.at(i) * b.at(l - i);
+      r.store(sum);
+    }
+    return r;
+  }
+  PFAFF_INLINE friend OnlineSeries operator/(const OnlineSeries& a, const OnlineSeries& b) {
+    if (b.is_constant()) return a * number(1 / b.constant_);
+    const OnlineSeries r = b.kind_with(a);
+    if (!r.active()) return r;
+    const int l = b.level();
+    P sum = !a.is_constant() ? a.at(l) : l == 0 ? P(a.constant_) : P(0);
+    for (int i = 1; i <= l; ++i) sum = sum - b.at(i) * r.at(l - i);
+    r.store(sum / b.at(0));
+    return r;
+  }
+  PFAFF_INLINE friend OnlineSeries sqrt(const OnlineSeries& a) {
+    if (a.is_constant()) return number(std::sqrt(a.constant_));
+    const OnlineSeries r = a.same_kind();
+    if (!r.active()) return r;
+    const int l = a.level();
+    if (l == 0) {
+      r.store(a.each([](double x) { return std::sqrt(x); }));
+      return r;
+    }
+    P sum = a.at(l);
+    for (int i = 1; i < l; ++i) sum = sum - r.at(i) * r.at(l - i);
+    r.store(sum / (P(2) * r.at(0)));
+    return r;
+  }
+  PFAFF_INLINE friend OnlineSeries exp(const OnlineSeries& a) {
+    if (a.is_constant()) return number(std::exp(a.constant_));
+    const OnlineSeries r = a.same_kind();
+    if (!r.active()) return r;
+    const int l = a.level();
+    if (l == 0) {
+      r.store(a.each([](double x) { return std::exp(x); }));
+      return r;
+    }
+    P sum = a.at(1) * r.at(l - 1);
+    for (int i = 2; i <= l; ++i) sum = sum + P(i) * a.at(i) * r.at(l - i);
+    r.store(sum * P(1.0 / l));
+    return r;
+  }
+  PFAFF_INLINE friend OnlineSeries log(const OnlineSeries& a) {
+    if (a.is_constant()) return number(std::log(a.constant_));
+    const OnlineSeries r = a.same_kind();
+    if (!r.active()) return r;
+    const int l = a.level();
+    if (l == 0) {
+      r.store(a.each([](double x) { return std::log(x); }));
+      return r;
+    }
+    P sum(0);
+    for (int i = 1; i < l; ++i) sum = sum + P(i) * r.at(i) * a.at(l - i);
+    r.store((a.at(l) - sum * P(1.0 / l)) / a.at(0));
+    return r;
+  }
+  /// a^y for a constant exponent.
+  PFAFF_INLINE friend OnlineSeries pow(const OnlineSeries& a, const Real& y) {
+    const double e = y.value();
+    if (a.is_constant()) return number(std::pow(a.constant_, e));
+    const OnlineSeries r = a.same_kind();
+    if (!r.active()) return r;
+    const int l = a.level();
+    if (l == 0) {
+      r.store(a.each([e](double x) { return std::pow(x, e); }));
+      return r;
+    }
+    P sum(0);
+    for (int i = 1; i <= l; ++i) sum = sum + P(i * e - (l - i)) * a.at(i) * r.at(l - i);
+    r.store(sum / (P(l) * a.at(0)));
+    return r;
+  }
+  PFAFF_INLINE friend OnlineSeries sin(const OnlineSeries& a) {
+    if (a.is_constant()) return number(std::sin(a.constant_));
+    return {*a.run_, a.sine_and_cosine(), a.of_time_};
+  }
+  PFAFF_INLINE friend OnlineSeries cos(const OnlineSeries& a) {
+    if (a.is_constant()) return number(std::cos(a.constant_));
+    return {*a.run_, a.sine_and_cosine() + 1, a.of_time_};
+  }
+  /// The branch by the sign of the condition's value, lane by lane.
+  PFAFF_INLINE friend OnlineSeries select(const OnlineSeries& condition, const OnlineSeries& positive,
+                                          const OnlineSeries& otherwise) {
+    if (condition.is_constant()) return condition.constant_ > 0 ? positive : otherwise;
+    const OnlineSeries r =
+        condition.next_slot(condition.of_time_ && positive.of_time() && otherwise.of_time());
+    if (!r.active()) return r;
+    P value;
+    const P a = positive.coefficient(condition.level()), b = otherwise.coefficient(condition.level());
+    for (std::size_t lane = 0; lane < W; ++lane)
+      value.set(lane, condition.at(0)[lane] > 0 ? a[lane] : b[lane]);
+    r.store(value);
+    return r;
+  }
+
+ private:
+  PFAFF_INLINE static OnlineSeries number(double value) {
+    OnlineSeries r;
+    r.constant_ = value;
+    return r;
+  }
+  [[nodiscard]] PFAFF_INLINE bool is_constant() const { return run_ == nullptr; }
+  [[nodiscard]] PFAFF_INLINE bool of_time() const { return is_constant() || of_time_; }
+  [[nodiscard]] PFAFF_INLINE int level() const { return run_->level; }
+  [[nodiscard]] PFAFF_INLINE const P& at(int level) const {
+    return run_->slots[slot_ * series_capacity + level];
+  }
+  [[nodiscard]] PFAFF_INLINE P coefficient(int level) const {
+    return !is_constant() ? at(level) : level == 0 ? P(constant_) : P(0);
+  }
+  PFAFF_INLINE void store(const P& value) const { run_->slots[slot_ * series_capacity + level()] = value; }
+  [[nodiscard]] PFAFF_INLINE bool active() const {
+    return run_->pass == (of_time_ ? SeriesPass::time : SeriesPass::state);
+  }
+  [[nodiscard]] PFAFF_INLINE OnlineSeries next_slot(bool of_time) const {
+    run_->timed += of_time ? 1 : 0;
+    return {*run_, run_->next++, of_time};
+  }
+  [[nodiscard]] PFAFF_INLINE OnlineSeries same_kind() const { return next_slot(of_time_); }
+  [[nodiscard]] PFAFF_INLINE OnlineSeries kind_with(const OnlineSeries& o) const {
+    return next_slot(of_time_ && o.of_time());
+  }
+  // f at level 0, lane by lane; once where only the time is in it, which all lanes share there.
+  template <class F>
+  [[nodiscard]] PFAFF_INLINE P each(F f) const {
+    if (of_time_) return P(f(at(0)[0]));
+    P r;
+    for (std::size_t lane = 0; lane < W; ++lane) r.set(lane, f(at(0)[lane]));
+    return r;
+  }
+  PFAFF_INLINE static P square(const OnlineSeries& a, int l) {
+    if (l == 0) return a.at(0) * a.at(0);
+    P sum = a.at(0) * a.at(l);
+    for (int i = 1; 2 * i < l; ++i) sum = sum + a.at(i) * a.at(l - i);
+    sum = sum + sum;
+    return l % 2 == 0 ? sum + a.at(l / 2) * a.at(l / 2) : sum;
+  }
+  // The slot of the sine; that of the cosine follows.
+  [[nodiscard]] PFAFF_INLINE int sine_and_cosine() const {
+    if (run_->angle == slot_) return run_->sine;
+    const OnlineSeries s = same_kind(), c = same_kind();
+    run_->angle = slot_;
+    run_->sine = s.slot_;
+    if (!s.active()) return s.slot_;
+    const int l = level();
+    if (l == 0) {
+      P sine, cosine;
+      for (std::size_t lane = 0; lane < W; ++lane) {
+        const std::size_t from = of_time_ ? 0 : lane;
+        sine.set(lane, std::sin(at(0)[from]));
+        cosine.set(lane, std::cos(at(0)[from]));
+      }
+      s.store(sine);
+      c.store(cosine);
+      return s.slot_;
+    }
+    P p = at(1) * c.at(l - 1), q = at(1) * s.at(l - 1);
+    for (int i = 2; i <= l; ++i) {
+      const P scaled = P(i) * at(i);
+      p = p + scaled * c.at(l - i);
+      q = q + scaled * s.at(l - i);
+    }
+    s.store(p * P(1.0 / l));
+    c.store(q * P(-1.0 / l));
+    return s.slot_;
+  }
+
+  SeriesRun<W>* run_ = nullptr;  // null: a constant
+  int slot_ = 0;
+  bool of_time_ = false;
+  double constant_ = 0;
+};
+
+#undef PFAFF_INLINE
+
+}  // namespace pfaff
