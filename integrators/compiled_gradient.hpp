@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include <pfaff/core/facets/compiled_series.hpp>
@@ -26,45 +27,42 @@ class CompiledGradient {
   }
 
   CompiledGradient(const BoundSeries& field, const GeneratingNodes& nodes, const GeneratingShare& share)
-      : series_(*field.series),
-        system_(field.system),
-        width_(series_.widths[W == 1   ? 0
-                              : W == 2 ? 1
-                                       : 2]),
-        n_(static_cast<std::size_t>(series_.inputs)),
-        levels_(nodes.levels),
-        evaluations_(nodes.evaluations()),
-        symmetric_(nodes.symmetric),
-        output_(n_),
-        sum_(n_) {
+      : system_(field.system),
+        width_(field.series->width<W>()),
+        n_(static_cast<std::size_t>(field.series->inputs)),
+        evaluations_(nodes.evaluations()) {
     const auto number = [](const Quad& x) { return static_cast<double>(x); };
-    const CompiledSeries::Layout layout = series_.layout(system_, output_.data());
+    const CompiledSeries::Layout layout = field.series->layout(system_);
     slots_.resize(static_cast<std::size_t>(layout.slots) * series_capacity);
     timed_ = layout.timed;
+    unit_.levels = nodes.levels;
+    unit_.symmetric = nodes.symmetric;
     for (std::size_t i = 0; i < W; ++i) {
       const std::size_t from = std::min(i, nodes.lanes - 1);
       node_.set(i, number(nodes.node[from]));
-      weight_.set(i, i == from ? number(nodes.weight[i]) : 0);
+      unit_.weight.set(i, i == from ? number(nodes.weight[i]) : 0);
     }
     // What lane j adds to the next level of every lane, for each component: the share of w that moves with
     // psi is taken off (variant P). Components of equal share have equal matrices.
+    std::vector<Quad> shares;
     for (std::size_t k = 0; k < n_; ++k) {
-      const Quad moving = symmetric_ ? Quad(0) : (Quad(1) + share.normal(k, k, n_)) / Quad(2);
+      const Quad moving = nodes.symmetric ? Quad(0) : (Quad(1) + share.normal(k, k, n_)) / Quad(2);
       std::size_t same = 0;
-      while (same < moving_.size() && !(moving_[same] == moving)) ++same;
-      kind_.push_back(same);
-      if (same < moving_.size()) continue;
-      moving_.push_back(moving);
+      while (same < shares.size() && !(shares[same] == moving)) ++same;
+      unit_.kind.push_back(same);
+      if (same < shares.size()) continue;
+      shares.push_back(moving);
       for (const std::vector<Quad>* matrix : {&nodes.even, &nodes.odd}) {
-        Columns columns{};
+        std::array<Pack<W>, W> columns{};
         for (std::size_t j = 0; j < nodes.lanes; ++j)
           for (std::size_t i = 0; i < W; ++i)
             columns[j].set(i, number((*matrix)[std::min(i, nodes.lanes - 1) * nodes.lanes + j] -
                                      moving * nodes.weight[j]));
-        unit_.push_back(columns);
+        unit_.columns.push_back(columns);
       }
     }
-    matrix_ = unit_;
+    unit_.one_kind = shares.size() == 1;
+    scaled_ = unit_;
   }
 
   [[nodiscard]] std::size_t size() const { return n_; }
@@ -73,54 +71,31 @@ class CompiledGradient {
   void set_step(double t, double tau) {
     if (tau != tau_) {
       tau_ = tau;
-      for (std::size_t k = 0; k < unit_.size(); ++k)
-        for (std::size_t j = 0; j < W; ++j) matrix_[k][j] = Pack<W>(tau) * unit_[k][j];
-      scaled_weight_ = Pack<W>(tau) * weight_;
+      for (std::size_t k = 0; k < unit_.columns.size(); ++k)
+        for (std::size_t j = 0; j < W; ++j) scaled_.columns[k][j] = Pack<W>(tau) * unit_.columns[k][j];
+      scaled_.weight = Pack<W>(tau) * unit_.weight;
     }
     Pack<W>* time = slots_.data() + n_ * series_capacity;
-    time[0] = Pack<W>(symmetric_ ? t + tau / 2 : t);
+    time[0] = Pack<W>(unit_.symmetric ? t + tau / 2 : t);
     time[1] = Pack<W>(tau) * node_;
-    for (std::size_t level = 0; timed_ && level < levels_; ++level)
+    for (std::size_t level = 0; timed_ && level < unit_.levels; ++level)
       width_.time(system_, slots_.data(), static_cast<int>(level));
   }
 
   void operator()(const double* w, double* psi) {
-    Pack<W>* slots = slots_.data();
-    for (std::size_t k = 0; k < n_; ++k) {
-      slots[k * series_capacity] = Pack<W>(w[k]);
-      sum_[k] = Pack<W>(0);
-    }
-    for (std::size_t level = 0; level < levels_; ++level) {
-      width_.state[level](system_, slots, static_cast<int>(level));
-      const bool counts = !symmetric_ || level % 2 == 0, last = level + 1 == levels_;
-      for (std::size_t k = 0; k < n_; ++k) {
-        const Pack<W> x = slots[static_cast<std::size_t>(output_[k]) * series_capacity + level];
-        if (counts) sum_[k] = sum_[k] + scaled_weight_ * x;
-        if (last) continue;
-        const Columns& columns = matrix_[2 * kind_[k] + level % 2];
-        Pack<W> next = columns[0] * Pack<W>(x[0]);
-        for (std::size_t j = 1; j < W; ++j) next = next + columns[j] * Pack<W>(x[j]);
-        slots[k * series_capacity + level + 1] = next;
-      }
-    }
-    for (std::size_t k = 0; k < n_; ++k) psi[k] = sum_[k].sum();
+    const bool known = scaled_.levels == width_.known && scaled_.one_kind;
+    (known ? width_.collocate_known : width_.collocate)(system_, slots_.data(), scaled_, w, psi);
   }
 
  private:
-  using Columns = std::array<Pack<W>, W>;
-
-  const CompiledSeries& series_;
   const void* system_;
-  const CompiledSeries::Width& width_;
-  std::size_t n_, levels_, evaluations_;
-  bool symmetric_, timed_ = false;
-  std::vector<int> output_;
-  std::vector<Quad> moving_;
-  std::vector<std::size_t> kind_;       // of component k: which matrices
-  std::vector<Columns> unit_, matrix_;  // [2 kind + parity of the level]; matrix = tau unit
-  Pack<W> node_, weight_, scaled_weight_;
-  double tau_ = 0;
-  std::vector<Pack<W>> slots_, sum_;
+  const SeriesWidth<W>& width_;
+  std::size_t n_, evaluations_;
+  bool timed_ = false;
+  SeriesCombination<W> unit_, scaled_;  // for a step of 1, and multiplied by the step
+  Pack<W> node_;
+  double tau_ = std::numeric_limits<double>::quiet_NaN();
+  std::vector<Pack<W>> slots_;
 };
 
 }  // namespace pfaff

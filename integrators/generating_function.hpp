@@ -64,7 +64,7 @@ struct GeneratingFunction {
       for (const char* mixed : {"qhat-p", "q-phat"})
         list.push_back({{"order", std::to_string(m)}, {"form", mixed}});
     for (int m = 1; m <= (full ? 12 : 4); ++m)
-      list.push_back({{"order", std::to_string(m)}, {"form", "normal"}, {"normal", "0.3,0.2,-0.4,-0.3"}});
+      list.push_back({{"order", std::to_string(m)}, {"form", "normal"}, {"normal", "0.2,0.1,-0.3,-0.2"}});
     for (int m = 1; m <= (full ? 12 : 8); ++m)
       list.push_back({{"order", std::to_string(m)}, {"extra", m % 4 < 2 ? "2" : "4"}});
     return list;

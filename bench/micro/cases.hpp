@@ -41,6 +41,26 @@ struct Case<Kepler> {
   static constexpr std::array<double, 4> start{0.4, 0, 0, 2};
 };
 
+/// Systems that run on the registered path alone are known by name.
+struct HenonHeiles {};
+template <>
+struct Case<HenonHeiles> {
+  static constexpr const char* name = "henon-heiles";
+  static constexpr std::array<double, 4> start{0, 0.1, 0.5, 0};
+};
+struct DampedPendulum {};
+template <>
+struct Case<DampedPendulum> {
+  static constexpr const char* name = "damped-pendulum";
+  static constexpr std::array<double, 2> start{1, 0.5};
+};
+struct LotkaVolterra {};
+template <>
+struct Case<LotkaVolterra> {
+  static constexpr const char* name = "lotka-volterra";
+  static constexpr std::array<double, 2> start{1.5, 1};
+};
+
 /// A system of which only the energies are known: what is derived from them, at what cost.
 template <class S>
 struct EnergiesOnly {

@@ -40,6 +40,18 @@ void add_methods() {
   add_registered<S>("generating-function-8", "registered", model, "generating-function", {{"order", "8"}});
 }
 
+// What a generating function of the same order costs beside Gauss collocation, where its structure matters.
+template <class S>
+void add_generating_functions() {
+  const SharedModel model = systems().get(Case<S>::name, "system").make({});
+  for (const int order : {4, 8, 12}) {
+    const std::string m = std::to_string(order);
+    add_registered<S>("gauss-" + m, "registered", model, "gauss", {{"stages", std::to_string(order / 2)}});
+    add_registered<S>("generating-function-" + m, "registered", model, "generating-function", {{"order", m}});
+  }
+}
+
 [[maybe_unused]] const bool added =
-    (add_methods<HarmonicOscillator>(), add_methods<Pendulum>(), add_methods<Kepler>(), true);
+    (add_methods<HarmonicOscillator>(), add_methods<Pendulum>(), add_methods<Kepler>(),
+     add_generating_functions<HenonHeiles>(), add_generating_functions<DampedPendulum>(), true);
 }  // namespace

@@ -38,23 +38,19 @@ struct SeriesRun {
   int angle = -1, sine = -1;  // the last argument of a sine or cosine, and the slot of its sine
 };
 
-// Everything here must be inlined into the formula for the slots to be known where it is compiled.
-#define PFAFF_INLINE [[gnu::always_inline]] inline
-
 template <int W>
 class OnlineSeries {
   using P = Pack<W>;
 
  public:
   OnlineSeries() = default;
-  PFAFF_INLINE OnlineSeries(int value) : constant_(value) {}  // NOLINT(google-explicit-constructor)
-  PFAFF_INLINE explicit OnlineSeries(const Real& value) : constant_(value.value()) {}
+  OnlineSeries(int value) : constant_(value) {}  // NOLINT(google-explicit-constructor)
+  explicit OnlineSeries(const Real& value) : constant_(value.value()) {}
   /// The series in a slot of the run.
-  PFAFF_INLINE OnlineSeries(SeriesRun<W>& run, int slot, bool of_time)
-      : run_(&run), slot_(slot), of_time_(of_time) {}
+  OnlineSeries(SeriesRun<W>& run, int slot, bool of_time) : run_(&run), slot_(slot), of_time_(of_time) {}
 
   /// The slot of this series; one is taken for a constant.
-  PFAFF_INLINE int placed(SeriesRun<W>& run) const {
+  int placed(SeriesRun<W>& run) const {
     if (run_ != nullptr) return slot_;
     const int slot = run.next++;
     if (run.pass == SeriesPass::state)
@@ -62,13 +58,13 @@ class OnlineSeries {
     return slot;
   }
 
-  PFAFF_INLINE friend OnlineSeries operator-(const OnlineSeries& a) {
+  friend OnlineSeries operator-(const OnlineSeries& a) {
     if (a.is_constant()) return number(-a.constant_);
     const OnlineSeries r = a.same_kind();
     if (r.active()) r.store(-a.at(a.level()));
     return r;
   }
-  PFAFF_INLINE friend OnlineSeries operator+(const OnlineSeries& a, const OnlineSeries& b) {
+  friend OnlineSeries operator+(const OnlineSeries& a, const OnlineSeries& b) {
     if (a.is_constant() && b.is_constant()) return number(a.constant_ + b.constant_);
     if (a.is_constant()) return b + a;
     const OnlineSeries r = a.kind_with(b);
@@ -77,7 +73,7 @@ class OnlineSeries {
     r.store(!b.is_constant() ? a.at(l) + b.at(l) : l == 0 ? a.at(0) + P(b.constant_) : a.at(l));
     return r;
   }
-  PFAFF_INLINE friend OnlineSeries operator-(const OnlineSeries& a, const OnlineSeries& b) {
+  friend OnlineSeries operator-(const OnlineSeries& a, const OnlineSeries& b) {
     if (b.is_constant()) return a + number(-b.constant_);
     const OnlineSeries r = b.kind_with(a);
     if (!r.active()) return r;
@@ -85,7 +81,7 @@ class OnlineSeries {
     r.store(!a.is_constant() ? a.at(l) - b.at(l) : l == 0 ? P(a.constant_) - b.at(0) : -b.at(l));
     return r;
   }
-  PFAFF_INLINE friend OnlineSeries operator*(const OnlineSeries& a, const OnlineSeries& b) {
+  friend OnlineSeries operator*(const OnlineSeries& a, const OnlineSeries& b) {
     if (a.is_constant() && b.is_constant()) return number(a.constant_ * b.constant_);
     if (a.is_constant()) return b * a;
     const OnlineSeries r = a.kind_with(b);
@@ -102,7 +98,7 @@ class OnlineSeries {
     }
     return r;
   }
-  PFAFF_INLINE friend OnlineSeries operator/(const OnlineSeries& a, const OnlineSeries& b) {
+  friend OnlineSeries operator/(const OnlineSeries& a, const OnlineSeries& b) {
     if (b.is_constant()) return a * number(1 / b.constant_);
     const OnlineSeries r = b.kind_with(a);
     if (!r.active()) return r;
@@ -112,7 +108,7 @@ class OnlineSeries {
     r.store(sum / b.at(0));
     return r;
   }
-  PFAFF_INLINE friend OnlineSeries sqrt(const OnlineSeries& a) {
+  friend OnlineSeries sqrt(const OnlineSeries& a) {
     if (a.is_constant()) return number(std::sqrt(a.constant_));
     const OnlineSeries r = a.same_kind();
     if (!r.active()) return r;
@@ -126,7 +122,7 @@ class OnlineSeries {
     r.store(sum / (P(2) * r.at(0)));
     return r;
   }
-  PFAFF_INLINE friend OnlineSeries exp(const OnlineSeries& a) {
+  friend OnlineSeries exp(const OnlineSeries& a) {
     if (a.is_constant()) return number(std::exp(a.constant_));
     const OnlineSeries r = a.same_kind();
     if (!r.active()) return r;
@@ -140,7 +136,7 @@ class OnlineSeries {
     r.store(sum * P(1.0 / l));
     return r;
   }
-  PFAFF_INLINE friend OnlineSeries log(const OnlineSeries& a) {
+  friend OnlineSeries log(const OnlineSeries& a) {
     if (a.is_constant()) return number(std::log(a.constant_));
     const OnlineSeries r = a.same_kind();
     if (!r.active()) return r;
@@ -155,7 +151,7 @@ class OnlineSeries {
     return r;
   }
   /// a^y for a constant exponent.
-  PFAFF_INLINE friend OnlineSeries pow(const OnlineSeries& a, const Real& y) {
+  friend OnlineSeries pow(const OnlineSeries& a, const Real& y) {
     const double e = y.value();
     if (a.is_constant()) return number(std::pow(a.constant_, e));
     const OnlineSeries r = a.same_kind();
@@ -170,17 +166,17 @@ class OnlineSeries {
     r.store(sum / (P(l) * a.at(0)));
     return r;
   }
-  PFAFF_INLINE friend OnlineSeries sin(const OnlineSeries& a) {
+  friend OnlineSeries sin(const OnlineSeries& a) {
     if (a.is_constant()) return number(std::sin(a.constant_));
     return {*a.run_, a.sine_and_cosine(), a.of_time_};
   }
-  PFAFF_INLINE friend OnlineSeries cos(const OnlineSeries& a) {
+  friend OnlineSeries cos(const OnlineSeries& a) {
     if (a.is_constant()) return number(std::cos(a.constant_));
     return {*a.run_, a.sine_and_cosine() + 1, a.of_time_};
   }
   /// The branch by the sign of the condition's value, lane by lane.
-  PFAFF_INLINE friend OnlineSeries select(const OnlineSeries& condition, const OnlineSeries& positive,
-                                          const OnlineSeries& otherwise) {
+  friend OnlineSeries select(const OnlineSeries& condition, const OnlineSeries& positive,
+                             const OnlineSeries& otherwise) {
     if (condition.is_constant()) return condition.constant_ > 0 ? positive : otherwise;
     const OnlineSeries r =
         condition.next_slot(condition.of_time_ && positive.of_time() && otherwise.of_time());
@@ -194,41 +190,39 @@ class OnlineSeries {
   }
 
  private:
-  PFAFF_INLINE static OnlineSeries number(double value) {
+  static OnlineSeries number(double value) {
     OnlineSeries r;
     r.constant_ = value;
     return r;
   }
-  [[nodiscard]] PFAFF_INLINE bool is_constant() const { return run_ == nullptr; }
-  [[nodiscard]] PFAFF_INLINE bool of_time() const { return is_constant() || of_time_; }
-  [[nodiscard]] PFAFF_INLINE int level() const { return run_->level; }
-  [[nodiscard]] PFAFF_INLINE const P& at(int level) const {
-    return run_->slots[slot_ * series_capacity + level];
-  }
-  [[nodiscard]] PFAFF_INLINE P coefficient(int level) const {
+  [[nodiscard]] bool is_constant() const { return run_ == nullptr; }
+  [[nodiscard]] bool of_time() const { return is_constant() || of_time_; }
+  [[nodiscard]] int level() const { return run_->level; }
+  [[nodiscard]] const P& at(int level) const { return run_->slots[slot_ * series_capacity + level]; }
+  [[nodiscard]] P coefficient(int level) const {
     return !is_constant() ? at(level) : level == 0 ? P(constant_) : P(0);
   }
-  PFAFF_INLINE void store(const P& value) const { run_->slots[slot_ * series_capacity + level()] = value; }
-  [[nodiscard]] PFAFF_INLINE bool active() const {
+  void store(const P& value) const { run_->slots[slot_ * series_capacity + level()] = value; }
+  [[nodiscard]] bool active() const {
     return run_->pass == (of_time_ ? SeriesPass::time : SeriesPass::state);
   }
-  [[nodiscard]] PFAFF_INLINE OnlineSeries next_slot(bool of_time) const {
+  [[nodiscard]] OnlineSeries next_slot(bool of_time) const {
     run_->timed += of_time ? 1 : 0;
     return {*run_, run_->next++, of_time};
   }
-  [[nodiscard]] PFAFF_INLINE OnlineSeries same_kind() const { return next_slot(of_time_); }
-  [[nodiscard]] PFAFF_INLINE OnlineSeries kind_with(const OnlineSeries& o) const {
+  [[nodiscard]] OnlineSeries same_kind() const { return next_slot(of_time_); }
+  [[nodiscard]] OnlineSeries kind_with(const OnlineSeries& o) const {
     return next_slot(of_time_ && o.of_time());
   }
   // f at level 0, lane by lane; once where only the time is in it, which all lanes share there.
   template <class F>
-  [[nodiscard]] PFAFF_INLINE P each(F f) const {
+  [[nodiscard]] P each(F f) const {
     if (of_time_) return P(f(at(0)[0]));
     P r;
     for (std::size_t lane = 0; lane < W; ++lane) r.set(lane, f(at(0)[lane]));
     return r;
   }
-  PFAFF_INLINE static P square(const OnlineSeries& a, int l) {
+  static P square(const OnlineSeries& a, int l) {
     if (l == 0) return a.at(0) * a.at(0);
     P sum = a.at(0) * a.at(l);
     for (int i = 1; 2 * i < l; ++i) sum = sum + a.at(i) * a.at(l - i);
@@ -236,7 +230,7 @@ class OnlineSeries {
     return l % 2 == 0 ? sum + a.at(l / 2) * a.at(l / 2) : sum;
   }
   // The slot of the sine; that of the cosine follows.
-  [[nodiscard]] PFAFF_INLINE int sine_and_cosine() const {
+  [[nodiscard]] int sine_and_cosine() const {
     if (run_->angle == slot_) return run_->sine;
     const OnlineSeries s = same_kind(), c = same_kind();
     run_->angle = slot_;
@@ -270,7 +264,5 @@ class OnlineSeries {
   bool of_time_ = false;
   double constant_ = 0;
 };
-
-#undef PFAFF_INLINE
 
 }  // namespace pfaff
