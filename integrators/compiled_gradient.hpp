@@ -78,8 +78,7 @@ class CompiledGradient {
     Pack<W>* time = slots_.data() + n_ * series_capacity;
     time[0] = Pack<W>(unit_.symmetric ? t + tau / 2 : t);
     time[1] = Pack<W>(tau) * node_;
-    for (std::size_t level = 0; timed_ && level < unit_.levels; ++level)
-      width_.time(system_, slots_.data(), static_cast<int>(level));
+    if (timed_) width_.time(system_, slots_.data(), static_cast<int>(unit_.levels));
   }
 
   void operator()(const double* w, double* psi) {

@@ -35,8 +35,8 @@ struct SeriesCombination {
 /// formula's own.
 template <int W>
 struct SeriesWidth {
-  /// Extends the slots that depend on time alone by one level.
-  void (*time)(const void* system, Pack<W>* slots, int level) = nullptr;
+  /// Levels 0 .. levels-1 of the slots that depend on time alone.
+  void (*time)(const void* system, Pack<W>* slots, int levels) = nullptr;
   /// All levels from inputs w, the same in every lane: result = the sums over levels and lanes.
   using Collocate = void (*)(const void* system, Pack<W>* slots, const SeriesCombination<W>& combination,
                              const double* w, double* result);
@@ -116,7 +116,7 @@ void run_series(const S& s, SeriesRun<W>& run,
   using T = OnlineSeries<W>;
   std::array<T, n> y, rate;
   for (std::size_t k = 0; k < n; ++k) y[k] = T(run, static_cast<int>(k), false);
-  const T t(run, S::dimension, true);
+  const T t(run, S::dimension, true, 1);
   run.next = S::dimension + 1;
   chart_field_of<S, T>(s, t, std::span<const T>(y), std::span<T>(rate));
   for (std::size_t k = 0; k < n; ++k) outputs[k] = rate[k].placed(run);
@@ -129,10 +129,12 @@ CompiledSeries::Layout series_layout(const void* system) {
   return {run.next, run.timed > 0};
 }
 template <class S, int W>
-[[gnu::flatten]] void extend_time(const void* system, Pack<W>* slots, int level) {
-  SeriesRun<W> run{slots, level, SeriesPass::time};
+[[gnu::flatten]] void expand_time(const void* system, Pack<W>* slots, int levels) {
   std::array<int, static_cast<std::size_t>(S::dimension)> outputs;
-  run_series(*static_cast<const S*>(system), run, outputs);
+  for (int level = 0; level < levels; ++level) {
+    SeriesRun<W> run{slots, level, SeriesPass::time};
+    run_series(*static_cast<const S*>(system), run, outputs);
+  }
 }
 
 // Level `level` of the field, and of the collocation.
@@ -182,7 +184,7 @@ template <class S, int W, int... Levels>
 }
 template <class S, int W, int... Levels>
 SeriesWidth<W> series_width(std::integer_sequence<int, Levels...> /*known*/) {
-  SeriesWidth<W> width{&extend_time<S, W>, &collocate<S, W>, nullptr, sizeof...(Levels)};
+  SeriesWidth<W> width{&expand_time<S, W>, &collocate<S, W>, nullptr, sizeof...(Levels)};
   if constexpr (sizeof...(Levels) > 0) width.collocate_known = &collocate_known<S, W, Levels...>;
   return width;
 }

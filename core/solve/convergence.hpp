@@ -4,8 +4,8 @@
 // that variables of very different magnitude (an exponentially growing chart momentum beside a decaying
 // coordinate) are all solved to their own round-off. Derivative parts of duals are judged in the same way, so
 // that a differentiated step is the derivative of the converged step. An iteration ends when every correction
-// is below one unit of round-off, or will be after the next contraction, or when corrections stagnate near
-// round-off.
+// is well below one unit of round-off, or will be after the next contraction, or when corrections stagnate
+// near round-off.
 #pragma once
 
 #include <algorithm>
@@ -65,11 +65,11 @@ class Convergence {
   bool finished(int limit) {
     const Number u = unit_roundoff<T>();
     if (!finite_) return stop(Status::non_finite);
-    if (size_ <= u) return stop(Status::converged);
+    if (size_ <= u / Number(8)) return stop(Status::converged);
     if (iterations_ >= 2) {
       const Number ratio = size_ / previous_;
       // The next correction would be ratio * size.
-      if (ratio < Number(0.5) && ratio * size_ <= u / Number(4)) return stop(Status::converged);
+      if (ratio < Number(0.5) && ratio * size_ <= u / Number(64)) return stop(Status::converged);
       if (!(size_ < previous_)) {
         // Round-off noise of a converged iteration, amplified by the sums it passes through.
         if (size_ <= Number(256) * u || (++stalls_ >= 3 && size_ <= Number(65536) * u))

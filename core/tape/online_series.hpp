@@ -46,8 +46,9 @@ class OnlineSeries {
   OnlineSeries() = default;
   OnlineSeries(int value) : constant_(value) {}  // NOLINT(google-explicit-constructor)
   explicit OnlineSeries(const Real& value) : constant_(value.value()) {}
-  /// The series in a slot of the run.
-  OnlineSeries(SeriesRun<W>& run, int slot, bool of_time) : run_(&run), slot_(slot), of_time_(of_time) {}
+  /// The series in a slot of the run; its coefficients beyond `degree` are zero by construction.
+  OnlineSeries(SeriesRun<W>& run, int slot, bool of_time, int degree = series_capacity)
+      : run_(&run), slot_(slot), of_time_(of_time), degree_(degree) {}
 
   /// The slot of this series; one is taken for a constant.
   int placed(SeriesRun<W>& run) const {
@@ -60,7 +61,7 @@ class OnlineSeries {
 
   friend OnlineSeries operator-(const OnlineSeries& a) {
     if (a.is_constant()) return number(-a.constant_);
-    const OnlineSeries r = a.same_kind();
+    const OnlineSeries r = a.scaled_kind();
     if (r.active()) r.store(-a.at(a.level()));
     return r;
   }
@@ -84,12 +85,15 @@ class OnlineSeries {
   friend OnlineSeries operator*(const OnlineSeries& a, const OnlineSeries& b) {
     if (a.is_constant() && b.is_constant()) return number(a.constant_ * b.constant_);
     if (a.is_constant()) return b * a;
+    if (b.is_constant()) {
+      const OnlineSeries r = a.scaled_kind();
+      if (r.active()) r.store(a.at(a.level()) * P(b.constant_));
+      return r;
+    }
     const OnlineSeries r = a.kind_with(b);
     if (!r.active()) return r;
     const int l = a.level();
-    if (b.is_constant()) {
-      r.store(a.at(l) * P(b.constant_));
-    } else if (a.slot_ == b.slot_) {
+    if (a.slot_ == b.slot_) {
       r.store(square(a, l));
     } else {
       P sum = a.at(0) * b.at(l);
@@ -132,7 +136,7 @@ class OnlineSeries {
       return r;
     }
     P sum = a.at(1) * r.at(l - 1);
-    for (int i = 2; i <= l; ++i) sum = sum + P(i) * a.at(i) * r.at(l - i);
+    for (int i = 2; i <= a.last(l); ++i) sum = sum + P(i) * a.at(i) * r.at(l - i);
     r.store(sum * P(1.0 / l));
     return r;
   }
@@ -210,6 +214,14 @@ class OnlineSeries {
     run_->timed += of_time ? 1 : 0;
     return {*run_, run_->next++, of_time};
   }
+  // A constant times this: of the same degree.
+  [[nodiscard]] OnlineSeries scaled_kind() const {
+    OnlineSeries r = next_slot(of_time_);
+    r.degree_ = degree_;
+    return r;
+  }
+  // The last coefficient up to level l that is not zero by construction.
+  [[nodiscard]] int last(int l) const { return l < degree_ ? l : degree_; }
   [[nodiscard]] OnlineSeries same_kind() const { return next_slot(of_time_); }
   [[nodiscard]] OnlineSeries kind_with(const OnlineSeries& o) const {
     return next_slot(of_time_ && o.of_time());
@@ -249,7 +261,7 @@ class OnlineSeries {
       return s.slot_;
     }
     P p = at(1) * c.at(l - 1), q = at(1) * s.at(l - 1);
-    for (int i = 2; i <= l; ++i) {
+    for (int i = 2; i <= last(l); ++i) {
       const P scaled = P(i) * at(i);
       p = p + scaled * c.at(l - i);
       q = q + scaled * s.at(l - i);
@@ -262,6 +274,7 @@ class OnlineSeries {
   SeriesRun<W>* run_ = nullptr;  // null: a constant
   int slot_ = 0;
   bool of_time_ = false;
+  int degree_ = series_capacity;
   double constant_ = 0;
 };
 
