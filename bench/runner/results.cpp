@@ -62,6 +62,12 @@ std::map<std::string, CostRow> read_costs(const fs::path& path, const std::vecto
         rows[key] = {line, std::atof(line.c_str() + key.size() + 1)};
   return rows;
 }
+std::string costs_csv(const std::vector<ExperimentRun>& runs, const std::map<std::string, CostRow>& rows) {
+  std::string text = "case,method,step,ns_per_step,ns_per_step_min,ns_per_step_max,repetitions,seconds\n";
+  for (const ExperimentRun& run : runs)
+    if (const auto row = rows.find(cost_key(run)); row != rows.end()) text += row->second.text + "\n";
+  return text;
+}
 }  // namespace
 
 std::vector<nlohmann::json> read_summaries(const fs::path& directory,
@@ -118,24 +124,21 @@ std::string results_csv(const std::vector<ExperimentRun>& runs,
 void write_costs(const fs::path& directory, const Experiment& experiment,
                  const std::vector<ExperimentRun>& runs, const ExperimentProgress& progress) {
   const fs::path path = directory / "cost.csv";
-  const auto known = read_costs(path, runs);
-  std::string text = "case,method,step,ns_per_step,ns_per_step_min,ns_per_step_max,repetitions,seconds\n";
+  auto rows = read_costs(path, runs);
   std::size_t done = 0;
   for (const ExperimentRun& run : runs) {
     if (progress)
       progress("timing " + run.which->name + ", " + run.method->label + ", h = " + run.step, done,
                runs.size());
     ++done;
-    if (const auto row = known.find(cost_key(run)); row != known.end()) {
-      text += row->second.text + "\n";
-      continue;
-    }
+    if (rows.contains(cost_key(run))) continue;
     const StepTime time = time_steps(run.resolved, experiment.quick ? 0.05 : 0.3);
-    text += cost_key(run) + "," + number(time.median, "%.6g") + "," + number(time.minimum, "%.6g") + "," +
-            number(time.maximum, "%.6g") + "," + std::to_string(time.repetitions) + "," +
-            number(time.seconds, "%.4g") + "\n";
+    rows[cost_key(run)].text = cost_key(run) + "," + number(time.median, "%.6g") + "," +
+                               number(time.minimum, "%.6g") + "," + number(time.maximum, "%.6g") + "," +
+                               std::to_string(time.repetitions) + "," + number(time.seconds, "%.4g");
+    write_file(path, costs_csv(runs, rows));  // after each, so that none is lost with the process
   }
-  write_file(path, text);
+  write_file(path, costs_csv(runs, rows));  // rows of runs that are no longer asked for go
 }
 
 std::string results_table(const fs::path& directory, const Experiment& experiment,
