@@ -141,11 +141,26 @@ void write_costs(const fs::path& directory, const Experiment& experiment,
   write_file(path, costs_csv(runs, rows));  // rows of runs that are no longer asked for go
 }
 
+namespace {
+// A trend that is there, but slower than one unit of round-off of the initial value a step.
+bool below_round_off(const nlohmann::json& invariant, const nlohmann::json& summary) {
+  const std::string kind = invariant["class"];
+  if (kind != "random_walk" && kind != "linear" && kind != "polynomial" && kind != "exponential")
+    return false;
+  const auto text = [](const nlohmann::json& x) { return x.is_string() ? x.get<std::string>() : x.dump(); };
+  const auto initial = Real::parse(text(invariant["initial"])), step = Real::parse(text(summary["step"]));
+  const double unit = summary["precision"] == "quad" ? 9.6e-35 : 1.1e-16;
+  return initial && step &&
+         std::abs(invariant["slope"].get<double>() * step->value()) < unit * std::abs(initial->value());
+}
+}  // namespace
+
 std::string results_table(const fs::path& directory, const Experiment& experiment,
                           const std::vector<ExperimentRun>& runs,
                           const std::vector<nlohmann::json>& summaries) {
   const auto costs = read_costs(directory / "cost.csv", runs);
   std::ostringstream text;
+  bool marked = false;
   const auto scientific = [](const nlohmann::json& value) {
     return value.is_null() ? std::string("-") : number(value.get<double>(), "%.1e");
   };
@@ -171,11 +186,14 @@ std::string results_table(const fs::path& directory, const Experiment& experimen
       }
       std::string measured = "-";
       for (const nlohmann::json& i : s["invariants"])
-        if (i["name"] == c.conserved && i.contains("max"))
+        if (i["name"] == c.conserved && i.contains("max")) {
+          const bool mark = below_round_off(i, s);
+          marked = marked || mark;
           measured = scientific(i["max"]) + "   " + number(i["slope"].get<double>(), "%+.1e") + "   " +
-                     i["class"].get<std::string>();
-        else if (i["name"] == c.conserved && i.contains("largest_rise"))
+                     i["class"].get<std::string>() + (mark ? "*" : "");
+        } else if (i["name"] == c.conserved && i.contains("largest_rise")) {
           measured = "largest rise " + scientific(i["largest_rise"]);
+        }
       const auto cost = costs.find(cost_key(runs[k]));
       std::snprintf(line.data(), line.size(), "%-16.16s %6s %9s %9s  %-34s %9s %9s\n",
                     runs[k].method->label.c_str(), runs[k].step.c_str(), scientific(s["error_max"]).c_str(),
@@ -185,6 +203,7 @@ std::string results_table(const fs::path& directory, const Experiment& experimen
       text << line.data();
     }
   }
+  if (marked) text << "\n* slower than one unit of round-off a step\n";
   return text.str();
 }
 

@@ -9,6 +9,7 @@
 #include <pfaff/bench/measure/scope.hpp>
 #include <pfaff/bench/runner/experiment.hpp>
 #include <pfaff/bench/runner/files.hpp>
+#include <pfaff/bench/runner/results.hpp>
 #include <pfaff/core/bracket.hpp>
 
 namespace {
@@ -122,6 +123,24 @@ TEST_F(Experiments, TimingsAreKeptAsTheyCome) {
   (void)run_experiment(experiment, directory / "out", {});
   ASSERT_EQ(rows().size(), 7U);
   EXPECT_EQ(rows()[2], first[2]);
+}
+
+TEST_F(Experiments, TrendsBelowRoundOffAreMarkedInTheTable) {
+  Experiment experiment = read(two_systems);
+  experiment.cases[0].conserved = "birkhoffian";
+  (void)run_experiment(experiment, directory / "out", {});
+  const auto runs = expand(experiment);
+  auto summaries = read_summaries(directory / "out", runs);
+  const auto table = [&](const char* kind, double slope) {
+    auto& invariant = summaries[0]["invariants"][0];  // 1/2 at the start, in steps of 1/2
+    invariant["class"] = kind;
+    invariant["slope"] = slope;
+    return results_table(directory / "out", experiment, runs, summaries);
+  };
+  EXPECT_NE(table("linear", 1.0e-16).find("linear* "), std::string::npos);
+  EXPECT_NE(table("linear", -1.0e-16).find("* slower than one unit of round-off a step"), std::string::npos);
+  EXPECT_EQ(table("linear", -1.2e-16).find('*'), std::string::npos);
+  EXPECT_EQ(table("bounded", 1.0e-18).find('*'), std::string::npos);
 }
 
 TEST(Scope, OfEachClaim) {
