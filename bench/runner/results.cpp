@@ -166,7 +166,10 @@ std::string results_table(const fs::path& directory, const Experiment& experimen
   };
   for (const ExperimentCase& c : experiment.cases) {
     std::array<char, 160> line{};
-    text << '\n' << c.title << "  (" << c.system << ", T = " << c.time << ")\n";
+    const auto run =
+        std::find_if(runs.begin(), runs.end(), [&](const ExperimentRun& r) { return r.which == &c; });
+    const std::string time = run == runs.end() ? c.time : to_string(run->resolved.time);
+    text << '\n' << c.title << "  (" << c.system << ", T = " << time << ")\n";
     const std::string drift = c.conserved.empty() ? "drift" : "drift of " + c.conserved;
     std::snprintf(line.data(), line.size(), "%-23s %19s  %-34s %9s %9s\n", "", "error", drift.c_str(),
                   "structure", "cost");
@@ -192,7 +195,8 @@ std::string results_table(const fs::path& directory, const Experiment& experimen
           measured = scientific(i["max"]) + "   " + number(i["slope"].get<double>(), "%+.1e") + "   " +
                      i["class"].get<std::string>() + (mark ? "*" : "");
         } else if (i["name"] == c.conserved && i.contains("largest_rise")) {
-          measured = "largest rise " + scientific(i["largest_rise"]);
+          measured =
+              i["largest_rise"] == 0.0 ? "never rises" : "largest rise " + scientific(i["largest_rise"]);
         }
       const auto cost = costs.find(cost_key(runs[k]));
       std::snprintf(line.data(), line.size(), "%-16.16s %6s %9s %9s  %-34s %9s %9s\n",

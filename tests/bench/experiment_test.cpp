@@ -125,7 +125,7 @@ TEST_F(Experiments, TimingsAreKeptAsTheyCome) {
   EXPECT_EQ(rows()[2], first[2]);
 }
 
-TEST_F(Experiments, TrendsBelowRoundOffAreMarkedInTheTable) {
+TEST_F(Experiments, TheTableMarksTrendsBelowRoundOff) {
   Experiment experiment = read(two_systems);
   experiment.cases[0].conserved = "birkhoffian";
   (void)run_experiment(experiment, directory / "out", {});
@@ -141,6 +141,9 @@ TEST_F(Experiments, TrendsBelowRoundOffAreMarkedInTheTable) {
   EXPECT_NE(table("linear", -1.0e-16).find("* slower than one unit of round-off a step"), std::string::npos);
   EXPECT_EQ(table("linear", -1.2e-16).find('*'), std::string::npos);
   EXPECT_EQ(table("bounded", 1.0e-18).find('*'), std::string::npos);
+  EXPECT_NE(table("bounded", 0).find("(damped-oscillator, T = 1)"), std::string::npos);
+  experiment.cases[0].conserved = "energy";
+  EXPECT_NE(table("bounded", 0).find("never rises"), std::string::npos);
 }
 
 TEST(Scope, OfEachClaim) {
