@@ -72,7 +72,8 @@ TEST(SystemFormulas, NamesAreFoundWhateverTheirSignature) {
   EXPECT_FALSE(names_kinetic<Fits>);
 }
 
-// An oscillator whose formulas write as many results as they are told to.
+// An oscillator whose formulas write as many results as they are told to, through pointers, since a span with
+// checks would stop at its end.
 struct Writes {
   static constexpr int dimension = 2;
   int fields = 2, values = 1, starts = 2;
@@ -80,11 +81,10 @@ struct Writes {
   template <class T>
   void field(const T& /*t*/, In<T> z, Out<T> rate) const {
     const T all[] = {z[1], -z[0], z[0], z[1]};
-    for (std::size_t k = 0; k < static_cast<std::size_t>(fields); ++k) rate[k] = all[k];
+    for (std::size_t k = 0; k < static_cast<std::size_t>(fields); ++k) rate.data()[k] = all[k];
   }
   template <class T>
   void invariants(const T& /*t*/, In<T> z, Out<T> out) const {
-    // Through the pointer, as a span with checks would stop at its end.
     for (int k = 0; k < values; ++k) out.data()[k] = (z[0] * z[0] + z[1] * z[1]) / 2;
   }
   template <class T>
