@@ -36,9 +36,9 @@ int compare(const std::vector<std::string>& names, bool quick, const std::string
     if (!json)
       std::cout << experiment.title << '\n'
                 << outcome.table << '\n'
-                << outcome.runs << " runs (" << outcome.resumed << " resumed, " << outcome.failed
-                << " ended early)\nresults  " << (directory / "results.csv").string() << "\nreport   "
-                << outcome.report.string() << '\n';
+                << outcome.runs << (outcome.runs == 1 ? " run (" : " runs (") << outcome.resumed
+                << " resumed, " << outcome.failed << " ended early)\nresults  "
+                << (directory / "results.csv").string() << "\nreport   " << outcome.report.string() << '\n';
   }
   if (json) std::cout << j.dump(1) << '\n';
   return failed ? 1 : 0;

@@ -4,6 +4,7 @@
 
 #include <pfaff/app/command.hpp>
 #include <pfaff/app/terminal.hpp>
+#include <pfaff/bench/measure/scope.hpp>
 #include <pfaff/bench/runner/citations.hpp>
 #include <pfaff/bench/runner/experiment.hpp>
 #include <pfaff/core/bracket.hpp>
@@ -37,9 +38,11 @@ nlohmann::json describe_system(const SystemPlugin& plugin) {
                    {"autonomous", model->autonomous()},
                    {"parameters", parameters_of(plugin, model->parameters())}};
   for (std::size_t k = 0; k < model->coordinates().size(); ++k)
-    j["coordinates"].push_back({{"name", model->coordinates()[k].name},
-                                {"unit", model->coordinates()[k].unit},
-                                {"initial", to_string(model->initial()[k])}});
+    j["coordinates"].push_back(
+        {{"name", model->coordinates()[k].name},
+         {"unit", model->coordinates()[k].unit},
+         {"initial", k < model->initial().size() ? nlohmann::json(to_string(model->initial()[k]))
+                                                 : nlohmann::json(nullptr)}});
   j["invariants"] = nlohmann::json::array();
   for (const Invariant& i : model->invariants())
     j["invariants"].push_back({{"name", i.name}, {"unit", i.unit}, {"expected", to_string(i.behaviour)}});
@@ -63,12 +66,7 @@ nlohmann::json describe_method(const MethodPlugin& plugin) {
     const auto model = system->make({});
     if (!method->refuses(*model).empty()) continue;
     nlohmann::json claims = nlohmann::json::array();
-    // Symplectic is said of the canonical structure; other systems have one of their own.
-    const bool canonical =
-        model->facets().has(Facet::darboux_chart) && !model->facets().has(Facet::birkhoffian);
-    for (const Claim claim : method->preserves(*model))
-      if (claim != Claim::symplectic || canonical) claims.push_back(to_string(claim));
-    if (claims.empty()) claims.push_back(to_string(Claim::none));
+    for (const Claim claim : claims_in_scope(*method, *model)) claims.push_back(to_string(claim));
     j["systems"].push_back(
         {{"name", system->name()}, {"order", method->order(*model)}, {"preserves", claims}});
   }
@@ -97,14 +95,17 @@ nlohmann::json describe_experiment(const std::string& name) {
   return j;
 }
 
-// Whatever has a name, plug-ins first; a system and an experiment may share theirs.
-nlohmann::json describe(const std::string& name, const std::vector<std::string>& also_known = {}) {
-  if (const auto* system = systems().find(name)) return describe_system(*system);
-  if (const auto* method = integrators().find(name)) return describe_method(*method);
-  if (const auto* bracket = brackets().find(name)) return describe_bracket(*bracket);
+// Everything of that name: a system and an experiment may share theirs, a plug-in comes first.
+std::vector<nlohmann::json> describe(const std::string& name,
+                                     const std::vector<std::string>& also_known = {}) {
+  std::vector<nlohmann::json> found;
+  if (const auto* system = systems().find(name)) found.push_back(describe_system(*system));
+  if (const auto* method = integrators().find(name)) found.push_back(describe_method(*method));
+  if (const auto* bracket = brackets().find(name)) found.push_back(describe_bracket(*bracket));
   const std::vector<std::string> experiments = experiment_names();
   if (std::find(experiments.begin(), experiments.end(), name) != experiments.end())
-    return describe_experiment(name);
+    found.push_back(describe_experiment(name));
+  if (!found.empty()) return found;
   std::vector<std::string> names;
   for (const auto& more :
        {systems().names(), integrators().names(), brackets().names(), experiments, also_known})
@@ -116,7 +117,11 @@ nlohmann::json describe(const std::string& name, const std::vector<std::string>&
 std::string text_of(const nlohmann::json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
-  return value.dump();
+  if (value.is_null()) return "-";
+  if (!value.is_array()) return value.dump();
+  std::string joined;
+  for (const auto& item : value) joined += (joined.empty() ? "" : ", ") + text_of(item);
+  return joined;
 }
 
 // A unit, 1 where there is none, as in the header of series.csv.
@@ -133,11 +138,7 @@ void print(const nlohmann::json& j) {
   for (const auto& [key, value] : j.items()) {
     if (key == "name" || key == "kind" || key == "title" || key == "reference" || key == "schema") continue;
     if (!value.is_array()) scalars.push_back({key, key == "time_unit" ? unit_of(value) : text_of(value)});
-    if (value.is_array() && !value.empty() && value[0].is_string()) {
-      std::string joined;
-      for (const auto& item : value) joined += (joined.empty() ? "" : ", ") + item.get<std::string>();
-      scalars.push_back({key, joined});
-    }
+    if (value.is_array() && !value.empty() && value[0].is_string()) scalars.push_back({key, text_of(value)});
   }
   std::cout << table(scalars);
   for (const auto& [key, value] : j.items()) {
@@ -153,11 +154,7 @@ void print(const nlohmann::json& j) {
     for (const auto& item : value) {
       std::vector<std::string> row;
       for (const std::string& column : columns) {
-        std::string cell = column == "unit" ? unit_of(item[column]) : text_of(item[column]);
-        if (item[column].is_array()) {
-          cell.clear();
-          for (const auto& part : item[column]) cell += (cell.empty() ? "" : ", ") + part.get<std::string>();
-        }
+        const std::string cell = column == "unit" ? unit_of(item[column]) : text_of(item[column]);
         row.push_back(row.empty() ? "  " + cell : cell);
       }
       rows.push_back(row);
@@ -174,7 +171,7 @@ int cite(const std::vector<std::string>& names, bool json) {
     if (!bibtex(name).empty()) {
       found = {name};
     } else {
-      const nlohmann::json described = describe(name, citation_keys());
+      const nlohmann::json described = describe(name, citation_keys()).front();
       const auto& reference = described["reference"];
       found = reference.is_array() ? reference.get<std::vector<std::string>>() : keys_in(reference);
     }
@@ -198,12 +195,18 @@ void add_describe(CLI::App& app, Common& common, Action& action) {
   sub->add_option("name", *name, "Its name, as in pfaff list")->type_name("NAME")->required();
   sub->callback([name, &common, &action] {
     action = [name, &common] {
-      nlohmann::json j = describe(*name);
-      j["schema"] = 1;
+      const std::vector<nlohmann::json> found = describe(*name);
       if (common.json) {
+        // The plug-in's own keys; what shares its name has a place beside them.
+        nlohmann::json j = found.front();
+        j["schema"] = 1;
+        for (std::size_t k = 1; k < found.size(); ++k) j["also"].push_back(found[k]);
         std::cout << j.dump(1) << '\n';
       } else {
-        print(j);
+        for (std::size_t k = 0; k < found.size(); ++k) {
+          if (k > 0) std::cout << '\n';
+          print(found[k]);
+        }
       }
       return 0;
     };

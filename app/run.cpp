@@ -129,6 +129,9 @@ int run(const Options& options, bool json) {
           rows.push_back({i["name"], "drift max " + scientific(i["max"]) + ", rms " + scientific(i["rms"]) +
                                          ", slope " + scientific(i["slope"]) + ", " +
                                          i["class"].get<std::string>()});
+        else if (i.contains("largest_rise"))
+          rows.push_back(
+              {i["name"], "largest rise " + scientific(i["largest_rise"]) + ", expected to decrease"});
       rows.push_back({"written", options.out + "/{config.toml, series.csv, summary.json}"});
       std::cout << table(rows);
     }

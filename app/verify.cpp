@@ -47,6 +47,7 @@ void print(const std::vector<Check>& checks) {
            std::string(to_string(c.result))});
       continue;
     }
+    if (c.result == CheckResult::skipped && !c.in_scope) continue;
     const std::array<std::string, 3> key{c.claim, c.system, c.precision};
     const auto [where, added] = counts.try_emplace(key);
     if (added) order.push_back(key);
@@ -109,8 +110,9 @@ int run(const std::vector<std::string>& names, bool full, bool json) {
     print(checks);
     std::cout << '\n'
               << totals["pass"] << " pass, " << totals["fail"] << " fail, " << totals["measured"]
-              << " measured outside their scope, " << totals["rejected"]
-              << " controls rejected: " << (ok ? "ok" : "NOT OK") << '\n';
+              << " measured outside their scope, "
+              << (totals["skipped"] > 0 ? std::to_string(totals["skipped"]) + " skipped, " : "")
+              << totals["rejected"] << " controls rejected: " << (ok ? "ok" : "NOT OK") << '\n';
   }
   return ok ? 0 : 1;
 }

@@ -12,16 +12,21 @@
 //   exact_solution(elapsed, t0, z0, z)       the flow
 //   initial(z)                               instead of the descriptor's list, when it depends on parameters
 // Whatever is not written is derived; whatever could be derived but is written is checked against the
-// derivation.
+// derivation. A member of one of these names with another signature is refused by the compiler
+// (core/facets/system_formulas.hpp), a formula that writes more or fewer results than it should when a model
+// is made.
 #pragma once
 
+#include <algorithm>
 #include <memory>
+#include <string_view>
 
 #include <pfaff/core/facets/compiled_series.hpp>
 #include <pfaff/core/facets/model.hpp>
+#include <pfaff/core/facets/system_formulas.hpp>
 #include <pfaff/core/registry/plugin.hpp>
 #include <pfaff/core/registry/registry.hpp>
-#include <pfaff/core/tape/recorder.hpp>
+#include <pfaff/core/tape/counted_outputs.hpp>
 
 namespace pfaff {
 
@@ -52,8 +57,8 @@ class SystemPlugin : public Plugin {
 
 namespace detail {
 
-using RecordedIn = std::span<const Recorded>;
-using RecordedOut = std::span<Recorded>;
+using RecordedIn = In<Recorded>;
+using RecordedOut = Out<Recorded>;
 
 template <class S>
 int dimension_of(const S& s) {
@@ -74,28 +79,25 @@ class Collector {
   }
 
   void collect() {
+    check_formulas<S>();
     using R = Recorded;
     const S& s = *system_;
     const int n = source_.dimension;
-    if constexpr (requires(const R& t, RecordedIn z, RecordedOut o) { s.field(t, z, o); }) {
-      give(Formula::field, n, n, [&](const R& t, RecordedIn z, RecordedOut o) { s.field(t, z, o); });
+    if constexpr (WritesField<S>) {
+      give(Formula::field, "field(t, z, rate)", n, n,
+           [&](const R& t, RecordedIn z, RecordedOut o) { s.field(t, z, o); });
       compile(Formula::field, [](const void* p, const double& t, const double* z, double* o) {
         const S& self = *static_cast<const S*>(p);
         const auto m = static_cast<std::size_t>(dimension_of(self));
         self.field(t, In<double>(z, m), Out<double>(o, m));
       });
     }
-    if constexpr (requires(const R& t, RecordedIn z) {
-                    s.potential(t, z);
-                    s.kinetic(t, z);
-                  }) {
+    if constexpr (WritesKinetic<S> && WritesPotential<S>) {
       source_.canonical = true;
-      give(Formula::kinetic, n / 2, 1,
-           [&](const R& t, RecordedIn p, RecordedOut o) { o[0] = s.kinetic(t, p); });
-      give(Formula::potential, n / 2, 1,
-           [&](const R& t, RecordedIn q, RecordedOut o) { o[0] = s.potential(t, q); });
-      if constexpr (requires(const R& t, RecordedIn q, RecordedOut o) { s.force(t, q, o); }) {
-        give(Formula::force, n / 2, n / 2,
+      give(Formula::kinetic, n / 2, [&](const R& t, RecordedIn p) { return s.kinetic(t, p); });
+      give(Formula::potential, n / 2, [&](const R& t, RecordedIn q) { return s.potential(t, q); });
+      if constexpr (WritesForce<S>) {
+        give(Formula::force, "force(t, q, f)", n / 2, n / 2,
              [&](const R& t, RecordedIn q, RecordedOut o) { s.force(t, q, o); });
         compile(Formula::force, [](const void* object, const double& t, const double* q, double* o) {
           const S& self = *static_cast<const S*>(object);
@@ -103,15 +105,15 @@ class Collector {
           self.force(t, In<double>(q, m), Out<double>(o, m));
         });
       }
-      if constexpr (requires(const R& t, RecordedIn p, RecordedOut o) { s.velocity(t, p, o); }) {
-        give(Formula::velocity, n / 2, n / 2,
+      if constexpr (WritesVelocity<S>) {
+        give(Formula::velocity, "velocity(t, p, v)", n / 2, n / 2,
              [&](const R& t, RecordedIn p, RecordedOut o) { s.velocity(t, p, o); });
         compile(Formula::velocity, [](const void* object, const double& t, const double* p, double* o) {
           const S& self = *static_cast<const S*>(object);
           const auto m = static_cast<std::size_t>(dimension_of(self) / 2);
           self.velocity(t, In<double>(p, m), Out<double>(o, m));
         });
-        if constexpr (requires(RecordedOut o) { s.force(R(), RecordedIn(), o); })
+        if constexpr (WritesForce<S>)
           compile(Formula::field, [](const void* object, const double& t, const double* z, double* o) {
             const S& self = *static_cast<const S*>(object);
             const auto m = static_cast<std::size_t>(dimension_of(self) / 2);
@@ -120,12 +122,11 @@ class Collector {
           });
       }
     }
-    if constexpr (requires(const R& t, RecordedIn z) { s.hamiltonian(t, z); }) {
-      give(Formula::hamiltonian, n, 1,
-           [&](const R& t, RecordedIn z, RecordedOut o) { o[0] = s.hamiltonian(t, z); });
-      if constexpr (requires { s.bracket(); }) {
+    if constexpr (WritesHamiltonian<S>) {
+      give(Formula::hamiltonian, n, [&](const R& t, RecordedIn z) { return s.hamiltonian(t, z); });
+      if constexpr (WritesBracket<S>) {
         const auto bracket = s.bracket();
-        give(Formula::poisson_tensor, n, n * n, [&](const R& t, RecordedIn z, RecordedOut o) {
+        give(Formula::poisson_tensor, "bracket()", n, n * n, [&](const R& t, RecordedIn z, RecordedOut o) {
           const std::size_t size = z.size();
           std::vector<R> covector(size), column(size);
           for (std::size_t j = 0; j < size; ++j) {
@@ -139,20 +140,15 @@ class Collector {
         source_.canonical = true;
       }
     }
-    if constexpr (requires(const R& t, RecordedIn z, RecordedOut o) {
-                    s.birkhoffian(t, z);
-                    s.one_form(t, z, o);
-                  }) {
-      give(Formula::birkhoffian, n, 1,
-           [&](const R& t, RecordedIn z, RecordedOut o) { o[0] = s.birkhoffian(t, z); });
-      give(Formula::one_form, n, n, [&](const R& t, RecordedIn z, RecordedOut o) { s.one_form(t, z, o); });
+    if constexpr (WritesBirkhoffian<S> && WritesOneForm<S>) {
+      give(Formula::birkhoffian, n, [&](const R& t, RecordedIn z) { return s.birkhoffian(t, z); });
+      give(Formula::one_form, "one_form(t, z, F)", n, n,
+           [&](const R& t, RecordedIn z, RecordedOut o) { s.one_form(t, z, o); });
     }
-    if constexpr (requires(const R& t, RecordedIn z, RecordedOut o) {
-                    s.chart(t, z, o);
-                    s.chart_inverse(t, z, o);
-                  }) {
-      give(Formula::chart, n, n, [&](const R& t, RecordedIn z, RecordedOut o) { s.chart(t, z, o); });
-      give(Formula::chart_inverse, n, n,
+    if constexpr (WritesChart<S> && WritesChartInverse<S>) {
+      give(Formula::chart, "chart(t, z, y)", n, n,
+           [&](const R& t, RecordedIn z, RecordedOut o) { s.chart(t, z, o); });
+      give(Formula::chart_inverse, "chart_inverse(t, y, z)", n, n,
            [&](const R& t, RecordedIn y, RecordedOut o) { s.chart_inverse(t, y, o); });
       compile(Formula::chart, [](const void* object, const double& t, const double* z, double* y) {
         const S& self = *static_cast<const S*>(object);
@@ -165,33 +161,67 @@ class Collector {
         self.chart_inverse(t, In<double>(y, m), Out<double>(z, m));
       });
     }
-    if constexpr (requires(const R& t, RecordedIn y) { s.chart_hamiltonian(t, y); })
-      give(Formula::chart_hamiltonian, n, 1,
-           [&](const R& t, RecordedIn y, RecordedOut o) { o[0] = s.chart_hamiltonian(t, y); });
-    if constexpr (WritesChartField<S, R>)
-      give(Formula::chart_field, n, n,
+    if constexpr (WritesChartHamiltonian<S>)
+      give(Formula::chart_hamiltonian, n,
+           [&](const R& t, RecordedIn y) { return s.chart_hamiltonian(t, y); });
+    if constexpr (WritesChartField<S>)
+      give(Formula::chart_field, "chart_field(t, y, rate)", n, n,
            [&](const R& t, RecordedIn y, RecordedOut o) { s.chart_field(t, y, o); });
     if constexpr (CompilesChartField<S>)
-      if (WritesChartField<S, R> || source_.given[index(Formula::chart)] == nullptr) compile_chart_field();
-    if constexpr (requires(const R& t, RecordedIn z, RecordedOut o) { s.invariants(t, z, o); })
-      give(Formula::invariants, n, static_cast<int>(source_.invariants.size()),
+      if (WritesChartField<S> || source_.given[index(Formula::chart)] == nullptr) compile_chart_field();
+    if constexpr (WritesInvariants<S>) {
+      give(Formula::invariants, "invariants(t, z, values)", n, static_cast<int>(source_.invariants.size()),
            [&](const R& t, RecordedIn z, RecordedOut o) { s.invariants(t, z, o); });
-    if constexpr (requires(const R& t, RecordedIn z, RecordedOut o) { s.exact_solution(t, t, z, o); })
-      give(Formula::exact_solution, n + 1, n, [&](const R& elapsed, RecordedIn z, RecordedOut o) {
-        s.exact_solution(elapsed, z[z.size() - 1], z.first(z.size() - 1), o);
-      });
-    if constexpr (requires(RecordedOut o) { s.template initial<R>(o); }) {
-      std::vector<R> start(static_cast<std::size_t>(n));
-      s.template initial<R>(RecordedOut(start));
+    } else if (!source_.invariants.empty()) {
+      throw InputError("system " + source_.name + ": the descriptor lists the invariant " +
+                       source_.invariants.front().name + "; expected invariants(t, z, values)");
+    }
+    if constexpr (WritesExactSolution<S>)
+      give(Formula::exact_solution, "exact_solution(elapsed, t0, z0, z)", n + 1, n,
+           [&](const R& elapsed, RecordedIn z, RecordedOut o) {
+             s.exact_solution(elapsed, z[z.size() - 1], z.first(z.size() - 1), o);
+           });
+    if constexpr (WritesInitial<S>) {
+      CountedOutputs start(n);
+      s.template initial<R>(start.span());
+      require_written("initial(z)", start, n, false);
       source_.initial.clear();
-      for (const R& x : start) source_.initial.push_back(x.constant());
+      for (const R& x : start.span()) source_.initial.push_back(x.constant());
     }
   }
 
  private:
+  // Records a formula of one result.
   template <class F>
-  void give(Formula formula, int inputs, int outputs, F&& f) {
-    source_.given[index(formula)] = std::make_shared<const Tape>(record(inputs, outputs, f));
+  void give(Formula formula, int inputs, F&& f) {
+    source_.given[index(formula)] = std::make_shared<const Tape>(
+        record(inputs, 1, [&](const Recorded& t, RecordedIn x, RecordedOut out) { out[0] = f(t, x); }));
+  }
+  // Records a formula of `outputs` results, named as in the list above.
+  template <class F>
+  void give(Formula formula, const char* called, int inputs, int outputs, F&& f) {
+    source_.given[index(formula)] = std::make_shared<const Tape>(
+        record(inputs, outputs, [&](const Recorded& t, RecordedIn x, RecordedOut out) {
+          CountedOutputs results(outputs);
+          f(t, x, results.span());
+          require_written(called, results, outputs, formula != Formula::one_form);
+          std::copy(results.span().begin(), results.span().end(), out.begin());
+        }));
+  }
+  // Zeros need not be written in a one-form or an initial state.
+  void require_written(const char* called, const CountedOutputs& results, int expected, bool all) const {
+    const auto count = static_cast<std::size_t>(expected);
+    std::string wrong;
+    if (results.written() > count) {
+      wrong = "writes " + std::to_string(results.written()) + " results";
+    } else if (const std::size_t k = results.first_unwritten(); all && k < count) {
+      wrong = "does not write result " + std::to_string(k + 1);
+    } else {
+      return;
+    }
+    throw InputError(
+        "system " + source_.name + ": " + called + " " + wrong + "; expected " + std::to_string(expected) +
+        (std::string_view(called).starts_with("invariants") ? ", as many as the descriptor lists" : ""));
   }
   void compile_chart_field() requires CompilesChartField<S> {
     source_.chart_field_series = &compiled_series<S>();
@@ -220,7 +250,8 @@ class Collector {
 
 }  // namespace detail
 
-/// A model of an author's object (what System<S>::make does, for objects made in a program).
+/// A model of an author's object (what System<S>::make does, for objects made in a program). InputError,
+/// naming the system, where a formula writes more or fewer results than it should.
 template <class S>
 std::shared_ptr<const Model> make_model(const SystemDescriptor& descriptor, const S& object) {
   auto system = std::make_shared<const S>(object);

@@ -1,5 +1,6 @@
 # Plug-ins outside the library: the templates of CONTRIBUTING.md as they stand, files that must be refused before
-# they are loaded, and the examples built against the installed package. One more test looks at the citations.
+# they are loaded, sources that the compiler must refuse, and the examples built against the installed package. One
+# more test looks at the citations.
 set(pfaff_plugins ${CMAKE_CURRENT_BINARY_DIR}/plugins)
 
 function(pfaff_test_plugin name)
@@ -33,6 +34,8 @@ endif()
 target_compile_definitions(core_tests PRIVATE PFAFF_TEST_PLUGINS="${pfaff_plugins}")
 add_dependencies(core_tests fits_plugin starts-fast_plugin other-version_plugin no-stamp_plugin two-stamps_plugin
                  fast-math_plugin templates_plugin)
+add_test(NAME core/refused COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/core/refused_test.sh ${CMAKE_CXX_COMPILER}
+                                   ${PROJECT_BINARY_DIR}/include ${PROJECT_SOURCE_DIR})
 add_test(NAME app/references COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/app/references_test.sh ${PROJECT_SOURCE_DIR})
 add_test(NAME app/plugins COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/app/plugins_test.sh $<TARGET_FILE:pfaff_app> ${pfaff_plugins})
 set(flags "")
@@ -41,12 +44,6 @@ if(PFAFF_MARCH)
 endif()
 if(PFAFF_SANITIZE)
   string(APPEND flags " -fsanitize=${PFAFF_SANITIZE}")
-endif()
-if(PFAFF_MARCH)
-  string(APPEND flags "-march=${PFAFF_MARCH} ")
-endif()
-if(PFAFF_SANITIZE)
-  string(APPEND flags "-fsanitize=${PFAFF_SANITIZE}")
 endif()
 add_test(NAME app/out_of_tree COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/app/out_of_tree_test.sh
                                       ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR} ${CMAKE_COMMAND} "${flags}")

@@ -112,7 +112,12 @@ class Experiment:
                                  f"got '{case['precision']}'")
         for i, method in enumerate(self.methods):
             require(method, f"experiment.json, method {i + 1}", label=str)
-            allow(method, f"experiment.json, method {method['label']}", parameters=dict, claims=list)
+            allow(method, f"experiment.json, method {method['label']}", parameters=dict, systems=list)
+            for claimed in method.get("systems") or []:
+                require(claimed, f"experiment.json, method {method['label']}, systems", name=str, preserves=list)
+                if type(claimed.get("order")) is not int:
+                    raise InputError(f"experiment.json, method {method['label']}, system {claimed['name']}: expected "
+                                     "'order' to be an integer")
         self.labels = [m["label"] for m in self.methods]
         for kind, names in (("case", [c["name"] for c in self.cases]), ("method", self.labels)):
             for name, n in collections.Counter(names).items():
@@ -161,6 +166,11 @@ class Experiment:
         for run in self.runs:
             run.cost = costs.get((run.case, run.method, step_key(run.step)))
         return any(run.cost for run in self.runs)
+
+    @staticmethod
+    def declared_order(method, case):
+        """The order that the method claims on the case's system; None where it claims nothing of it."""
+        return next((s["order"] for s in method.get("systems") or [] if s["name"] == case.get("system")), None)
 
     def runs_of(self, case):
         return [r for r in self.runs if r.case == case["name"]]

@@ -138,8 +138,8 @@ def order(experiment, case):
                   and r.number("error_max") > ABOVE_ROUND_OFF * UNIT_ROUND_OFF[case["precision"]]][-2:]
         if len(points) < 2 or points[0][0] == points[1][0] or not math.isfinite(points[0][1] + points[1][1]):
             continue
-        seen, declared = slope(points), method.get("order")
-        if isinstance(declared, (int, float)) and abs(seen - declared) <= ORDER_TOLERANCE:
+        seen, declared = slope(points), experiment.declared_order(method, case)
+        if declared is not None and abs(seen - declared) <= ORDER_TOLERANCE:
             agree.append(f"{method['label']} ({seen:.2f})")
         else:
             expected = "" if declared is None else f", declared {declared}"

@@ -59,8 +59,16 @@ def cases(experiment):
 def methods(experiment):
     columns = [("Method", ""), ("Integrator", ""), ("Parameters", "wrap"), ("Order", "number"), ("Claims", "wrap")]
     return table("Methods", columns, [[("", [text(x if x not in (None, "") else "–") for x in (
-        m["label"], m.get("integrator"), settings(m.get("parameters")), m.get("order"), ", ".join(m.get("claims") or [])
-    )]) for m in experiment.methods]])
+        m["label"], m.get("integrator"), settings(m.get("parameters")), by_system(m, lambda s: str(s["order"])),
+        by_system(m, lambda s: ", ".join(s["preserves"])))]) for m in experiment.methods]])
+
+
+def by_system(method, say):
+    """What is said of every system, once where it is the same for all."""
+    said = {s["name"]: say(s) for s in method.get("systems") or []}
+    if len(set(said.values())) <= 1:
+        return next(iter(said.values()), "")
+    return "; ".join(f"{name}: {what}" for name, what in said.items())
 
 
 def overview(experiment):

@@ -6,6 +6,7 @@
 #include <map>
 #include <mutex>
 
+#include <pfaff/bench/measure/scope.hpp>
 #include <pfaff/bench/runner/citations.hpp>
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/bench/runner/results.hpp>
@@ -65,15 +66,22 @@ nlohmann::json description(const Experiment& experiment, const std::vector<Exper
     const auto run =
         std::find_if(runs.begin(), runs.end(), [&](const ExperimentRun& r) { return r.method == &m; });
     if (run == runs.end()) continue;
-    nlohmann::json parameters = nlohmann::json::object(), claims = nlohmann::json::array();
+    nlohmann::json parameters = nlohmann::json::object(), systems = nlohmann::json::array();
     for (const auto& [key, value] : run->resolved.method->parameters()) parameters[key] = value;
-    for (const Claim claim : run->resolved.method->preserves(*run->resolved.model))
-      claims.push_back(to_string(claim));
-    j["methods"].push_back({{"label", m.label},
-                            {"integrator", m.integrator},
-                            {"parameters", parameters},
-                            {"order", run->resolved.method->order(*run->resolved.model)},
-                            {"claims", claims}});
+    // What is claimed of each system, as `describe` says it: order and claims may depend on the problem.
+    std::vector<std::string> seen;
+    for (const ExperimentRun& r : runs) {
+      if (r.method != &m || std::find(seen.begin(), seen.end(), r.which->system) != seen.end()) continue;
+      seen.push_back(r.which->system);
+      nlohmann::json claims = nlohmann::json::array();
+      for (const Claim claim : claims_in_scope(*r.resolved.method, *r.resolved.model))
+        claims.push_back(to_string(claim));
+      systems.push_back({{"name", r.which->system},
+                         {"order", r.resolved.method->order(*r.resolved.model)},
+                         {"preserves", claims}});
+    }
+    j["methods"].push_back(
+        {{"label", m.label}, {"integrator", m.integrator}, {"parameters", parameters}, {"systems", systems}});
   }
   return j;
 }

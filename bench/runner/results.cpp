@@ -62,6 +62,12 @@ std::map<std::string, CostRow> read_costs(const fs::path& path, const std::vecto
         rows[key] = {line, std::atof(line.c_str() + key.size() + 1)};
   return rows;
 }
+std::string costs_csv(const std::vector<ExperimentRun>& runs, const std::map<std::string, CostRow>& rows) {
+  std::string text = "case,method,step,ns_per_step,ns_per_step_min,ns_per_step_max,repetitions,seconds\n";
+  for (const ExperimentRun& run : runs)
+    if (const auto row = rows.find(cost_key(run)); row != rows.end()) text += row->second.text + "\n";
+  return text;
+}
 }  // namespace
 
 std::vector<nlohmann::json> read_summaries(const fs::path& directory,
@@ -118,37 +124,52 @@ std::string results_csv(const std::vector<ExperimentRun>& runs,
 void write_costs(const fs::path& directory, const Experiment& experiment,
                  const std::vector<ExperimentRun>& runs, const ExperimentProgress& progress) {
   const fs::path path = directory / "cost.csv";
-  const auto known = read_costs(path, runs);
-  std::string text = "case,method,step,ns_per_step,ns_per_step_min,ns_per_step_max,repetitions,seconds\n";
+  auto rows = read_costs(path, runs);
   std::size_t done = 0;
   for (const ExperimentRun& run : runs) {
     if (progress)
       progress("timing " + run.which->name + ", " + run.method->label + ", h = " + run.step, done,
                runs.size());
     ++done;
-    if (const auto row = known.find(cost_key(run)); row != known.end()) {
-      text += row->second.text + "\n";
-      continue;
-    }
+    if (rows.contains(cost_key(run))) continue;
     const StepTime time = time_steps(run.resolved, experiment.quick ? 0.05 : 0.3);
-    text += cost_key(run) + "," + number(time.median, "%.6g") + "," + number(time.minimum, "%.6g") + "," +
-            number(time.maximum, "%.6g") + "," + std::to_string(time.repetitions) + "," +
-            number(time.seconds, "%.4g") + "\n";
+    rows[cost_key(run)].text = cost_key(run) + "," + number(time.median, "%.6g") + "," +
+                               number(time.minimum, "%.6g") + "," + number(time.maximum, "%.6g") + "," +
+                               std::to_string(time.repetitions) + "," + number(time.seconds, "%.4g");
+    write_file(path, costs_csv(runs, rows));  // after each, so that none is lost with the process
   }
-  write_file(path, text);
+  write_file(path, costs_csv(runs, rows));  // rows of runs that are no longer asked for go
 }
+
+namespace {
+// A trend that is there, but slower than one unit of round-off of the initial value a step.
+bool below_round_off(const nlohmann::json& invariant, const nlohmann::json& summary) {
+  const std::string kind = invariant["class"];
+  if (kind != "random_walk" && kind != "linear" && kind != "polynomial" && kind != "exponential")
+    return false;
+  const auto text = [](const nlohmann::json& x) { return x.is_string() ? x.get<std::string>() : x.dump(); };
+  const auto initial = Real::parse(text(invariant["initial"])), step = Real::parse(text(summary["step"]));
+  const double unit = summary["precision"] == "quad" ? 9.6e-35 : 1.1e-16;
+  return initial && step &&
+         std::abs(invariant["slope"].get<double>() * step->value()) < unit * std::abs(initial->value());
+}
+}  // namespace
 
 std::string results_table(const fs::path& directory, const Experiment& experiment,
                           const std::vector<ExperimentRun>& runs,
                           const std::vector<nlohmann::json>& summaries) {
   const auto costs = read_costs(directory / "cost.csv", runs);
   std::ostringstream text;
+  bool marked = false;
   const auto scientific = [](const nlohmann::json& value) {
     return value.is_null() ? std::string("-") : number(value.get<double>(), "%.1e");
   };
   for (const ExperimentCase& c : experiment.cases) {
     std::array<char, 160> line{};
-    text << '\n' << c.title << "  (" << c.system << ", T = " << c.time << ")\n";
+    const auto run =
+        std::find_if(runs.begin(), runs.end(), [&](const ExperimentRun& r) { return r.which == &c; });
+    const std::string time = run == runs.end() ? c.time : to_string(run->resolved.time);
+    text << '\n' << c.title << "  (" << c.system << ", T = " << time << ")\n";
     const std::string drift = c.conserved.empty() ? "drift" : "drift of " + c.conserved;
     std::snprintf(line.data(), line.size(), "%-23s %19s  %-34s %9s %9s\n", "", "error", drift.c_str(),
                   "structure", "cost");
@@ -168,11 +189,15 @@ std::string results_table(const fs::path& directory, const Experiment& experimen
       }
       std::string measured = "-";
       for (const nlohmann::json& i : s["invariants"])
-        if (i["name"] == c.conserved && i.contains("max"))
+        if (i["name"] == c.conserved && i.contains("max")) {
+          const bool mark = below_round_off(i, s);
+          marked = marked || mark;
           measured = scientific(i["max"]) + "   " + number(i["slope"].get<double>(), "%+.1e") + "   " +
-                     i["class"].get<std::string>();
-        else if (i["name"] == c.conserved && i.contains("largest_rise"))
-          measured = "largest rise " + scientific(i["largest_rise"]);
+                     i["class"].get<std::string>() + (mark ? "*" : "");
+        } else if (i["name"] == c.conserved && i.contains("largest_rise")) {
+          measured =
+              i["largest_rise"] == 0.0 ? "never rises" : "largest rise " + scientific(i["largest_rise"]);
+        }
       const auto cost = costs.find(cost_key(runs[k]));
       std::snprintf(line.data(), line.size(), "%-16.16s %6s %9s %9s  %-34s %9s %9s\n",
                     runs[k].method->label.c_str(), runs[k].step.c_str(), scientific(s["error_max"]).c_str(),
@@ -182,6 +207,7 @@ std::string results_table(const fs::path& directory, const Experiment& experimen
       text << line.data();
     }
   }
+  if (marked) text << "\n* slower than one unit of round-off a step\n";
   return text.str();
 }
 

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -16,15 +14,9 @@
 
 namespace pfaff {
 
-/// Parses a file. InputError with file and line when it is not TOML.
-inline toml::table parse_toml(const std::filesystem::path& path) {
-  try {
-    return toml::parse(read_file(path), path.string());
-  } catch (const toml::parse_error& e) {
-    throw InputError(path.string() + ":" + std::to_string(e.source().begin.line) + ": " +
-                     std::string(e.description()));
-  }
-}
+/// Parses a file. Numbers with a point or an exponent become the strings they are written as: a double would
+/// lose digits that quad has. InputError with file and line when it is not TOML.
+toml::table parse_toml(const std::filesystem::path& path);
 
 /// A table whose keys are checked: what is not asked for by finish() is an error that names the nearest key.
 class Keys {
@@ -86,11 +78,6 @@ class Keys {
   std::string scalar(const toml::node& node, std::string_view key) const {
     if (const auto* s = node.as_string()) return s->get();
     if (const auto* i = node.as_integer()) return std::to_string(i->get());
-    if (const auto* x =
-            node.as_floating_point()) {  // the shortest decimal, which is the one that was written
-      std::array<char, 40> digits{};
-      return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), x->get()).ptr};
-    }
     if (const auto* b = node.as_boolean()) return b->get() ? "yes" : "no";
     throw InputError(where_ + ": key '" + std::string(key) + "': expected a number or a string");
   }

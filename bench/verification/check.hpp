@@ -13,8 +13,8 @@
 namespace pfaff {
 
 /// pass: the claim holds. fail: it does not. measured: outside the claim's scope, shown only. rejected: a
-/// control, a claim known to be false, was found to be false, as it must be. skipped: could not be measured,
-/// with the reason.
+/// control, a claim known to be false, was found to be false, as it must be. skipped: was not measured, with
+/// the reason.
 enum class CheckResult { pass, fail, measured, rejected, skipped };
 std::string_view to_string(CheckResult result);
 
@@ -27,13 +27,14 @@ struct Check {
   std::string reason;
 };
 
-/// True where a check is as it should be: claims in scope pass, controls are rejected.
+/// True where a check is as it should be: claims in scope pass, controls are rejected; out of scope, what was
+/// measured is fine whatever it is, and what was skipped gives its reason.
 bool good(const Check& check);
 
 nlohmann::json to_json(const Check& check);
 
 /// A point on a system where claims are measured: the initial state moved off any symmetry, at a time that is
-/// not 0.
+/// not 0. InputError when the model has no initial state.
 std::vector<Real> generic_state(const Model& model);
 inline const Real generic_time = Real::fraction(37, 100);
 

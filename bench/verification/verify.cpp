@@ -17,7 +17,9 @@ std::string_view to_string(CheckResult result) {
 
 bool good(const Check& check) {
   if (check.control) return check.result == CheckResult::rejected;
-  return check.result != CheckResult::fail;
+  if (check.in_scope) return check.result == CheckResult::pass;
+  return check.result == CheckResult::measured ||
+         (check.result == CheckResult::skipped && !check.reason.empty());
 }
 
 nlohmann::json to_json(const Check& c) {
@@ -31,6 +33,10 @@ nlohmann::json to_json(const Check& c) {
 }
 
 std::vector<Real> generic_state(const Model& model) {
+  if (model.initial().size() != static_cast<std::size_t>(model.dimension()))
+    throw InputError("system " + model.name() + " has " + std::to_string(model.initial().size()) +
+                     " initial values, near which its claims are measured; expected " +
+                     std::to_string(model.dimension()));
   std::vector<Real> z = model.initial();
   for (std::size_t k = 0; k < z.size(); ++k) {
     const auto i = static_cast<std::int64_t>(k);

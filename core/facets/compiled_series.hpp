@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include <pfaff/core/facets/system_formulas.hpp>
 #include <pfaff/core/numbers/dual.hpp>
 #include <pfaff/core/tape/online_series.hpp>
 
@@ -81,21 +82,11 @@ concept FixedSize = requires {
   typename std::integral_constant<int, S::dimension>;
 };
 
-// Whether the author of S writes the chart's field, or the force and velocity that are one.
-template <class S, class T>
-concept WritesChartField = requires(const S& s, const T& t, In<T> y, Out<T> rate) {
-  s.chart_field(t, y, rate);
-};
-template <class S, class T>
-concept WritesForceAndVelocity = requires(const S& s, const T& t, In<T> x, Out<T> o) {
-  s.kinetic(t, x);
-  s.potential(t, x);
-  s.force(t, x, o);
-  s.velocity(t, x, o);
-};
+// The author of S writes the chart's field, or the force and velocity that are one.
 template <class S>
 concept CompilesChartField = FixedSize<S> &&
-    (WritesChartField<S, double> || WritesForceAndVelocity<S, double>);
+    (WritesChartField<S, double> || (WritesKinetic<S, double> && WritesPotential<S, double> &&
+                                     WritesForce<S, double> && WritesVelocity<S, double>));
 
 template <CompilesChartField S, class T>
 void chart_field_of(const S& s, const T& t, In<T> y, Out<T> rate) {

@@ -23,6 +23,7 @@
 
 #include <pfaff/core/facets/compiled_series.hpp>
 #include <pfaff/core/facets/problem.hpp>
+#include <pfaff/core/facets/system_formulas.hpp>
 #include <pfaff/core/numbers/dual.hpp>
 #include <pfaff/core/tape/recorder.hpp>
 
@@ -38,30 +39,6 @@ struct Uncounted {
 };
 
 namespace detail {
-
-// What an author's struct S writes, seen with the scalar T.
-template <class S, class T>
-concept WritesSeparable = requires(const S& s, const T& t, In<T> x) {
-  s.kinetic(t, x);
-  s.potential(t, x);
-};
-template <class S, class T>
-concept WritesHamiltonian = requires(const S& s, const T& t, In<T> z) {
-  s.hamiltonian(t, z);
-}
-&&!requires(const S& s) { s.bracket(); };
-template <class S, class T>
-concept WritesField = requires(const S& s, const T& t, In<T> z, Out<T> o) {
-  s.field(t, z, o);
-};
-template <class S, class T>
-concept WritesForce = requires(const S& s, const T& t, In<T> q, Out<T> o) {
-  s.force(t, q, o);
-};
-template <class S, class T>
-concept WritesVelocity = requires(const S& s, const T& t, In<T> p, Out<T> o) {
-  s.velocity(t, p, o);
-};
 
 /// slope = the gradient at x of energy(t, x), a function of N numbers, in one pass of dual numbers.
 template <int N, class T, class Energy>
@@ -83,8 +60,9 @@ class StaticProblem {
   using Scalar = T;
   static constexpr int extent = S::dimension;
   using State = Vector<T, extent>;
-  static constexpr bool separable = detail::WritesSeparable<S, T>;
-  static constexpr bool canonical = separable || detail::WritesHamiltonian<S, T>;
+  static constexpr bool separable = detail::WritesKinetic<S, T> && detail::WritesPotential<S, T>;
+  static constexpr bool canonical =
+      separable || (detail::WritesHamiltonian<S, T> && !detail::WritesBracket<S>);
   static constexpr bool has_field = canonical || detail::WritesField<S, T>;
 
   explicit StaticProblem(S system = {}) : system_(std::move(system)) {}

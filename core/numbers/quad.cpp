@@ -20,10 +20,15 @@ bool parse(std::string_view text, Quad& result) {
   return true;
 }
 
-std::string to_string(Quad x, int digits) {
+namespace {
+std::string printed(const char* format, int digits, Quad x) {
   std::array<char, 128> buffer{};
-  quadmath_snprintf(buffer.data(), buffer.size(), "%.*Qg", digits, x.native());
+  quadmath_snprintf(buffer.data(), buffer.size(), format, digits, x.native());
   return buffer.data();
 }
+}  // namespace
+
+std::string to_string(Quad x, int digits) { return printed("%.*Qg", digits, x); }
+std::string to_scientific(Quad x, int digits) { return printed("%.*Qe", digits - 1, x); }
 
 }  // namespace pfaff

@@ -83,6 +83,8 @@ bool parse(std::string_view text, Quad& result);
 
 /// Decimal text with `digits` significant digits (36 identify a Quad).
 std::string to_string(Quad x, int digits = 36);
+/// The same with an exponent always, "-1.25e-03"; trailing zeros are kept.
+std::string to_scientific(Quad x, int digits);
 
 }  // namespace pfaff
 

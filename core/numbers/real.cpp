@@ -160,14 +160,47 @@ Real sin(const Real& x) { return of_function(sin(x.quad())); }
 Real cos(const Real& x) { return of_function(cos(x.quad())); }
 Real pow(const Real& x, const Real& y) { return of_function(pow(x.quad(), y.quad())); }
 
-std::string to_string(const Real& x) {
-  for (int digits = 1; digits <= 17; ++digits) {  // the shortest decimal that is this constant
-    std::string text = to_string(x.quad(), digits);
+namespace {
+// A decimal as a person writes it: 10, 0.3, -1250000, 0.0005; a power of ten only where more than six zeros
+// would be filled in behind the digits or more than three in front of them: 1e9, 2.5e-6. `scientific` has the
+// form -d.ddde-dd.
+std::string plainly(const std::string& scientific) {
+  const std::string sign = scientific.front() == '-' ? "-" : "";
+  const std::size_t e = scientific.find('e');
+  std::string digits;
+  for (const char c : scientific.substr(0, e))
+    if (c >= '0' && c <= '9') digits += c;
+  digits.erase(digits.find_last_not_of('0') + 1);
+  if (digits.empty()) return sign + "0";
+  int exponent = 0;
+  const std::size_t first = e + (scientific[e + 1] == '+' ? 2 : 1);
+  std::from_chars(scientific.data() + first, scientific.data() + scientific.size(), exponent);
+  const int count = static_cast<int>(digits.size()), behind = exponent + 1 - count, before = -exponent - 1;
+  if (behind > 6 || before > 3)
+    return sign + digits.substr(0, 1) + (count > 1 ? "." + digits.substr(1) : "") + "e" +
+           std::to_string(exponent);
+  if (before >= 0) return sign + "0." + std::string(static_cast<std::size_t>(before), '0') + digits;
+  if (behind >= 0) return sign + digits + std::string(static_cast<std::size_t>(behind), '0');
+  const auto whole = static_cast<std::size_t>(exponent) + 1;
+  return sign + digits.substr(0, whole) + "." + digits.substr(whole);
+}
+
+// The shortest decimal of at least `from` and at most `to` digits that is the constant; empty when none is.
+std::string shortest_decimal(const Real& x, int from, int to) {
+  for (int digits = from; digits <= to; ++digits) {
+    std::string text = to_scientific(x.quad(), digits);
     Quad back;
-    if (parse(text, back) && back == x.quad()) return text;
+    if (parse(text, back) && back == x.quad()) return plainly(text);
   }
+  return {};
+}
+}  // namespace
+
+std::string to_string(const Real& x) {
+  if (!isfinite(x.quad())) return to_string(x.quad());
+  if (std::string text = shortest_decimal(x, 1, 17); !text.empty()) return text;
   if (x.is_fraction()) return std::to_string(x.numerator()) + "/" + std::to_string(x.denominator());
-  return to_string(x.quad());
+  return shortest_decimal(x, 18, 36);
 }
 
 inline namespace literals {

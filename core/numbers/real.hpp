@@ -72,7 +72,8 @@ Real sin(const Real& x);
 Real cos(const Real& x);
 Real pow(const Real& x, const Real& y);
 
-/// Shortest decimal text that names the constant: "0.3", "1/3" or 36 digits.
+/// Shortest text that names the constant, as a person writes it: "10", "0.3", "1e-12", "1/3"; up to 36
+/// digits.
 std::string to_string(const Real& x);
 
 inline namespace literals {

@@ -75,6 +75,22 @@ TEST(Describe, Systems) {
   EXPECT_FALSE(fitting.contains("verlet"));
 }
 
+TEST(Describe, ASystemAndTheExperimentOfItsName) {
+  const auto j = asked({"describe", "damped-oscillator"});
+  EXPECT_EQ(j["kind"], "system");
+  ASSERT_EQ(j["also"].size(), 1U);
+  EXPECT_EQ(j["also"][0]["kind"], "experiment");
+  EXPECT_EQ(j["also"][0]["name"], "damped-oscillator");
+  EXPECT_EQ(j["also"][0]["cases"][0]["name"], "weak-damping");
+  const std::string text = printed({"describe", "damped-oscillator"});
+  const std::size_t system = text.find("kind         system\n"),
+                    experiment = text.find("kind         experiment\n");
+  EXPECT_LT(system, experiment);
+  EXPECT_NE(experiment, std::string::npos) << text;
+  EXPECT_NE(text.find("reference    su-qin, "), std::string::npos) << "a list is not shown as JSON";
+  EXPECT_FALSE(asked({"describe", "free-rigid-body"}).contains("also"));
+}
+
 TEST(Describe, Integrators) {
   const auto j = asked({"describe", "verlet"});
   EXPECT_EQ(j["kind"], "integrator");

@@ -194,6 +194,15 @@ TEST(Run, LeavesThreeFilesAndSummarisesThem) {
     EXPECT_GT(j["counts"][key], 0) << key;
 }
 
+TEST(Run, SaysWhatBecameOfQuantitiesThatMustDecrease) {
+  TemporaryDirectory files;
+  const Outcome outcome = run_pfaff({"run", "--system", "damped-pendulum", "--integrator", "rk4", "--step",
+                                     "0.1", "--time", "10", "--out", files / "run"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("energy     largest rise 0, expected to decrease\n"), std::string::npos)
+      << outcome.out;
+}
+
 TEST(Run, QuadNumbersAreStrings) {
   const TemporaryDirectory files;
   const Outcome outcome = run_pfaff(

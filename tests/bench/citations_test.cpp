@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include <unistd.h>
 
@@ -83,20 +84,42 @@ TEST_F(Files, OutputDirectories) {
   EXPECT_EQ(read_file(directory / "new/deep/a"), "kept");
 }
 
-TEST(Checks, AControlIsGoodOnlyWhenRejected) {
-  Check check;
-  for (const auto& [result, as_claim, as_control] :
+TEST(Checks, ClaimsInScopeMustPassAndControlsMustBeRejected) {
+  for (const auto& [result, in_scope, outside] :
        {std::tuple{CheckResult::pass, true, false}, std::tuple{CheckResult::fail, false, false},
-        std::tuple{CheckResult::measured, true, false}, std::tuple{CheckResult::rejected, true, true},
-        std::tuple{CheckResult::skipped, true, false}}) {
+        std::tuple{CheckResult::measured, false, true}, std::tuple{CheckResult::rejected, false, false},
+        std::tuple{CheckResult::skipped, false, true}}) {
+    Check check;
     check.result = result;
-    check.control = false;
-    if (result != CheckResult::rejected) {
-      EXPECT_EQ(good(check), as_claim) << to_string(result);
-    }
+    check.reason = "a reason";
+    EXPECT_EQ(good(check), in_scope) << to_string(result);
+    check.in_scope = false;
+    EXPECT_EQ(good(check), outside) << to_string(result);
     check.control = true;
-    EXPECT_EQ(good(check), as_control) << to_string(result);
+    EXPECT_EQ(good(check), result == CheckResult::rejected) << to_string(result);
   }
+  Check check;
+  EXPECT_FALSE(good(check)) << "nothing was measured";
+  check.in_scope = false;
+  EXPECT_FALSE(good(check)) << "and no reason is given";
+}
+
+TEST(Checks, CoefficientsInDoubleAreExemptFromQuadWithAReason) {
+  const auto& system = systems().get("harmonic-oscillator", "system");
+  const auto exempt = [&](const std::string& method) {
+    std::set<std::string> claims;
+    for (const Check& check : check_method(integrators().get(method, "integrator"), {}, system))
+      if (check.result == CheckResult::skipped) {
+        EXPECT_FALSE(check.in_scope);
+        EXPECT_EQ(check.precision, "quad");
+        EXPECT_EQ(check.reason, "the method's coefficients are in double");
+        claims.insert(check.claim);
+      }
+    return claims;
+  };
+  EXPECT_EQ(exempt("odeint-mclachlan"),
+            (std::set<std::string>{"double-is-quad-rounded", "step-jacobian", "symmetric", "symplectic"}));
+  EXPECT_TRUE(exempt("verlet").empty());  // control
 }
 
 TEST(Checks, FalseMethodsAndBracketsAreRejected) {

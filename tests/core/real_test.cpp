@@ -159,6 +159,44 @@ TEST(Real, TextIsShortAndNamesTheConstant) {
   }
 }
 
+TEST(Real, TextIsWrittenAsAPersonWritesIt) {
+  for (const char* text : {"0",
+                           "1",
+                           "10",
+                           "-10",
+                           "100",
+                           "10000",
+                           "1000000",
+                           "1250000",
+                           "123456789",
+                           "12345678901234567",
+                           "0.3",
+                           "-0.3",
+                           "0.05",
+                           "0.0005",
+                           "12.5",
+                           "1234.5678",
+                           "0.1234567890123456",
+                           "1e-12",
+                           "1e-5",
+                           "-2.5e-6",
+                           "1e22",
+                           "1e9",
+                           "1.5e300",
+                           "1/3",
+                           "-22/7",
+                           "0.12345678901234567890123456789",
+                           "3.1415926535897932384626433832795028"}) {
+    const auto real = Real::parse(text);
+    ASSERT_TRUE(real) << text;
+    EXPECT_EQ(to_string(*real), text);
+  }
+  EXPECT_EQ(to_string(*Real::parse("1e1")), "10");
+  EXPECT_EQ(to_string(*Real::parse("1.50")), "1.5");
+  EXPECT_EQ(to_string(*Real::parse("0.00001")), "1e-5");
+  EXPECT_EQ(to_string(Real::fraction(1, 1000)), "0.001");
+}
+
 TEST(Real, FormulasTakeTheScalarOfTheirVariables) {
   EXPECT_EQ(0.1_r * 3.0, 0.1 * 3.0);
   EXPECT_EQ(0.1_r * Quad(3), quad("0.1") * Quad(3));

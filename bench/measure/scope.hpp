@@ -1,0 +1,19 @@
+// The scope of a claim: the systems it speaks of. Outside it nothing is claimed, whatever the method says of
+// itself.
+#pragma once
+
+#include <vector>
+
+#include <pfaff/core/integrator.hpp>
+
+namespace pfaff {
+
+/// Does the claim speak of this model? `symmetric` of every one; `symplectic` of those whose own structure is
+/// the canonical one; `K-symplectic` of those with a Darboux chart; `quadratic-invariants` of those that have
+/// one.
+bool in_scope(Claim claim, const Model& model);
+
+/// What the method claims on this model; `none` where that is nothing.
+std::vector<Claim> claims_in_scope(const MethodInstance& method, const Model& model);
+
+}  // namespace pfaff

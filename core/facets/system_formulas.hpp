@@ -1,0 +1,183 @@
+// The formulas that a system's struct may write, and the check that what bears their names is what is meant.
+//
+// A template whose signature does not fit would be passed over in silence, and the system would offer less
+// than its author wrote. So every name is looked up whatever its signature: in a class derived from S and
+// from another with a member of that name, the name is ambiguous exactly where S has one too. Data of such a
+// name, a parameter `field` say, is no formula.
+#pragma once
+
+#include <concepts>
+#include <type_traits>
+
+#include <pfaff/core/numbers/functions.hpp>
+#include <pfaff/core/tape/recorder.hpp>
+
+namespace pfaff::detail {
+
+// S writes a formula that can be called with the scalar T.
+template <class S, class T = Recorded>
+concept WritesField = requires(const S& s, const T& t, In<T> z, Out<T> o) {
+  s.field(t, z, o);
+};
+template <class S, class T = Recorded>
+concept WritesKinetic = requires(const S& s, const T& t, In<T> p) {
+  { s.kinetic(t, p) } -> std::convertible_to<T>;
+};
+template <class S, class T = Recorded>
+concept WritesPotential = requires(const S& s, const T& t, In<T> q) {
+  { s.potential(t, q) } -> std::convertible_to<T>;
+};
+template <class S, class T = Recorded>
+concept WritesForce = requires(const S& s, const T& t, In<T> q, Out<T> o) {
+  s.force(t, q, o);
+};
+template <class S, class T = Recorded>
+concept WritesVelocity = requires(const S& s, const T& t, In<T> p, Out<T> o) {
+  s.velocity(t, p, o);
+};
+template <class S, class T = Recorded>
+concept WritesHamiltonian = requires(const S& s, const T& t, In<T> z) {
+  { s.hamiltonian(t, z) } -> std::convertible_to<T>;
+};
+template <class S>
+concept WritesBracket = requires(const S& s) {
+  s.bracket();
+};
+template <class S, class T = Recorded>
+concept WritesBirkhoffian = requires(const S& s, const T& t, In<T> z) {
+  { s.birkhoffian(t, z) } -> std::convertible_to<T>;
+};
+template <class S, class T = Recorded>
+concept WritesOneForm = requires(const S& s, const T& t, In<T> z, Out<T> o) {
+  s.one_form(t, z, o);
+};
+template <class S, class T = Recorded>
+concept WritesChart = requires(const S& s, const T& t, In<T> z, Out<T> o) {
+  s.chart(t, z, o);
+};
+template <class S, class T = Recorded>
+concept WritesChartInverse = requires(const S& s, const T& t, In<T> y, Out<T> o) {
+  s.chart_inverse(t, y, o);
+};
+template <class S, class T = Recorded>
+concept WritesChartHamiltonian = requires(const S& s, const T& t, In<T> y) {
+  { s.chart_hamiltonian(t, y) } -> std::convertible_to<T>;
+};
+template <class S, class T = Recorded>
+concept WritesChartField = requires(const S& s, const T& t, In<T> y, Out<T> o) {
+  s.chart_field(t, y, o);
+};
+template <class S, class T = Recorded>
+concept WritesInvariants = requires(const S& s, const T& t, In<T> z, Out<T> o) {
+  s.invariants(t, z, o);
+};
+template <class S, class T = Recorded>
+concept WritesExactSolution = requires(const S& s, const T& t, In<T> z, Out<T> o) {
+  s.exact_solution(t, t, z, o);
+};
+template <class S>
+concept WritesInitial = requires(const S& s, Out<Recorded> o) {
+  s.template initial<Recorded>(o);
+};
+
+template <class Pointer>
+concept PointsToData = std::is_member_object_pointer_v<Pointer> ||
+    (std::is_pointer_v<Pointer>&& std::is_object_v<std::remove_pointer_t<Pointer>>);
+template <class S, class Named>
+struct Joined : S, Named {};
+
+// names_X<S>: S has a member function or template X, of whatever signature.
+#define PFAFF_NAMED(name)                   \
+  struct Named_##name {                     \
+    int name;                               \
+  };                                        \
+  template <class S>                        \
+  constexpr bool names_##name = !requires { \
+    &Joined<S, Named_##name>::name;         \
+  }                                         \
+  &&!requires { requires PointsToData<decltype(&S::name)>; };
+PFAFF_NAMED(field)
+PFAFF_NAMED(kinetic)
+PFAFF_NAMED(potential)
+PFAFF_NAMED(force)
+PFAFF_NAMED(velocity)
+PFAFF_NAMED(hamiltonian)
+PFAFF_NAMED(bracket)
+PFAFF_NAMED(birkhoffian)
+PFAFF_NAMED(one_form)
+PFAFF_NAMED(chart)
+PFAFF_NAMED(chart_inverse)
+PFAFF_NAMED(chart_hamiltonian)
+PFAFF_NAMED(chart_field)
+PFAFF_NAMED(invariants)
+PFAFF_NAMED(exact_solution)
+PFAFF_NAMED(initial)
+#undef PFAFF_NAMED
+
+/// Refuses, while S is compiled, members that bear the name of a formula and cannot be called as one, halves
+/// of a pair, and a struct without any vector field.
+template <class S>
+constexpr void check_formulas() {
+  static_assert(!std::is_final_v<S>,
+                "a system's struct must not be final: its names are looked up by derivation");
+  static_assert(WritesField<S> || !names_field<S>,
+                "field: expected template <class T> void field(const T& t, In<T> z, Out<T> rate) const");
+  static_assert(WritesKinetic<S> || !names_kinetic<S>,
+                "kinetic: expected template <class T> T kinetic(const T& t, In<T> p) const");
+  static_assert(WritesPotential<S> || !names_potential<S>,
+                "potential: expected template <class T> T potential(const T& t, In<T> q) const");
+  static_assert(WritesForce<S> || !names_force<S>,
+                "force: expected template <class T> void force(const T& t, In<T> q, Out<T> f) const");
+  static_assert(WritesVelocity<S> || !names_velocity<S>,
+                "velocity: expected template <class T> void velocity(const T& t, In<T> p, Out<T> v) const");
+  static_assert(WritesHamiltonian<S> || !names_hamiltonian<S>,
+                "hamiltonian: expected template <class T> T hamiltonian(const T& t, In<T> z) const");
+  static_assert(WritesBracket<S> || !names_bracket<S>, "bracket: expected a bracket from bracket() const");
+  static_assert(WritesBirkhoffian<S> || !names_birkhoffian<S>,
+                "birkhoffian: expected template <class T> T birkhoffian(const T& t, In<T> z) const");
+  static_assert(
+      WritesOneForm<S> || !names_one_form<S>,
+      "one_form: expected template <class T> void one_form(const T& t, In<T> z, Out<T> form) const");
+  static_assert(WritesChart<S> || !names_chart<S>,
+                "chart: expected template <class T> void chart(const T& t, In<T> z, Out<T> y) const");
+  static_assert(
+      WritesChartInverse<S> || !names_chart_inverse<S>,
+      "chart_inverse: expected template <class T> void chart_inverse(const T& t, In<T> y, Out<T> z) const");
+  static_assert(
+      WritesChartHamiltonian<S> || !names_chart_hamiltonian<S>,
+      "chart_hamiltonian: expected template <class T> T chart_hamiltonian(const T& t, In<T> y) const");
+  static_assert(
+      WritesChartField<S> || !names_chart_field<S>,
+      "chart_field: expected template <class T> void chart_field(const T& t, In<T> y, Out<T> rate) const");
+  static_assert(
+      WritesInvariants<S> || !names_invariants<S>,
+      "invariants: expected template <class T> void invariants(const T& t, In<T> z, Out<T> values) const");
+  static_assert(
+      WritesExactSolution<S> || !names_exact_solution<S>,
+      "exact_solution: expected template <class T> void exact_solution(const T& elapsed, const T& t0, "
+      "In<T> z0, Out<T> z) const");
+  static_assert(WritesInitial<S> || !names_initial<S>,
+                "initial: expected template <class T> void initial(Out<T> z) const");
+
+  static_assert(names_kinetic<S> == names_potential<S>,
+                "kinetic and potential belong together, H = T(p) + V(q, t): one of them is missing");
+  static_assert(names_birkhoffian<S> == names_one_form<S>,
+                "birkhoffian and one_form belong together, F.dz - B dt: one of them is missing");
+  static_assert(names_chart<S> == names_chart_inverse<S>,
+                "chart and chart_inverse belong together: one of them is missing");
+  static_assert(
+      names_kinetic<S> || !(names_force<S> || names_velocity<S>),
+      "force and velocity are written beside kinetic and potential, which are missing; a member that "
+      "is something else needs another name");
+  static_assert(names_hamiltonian<S> || !names_bracket<S>,
+                "bracket is written beside hamiltonian, which is missing");
+  static_assert(names_chart<S> || !names_chart_hamiltonian<S>,
+                "chart_hamiltonian is written beside chart and chart_inverse, which are missing");
+  static_assert(names_birkhoffian<S> || names_chart_hamiltonian<S> || !names_chart<S>,
+                "chart is written beside birkhoffian and one_form, or chart_hamiltonian, which are missing");
+  static_assert(names_field<S> || names_kinetic<S> || names_hamiltonian<S> || names_birkhoffian<S>,
+                "this system has no vector field; expected one of field, kinetic and potential, hamiltonian, "
+                "birkhoffian and one_form");
+}
+
+}  // namespace pfaff::detail

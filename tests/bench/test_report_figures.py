@@ -1,0 +1,77 @@
+"""bench/report: figures that fit their sheet, and the numbers and scales behind them."""
+import math
+import unittest
+
+from synthetic import Fresh, U, figures, reading, save, scales, synthetic
+
+
+class Sheets(Fresh):
+    def test_many_methods_fit_the_sheet(self):
+        shown = reading.Experiment(synthetic(self.folder, extra_methods=9))
+        for case in shown.cases:
+            for drawing in figures.drawings(shown, case):
+                for wide in (True, False):
+                    with self.subTest(drawing.name, wide=wide):
+                        self.check_layout(drawing.draw(wide))
+
+    def check_layout(self, sheet):
+        """Legend below every panel; nothing sticks out of the sheet; no two tick labels of an axis overlap."""
+        sheet.png()
+        figure, renderer = sheet.figure, sheet.figure.canvas.get_renderer()
+        width, height = figure.bbox.size
+        legend = figure.legends[0].get_window_extent(renderer)
+        self.assertEqual(len(figure.legends[0].get_texts()), len(sheet.methods) + len(sheet.levels))
+        boxes = [a.get_tightbbox(renderer) for a in figure.axes]
+        self.assertLess(legend.y1, min(b.y0 for b in boxes))
+        for box in [legend, *boxes, *(t.get_window_extent(renderer) for t in figure.texts)]:
+            self.assertGreaterEqual(min(box.x0, box.y0), -0.5)
+            self.assertLessEqual(box.x1, width + 0.5)
+            self.assertLessEqual(box.y1, height + 0.5)
+        for i, box in enumerate(boxes):
+            self.assertFalse(any(box.overlaps(other) for other in boxes[:i]))
+        for axes in figure.axes:
+            for axis in (axes.xaxis, axes.yaxis):
+                low, high = sorted(axis.get_view_interval())
+                labels = [t.label1.get_window_extent(renderer) for t in axis.get_major_ticks()
+                          if low <= t.get_loc() <= high]
+                for i, box in enumerate(labels):
+                    self.assertFalse(any(box.overlaps(other) for other in labels[:i]))
+
+    def test_failed_at_the_common_step_is_marked(self):
+        shown = reading.Experiment(synthetic(self.folder, steps=(0.4,)))
+        sheet = figures.drift(shown, shown.cases[0]).draw(True)
+        self.assertIn("run ended early", sheet.levels)
+        self.assertIn("bad at step 0.4 s (non_finite)", figures.work_precision(shown, shown.cases[0]).caption)
+
+
+class Numbers(Fresh):
+    def test_quad_difference_keeps_its_digits(self):
+        path = self.folder / "series.csv"
+        save(path, [["t [s]", "H [J]"], ["0", "1.333333333333333333333333333333333331"],
+                    ["1", "1.333333333333333333333333333333333335"]])
+        self.assertEqual(reading.read_series(path, "H", "quad").change, [0, 4e-36])
+        self.assertEqual(reading.read_series(path, "H", "double").change, [0, 0])  # control: double cannot see it
+
+    def test_zero_has_a_line_of_its_own(self):
+        axis = scales.ErrorAxis([[0.0, 1e-12, math.nan], [1e-3, 1e9]], U)
+        zero, small, gap = axis.place([0.0, 1e-12, math.nan])
+        self.assertTrue(0 < zero < U and small == 1e-12 and math.isnan(gap))
+        self.assertLess(10.0**axis.high, 1e9)  # what exploded leaves the frame
+        self.assertEqual(len(axis.remarks()), 2)
+        self.assertEqual(scales.ErrorAxis([[1e-12]], U).remarks(), [])
+
+    def test_envelope_keeps_the_largest(self):
+        times = [0.01 * k for k in range(5001)]
+        values = [abs(math.sin(7 * t)) * (3 if k == 1234 else 1) for k, t in enumerate(times)]
+        t, v = scales.envelope(times, values)
+        self.assertLessEqual(len(t), 80)
+        self.assertIn((times[1234], values[1234]), list(zip(t, v)))
+        self.assertEqual(t, sorted(t))
+
+    def test_largest_rise(self):
+        series = reading.Series([0, 1, 2, 3, 4], "s", 5, [0, -2, -1, -4, -3.5], "J", [])
+        self.assertEqual(series.rises(), [0, 0, 1, 1, 1])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,134 @@
+"""bench/report: what report.py makes of whole, partial and unusual experiments."""
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree
+
+from synthetic import SCRIPTS, Fresh, figures, parsed, reading, run, synthetic
+
+
+class Whole(unittest.TestCase):
+    """One experiment, reported once."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.folder = synthetic(cls.temporary.name)
+        cls.status, cls.stderr = run(cls.folder)
+        cls.page = parsed(cls.folder)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    def test_files(self):
+        self.assertEqual(self.status, 0, self.stderr)
+        expected = {f"{kind}_{case}.{end}" for kind in ("drift", "work_precision", "structure")
+                    for end in ("svg", "png") for case in ("osc", "damped")}
+        expected -= {"work_precision_damped.svg", "work_precision_damped.png"}
+        self.assertEqual({p.name for p in (self.folder / "figures").iterdir()}, expected)
+        self.assertEqual({p.name for p in self.folder.iterdir()},  # and no temporary name is left
+                         {"experiment.json", "results.csv", "cost.csv", "runs", "figures", "report.html"})
+        for path in (self.folder / "figures").glob("*.svg"):
+            xml.etree.ElementTree.parse(path)
+            self.assertNotIn("<dc:date>", path.read_text())
+        for path in (self.folder / "figures").glob("*.png"):
+            self.assertEqual(path.read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+
+    def test_page_stands_alone(self):
+        self.assertEqual(self.page.open, [])
+        self.assertEqual(len(self.page.ids), len(set(self.page.ids)))
+        self.assertTrue(self.page.tags.isdisjoint({"script", "link", "img", "iframe"}))
+        self.assertEqual([x for x in self.page.links if not x.startswith("#")], [])
+        targets = {x[1:] for x in self.page.links}
+        self.assertLessEqual(targets, set(self.page.ids))
+        source = (self.folder / "report.html").read_text(encoding="utf-8")
+        self.assertNotRegex(source, r"url\((?!#)|@import")
+        self.assertLessEqual(set(re.findall(r"url\(#([^)]*)\)", source)), set(self.page.ids))
+
+    def test_text_is_escaped(self):
+        self.assertIn("A & B <script>", self.page.text)
+        self.assertIn("Damped <b>", self.page.text)
+
+    def test_findings(self):
+        for said in ("The symplectic structure is kept to round-off by 1 of 3 methods", "kept: mid", "falling as h 5.0",
+                     "Drift of energy [J] at step 0.2 s, by class:", "bounded: mid (at most 1.11e-16)",
+                     "rk at 4e-8 [3.2e-8, 5.33e-8] J/s", "energy is expected to decrease",
+                     "never rises: mid, rk and bad",
+                     "within 0.3 of the declared order: mid (2.00), rk (4.00) and bad (4.00)",
+                     "oscillator: symmetric, symplectic; damped: symmetric", "oscillator: 2; damped: 3",
+                     "error at most 1e-3: rk at step 0.2 s (10 µs), then bad (1×) and mid (4×); 3 of 3",
+                     "1 of 9 runs failed: bad at step 0.4 s: non_finite, blew up at t = 12"):
+            self.assertIn(said, self.page.text)
+
+    def test_tables_and_provenance(self):
+        for said in ("✗ non_finite: blew up at t = 12", "GCC 12", "-O3", "Su and Qin, 2004.", "su-qin", "A note.",
+                     "pfaff compare synthetic", "the case has no reference solution", "of which 2 failed"):
+            self.assertIn(said, self.page.text)
+
+    def test_decreasing_is_in_the_title(self):
+        shown = reading.Experiment(self.folder)
+        self.assertIn("expected to decrease", figures.drift(shown, shown.cases[1]).title)
+        self.assertNotIn("expected to decrease", figures.drift(shown, shown.cases[0]).title)
+
+    def test_same_bytes_again(self):
+        paths = [self.folder / "report.html", *sorted((self.folder / "figures").iterdir())]
+        before = [p.read_bytes() for p in paths]
+        done = subprocess.run([sys.executable, SCRIPTS / "report.py", self.folder], capture_output=True,
+                              env=os.environ | {"PYTHONHASHSEED": "7"})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stdout, b"")
+        self.assertEqual(before, [p.read_bytes() for p in paths])
+
+
+class Variants(Fresh):
+    def fine(self):
+        status, stderr = run(self.folder)
+        self.assertEqual(status, 0, stderr)
+        return parsed(self.folder)
+
+    def test_no_timings_one_step(self):
+        synthetic(self.folder, steps=(0.1,))
+        (self.folder / "cost.csv").unlink()
+        page = self.fine()
+        self.assertIn("Timings were not measured.", page.text)
+        self.assertIn("Cheapest run in right-hand sides", page.text)
+
+    def test_zero_and_infinite(self):
+        synthetic(self.folder)
+        self.edit("results.csv", "error_max", lambda x: "0", lambda row: row[2] == "mid")
+        self.edit("results.csv", "structure_residual", lambda x: "inf", lambda row: row[2] == "bad")
+        shown = reading.Experiment(self.folder)
+        self.assertIn("zeros", figures.work_precision(shown, shown.cases[0]).caption)
+        self.fine()
+
+    def test_all_failed(self):
+        synthetic(self.folder)
+        self.edit("results.csv", "status", lambda x: "singular")
+        self.edit("results.csv", "error_max", lambda x: "nan")
+        self.assertIn("9 of 9 runs failed", self.fine().text)
+
+    def test_without_series(self):
+        synthetic(self.folder)
+        for path in self.folder.glob("runs/*/series.csv"):
+            path.unlink()
+        self.assertIn("no run left a series", self.fine().text)
+
+    def test_unusual_names(self):
+        synthetic(self.folder)
+        text = (self.folder / "experiment.json").read_text().replace('"rk"', '"r$k$ _{"').replace("Oscillator", "$x")
+        (self.folder / "experiment.json").write_text(text)
+        self.edit("results.csv", "method", lambda x: "r$k$ _{" if x == "rk" else x)
+        self.assertIn("r$k$ _{", self.fine().text)
+
+    def test_steps_stand_in_for_right_hand_sides(self):
+        synthetic(self.folder)
+        self.edit("results.csv", "rhs_per_step", lambda x: "0", lambda row: row[2] == "mid")
+        self.assertIn("not every method counts right-hand sides", self.fine().text)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,84 @@
+// Systems that the compiler must refuse. Each comment `refused:` is the beginning of a message it must give.
+#include <pfaff/core/system.hpp>
+
+namespace {
+using namespace pfaff;
+
+// refused: kinetic: expected template <class T> T kinetic(const T& t, In<T> p) const
+struct KineticWithoutTime {
+  static constexpr int dimension = 2;
+  template <class T>
+  T kinetic(In<T> p) const {
+    return p[0] * p[0] / 2;
+  }
+  template <class T>
+  T potential(const T& /*t*/, In<T> q) const {
+    return q[0] * q[0] / 2;
+  }
+};
+// refused: field: expected template <class T> void field(const T& t, In<T> z, Out<T> rate) const
+struct FieldNotConst {
+  static constexpr int dimension = 2;
+  template <class T>
+  void field(const T& /*t*/, In<T> z, Out<T> rate) {
+    rate[0] = z[1];
+    rate[1] = -z[0];
+  }
+};
+// refused: hamiltonian: expected template <class T> T hamiltonian(const T& t, In<T> z) const
+struct HamiltonianOfDoubles {
+  static constexpr int dimension = 2;
+  [[nodiscard]] double hamiltonian(double /*t*/, In<double> z) const { return z[0] * z[1]; }
+};
+// refused: invariants: expected template <class T> void invariants(const T& t, In<T> z, Out<T> values) const
+struct InvariantsReturned {
+  static constexpr int dimension = 2;
+  template <class T>
+  T hamiltonian(const T& /*t*/, In<T> z) const {
+    return (z[0] * z[0] + z[1] * z[1]) / 2;
+  }
+  template <class T>
+  T invariants(In<T> z) const {
+    return z[0];
+  }
+};
+// refused: kinetic and potential belong together
+struct NoPotential {
+  static constexpr int dimension = 2;
+  template <class T>
+  T kinetic(const T& /*t*/, In<T> p) const {
+    return p[0] * p[0] / 2;
+  }
+};
+// refused: birkhoffian and one_form belong together
+struct NoOneForm {
+  static constexpr int dimension = 2;
+  template <class T>
+  T birkhoffian(const T& /*t*/, In<T> z) const {
+    return z[0] * z[0] / 2;
+  }
+};
+// refused: force and velocity are written beside kinetic and potential
+struct ForceAlone {
+  static constexpr int dimension = 2;
+  template <class T>
+  T hamiltonian(const T& /*t*/, In<T> z) const {
+    return (z[0] * z[0] + z[1] * z[1]) / 2;
+  }
+  template <class T>
+  void force(const T& /*t*/, In<T> q, Out<T> f) const {
+    f[0] = -q[0];
+  }
+};
+// refused: this system has no vector field; expected one of field, kinetic and potential, hamiltonian,
+struct NoField {
+  static constexpr int dimension = 2;
+};
+
+const SystemDescriptor descriptor{.name = "refused", .title = "", .reference = ""};
+const auto models = {
+    make_model(descriptor, KineticWithoutTime{}),   make_model(descriptor, FieldNotConst{}),
+    make_model(descriptor, HamiltonianOfDoubles{}), make_model(descriptor, InvariantsReturned{}),
+    make_model(descriptor, NoPotential{}),          make_model(descriptor, NoOneForm{}),
+    make_model(descriptor, ForceAlone{}),           make_model(descriptor, NoField{})};
+}  // namespace
