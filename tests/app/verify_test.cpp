@@ -1,5 +1,6 @@
 // pfaff verify and pfaff reproduce: their formats, and that nothing claimed goes untested.
 #include <algorithm>
+#include <fstream>
 #include <map>
 #include <set>
 

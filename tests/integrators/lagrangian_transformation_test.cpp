@@ -4,6 +4,7 @@
 
 #include <pfaff/core/facets/model.hpp>
 #include <pfaff/core/system.hpp>
+#include <pfaff/examples/templates/alpha.hpp>
 #include <pfaff/integrators/lagrangian_transformation.hpp>
 
 namespace pfaff {
@@ -92,6 +93,21 @@ TYPED_TEST(LagrangianTransformationTest, RightOnesHold) {
   const auto check =
       check_lagrangian(recorded(LogarithmicAlpha{}), logarithmic_structure(), points<TypeParam>());
   EXPECT_TRUE(check.holds) << check.message;
+}
+
+// The one that the documentation shows, and with a wrong damping rate.
+TYPED_TEST(LagrangianTransformationTest, TheDocumentedOneHolds) {
+  const auto structure = std::make_shared<const Tape>(
+      record(2, 4, [](const Recorded& t, std::span<const Recorded>, std::span<Recorded> k) {
+        k[2] = Recorded(2) * exp(Recorded(Real::fraction(3, 20)) * t);
+        k[1] = -k[2];
+      }));
+  const auto right =
+      check_lagrangian(recorded(examples::NewPositionOldMomentum{}), structure, points<TypeParam>());
+  EXPECT_TRUE(right.holds) << right.message;
+  EXPECT_FALSE(check_lagrangian(recorded(examples::NewPositionOldMomentum{.damping = 0.6_r}), structure,
+                                points<TypeParam>())
+                   .holds);
 }
 
 TYPED_TEST(LagrangianTransformationTest, WrongOnesAreNamed) {
