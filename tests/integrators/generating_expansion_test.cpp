@@ -82,6 +82,19 @@ TEST(GeneratingExpansion, CorrectedMultilinearExpansionAgreesWithTheEngine) {
   }
 }
 
+TEST(GeneratingExpansion, BothAgreeWithTheEngineInFourDimensions) {
+  const auto model = systems().get("henon-heiles", "system").make({});
+  const Tape rate = evolution(*model, chart_alpha(*model));
+  const Numbers w{Quad(0.1), Quad(-0.3), Quad(0.25), Quad(0.2)};
+  for (const auto rule : {ExpansionRule::total_derivative, ExpansionRule::multilinear}) {
+    const auto terms = expand_gradient(rate, 4, 4, rule);
+    for (int k = 1; k <= 4; ++k)
+      EXPECT_LE(distance(value(terms[static_cast<std::size_t>(k)], start, w), engine(*model, k, start, w)),
+                at_round_off)
+          << k;
+  }
+}
+
 TEST(GeneratingExpansion, PrintedExpansionDoesNot) {  // control
   const auto oscillator = damped("damped-oscillator");
   const auto printed =
@@ -203,6 +216,41 @@ TEST(GeneratingExpansion, ClosedFormsOfAnyHamiltonian) {
   const Numbers expected = value(closed, start, point);
   for (std::size_t k = 1; k <= 3; ++k)
     EXPECT_LE(distance(value(scalar[k], start, point), {expected[k - 1]}), at_round_off) << k;
+}
+
+// About the middle of the step: phi = -tau H - tau^3/24 [H_tt + 2 H_yt.f + f^T H_yy f] + O(tau^5), even parts
+// absent.
+TEST(GeneratingExpansion, ClosedFormsAboutTheMiddleOfTheStep) {
+  const auto model = damped("damped-pendulum");
+  const auto h = model->tape(Formula::chart_hamiltonian), field = model->tape(Formula::chart_field);
+  const Tape h_t = record(
+      2, 1, [&](const Recorded& t, Arguments y, Results out) { out[0] = time_derivative(*h, t, y)[0]; });
+  const Tape closed = record(2, 2, [&](const Recorded& t, Arguments y, Results out) {
+    const auto f = evaluate(*field, t, y);
+    const Tape along = record(4, 1, [&](const Recorded& time, Arguments x, Results slope) {
+      slope[0] = directional_derivative(*h, time, Recorded(0), x.first(2), x.subspan(2))[0];
+    });
+    const std::vector<Recorded> x{y[0], y[1], f[0], f[1]}, d{f[0], f[1], Recorded(0), Recorded(0)};
+    out[0] = -evaluate(*h, t, y)[0];
+    out[1] =
+        -(time_derivative(h_t, t, y)[0] + Recorded(2) * directional_derivative(h_t, t, Recorded(0), y, f)[0] +
+          directional_derivative(along, t, Recorded(0), x, d)[0]) /
+        Recorded(24);
+  });
+  const Quad tau = Quad(1) / Quad(5), middle = start + tau / Quad(2);
+  GeneratingGradient<Quad> gradient(model->tape(Formula::chart_field), 4, true, GeneratingForm::midpoint,
+                                    gauss_coefficients(2));
+  gradient.set_step(start, tau);
+  Numbers terms(gradient.term_count() * 2);
+  gradient.terms(point.data(), terms.data());
+  const Numbers slope = value(jacobian_tape(closed), middle, point);  // rows: the gradients of chi1, chi3
+  const Quad cube = tau * tau * tau;
+  EXPECT_LE(distance({terms[3], -terms[2]}, {tau * slope[0], tau * slope[1]}), at_round_off);
+  EXPECT_LE(distance({terms[7], -terms[6]}, {cube * slope[2], cube * slope[3]}), at_round_off);
+  EXPECT_EQ(terms[4], Quad(0));
+  EXPECT_EQ(terms[5], Quad(0));
+  // Control: at the start of the step the second coefficient is not 0.
+  EXPECT_GT(distance(engine(*model, 2, start, point), Numbers(2)), 1e-2);
 }
 
 }  // namespace
