@@ -7,6 +7,7 @@
 #include <pfaff/bench/measure/structure.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
+#include <pfaff/examples/templates/alpha.hpp>
 #include <pfaff/integrators/generating_expansion.hpp>
 #include <pfaff/integrators/generating_gradient.hpp>
 #include <pfaff/integrators/lagrangian_transformation.hpp>
@@ -115,6 +116,33 @@ TEST(GeneratingTheorems, StepsThatAreNotSymplecticHaveNone) {  // control
     EXPECT_GT(asymmetry(alpha.blocks(t1, t0, s.z, c.z)(Matrix<Quad>(c.z.size(), s.jacobian))), 1e-10)
         << c.model->name();
   }
+}
+
+// The same step has a generating function in every alpha that satisfies (34), linear or not: here new
+// position with old momentum, and that followed by the shear w^ -> w^ + grad s(w), whose w^ does not vanish
+// on the diagonal. The weight 1/3 in w is the control.
+struct ShearedAlpha {
+  int parts = 0;  // of w_0 that are the old position, in thirds
+  template <class T>
+  void alpha(const T& t, const T& before, In<T> new_z, In<T> old_z, Out<T> w_hat, Out<T> w) const {
+    examples::NewPositionOldMomentum{.mass = 1, .damping = 0.3_r}.alpha(t, before, new_z, old_z, w_hat, w);
+    w[0] = w[0] + parts * (old_z[0] - new_z[0]) / 3;
+    w_hat[0] = w_hat[0] + 2 * w[0] * w[1] + cos(w[0]);
+    w_hat[1] = w_hat[1] + w[0] * w[0];
+  }
+};
+
+TEST(GeneratingTheorems, AnyAlphaThatKeepsTheStructureServes) {
+  const Case c = cases().front();
+  const auto s = step("generating-function", {{"order", "3"}, {"variant", "P"}}, c, c.z);
+  const auto image = [&](const Tape& alpha) {
+    LagrangianTransformation<Quad> transformation(shared(alpha));
+    return transformation.blocks(t1, t0, s.z, c.z)(Matrix<Quad>(2, s.jacobian));
+  };
+  EXPECT_LE(asymmetry(image(record_alpha(examples::NewPositionOldMomentum{.mass = 1, .damping = 0.3_r}, 2))),
+            at_round_off);
+  EXPECT_LE(asymmetry(image(record_alpha(ShearedAlpha{}, 2))), at_round_off);
+  EXPECT_GT(asymmetry(image(record_alpha(ShearedAlpha{1}, 2))), 1e-4);
 }
 
 // Proposition 3.2, (52): from any w, the states that f and alpha^-1 give are one step apart.
