@@ -18,8 +18,13 @@ std::vector<ReproducedRow> reproduce(const std::string& paper, const std::string
   for (const ReproducedRow& row : rows)
     if (std::find(sections.begin(), sections.end(), row.section) == sections.end())
       sections.push_back(row.section);
-  if (std::find(sections.begin(), sections.end(), section) == sections.end())
-    throw InputError(unknown_name("section", section, sections));
+  if (std::find(sections.begin(), sections.end(), section) == sections.end()) {
+    // No suggestion: sections are numbers, and none of them is near.
+    std::string text = "unknown section '" + section + "' of " + paper + "; expected one of: ";
+    for (const std::string& known_section : sections)
+      text += (&known_section == &sections.front() ? "" : ", ") + known_section;
+    throw InputError(text);
+  }
   std::erase_if(rows, [&](const ReproducedRow& row) { return row.section != section; });
   return rows;
 }

@@ -28,7 +28,7 @@ nlohmann::json to_json(const std::string& paper, const std::vector<ReproducedRow
 /// True when every row is reproduced, an erratum shown to be one, or qualitative.
 bool ok(const std::vector<ReproducedRow>& rows);
 
-/// Su & Qin, section 5: the damped oscillator.
+/// Su & Qin, every section with formulas (su_qin/).
 std::vector<ReproducedRow> reproduce_su_qin();
 
 }  // namespace pfaff

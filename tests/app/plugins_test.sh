@@ -68,6 +68,16 @@ done
 run_pfaff run --plugin "$plugins/templates.so" --system template-system --integrator template-integrator \
   --step 0.1 --time 1 --out -
 [[ $status == 0 && $(wc -l <"$scratch/out") -ge 3 ]] || fail "the templates do not run: $(<"$scratch/err")"
+# The Birkhoffian one does what docs/generating-functions.md promises of it.
+run_pfaff list systems --plugin "$plugins/templates.so"
+grep -q "template-birkhoffian " "$scratch/out" || fail "template-birkhoffian is not listed"
+run_pfaff verify template-birkhoffian --plugin "$plugins/templates.so"
+[[ $status == 0 ]] || fail "verify template-birkhoffian: $(tail -n 3 "$scratch/out")"
+grep -q '^chart is Darboux ' "$scratch/out" || fail "verify template-birkhoffian: the chart was not looked at"
+grep -q '^K-symplectic ' "$scratch/out" || fail "verify template-birkhoffian: no method was"
+run_pfaff run --plugin "$plugins/templates.so" --system template-birkhoffian --integrator generating-function \
+  --set order=8 --step 0.1 --time 100 --out -
+[[ $status == 0 ]] || fail "template-birkhoffian does not run: $(<"$scratch/err")"
 cp "$plugins/templates.so" "$scratch/copy.so"
 run_pfaff list systems --plugin "$plugins/templates.so" --plugin "$scratch/copy.so"
 [[ $status == 2 ]] || fail "two copies of the templates: exit status $status, expected 2"
