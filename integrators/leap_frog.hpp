@@ -5,8 +5,8 @@
 // (hairer-norsett-wanner1993, III.1, (1.13')), one of the conventional schemes that su-qin (section 1) names
 // as not Birkhoffian. The first step, and the first after a change of step or of state from outside, is a
 // leap over the half interval: z_1 = z_0 + h X(z_{1/2}), z_{1/2} = z_0 + h/2 X(z_0). Order 2, one right-hand
-// side a step. It keeps no structure, and it is only weakly stable: where motion is damped at the rate nu, a
-// parasitic oscillation between odd and even steps grows at that rate.
+// side a step. It keeps no structure, and it is only weakly stable: where the motion decays, a
+// parasitic oscillation between odd and even steps grows at the same rate.
 //
 // Each leap is compensated. A restarted step has no history, so the Jacobian and the symmetry of a single
 // step are those of the starting step.
