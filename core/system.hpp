@@ -4,7 +4,8 @@
 // members for its parameters, and any of these templates over the scalar T (t: time, z: state):
 //   field(t, z, rate)                        dz/dt
 //   kinetic(t, p), potential(t, q)           canonical separable H = T + V; optional force(t, q, f),
-//   velocity(t, p, v) hamiltonian(t, z), bracket()             H and the bracket that makes the field
+//   velocity(t, p, v); with damping(), a Real nu >= 0, the same with friction: p' = -V_q - nu p
+//   hamiltonian(t, z), bracket()             H and the bracket that makes the field
 //   (canonical without bracket()) birkhoffian(t, z), one_form(t, z, F)     the action form F.dz - B dt
 //   chart(t, z, y), chart_inverse(t, y, z)   Darboux coordinates; optional chart_hamiltonian(t, y)
 //   invariants(t, z, values)                 in the order of the descriptor's list
@@ -87,7 +88,9 @@ class Collector {
                     s.potential(t, z);
                     s.kinetic(t, z);
                   }) {
-      source_.canonical = true;
+      constexpr bool damped = requires { s.damping(); };
+      if constexpr (damped) source_.damping = s.damping();
+      source_.canonical = !damped;
       give(Formula::kinetic, n / 2, 1,
            [&](const R& t, RecordedIn p, RecordedOut o) { o[0] = s.kinetic(t, p); });
       give(Formula::potential, n / 2, 1,
@@ -109,7 +112,7 @@ class Collector {
           const auto m = static_cast<std::size_t>(dimension_of(self) / 2);
           self.velocity(t, In<double>(p, m), Out<double>(o, m));
         });
-        if constexpr (requires(RecordedOut o) { s.force(R(), RecordedIn(), o); })
+        if constexpr (!damped && requires(RecordedOut o) { s.force(R(), RecordedIn(), o); })
           compile(Formula::field, [](const void* object, const double& t, const double* z, double* o) {
             const S& self = *static_cast<const S*>(object);
             const auto m = static_cast<std::size_t>(dimension_of(self) / 2);

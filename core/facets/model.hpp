@@ -9,6 +9,7 @@
 #include <array>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -59,6 +60,8 @@ struct ModelSource {
   std::string name;
   int dimension = 0;
   bool canonical = false;  // the bracket is the canonical one on (q, p)
+  std::optional<Real>
+      damping;  // the rate nu at which friction damps p; kinetic and potential are T and V then
   std::vector<Coordinate> coordinates;
   std::vector<Invariant> invariants;
   std::vector<Real> initial;
@@ -86,6 +89,9 @@ class Model {
   /// True when the canonical bracket on (q, p) is the system's own.
   [[nodiscard]] bool canonical() const { return source_.canonical; }
 
+  /// The rate nu of the conformal facet, in 1/time_unit.
+  [[nodiscard]] const Real& damping() const { return source_.damping.value(); }
+
   /// The tape of a formula, derived on first use. Throws std::logic_error when the facets do not give it.
   [[nodiscard]] std::shared_ptr<const Tape> tape(Formula formula) const;
   /// The same derived even where the author wrote it; null where it cannot be derived.
@@ -106,5 +112,8 @@ class Model {
   mutable std::recursive_mutex mutex_;
   mutable std::array<std::shared_ptr<const Tape>, formula_count> tapes_;
 };
+
+/// The field (T_p, -V_q - nu p) that the conformal facet stands for.
+Tape damped_field(const Model& model);
 
 }  // namespace pfaff

@@ -40,10 +40,16 @@ namespace detail {
 
 // What an author's struct S writes, seen with the scalar T.
 template <class S, class T>
-concept WritesSeparable = requires(const S& s, const T& t, In<T> x) {
+concept WritesEnergies = requires(const S& s, const T& t, In<T> x) {
   s.kinetic(t, x);
   s.potential(t, x);
 };
+template <class S, class T>
+concept WritesConformal = WritesEnergies<S, T> && requires(const S& s) {
+  s.damping();
+};
+template <class S, class T>
+concept WritesSeparable = WritesEnergies<S, T> && !WritesConformal<S, T>;
 template <class S, class T>
 concept WritesHamiltonian = requires(const S& s, const T& t, In<T> z) {
   s.hamiltonian(t, z);
@@ -83,8 +89,9 @@ class StaticProblem {
   static constexpr int extent = S::dimension;
   using State = Vector<T, extent>;
   static constexpr bool separable = detail::WritesSeparable<S, T>;
+  static constexpr bool conformal = detail::WritesConformal<S, T>;
   static constexpr bool canonical = separable || detail::WritesHamiltonian<S, T>;
-  static constexpr bool has_field = canonical || detail::WritesField<S, T>;
+  static constexpr bool has_field = canonical || conformal || detail::WritesField<S, T>;
 
   explicit StaticProblem(S system = {}) : system_(std::move(system)) {}
 
@@ -114,6 +121,13 @@ class StaticProblem {
   void force(const T& t, In<T> q, Out<T> f) const requires separable { force_of<T>(t, q, f); }
   /// dT/dp.
   void velocity(const T& t, In<T> p, Out<T> v) const requires separable { velocity_of<T>(t, p, v); }
+
+  /// The rate nu in p' = -V_q - nu p.
+  [[nodiscard]] T damping() const requires conformal { return T(Real(system_.damping())); }
+  /// -dV/dq, friction left out.
+  void undamped_force(const T& t, In<T> q, Out<T> f) const requires conformal { force_of<T>(t, q, f); }
+  /// dT/dp.
+  void undamped_velocity(const T& t, In<T> p, Out<T> v) const requires conformal { velocity_of<T>(t, p, v); }
 
   /// y = z: canonical coordinates are Darboux's.
   void chart(const T& /*t*/, In<T> z, Out<T> y) const requires canonical {
@@ -168,9 +182,11 @@ class StaticProblem {
   void field_of(const U& t, In<U> z, Out<U> rate) const {
     if constexpr (detail::WritesField<S, U>) {
       system_.field(t, z, rate);
-    } else if constexpr (separable) {
+    } else if constexpr (separable || conformal) {
       velocity_of<U>(t, z.subspan(half), rate.first(half));
       force_of<U>(t, z.first(half), rate.subspan(half));
+      if constexpr (conformal)
+        for (std::size_t k = half; k < size(); ++k) rate[k] = rate[k] - U(Real(system_.damping())) * z[k];
     } else {  // J grad H
       Vector<U, extent> slope;
       detail::dual_gradient<extent>([&]<class D>(const D& s, In<D> x) { return hamiltonian_of<D>(s, x); }, t,
