@@ -98,8 +98,12 @@ class Model {
   [[nodiscard]] std::shared_ptr<const Tape> derived(Formula formula) const;
   /// True where the author wrote the formula.
   [[nodiscard]] bool given(Formula formula) const { return source_.given[index(formula)] != nullptr; }
-  /// The author's double version and the object to call it with; null when there is none.
-  [[nodiscard]] CompiledFormula compiled(Formula formula) const { return source_.compiled[index(formula)]; }
+  /// The author's double version and the object to call it with; null when there is none. Canonical
+  /// coordinates are Darboux's, so the field is that in the chart.
+  [[nodiscard]] CompiledFormula compiled(Formula formula) const {
+    const bool same = formula == Formula::chart_field && source_.canonical && !given(Formula::chart);
+    return source_.compiled[index(same ? Formula::field : formula)];
+  }
   [[nodiscard]] const void* system() const { return source_.system.get(); }
 
   /// Does the field depend on time explicitly? Do the field in the chart, and the structure?

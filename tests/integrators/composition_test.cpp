@@ -201,6 +201,14 @@ TEST(InDarbouxChart, CompensationSurvives) {
   EXPECT_LE(kept, 0.2 * lost) << kept << ' ' << lost;
 }
 
+TEST(InDarbouxChart, IsTheMethodItselfInCanonicalCoordinates) {
+  for (const char* name : {"kepler", "henon-heiles"}) {
+    const auto system = model(name);
+    EXPECT_EQ(run<double>(*method("gauss-darboux"), system, 0.05, 100),
+              run<double>(*method("gauss"), system, 0.05, 100));
+  }
+}
+
 std::int64_t iterations_of(const char* name, bool forgetting) {
   const auto pendulum = model("damped-pendulum");
   const auto stepper = method(name)->stepper(pendulum, double());
