@@ -4,9 +4,12 @@
 // members for its parameters, and any of these templates over the scalar T (t: time, z: state):
 //   field(t, z, rate)                        dz/dt
 //   kinetic(t, p), potential(t, q)           canonical separable H = T + V; optional force(t, q, f),
-//   velocity(t, p, v); with damping(), a Real nu >= 0, the same with friction: p' = -V_q - nu p
-//   hamiltonian(t, z), bracket()             H and the bracket that makes the field
-//   (canonical without bracket()) birkhoffian(t, z), one_form(t, z, F)     the action form F.dz - B dt
+//                                            velocity(t, p, v)
+//   damping()                                beside those: a Real nu, the system is q' = T_p,
+//                                            p' = -V_q - nu p instead
+//   hamiltonian(t, z), bracket()             H and the bracket that makes the field (canonical without
+//                                            bracket())
+//   birkhoffian(t, z), one_form(t, z, F)     the action form F.dz - B dt
 //   chart(t, z, y), chart_inverse(t, y, z)   Darboux coordinates; optional chart_hamiltonian(t, y)
 //   invariants(t, z, values)                 in the order of the descriptor's list
 //   exact_solution(elapsed, t0, z0, z)       the flow

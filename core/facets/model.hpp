@@ -59,9 +59,8 @@ using CompiledFormula = void (*)(const void* system, const double& t, const doub
 struct ModelSource {
   std::string name;
   int dimension = 0;
-  bool canonical = false;  // the bracket is the canonical one on (q, p)
-  std::optional<Real>
-      damping;  // the rate nu at which friction damps p; kinetic and potential are T and V then
+  bool canonical = false;       // the bracket is the canonical one on (q, p)
+  std::optional<Real> damping;  // the rate nu of friction, beside kinetic and potential energy
   std::vector<Coordinate> coordinates;
   std::vector<Invariant> invariants;
   std::vector<Real> initial;
