@@ -4,10 +4,14 @@
 // members for its parameters, and any of these templates over the scalar T (t: time, z: state):
 //   field(t, z, rate)                        dz/dt
 //   kinetic(t, p), potential(t, q)           canonical separable H = T + V; optional force(t, q, f),
-//   velocity(t, p, v) hamiltonian(t, z), bracket()             H and the bracket that makes the field
-//   (canonical without bracket()) birkhoffian(t, z), one_form(t, z, F)     the action form F.dz - B dt
+//                                            velocity(t, p, v)
+//   damping()                                beside those: a Real nu, the system is q' = T_p,
+//                                            p' = -V_q - nu p instead
+//   hamiltonian(t, z), bracket()             H and the bracket that makes the field (canonical without
+//                                            bracket())
+//   birkhoffian(t, z), one_form(t, z, F)     the action form F.dz - B dt
 //   chart(t, z, y), chart_inverse(t, y, z)   Darboux coordinates; optional chart_hamiltonian(t, y),
-//   chart_field(t, y, rate)
+//                                            chart_field(t, y, rate)
 //   invariants(t, z, values)                 in the order of the descriptor's list
 //   exact_solution(elapsed, t0, z0, z)       the flow
 //   initial(z)                               instead of the descriptor's list, when it depends on parameters
@@ -93,7 +97,9 @@ class Collector {
       });
     }
     if constexpr (WritesKinetic<S> && WritesPotential<S>) {
-      source_.canonical = true;
+      constexpr bool damped = WritesDamping<S>;
+      if constexpr (damped) source_.damping = s.damping();
+      source_.canonical = !damped;
       give(Formula::kinetic, n / 2, [&](const R& t, RecordedIn p) { return s.kinetic(t, p); });
       give(Formula::potential, n / 2, [&](const R& t, RecordedIn q) { return s.potential(t, q); });
       if constexpr (WritesForce<S>) {
@@ -113,7 +119,7 @@ class Collector {
           const auto m = static_cast<std::size_t>(dimension_of(self) / 2);
           self.velocity(t, In<double>(p, m), Out<double>(o, m));
         });
-        if constexpr (WritesForce<S>)
+        if constexpr (!damped && WritesForce<S>)
           compile(Formula::field, [](const void* object, const double& t, const double* z, double* o) {
             const S& self = *static_cast<const S*>(object);
             const auto m = static_cast<std::size_t>(dimension_of(self) / 2);

@@ -107,6 +107,11 @@ struct Collocation {
       missed.forget();
       history = false;
     }
+    /// Forgets the past, round-off included: the next step depends on its state alone.
+    void restart() {
+      forget();
+      for (T& x : carry) x = T(0);
+    }
     void remember(const T& h) {
       if (history) missed.remember([this](std::size_t k) { return rate[k] - extrapolated[k]; });
       history = true;

@@ -52,6 +52,16 @@ struct DampedOscillator {
     rate[0] = z[1];
     rate[1] = -(nu * z[1]) - z[0];
   }
+  // Friction on (q, p) = (r, p): the mechanical energy and its rate of damping.
+  [[nodiscard]] Real damping() const { return nu; }
+  template <class T>
+  T kinetic(const T& /*t*/, In<T> p) const {
+    return p[0] * p[0] / 2;
+  }
+  template <class T>
+  T potential(const T& /*t*/, In<T> q) const {
+    return q[0] * q[0] / 2;
+  }
   template <class T>
   void invariants(const T& t, In<T> z, Out<T> values) const {
     values[0] = birkhoffian(t, z);

@@ -11,9 +11,9 @@ namespace pfaff {
 
 namespace {
 
-// Steps at which claims are measured: small enough for every implicit solve, large enough to show a false
-// claim.
-const Real check_step = Real::fraction(1, 10);
+// Steps at which claims are measured: small enough for every implicit solve, those of the longest sub-steps
+// of compositions included (five times the step and more), large enough to show a false claim.
+const Real check_step = Real::fraction(1, 20);
 
 template <class T>
 std::vector<T> state_of(const Model& model) {

@@ -170,6 +170,19 @@ void darboux(std::vector<Check>& checks, const SystemPlugin& plugin, const Model
   both(checks, plugin.name(), "field in the chart", plugin.name(), carried, generic_state(model));
 }
 
+// The mechanical energy and the rate of friction make the field.
+void conformal(std::vector<Check>& checks, const SystemPlugin& plugin, const Model& model) {
+  const Tape damped = damped_field(model);
+  const auto field = model.tape(Formula::field);
+  const auto difference =
+      expression(model.dimension(), model.dimension(), [&](const Recorded& t, Arguments z, Results out) {
+        const auto a = evaluate(*field, t, z), b = evaluate(damped, t, z);
+        for (std::size_t k = 0; k < a.size(); ++k) out[k] = a[k] - b[k];
+      });
+  both(checks, plugin.name(), "field of the damped energies", plugin.name(), difference,
+       generic_state(model));
+}
+
 }  // namespace
 
 std::vector<Check> check_system(const SystemPlugin& plugin) {
@@ -202,6 +215,7 @@ std::vector<Check> check_system(const SystemPlugin& plugin) {
     both(checks, plugin.name(), "Jacobi identity", plugin.name(), jacobiator(*tensor, n), centre);
   }
   if (model->facets().has(Facet::darboux_chart)) darboux(checks, plugin, *model);
+  if (model->facets().has(Facet::conformal)) conformal(checks, plugin, *model);
   invariants(checks, plugin, *model);
   if (model->facets().has(Facet::exact_solution)) exact_solution(checks, plugin, *model);
   return checks;

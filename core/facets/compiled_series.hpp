@@ -85,8 +85,9 @@ concept FixedSize = requires {
 // The author of S writes the chart's field, or the force and velocity that are one.
 template <class S>
 concept CompilesChartField = FixedSize<S> &&
-    (WritesChartField<S, double> || (WritesKinetic<S, double> && WritesPotential<S, double> &&
-                                     WritesForce<S, double> && WritesVelocity<S, double>));
+    (WritesChartField<S, double> ||
+     (WritesKinetic<S, double> && WritesPotential<S, double> && WritesForce<S, double> &&
+      WritesVelocity<S, double> && !WritesDamping<S>));
 
 template <CompilesChartField S, class T>
 void chart_field_of(const S& s, const T& t, In<T> y, Out<T> rate) {

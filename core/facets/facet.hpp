@@ -15,6 +15,7 @@ enum class Facet : unsigned {
   vector_field,    // dz/dt = X(z, t)
   hamiltonian,     // an energy and the bracket that makes X of it
   separable,       // canonical, H = T(p) + V(q, t)
+  conformal,       // q' = T_p(p), p' = -V_q(q, t) - nu p: the canonical structure times e^{nu t} is kept
   birkhoffian,     // action of F(z, t).dz - B(z, t) dt
   darboux_chart,   // coordinates y in which the structure is constant and canonical
   invariants,      // named quantities with their expected behaviour
@@ -24,8 +25,8 @@ enum class Facet : unsigned {
 
 constexpr std::string_view to_string(Facet facet) {
   constexpr std::array<std::string_view, static_cast<std::size_t>(Facet::count)> names{
-      "vector-field",  "hamiltonian", "separable",     "birkhoffian",
-      "darboux-chart", "invariants",  "exact-solution"};
+      "vector-field", "hamiltonian",   "separable",  "conformal",
+      "birkhoffian",  "darboux-chart", "invariants", "exact-solution"};
   return names[static_cast<std::size_t>(facet)];
 }
 

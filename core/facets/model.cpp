@@ -63,17 +63,31 @@ Tape pulled_back_field(const Tape& one_form, const Tape& birkhoffian, const Tape
 }
 }  // namespace
 
+Tape damped_field(const Model& model) {
+  const auto velocity = model.tape(Formula::velocity), force = model.tape(Formula::force);
+  const auto half = static_cast<std::size_t>(velocity->inputs);
+  return record(model.dimension(), model.dimension(), [&](const Recorded& t, Arguments z, Results out) {
+    const auto rate = evaluate(*velocity, t, z.subspan(half)), slope = evaluate(*force, t, z.first(half));
+    for (std::size_t k = 0; k < half; ++k) {
+      out[k] = rate[k];
+      out[half + k] = slope[k] - model.damping() * z[half + k];
+    }
+  });
+}
+
 Model::Model(ModelSource source) : source_(std::move(source)) {
   const auto& g = source_.given;
   const auto has = [&](Formula f) { return g[index(f)] != nullptr; };
   const auto offer = [&](Facet f) { facets_ = facets_.with(f); };
-  const bool separable = has(Formula::kinetic) && has(Formula::potential);
+  const bool energies = has(Formula::kinetic) && has(Formula::potential);
+  const bool conformal = energies && source_.damping.has_value(), separable = energies && !conformal;
   const bool hamiltonian = separable || has(Formula::hamiltonian);
   const bool birkhoffian = has(Formula::birkhoffian) && has(Formula::one_form);
   if (hamiltonian) offer(Facet::hamiltonian);
   if (separable) offer(Facet::separable);
+  if (conformal) offer(Facet::conformal);
   if (birkhoffian) offer(Facet::birkhoffian);
-  if (has(Formula::field) || hamiltonian || birkhoffian) offer(Facet::vector_field);
+  if (has(Formula::field) || hamiltonian || conformal || birkhoffian) offer(Facet::vector_field);
   if ((has(Formula::chart) && has(Formula::chart_inverse)) || (source_.canonical && hamiltonian))
     offer(Facet::darboux_chart);
   if (!source_.invariants.empty()) offer(Facet::invariants);
@@ -115,7 +129,7 @@ std::shared_ptr<const Tape> Model::derived(Formula formula) const {
     }
     case Formula::velocity:
     case Formula::force: {
-      if (!facets_.has(Facet::separable)) return nullptr;
+      if (!facets_.has(Facet::separable) && !facets_.has(Facet::conformal)) return nullptr;
       const bool force = formula == Formula::force;
       const auto energy = tape(force ? Formula::potential : Formula::kinetic);
       return shared(record(n / 2, n / 2, [&](const Recorded& t, Arguments x, Results out) {
@@ -144,7 +158,7 @@ std::shared_ptr<const Tape> Model::derived(Formula formula) const {
           }
         }));
       }
-      if (!birkhoffian) return nullptr;
+      if (!birkhoffian) return facets_.has(Facet::conformal) ? shared(damped_field(*this)) : nullptr;
       const auto function = tape(Formula::birkhoffian), form = tape(Formula::one_form);
       const auto structure = tape(Formula::structure);
       return shared(record(n, n, [&](const Recorded& t, Arguments z, Results out) {

@@ -9,6 +9,7 @@
 #include <array>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -60,7 +61,8 @@ struct CompiledSeries;
 struct ModelSource {
   std::string name;
   int dimension = 0;
-  bool canonical = false;  // the bracket is the canonical one on (q, p)
+  bool canonical = false;       // the bracket is the canonical one on (q, p)
+  std::optional<Real> damping;  // the rate nu of friction, beside kinetic and potential energy
   std::vector<Coordinate> coordinates;
   std::vector<Invariant> invariants;
   std::vector<Real> initial;
@@ -89,14 +91,21 @@ class Model {
   /// True when the canonical bracket on (q, p) is the system's own.
   [[nodiscard]] bool canonical() const { return source_.canonical; }
 
+  /// The rate nu of the conformal facet, in 1/time_unit.
+  [[nodiscard]] const Real& damping() const { return source_.damping.value(); }
+
   /// The tape of a formula, derived on first use. Throws std::logic_error when the facets do not give it.
   [[nodiscard]] std::shared_ptr<const Tape> tape(Formula formula) const;
   /// The same derived even where the author wrote it; null where it cannot be derived.
   [[nodiscard]] std::shared_ptr<const Tape> derived(Formula formula) const;
   /// True where the author wrote the formula.
   [[nodiscard]] bool given(Formula formula) const { return source_.given[index(formula)] != nullptr; }
-  /// The author's double version and the object to call it with; null when there is none.
-  [[nodiscard]] CompiledFormula compiled(Formula formula) const { return source_.compiled[index(formula)]; }
+  /// The author's double version and the object to call it with; null when there is none. Canonical
+  /// coordinates are Darboux's, so the field is that in the chart.
+  [[nodiscard]] CompiledFormula compiled(Formula formula) const {
+    const bool same = formula == Formula::chart_field && source_.canonical && !given(Formula::chart);
+    return source_.compiled[index(same ? Formula::field : formula)];
+  }
   /// The author's field in the chart compiled for series; null when there is none.
   [[nodiscard]] const CompiledSeries* chart_field_series() const { return source_.chart_field_series; }
   [[nodiscard]] const void* system() const { return source_.system.get(); }
@@ -111,5 +120,8 @@ class Model {
   mutable std::recursive_mutex mutex_;
   mutable std::array<std::shared_ptr<const Tape>, formula_count> tapes_;
 };
+
+/// The field (T_p, -V_q - nu p) that the conformal facet stands for.
+Tape damped_field(const Model& model);
 
 }  // namespace pfaff

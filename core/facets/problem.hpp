@@ -5,6 +5,7 @@
 // a method's needs and the erased path all rest on. A facet evaluation costs one virtual call.
 #pragma once
 
+#include <concepts>
 #include <cstdint>
 #include <memory>
 
@@ -86,6 +87,17 @@ class Problem {
   }
   /// dT/dp.
   void velocity(const T& t, In<T> p, Out<T> v) const requires(Facets.has(Facet::separable)) {
+    use(Formula::velocity, t, p.data(), v.data());
+  }
+  /// The rate nu in p' = -V_q - nu p.
+  [[nodiscard]] T damping() const requires(Facets.has(Facet::conformal)) { return T(model_->damping()); }
+  /// -dV/dq, friction left out.
+  void undamped_force(const T& t, In<T> q, Out<T> f) const requires(Facets.has(Facet::conformal)) {
+    ++counters_.fields;
+    use(Formula::force, t, q.data(), f.data());
+  }
+  /// dT/dp.
+  void undamped_velocity(const T& t, In<T> p, Out<T> v) const requires(Facets.has(Facet::conformal)) {
     use(Formula::velocity, t, p.data(), v.data());
   }
   /// B(z, t).
@@ -174,6 +186,12 @@ template <class P>
 concept HasSeparable = requires(const P& p, const Scalar<P>& t, State<P>& z) {
   p.force(t, z, z);
   p.velocity(t, z, z);
+};
+template <class P>
+concept HasConformal = requires(const P& p, const Scalar<P>& t, State<P>& z) {
+  p.undamped_force(t, z, z);
+  p.undamped_velocity(t, z, z);
+  { p.damping() } -> std::convertible_to<Scalar<P>>;
 };
 template <class P>
 concept HasDarbouxChart = requires(const P& p, const Scalar<P>& t, State<P>& z) {

@@ -60,10 +60,12 @@ class StaticProblem {
   using Scalar = T;
   static constexpr int extent = S::dimension;
   using State = Vector<T, extent>;
-  static constexpr bool separable = detail::WritesKinetic<S, T> && detail::WritesPotential<S, T>;
+  static constexpr bool energies = detail::WritesKinetic<S, T> && detail::WritesPotential<S, T>;
+  static constexpr bool conformal = energies && detail::WritesDamping<S>;
+  static constexpr bool separable = energies && !conformal;
   static constexpr bool canonical =
       separable || (detail::WritesHamiltonian<S, T> && !detail::WritesBracket<S>);
-  static constexpr bool has_field = canonical || detail::WritesField<S, T>;
+  static constexpr bool has_field = canonical || conformal || detail::WritesField<S, T>;
 
   explicit StaticProblem(S system = {}) : system_(std::move(system)) {}
 
@@ -93,6 +95,13 @@ class StaticProblem {
   void force(const T& t, In<T> q, Out<T> f) const requires separable { force_of<T>(t, q, f); }
   /// dT/dp.
   void velocity(const T& t, In<T> p, Out<T> v) const requires separable { velocity_of<T>(t, p, v); }
+
+  /// The rate nu in p' = -V_q - nu p.
+  [[nodiscard]] T damping() const requires conformal { return T(Real(system_.damping())); }
+  /// -dV/dq, friction left out.
+  void undamped_force(const T& t, In<T> q, Out<T> f) const requires conformal { force_of<T>(t, q, f); }
+  /// dT/dp.
+  void undamped_velocity(const T& t, In<T> p, Out<T> v) const requires conformal { velocity_of<T>(t, p, v); }
 
   /// y = z: canonical coordinates are Darboux's.
   void chart(const T& /*t*/, In<T> z, Out<T> y) const requires canonical {
@@ -151,9 +160,11 @@ class StaticProblem {
   void field_of(const U& t, In<U> z, Out<U> rate) const {
     if constexpr (detail::WritesField<S, U>) {
       system_.field(t, z, rate);
-    } else if constexpr (separable) {
+    } else if constexpr (separable || conformal) {
       velocity_of<U>(t, z.subspan(half), rate.first(half));
       force_of<U>(t, z.first(half), rate.subspan(half));
+      if constexpr (conformal)
+        for (std::size_t k = half; k < size(); ++k) rate[k] = rate[k] - U(Real(system_.damping())) * z[k];
     } else {  // J grad H
       Vector<U, extent> slope;
       detail::dual_gradient<extent>([&]<class D>(const D& s, In<D> x) { return hamiltonian_of<D>(s, x); }, t,

@@ -35,6 +35,10 @@ template <class S, class T = Recorded>
 concept WritesVelocity = requires(const S& s, const T& t, In<T> p, Out<T> o) {
   s.velocity(t, p, o);
 };
+template <class S>
+concept WritesDamping = requires(const S& s) {
+  { s.damping() } -> std::convertible_to<Real>;
+};
 template <class S, class T = Recorded>
 concept WritesHamiltonian = requires(const S& s, const T& t, In<T> z) {
   { s.hamiltonian(t, z) } -> std::convertible_to<T>;
@@ -101,6 +105,7 @@ PFAFF_NAMED(kinetic)
 PFAFF_NAMED(potential)
 PFAFF_NAMED(force)
 PFAFF_NAMED(velocity)
+PFAFF_NAMED(damping)
 PFAFF_NAMED(hamiltonian)
 PFAFF_NAMED(bracket)
 PFAFF_NAMED(birkhoffian)
@@ -130,6 +135,7 @@ constexpr void check_formulas() {
                 "force: expected template <class T> void force(const T& t, In<T> q, Out<T> f) const");
   static_assert(WritesVelocity<S> || !names_velocity<S>,
                 "velocity: expected template <class T> void velocity(const T& t, In<T> p, Out<T> v) const");
+  static_assert(WritesDamping<S> || !names_damping<S>, "damping: expected Real damping() const");
   static_assert(WritesHamiltonian<S> || !names_hamiltonian<S>,
                 "hamiltonian: expected template <class T> T hamiltonian(const T& t, In<T> z) const");
   static_assert(WritesBracket<S> || !names_bracket<S>, "bracket: expected a bracket from bracket() const");
@@ -169,6 +175,8 @@ constexpr void check_formulas() {
       names_kinetic<S> || !(names_force<S> || names_velocity<S>),
       "force and velocity are written beside kinetic and potential, which are missing; a member that "
       "is something else needs another name");
+  static_assert(names_kinetic<S> || !names_damping<S>,
+                "damping is written beside kinetic and potential, which are missing");
   static_assert(names_hamiltonian<S> || !names_bracket<S>,
                 "bracket is written beside hamiltonian, which is missing");
   static_assert(names_chart<S> || !names_chart_hamiltonian<S>,

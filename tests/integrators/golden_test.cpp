@@ -88,6 +88,27 @@ TEST(GoldenOscillator, VariantSOfOrder2IsTheMidpointExpandedScheme) {
   }
 }
 
+TEST(GoldenOscillator, MidpointInTheChartIsTheMidpointExpandedScheme) {
+  for (const auto& entry : golden("damped_oscillator", "transition")) {
+    const auto model = system_with("damped-oscillator", entry["nu"]);
+    const auto method = integrators().get("gauss-darboux", "").make({{"stages", "1"}});
+    StepDifferentiator<double> in_doubles(*method, model);
+    StepDifferentiator<Quad> in_quads(*method, model);
+    const auto step = in_doubles(0.7, number<double>(entry["tau"]), {1, 0});
+    const auto exact = in_quads(Quad(0.7), number<Quad>(entry["tau"]), {Quad(1), Quad(0)});
+    double other = 0;  // control: the distance from the expansion at the start of the step
+    for (std::size_t k = 0; k < 4; ++k) {
+      const auto& expected = entry["time_symmetric_order2_midpoint_expanded"][k / 2][k % 2];
+      EXPECT_LE(distance(step.jacobian[k], expected), in_double);
+      EXPECT_LE(distance(exact.jacobian[k], expected), in_quad);
+      other = std::max(other, distance(exact.jacobian[k], entry["orders"]["2"][k / 2][k % 2]));
+    }
+    if (number<double>(entry["nu"]) > 0) {
+      EXPECT_GT(other, 1e-10);
+    }
+  }
+}
+
 // phi_w^(k) at w = (R, P) in the paper's coordinates: the chart's y = (R, -P), components (psi_p, psi_q).
 std::vector<Quad> coefficient(const Model& model, Quad t0, int k, Quad r, Quad p) {
   GeneratingGradient<Quad> gradient(model.tape(Formula::chart_field), k, false, GeneratingForm::midpoint,

@@ -129,9 +129,32 @@ TEST(RandomBirkhoffian, EveryOrderKeepsTheStructureAtRoundOff) {
   }
 }
 
+struct Rival {
+  const char* name;
+  Assignments parameters;
+  int order;
+};
+std::vector<Rival> rivals() {
+  return {{"gauss-darboux", {{"stages", "1"}}, 2}, {"gauss-darboux", {{"stages", "2"}}, 4},
+          {"gauss-darboux", {{"stages", "4"}}, 8}, {"yoshida", {{"order", "4"}}, 4},
+          {"suzuki", {{"order", "4"}}, 4},         {"kahan-li", {{"order", "6"}}, 6}};
+}
+
+TEST(RandomBirkhoffian, MethodsInDarbouxCoordinatesKeepItToo) {
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    const auto model = RandomSystem(seed).model();
+    for (const Rival& rival : rivals()) {
+      const auto method = integrators().get(rival.name, "").make(rival.parameters);
+      EXPECT_LE(structure_residual<double>(*method, model), 1e-14) << seed << ' ' << rival.name;
+      EXPECT_LE(structure_residual<Quad>(*method, model), 1e-31) << seed << ' ' << rival.name;
+      EXPECT_NEAR(measure_order(*method, model).slope, rival.order, 0.1) << seed << ' ' << rival.name;
+    }
+  }
+}
+
 TEST(RandomBirkhoffian, OthersDoNot) {  // control
   const auto model = RandomSystem(1).model();
-  for (const char* name : {"rk4", "implicit-midpoint", "gauss"})
+  for (const char* name : {"rk4", "implicit-midpoint", "gauss", "leap-frog"})
     EXPECT_GT(structure_residual<Quad>(*integrators().get(name, "").make({}), model), 1e-10) << name;
 }
 

@@ -182,4 +182,63 @@ TEST(Overrides, AWrongAuthorIsFound) {
   }
 }
 
+// Where there is friction, the field is that of the energies and the damping.
+std::pair<double, double> worst_friction(const Model& model, Samples& samples) {
+  const auto damped = std::make_shared<const Tape>(damped_field(model));
+  const auto field = model.tape(Formula::field);
+  double coarse = 0, fine = 0;
+  for (int k = 0; k < points; ++k) {
+    const auto z = samples.state(model, 0.3);
+    const Quad t = samples.quad(0, 3);
+    coarse = std::max(coarse, difference<double>(field, damped, t, z));
+    fine = std::max(fine, difference<Quad>(field, damped, t, z));
+  }
+  return {coarse, fine};
+}
+
+TEST(Overrides, DampedEnergiesMakeTheField) {
+  int compared = 0;
+  for (const SystemPlugin* plugin : systems().all()) {
+    Samples samples(45);
+    const Assignments parameters = samples.parameters(*plugin);
+    const auto model = plugin->make(parameters);
+    if (!model->facets().has(Facet::conformal)) continue;
+    ++compared;
+    const auto [coarse, fine] = worst_friction(*model, samples);
+    EXPECT_LE(coarse, double_bound) << plugin->name() << " " << pfaff::testing::describe(parameters, {});
+    EXPECT_LE(fine, quad_bound) << plugin->name() << " " << pfaff::testing::describe(parameters, {});
+  }
+  EXPECT_GE(compared, 2);
+}
+
+// Control: a rate of damping that is not the field's by one part in 1e9.
+struct WrongFriction {
+  static constexpr int dimension = 2;
+  bool wrong = false;
+  [[nodiscard]] Real damping() const { return wrong ? 0.5000000005_r : 0.5_r; }
+  template <class T>
+  T kinetic(const T& /*t*/, In<T> p) const {
+    return p[0] * p[0] / 2;
+  }
+  template <class T>
+  T potential(const T& t, In<T> q) const {
+    return -cos(q[0]) - q[0] * sin(t);
+  }
+  template <class T>
+  void field(const T& t, In<T> z, Out<T> rate) const {
+    rate[0] = z[1];
+    rate[1] = sin(t) - sin(z[0]) - z[1] / 2;
+  }
+};
+
+TEST(Overrides, AWrongRateOfDampingIsFound) {
+  const SystemDescriptor descriptor{.name = "wrong", .title = "", .reference = "", .initial = {1, 0.5_r}};
+  for (const bool wrong : {false, true}) {
+    Samples samples(46);
+    const auto [coarse, fine] = worst_friction(*make_model(descriptor, WrongFriction{wrong}), samples);
+    EXPECT_EQ(coarse <= double_bound, !wrong);
+    EXPECT_EQ(fine <= quad_bound, !wrong);
+  }
+}
+
 }  // namespace

@@ -1,0 +1,76 @@
+// The leap-frog scheme: its two-step rule, its order over many steps, and the structure and stability it
+// lacks.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include <pfaff/bench/measure/reference.hpp>
+#include <pfaff/bench/measure/structure.hpp>
+#include <pfaff/core/system.hpp>
+
+namespace pfaff {
+namespace {
+
+std::unique_ptr<MethodInstance> method(const char* name, const Assignments& parameters = {}) {
+  return integrators().get(name, "integrator").make(parameters);
+}
+
+TEST(LeapFrog, LeapsFromTheStateBefore) {
+  const auto model = systems().get("damped-pendulum", "system").make({});
+  const Problem<Quad> problem(model);
+  const auto stepper = method("leap-frog")->stepper(model, Quad());
+  const Quad h(0.05);
+  std::vector<std::vector<Quad>> z{{Quad(1), Quad(0.5)}};
+  for (std::int64_t n = 0; n < 6; ++n) {
+    z.push_back(z.back());
+    std::int64_t completed = 0;
+    ASSERT_EQ(stepper->advance(Quad(0), n, h, 1, z.back(), completed), Status::converged);
+  }
+  std::vector<Quad> rate(2);
+  for (std::size_t n = 1; n < 6; ++n) {
+    problem.field(Quad(int(n)) * h, z[n], rate);
+    for (std::size_t k = 0; k < 2; ++k)
+      EXPECT_LE(static_cast<double>(abs(z[n + 1][k] - z[n - 1][k] - Quad(2) * h * rate[k])), 1e-33);
+  }
+  EXPECT_EQ(stepper->counters().fields, 7);  // one a step, and one more to start
+}
+
+TEST(LeapFrog, IsOfOrderTwoOverManySteps) {
+  const auto model = systems().get("damped-pendulum", "system").make({});
+  std::vector<Quad> exact{Quad(1), Quad(0.5)};
+  for (int k = 0; k < 20; ++k) taylor_flow(*model, Quad(k) / Quad(10), Quad(1) / Quad(10), exact);
+  const auto error = [&](std::int64_t steps) {
+    std::vector<Quad> z{Quad(1), Quad(0.5)};
+    std::int64_t completed = 0;
+    method("leap-frog")
+        ->stepper(model, Quad())
+        ->advance(Quad(0), 0, Quad(2) / Quad(int(steps)), steps, z, completed);
+    return static_cast<double>(
+        sqrt((z[0] - exact[0]) * (z[0] - exact[0]) + (z[1] - exact[1]) * (z[1] - exact[1])));
+  };
+  EXPECT_NEAR(std::log2(error(800) / error(1600)), 2, 0.05);
+}
+
+TEST(LeapFrog, IsNotKSymplectic) {
+  const auto model = systems().get("damped-pendulum", "system").make({});
+  StructureResidual<Quad> residual(*method("leap-frog"), model);
+  EXPECT_GT(static_cast<double>(residual(Quad(0), Quad(0.1), {Quad(1), Quad(0.5)})), 1e-8);
+}
+
+TEST(LeapFrog, IsUnstableWhereMotionIsDamped) {
+  // The motion decays as e^{-nu t/2}, the parasitic oscillation grows as e^{nu t/2} from about h^3.
+  const auto model = systems().get("damped-oscillator", "system").make({});
+  const auto size = [&](const char* name) {
+    std::vector<double> z{1, 0};
+    std::int64_t completed = 0;
+    EXPECT_EQ(method(name)->stepper(model, double())->advance(0.0, 0, 0.1, 1000, z, completed),
+              Status::converged);
+    return std::hypot(z[0], z[1]);
+  };
+  EXPECT_GT(size("leap-frog"), 1);
+  for (const char* name : {"gauss-darboux", "yoshida", "conformal-splitting", "rk4"})
+    EXPECT_LT(size(name), 1e-6) << name;
+}
+
+}  // namespace
+}  // namespace pfaff
