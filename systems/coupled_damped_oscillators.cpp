@@ -30,6 +30,6 @@ struct CoupledDampedOscillators : DampedChain<CoupledDampedOscillators, Oscillat
 const System<CoupledDampedOscillators> registered{
     {.name = "coupled-damped-oscillators",
      .title = "chain of damped oscillators, r_i'' + nu r_i' + r_i + springs = 0",
-     .reference = "su-qin (92)-(95)",
+     .reference = "su-qin (92)-(95); landau-lifshitz1976 sections 23, 25",
      .invariants = {conserved("birkhoffian", "m^2/s^2"), decreasing("energy", "m^2/s^2")}}};
 }  // namespace

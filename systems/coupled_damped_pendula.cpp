@@ -30,6 +30,6 @@ struct CoupledDampedPendula : DampedChain<CoupledDampedPendula, Pendulum> {
 const System<CoupledDampedPendula> registered{
     {.name = "coupled-damped-pendula",
      .title = "chain of damped pendula, r_i'' + nu r_i' + sin r_i + springs = 0",
-     .reference = "su-qin (92)-(95)",
+     .reference = "su-qin (92)-(95); landau-lifshitz1976 sections 23, 25",
      .invariants = {decreasing("energy", "rad^2/s^2")}}};
 }  // namespace

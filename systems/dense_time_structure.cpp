@@ -15,7 +15,7 @@ using namespace pfaff;
 
 struct DenseTimeStructure {
   static constexpr int dimension = 4;
-  Real c = 0.2_r, omega = 1, lambda = 0.3_r;
+  Real c = 0.2_r, omega = 1, lambda = 1;
   static std::vector<Parameter> parameters() {
     return {parameter(&DenseTimeStructure::c, "c", "", 0, 0.45, "the structure's non-canonical part"),
             parameter(&DenseTimeStructure::omega, "omega", "1/s", 0, 100, "the structure's frequency"),
