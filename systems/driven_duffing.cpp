@@ -57,6 +57,12 @@ struct DrivenDuffing {
            exp(nu * t) * (potential_well(y[0]) - f * y[0] * cos(omega * t));
   }
   template <class T>
+  void chart_field(const T& t, In<T> y, Out<T> rate) const {
+    const T growth = exp(nu * t);
+    rate[0] = y[1] / growth;
+    rate[1] = growth * (f * cos(omega * t) - y[0] * (a + b * (y[0] * y[0])));
+  }
+  template <class T>
   void field(const T& t, In<T> z, Out<T> rate) const {
     rate[0] = z[1];
     rate[1] = f * cos(omega * t) - nu * z[1] - z[0] * (a + b * (z[0] * z[0]));

@@ -46,6 +46,11 @@ struct LotkaVolterra {
     return delta * exp(y[1]) - gamma * y[1] + beta * exp(y[0]) - alpha * y[0];
   }
   template <class T>
+  void chart_field(const T& /*t*/, In<T> y, Out<T> rate) const {
+    rate[0] = delta * exp(y[1]) - gamma;
+    rate[1] = alpha - beta * exp(y[0]);
+  }
+  template <class T>
   void field(const T& /*t*/, In<T> z, Out<T> rate) const {
     rate[0] = z[0] * (alpha - beta * z[1]);
     rate[1] = z[1] * (delta * z[0] - gamma);
