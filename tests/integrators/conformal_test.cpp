@@ -15,8 +15,7 @@ constexpr double round_off = std::is_same_v<T, Quad> ? 1e-32 : 3e-15;
 
 // Two coupled oscillators with a driven, nonlinear potential and no other formula than those of the facet, or
 // with force and velocity written out.
-template <bool Written>
-struct DrivenPair {
+struct EnergiesOfPair {
   static constexpr int dimension = 4;
   Real nu = 0.4_r;
   [[nodiscard]] Real damping() const { return nu; }
@@ -28,17 +27,21 @@ struct DrivenPair {
   T potential(const T& t, In<T> q) const {
     return q[0] * q[0] / 2 + q[0] * q[0] * q[1] * q[1] / 2 + pow(q[1], Real(4)) / 4 - q[1] * cos(2 * t);
   }
+};
+struct WrittenPair : EnergiesOfPair {
   template <class T>
-  void force(const T& t, In<T> q, Out<T> f) const requires Written {
+  void force(const T& t, In<T> q, Out<T> f) const {
     f[0] = -q[0] - q[0] * q[1] * q[1];
     f[1] = cos(2 * t) - q[0] * q[0] * q[1] - q[1] * q[1] * q[1];
   }
   template <class T>
-  void velocity(const T& /*t*/, In<T> p, Out<T> v) const requires Written {
+  void velocity(const T& /*t*/, In<T> p, Out<T> v) const {
     v[0] = p[0] + p[1] / 2;
     v[1] = 2 * p[1] + p[0] / 2;
   }
 };
+template <bool Written>
+using DrivenPair = std::conditional_t<Written, WrittenPair, EnergiesOfPair>;
 template <bool Written>
 std::shared_ptr<const Model> driven_pair(const char* nu = "0.4") {
   DrivenPair<Written> pair;
