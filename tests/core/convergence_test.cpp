@@ -24,7 +24,7 @@ std::pair<Status, int> watch(const Corrections& correction, int limit = 60) {
 TEST(Convergence, StopsAtRoundOffAndNotBefore) {
   const auto [halving, halvings] = watch([](int k) { return std::ldexp(1.0, -k); });
   EXPECT_EQ(halving, Status::converged);
-  EXPECT_EQ(halvings, 53);
+  EXPECT_EQ(halvings, 56);  // an eighth of a unit of round-off
   // A contraction of 1e-3 is stopped one iteration early: the next correction would be nothing.
   const auto [fast, steps] = watch([](int k) { return std::pow(1e-3, k); });
   EXPECT_EQ(fast, Status::converged);
