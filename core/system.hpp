@@ -6,7 +6,8 @@
 //   kinetic(t, p), potential(t, q)           canonical separable H = T + V; optional force(t, q, f),
 //   velocity(t, p, v) hamiltonian(t, z), bracket()             H and the bracket that makes the field
 //   (canonical without bracket()) birkhoffian(t, z), one_form(t, z, F)     the action form F.dz - B dt
-//   chart(t, z, y), chart_inverse(t, y, z)   Darboux coordinates; optional chart_hamiltonian(t, y)
+//   chart(t, z, y), chart_inverse(t, y, z)   Darboux coordinates; optional chart_hamiltonian(t, y). Derived
+//                                            where K = dF is constant or depends on t alone
 //   invariants(t, z, values)                 in the order of the descriptor's list
 //   exact_solution(elapsed, t0, z0, z)       the flow
 //   initial(z)                               instead of the descriptor's list, when it depends on parameters
