@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include <pfaff/core/integrator.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/replay.hpp>
 
@@ -249,6 +250,13 @@ TEST(Birkhoffian, NoChartIsDerivedWhereKDependsOnTheStateOrIsDegenerate) {
   EXPECT_FALSE(degenerate->facets().has(Facet::darboux_chart));
   EXPECT_NE(degenerate->advice(chart).find("degenerate at t = 0"), std::string::npos);
   EXPECT_EQ(make_model(chartless, Chartless{})->advice(chart), "");
+  // The message of a method, as users see it.
+  const auto method = integrators().get("generating-function", "integrator").make({});
+  EXPECT_EQ(
+      method->refuses(*swirling),
+      "generating-function needs darboux-chart; chartless offers vector-field, birkhoffian; its structure "
+      "K depends on the state: write chart and chart_inverse");
+  EXPECT_EQ(method->refuses(*make_model(chartless, Chartless{})), "");
   EXPECT_EQ(swirling->advice(FacetSet().with(Facet::separable)), "");
 }
 
