@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <pfaff/brackets/birkhoffian/inverse_problem.hpp>
+#include <pfaff/brackets/birkhoffian/self_adjointness.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/replay.hpp>
 
@@ -185,6 +186,61 @@ TEST(InverseProblem, PrintedFormulasAndUnfitEquationsFail) {
     out[0] = out[0] + fraction(1, 1000000) * z[1];
   });
   EXPECT_GT(defect<Quad>(unfit, inverse_problem(unfit.structure, unfit.covector, centre), state), 1e-8);
+}
+
+template <class T>
+SelfAdjointness<T> measured(const Equations& equations, const std::vector<Real>& state) {
+  std::vector<T> z;
+  for (const Real& x : state) z.push_back(T(x));
+  return self_adjointness<T>(std::make_shared<const Tape>(equations.structure), equations.covector, T(0.75),
+                             z);
+}
+template <class T>
+double relative(const Residual<T>& r) {
+  return static_cast<double>(r.residual / r.scale);
+}
+
+// Equations with one entry of K, or of D, changed by `change(t, z, entry)`.
+template <class Change>
+Tape changed(const Tape& tape, std::size_t entry, Change&& change) {
+  return record(tape.inputs, static_cast<int>(tape.outputs.size()),
+                [&](const Recorded& t, Arguments z, Results out) {
+                  const auto values = evaluate(tape, t, z);
+                  std::copy(values.begin(), values.end(), out.begin());
+                  out[entry] = out[entry] + fraction(1, 1000000) * change(t, z);
+                });
+}
+
+TEST(SelfAdjointness, HoldsForActionFormsAndSeesEachDefectAlone) {
+  const std::vector<Real> state{1, Real::fraction(1, 2), Real::fraction(3, 4), Real::fraction(4, 5)};
+  const std::vector<Real> near{Real::fraction(5, 4), Real::fraction(4, 5)};
+  for (const auto& [equations, where] : {std::pair(polynomial(), state), std::pair(transcendental(), near)}) {
+    const auto in_double = measured<double>(equations, where);
+    const auto in_quad = measured<Quad>(equations, where);
+    for (const auto& r : {in_double.skew, in_double.closed, in_double.time}) EXPECT_LE(relative(r), 1e-14);
+    EXPECT_LE(relative(in_quad.skew), 1e-32);
+    EXPECT_LE(relative(in_quad.time), 1e-32);
+    EXPECT_GT(in_quad.time.scale, Quad(0.1));
+  }
+  EXPECT_LE(relative(measured<Quad>(polynomial(), state).closed), 1e-32);
+  // Controls, each by a millionth: one entry of K alone; a pair of entries by z3, which is not closed; D by a
+  // covector that is not a gradient.
+  Equations wrong = polynomial();
+  wrong.structure = changed(wrong.structure, 1, [](const Recorded&, Arguments) { return Recorded(1); });
+  auto r = measured<Quad>(wrong, state);
+  EXPECT_GT(relative(r.skew), 1e-8);
+  EXPECT_LE(relative(r.time), 1e-32);
+  wrong = polynomial();
+  wrong.structure = changed(wrong.structure, 1, [](const Recorded&, Arguments z) { return z[2]; });
+  wrong.structure = changed(wrong.structure, 4, [](const Recorded&, Arguments z) { return -z[2]; });
+  r = measured<Quad>(wrong, state);
+  EXPECT_LE(relative(r.skew), 1e-32);
+  EXPECT_GT(relative(r.closed), 1e-8);
+  wrong = polynomial();
+  wrong.covector = changed(wrong.covector, 0, [](const Recorded&, Arguments z) { return z[1]; });
+  r = measured<Quad>(wrong, state);
+  EXPECT_LE(relative(r.closed), 1e-32);
+  EXPECT_GT(relative(r.time), 1e-8);
 }
 
 }  // namespace
