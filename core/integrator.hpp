@@ -207,7 +207,7 @@ class Instance final : public MethodInstance {
   [[nodiscard]] std::string refuses(const Model& model) const override {
     if (!model.facets().includes(needs()))
       return plugin_.name() + " needs " + to_string(needs()) + "; " + model.name() + " offers " +
-             to_string(model.facets());
+             to_string(model.facets()) + model.advice(needs());
     if constexpr (requires { method_.refuses(model); }) return method_.refuses(model);
     return {};
   }

@@ -11,7 +11,8 @@
 //                                            bracket())
 //   birkhoffian(t, z), one_form(t, z, F)     the action form F.dz - B dt
 //   chart(t, z, y), chart_inverse(t, y, z)   Darboux coordinates; optional chart_hamiltonian(t, y),
-//                                            chart_field(t, y, rate)
+//                                            chart_field(t, y, rate). Derived where K = dF is
+//                                            constant or depends on t alone
 //   invariants(t, z, values)                 in the order of the descriptor's list
 //   exact_solution(elapsed, t0, z0, z)       the flow
 //   initial(z)                               instead of the descriptor's list, when it depends on parameters

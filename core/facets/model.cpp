@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include <pfaff/core/tape/derivatives.hpp>
+#include <pfaff/core/tape/replay.hpp>
 
 namespace pfaff {
 
@@ -61,6 +62,23 @@ Tape pulled_back_field(const Tape& one_form, const Tape& birkhoffian, const Tape
     canonical_sharp(covector, out);
   });
 }
+
+// The chart y = E^-1 z, z = E y of a structure K(t), which is K_c = E^T K E in y.
+Tape linear_chart(const Tape& structure, const PivotPairs& pairs) {
+  return record(structure.inputs, structure.inputs, [&](const Recorded& t, Arguments z, Results y) {
+    const auto k = evaluate(structure, t, z);
+    const auto basis = symplectic_basis<Recorded>(k, pairs);
+    copy(symplectic_coordinates<Recorded>(k, basis, z), y);
+  });
+}
+Tape linear_chart_inverse(const Tape& structure, const PivotPairs& pairs) {
+  return record(structure.inputs, structure.inputs, [&](const Recorded& t, Arguments y, Results z) {
+    const auto k = evaluate(structure, t, y);
+    const auto basis = symplectic_basis<Recorded>(k, pairs);
+    for (std::size_t i = 0; i < y.size(); ++i)
+      for (std::size_t j = 0; j < y.size(); ++j) z[i] = z[i] + basis[i * y.size() + j] * y[j];
+  });
+}
 }  // namespace
 
 Tape damped_field(const Model& model) {
@@ -90,8 +108,30 @@ Model::Model(ModelSource source) : source_(std::move(source)) {
   if (has(Formula::field) || hamiltonian || conformal || birkhoffian) offer(Facet::vector_field);
   if ((has(Formula::chart) && has(Formula::chart_inverse)) || (source_.canonical && hamiltonian))
     offer(Facet::darboux_chart);
+  if (birkhoffian && !facets_.has(Facet::darboux_chart)) {
+    pivots_ = chart_pivots();
+    if (!pivots_.empty()) offer(Facet::darboux_chart);
+  }
   if (!source_.invariants.empty()) offer(Facet::invariants);
   if (has(Formula::exact_solution)) offer(Facet::exact_solution);
+}
+
+PivotPairs Model::chart_pivots() const {
+  const auto structure = tape(Formula::structure);
+  if (!structure->state_independent()) return {};
+  std::vector<double> k(structure->outputs.size());
+  const std::vector<double> z(static_cast<std::size_t>(dimension()));  // not read
+  Replay<double> replay(structure);
+  replay(0, z.data(), k.data());
+  return choose_pivot_pairs(k, z.size());
+}
+
+std::string Model::advice(FacetSet needs) const {
+  if (!needs.has(Facet::darboux_chart) || facets_.has(Facet::darboux_chart)) return {};
+  if (!facets_.has(Facet::birkhoffian)) return {};
+  return tape(Formula::structure)->state_independent()
+             ? "; its structure K is degenerate at t = 0"
+             : "; its structure K depends on the state: write chart and chart_inverse";
 }
 
 std::shared_ptr<const Tape> Model::tape(Formula formula) const {
@@ -208,11 +248,14 @@ std::shared_ptr<const Tape> Model::derived(Formula formula) const {
       }));
     }
     case Formula::chart:
+      if (!pivots_.empty()) return shared(linear_chart(*tape(Formula::structure), pivots_));
+      return facets_.has(Facet::darboux_chart) && !chart_given ? identity() : nullptr;
     case Formula::chart_inverse:
+      if (!pivots_.empty()) return shared(linear_chart_inverse(*tape(Formula::structure), pivots_));
       return facets_.has(Facet::darboux_chart) && !chart_given ? identity() : nullptr;
     case Formula::chart_field: {
       if (!facets_.has(Facet::darboux_chart)) return nullptr;
-      if (!chart_given) return tape(Formula::field);
+      if (!chart_given && pivots_.empty()) return tape(Formula::field);  // the chart is the identity
       if (given(Formula::chart_hamiltonian)) {
         const auto energy = tape(Formula::chart_hamiltonian);
         return shared(record(n, n, [&](const Recorded& t, Arguments y, Results out) {

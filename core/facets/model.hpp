@@ -2,8 +2,8 @@
 //
 // A model is immutable and shared between threads. What the author wrote is recorded as tapes; everything
 // else that a facet promises is derived from those on first use: the field of a Hamiltonian through its
-// bracket or of a Birkhoffian system as K^-1 (grad B + F_t) (su-qin (4), (67)), forces, Jacobians, the field
-// in the Darboux chart.
+// bracket or of a Birkhoffian system as K^-1 (grad B + F_t) (su-qin (4), (67)), forces, Jacobians, the
+// Darboux chart of a structure K that is constant or depends on time alone, the field in the chart.
 #pragma once
 
 #include <array>
@@ -15,6 +15,7 @@
 #include <vector>
 
 #include <pfaff/core/facets/facet.hpp>
+#include <pfaff/core/linear/symplectic_basis.hpp>
 #include <pfaff/core/tape/tape.hpp>
 
 namespace pfaff {
@@ -96,7 +97,11 @@ class Model {
 
   /// The tape of a formula, derived on first use. Throws std::logic_error when the facets do not give it.
   [[nodiscard]] std::shared_ptr<const Tape> tape(Formula formula) const;
-  /// The same derived even where the author wrote it; null where it cannot be derived.
+  /// What the author can do about a missing facet of `needs`, as an addition to a message ("; its structure K
+  /// depends on the state: ..."); empty when there is nothing to say.
+  [[nodiscard]] std::string advice(FacetSet needs) const;
+  /// The same derived even where the author wrote it; null where it cannot be derived. (Charts are not
+  /// unique: one that the author wrote is not derived again.)
   [[nodiscard]] std::shared_ptr<const Tape> derived(Formula formula) const;
   /// True where the author wrote the formula.
   [[nodiscard]] bool given(Formula formula) const { return source_.given[index(formula)] != nullptr; }
@@ -115,8 +120,12 @@ class Model {
   [[nodiscard]] bool chart_autonomous() const { return tape(Formula::chart_field)->autonomous(); }
 
  private:
+  /// Pivots at t = 0 for the chart of a structure of time alone.
+  [[nodiscard]] PivotPairs chart_pivots() const;
+
   ModelSource source_;
   FacetSet facets_;
+  PivotPairs pivots_;  // empty unless the chart is derived from the structure
   mutable std::recursive_mutex mutex_;
   mutable std::array<std::shared_ptr<const Tape>, formula_count> tapes_;
 };

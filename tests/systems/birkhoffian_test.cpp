@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include <pfaff/core/integrator.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/replay.hpp>
 
@@ -203,6 +204,60 @@ TEST(Birkhoffian, AConstantCoupledStructureIsInverted) {
   expect_sound(*model, samples);
   for (const Instruction& i : model->tape(Formula::poisson_tensor)->code)
     EXPECT_EQ(i.operation, Operation::constant);
+}
+
+// Two masses with drag in a magnetic field that grows in time, without a chart of its author's: K(t) is
+// dense. With `swirl` K depends on the state; with `degenerate` z4 has no partner.
+struct Chartless {
+  static constexpr int dimension = 4;
+  bool swirl = false, degenerate = false;
+  template <class T>
+  T birkhoffian(const T& t, In<T> z) const {
+    return exp(t / 3) * (z[2] * z[2] + z[3] * z[3]) / 2 - cos(z[0]) + z[0] * z[1] * z[1] + z[1] * z[2] / 5;
+  }
+  template <class T>
+  void one_form(const T& t, In<T> z, Out<T> form) const {
+    form[0] = exp(t / 3) * z[2] - (2 + sin(t)) * z[1] + z[3] / 7;
+    form[1] = degenerate ? T(0) : exp(t / 4) * z[3] + t * z[2] / 9;
+    form[2] = z[3] * t / 5;
+    form[3] = T(0);
+    if (swirl) form[1] = form[1] + z[0] * z[0];
+    if (degenerate) form[0] = exp(t) * z[2], form[2] = T(0);
+  }
+};
+
+const SystemDescriptor chartless{
+    .name = "chartless", .title = "", .reference = "", .initial = {1, 0.5_r, 0.3_r, 0.7_r}};
+
+TEST(Birkhoffian, AStructureOfTimeAloneGetsItsChart) {
+  const auto model = make_model(chartless, Chartless{});
+  ASSERT_TRUE(model->facets().has(Facet::darboux_chart));
+  EXPECT_FALSE(model->given(Formula::chart));
+  Samples samples(54);
+  expect_sound(*model, samples);
+  // What is replayed only adds, multiplies and divides beyond the structure itself.
+  for (const Instruction& i : model->tape(Formula::chart)->code)
+    EXPECT_TRUE(i.operation != Operation::solve && i.operation != Operation::select);
+}
+
+TEST(Birkhoffian, NoChartIsDerivedWhereKDependsOnTheStateOrIsDegenerate) {
+  const FacetSet chart = FacetSet().with(Facet::darboux_chart);
+  const auto swirling = make_model(chartless, Chartless{.swirl = true});
+  EXPECT_FALSE(swirling->facets().has(Facet::darboux_chart));
+  EXPECT_NE(swirling->advice(chart).find("depends on the state: write chart and chart_inverse"),
+            std::string::npos);
+  const auto degenerate = make_model(chartless, Chartless{.degenerate = true});
+  EXPECT_FALSE(degenerate->facets().has(Facet::darboux_chart));
+  EXPECT_NE(degenerate->advice(chart).find("degenerate at t = 0"), std::string::npos);
+  EXPECT_EQ(make_model(chartless, Chartless{})->advice(chart), "");
+  // The message of a method, as users see it.
+  const auto method = integrators().get("generating-function", "integrator").make({});
+  EXPECT_EQ(
+      method->refuses(*swirling),
+      "generating-function needs darboux-chart; chartless offers vector-field, birkhoffian; its structure "
+      "K depends on the state: write chart and chart_inverse");
+  EXPECT_EQ(method->refuses(*make_model(chartless, Chartless{})), "");
+  EXPECT_EQ(swirling->advice(FacetSet().with(Facet::separable)), "");
 }
 
 }  // namespace
