@@ -21,6 +21,7 @@
 
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/solve/convergence.hpp>
+#include <pfaff/integrators/continuation.hpp>
 #include <pfaff/integrators/difference_predictor.hpp>
 #include <pfaff/integrators/gradient_evaluator.hpp>
 
@@ -123,11 +124,10 @@ struct GeneratingFunction {
     ShareMatrix<T> share;
     bool midpoint;
     GradientEvaluator<T> gradient;
-    std::vector<T> y, carry, d, w, psi, residual, correction, moved, rate, start, jacobian, last_z;
+    std::vector<T> y, carry, d, w, psi, residual, correction, moved, rate, start, jacobian;
     DifferencePredictor<T, dynamic, dynamic> past;  // of d
     LU<Value<T>> matrix;
-    T last_t{0}, last_h{0};
-    bool continues = false, predicts = false;
+    Continuation<P> continuation;
 
     Work(const GeneratingFunction& m, const P& p)
         : n(p.size()),
@@ -145,9 +145,9 @@ struct GeneratingFunction {
           rate(n),
           start(n),
           jacobian(factors() ? n * n : 0),
-          last_z(n),
           past(n, history_length),
-          matrix(factors() ? n : 0) {
+          matrix(factors() ? n : 0),
+          continuation(p) {
       p.prepare(Formula::chart_field);
       if (factors()) p.prepare(Formula::chart_field_jacobian);
       p.prepare(Formula::chart);
@@ -155,21 +155,12 @@ struct GeneratingFunction {
     }
 
     [[nodiscard]] bool factors() const { return n <= largest_matrix; }
-    // True when this step goes on where the last one ended: its chart coordinates and history are still good.
-    [[nodiscard]] bool continued(const T& t, const T& h, const State<P>& z) const {
-      if constexpr (!std::is_same_v<T, Value<T>>) return false;
-      if (!continues || value_of(h) != value_of(last_h)) return false;
-      if (abs(value_of(t - last_t)) > abs(value_of(h)) * Value<T>(1e-6)) return false;
-      for (std::size_t k = 0; k < n; ++k)
-        if (value_of(z[k]) != value_of(last_z[k])) return false;
-      return true;
-    }
     // w = y + d, with what the sums so far have rounded off.
     void place() {
       for (std::size_t k = 0; k < n; ++k) w[k] = y[k] + (d[k] + carry[k]);
     }
     Status fail(Status status) {
-      continues = false;
+      continuation.forget();
       return status;
     }
   };
@@ -200,11 +191,8 @@ struct GeneratingFunction {
     for (std::size_t k = 0; k < w.n; ++k)
       add_to(w.y[k], w.carry[k], w.midpoint ? w.d[k] + w.d[k] : w.psi[k], compensated);
     w.past.remember([&w](std::size_t k) { return w.d[k]; });
-    w.last_t = t + h;
-    w.last_h = h;
-    p.chart_inverse(w.last_t, w.y, z);
-    for (std::size_t k = 0; k < w.n; ++k) w.last_z[k] = z[k];
-    w.continues = true;
+    p.chart_inverse(t + h, w.y, z);
+    w.continuation.remember(t + h, h, z);
     return Status::converged;
   }
 
@@ -213,7 +201,7 @@ struct GeneratingFunction {
   template <class P>
   static void predict(const P& p, const Scalar<P>& t, const Scalar<P>& h, const State<P>& z, Work<P>& w) {
     using T = Scalar<P>;
-    if (w.continued(t, h, z)) {
+    if (w.continuation.holds(t, h, z)) {
       for (std::size_t k = 0; k < w.n; ++k) w.d[k] = w.past.expected(k);
     } else {
       p.chart(t, z, w.y);

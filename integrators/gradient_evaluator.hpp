@@ -28,6 +28,8 @@ class GradientEvaluator {
   [[nodiscard]] std::size_t evaluations() const {
     return std::visit([](const auto& g) { return g.evaluations(); }, any_);
   }
+  /// Whether the field is run as its author's code, not from the tape.
+  [[nodiscard]] bool is_compiled() const { return any_.index() > 0; }
   void set_step(const T& t, const T& tau) {
     std::visit([&](auto& g) { g.set_step(t, tau); }, any_);
   }

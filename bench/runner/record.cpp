@@ -91,6 +91,28 @@ std::string failure(Status status, const std::string& when) {
   return {};
 }
 
+// What a smaller step does at (t, z), where one of size h failed: the largest that still works, to a few
+// percent.
+template <class T>
+std::string smaller_step(const ResolvedRun& run, const T& t, const T& h, const std::vector<T>& z) {
+  const auto works = [&](const T& step) {
+    std::vector<T> copy = z;
+    std::int64_t completed = 0;
+    const Status status = run.method->stepper(run.model, T())->advance(t, 0, step, 1, copy, completed);
+    return status == Status::converged;
+  };
+  T good = h / T(2), bad = h;
+  for (int halvings = 0; !works(good); good = good / T(2), ++halvings) {
+    if (halvings == 20) return "; nor does any smaller step work from there";
+    bad = good;
+  }
+  for (int k = 0; k < 5; ++k) {
+    const T middle = (good + bad) / T(2);
+    (works(middle) ? good : bad) = middle;
+  }
+  return "; from there a step of " + to_string(Quad(good), 3) + " works";
+}
+
 template <class T>
 void execute_fixed(const ResolvedRun& run, Observer<T>& observer, RunRecord& record,
                    const Progress& progress) {
@@ -113,7 +135,9 @@ void execute_fixed(const ResolvedRun& run, Observer<T>& observer, RunRecord& rec
     record.completed = k + completed;
     if (status != Status::converged) {
       record.status = status;
-      record.message = failure(status, "at t = " + to_string(Quad(time(k + completed)), 10));
+      const T reached = time(k + completed);
+      record.message =
+          failure(status, "at t = " + to_string(Quad(reached), 10)) + smaller_step(run, reached, h, z);
       break;
     }
     k += count;
