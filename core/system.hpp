@@ -168,6 +168,7 @@ class Collector {
         self.chart_inverse(t, In<double>(y, m), Out<double>(z, m));
       });
     }
+    if (source_.canonical && source_.given[index(Formula::chart)] == nullptr) compile_identity_chart();
     if constexpr (WritesChartHamiltonian<S>)
       give(Formula::chart_hamiltonian, n,
            [&](const R& t, RecordedIn y) { return s.chart_hamiltonian(t, y); });
@@ -229,6 +230,14 @@ class Collector {
     throw InputError(
         "system " + source_.name + ": " + called + " " + wrong + "; expected " + std::to_string(expected) +
         (std::string_view(called).starts_with("invariants") ? ", as many as the descriptor lists" : ""));
+  }
+  // Canonical coordinates are Darboux's.
+  void compile_identity_chart() {
+    const CompiledFormula copy = [](const void* object, const double& /*t*/, const double* from, double* to) {
+      std::copy_n(from, static_cast<std::size_t>(dimension_of(*static_cast<const S*>(object))), to);
+    };
+    compile(Formula::chart, copy);
+    compile(Formula::chart_inverse, copy);
   }
   void compile_chart_field() requires CompilesChartField<S> {
     source_.chart_field_series = &compiled_series<S>();

@@ -14,6 +14,7 @@
 // forty decades apart.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -128,6 +129,7 @@ struct GeneratingFunction {
     DifferencePredictor<T, dynamic, dynamic> past;  // of d
     LU<Value<T>> matrix;
     Continuation<P> continuation;
+    Value<T> contraction{1};  // the slowest of the corrections since the start; 1 as long as none is known
 
     Work(const GeneratingFunction& m, const P& p)
         : n(p.size()),
@@ -159,6 +161,10 @@ struct GeneratingFunction {
     void place() {
       for (std::size_t k = 0; k < n; ++k) w[k] = y[k] + (d[k] + carry[k]);
     }
+    void watch(const Value<T>& measured) {
+      if (measured > Value<T>(0))
+        contraction = contraction < Value<T>(1) ? std::max(contraction, measured) : measured;
+    }
     Status fail(Status status) {
       continuation.forget();
       return status;
@@ -184,8 +190,9 @@ struct GeneratingFunction {
         convergence.add(w.correction[k], w.y[k], w.psi[k]);
       }
       w.place();
-    } while (!convergence.finished(50));
+    } while (!convergence.finished(50, w.contraction));
     if (convergence.status() != Status::converged) return w.fail(convergence.status());
+    w.watch(convergence.contraction());
 
     if (!w.midpoint) w.gradient(w.w.data(), w.psi.data());
     for (std::size_t k = 0; k < w.n; ++k)
@@ -207,6 +214,7 @@ struct GeneratingFunction {
       p.chart(t, z, w.y);
       for (T& x : w.carry) x = T(0);
       w.past.forget();
+      w.contraction = Value<T>(1);
       p.chart_field(t, w.y, w.rate);
       for (std::size_t k = 0; k < w.n; ++k) w.w[k] = w.y[k] + h / T(2) * w.rate[k];
       p.chart_field(t + h / T(2), w.w, w.rate);

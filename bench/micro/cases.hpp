@@ -61,6 +61,23 @@ struct Case<LotkaVolterra> {
   static constexpr std::array<double, 2> start{1.5, 1};
 };
 
+/// A chain of N damped pendula, all of them moving.
+template <int N>
+struct DampedChain {};
+template <int N>
+struct Case<DampedChain<N>> {
+  static constexpr const char* name = N == 8    ? "damped-pendula-8"
+                                      : N == 16 ? "damped-pendula-16"
+                                      : N == 32 ? "damped-pendula-32"
+                                      : N == 64 ? "damped-pendula-64"
+                                                : "damped-pendula-128";
+  static constexpr auto start = [] {
+    std::array<double, 2 * static_cast<std::size_t>(N)> z{};
+    for (std::size_t k = 0; k < z.size(); ++k) z[k] = 0.5 + 0.3 * static_cast<double>(k % 3);
+    return z;
+  }();
+};
+
 /// A system of which only the energies are known: what is derived from them, at what cost.
 template <class S>
 struct EnergiesOnly {

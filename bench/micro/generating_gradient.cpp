@@ -39,5 +39,6 @@ void add_gradients() {
   }
 }
 
-[[maybe_unused]] const bool added = (add_gradients<HenonHeiles>(), add_gradients<DampedPendulum>(), true);
+[[maybe_unused]] const bool added =
+    (add_gradients<HenonHeiles>(), add_gradients<DampedPendulum>(), add_gradients<LotkaVolterra>(), true);
 }  // namespace

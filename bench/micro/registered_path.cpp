@@ -51,7 +51,18 @@ void add_generating_functions() {
   }
 }
 
+// What a chain costs with its length.
+template <int N>
+void add_chain() {
+  const SharedModel model =
+      systems().get("coupled-damped-pendula", "system").make({{"count", std::to_string(N)}});
+  add_registered<DampedChain<N>>("generating-function-8", "registered", model, "generating-function",
+                                 {{"order", "8"}});
+}
+
 [[maybe_unused]] const bool added =
     (add_methods<HarmonicOscillator>(), add_methods<Pendulum>(), add_methods<Kepler>(),
-     add_generating_functions<HenonHeiles>(), add_generating_functions<DampedPendulum>(), true);
+     add_generating_functions<HenonHeiles>(), add_generating_functions<DampedPendulum>(),
+     add_generating_functions<LotkaVolterra>(), add_chain<8>(), add_chain<16>(), add_chain<32>(),
+     add_chain<64>(), add_chain<128>(), true);
 }  // namespace

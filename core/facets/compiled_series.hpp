@@ -189,7 +189,7 @@ const CompiledSeries& compiled_series() {
   static const CompiledSeries series{S::dimension, &detail::series_layout<S>,
                                      detail::series_width<S, 1>(std::make_integer_sequence<int, 3>()),
                                      detail::series_width<S, 2>(std::make_integer_sequence<int, 7>()),
-                                     detail::series_width<S, 4>(std::make_integer_sequence<int, 0>())};
+                                     detail::series_width<S, 4>(std::make_integer_sequence<int, 11>())};
   return series;
 }
 

@@ -61,13 +61,17 @@ class Convergence {
     if (s > size_) size_ = s;
   }
   /// True when the iteration should stop; `status()` then says how. Corrections already seen are to be
-  /// applied.
-  bool finished(int limit) {
+  /// applied. `known_contraction` is that of iterations like this one, where they have been watched: the
+  /// first correction may then be the last, with a factor of 100 to spare.
+  bool finished(int limit, const Number& known_contraction = Number(1)) {
     const Number u = unit_roundoff<T>();
     if (!finite_) return stop(Status::non_finite);
     if (size_ <= u / Number(8)) return stop(Status::converged);
+    if (iterations_ == 1 && Number(100) * known_contraction * size_ <= u / Number(64))
+      return stop(Status::converged);
     if (iterations_ >= 2) {
       const Number ratio = size_ / previous_;
+      if (iterations_ == 2 && previous_ > Number(1024) * u) contraction_ = ratio;
       // The next correction would be ratio * size.
       if (ratio < Number(0.5) && ratio * size_ <= u / Number(64)) return stop(Status::converged);
       if (!(size_ < previous_)) {
@@ -81,6 +85,8 @@ class Convergence {
   }
   /// The last contraction ratio; 1 before two iterations are done.
   [[nodiscard]] Number ratio() const { return iterations_ < 2 ? Number(1) : size_ / previous_; }
+  /// The first contraction ratio, where corrections were large enough for it to mean something; else 0.
+  [[nodiscard]] Number contraction() const { return contraction_; }
   [[nodiscard]] int iterations() const { return iterations_; }
   [[nodiscard]] Status status() const { return status_; }
 
@@ -89,7 +95,7 @@ class Convergence {
     status_ = status;
     return true;
   }
-  Number size_{0}, previous_{0};
+  Number size_{0}, previous_{0}, contraction_{0};
   int iterations_ = 0, stalls_ = 0;
   bool finite_ = true;
   Status status_ = Status::not_converged;

@@ -67,15 +67,16 @@ class OnlineSeries {
   }
   friend OnlineSeries operator+(const OnlineSeries& a, const OnlineSeries& b) {
     if (a.is_constant() && b.is_constant()) return number(a.constant_ + b.constant_);
-    if (a.is_constant()) return b + a;
+    if (a.is_constant()) return b.shifted(a.constant_);
+    if (b.is_constant()) return a.shifted(b.constant_);
     const OnlineSeries r = a.kind_with(b);
-    if (!r.active()) return r;
     const int l = a.level();
-    r.store(!b.is_constant() ? a.at(l) + b.at(l) : l == 0 ? a.at(0) + P(b.constant_) : a.at(l));
+    if (r.active()) r.store(a.at(l) + b.at(l));
     return r;
   }
   friend OnlineSeries operator-(const OnlineSeries& a, const OnlineSeries& b) {
-    if (b.is_constant()) return a + number(-b.constant_);
+    if (a.is_constant() && b.is_constant()) return number(a.constant_ - b.constant_);
+    if (b.is_constant()) return a.shifted(-b.constant_);
     const OnlineSeries r = b.kind_with(a);
     if (!r.active()) return r;
     const int l = b.level();
@@ -84,12 +85,8 @@ class OnlineSeries {
   }
   friend OnlineSeries operator*(const OnlineSeries& a, const OnlineSeries& b) {
     if (a.is_constant() && b.is_constant()) return number(a.constant_ * b.constant_);
-    if (a.is_constant()) return b * a;
-    if (b.is_constant()) {
-      const OnlineSeries r = a.scaled_kind();
-      if (r.active()) r.store(a.at(a.level()) * P(b.constant_));
-      return r;
-    }
+    if (a.is_constant()) return b.scaled(a.constant_);
+    if (b.is_constant()) return a.scaled(b.constant_);
     const OnlineSeries r = a.kind_with(b);
     if (!r.active()) return r;
     const int l = a.level();
@@ -103,7 +100,8 @@ class OnlineSeries {
     return r;
   }
   friend OnlineSeries operator/(const OnlineSeries& a, const OnlineSeries& b) {
-    if (b.is_constant()) return a * number(1 / b.constant_);
+    if (a.is_constant() && b.is_constant()) return number(a.constant_ / b.constant_);
+    if (b.is_constant()) return a.scaled(1 / b.constant_);
     const OnlineSeries r = b.kind_with(a);
     if (!r.active()) return r;
     const int l = b.level();
@@ -214,10 +212,19 @@ class OnlineSeries {
     run_->timed += of_time ? 1 : 0;
     return {*run_, run_->next++, of_time};
   }
-  // A constant times this: of the same degree.
   [[nodiscard]] OnlineSeries scaled_kind() const {
     OnlineSeries r = next_slot(of_time_);
     r.degree_ = degree_;
+    return r;
+  }
+  [[nodiscard]] OnlineSeries scaled(double factor) const {
+    const OnlineSeries r = scaled_kind();
+    if (r.active()) r.store(at(level()) * P(factor));
+    return r;
+  }
+  [[nodiscard]] OnlineSeries shifted(double summand) const {
+    const OnlineSeries r = scaled_kind();
+    if (r.active()) r.store(level() == 0 ? at(0) + P(summand) : at(level()));
     return r;
   }
   // The last coefficient up to level l that is not zero by construction.

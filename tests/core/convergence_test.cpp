@@ -33,6 +33,33 @@ TEST(Convergence, StopsAtRoundOffAndNotBefore) {
   EXPECT_EQ(watch([](int k) { return std::pow(0.1, std::pow(2, k)); }).second, 4);
 }
 
+// Where the contraction is known from before, one correction may do, and must not where it would not.
+TEST(Convergence, TrustsAKnownContractionWithAFactorToSpare) {
+  const auto iterations = [](double size, double known) {
+    Convergence<double> c;
+    do {
+      c.begin_iteration();
+      c.add(size, 1, 1);
+      size *= 1e-6;
+    } while (!c.finished(10, known));
+    EXPECT_EQ(c.status(), Status::converged);
+    return c.iterations();
+  };
+  EXPECT_EQ(iterations(1e-15, 1), 2);
+  EXPECT_EQ(iterations(1e-15, 1e-5), 1);  // 100 * 1e-5 * 1e-15 = 1e-18
+  EXPECT_EQ(iterations(1e-14, 1e-5), 2);
+  EXPECT_EQ(iterations(1e-9, 1e-6), 3);
+  Convergence<double> c;
+  c.begin_iteration();
+  c.add(1e-6, 1, 1);
+  EXPECT_FALSE(c.finished(10));
+  EXPECT_EQ(c.contraction(), 0);
+  c.begin_iteration();
+  c.add(1e-9, 1, 1);
+  (void)c.finished(10);
+  EXPECT_NEAR(c.contraction(), 1e-3, 1e-12);
+}
+
 TEST(Convergence, NoiseNearRoundOffCountsAsConverged) {
   const auto noise = [](int k) { return k < 5 ? std::pow(0.01, k) : 2e-15 * (1 + k % 2); };
   EXPECT_EQ(watch(noise).first, Status::converged);

@@ -6,6 +6,7 @@
 
 #include <pfaff/core/facets/problem.hpp>
 #include <pfaff/core/system.hpp>
+#include <pfaff/core/tape/replay.hpp>
 #include <pfaff/integrators/gradient_evaluator.hpp>
 
 namespace pfaff {
