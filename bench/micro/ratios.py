@@ -3,7 +3,8 @@
 
     bench/micro/ratios.py build/bench/bench/micro/pfaff_micro [--repetitions N] [--json FILE]
 
-Paths: a loop by hand; static and registered path, each also with forces derived from the energies; Boost.Odeint.
+Paths: a loop by hand; static and registered path, each also with forces derived from the energies; Boost.Odeint. psi-m
+is one gradient of the generating function truncated at degree m, compiled or interpreted, in nanoseconds each.
 Repetitions are interleaved at random, so that a disturbance does not fall on one benchmark alone; of each the fastest
 is taken, which other programs disturb least. Exit status 1 when a target is missed, 2 for wrong usage.
 """
@@ -13,8 +14,11 @@ import subprocess
 import sys
 
 SYSTEMS = ["harmonic-oscillator", "pendulum", "kepler"]
+BY_NAME = ["damped-pendulum", "lotka-volterra", "henon-heiles"]  # on the registered path alone
+CHAIN = [8, 16, 32, 64, 128]
 METHODS = ["verlet-plain", "verlet", "rk4-plain", "rk4", "implicit-midpoint", "gauss-4", "gauss-8",
-           "generating-function-4", "generating-function-8"]
+           "gauss-12", "generating-function-4", "generating-function-8", "generating-function-12"]
+GRADIENTS = ["psi-4", "psi-8", "psi-12", "psi-16"]
 PATHS = {"by-hand": "by hand", "static": "static", "static-derived": "derived", "registered": "registered",
          "registered-derived": "derived", "odeint": "odeint"}
 # Boost.Odeint's nearest: the same method, or the one with as many forces a step. It does not compensate.
@@ -54,12 +58,23 @@ def targets(times):
         for method, rival in RIVALS.items():
             rows.append((f"{system} {method}: static / Odeint's {rival}", (system, method, "static"),
                          (system, rival, "odeint"), None))
+    for system, limit in zip(BY_NAME, [1.1, 1.1, 3.0]):
+        rows.append((f"{system} order 8: generating function / Gauss",
+                     (system, "generating-function-8", "registered"), (system, "gauss-8", "registered"), limit))
+    for system in BY_NAME:
+        for gradient in GRADIENTS:
+            rows.append((f"{system} {gradient}: interpreted / compiled", (system, gradient, "interpreted"),
+                         (system, gradient, "compiled"), None))
+    for shorter, longer in zip(CHAIN, CHAIN[1:]):
+        rows.append((f"damped pendula, order 8: {longer} / {shorter} of them",
+                     (f"damped-pendula-{longer}", "generating-function-8", "registered"),
+                     (f"damped-pendula-{shorter}", "generating-function-8", "registered"), 2.2))
     return [row for row in rows if row[1] in times and row[2] in times]
 
 
 def print_times(times):
     print(f"{'ns a step':<30}" + "".join(f"{title:>11}" for title in PATHS.values()))
-    for system in SYSTEMS:
+    for system in SYSTEMS + BY_NAME + [f"damped-pendula-{n}" for n in CHAIN]:
         print(system)
         for method in METHODS + ONLY_ODEINT:
             names = [RIVALS.get(method, method if method in ONLY_ODEINT else "") if path == "odeint" else method
@@ -67,6 +82,12 @@ def print_times(times):
             cells = [times.get((system, name, path)) for name, path in zip(names, PATHS)]
             if any(cells):
                 print(f"  {method:<28}" + "".join(f"{cell:11.2f}" if cell else " " * 11 for cell in cells))
+    print(f"\n{'ns a gradient':<30}{'compiled':>11}{'interpreted':>13}")
+    for system in BY_NAME:
+        for gradient in GRADIENTS:
+            pair = [times.get((system, gradient, path)) for path in ("compiled", "interpreted")]
+            if all(pair):
+                print(f"  {system + ' ' + gradient:<28}{pair[0]:11.1f}{pair[1]:13.1f}")
 
 
 def print_ratios(rows, times):

@@ -34,6 +34,35 @@ TEST(BadSettings, Parameters) {
   expect_refused(generating("order=3", "variant=S"), {"variant S", "even order", "order 3"});
 }
 
+TEST(BadSettings, FormsOfGeneratingFunctions) {
+  const auto refused = [](const Arguments& settings, const Arguments& fragments) {
+    Arguments arguments{"--step", "0.1", "--time", "1"};
+    for (const std::string& setting : settings) arguments = arguments + Arguments{"--set", setting};
+    expect_refused(run_of("damped-pendulum", "generating-function", arguments), fragments);
+  };
+  refused({"form=normal"}, {"form normal", "matrix", "normal=0.3,0.2,-0.4,-0.3"});
+  refused({"normal=1,0,0,-1"}, {"form midpoint", "expected form normal"});
+  refused({"form=normal", "normal=1,0,0"}, {"3 entries", "damped-pendulum takes 4"});
+  refused({"form=normal", "normal=1,0,0,1"}, {"not in sp(2)", "J V + V^T J is 2", "expected 0"});
+  refused({"form=normal", "normal=1,x,0,1"}, {"'normal'", "numbers separated by commas", "'1,x,0,1'"});
+  refused({"form=normal", "normal=1,,0,1"}, {"'normal'", "numbers separated by commas"});
+  refused({"form=normal", "normal=1000,0,0,-1000"}, {"'normal'", "-100 .. 100"});
+  refused({"form=symmetric"}, {"'form'", "midpoint|qhat-p|q-phat|normal"});
+  refused({"extra=3"}, {"extra degrees", "pairs", "3"});
+  refused({"variant=S", "form=qhat-p"}, {"variant S", "form midpoint"});
+}
+
+// A step beyond what can be solved ends the run; what would have worked is said.
+TEST(BadSettings, AStepTooLargeNamesOneThatWorks) {
+  const TemporaryDirectory files;
+  const Outcome outcome =
+      run_pfaff({"run", "--system", "damped-pendulum", "--integrator", "generating-function", "--set",
+                 "order=8", "--step", "8", "--time", "16", "--out", files / "run"});
+  EXPECT_EQ(outcome.status, 1);
+  for (const char* said : {"at t = 0", "from there a step of 2.0", "completed samples are kept"})
+    EXPECT_NE(outcome.err.find(said), std::string::npos) << outcome.err;
+}
+
 TEST(BadSettings, InitialState) {
   expect_refused(set("initial=1"), {"initial state of damped-pendulum", "expected 2 numbers, got 1"});
   expect_refused(set("initial=1,2,3"), {"expected 2 numbers, got 3"});

@@ -1,5 +1,4 @@
-// What `pfaff verify` asserts, asserted here: every claim of every plug-in in double and quad, with its
-// controls.
+// That every method makes claims and can be controlled; the claims themselves are run by `pfaff verify`.
 #include <gtest/gtest.h>
 
 #include <pfaff/bench/verification/check.hpp>
@@ -7,20 +6,6 @@
 
 namespace pfaff {
 namespace {
-
-std::string described(const Check& c) {
-  std::string text = c.plugin;
-  for (const auto& [key, value] : c.parameters) text += " " + key + "=" + value;
-  return text + ": " + c.claim + " on " + c.system + " in " + c.precision + ", measured " +
-         std::to_string(c.measured) + ", expected " + std::to_string(c.expected) + ", tolerance " +
-         std::to_string(c.tolerance) + " " + c.reason;
-}
-
-TEST(Claims, HoldAndControlsAreRejected) {
-  const auto checks = verify({}, false, {});
-  for (const Check& c : checks) EXPECT_TRUE(good(c)) << described(c);
-  EXPECT_GT(checks.size(), 1000U);
-}
 
 TEST(Claims, EveryMethodHasAnOrderAndAStructureClaimOrNone) {
   for (const MethodPlugin* plugin : integrators().all()) {
