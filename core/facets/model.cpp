@@ -112,6 +112,7 @@ Model::Model(ModelSource source) : source_(std::move(source)) {
     pivots_ = chart_pivots();
     if (!pivots_.empty()) offer(Facet::darboux_chart);
   }
+  if (has(Formula::alpha) && (birkhoffian || source_.canonical)) offer(Facet::generating_map);
   if (!source_.invariants.empty()) offer(Facet::invariants);
   if (has(Formula::exact_solution)) offer(Facet::exact_solution);
 }
