@@ -38,6 +38,7 @@ GeneratingMapCheck check_generating_map(const Model& model) {
   }
   const LagrangianCheck lagrangian = check_lagrangian(alpha, model.tape(Formula::structure), pairs);
   check.message = lagrangian.message;
+  check.residual = lagrangian.residual;
   if (!lagrangian.holds) return check;
 
   LagrangianTransformation<Quad> transformation(alpha);

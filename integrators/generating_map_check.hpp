@@ -10,6 +10,7 @@ namespace pfaff {
 /// What came of it.
 struct GeneratingMapCheck {
   bool holds = false;      // (34) with factor 1, and C + D regular for equal states and times
+  double residual = 0;     // of (34), over the size of its terms
   bool symmetric = false;  // exchanging (z', t) and (z, t0) changes the sign of w^ and leaves w
   std::string message;     // one line on what fails; empty where nothing does
 };

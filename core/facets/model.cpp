@@ -128,6 +128,8 @@ PivotPairs Model::chart_pivots() const {
 }
 
 std::string Model::advice(FacetSet needs) const {
+  if (needs.has(Facet::generating_map) && !facets_.has(Facet::generating_map))
+    return facets_.has(Facet::birkhoffian) || source_.canonical ? "; write alpha" : "";
   if (!needs.has(Facet::darboux_chart) || facets_.has(Facet::darboux_chart)) return {};
   if (!facets_.has(Facet::birkhoffian)) return {};
   return tape(Formula::structure)->state_independent()
