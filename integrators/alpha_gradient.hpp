@@ -15,6 +15,7 @@
 // (79)-(82)). Regularity of C + D is the transversality condition (37) of the identity.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
