@@ -27,7 +27,7 @@ enum class Claim {
   none,                 // an explicit "no structure claimed"
   symmetric,            // step(-h) undoes step(h); every system
   symplectic,           // M^T J M = J; canonical systems
-  k_symplectic,         // M^T K(z', t') M = K(z, t); systems with a Darboux chart
+  k_symplectic,         // M^T K(z', t') M = K(z, t); systems with a Darboux chart or an alpha
   quadratic_invariants  // keeps every quadratic invariant; systems that have one
 };
 

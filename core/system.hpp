@@ -13,6 +13,8 @@
 //   chart(t, z, y), chart_inverse(t, y, z)   Darboux coordinates; optional chart_hamiltonian(t, y),
 //                                            chart_field(t, y, rate). Derived where K = dF is
 //                                            constant or depends on t alone
+//   alpha(t, t0, new_z, old_z, w_hat, w)     pairs of states to (w^, w), for generating functions without a
+//                                            chart
 //   invariants(t, z, values)                 in the order of the descriptor's list
 //   exact_solution(elapsed, t0, z0, z)       the flow
 //   initial(z)                               instead of the descriptor's list, when it depends on parameters
@@ -27,6 +29,7 @@
 #include <string_view>
 
 #include <pfaff/core/facets/compiled_series.hpp>
+#include <pfaff/core/facets/generating_map.hpp>
 #include <pfaff/core/facets/model.hpp>
 #include <pfaff/core/facets/system_formulas.hpp>
 #include <pfaff/core/registry/plugin.hpp>
@@ -177,6 +180,9 @@ class Collector {
            [&](const R& t, RecordedIn y, RecordedOut o) { s.chart_field(t, y, o); });
     if constexpr (CompilesChartField<S>)
       if (WritesChartField<S> || source_.given[index(Formula::chart)] == nullptr) compile_chart_field();
+    if constexpr (WritesAlpha<S>)
+      give(Formula::alpha, "alpha(t, t0, new_z, old_z, w_hat, w)", 2 * n + 1, 2 * n,
+           [&](const R& t, RecordedIn x, RecordedOut o) { call_alpha(s, t, x, o); });
     if constexpr (WritesInvariants<S>) {
       give(Formula::invariants, "invariants(t, z, values)", n, static_cast<int>(source_.invariants.size()),
            [&](const R& t, RecordedIn z, RecordedOut o) { s.invariants(t, z, o); });

@@ -6,8 +6,8 @@
 //     void alpha(const T& t, const T& t0, In<T> new_z, In<T> old_z, Out<T> w_hat, Out<T> w) const;
 //   };
 //
-// It may be nonlinear and depend on both times. It is recorded (tapes have one time: t0 becomes the last
-// input) and differentiated, and
+// It may be nonlinear and depend on both times. It is recorded (core/facets/generating_map.hpp) and
+// differentiated, and
 //
 //   alpha_*^T J alpha_* = diag(K(z', t), -K(z, t0))                                                   (34)
 //
@@ -21,21 +21,12 @@
 #include <string>
 #include <vector>
 
+#include <pfaff/core/facets/generating_map.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/replay.hpp>
 #include <pfaff/integrators/fractional_transformation.hpp>
 
 namespace pfaff {
-
-/// The tape of author.alpha for states of n numbers: inputs (z', z, t0), 2n + 1; outputs (w^, w), 2n; time t.
-template <class A>
-Tape record_alpha(const A& author, int dimension) {
-  const auto n = static_cast<std::size_t>(dimension);
-  return record(2 * dimension + 1, 2 * dimension,
-                [&](const Recorded& t, std::span<const Recorded> x, std::span<Recorded> out) {
-                  author.alpha(t, x[2 * n], x.first(n), x.subspan(n, n), out.first(n), out.subspan(n));
-                });
-}
 
 /// alpha with its Jacobian and its derivative in t, for one scalar. Owns its buffers.
 template <class T>

@@ -12,7 +12,7 @@ bool in_scope(Claim claim, const Model& model) {
     case Claim::symplectic:
       return facets.has(Facet::darboux_chart) && !facets.has(Facet::birkhoffian);
     case Claim::k_symplectic:
-      return facets.has(Facet::darboux_chart);
+      return facets.has(Facet::darboux_chart) || facets.has(Facet::generating_map);
     case Claim::quadratic_invariants:
       return std::any_of(model.invariants().begin(), model.invariants().end(),
                          [](const Invariant& i) { return i.quadratic; });

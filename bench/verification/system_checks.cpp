@@ -9,6 +9,7 @@
 #include <pfaff/core/bracket.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/replay.hpp>
+#include <pfaff/integrators/generating_map_check.hpp>
 
 namespace pfaff {
 
@@ -216,6 +217,13 @@ std::vector<Check> check_system(const SystemPlugin& plugin) {
   }
   if (model->facets().has(Facet::darboux_chart)) darboux(checks, plugin, *model);
   if (model->facets().has(Facet::conformal)) conformal(checks, plugin, *model);
+  if (model->facets().has(Facet::generating_map)) {
+    const GeneratingMapCheck alpha = check_generating_map(*model);
+    checks.push_back(
+        named(plugin.name(), "alpha satisfies (34)", plugin.name(), "quad", alpha.residual, 1e-31));
+    if (!alpha.holds) checks.back().result = CheckResult::fail;
+    checks.back().reason = alpha.message;
+  }
   invariants(checks, plugin, *model);
   if (model->facets().has(Facet::exact_solution)) exact_solution(checks, plugin, *model);
   return checks;

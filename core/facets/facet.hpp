@@ -18,6 +18,7 @@ enum class Facet : unsigned {
   conformal,       // q' = T_p(p), p' = -V_q(q, t) - nu p: the canonical structure times e^{nu t} is kept
   birkhoffian,     // action of F(z, t).dz - B(z, t) dt
   darboux_chart,   // coordinates y in which the structure is constant and canonical
+  generating_map,  // alpha of pairs of states, through which generating functions make maps
   invariants,      // named quantities with their expected behaviour
   exact_solution,  // the flow in closed form
   count
@@ -25,8 +26,8 @@ enum class Facet : unsigned {
 
 constexpr std::string_view to_string(Facet facet) {
   constexpr std::array<std::string_view, static_cast<std::size_t>(Facet::count)> names{
-      "vector-field", "hamiltonian",   "separable",  "conformal",
-      "birkhoffian",  "darboux-chart", "invariants", "exact-solution"};
+      "vector-field",  "hamiltonian",    "separable",  "conformal",     "birkhoffian",
+      "darboux-chart", "generating-map", "invariants", "exact-solution"};
   return names[static_cast<std::size_t>(facet)];
 }
 
@@ -66,6 +67,7 @@ enum class Formula : unsigned {
   chart_hamiltonian,     // n -> 1, of y
   chart_field,           // n -> n, of y
   chart_field_jacobian,  // n -> n x n
+  alpha,                 // time t; (new state, old state, t0): 2n + 1 -> (w^, w): 2n
   invariants,            // n -> number of invariants
   exact_solution,        // time elapsed; (initial state, initial time): n + 1 -> n
   count

@@ -112,6 +112,7 @@ Model::Model(ModelSource source) : source_(std::move(source)) {
     pivots_ = chart_pivots();
     if (!pivots_.empty()) offer(Facet::darboux_chart);
   }
+  if (has(Formula::alpha) && (birkhoffian || source_.canonical)) offer(Facet::generating_map);
   if (!source_.invariants.empty()) offer(Facet::invariants);
   if (has(Formula::exact_solution)) offer(Facet::exact_solution);
 }
@@ -127,6 +128,8 @@ PivotPairs Model::chart_pivots() const {
 }
 
 std::string Model::advice(FacetSet needs) const {
+  if (needs.has(Facet::generating_map) && !facets_.has(Facet::generating_map))
+    return facets_.has(Facet::birkhoffian) || source_.canonical ? "; write alpha" : "";
   if (!needs.has(Facet::darboux_chart) || facets_.has(Facet::darboux_chart)) return {};
   if (!facets_.has(Facet::birkhoffian)) return {};
   return tape(Formula::structure)->state_independent()

@@ -143,6 +143,13 @@ class Problem {
   [[nodiscard]] BoundSeries chart_field_series() const requires(Facets.has(Facet::darboux_chart)) {
     return {model_->chart_field_series(), model_->system()};
   }
+  /// The tapes of X and of alpha (generating_map.hpp), for methods that expand them in series.
+  [[nodiscard]] std::shared_ptr<const Tape> field_tape() const requires(Facets.has(Facet::vector_field)) {
+    return model_->tape(Formula::field);
+  }
+  [[nodiscard]] std::shared_ptr<const Tape> alpha_tape() const requires(Facets.has(Facet::generating_map)) {
+    return model_->tape(Formula::alpha);
+  }
   /// Values of the named invariants, in the model's order.
   void invariants(const T& t, In<T> z, Out<T> values) const requires(Facets.has(Facet::invariants)) {
     use(Formula::invariants, t, z.data(), values.data());
@@ -199,6 +206,12 @@ concept HasDarbouxChart = requires(const P& p, const Scalar<P>& t, State<P>& z) 
   p.chart_inverse(t, z, z);
   p.chart_field(t, z, z);
   p.chart_field_tape();
+};
+
+template <class P>
+concept HasGeneratingMap = HasFieldJacobian<P> && requires(const P& p) {
+  p.field_tape();
+  p.alpha_tape();
 };
 
 }  // namespace pfaff

@@ -72,6 +72,10 @@ concept WritesChartField = requires(const S& s, const T& t, In<T> y, Out<T> o) {
   s.chart_field(t, y, o);
 };
 template <class S, class T = Recorded>
+concept WritesAlpha = requires(const S& s, const T& t, In<T> z, Out<T> o) {
+  s.alpha(t, t, z, z, o, o);
+};
+template <class S, class T = Recorded>
 concept WritesInvariants = requires(const S& s, const T& t, In<T> z, Out<T> o) {
   s.invariants(t, z, o);
 };
@@ -114,6 +118,7 @@ PFAFF_NAMED(chart)
 PFAFF_NAMED(chart_inverse)
 PFAFF_NAMED(chart_hamiltonian)
 PFAFF_NAMED(chart_field)
+PFAFF_NAMED(alpha)
 PFAFF_NAMED(invariants)
 PFAFF_NAMED(exact_solution)
 PFAFF_NAMED(initial)
@@ -155,6 +160,9 @@ constexpr void check_formulas() {
   static_assert(
       WritesChartField<S> || !names_chart_field<S>,
       "chart_field: expected template <class T> void chart_field(const T& t, In<T> y, Out<T> rate) const");
+  static_assert(WritesAlpha<S> || !names_alpha<S>,
+                "alpha: expected template <class T> void alpha(const T& t, const T& t0, In<T> new_z, "
+                "In<T> old_z, Out<T> w_hat, Out<T> w) const");
   static_assert(
       WritesInvariants<S> || !names_invariants<S>,
       "invariants: expected template <class T> void invariants(const T& t, In<T> z, Out<T> values) const");
@@ -183,6 +191,8 @@ constexpr void check_formulas() {
                 "chart_hamiltonian is written beside chart and chart_inverse, which are missing");
   static_assert(names_birkhoffian<S> || names_chart_hamiltonian<S> || !names_chart<S>,
                 "chart is written beside birkhoffian and one_form, or chart_hamiltonian, which are missing");
+  static_assert(names_birkhoffian<S> || names_kinetic<S> || names_hamiltonian<S> || !names_alpha<S>,
+                "alpha is written beside birkhoffian and one_form, or a Hamiltonian, which are missing");
   static_assert(names_field<S> || names_kinetic<S> || names_hamiltonian<S> || names_birkhoffian<S>,
                 "this system has no vector field; expected one of field, kinetic and potential, hamiltonian, "
                 "birkhoffian and one_form");

@@ -80,6 +80,18 @@ std::vector<Expected> cases() {
          return Numbers{z[1], p[3] * cos(p[4] * t) - p[0] * z[1] - p[1] * z[0] - p[2] * z[0] * z[0] * z[0]};
        },
        [](const Numbers& p, Quad t, const Numbers&) { return canonical({exp(p[0] * t)}); }},
+      {"damped-relativistic-oscillator",
+       {{"nu", "0.2"}, {"k", "0.7"}},
+       // (c v)' = c^3 v', c = (1 - v^2)^{-1/2}.
+       [](const Numbers& p, Quad, const Numbers& z) {
+         const Quad c = Quad(1) / sqrt((Quad(1) - z[1]) * (Quad(1) + z[1]));
+         const Quad force = -p[0] * c * z[1] - z[0] - p[1] * z[0] * z[0] * z[0];
+         return Numbers{z[1], force / (c * c * c)};
+       },
+       [](const Numbers& p, Quad t, const Numbers& z) {
+         const Quad c = Quad(1) / sqrt((Quad(1) - z[1]) * (Quad(1) + z[1]));
+         return canonical({exp(p[0] * t) * c * c * c});
+       }},
       {"hojman-urrutia",
        {},
        [](const Numbers&, Quad, const Numbers& z) {
