@@ -209,7 +209,7 @@ std::vector<Check> check_system(const SystemPlugin& plugin) {
     both(checks, plugin.name(), std::string("written ") + name + " is the derived one", plugin.name(),
          difference, where);
   }
-  if (model->facets().has(Facet::hamiltonian) || model->facets().has(Facet::birkhoffian)) {
+  if (model->facets().has(Facet::hamiltonian) || model->facets().has(Facet::structure)) {
     const auto tensor = model->tape(Formula::poisson_tensor);
     both(checks, plugin.name(), "bracket is skew", plugin.name(), symmetric_part(*tensor, n), centre);
     both(checks, plugin.name(), "Jacobi identity", plugin.name(), jacobiator(*tensor, n), centre);
