@@ -130,7 +130,8 @@ BirkhoffianForm<T> birkhoffian_form(const Model& model, const std::optional<std:
              }));
   const auto values = [&](const std::shared_ptr<const Tape>& tape) {
     std::vector<T> out(tape->outputs.size());
-    Replay<T>(tape)(t, z.data(), out.data());
+    Replay<T> replay(tape);
+    replay(t, z.data(), out.data());
     return out;
   };
   const std::vector<T> k = values(structure);
