@@ -103,6 +103,7 @@ int run(int argc, char** argv) {
   add_describe(app, common, action);
   add_cite(app, common, action);
   add_run(app, common, action);
+  add_evaluate(app, common, action);
   add_compare(app, common, action);
   add_reproduce(app, common, action);
   add_verify(app, common, action);

@@ -10,8 +10,9 @@
 //   hamiltonian(t, z), bracket()             H and the bracket that makes the field (canonical without
 //                                            bracket())
 //   birkhoffian(t, z), one_form(t, z, F)     the action form F.dz - B dt
+//   structure(t, z, K), covector(t, z, D)    instead: K(z, t) zdot + D(z, t) = 0 with K row-major, n x n
 //   chart(t, z, y), chart_inverse(t, y, z)   Darboux coordinates; optional chart_hamiltonian(t, y),
-//                                            chart_field(t, y, rate). Derived where K = dF is
+//                                            chart_field(t, y, rate). Derived where K is
 //                                            constant or depends on t alone
 //   alpha(t, t0, new_z, old_z, w_hat, w)     pairs of states to (w^, w), for generating functions without a
 //                                            chart
@@ -155,6 +156,12 @@ class Collector {
       give(Formula::one_form, "one_form(t, z, F)", n, n,
            [&](const R& t, RecordedIn z, RecordedOut o) { s.one_form(t, z, o); });
     }
+    if constexpr (WritesStructure<S> && WritesCovector<S>) {
+      give(Formula::structure, "structure(t, z, K)", n, n * n,
+           [&](const R& t, RecordedIn z, RecordedOut o) { s.structure(t, z, o); });
+      give(Formula::covector, "covector(t, z, D)", n, n,
+           [&](const R& t, RecordedIn z, RecordedOut o) { s.covector(t, z, o); });
+    }
     if constexpr (WritesChart<S> && WritesChartInverse<S>) {
       give(Formula::chart, "chart(t, z, y)", n, n,
            [&](const R& t, RecordedIn z, RecordedOut o) { s.chart(t, z, o); });
@@ -218,11 +225,14 @@ class Collector {
         record(inputs, outputs, [&](const Recorded& t, RecordedIn x, RecordedOut out) {
           CountedOutputs results(outputs);
           f(t, x, results.span());
-          require_written(called, results, outputs, formula != Formula::one_form);
+          require_written(called, results, outputs, !may_skip_zeros(formula));
           std::copy(results.span().begin(), results.span().end(), out.begin());
         }));
   }
-  // Zeros need not be written in a one-form or an initial state.
+  // Zeros need not be written in a one-form, a structure, a covector or an initial state.
+  static constexpr bool may_skip_zeros(Formula formula) {
+    return formula == Formula::one_form || formula == Formula::structure || formula == Formula::covector;
+  }
   void require_written(const char* called, const CountedOutputs& results, int expected, bool all) const {
     const auto count = static_cast<std::size_t>(expected);
     std::string wrong;

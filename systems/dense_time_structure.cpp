@@ -34,7 +34,7 @@ struct DenseTimeStructure {
     }
   };
   template <class T>
-  Skew<T> structure(const T& t) const {
+  Skew<T> entries(const T& t) const {
     const T cosine = cos(omega * t), sine = sin(omega * t);
     return {c * (2 + cosine), -(2 + sine), c * (2 + sine), c * (2 - cosine), -(2 + cosine), c * (2 - sine)};
   }
@@ -46,13 +46,13 @@ struct DenseTimeStructure {
   }
   template <class T>
   void one_form(const T& t, In<T> z, Out<T> form) const {
-    structure(t).times(z, form);
+    entries(t).times(z, form);
     for (T& x : form) x = -x / 2;
   }
   template <class T>
   void field(const T& t, In<T> z, Out<T> rate) const {
     const T cosine = omega * cos(omega * t), sine = omega * sin(omega * t);
-    const Skew<T> slope{-(c * sine), -cosine, c * cosine, c * sine, sine, -(c * cosine)}, k = structure(t);
+    const Skew<T> slope{-(c * sine), -cosine, c * cosine, c * sine, sine, -(c * cosine)}, k = entries(t);
     slope.times(z, rate);
     T g[dimension];
     for (std::size_t i = 0; i < dimension; ++i) g[i] = z[i] + lambda * (z[i] * z[i] * z[i]) - rate[i] / 2;

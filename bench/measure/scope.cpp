@@ -10,7 +10,7 @@ bool in_scope(Claim claim, const Model& model) {
     case Claim::symmetric:
       return true;
     case Claim::symplectic:
-      return facets.has(Facet::darboux_chart) && !facets.has(Facet::birkhoffian);
+      return facets.has(Facet::darboux_chart) && !facets.has(Facet::structure);
     case Claim::k_symplectic:
       return facets.has(Facet::darboux_chart) || facets.has(Facet::generating_map);
     case Claim::quadratic_invariants:

@@ -57,11 +57,11 @@ template <class T>
 StructureResidual<T>::StructureResidual(const MethodInstance& method, std::shared_ptr<const Model> model)
     : differentiate_(method, model),
       problem_(model),
-      poisson_(!model->facets().has(Facet::birkhoffian) && !model->facets().has(Facet::darboux_chart)) {}
+      poisson_(!model->facets().has(Facet::structure) && !model->facets().has(Facet::darboux_chart)) {}
 
 template <class T>
 bool StructureResidual<T>::applies(const Model& model) {
-  return model.facets().has(Facet::birkhoffian) || model.facets().has(Facet::hamiltonian);
+  return model.facets().has(Facet::structure) || model.facets().has(Facet::hamiltonian);
 }
 
 template <class T>

@@ -57,7 +57,7 @@ nlohmann::json description(const Experiment& experiment, const std::vector<Exper
                           {"time_unit", model.time_unit()},
                           {"precision", to_string(c.precision)},
                           {"conserved", c.conserved},
-                          {"structure", f.has(Facet::birkhoffian)   ? nlohmann::json("K-symplectic")
+                          {"structure", f.has(Facet::structure)     ? nlohmann::json("K-symplectic")
                                         : f.has(Facet::hamiltonian) ? nlohmann::json("symplectic")
                                                                     : nlohmann::json(nullptr)},
                           {"reference_solution", f.has(Facet::exact_solution) ? "exact" : "30-digit"}});

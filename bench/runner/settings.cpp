@@ -75,6 +75,42 @@ SplitSettings split_settings(const SystemPlugin& system, const MethodPlugin* met
   return split;
 }
 
+std::vector<Real> state_numbers(const Model& model, const std::vector<std::string>& texts,
+                                const std::string& what) {
+  const auto dimension = static_cast<std::size_t>(model.dimension());
+  if (texts.size() != dimension)
+    throw InputError(what + " state of " + model.name() + ": expected " + std::to_string(dimension) +
+                     " numbers, got " + std::to_string(texts.size()));
+  std::vector<Real> numbers;
+  for (std::size_t k = 0; k < dimension; ++k)
+    numbers.push_back(number(texts[k], what + " " + model.coordinates()[k].name + " of " + model.name()));
+  return numbers;
+}
+
+namespace {
+// The state in `texts`, the model's own without.
+std::vector<Real> initial_state(const Model& model, const std::vector<std::string>& texts) {
+  const auto dimension = static_cast<std::size_t>(model.dimension());
+  if (model.coordinates().size() != dimension)
+    throw InputError("system " + model.name() + " names " + std::to_string(model.coordinates().size()) +
+                     " coordinates; expected " + std::to_string(dimension));
+  if (!texts.empty()) return state_numbers(model, texts, "initial");
+  if (model.initial().size() != dimension)
+    throw InputError("system " + model.name() + " has no initial state of its own; expected --set initial=");
+  return model.initial();
+}
+}  // namespace
+
+ResolvedState resolve_state(const RunSettings& settings) {
+  const SystemPlugin& system = systems().get(settings.system, "system");
+  const SplitSettings split = split_settings(system, nullptr, settings.set);
+  ResolvedState result;
+  result.model = system.make(split.system);
+  result.state = initial_state(*result.model, settings.initial.empty() ? split.initial : settings.initial);
+  result.t = number(settings.t0, "time");
+  return result;
+}
+
 ResolvedRun resolve(const RunSettings& settings) {
   ResolvedRun run;
   run.settings = settings;
@@ -87,24 +123,7 @@ ResolvedRun resolve(const RunSettings& settings) {
   if (settings.precision == Precision::quad && run.method->descriptor().double_coefficients)
     throw InputError(method.name() + " has coefficients in double only; expected --precision double");
 
-  const auto& initial = settings.initial.empty() ? split.initial : settings.initial;
-  run.initial = run.model->initial();
-  const auto dimension = static_cast<std::size_t>(run.model->dimension());
-  if (run.model->coordinates().size() != dimension)
-    throw InputError("system " + system.name() + " names " + std::to_string(run.model->coordinates().size()) +
-                     " coordinates; expected " + std::to_string(dimension));
-  if (initial.empty() && run.initial.size() != dimension)
-    throw InputError("system " + system.name() + " has no initial state of its own; expected --set initial=");
-  run.initial.resize(dimension);
-  if (!initial.empty()) {
-    if (initial.size() != dimension)
-      throw InputError("initial state of " + system.name() + ": expected " +
-                       std::to_string(run.model->dimension()) + " numbers, got " +
-                       std::to_string(initial.size()));
-    for (std::size_t k = 0; k < initial.size(); ++k)
-      run.initial[k] =
-          number(initial[k], "initial " + run.model->coordinates()[k].name + " of " + system.name());
-  }
+  run.initial = initial_state(*run.model, settings.initial.empty() ? split.initial : settings.initial);
   run.t0 = number(settings.t0, "initial time");
   run.time = number(settings.time, "--time");
   if (!(run.time > Real(0))) throw InputError("--time: expected a duration > 0, got '" + settings.time + "'");

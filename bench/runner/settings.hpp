@@ -49,6 +49,18 @@ struct SplitSettings {
 };
 SplitSettings split_settings(const SystemPlugin& system, const MethodPlugin* method, const Assignments& set);
 
+/// Where a system is looked at: its model, a state and a time.
+struct ResolvedState {
+  std::shared_ptr<const Model> model;
+  std::vector<Real> state;
+  Real t;
+};
+/// Checks what belongs to the system alone: its name, parameters, `initial` and `t0`.
+ResolvedState resolve_state(const RunSettings& settings);
+/// One finite number for each coordinate of the model; InputError, naming `what` ("initial"), otherwise.
+std::vector<Real> state_numbers(const Model& model, const std::vector<std::string>& texts,
+                                const std::string& what);
+
 /// Checks everything about a run: names, parameters, fit of method and system, state, step, horizon.
 ResolvedRun resolve(const RunSettings& settings);
 

@@ -64,6 +64,9 @@ std::vector<Check> check_bracket(const std::string& plugin);
 /// Brackets that are not what they are claimed to be, which must be rejected: one without Jacobi's identity,
 /// one not quite skew.
 std::vector<Check> check_false_brackets();
+/// Equations K zdot + D = 0 that are not self-adjoint, by one entry of D, of K, and a chart that is not
+/// Darboux's at the time it is used.
+std::vector<Check> check_false_structures();
 /// Methods that are not what they are claimed to be: RK4 symplectic and K-symplectic, su-qin (105) as
 /// printed.
 std::vector<Check> check_false_methods();

@@ -1,11 +1,9 @@
 // The claims of systems and brackets: that what was written agrees with what is derived, that structures are
 // what they are said to be, that invariants and exact solutions are right. Measured at random points with a
 // fixed seed.
-#include <cmath>
-#include <random>
-
 #include <pfaff/bench/measure/reference.hpp>
 #include <pfaff/bench/verification/check.hpp>
+#include <pfaff/bench/verification/residuals.hpp>
 #include <pfaff/core/bracket.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/replay.hpp>
@@ -14,55 +12,6 @@
 namespace pfaff {
 
 namespace {
-
-using Arguments = std::span<const Recorded>;
-using Results = std::span<Recorded>;
-constexpr int points = 20;
-
-Check named(const std::string& plugin, const std::string& claim, const std::string& system,
-            const char* precision, double measured, double tolerance) {
-  Check check;
-  check.plugin = plugin;
-  check.claim = claim;
-  check.scope = "every point";
-  check.system = system;
-  check.precision = precision;
-  check.measured = measured;
-  check.tolerance = tolerance;
-  check.result = measured <= tolerance ? CheckResult::pass : CheckResult::fail;
-  return check;
-}
-
-// Largest value of a tape's outputs at random states within 1/20 of the model's generic state.
-template <class T>
-T largest(const std::shared_ptr<const Tape>& tape, const std::vector<Real>& centre) {
-  std::mt19937_64 random(20041);
-  std::uniform_real_distribution<double> offset(-0.05, 0.05);
-  Replay<T> replay(tape);
-  std::vector<T> z(centre.size()), out(tape->outputs.size());
-  T worst(0);
-  for (int k = 0; k < points; ++k) {
-    for (std::size_t i = 0; i < z.size(); ++i) z[i] = T(centre[i]) + T(offset(random));
-    replay(T(1 + offset(random)), z.data(), out.data());
-    for (const T& x : out) worst = isnan(x) ? x : std::max(worst, abs(x));
-  }
-  return worst;
-}
-
-// A tape made of recorded expressions of (t, z).
-template <class F>
-std::shared_ptr<const Tape> expression(int inputs, int outputs, F&& f) {
-  return std::make_shared<const Tape>(record(inputs, outputs, std::forward<F>(f)));
-}
-
-void both(std::vector<Check>& checks, const std::string& plugin, const std::string& claim,
-          const std::string& system, const std::shared_ptr<const Tape>& residual,
-          const std::vector<Real>& centre) {
-  // A handful of operations on numbers of order one to ten, their derivatives included.
-  checks.push_back(named(plugin, claim, system, "double", largest<double>(residual, centre), 1e-13));
-  checks.push_back(
-      named(plugin, claim, system, "quad", static_cast<double>(largest<Quad>(residual, centre)), 1e-31));
-}
 
 // [Pi, Pi]^{ijk} = sum_l Pi^il d_l Pi^jk + cyclic, and the symmetric part, as tapes.
 std::shared_ptr<const Tape> jacobiator(const Tape& tensor, int n) {
@@ -139,22 +88,10 @@ void exact_solution(std::vector<Check>& checks, const SystemPlugin& plugin, cons
 
 void darboux(std::vector<Check>& checks, const SystemPlugin& plugin, const Model& model) {
   const int n = model.dimension();
-  const auto size = static_cast<std::size_t>(n), half = size / 2;
+  const auto size = static_cast<std::size_t>(n);
   const auto chart = model.tape(Formula::chart), inverse = model.tape(Formula::chart_inverse);
-  const auto structure = model.tape(Formula::structure);
-  // Y_z^T K_c Y_z - K with K_c = [[0, -I], [I, 0]].
-  const auto pulled_back = expression(n, n * n, [&](const Recorded& t, Arguments z, Results out) {
-    const auto y = jacobian(*chart, t, z);
-    const auto k = evaluate(*structure, t, z);
-    for (std::size_t i = 0; i < size; ++i)
-      for (std::size_t j = 0; j < size; ++j) {
-        out[i * size + j] = -k[i * size + j];
-        for (std::size_t a = 0; a < half; ++a)
-          out[i * size + j] = out[i * size + j] + y[(half + a) * size + i] * y[a * size + j] -
-                              y[a * size + i] * y[(half + a) * size + j];
-      }
-  });
-  both(checks, plugin.name(), "chart is Darboux", plugin.name(), pulled_back, generic_state(model));
+  both(checks, plugin.name(), "chart is Darboux", plugin.name(),
+       darboux_residual(*chart, *model.tape(Formula::structure)), generic_state(model));
   const auto round_trip = expression(n, n, [&](const Recorded& t, Arguments z, Results out) {
     const auto back = evaluate(*inverse, t, evaluate(*chart, t, z));
     for (std::size_t k = 0; k < size; ++k) out[k] = back[k] - z[k];
@@ -210,10 +147,13 @@ std::vector<Check> check_system(const SystemPlugin& plugin) {
     both(checks, plugin.name(), std::string("written ") + name + " is the derived one", plugin.name(),
          difference, where);
   }
-  if (model->facets().has(Facet::hamiltonian) || model->facets().has(Facet::birkhoffian)) {
+  if (model->facets().has(Facet::hamiltonian) || model->facets().has(Facet::structure)) {
     const auto tensor = model->tape(Formula::poisson_tensor);
     both(checks, plugin.name(), "bracket is skew", plugin.name(), symmetric_part(*tensor, n), centre);
     both(checks, plugin.name(), "Jacobi identity", plugin.name(), jacobiator(*tensor, n), centre);
+  }
+  if (model->facets().has(Facet::structure)) {
+    for (Check& check : check_self_adjointness(plugin.name(), *model)) checks.push_back(std::move(check));
   }
   if (model->facets().has(Facet::darboux_chart)) darboux(checks, plugin, *model);
   if (model->facets().has(Facet::conformal)) conformal(checks, plugin, *model);

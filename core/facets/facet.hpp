@@ -16,7 +16,8 @@ enum class Facet : unsigned {
   hamiltonian,     // an energy and the bracket that makes X of it
   separable,       // canonical, H = T(p) + V(q, t)
   conformal,       // q' = T_p(p), p' = -V_q(q, t) - nu p: the canonical structure times e^{nu t} is kept
-  birkhoffian,     // action of F(z, t).dz - B(z, t) dt
+  structure,       // K(z, t) zdot + D(z, t) = 0, self-adjoint: K skew and closed, d_t K = D_z - D_z^T
+  birkhoffian,     // that of the action of F(z, t).dz - B(z, t) dt: K = dF, D = -(grad B + F_t)
   darboux_chart,   // coordinates y in which the structure is constant and canonical
   generating_map,  // alpha of pairs of states, through which generating functions make maps
   invariants,      // named quantities with their expected behaviour
@@ -26,8 +27,8 @@ enum class Facet : unsigned {
 
 constexpr std::string_view to_string(Facet facet) {
   constexpr std::array<std::string_view, static_cast<std::size_t>(Facet::count)> names{
-      "vector-field",  "hamiltonian",    "separable",  "conformal",     "birkhoffian",
-      "darboux-chart", "generating-map", "invariants", "exact-solution"};
+      "vector-field", "hamiltonian",   "separable",      "conformal",  "structure",
+      "birkhoffian",  "darboux-chart", "generating-map", "invariants", "exact-solution"};
   return names[static_cast<std::size_t>(facet)];
 }
 
@@ -62,6 +63,7 @@ enum class Formula : unsigned {
   birkhoffian,           // n -> 1
   one_form,              // n -> n
   structure,             // n -> n x n, K_ij = d_i F_j - d_j F_i
+  covector,              // n -> n, D = -(grad B + F_t)
   chart,                 // n -> n, y = chart(t, z)
   chart_inverse,         // n -> n
   chart_hamiltonian,     // n -> 1, of y

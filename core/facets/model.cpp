@@ -63,6 +63,24 @@ Tape pulled_back_field(const Tape& one_form, const Tape& birkhoffian, const Tape
   });
 }
 
+// The same from K zdot + D = 0: with z = zeta(y, t) and K_c = zeta_y^T K zeta_y, y' = -K_c^-1 zeta_y^T (D +
+// K zeta_t). Nothing is solved.
+Tape pulled_back_equations(const Tape& structure, const Tape& covector, const Tape& inverse) {
+  const int n = inverse.inputs;
+  const auto size = static_cast<std::size_t>(n);
+  return record(n, n, [&](const Recorded& t, Arguments y, Results out) {
+    const auto z = evaluate(inverse, t, y);
+    const auto z_t = time_derivative(inverse, t, y);
+    const auto k = evaluate(structure, t, z);
+    auto d = evaluate(covector, t, z);
+    for (std::size_t i = 0; i < size; ++i) {
+      for (std::size_t j = 0; j < size; ++j) d[i] = d[i] + k[i * size + j] * z_t[j];
+      d[i] = -d[i];
+    }
+    canonical_sharp(gradient(inverse, t, y, d), out);
+  });
+}
+
 // The chart y = E^-1 z, z = E y of a structure K(t), which is K_c = E^T K E in y.
 Tape linear_chart(const Tape& structure, const PivotPairs& pairs) {
   return record(structure.inputs, structure.inputs, [&](const Recorded& t, Arguments z, Results y) {
@@ -104,11 +122,13 @@ Model::Model(ModelSource source) : source_(std::move(source)) {
   if (hamiltonian) offer(Facet::hamiltonian);
   if (separable) offer(Facet::separable);
   if (conformal) offer(Facet::conformal);
+  const bool structure = birkhoffian || (has(Formula::structure) && has(Formula::covector));
+  if (structure) offer(Facet::structure);
   if (birkhoffian) offer(Facet::birkhoffian);
-  if (has(Formula::field) || hamiltonian || conformal || birkhoffian) offer(Facet::vector_field);
+  if (has(Formula::field) || hamiltonian || conformal || structure) offer(Facet::vector_field);
   if ((has(Formula::chart) && has(Formula::chart_inverse)) || (source_.canonical && hamiltonian))
     offer(Facet::darboux_chart);
-  if (birkhoffian && !facets_.has(Facet::darboux_chart)) {
+  if (structure && !facets_.has(Facet::darboux_chart)) {
     pivots_ = chart_pivots();
     if (!pivots_.empty()) offer(Facet::darboux_chart);
   }
@@ -131,7 +151,7 @@ std::string Model::advice(FacetSet needs) const {
   if (needs.has(Facet::generating_map) && !facets_.has(Facet::generating_map))
     return facets_.has(Facet::birkhoffian) || source_.canonical ? "; write alpha" : "";
   if (!needs.has(Facet::darboux_chart) || facets_.has(Facet::darboux_chart)) return {};
-  if (!facets_.has(Facet::birkhoffian)) return {};
+  if (!facets_.has(Facet::structure)) return {};
   return tape(Formula::structure)->state_independent()
              ? "; its structure K is degenerate at t = 0"
              : "; its structure K depends on the state: write chart and chart_inverse";
@@ -148,7 +168,7 @@ std::shared_ptr<const Tape> Model::tape(Formula formula) const {
 std::shared_ptr<const Tape> Model::derived(Formula formula) const {
   const int n = source_.dimension;
   const auto size = static_cast<std::size_t>(n);
-  const bool birkhoffian = facets_.has(Facet::birkhoffian);
+  const bool birkhoffian = facets_.has(Facet::birkhoffian), structured = facets_.has(Facet::structure);
   const bool chart_given = given(Formula::chart);
   const auto identity = [&] {
     return shared(record(n, n, [](const Recorded&, Arguments z, Results out) {
@@ -201,14 +221,12 @@ std::shared_ptr<const Tape> Model::derived(Formula formula) const {
           }
         }));
       }
-      if (!birkhoffian) return facets_.has(Facet::conformal) ? shared(damped_field(*this)) : nullptr;
-      const auto function = tape(Formula::birkhoffian), form = tape(Formula::one_form);
-      const auto structure = tape(Formula::structure);
+      if (!structured) return facets_.has(Facet::conformal) ? shared(damped_field(*this)) : nullptr;
+      const auto structure = tape(Formula::structure), covector = tape(Formula::covector);
       return shared(record(n, n, [&](const Recorded& t, Arguments z, Results out) {
-        auto covector = gradient_of(*function, t, z);
-        const auto form_t = time_derivative(*form, t, z);
-        for (std::size_t k = 0; k < size; ++k) covector[k] = covector[k] + form_t[k];
-        copy(solve(evaluate(*structure, t, z), covector), out);
+        auto right = evaluate(*covector, t, z);
+        for (Recorded& x : right) x = -x;
+        copy(solve(evaluate(*structure, t, z), right), out);
       }));
     }
     case Formula::field_jacobian:
@@ -230,6 +248,15 @@ std::shared_ptr<const Tape> Model::derived(Formula formula) const {
             out[i * size + j] = slope[j * size + i] - slope[i * size + j];
       }));
     }
+    case Formula::covector: {
+      if (!birkhoffian) return nullptr;
+      const auto function = tape(Formula::birkhoffian), form = tape(Formula::one_form);
+      return shared(record(n, n, [&](const Recorded& t, Arguments z, Results out) {
+        const auto slope = gradient_of(*function, t, z);
+        const auto form_t = time_derivative(*form, t, z);
+        for (std::size_t k = 0; k < size; ++k) out[k] = -(slope[k] + form_t[k]);
+      }));
+    }
     case Formula::poisson_tensor: {
       if (source_.canonical)
         return shared(record(n, n * n, [&](const Recorded&, Arguments, Results out) {
@@ -238,7 +265,7 @@ std::shared_ptr<const Tape> Model::derived(Formula formula) const {
             out[(size / 2 + k) * size + k] = Recorded(-1);
           }
         }));
-      if (!birkhoffian) return nullptr;
+      if (!structured) return nullptr;
       const auto structure = tape(Formula::structure);
       return shared(record(n, n * n, [&](const Recorded& t, Arguments z, Results out) {
         const auto k = evaluate(*structure, t, z);
@@ -265,6 +292,9 @@ std::shared_ptr<const Tape> Model::derived(Formula formula) const {
           canonical_sharp(gradient_of(*energy, t, y), out);
         }));
       }
+      if (!birkhoffian)
+        return shared(pulled_back_equations(*tape(Formula::structure), *tape(Formula::covector),
+                                            *tape(Formula::chart_inverse)));
       return shared(pulled_back_field(*tape(Formula::one_form), *tape(Formula::birkhoffian),
                                       *tape(Formula::chart_inverse)));
     }

@@ -2,7 +2,8 @@
 //
 // A model is immutable and shared between threads. What the author wrote is recorded as tapes; everything
 // else that a facet promises is derived from those on first use: the field of a Hamiltonian through its
-// bracket or of a Birkhoffian system as K^-1 (grad B + F_t) (su-qin (4), (67)), forces, Jacobians, the
+// bracket or from K zdot + D = 0 with, for a Birkhoffian system, K = dF and D = -(grad B + F_t) (su-qin (4),
+// (5), (67)), forces, Jacobians, the
 // Darboux chart of a structure K that is constant or depends on time alone, the field in the chart.
 #pragma once
 

@@ -112,8 +112,12 @@ class Problem {
   }
   /// K(z, t), row-major. Constant and canonical, -J, for canonical systems.
   void structure(const T& t, In<T> z, Out<T> matrix) const
-      requires(Facets.has(Facet::birkhoffian) || Facets.has(Facet::darboux_chart)) {
+      requires(Facets.has(Facet::structure) || Facets.has(Facet::darboux_chart)) {
     use(Formula::structure, t, z.data(), matrix.data());
+  }
+  /// D(z, t) of K zdot + D = 0.
+  void covector(const T& t, In<T> z, Out<T> d) const requires(Facets.has(Facet::structure)) {
+    use(Formula::covector, t, z.data(), d.data());
   }
   /// y = chart(t, z), the structure there being constant: K_c = [[0, -I], [I, 0]].
   void chart(const T& t, In<T> z, Out<T> y) const requires(Facets.has(Facet::darboux_chart)) {

@@ -56,6 +56,14 @@ concept WritesOneForm = requires(const S& s, const T& t, In<T> z, Out<T> o) {
   s.one_form(t, z, o);
 };
 template <class S, class T = Recorded>
+concept WritesStructure = requires(const S& s, const T& t, In<T> z, Out<T> o) {
+  s.structure(t, z, o);
+};
+template <class S, class T = Recorded>
+concept WritesCovector = requires(const S& s, const T& t, In<T> z, Out<T> o) {
+  s.covector(t, z, o);
+};
+template <class S, class T = Recorded>
 concept WritesChart = requires(const S& s, const T& t, In<T> z, Out<T> o) {
   s.chart(t, z, o);
 };
@@ -114,6 +122,8 @@ PFAFF_NAMED(hamiltonian)
 PFAFF_NAMED(bracket)
 PFAFF_NAMED(birkhoffian)
 PFAFF_NAMED(one_form)
+PFAFF_NAMED(structure)
+PFAFF_NAMED(covector)
 PFAFF_NAMED(chart)
 PFAFF_NAMED(chart_inverse)
 PFAFF_NAMED(chart_hamiltonian)
@@ -149,6 +159,10 @@ constexpr void check_formulas() {
   static_assert(
       WritesOneForm<S> || !names_one_form<S>,
       "one_form: expected template <class T> void one_form(const T& t, In<T> z, Out<T> form) const");
+  static_assert(WritesStructure<S> || !names_structure<S>,
+                "structure: expected template <class T> void structure(const T& t, In<T> z, Out<T> k) const");
+  static_assert(WritesCovector<S> || !names_covector<S>,
+                "covector: expected template <class T> void covector(const T& t, In<T> z, Out<T> d) const");
   static_assert(WritesChart<S> || !names_chart<S>,
                 "chart: expected template <class T> void chart(const T& t, In<T> z, Out<T> y) const");
   static_assert(
@@ -177,6 +191,11 @@ constexpr void check_formulas() {
                 "kinetic and potential belong together, H = T(p) + V(q, t): one of them is missing");
   static_assert(names_birkhoffian<S> == names_one_form<S>,
                 "birkhoffian and one_form belong together, F.dz - B dt: one of them is missing");
+  static_assert(names_structure<S> == names_covector<S>,
+                "structure and covector belong together, K zdot + D = 0: one of them is missing");
+  static_assert(!(names_structure<S> && names_birkhoffian<S>),
+                "structure and covector are written instead of birkhoffian and one_form, from which they are "
+                "derived; expected one pair");
   static_assert(names_chart<S> == names_chart_inverse<S>,
                 "chart and chart_inverse belong together: one of them is missing");
   static_assert(
@@ -189,13 +208,18 @@ constexpr void check_formulas() {
                 "bracket is written beside hamiltonian, which is missing");
   static_assert(names_chart<S> || !names_chart_hamiltonian<S>,
                 "chart_hamiltonian is written beside chart and chart_inverse, which are missing");
-  static_assert(names_birkhoffian<S> || names_chart_hamiltonian<S> || !names_chart<S>,
-                "chart is written beside birkhoffian and one_form, or chart_hamiltonian, which are missing");
-  static_assert(names_birkhoffian<S> || names_kinetic<S> || names_hamiltonian<S> || !names_alpha<S>,
-                "alpha is written beside birkhoffian and one_form, or a Hamiltonian, which are missing");
-  static_assert(names_field<S> || names_kinetic<S> || names_hamiltonian<S> || names_birkhoffian<S>,
+  static_assert(
+      names_birkhoffian<S> || names_structure<S> || names_chart_hamiltonian<S> || !names_chart<S>,
+      "chart is written beside birkhoffian and one_form, structure and covector, or chart_hamiltonian, which "
+      "are missing");
+  static_assert(names_birkhoffian<S> || names_structure<S> || names_kinetic<S> || names_hamiltonian<S> ||
+                    !names_alpha<S>,
+                "alpha is written beside birkhoffian and one_form, structure and covector, or a Hamiltonian, "
+                "which are missing");
+  static_assert(names_field<S> || names_kinetic<S> || names_hamiltonian<S> || names_birkhoffian<S> ||
+                    names_structure<S>,
                 "this system has no vector field; expected one of field, kinetic and potential, hamiltonian, "
-                "birkhoffian and one_form");
+                "birkhoffian and one_form, structure and covector");
 }
 
 }  // namespace pfaff::detail

@@ -155,6 +155,19 @@ std::vector<Expected> cases() {
          return Numbers{p[0] * (two + cosine), -(two + sine),   p[0] * (two + sine),
                         p[0] * (two - cosine), -(two + cosine), p[0] * (two - sine)};
        }},
+      {"magnetic-induction",
+       {{"b0", "1.3"}, {"epsilon", "0.4"}, {"omega", "1.7"}, {"k", "0.6"}, {"lambda", "0.3"}},
+       // Lorentz's force, the induced field -b' (-y, x)/2 in full.
+       [](const Numbers& p, Quad t, const Numbers& z) {
+         const Quad b = p[0] * (Quad(1) + p[1] * cos(p[2] * t)), slope = -p[0] * p[1] * p[2] * sin(p[2] * t);
+         const Quad pull = p[3] + p[4] * (z[0] * z[0] + z[1] * z[1]);
+         return Numbers{z[2], z[3], b * z[3] - pull * z[0] + slope * z[1] / Quad(2),
+                        -(b * z[2]) - pull * z[1] - slope * z[0] / Quad(2)};
+       },
+       [](const Numbers& p, Quad t, const Numbers&) {
+         const Quad b = p[0] * (Quad(1) + p[1] * cos(p[2] * t));
+         return Numbers{b, Quad(-1), Quad(0), Quad(0), Quad(-1), Quad(0)};
+       }},
       {"coupled-damped-oscillators",
        {{"count", "4"}, {"nu", "0.2"}, {"kappa", "0.6"}},
        [](const Numbers& p, Quad, const Numbers& z) { return chain_field(p, z, [](Quad r) { return -r; }); },
@@ -241,7 +254,7 @@ TEST(EquationsOfMotion, ConservedQuantitiesStayAlongSolutions) {
       }
     }
   }
-  EXPECT_EQ(found, 1 + 4 + 2 + 1 + 4 + 1);
+  EXPECT_EQ(found, 1 + 4 + 2 + 1 + 4 + 1 + 1);
 }
 
 TEST(EquationsOfMotion, OutsideItsChartLotkaVolterraIsNotANumber) {

@@ -58,6 +58,38 @@ struct NoOneForm {
     return z[0] * z[0] / 2;
   }
 };
+// refused: structure and covector belong together
+// refused: structure: expected template <class T> void structure(const T& t, In<T> z, Out<T> k) const
+struct StructureAlone {
+  static constexpr int dimension = 2;
+  template <class T>
+  void structure(const T& /*t*/, Out<T> k) const {
+    k[1] = T(-1);
+    k[2] = T(1);
+  }
+};
+// refused: covector: expected template <class T> void covector(const T& t, In<T> z, Out<T> d) const
+// refused: structure and covector are written instead of birkhoffian and one_form
+struct BothForms {
+  static constexpr int dimension = 2;
+  template <class T>
+  T birkhoffian(const T& /*t*/, In<T> z) const {
+    return z[0] * z[0] / 2;
+  }
+  template <class T>
+  void one_form(const T& /*t*/, In<T> z, Out<T> form) const {
+    form[0] = z[1];
+  }
+  template <class T>
+  void structure(const T& /*t*/, In<T> /*z*/, Out<T> k) const {
+    k[1] = T(-1);
+    k[2] = T(1);
+  }
+  template <class T>
+  T covector(const T& /*t*/, In<T> z) const {
+    return z[0];
+  }
+};
 // refused: force and velocity are written beside kinetic and potential
 struct ForceAlone {
   static constexpr int dimension = 2;
@@ -80,5 +112,6 @@ const auto models = {
     make_model(descriptor, KineticWithoutTime{}),   make_model(descriptor, FieldNotConst{}),
     make_model(descriptor, HamiltonianOfDoubles{}), make_model(descriptor, InvariantsReturned{}),
     make_model(descriptor, NoPotential{}),          make_model(descriptor, NoOneForm{}),
+    make_model(descriptor, StructureAlone{}),       make_model(descriptor, BothForms{}),
     make_model(descriptor, ForceAlone{}),           make_model(descriptor, NoField{})};
 }  // namespace
