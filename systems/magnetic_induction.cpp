@@ -16,7 +16,7 @@ using namespace pfaff;
 
 struct MagneticInduction {
   static constexpr int dimension = 4;
-  Real b0 = 1, epsilon = 0.3_r, omega = 2, k = 0.2_r, lambda = 0.5_r;
+  Real b0 = 1, epsilon = 0.5_r, omega = 1, k = 0.2_r, lambda = 0.5_r;
   static std::vector<Parameter> parameters() {
     return {
         parameter(&MagneticInduction::b0, "b0", "1/s", -100, 100, "mean gyration frequency"),
