@@ -119,6 +119,23 @@ TEST(Evaluate, AStateOutsideTheDomainIsShownNotRefused) {
   EXPECT_EQ(evaluated({"kepler", "--set", "initial=0,0,1,0"})["status"], "non_finite");
 }
 
+TEST(Evaluate, ADegenerateStructureNamesItsDirections) {
+  const Arguments where{"degenerate", "--plugin", PFAFF_TEST_PLUGINS "/degenerate.so"};
+  const auto j = evaluated(where);
+  EXPECT_EQ(j["regular"], false);
+  EXPECT_EQ(j["status"], "singular");
+  EXPECT_TRUE(j["rhs"].is_null());
+  EXPECT_EQ(j["D"], (nlohmann::json{-1.0, 0.0, 0.0, 0.0}));
+  ASSERT_EQ(j["kernel"].size(), 2U);
+  const std::string text = run_pfaff(Arguments{"evaluate", "--system"} + where).out;
+  EXPECT_NE(text.find("degenerate, condition "), std::string::npos) << text;
+  EXPECT_NE(text.find("degenerate along  u\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("degenerate along  -0.5 y + v\n"), std::string::npos) << text;
+  // Control: nothing of the kind where K is regular.
+  EXPECT_EQ(run_pfaff({"evaluate", "--system", "magnetic-induction"}).out.find("degenerate"),
+            std::string::npos);
+}
+
 TEST(Evaluate, StateFiles) {
   const TemporaryDirectory files;
   write(files / "state.json", R"({"t": 0.5, "q": [0.25], "p": [2]})");
