@@ -50,7 +50,7 @@ std::string text_of(const nlohmann::json& value) {
   const double x =
       value.is_string() ? std::strtod(value.get<std::string>().c_str(), nullptr) : value.get<double>();
   char text[32];
-  std::snprintf(text, sizeof text, "%.6g", x);
+  std::snprintf(text, sizeof text, "%.6g", x + 0.0);  // -0 is 0
   return text;
 }
 
@@ -101,8 +101,11 @@ void print(const nlohmann::json& j) {
     if (!j[key].is_null()) facts.push_back({label, text_of(j[key])});
   if (structured) {
     facts.push_back({"class", j["class"]});
-    facts.push_back({"K", std::string(j["regular"] ? "regular" : "not regular") + ", condition " +
-                              (j["condition"].is_null() ? "not finite" : text_of(j["condition"]))});
+    const bool infinite = j["condition"].is_null();
+    facts.push_back({"K", j["regular"]          ? "regular, condition " + text_of(j["condition"])
+                          : j["kernel"].empty() ? "not finite"
+                                                : "degenerate, condition " +
+                                                      (infinite ? "infinite" : text_of(j["condition"]))});
     for (const auto& direction : j["kernel"])
       facts.push_back({"degenerate along", combination(direction, names)});
     facts.push_back({"self-adjoint", "skew to " + text_of(j["self_adjoint"]["skew"]) + ", closed to " +

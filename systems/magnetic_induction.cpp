@@ -1,13 +1,13 @@
-// A charged particle in the plane, in a uniform magnetic field across it that changes in time and in the
-// electric field that the change induces, in an anharmonic electric trap; z = (x, y, u, v), u = x', v = y';
-// per unit charge and mass, r^2 = x^2 + y^2 (lewis-riesenfeld1969, who have lambda = 0).
+// A charged particle in the plane, in a uniform magnetic field across it that changes in time, in the
+// electric field that the change induces, and in an anharmonic electric trap; z = (x, y, u, v), u = x', v =
+// y'; per unit charge and mass, r^2 = x^2 + y^2 (lewis-riesenfeld1969, who have lambda = 0).
 //
-//   u' = b v + e_x,  v' = -b u + e_y,   b = b0 (1 + epsilon cos wt),   e = -(k + lambda r^2) (x, y) - b'/2
-//   (-y, x) K_12 = b, K_13 = K_24 = -1, the other K_ij with i < j zero,   D = (e_x, e_y, -u, -v)
+//   u' = b v + e_x,  v' = -b u + e_y,   b = b0 (1 + epsilon cos wt)
+//   e = -(k + lambda r^2) (x, y) - b' (-y, x)/2,   D = (e_x, e_y, -u, -v)
+//   K_12 = b,  K_13 = K_24 = -1,  the other K_ij with i < j zero
 //
-// Written by the fields alone, as K zdot + D = 0, without potentials: that it is self-adjoint, d_t K_12 = d_2
-// D_1
-// - d_1 D_2, is Faraday's law, curl e = -b'. K depends on time alone, so that a Darboux chart is derived. The
+// Written by the fields alone, as K zdot + D = 0, without potentials: that it is self-adjoint, b' = d_2 D_1 -
+// d_1 D_2, is Faraday's law, curl e = -b'. K depends on time alone, so that a Darboux chart is derived. The
 // induced field does work on the charge; conserved is the canonical angular momentum x v - y u + b r^2/2.
 #include <pfaff/core/system.hpp>
 
@@ -16,7 +16,7 @@ using namespace pfaff;
 
 struct MagneticInduction {
   static constexpr int dimension = 4;
-  Real b0 = 1, epsilon = 0.3_r, omega = 2, k = 0.2_r, lambda = 0.5_r;
+  Real b0 = 1, epsilon = 0.5_r, omega = 1, k = 0.2_r, lambda = 0.5_r;
   static std::vector<Parameter> parameters() {
     return {
         parameter(&MagneticInduction::b0, "b0", "1/s", -100, 100, "mean gyration frequency"),

@@ -31,6 +31,11 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   target_compile_options(other-alignment_plugin PRIVATE $<IF:$<BOOL:${PFAFF_MARCH}>,-mno-avx,-mavx512f>)
 endif()
 
+# A system whose structure is degenerate.
+pfaff_test_plugin(degenerate app/plugins/degenerate.cpp)
+target_compile_definitions(app_tests PRIVATE PFAFF_TEST_PLUGINS="${pfaff_plugins}")
+add_dependencies(app_tests degenerate_plugin)
+
 target_compile_definitions(core_tests PRIVATE PFAFF_TEST_PLUGINS="${pfaff_plugins}")
 add_dependencies(core_tests fits_plugin starts-fast_plugin other-version_plugin no-stamp_plugin two-stamps_plugin
                  fast-math_plugin templates_plugin)

@@ -74,9 +74,10 @@ TEST(BadNames, EverythingElse) {
 }
 
 TEST(BadNames, AMethodThatDoesNotFitNamesBothSides) {
-  expect_refused({"run", "--out", "-", "--system", "damped-pendulum", "--integrator", "verlet", "--time", "1",
-                  "--step", "0.1"},
-                 {"verlet needs separable; damped-pendulum offers vector-field, conformal, birkhoffian"});
+  expect_refused(
+      {"run", "--out", "-", "--system", "damped-pendulum", "--integrator", "verlet", "--time", "1", "--step",
+       "0.1"},
+      {"verlet needs separable; damped-pendulum offers vector-field, conformal, structure, birkhoffian"});
   expect_refused({"run", "--out", "run", "--system", "free-rigid-body", "--integrator", "generating-function",
                   "--time", "1", "--step", "0.1"},
                  {"generating-function needs darboux-chart; free-rigid-body offers vector-field"});

@@ -85,8 +85,12 @@ TEST(Evaluate, EnergiesOfHamiltonianAndDampedSystems) {
   EXPECT_EQ(keys_of(oscillator), common);
   EXPECT_EQ(oscillator["energy"], 12.5);
   EXPECT_EQ(oscillator["energy_rate"], 0.0);
-  const auto body = evaluated({"damped-pendulum", "--set", "nu=0.5", "--set", "initial=0.5,2"});
-  EXPECT_NEAR(body["rhs"][1].get<double>(), -std::sin(0.5) - 1, 1e-15);
+  // T + V falls at the rate nu p^2.
+  const auto damped =
+      evaluated({"damped-oscillator", "--set", "nu=0.5", "--set", "initial=0.5,2", "--time", "3"});
+  EXPECT_NEAR(damped["energy"].get<double>(), (0.25 + 4) / 2, 1e-15);
+  EXPECT_NEAR(damped["energy_rate"].get<double>(), -0.5 * 4, 1e-15);
+  EXPECT_TRUE(evaluated({"magnetic-induction"})["energy"].is_null());
 }
 
 TEST(Evaluate, EquationsWithoutAnActionFormHaveOneAboutACentre) {
@@ -94,7 +98,7 @@ TEST(Evaluate, EquationsWithoutAnActionFormHaveOneAboutACentre) {
   const auto j = evaluated(point);
   EXPECT_EQ(j["centre"], (nlohmann::json{1.0, 0.0, 0.2, 0.6}));  // the initial state of the system
   EXPECT_EQ(j["class"], "nonautonomous");
-  const double b = 1 + 0.3 * std::cos(1.0), slope = -0.6 * std::sin(1.0), pull = 0.2 + 0.5 * 0.3125;
+  const double b = 1 + 0.5 * std::cos(0.5), slope = -0.5 * std::sin(0.5), pull = 0.2 + 0.5 * 0.3125;
   expect_near(j["rhs"], {1, -1, -b - pull * 0.5 + slope * 0.125, -b - pull * 0.25 - slope * 0.25});
   expect_near(j["K"][0], {0, b, -1, 0});
   // F = (K x)/2 backwards: F_i = x_j K_ji / 2, x from the centre.
@@ -115,6 +119,23 @@ TEST(Evaluate, AStateOutsideTheDomainIsShownNotRefused) {
   EXPECT_EQ(evaluated({"kepler", "--set", "initial=0,0,1,0"})["status"], "non_finite");
 }
 
+TEST(Evaluate, ADegenerateStructureNamesItsDirections) {
+  const Arguments where{"degenerate", "--plugin", PFAFF_TEST_PLUGINS "/degenerate.so"};
+  const auto j = evaluated(where);
+  EXPECT_EQ(j["regular"], false);
+  EXPECT_EQ(j["status"], "singular");
+  EXPECT_TRUE(j["rhs"].is_null());
+  EXPECT_EQ(j["D"], (nlohmann::json{-1.0, 0.0, 0.0, 0.0}));
+  ASSERT_EQ(j["kernel"].size(), 2U);
+  const std::string text = run_pfaff(Arguments{"evaluate", "--system"} + where).out;
+  EXPECT_NE(text.find("degenerate, condition "), std::string::npos) << text;
+  EXPECT_NE(text.find("degenerate along  u\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("degenerate along  -0.5 y + v\n"), std::string::npos) << text;
+  // Control: nothing of the kind where K is regular.
+  EXPECT_EQ(run_pfaff({"evaluate", "--system", "magnetic-induction"}).out.find("degenerate"),
+            std::string::npos);
+}
+
 TEST(Evaluate, StateFiles) {
   const TemporaryDirectory files;
   write(files / "state.json", R"({"t": 0.5, "q": [0.25], "p": [2]})");
@@ -128,10 +149,13 @@ TEST(Evaluate, StateFiles) {
                  {"--state", "exclude"});
   write(files / "state.json", R"({"z": [0.25, 2]})");
   EXPECT_EQ(evaluated(from + Arguments{"--time", "1"})["t"], 1.0);
-  for (const char* bad :
-       {"{", R"({"z": [1]})", R"({"z": [1, 2, 3]})", R"({"y": [1, 2]})", R"({"z": [1, "a"]})"}) {
+  for (const auto& [bad, fragment] :
+       {std::pair{"{", "expected a JSON object"}, std::pair{R"({"z": [1]})", "expected 2 numbers"},
+        std::pair{R"({"z": [1, 2, 3]})", "expected 2 numbers"},
+        std::pair{R"({"y": [1, 2]})", "unknown key 'y'"},
+        std::pair{R"({"z": [1, "a"]})", "initial p of damped-pendulum"}}) {
     write(files / "state.json", bad);
-    expect_refused(Arguments{"evaluate", "--system"} + from, {"expected"});
+    expect_refused(Arguments{"evaluate", "--system"} + from, {fragment});
   }
 }
 

@@ -252,10 +252,9 @@ TEST(Birkhoffian, NoChartIsDerivedWhereKDependsOnTheStateOrIsDegenerate) {
   EXPECT_EQ(make_model(chartless, Chartless{})->advice(chart), "");
   // The message of a method, as users see it.
   const auto method = integrators().get("generating-function", "integrator").make({});
-  EXPECT_EQ(
-      method->refuses(*swirling),
-      "generating-function needs darboux-chart; chartless offers vector-field, birkhoffian; its structure "
-      "K depends on the state: write chart and chart_inverse");
+  EXPECT_EQ(method->refuses(*swirling),
+            "generating-function needs darboux-chart; chartless offers vector-field, structure, birkhoffian; "
+            "its structure K depends on the state: write chart and chart_inverse");
   EXPECT_EQ(method->refuses(*make_model(chartless, Chartless{})), "");
   EXPECT_EQ(swirling->advice(FacetSet().with(Facet::separable)), "");
 }

@@ -1,20 +1,12 @@
 // Su & Qin, section 2, (1)-(13) and (21): Birkhoff's equations, self-adjointness, the 2-forms.
 #include <pfaff/bench/reproduce/su_qin/rows.hpp>
 #include <pfaff/bench/reproduce/su_qin/sample.hpp>
+#include <pfaff/brackets/birkhoffian/self_adjointness.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 
 namespace pfaff::su_qin {
 
 namespace {
-
-// D = -(grad B + F_t).
-Tape covector(const Model& model) {
-  return record(model.dimension(), model.dimension(), [&](const Recorded& t, Arguments z, Results out) {
-    const auto slope = gradient(*model.tape(Formula::birkhoffian), t, z, std::vector<Recorded>{Recorded(1)});
-    const auto form_t = time_derivative(*model.tape(Formula::one_form), t, z);
-    for (std::size_t k = 0; k < z.size(); ++k) out[k] = -(slope[k] + form_t[k]);
-  });
-}
 
 // The Euler-Lagrange expression of F.v - B, d_i (F.v - B) - d/dt F_i, at z with any velocity v: inputs (z,
 // v).
@@ -38,7 +30,7 @@ void equations(Rows& rows) {
   const auto model = polynomial_system();
   const Numbers v{Quad(0.2), Quad(0.5), Quad(-0.3), Quad(0.8)};
   const Matrix<Quad> k = structure(*model, t0, sample_state);
-  const Numbers d = value(covector(*model), t0, sample_state);
+  const Numbers d = value(*model->tape(Formula::covector), t0, sample_state);
   Numbers second = k * v, first = k.transposed() * v;
   for (std::size_t i = 0; i < v.size(); ++i) {
     second[i] += d[i];
@@ -52,46 +44,29 @@ void equations(Rows& rows) {
   const Numbers z{Quad(0.8), Quad(-0.4)};
   const Numbers field = value(*pendulum->tape(Formula::field), t0, z);
   Numbers residual = structure(*pendulum, t0, z) * field;
-  const Numbers pendulum_d = value(covector(*pendulum), t0, z);
+  const Numbers pendulum_d = value(*pendulum->tape(Formula::covector), t0, z);
   for (std::size_t i = 0; i < 2; ++i) residual[i] += pendulum_d[i];
   rows.reproduced("(4)", "K z' - grad B - F_t of the damped pendulum", Numbers(2), residual);
 }
 
-// (8): K + K^T, the cyclic sum of slopes, d_t K_ij - d_j D_i + d_i D_j; each as its largest entry.
-Numbers self_adjointness(const Tape& k_tape, const Tape& d_tape, const Numbers& z) {
-  const std::size_t n = z.size();
-  const Numbers k = value(k_tape, t0, z), dk = value(jacobian_tape(k_tape), t0, z);
-  const Numbers dd = value(jacobian_tape(d_tape), t0, z);
-  const Tape rate =
-      record(k_tape.inputs, static_cast<int>(n * n), [&](const Recorded& t, Arguments x, Results out) {
-        const auto r = time_derivative(k_tape, t, x);
-        std::copy(r.begin(), r.end(), out.begin());
-      });
-  const Numbers dt = value(rate, t0, z);
-  Numbers worst(3);
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j < n; ++j) {
-      worst[0] = std::max(worst[0], abs(k[i * n + j] + k[j * n + i]));
-      for (std::size_t l = 0; l < n; ++l)
-        worst[1] = std::max(worst[1],
-                            abs(dk[(i * n + j) * n + l] + dk[(j * n + l) * n + i] + dk[(l * n + i) * n + j]));
-      worst[2] = std::max(worst[2], abs(dt[i * n + j] - dd[i * n + j] + dd[j * n + i]));
-    }
-  return worst;
+// (8): the largest residual of each condition.
+Numbers largest_residuals(const std::shared_ptr<const Tape>& k, const Tape& d) {
+  const auto r = self_adjointness<Quad>(k, d, t0, sample_state);
+  return {r.skew.residual, r.closed.residual, r.time.residual};
 }
 
 void conditions(Rows& rows) {
   const auto model = polynomial_system();
   const auto k = model->tape(Formula::structure);
-  const Tape d = covector(*model);
-  rows.reproduced("(8)", "conditions of self-adjointness", Numbers(3), self_adjointness(*k, d, sample_state));
+  const Tape d = *model->tape(Formula::covector);
+  rows.reproduced("(8)", "conditions of self-adjointness", Numbers(3), largest_residuals(k, d));
   // A force that is not of this form: -z_0 z_1 added to D_0 breaks the third condition and that one alone.
   const Tape forced = record(4, 4, [&](const Recorded& t, Arguments z, Results out) {
     const auto value = evaluate(d, t, z);
     std::copy(value.begin(), value.end(), out.begin());
     out[0] = out[0] - z[0] * z[1];
   });
-  const Numbers broken = self_adjointness(*k, forced, sample_state);
+  const Numbers broken = largest_residuals(k, forced);
   rows.qualitative("(8)", "names what fails", "not self-adjoint", shown(broken),
                    static_cast<double>(broken[2]), clearly,
                    broken[0] == Quad(0) && static_cast<double>(broken[1]) <= at_round_off &&
@@ -113,7 +88,7 @@ void forms(Rows& rows) {
   const Numbers x = joined({t0}, sample_state);
   const Matrix<Quad> slope(5, value(jacobian_tape(form), Quad(0), x)),
       k = structure(*model, t0, sample_state);
-  const Numbers d = value(covector(*model), t0, sample_state);
+  const Numbers d = value(*model->tape(Formula::covector), t0, sample_state);
   Matrix<Quad> contact(5, 5);
   for (std::size_t i = 0; i < 4; ++i) {
     contact(0, i + 1) = -d[i];
