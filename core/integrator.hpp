@@ -5,6 +5,7 @@
 //   template <HasVectorField P>
 //   Status step(const P&, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>&) const;
 // Optional members: order(model) and preserves(model) where a claim depends on parameters or problem;
+// order_is_lower_bound(), where the leading error is so small that measured slopes may exceed the order;
 // validate(), called once parameters are set; coefficients(), a mutable span over the numbers that define the
 // method (the control that changes one of them by 1e-6 needs it); refuses(model), a reason or an empty
 // string; instances(full), the parameters that verification runs through; advance_to(problem, t, end,
@@ -72,6 +73,8 @@ class MethodInstance {
   [[nodiscard]] virtual FacetSet needs() const = 0;
   /// Order claimed on this model.
   [[nodiscard]] virtual int order(const Model& model) const = 0;
+  /// True where errors of higher order may hide the claimed one at steps that can be measured.
+  [[nodiscard]] virtual bool order_is_lower_bound() const = 0;
   [[nodiscard]] virtual std::vector<Claim> preserves(const Model& model) const = 0;
   /// Why the method cannot run on this model, naming both sides; empty when it can.
   [[nodiscard]] virtual std::string refuses(const Model& model) const = 0;
@@ -196,6 +199,10 @@ class Instance final : public MethodInstance {
     } else {
       return plugin_.descriptor().order;
     }
+  }
+  [[nodiscard]] bool order_is_lower_bound() const override {
+    if constexpr (requires { method_.order_is_lower_bound(); }) return method_.order_is_lower_bound();
+    return false;
   }
   [[nodiscard]] std::vector<Claim> preserves(const Model& model) const override {
     if constexpr (requires { method_.preserves(model); }) {

@@ -109,6 +109,8 @@ struct GeneratingFunction {
     const bool gains = truncation % 2 == 1 && form == "midpoint" && model.chart_autonomous();
     return truncation + (gains ? 1 : 0);
   }
+  /// With extra degrees the error of order 2 s is that of the collocation, too small to show at once.
+  [[nodiscard]] bool order_is_lower_bound() const { return extra > 0; }
   [[nodiscard]] std::vector<Claim> preserves(const Model& model) const {
     std::vector<Claim> claims{Claim::symplectic, Claim::k_symplectic};
     if (symmetric_variant() || (form == "midpoint" && model.chart_autonomous()))
