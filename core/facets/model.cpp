@@ -129,7 +129,9 @@ PivotPairs Model::chart_pivots() const {
 
 std::string Model::advice(FacetSet needs) const {
   if (needs.has(Facet::generating_map) && !facets_.has(Facet::generating_map))
-    return facets_.has(Facet::birkhoffian) || source_.canonical ? "; write alpha" : "";
+    return facets_.has(Facet::birkhoffian) || source_.canonical
+               ? "; write alpha(t, t0, new_z, old_z, w_hat, w)"
+               : "";
   if (!needs.has(Facet::darboux_chart) || facets_.has(Facet::darboux_chart)) return {};
   if (!facets_.has(Facet::birkhoffian)) return {};
   return tape(Formula::structure)->state_independent()

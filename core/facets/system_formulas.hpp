@@ -191,8 +191,10 @@ constexpr void check_formulas() {
                 "chart_hamiltonian is written beside chart and chart_inverse, which are missing");
   static_assert(names_birkhoffian<S> || names_chart_hamiltonian<S> || !names_chart<S>,
                 "chart is written beside birkhoffian and one_form, or chart_hamiltonian, which are missing");
-  static_assert(names_birkhoffian<S> || names_kinetic<S> || names_hamiltonian<S> || !names_alpha<S>,
-                "alpha is written beside birkhoffian and one_form, or a Hamiltonian, which are missing");
+  static_assert(names_birkhoffian<S> || (names_kinetic<S> && !names_damping<S>) ||
+                    (names_hamiltonian<S> && !names_bracket<S>) || !names_alpha<S>,
+                "alpha is written for the structure K of birkhoffian and one_form, or of canonical "
+                "coordinates, which are missing");
   static_assert(names_field<S> || names_kinetic<S> || names_hamiltonian<S> || names_birkhoffian<S>,
                 "this system has no vector field; expected one of field, kinetic and potential, hamiltonian, "
                 "birkhoffian and one_form");

@@ -145,7 +145,7 @@ TEST(GeneratingFunctionAlpha, WrongAlphasAreRefused) {
          "bent: alpha: alpha_*^T J alpha_* is not diag(K, -K0): block (new, new): A^T C - C^T A must be "
          "K(z', t)");
   expect(*systems().get("kepler", "system").make({}), "needs vector-field, generating-map");
-  expect(*systems().get("kepler", "system").make({}), "write alpha");
+  expect(*systems().get("kepler", "system").make({}), "write alpha(t, t0, new_z, old_z, w_hat, w)");
 }
 
 // w = y' - y cannot tell states apart that are mapped to themselves: (34) holds and (37) does not.
