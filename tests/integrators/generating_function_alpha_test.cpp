@@ -188,6 +188,19 @@ TEST(GeneratingFunctionAlpha, ResultsThatAreNotWrittenAreNamed) {
   }
 }
 
+// Components pass through 0 in thousands of steps, and start there.
+TEST(GeneratingFunctionAlpha, LongRunsSolveEveryStep) {
+  for (const int order : {1, 4, 6})
+    for (const std::vector<double>& start : {std::vector<double>{0.5, 0}, {0, 0.4}, {1, -0.5}}) {
+      const auto model = relativistic({{"nu", "0"}});
+      std::vector<double> z = start;
+      std::int64_t completed = 0;
+      EXPECT_EQ(scheme(order)->stepper(model, 0.0)->advance(0.0, 0, 0.05, 20000, z, completed),
+                Status::converged)
+          << order << " after " << completed;
+    }
+}
+
 // From a speed of 0.999 a step of 3 finds no state; what was reached is kept.
 TEST(GeneratingFunctionAlpha, StepsThatFailSaySo) {
   const auto model = relativistic();
