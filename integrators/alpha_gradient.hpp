@@ -53,6 +53,7 @@ class AlphaGradient {
         rate_(lanes_),
         stages_(n_ * lanes_),
         z_(n_),
+        scale_(n_),
         residual_(n_),
         correction_(n_),
         tau_(0) {}
@@ -74,8 +75,13 @@ class AlphaGradient {
     alpha_.set_time(&t0_, &tau_);
   }
 
-  /// Where the search for z_0 begins: a state whose alpha_2(z, z, t0, t0) is near the next w.
-  void guess(In<T> z) { std::copy(z.begin(), z.end(), z_.begin()); }
+  /// Where the search for z_0 begins, a state whose alpha_2(z, z, t0, t0) is near the next w; and a state of
+  /// the size that each component has over the step, in units of which it ends at round-off: z_0 may pass
+  /// through 0.
+  void search_from(In<T> z, In<T> scale) {
+    std::copy(z.begin(), z.end(), z_.begin());
+    std::copy(scale.begin(), scale.end(), scale_.begin());
+  }
 
   /// psi(w): n numbers, where the status is `converged`.
   Status operator()(const T* w, T* psi) {
@@ -154,9 +160,8 @@ class AlphaGradient {
       diagonal_.solve(residual_.data(), correction_.data());
       convergence.begin_iteration();
       for (std::size_t k = 0; k < n_; ++k) {
-        const T before = z_[k];
         z_[k] = z_[k] + correction_[k];
-        convergence.add(correction_[k], before, z_[k]);
+        convergence.add(correction_[k], scale_[k], z_[k]);
       }
     } while (!convergence.finished(50));
     if (convergence.status() != Status::converged) return convergence.status();
@@ -181,7 +186,7 @@ class AlphaGradient {
   std::vector<T> values_, jacobian_;  // of alpha at equal states
   std::vector<T> base_, rate_;        // times of the nodes
   std::vector<T> stages_;             // one degree of the stages
-  std::vector<T> z_;                  // z_0
+  std::vector<T> z_, scale_;          // z_0, and what it is compared with
   std::vector<T> residual_, correction_;
   T t0_{0}, tau_;
 };

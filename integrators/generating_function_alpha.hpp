@@ -137,7 +137,7 @@ struct GeneratingFunctionAlpha {
     predict(p, t, h, z, continued, w);
     if (const Status status = factor(p, t, h, w); status != Status::converged) return status;
     w.gradient.set_step(t, h);
-    w.gradient.guess(w.middle);
+    w.gradient.search_from(w.middle, z);
     Convergence<T> convergence;
     do {
       w.alpha(t + h, w.pair.data(), w.values.data());

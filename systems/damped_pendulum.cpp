@@ -5,6 +5,9 @@
 //
 // Darboux chart y = (r, e^{nu t} p), where the Hamiltonian is H = e^{-nu t} y_2^2/2 - e^{nu t} cos y_1. The
 // flow keeps K(z, t); the mechanical energy p^2/2 - cos r decreases at the rate nu p^2.
+//
+// For schemes without the chart: alpha is (95), w^ = (R^, P^) and w = (R, P), followed by the nonlinear
+// w -> w + grad g(w^), g = R^ P^^2/2.
 #include <pfaff/core/system.hpp>
 
 namespace {
@@ -51,6 +54,14 @@ struct DampedPendulum {
   void field(const T& /*t*/, In<T> z, Out<T> rate) const {
     rate[0] = z[1];
     rate[1] = -(nu * z[1]) - sin(z[0]);
+  }
+  template <class T>
+  void alpha(const T& t, const T& t0, In<T> new_z, In<T> old_z, Out<T> w_hat, Out<T> w) const {
+    const T new_p = exp(nu * t) * new_z[1], old_p = exp(nu * t0) * old_z[1];
+    w_hat[0] = new_p - old_p;
+    w_hat[1] = new_z[0] - old_z[0];
+    w[0] = (new_z[0] + old_z[0] + w_hat[1] * w_hat[1]) / 2;
+    w[1] = w_hat[0] * w_hat[1] - (new_p + old_p) / 2;
   }
   // Friction on (q, p) = (r, p): the mechanical energy and its rate of damping.
   [[nodiscard]] Real damping() const { return nu; }

@@ -9,8 +9,8 @@
 namespace pfaff {
 
 /// Does the claim speak of this model? `symmetric` of every one; `symplectic` of those whose own structure is
-/// the canonical one; `K-symplectic` of those with a Darboux chart; `quadratic-invariants` of those that have
-/// one.
+/// the canonical one; `K-symplectic` of those with a Darboux chart or an alpha; `quadratic-invariants` of
+/// those that have one.
 bool in_scope(Claim claim, const Model& model);
 
 /// What the method claims on this model; `none` where that is nothing.

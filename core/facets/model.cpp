@@ -132,7 +132,7 @@ Model::Model(ModelSource source) : source_(std::move(source)) {
     pivots_ = chart_pivots();
     if (!pivots_.empty()) offer(Facet::darboux_chart);
   }
-  if (has(Formula::alpha) && (birkhoffian || source_.canonical)) offer(Facet::generating_map);
+  if (has(Formula::alpha) && (structure || source_.canonical)) offer(Facet::generating_map);
   if (!source_.invariants.empty()) offer(Facet::invariants);
   if (has(Formula::exact_solution)) offer(Facet::exact_solution);
 }
@@ -149,7 +149,8 @@ PivotPairs Model::chart_pivots() const {
 
 std::string Model::advice(FacetSet needs) const {
   if (needs.has(Facet::generating_map) && !facets_.has(Facet::generating_map))
-    return facets_.has(Facet::birkhoffian) || source_.canonical ? "; write alpha" : "";
+    return facets_.has(Facet::structure) || source_.canonical ? "; write alpha(t, t0, new_z, old_z, w_hat, w)"
+                                                              : "";
   if (!needs.has(Facet::darboux_chart) || facets_.has(Facet::darboux_chart)) return {};
   if (!facets_.has(Facet::structure)) return {};
   return tape(Formula::structure)->state_independent()

@@ -212,10 +212,11 @@ constexpr void check_formulas() {
       names_birkhoffian<S> || names_structure<S> || names_chart_hamiltonian<S> || !names_chart<S>,
       "chart is written beside birkhoffian and one_form, structure and covector, or chart_hamiltonian, which "
       "are missing");
-  static_assert(names_birkhoffian<S> || names_structure<S> || names_kinetic<S> || names_hamiltonian<S> ||
-                    !names_alpha<S>,
-                "alpha is written beside birkhoffian and one_form, structure and covector, or a Hamiltonian, "
-                "which are missing");
+  static_assert(names_birkhoffian<S> || names_structure<S> || (names_kinetic<S> && !names_damping<S>) ||
+                    (names_hamiltonian<S> && !names_bracket<S>) || !names_alpha<S>,
+                "alpha is written for the structure K of birkhoffian and one_form, of structure and "
+                "covector, or of canonical "
+                "coordinates, which are missing");
   static_assert(names_field<S> || names_kinetic<S> || names_hamiltonian<S> || names_birkhoffian<S> ||
                     names_structure<S>,
                 "this system has no vector field; expected one of field, kinetic and potential, hamiltonian, "

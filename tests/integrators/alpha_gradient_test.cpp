@@ -41,7 +41,7 @@ std::vector<Numbers> terms(const Model& model, const std::shared_ptr<const Tape>
                            const Numbers& w, const Numbers& guess) {
   AlphaGradient<Quad> gradient(model.tape(Formula::field), alpha, order, gauss_coefficients((order + 1) / 2));
   gradient.set_step(start, Quad(1));
-  gradient.guess(guess);
+  gradient.search_from(guess, guess);
   const std::size_t n = w.size();
   Numbers all(gradient.term_count() * n);
   EXPECT_EQ(gradient.terms(w.data(), all.data()), Status::converged);
@@ -146,7 +146,8 @@ double asymmetry(const Model& model, int order) {
   AlphaGradient<D> gradient(model.tape(Formula::field), model.tape(Formula::alpha), order,
                             gauss_coefficients((order + 1) / 2));
   gradient.set_step(D(start), D(Quad(1) / Quad(4)));
-  gradient.guess(std::vector<D>{D(Quad(0.6)), D(Quad(0.1))});
+  const std::vector<D> near{D(Quad(0.6)), D(Quad(0.1))};
+  gradient.search_from(near, near);
   const std::vector<D> w{D::variable(Quad(0.6), 0), D::variable(Quad(1.1), 1)};
   std::vector<D> psi(2);
   EXPECT_EQ(gradient(w.data(), psi.data()), Status::converged);
@@ -180,7 +181,8 @@ TEST(AlphaGradient, StatesThatCannotBeFoundAreReported) {
   AlphaGradient<double> gradient(model->tape(Formula::field), model->tape(Formula::alpha), 2,
                                  gauss_coefficients(1));
   gradient.set_step(0.7, 0.1);
-  gradient.guess(std::vector<double>{0.5, 1.5});  // faster than light
+  const std::vector<double> faster_than_light{0.5, 1.5};
+  gradient.search_from(faster_than_light, faster_than_light);
   const std::vector<double> w{0.6, 0.2};
   std::vector<double> psi(2);
   EXPECT_NE(gradient(w.data(), psi.data()), Status::converged);

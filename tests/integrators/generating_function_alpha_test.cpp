@@ -145,7 +145,7 @@ TEST(GeneratingFunctionAlpha, WrongAlphasAreRefused) {
          "bent: alpha: alpha_*^T J alpha_* is not diag(K, -K0): block (new, new): A^T C - C^T A must be "
          "K(z', t)");
   expect(*systems().get("kepler", "system").make({}), "needs vector-field, generating-map");
-  expect(*systems().get("kepler", "system").make({}), "write alpha");
+  expect(*systems().get("kepler", "system").make({}), "write alpha(t, t0, new_z, old_z, w_hat, w)");
 }
 
 // w = y' - y cannot tell states apart that are mapped to themselves: (34) holds and (37) does not.
@@ -186,6 +186,19 @@ TEST(GeneratingFunctionAlpha, ResultsThatAreNotWrittenAreNamed) {
     EXPECT_STREQ(error.what(),
                  "system short: alpha(t, t0, new_z, old_z, w_hat, w) does not write result 4; expected 4");
   }
+}
+
+// Components pass through 0 in thousands of steps, and start there.
+TEST(GeneratingFunctionAlpha, LongRunsSolveEveryStep) {
+  for (const int order : {1, 4, 6})
+    for (const std::vector<double>& start : {std::vector<double>{0.5, 0}, {0, 0.4}, {1, -0.5}}) {
+      const auto model = relativistic({{"nu", "0"}});
+      std::vector<double> z = start;
+      std::int64_t completed = 0;
+      EXPECT_EQ(scheme(order)->stepper(model, 0.0)->advance(0.0, 0, 0.05, 4000, z, completed),
+                Status::converged)
+          << order << " after " << completed;
+    }
 }
 
 // From a speed of 0.999 a step of 3 finds no state; what was reached is kept.

@@ -72,7 +72,8 @@ struct Coupled {
   template <class T>
   T birkhoffian(const T& t, In<T> z) const {
     const auto p = momenta<T>(t, z);
-    return (p[0] * p[0] + p[1] * p[1] + z[1] * z[1]) / 2 + z[0] * z[0] * z[0] * z[0] / 4 - cos(z[0] * z[1]);
+    return (p[0] * p[0] + p[1] * p[1] + z[1] * z[1]) / 2 + z[0] * z[0] * z[0] * z[0] / 4 - cos(z[0] * z[1]) +
+           z[0] * sin(t);
   }
   template <class T>
   void one_form(const T& t, In<T> z, Out<T> form) const {

@@ -102,6 +102,34 @@ struct ForceAlone {
     f[0] = -q[0];
   }
 };
+// refused: alpha: expected template <class T> void alpha(const T& t, const T& t0, In<T> new_z, In<T> old_z,
+struct AlphaOfOneTime {
+  static constexpr int dimension = 2;
+  template <class T>
+  T hamiltonian(const T& /*t*/, In<T> z) const {
+    return (z[0] * z[0] + z[1] * z[1]) / 2;
+  }
+  template <class T>
+  void alpha(const T& /*t*/, In<T> new_z, In<T> old_z, Out<T> w_hat, Out<T> w) const {
+    w_hat[0] = new_z[0] - old_z[0];
+    w[0] = new_z[0];
+  }
+};
+// refused: alpha is written for the structure K of birkhoffian and one_form, of structure and covector, or of
+// canonical
+struct AlphaWithoutStructure {
+  static constexpr int dimension = 2;
+  template <class T>
+  void field(const T& /*t*/, In<T> z, Out<T> rate) const {
+    rate[0] = z[1];
+    rate[1] = -z[0];
+  }
+  template <class T>
+  void alpha(const T& /*t*/, const T& /*t0*/, In<T> new_z, In<T> old_z, Out<T> w_hat, Out<T> w) const {
+    w_hat[0] = new_z[0] - old_z[0];
+    w[0] = new_z[0];
+  }
+};
 // refused: this system has no vector field; expected one of field, kinetic and potential, hamiltonian,
 struct NoField {
   static constexpr int dimension = 2;
@@ -113,5 +141,6 @@ const auto models = {
     make_model(descriptor, HamiltonianOfDoubles{}), make_model(descriptor, InvariantsReturned{}),
     make_model(descriptor, NoPotential{}),          make_model(descriptor, NoOneForm{}),
     make_model(descriptor, StructureAlone{}),       make_model(descriptor, BothForms{}),
-    make_model(descriptor, ForceAlone{}),           make_model(descriptor, NoField{})};
+    make_model(descriptor, ForceAlone{}),           make_model(descriptor, NoField{}),
+    make_model(descriptor, AlphaOfOneTime{}),       make_model(descriptor, AlphaWithoutStructure{})};
 }  // namespace
