@@ -176,7 +176,9 @@ class MethodChecker {
     const bool charted = model_->facets().has(Facet::darboux_chart);
     const bool in_scope = claims(Claim::symplectic) || claims(Claim::k_symplectic);
     const std::string claim = structured ? "K-symplectic" : charted ? "symplectic" : "poisson";
-    const std::string scope = structured ? "Darboux chart or alpha" : charted ? "canonical structure" : "linear Pi";
+    const std::string scope = structured ? "Darboux chart or alpha"
+                              : charted  ? "canonical structure"
+                                         : "linear Pi";
     StructureResidual<T> residual_of(*method_, model_);
     const T value = residual_of(T(generic_time), T(check_step), state_of<T>(*model_));
     residual(claim, scope, in_scope, precision_name<T>(), static_cast<double>(value), tolerance<T>());
