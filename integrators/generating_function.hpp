@@ -59,7 +59,7 @@ struct GeneratingFunction {
   /// degrees.
   static std::vector<Assignments> instances(bool full) {
     std::vector<Assignments> list;
-    const int highest = full ? 16 : 12;  // beyond 16 quad has too few digits to see a slope
+    const int highest = full ? 14 : 12;  // beyond, quad has too few digits to see a slope on every system
     for (int m = 1; m <= highest; ++m) list.push_back({{"order", std::to_string(m)}});
     for (int m = 2; m <= highest; m += 2) list.push_back({{"order", std::to_string(m)}, {"variant", "P"}});
     for (int m = 1; m <= (full ? 12 : 6); ++m)
@@ -67,7 +67,7 @@ struct GeneratingFunction {
         list.push_back({{"order", std::to_string(m)}, {"form", mixed}});
     for (int m = 1; m <= (full ? 12 : 4); ++m)
       list.push_back({{"order", std::to_string(m)}, {"form", "normal"}, {"normal", "0.2,0.1,-0.3,-0.2"}});
-    for (int m = 1; m <= (full ? 12 : 8); ++m)
+    for (int m = 1; m <= 8; ++m)
       list.push_back({{"order", std::to_string(m)}, {"extra", m % 4 < 2 ? "2" : "4"}});
     return list;
   }
