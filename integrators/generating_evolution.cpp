@@ -61,7 +61,8 @@ Tape evolution(const Model& model, const AlphaTapes& alpha) {
   const auto derived = model.derived(Formula::field);
   const auto field = derived != nullptr ? derived : model.tape(Formula::field);
   return record(2 * n + n * n + 1, n, [&](const Recorded& t, Arguments u, Results out) {
-    Numbers pair(u.begin(), u.begin() + 2 * n);
+    const Arguments states_of_alpha = u.first(2 * size);
+    Numbers pair(states_of_alpha.begin(), states_of_alpha.end());
     pair.push_back(u.back());
     auto states = evaluate(alpha.backward, t, pair);
     const auto rate = evaluate(*field, t, Arguments(states).first(size));

@@ -20,7 +20,9 @@ class Matrix {
   Matrix(std::size_t rows, std::size_t columns) : rows_(rows), columns_(columns), entries_(rows * columns) {}
   /// The row-major entries of a matrix with `rows` rows.
   Matrix(std::size_t rows, std::span<const T> entries)
-      : rows_(rows), columns_(entries.size() / rows), entries_(entries.begin(), entries.end()) {}
+      : rows_(rows), columns_(0), entries_(entries.begin(), entries.end()) {
+    if (rows > 0) columns_ = entries_.size() / rows;
+  }
 
   static Matrix identity(std::size_t n) {
     Matrix m(n, n);
