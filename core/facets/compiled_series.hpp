@@ -18,6 +18,14 @@
 #include <pfaff/core/numbers/dual.hpp>
 #include <pfaff/core/tape/online_series.hpp>
 
+// Inlined as a whole, so that slots are known where they are used; not where every access of memory is
+// watched, which would take minutes to compile.
+#ifdef __SANITIZE_ADDRESS__
+#define PFAFF_FLATTEN
+#else
+#define PFAFF_FLATTEN [[gnu::flatten]]
+#endif
+
 namespace pfaff {
 
 /// How a collocation goes on from the field's level l at its nodes: the inputs' level l + 1 is columns X_l,
@@ -121,7 +129,7 @@ CompiledSeries::Layout series_layout(const void* system) {
   return {run.next, run.timed > 0};
 }
 template <class S, int W>
-[[gnu::flatten]] void expand_time(const void* system, Pack<W>* slots, int levels) {
+PFAFF_FLATTEN void expand_time(const void* system, Pack<W>* slots, int levels) {
   std::array<int, static_cast<std::size_t>(S::dimension)> outputs;
   for (int level = 0; level < levels; ++level) {
     SeriesRun<W> run{slots, level, SeriesPass::time};
@@ -156,8 +164,8 @@ void begin_collocation(Pack<W>* slots, const double* w,
   }
 }
 template <class S, int W>
-[[gnu::flatten]] void collocate(const void* system, Pack<W>* slots, const SeriesCombination<W>& c,
-                                const double* w, double* result) {
+PFAFF_FLATTEN void collocate(const void* system, Pack<W>* slots, const SeriesCombination<W>& c,
+                             const double* w, double* result) {
   std::array<Pack<W>, static_cast<std::size_t>(S::dimension)> sum;
   begin_collocation<S, W>(slots, w, sum);
   for (std::size_t level = 0; level < c.levels; ++level)
@@ -165,8 +173,8 @@ template <class S, int W>
   for (std::size_t k = 0; k < sum.size(); ++k) result[k] = sum[k].sum();
 }
 template <class S, int W, int... Levels>
-[[gnu::flatten]] void collocate_known(const void* system, Pack<W>* slots, const SeriesCombination<W>& c,
-                                      const double* w, double* result) {
+PFAFF_FLATTEN void collocate_known(const void* system, Pack<W>* slots, const SeriesCombination<W>& c,
+                                   const double* w, double* result) {
   std::array<Pack<W>, static_cast<std::size_t>(S::dimension)> sum;
   begin_collocation<S, W>(slots, w, sum);
   (collocate_level<S, W, true>(*static_cast<const S*>(system), slots, c, Levels,
@@ -194,3 +202,5 @@ const CompiledSeries& compiled_series() {
 }
 
 }  // namespace pfaff
+
+#undef PFAFF_FLATTEN
