@@ -33,7 +33,7 @@ template <class T>
 class RegularPivots {
  public:
   /// 1 / pivot.
-  T reciprocal(const T& pivot, const T& /*diagonal*/, std::size_t /*updates*/) {
+  T reciprocal(const T& pivot, const T& /*diagonal*/, std::size_t /*before*/) {
     if constexpr (!has_numbers<T>) {
       return T(1) / pivot;
     } else if constexpr (std::numeric_limits<Value<T>>::is_exact) {
@@ -57,12 +57,13 @@ class RegularPivots {
 template <class T>
 class SemidefinitePivots {
  public:
-  /// 1 / pivot, or 0 for a pivot that is dropped. `updates` is how many rows were eliminated from this one.
-  T reciprocal(const T& pivot, const T& diagonal, std::size_t updates) {
-    // Each subtraction rounds by at most half a unit of the diagonal entry, as no term of a semidefinite
-    // matrix exceeds it; 32 leaves room for the errors of the pivots before. A sum that a pivot / allowance
-    // does not change says that the pivot is that small, in whatever precision it is computed.
-    const T allowance = T(32 * (1 + static_cast<int>(updates)));
+  /// 1 / pivot, or 0 for a pivot that is dropped, after `before` others.
+  T reciprocal(const T& pivot, const T& diagonal, std::size_t before) {
+    // What is subtracted from a diagonal entry of a semidefinite matrix never exceeds it. Rounding it costs
+    // units of the entry, and a singular block collects those of every row before (along a straight chain
+    // they are passed on nearly undiminished). A sum that pivot / allowance does not change says that the
+    // pivot is no larger than that, in whatever precision it is computed.
+    const T allowance = T(8 * (1 + static_cast<int>(before)));
     const T visible = (diagonal + pivot / allowance) - diagonal;
     const T safe = select(visible, pivot, T(1));
     const T r = select(visible, T(1) / safe, T(0));

@@ -21,11 +21,20 @@ class DiagonalElimination {
     for (std::size_t i = 0; i < rows_; ++i)
       view_.reciprocal[i] = pivots.reciprocal(view_.diagonal[i], view_.diagonal[i], 0);
   }
-  template <std::size_t Count, class B>
-  void solve(const std::array<const B*, Count>& right, const std::array<B*, Count>& x) const {
+  template <class Pivots, class B, std::size_t Count>
+  void factor_and_solve(Pivots& pivots, const RightHandSides<B, Count>& sides) const {
+    factor(pivots);
+    solve(sides);
+  }
+  template <class B, std::size_t Count>
+  void solve(const RightHandSides<B, Count>& sides) const {
+    const auto& [right, x] = sides;
     for (std::size_t c = 0; c < Count; ++c)
       for (std::size_t i = 0; i < rows_; ++i) x[c][i] = view_.reciprocal[i] * right[c][i];
   }
+
+  template <class Visit>
+  void for_each_entry(Visit&& /*visit*/) const {}
 
  private:
   EliminationView<T> view_;
@@ -61,7 +70,7 @@ class StaticElimination {
     const EliminationPlan::Index* target = plan_.target.data();
     for (std::size_t k = 0; k < rows_; ++k) {
       const std::size_t i = plan_.order[k], end = plan_.start[k + 1];
-      const T r = pivots.reciprocal(pivot[i], view_.diagonal[i], updates(k));
+      const T r = pivots.reciprocal(pivot[i], view_.diagonal[i], k);
       pivot[i] = r;
       for (std::size_t b = plan_.start[k]; b < end; ++b) {
         const T lower = l[b], upper = u[b];
@@ -83,8 +92,14 @@ class StaticElimination {
     }
   }
 
-  template <std::size_t Count, class B>
-  void solve(const std::array<const B*, Count>& right, const std::array<B*, Count>& x) const {
+  template <class Pivots, class B, std::size_t Count>
+  void factor_and_solve(Pivots& pivots, const RightHandSides<B, Count>& sides) const {
+    factor(pivots);
+    solve(sides);
+  }
+  template <class B, std::size_t Count>
+  void solve(const RightHandSides<B, Count>& sides) const {
+    const auto& [right, x] = sides;
     for (std::size_t c = 0; c < Count; ++c)
       if (right[c] != x[c])
         for (std::size_t i = 0; i < rows_; ++i) x[c][i] = right[c][i];
@@ -108,10 +123,14 @@ class StaticElimination {
       }
   }
 
- private:
-  /// At least as many rows as are eliminated from the k-th: those before it that the plan knows of.
-  [[nodiscard]] std::size_t updates(std::size_t k) const { return k; }
+  template <class Visit>
+  void for_each_entry(Visit&& visit) const {
+    for (std::size_t k = 0; k < rows_; ++k)
+      for (std::size_t p = plan_.start[k]; p < plan_.start[k + 1]; ++p)
+        visit(std::size_t(plan_.row[p]), std::size_t(plan_.order[k]), view_.below[p], view_.above[p]);
+  }
 
+ private:
   const EliminationPlan& plan_;
   EliminationView<T> view_;
   std::size_t rows_;
@@ -164,8 +183,14 @@ class DenseElimination {
     }
   }
 
-  template <std::size_t Count, class B>
-  void solve(const std::array<const B*, Count>& right, const std::array<B*, Count>& x) const {
+  template <class Pivots, class B, std::size_t Count>
+  void factor_and_solve(Pivots& pivots, const RightHandSides<B, Count>& sides) const {
+    factor(pivots);
+    solve(sides);
+  }
+  template <class B, std::size_t Count>
+  void solve(const RightHandSides<B, Count>& sides) const {
+    const auto& [right, x] = sides;
     for (std::size_t c = 0; c < Count; ++c) {
       B* y = x[c];
       if (right[c] != y)
@@ -183,6 +208,13 @@ class DenseElimination {
         y[k] = sum;
       }
     }
+  }
+
+  template <class Visit>
+  void for_each_entry(Visit&& visit) const {
+    for (std::size_t k = 0; k < rows_; ++k)
+      for (std::size_t i = k + 1; i < rows_; ++i)
+        visit(i, k, view_.below[start(k) + i - k - 1], view_.above[start(k) + i - k - 1]);
   }
 
  private:
