@@ -19,6 +19,7 @@ template <class T>
 struct EliminationView {
   const T *diagonal, *lower, *upper;
   T *reciprocal, *below, *above;  // reciprocal[i]: 1 / pivot of row i
+  T* error;                       // of a row's pivot, in units of round-off
 };
 
 /// Right-hand sides and solutions, Count of them at once; the two may be the same.
@@ -65,18 +66,19 @@ class PathElimination {
   }
 
  private:
-  /// One of the two fronts of an elimination: its place, the pivot there, what is subtracted from the next
-  /// one, the border's entries in this row and what the border's pivot has lost so far.
+  /// One of the two fronts of an elimination: its place, the pivot there and its error, what the next ones
+  /// take over from them; the border's entries in this row, and what the border's pivot has lost so far.
   struct Front {
     std::size_t at;
-    T pivot;
-    T subtracted{};
-    T border_lower{}, border_upper{}, border_sum{};
+    T pivot, error;
+    T subtracted{}, passed_error{};
+    T border_lower{}, border_upper{}, border_sum{}, border_error{};
   };
   /// The right-hand sides at a front, and what the border's have lost so far.
   template <class B, std::size_t Count>
   struct Sides {
-    std::array<B, Count> y, border;
+    std::array<B, Count> y;
+    std::array<B, Border ? Count : 0> border;
   };
 
   [[nodiscard]] std::size_t row(std::size_t k) const {
@@ -100,11 +102,12 @@ class PathElimination {
   }
 
   [[nodiscard]] Front start(std::size_t at, std::size_t border_link) const {
-    Front front{at, view_.diagonal[row(at)]};
+    Front front{at, view_.diagonal[row(at)], view_.diagonal[row(at)]};
     if constexpr (Border) {
       front.border_lower = entry(rows_, at, link(border_link));
       front.border_upper = entry(at, rows_, link(border_link));
       front.border_sum = T(0);
+      front.border_error = T(0);
     }
     return front;
   }
@@ -122,8 +125,7 @@ class PathElimination {
   template <class Pivots>
   void divide(Front& front, std::size_t next, Pivots& pivots) const {
     const std::size_t between = front.at < next ? front.at : next, c = link(between), here = row(front.at);
-    const std::size_t before = front.at < next ? front.at : rows_ - 1 - front.at;
-    const T r = pivots.reciprocal(front.pivot, view_.diagonal[here], before);
+    const T r = pivots.reciprocal(front.pivot, front.error);
     view_.reciprocal[here] = r;
     const T lower = entry(next, front.at, c), upper = entry(front.at, next, c);
     const T l = lower * r;
@@ -135,8 +137,12 @@ class PathElimination {
     }
     // The product of the couplings does not wait for the division.
     front.subtracted = (lower * upper) * r;
+    if constexpr (Pivots::follow_errors) front.passed_error = (l * u) * front.error;
     if constexpr (Border) {
-      view_.below[rows_ + front.at] = front.border_lower * r;
+      const T border = front.border_lower * r;
+      view_.below[rows_ + front.at] = border;
+      if constexpr (Pivots::follow_errors)
+        front.border_error = front.border_error + (border * border) * front.error;
       if constexpr (!Symmetric) view_.above[rows_ + front.at] = front.border_upper * r;
       front.border_sum = front.border_sum + (front.border_lower * front.border_upper) * r;
       front.border_lower = -(front.border_lower * u);
@@ -185,6 +191,7 @@ class PathElimination {
       divide(front, next, pivots);
       keep_and_move(at_front, front.at, next, sides);
       front.pivot = view_.diagonal[row(next)] - front.subtracted;
+      if constexpr (Pivots::follow_errors) front.error = view_.diagonal[row(next)] + front.passed_error;
       front.at = next;
     };
     while (right.at > middle_ + 1) {
@@ -195,17 +202,22 @@ class PathElimination {
     if (right.at > middle_) {
       divide(right, middle_, pivots);
       left.pivot = left.pivot - right.subtracted;
+      if constexpr (Pivots::follow_errors) left.error = left.error + right.passed_error;
     }
     const std::size_t m = row(middle_);
-    const T r = pivots.reciprocal(left.pivot, view_.diagonal[m], rows_ - 1);
+    const T r = pivots.reciprocal(left.pivot, left.error);
     view_.reciprocal[m] = r;
     if constexpr (Border) {
       const T lower = left.border_lower + right.border_lower, upper = left.border_upper + right.border_upper;
-      view_.below[rows_ + middle_] = lower * r;
+      const T border = lower * r;
+      view_.below[rows_ + middle_] = border;
       if constexpr (!Symmetric) view_.above[rows_ + middle_] = upper * r;
       const std::size_t v = row(rows_);
+      T error = view_.diagonal[v];
+      if constexpr (Pivots::follow_errors)
+        error = ((error + left.border_error) + right.border_error) + (border * border) * left.error;
       const T pivot = ((view_.diagonal[v] - left.border_sum) - right.border_sum) - (lower * upper) * r;
-      view_.reciprocal[v] = pivots.reciprocal(pivot, view_.diagonal[v], rows_);
+      view_.reciprocal[v] = pivots.reciprocal(pivot, error);
     }
     meet(left_sides, right_sides, right.at, sides);
   }

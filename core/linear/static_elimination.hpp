@@ -19,7 +19,7 @@ class DiagonalElimination {
   template <class Pivots>
   void factor(Pivots& pivots) const {
     for (std::size_t i = 0; i < rows_; ++i)
-      view_.reciprocal[i] = pivots.reciprocal(view_.diagonal[i], view_.diagonal[i], 0);
+      view_.reciprocal[i] = pivots.reciprocal(view_.diagonal[i], view_.diagonal[i]);
   }
   template <class Pivots, class B, std::size_t Count>
   void factor_and_solve(Pivots& pivots, const RightHandSides<B, Count>& sides) const {
@@ -55,6 +55,7 @@ class StaticElimination {
     T* pivot = view_.reciprocal;
     for (std::size_t k = 0; k < rows_; ++k) {
       pivot[k] = view_.diagonal[k];
+      if constexpr (Pivots::follow_errors) view_.error[k] = view_.diagonal[k];
       const std::size_t i = plan_.order[k];
       for (std::size_t p = plan_.start[k]; p < plan_.start[k + 1]; ++p) {
         const std::size_t c = plan_.coupling[p];
@@ -70,13 +71,17 @@ class StaticElimination {
     const EliminationPlan::Index* target = plan_.target.data();
     for (std::size_t k = 0; k < rows_; ++k) {
       const std::size_t i = plan_.order[k], end = plan_.start[k + 1];
-      const T r = pivots.reciprocal(pivot[i], view_.diagonal[i], k);
+      const T r = pivots.reciprocal(pivot[i], Pivots::follow_errors ? view_.error[i] : pivot[i]);
       pivot[i] = r;
       for (std::size_t b = plan_.start[k]; b < end; ++b) {
         const T lower = l[b], upper = u[b];
         const T scaled = lower * r;
         T& diagonal = pivot[plan_.row[b]];
         diagonal = diagonal - upper * scaled;
+        if constexpr (Pivots::follow_errors) {
+          T& error = view_.error[plan_.row[b]];
+          error = error + (scaled * scaled) * view_.error[i];
+        }
         if constexpr (Symmetric) {
           for (std::size_t a = b + 1; a < end; ++a, ++target) l[*target] = l[*target] - l[a] * scaled;
         } else {
@@ -148,7 +153,10 @@ class DenseElimination {
     T* l = view_.below;
     T* u = view_.above;
     T* pivot = view_.reciprocal;
-    for (std::size_t i = 0; i < rows_; ++i) pivot[i] = view_.diagonal[i];
+    for (std::size_t i = 0; i < rows_; ++i) {
+      pivot[i] = view_.diagonal[i];
+      if constexpr (Pivots::follow_errors) view_.error[i] = view_.diagonal[i];
+    }
     for (std::size_t p = 0; p < rows_ * (rows_ - 1) / 2; ++p) l[p] = u[p] = T(0);
     const auto& couplings = pattern_.couplings();
     for (std::size_t c = 0; c < couplings.size(); ++c) {
@@ -157,7 +165,7 @@ class DenseElimination {
       if constexpr (!Symmetric) u[p] = view_.upper[c];
     }
     for (std::size_t k = 0; k < rows_; ++k) {
-      const T r = pivots.reciprocal(pivot[k], view_.diagonal[k], k);
+      const T r = pivots.reciprocal(pivot[k], Pivots::follow_errors ? view_.error[k] : pivot[k]);
       pivot[k] = r;
       const std::size_t later = rows_ - k - 1;
       T* lower = l + start(k);
@@ -165,6 +173,8 @@ class DenseElimination {
       for (std::size_t b = 0; b < later; ++b) {
         const T scaled = lower[b] * r;
         pivot[k + 1 + b] = pivot[k + 1 + b] - upper[b] * scaled;
+        if constexpr (Pivots::follow_errors)
+          view_.error[k + 1 + b] = view_.error[k + 1 + b] + (scaled * scaled) * view_.error[k];
         T* lower_target = l + start(k + 1 + b);
         if constexpr (Symmetric) {
           for (std::size_t a = b + 1; a < later; ++a)

@@ -26,7 +26,8 @@ class StructuredElimination {
         upper_(Symmetric ? 0 : lower_.size(), T(0)),
         reciprocal_(pattern_->rows(), T(0)),
         below_(factor_size(*pattern_), T(0)),
-        above_(Symmetric ? 0 : below_.size(), T(0)) {}
+        above_(Symmetric ? 0 : below_.size(), T(0)),
+        error_(Symmetric ? pattern_->rows() : 0, T(0)) {}
 
   [[nodiscard]] const SymmetricPattern& pattern() const { return *pattern_; }
 
@@ -101,7 +102,7 @@ class StructuredElimination {
 
   std::shared_ptr<const SymmetricPattern> pattern_;
   std::vector<T> diagonal_, lower_, upper_;
-  std::vector<T> reciprocal_, below_, above_;
+  std::vector<T> reciprocal_, below_, above_, error_;
   std::size_t dropped_ = 0;
 
  private:
@@ -125,7 +126,8 @@ class StructuredElimination {
 
   EliminationView<T> view() {
     return {diagonal_.data(),   lower_.data(), Symmetric ? lower_.data() : upper_.data(),
-            reciprocal_.data(), below_.data(), Symmetric ? below_.data() : above_.data()};
+            reciprocal_.data(), below_.data(), Symmetric ? below_.data() : above_.data(),
+            error_.data()};
   }
 
   /// For what only reads the factors.
