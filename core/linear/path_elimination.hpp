@@ -1,0 +1,262 @@
+// Elimination of a tridiagonal matrix, with or without a border, from both ends towards the middle.
+//
+// A division waits for the one before it. Two eliminations that start at the two ends and meet in the middle
+// are independent of each other and hide half of the waiting. Every row is divided by its pivot once; later
+// passes multiply.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include <pfaff/core/linear/symmetric_pattern.hpp>
+
+namespace pfaff::detail {
+
+/// A matrix and its factors L D U, unit triangular L and U. Entry c of `lower` is a_ji, of `upper` a_ij for
+/// coupling c = (i, j), i < j, with a zero behind the last. `below` and `above` hold the entries of L and U.
+/// The two pairs are one where the matrix is symmetric.
+template <class T>
+struct EliminationView {
+  const T *diagonal, *lower, *upper;
+  T *reciprocal, *below, *above;  // reciprocal[i]: 1 / pivot of row i
+};
+
+/// Right-hand sides and solutions, Count of them at once; the two may be the same.
+template <class B, std::size_t Count>
+struct RightHandSides {
+  std::array<const B*, Count> right;
+  std::array<B*, Count> x;
+};
+
+/// The path of a tridiagonal matrix, or of a ring whose last row is the border. Place k of the path is a row,
+/// and below[k] and above[k] are the factors' entries of places k and k + 1; behind them are those of the
+/// border and place k.
+template <class T, bool Symmetric, bool Natural, bool Border>
+class PathElimination {
+ public:
+  PathElimination(const SymmetricPattern& pattern, const EliminationView<T>& view)
+      : plan_(pattern.plan()), view_(view), rows_(pattern.rows() - (Border ? 1 : 0)), middle_(rows_ / 2) {}
+
+  template <class Pivots>
+  void factor(Pivots& pivots) const {
+    factor_forward(pivots, RightHandSides<T, 0>{});
+  }
+  /// One pass fewer than factor() and solve(): right-hand sides are eliminated while divisions are waited
+  /// for.
+  template <class Pivots, class B, std::size_t Count>
+  void factor_and_solve(Pivots& pivots, const RightHandSides<B, Count>& sides) const {
+    factor_forward(pivots, sides);
+    back(sides);
+  }
+  template <class B, std::size_t Count>
+  void solve(const RightHandSides<B, Count>& sides) const {
+    forward(sides);
+    back(sides);
+  }
+
+  /// Calls visit(later row, eliminated row, entry of L, entry of U) for every coupling of the factors.
+  template <class Visit>
+  void for_each_entry(Visit&& visit) const {
+    for (std::size_t k = 0; k + 1 < rows_; ++k)
+      visit(row(k < middle_ ? k + 1 : k), row(k < middle_ ? k : k + 1), view_.below[k], view_.above[k]);
+    if constexpr (Border)
+      for (std::size_t k = 0; k < rows_; ++k)
+        visit(row(rows_), row(k), view_.below[rows_ + k], view_.above[rows_ + k]);
+  }
+
+ private:
+  /// One of the two fronts of an elimination: its place, the pivot there, what is subtracted from the next
+  /// one, the border's entries in this row and what the border's pivot has lost so far.
+  struct Front {
+    std::size_t at;
+    T pivot;
+    T subtracted{};
+    T border_lower{}, border_upper{}, border_sum{};
+  };
+  /// The right-hand sides at a front, and what the border's have lost so far.
+  template <class B, std::size_t Count>
+  struct Sides {
+    std::array<B, Count> y, border;
+  };
+
+  [[nodiscard]] std::size_t row(std::size_t k) const {
+    if constexpr (Natural)
+      return k;
+    else
+      return plan_.order[k];
+  }
+  [[nodiscard]] std::size_t link(std::size_t k) const {
+    if constexpr (Natural)
+      return k;
+    else
+      return plan_.link[k];
+  }
+  /// The matrix entry in the row at place `i` and the column at place `j`, of coupling c.
+  const T& entry(std::size_t i, std::size_t j, std::size_t c) const {
+    if constexpr (Symmetric)
+      return view_.lower[c];
+    else
+      return row(i) > row(j) ? view_.lower[c] : view_.upper[c];
+  }
+
+  [[nodiscard]] Front start(std::size_t at, std::size_t border_link) const {
+    Front front{at, view_.diagonal[row(at)]};
+    if constexpr (Border) {
+      front.border_lower = entry(rows_, at, link(border_link));
+      front.border_upper = entry(at, rows_, link(border_link));
+      front.border_sum = T(0);
+    }
+    return front;
+  }
+  template <class B, std::size_t Count>
+  Sides<B, Count> start(const RightHandSides<B, Count>& sides, std::size_t at) const {
+    Sides<B, Count> result;
+    for (std::size_t c = 0; c < Count; ++c) {
+      result.y[c] = sides.right[c][row(at)];
+      if constexpr (Border) result.border[c] = B(0);
+    }
+    return result;
+  }
+
+  /// Divides the front's row by its pivot; its neighbour is at `next`.
+  template <class Pivots>
+  void divide(Front& front, std::size_t next, Pivots& pivots) const {
+    const std::size_t between = front.at < next ? front.at : next, c = link(between), here = row(front.at);
+    const std::size_t before = front.at < next ? front.at : rows_ - 1 - front.at;
+    const T r = pivots.reciprocal(front.pivot, view_.diagonal[here], before);
+    view_.reciprocal[here] = r;
+    const T lower = entry(next, front.at, c), upper = entry(front.at, next, c);
+    const T l = lower * r;
+    view_.below[between] = l;
+    T u = l;
+    if constexpr (!Symmetric) {
+      u = upper * r;
+      view_.above[between] = u;
+    }
+    // The product of the couplings does not wait for the division.
+    front.subtracted = (lower * upper) * r;
+    if constexpr (Border) {
+      view_.below[rows_ + front.at] = front.border_lower * r;
+      if constexpr (!Symmetric) view_.above[rows_ + front.at] = front.border_upper * r;
+      front.border_sum = front.border_sum + (front.border_lower * front.border_upper) * r;
+      front.border_lower = -(front.border_lower * u);
+      front.border_upper = -(front.border_upper * l);
+    }
+  }
+  /// Leaves the front's right-hand sides where they belong.
+  template <class B, std::size_t Count>
+  void keep(Sides<B, Count>& at_front, std::size_t at, const RightHandSides<B, Count>& sides) const {
+    for (std::size_t c = 0; c < Count; ++c) {
+      sides.x[c][row(at)] = at_front.y[c];
+      if constexpr (Border) at_front.border[c] = at_front.border[c] + view_.below[rows_ + at] * at_front.y[c];
+    }
+  }
+  template <class B, std::size_t Count>
+  void keep_and_move(Sides<B, Count>& at_front, std::size_t at, std::size_t next,
+                     const RightHandSides<B, Count>& sides) const {
+    const T& l = view_.below[at < next ? at : next];
+    keep(at_front, at, sides);
+    for (std::size_t c = 0; c < Count; ++c) at_front.y[c] = sides.right[c][row(next)] - l * at_front.y[c];
+  }
+  /// The right-hand sides in the middle and in the border, once both fronts are there; `other_at` is the
+  /// last place of the other front, the middle where it has none.
+  template <class B, std::size_t Count>
+  void meet(Sides<B, Count>& front, Sides<B, Count>& other, std::size_t other_at,
+            const RightHandSides<B, Count>& sides) const {
+    if (other_at > middle_) {
+      keep(other, other_at, sides);
+      for (std::size_t c = 0; c < Count; ++c) front.y[c] = front.y[c] - view_.below[middle_] * other.y[c];
+    }
+    keep(front, middle_, sides);
+    if constexpr (Border)
+      for (std::size_t c = 0; c < Count; ++c) {
+        const B& given = sides.right[c][row(rows_)];
+        sides.x[c][row(rows_)] =
+            other_at > middle_ ? (given - front.border[c]) - other.border[c] : given - front.border[c];
+      }
+  }
+
+  template <class Pivots, class B, std::size_t Count>
+  void factor_forward(Pivots& pivots, const RightHandSides<B, Count>& sides) const {
+    // A ring's links: .. rows_ - 1 to the border, the border to place 0.
+    Front left = start(0, rows_), right = start(rows_ - 1, rows_ - 1);
+    Sides<B, Count> left_sides = start(sides, 0), right_sides = start(sides, rows_ - 1);
+    const auto eliminate = [&](Front& front, Sides<B, Count>& at_front, std::size_t next) {
+      divide(front, next, pivots);
+      keep_and_move(at_front, front.at, next, sides);
+      front.pivot = view_.diagonal[row(next)] - front.subtracted;
+      front.at = next;
+    };
+    while (right.at > middle_ + 1) {
+      eliminate(left, left_sides, left.at + 1);
+      eliminate(right, right_sides, right.at - 1);
+    }
+    while (left.at < middle_) eliminate(left, left_sides, left.at + 1);
+    if (right.at > middle_) {
+      divide(right, middle_, pivots);
+      left.pivot = left.pivot - right.subtracted;
+    }
+    const std::size_t m = row(middle_);
+    const T r = pivots.reciprocal(left.pivot, view_.diagonal[m], rows_ - 1);
+    view_.reciprocal[m] = r;
+    if constexpr (Border) {
+      const T lower = left.border_lower + right.border_lower, upper = left.border_upper + right.border_upper;
+      view_.below[rows_ + middle_] = lower * r;
+      if constexpr (!Symmetric) view_.above[rows_ + middle_] = upper * r;
+      const std::size_t v = row(rows_);
+      const T pivot = ((view_.diagonal[v] - left.border_sum) - right.border_sum) - (lower * upper) * r;
+      view_.reciprocal[v] = pivots.reciprocal(pivot, view_.diagonal[v], rows_);
+    }
+    meet(left_sides, right_sides, right.at, sides);
+  }
+
+  template <class B, std::size_t Count>
+  void forward(const RightHandSides<B, Count>& sides) const {
+    std::size_t i = 0, j = rows_ - 1;
+    Sides<B, Count> left = start(sides, i), right = start(sides, j);
+    for (; j > middle_ + 1; ++i, --j) {
+      keep_and_move(left, i, i + 1, sides);
+      keep_and_move(right, j, j - 1, sides);
+    }
+    for (; i < middle_; ++i) keep_and_move(left, i, i + 1, sides);
+    meet(left, right, j, sides);
+  }
+
+  template <class B, std::size_t Count>
+  void back(const RightHandSides<B, Count>& sides) const {
+    const T* u = view_.above;
+    const T* r = view_.reciprocal;
+    std::array<B, Count> left, right, border;
+    for (std::size_t c = 0; c < Count; ++c) {
+      B* x = sides.x[c];
+      left[c] = x[row(middle_)] * r[row(middle_)];
+      if constexpr (Border) {
+        border[c] = x[row(rows_)] * r[row(rows_)];
+        x[row(rows_)] = border[c];
+        left[c] = left[c] - u[rows_ + middle_] * border[c];
+      }
+      x[row(middle_)] = left[c];
+    }
+    right = left;
+    const auto outwards = [&](std::array<B, Count>& nearer, std::size_t at, std::size_t between) {
+      for (std::size_t c = 0; c < Count; ++c) {
+        B scaled = sides.x[c][row(at)] * r[row(at)];
+        if constexpr (Border) scaled = scaled - u[rows_ + at] * border[c];
+        nearer[c] = scaled - u[between] * nearer[c];
+        sides.x[c][row(at)] = nearer[c];
+      }
+    };
+    std::size_t i = middle_, j = middle_;
+    for (; i > 0 && j + 1 < rows_; --i, ++j) {
+      outwards(left, i - 1, i - 1);
+      outwards(right, j + 1, j);
+    }
+    for (; i > 0; --i) outwards(left, i - 1, i - 1);
+  }
+
+  const EliminationPlan& plan_;
+  EliminationView<T> view_;
+  std::size_t rows_, middle_;
+};
+
+}  // namespace pfaff::detail
