@@ -1,0 +1,86 @@
+// Evaluator and FormulaProgram: formulas ready to be evaluated with one scalar.
+//
+// Most formulas are recorded once and replayed with every scalar. A program is for those that are better
+// compiled for each of them: formulas of systems with any number of bodies, whose tapes would be long and
+// whose loops are batched, and fields that iterate over structured linear algebra. It is recorded only when
+// its tape is asked for.
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include <pfaff/core/facets/scalars.hpp>
+#include <pfaff/core/tape/recorder.hpp>
+
+namespace pfaff {
+
+/// A formula ready to be evaluated with scalar T: one indirect call, whether compiled or replayed.
+template <class T>
+struct Evaluator {
+  void (*call)(const void* context, const T& t, const T* arguments, T* results) = nullptr;
+  const void* context = nullptr;
+  std::shared_ptr<const void> owner;  // of what `context` points to
+};
+
+/// A formula compiled for the scalars of methods; every evaluator it makes has buffers of its own.
+class FormulaProgram {
+ public:
+  virtual ~FormulaProgram() = default;
+  [[nodiscard]] virtual Evaluator<double> evaluator(double) const = 0;
+  [[nodiscard]] virtual Evaluator<Quad> evaluator(Quad) const = 0;
+  [[nodiscard]] virtual Evaluator<StepDual<double>> evaluator(StepDual<double>) const = 0;
+  [[nodiscard]] virtual Evaluator<StepDual<Quad>> evaluator(StepDual<Quad>) const = 0;
+  /// The same formula as a tape.
+  [[nodiscard]] virtual Tape record() const = 0;
+};
+
+/// A program made of F, which says how many numbers it reads and writes (inputs(), outputs()) and makes for
+/// every scalar T, the recording one included, an object with buffers of its own: make<T>(), to be called as
+/// object(t, In<T> arguments, Out<T> results).
+template <class F>
+class Program final : public FormulaProgram {
+ public:
+  explicit Program(F formula) : formula_(std::make_shared<const F>(std::move(formula))) {}
+  [[nodiscard]] Evaluator<double> evaluator(double /*scalar*/) const override { return bind<double>(); }
+  [[nodiscard]] Evaluator<Quad> evaluator(Quad /*scalar*/) const override { return bind<Quad>(); }
+  [[nodiscard]] Evaluator<StepDual<double>> evaluator(StepDual<double> /*scalar*/) const override {
+    return bind<StepDual<double>>();
+  }
+  [[nodiscard]] Evaluator<StepDual<Quad>> evaluator(StepDual<Quad> /*scalar*/) const override {
+    return bind<StepDual<Quad>>();
+  }
+  [[nodiscard]] Tape record() const override {
+    return pfaff::record(formula_->inputs(), formula_->outputs(),
+                         [&](const Recorded& t, In<Recorded> x, Out<Recorded> out) {
+                           formula_->template make<Recorded>()(t, x, out);
+                         });
+  }
+
+ private:
+  template <class T>
+  struct Bound {
+    explicit Bound(std::shared_ptr<const F> f)
+        : formula(std::move(f)),
+          inputs(static_cast<std::size_t>(formula->inputs())),
+          outputs(static_cast<std::size_t>(formula->outputs())),
+          object(formula->template make<T>()) {}
+    std::shared_ptr<const F> formula;
+    std::size_t inputs, outputs;
+    decltype(std::declval<const F&>().template make<T>()) object;
+  };
+  // Each evaluator is used by one thread, so writing to its buffers through a const context is safe.
+  template <class T>
+  [[nodiscard]] Evaluator<T> bind() const {
+    auto bound = std::make_shared<Bound<T>>(formula_);
+    const void* context = bound.get();
+    return {[](const void* c, const T& t, const T* arguments, T* results) {
+              auto& b = *static_cast<Bound<T>*>(const_cast<void*>(c));  // NOLINT
+              b.object(t, In<T>(arguments, b.inputs), Out<T>(results, b.outputs));
+            },
+            context, std::move(bound)};
+  }
+
+  std::shared_ptr<const F> formula_;
+};
+
+}  // namespace pfaff
