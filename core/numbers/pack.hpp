@@ -88,6 +88,13 @@ class Pack {
     for (std::size_t k = 0; k < count; ++k) r.registers_[k] = a.registers_[k] / b.registers_[k];
     return r;
   }
+  /// In every lane `positive` where condition > 0, `otherwise` elsewhere.
+  friend Pack select(const Pack& condition, const Pack& positive, const Pack& otherwise) {
+    Pack r;
+    for (std::size_t k = 0; k < count; ++k)
+      r.registers_[k] = condition.registers_[k] > 0 ? positive.registers_[k] : otherwise.registers_[k];
+    return r;
+  }
 
  private:
   static Register broadcast(double x) {

@@ -1,0 +1,93 @@
+// What is done with a pivot of an elimination without row exchanges: divided by, or left out.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+
+#include <pfaff/core/numbers/functions.hpp>
+#include <pfaff/core/numbers/pack.hpp>
+
+namespace pfaff::detail {
+
+/// True for scalars whose numbers can be looked at; formulas that are being recorded have none.
+template <class T>
+inline constexpr bool has_numbers = std::numeric_limits<Value<T>>::is_specialized;
+template <int W>
+inline constexpr bool has_numbers<Pack<W>> = true;
+
+/// True where x is neither zero nor infinite nor not-a-number.
+template <class T>
+bool is_usable(const T& x) {
+  const Value<T> number = value_of(x);
+  return isfinite(number) && !(number == Value<T>(0));
+}
+template <int W>
+bool is_usable(const Pack<W>& x) {
+  bool usable = true;
+  for (std::size_t lane = 0; lane < W; ++lane) usable = usable && is_usable(x[lane]);
+  return usable;
+}
+
+/// Every pivot must be usable.
+template <class T>
+class RegularPivots {
+ public:
+  /// 1 / pivot.
+  T reciprocal(const T& pivot, const T& /*diagonal*/, std::size_t /*updates*/) {
+    if constexpr (!has_numbers<T>) {
+      return T(1) / pivot;
+    } else if constexpr (std::numeric_limits<Value<T>>::is_exact) {
+      usable_ = usable_ && is_usable(pivot);
+      return usable_ ? T(1) / pivot : T(0);
+    } else {
+      // The reciprocal is 0 or infinite where the pivot is infinite, zero or too small.
+      T r = T(1) / pivot;
+      usable_ = usable_ & is_usable(r);
+      return r;
+    }
+  }
+  [[nodiscard]] bool usable() const { return usable_; }
+
+ private:
+  bool usable_ = true;
+};
+
+/// Pivots of a semidefinite matrix: one that is no more than the rounding of what was subtracted from its
+/// diagonal entry belongs to a direction outside the range, and is replaced by infinity.
+template <class T>
+class SemidefinitePivots {
+ public:
+  /// 1 / pivot, or 0 for a pivot that is dropped. `updates` is how many rows were eliminated from this one.
+  T reciprocal(const T& pivot, const T& diagonal, std::size_t updates) {
+    // Each subtraction rounds by at most half a unit of the diagonal entry, as no term of a semidefinite
+    // matrix exceeds it; 32 leaves room for the errors of the pivots before. A sum that a pivot / allowance
+    // does not change says that the pivot is that small, in whatever precision it is computed.
+    const T allowance = T(32 * (1 + static_cast<int>(updates)));
+    const T visible = (diagonal + pivot / allowance) - diagonal;
+    const T safe = select(visible, pivot, T(1));
+    const T r = select(visible, T(1) / safe, T(0));
+    if constexpr (has_numbers<T>) {
+      note(r, visible);
+    }
+    return r;
+  }
+  /// False where a pivot was not a number.
+  [[nodiscard]] bool usable() const { return usable_; }
+  [[nodiscard]] std::size_t dropped() const { return dropped_; }
+
+ private:
+  template <class N>
+  void note(const N& r, const N& visible) {
+    const Value<N> size = value_of(visible);
+    usable_ = usable_ && isfinite(size) && isfinite(value_of(r));
+    if (!(size > Value<N>(0))) ++dropped_;
+  }
+  template <int W>
+  void note(const Pack<W>& r, const Pack<W>& visible) {
+    for (std::size_t lane = 0; lane < W; ++lane) note(r[lane], visible[lane]);
+  }
+  bool usable_ = true;
+  std::size_t dropped_ = 0;
+};
+
+}  // namespace pfaff::detail

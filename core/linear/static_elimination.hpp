@@ -1,0 +1,196 @@
+// Elimination on a static pattern: all entries and updates are known beforehand; and of a dense matrix, whose
+// indices are arithmetic.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include <pfaff/core/linear/path_elimination.hpp>
+
+namespace pfaff::detail {
+
+/// A diagonal matrix.
+template <class T>
+class DiagonalElimination {
+ public:
+  DiagonalElimination(const SymmetricPattern& pattern, const EliminationView<T>& view)
+      : view_(view), rows_(pattern.rows()) {}
+
+  template <class Pivots>
+  void factor(Pivots& pivots) const {
+    for (std::size_t i = 0; i < rows_; ++i)
+      view_.reciprocal[i] = pivots.reciprocal(view_.diagonal[i], view_.diagonal[i], 0);
+  }
+  template <std::size_t Count, class B>
+  void solve(const std::array<const B*, Count>& right, const std::array<B*, Count>& x) const {
+    for (std::size_t c = 0; c < Count; ++c)
+      for (std::size_t i = 0; i < rows_; ++i) x[c][i] = view_.reciprocal[i] * right[c][i];
+  }
+
+ private:
+  EliminationView<T> view_;
+  std::size_t rows_;
+};
+
+/// L D U in the order of the pattern's plan, for trees and sparse matrices.
+template <class T, bool Symmetric>
+class StaticElimination {
+ public:
+  StaticElimination(const SymmetricPattern& pattern, const EliminationView<T>& view)
+      : plan_(pattern.plan()), view_(view), rows_(pattern.rows()) {}
+
+  template <class Pivots>
+  void factor(Pivots& pivots) const {
+    T* l = view_.below;
+    T* u = view_.above;
+    T* pivot = view_.reciprocal;
+    for (std::size_t k = 0; k < rows_; ++k) {
+      pivot[k] = view_.diagonal[k];
+      const std::size_t i = plan_.order[k];
+      for (std::size_t p = plan_.start[k]; p < plan_.start[k + 1]; ++p) {
+        const std::size_t c = plan_.coupling[p];
+        if constexpr (Symmetric) {
+          l[p] = view_.lower[c];
+        } else {
+          const bool as_given = plan_.row[p] > i;
+          l[p] = as_given ? view_.lower[c] : view_.upper[c];
+          u[p] = as_given ? view_.upper[c] : view_.lower[c];
+        }
+      }
+    }
+    const EliminationPlan::Index* target = plan_.target.data();
+    for (std::size_t k = 0; k < rows_; ++k) {
+      const std::size_t i = plan_.order[k], end = plan_.start[k + 1];
+      const T r = pivots.reciprocal(pivot[i], view_.diagonal[i], updates(k));
+      pivot[i] = r;
+      for (std::size_t b = plan_.start[k]; b < end; ++b) {
+        const T lower = l[b], upper = u[b];
+        const T scaled = lower * r;
+        T& diagonal = pivot[plan_.row[b]];
+        diagonal = diagonal - upper * scaled;
+        if constexpr (Symmetric) {
+          for (std::size_t a = b + 1; a < end; ++a, ++target) l[*target] = l[*target] - l[a] * scaled;
+        } else {
+          const T scaled_upper = upper * r;
+          for (std::size_t a = b + 1; a < end; ++a, ++target) {
+            l[*target] = l[*target] - l[a] * scaled_upper;
+            u[*target] = u[*target] - u[a] * scaled;
+          }
+          u[b] = scaled_upper;
+        }
+        l[b] = scaled;
+      }
+    }
+  }
+
+  template <std::size_t Count, class B>
+  void solve(const std::array<const B*, Count>& right, const std::array<B*, Count>& x) const {
+    for (std::size_t c = 0; c < Count; ++c)
+      if (right[c] != x[c])
+        for (std::size_t i = 0; i < rows_; ++i) x[c][i] = right[c][i];
+    for (std::size_t k = 0; k < rows_; ++k) {
+      const std::size_t i = plan_.order[k];
+      for (std::size_t c = 0; c < Count; ++c) {
+        const B y = x[c][i];
+        for (std::size_t p = plan_.start[k]; p < plan_.start[k + 1]; ++p) {
+          B& later = x[c][plan_.row[p]];
+          later = later - view_.below[p] * y;
+        }
+        x[c][i] = view_.reciprocal[i] * y;
+      }
+    }
+    for (std::size_t k = rows_; k-- > 0;)
+      for (std::size_t c = 0; c < Count; ++c) {
+        B sum = x[c][plan_.order[k]];
+        for (std::size_t p = plan_.start[k]; p < plan_.start[k + 1]; ++p)
+          sum = sum - view_.above[p] * x[c][plan_.row[p]];
+        x[c][plan_.order[k]] = sum;
+      }
+  }
+
+ private:
+  /// At least as many rows as are eliminated from the k-th: those before it that the plan knows of.
+  [[nodiscard]] std::size_t updates(std::size_t k) const { return k; }
+
+  const EliminationPlan& plan_;
+  EliminationView<T> view_;
+  std::size_t rows_;
+};
+
+/// L D U of a dense matrix in its own order; columns of L and rows of U one after the other.
+template <class T, bool Symmetric>
+class DenseElimination {
+ public:
+  DenseElimination(const SymmetricPattern& pattern, const EliminationView<T>& view)
+      : pattern_(pattern), view_(view), rows_(pattern.rows()) {}
+
+  template <class Pivots>
+  void factor(Pivots& pivots) const {
+    T* l = view_.below;
+    T* u = view_.above;
+    T* pivot = view_.reciprocal;
+    for (std::size_t i = 0; i < rows_; ++i) pivot[i] = view_.diagonal[i];
+    for (std::size_t p = 0; p < rows_ * (rows_ - 1) / 2; ++p) l[p] = u[p] = T(0);
+    const auto& couplings = pattern_.couplings();
+    for (std::size_t c = 0; c < couplings.size(); ++c) {
+      const std::size_t p = start(couplings[c].first) + (couplings[c].second - couplings[c].first - 1);
+      l[p] = view_.lower[c];
+      if constexpr (!Symmetric) u[p] = view_.upper[c];
+    }
+    for (std::size_t k = 0; k < rows_; ++k) {
+      const T r = pivots.reciprocal(pivot[k], view_.diagonal[k], k);
+      pivot[k] = r;
+      const std::size_t later = rows_ - k - 1;
+      T* lower = l + start(k);
+      T* upper = u + start(k);
+      for (std::size_t b = 0; b < later; ++b) {
+        const T scaled = lower[b] * r;
+        pivot[k + 1 + b] = pivot[k + 1 + b] - upper[b] * scaled;
+        T* lower_target = l + start(k + 1 + b);
+        if constexpr (Symmetric) {
+          for (std::size_t a = b + 1; a < later; ++a)
+            lower_target[a - b - 1] = lower_target[a - b - 1] - lower[a] * scaled;
+        } else {
+          const T scaled_upper = upper[b] * r;
+          T* upper_target = u + start(k + 1 + b);
+          for (std::size_t a = b + 1; a < later; ++a) {
+            lower_target[a - b - 1] = lower_target[a - b - 1] - lower[a] * scaled_upper;
+            upper_target[a - b - 1] = upper_target[a - b - 1] - upper[a] * scaled;
+          }
+          upper[b] = scaled_upper;
+        }
+        lower[b] = scaled;
+      }
+    }
+  }
+
+  template <std::size_t Count, class B>
+  void solve(const std::array<const B*, Count>& right, const std::array<B*, Count>& x) const {
+    for (std::size_t c = 0; c < Count; ++c) {
+      B* y = x[c];
+      if (right[c] != y)
+        for (std::size_t i = 0; i < rows_; ++i) y[i] = right[c][i];
+      for (std::size_t k = 0; k < rows_; ++k) {
+        const B pivot = y[k];
+        const T* lower = view_.below + start(k);
+        for (std::size_t i = k + 1; i < rows_; ++i) y[i] = y[i] - lower[i - k - 1] * pivot;
+        y[k] = view_.reciprocal[k] * pivot;
+      }
+      for (std::size_t k = rows_; k-- > 0;) {
+        const T* upper = view_.above + start(k);
+        B sum = y[k];
+        for (std::size_t i = k + 1; i < rows_; ++i) sum = sum - upper[i - k - 1] * y[i];
+        y[k] = sum;
+      }
+    }
+  }
+
+ private:
+  [[nodiscard]] std::size_t start(std::size_t k) const { return k * (2 * rows_ - k - 1) / 2; }
+
+  const SymmetricPattern& pattern_;
+  EliminationView<T> view_;
+  std::size_t rows_;
+};
+
+}  // namespace pfaff::detail
