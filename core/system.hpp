@@ -14,11 +14,21 @@
 //   chart(t, z, y), chart_inverse(t, y, z)   Darboux coordinates; optional chart_hamiltonian(t, y),
 //                                            chart_field(t, y, rate). Derived where K is
 //                                            constant or depends on t alone
+//   holonomic(t, q, phi)                     constraints phi(q, t) = 0 of a canonical system,
+//   constraint_count
+//                                            of them (static constexpr int or member function);
+//                                            optional friction(t, z, lambda), coefficients >= 0 of momenta;
+//                                            constraint_evaluator<T>(), their operations batched
+//   constraints(t, z, phi)                   instead: constraints of the phase space, second class, beside
+//                                            hamiltonian; optional constraint_gradients(t, z, rows)
+//   symmetric_bracket(), entropy(t, z)       metriplectic: zdot = Pi dH + G dS; without entropy, Pi dH - G dH
 //   alpha(t, t0, new_z, old_z, w_hat, w)     pairs of states to (w^, w), for generating functions without a
 //                                            chart
 //   invariants(t, z, values)                 in the order of the descriptor's list
 //   exact_solution(elapsed, t0, z0, z)       the flow
 //   initial(z)                               instead of the descriptor's list, when it depends on parameters
+//   coordinates(), invariant_list(),         instead of the descriptor's lists, when they do
+//   constraint_names()
 // Whatever is not written is derived; whatever could be derived but is written is checked against the
 // derivation. A member of one of these names with another signature is refused by the compiler
 // (core/facets/system_formulas.hpp), a formula that writes more or fewer results than it should when a model
@@ -69,6 +79,7 @@ std::shared_ptr<const Model> make_model(const SystemDescriptor& descriptor, cons
   source.coordinates = descriptor.coordinates;
   if constexpr (requires { system->coordinates(); }) source.coordinates = system->coordinates();
   source.invariants = descriptor.invariants;
+  if constexpr (requires { system->invariant_list(); }) source.invariants = system->invariant_list();
   source.initial = descriptor.initial;
   source.time_unit = descriptor.time_unit;
   source.parameters = resolved(parameters_of<S>(), system.get());

@@ -26,6 +26,28 @@ int dimension_of(const S& s) {
   }
 }
 
+/// True for systems whose formulas are compiled for every scalar and recorded only when a tape is asked for
+/// (`static constexpr bool batched = true`): those of many bodies.
+template <class S>
+constexpr bool is_batched() {
+  if constexpr (requires { S::batched; }) return S::batched;
+  return false;
+}
+
+/// The formula f(system, t, arguments, results) as a program.
+template <class S, class F>
+struct BatchedFormula {
+  std::shared_ptr<const S> system;
+  F formula;
+  int read, written;
+  [[nodiscard]] int inputs() const { return read; }
+  [[nodiscard]] int outputs() const { return written; }
+  template <class T>
+  [[nodiscard]] auto make() const {
+    return [self = system, f = formula](const T& t, In<T> x, Out<T> out) { f(*self, t, x, out); };
+  }
+};
+
 /// Collects the formulas of one author's object.
 template <class S>
 class Collector {
@@ -53,8 +75,16 @@ class Collector {
       constexpr bool damped = WritesDamping<S>;
       if constexpr (damped) source_.damping = s.damping();
       source_.canonical = !damped;
-      give(Formula::kinetic, n / 2, [&](const R& t, RecordedIn p) { return s.kinetic(t, p); });
-      give(Formula::potential, n / 2, [&](const R& t, RecordedIn q) { return s.potential(t, q); });
+      offer(Formula::kinetic, "kinetic(t, p)", n / 2, 1,
+            [](const S& self, const auto& t, auto p, auto out) { out[0] = self.kinetic(t, p); });
+      offer(Formula::potential, "potential(t, q)", n / 2, 1,
+            [](const S& self, const auto& t, auto q, auto out) { out[0] = self.potential(t, q); });
+      if constexpr (is_batched<S>())
+        offer(Formula::hamiltonian, "kinetic and potential", n, 1,
+              [](const S& self, const auto& t, auto z, auto out) {
+                const std::size_t half = z.size() / 2;
+                out[0] = self.kinetic(t, z.subspan(half)) + self.potential(t, z.first(half));
+              });
       if constexpr (WritesForce<S>) {
         give(Formula::force, "force(t, q, f)", n / 2, n / 2,
              [&](const R& t, RecordedIn q, RecordedOut o) { s.force(t, q, o); });
@@ -84,21 +114,16 @@ class Collector {
     if constexpr (WritesHamiltonian<S>) {
       give(Formula::hamiltonian, n, [&](const R& t, RecordedIn z) { return s.hamiltonian(t, z); });
       if constexpr (WritesBracket<S>) {
-        const auto bracket = s.bracket();
-        give(Formula::poisson_tensor, "bracket()", n, n * n, [&](const R& t, RecordedIn z, RecordedOut o) {
-          const std::size_t size = z.size();
-          std::vector<R> covector(size), column(size);
-          for (std::size_t j = 0; j < size; ++j) {
-            covector.assign(size, R(0));
-            covector[j] = R(1);
-            bracket.sharp(t, z, RecordedIn(covector), RecordedOut(column));
-            for (std::size_t i = 0; i < size; ++i) o[i * size + j] = column[i];
-          }
-        });
+        give_tensor(Formula::poisson_tensor, "bracket()", s.bracket());
       } else {
         source_.canonical = true;
       }
     }
+    if constexpr (WritesSymmetricBracket<S>)
+      give_tensor(Formula::symmetric_tensor, "symmetric_bracket()", s.symmetric_bracket());
+    if constexpr (WritesEntropy<S>)
+      give(Formula::entropy, n, [&](const R& t, RecordedIn z) { return s.entropy(t, z); });
+    collect_constraints();
     if constexpr (WritesBirkhoffian<S> && WritesOneForm<S>) {
       give(Formula::birkhoffian, n, [&](const R& t, RecordedIn z) { return s.birkhoffian(t, z); });
       give(Formula::one_form, "one_form(t, z, F)", n, n,
@@ -139,8 +164,8 @@ class Collector {
       give(Formula::alpha, "alpha(t, t0, new_z, old_z, w_hat, w)", 2 * n + 1, 2 * n,
            [&](const R& t, RecordedIn x, RecordedOut o) { call_alpha(s, t, x, o); });
     if constexpr (WritesInvariants<S>) {
-      give(Formula::invariants, "invariants(t, z, values)", n, static_cast<int>(source_.invariants.size()),
-           [&](const R& t, RecordedIn z, RecordedOut o) { s.invariants(t, z, o); });
+      offer(Formula::invariants, "invariants(t, z, values)", n, static_cast<int>(source_.invariants.size()),
+            [](const S& self, const auto& t, auto z, auto out) { self.invariants(t, z, out); });
     } else if (!source_.invariants.empty()) {
       throw InputError("system " + source_.name + ": the descriptor lists the invariant " +
                        source_.invariants.front().name + "; expected invariants(t, z, values)");
@@ -160,6 +185,65 @@ class Collector {
   }
 
  private:
+  void collect_constraints() {
+    const S& s = *system_;
+    const int n = source_.dimension;
+    if constexpr (WritesConstraintCount<S>) {
+      int count = 0;
+      if constexpr (requires { s.constraint_count(); }) {
+        count = s.constraint_count();
+      } else {
+        count = S::constraint_count;
+      }
+      if constexpr (requires { s.constraint_names(); }) {
+        source_.constraint_names = s.constraint_names();
+      } else {
+        for (int k = 1; k <= count; ++k) source_.constraint_names.push_back("phi" + std::to_string(k));
+      }
+      if constexpr (WritesHolonomic<S>) {
+        offer(Formula::holonomic, "holonomic(t, q, phi)", n / 2, count,
+              [](const S& self, const auto& t, auto q, auto out) { self.holonomic(t, q, out); });
+        if constexpr (WritesConstraintEvaluator<S>)
+          source_.holonomic = std::make_shared<const HolonomicFactoryOf<S>>(system_);
+        if constexpr (WritesFriction<S>)
+          offer(Formula::friction, "friction(t, z, lambda)", n, n / 2,
+                [](const S& self, const auto& t, auto z, auto out) { self.friction(t, z, out); });
+      } else {
+        give(Formula::constraints, "constraints(t, z, phi)", n, count,
+             [&](const Recorded& t, RecordedIn z, RecordedOut o) { s.constraints(t, z, o); });
+        if constexpr (WritesConstraintGradients<S>)
+          give(Formula::constraint_gradients, "constraint_gradients(t, z, rows)", n, count * n,
+               [&](const Recorded& t, RecordedIn z, RecordedOut o) { s.constraint_gradients(t, z, o); });
+      }
+    }
+  }
+  // Records the matrix of a bracket, column by column.
+  template <class B>
+  void give_tensor(Formula formula, const char* called, const B& bracket) {
+    using R = Recorded;
+    const int n = source_.dimension;
+    give(formula, called, n, n * n, [&](const R& t, RecordedIn z, RecordedOut o) {
+      const std::size_t size = z.size();
+      std::vector<R> covector(size), column(size);
+      for (std::size_t j = 0; j < size; ++j) {
+        covector.assign(size, R(0));
+        covector[j] = R(1);
+        bracket.sharp(t, z, RecordedIn(covector), RecordedOut(column));
+        for (std::size_t i = 0; i < size; ++i) o[i * size + j] = column[i];
+      }
+    });
+  }
+  // A formula f(system, t, arguments, results): recorded, or a program where the system is batched.
+  template <class F>
+  void offer(Formula formula, const char* called, int inputs, int outputs, F f) {
+    if constexpr (is_batched<S>()) {
+      source_.programs[index(formula)] = std::make_shared<const Program<BatchedFormula<S, F>>>(
+          BatchedFormula<S, F>{system_, f, inputs, outputs});
+    } else {
+      give(formula, called, inputs, outputs,
+           [&](const Recorded& t, RecordedIn x, RecordedOut out) { f(*system_, t, x, out); });
+    }
+  }
   // Records a formula of one result.
   template <class F>
   void give(Formula formula, int inputs, F&& f) {
@@ -179,7 +263,8 @@ class Collector {
   }
   // Zeros need not be written in a one-form, a structure, a covector or an initial state.
   static constexpr bool may_skip_zeros(Formula formula) {
-    return formula == Formula::one_form || formula == Formula::structure || formula == Formula::covector;
+    return formula == Formula::one_form || formula == Formula::structure || formula == Formula::covector ||
+           formula == Formula::friction || formula == Formula::constraint_gradients;
   }
   void require_written(const char* called, const CountedOutputs& results, int expected, bool all) const {
     const auto count = static_cast<std::size_t>(expected);

@@ -20,6 +20,9 @@ enum class Facet : unsigned {
   birkhoffian,     // that of the action of F(z, t).dz - B(z, t) dt: K = dF, D = -(grad B + F_t)
   darboux_chart,   // coordinates y in which the structure is constant and canonical
   generating_map,  // alpha of pairs of states, through which generating functions make maps
+  holonomic,       // canonical, with constraints phi(q, t) = 0 (core/facets/holonomic.hpp)
+  constraints,     // an energy and a bracket, with constraints phi(z, t) = 0 that are second class
+  metriplectic,    // an energy with two brackets, Poisson's and a symmetric one; an entropy or none
   invariants,      // named quantities with their expected behaviour
   exact_solution,  // the flow in closed form
   count
@@ -27,8 +30,9 @@ enum class Facet : unsigned {
 
 constexpr std::string_view to_string(Facet facet) {
   constexpr std::array<std::string_view, static_cast<std::size_t>(Facet::count)> names{
-      "vector-field", "hamiltonian",   "separable",      "conformal",  "structure",
-      "birkhoffian",  "darboux-chart", "generating-map", "invariants", "exact-solution"};
+      "vector-field", "hamiltonian",   "separable",      "conformal", "structure",
+      "birkhoffian",  "darboux-chart", "generating-map", "holonomic", "constraints",
+      "metriplectic", "invariants",    "exact-solution"};
   return names[static_cast<std::size_t>(facet)];
 }
 
@@ -70,6 +74,12 @@ enum class Formula : unsigned {
   chart_field,           // n -> n, of y
   chart_field_jacobian,  // n -> n x n
   alpha,                 // time t; (new state, old state, t0): 2n + 1 -> (w^, w): 2n
+  holonomic,             // q: n/2 -> number of constraints
+  friction,              // n -> n/2, coefficients lambda >= 0 of the momenta
+  constraints,           // n -> number of constraints, all of them: with hidden ones where holonomic
+  constraint_gradients,  // n -> number of constraints x n
+  symmetric_tensor,      // n -> n x n, the symmetric bracket of a metriplectic system
+  entropy,               // n -> 1
   invariants,            // n -> number of invariants
   exact_solution,        // time elapsed; (initial state, initial time): n + 1 -> n
   count

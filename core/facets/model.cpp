@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include <pfaff/core/facets/derived_charts.hpp>
+#include <pfaff/core/facets/taped_constraints.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/replay.hpp>
 
@@ -30,6 +31,22 @@ std::vector<Recorded> gradient_of(const Tape& scalar, const Recorded& t, Argumen
   return gradient(scalar, t, z, one);
 }
 
+// Pi dH + G dS with an entropy S, Pi dH - G dH without.
+Tape metriplectic_field(const Model& model) {
+  const auto energy = model.tape(Formula::hamiltonian_gradient),
+             poisson = model.tape(Formula::poisson_tensor), symmetric = model.tape(Formula::symmetric_tensor);
+  const auto entropy = model.given(Formula::entropy) ? model.tape(Formula::entropy) : nullptr;
+  const auto n = static_cast<std::size_t>(model.dimension());
+  return record(model.dimension(), model.dimension(), [&](const Recorded& t, Arguments z, Results out) {
+    const auto slope = evaluate(*energy, t, z), pi = evaluate(*poisson, t, z), g = evaluate(*symmetric, t, z);
+    auto friction = slope;
+    for (Recorded& x : friction) x = -x;
+    if (entropy != nullptr) friction = gradient_of(*entropy, t, z);
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j)
+        out[i] = out[i] + pi[i * n + j] * slope[j] + g[i * n + j] * friction[j];
+  });
+}
 }  // namespace
 
 Tape damped_field(const Model& model) {
@@ -44,10 +61,10 @@ Tape damped_field(const Model& model) {
   });
 }
 
-Model::Model(ModelSource source) : source_(std::move(source)) {
-  const auto& g = source_.given;
-  const auto has = [&](Formula f) { return g[index(f)] != nullptr; };
-  const auto offer = [&](Facet f) { facets_ = facets_.with(f); };
+FacetSet Model::content_of_formulas() const {
+  FacetSet content;
+  const auto has = [&](Formula f) { return given(f); };
+  const auto offer = [&](Facet f) { content = content.with(f); };
   const bool energies = has(Formula::kinetic) && has(Formula::potential);
   const bool conformal = energies && source_.damping.has_value(), separable = energies && !conformal;
   const bool hamiltonian = separable || has(Formula::hamiltonian);
@@ -61,13 +78,72 @@ Model::Model(ModelSource source) : source_(std::move(source)) {
   if (has(Formula::field) || hamiltonian || conformal || structure) offer(Facet::vector_field);
   if ((has(Formula::chart) && has(Formula::chart_inverse)) || (source_.canonical && hamiltonian))
     offer(Facet::darboux_chart);
-  if (structure && !facets_.has(Facet::darboux_chart)) {
-    pivots_ = chart_pivots();
-    if (!pivots_.empty()) offer(Facet::darboux_chart);
-  }
   if (has(Formula::alpha) && (structure || source_.canonical)) offer(Facet::generating_map);
+  if (hamiltonian && has(Formula::symmetric_tensor)) offer(Facet::metriplectic);
+  if (hamiltonian && source_.canonical && has(Formula::holonomic)) offer(Facet::holonomic);
+  if (hamiltonian && (has(Formula::holonomic) || has(Formula::constraints))) offer(Facet::constraints);
   if (!source_.invariants.empty()) offer(Facet::invariants);
   if (has(Formula::exact_solution)) offer(Facet::exact_solution);
+  return content;
+}
+
+Model::Model(ModelSource source) : source_(std::move(source)) {
+  content_ = content_of_formulas();
+  if (content_.has(Facet::structure) && !content_.has(Facet::darboux_chart)) {
+    pivots_ = chart_pivots();
+    if (!pivots_.empty()) content_ = content_.with(Facet::darboux_chart);
+  }
+  facets_ = content_;
+  const auto keep = [&](std::initializer_list<Facet> kept) {
+    facets_ = {};
+    for (const Facet f : kept)
+      if (content_.has(f)) facets_ = facets_.with(f);
+  };
+  // Energy and bracket make the motion only where there is nothing else.
+  if (content_.has(Facet::metriplectic))
+    keep({Facet::vector_field, Facet::metriplectic, Facet::invariants, Facet::exact_solution});
+  if (content_.has(Facet::constraints))
+    keep({Facet::holonomic, Facet::constraints, Facet::invariants, Facet::exact_solution});
+  if (!source_.formulation.empty()) facets_ = facets_.with(Facet::vector_field);
+}
+
+bool Model::autonomous() const {
+  if (source_.autonomous) return *source_.autonomous;
+  if (content_.has(Facet::constraints) && !tape(Formula::constraints)->autonomous()) return false;
+  return tape(Formula::field)->autonomous();
+}
+
+bool Model::frictionless() const {
+  if (!given(Formula::friction)) return true;
+  const Tape& lambda = *tape(Formula::friction);
+  for (const int slot : lambda.outputs) {
+    const Instruction& i = lambda.code[static_cast<std::size_t>(slot)];
+    if (i.operation != Operation::constant || !lambda.constants[static_cast<std::size_t>(i.a)].is(0))
+      return false;
+  }
+  return true;
+}
+
+std::vector<std::string> Model::constraint_names() const {
+  if (!content_.has(Facet::holonomic)) return source_.constraint_names;
+  std::vector<std::string> names;
+  for (const std::string& name : source_.constraint_names) {
+    names.push_back(name);
+    names.push_back(name + "~");
+  }
+  return names;
+}
+
+const HolonomicFactory& Model::holonomic_factory() const {
+  if (!content_.has(Facet::holonomic))
+    throw std::logic_error("system " + name() + " has no holonomic constraints");
+  if (source_.holonomic != nullptr) return *source_.holonomic;
+  const std::lock_guard lock(mutex_);
+  if (holonomic_ == nullptr)
+    holonomic_ = std::make_shared<const HolonomicFactoryOf<TapedConstraintSource>>(
+        std::make_shared<const TapedConstraintSource>(
+            TapedConstraintSource{std::make_shared<const HolonomicTapes>(record_holonomic(*this))}));
+  return *holonomic_;
 }
 
 PivotPairs Model::chart_pivots() const {
@@ -94,6 +170,7 @@ std::string Model::advice(FacetSet needs) const {
 std::shared_ptr<const Tape> Model::tape(Formula formula) const {
   const std::lock_guard lock(mutex_);
   auto& slot = tapes_[index(formula)];
+  if (slot == nullptr && program(formula) != nullptr) slot = shared(program(formula)->record());
   if (slot == nullptr) slot = given(formula) ? source_.given[index(formula)] : derived(formula);
   if (slot == nullptr) throw std::logic_error("system " + name() + " does not give this formula");
   return slot;
@@ -102,7 +179,7 @@ std::shared_ptr<const Tape> Model::tape(Formula formula) const {
 std::shared_ptr<const Tape> Model::derived(Formula formula) const {
   const int n = source_.dimension;
   const auto size = static_cast<std::size_t>(n);
-  const bool birkhoffian = facets_.has(Facet::birkhoffian), structured = facets_.has(Facet::structure);
+  const bool birkhoffian = content_.has(Facet::birkhoffian), structured = content_.has(Facet::structure);
   const bool chart_given = given(Formula::chart);
   const auto identity = [&] {
     return shared(record(n, n, [](const Recorded&, Arguments z, Results out) {
@@ -111,7 +188,7 @@ std::shared_ptr<const Tape> Model::derived(Formula formula) const {
   };
   switch (formula) {
     case Formula::hamiltonian: {
-      if (!facets_.has(Facet::separable)) return nullptr;
+      if (!content_.has(Facet::separable)) return nullptr;
       const auto kinetic = tape(Formula::kinetic), potential = tape(Formula::potential);
       return shared(record(n, 1, [&](const Recorded& t, Arguments z, Results out) {
         out[0] =
@@ -119,14 +196,14 @@ std::shared_ptr<const Tape> Model::derived(Formula formula) const {
       }));
     }
     case Formula::hamiltonian_gradient: {
-      if (!facets_.has(Facet::hamiltonian)) return nullptr;
+      if (!content_.has(Facet::hamiltonian)) return nullptr;
       const auto energy = tape(Formula::hamiltonian);
       return shared(record(
           n, n, [&](const Recorded& t, Arguments z, Results out) { copy(gradient_of(*energy, t, z), out); }));
     }
     case Formula::velocity:
     case Formula::force: {
-      if (!facets_.has(Facet::separable) && !facets_.has(Facet::conformal)) return nullptr;
+      if (!content_.has(Facet::separable) && !content_.has(Facet::conformal)) return nullptr;
       const bool force = formula == Formula::force;
       const auto energy = tape(force ? Formula::potential : Formula::kinetic);
       return shared(record(n / 2, n / 2, [&](const Recorded& t, Arguments x, Results out) {
@@ -135,14 +212,16 @@ std::shared_ptr<const Tape> Model::derived(Formula formula) const {
       }));
     }
     case Formula::field: {
-      if (facets_.has(Facet::separable)) {  // from the author's force and velocity where there are any
+      if (content_.has(Facet::separable) &&
+          !content_.has(Facet::metriplectic)) {  // from the author's force and velocity where there are any
         const auto velocity = tape(Formula::velocity), force = tape(Formula::force);
         return shared(record(n, n, [&](const Recorded& t, Arguments z, Results out) {
           copy(evaluate(*velocity, t, z.subspan(size / 2)), out.first(size / 2));
           copy(evaluate(*force, t, z.first(size / 2)), out.subspan(size / 2));
         }));
       }
-      if (facets_.has(Facet::hamiltonian)) {
+      if (content_.has(Facet::metriplectic)) return shared(metriplectic_field(*this));
+      if (content_.has(Facet::hamiltonian)) {
         const auto energy = tape(Formula::hamiltonian);
         const auto tensor = source_.canonical ? nullptr : tape(Formula::poisson_tensor);
         return shared(record(n, n, [&](const Recorded& t, Arguments z, Results out) {
@@ -155,7 +234,7 @@ std::shared_ptr<const Tape> Model::derived(Formula formula) const {
           }
         }));
       }
-      if (!structured) return facets_.has(Facet::conformal) ? shared(damped_field(*this)) : nullptr;
+      if (!structured) return content_.has(Facet::conformal) ? shared(damped_field(*this)) : nullptr;
       const auto structure = tape(Formula::structure), covector = tape(Formula::covector);
       return shared(record(n, n, [&](const Recorded& t, Arguments z, Results out) {
         auto right = evaluate(*covector, t, z);
@@ -211,14 +290,32 @@ std::shared_ptr<const Tape> Model::derived(Formula formula) const {
         }
       }));
     }
+    case Formula::constraints: {
+      if (!content_.has(Facet::holonomic)) return nullptr;
+      const auto phi = tape(Formula::holonomic), slopes = tape(Formula::hamiltonian_gradient);
+      const auto count = static_cast<int>(phi->outputs.size());
+      return shared(record(n, 2 * count, [&](const Recorded& t, Arguments z, Results out) {
+        const auto q = z.first(size / 2);
+        const auto values = evaluate(*phi, t, q), slope = evaluate(*slopes, t, z);
+        const auto rates =
+            directional_derivative(*phi, t, Recorded(1), q, Arguments(slope).subspan(size / 2));
+        for (std::size_t k = 0; k < values.size(); ++k) {
+          out[2 * k] = values[k];
+          out[2 * k + 1] = rates[k];
+        }
+      }));
+    }
+    case Formula::constraint_gradients:
+      if (!content_.has(Facet::constraints)) return nullptr;
+      return shared(jacobian_tape(*tape(Formula::constraints)));
     case Formula::chart:
       if (!pivots_.empty()) return shared(linear_chart(*tape(Formula::structure), pivots_));
-      return facets_.has(Facet::darboux_chart) && !chart_given ? identity() : nullptr;
+      return content_.has(Facet::darboux_chart) && !chart_given ? identity() : nullptr;
     case Formula::chart_inverse:
       if (!pivots_.empty()) return shared(linear_chart_inverse(*tape(Formula::structure), pivots_));
-      return facets_.has(Facet::darboux_chart) && !chart_given ? identity() : nullptr;
+      return content_.has(Facet::darboux_chart) && !chart_given ? identity() : nullptr;
     case Formula::chart_field: {
-      if (!facets_.has(Facet::darboux_chart)) return nullptr;
+      if (!content_.has(Facet::darboux_chart)) return nullptr;
       if (!chart_given && pivots_.empty()) return tape(Formula::field);  // the chart is the identity
       if (given(Formula::chart_hamiltonian)) {
         const auto energy = tape(Formula::chart_hamiltonian);

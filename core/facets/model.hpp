@@ -5,6 +5,9 @@
 // bracket or from K zdot + D = 0 with, for a Birkhoffian system, K = dF and D = -(grad B + F_t) (su-qin (4),
 // (5), (67)), forces, Jacobians, the
 // Darboux chart of a structure K that is constant or depends on time alone, the field in the chart.
+//
+// A model with constraints is no vector field yet, and offers none: a formulation (core/formulation.hpp)
+// makes one of it, another model.
 #pragma once
 
 #include <array>
@@ -15,7 +18,9 @@
 #include <utility>
 #include <vector>
 
+#include <pfaff/core/facets/evaluator.hpp>
 #include <pfaff/core/facets/facet.hpp>
+#include <pfaff/core/facets/holonomic.hpp>
 #include <pfaff/core/linear/symplectic_basis.hpp>
 #include <pfaff/core/tape/tape.hpp>
 
@@ -73,6 +78,12 @@ struct ModelSource {
   std::array<std::shared_ptr<const Tape>, formula_count> given;
   std::array<CompiledFormula, formula_count> compiled{};
   const CompiledSeries* chart_field_series = nullptr;
+  std::array<std::shared_ptr<const FormulaProgram>, formula_count> programs;  // instead of given
+  std::shared_ptr<const HolonomicFactory> holonomic;                          // null: from the tapes
+  std::vector<std::string> constraint_names;                                  // of phi, in the author's order
+  std::optional<bool> autonomous;  // for those whose tapes are too long to look at
+  std::string formulation;         // the formulation that made the field, or empty
+  std::vector<std::pair<std::string, std::string>> formulation_parameters;
   std::shared_ptr<const void> system;  // keeps the author's object alive for compiled formulas
 };
 
@@ -90,6 +101,22 @@ class Model {
     return source_.parameters;
   }
   [[nodiscard]] FacetSet facets() const { return facets_; }
+  /// What the model was made of; a formulation makes another of it.
+  [[nodiscard]] const ModelSource& source() const { return source_; }
+  /// True where states are restricted by constraints, formulated or not.
+  [[nodiscard]] bool constrained() const { return content_.has(Facet::constraints); }
+  /// True for an H = T(p) + V(q, t) in canonical coordinates, constrained or not.
+  [[nodiscard]] bool separable_energy() const { return content_.has(Facet::separable); }
+  /// True where no coefficient of friction can differ from zero.
+  [[nodiscard]] bool frictionless() const;
+  /// Names of all constraints, in the order of Formula::constraints: of holonomic ones, each is followed by
+  /// the hidden one it implies.
+  [[nodiscard]] std::vector<std::string> constraint_names() const;
+  /// The holonomic constraints for one scalar; std::logic_error where there are none.
+  template <class T>
+  [[nodiscard]] std::unique_ptr<HolonomicConstraints<T>> holonomic_constraints() const {
+    return holonomic_factory().make(T());
+  }
   /// True when the canonical bracket on (q, p) is the system's own.
   [[nodiscard]] bool canonical() const { return source_.canonical; }
 
@@ -105,7 +132,13 @@ class Model {
   /// unique: one that the author wrote is not derived again.)
   [[nodiscard]] std::shared_ptr<const Tape> derived(Formula formula) const;
   /// True where the author wrote the formula.
-  [[nodiscard]] bool given(Formula formula) const { return source_.given[index(formula)] != nullptr; }
+  [[nodiscard]] bool given(Formula formula) const {
+    return source_.given[index(formula)] != nullptr || program(formula) != nullptr;
+  }
+  /// The formula compiled for every scalar; null where it is not.
+  [[nodiscard]] const FormulaProgram* program(Formula formula) const {
+    return source_.programs[index(formula)].get();
+  }
   /// The author's double version and the object to call it with; null when there is none. Canonical
   /// coordinates are Darboux's, so the field is that in the chart.
   [[nodiscard]] CompiledFormula compiled(Formula formula) const {
@@ -117,18 +150,23 @@ class Model {
   [[nodiscard]] const void* system() const { return source_.system.get(); }
 
   /// Does the field depend on time explicitly? Do the field in the chart, and the structure?
-  [[nodiscard]] bool autonomous() const { return tape(Formula::field)->autonomous(); }
+  [[nodiscard]] bool autonomous() const;
   [[nodiscard]] bool chart_autonomous() const { return tape(Formula::chart_field)->autonomous(); }
 
  private:
   /// Pivots at t = 0 for the chart of a structure of time alone.
   [[nodiscard]] PivotPairs chart_pivots() const;
 
+  /// What the formulas make, before constraints hide what is not true of the constrained motion.
+  [[nodiscard]] FacetSet content_of_formulas() const;
+  [[nodiscard]] const HolonomicFactory& holonomic_factory() const;
+
   ModelSource source_;
-  FacetSet facets_;
+  FacetSet content_, facets_;
   PivotPairs pivots_;  // empty unless the chart is derived from the structure
   mutable std::recursive_mutex mutex_;
   mutable std::array<std::shared_ptr<const Tape>, formula_count> tapes_;
+  mutable std::shared_ptr<const HolonomicFactory> holonomic_;
 };
 
 /// The field (T_p, -V_q - nu p) that the conformal facet stands for.

@@ -17,6 +17,7 @@ template <class T>
 Evaluator<T> make_evaluator(const std::shared_ptr<const Model>& model, Formula formula) {
   if constexpr (std::is_same_v<T, double>)
     if (const auto compiled = model->compiled(formula)) return {compiled, model->system(), model};
+  if (const FormulaProgram* program = model->program(formula)) return program->evaluator(T());
   auto replay = std::make_shared<Replay<T>>(model->tape(formula));
   const void* context = replay.get();
   return {&replayed<T>, context, std::move(replay)};

@@ -16,15 +16,7 @@
 
 namespace pfaff {
 
-/// A formula ready to be evaluated with scalar T: one indirect call, whether compiled or replayed.
-template <class T>
-struct Evaluator {
-  void (*call)(const void* context, const T& t, const T* arguments, T* results) = nullptr;
-  const void* context = nullptr;
-  std::shared_ptr<const void> owner;  // of what `context` points to
-};
-
-/// The author's compiled formula where there is one (doubles only), else a replay of the tape.
+/// The author's compiled formula or program where there is one, else a replay of the tape.
 /// Instantiated for double, Quad and the duals over them that step Jacobians use.
 template <class T>
 Evaluator<T> make_evaluator(const std::shared_ptr<const Model>& model, Formula formula);
@@ -154,6 +146,12 @@ class Problem {
   [[nodiscard]] std::shared_ptr<const Tape> alpha_tape() const requires(Facets.has(Facet::generating_map)) {
     return model_->tape(Formula::alpha);
   }
+  /// The constraints phi(q, t) = 0, with buffers of their own.
+  [[nodiscard]] HolonomicConstraints<T>& holonomic() const requires(Facets.has(Facet::holonomic)) {
+    if (holonomic_ == nullptr) [[unlikely]]
+      holonomic_ = model_->holonomic_constraints<T>();
+    return *holonomic_;
+  }
   /// Values of the named invariants, in the model's order.
   void invariants(const T& t, In<T> z, Out<T> values) const requires(Facets.has(Facet::invariants)) {
     use(Formula::invariants, t, z.data(), values.data());
@@ -175,6 +173,7 @@ class Problem {
   std::shared_ptr<const Model> model_;
   std::size_t size_;
   mutable std::array<Evaluator<T>, formula_count> evaluators_;
+  mutable std::shared_ptr<HolonomicConstraints<T>> holonomic_;
   mutable Counters counters_;
 };
 
@@ -210,6 +209,11 @@ concept HasDarbouxChart = requires(const P& p, const Scalar<P>& t, State<P>& z) 
   p.chart_inverse(t, z, z);
   p.chart_field(t, z, z);
   p.chart_field_tape();
+};
+
+template <class P>
+concept HasHolonomic = requires(const P& p) {
+  p.holonomic();
 };
 
 template <class P>

@@ -84,6 +84,41 @@ concept WritesAlpha = requires(const S& s, const T& t, In<T> z, Out<T> o) {
   s.alpha(t, t, z, z, o, o);
 };
 template <class S, class T = Recorded>
+concept WritesHolonomic = requires(const S& s, const T& t, In<T> q, Out<T> o) {
+  s.holonomic(t, q, o);
+};
+template <class S, class T = Recorded>
+concept WritesFriction = requires(const S& s, const T& t, In<T> z, Out<T> o) {
+  s.friction(t, z, o);
+};
+template <class S, class T = Recorded>
+concept WritesConstraints = requires(const S& s, const T& t, In<T> z, Out<T> o) {
+  s.constraints(t, z, o);
+};
+template <class S, class T = Recorded>
+concept WritesConstraintGradients = requires(const S& s, const T& t, In<T> z, Out<T> o) {
+  s.constraint_gradients(t, z, o);
+};
+template <class S>
+concept WritesConstraintCount = requires(const S& s) {
+  { s.constraint_count() } -> std::convertible_to<int>;
+}
+|| requires {
+  { S::constraint_count } -> std::convertible_to<int>;
+};
+template <class S>
+concept WritesConstraintEvaluator = requires(const S& s) {
+  s.template constraint_evaluator<Recorded>();
+};
+template <class S>
+concept WritesSymmetricBracket = requires(const S& s) {
+  s.symmetric_bracket();
+};
+template <class S, class T = Recorded>
+concept WritesEntropy = requires(const S& s, const T& t, In<T> z) {
+  { s.entropy(t, z) } -> std::convertible_to<T>;
+};
+template <class S, class T = Recorded>
 concept WritesInvariants = requires(const S& s, const T& t, In<T> z, Out<T> o) {
   s.invariants(t, z, o);
 };
@@ -129,6 +164,13 @@ PFAFF_NAMED(chart_inverse)
 PFAFF_NAMED(chart_hamiltonian)
 PFAFF_NAMED(chart_field)
 PFAFF_NAMED(alpha)
+PFAFF_NAMED(holonomic)
+PFAFF_NAMED(friction)
+PFAFF_NAMED(constraints)
+PFAFF_NAMED(constraint_gradients)
+PFAFF_NAMED(constraint_evaluator)
+PFAFF_NAMED(symmetric_bracket)
+PFAFF_NAMED(entropy)
 PFAFF_NAMED(invariants)
 PFAFF_NAMED(exact_solution)
 PFAFF_NAMED(initial)
@@ -178,6 +220,25 @@ constexpr void check_formulas() {
                 "alpha: expected template <class T> void alpha(const T& t, const T& t0, In<T> new_z, "
                 "In<T> old_z, Out<T> w_hat, Out<T> w) const");
   static_assert(
+      WritesHolonomic<S> || !names_holonomic<S>,
+      "holonomic: expected template <class T> void holonomic(const T& t, In<T> q, Out<T> phi) const");
+  static_assert(
+      WritesFriction<S> || !names_friction<S>,
+      "friction: expected template <class T> void friction(const T& t, In<T> z, Out<T> lambda) const");
+  static_assert(
+      WritesConstraints<S> || !names_constraints<S>,
+      "constraints: expected template <class T> void constraints(const T& t, In<T> z, Out<T> phi) const");
+  static_assert(WritesConstraintGradients<S> || !names_constraint_gradients<S>,
+                "constraint_gradients: expected template <class T> void constraint_gradients(const T& t, "
+                "In<T> z, Out<T> rows) const");
+  static_assert(WritesConstraintEvaluator<S> || !names_constraint_evaluator<S>,
+                "constraint_evaluator: expected template <class T> "
+                "std::unique_ptr<HolonomicConstraints<T>> constraint_evaluator() const");
+  static_assert(WritesSymmetricBracket<S> || !names_symmetric_bracket<S>,
+                "symmetric_bracket: expected a bracket from symmetric_bracket() const");
+  static_assert(WritesEntropy<S> || !names_entropy<S>,
+                "entropy: expected template <class T> T entropy(const T& t, In<T> z) const");
+  static_assert(
       WritesInvariants<S> || !names_invariants<S>,
       "invariants: expected template <class T> void invariants(const T& t, In<T> z, Out<T> values) const");
   static_assert(
@@ -217,6 +278,27 @@ constexpr void check_formulas() {
                 "alpha is written for the structure K of birkhoffian and one_form, of structure and "
                 "covector, or of canonical "
                 "coordinates, which are missing");
+  static_assert(!(names_holonomic<S> && names_constraints<S>),
+                "holonomic constraints imply the hidden ones: expected either holonomic or constraints");
+  static_assert((names_holonomic<S> || names_constraints<S>) == WritesConstraintCount<S>,
+                "constraint_count (a static constexpr int or a member function) and holonomic or constraints "
+                "belong together: one of them is missing");
+  static_assert(
+      (names_kinetic<S> && !names_damping<S>) || (names_hamiltonian<S> && !names_bracket<S>) ||
+          !names_holonomic<S>,
+      "holonomic is written beside kinetic and potential, or hamiltonian without bracket, which are "
+      "missing");
+  static_assert((names_kinetic<S> && !names_damping<S>) || names_hamiltonian<S> || !names_constraints<S>,
+                "constraints is written beside kinetic and potential, or hamiltonian, which are missing");
+  static_assert(names_holonomic<S> || !(names_friction<S> || names_constraint_evaluator<S>),
+                "friction and constraint_evaluator are written beside holonomic, which is missing");
+  static_assert(names_constraints<S> || !names_constraint_gradients<S>,
+                "constraint_gradients is written beside constraints, which is missing");
+  static_assert(
+      (names_kinetic<S> && !names_damping<S>) || names_hamiltonian<S> || !names_symmetric_bracket<S>,
+      "symmetric_bracket is written beside kinetic and potential, or hamiltonian, which are missing");
+  static_assert(names_symmetric_bracket<S> || !names_entropy<S>,
+                "entropy is written beside symmetric_bracket, which is missing");
   static_assert(names_field<S> || names_kinetic<S> || names_hamiltonian<S> || names_birkhoffian<S> ||
                     names_structure<S>,
                 "this system has no vector field; expected one of field, kinetic and potential, hamiltonian, "

@@ -5,6 +5,7 @@
 #include <cfenv>
 
 #include <pfaff/core/bracket.hpp>
+#include <pfaff/core/formulation.hpp>
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
 
@@ -22,6 +23,10 @@ Registry<BracketPlugin>& brackets() {
   static Registry<BracketPlugin> registry;
   return registry;
 }
+Registry<FormulationPlugin>& formulations() {
+  static Registry<FormulationPlugin> registry;
+  return registry;
+}
 
 void load_plugin(const std::string& path) {
   require_same_abi(path);
@@ -33,7 +38,8 @@ void load_plugin(const std::string& path) {
   std::fesetenv(&arithmetic);
   if (handle == nullptr) throw InputError("plug-in '" + path + "': " + dlerror());
   std::string twice;
-  for (const auto* names : {&systems().duplicates(), &integrators().duplicates(), &brackets().duplicates()})
+  for (const auto* names : {&systems().duplicates(), &integrators().duplicates(), &brackets().duplicates(),
+                            &formulations().duplicates()})
     for (const std::string& name : *names) twice += (twice.empty() ? "" : "; ") + name;
   if (!twice.empty()) throw InputError("registered twice: " + twice);
 }

@@ -14,6 +14,7 @@ namespace pfaff {
 class SystemPlugin;
 class MethodPlugin;
 class BracketPlugin;
+class FormulationPlugin;
 
 /// All plug-ins of one kind.
 template <class P>
@@ -66,6 +67,7 @@ class Registry {
 Registry<SystemPlugin>& systems();
 Registry<MethodPlugin>& integrators();
 Registry<BracketPlugin>& brackets();
+Registry<FormulationPlugin>& formulations();
 
 /// Loads a plug-in's shared object and with it its registrations. Refuses, before loading, a file whose ABI
 /// stamp is missing or different (InputError).

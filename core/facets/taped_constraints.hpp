@@ -1,0 +1,186 @@
+// The constraints phi(q, t) = 0 of any canonical H(q, p, t), from tapes.
+//
+// Everything is derived: phi~ = {phi, H} + phi_t, its rate, and B, P, T by differentiation onto the tape,
+// which also tells where they have entries; S = B H_pp B^T is then factored in the structure that follows.
+// H may have any mass matrix M(q), and need not be quadratic in p.
+#pragma once
+
+#include <vector>
+
+#include <pfaff/core/facets/holonomic.hpp>
+#include <pfaff/core/linear/structured_ldlt.hpp>
+#include <pfaff/core/tape/replay.hpp>
+
+namespace pfaff {
+
+class Model;
+
+/// Where a K x n matrix has entries, row by row: columns[begin[i]] ... columns[begin[i + 1] - 1].
+struct SparseRows {
+  std::vector<std::size_t> begin, columns;
+};
+
+/// What is recorded once for a system.
+struct HolonomicTapes {
+  std::size_t count = 0, degrees = 0;
+  std::shared_ptr<const Tape> values;    // (q, t) -> phi
+  std::shared_ptr<const Tape> hidden;    // (q, p, t) -> phi~
+  std::shared_ptr<const Tape> gradient;  // (q, p, t) -> (H_q, H_p)
+  std::shared_ptr<const Tape> linear;    // (q, p, t) -> B, P, S: entries, diagonal, couplings
+  std::shared_ptr<const Tape> place;     // -> those, H_p, -H_q, phi, phi~, h, T, lambda, S^D
+  SparseRows by_position, by_momentum, hidden_by_position;  // B, P, T
+  std::shared_ptr<const SymmetricPattern> pattern, friction_pattern;
+  bool friction = false;
+};
+
+/// Records them from the formulas holonomic, hamiltonian and, where there is one, friction of a model.
+HolonomicTapes record_holonomic(const Model& model);
+
+template <class T>
+class TapedConstraints final : public HolonomicConstraints<T> {
+ public:
+  explicit TapedConstraints(std::shared_ptr<const HolonomicTapes> tapes)
+      : tapes_(std::move(tapes)),
+        values_(tapes_->values),
+        hidden_(tapes_->hidden),
+        gradient_(tapes_->gradient),
+        linear_(tapes_->linear),
+        place_(tapes_->place),
+        state_(2 * tapes_->degrees),
+        slopes_(2 * tapes_->degrees),
+        placed_(tapes_->place->outputs.size()),
+        ldlt_(tapes_->pattern),
+        friction_ldlt_(tapes_->friction_pattern) {}
+
+  [[nodiscard]] std::size_t count() const override { return tapes_->count; }
+  [[nodiscard]] std::size_t degrees() const override { return tapes_->degrees; }
+  [[nodiscard]] const SymmetricPattern& pattern() const override { return *tapes_->pattern; }
+
+  void values(const T& t, In<T> q, Out<T> phi) override { values_(t, q.data(), phi.data()); }
+  void hidden_values(const T& t, In<T> q, In<T> p, Out<T> hidden) override {
+    join(q, p);
+    hidden_(t, state_.data(), hidden.data());
+  }
+  void velocity(const T& t, In<T> q, In<T> p, Out<T> v) override {
+    slopes(t, q, p);
+    for (std::size_t k = 0; k < degrees(); ++k) v[k] = slopes_[degrees() + k];
+  }
+  void force(const T& t, In<T> q, In<T> p, Out<T> f) override {
+    slopes(t, q, p);
+    for (std::size_t k = 0; k < degrees(); ++k) f[k] = -slopes_[k];
+  }
+
+  Status linearise(const T& t, In<T> q, In<T> p) override {
+    join(q, p);
+    linear_(t, state_.data(), placed_.data());
+    return factor();
+  }
+  void apply(In<T> u, Out<T> r) const override { multiply(tapes_->by_position, 0, u, r); }
+  void apply_transpose(In<T> x, Out<T> f) const override { multiply_transpose(tapes_->by_position, 0, x, f); }
+  void solve(In<T> r, Out<T> x) const override { ldlt_.solve(r.data(), x.data()); }
+  void solve(In<T> r1, Out<T> x1, In<T> r2, Out<T> x2) const override {
+    ldlt_.solve(r1.data(), x1.data(), r2.data(), x2.data());
+  }
+  void hidden_by_momentum(In<T> u, Out<T> r) const override {
+    multiply(tapes_->by_momentum, momentum_begin(), u, r);
+  }
+  void hidden_by_momentum_transpose(In<T> x, Out<T> v) const override {
+    multiply_transpose(tapes_->by_momentum, momentum_begin(), x, v);
+  }
+
+  Status place(const T& t, In<T> q, In<T> p) override {
+    join(q, p);
+    place_(t, state_.data(), placed_.data());
+    return factor();
+  }
+  [[nodiscard]] std::span<const T> velocities() const override { return part(0, degrees()); }
+  [[nodiscard]] std::span<const T> forces() const override { return part(degrees(), degrees()); }
+  [[nodiscard]] std::span<const T> residuals() const override { return part(2 * degrees(), count()); }
+  [[nodiscard]] std::span<const T> hidden() const override { return part(2 * degrees() + count(), count()); }
+  [[nodiscard]] std::span<const T> hidden_rates() const override {
+    return part(2 * degrees() + 2 * count(), count());
+  }
+  void hidden_by_position(In<T> u, Out<T> r) const override {
+    multiply(tapes_->hidden_by_position, hidden_begin(), u, r);
+  }
+  void hidden_by_position_transpose(In<T> x, Out<T> f) const override {
+    multiply_transpose(tapes_->hidden_by_position, hidden_begin(), x, f);
+  }
+
+  [[nodiscard]] std::span<const T> friction() const override {
+    return part(friction_begin() - placed_begin(), tapes_->friction ? degrees() : 0);
+  }
+  Status factor_friction() override {
+    const std::size_t begin = friction_begin() + degrees();
+    for (std::size_t k = 0; k < count(); ++k) friction_ldlt_.diagonal()[k] = placed_[begin + k];
+    for (std::size_t c = 0; c < tapes_->friction_pattern->couplings().size(); ++c)
+      friction_ldlt_.couplings()[c] = placed_[begin + count() + c];
+    return friction_ldlt_.factor_semidefinite();
+  }
+  void solve_friction(In<T> r, Out<T> x) const override { friction_ldlt_.solve(r.data(), x.data()); }
+
+ private:
+  // Outputs of `linear` come first in those of `place`: B, P, the diagonal and the couplings of S.
+  [[nodiscard]] std::size_t momentum_begin() const { return tapes_->by_position.columns.size(); }
+  [[nodiscard]] std::size_t pattern_begin() const {
+    return momentum_begin() + tapes_->by_momentum.columns.size();
+  }
+  [[nodiscard]] std::size_t placed_begin() const {
+    return pattern_begin() + count() + tapes_->pattern->couplings().size();
+  }
+  [[nodiscard]] std::size_t hidden_begin() const { return placed_begin() + 2 * degrees() + 3 * count(); }
+  [[nodiscard]] std::size_t friction_begin() const {
+    return hidden_begin() + tapes_->hidden_by_position.columns.size();
+  }
+  [[nodiscard]] std::span<const T> part(std::size_t offset, std::size_t size) const {
+    return std::span<const T>(placed_).subspan(placed_begin() + offset, size);
+  }
+
+  void join(In<T> q, In<T> p) {
+    for (std::size_t k = 0; k < degrees(); ++k) {
+      state_[k] = q[k];
+      state_[degrees() + k] = p[k];
+    }
+  }
+  void slopes(const T& t, In<T> q, In<T> p) {
+    join(q, p);
+    gradient_(t, state_.data(), slopes_.data());
+  }
+  Status factor() {
+    const T* entries = placed_.data() + pattern_begin();
+    for (std::size_t k = 0; k < count(); ++k) ldlt_.diagonal()[k] = entries[k];
+    for (std::size_t c = 0; c < tapes_->pattern->couplings().size(); ++c)
+      ldlt_.couplings()[c] = entries[count() + c];
+    return ldlt_.factor();
+  }
+  void multiply(const SparseRows& rows, std::size_t first, In<T> u, Out<T> r) const {
+    for (std::size_t i = 0; i < count(); ++i) {
+      T sum(0);
+      for (std::size_t e = rows.begin[i]; e < rows.begin[i + 1]; ++e)
+        sum = sum + placed_[first + e] * u[rows.columns[e]];
+      r[i] = sum;
+    }
+  }
+  void multiply_transpose(const SparseRows& rows, std::size_t first, In<T> x, Out<T> f) const {
+    for (T& value : f) value = T(0);
+    for (std::size_t i = 0; i < count(); ++i)
+      for (std::size_t e = rows.begin[i]; e < rows.begin[i + 1]; ++e)
+        f[rows.columns[e]] = f[rows.columns[e]] + placed_[first + e] * x[i];
+  }
+
+  std::shared_ptr<const HolonomicTapes> tapes_;
+  Replay<T> values_, hidden_, gradient_, linear_, place_;
+  std::vector<T> state_, slopes_, placed_;
+  StructuredLDLT<T> ldlt_, friction_ldlt_;
+};
+
+/// The factory of a model's taped constraints.
+struct TapedConstraintSource {
+  std::shared_ptr<const HolonomicTapes> tapes;
+  template <class T>
+  [[nodiscard]] std::unique_ptr<HolonomicConstraints<T>> constraint_evaluator() const {
+    return std::make_unique<TapedConstraints<T>>(tapes);
+  }
+};
+
+}  // namespace pfaff
