@@ -41,6 +41,9 @@ class Pack {
     for (Register& r : registers_) r = broadcast(x);
   }
 
+  /// One number in each lane: without a way through memory, which set() may take.
+  Pack(double first, double second) requires(W == 2) : registers_{{Register{first, second}}} {}
+
   [[nodiscard]] double operator[](std::size_t lane) const {
     if constexpr (register_width == 1)
       return registers_[lane];
