@@ -15,6 +15,11 @@ inline constexpr bool has_numbers = std::numeric_limits<Value<T>>::is_specialize
 template <int W>
 inline constexpr bool has_numbers<Pack<W>> = true;
 
+template <class T>
+inline constexpr bool is_pack = false;
+template <int W>
+inline constexpr bool is_pack<Pack<W>> = true;
+
 /// True where x is neither zero nor infinite nor not-a-number.
 template <class T>
 bool is_usable(const T& x) {

@@ -61,8 +61,8 @@ TEST(StructuredLDLT, ExactOverRationals) {
 }
 
 // |A x - b|_i <= c u growth max|A| |x|_1, where c counts the roundings of a row: those of the factors, of the
-// two substitutions and of the residual itself, as many as the row has entries (Higham, Accuracy and
-// Stability of Numerical Algorithms, theorem 9.4 for a factorisation without exchanges).
+// two substitutions and of the residual itself, as many as the row has entries (higham2002,
+// theorem 9.4, for a factorisation without exchanges).
 template <class T>
 T bound(const SymmetricPattern& pattern, const Entries& e, const T& growth, const std::vector<T>& x) {
   std::vector<int> entries(pattern.rows(), 3);
