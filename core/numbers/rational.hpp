@@ -9,6 +9,7 @@
 #include <concepts>
 #include <cstdint>
 #include <limits>
+#include <ostream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -120,6 +121,7 @@ inline Rational pow(const Rational& x, const Real& y) {
 }
 /// "-3/4", "5".
 inline std::string to_string(const Rational& x) { return x.number().str(); }
+inline std::ostream& operator<<(std::ostream& stream, const Rational& x) { return stream << to_string(x); }
 
 }  // namespace pfaff
 
