@@ -291,22 +291,16 @@ struct RodState {
   std::vector<double> q, p, rate_q, rate_p;
 };
 
-/// Adds the benchmark of run(work, state), one evaluation for every rod of the rig.
-template <int D, class Work, class Run>
-void add_rods(const std::string& shape, int dimension, int count, const std::string& what,
-              const std::string& path, const Rig<D>& rig, Work work, Run run) {
-  const std::string name =
-      shape + "-" + std::to_string(dimension) + "d-" + std::to_string(count) + "/" + what + "/" + path;
+/// Adds the benchmark of run(), one evaluation for so many rods.
+template <class Run>
+void add_rods(const std::string& shape, const std::string& what, const std::string& path, double count,
+              Run run) {
+  const std::string name = shape + "/" + what + "/" + path;
   [[maybe_unused]] const auto measured = [=](benchmark::State& state) mutable {
-    RodState<D> s(rig);
-    for (auto _ : state) {
-      benchmark::DoNotOptimize(s.q.data());
-      run(work, s);
-      benchmark::ClobberMemory();
-    }
-    const double rods = static_cast<double>(state.iterations()) * count;
+    for (auto _ : state) run();
     state.counters["ns_per_rod"] =
-        benchmark::Counter(1e-9 * rods, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+        benchmark::Counter(1e-9 * count * static_cast<double>(state.iterations()),
+                           benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
   };
 #ifndef __clang_analyzer__  // which sees a leak inside Google Benchmark
   benchmark::RegisterBenchmark(name.c_str(), measured);

@@ -11,17 +11,25 @@ namespace {
 using namespace pfaff::micro;
 
 template <int D>
-void add_loops() {
-  for (const int count : chain_sizes) {
-    const Rig<D> rig(count);
-    add_rods("chain", D, count, "dirac", "by-hand", rig, HalvedChain<D>(rig), [](auto& chain, auto& s) {
-      chain.dirac(s.q.data(), s.p.data(), s.rate_q.data(), s.rate_p.data());
-    });
-    add_rods("chain", D, count, "lmm", "by-hand", rig, HalvedChain<D>(rig), [](auto& chain, auto& s) {
-      chain.multipliers(s.q.data(), s.p.data(), s.rate_q.data(), s.rate_p.data());
-    });
-  }
+void add_chain(int count) {
+  const Rig<D> rig(count);
+  const std::string shape = "chain-" + std::to_string(D) + "d-" + std::to_string(count);
+  add_rods(shape, "dirac", "by-hand", count, [chain = HalvedChain<D>(rig), s = RodState<D>(rig)]() mutable {
+    benchmark::DoNotOptimize(s.q.data());
+    chain.dirac(s.q.data(), s.p.data(), s.rate_q.data(), s.rate_p.data());
+    benchmark::ClobberMemory();
+  });
+  add_rods(shape, "lmm", "by-hand", count, [chain = HalvedChain<D>(rig), s = RodState<D>(rig)]() mutable {
+    benchmark::DoNotOptimize(s.q.data());
+    chain.multipliers(s.q.data(), s.p.data(), s.rate_q.data(), s.rate_p.data());
+    benchmark::ClobberMemory();
+  });
 }
 
-[[maybe_unused]] const bool added = (add_loops<2>(), add_loops<3>(), true);
+template <int D>
+void add_chains() {
+  for (const int count : chain_sizes) add_chain<D>(count);
+}
+
+[[maybe_unused]] const bool added = (add_chains<2>(), add_chains<3>(), true);
 }  // namespace

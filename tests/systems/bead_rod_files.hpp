@@ -1,0 +1,64 @@
+// Model files for tests, written to the tests' directory.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include <pfaff/core/system.hpp>
+
+namespace pfaff::testing {
+
+inline std::string write_file(const std::string& name, const std::string& text) {
+  std::string path = ::testing::TempDir() + name;
+  std::ofstream(path) << text;
+  return path;
+}
+
+inline std::shared_ptr<const Model> bead_rod(const std::string& name, const nlohmann::json& model) {
+  return systems().get("bead-rod", "system").make({{"model", write_file(name + ".json", model.dump())}});
+}
+
+inline nlohmann::json golden(const std::string& name) {
+  return nlohmann::json::parse(std::ifstream(std::string(PFAFF_GOLDEN) + "/" + name + ".json"));
+}
+
+/// The model file of a golden system in one of its states; numbers stay decimal strings.
+inline nlohmann::json golden_model(const nlohmann::json& source, const nlohmann::json& state) {
+  const std::size_t axes = source["dim"];
+  nlohmann::json model{{"dimension", axes},
+                       {"masses", source["masses"]},
+                       {"friction", source["Lambda"]},
+                       {"gravity", source["g"]},
+                       {"lengths", source["lengths"]}};
+  for (const auto& rod : source["rods"]) {
+    if (!rod[0].is_null()) model["rods"].push_back(rod);
+    if (rod[1].is_null()) {
+      model["rods"].back()[1] = "origin";
+      model["anchors"]["origin"] = std::vector<int>(axes, 0);
+    }
+  }
+  for (std::size_t k = 0; k < state["q"].size(); ++k) {
+    if (k % axes == 0) {
+      model["positions"].push_back(nlohmann::json::array());
+      model["momenta"].push_back(nlohmann::json::array());
+    }
+    model["positions"].back().push_back(state["q"][k]);
+    model["momenta"].back().push_back(state["p"][k]);
+  }
+  if (source.contains("pair")) {
+    model["charges"] = source["pair"]["charges"];
+    const Real epsilon =
+        *Real::parse(source["pair"]["eps"].get<std::string>()) / 4;  // the file's form has a 4
+    model["potentials"] = {{{"kind", "lennard-jones"},
+                            {"epsilon", to_string(epsilon)},
+                            {"sigma", source["pair"]["sigma"]},
+                            {"exclude", 1}},
+                           {{"kind", "coulomb"}, {"strength", source["pair"]["a"]}, {"exclude", 1}}};
+  }
+  return model;
+}
+
+}  // namespace pfaff::testing
