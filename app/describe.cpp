@@ -8,6 +8,7 @@
 #include <pfaff/bench/runner/citations.hpp>
 #include <pfaff/bench/runner/experiment.hpp>
 #include <pfaff/core/bracket.hpp>
+#include <pfaff/core/formulation.hpp>
 
 namespace pfaff::app {
 
@@ -24,6 +25,14 @@ nlohmann::json parameters_of(const Plugin& plugin, const Assignments& defaults) 
                     {"meaning", p.meaning}});
   }
   return list;
+}
+
+// The formulations that fit a system with constraints.
+nlohmann::json formulations_of(const std::shared_ptr<const Model>& model) {
+  nlohmann::json names = nlohmann::json::array();
+  for (const FormulationPlugin* formulation : formulations().all())
+    if (formulation->refuses(*model).empty()) names.push_back(formulation->name());
+  return names;
 }
 
 nlohmann::json describe_system(const SystemPlugin& plugin) {
@@ -49,6 +58,16 @@ nlohmann::json describe_system(const SystemPlugin& plugin) {
   j["integrators"] = nlohmann::json::array();
   for (const MethodPlugin* method : integrators().all())
     if (method->make({})->refuses(*model).empty()) j["integrators"].push_back(method->name());
+  if (model->constrained()) {
+    j["constraints"] = model->constraint_names();
+    j["formulations"] = formulations_of(model);
+    const auto motion = formulations().get("dirac", "formulation").apply(model, {});
+    j["integrators_of_formulations"] = nlohmann::json::array();
+    for (const MethodPlugin* method : integrators().all())
+      if (const auto instance = method->make({});
+          !instance->refuses(*model).empty() && instance->refuses(*motion).empty())
+        j["integrators_of_formulations"].push_back(method->name());
+  }
   return j;
 }
 
@@ -63,7 +82,7 @@ nlohmann::json describe_method(const MethodPlugin& plugin) {
                    {"parameters", parameters_of(plugin, method->parameters())}};
   j["systems"] = nlohmann::json::array();
   for (const SystemPlugin* system : systems().all()) {
-    const auto model = system->make({});
+    const auto model = motion_for(*method, system->make({}));
     if (!method->refuses(*model).empty()) continue;
     nlohmann::json claims = nlohmann::json::array();
     for (const Claim claim : claims_in_scope(*method, *model)) claims.push_back(to_string(claim));
@@ -85,6 +104,19 @@ nlohmann::json describe_bracket(const BracketPlugin& plugin) {
           {"parameters", parameters_of(plugin, bracket.parameters)}};
 }
 
+nlohmann::json describe_formulation(const FormulationPlugin& plugin) {
+  nlohmann::json j{{"kind", "formulation"},
+                   {"name", plugin.name()},
+                   {"title", plugin.descriptor().title},
+                   {"reference", plugin.descriptor().reference},
+                   {"parameters", parameters_of(plugin, plugin.resolve({}))}};
+  j["systems"] = nlohmann::json::array();
+  for (const SystemPlugin* system : systems().all())
+    if (system->constrained() && plugin.refuses(*system->make({})).empty())
+      j["systems"].push_back({{"name", system->name()}, {"title", system->descriptor().title}});
+  return j;
+}
+
 nlohmann::json describe_experiment(const std::string& name) {
   const Experiment e = read_experiment(name, false);
   nlohmann::json j{{"kind", "experiment"},         {"name", e.name},           {"title", e.title},
@@ -102,13 +134,15 @@ std::vector<nlohmann::json> describe(const std::string& name,
   if (const auto* system = systems().find(name)) found.push_back(describe_system(*system));
   if (const auto* method = integrators().find(name)) found.push_back(describe_method(*method));
   if (const auto* bracket = brackets().find(name)) found.push_back(describe_bracket(*bracket));
+  if (const auto* formulation = formulations().find(name))
+    found.push_back(describe_formulation(*formulation));
   const std::vector<std::string> experiments = experiment_names();
   if (std::find(experiments.begin(), experiments.end(), name) != experiments.end())
     found.push_back(describe_experiment(name));
   if (!found.empty()) return found;
   std::vector<std::string> names;
-  for (const auto& more :
-       {systems().names(), integrators().names(), brackets().names(), experiments, also_known})
+  for (const auto& more : {systems().names(), integrators().names(), brackets().names(),
+                           formulations().names(), experiments, also_known})
     for (const std::string& one : more)
       if (std::find(names.begin(), names.end(), one) == names.end()) names.push_back(one);
   throw InputError(unknown_name("name", name, names));

@@ -6,6 +6,7 @@
 #include <pfaff/app/terminal.hpp>
 #include <pfaff/bench/runner/experiment.hpp>
 #include <pfaff/core/bracket.hpp>
+#include <pfaff/core/formulation.hpp>
 
 namespace pfaff::app {
 
@@ -23,6 +24,7 @@ Rows rows_of_kind(const std::string& kind) {
   if (kind == "systems") return rows_of(systems());
   if (kind == "integrators") return rows_of(integrators());
   if (kind == "brackets") return rows_of(brackets());
+  if (kind == "formulations") return rows_of(formulations());
   Rows rows;
   for (const std::string& name : experiment_names())
     rows.emplace_back(name, read_experiment(name, false).title);
@@ -30,7 +32,7 @@ Rows rows_of_kind(const std::string& kind) {
 }
 
 int list(const std::string& kind, bool json) {
-  const std::vector<std::string> kinds{"systems", "integrators", "brackets", "experiments"};
+  const std::vector<std::string> kinds{"systems", "integrators", "brackets", "formulations", "experiments"};
   if (!kind.empty() && std::find(kinds.begin(), kinds.end(), kind) == kinds.end())
     throw InputError(unknown_name("kind", kind, kinds));
   nlohmann::json j{{"schema", 1}};
@@ -51,9 +53,11 @@ int list(const std::string& kind, bool json) {
 }  // namespace
 
 void add_list(CLI::App& app, Common& common, Action& action) {
-  CLI::App* sub = subcommand(app, common, "list", "List systems, integrators, brackets and experiments");
+  CLI::App* sub =
+      subcommand(app, common, "list", "List systems, integrators, brackets, formulations and experiments");
   auto kind = std::make_shared<std::string>();
-  sub->add_option("kind", *kind, "systems, integrators, brackets or experiments; all of them without")
+  sub->add_option("kind", *kind,
+                  "systems, integrators, brackets, formulations or experiments; all of them without")
       ->type_name("KIND");
   sub->callback([kind, &common, &action] { action = [kind, &common] { return list(*kind, common.json); }; });
 }

@@ -24,13 +24,16 @@ RunSettings settings_of(const Options& options) {
     throw InputError("--out is missing: a new directory for the run, or - for its series on standard output");
   RunSettings settings = options.settings;
   if (!options.config.empty()) {
-    for (const std::string& other : {settings.system, settings.integrator, settings.time, settings.step,
-                                     settings.tolerance, options.every, options.precision, options.state})
+    for (const std::string& other :
+         {settings.system, settings.formulation, settings.integrator, settings.time, settings.step,
+          settings.tolerance, options.every, options.precision, options.state})
       if (!other.empty() || !options.set.empty())
         throw InputError("--config holds the whole run; expected no other settings beside it");
     return read_config(options.config);
   }
   if (settings.system.empty()) throw InputError("--system is missing (see pfaff list systems)");
+  if (settings.project_initial && settings.allow_inconsistent)
+    throw InputError("--project-initial and --allow-inconsistent exclude each other");
   if (settings.integrator.empty()) throw InputError("--integrator is missing (see pfaff list integrators)");
   if (settings.time.empty()) throw InputError("--time is missing: the duration of the run");
   settings.set = parse_settings(options.set);
@@ -96,6 +99,13 @@ int run(const Options& options, bool json) {
         else if (i.contains("largest_rise"))
           rows.push_back(
               {i["name"], "largest rise " + scientific(i["largest_rise"]) + ", expected to decrease"});
+      if (j.contains("constraints"))
+        for (const auto& c : j["constraints"])
+          rows.push_back({c["name"], "residual max " + scientific(c["max"]) + ", final " +
+                                         scientific(c["final"]) + ", " + c["class"].get<std::string>()});
+      if (j.contains("projected_initial"))
+        rows.push_back(
+            {"initial", "moved onto the constraints, relative change " + scientific(j["projected_initial"])});
       rows.push_back({"written", options.out + "/{config.toml, series.csv, summary.json}"});
       std::cout << table(rows);
     }
@@ -115,6 +125,9 @@ void add_run(CLI::App& app, Common& common, Action& action) {
   auto options = std::make_shared<Options>();
   RunSettings& s = options->settings;
   sub->add_option("--system", s.system, "Name of the system")->type_name("NAME");
+  sub->add_option("--formulation", s.formulation,
+                  "Of a system with constraints: its vector field (dirac without, where one is needed)")
+      ->type_name("NAME");
   sub->add_option("--integrator", s.integrator, "Name of the integrator")->type_name("NAME");
   sub->add_option("--step", s.step, "Step h > 0")->type_name("h");
   sub->add_option("--tolerance", s.tolerance, "Instead of --step, for methods that choose their steps")
@@ -129,6 +142,9 @@ void add_run(CLI::App& app, Common& common, Action& action) {
   sub->add_option("--state", options->state, "JSON file with the initial state: t, and z or q and p")
       ->type_name("FILE");
   sub->add_option("--precision", options->precision, "double (default) or quad")->type_name("NAME");
+  sub->add_flag("--project-initial", s.project_initial,
+                "Move the initial state onto the constraints, and say by how much");
+  sub->add_flag("--allow-inconsistent", s.allow_inconsistent, "Take an initial state off the constraints");
   sub->add_option("--config", options->config, "config.toml of an earlier run, to run it again")
       ->type_name("FILE");
   sub->add_option("--out", options->out, "New directory for the run, or - for its series on standard output")

@@ -4,8 +4,8 @@
 //   template <class T> struct Work { Work(std::size_t degrees, std::size_t count); … };
 //   template <class T> Status field(HolonomicConstraints<T>& constraints, const T& t, In<T> q, In<T> p,
 //                                   Out<T> q_rate, Out<T> p_rate, Work<T>& work) const;
-// without comparisons, so that it can be recorded. Optional members: field_tape(model), the same for
-// constraints of the phase space, phi(z, t) = 0; refuses(model), a reason or an empty string.
+// without comparisons, so that it can be recorded. Optional: field_tape(model), the same for constraints of
+// the phase space, phi(z, t) = 0.
 #pragma once
 
 #include <limits>
@@ -34,6 +34,8 @@ class FormulationPlugin : public Plugin {
   [[nodiscard]] const FormulationDescriptor& descriptor() const { return descriptor_; }
   /// The parameters and their values after `assignments`; InputError for wrong ones.
   [[nodiscard]] virtual Assignments resolve(const Assignments& assignments) const = 0;
+  /// Why the formulation does not fit a model, naming both sides; empty when it does.
+  [[nodiscard]] virtual std::string refuses(const Model& model) const = 0;
   /// The motion of a constrained model in this formulation: a model that offers a vector field. InputError
   /// where the formulation does not fit.
   [[nodiscard]] virtual std::shared_ptr<const Model> apply(const std::shared_ptr<const Model>& model,
@@ -92,14 +94,19 @@ class Formulation final : public FormulationPlugin {
     const F object = make(assignments);
     return resolved(parameters(), &object);
   }
+  [[nodiscard]] std::string refuses(const Model& model) const override {
+    if (!model.constrained() || !model.source().formulation.empty())
+      return "formulation " + name() + " needs a system with constraints; " + model.name() + " offers " +
+             to_string(model.facets());
+    if (!of_phase_space && !model.facets().has(Facet::holonomic))
+      return "formulation " + name() + " needs holonomic; " + model.name() + " offers " +
+             to_string(model.facets());
+    return {};
+  }
   [[nodiscard]] std::shared_ptr<const Model> apply(const std::shared_ptr<const Model>& model,
                                                    const Assignments& assignments) const override {
     const F object = make(assignments);
-    if (!model->constrained() || !model->source().formulation.empty())
-      throw InputError("formulation " + name() + " needs a system with constraints; " + model->name() +
-                       " offers " + to_string(model->facets()));
-    if constexpr (requires { object.refuses(*model); })
-      if (const std::string reason = object.refuses(*model); !reason.empty()) throw InputError(reason);
+    if (const std::string reason = refuses(*model); !reason.empty()) throw InputError(reason);
     ModelSource source = model->source();
     source.formulation = name();
     source.formulation_parameters = resolved(parameters(), &object);
@@ -110,16 +117,14 @@ class Formulation final : public FormulationPlugin {
           detail::FormulatedField<F>{model, object});
       return std::make_shared<const Model>(std::move(source));
     }
-    if constexpr (requires { object.field_tape(*model); }) {
+    if constexpr (of_phase_space)
       source.given[index(Formula::field)] = std::make_shared<const Tape>(object.field_tape(*model));
-      return std::make_shared<const Model>(std::move(source));
-    } else {
-      throw InputError("formulation " + name() + " needs holonomic constraints; " + model->name() +
-                       " offers " + to_string(model->facets()));
-    }
+    return std::make_shared<const Model>(std::move(source));
   }
 
  private:
+  static constexpr bool of_phase_space = requires(const F& f, const Model& model) { f.field_tape(model); };
+
   [[nodiscard]] F make(const Assignments& assignments) const {
     F object;
     assign_all(parameters(), &object, assignments, "formulation " + name());

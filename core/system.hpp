@@ -61,6 +61,8 @@ class SystemPlugin : public Plugin {
                const std::source_location& where)
       : Plugin(descriptor.name, std::move(parameters), type, where), descriptor_(std::move(descriptor)) {}
   [[nodiscard]] const SystemDescriptor& descriptor() const { return descriptor_; }
+  /// True for systems with constraints, whose motion is a formulation's.
+  [[nodiscard]] virtual bool constrained() const = 0;
   /// A model with these parameters; the rest keep their defaults. InputError for wrong assignments.
   [[nodiscard]] virtual std::shared_ptr<const Model> make(const Assignments& assignments) const = 0;
 
@@ -96,6 +98,7 @@ class System final : public SystemPlugin {
       : SystemPlugin(std::move(descriptor), parameters_of<S>(), typeid(S), where) {
     systems().add(this);
   }
+  [[nodiscard]] bool constrained() const override { return detail::WritesConstraintCount<S>; }
   [[nodiscard]] std::shared_ptr<const Model> make(const Assignments& assignments) const override {
     S object;
     assign_all(parameters(), &object, assignments, "system " + name());

@@ -12,6 +12,7 @@ RunSettings read_config(const std::string& path) {
   RunSettings settings;
   settings.system = keys.required("system");
   settings.integrator = keys.required("integrator");
+  settings.formulation = keys.text("formulation", "");
   settings.precision = parse_precision(keys.text("precision", "double"));
   settings.t0 = keys.text("t0", "0");
   settings.time = keys.required("time");
@@ -19,6 +20,7 @@ RunSettings read_config(const std::string& path) {
   settings.tolerance = keys.text("tolerance", "");
   if (const std::string every = keys.text("every", ""); !every.empty())
     settings.every = parse_every(every, path + ": key 'every'");
+  settings.allow_inconsistent = keys.text("allow_inconsistent", "no") == "yes";
   settings.initial = keys.list("initial");
   settings.set = keys.assignments("set");
   keys.finish();

@@ -123,8 +123,10 @@ std::vector<ExperimentRun> expand(const Experiment& experiment) {
         RunSettings settings;
         settings.system = c.system;
         settings.integrator = m.integrator;
+        settings.formulation = m.formulation;
         for (const auto& [key, value] : c.set) settings.set.emplace_back("system." + key, value);
-        for (const auto& [key, value] : m.set) settings.set.emplace_back("integrator." + key, value);
+        for (const auto& [key, value] : m.set)
+          settings.set.emplace_back(key.starts_with("formulation.") ? key : "integrator." + key, value);
         settings.initial = c.initial;
         settings.step = step;
         settings.time = c.time;

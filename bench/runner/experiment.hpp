@@ -11,8 +11,8 @@
 namespace pfaff {
 
 struct ExperimentMethod {
-  std::string label, integrator;
-  Assignments set;
+  std::string label, integrator, formulation;
+  Assignments set;  // of the integrator, or named formulation.KEY
 };
 
 struct ExperimentCase {

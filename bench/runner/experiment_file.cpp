@@ -40,6 +40,7 @@ Experiment read_experiment(const std::string& name_or_path, bool quick) {
     ExperimentMethod method;
     method.label = m.required("label");
     method.integrator = m.required("integrator");
+    method.formulation = m.text("formulation", "");
     method.set = m.assignments("set");
     m.finish();
     experiment.methods.push_back(std::move(method));

@@ -4,6 +4,8 @@
 #include <chrono>
 #include <cmath>
 
+#include <pfaff/bench/measure/constraints.hpp>
+
 namespace pfaff {
 
 namespace {
@@ -17,10 +19,12 @@ class Observer {
         reference_(reference),
         record_(record),
         problem_(run.model),
+        constraints_(*run.model),
         values_(run.model->invariants().size()) {
     if (StructureResidual<T>::applies(*run.model) && !run.adaptive())
       residual_.emplace(*run.method, run.model);
     drift_.resize(values_.size());
+    constraint_drift_.resize(constraint_residual_names(*run.model).size());
     lowest_.assign(values_.size(), std::numeric_limits<T>::infinity());
     record_.rise.assign(values_.size(), 0.0);
   }
@@ -34,8 +38,16 @@ class Observer {
       lowest_[i] = std::min(lowest_[i], values_[i]);
       record_.rise[i] = std::max(record_.rise[i], static_cast<double>(values_[i] - lowest_[i]));
     }
+    constraints_(t, z, residuals_);
+    for (std::size_t i = 0; i < residuals_.size(); ++i)
+      constraint_drift_[i].add(static_cast<double>(t), static_cast<double>(residuals_[i]));
     if (!keep) return;
-    Sample sample{Quad(t), {z.begin(), z.end()}, {values_.begin(), values_.end()}, {}, {}};
+    Sample sample{Quad(t),
+                  {z.begin(), z.end()},
+                  {values_.begin(), values_.end()},
+                  {residuals_.begin(), residuals_.end()},
+                  {},
+                  {}};
     if (reference_ != nullptr) sample.error = relative_error(sample);
     if (structure && residual_) {
       const T r = (*residual_)(t, T(run_.step), z);
@@ -51,6 +63,7 @@ class Observer {
 
   void finish() {
     for (const DriftAccumulator& d : drift_) record_.drift.push_back(d.result());
+    for (const DriftAccumulator& d : constraint_drift_) record_.constraints.push_back(d.result());
   }
 
  private:
@@ -73,8 +86,9 @@ class Observer {
   RunRecord& record_;
   Problem<T> problem_;
   std::optional<StructureResidual<T>> residual_;
-  std::vector<T> values_, initial_, lowest_;
-  std::vector<DriftAccumulator> drift_;
+  ConstraintResiduals<T> constraints_;
+  std::vector<T> values_, initial_, lowest_, residuals_;
+  std::vector<DriftAccumulator> drift_, constraint_drift_;
 };
 
 std::string failure(Status status, const std::string& when) {

@@ -18,9 +18,9 @@ namespace pfaff {
 /// One observed instant; numbers are kept in quad and printed in the run's precision.
 struct Sample {
   Quad t;
-  std::vector<Quad> state, invariants;
-  std::optional<Quad> error;      // relative to the reference solution's norm
-  std::optional<Quad> structure;  // structure residual of one step from here
+  std::vector<Quad> state, invariants, constraints;  // the last: the largest residual of each level
+  std::optional<Quad> error;                         // relative to the reference solution's norm
+  std::optional<Quad> structure;                     // structure residual of one step from here
 };
 
 struct RunRecord {
@@ -30,6 +30,7 @@ struct RunRecord {
   std::vector<Sample> samples;
   std::vector<Drift>
       drift;  // one for each invariant, in the model's order; meant for those expected to be conserved
+  std::vector<Drift> constraints;  // of the residuals, in the order of constraint_residual_names
   std::vector<double>
       rise;  // the largest rise of each above what it was before; for those expected to decrease
   std::optional<double> error_max, error_final, structure_residual;

@@ -1,8 +1,11 @@
 #include <pfaff/bench/runner/settings.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
+
+#include <pfaff/bench/measure/constraints.hpp>
 
 namespace pfaff {
 
@@ -43,36 +46,54 @@ bool knows(const Plugin& plugin, const std::string& key) {
 }
 }  // namespace
 
-SplitSettings split_settings(const SystemPlugin& system, const MethodPlugin* method, const Assignments& set) {
+SplitSettings split_settings(const SystemPlugin& system, const FormulationPlugin* formulation,
+                             const MethodPlugin* method, const Assignments& set) {
   SplitSettings split;
+  struct Owner {
+    std::string prefix;
+    const Plugin* plugin;
+    Assignments* assignments;
+  };
+  std::vector<Owner> owners{{"system.", &system, &split.system}};
+  if (formulation != nullptr) owners.push_back({"formulation.", formulation, &split.formulation});
+  if (method != nullptr) owners.push_back({"integrator.", method, &split.integrator});
   for (const auto& [key, value] : set) {
     if (key == "initial") {
       split.initial = split_commas(value);
-    } else if (key.starts_with("system.")) {
-      split.system.emplace_back(key.substr(7), value);
-    } else if (method != nullptr && key.starts_with("integrator.")) {
-      split.integrator.emplace_back(key.substr(11), value);
-    } else {
-      const bool of_system = knows(system, key), of_method = method != nullptr && knows(*method, key);
-      if (of_system && of_method)
-        throw InputError("parameter '" + key + "' belongs to both " + system.name() + " and " +
-                         method->name() + "; expected system." + key + " or integrator." + key);
-      if (!of_system && !of_method) {
-        std::vector<std::string> names{"initial"};
-        for (const Parameter& p : system.parameters()) names.push_back(p.name);
-        if (method != nullptr)
-          for (const Parameter& p : method->parameters()) names.push_back(p.name);
-        if (key.find('.') != std::string::npos) {
-          for (std::size_t k = 0, bare = names.size(); k < bare; ++k)
-            names[k] = (k == 0 ? "" : knows(system, names[k]) ? "system." : "integrator.") + names[k];
-        }
-        throw InputError(unknown_name("parameter", key, names) + " (of " + system.name() +
-                         (method != nullptr ? " or " + method->name() : "") + ")");
-      }
-      (of_system ? split.system : split.integrator).emplace_back(key, value);
+      continue;
     }
+    if (const auto named = std::find_if(owners.begin(), owners.end(),
+                                        [&](const Owner& o) { return key.starts_with(o.prefix); });
+        named != owners.end()) {
+      named->assignments->emplace_back(key.substr(named->prefix.size()), value);
+      continue;
+    }
+    std::vector<const Owner*> knowing;
+    for (const Owner& owner : owners)
+      if (knows(*owner.plugin, key)) knowing.push_back(&owner);
+    if (knowing.size() > 1)
+      throw InputError("parameter '" + key + "' belongs to both " + knowing[0]->plugin->name() + " and " +
+                       knowing[1]->plugin->name() + "; expected " + knowing[0]->prefix + key + " or " +
+                       knowing[1]->prefix + key);
+    if (knowing.empty()) {
+      const bool dotted = key.find('.') != std::string::npos;
+      std::vector<std::string> names{"initial"};
+      std::string of;
+      for (const Owner& owner : owners) {
+        of += (of.empty() ? "" : " or ") + owner.plugin->name();
+        for (const Parameter& p : owner.plugin->parameters())
+          names.push_back((dotted ? owner.prefix : "") + p.name);
+      }
+      throw InputError(unknown_name("parameter", key, names) + " (of " + of + ")");
+    }
+    knowing[0]->assignments->emplace_back(key, value);
   }
   return split;
+}
+
+std::shared_ptr<const Model> motion_for(const MethodInstance& method, std::shared_ptr<const Model> model) {
+  if (!model->constrained() || method.refuses(*model).empty()) return model;
+  return formulations().get("dirac", "formulation").apply(model, {});
 }
 
 std::vector<Real> state_numbers(const Model& model, const std::vector<std::string>& texts,
@@ -101,11 +122,57 @@ std::vector<Real> initial_state(const Model& model, const std::vector<std::strin
 }
 }  // namespace
 
+namespace {
+// Which formulation a run of this system is looked at in; null where there is none.
+const FormulationPlugin* formulation_of(const RunSettings& settings, const SystemPlugin& system) {
+  if (!settings.formulation.empty()) {
+    const FormulationPlugin& named = formulations().get(settings.formulation, "formulation");
+    if (!system.constrained())
+      throw InputError("--formulation: " + system.name() + " has no constraints; expected none");
+    return &named;
+  }
+  return system.constrained() ? &formulations().get("dirac", "formulation") : nullptr;
+}
+
+// A state off the constraints is refused, or moved onto them, or taken as it is.
+void check_consistency(const RunSettings& settings, ResolvedRun& run) {
+  if (!run.model->constrained()) {
+    if (settings.project_initial)
+      throw InputError("--project-initial: system " + run.model->name() + " has no constraints");
+    return;
+  }
+  if (settings.allow_inconsistent) return;
+  std::vector<Quad> z;
+  for (const Real& x : run.initial) z.push_back(x.quad());
+  const ProjectionOntoConstraints projection = project_onto_constraints(*run.model, run.t0.quad(), z);
+  std::array<char, 40> residual{}, change{};
+  std::snprintf(residual.data(), residual.size(), "%.2g", projection.worst_residual);
+  std::snprintf(change.data(), change.size(), "%.2g", projection.change);
+  const std::string where = "initial state of " + run.model->name() + ": constraint " + projection.worst +
+                            " is off by " + residual.data();
+  if (projection.status != Status::converged)
+    throw InputError(where + " and the state cannot be moved onto the constraints (" +
+                     std::string(to_string(projection.status)) + ")");
+  // Round-off of decimal inputs in double is no inconsistency.
+  constexpr double round_off = 1e-13;
+  if (settings.project_initial) {
+    run.projected = projection.change;
+    for (std::size_t k = 0; k < z.size(); ++k) run.initial[k] = Real(z[k]);
+  } else if (projection.change > round_off) {
+    throw InputError(where +
+                     "; expected a state on the constraints, or --project-initial (which changes it by " +
+                     change.data() + ", relatively), or --allow-inconsistent");
+  }
+}
+}  // namespace
+
 ResolvedState resolve_state(const RunSettings& settings) {
   const SystemPlugin& system = systems().get(settings.system, "system");
-  const SplitSettings split = split_settings(system, nullptr, settings.set);
+  const FormulationPlugin* formulation = formulation_of(settings, system);
+  const SplitSettings split = split_settings(system, formulation, nullptr, settings.set);
   ResolvedState result;
   result.model = system.make(split.system);
+  if (formulation != nullptr) result.model = formulation->apply(result.model, split.formulation);
   result.state = initial_state(*result.model, settings.initial.empty() ? split.initial : settings.initial);
   result.t = number(settings.t0, "time");
   return result;
@@ -116,9 +183,17 @@ ResolvedRun resolve(const RunSettings& settings) {
   run.settings = settings;
   const SystemPlugin& system = systems().get(settings.system, "system");
   const MethodPlugin& method = integrators().get(settings.integrator, "integrator");
-  const SplitSettings split = split_settings(system, &method, settings.set);
+  const FormulationPlugin* formulation = formulation_of(settings, system);
+  const SplitSettings split = split_settings(system, formulation, &method, settings.set);
   run.model = system.make(split.system);
   run.method = method.make(split.integrator);
+  if (formulation != nullptr && !run.method->refuses(*run.model).empty()) {
+    run.settings.formulation = formulation->name();
+    run.model = formulation->apply(run.model, split.formulation);
+  } else if (!settings.formulation.empty() || !split.formulation.empty()) {
+    throw InputError(method.name() + " steps on the constraints of " + system.name() +
+                     " themselves; expected no --formulation and no parameter of one");
+  }
   if (const std::string reason = run.method->refuses(*run.model); !reason.empty()) throw InputError(reason);
   if (settings.precision == Precision::quad && run.method->descriptor().double_coefficients)
     throw InputError(method.name() + " has coefficients in double only; expected --precision double");
@@ -128,14 +203,17 @@ ResolvedRun resolve(const RunSettings& settings) {
   run.time = number(settings.time, "--time");
   if (!(run.time > Real(0))) throw InputError("--time: expected a duration > 0, got '" + settings.time + "'");
 
+  check_consistency(settings, run);
   // A state outside the domain of the formulas is refused here, not discovered as NaN later.
-  const Problem<double> problem(run.model);
-  std::vector<double> z, rate(run.initial.size());
-  for (const Real& x : run.initial) z.push_back(x.value());
-  problem.field(run.t0.value(), z, rate);
-  for (const double x : rate)
-    if (!std::isfinite(x))
-      throw InputError("initial state of " + system.name() + ": the vector field is not finite there");
+  if (run.model->facets().has(Facet::vector_field)) {
+    const Problem<double> problem(run.model);
+    std::vector<double> z, rate(run.initial.size());
+    for (const Real& x : run.initial) z.push_back(x.value());
+    problem.field(run.t0.value(), z, rate);
+    for (const double x : rate)
+      if (!std::isfinite(x))
+        throw InputError("initial state of " + system.name() + ": the vector field is not finite there");
+  }
 
   if (run.adaptive()) {
     if (!settings.step.empty()) throw InputError("--step and --tolerance exclude each other");
@@ -171,6 +249,7 @@ std::string config_text(const ResolvedRun& run) {
   const auto quoted = [](const std::string& s) { return '"' + s + '"'; };
   text << "schema = 1\nsystem = " << quoted(run.model->name())
        << "\nintegrator = " << quoted(run.settings.integrator)
+       << (run.settings.formulation.empty() ? "" : "\nformulation = " + quoted(run.settings.formulation))
        << "\nprecision = " << quoted(std::string(to_string(run.settings.precision)))
        << "\nt0 = " << quoted(to_string(run.t0)) << "\ntime = " << quoted(to_string(run.time)) << '\n';
   if (run.adaptive()) {
@@ -178,12 +257,15 @@ std::string config_text(const ResolvedRun& run) {
   } else {
     text << "step = " << quoted(to_string(run.step)) << "\nevery = " << run.every << '\n';
   }
+  if (run.settings.allow_inconsistent) text << "allow_inconsistent = \"yes\"\n";
   text << "initial = [";
   for (std::size_t k = 0; k < run.initial.size(); ++k)
     text << (k == 0 ? "" : ", ") << quoted(to_string(run.initial[k]));
   text << "]\n\n[set]\n";
   for (const auto& [key, value] : run.model->parameters())
     text << "\"system." << key << "\" = " << quoted(value) << '\n';
+  for (const auto& [key, value] : run.model->source().formulation_parameters)
+    text << "\"formulation." << key << "\" = " << quoted(value) << '\n';
   for (const auto& [key, value] : run.method->parameters())
     text << "\"integrator." << key << "\" = " << quoted(value) << '\n';
   return text.str();

@@ -1,23 +1,13 @@
 #include <pfaff/bench/runner/toml_keys.hpp>
 
+#include <pfaff/core/registry/source_text.hpp>
+
 namespace pfaff {
 
 namespace {
-// The text of a value that stands on one line; columns count characters, not bytes, from 1. Underscores
-// between digits are left out.
+// The text of a value, which stands on one line.
 std::string written(const std::string& text, const toml::source_region& region) {
-  std::size_t at = 0;
-  for (toml::source_index line = 1; line < region.begin.line; ++line) at = text.find('\n', at) + 1;
-  const auto begins_character = [&](std::size_t k) {
-    return (static_cast<unsigned char>(text[k]) & 0xC0U) != 0x80U;
-  };
-  std::string found;
-  for (toml::source_index column = 0; at < text.size(); ++at) {
-    column += begins_character(at) ? 1 : 0;
-    if (column >= region.end.column) break;
-    if (column >= region.begin.column && text[at] != '_') found += text[at];
-  }
-  return found;
+  return source_text(text, region.begin.line, region.begin.column, region.end.column);
 }
 
 // Replaces floating-point numbers by the text they are written as.

@@ -2,6 +2,7 @@
 #include <boost/version.hpp>
 #include <sstream>
 
+#include <pfaff/bench/measure/constraints.hpp>
 #include <pfaff/bench/runner/record.hpp>
 
 namespace pfaff {
@@ -25,6 +26,7 @@ std::string series_csv(const ResolvedRun& run, const RunRecord& record) {
   text << header("t", run.model->time_unit());
   for (const Coordinate& c : run.model->coordinates()) text << ',' << header(c.name, c.unit);
   for (const Invariant& i : run.model->invariants()) text << ',' << header(i.name, i.unit);
+  for (const std::string& name : constraint_residual_names(*run.model)) text << ',' << header(name, "1");
   if (error) text << ",error [1]";
   if (structure) text << ",structure_residual [1]";
   text << '\n';
@@ -33,6 +35,7 @@ std::string series_csv(const ResolvedRun& run, const RunRecord& record) {
     text << number(sample.t, p);
     for (const Quad& x : sample.state) text << ',' << number(x, p);
     for (const Quad& x : sample.invariants) text << ',' << number(x, p);
+    for (const Quad& x : sample.constraints) text << ',' << to_string(x, 6);
     if (error) text << ',' << (sample.error ? to_string(*sample.error, 6) : "");
     if (structure) text << ',' << (sample.structure ? to_string(*sample.structure, 6) : "");
     text << '\n';
@@ -55,6 +58,12 @@ nlohmann::json summary(const ResolvedRun& run, const RunRecord& record) {
   j["integrator"] = run.settings.integrator;
   for (const auto& [key, value] : run.model->parameters()) j["parameters"]["system." + key] = value;
   for (const auto& [key, value] : run.method->parameters()) j["parameters"]["integrator." + key] = value;
+  if (!run.settings.formulation.empty()) {
+    j["formulation"] = run.settings.formulation;
+    for (const auto& [key, value] : run.model->source().formulation_parameters)
+      j["parameters"]["formulation." + key] = value;
+  }
+  if (run.settings.project_initial) j["projected_initial"] = run.projected;
   j["precision"] = to_string(run.settings.precision);
   j["time"] = to_string(run.time);
   if (run.adaptive()) {
@@ -96,6 +105,20 @@ nlohmann::json summary(const ResolvedRun& run, const RunRecord& record) {
       entry["largest_rise"] = record.rise[i];
     }
     j["invariants"].push_back(entry);
+  }
+  if (const auto names = constraint_residual_names(*run.model); !names.empty()) {
+    j["constraints"] = nlohmann::json::array();
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const Drift& d = record.constraints[i];
+      j["constraints"].push_back({{"name", names[i]},
+                                  {"max", d.maximum},
+                                  {"rms", d.rms},
+                                  {"final", d.final_value},
+                                  {"slope", d.slope},
+                                  {"exponent", optional(d.growth_exponent)},
+                                  {"rate", optional(d.growth_rate)},
+                                  {"class", to_string(d.drift_class)}});
+    }
   }
   j["error_max"] = optional(record.error_max);
   j["error_final"] = optional(record.error_final);

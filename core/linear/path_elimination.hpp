@@ -19,9 +19,19 @@ template <class T>
 struct EliminationView {
   const T *diagonal, *lower, *upper;
   T *reciprocal, *below, *above;  // reciprocal[i]: 1 / pivot of row i
+  T* error;                       // of a row's pivot, in units of round-off
 };
 
-/// The path of a tridiagonal matrix, or of a ring whose last row is the border.
+/// Right-hand sides and solutions, Count of them at once; the two may be the same.
+template <class B, std::size_t Count>
+struct RightHandSides {
+  std::array<const B*, Count> right;
+  std::array<B*, Count> x;
+};
+
+/// The path of a tridiagonal matrix, or of a ring whose last row is the border. Place k of the path is a row,
+/// and below[k] and above[k] are the factors' entries of places k and k + 1; behind them are those of the
+/// border and place k.
 template <class T, bool Symmetric, bool Natural, bool Border>
 class PathElimination {
  public:
@@ -30,100 +40,45 @@ class PathElimination {
 
   template <class Pivots>
   void factor(Pivots& pivots) const {
-    End left{0, view_.diagonal[row(0)]}, right{rows_ - 1, view_.diagonal[row(rows_ - 1)]};
-    if constexpr (Border) {
-      enter_border(left, rows_);
-      enter_border(right, rows_ - 1);
-    }
-    while (right.at > middle_ + 1) {
-      eliminate(left, left.at + 1, pivots);
-      eliminate(right, right.at - 1, pivots);
-    }
-    while (left.at < middle_) eliminate(left, left.at + 1, pivots);
-    if (right.at > middle_) {
-      eliminate(right, middle_, pivots);
-      left.pivot = left.pivot - right.subtracted;
-    }
-    const std::size_t m = row(middle_);
-    const T r = pivots.reciprocal(left.pivot, view_.diagonal[m], 2);
-    view_.reciprocal[m] = r;
-    if constexpr (Border) {
-      const T lower = left.border_lower + right.border_lower, upper = left.border_upper + right.border_upper;
-      view_.below[rows_ + middle_] = lower * r;
-      if constexpr (!Symmetric) view_.above[rows_ + middle_] = upper * r;
-      const std::size_t v = row(rows_);
-      const T pivot = ((view_.diagonal[v] - left.border_sum) - right.border_sum) - (lower * upper) * r;
-      view_.reciprocal[v] = pivots.reciprocal(pivot, view_.diagonal[v], rows_);
-    }
+    factor_forward(pivots, RightHandSides<T, 0>{});
+  }
+  /// One pass fewer than factor() and solve(): right-hand sides are eliminated while divisions are waited
+  /// for.
+  template <class Pivots, class B, std::size_t Count>
+  void factor_and_solve(Pivots& pivots, const RightHandSides<B, Count>& sides) const {
+    factor_forward(pivots, sides);
+    back(sides);
+  }
+  template <class B, std::size_t Count>
+  void solve(const RightHandSides<B, Count>& sides) const {
+    forward(sides);
+    back(sides);
   }
 
-  /// Count solutions at once; right[k] and x[k] may be the same.
-  template <std::size_t Count, class B>
-  void solve(const std::array<const B*, Count>& right, const std::array<B*, Count>& x) const {
-    const T* l = view_.below;
-    const T* u = view_.above;
-    const T* r = view_.reciprocal;
-    std::array<B, Count> left, other, border;
-    const std::size_t last = rows_ - 1;
-    for (std::size_t c = 0; c < Count; ++c) {
-      if constexpr (Border) border[c] = right[c][row(rows_)];
-      left[c] = right[c][row(0)];
-      other[c] = right[c][row(last)];
-    }
-    const auto towards_middle = [&](std::array<B, Count>& y, std::size_t at, std::size_t next,
-                                    std::size_t link) {
-      for (std::size_t c = 0; c < Count; ++c) {
-        x[c][row(at)] = y[c];
-        if constexpr (Border) border[c] = border[c] - l[rows_ + at] * y[c];
-        y[c] = right[c][row(next)] - l[link] * y[c];
-      }
-    };
-    std::size_t i = 0, j = last;
-    for (; j > middle_ + 1; ++i, --j) {
-      towards_middle(left, i, i + 1, i);
-      towards_middle(other, j, j - 1, j - 1);
-    }
-    for (; i < middle_; ++i) towards_middle(left, i, i + 1, i);
-    for (std::size_t c = 0; c < Count; ++c) {
-      if (j > middle_) {
-        x[c][row(j)] = other[c];
-        if constexpr (Border) border[c] = border[c] - l[rows_ + j] * other[c];
-        left[c] = left[c] - l[middle_] * other[c];
-      }
-      if constexpr (Border) {
-        border[c] = (border[c] - l[rows_ + middle_] * left[c]) * r[row(rows_)];
-        x[c][row(rows_)] = border[c];
-      }
-      left[c] = left[c] * r[row(middle_)];
-      if constexpr (Border) left[c] = left[c] - u[rows_ + middle_] * border[c];
-      x[c][row(middle_)] = left[c];
-    }
-    other = left;
-    const auto outwards = [&](std::array<B, Count>& y, std::size_t at, std::size_t link) {
-      for (std::size_t c = 0; c < Count; ++c) {
-        B scaled = x[c][row(at)] * r[row(at)];
-        if constexpr (Border) scaled = scaled - u[rows_ + at] * border[c];
-        y[c] = scaled - u[link] * y[c];
-        x[c][row(at)] = y[c];
-      }
-    };
-    i = middle_;
-    j = middle_;
-    for (; j < last && i > 0; --i, ++j) {
-      outwards(left, i - 1, i - 1);
-      outwards(other, j + 1, j);
-    }
-    for (; i > 0; --i) outwards(left, i - 1, i - 1);
+  /// Calls visit(later row, eliminated row, entry of L, entry of U) for every coupling of the factors.
+  template <class Visit>
+  void for_each_entry(Visit&& visit) const {
+    for (std::size_t k = 0; k + 1 < rows_; ++k)
+      visit(row(k < middle_ ? k + 1 : k), row(k < middle_ ? k : k + 1), view_.below[k], view_.above[k]);
+    if constexpr (Border)
+      for (std::size_t k = 0; k < rows_; ++k)
+        visit(row(rows_), row(k), view_.below[rows_ + k], view_.above[rows_ + k]);
   }
 
  private:
-  /// One of the two fronts: where it is, the pivot there, what its last step subtracted, and the border's
-  /// entries in this row and contribution so far.
-  struct End {
+  /// One of the two fronts of an elimination: its place, the pivot there and its error, what the next ones
+  /// take over from them; the border's entries in this row, and what the border's pivot has lost so far.
+  struct Front {
     std::size_t at;
-    T pivot;
-    T subtracted{};
-    T border_lower{}, border_upper{}, border_sum{};
+    T pivot, error;
+    T subtracted{}, passed_error{};
+    T border_lower{}, border_upper{}, border_sum{}, border_error{};
+  };
+  /// The right-hand sides at a front, and what the border's have lost so far.
+  template <class B, std::size_t Count>
+  struct Sides {
+    std::array<B, Count> y;
+    std::array<B, Border ? Count : 0> border;
   };
 
   [[nodiscard]] std::size_t row(std::size_t k) const {
@@ -138,25 +93,41 @@ class PathElimination {
     else
       return plan_.link[k];
   }
-  /// The matrix entry in the row at place `i` and the column at place `j` of the path, of coupling c.
+  /// The matrix entry in the row at place `i` and the column at place `j`, of coupling c.
   const T& entry(std::size_t i, std::size_t j, std::size_t c) const {
     if constexpr (Symmetric)
       return view_.lower[c];
     else
       return row(i) > row(j) ? view_.lower[c] : view_.upper[c];
   }
-  void enter_border(End& end, std::size_t link_index) const {
-    end.border_lower = entry(rows_, end.at, link(link_index));
-    end.border_upper = entry(end.at, rows_, link(link_index));
-    end.border_sum = T(0);
+
+  [[nodiscard]] Front start(std::size_t at, std::size_t border_link) const {
+    Front front{at, view_.diagonal[row(at)], view_.diagonal[row(at)]};
+    if constexpr (Border) {
+      front.border_lower = entry(rows_, at, link(border_link));
+      front.border_upper = entry(at, rows_, link(border_link));
+      front.border_sum = T(0);
+      front.border_error = T(0);
+    }
+    return front;
+  }
+  template <class B, std::size_t Count>
+  Sides<B, Count> start(const RightHandSides<B, Count>& sides, std::size_t at) const {
+    Sides<B, Count> result;
+    for (std::size_t c = 0; c < Count; ++c) {
+      result.y[c] = sides.right[c][row(at)];
+      if constexpr (Border) result.border[c] = B(0);
+    }
+    return result;
   }
 
+  /// Divides the front's row by its pivot; its neighbour is at `next`.
   template <class Pivots>
-  void eliminate(End& end, std::size_t next, Pivots& pivots) const {
-    const std::size_t between = end.at < next ? end.at : next, c = link(between), here = row(end.at);
-    const T r = pivots.reciprocal(end.pivot, view_.diagonal[here], 1);
+  void divide(Front& front, std::size_t next, Pivots& pivots) const {
+    const std::size_t between = front.at < next ? front.at : next, c = link(between), here = row(front.at);
+    const T r = pivots.reciprocal(front.pivot, front.error);
     view_.reciprocal[here] = r;
-    const T lower = entry(next, end.at, c), upper = entry(end.at, next, c);
+    const T lower = entry(next, front.at, c), upper = entry(front.at, next, c);
     const T l = lower * r;
     view_.below[between] = l;
     T u = l;
@@ -165,16 +136,134 @@ class PathElimination {
       view_.above[between] = u;
     }
     // The product of the couplings does not wait for the division.
-    end.subtracted = (lower * upper) * r;
+    front.subtracted = (lower * upper) * r;
+    if constexpr (Pivots::follow_errors) front.passed_error = (l * u) * front.error;
     if constexpr (Border) {
-      view_.below[rows_ + end.at] = end.border_lower * r;
-      if constexpr (!Symmetric) view_.above[rows_ + end.at] = end.border_upper * r;
-      end.border_sum = end.border_sum + (end.border_lower * end.border_upper) * r;
-      end.border_lower = -(end.border_lower * u);
-      end.border_upper = -(end.border_upper * l);
+      const T border = front.border_lower * r;
+      view_.below[rows_ + front.at] = border;
+      if constexpr (Pivots::follow_errors)
+        front.border_error = front.border_error + (border * border) * front.error;
+      if constexpr (!Symmetric) view_.above[rows_ + front.at] = front.border_upper * r;
+      front.border_sum = front.border_sum + (front.border_lower * front.border_upper) * r;
+      front.border_lower = -(front.border_lower * u);
+      front.border_upper = -(front.border_upper * l);
     }
-    end.pivot = view_.diagonal[row(next)] - end.subtracted;
-    end.at = next;
+  }
+  /// Leaves the front's right-hand sides where they belong.
+  template <class B, std::size_t Count>
+  void keep(Sides<B, Count>& at_front, std::size_t at, const RightHandSides<B, Count>& sides) const {
+    for (std::size_t c = 0; c < Count; ++c) {
+      sides.x[c][row(at)] = at_front.y[c];
+      if constexpr (Border) at_front.border[c] = at_front.border[c] + view_.below[rows_ + at] * at_front.y[c];
+    }
+  }
+  template <class B, std::size_t Count>
+  void keep_and_move(Sides<B, Count>& at_front, std::size_t at, std::size_t next,
+                     const RightHandSides<B, Count>& sides) const {
+    const T& l = view_.below[at < next ? at : next];
+    keep(at_front, at, sides);
+    for (std::size_t c = 0; c < Count; ++c) at_front.y[c] = sides.right[c][row(next)] - l * at_front.y[c];
+  }
+  /// The right-hand sides in the middle and in the border, once both fronts are there; `other_at` is the
+  /// last place of the other front, the middle where it has none.
+  template <class B, std::size_t Count>
+  void meet(Sides<B, Count>& front, Sides<B, Count>& other, std::size_t other_at,
+            const RightHandSides<B, Count>& sides) const {
+    if (other_at > middle_) {
+      keep(other, other_at, sides);
+      for (std::size_t c = 0; c < Count; ++c) front.y[c] = front.y[c] - view_.below[middle_] * other.y[c];
+    }
+    keep(front, middle_, sides);
+    if constexpr (Border)
+      for (std::size_t c = 0; c < Count; ++c) {
+        const B& given = sides.right[c][row(rows_)];
+        sides.x[c][row(rows_)] =
+            other_at > middle_ ? (given - front.border[c]) - other.border[c] : given - front.border[c];
+      }
+  }
+
+  template <class Pivots, class B, std::size_t Count>
+  void factor_forward(Pivots& pivots, const RightHandSides<B, Count>& sides) const {
+    // A ring's links: .. rows_ - 1 to the border, the border to place 0.
+    Front left = start(0, rows_), right = start(rows_ - 1, rows_ - 1);
+    Sides<B, Count> left_sides = start(sides, 0), right_sides = start(sides, rows_ - 1);
+    const auto eliminate = [&](Front& front, Sides<B, Count>& at_front, std::size_t next) {
+      divide(front, next, pivots);
+      keep_and_move(at_front, front.at, next, sides);
+      front.pivot = view_.diagonal[row(next)] - front.subtracted;
+      if constexpr (Pivots::follow_errors) front.error = view_.diagonal[row(next)] + front.passed_error;
+      front.at = next;
+    };
+    while (right.at > middle_ + 1) {
+      eliminate(left, left_sides, left.at + 1);
+      eliminate(right, right_sides, right.at - 1);
+    }
+    while (left.at < middle_) eliminate(left, left_sides, left.at + 1);
+    if (right.at > middle_) {
+      divide(right, middle_, pivots);
+      left.pivot = left.pivot - right.subtracted;
+      if constexpr (Pivots::follow_errors) left.error = left.error + right.passed_error;
+    }
+    const std::size_t m = row(middle_);
+    const T r = pivots.reciprocal(left.pivot, left.error);
+    view_.reciprocal[m] = r;
+    if constexpr (Border) {
+      const T lower = left.border_lower + right.border_lower, upper = left.border_upper + right.border_upper;
+      const T border = lower * r;
+      view_.below[rows_ + middle_] = border;
+      if constexpr (!Symmetric) view_.above[rows_ + middle_] = upper * r;
+      const std::size_t v = row(rows_);
+      T error = view_.diagonal[v];
+      if constexpr (Pivots::follow_errors)
+        error = ((error + left.border_error) + right.border_error) + (border * border) * left.error;
+      const T pivot = ((view_.diagonal[v] - left.border_sum) - right.border_sum) - (lower * upper) * r;
+      view_.reciprocal[v] = pivots.reciprocal(pivot, error);
+    }
+    meet(left_sides, right_sides, right.at, sides);
+  }
+
+  template <class B, std::size_t Count>
+  void forward(const RightHandSides<B, Count>& sides) const {
+    std::size_t i = 0, j = rows_ - 1;
+    Sides<B, Count> left = start(sides, i), right = start(sides, j);
+    for (; j > middle_ + 1; ++i, --j) {
+      keep_and_move(left, i, i + 1, sides);
+      keep_and_move(right, j, j - 1, sides);
+    }
+    for (; i < middle_; ++i) keep_and_move(left, i, i + 1, sides);
+    meet(left, right, j, sides);
+  }
+
+  template <class B, std::size_t Count>
+  void back(const RightHandSides<B, Count>& sides) const {
+    const T* u = view_.above;
+    const T* r = view_.reciprocal;
+    std::array<B, Count> left, right, border;
+    for (std::size_t c = 0; c < Count; ++c) {
+      B* x = sides.x[c];
+      left[c] = x[row(middle_)] * r[row(middle_)];
+      if constexpr (Border) {
+        border[c] = x[row(rows_)] * r[row(rows_)];
+        x[row(rows_)] = border[c];
+        left[c] = left[c] - u[rows_ + middle_] * border[c];
+      }
+      x[row(middle_)] = left[c];
+    }
+    right = left;
+    const auto outwards = [&](std::array<B, Count>& nearer, std::size_t at, std::size_t between) {
+      for (std::size_t c = 0; c < Count; ++c) {
+        B scaled = sides.x[c][row(at)] * r[row(at)];
+        if constexpr (Border) scaled = scaled - u[rows_ + at] * border[c];
+        nearer[c] = scaled - u[between] * nearer[c];
+        sides.x[c][row(at)] = nearer[c];
+      }
+    };
+    std::size_t i = middle_, j = middle_;
+    for (; i > 0 && j + 1 < rows_; --i, ++j) {
+      outwards(left, i - 1, i - 1);
+      outwards(right, j + 1, j);
+    }
+    for (; i > 0; --i) outwards(left, i - 1, i - 1);
   }
 
   const EliminationPlan& plan_;

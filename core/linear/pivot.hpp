@@ -32,8 +32,9 @@ bool is_usable(const Pack<W>& x) {
 template <class T>
 class RegularPivots {
  public:
+  static constexpr bool follow_errors = false;
   /// 1 / pivot.
-  T reciprocal(const T& pivot, const T& /*diagonal*/, std::size_t /*updates*/) {
+  T reciprocal(const T& pivot, const T& /*error*/) {
     if constexpr (!has_numbers<T>) {
       return T(1) / pivot;
     } else if constexpr (std::numeric_limits<Value<T>>::is_exact) {
@@ -52,18 +53,22 @@ class RegularPivots {
   bool usable_ = true;
 };
 
-/// Pivots of a semidefinite matrix: one that is no more than the rounding of what was subtracted from its
-/// diagonal entry belongs to a direction outside the range, and is replaced by infinity.
+/// Pivots of a semidefinite matrix: one that is no more than the round-off in it belongs to a direction
+/// outside the range, and is replaced by infinity.
+///
+/// The elimination follows the error of every pivot, in units of round-off: forming the entry a_ii and
+/// subtracting from it what never exceeds it costs about a_ii, and l_ik^2 times the error of pivot k comes in
+/// with the row k that is eliminated from row i. Where pivots shrink along a chain, errors of the first
+/// rows are many times the last rows' own.
 template <class T>
 class SemidefinitePivots {
  public:
-  /// 1 / pivot, or 0 for a pivot that is dropped. `updates` is how many rows were eliminated from this one.
-  T reciprocal(const T& pivot, const T& diagonal, std::size_t updates) {
-    // Each subtraction rounds by at most half a unit of the diagonal entry, as no term of a semidefinite
-    // matrix exceeds it; 32 leaves room for the errors of the pivots before. A sum that a pivot / allowance
-    // does not change says that the pivot is that small, in whatever precision it is computed.
-    const T allowance = T(32 * (1 + static_cast<int>(updates)));
-    const T visible = (diagonal + pivot / allowance) - diagonal;
+  static constexpr bool follow_errors = true;
+  /// 1 / pivot, or 0 for a pivot that is dropped.
+  T reciprocal(const T& pivot, const T& error) {
+    // A sum that pivot / 8 does not change says that the pivot is no larger than a few units of round-off, in
+    // whatever precision it is computed.
+    const T visible = (error + pivot / T(8)) - error;
     const T safe = select(visible, pivot, T(1));
     const T r = select(visible, T(1) / safe, T(0));
     if constexpr (has_numbers<T>) {

@@ -19,13 +19,22 @@ class DiagonalElimination {
   template <class Pivots>
   void factor(Pivots& pivots) const {
     for (std::size_t i = 0; i < rows_; ++i)
-      view_.reciprocal[i] = pivots.reciprocal(view_.diagonal[i], view_.diagonal[i], 0);
+      view_.reciprocal[i] = pivots.reciprocal(view_.diagonal[i], view_.diagonal[i]);
   }
-  template <std::size_t Count, class B>
-  void solve(const std::array<const B*, Count>& right, const std::array<B*, Count>& x) const {
+  template <class Pivots, class B, std::size_t Count>
+  void factor_and_solve(Pivots& pivots, const RightHandSides<B, Count>& sides) const {
+    factor(pivots);
+    solve(sides);
+  }
+  template <class B, std::size_t Count>
+  void solve(const RightHandSides<B, Count>& sides) const {
+    const auto& [right, x] = sides;
     for (std::size_t c = 0; c < Count; ++c)
       for (std::size_t i = 0; i < rows_; ++i) x[c][i] = view_.reciprocal[i] * right[c][i];
   }
+
+  template <class Visit>
+  void for_each_entry(Visit&& /*visit*/) const {}
 
  private:
   EliminationView<T> view_;
@@ -46,6 +55,7 @@ class StaticElimination {
     T* pivot = view_.reciprocal;
     for (std::size_t k = 0; k < rows_; ++k) {
       pivot[k] = view_.diagonal[k];
+      if constexpr (Pivots::follow_errors) view_.error[k] = view_.diagonal[k];
       const std::size_t i = plan_.order[k];
       for (std::size_t p = plan_.start[k]; p < plan_.start[k + 1]; ++p) {
         const std::size_t c = plan_.coupling[p];
@@ -61,13 +71,17 @@ class StaticElimination {
     const EliminationPlan::Index* target = plan_.target.data();
     for (std::size_t k = 0; k < rows_; ++k) {
       const std::size_t i = plan_.order[k], end = plan_.start[k + 1];
-      const T r = pivots.reciprocal(pivot[i], view_.diagonal[i], updates(k));
+      const T r = pivots.reciprocal(pivot[i], Pivots::follow_errors ? view_.error[i] : pivot[i]);
       pivot[i] = r;
       for (std::size_t b = plan_.start[k]; b < end; ++b) {
         const T lower = l[b], upper = u[b];
         const T scaled = lower * r;
         T& diagonal = pivot[plan_.row[b]];
         diagonal = diagonal - upper * scaled;
+        if constexpr (Pivots::follow_errors) {
+          T& error = view_.error[plan_.row[b]];
+          error = error + (scaled * scaled) * view_.error[i];
+        }
         if constexpr (Symmetric) {
           for (std::size_t a = b + 1; a < end; ++a, ++target) l[*target] = l[*target] - l[a] * scaled;
         } else {
@@ -83,8 +97,14 @@ class StaticElimination {
     }
   }
 
-  template <std::size_t Count, class B>
-  void solve(const std::array<const B*, Count>& right, const std::array<B*, Count>& x) const {
+  template <class Pivots, class B, std::size_t Count>
+  void factor_and_solve(Pivots& pivots, const RightHandSides<B, Count>& sides) const {
+    factor(pivots);
+    solve(sides);
+  }
+  template <class B, std::size_t Count>
+  void solve(const RightHandSides<B, Count>& sides) const {
+    const auto& [right, x] = sides;
     for (std::size_t c = 0; c < Count; ++c)
       if (right[c] != x[c])
         for (std::size_t i = 0; i < rows_; ++i) x[c][i] = right[c][i];
@@ -108,10 +128,14 @@ class StaticElimination {
       }
   }
 
- private:
-  /// At least as many rows as are eliminated from the k-th: those before it that the plan knows of.
-  [[nodiscard]] std::size_t updates(std::size_t k) const { return k; }
+  template <class Visit>
+  void for_each_entry(Visit&& visit) const {
+    for (std::size_t k = 0; k < rows_; ++k)
+      for (std::size_t p = plan_.start[k]; p < plan_.start[k + 1]; ++p)
+        visit(std::size_t(plan_.row[p]), std::size_t(plan_.order[k]), view_.below[p], view_.above[p]);
+  }
 
+ private:
   const EliminationPlan& plan_;
   EliminationView<T> view_;
   std::size_t rows_;
@@ -129,7 +153,10 @@ class DenseElimination {
     T* l = view_.below;
     T* u = view_.above;
     T* pivot = view_.reciprocal;
-    for (std::size_t i = 0; i < rows_; ++i) pivot[i] = view_.diagonal[i];
+    for (std::size_t i = 0; i < rows_; ++i) {
+      pivot[i] = view_.diagonal[i];
+      if constexpr (Pivots::follow_errors) view_.error[i] = view_.diagonal[i];
+    }
     for (std::size_t p = 0; p < rows_ * (rows_ - 1) / 2; ++p) l[p] = u[p] = T(0);
     const auto& couplings = pattern_.couplings();
     for (std::size_t c = 0; c < couplings.size(); ++c) {
@@ -138,7 +165,7 @@ class DenseElimination {
       if constexpr (!Symmetric) u[p] = view_.upper[c];
     }
     for (std::size_t k = 0; k < rows_; ++k) {
-      const T r = pivots.reciprocal(pivot[k], view_.diagonal[k], k);
+      const T r = pivots.reciprocal(pivot[k], Pivots::follow_errors ? view_.error[k] : pivot[k]);
       pivot[k] = r;
       const std::size_t later = rows_ - k - 1;
       T* lower = l + start(k);
@@ -146,6 +173,8 @@ class DenseElimination {
       for (std::size_t b = 0; b < later; ++b) {
         const T scaled = lower[b] * r;
         pivot[k + 1 + b] = pivot[k + 1 + b] - upper[b] * scaled;
+        if constexpr (Pivots::follow_errors)
+          view_.error[k + 1 + b] = view_.error[k + 1 + b] + (scaled * scaled) * view_.error[k];
         T* lower_target = l + start(k + 1 + b);
         if constexpr (Symmetric) {
           for (std::size_t a = b + 1; a < later; ++a)
@@ -164,8 +193,14 @@ class DenseElimination {
     }
   }
 
-  template <std::size_t Count, class B>
-  void solve(const std::array<const B*, Count>& right, const std::array<B*, Count>& x) const {
+  template <class Pivots, class B, std::size_t Count>
+  void factor_and_solve(Pivots& pivots, const RightHandSides<B, Count>& sides) const {
+    factor(pivots);
+    solve(sides);
+  }
+  template <class B, std::size_t Count>
+  void solve(const RightHandSides<B, Count>& sides) const {
+    const auto& [right, x] = sides;
     for (std::size_t c = 0; c < Count; ++c) {
       B* y = x[c];
       if (right[c] != y)
@@ -183,6 +218,13 @@ class DenseElimination {
         y[k] = sum;
       }
     }
+  }
+
+  template <class Visit>
+  void for_each_entry(Visit&& visit) const {
+    for (std::size_t k = 0; k < rows_; ++k)
+      for (std::size_t i = k + 1; i < rows_; ++i)
+        visit(i, k, view_.below[start(k) + i - k - 1], view_.above[start(k) + i - k - 1]);
   }
 
  private:

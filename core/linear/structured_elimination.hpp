@@ -1,8 +1,9 @@
 // What StructuredLDLT and StructuredLU have in common: storage, and the choice of the elimination.
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -25,7 +26,8 @@ class StructuredElimination {
         upper_(Symmetric ? 0 : lower_.size(), T(0)),
         reciprocal_(pattern_->rows(), T(0)),
         below_(factor_size(*pattern_), T(0)),
-        above_(Symmetric ? 0 : below_.size(), T(0)) {}
+        above_(Symmetric ? 0 : below_.size(), T(0)),
+        error_(Symmetric ? pattern_->rows() : 0, T(0)) {}
 
   [[nodiscard]] const SymmetricPattern& pattern() const { return *pattern_; }
 
@@ -42,31 +44,65 @@ class StructuredElimination {
     return pivots.usable() ? Status::converged : Status::singular;
   }
 
+  /// factor() and solve() with the same result to the last bit, in one pass less where the structure is
+  /// tridiagonal or cyclic. The solution is of no use unless `converged`.
+  Status factor_and_solve(const T* right_hand_side, T* solution) {
+    RegularPivots<T> pivots;
+    dropped_ = 0;
+    if (pattern_->rows() > 0)
+      visit(view(), [&](const auto& elimination) {
+        elimination.factor_and_solve(pivots, RightHandSides<T, 1>{{right_hand_side}, {solution}});
+      });
+    return pivots.usable() ? Status::converged : Status::singular;
+  }
+
   /// solution = A^-1 right_hand_side; the two may be the same. B is T or a scalar richer than T, such as a
   /// dual over it.
   template <class B>
   void solve(const B* right_hand_side, B* solution) const {
-    substitute<1, B>({right_hand_side}, {solution});
+    substitute(RightHandSides<B, 1>{{right_hand_side}, {solution}});
   }
   /// Two right-hand sides at once; r1 and x1, r2 and x2 may be the same.
   template <class B>
   void solve(const B* r1, B* x1, const B* r2, B* x2) const {
-    substitute<2, B>({r1, r2}, {x1, x2});
+    substitute(RightHandSides<B, 2>{{r1, r2}, {x1, x2}});
+  }
+
+  /// The largest diagonal entry of |L| |D| |U| after factor(), relative to the largest entry of the matrix:
+  /// how much elimination without exchanges magnifies round-off. 1 for a positive definite matrix, as large
+  /// as pivots are small for others. Allocates; for reports and tests.
+  [[nodiscard]] Value<T> growth() const {
+    std::vector<Value<T>> sums(pattern_->rows(), Value<T>(0));
+    const auto pivot = [&](std::size_t i) {
+      const Value<T> r = value_of(reciprocal_[i]);
+      return r == Value<T>(0) ? r : Value<T>(1) / abs(r);
+    };
+    Value<T> entry(0), product(0);
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      sums[i] = pivot(i);
+      entry = std::max(entry, Value<T>(abs(value_of(diagonal_[i]))));
+    }
+    for (const std::vector<T>& side : {std::cref(lower_), std::cref(upper_)})
+      for (const T& x : side) entry = std::max(entry, Value<T>(abs(value_of(x))));
+    if (!sums.empty())
+      visit(const_view(), [&](const auto& elimination) {
+        elimination.for_each_entry([&](std::size_t later, std::size_t eliminated, const T& l, const T& u) {
+          sums[later] = sums[later] + abs(value_of(l)) * pivot(eliminated) * abs(value_of(u));
+        });
+      });
+    for (const Value<T>& x : sums) product = std::max(product, x);
+    return product == Value<T>(0) ? product : product / entry;
   }
 
  protected:
   template <class Pivots>
   void eliminate(Pivots& pivots) {
-    if (pattern_->rows() == 0) return;
-    const EliminationView<T> all{
-        diagonal_.data(),   lower_.data(), Symmetric ? lower_.data() : upper_.data(),
-        reciprocal_.data(), below_.data(), Symmetric ? below_.data() : above_.data()};
-    visit(all, [&](const auto& elimination) { elimination.factor(pivots); });
+    if (pattern_->rows() > 0) visit(view(), [&](const auto& elimination) { elimination.factor(pivots); });
   }
 
   std::shared_ptr<const SymmetricPattern> pattern_;
   std::vector<T> diagonal_, lower_, upper_;
-  std::vector<T> reciprocal_, below_, above_;
+  std::vector<T> reciprocal_, below_, above_, error_;
   std::size_t dropped_ = 0;
 
  private:
@@ -88,15 +124,19 @@ class StructuredElimination {
     return 0;
   }
 
-  template <std::size_t Count, class B>
-  void substitute(const std::array<const B*, Count>& right, const std::array<B*, Count>& x) const {
+  EliminationView<T> view() {
+    return {diagonal_.data(),   lower_.data(), Symmetric ? lower_.data() : upper_.data(),
+            reciprocal_.data(), below_.data(), Symmetric ? below_.data() : above_.data(),
+            error_.data()};
+  }
+
+  /// For what only reads the factors.
+  EliminationView<T> const_view() const { return const_cast<StructuredElimination*>(this)->view(); }
+
+  template <class B, std::size_t Count>
+  void substitute(const RightHandSides<B, Count>& sides) const {
     if (pattern_->rows() == 0) return;
-    // Solves only read what the view points to.
-    auto* below = const_cast<T*>(below_.data());
-    const EliminationView<T> all{nullptr, nullptr,
-                                 nullptr, const_cast<T*>(reciprocal_.data()),
-                                 below,   Symmetric ? below : const_cast<T*>(above_.data())};
-    visit(all, [&](const auto& elimination) { elimination.template solve<Count, B>(right, x); });
+    visit(const_view(), [&](const auto& elimination) { elimination.solve(sides); });
   }
 
   template <class Use>

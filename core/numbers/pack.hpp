@@ -41,6 +41,9 @@ class Pack {
     for (Register& r : registers_) r = broadcast(x);
   }
 
+  /// One number in each lane: without a way through memory, which set() may take.
+  Pack(double first, double second) requires(W == 2) : registers_{{Register{first, second}}} {}
+
   [[nodiscard]] double operator[](std::size_t lane) const {
     if constexpr (register_width == 1)
       return registers_[lane];
@@ -83,6 +86,13 @@ class Pack {
   friend Pack operator/(const Pack& a, const Pack& b) {
     Pack r;
     for (std::size_t k = 0; k < count; ++k) r.registers_[k] = a.registers_[k] / b.registers_[k];
+    return r;
+  }
+  /// In every lane `positive` where condition > 0, `otherwise` elsewhere.
+  friend Pack select(const Pack& condition, const Pack& positive, const Pack& otherwise) {
+    Pack r;
+    for (std::size_t k = 0; k < count; ++k)
+      r.registers_[k] = condition.registers_[k] > 0 ? positive.registers_[k] : otherwise.registers_[k];
     return r;
   }
 

@@ -29,6 +29,7 @@ std::optional<std::vector<Real>> parse_list(std::string_view text) {
 }
 
 std::string range_of(const Parameter& p) {
+  if (p.kind == Parameter::Kind::file) return "FILE";
   if (p.kind == Parameter::Kind::choice) {
     std::string text;
     for (const std::string& choice : p.choices) text += (text.empty() ? "" : "|") + choice;
@@ -42,6 +43,10 @@ void Parameter::assign(void* object, const std::string& text, std::string_view o
     throw InputError("parameter '" + name + "' of " + std::string(owner) + ": expected " + expected + " in " +
                      range_of(*this) + ", got '" + text + "'");
   };
+  if (kind == Kind::file) {
+    write(object, text);
+    return;
+  }
   if (kind == Kind::choice) {
     if (std::find(choices.begin(), choices.end(), text) == choices.end())
       throw InputError("parameter '" + name + "' of " + std::string(owner) + ": expected " + range_of(*this) +

@@ -15,7 +15,7 @@ namespace pfaff {
 
 /// A named, ranged setting of a plug-in.
 struct Parameter {
-  enum class Kind { real, integer, choice, list };
+  enum class Kind { real, integer, choice, list, file };
 
   std::string name;
   std::string unit;  // empty for pure numbers
@@ -32,7 +32,7 @@ struct Parameter {
   void assign(void* object, const std::string& text, std::string_view owner) const;
 };
 
-/// "0 .. 10 1/s" or "P|S".
+/// "0 .. 10 1/s", "P|S" or "FILE".
 std::string range_of(const Parameter& parameter);
 
 /// The numbers of "1,-0.5,1/3", none for an empty text; nullopt where one is not a number.
@@ -84,6 +84,15 @@ Parameter parameter(std::string S::*member, std::string name, std::vector<std::s
                     std::string meaning = {}) {
   Parameter p{
       std::move(name), {}, std::move(meaning), Parameter::Kind::choice, 0, 0, std::move(choices), {}, {}};
+  p.write = [member](void* object, const std::string& text) { static_cast<S*>(object)->*member = text; };
+  p.read = [member](const void* object) { return static_cast<const S*>(object)->*member; };
+  return p;
+}
+
+/// The path of a file, empty for none.
+template <class S>
+Parameter file_parameter(std::string S::*member, std::string name, std::string meaning = {}) {
+  Parameter p{std::move(name), {}, std::move(meaning), Parameter::Kind::file, 0, 0, {}, {}, {}};
   p.write = [member](void* object, const std::string& text) { static_cast<S*>(object)->*member = text; };
   p.read = [member](const void* object) { return static_cast<const S*>(object)->*member; };
   return p;

@@ -32,7 +32,7 @@ std::string complaint(const RunSettings& settings) {
 TEST(Settings, AreSplitByWhoKnowsThem) {
   const auto& system = systems().get("damped-pendulum", "system");
   const auto& method = integrators().get("generating-function", "integrator");
-  const SplitSettings split = split_settings(system, &method,
+  const SplitSettings split = split_settings(system, nullptr, &method,
                                              {{"order", "6"},
                                               {"nu", "0.5"},
                                               {"initial", " 1, -2"},
@@ -41,8 +41,8 @@ TEST(Settings, AreSplitByWhoKnowsThem) {
   EXPECT_EQ(split.system, (Assignments{{"nu", "0.5"}, {"nu", "0.7"}}));
   EXPECT_EQ(split.integrator, (Assignments{{"order", "6"}, {"variant", "P"}}));
   EXPECT_EQ(split.initial, (std::vector<std::string>{"1", "-2"}));
-  EXPECT_THROW((void)split_settings(system, &method, {{"mu", "1"}}), InputError);
-  EXPECT_THROW((void)split_settings(system, nullptr, {{"order", "6"}}), InputError);
+  EXPECT_THROW((void)split_settings(system, nullptr, &method, {{"mu", "1"}}), InputError);
+  EXPECT_THROW((void)split_settings(system, nullptr, nullptr, {{"order", "6"}}), InputError);
 }
 
 // Both sides have a parameter of this name: it must be said whose it is.

@@ -1,51 +1,15 @@
 // No step allocates: every registered method, with all the parameters its claims are verified for, on every
-// system that fits, in double and quad. The global operator new of this program counts while it is told to.
+// system that fits, in double and quad.
 #include <gtest/gtest.h>
-
-#include <atomic>
-#include <cstdlib>
-#include <new>
 
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
 
-namespace {
-std::atomic<bool> counting = false;
-std::atomic<long> allocations = 0;
-
-void* allocate(std::size_t size, std::size_t alignment) {
-  if (counting) ++allocations;
-  const std::size_t whole = (size + alignment - 1) / alignment * alignment;
-  void* memory = alignment <= alignof(std::max_align_t) ? std::malloc(size == 0 ? 1 : size)
-                                                        : std::aligned_alloc(alignment, whole);
-  if (memory == nullptr) throw std::bad_alloc();
-  return memory;
-}
-}  // namespace
-
-// The array forms call these.
-void* operator new(std::size_t size) { return allocate(size, alignof(std::max_align_t)); }
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  return allocate(size, static_cast<std::size_t>(alignment));
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t /*alignment*/) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t /*size*/, std::align_val_t /*alignment*/) noexcept {
-  std::free(memory);
-}
+#include "../counted_allocations.hpp"
 
 namespace pfaff {
 namespace {
-
-template <class Work>
-long allocations_of(Work&& work) {
-  allocations = 0;
-  counting = true;
-  work();
-  counting = false;
-  return allocations;
-}
+using testing::allocations_of;
 
 // Allocations of `steps` steps of size h after a first one, from the model's initial state.
 template <class T>

@@ -1,0 +1,113 @@
+#include <pfaff/bench/measure/constraints.hpp>
+
+#include <pfaff/core/linear/matrix.hpp>
+
+namespace pfaff {
+
+std::vector<std::string> constraint_residual_names(const Model& model) {
+  if (!model.constrained()) return {};
+  if (model.facets().has(Facet::holonomic)) return {"constraint", "hidden-constraint"};
+  return {"constraint"};
+}
+
+namespace {
+constexpr int most_iterations = 50;
+
+Quad norm(std::span<const Quad> x) {
+  Quad sum(0);
+  for (const Quad& value : x) sum += value * value;
+  return sqrt(sum);
+}
+// |after - before| / |before|, or the absolute change where there was nothing.
+double relative_change(std::span<const Quad> before, std::span<const Quad> after) {
+  std::vector<Quad> difference;
+  for (std::size_t k = 0; k < before.size(); ++k) difference.push_back(after[k] - before[k]);
+  const Quad size = norm(before), change = norm(difference);
+  return static_cast<double>(size > Quad(0) ? Quad(change / size) : change);
+}
+void note_worst(std::span<const Quad> values, std::size_t stride, std::size_t first,
+                const std::vector<std::string>& names, ProjectionOntoConstraints& result) {
+  for (std::size_t k = 0; k < values.size(); ++k)
+    if (const auto size = static_cast<double>(abs(values[k])); size > result.worst_residual) {
+      result.worst_residual = size;
+      result.worst = names[k * stride + first];
+    }
+}
+
+ProjectionOntoConstraints project_holonomic(const Model& model, const Quad& t, std::vector<Quad>& z) {
+  ProjectionOntoConstraints result;
+  const auto constraints = model.holonomic_constraints<Quad>();
+  const std::size_t n = constraints->degrees(), count = constraints->count();
+  const std::vector<Quad> before = z;
+  const std::span<Quad> q = std::span<Quad>(z).first(n), p = std::span<Quad>(z).subspan(n);
+  std::vector<Quad> residual(count), move(n);
+  const std::vector<std::string> names = model.constraint_names();
+  constraints->values(t, q, residual);
+  note_worst(residual, 2, 0, names, result);
+  constraints->hidden_values(t, q, p, residual);
+  note_worst(residual, 2, 1, names, result);
+
+  Quad last = std::numeric_limits<Quad>::infinity();
+  for (int k = 0;; ++k) {  // until the residual no longer falls
+    constraints->values(t, q, residual);
+    const Quad size = norm(residual);
+    if (!isfinite(size)) return result.status = Status::non_finite, result;
+    if (size == Quad(0) || (k > 3 && !(size < last / Quad(2)))) break;
+    if (k == most_iterations) return result.status = Status::not_converged, result;
+    last = size;
+    if (result.status = constraints->linearise(t, q, p); result.status != Status::converged) return result;
+    constraints->solve(residual, residual);
+    constraints->hidden_by_momentum_transpose(residual, move);
+    for (std::size_t a = 0; a < n; ++a) q[a] -= move[a];
+  }
+  last = std::numeric_limits<Quad>::infinity();
+  for (int k = 0;; ++k) {
+    constraints->hidden_values(t, q, p, residual);
+    const Quad size = norm(residual);
+    if (!isfinite(size)) return result.status = Status::non_finite, result;
+    if (size == Quad(0) || (k > 3 && !(size < last / Quad(2)))) break;
+    if (k == most_iterations) return result.status = Status::not_converged, result;
+    last = size;
+    if (result.status = constraints->linearise(t, q, p); result.status != Status::converged) return result;
+    constraints->solve(residual, residual);
+    constraints->apply_transpose(residual, move);
+    for (std::size_t a = 0; a < n; ++a) p[a] -= move[a];
+  }
+  const std::span<const Quad> old(before);
+  result.change = std::max(relative_change(old.first(n), q), relative_change(old.subspan(n), p));
+  return result;
+}
+
+ProjectionOntoConstraints project_in_phase_space(const Model& model, const Quad& t, std::vector<Quad>& z) {
+  ProjectionOntoConstraints result;
+  Replay<Quad> values(model.tape(Formula::constraints)), slopes(model.tape(Formula::constraint_gradients));
+  const std::size_t n = z.size(), count = values.tape().outputs.size();
+  const std::vector<Quad> before = z;
+  std::vector<Quad> residual(count), rows(count * n);
+  values(t, z.data(), residual.data());
+  note_worst(residual, 1, 0, model.constraint_names(), result);
+  Quad last = std::numeric_limits<Quad>::infinity();
+  for (int k = 0;; ++k) {
+    values(t, z.data(), residual.data());
+    const Quad size = norm(residual);
+    if (!isfinite(size)) return result.status = Status::non_finite, result;
+    if (size == Quad(0) || (k > 3 && !(size < last / Quad(2)))) break;
+    if (k == most_iterations) return result.status = Status::not_converged, result;
+    last = size;
+    slopes(t, z.data(), rows.data());
+    const Matrix<Quad> g(count, rows);
+    const std::vector<Quad> x = inverse(g * g.transposed()) * residual;
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t a = 0; a < n; ++a) z[a] -= g(i, a) * x[i];
+  }
+  result.change = relative_change(before, z);
+  return result;
+}
+}  // namespace
+
+ProjectionOntoConstraints project_onto_constraints(const Model& model, const Quad& t, std::vector<Quad>& z) {
+  return model.facets().has(Facet::holonomic) ? project_holonomic(model, t, z)
+                                              : project_in_phase_space(model, t, z);
+}
+
+}  // namespace pfaff

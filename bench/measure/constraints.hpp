@@ -1,0 +1,71 @@
+// How far states are from the constraints of their system, and the way back onto them.
+#pragma once
+
+#include <vector>
+
+#include <pfaff/core/facets/model.hpp>
+#include <pfaff/core/tape/replay.hpp>
+
+namespace pfaff {
+
+/// Names of what ConstraintResiduals measures: "constraint" for max |phi|, and where the constraints are
+/// holonomic "hidden-constraint" for max |phi~|; none for a model without constraints.
+std::vector<std::string> constraint_residual_names(const Model& model);
+
+/// The largest residual of each level of constraints at a state.
+template <class T>
+class ConstraintResiduals {
+ public:
+  explicit ConstraintResiduals(const Model& model) {
+    if (!model.constrained()) return;
+    if (model.facets().has(Facet::holonomic)) {
+      holonomic_ = model.holonomic_constraints<T>();
+      values_.resize(holonomic_->count());
+    } else {
+      phase_space_.emplace_back(model.tape(Formula::constraints));
+      values_.resize(phase_space_.front().tape().outputs.size());
+    }
+  }
+  /// As many numbers as there are names; not-a-number where a residual is.
+  void operator()(const T& t, const std::vector<T>& z, std::vector<T>& residuals) {
+    residuals.clear();
+    if (holonomic_ != nullptr) {
+      const std::size_t n = z.size() / 2;
+      const std::span<const T> state(z);
+      holonomic_->values(t, state.first(n), values_);
+      residuals.push_back(largest());
+      holonomic_->hidden_values(t, state.first(n), state.subspan(n), values_);
+      residuals.push_back(largest());
+    } else if (!phase_space_.empty()) {
+      phase_space_.front()(t, z.data(), values_.data());
+      residuals.push_back(largest());
+    }
+  }
+
+ private:
+  [[nodiscard]] T largest() const {
+    T worst(0);
+    for (const T& x : values_) {
+      if (isnan(x)) return x;
+      if (abs(x) > worst) worst = abs(x);
+    }
+    return worst;
+  }
+  std::unique_ptr<HolonomicConstraints<T>> holonomic_;
+  std::vector<Replay<T>> phase_space_;
+  std::vector<T> values_;
+};
+
+/// What it took to bring a state onto its constraints.
+struct ProjectionOntoConstraints {
+  Status status = Status::converged;
+  double change = 0;  // the largest relative change, of positions or of momenta
+  std::string worst;  // the constraint that was farthest off, by its name
+  double worst_residual = 0;
+};
+
+/// Moves a state onto the constraints, in quad: positions along M^-1 B^T, then momenta along B^T; for
+/// constraints of the phase space along their gradients.
+ProjectionOntoConstraints project_onto_constraints(const Model& model, const Quad& t, std::vector<Quad>& z);
+
+}  // namespace pfaff

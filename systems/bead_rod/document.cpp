@@ -1,0 +1,136 @@
+#include <pfaff/systems/bead_rod/document.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <toml++/toml.h>
+#include <nlohmann/json.hpp>
+
+#include <pfaff/core/registry/errors.hpp>
+#include <pfaff/core/registry/source_text.hpp>
+
+namespace pfaff {
+
+namespace {
+using Kind = DocumentNode::Kind;
+
+DocumentNode scalar(Kind kind, std::string text) {
+  DocumentNode node;
+  node.kind = kind;
+  node.text = std::move(text);
+  return node;
+}
+DocumentNode container(Kind kind) { return scalar(kind, {}); }
+
+DocumentNode from_toml(const toml::node& node, const std::string& text) {
+  if (const auto* table = node.as_table()) {
+    DocumentNode result = container(Kind::table);
+    for (const auto& [key, value] : *table) result.members.emplace_back(key.str(), from_toml(value, text));
+    return result;
+  }
+  if (const auto* list = node.as_array()) {
+    DocumentNode result = container(Kind::list);
+    for (const toml::node& item : *list) result.items.push_back(from_toml(item, text));
+    return result;
+  }
+  if (const auto* s = node.as_string()) return scalar(Kind::text, s->get());
+  if (const auto* i = node.as_integer()) return scalar(Kind::number, std::to_string(i->get()));
+  if (node.is_floating_point()) {
+    const toml::source_region& at = node.source();
+    return scalar(Kind::number, source_text(text, at.begin.line, at.begin.column, at.end.column));
+  }
+  return container(Kind::other);
+}
+
+// Builds the document while nlohmann's parser reads, which is when numbers still have their digits.
+class JsonReader : public nlohmann::json_sax<nlohmann::json> {
+ public:
+  JsonReader(const std::string& path, const std::string& text) : path_(path), text_(text) {}
+  [[nodiscard]] DocumentNode take() { return std::move(root_); }
+
+  bool null() override { return add(container(Kind::other)); }
+  bool boolean(bool /*value*/) override { return add(container(Kind::other)); }
+  bool number_integer(number_integer_t value) override {
+    return add(scalar(Kind::number, std::to_string(value)));
+  }
+  bool number_unsigned(number_unsigned_t value) override {
+    return add(scalar(Kind::number, std::to_string(value)));
+  }
+  bool number_float(number_float_t /*value*/, const string_t& text) override {
+    return add(scalar(Kind::number, text));
+  }
+  bool string(string_t& value) override { return add(scalar(Kind::text, value)); }
+  bool binary(binary_t& /*value*/) override { return add(container(Kind::other)); }
+  bool start_object(std::size_t /*size*/) override { return open(Kind::table); }
+  bool key(string_t& value) override {
+    auto& members = open_.back()->members;
+    if (std::any_of(members.begin(), members.end(), [&](const auto& m) { return m.first == value; }))
+      throw InputError(path_ + ": key '" + value + "' is there twice");
+    members.emplace_back(value, DocumentNode());
+    return true;
+  }
+  bool end_object() override { return close(); }
+  bool start_array(std::size_t /*size*/) override { return open(Kind::list); }
+  bool end_array() override { return close(); }
+  bool parse_error(std::size_t position, const std::string& token,
+                   const nlohmann::detail::exception& /*error*/) override {
+    const auto line =
+        std::count(text_.begin(),
+                   text_.begin() + static_cast<std::ptrdiff_t>(std::min(position, text_.size())), '\n') +
+        1;
+    throw InputError(path_ + ":" + std::to_string(line) + ": not JSON at '" + token + "'");
+  }
+
+ private:
+  DocumentNode& place() {
+    if (open_.empty()) return root_;
+    DocumentNode& parent = *open_.back();
+    if (parent.kind == Kind::table) return parent.members.back().second;
+    return parent.items.emplace_back();
+  }
+  bool add(DocumentNode node) {
+    place() = std::move(node);
+    return true;
+  }
+  // An open node stays where it is: only the last item or member of a node is ever open.
+  bool open(Kind kind) {
+    DocumentNode& node = place();
+    node = container(kind);
+    open_.push_back(&node);
+    return true;
+  }
+  bool close() {
+    open_.pop_back();
+    return true;
+  }
+
+  const std::string& path_;
+  const std::string& text_;
+  DocumentNode root_;
+  std::vector<DocumentNode*> open_;
+};
+}  // namespace
+
+DocumentNode read_document(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file || std::filesystem::is_directory(path)) throw InputError("cannot read " + path);
+  std::ostringstream buffer;
+  buffer << file.rdbuf();
+  const std::string text = buffer.str();
+  if (std::filesystem::path(path).extension() == ".json") {
+    JsonReader reader(path, text);
+    nlohmann::json::sax_parse(text, &reader);
+    return reader.take();
+  }
+  try {
+    const toml::table root = toml::parse(text, path);
+    return from_toml(root, text);
+  } catch (const toml::parse_error& e) {
+    throw InputError(path + ":" + std::to_string(e.source().begin.line) + ": " +
+                     std::string(e.description()));
+  }
+}
+
+}  // namespace pfaff

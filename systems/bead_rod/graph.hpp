@@ -1,0 +1,43 @@
+// The rods of a bead-rod system as a graph: which rods share a bead, and so where S = B M^-1 B^T has entries.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <pfaff/core/linear/symmetric_pattern.hpp>
+#include <pfaff/systems/bead_rod/description.hpp>
+
+namespace pfaff {
+
+/// Two rods k < l that share a bead. The sign is +1 where the bead is an end of the same kind (first or
+/// second) of both, -1 otherwise.
+struct RodCoupling {
+  std::uint32_t k = 0, l = 0, bead = 0;
+  bool same_side = false;
+};
+
+class RodGraph {
+ public:
+  explicit RodGraph(const BeadRodDescription& description);
+
+  [[nodiscard]] const std::shared_ptr<const SymmetricPattern>& pattern() const { return pattern_; }
+  /// In the order of the pattern's couplings.
+  [[nodiscard]] const std::vector<RodCoupling>& couplings() const { return couplings_; }
+  /// The beads joined to `bead` by at most `distance` rods, larger numbers only, ascending. Ways through an
+  /// anchor do not count.
+  [[nodiscard]] std::vector<std::uint32_t> within(std::uint32_t bead, int distance) const;
+
+ private:
+  std::size_t beads_;
+  std::shared_ptr<const SymmetricPattern> pattern_;
+  std::vector<RodCoupling> couplings_;
+  std::vector<std::uint32_t> start_, neighbour_;  // of bead i: neighbour_[start_[i] .. start_[i + 1])
+};
+
+/// Sets of rods whose constraints depend on each other where the beads start (S is singular there), one set
+/// for every constraint too many, each in ascending order; empty where there are none.
+std::vector<std::vector<std::size_t>> redundant_rods(const BeadRodDescription& description,
+                                                     const RodGraph& graph);
+
+}  // namespace pfaff

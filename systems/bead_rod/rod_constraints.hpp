@@ -1,0 +1,232 @@
+// The constraints of rods, phi_k = (|D_k|^2 - l_k^2)/2 with D_k = r_a - r_b, as loops over rods and over
+// pairs of rods that share a bead (nguyen-turski (4.4), Table 1, for any graph).
+//
+//   phi~_k = D_k.V_k,  V_k = v_a - v_b,        h_k = |V_k|^2 + D_k.(f_a/m_a - f_b/m_b)
+//   S_kk = |D_k|^2 (1/m_a + 1/m_b),            S_kl = s s' D_k.D_l/m of the bead that k and l share
+//   S^D the same with lambda/m^2 for 1/m,      B: rows D_k,   T = dphi~/dq: rows V_k/m
+//
+// s is +1 at the first end of a rod and -1 at the second; an anchor has 1/m = 0 and does not move. |D_k|^2 is
+// that of the present positions, also off the constraint surface. Everything is O(N).
+#pragma once
+
+#include <memory>
+
+#include <pfaff/core/facets/holonomic.hpp>
+#include <pfaff/core/linear/structured_ldlt.hpp>
+#include <pfaff/systems/bead_rod/potentials.hpp>
+
+namespace pfaff {
+
+template <class T, int D>
+class RodConstraints final : public HolonomicConstraints<T> {
+ public:
+  RodConstraints(std::shared_ptr<const BeadRodDescription> description, std::shared_ptr<const RodGraph> graph)
+      : description_(std::move(description)),
+        graph_(std::move(graph)),
+        potentials_(description_, *graph_),
+        s_(graph_->pattern()),
+        degrees_(description_->beads() * D),
+        inverse_mass_(description_->points(), T(0)),
+        positions_(description_->points() * D, T(0)),
+        velocities_(positions_),
+        forces_(positions_),
+        inverse_masses_of_rod_(description_->rods.size()),
+        length_square_(inverse_masses_of_rod_),
+        residuals_(inverse_masses_of_rod_),
+        hidden_(inverse_masses_of_rod_),
+        hidden_rates_(inverse_masses_of_rod_),
+        directions_(description_->rods.size()),
+        turnings_(directions_) {
+    const BeadRodDescription& d = *description_;
+    for (std::size_t i = 0; i < d.beads(); ++i) inverse_mass_[i] = T(1) / T(d.masses[i]);
+    for (std::size_t i = d.beads(); i < d.points(); ++i)
+      for (std::size_t x = 0; x < D; ++x) positions_[i * D + x] = T(d.coordinate(i, x));
+    for (std::size_t k = 0; k < d.rods.size(); ++k) {
+      const Rod& rod = d.rods[k];
+      ends_.push_back({static_cast<std::uint32_t>(rod.first), static_cast<std::uint32_t>(rod.second)});
+      length_square_[k] = T(rod.length) * T(rod.length);
+      inverse_masses_of_rod_[k] = inverse_mass_[rod.first] + inverse_mass_[rod.second];
+    }
+    for (const RodCoupling& c : graph_->couplings()) {
+      const T w = inverse_mass_[c.bead];
+      coupling_.push_back(c.same_side ? w : -w);
+    }
+    if (!d.friction.empty()) {
+      for (const Real& lambda : d.friction) friction_.insert(friction_.end(), D, T(lambda));
+      friction_s_ = std::make_unique<StructuredLDLT<T>>(graph_->pattern());
+    }
+  }
+
+  [[nodiscard]] std::size_t count() const override { return ends_.size(); }
+  [[nodiscard]] std::size_t degrees() const override { return degrees_; }
+  [[nodiscard]] const SymmetricPattern& pattern() const override { return *graph_->pattern(); }
+
+  void values(const T& /*t*/, In<T> q, Out<T> phi) override {
+    each_direction(q, [&](std::size_t k, const Arm& e) { phi[k] = (dot(e, e) - length_square_[k]) / T(2); });
+  }
+  void hidden_values(const T& /*t*/, In<T> q, In<T> p, Out<T> hidden) override {
+    move(p);
+    each_direction(q, [&](std::size_t k, const Arm& e) { hidden[k] = dot(e, difference(velocities_, k)); });
+  }
+  void velocity(const T& /*t*/, In<T> /*q*/, In<T> p, Out<T> v) override {
+    for (std::size_t i = 0, at = 0; at < degrees_; ++i)
+      for (std::size_t x = 0; x < D; ++x, ++at) v[at] = inverse_mass_[i] * p[at];
+  }
+  void force(const T& /*t*/, In<T> q, In<T> /*p*/, Out<T> f) override { potentials_.forces(q, f); }
+
+  Status linearise(const T& /*t*/, In<T> q, In<T> /*p*/) override {
+    each_direction(q, [&](std::size_t k, const Arm& e) {
+      directions_[k] = e;
+      s_.diagonal()[k] = dot(e, e) * inverse_masses_of_rod_[k];
+    });
+    return factor_s();
+  }
+  void apply(In<T> u, Out<T> r) const override { rows_times<false>(directions_, u, r); }
+  void apply_transpose(In<T> x, Out<T> f) const override { columns_times<false>(directions_, x, f); }
+  void solve(In<T> r, Out<T> x) const override { s_.solve(r.data(), x.data()); }
+  void solve(In<T> r1, Out<T> x1, In<T> r2, Out<T> x2) const override {
+    s_.solve(r1.data(), x1.data(), r2.data(), x2.data());
+  }
+  void hidden_by_momentum(In<T> u, Out<T> r) const override { rows_times<true>(directions_, u, r); }
+  void hidden_by_momentum_transpose(In<T> x, Out<T> v) const override {
+    columns_times<true>(directions_, x, v);
+  }
+
+  Status place(const T& /*t*/, In<T> q, In<T> p) override {
+    const Status forces = potentials_.forces(q, Out<T>(forces_).first(degrees_));
+    move(p);
+    each_direction(q, [&](std::size_t k, const Arm& e) {
+      const auto [a, b] = ends_[k];
+      const Arm u = difference(velocities_, k);
+      Arm pull;
+      for (std::size_t x = 0; x < D; ++x)
+        pull[x] = inverse_mass_[a] * forces_[a * D + x] - inverse_mass_[b] * forces_[b * D + x];
+      const T square = dot(e, e);
+      directions_[k] = e;
+      turnings_[k] = u;
+      residuals_[k] = (square - length_square_[k]) / T(2);
+      hidden_[k] = dot(e, u);
+      hidden_rates_[k] = dot(u, u) + dot(e, pull);
+      s_.diagonal()[k] = square * inverse_masses_of_rod_[k];
+    });
+    const Status factors = factor_s();
+    return forces == Status::converged ? factors : forces;
+  }
+  [[nodiscard]] std::span<const T> residuals() const override { return residuals_; }
+  [[nodiscard]] std::span<const T> hidden() const override { return hidden_; }
+  [[nodiscard]] std::span<const T> hidden_rates() const override { return hidden_rates_; }
+  [[nodiscard]] std::span<const T> velocities() const override {
+    return std::span<const T>(velocities_).first(degrees_);
+  }
+  [[nodiscard]] std::span<const T> forces() const override {
+    return std::span<const T>(forces_).first(degrees_);
+  }
+  void hidden_by_position(In<T> u, Out<T> r) const override { rows_times<false>(turnings_, u, r); }
+  void hidden_by_position_transpose(In<T> x, Out<T> f) const override {
+    columns_times<false>(turnings_, x, f);
+  }
+
+  [[nodiscard]] std::span<const T> friction() const override { return friction_; }
+  Status factor_friction() override {
+    if (friction_s_ == nullptr) return Status::converged;
+    const auto weight = [&](std::size_t point) {
+      if (point * D >= degrees_) return T(0);
+      return friction_[point * D] * (inverse_mass_[point] * inverse_mass_[point]);
+    };
+    for (std::size_t k = 0; k < ends_.size(); ++k) {
+      const auto [a, b] = ends_[k];
+      friction_s_->diagonal()[k] = dot(directions_[k], directions_[k]) * (weight(a) + weight(b));
+    }
+    const auto& couplings = graph_->couplings();
+    for (std::size_t c = 0; c < couplings.size(); ++c) {
+      const T product =
+          weight(couplings[c].bead) * dot(directions_[couplings[c].k], directions_[couplings[c].l]);
+      friction_s_->couplings()[c] = couplings[c].same_side ? product : -product;
+    }
+    return friction_s_->factor_semidefinite();
+  }
+  void solve_friction(In<T> r, Out<T> x) const override {
+    if (friction_s_ == nullptr) {
+      for (std::size_t k = 0; k < ends_.size(); ++k) x[k] = T(0);
+    } else {
+      friction_s_->solve(r.data(), x.data());
+    }
+  }
+
+ private:
+  using Arm = std::array<T, D>;
+  struct Ends {
+    std::uint32_t first, second;
+  };
+
+  static T dot(const Arm& a, const Arm& b) {
+    T sum = a[0] * b[0];
+    for (std::size_t x = 1; x < D; ++x) sum = sum + a[x] * b[x];
+    return sum;
+  }
+  // Of rod k, x_a - x_b, with x given for all points.
+  Arm difference(const std::vector<T>& of, std::size_t k) const {
+    const std::size_t a = ends_[k].first * D, b = ends_[k].second * D;
+    Arm r;
+    for (std::size_t x = 0; x < D; ++x) r[x] = of[a + x] - of[b + x];
+    return r;
+  }
+  template <class Use>
+  void each_direction(In<T> q, const Use& use) {
+    std::copy(q.begin(), q.end(), positions_.begin());
+    for (std::size_t k = 0; k < ends_.size(); ++k) use(k, difference(positions_, k));
+  }
+  // Velocities of the beads; those of anchors stay 0.
+  void move(In<T> p) {
+    for (std::size_t i = 0, at = 0; at < degrees_; ++i)
+      for (std::size_t x = 0; x < D; ++x, ++at) velocities_[at] = inverse_mass_[i] * p[at];
+  }
+  Status factor_s() {
+    const auto& couplings = graph_->couplings();
+    for (std::size_t c = 0; c < coupling_.size(); ++c)
+      s_.couplings()[c] = coupling_[c] * dot(directions_[couplings[c].k], directions_[couplings[c].l]);
+    return s_.factor();
+  }
+  // r_k = rows_k.(u_a - u_b), with u divided by the masses first where Weighted.
+  template <bool Weighted>
+  void rows_times(const std::vector<Arm>& rows, In<T> u, Out<T> r) const {
+    for (std::size_t k = 0; k < ends_.size(); ++k) {
+      const auto [a, b] = ends_[k];
+      T at_a(0), at_b(0);
+      for (std::size_t x = 0; x < D; ++x) at_a = at_a + rows[k][x] * u[a * D + x];
+      if (b * D < degrees_)
+        for (std::size_t x = 0; x < D; ++x) at_b = at_b + rows[k][x] * u[b * D + x];
+      r[k] = Weighted ? inverse_mass_[a] * at_a - inverse_mass_[b] * at_b : at_a - at_b;
+    }
+  }
+  template <bool Weighted>
+  void columns_times(const std::vector<Arm>& rows, In<T> x, Out<T> f) const {
+    for (T& y : f) y = T(0);
+    for (std::size_t k = 0; k < ends_.size(); ++k) {
+      const auto [a, b] = ends_[k];
+      for (std::size_t i = 0; i < D; ++i) {
+        const T push = rows[k][i] * x[k];
+        f[a * D + i] = f[a * D + i] + push;
+        if (b * D < degrees_) f[b * D + i] = f[b * D + i] - push;
+      }
+    }
+    if constexpr (Weighted)
+      for (std::size_t i = 0, at = 0; at < degrees_; ++i)
+        for (std::size_t axis = 0; axis < D; ++axis, ++at) f[at] = inverse_mass_[i] * f[at];
+  }
+
+  std::shared_ptr<const BeadRodDescription> description_;
+  std::shared_ptr<const RodGraph> graph_;
+  Potentials<T, D> potentials_;
+  StructuredLDLT<T> s_;
+  std::unique_ptr<StructuredLDLT<T>> friction_s_;  // none without friction
+  std::size_t degrees_;
+  std::vector<T> inverse_mass_, positions_, velocities_, forces_;  // of all points
+  std::vector<T> inverse_masses_of_rod_, length_square_, residuals_, hidden_, hidden_rates_;
+  std::vector<Arm> directions_, turnings_;
+  std::vector<Ends> ends_;
+  std::vector<T> coupling_;  // 1/m of the shared bead with the sign of the coupling
+  std::vector<T> friction_;
+};
+
+}  // namespace pfaff

@@ -1,0 +1,92 @@
+#include <pfaff/systems/bead_rod/system.hpp>
+
+#include <algorithm>
+#include <cstdint>
+
+#include <pfaff/core/registry/errors.hpp>
+#include <pfaff/systems/bead_rod/evaluators.hpp>
+
+namespace pfaff {
+
+namespace {
+// splitmix64 (steele-lea-flood2014), the same on every machine.
+class RandomNumbers {
+ public:
+  explicit RandomNumbers(int seed) : state_(static_cast<std::uint64_t>(seed)) {}
+  /// A fraction in -1 .. 1, exact in every precision.
+  Real next() {
+    state_ += 0x9E3779B97F4A7C15U;
+    std::uint64_t x = state_;
+    x = (x ^ (x >> 30U)) * 0xBF58476D1CE4E5B9U;
+    x = (x ^ (x >> 27U)) * 0x94D049BB133111EBU;
+    x ^= x >> 31U;
+    constexpr std::int64_t half = std::int64_t{1} << 30U;
+    return Real::fraction(static_cast<std::int64_t>(x >> 33U) - half, half);
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+std::shared_ptr<const BeadRodDescription> checked(BeadRodDescription d) {
+  d.check();
+  return std::make_shared<const BeadRodDescription>(std::move(d));
+}
+}  // namespace
+
+BeadRodParts::BeadRodParts(BeadRodDescription d)
+    : description(checked(std::move(d))), graph(std::make_shared<const RodGraph>(*description)) {}
+
+template <class T>
+T potential_energy(const BeadRodParts& parts, In<T> q) {
+  return parts.description->dimension == 2 ? detail::potential_energy<T, 2>(parts, q)
+                                           : detail::potential_energy<T, 3>(parts, q);
+}
+template <class T>
+std::unique_ptr<HolonomicConstraints<T>> rod_constraints(const BeadRodParts& parts) {
+  return parts.description->dimension == 2 ? detail::rod_constraints<T, 2>(parts)
+                                           : detail::rod_constraints<T, 3>(parts);
+}
+#define PFAFF_EVALUATORS(T)                                   \
+  template T potential_energy<T>(const BeadRodParts&, In<T>); \
+  template std::unique_ptr<HolonomicConstraints<T>> rod_constraints<T>(const BeadRodParts&);
+PFAFF_FOR_EVERY_SCALAR(PFAFF_EVALUATORS)
+#undef PFAFF_EVALUATORS
+
+void start_at_random(BeadRodDescription& description, int seed) {
+  RandomNumbers random(seed);
+  description.momenta.clear();
+  for (const Real& m : description.masses)
+    for (std::size_t x = 0; x < description.axes(); ++x) description.momenta.push_back(m * random.next());
+  const BeadRodParts parts(description);
+  const auto constraints = rod_constraints<Quad>(parts);
+  std::vector<Quad> q, p, multipliers(description.rods.size()), change(description.momenta.size());
+  for (const Real& x : description.positions) q.push_back(x.quad());
+  for (const Real& x : description.momenta) p.push_back(x.quad());
+  constraints->linearise(Quad(0), q, p);
+  // Twice: the second time removes the rounding errors of the first.
+  for (int pass = 0; pass < 2; ++pass) {
+    constraints->hidden_values(Quad(0), q, p, multipliers);
+    constraints->solve(multipliers, multipliers);
+    constraints->apply_transpose(multipliers, change);
+    for (std::size_t k = 0; k < p.size(); ++k) p[k] = p[k] - change[k];
+  }
+  for (std::size_t k = 0; k < p.size(); ++k) description.momenta[k] = Real(p[k]);
+}
+
+Momenta::Momenta(const BeadRodDescription& d) {
+  if (!d.fields.empty() || !d.traps.empty() || !d.friction.empty()) return;
+  const auto weightless = [&](std::size_t x) { return d.gravity.empty() || d.gravity[x].is(0); };
+  const auto anchored_at_zero = [&](std::size_t x) {
+    return std::all_of(d.anchors.begin(), d.anchors.end(),
+                       [x](const Anchor& a) { return a.position[x].is(0); });
+  };
+  for (std::size_t x = 0; x < d.axes(); ++x)
+    if (weightless(x) && d.anchors.empty()) axes.push_back(x);
+  for (std::size_t x = 0; x < d.axes(); ++x)
+    for (std::size_t y = x + 1; y < d.axes(); ++y)
+      if (weightless(x) && weightless(y) && anchored_at_zero(x) && anchored_at_zero(y))
+        planes.emplace_back(x, y);
+}
+
+}  // namespace pfaff

@@ -1,0 +1,155 @@
+// What bead-rod systems have in common: canonical coordinates q (positions, bead by bead) and p, the energy
+//
+//   H = sum_i |p_i|^2/(2 m_i) + V(q),   phi_k = (|D_k|^2 - l_k^2)/2,   friction lambda_i of bead i,
+//
+// as formulas compiled for every scalar, and the batched operations of the constraints. The author's struct
+// derives from BeadRodSystem<itself> and writes describe().
+#pragma once
+
+#include <memory>
+
+#include <pfaff/core/facets/holonomic.hpp>
+#include <pfaff/core/system.hpp>
+#include <pfaff/systems/bead_rod/description.hpp>
+#include <pfaff/systems/bead_rod/graph.hpp>
+
+namespace pfaff {
+
+/// A checked description and the graph of its rods, shared by all formulas of a model.
+struct BeadRodParts {
+  /// InputError as BeadRodDescription::check().
+  explicit BeadRodParts(BeadRodDescription d);
+  std::shared_ptr<const BeadRodDescription> description;
+  std::shared_ptr<const RodGraph> graph;
+};
+
+/// V(q). Instantiated, like the next, for the scalars of methods and for recording.
+template <class T>
+T potential_energy(const BeadRodParts& parts, In<T> q);
+template <class T>
+std::unique_ptr<HolonomicConstraints<T>> rod_constraints(const BeadRodParts& parts);
+
+/// Momenta of velocities in -1 .. 1 m/s from a seed, made consistent with the rods by M^-1-orthogonal
+/// projection in quad precision.
+void start_at_random(BeadRodDescription& description, int seed);
+
+/// What the symmetries of a description keep, beside the energy: momenta along `axes`, and angular momenta
+/// in the planes of pairs of axes.
+struct Momenta {
+  explicit Momenta(const BeadRodDescription& description);
+  std::vector<std::size_t> axes;
+  std::vector<std::pair<std::size_t, std::size_t>> planes;
+};
+
+template <class S>
+class BeadRodSystem {
+ public:
+  static constexpr bool batched = true;
+
+  [[nodiscard]] int dimension() const { return static_cast<int>(2 * degrees()); }
+  [[nodiscard]] int constraint_count() const { return static_cast<int>(description().rods.size()); }
+  [[nodiscard]] std::vector<Coordinate> coordinates() const {
+    std::vector<Coordinate> names;
+    for (const char* prefix : {"", "p"})
+      for (std::size_t i = 0; i < description().beads(); ++i)
+        for (std::size_t x = 0; x < description().axes(); ++x)
+          names.push_back(
+              {prefix + std::string(1, "xyz"[x]) + std::to_string(i), *prefix == 'p' ? "kg m/s" : "m"});
+    return names;
+  }
+  [[nodiscard]] std::vector<std::string> constraint_names() const {
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < description().rods.size(); ++k) names.push_back("rod" + std::to_string(k));
+    return names;
+  }
+  [[nodiscard]] std::vector<Invariant> invariant_list() const {
+    const Momenta momenta(description());
+    std::vector<Invariant> list{description().friction.empty() ? conserved("energy", "J")
+                                                               : decreasing("energy", "J")};
+    for (const std::size_t x : momenta.axes)
+      list.push_back(conserved("momentum-" + std::string(1, "xyz"[x]), "kg m/s"));
+    for (const auto& [x, y] : momenta.planes)
+      list.push_back(conserved_quadratic(
+          "angular-momentum-" + std::string(1, "xyz"[x]) + std::string(1, "xyz"[y]), "kg m^2/s"));
+    return list;
+  }
+  template <class T>
+  void initial(Out<T> z) const {
+    for (std::size_t k = 0; k < degrees(); ++k) {
+      z[k] = T(description().positions[k]);
+      z[degrees() + k] = T(description().momenta[k]);
+    }
+  }
+  template <class T>
+  T kinetic(const T& /*t*/, In<T> p) const {
+    T sum(0);
+    for (std::size_t i = 0, at = 0, axes = description().axes(); i < description().beads(); ++i) {
+      T square(0);
+      for (std::size_t x = 0; x < axes; ++x, ++at) square = square + p[at] * p[at];
+      sum = sum + square / (2 * description().masses[i]);
+    }
+    return sum;
+  }
+  template <class T>
+  T potential(const T& /*t*/, In<T> q) const {
+    return potential_energy<T>(parts(), q);
+  }
+  template <class T>
+  void holonomic(const T& /*t*/, In<T> q, Out<T> phi) const {
+    const BeadRodDescription& d = description();
+    for (std::size_t k = 0; k < d.rods.size(); ++k) {
+      const Rod& rod = d.rods[k];
+      T square(0);
+      for (std::size_t x = 0; x < d.axes(); ++x) {
+        const T along =
+            q[rod.first * d.axes() + x] -
+            (rod.second < d.beads() ? q[rod.second * d.axes() + x] : T(d.coordinate(rod.second, x)));
+        square = square + along * along;
+      }
+      phi[k] = (square - rod.length * T(rod.length)) / 2;
+    }
+  }
+  template <class T>
+  void friction(const T& /*t*/, In<T> /*z*/, Out<T> lambda) const {
+    const BeadRodDescription& d = description();
+    for (std::size_t k = 0; k < degrees(); ++k)
+      lambda[k] = d.friction.empty() ? T(0) : T(d.friction[k / d.axes()]);
+  }
+  template <class T>
+  [[nodiscard]] std::unique_ptr<HolonomicConstraints<T>> constraint_evaluator() const {
+    return rod_constraints<T>(parts());
+  }
+  template <class T>
+  void invariants(const T& t, In<T> z, Out<T> values) const {
+    const std::size_t n = degrees(), axes = description().axes();
+    const Momenta momenta(description());
+    values[0] = kinetic(t, z.subspan(n)) + potential(t, z.first(n));
+    std::size_t at = 1;
+    for (const std::size_t x : momenta.axes) {
+      T sum(0);
+      for (std::size_t k = x; k < n; k += axes) sum = sum + z[n + k];
+      values[at++] = sum;
+    }
+    for (const auto& [x, y] : momenta.planes) {
+      T sum(0);
+      for (std::size_t k = 0; k < n; k += axes)
+        sum = sum + (z[k + x] * z[n + k + y] - z[k + y] * z[n + k + x]);
+      values[at++] = sum;
+    }
+  }
+
+  [[nodiscard]] const BeadRodDescription& description() const { return *parts().description; }
+
+ private:
+  // Made when it is first asked for, while the model is: the parameters are fixed by then.
+  [[nodiscard]] const BeadRodParts& parts() const {
+    if (parts_ == nullptr)
+      parts_ = std::make_shared<const BeadRodParts>(static_cast<const S*>(this)->describe());
+    return *parts_;
+  }
+  [[nodiscard]] std::size_t degrees() const { return description().beads() * description().axes(); }
+
+  mutable std::shared_ptr<const BeadRodParts> parts_;
+};
+
+}  // namespace pfaff

@@ -1,0 +1,51 @@
+// Counts the allocations of a test program: its global operator new counts while it is told to.
+//
+// To be included by one source of a program.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+
+namespace pfaff::testing {
+inline std::atomic<bool> counting = false;
+inline std::atomic<long> allocations = 0;
+
+inline void* allocate(std::size_t size, std::size_t alignment) {
+  if (counting) ++allocations;
+  const std::size_t whole = (size + alignment - 1) / alignment * alignment;
+  void* memory = alignment <= alignof(std::max_align_t) ? std::malloc(size == 0 ? 1 : size)
+                                                        : std::aligned_alloc(alignment, whole);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+
+/// How often work() allocates.
+template <class Work>
+long allocations_of(Work&& work) {
+  allocations = 0;
+  counting = true;
+  work();
+  counting = false;
+  return allocations;
+}
+}  // namespace pfaff::testing
+
+// The array forms call these. Not inlined, so that the compiler does not see malloc and free in place of new
+// and delete where only one of them is.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  return pfaff::testing::allocate(size, alignof(std::max_align_t));
+}
+[[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t alignment) {
+  return pfaff::testing::allocate(size, static_cast<std::size_t>(alignment));
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::align_val_t /*alignment*/) noexcept {
+  std::free(memory);
+}
+[[gnu::noinline]] void operator delete(void* memory, std::size_t /*size*/,
+                                       std::align_val_t /*alignment*/) noexcept {
+  std::free(memory);
+}
