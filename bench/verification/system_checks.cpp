@@ -183,6 +183,31 @@ std::shared_ptr<const Tape> tensor_of(const Tape& sharp, int n) {
     }
   });
 }
+std::shared_ptr<const Tape> skew_part(const Tape& tensor, int n) {
+  const auto size = static_cast<std::size_t>(n);
+  return expression(n, n * n, [&](const Recorded& t, Arguments z, Results out) {
+    const auto g = evaluate(tensor, t, z);
+    for (std::size_t i = 0; i < size; ++i)
+      for (std::size_t j = 0; j < size; ++j) out[i * size + j] = g[i * size + j] - g[j * size + i];
+  });
+}
+// How negative alpha.G alpha is for some covectors: 0 where it is not.
+std::shared_ptr<const Tape> negative_part(const Tape& tensor, int n) {
+  const auto size = static_cast<std::size_t>(n);
+  constexpr int covectors = 8;
+  return expression(n, covectors, [&](const Recorded& t, Arguments z, Results out) {
+    const auto g = evaluate(tensor, t, z);
+    for (int k = 0; k < covectors; ++k) {
+      const auto alpha = [&](std::size_t i) {
+        return Recorded(Real::fraction((static_cast<int>(i) * 5 + k * 7) % 11 - 5, 3));
+      };
+      Recorded square(0);
+      for (std::size_t i = 0; i < size; ++i)
+        for (std::size_t j = 0; j < size; ++j) square = square + alpha(i) * g[i * size + j] * alpha(j);
+      out[static_cast<std::size_t>(k)] = select(-square, -square, Recorded(0));
+    }
+  });
+}
 std::vector<Real> bracket_point(int n) {
   std::vector<Real> z;
   for (int k = 0; k < n; ++k) z.push_back(Real::fraction(3 + 2 * k, 7));
@@ -190,16 +215,46 @@ std::vector<Real> bracket_point(int n) {
 }
 }  // namespace
 
+namespace {
+void check_instance(std::vector<Check>& checks, const BracketPlugin& plugin, const Assignments& parameters) {
+  const BracketInstance bracket = plugin.make(parameters);
+  const int n = bracket.dimension;
+  const auto size = static_cast<std::size_t>(n);
+  const auto tensor = tensor_of(*bracket.sharp, n);
+  const std::vector<Real> centre = bracket_point(n);
+  const std::size_t first = checks.size();
+  if (plugin.descriptor().symmetry == Symmetry::skew)
+    both(checks, plugin.name(), "skew", "", symmetric_part(*tensor, n), centre);
+  if (plugin.descriptor().symmetry == Symmetry::symmetric)
+    both(checks, plugin.name(), "symmetric", "", skew_part(*tensor, n), centre);
+  if (plugin.descriptor().jacobi)
+    both(checks, plugin.name(), "Jacobi identity", "", jacobiator(*tensor, n), centre);
+  if (plugin.descriptor().semimetric)
+    both(checks, plugin.name(), "semimetric", "", negative_part(*tensor, n), centre);
+  if (bracket.casimirs != nullptr)
+    both(checks, plugin.name(), "Casimirs", "",
+         expression(n, static_cast<int>(bracket.casimirs->outputs.size()) * n,
+                    [&](const Recorded& t, Arguments z, Results out) {
+                      const auto pi = evaluate(*tensor, t, z), slopes = jacobian(*bracket.casimirs, t, z);
+                      for (std::size_t c = 0; c * size < slopes.size(); ++c)
+                        for (std::size_t i = 0; i < size; ++i)
+                          for (std::size_t j = 0; j < size; ++j)
+                            out[c * size + i] = out[c * size + i] + pi[i * size + j] * slopes[c * size + j];
+                    }),
+         centre);
+  for (std::size_t k = first; k < checks.size(); ++k) checks[k].parameters = parameters;
+}
+}  // namespace
+
 std::vector<Check> check_bracket(const std::string& name) {
   const BracketPlugin& plugin = brackets().get(name, "bracket");
-  const BracketInstance bracket = plugin.make({});
-  const auto tensor = tensor_of(*bracket.sharp, bracket.dimension);
   std::vector<Check> checks;
-  const std::vector<Real> centre = bracket_point(bracket.dimension);
-  if (plugin.descriptor().symmetry == Symmetry::skew)
-    both(checks, name, "skew", "", symmetric_part(*tensor, bracket.dimension), centre);
-  if (plugin.descriptor().jacobi)
-    both(checks, name, "Jacobi identity", "", jacobiator(*tensor, bracket.dimension), centre);
+  check_instance(checks, plugin, {});
+  // A choice among brackets is as many brackets.
+  for (const Parameter& p : plugin.parameters())
+    if (p.kind == Parameter::Kind::choice)
+      for (std::size_t k = 1; k < p.choices.size(); ++k)
+        check_instance(checks, plugin, {{p.name, p.choices[k]}});
   return checks;
 }
 
@@ -228,6 +283,15 @@ std::vector<Check> check_false_brackets() {
   };
   control("bracket a x grad, a.curl a = -2", "Jacobi identity",
           static_cast<double>(largest<Quad>(jacobiator(twisted, 3), bracket_point(3))));
+  // G = [[1, 2], [2, 1]] is no semimetric.
+  const auto indefinite = record(2, 4, [](const Recorded&, Arguments, Results out) {
+    out[0] = out[3] = Recorded(1);
+    out[1] = out[2] = Recorded(2);
+  });
+  control("bracket [[1, 2], [2, 1]]", "semimetric",
+          static_cast<double>(largest<Quad>(negative_part(indefinite, 2), bracket_point(2))));
+  control("bracket skew but for 1e-6", "symmetric",
+          static_cast<double>(largest<Quad>(skew_part(lopsided, 2), bracket_point(2))));
   control("bracket skew but for 1e-6", "skew",
           static_cast<double>(largest<Quad>(symmetric_part(lopsided, 2), bracket_point(2))));
   return checks;
