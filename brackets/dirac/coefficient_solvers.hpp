@@ -17,6 +17,14 @@ template <class T>
 void subtract_sharps(const DiracData<T>& data, In<T> coefficients, Out<T> result) {
   const std::size_t n = data.dimension;
   for (std::size_t a = 0; a < n; ++a) result[a] = data.vector[a];
+  if (!data.support_begin.empty()) {
+    for (std::size_t i = 0; i < data.count; ++i)
+      for (std::size_t e = data.support_begin[i]; e < data.support_begin[i + 1]; ++e) {
+        const std::size_t a = data.support[e];
+        result[a] = result[a] - data.sharps[i * n + a] * coefficients[i];
+      }
+    return;
+  }
   for (std::size_t i = 0; i < data.count; ++i)
     for (std::size_t a = 0; a < n; ++a) result[a] = result[a] - data.sharps[i * n + a] * coefficients[i];
 }
@@ -57,7 +65,7 @@ struct DenseDirac {
 struct HolonomicDirac {
   static constexpr const char* name = "holonomic-blocks";
   static constexpr bool wants_tensor = false;
-  std::shared_ptr<const SymmetricPattern> pattern;  // of S; K / 2 rows
+  std::shared_ptr<const SymmetricPattern> pattern;  // of S, and of A; K / 2 rows
 
   [[nodiscard]] bool applies(const DiracData<double>& data) const {
     const std::size_t half = data.count / 2;
@@ -69,7 +77,7 @@ struct HolonomicDirac {
         if (!(abs(w(2 * i, 2 * j)) <= 1e-14 * scale)) return false;
         if (!(abs(w(2 * i, 2 * j + 1) - w(2 * j, 2 * i + 1)) <= 1e-13 * scale)) return false;
         if (pattern != nullptr && i < j && pattern->coupling(i, j) == SymmetricPattern::npos &&
-            w(2 * i, 2 * j + 1) != 0)
+            (w(2 * i, 2 * j + 1) != 0 || w(2 * i + 1, 2 * j + 1) != 0))
           return false;
       }
     return pattern == nullptr || pattern->rows() == half;
@@ -97,10 +105,11 @@ struct HolonomicDirac {
     // Rows of phi: S c~ = r. Rows of phi~: -S c + A c~ = r~.
     for (std::size_t i = 0; i < half; ++i) work.first[i] = data.brackets[2 * i];
     work.ldlt.solve(work.first.data(), work.first.data());
-    for (std::size_t i = 0; i < half; ++i) {
-      T sum = -data.brackets[2 * i + 1];
-      for (std::size_t j = 0; j < half; ++j) sum = sum + w(2 * i + 1, 2 * j + 1) * work.first[j];
-      work.second[i] = sum;
+    for (std::size_t i = 0; i < half; ++i) work.second[i] = -data.brackets[2 * i + 1];
+    for (const auto& [i, j] : couplings) {  // A is skew, and has entries where S has
+      const T& a = w(2 * i + 1, 2 * j + 1);
+      work.second[i] = work.second[i] + a * work.first[j];
+      work.second[j] = work.second[j] - a * work.first[i];
     }
     work.ldlt.solve(work.second.data(), work.second.data());
     for (std::size_t i = 0; i < half; ++i) {

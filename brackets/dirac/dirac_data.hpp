@@ -1,6 +1,7 @@
 // What a solver of the Dirac bracket is given, and the order in which recursive ones eliminate.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include <pfaff/brackets/dirac/classification.hpp>
@@ -21,6 +22,9 @@ struct DiracData {
   In<T> vector;     // n: sharp(alpha)
   In<T> brackets;   // K: r_j = dphi_j.sharp(alpha)
   In<T> tensor;     // n x n, of the base bracket; empty unless the solver asks for it
+  /// The coordinates in which X_i may differ from zero: support[support_begin[i]] up to support_begin[i + 1].
+  /// Empty: all of them. With it, what follows a structured solve is O(K) too.
+  std::span<const std::size_t> support_begin{}, support{};
 };
 
 /// The steps of an elimination: constraints whose rows and columns of W one step makes zero; one or two.
