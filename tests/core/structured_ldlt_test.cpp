@@ -310,6 +310,16 @@ TEST(StructuredLDLT, GrowthSaysWhatSmallPivotsCost) {
   EXPECT_GT(residual, 1e5 * u * sum);
 }
 
+TEST(StructuredLDLT, NoRowsAreNoTrouble) {
+  StructuredLDLT<double> matrix(std::make_shared<const SymmetricPattern>(0, Couplings{}));
+  double nothing = 3;
+  EXPECT_EQ(matrix.factor(), Status::converged);
+  EXPECT_EQ(matrix.factor_semidefinite(), Status::converged);
+  EXPECT_EQ(matrix.factor_and_solve(&nothing, &nothing), Status::converged);
+  EXPECT_EQ(matrix.growth(), 0);
+  EXPECT_EQ(nothing, 3);
+}
+
 TEST(StructuredLDLT, ALongChainIsSolvedToRoundOff) {
   const std::size_t rows = 100000;
   const auto pattern = std::make_shared<const SymmetricPattern>(SymmetricPattern::path(rows));
