@@ -1,2 +1,2 @@
 // The test that authors of brackets start from, as it is.
-#include "../../examples/templates/bracket_test.cpp"
+#include "../../examples/templates/tests/bracket_test.cpp"

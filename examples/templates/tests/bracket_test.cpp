@@ -1,10 +1,10 @@
-// The test of a bracket: what it claims, by Google Mock's matchers. Copy beside the bracket's own tests.
+// The test of a bracket: what it claims, by Google Mock's matchers. Copy to tests/brackets/<name>_test.cpp.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <pfaff/brackets/conformance/matchers.hpp>
 
-#include "bracket.cpp"
+#include "../bracket.cpp"
 
 namespace {
 const BracketSamples samples{.centre = {1, -2, 3}};
