@@ -80,6 +80,8 @@ struct Dirac {
   template <class T>
   Status field(HolonomicConstraints<T>& constraints, const T& t, In<T> q, In<T> p, Out<T> q_rate,
                Out<T> p_rate, Work<T>& w) const {
+    if (is_frictionless(constraints, friction_form))
+      if (const auto done = constraints.dirac_rates(t, q, p, q_rate, p_rate)) return *done;
     const Status status = constraints.place(t, q, p);
     const std::size_t n = q.size(), count = w.right.size();
     constraints.solve(constraints.hidden(), w.multipliers);                  // mu

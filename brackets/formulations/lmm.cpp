@@ -33,6 +33,8 @@ struct LagrangeMultipliers {
   template <class T>
   Status field(HolonomicConstraints<T>& constraints, const T& t, In<T> q, In<T> p, Out<T> q_rate,
                Out<T> p_rate, Work<T>& w) const {
+    if (alpha.is(0) && beta.is(0) && is_frictionless(constraints, friction_form))
+      if (const auto done = constraints.multiplier_rates(t, q, p, q_rate, p_rate)) return *done;
     const Status status = constraints.place(t, q, p);
     const T twice_alpha = T(2 * alpha), beta_squared = T(beta * beta);
     for (std::size_t k = 0; k < w.multipliers.size(); ++k)

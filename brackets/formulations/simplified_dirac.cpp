@@ -25,6 +25,8 @@ struct SimplifiedDirac {
   template <class T>
   Status field(HolonomicConstraints<T>& constraints, const T& t, In<T> q, In<T> p, Out<T> q_rate,
                Out<T> p_rate, Work<T>& w) const {
+    if (is_frictionless(constraints, friction_form))
+      if (const auto done = constraints.multiplier_rates(t, q, p, q_rate, p_rate)) return *done;
     const Status status = constraints.place(t, q, p);
     constraints.solve(constraints.hidden_rates(), w.multipliers);
     constraints.apply_transpose(w.multipliers, p_rate);

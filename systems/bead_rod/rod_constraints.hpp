@@ -13,6 +13,7 @@
 
 #include <pfaff/core/facets/holonomic.hpp>
 #include <pfaff/core/linear/structured_ldlt.hpp>
+#include <pfaff/systems/bead_rod/folded_path.hpp>
 #include <pfaff/systems/bead_rod/potentials.hpp>
 
 namespace pfaff {
@@ -55,6 +56,7 @@ class RodConstraints final : public HolonomicConstraints<T> {
       for (const Real& lambda : d.friction) friction_.insert(friction_.end(), D, T(lambda));
       friction_s_ = std::make_unique<StructuredLDLT<T>>(graph_->pattern());
     }
+    fold();
   }
 
   [[nodiscard]] std::size_t count() const override { return ends_.size(); }
@@ -126,6 +128,17 @@ class RodConstraints final : public HolonomicConstraints<T> {
     columns_times<false>(turnings_, x, f);
   }
 
+  std::optional<Status> dirac_rates(const T& /*t*/, In<T> q, In<T> p, Out<T> q_rate, Out<T> p_rate) override {
+    return rates(q, p, q_rate, p_rate,
+                 [&](auto& path) { return path.dirac(q.data(), p.data(), q_rate.data(), p_rate.data()); });
+  }
+  std::optional<Status> multiplier_rates(const T& /*t*/, In<T> q, In<T> p, Out<T> q_rate,
+                                         Out<T> p_rate) override {
+    return rates(q, p, q_rate, p_rate, [&](auto& path) {
+      return path.multipliers(q.data(), p.data(), q_rate.data(), p_rate.data());
+    });
+  }
+
   [[nodiscard]] std::span<const T> friction() const override { return friction_; }
   Status factor_friction() override {
     if (friction_s_ == nullptr) return Status::converged;
@@ -154,6 +167,49 @@ class RodConstraints final : public HolonomicConstraints<T> {
   }
 
  private:
+  static constexpr bool folds = std::is_same_v<T, double>;
+  // In doubles, where all rods are paths.
+  void fold() {
+    if constexpr (folds) {
+      const BeadRodDescription& d = *description_;
+      const auto& paths = graph_->paths();
+      if (!std::all_of(paths.begin(), paths.end(),
+                       [&](const RodPath& path) { return FoldedPath<D>::fits(d, path); }))
+        return;
+      std::vector<bool> joined(d.beads(), false);
+      for (const RodPath& path : paths) {
+        paths_.emplace_back(d, path);
+        for (const std::size_t point : path.points)
+          if (point < d.beads()) joined[point] = true;
+      }
+      for (std::size_t i = 0; i < d.beads(); ++i)
+        if (!joined[i]) lone_.push_back(i);
+      if (potentials_.constant()) set_forces({});
+    }
+  }
+  Status set_forces(In<T> q) {
+    const Status status = potentials_.forces(q, Out<T>(forces_).first(degrees_));
+    for (auto& path : paths_) path.set_forces(forces_.data());
+    return status;
+  }
+  template <class Use>
+  std::optional<Status> rates(In<T> q, In<T> p, Out<T> q_rate, Out<T> p_rate, const Use& use) {
+    if constexpr (folds) {
+      if (paths_.empty()) return std::nullopt;
+      Status status = potentials_.constant() ? Status::converged : set_forces(q);
+      for (auto& path : paths_)
+        if (!use(path)) status = status == Status::converged ? Status::singular : status;
+      for (const std::size_t i : lone_)
+        for (std::size_t at = i * D; at < i * D + D; ++at) {
+          q_rate[at] = inverse_mass_[i] * p[at];
+          p_rate[at] = forces_[at];
+        }
+      return status;
+    } else {
+      return std::nullopt;
+    }
+  }
+
   using Arm = std::array<T, D>;
   struct Ends {
     std::uint32_t first, second;
@@ -227,6 +283,8 @@ class RodConstraints final : public HolonomicConstraints<T> {
   std::vector<Ends> ends_;
   std::vector<T> coupling_;  // 1/m of the shared bead with the sign of the coupling
   std::vector<T> friction_;
+  std::vector<FoldedPath<D>> paths_;  // none where rates are not made in one pass
+  std::vector<std::size_t> lone_;     // beads without rods
 };
 
 }  // namespace pfaff
