@@ -30,9 +30,10 @@ struct SimplifiedDirac {
     const Status status = constraints.place(t, q, p);
     constraints.solve(constraints.hidden_rates(), w.multipliers);
     constraints.apply_transpose(w.multipliers, p_rate);
+    const In<T> v = constraints.velocities(), f = constraints.forces();
     for (std::size_t k = 0; k < q.size(); ++k) {
-      q_rate[k] = constraints.velocities()[k];
-      p_rate[k] = constraints.forces()[k] - p_rate[k];
+      q_rate[k] = v[k];
+      p_rate[k] = f[k] - p_rate[k];
     }
     const Status rubbed = add_friction<T>(constraints, friction_form, p_rate, w.friction);
     return status == Status::converged ? rubbed : status;
