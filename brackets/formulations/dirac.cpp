@@ -80,6 +80,8 @@ struct Dirac {
   template <class T>
   Status field(HolonomicConstraints<T>& constraints, const T& t, In<T> q, In<T> p, Out<T> q_rate,
                Out<T> p_rate, Work<T>& w) const {
+    if (is_frictionless(constraints, friction_form))
+      if (const auto done = constraints.dirac_rates(t, q, p, q_rate, p_rate)) return *done;
     const Status status = constraints.place(t, q, p);
     const std::size_t n = q.size(), count = w.right.size();
     constraints.solve(constraints.hidden(), w.multipliers);                  // mu
@@ -87,13 +89,13 @@ struct Dirac {
     constraints.hidden_by_position_transpose(w.multipliers, w.by_position);  // T^T mu
     constraints.hidden_by_position(w.by_momentum, w.right);                  // T P^T mu
     constraints.hidden_by_momentum(w.by_position, w.other);                  // P T^T mu
-    for (std::size_t k = 0; k < count; ++k)
-      w.right[k] = constraints.hidden_rates()[k] - (w.right[k] - w.other[k]);
+    const In<T> rates = constraints.hidden_rates(), v = constraints.velocities(), f = constraints.forces();
+    for (std::size_t k = 0; k < count; ++k) w.right[k] = rates[k] - (w.right[k] - w.other[k]);
     constraints.solve(w.right, w.right);
     constraints.apply_transpose(w.right, p_rate);
     for (std::size_t k = 0; k < n; ++k) {
-      q_rate[k] = constraints.velocities()[k] - w.by_momentum[k];
-      p_rate[k] = constraints.forces()[k] - p_rate[k] + w.by_position[k];
+      q_rate[k] = v[k] - w.by_momentum[k];
+      p_rate[k] = f[k] - p_rate[k] + w.by_position[k];
     }
     const Status rubbed = add_friction<T>(constraints, friction_form, p_rate, w.friction);
     return status == Status::converged ? rubbed : status;

@@ -24,12 +24,18 @@ struct FrictionWork {
   std::vector<T> drag, force, multipliers;
 };
 
+/// True where there is no friction to add.
+template <class T>
+bool is_frictionless(const HolonomicConstraints<T>& constraints, const std::string& form) {
+  return constraints.friction().empty() || form == "none";
+}
+
 /// Adds the friction of the state last placed to p_rate.
 template <class T>
 Status add_friction(HolonomicConstraints<T>& constraints, const std::string& form, Out<T> p_rate,
                     FrictionWork<T>& work) {
+  if (is_frictionless(constraints, form)) return Status::converged;
   const In<T> lambda = constraints.friction();
-  if (lambda.empty() || form == "none") return Status::converged;
   const In<T> v = constraints.velocities();
   const std::size_t n = v.size();
   for (std::size_t k = 0; k < n; ++k) work.drag[k] = lambda[k] * v[k];

@@ -25,12 +25,15 @@ struct SimplifiedDirac {
   template <class T>
   Status field(HolonomicConstraints<T>& constraints, const T& t, In<T> q, In<T> p, Out<T> q_rate,
                Out<T> p_rate, Work<T>& w) const {
+    if (is_frictionless(constraints, friction_form))
+      if (const auto done = constraints.multiplier_rates(t, q, p, q_rate, p_rate)) return *done;
     const Status status = constraints.place(t, q, p);
     constraints.solve(constraints.hidden_rates(), w.multipliers);
     constraints.apply_transpose(w.multipliers, p_rate);
+    const In<T> v = constraints.velocities(), f = constraints.forces();
     for (std::size_t k = 0; k < q.size(); ++k) {
-      q_rate[k] = constraints.velocities()[k];
-      p_rate[k] = constraints.forces()[k] - p_rate[k];
+      q_rate[k] = v[k];
+      p_rate[k] = f[k] - p_rate[k];
     }
     const Status rubbed = add_friction<T>(constraints, friction_form, p_rate, w.friction);
     return status == Status::converged ? rubbed : status;

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 
 #include <pfaff/core/facets/scalars.hpp>
@@ -69,6 +70,18 @@ class HolonomicConstraints {
   /// r = T u and f = T^T x with T = dphi~/dq.
   virtual void hidden_by_position(In<T> u, Out<T> r) const = 0;
   virtual void hidden_by_position_transpose(In<T> x, Out<T> f) const = 0;
+
+  /// Without friction, the rates of Dirac's formulation, nguyen-turski (4.2), or of Lagrange's multipliers,
+  /// (A.5), for systems that have them in fewer passes than the operations above make; nullopt, with nothing
+  /// written, from those that have not.
+  virtual std::optional<Status> dirac_rates(const T& /*t*/, In<T> /*q*/, In<T> /*p*/, Out<T> /*q_rate*/,
+                                            Out<T> /*p_rate*/) {
+    return std::nullopt;
+  }
+  virtual std::optional<Status> multiplier_rates(const T& /*t*/, In<T> /*q*/, In<T> /*p*/, Out<T> /*q_rate*/,
+                                                 Out<T> /*p_rate*/) {
+    return std::nullopt;
+  }
 
   /// The coefficients lambda >= 0 of friction, one for each momentum, at the state last placed; empty where
   /// there is none.

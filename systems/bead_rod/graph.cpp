@@ -30,7 +30,41 @@ Incidence incidence_of(const BeadRodDescription& description) {
   return result;
 }
 
-// Row `k` of the dense S, with S_kl |D_k|^-1 |D_l|^-1, so that entries compare with 1.
+// All rods as paths; none where a bead has three rods or rods close a ring.
+std::vector<RodPath> paths_of(const BeadRodDescription& d, const Incidence& rods) {
+  const auto degree = [&](std::size_t bead) { return rods.start[bead + 1] - rods.start[bead]; };
+  for (std::size_t bead = 0; bead < d.beads(); ++bead)
+    if (degree(bead) > 2) return {};
+  std::vector<RodPath> paths;
+  std::vector<bool> walked(d.rods.size(), false);
+  std::size_t left = d.rods.size();
+  for (std::size_t first = 0; first < d.rods.size(); ++first) {
+    for (const bool from_first : {true, false}) {
+      std::size_t rod = first;
+      std::size_t point = from_first ? d.rods[rod].first : d.rods[rod].second;
+      if (walked[rod] || (point < d.beads() && degree(point) != 1)) continue;  // not an end
+      RodPath path{{point}};
+      for (bool more = true; more;) {
+        walked[rod] = true;
+        --left;
+        point = d.rods[rod].first == point ? d.rods[rod].second : d.rods[rod].first;
+        path.points.push_back(point);
+        more = false;
+        if (point >= d.beads()) break;
+        for (std::uint32_t k = rods.start[point]; k < rods.start[point + 1]; ++k)
+          if (rods.ends[k] / 2 != rod) {
+            rod = rods.ends[k] / 2;
+            more = true;
+            break;
+          }
+      }
+      paths.push_back(std::move(path));
+    }
+  }
+  return left == 0 ? paths : std::vector<RodPath>();
+}
+
+// The dense S with a diagonal of ones.
 std::vector<double> scaled_matrix(const StructuredLDLT<double>& s) {
   const std::size_t rows = s.pattern().rows();
   std::vector<double> matrix(rows * rows, 0.0);
@@ -46,7 +80,7 @@ std::vector<double> scaled_matrix(const StructuredLDLT<double>& s) {
 
 // Rows of a semidefinite matrix that depend on earlier ones, each with those it depends on.
 std::vector<std::vector<std::size_t>> dependent_rows(std::vector<double> a, std::size_t rows) {
-  constexpr double negligible = 1e-9;  // of entries of size 1, in double
+  constexpr double negligible = 1e-12;  // of entries of size 1, in double
   std::vector<std::vector<std::size_t>> sets;
   // Gauss-Jordan: column k of what is left of a dependent row holds its combination of the pivot rows.
   std::vector<bool> is_pivot(rows, false);
@@ -87,6 +121,8 @@ RodGraph::RodGraph(const BeadRodDescription& description) : beads_(description.b
   pairs.reserve(couplings_.size());
   for (const RodCoupling& c : couplings_) pairs.emplace_back(c.k, c.l);
   pattern_ = std::make_shared<const SymmetricPattern>(description.rods.size(), std::move(pairs));
+
+  paths_ = paths_of(description, rods);
 
   for (std::size_t bead = 0; bead < beads_; ++bead) {
     for (std::uint32_t a = rods.start[bead]; a < rods.start[bead + 1]; ++a) {

@@ -17,6 +17,11 @@ struct RodCoupling {
   bool same_side = false;
 };
 
+/// A path through a graph of rods: points in order, of which only the ends may be anchors.
+struct RodPath {
+  std::vector<std::size_t> points;
+};
+
 class RodGraph {
  public:
   explicit RodGraph(const BeadRodDescription& description);
@@ -27,11 +32,14 @@ class RodGraph {
   /// The beads joined to `bead` by at most `distance` rods, larger numbers only, ascending. Ways through an
   /// anchor do not count.
   [[nodiscard]] std::vector<std::uint32_t> within(std::uint32_t bead, int distance) const;
+  /// The rods as paths, where they are nothing else; empty where rods branch or close a ring.
+  [[nodiscard]] const std::vector<RodPath>& paths() const { return paths_; }
 
  private:
   std::size_t beads_;
   std::shared_ptr<const SymmetricPattern> pattern_;
   std::vector<RodCoupling> couplings_;
+  std::vector<RodPath> paths_;
   std::vector<std::uint32_t> start_, neighbour_;  // of bead i: neighbour_[start_[i] .. start_[i + 1])
 };
 

@@ -13,6 +13,7 @@
 
 #include <pfaff/core/facets/holonomic.hpp>
 #include <pfaff/core/linear/structured_ldlt.hpp>
+#include <pfaff/systems/bead_rod/folded_path.hpp>
 #include <pfaff/systems/bead_rod/potentials.hpp>
 
 namespace pfaff {
@@ -29,12 +30,14 @@ class RodConstraints final : public HolonomicConstraints<T> {
         inverse_mass_(description_->points(), T(0)),
         positions_(description_->points() * D, T(0)),
         velocities_(positions_),
-        forces_(positions_),
+        forces_(positions_.size(), T(0)),
+        accelerations_(forces_),
         inverse_masses_of_rod_(description_->rods.size()),
         length_square_(inverse_masses_of_rod_),
         residuals_(inverse_masses_of_rod_),
         hidden_(inverse_masses_of_rod_),
         hidden_rates_(inverse_masses_of_rod_),
+        multipliers_(inverse_masses_of_rod_),
         directions_(description_->rods.size()),
         turnings_(directions_) {
     const BeadRodDescription& d = *description_;
@@ -51,10 +54,12 @@ class RodConstraints final : public HolonomicConstraints<T> {
       const T w = inverse_mass_[c.bead];
       coupling_.push_back(c.same_side ? w : -w);
     }
+    skew_.resize(coupling_.size());
     if (!d.friction.empty()) {
       for (const Real& lambda : d.friction) friction_.insert(friction_.end(), D, T(lambda));
       friction_s_ = std::make_unique<StructuredLDLT<T>>(graph_->pattern());
     }
+    fold();
   }
 
   [[nodiscard]] std::size_t count() const override { return ends_.size(); }
@@ -93,24 +98,10 @@ class RodConstraints final : public HolonomicConstraints<T> {
   }
 
   Status place(const T& /*t*/, In<T> q, In<T> p) override {
-    const Status forces = potentials_.forces(q, Out<T>(forces_).first(degrees_));
-    move(p);
-    each_direction(q, [&](std::size_t k, const Arm& e) {
-      const auto [a, b] = ends_[k];
-      const Arm u = difference(velocities_, k);
-      Arm pull;
-      for (std::size_t x = 0; x < D; ++x)
-        pull[x] = inverse_mass_[a] * forces_[a * D + x] - inverse_mass_[b] * forces_[b * D + x];
-      const T square = dot(e, e);
-      directions_[k] = e;
-      turnings_[k] = u;
-      residuals_[k] = (square - length_square_[k]) / T(2);
-      hidden_[k] = dot(e, u);
-      hidden_rates_[k] = dot(u, u) + dot(e, pull);
-      s_.diagonal()[k] = square * inverse_masses_of_rod_[k];
-    });
-    const Status factors = factor_s();
-    return forces == Status::converged ? factors : forces;
+    const Status status = prepare<false>(q, p);
+    for (std::size_t k = 0; k < ends_.size(); ++k)
+      residuals_[k] = (dot(directions_[k], directions_[k]) - length_square_[k]) / T(2);
+    return status;
   }
   [[nodiscard]] std::span<const T> residuals() const override { return residuals_; }
   [[nodiscard]] std::span<const T> hidden() const override { return hidden_; }
@@ -124,6 +115,67 @@ class RodConstraints final : public HolonomicConstraints<T> {
   void hidden_by_position(In<T> u, Out<T> r) const override { rows_times<false>(turnings_, u, r); }
   void hidden_by_position_transpose(In<T> x, Out<T> f) const override {
     columns_times<false>(turnings_, x, f);
+  }
+
+  std::optional<Status> dirac_rates(const T& /*t*/, In<T> q, In<T> p, Out<T> q_rate, Out<T> p_rate) override {
+    if constexpr (folds)
+      if (!paths_.empty())
+        return folded_rates(q, p, q_rate, p_rate, [&](FoldedPath<D>& path) {
+          return path.dirac(q.data(), p.data(), q_rate.data(), p_rate.data());
+        });
+    const Status status = prepare<true>(q, p);
+    s_.solve(hidden_.data(), multipliers_.data());  // mu
+    const auto& couplings = graph_->couplings();
+    for (std::size_t c = 0; c < skew_.size(); ++c) {  // h - A mu
+      const auto k = couplings[c].k, l = couplings[c].l;
+      hidden_rates_[k] = hidden_rates_[k] - skew_[c] * multipliers_[l];
+      hidden_rates_[l] = hidden_rates_[l] + skew_[c] * multipliers_[k];
+    }
+    s_.solve(hidden_rates_.data(), hidden_rates_.data());
+    std::copy(p.begin(), p.end(), q_rate.begin());
+    std::copy_n(forces_.begin(), degrees_, p_rate.begin());
+    for (std::size_t k = 0; k < ends_.size(); ++k) {
+      const Arm& e = directions_[k];
+      const Arm& u = turnings_[k];
+      const T mu = multipliers_[k], x = hidden_rates_[k];
+      const std::size_t a = ends_[k].first * D, b = ends_[k].second * D;
+      Arm pull, push;
+      for (std::size_t i = 0; i < D; ++i) {
+        pull[i] = mu * e[i];
+        push[i] = x * e[i] - mu * u[i];
+        q_rate[a + i] = q_rate[a + i] - pull[i];
+        p_rate[a + i] = p_rate[a + i] - push[i];
+      }
+      if (b < degrees_)
+        for (std::size_t i = 0; i < D; ++i) {
+          q_rate[b + i] = q_rate[b + i] + pull[i];
+          p_rate[b + i] = p_rate[b + i] + push[i];
+        }
+    }
+    for (std::size_t i = 0, at = 0; at < degrees_; ++i)
+      for (std::size_t x = 0; x < D; ++x, ++at) q_rate[at] = inverse_mass_[i] * q_rate[at];
+    return status;
+  }
+  std::optional<Status> multiplier_rates(const T& /*t*/, In<T> q, In<T> p, Out<T> q_rate,
+                                         Out<T> p_rate) override {
+    if constexpr (folds)
+      if (!paths_.empty())
+        return folded_rates(q, p, q_rate, p_rate, [&](FoldedPath<D>& path) {
+          return path.multipliers(q.data(), p.data(), q_rate.data(), p_rate.data());
+        });
+    const Status status = prepare<false>(q, p);
+    s_.solve(hidden_rates_.data(), hidden_rates_.data());
+    std::copy_n(velocities_.begin(), degrees_, q_rate.begin());
+    std::copy_n(forces_.begin(), degrees_, p_rate.begin());
+    for (std::size_t k = 0; k < ends_.size(); ++k) {
+      const std::size_t a = ends_[k].first * D, b = ends_[k].second * D;
+      for (std::size_t i = 0; i < D; ++i) {
+        const T push = hidden_rates_[k] * directions_[k][i];
+        p_rate[a + i] = p_rate[a + i] - push;
+        if (b < degrees_) p_rate[b + i] = p_rate[b + i] + push;
+      }
+    }
+    return status;
   }
 
   [[nodiscard]] std::span<const T> friction() const override { return friction_; }
@@ -154,6 +206,76 @@ class RodConstraints final : public HolonomicConstraints<T> {
   }
 
  private:
+  static constexpr bool folds = std::is_same_v<T, double>;
+  // In doubles, where all rods are paths.
+  void fold() {
+    if constexpr (folds) {
+      const BeadRodDescription& d = *description_;
+      const auto& paths = graph_->paths();
+      if (!std::all_of(paths.begin(), paths.end(),
+                       [&](const RodPath& path) { return FoldedPath<D>::fits(d, path); }))
+        return;
+      std::vector<bool> joined(d.beads(), false);
+      for (const RodPath& path : paths) {
+        paths_.emplace_back(d, path);
+        for (const std::size_t point : path.points)
+          if (point < d.beads()) joined[point] = true;
+      }
+      for (std::size_t i = 0; i < d.beads(); ++i)
+        if (!joined[i]) lone_.push_back(i);
+      if (!potentials_.constant()) return;
+      set_forces({});
+      for (auto& path : paths_) path.set_forces(forces_.data());
+    }
+  }
+  template <class Use>
+  Status folded_rates(In<T> q, In<T> p, Out<T> q_rate, Out<T> p_rate, const Use& use) {
+    Status status = set_forces(q);
+    if (!potentials_.constant())
+      for (auto& path : paths_) path.set_forces(forces_.data());
+    for (auto& path : paths_)
+      if (!use(path)) status = status == Status::converged ? Status::singular : status;
+    for (const std::size_t i : lone_)
+      for (std::size_t at = i * D; at < i * D + D; ++at) {
+        q_rate[at] = inverse_mass_[i] * p[at];
+        p_rate[at] = forces_[at];
+      }
+    return status;
+  }
+  // Forces and accelerations of the beads; where they are constant, only when there are none yet.
+  Status set_forces(In<T> q) {
+    if (potentials_.constant() && placed_) return Status::converged;
+    placed_ = true;
+    const Status status = potentials_.forces(q, Out<T>(forces_).first(degrees_));
+    for (std::size_t i = 0, at = 0; at < degrees_; ++i)
+      for (std::size_t x = 0; x < D; ++x, ++at) accelerations_[at] = inverse_mass_[i] * forces_[at];
+    return status;
+  }
+  // D, V, phi~ and h of every rod, the factors of S, and A where it is asked for.
+  template <bool Skew>
+  Status prepare(In<T> q, In<T> p) {
+    const Status forces = set_forces(q);
+    move(p);
+    each_direction(q, [&](std::size_t k, const Arm& e) {
+      const Arm u = difference(velocities_, k);
+      directions_[k] = e;
+      turnings_[k] = u;
+      hidden_[k] = dot(e, u);
+      hidden_rates_[k] = dot(u, u) + dot(e, difference(accelerations_, k));
+      s_.diagonal()[k] = dot(e, e) * inverse_masses_of_rod_[k];
+    });
+    const auto& couplings = graph_->couplings();
+    T* const entries = s_.couplings();
+    for (std::size_t c = 0; c < coupling_.size(); ++c) {
+      const auto k = couplings[c].k, l = couplings[c].l;
+      const Arm &e = directions_[k], &other = directions_[l];
+      entries[c] = coupling_[c] * dot(e, other);
+      if constexpr (Skew) skew_[c] = coupling_[c] * (dot(turnings_[k], other) - dot(e, turnings_[l]));
+    }
+    const Status factors = s_.factor();
+    return forces == Status::converged ? factors : forces;
+  }
+
   using Arm = std::array<T, D>;
   struct Ends {
     std::uint32_t first, second;
@@ -221,12 +343,16 @@ class RodConstraints final : public HolonomicConstraints<T> {
   StructuredLDLT<T> s_;
   std::unique_ptr<StructuredLDLT<T>> friction_s_;  // none without friction
   std::size_t degrees_;
-  std::vector<T> inverse_mass_, positions_, velocities_, forces_;  // of all points
-  std::vector<T> inverse_masses_of_rod_, length_square_, residuals_, hidden_, hidden_rates_;
+  std::vector<T> inverse_mass_, positions_, velocities_, forces_, accelerations_;  // of all points
+  std::vector<T> inverse_masses_of_rod_, length_square_, residuals_, hidden_, hidden_rates_, multipliers_;
   std::vector<Arm> directions_, turnings_;
   std::vector<Ends> ends_;
+  bool placed_ = false;      // forces are those of some positions
+  std::vector<T> skew_;      // A, as S in the order of couplings
   std::vector<T> coupling_;  // 1/m of the shared bead with the sign of the coupling
   std::vector<T> friction_;
+  std::vector<FoldedPath<D>> paths_;  // none where rates are not made in one pass
+  std::vector<std::size_t> lone_;     // beads without rods
 };
 
 }  // namespace pfaff

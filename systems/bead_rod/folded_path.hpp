@@ -1,0 +1,306 @@
+// Whole right-hand sides for a path of rods, in doubles: nguyen-turski (4.2) and (A.5) without friction.
+//
+//   Dirac         mu = S^-1 phi~, x = S^-1 (h - A mu), q' = v - M^-1 B^T mu, p' = f - B^T x + T^T mu
+//   multipliers   x = S^-1 h, q' = v, p' = f - B^T x
+//
+// S and A are tridiagonal. The path is folded in the middle: one lane of a pack goes through the left half,
+// the other through the mirrored right half, so that what waits for the division of an elimination does so
+// for both. A path with an odd number of rods gets one more at the right end, coupled to nothing: a point of
+// mass 1 beside the last one, moving with it.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include <pfaff/core/numbers/functions.hpp>
+#include <pfaff/core/numbers/pack.hpp>
+#include <pfaff/core/solve/status.hpp>
+#include <pfaff/systems/bead_rod/description.hpp>
+#include <pfaff/systems/bead_rod/graph.hpp>
+
+namespace pfaff {
+
+template <int D>
+class FoldedPath {
+ public:
+  /// True where the path has the form that is folded: not an odd number of rods between two anchors.
+  static bool fits(const BeadRodDescription& d, const RodPath& path) {
+    const bool odd = path.points.size() % 2 == 0;
+    return !(odd && path.points.front() >= d.beads() && path.points.back() >= d.beads());
+  }
+
+  FoldedPath(const BeadRodDescription& d, RodPath path)
+      : rods_(path.points.size() - 1),
+        half_((rods_ + 1) / 2),
+        odd_(rods_ % 2 == 1),
+        inverse_mass_(half_ + 1),
+        coupling_mass_(half_ + 1),
+        force_(half_ + 1),
+        acceleration_(half_ + 1),
+        work_(half_) {
+    if (odd_ && path.points.back() >= d.beads()) std::reverse(path.points.begin(), path.points.end());
+    const auto inverse_mass = [&](std::size_t point) {
+      return point < d.beads() ? 1 / d.masses[point].value() : 0.0;
+    };
+    const auto offset = [&](std::size_t point) {
+      return point < d.beads() ? static_cast<std::uint32_t>(point * D) : fixed;
+    };
+    for (std::size_t j = 0; j <= half_; ++j) {
+      const bool beyond = odd_ && j == 0;
+      const std::size_t left = path.points[j], right = beyond ? left : path.points[mirrored(j)];
+      inverse_mass_[j] = L(inverse_mass(left), beyond ? 1.0 : inverse_mass(right));
+      coupling_mass_[j] = L(inverse_mass(left), odd_ && j == 1 ? 0.0 : inverse_mass(right));
+      offsets_.push_back({offset(left), beyond ? fixed : offset(right)});
+    }
+    middle_mass_ = odd_ && half_ == 1 ? 0.0 : inverse_mass(path.points[half_]);
+    for (std::size_t x = 0; x < D; ++x) {
+      const auto at = [&](std::size_t point) {
+        return point < d.beads() ? 0.0 : d.coordinate(point, x).value();
+      };
+      anchors_[x] = L(at(path.points.front()), odd_ ? 0.0 : at(path.points.back()));
+    }
+  }
+
+  /// The forces on the beads, to be set before rates are asked for.
+  void set_forces(const double* f) {
+    for (std::size_t j = 0; j <= half_; ++j) {
+      const auto [left, right] = offsets_[j];
+      for (std::size_t x = 0; x < D; ++x)
+        force_[j][x] = L(left == fixed ? 0.0 : f[left + x], right == fixed ? 0.0 : f[right + x]);
+      acceleration_[j] = inverse_mass_[j] * force_[j];
+    }
+    if (odd_)
+      for (std::size_t x = 0; x < D; ++x)
+        acceleration_[0][x] = L(acceleration_[0][x][0], acceleration_[1][x][1]);
+  }
+
+  /// Dirac's equations. False where S has no factors.
+  bool dirac(const double* q, const double* p, double* rate_q, double* rate_p) {
+    const L usable = eliminate<true>(q, p);
+    Row& last = work_[half_ - 1];
+    const Middle middle(*this, last);
+    const double a =
+        middle_mass_ * (across(last.turning, last.direction) - across(last.direction, last.turning));
+    L mu = middle.solve(last.hidden);
+    last.multiplier = mu;
+    for (std::size_t j = half_ - 1; j-- > 0;) {
+      mu = work_[j].hidden * work_[j].inverse - work_[j + 1].lower * mu;
+      work_[j].multiplier = mu;
+    }
+    L y(0.0), before(0.0);
+    for (std::size_t j = 0; j + 1 < half_; ++j) {
+      Row& row = work_[j];
+      const L turned = work_[j + 1].skew * work_[j + 1].multiplier - row.skew * before;
+      before = row.multiplier;
+      y = row.rate - turned - row.lower * y;
+      row.reduced = y;
+    }
+    const L beyond(a * last.multiplier[1], -a * last.multiplier[0]);
+    y = last.rate - (beyond - last.skew * before) - last.lower * y;
+    L x = middle.solve(y);
+    Vec pull = last.multiplier * last.direction, push = x * last.direction - last.multiplier * last.turning;
+    store_middle(pull, push, p, rate_q, rate_p);
+    for (std::size_t j = half_ - 1; j > 0; --j) {
+      const Row& row = work_[j - 1];
+      x = row.reduced * row.inverse - work_[j].lower * x;
+      const Vec next_pull = row.multiplier * row.direction;
+      const Vec next_push = x * row.direction - row.multiplier * row.turning;
+      store(j, next_pull - pull, next_push - push, p, rate_q, rate_p);
+      pull = next_pull;
+      push = next_push;
+    }
+    store_ends(pull, push, p, rate_q, rate_p);
+    return middle.usable(usable);
+  }
+
+  /// Lagrange's multipliers. False where S has no factors.
+  bool multipliers(const double* q, const double* p, double* rate_q, double* rate_p) {
+    const L usable = eliminate<false>(q, p);
+    const Row& last = work_[half_ - 1];
+    const Middle middle(*this, last);
+    L x = middle.solve(last.rate);
+    const Vec none{};
+    Vec push = x * last.direction;
+    store_middle(none, push, p, rate_q, rate_p);
+    for (std::size_t j = half_ - 1; j > 0; --j) {
+      const Row& row = work_[j - 1];
+      x = row.rate * row.inverse - work_[j].lower * x;
+      const Vec next_push = x * row.direction;
+      store(j, none, next_push - push, p, rate_q, rate_p);
+      push = next_push;
+    }
+    store_ends(none, push, p, rate_q, rate_p);
+    return middle.usable(usable);
+  }
+
+ private:
+  using L = Pack<2>;
+  static constexpr std::uint32_t fixed = ~0U;  // instead of an offset: an anchor, or the additional point
+
+  /// D numbers in each lane.
+  struct Vec {
+    std::array<L, D> x{};
+    L& operator[](std::size_t k) { return x[k]; }
+    const L& operator[](std::size_t k) const { return x[k]; }
+    friend Vec operator-(const Vec& a, const Vec& b) {
+      Vec r;
+      for (std::size_t k = 0; k < D; ++k) r[k] = a[k] - b[k];
+      return r;
+    }
+    friend Vec operator*(const L& s, const Vec& a) {
+      Vec r;
+      for (std::size_t k = 0; k < D; ++k) r[k] = s * a[k];
+      return r;
+    }
+    friend L dot(const Vec& a, const Vec& b) {
+      L sum = a[0] * b[0];
+      for (std::size_t k = 1; k < D; ++k) sum = sum + a[k] * b[k];
+      return sum;
+    }
+  };
+  /// Row j is that of the rods between points j and j + 1 of the lanes; lower and skew couple it with row j
+  /// - 1.
+  struct Row {
+    Vec direction, turning;
+    L lower, inverse, skew, hidden, rate, multiplier, reduced;
+  };
+  struct Offsets {
+    std::uint32_t left, right;
+  };
+
+  /// Where the halves meet: both last rods point at the same bead, and couple with each other.
+  class Middle {
+   public:
+    Middle(const FoldedPath& path, const Row& last)
+        : left_(1 / last.inverse[0]),
+          right_(1 / last.inverse[1]),
+          coupling_(path.middle_mass_ * across(last.direction, last.direction)),
+          scale_(1 / (left_ * right_ - coupling_ * coupling_)) {}
+    [[nodiscard]] L solve(const L& y) const {
+      return {(y[0] * right_ - coupling_ * y[1]) * scale_, (y[1] * left_ - coupling_ * y[0]) * scale_};
+    }
+    /// True where all pivots were: of each, `products` has zero times its reciprocal.
+    [[nodiscard]] bool usable(const L& products) const {
+      return products[0] == 0 && products[1] == 0 && scale_ * 0 == 0;
+    }
+
+   private:
+    double left_, right_, coupling_, scale_;
+  };
+
+  [[nodiscard]] std::size_t mirrored(std::size_t j) const { return rods_ + (odd_ ? 1 : 0) - j; }
+  static double across(const Vec& a, const Vec& b) {
+    double sum = 0;
+    for (std::size_t k = 0; k < D; ++k) sum += a[k][0] * b[k][1];
+    return sum;
+  }
+  [[nodiscard]] static Vec load(const Offsets& at, const double* x) {
+    Vec r;
+    for (std::size_t k = 0; k < D; ++k) r[k] = L(x[at.left + k], x[at.right + k]);
+    return r;
+  }
+  // Positions (`fixed_values` where there is no bead) or velocities of points 0.
+  [[nodiscard]] Vec load_ends(const double* x, const Vec& fixed_values) const {
+    const auto [left, right] = offsets_[0];
+    Vec r = fixed_values;
+    for (std::size_t k = 0; k < D; ++k)
+      r[k] = L(left == fixed ? r[k][0] : x[left + k], right == fixed ? r[k][1] : x[right + k]);
+    return r;
+  }
+
+  // Geometry, and the elimination of S with phi~ (Dirac) or h at its right-hand side. Returns zero times all
+  // reciprocals of pivots.
+  template <bool Dirac>
+  L eliminate(const double* q, const double* p) {
+    Vec beside = anchors_, still{};
+    if (odd_) {
+      const std::uint32_t end = offsets_[1].right;
+      for (std::size_t k = 0; k < D; ++k) {
+        beside[k] = L(anchors_[k][0], q[end + k] + (k == 0 ? 1.0 : 0.0));
+        still[k] = L(0.0, inverse_mass_[1][1] * p[end + k]);
+      }
+    }
+    Vec r = load_ends(q, beside);
+    Vec v = load_ends(p, still);
+    L w = inverse_mass_[0];
+    v = w * v;
+    L usable(0.0), inverse(0.0), y(0.0);
+    Vec direction{}, turning{};
+    for (std::size_t j = 0; j < half_; ++j) {
+      Row& row = work_[j];
+      const Offsets at = offsets_[j + 1];
+      const L next_w = inverse_mass_[j + 1];
+      const Vec next_r = load(at, q), next_v = next_w * load(at, p);
+      const Vec e = next_r - r, u = next_v - v;
+      const L mass = coupling_mass_[j];
+      const L b = mass * dot(direction, e);  // minus the coupling of S
+      const L lower = -(b * inverse);
+      const L d = (w + next_w) * dot(e, e) + b * lower;
+      const L rate = dot(u, u) + dot(e, acceleration_[j + 1] - acceleration_[j]);
+      inverse = L(1.0) / d;
+      usable = usable + L(0.0) * inverse;
+      if constexpr (Dirac) {
+        row.skew = mass * (dot(direction, u) - dot(turning, e));
+        y = dot(e, u) - lower * y;
+        row.hidden = y;
+        row.turning = u;
+        row.rate = rate;
+      } else {
+        y = rate - lower * y;
+        row.rate = y;
+      }
+      row.lower = lower;
+      row.inverse = inverse;
+      row.direction = e;
+      r = next_r;
+      v = next_v;
+      w = next_w;
+      direction = e;
+      turning = u;
+    }
+    return usable;
+  }
+
+  // pull is B^T mu and push B^T x - T^T mu, at point j of each lane.
+  void store(std::size_t j, const Vec& pull, const Vec& push, const double* p, double* rate_q,
+             double* rate_p) const {
+    const Offsets at = offsets_[j];
+    const Vec momentum = load(at, p);
+    for (std::size_t k = 0; k < D; ++k) {
+      const L fast = inverse_mass_[j] * (momentum[k] - pull[k]);
+      const L slow = force_[j][k] - push[k];
+      rate_q[at.left + k] = fast[0];
+      rate_q[at.right + k] = fast[1];
+      rate_p[at.left + k] = slow[0];
+      rate_p[at.right + k] = slow[1];
+    }
+  }
+  void store_one(std::size_t j, std::size_t lane, double pull, double push, std::size_t k, const double* p,
+                 double* rate_q, double* rate_p) const {
+    const std::size_t at = (lane == 0 ? offsets_[j].left : offsets_[j].right) + k;
+    rate_q[at] = inverse_mass_[j][lane] * (p[at] - pull);
+    rate_p[at] = force_[j][k][lane] - push;
+  }
+  void store_middle(const Vec& pull, const Vec& push, const double* p, double* rate_q, double* rate_p) const {
+    for (std::size_t k = 0; k < D; ++k)
+      store_one(half_, 0, pull[k].sum(), push[k].sum(), k, p, rate_q, rate_p);
+  }
+  void store_ends(const Vec& pull, const Vec& push, const double* p, double* rate_q, double* rate_p) const {
+    for (std::size_t k = 0; k < D; ++k) {
+      if (offsets_[0].left != fixed) store_one(0, 0, -pull[k][0], -push[k][0], k, p, rate_q, rate_p);
+      if (offsets_[0].right != fixed) store_one(0, 1, -pull[k][1], -push[k][1], k, p, rate_q, rate_p);
+    }
+  }
+
+  std::size_t rods_, half_;
+  bool odd_;
+  double middle_mass_ = 0;  // 1/m of the bead in the middle, as far as rods couple there
+  std::vector<L> inverse_mass_, coupling_mass_;
+  std::vector<Offsets> offsets_;
+  std::vector<Vec> force_, acceleration_;
+  std::vector<Row> work_;
+  Vec anchors_;
+};
+
+}  // namespace pfaff
