@@ -6,6 +6,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <limits>
 
 #include <pfaff/core/facets/scalars.hpp>
 #include <pfaff/core/numbers/functions.hpp>
@@ -25,6 +29,20 @@ class Largest {
 
  private:
   T largest_{0}, sum_{0};
+};
+/// For doubles by their bits, which are in order where signs are equal, with infinities and NaN above all:
+/// comparisons of integers, which wait for one another less than those of numbers.
+template <>
+class Largest<double> {
+ public:
+  void add(double x) {
+    constexpr std::uint64_t sign = std::uint64_t{1} << 63;
+    largest_ = std::max(largest_, std::bit_cast<std::uint64_t>(x) & ~sign);
+  }
+  [[nodiscard]] double get() const { return std::bit_cast<double>(largest_); }
+
+ private:
+  std::uint64_t largest_ = 0;
 };
 template <class T, int N>
 class Largest<Dual<T, N>> {

@@ -153,7 +153,7 @@ struct LobattoSpark {
     const std::size_t all = w.velocity.size() + w.force.size() + w.multiplier.size();
     if (value_of(h) != value_of(w.last_h)) w.predictor.forget();
     for (std::size_t k = 0; k < all; ++k) w.predicted(k) = w.predictor.expected(k);
-    if (w.last_h != T(0) && w.predictor.knows()) return;
+    if (w.predictor.knows()) return;
     w.at[0]->velocity(t, q, momentum, w.stage(w.velocity, 0));
     w.at[0]->force(t, q, momentum, w.stage(w.force, 0));
     ++p.counters().fields;

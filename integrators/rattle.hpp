@@ -163,10 +163,13 @@ struct Rattle {
       w.momentum[k] = z[n + k] + (w.impulse[k] + w.carry[n + k]);
     }
     c.velocity(t, q, w.momentum, w.velocity);
+    Largest<T> positions;
     for (std::size_t k = 0; k < n; ++k) {
       w.displacement[k] = length * w.velocity[k];
       w.position[k] = z[k] + (w.displacement[k] + w.carry[k]);
+      positions.add(w.position[k]);
     }
+    const T reference = positions.get();
     Convergence<T> convergence;
     do {
       c.values(t + h, w.position, w.residual);
@@ -181,16 +184,15 @@ struct Rattle {
         w.momentum[k] = z[n + k] + (w.impulse[k] + w.carry[n + k]);
       }
       c.velocity(t, q, w.momentum, w.velocity);
-      Largest<T> correction, reference;
+      Largest<T> correction;
       for (std::size_t k = 0; k < n; ++k) {
         const T displacement = length * w.velocity[k];
         correction.add(displacement - w.displacement[k]);
-        reference.add(w.position[k]);
         w.displacement[k] = displacement;
         w.position[k] = z[k] + (displacement + w.carry[k]);
       }
       convergence.begin_iteration();
-      convergence.add(correction.get(), reference.get(), reference.get());
+      convergence.add(correction.get(), reference, reference);
       ++p.counters().iterations;
     } while (!convergence.finished(50));
     // Iterates that grow beyond all numbers are those of a step that is too large.

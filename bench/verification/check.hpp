@@ -34,14 +34,20 @@ bool good(const Check& check);
 nlohmann::json to_json(const Check& check);
 
 /// A point on a system where claims are measured: the initial state moved off any symmetry, at a time that is
-/// not 0. InputError when the model has no initial state.
+/// not 0, and where there are constraints back onto them. InputError when the model has no initial state, or
+/// no such point was found.
 std::vector<Real> generic_state(const Model& model);
 inline const Real generic_time = Real::fraction(37, 100);
 
+/// The model, or where it has constraints and no vector field its motion in Dirac's formulation.
+std::shared_ptr<const Model> motion_of(const std::shared_ptr<const Model>& model);
+
 /// Measured order of a method from local errors in quad against Taylor series: log2 of successive errors
 /// under halving of the step, minus one, taken down until three slopes agree to 0.02, or, where round-off
-/// comes first, extrapolated from the last two. Methods with double coefficients are measured in quad
-/// arithmetic down to the error of their coefficients.
+/// comes first, extrapolated from the last two. Of methods that need holonomic constraints, from errors at
+/// the end of a fixed interval instead: momenta of central differences, which do not accumulate their errors,
+/// are as good as the positions there. Methods with double coefficients are measured in quad arithmetic down
+/// to the error of their coefficients.
 struct MeasuredOrder {
   double slope = 0;
   bool settled = false;

@@ -40,11 +40,13 @@ std::shared_ptr<const Tape> symmetric_part(const Tape& tensor, int n) {
   });
 }
 
-void invariants(std::vector<Check>& checks, const SystemPlugin& plugin, const Model& model) {
+// `motion` is the model, formulated where it has constraints.
+void invariants(std::vector<Check>& checks, const SystemPlugin& plugin, const Model& model,
+                const Model& motion) {
   const auto& list = model.invariants();
   if (list.empty()) return;
   const int n = model.dimension();
-  const auto values = model.tape(Formula::invariants), field = model.tape(Formula::field);
+  const auto values = model.tape(Formula::invariants), field = motion.tape(Formula::field);
   for (std::size_t k = 0; k < list.size(); ++k) {
     // dI/dt along the field.
     const auto rate = expression(n, 1, [&](const Recorded& t, Arguments z, Results out) {
@@ -164,7 +166,7 @@ std::vector<Check> check_system(const SystemPlugin& plugin) {
     if (!alpha.holds) checks.back().result = CheckResult::fail;
     checks.back().reason = alpha.message;
   }
-  invariants(checks, plugin, *model);
+  invariants(checks, plugin, *model, *motion_of(model));
   if (model->facets().has(Facet::exact_solution)) exact_solution(checks, plugin, *model);
   return checks;
 }
