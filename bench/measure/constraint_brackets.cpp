@@ -41,8 +41,10 @@ ConstraintBrackets<T> constraint_brackets(const Model& model, const T& t, const 
           sizes(i, j) = sizes(i, j) + abs(term);
         }
       }
-  for (const auto* numbers : {&result.values, &result.rates, &result.gradients.entries(),
-                              &result.tensor.entries(), &result.brackets.entries()})
+  const std::initializer_list<const std::vector<T>*> all{
+      &result.values, &result.rates, &result.gradients.entries(), &result.tensor.entries(),
+      &result.brackets.entries()};
+  for (const auto* numbers : all)
     for (const T& x : *numbers) result.finite = result.finite && isfinite(x);
   if (result.finite) result.classes = classify(result.brackets, Symmetry::skew, result.gradients, sizes);
   return result;
