@@ -5,6 +5,7 @@
 #include <pfaff/bench/verification/check.hpp>
 #include <pfaff/bench/verification/residuals.hpp>
 #include <pfaff/core/bracket.hpp>
+#include <pfaff/core/formulation.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/replay.hpp>
 #include <pfaff/integrators/generating_map_check.hpp>
@@ -40,13 +41,12 @@ std::shared_ptr<const Tape> symmetric_part(const Tape& tensor, int n) {
   });
 }
 
-// `motion` is the model, formulated where it has constraints.
 void invariants(std::vector<Check>& checks, const SystemPlugin& plugin, const Model& model,
-                const Model& motion) {
+                const std::vector<Real>& centre) {
   const auto& list = model.invariants();
   if (list.empty()) return;
   const int n = model.dimension();
-  const auto values = model.tape(Formula::invariants), field = motion.tape(Formula::field);
+  const auto values = model.tape(Formula::invariants), field = model.tape(Formula::field);
   for (std::size_t k = 0; k < list.size(); ++k) {
     // dI/dt along the field.
     const auto rate = expression(n, 1, [&](const Recorded& t, Arguments z, Results out) {
@@ -54,7 +54,7 @@ void invariants(std::vector<Check>& checks, const SystemPlugin& plugin, const Mo
       out[0] = directional_derivative(*values, t, Recorded(1), z, x)[k];
     });
     if (list[k].behaviour == Behaviour::conserved) {
-      both(checks, plugin.name(), "conserves " + list[k].name, plugin.name(), rate, generic_state(model));
+      both(checks, plugin.name(), "conserves " + list[k].name, plugin.name(), rate, centre);
     } else if (list[k].behaviour == Behaviour::decreasing || list[k].behaviour == Behaviour::increasing) {
       const bool falls = list[k].behaviour == Behaviour::decreasing;
       // The positive part of the forbidden sign.
@@ -63,17 +63,17 @@ void invariants(std::vector<Check>& checks, const SystemPlugin& plugin, const Mo
         out[0] = falls ? select(r, r, Recorded(0)) : select(r, Recorded(0), -r);
       });
       both(checks, plugin.name(), (falls ? "decreases " : "increases ") + list[k].name, plugin.name(), wrong,
-           generic_state(model));
+           centre);
     }
   }
 }
 
 // The exact solution satisfies the differential equation and starts where it should.
-void exact_solution(std::vector<Check>& checks, const SystemPlugin& plugin, const Model& model) {
+void exact_solution(std::vector<Check>& checks, const SystemPlugin& plugin, const Model& model,
+                    std::vector<Real> centre) {
   const int n = model.dimension();
   const auto size = static_cast<std::size_t>(n);
   const auto solution = model.tape(Formula::exact_solution), field = model.tape(Formula::field);
-  std::vector<Real> centre = generic_state(model);
   centre.emplace_back(0);
   const auto defect = expression(n + 1, 2 * n, [&](const Recorded& s, Arguments z, Results out) {
     const auto state = evaluate(*solution, s, z);
@@ -129,14 +129,18 @@ std::vector<Check> check_system(const SystemPlugin& plugin) {
   const auto model = plugin.make({});
   const int n = model->dimension();
   std::vector<Check> checks;
-  const std::vector<Real> centre = generic_state(*model);
+  // With constraints, what is said of invariants and solutions is said of Dirac's formulation, near their
+  // surface and off it.
+  const bool constrained = model->constrained();
+  const auto motion = motion_of(model);
+  const std::vector<Real> centre = constrained ? model->initial() : generic_state(*model);
   // What the author wrote against what is derived without it.
   constexpr std::array<std::pair<Formula, const char*>, 4> overrides{{{Formula::field, "field"},
                                                                       {Formula::force, "force"},
                                                                       {Formula::velocity, "velocity"},
                                                                       {Formula::chart_field, "chart field"}}};
   for (const auto& [formula, name] : overrides) {
-    if (!model->given(formula)) continue;
+    if (!model->given(formula) || (constrained && formula == Formula::field)) continue;
     const auto derived = model->derived(formula);
     if (derived == nullptr) continue;
     const auto given = model->tape(formula);
@@ -149,7 +153,8 @@ std::vector<Check> check_system(const SystemPlugin& plugin) {
     both(checks, plugin.name(), std::string("written ") + name + " is the derived one", plugin.name(),
          difference, where);
   }
-  if (model->facets().has(Facet::hamiltonian) || model->facets().has(Facet::structure)) {
+  if (model->facets().has(Facet::hamiltonian) || model->facets().has(Facet::structure) ||
+      model->given(Formula::poisson_tensor)) {
     const auto tensor = model->tape(Formula::poisson_tensor);
     both(checks, plugin.name(), "bracket is skew", plugin.name(), symmetric_part(*tensor, n), centre);
     both(checks, plugin.name(), "Jacobi identity", plugin.name(), jacobiator(*tensor, n), centre);
@@ -166,8 +171,12 @@ std::vector<Check> check_system(const SystemPlugin& plugin) {
     if (!alpha.holds) checks.back().result = CheckResult::fail;
     checks.back().reason = alpha.message;
   }
-  invariants(checks, plugin, *model, *motion_of(model));
-  if (model->facets().has(Facet::exact_solution)) exact_solution(checks, plugin, *model);
+  if (constrained)
+    for (Check& check : check_constraints(plugin.name(), model)) checks.push_back(std::move(check));
+  if (model->facets().has(Facet::metriplectic))
+    for (Check& check : check_metriplectic(plugin.name(), *model)) checks.push_back(std::move(check));
+  invariants(checks, plugin, *motion, centre);
+  if (model->facets().has(Facet::exact_solution)) exact_solution(checks, plugin, *motion, centre);
   return checks;
 }
 

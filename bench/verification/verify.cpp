@@ -171,7 +171,11 @@ std::vector<Job> jobs_of(const std::vector<std::string>& names, bool full) {
     if (wanted(bracket->name()) || wanted("brackets"))
       jobs.push_back({bracket->name(), [bracket] { return check_bracket(bracket->name()); }});
   if (wanted("brackets") || wanted("controls")) jobs.push_back({"false brackets", check_false_brackets});
-  if (wanted("systems") || wanted("controls")) jobs.push_back({"false structures", check_false_structures});
+  if (wanted("systems") || wanted("controls")) {
+    jobs.push_back({"false structures", check_false_structures});
+    jobs.push_back({"false constraints", check_false_constraints});
+    jobs.push_back({"false metriplectic systems", check_false_metriplectic});
+  }
   if (wanted("rk4") || wanted("integrators") || wanted("controls"))
     jobs.push_back({"false methods", check_false_methods});
   for (const MethodPlugin* method : integrators().all()) {
