@@ -152,8 +152,8 @@ Rational expansion_defect(const B& bracket, const Point& z, std::mt19937& random
   const DenseDirac<B> dirac{bracket, phi};
   const auto gh_d = BracketFunction(dirac, g, h), hf_d = BracketFunction(dirac, h, f),
              fg_d = BracketFunction(dirac, f, g);
-  const Rational jacobi = at(BracketFunction(dirac, f, gh_d)) + at(BracketFunction(dirac, g, hf_d)) +
-                          at(BracketFunction(dirac, h, fg_d));
+  jacobi = at(BracketFunction(dirac, f, gh_d)) + at(BracketFunction(dirac, g, hf_d)) +
+           at(BracketFunction(dirac, h, fg_d));
   return jacobi - expanded;
 }
 TEST(DiracBrackets, ExpansionOfJacobiIsAnIdentity) {

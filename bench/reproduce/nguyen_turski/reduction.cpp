@@ -78,8 +78,7 @@ void reductions(Rows& rows) {
   const ExactMatrix j = bracket_matrix<Rational>(CanonicalBracket{}, Rational(0), samples.point(n));
   const auto not_dirac = dirac_subspace(j, lagrangian);
   rows.qualitative(
-      "Def. 2", "condition of Dirac submanifolds", "TN and P(TN^0) meet in 0", describe(subspace),
-      subspace.angle, 0,
+      "Definition 2", "Dirac submanifold", "TN and P(TN^0) meet in 0", describe(subspace), subspace.angle, 0,
       subspace.splits() && subspace.angle > 1e-3 && !not_dirac.meets_in_zero() && not_dirac.angle == 0,
       "holds where W is regular; q1 = q2 = 0 has angle 0");
 }
