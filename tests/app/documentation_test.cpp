@@ -46,7 +46,8 @@ TEST(Documentation, CodeOfGeneratingFunctionsIsCompiled) {
 TEST(Documentation, CodeOfConstraintsIsCompiled) {
   const auto shown = blocks(contents("docs/constraints.md"));
   ASSERT_EQ(shown.size(), 1U);
-  EXPECT_NE(contents("examples/templates/tests/bracket_test.cpp").find(shown[0]), std::string::npos) << shown[0];
+  EXPECT_NE(contents("examples/templates/tests/bracket_test.cpp").find(shown[0]), std::string::npos)
+      << shown[0];
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ void bordered(Rows& rows) {
     for (std::size_t j = 0; j < 2; ++j)
       quotients.push_back(
           static_cast<Quad>(minor_of(g, counted(count, {count + i}), counted(count, {count + j})) / w));
-  rows.reproduced("(3.6), (3.7)", "Prop. 3: quotient of bordered determinants", quotients, quads(dirac));
+  rows.reproduced("(3.6), (3.7)", "Proposition 3: bordered determinants", quotients, quads(dirac));
 }
 
 void squares(Rows& rows) {
@@ -47,9 +47,9 @@ void squares(Rows& rows) {
   const ExactMatrix g = samples.skew(count + 2);
   const Rational bracket = dirac_brackets(g, count)(0, 1);
   const auto m = [&](List i, List j) { return minor_of(g, counted(count, i), counted(count, j)); };
-  rows.reproduced("(3.18)", "Prop. 5: square of the skew Dirac bracket",
+  rows.reproduced("(3.18)", "Proposition 5: square of the skew Dirac bracket",
                   quads({m({4, 5}, {4, 5}) / m({}, {})}), quads({bracket * bracket}));
-  rows.reproduced("(3.19)", "Prop. 5: determinants", quads({m({}, {}) * m({4, 5}, {4, 5})}),
+  rows.reproduced("(3.19)", "Proposition 5: determinants", quads({m({}, {}) * m({4, 5}, {4, 5})}),
                   quads({m({4}, {5}) * m({4}, {5})}));
 }
 

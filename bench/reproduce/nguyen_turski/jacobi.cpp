@@ -24,26 +24,24 @@ void propositions(Rows& rows) {
   const Dirac<CanonicalBracket> dirac{{}, constraints, {}};
   const AlmostDiracReduction<CanonicalBracket, PolynomialConstraints, NormalComplement> almost{
       {}, constraints, {}};
-  rows.reproduced("Prop. 2", "Jacobi of the reduction along P(TN^0)", zeros(1), {residual(dirac)});
+  rows.reproduced("Proposition 2", "Jacobi of the reduction along P(TN^0)", zeros(1), {residual(dirac)});
   const Quad left = residual(almost);
-  rows.qualitative("after (2.1)", "a reduction may be almost Poisson only", "Jacobi may not hold",
+  rows.qualitative("after (2.1)", "almost Poisson only", "Jacobi may not hold",
                    "residual " + to_string(left, 4), static_cast<double>(left), 0,
-                   static_cast<double>(left) > clearly,
-                   "along the normals, on four-dimensional level sets, Jacobi fails");
+                   static_cast<double>(left) > clearly, "Jacobi fails for the reduction along normals");
   // Two nested levels: rank 4 of constraints in seven dimensions with a bracket that depends on the point.
   const NambuCanonicalBracket poisson{Polynomial(3, samples.random())};
   const PolynomialConstraints four(4, 7, samples.random());
   const Dirac<NambuCanonicalBracket> deeper{poisson, four, {poisson}};
   const auto at = samples.point(7);
-  rows.reproduced("Prop. 6", "Jacobi of a Dirac bracket off the surface", zeros(1),
+  rows.reproduced("Proposition 6", "Jacobi of a Dirac bracket off the surface", zeros(1),
                   {static_cast<Quad>(jacobi_residual<Rational>(deeper, Rational(0), at).residual)});
   const PolynomialBracket skew(Symmetry::skew, n, samples.random());
   const Dirac<PolynomialBracket> broken{skew, constraints, {skew}};
   const Quad control = residual(broken);
-  rows.qualitative("Prop. 6", "needs the Jacobi identity of the bracket", "Lie or Poisson bracket",
+  rows.qualitative("Proposition 6", "hypothesis", "Lie or Poisson bracket",
                    "residual " + to_string(control, 4), static_cast<double>(control), 0,
-                   static_cast<double>(control) > clearly,
-                   "control: of a skew bracket without it, it has none");
+                   static_cast<double>(control) > clearly, "control: a skew bracket without Jacobi has none");
 }
 
 /// The sums of (3.20) and both sides of (3.21).
@@ -88,15 +86,16 @@ Expansion expansion(const B& bracket, ExactSamples& samples, std::size_t n) {
 
 void expansions(Rows& rows) {
   ExactSamples samples(11);
-  const Expansion canonical = expansion(CanonicalBracket{}, samples, 4);
+  const Expansion canonical = expansion(CanonicalBracket{}, samples, 6);
   rows.reproduced("(3.20)", "the sums of a Poisson bracket", zeros(9), quads(canonical.sums));
-  const PolynomialBracket skew(Symmetry::skew, 4, samples.random());
-  const Expansion any = expansion(skew, samples, 4);
+  // Five dimensions: on the level sets of two constraints in four, every skew bracket obeys Jacobi's
+  // identity.
+  const PolynomialBracket skew(Symmetry::skew, 5, samples.random());
+  const Expansion any = expansion(skew, samples, 5);
   rows.reproduced("(3.21)", "an identity for any skew bracket", quads({any.expanded}), quads({any.jacobi}));
   const auto size = std::abs(static_cast<double>(any.jacobi));
-  rows.qualitative("(3.21)", "for a bracket without Jacobi's identity", "-",
-                   "Jacobi " + to_string(Quad(size), 4), size, 0, size > clearly,
-                   "control: both sides of the row above differ from 0");
+  rows.qualitative("(3.21)", "without Jacobi", "-", "Jacobi " + to_string(Quad(size), 4), size, 0,
+                   size > clearly, "control: both sides above differ from 0");
 }
 
 }  // namespace

@@ -23,15 +23,15 @@ void one_pair_rows(Rows& rows) {
   std::vector<Rational> beyond;
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = i + 2; j < n; ++j) beyond.push_back(inverted(i, j));
-  rows.reproduced("C.2", "the inverse of a one-pair matrix is tridiagonal: entries beyond",
-                  zeros(beyond.size()), quads(beyond));
-  rows.reproduced("C.2", "and symmetric", quads(inverted), quads(inverted.transposed()));
+  rows.reproduced("(C.2)", "inverse: entries beyond the three diagonals", zeros(beyond.size()),
+                  quads(beyond));
+  rows.reproduced("(C.2)", "inverse: symmetric", quads(inverted), quads(inverted.transposed()));
   // A matrix that is no one-pair matrix has no tridiagonal inverse.
   q(0, n - 1) = q(n - 1, 0) = q(0, n - 1) + Rational(1);
   const auto entry = static_cast<double>(inverse(q)(0, n - 1));
-  rows.qualitative("C.2", "one pair is needed", "-",
+  rows.qualitative("(C.2)", "one pair is needed", "-",
                    "entry (1, 6) of the inverse " + to_string(Quad(entry), 4), std::abs(entry), 0,
-                   std::abs(entry) > clearly, "control: one entry changed, the inverse is not tridiagonal");
+                   std::abs(entry) > clearly, "control: one entry changed, not tridiagonal");
 }
 
 }  // namespace pfaff::nguyen_turski

@@ -62,7 +62,7 @@ void general(Rows& rows) {
   const bool broken = !plain_recursion(breaks, Symmetry::symmetric, counted(3)).works;
   rows.claim("Theorem 1", "when the recursion works", "all main minors of W must not vanish",
              outcome(works, Symmetry::symmetric, counted(2), numbered("phi", 2)), harmless ? 1 : 0, broken,
-             "Theorem 1: the leading principal minors only");
+             "Theorem 1: leading minors only");
 }
 
 void break_downs(Rows& rows) {
@@ -71,10 +71,10 @@ void break_downs(Rows& rows) {
   const auto names = numbered("x", 2);
   const auto plain = plain_recursion(w, Symmetry::symmetric, counted(2));
   const auto pivoted = classify(w, Symmetry::symmetric);
-  rows.qualitative("Example 3.1", "the recursion is inapplicable", "<phi1, phi1> = 0 = <phi2, phi2>",
+  rows.qualitative("Example 3.1", "inapplicable", "<phi1, phi1> = 0 = <phi2, phi2>",
                    outcome(w, Symmetry::symmetric, counted(2), names), 0, 0,
                    !plain.works && pivoted.regular() && pivoted.pivots.size() == 1,
-                   "breaks down in either order; one pivot of two constraints takes them together");
+                   "no order works; a pivot of both constraints does");
   const ExactMatrix u = matrix({{1, 1}, {1, -1}});
   const auto combined = plain_recursion(u * w * u.transposed(), Symmetry::symmetric, counted(2));
   rows.reproduced("Example 3.1", "pivots of x1 + x2, x1 - x2", quads({Rational(2) * a, Rational(-2) * a}),
@@ -94,11 +94,11 @@ void break_downs(Rows& rows) {
                   recursive(change * g * change.transposed(), Symmetry::symmetric, 2, 2));
   const ExactMatrix minor = matrix({{1, 1, 0}, {1, 1, 1}, {0, 1, 0}});
   rows.qualitative(
-      "(3.8)", "break-down at a second leading minor", "-",
+      "(3.8)", "second leading minor 0", "-",
       outcome(minor, Symmetry::symmetric, counted(3), numbered("phi", 3)), 0, 0,
       plain_recursion(minor, Symmetry::symmetric, counted(3)).at == std::vector<std::size_t>{1} &&
           classify(minor, Symmetry::symmetric).regular(),
-      "W is regular; pivots find an order or a pair");
+      "breaks down though W is regular");
 }
 
 void skew(Rows& rows) {
@@ -124,10 +124,9 @@ void skew(Rows& rows) {
   const std::vector<std::string> names{"phi1", "phi2", "phi3", "phit1", "phit2", "phit3"};
   const std::vector<std::size_t> pairs{0, 3, 1, 4, 2, 5};
   const auto first = plain_recursion(w, Symmetry::skew, counted(6));
-  rows.qualitative("(3.15)", "holonomic constraints, all phi first", "-",
-                   outcome(w, Symmetry::skew, counted(6), names), 0, 0,
-                   !first.works && first.pivots.empty() && classify(w, Symmetry::skew).regular(),
-                   "breaks down at once, as {phi1, phi2} = 0, though W is regular");
+  rows.qualitative("(3.15)", "holonomic, all phi first", "-", outcome(w, Symmetry::skew, counted(6), names),
+                   0, 0, !first.works && first.pivots.empty() && classify(w, Symmetry::skew).regular(),
+                   "breaks down at once, though W is regular");
   std::vector<Rational> ratios;
   for (std::size_t k = 1; k <= 3; ++k)
     ratios.push_back(determinant(s.block(0, 0, k, k)) / determinant(s.block(0, 0, k - 1, k - 1)));
@@ -141,14 +140,14 @@ void semimetric(Rows& rows) {
   bool positive = true;
   for (std::size_t k = 1; k <= 3; ++k)
     positive = positive && determinant(reduced.block(0, 0, k, k)) >= Rational(0);
-  rows.qualitative("Prop. 4", "the Dirac bracket of a semimetric one is semimetric", "<f, f>_D >= 0",
+  rows.qualitative("Proposition 4", "semimetric brackets", "<f, f>_D >= 0",
                    to_string(static_cast<Quad>(reduced(0, 0)), 4), 0, 0,
                    positive && plain_recursion(g, Symmetry::symmetric, counted(3)).works,
-                   "leading minors of <f_i, f_j>_D are not negative, and the recursion does not break down");
+                   "minors of <,>_D are not negative, no break-down");
   const Rational discriminant = g(0, 3) * g(0, 3) - g(3, 3) * g(0, 0);
-  rows.claim("Prop. 4", "discriminant", ">= 0", to_string(static_cast<Quad>(discriminant), 4),
+  rows.claim("Proposition 4", "discriminant", ">= 0", to_string(static_cast<Quad>(discriminant), 4),
              std::abs(static_cast<double>(discriminant)), discriminant < Rational(0),
-             "Proposition 4: the discriminant is <= 0 (Cauchy-Schwarz)");
+             "Proposition 4: <= 0 (Cauchy-Schwarz)");
 }
 
 }  // namespace

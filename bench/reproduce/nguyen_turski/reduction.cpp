@@ -49,39 +49,38 @@ void reductions(Rows& rows) {
                   quads(alpha * other.reduced(p) * beta.transposed()));
   const ExactMatrix square = p * p.transposed(), reduced = other.reduced(square);
   const auto least = static_cast<double>((alpha * reduced * alpha.transposed())(0, 0));
-  rows.qualitative("(2.1)", "K_F is non-negative where K is", "K_F(a, a) >= 0", to_string(Quad(least), 4), 0,
-                   0, least > 0 && largest(reduced - reduced.transposed()) == Rational(0),
+  rows.qualitative("(2.1)", "sign of K_F", "K_F(a, a) >= 0", to_string(Quad(least), 4), 0, 0,
+                   least > 0 && largest(reduced - reduced.transposed()) == Rational(0),
                    "symmetry and sign are inherited");
   const ExactMatrix along = ExactMatrix::identity(n) - dirac.projection();
-  rows.reproduced("Prop. 1", "P = P_F + P_V for V = P(F^0)", quads(p),
+  rows.reproduced("Proposition 1", "P = P_F + P_V for V = P(F^0)", quads(p),
                   quads(dirac.reduced(p) + along * p * along.transposed()));
-  rows.reproduced("Prop. 1", "P_F is the Dirac bracket (1.2)", quads(dirac_tensor(p, a)),
+  rows.reproduced("Proposition 1", "P_F is the Dirac bracket (1.2)", quads(dirac_tensor(p, a)),
                   quads(dirac.reduced(p)));
-  rows.reproduced("Def. 1", "Dirac projection: p(P F^0)", zeros(n * k),
+  rows.reproduced("after Proposition 1", "Dirac projection: p(P F^0)", zeros(n * k),
                   quads(dirac.dirac_projection_defect(p)));
   const auto subspace = dirac_subspace(p, a);
   const ExactMatrix defect = other.dirac_projection_defect(p);
-  rows.claim("Prop. 1", "F and P(F^0) meet in 0, so P(F^0) is in V", "p(P F^0) = 0 for every V",
+  rows.claim("Propositions 1, 2", "P(F^0) is in V", "p(P F^0) = 0 for every V",
              "largest " + to_string(static_cast<Quad>(largest(defect)), 4) + " for the normals",
              static_cast<double>(largest(defect)),
              subspace.meets_in_zero() && largest(dirac.dirac_projection_defect(p)) == Rational(0),
-             "Section 2, Propositions 1, 2: V has to be chosen to contain P(F^0)");
+             "Propositions 1, 2: V must be chosen so");
   const auto dimension = [](const ExactMatrix& m) {
     return static_cast<double>(independent_rows(m, 0).independent.size());
   };
   const double printed = dimension(along * f), corrected = dimension(along);
-  rows.claim("after Prop. 1", "V_p = (Id - p) F", "dimension " + to_string(Quad(printed), 2),
+  rows.claim("after Proposition 1", "V_p = (Id - p) F", "dimension " + to_string(Quad(printed), 2),
              "dimension " + to_string(Quad(corrected), 2), corrected - printed, corrected == double{k},
-             "Section 2, Propositions 1, 2: V_p = (Id - p) E");
+             "after Proposition 1: V_p = (Id - p) E");
   ExactMatrix lagrangian(2, n);
   lagrangian(0, 0) = lagrangian(1, 1) = 1;
   const ExactMatrix j = bracket_matrix<Rational>(CanonicalBracket{}, Rational(0), samples.point(n));
   const auto not_dirac = dirac_subspace(j, lagrangian);
   rows.qualitative(
-      "Def. 2", "condition of Dirac submanifolds", "TN and P(TN^0) meet in 0", describe(subspace),
-      subspace.angle, 0,
+      "Definition 2", "Dirac submanifold", "TN and P(TN^0) meet in 0", describe(subspace), subspace.angle, 0,
       subspace.splits() && subspace.angle > 1e-3 && !not_dirac.meets_in_zero() && not_dirac.angle == 0,
-      "holds for constraints with regular W; q1 = q2 = 0 fails it with angle 0");
+      "holds where W is regular; q1 = q2 = 0 has angle 0");
 }
 
 }  // namespace

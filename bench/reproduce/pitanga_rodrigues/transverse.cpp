@@ -23,7 +23,7 @@ void conditions(Rows& rows, const Sample& s) {
   const bool regular = determinant(s.structure.lambda()) != Rational(0);
   rows.qualitative("(a), (b)", "TW = TM + sharp(Ann TM)", "equivalent to (a) and (b)", describe(subspace),
                    subspace.angle, 0, subspace.splits() && regular,
-                   "(a) and (b) hold by their ranks, and the brackets of the constraints are regular");
+                   "they hold, and the constraints' brackets are regular");
   // A constraint that is a Casimir breaks (b), one pair that commutes breaks (a).
   ExactMatrix commuting(4, 7);
   ExactMatrix j(7, 7);
@@ -35,7 +35,7 @@ void conditions(Rows& rows, const Sample& s) {
   const auto broken = dirac_subspace(j, commuting);
   rows.qualitative("(a), (b)", "each can fail", "-", describe(broken), broken.angle, 0,
                    !broken.meets_in_zero() && !broken.transversal(),
-                   "control: q2 commutes with the constraints q1, p1, and z7 is a Casimir");
+                   "control: q1, p1, q2 and a Casimir as constraints");
   rows.reproduced("(13)", "p . sharp . p* on TM", quads(dirac_tensor(s.p, s.dx)),
                   quads(s.structure.composed()));
 }
@@ -46,7 +46,7 @@ void projectors(Rows& rows, const Sample& s) {
   // (14) with X^a(f) = {x^a, f}: X^a(x^b), rows a.
   const ExactMatrix acting = x * s.dx.transposed();
   rows.erratum("(14)", "{x^a, x^b}", quads(acting.transposed()), quads(acting), quads(structure.lambda()),
-               "(14): X^a(x^b), with X^a(f) = {x^a, f} as afterwards");
+               "(14): X^a(x^b), X^a(f) = {x^a, f} as afterwards");
   // (15): f + u_b x^b. At x^b = 0 the differential of tau(fbar) is df + X^a(f) lambda_ab dx^b.
   const ExactMatrix xf = x * s.f.transposed();
   const ExactMatrix tau = s.f + xf.transposed() * structure.lambda_inverse() * s.dx;
@@ -67,8 +67,8 @@ void tensors(Rows& rows, const Sample& s) {
   const auto& structure = s.structure;
   const ExactMatrix x = structure.fields(), onto = structure.leaf_projection();
   const ExactMatrix half = x.transposed() * structure.lambda_inverse() * x;  // 1/2 lambda_ab X^a ^ X^b
-  rows.erratum("(16)", "Pi_S against Pi_W(p* ., p* .)", quads(half), quads(-half),
-               quads(onto.transposed() * s.p * onto), "(16): Pi_S = -1/2 lambda_ab X^a ^ X^b; (17) is right");
+  rows.erratum("(16), before (17)", "Pi_S", quads(half), quads(-half), quads(onto.transposed() * s.p * onto),
+               "(16), before (17): Pi_S = -1/2 lambda_ab X^a ^ X^b");
   rows.reproduced(
       "(17)", "{f, g} - {f, x^a} lambda_ab {x^b, g}",
       quads(s.f * s.p * s.g.transposed() -
