@@ -1,11 +1,10 @@
 // pfaff evaluate: a system at one state and time.
-#include <cstdlib>
 #include <iostream>
 #include <sstream>
 
 #include <pfaff/app/command.hpp>
+#include <pfaff/app/evaluation_text.hpp>
 #include <pfaff/app/state_file.hpp>
-#include <pfaff/app/terminal.hpp>
 #include <pfaff/bench/runner/evaluation.hpp>
 
 namespace pfaff::app {
@@ -44,93 +43,6 @@ EvaluationSettings settings_of(const Options& options) {
   return settings;
 }
 
-// Six digits; every digit is in --json.
-std::string text_of(const nlohmann::json& value) {
-  if (value.is_null()) return "-";
-  const double x =
-      value.is_string() ? std::strtod(value.get<std::string>().c_str(), nullptr) : value.get<double>();
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", x + 0.0);  // -0 is 0
-  return text;
-}
-
-// "r - 0.5 p": a direction in the coordinates' names.
-std::string combination(const nlohmann::json& direction, const nlohmann::json& names) {
-  std::string text;
-  for (std::size_t k = 0; k < direction.size(); ++k) {
-    std::string factor = text_of(direction[k]);
-    if (factor == "0") continue;
-    const bool negative = factor.front() == '-';
-    if (negative) factor.erase(0, 1);
-    text += text.empty() ? (negative ? "-" : "") : negative ? " - " : " + ";
-    text += (factor == "1" ? "" : factor + " ") + names[k].get<std::string>();
-  }
-  return text;
-}
-
-// K as a matrix, or, where one would be too wide, its entries above the diagonal that are not zero.
-void print_structure(const nlohmann::json& k, const nlohmann::json& names) {
-  std::vector<std::vector<std::string>> rows;
-  if (k.size() <= 6) {
-    rows.push_back({"K"});
-    for (const auto& name : names) rows[0].push_back(name);
-    for (std::size_t i = 0; i < k.size(); ++i) {
-      rows.push_back({names[i]});
-      for (const auto& x : k[i]) rows.back().push_back(text_of(x));
-    }
-  } else {
-    rows.push_back({"i", "j", "K_ij"});
-    for (std::size_t i = 0; i < k.size(); ++i)
-      for (std::size_t j = i + 1; j < k.size(); ++j)
-        if (text_of(k[i][j]) != "0") rows.push_back({names[i], names[j], text_of(k[i][j])});
-  }
-  std::cout << '\n' << table(rows);
-}
-
-void print(const nlohmann::json& j) {
-  const bool structured = j.contains("K");
-  const auto& names = j["coordinates"];
-  std::string parameters;
-  for (const auto& [key, value] : j["parameters"].items())
-    parameters += (parameters.empty() ? "" : ", ") + key + "=" + value.get<std::string>();
-  std::vector<std::vector<std::string>> facts{{"system", j["system"]}};
-  if (!parameters.empty()) facts.push_back({"parameters", parameters});
-  facts.push_back({"t", text_of(j["t"])});
-  facts.push_back({"status", j["status"]});
-  for (const auto& [key, label] : {std::pair{"energy", "energy"}, std::pair{"energy_rate", "energy rate"}})
-    if (!j[key].is_null()) facts.push_back({label, text_of(j[key])});
-  if (structured) {
-    facts.push_back({"class", j["class"]});
-    const bool infinite = j["condition"].is_null();
-    facts.push_back({"K", j["regular"]          ? "regular, condition " + text_of(j["condition"])
-                          : j["kernel"].empty() ? "not finite"
-                                                : "degenerate, condition " +
-                                                      (infinite ? "infinite" : text_of(j["condition"]))});
-    for (const auto& direction : j["kernel"])
-      facts.push_back({"degenerate along", combination(direction, names)});
-    facts.push_back({"self-adjoint", "skew to " + text_of(j["self_adjoint"]["skew"]) + ", closed to " +
-                                         text_of(j["self_adjoint"]["closed"]) + ", time to " +
-                                         text_of(j["self_adjoint"]["time"]) + " (relative)"});
-    facts.push_back({"B", text_of(j["B"])});
-    if (!j["centre"].is_null()) {
-      std::string centre;
-      for (const auto& x : j["centre"]) centre += (centre.empty() ? "" : ", ") + text_of(x);
-      facts.push_back({"F and B", "from K and D about " + centre});
-    }
-  }
-  std::cout << table(facts) << '\n';
-  std::vector<std::vector<std::string>> rows{{"coordinate", "state", "rhs"}};
-  if (structured)
-    for (const char* label : {"D", "F", "F_t"}) rows[0].emplace_back(label);
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    rows.push_back({names[k], text_of(j["state"][k]), j["rhs"].is_null() ? "-" : text_of(j["rhs"][k])});
-    if (structured)
-      for (const char* key : {"D", "F", "F_t"}) rows.back().push_back(text_of(j[key][k]));
-  }
-  std::cout << table(rows);
-  if (structured) print_structure(j["K"], names);
-}
-
 }  // namespace
 
 void add_evaluate(CLI::App& app, Common& common, Action& action) {
@@ -156,7 +68,7 @@ void add_evaluate(CLI::App& app, Common& common, Action& action) {
       if (common.json) {
         std::cout << j.dump(1) << '\n';
       } else {
-        print(j);
+        std::cout << evaluation_text(j);
       }
       return 0;
     };

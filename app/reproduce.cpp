@@ -49,7 +49,9 @@ void add_reproduce(CLI::App& app, Common& common, Action& action) {
                              "Published values beside ours: reproduced, erratum or qualitative");
   auto paper = std::make_shared<std::string>();
   auto section = std::make_shared<std::string>();
-  sub->add_option("paper", *paper, "su-qin; all of them without")->type_name("PAPER");
+  std::string known;
+  for (const std::string& name : papers()) known += (known.empty() ? "" : ", ") + name;
+  sub->add_option("paper", *paper, known + "; all of them without")->type_name("PAPER");
   sub->add_option("--section", *section, "One section only")->type_name("SECTION");
   sub->callback(
       [=, &common, &action] { action = [=, &common] { return run(*paper, *section, common.json); }; });

@@ -1,4 +1,4 @@
-// Poisson brackets with a constant tensor: {f, g} = f_i P_ij g_j. Jacobi holds for every constant skew P; P
+// Brackets with a constant tensor: {f, g} = f_i P_ij g_j. Jacobi holds for every constant skew P; P
 // may be singular, its null covectors being the gradients of linear Casimirs.
 #pragma once
 

@@ -2,6 +2,9 @@
 // the sign of the left-invariant convention. The Casimirs of so(3)* are the functions of |z|^2.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
 #include <vector>
 
 #include <pfaff/core/numbers/functions.hpp>
@@ -31,8 +34,55 @@ struct LiePoissonBracket {
     }
   }
 
+  /// The largest |sum of [[e_i, e_j], e_k] over cyclic i, j, k|: 0 for the structure constants of a Lie
+  /// algebra, and then the bracket obeys Jacobi's identity.
+  [[nodiscard]] double algebra_residual(int dimension) const {
+    const auto n = static_cast<std::size_t>(dimension);
+    std::vector<double> c(n * n * n);  // [e_i, e_j] = c_ijk e_k
+    for (const StructureConstant& s : constants) {
+      const auto i = static_cast<std::size_t>(s.i), j = static_cast<std::size_t>(s.j),
+                 k = static_cast<std::size_t>(s.k);
+      c[(i * n + j) * n + k] += s.value.value();
+      c[(j * n + i) * n + k] -= s.value.value();
+    }
+    double worst = 0;
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j)
+        for (std::size_t k = 0; k < n; ++k)
+          for (std::size_t m = 0; m < n; ++m) {
+            double total = 0;
+            for (std::size_t l = 0; l < n; ++l)
+              total += c[(i * n + j) * n + l] * c[(l * n + k) * n + m] +
+                       c[(j * n + k) * n + l] * c[(l * n + i) * n + m] +
+                       c[(k * n + i) * n + l] * c[(l * n + j) * n + m];
+            worst = std::max(worst, std::abs(total));
+          }
+    return worst;
+  }
+
+  /// Rotations, [e_1, e_2] = e_3 and cyclic. Casimirs: functions of |z|^2.
+  static LiePoissonBracket so3(Real sign = 1) {
+    return {{{0, 1, 2, 1}, {1, 2, 0, 1}, {2, 0, 1, 1}}, std::move(sign)};
+  }
+  /// Rotations and translations, z = (Pi, Gamma). Casimirs: |Gamma|^2 and Pi.Gamma.
+  static LiePoissonBracket se3(Real sign = 1) {
+    return {{{0, 1, 2, 1},
+             {1, 2, 0, 1},
+             {2, 0, 1, 1},
+             {0, 4, 5, 1},
+             {1, 5, 3, 1},
+             {2, 3, 4, 1},
+             {3, 1, 5, 1},
+             {4, 2, 3, 1},
+             {5, 0, 4, 1}},
+            std::move(sign)};
+  }
+  /// Traceless 2 x 2 matrices, z = (h, e, f): [h, e] = 2 e, [h, f] = -2 f, [e, f] = h. Casimir: h^2 + 4 e f.
+  static LiePoissonBracket sl2(Real sign = 1) {
+    return {{{0, 1, 1, 2}, {0, 2, 2, -2}, {1, 2, 0, 1}}, std::move(sign)};
+  }
   /// The body bracket of a rigid body on so(3)*: {f, g} = -z.(grad f x grad g), z the angular momentum.
-  static LiePoissonBracket rigid_body() { return {{{0, 1, 2, 1}, {1, 2, 0, 1}, {2, 0, 1, 1}}, -1}; }
+  static LiePoissonBracket rigid_body() { return so3(-1); }
 };
 
 }  // namespace pfaff

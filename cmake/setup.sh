@@ -19,6 +19,7 @@ needed=(
   "libtbb-dev header:tbb/version.h"
   "libeigen3-dev header:eigen3/Eigen/Core"
   "libgtest-dev header:gtest/gtest.h"
+  "libgmock-dev header:gmock/gmock.h"
   "libbenchmark-dev header:benchmark/benchmark.h"
   "python3 program:python3"
   "python3-matplotlib module:matplotlib"

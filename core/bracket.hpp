@@ -4,6 +4,7 @@
 // optional parameters, and
 //   template <class T> void sharp(const T& t, In<T> z, In<T> covector, Out<T> vector) const;   // Pi(z, t)
 //   covector
+// and, where it claims Casimirs, casimir_count() and casimirs(t, z, values).
 #pragma once
 
 #include <memory>
@@ -26,7 +27,8 @@ struct BracketDescriptor {
   std::string title;
   std::string reference;
   Symmetry symmetry = Symmetry::skew;
-  bool jacobi = true;  // claims the Jacobi identity
+  bool jacobi = true;       // claims the Jacobi identity
+  bool semimetric = false;  // claims <f, f> >= 0
 };
 
 /// A bracket with its parameters fixed: its sharp map as a tape of (z, covector), 2 n inputs, n outputs.
@@ -34,6 +36,7 @@ struct BracketInstance {
   int dimension = 0;
   Assignments parameters;
   std::shared_ptr<const Tape> sharp;
+  std::shared_ptr<const Tape> casimirs;  // null where none are claimed
 };
 
 /// A registered bracket.
@@ -77,7 +80,14 @@ class Bracket final : public BracketPlugin {
     } else {
       dimension = B::dimension;
     }
-    return {dimension, resolved(parameters(), &object), sharp_tape(object, dimension)};
+    BracketInstance instance{dimension, resolved(parameters(), &object), sharp_tape(object, dimension), {}};
+    if constexpr (requires { object.casimir_count(); })
+      instance.casimirs = std::make_shared<const Tape>(
+          record(dimension, object.casimir_count(),
+                 [&](const Recorded& t, std::span<const Recorded> z, std::span<Recorded> values) {
+                   object.casimirs(t, z, values);
+                 }));
+    return instance;
   }
 };
 

@@ -25,16 +25,26 @@ namespace pfaff {
 
 /// What a method may claim to keep, each with the scope in which it is tested.
 enum class Claim {
-  none,                 // an explicit "no structure claimed"
-  symmetric,            // step(-h) undoes step(h); every system
-  symplectic,           // M^T J M = J; canonical systems
-  k_symplectic,         // M^T K(z', t') M = K(z, t); systems with a Darboux chart or an alpha
-  quadratic_invariants  // keeps every quadratic invariant; systems that have one
+  none,                    // an explicit "no structure claimed"
+  symmetric,               // step(-h) undoes step(h); every system
+  symplectic,              // M^T J M = J; canonical systems
+  k_symplectic,            // M^T K(z', t') M = K(z, t); systems with a Darboux chart or an alpha
+  quadratic_invariants,    // keeps every quadratic invariant; systems that have one
+  constrained_symplectic,  // u^T (M^T J M - J) v = 0 for u, v tangent to the surface of the constraints;
+                           // systems with holonomic ones
+  constraints,             // both levels of constraints hold at the end of a step; the same systems
+  momentum_maps            // keeps every invariant p^T D q; systems that have one
 };
 
 constexpr std::string_view to_string(Claim claim) {
-  constexpr std::array<std::string_view, 5> names{"none", "symmetric", "symplectic", "K-symplectic",
-                                                  "quadratic-invariants"};
+  constexpr std::array<std::string_view, 8> names{"none",
+                                                  "symmetric",
+                                                  "symplectic",
+                                                  "K-symplectic",
+                                                  "quadratic-invariants",
+                                                  "constrained-symplectic",
+                                                  "constraints",
+                                                  "momentum-maps"};
   return names[static_cast<std::size_t>(claim)];
 }
 

@@ -21,9 +21,9 @@
 
 namespace pfaff {
 
-/// Steps of Base with the lengths weights[i] h. What the base has rounded off, its workspace's `carry`, is
-/// handed from sub-step to sub-step; bases that extrapolate from past steps (their workspaces can restart())
-/// keep a history for each sub-step.
+/// Steps of Base with the lengths weights[i] h. What the base has rounded off, its workspace's `carry`, or
+/// all that it hands over (hand_over(next)), is handed from sub-step to sub-step; bases that extrapolate from
+/// past steps (their workspaces can restart()) keep a history for each sub-step.
 template <class Base>
 struct Composition : Base {
   std::vector<Quad> weights{Quad(1)};
@@ -69,7 +69,14 @@ struct Composition : Base {
         if constexpr (Work<P>::with_history) w.restart();
         return status;
       }
-      if constexpr (Work<P>::with_history) std::swap(base.carry, w.base[(i + 1) % w.base.size()].carry);
+      if constexpr (Work<P>::with_history) {
+        auto& next = w.base[(i + 1) % w.base.size()];
+        if constexpr (requires { base.hand_over(next); }) {
+          base.hand_over(next);
+        } else {
+          std::swap(base.carry, next.carry);
+        }
+      }
     }
     return Status::converged;
   }

@@ -33,7 +33,11 @@ class Continuation {
   /// True when a step of size h from (t, z) goes on where the last one, of the same size, ended. Times are
   /// t0 + n h, and so agree to round-off only.
   [[nodiscard]] bool holds(const T& t, const T& h, const State<P>& z) const {
-    if (!known_ || !identical(h, h_)) return false;
+    return known_ && identical(h, h_) && holds_at(t, h, z);
+  }
+  /// The same for a step whose size h may be another one.
+  [[nodiscard]] bool holds_at(const T& t, const T& h, const State<P>& z) const {
+    if (!known_) return false;
     if (abs(value_of(t - t_)) > abs(value_of(h)) * Value<T>(1e-6)) return false;
     for (std::size_t k = 0; k < z_.size(); ++k)
       if (!identical(z[k], z_[k])) return false;

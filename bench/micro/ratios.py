@@ -4,8 +4,9 @@
     bench/micro/ratios.py build/bench/bench/micro/pfaff_micro [--repetitions N] [--json FILE]
 
 Paths: a loop by hand; static and registered path, each also with forces derived from the energies; Boost.Odeint. psi-m
-is one gradient of the generating function truncated at degree m, compiled or interpreted, in nanoseconds each. Of
-rods (chains, rings, a humanoid, ensembles) it is one right-hand side, in nanoseconds a rod.
+is one gradient of the generating function truncated at degree m, compiled or interpreted, in nanoseconds each.
+Structured matrices are factored and solved with in nanoseconds a row, beside loops by hand and Eigen. Of rods (chains,
+rings, a humanoid, ensembles) it is one right-hand side, in nanoseconds a rod.
 Repetitions are interleaved at random, so that a disturbance does not fall on one benchmark alone; of each the fastest
 is taken, which other programs disturb least. Exit status 1 when a target is missed, 2 for wrong usage.
 """
@@ -20,6 +21,9 @@ CHAIN = [8, 16, 32, 64, 128]
 RODS = [16, 64, 256, 1024]
 METHODS = ["verlet-plain", "verlet", "rk4-plain", "rk4", "implicit-midpoint", "gauss-4", "gauss-8",
            "gauss-12", "generating-function-4", "generating-function-8", "generating-function-12"]
+STRUCTURES = {"tridiagonal": [4, 8, 16, 64, 256, 1024], "cyclic": [4, 8, 16, 64, 256, 1024],
+              "tree": [12, 16, 64, 256, 1024], "sparse": [16, 64, 256, 1024], "dense": [16, 64]}
+SOLVERS = ["library", "shuffled", "quad", "one-end", "both-ends", "eigen"]
 GRADIENTS = ["psi-4", "psi-8", "psi-12", "psi-16"]
 PATHS = {"by-hand": "by hand", "static": "static", "static-derived": "derived", "registered": "registered",
          "registered-derived": "derived", "odeint": "odeint"}
@@ -29,7 +33,7 @@ ONLY_ODEINT = ["symplectic-euler", "dopri5", "mclachlan"]
 
 
 def measure(program, repetitions, seconds):
-    """{(system, method, path): fastest ns a step, or a rod}"""
+    """{(system, method, path): fastest ns a step}, or a row of a matrix, or a rod."""
     command = [program, "--benchmark_format=json", f"--benchmark_repetitions={repetitions}",
                "--benchmark_enable_random_interleaving=true", f"--benchmark_min_time={seconds}"]
     output = subprocess.run(command, check=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL).stdout
@@ -37,9 +41,8 @@ def measure(program, repetitions, seconds):
     for run in json.loads(output)["benchmarks"]:
         if run["run_type"] == "iteration":
             key = tuple(run["run_name"].split("/")[:3])
-            time = run.get("ns_per_rod", run.get("ns_per_step"))
-            if time is not None:  # benchmarks of linear algebra and others have figures of their own
-                times[key] = min(times.get(key, float("inf")), time)
+            time = next(run[unit] for unit in ("ns_per_rod", "ns_per_row", "ns_per_step") if unit in run)
+            times[key] = min(times.get(key, float("inf")), time)
     return times
 
 
@@ -73,6 +76,16 @@ def targets(times):
         rows.append((f"damped pendula, order 8: {longer} / {shorter} of them",
                      (f"damped-pendula-{longer}", "generating-function-8", "registered"),
                      (f"damped-pendula-{shorter}", "generating-function-8", "registered"), 2.2))
+    work = "factor-and-solve"
+    for rows_of_matrix in STRUCTURES["tridiagonal"]:
+        name = f"tridiagonal-{rows_of_matrix}"
+        rows.append((f"{name}: library / both ends by hand", (name, work, "library"), (name, work, "both-ends"),
+                     1.25 if rows_of_matrix >= 64 else None))
+        rows.append((f"{name}: both ends / one end", (name, work, "both-ends"), (name, work, "one-end"), None))
+    for structure, sizes in STRUCTURES.items():
+        for size in sizes:
+            name = f"{structure}-{size}"
+            rows.append((f"{name}: library / Eigen", (name, work, "library"), (name, work, "eigen"), 1.0))
     for formulation, limit in (("dirac", 1.5), ("lmm", 1.5)):
         for axes in (2, 3):
             for count in RODS:
@@ -109,6 +122,14 @@ def print_times(times):
             pair = [times.get((system, gradient, path)) for path in ("compiled", "interpreted")]
             if all(pair):
                 print(f"  {system + ' ' + gradient:<28}{pair[0]:11.1f}{pair[1]:13.1f}")
+    print(f"\n{'ns a row':<40}" + "".join(f"{solver:>11}" for solver in SOLVERS))
+    for structure, sizes in STRUCTURES.items():
+        for size in sizes:
+            for work in ["factor-and-solve", "solve", "solve-two"]:
+                cells = [times.get((f"{structure}-{size}", work, solver)) for solver in SOLVERS]
+                if any(cells):
+                    print(f"  {f'{structure}-{size} {work}':<38}"
+                          + "".join(f"{cell:11.2f}" if cell else " " * 11 for cell in cells))
 
 
 def print_ratios(rows, times):

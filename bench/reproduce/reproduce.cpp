@@ -1,25 +1,42 @@
 #include <pfaff/bench/reproduce/reproduce.hpp>
 
 #include <algorithm>
+#include <array>
 
 #include <pfaff/core/registry/errors.hpp>
 
 namespace pfaff {
 
-std::vector<std::string> papers() { return {"su-qin"}; }
+namespace {
+struct Paper {
+  const char* name;
+  std::vector<ReproducedRow> (*rows)();
+};
+constexpr std::array all_papers{Paper{"su-qin", reproduce_su_qin},
+                                Paper{"nguyen-turski", reproduce_nguyen_turski},
+                                Paper{"pitanga-rodrigues", reproduce_pitanga_rodrigues}};
+}  // namespace
+
+std::vector<std::string> papers() {
+  std::vector<std::string> names;
+  for (const Paper& paper : all_papers) names.emplace_back(paper.name);
+  return names;
+}
 
 std::vector<ReproducedRow> reproduce(const std::string& paper, const std::string& section) {
   const std::vector<std::string> known = papers();
   if (std::find(known.begin(), known.end(), paper) == known.end())
     throw InputError(unknown_name("paper", paper, known));
-  std::vector<ReproducedRow> rows = reproduce_su_qin();
+  const auto found =
+      std::find_if(all_papers.begin(), all_papers.end(), [&](const Paper& p) { return paper == p.name; });
+  std::vector<ReproducedRow> rows = found->rows();
   if (section.empty()) return rows;
   std::vector<std::string> sections;
   for (const ReproducedRow& row : rows)
     if (std::find(sections.begin(), sections.end(), row.section) == sections.end())
       sections.push_back(row.section);
   if (std::find(sections.begin(), sections.end(), section) == sections.end()) {
-    // No suggestion: sections are numbers, and none of them is near.
+    // No suggestion: most sections are numbers, and none of them is near.
     std::string text = "unknown section '" + section + "' of " + paper + "; expected one of: ";
     for (const std::string& known_section : sections)
       text += (&known_section == &sections.front() ? "" : ", ") + known_section;

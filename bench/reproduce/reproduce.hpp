@@ -30,5 +30,9 @@ bool ok(const std::vector<ReproducedRow>& rows);
 
 /// Su & Qin, every section with formulas (su_qin/).
 std::vector<ReproducedRow> reproduce_su_qin();
+/// Nguyen & Turski (nguyen_turski/): section "brackets".
+std::vector<ReproducedRow> reproduce_nguyen_turski();
+/// Pitanga & Rodrigues (pitanga_rodrigues/): section "transverse".
+std::vector<ReproducedRow> reproduce_pitanga_rodrigues();
 
 }  // namespace pfaff

@@ -34,14 +34,20 @@ bool good(const Check& check);
 nlohmann::json to_json(const Check& check);
 
 /// A point on a system where claims are measured: the initial state moved off any symmetry, at a time that is
-/// not 0. InputError when the model has no initial state.
+/// not 0, and where there are constraints back onto them. InputError when the model has no initial state, or
+/// no such point was found.
 std::vector<Real> generic_state(const Model& model);
 inline const Real generic_time = Real::fraction(37, 100);
 
+/// The model, or where it has constraints and no vector field its motion in Dirac's formulation.
+std::shared_ptr<const Model> motion_of(const std::shared_ptr<const Model>& model);
+
 /// Measured order of a method from local errors in quad against Taylor series: log2 of successive errors
 /// under halving of the step, minus one, taken down until three slopes agree to 0.02, or, where round-off
-/// comes first, extrapolated from the last two. Methods with double coefficients are measured in quad
-/// arithmetic down to the error of their coefficients.
+/// comes first, extrapolated from the last two. Of methods that need holonomic constraints, from errors at
+/// the end of a fixed interval instead: momenta of central differences, which do not accumulate their errors,
+/// are as good as the positions there. Methods with double coefficients are measured in quad arithmetic down
+/// to the error of their coefficients.
 struct MeasuredOrder {
   double slope = 0;
   bool settled = false;
@@ -59,6 +65,12 @@ std::vector<Check> check_changed_coefficient(const MethodPlugin& plugin, const A
                                              const SystemPlugin& system);
 /// Structure, chart, overrides, invariants and exact solution of a system.
 std::vector<Check> check_system(const SystemPlugin& system);
+/// Of a system with constraints: that it starts on them, that they are second class there, that what was
+/// written of them is what is derived (named constraint by constraint), and that Dirac's formulation keeps
+/// them off their surface too.
+std::vector<Check> check_constraints(const std::string& name, const std::shared_ptr<const Model>& model);
+/// Of a metriplectic system: its symmetric bracket, the degeneracy conditions, what energy and entropy do.
+std::vector<Check> check_metriplectic(const std::string& name, const Model& model);
 /// Symmetry and Jacobi identity of a bracket.
 std::vector<Check> check_bracket(const std::string& plugin);
 /// Brackets that are not what they are claimed to be, which must be rejected: one without Jacobi's identity,
@@ -67,6 +79,11 @@ std::vector<Check> check_false_brackets();
 /// Equations K zdot + D = 0 that are not self-adjoint, by one entry of D, of K, and a chart that is not
 /// Darboux's at the time it is used.
 std::vector<Check> check_false_structures();
+/// Constraints that are not what they are claimed to be: off the surface at the start, with a wrong gradient,
+/// dependent, or not kept.
+std::vector<Check> check_false_constraints();
+/// Metriplectic systems with a symmetric bracket or an entropy that is wrong by 1e-6, or in its sign.
+std::vector<Check> check_false_metriplectic();
 /// Methods that are not what they are claimed to be: RK4 symplectic and K-symplectic, su-qin (105) as
 /// printed.
 std::vector<Check> check_false_methods();

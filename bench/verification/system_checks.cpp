@@ -5,6 +5,7 @@
 #include <pfaff/bench/verification/check.hpp>
 #include <pfaff/bench/verification/residuals.hpp>
 #include <pfaff/core/bracket.hpp>
+#include <pfaff/core/formulation.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/replay.hpp>
 #include <pfaff/integrators/generating_map_check.hpp>
@@ -40,7 +41,8 @@ std::shared_ptr<const Tape> symmetric_part(const Tape& tensor, int n) {
   });
 }
 
-void invariants(std::vector<Check>& checks, const SystemPlugin& plugin, const Model& model) {
+void invariants(std::vector<Check>& checks, const SystemPlugin& plugin, const Model& model,
+                const std::vector<Real>& centre) {
   const auto& list = model.invariants();
   if (list.empty()) return;
   const int n = model.dimension();
@@ -52,7 +54,7 @@ void invariants(std::vector<Check>& checks, const SystemPlugin& plugin, const Mo
       out[0] = directional_derivative(*values, t, Recorded(1), z, x)[k];
     });
     if (list[k].behaviour == Behaviour::conserved) {
-      both(checks, plugin.name(), "conserves " + list[k].name, plugin.name(), rate, generic_state(model));
+      both(checks, plugin.name(), "conserves " + list[k].name, plugin.name(), rate, centre);
     } else if (list[k].behaviour == Behaviour::decreasing || list[k].behaviour == Behaviour::increasing) {
       const bool falls = list[k].behaviour == Behaviour::decreasing;
       // The positive part of the forbidden sign.
@@ -61,17 +63,17 @@ void invariants(std::vector<Check>& checks, const SystemPlugin& plugin, const Mo
         out[0] = falls ? select(r, r, Recorded(0)) : select(r, Recorded(0), -r);
       });
       both(checks, plugin.name(), (falls ? "decreases " : "increases ") + list[k].name, plugin.name(), wrong,
-           generic_state(model));
+           centre);
     }
   }
 }
 
 // The exact solution satisfies the differential equation and starts where it should.
-void exact_solution(std::vector<Check>& checks, const SystemPlugin& plugin, const Model& model) {
+void exact_solution(std::vector<Check>& checks, const SystemPlugin& plugin, const Model& model,
+                    std::vector<Real> centre) {
   const int n = model.dimension();
   const auto size = static_cast<std::size_t>(n);
   const auto solution = model.tape(Formula::exact_solution), field = model.tape(Formula::field);
-  std::vector<Real> centre = generic_state(model);
   centre.emplace_back(0);
   const auto defect = expression(n + 1, 2 * n, [&](const Recorded& s, Arguments z, Results out) {
     const auto state = evaluate(*solution, s, z);
@@ -127,14 +129,18 @@ std::vector<Check> check_system(const SystemPlugin& plugin) {
   const auto model = plugin.make({});
   const int n = model->dimension();
   std::vector<Check> checks;
-  const std::vector<Real> centre = generic_state(*model);
+  // With constraints, what is said of invariants and solutions is said of Dirac's formulation, near their
+  // surface and off it.
+  const bool constrained = model->constrained();
+  const auto motion = motion_of(model);
+  const std::vector<Real> centre = constrained ? model->initial() : generic_state(*model);
   // What the author wrote against what is derived without it.
   constexpr std::array<std::pair<Formula, const char*>, 4> overrides{{{Formula::field, "field"},
                                                                       {Formula::force, "force"},
                                                                       {Formula::velocity, "velocity"},
                                                                       {Formula::chart_field, "chart field"}}};
   for (const auto& [formula, name] : overrides) {
-    if (!model->given(formula)) continue;
+    if (!model->given(formula) || (constrained && formula == Formula::field)) continue;
     const auto derived = model->derived(formula);
     if (derived == nullptr) continue;
     const auto given = model->tape(formula);
@@ -147,7 +153,8 @@ std::vector<Check> check_system(const SystemPlugin& plugin) {
     both(checks, plugin.name(), std::string("written ") + name + " is the derived one", plugin.name(),
          difference, where);
   }
-  if (model->facets().has(Facet::hamiltonian) || model->facets().has(Facet::structure)) {
+  if (model->facets().has(Facet::hamiltonian) || model->facets().has(Facet::structure) ||
+      model->given(Formula::poisson_tensor)) {
     const auto tensor = model->tape(Formula::poisson_tensor);
     both(checks, plugin.name(), "bracket is skew", plugin.name(), symmetric_part(*tensor, n), centre);
     both(checks, plugin.name(), "Jacobi identity", plugin.name(), jacobiator(*tensor, n), centre);
@@ -164,8 +171,12 @@ std::vector<Check> check_system(const SystemPlugin& plugin) {
     if (!alpha.holds) checks.back().result = CheckResult::fail;
     checks.back().reason = alpha.message;
   }
-  invariants(checks, plugin, *model);
-  if (model->facets().has(Facet::exact_solution)) exact_solution(checks, plugin, *model);
+  if (constrained)
+    for (Check& check : check_constraints(plugin.name(), model)) checks.push_back(std::move(check));
+  if (model->facets().has(Facet::metriplectic))
+    for (Check& check : check_metriplectic(plugin.name(), *model)) checks.push_back(std::move(check));
+  invariants(checks, plugin, *motion, centre);
+  if (model->facets().has(Facet::exact_solution)) exact_solution(checks, plugin, *motion, centre);
   return checks;
 }
 
@@ -183,6 +194,31 @@ std::shared_ptr<const Tape> tensor_of(const Tape& sharp, int n) {
     }
   });
 }
+std::shared_ptr<const Tape> skew_part(const Tape& tensor, int n) {
+  const auto size = static_cast<std::size_t>(n);
+  return expression(n, n * n, [&](const Recorded& t, Arguments z, Results out) {
+    const auto g = evaluate(tensor, t, z);
+    for (std::size_t i = 0; i < size; ++i)
+      for (std::size_t j = 0; j < size; ++j) out[i * size + j] = g[i * size + j] - g[j * size + i];
+  });
+}
+// How negative alpha.G alpha is for some covectors: 0 where it is not.
+std::shared_ptr<const Tape> negative_part(const Tape& tensor, int n) {
+  const auto size = static_cast<std::size_t>(n);
+  constexpr int covectors = 8;
+  return expression(n, covectors, [&](const Recorded& t, Arguments z, Results out) {
+    const auto g = evaluate(tensor, t, z);
+    for (int k = 0; k < covectors; ++k) {
+      const auto alpha = [&](std::size_t i) {
+        return Recorded(Real::fraction((static_cast<int>(i) * 5 + k * 7) % 11 - 5, 3));
+      };
+      Recorded square(0);
+      for (std::size_t i = 0; i < size; ++i)
+        for (std::size_t j = 0; j < size; ++j) square = square + alpha(i) * g[i * size + j] * alpha(j);
+      out[static_cast<std::size_t>(k)] = select(-square, -square, Recorded(0));
+    }
+  });
+}
 std::vector<Real> bracket_point(int n) {
   std::vector<Real> z;
   for (int k = 0; k < n; ++k) z.push_back(Real::fraction(3 + 2 * k, 7));
@@ -190,16 +226,46 @@ std::vector<Real> bracket_point(int n) {
 }
 }  // namespace
 
+namespace {
+void check_instance(std::vector<Check>& checks, const BracketPlugin& plugin, const Assignments& parameters) {
+  const BracketInstance bracket = plugin.make(parameters);
+  const int n = bracket.dimension;
+  const auto size = static_cast<std::size_t>(n);
+  const auto tensor = tensor_of(*bracket.sharp, n);
+  const std::vector<Real> centre = bracket_point(n);
+  const std::size_t first = checks.size();
+  if (plugin.descriptor().symmetry == Symmetry::skew)
+    both(checks, plugin.name(), "skew", "", symmetric_part(*tensor, n), centre);
+  if (plugin.descriptor().symmetry == Symmetry::symmetric)
+    both(checks, plugin.name(), "symmetric", "", skew_part(*tensor, n), centre);
+  if (plugin.descriptor().jacobi)
+    both(checks, plugin.name(), "Jacobi identity", "", jacobiator(*tensor, n), centre);
+  if (plugin.descriptor().semimetric)
+    both(checks, plugin.name(), "semimetric", "", negative_part(*tensor, n), centre);
+  if (bracket.casimirs != nullptr)
+    both(checks, plugin.name(), "Casimirs", "",
+         expression(n, static_cast<int>(bracket.casimirs->outputs.size()) * n,
+                    [&](const Recorded& t, Arguments z, Results out) {
+                      const auto pi = evaluate(*tensor, t, z), slopes = jacobian(*bracket.casimirs, t, z);
+                      for (std::size_t c = 0; c * size < slopes.size(); ++c)
+                        for (std::size_t i = 0; i < size; ++i)
+                          for (std::size_t j = 0; j < size; ++j)
+                            out[c * size + i] = out[c * size + i] + pi[i * size + j] * slopes[c * size + j];
+                    }),
+         centre);
+  for (std::size_t k = first; k < checks.size(); ++k) checks[k].parameters = parameters;
+}
+}  // namespace
+
 std::vector<Check> check_bracket(const std::string& name) {
   const BracketPlugin& plugin = brackets().get(name, "bracket");
-  const BracketInstance bracket = plugin.make({});
-  const auto tensor = tensor_of(*bracket.sharp, bracket.dimension);
   std::vector<Check> checks;
-  const std::vector<Real> centre = bracket_point(bracket.dimension);
-  if (plugin.descriptor().symmetry == Symmetry::skew)
-    both(checks, name, "skew", "", symmetric_part(*tensor, bracket.dimension), centre);
-  if (plugin.descriptor().jacobi)
-    both(checks, name, "Jacobi identity", "", jacobiator(*tensor, bracket.dimension), centre);
+  check_instance(checks, plugin, {});
+  // A choice among brackets is as many brackets.
+  for (const Parameter& p : plugin.parameters())
+    if (p.kind == Parameter::Kind::choice)
+      for (std::size_t k = 1; k < p.choices.size(); ++k)
+        check_instance(checks, plugin, {{p.name, p.choices[k]}});
   return checks;
 }
 
@@ -228,6 +294,15 @@ std::vector<Check> check_false_brackets() {
   };
   control("bracket a x grad, a.curl a = -2", "Jacobi identity",
           static_cast<double>(largest<Quad>(jacobiator(twisted, 3), bracket_point(3))));
+  // G = [[1, 2], [2, 1]] is no semimetric.
+  const auto indefinite = record(2, 4, [](const Recorded&, Arguments, Results out) {
+    out[0] = out[3] = Recorded(1);
+    out[1] = out[2] = Recorded(2);
+  });
+  control("bracket [[1, 2], [2, 1]]", "semimetric",
+          static_cast<double>(largest<Quad>(negative_part(indefinite, 2), bracket_point(2))));
+  control("bracket skew but for 1e-6", "symmetric",
+          static_cast<double>(largest<Quad>(skew_part(lopsided, 2), bracket_point(2))));
   control("bracket skew but for 1e-6", "skew",
           static_cast<double>(largest<Quad>(symmetric_part(lopsided, 2), bracket_point(2))));
   return checks;

@@ -7,7 +7,9 @@
 
 #include <array>
 #include <cstddef>
+#include <type_traits>
 
+#include <pfaff/core/linear/pivot.hpp>
 #include <pfaff/core/linear/symmetric_pattern.hpp>
 
 namespace pfaff::detail {
@@ -28,6 +30,19 @@ struct RightHandSides {
   std::array<const B*, Count> right;
   std::array<B*, Count> x;
 };
+
+/// x, or 0 where x is more than 2^400 times smaller than `scale`: along a ring the border's entries shrink
+/// by a factor a row, and arithmetic with what is left of them when they underflow is many times slower.
+/// Nothing that could be seen in a result is lost.
+template <class T>
+T without_traces(const T& x, const T& scale) {
+  if constexpr (std::is_same_v<T, double> || is_pack<T>) {
+    const T trace = scale * T(0x1p-400);
+    return (x + trace) - trace;
+  } else {
+    return x;
+  }
+}
 
 /// The path of a tridiagonal matrix, or of a ring whose last row is the border. Place k of the path is a row,
 /// and below[k] and above[k] are the factors' entries of places k and k + 1; behind them are those of the
@@ -145,8 +160,11 @@ class PathElimination {
         front.border_error = front.border_error + (border * border) * front.error;
       if constexpr (!Symmetric) view_.above[rows_ + front.at] = front.border_upper * r;
       front.border_sum = front.border_sum + (front.border_lower * front.border_upper) * r;
-      front.border_lower = -(front.border_lower * u);
-      front.border_upper = -(front.border_upper * l);
+      front.border_lower = without_traces(T(-(front.border_lower * u)), view_.diagonal[here]);
+      if constexpr (Symmetric)
+        front.border_upper = front.border_lower;
+      else
+        front.border_upper = without_traces(T(-(front.border_upper * l)), view_.diagonal[here]);
     }
   }
   /// Leaves the front's right-hand sides where they belong.

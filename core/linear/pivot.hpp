@@ -15,6 +15,11 @@ inline constexpr bool has_numbers = std::numeric_limits<Value<T>>::is_specialize
 template <int W>
 inline constexpr bool has_numbers<Pack<W>> = true;
 
+template <class T>
+inline constexpr bool is_pack = false;
+template <int W>
+inline constexpr bool is_pack<Pack<W>> = true;
+
 /// True where x is neither zero nor infinite nor not-a-number.
 template <class T>
 bool is_usable(const T& x) {
@@ -66,9 +71,10 @@ class SemidefinitePivots {
   static constexpr bool follow_errors = true;
   /// 1 / pivot, or 0 for a pivot that is dropped.
   T reciprocal(const T& pivot, const T& error) {
-    // A sum that pivot / 8 does not change says that the pivot is no larger than a few units of round-off, in
-    // whatever precision it is computed.
-    const T visible = (error + pivot / T(8)) - error;
+    // A sum that pivot / 64 does not change says that the pivot is no larger than some units of round-off, in
+    // whatever precision it is computed. 64, because the entries were computed, too: an inner product of
+    // three or four terms for each, and l_ik passes the errors of couplings on twice.
+    const T visible = (error + pivot / T(64)) - error;
     const T safe = select(visible, pivot, T(1));
     const T r = select(visible, T(1) / safe, T(0));
     if constexpr (has_numbers<T>) {

@@ -108,24 +108,24 @@ class StaticElimination {
     for (std::size_t c = 0; c < Count; ++c)
       if (right[c] != x[c])
         for (std::size_t i = 0; i < rows_; ++i) x[c][i] = right[c][i];
+    std::array<B, Count> y;
     for (std::size_t k = 0; k < rows_; ++k) {
       const std::size_t i = plan_.order[k];
-      for (std::size_t c = 0; c < Count; ++c) {
-        const B y = x[c][i];
-        for (std::size_t p = plan_.start[k]; p < plan_.start[k + 1]; ++p) {
+      for (std::size_t c = 0; c < Count; ++c) y[c] = x[c][i];
+      for (std::size_t p = plan_.start[k]; p < plan_.start[k + 1]; ++p)
+        for (std::size_t c = 0; c < Count; ++c) {
           B& later = x[c][plan_.row[p]];
-          later = later - view_.below[p] * y;
+          later = later - view_.below[p] * y[c];
         }
-        x[c][i] = view_.reciprocal[i] * y;
-      }
+      for (std::size_t c = 0; c < Count; ++c) x[c][i] = view_.reciprocal[i] * y[c];
     }
-    for (std::size_t k = rows_; k-- > 0;)
-      for (std::size_t c = 0; c < Count; ++c) {
-        B sum = x[c][plan_.order[k]];
-        for (std::size_t p = plan_.start[k]; p < plan_.start[k + 1]; ++p)
-          sum = sum - view_.above[p] * x[c][plan_.row[p]];
-        x[c][plan_.order[k]] = sum;
-      }
+    for (std::size_t k = rows_; k-- > 0;) {
+      const std::size_t i = plan_.order[k];
+      for (std::size_t c = 0; c < Count; ++c) y[c] = x[c][i];
+      for (std::size_t p = plan_.start[k]; p < plan_.start[k + 1]; ++p)
+        for (std::size_t c = 0; c < Count; ++c) y[c] = y[c] - view_.above[p] * x[c][plan_.row[p]];
+      for (std::size_t c = 0; c < Count; ++c) x[c][i] = y[c];
+    }
   }
 
   template <class Visit>

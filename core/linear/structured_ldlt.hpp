@@ -1,9 +1,8 @@
 // StructuredLDLT: L D L^T of a symmetric matrix on a pattern, without row exchanges.
 //
 // Made for S = B M^-1 B^T, which is positive definite where the constraints are independent: then no pivot is
-// small against its row and L D L^T without exchanges is as accurate as any factorisation (Higham, Accuracy
-// and Stability of Numerical Algorithms, section 10.1). Nothing is allocated after construction, and solve()
-// may be called from several threads.
+// small against its row and L D L^T without exchanges is as accurate as any factorisation (higham2002,
+// section 10.1). Nothing is allocated after construction, and solve() may be called from several threads.
 #pragma once
 
 #include <pfaff/core/linear/structured_elimination.hpp>

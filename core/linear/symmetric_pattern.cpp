@@ -78,7 +78,8 @@ bool plan_paths_or_ring(const Graph& graph, std::size_t rows, std::size_t coupli
   return plan.order.size() == rows;
 }
 
-/// Rows in the order of a maximum cardinality search, last found first: without fill if any order is.
+/// Rows in the order of a maximum cardinality search, last found first: without fill if any order is
+/// (tarjan-yannakakis1984).
 std::vector<Index> leaf_first(const Graph& graph, std::size_t rows) {
   // Rows not yet found, in lists by the number of their found neighbours.
   const Index none = narrow(rows);

@@ -43,4 +43,10 @@ TEST(Documentation, CodeOfGeneratingFunctionsIsCompiled) {
   EXPECT_EQ(compiled.find(changed), std::string::npos);
 }
 
+TEST(Documentation, CodeOfConstraintsIsCompiled) {
+  const auto shown = blocks(contents("docs/constraints.md"));
+  ASSERT_EQ(shown.size(), 1U);
+  EXPECT_NE(contents("examples/templates/tests/bracket_test.cpp").find(shown[0]), std::string::npos) << shown[0];
+}
+
 }  // namespace

@@ -61,8 +61,8 @@ TEST(StructuredLDLT, ExactOverRationals) {
 }
 
 // |A x - b|_i <= c u growth max|A| |x|_1, where c counts the roundings of a row: those of the factors, of the
-// two substitutions and of the residual itself, as many as the row has entries (Higham, Accuracy and
-// Stability of Numerical Algorithms, theorem 9.4 for a factorisation without exchanges).
+// two substitutions and of the residual itself, as many as the row has entries (higham2002,
+// theorem 9.4, for a factorisation without exchanges).
 template <class T>
 T bound(const SymmetricPattern& pattern, const Entries& e, const T& growth, const std::vector<T>& x) {
   std::vector<int> entries(pattern.rows(), 3);
@@ -308,6 +308,16 @@ TEST(StructuredLDLT, GrowthSaysWhatSmallPivotsCost) {
   EXPECT_LE(residual, 16 * u * matrix.growth() * sum);
   // Control: without the factor of growth the bound does not hold.
   EXPECT_GT(residual, 1e5 * u * sum);
+}
+
+TEST(StructuredLDLT, NoRowsAreNoTrouble) {
+  StructuredLDLT<double> matrix(std::make_shared<const SymmetricPattern>(0, Couplings{}));
+  double nothing = 3;
+  EXPECT_EQ(matrix.factor(), Status::converged);
+  EXPECT_EQ(matrix.factor_semidefinite(), Status::converged);
+  EXPECT_EQ(matrix.factor_and_solve(&nothing, &nothing), Status::converged);
+  EXPECT_EQ(matrix.growth(), 0);
+  EXPECT_EQ(nothing, 3);
 }
 
 TEST(StructuredLDLT, ALongChainIsSolvedToRoundOff) {

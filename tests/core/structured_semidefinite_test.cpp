@@ -145,6 +145,57 @@ TEST(Semidefinite, NotANumberIsSaid) {
   }
 }
 
+/// How many pivots are dropped of P Lambda P^T for a chain of rods, many of them parallel and many of their
+/// ends without friction; its entries are computed as a system would compute them.
+struct FrictionOfAChain {
+  std::vector<std::vector<int>> rods;
+  std::vector<int> friction;  // of the ends
+
+  FrictionOfAChain(std::size_t count, std::size_t dimension, std::mt19937_64& random) {
+    for (std::size_t k = 0; k < count; ++k) {
+      std::vector<int> rod;
+      for (std::size_t c = 0; c < dimension; ++c) rod.push_back(static_cast<int>(random() % 2001) - 1000);
+      rods.push_back(k > 0 && random() % 2 == 0 ? rods.back() : rod);
+    }
+    for (std::size_t k = 0; k <= count; ++k)
+      friction.push_back(random() % 3 == 0 ? 0 : static_cast<int>(random() % 1000));
+  }
+  template <class T>
+  std::size_t dropped() const {
+    StructuredLDLT<T> matrix(std::make_shared<const SymmetricPattern>(SymmetricPattern::path(rods.size())));
+    const auto weight = [&](std::size_t end) {
+      const T mass = T(static_cast<int>(end % 5) + 1) / T(3);
+      return T(friction[end]) / T(30) / (mass * mass);
+    };
+    const auto inner = [&](std::size_t a, std::size_t b) {
+      T sum(0);
+      for (std::size_t c = 0; c < rods[a].size(); ++c)
+        sum = sum + (T(rods[a][c]) / T(700)) * (T(rods[b][c]) / T(700));
+      return sum;
+    };
+    for (std::size_t k = 0; k < rods.size(); ++k) {
+      matrix.diagonal()[k] = (weight(k) + weight(k + 1)) * inner(k, k);
+      if (k + 1 < rods.size()) matrix.couplings()[k] = -(weight(k + 1) * inner(k, k + 1));
+    }
+    EXPECT_EQ(matrix.factor_semidefinite(), Status::converged);
+    return matrix.dropped();
+  }
+};
+TEST(Semidefinite, TheRankOfFrictionIsThatOfExactArithmetic) {
+  std::mt19937_64 random(57);
+  int singular = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const std::size_t rods = 2 + random() % 30, dimension = 1 + random() % 3;
+    const FrictionOfAChain chain(rods, dimension, random);
+    const std::size_t exact = chain.dropped<Rational>();
+    EXPECT_EQ(chain.dropped<double>(), exact) << trial;
+    EXPECT_EQ(chain.dropped<Quad>(), exact) << trial;
+    singular += exact > 0;
+  }
+  EXPECT_GT(singular, 100);
+  EXPECT_LT(singular, 290);
+}
+
 // The zero matrix: everything is dropped and nothing divided by.
 TEST(Semidefinite, ZeroHasNoRange) {
   std::mt19937_64 random(55);

@@ -208,6 +208,11 @@ TEST(TridiagonalInverse, MinorsOfLongChainsOverflow) {
   const auto minors = leading_minors(matrix(560));
   while (std::isfinite(minors[last + 1])) ++last;
   EXPECT_EQ(last, static_cast<std::size_t>(1024 * std::log(2) / std::log(2 + std::sqrt(3.0))));
+  // Quad has sixteen times the exponents.
+  const auto in_quad =
+      leading_minors(Tridiagonal<Quad>{std::vector<Quad>(8700, Quad(4)), std::vector<Quad>(8699, Quad(-1))});
+  for (last = 0; isfinite(in_quad[last + 1]);) ++last;
+  EXPECT_EQ(last, static_cast<std::size_t>(16384 * std::log(2) / std::log(2 + std::sqrt(3.0))));
   // The factor of the inverse multiplies ratios, and L D L^T needs no products at all.
   EXPECT_LE(error_of(matrix(560), inverse_factor(matrix(560)).inverse()), 1e-14);
   StructuredLDLT<double> factors(std::make_shared<const SymmetricPattern>(SymmetricPattern::path(560)));

@@ -2,6 +2,7 @@
 // system that fits, in double and quad.
 #include <gtest/gtest.h>
 
+#include <pfaff/bench/runner/settings.hpp>
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
 
@@ -30,7 +31,7 @@ void no_method_allocates() {
     for (const Assignments& parameters : plugin->instances(false)) {
       const auto method = plugin->make(parameters);
       for (const SystemPlugin* system : systems().all()) {
-        const auto model = system->make({});
+        const auto model = motion_for(*method, system->make({}));
         if (!method->refuses(*model).empty()) continue;
         const auto stepper = method->stepper(model, T(0));
         EXPECT_EQ(allocations_of_steps(*stepper, *model, T(Real::fraction(1, 100)), 4), 0)

@@ -1,0 +1,158 @@
+#include <pfaff/app/evaluation_text.hpp>
+
+#include <cstdio>
+#include <cstdlib>
+#include <vector>
+
+#include <pfaff/app/terminal.hpp>
+
+namespace pfaff::app {
+
+namespace {
+using nlohmann::json;
+using Rows = std::vector<std::vector<std::string>>;
+
+std::string text_of(const json& value) {
+  if (value.is_null()) return "-";
+  const double x =
+      value.is_string() ? std::strtod(value.get<std::string>().c_str(), nullptr) : value.get<double>();
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", x + 0.0);  // -0 is 0
+  return text;
+}
+std::string joined(const json& list) {
+  std::string text;
+  for (const auto& x : list) text += (text.empty() ? "" : ", ") + x.get<std::string>();
+  return text;
+}
+
+// "r - 0.5 p": a direction in the coordinates' names.
+std::string combination(const json& direction, const json& names) {
+  std::string text;
+  for (std::size_t k = 0; k < direction.size(); ++k) {
+    std::string factor = text_of(direction[k]);
+    if (factor == "0") continue;
+    const bool negative = factor.front() == '-';
+    if (negative) factor.erase(0, 1);
+    text += text.empty() ? (negative ? "-" : "") : negative ? " - " : " + ";
+    text += (factor == "1" ? "" : factor + " ") + names[k].get<std::string>();
+  }
+  return text;
+}
+
+// A matrix, or, where one would be too wide, its entries on one side of the diagonal that are not zero; those
+// of a symmetric one on the diagonal too.
+std::string matrix_text(const std::string& title, const json& matrix, const json& names, bool symmetric) {
+  constexpr std::size_t widest = 6, most_entries = 60;
+  Rows rows;
+  if (matrix.size() <= widest) {
+    rows.push_back({title});
+    for (const auto& name : names) rows[0].push_back(name);
+    for (std::size_t i = 0; i < matrix.size(); ++i) {
+      rows.push_back({names[i]});
+      for (const auto& x : matrix[i]) rows.back().push_back(text_of(x));
+    }
+    return '\n' + table(rows);
+  }
+  rows.push_back({"i", "j", title + "_ij"});
+  for (std::size_t i = 0; i < matrix.size(); ++i)
+    for (std::size_t k = symmetric ? i : i + 1; k < matrix.size(); ++k)
+      if (text_of(matrix[i][k]) != "0") rows.push_back({names[i], names[k], text_of(matrix[i][k])});
+  if (rows.size() > most_entries)
+    return '\n' + title + ": " + std::to_string(matrix.size()) + " x " + std::to_string(matrix.size()) +
+           ", in --json\n";
+  return '\n' + table(rows);
+}
+
+void add_structure_facts(const json& j, Rows& facts) {
+  facts.push_back({"class", j["class"]});
+  const bool infinite = j["condition"].is_null();
+  facts.push_back({"K", j["regular"] ? "regular, condition " + text_of(j["condition"])
+                        : j["kernel"].empty()
+                            ? "not finite"
+                            : "degenerate, condition " + (infinite ? "infinite" : text_of(j["condition"]))});
+  for (const auto& direction : j["kernel"])
+    facts.push_back({"degenerate along", combination(direction, j["coordinates"])});
+  facts.push_back({"self-adjoint", "skew to " + text_of(j["self_adjoint"]["skew"]) + ", closed to " +
+                                       text_of(j["self_adjoint"]["closed"]) + ", time to " +
+                                       text_of(j["self_adjoint"]["time"]) + " (relative)"});
+  facts.push_back({"B", text_of(j["B"])});
+  if (j["centre"].is_null()) return;
+  std::string centre;
+  for (const auto& x : j["centre"]) centre += (centre.empty() ? "" : ", ") + text_of(x);
+  facts.push_back({"F and B", "from K and D about " + centre});
+}
+
+void add_constraint_facts(const json& j, Rows& facts) {
+  std::string count = std::to_string(j["constraint_names"].size());
+  if (j.contains("hidden_constraints"))
+    count = std::to_string(j["constraints"].size()) + " holonomic, as many hidden; S " +
+            j["structure"].get<std::string>();
+  facts.push_back({"constraints", count});
+  if (j.contains("W") && !j["rank"].is_null()) {
+    facts.push_back({"W", "rank " + std::to_string(j["rank"].get<std::size_t>()) + " of " +
+                              std::to_string(j["constraint_names"].size()) + ", condition " +
+                              text_of(j["condition"])});
+    if (!j["first_class"].empty()) facts.push_back({"first class", joined(j["first_class"])});
+    if (!j["redundant"].empty()) facts.push_back({"redundant", joined(j["redundant"])});
+  }
+}
+
+std::string constraint_tables(const json& j) {
+  const bool holonomic = j.contains("hidden_constraints"), moves = j.contains("multipliers");
+  const auto& names = j["constraint_names"];
+  Rows rows{{"constraint", "value"}};
+  json own = json::array();  // names of one for each pair
+  if (holonomic) rows[0].emplace_back("hidden");
+  if (moves) rows[0].emplace_back("multiplier");
+  for (std::size_t k = 0; k < j["constraints"].size(); ++k) {
+    own.push_back(names[holonomic ? 2 * k : k]);
+    rows.push_back({own.back(), text_of(j["constraints"][k])});
+    if (holonomic) rows.back().push_back(text_of(j["hidden_constraints"][k]));
+    if (moves) rows.back().push_back(j["multipliers"].is_null() ? "-" : text_of(j["multipliers"][k]));
+  }
+  std::string text = '\n' + table(rows);
+  for (const char* key : {"S", "A", "S_D"})
+    if (j.contains(key) && !j[key].is_null()) text += matrix_text(key, j[key], own, key[0] == 'S');
+  if (j.contains("W")) text += matrix_text("W", j["W"], names, false);
+  if (j.contains("dirac_bracket")) text += matrix_text("{,}_D", j["dirac_bracket"], j["coordinates"], false);
+  if (!j.contains("solvers")) return text;
+  Rows solvers{{"solver", "difference", "status"}};
+  for (const auto& [name, solver] : j["solvers"].items())
+    solvers.push_back({name, text_of(solver["difference"]), solver["status"]});
+  return text + '\n' + table(solvers);
+}
+
+}  // namespace
+
+std::string evaluation_text(const json& j) {
+  const bool structured = j.contains("K"), constrained = j.contains("constraints");
+  const auto& names = j["coordinates"];
+  std::string parameters;
+  for (const auto& [key, value] : j["parameters"].items())
+    parameters += (parameters.empty() ? "" : ", ") + key + "=" + value.get<std::string>();
+  Rows facts{{"system", j["system"]}};
+  if (constrained) facts.push_back({"formulation", j["formulation"]});
+  if (!parameters.empty()) facts.push_back({"parameters", parameters});
+  facts.push_back({"t", text_of(j["t"])});
+  facts.push_back({"status", j["status"]});
+  if (j.contains("reason")) facts.push_back({"reason", j["reason"]});
+  for (const auto& [key, label] : {std::pair{"energy", "energy"}, std::pair{"energy_rate", "energy rate"}})
+    if (!j[key].is_null()) facts.push_back({label, text_of(j[key])});
+  if (structured) add_structure_facts(j, facts);
+  if (constrained) add_constraint_facts(j, facts);
+  Rows rows{{"coordinate", "state", "rhs"}};
+  if (structured)
+    for (const char* label : {"D", "F", "F_t"}) rows[0].emplace_back(label);
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    rows.push_back({names[k], text_of(j["state"][k]), j["rhs"].is_null() ? "-" : text_of(j["rhs"][k])});
+    if (structured)
+      for (const char* key : {"D", "F", "F_t"}) rows.back().push_back(text_of(j[key][k]));
+  }
+  std::string text = table(facts) + '\n' + table(rows);
+  if (structured) text += matrix_text("K", j["K"], names, false);
+  if (constrained) text += constraint_tables(j);
+  return text;
+}
+
+}  // namespace pfaff::app

@@ -1,0 +1,16 @@
+// How the rows of Nguyen & Turski are made, part by part.
+#pragma once
+
+#include <pfaff/bench/reproduce/exact.hpp>
+#include <pfaff/bench/reproduce/rows.hpp>
+
+namespace pfaff::nguyen_turski {
+
+// Section "brackets": sections 1 to 3 and the one-pair matrices of appendix C.
+void reduction_rows(Rows& rows);    // (1.1), (1.2), section 2
+void determinant_rows(Rows& rows);  // (3.2)-(3.7), (3.18), (3.19)
+void recursion_rows(Rows& rows);    // (3.8)-(3.17), Theorems 1 and 2, Example 3.1, break-downs
+void jacobi_rows(Rows& rows);       // (3.20), (3.21), Propositions 2 and 6
+void one_pair_rows(Rows& rows);     // the converse of (C.2)
+
+}  // namespace pfaff::nguyen_turski

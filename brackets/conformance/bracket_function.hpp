@@ -1,0 +1,45 @@
+// The bracket of two functions as a function: it has a gradient again, so that brackets nest.
+#pragma once
+
+#include <vector>
+
+#include <pfaff/brackets/conformance/residuals.hpp>
+
+namespace pfaff {
+
+/// z -> {f, g}(z) of a bracket at time 0. F and G have operator()<T>(z) and gradient<T>(z), as Polynomial and
+/// this class do. References are kept.
+template <class B, class F, class G>
+class BracketFunction {
+ public:
+  BracketFunction(const B& bracket, const F& f, const G& g) : bracket_(bracket), f_(f), g_(g) {}
+
+  template <class T>
+  T operator()(In<T> z) const {
+    const auto df = f_.template gradient<T>(z);
+    const auto image = sharp_at<T>(bracket_, T(0), z, g_.template gradient<T>(z));
+    T sum(0);
+    for (std::size_t i = 0; i < df.size(); ++i) sum = sum + df[i] * image[i];
+    return sum;
+  }
+  /// By dual numbers.
+  template <class T>
+  std::vector<T> gradient(In<T> z) const {
+    using D = Dual<T, 1>;
+    std::vector<D> x(z.begin(), z.end());
+    std::vector<T> slope(z.size());
+    for (std::size_t k = 0; k < z.size(); ++k) {
+      x[k].derivative[0] = T(1);
+      slope[k] = (*this).template operator()<D>(x).derivative[0];
+      x[k].derivative[0] = T(0);
+    }
+    return slope;
+  }
+
+ private:
+  const B& bracket_;
+  const F& f_;
+  const G& g_;
+};
+
+}  // namespace pfaff

@@ -1,0 +1,28 @@
+// The reference Gram matrices of recursive_brackets.json, exact.
+#pragma once
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include <pfaff/core/linear/matrix.hpp>
+#include <pfaff/core/numbers/rational.hpp>
+
+namespace pfaff::testing {
+
+inline const nlohmann::json& golden_brackets() {
+  static const nlohmann::json file = [] {
+    std::ifstream stream(PFAFF_GOLDEN "/recursive_brackets.json");
+    return nlohmann::json::parse(stream);
+  }();
+  return file;
+}
+inline Rational fraction(const std::string& text) { return Rational(*Real::parse(text)); }
+inline Matrix<Rational> golden_matrix(const nlohmann::json& rows) {
+  Matrix<Rational> m(rows.size(), rows[0].size());
+  for (std::size_t i = 0; i < m.rows(); ++i)
+    for (std::size_t j = 0; j < m.columns(); ++j) m(i, j) = fraction(rows[i][j].get<std::string>());
+  return m;
+}
+
+}  // namespace pfaff::testing

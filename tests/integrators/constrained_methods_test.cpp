@@ -1,0 +1,265 @@
+// Methods on the constraint surface: what they keep over many steps, what they agree with, how they end.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include <pfaff/bench/measure/constraints.hpp>
+#include <pfaff/bench/runner/settings.hpp>
+#include <pfaff/bench/verification/check.hpp>
+#include <pfaff/tests/integrators/constrained_systems.hpp>
+
+namespace pfaff {
+namespace {
+
+using constrained::BentSphere;
+using constrained::on_sphere;
+using constrained::UnevenSphere;
+
+std::unique_ptr<MethodInstance> method(const char* name, const Assignments& parameters = {}) {
+  return integrators().get(name, "integrator").make(parameters);
+}
+std::shared_ptr<const Model> model(const char* name, const Assignments& parameters = {}) {
+  return systems().get(name, "system").make(parameters);
+}
+
+template <class T>
+struct Run {
+  std::vector<T> z;
+  std::int64_t completed = 0;
+  Status status = Status::converged;
+  Counters counters;
+};
+template <class T>
+Run<T> run(const MethodInstance& method, const std::shared_ptr<const Model>& model, const T& h,
+           std::int64_t steps, std::vector<T> start = {}) {
+  const auto motion = motion_for(method, model);
+  const auto stepper = method.stepper(motion, T());
+  Run<T> result{std::move(start)};
+  if (result.z.empty())
+    for (const Real& x : model->initial()) result.z.push_back(T(x));
+  result.status = stepper->advance(T(0), 0, h, steps, result.z, result.completed);
+  result.counters = stepper->counters();
+  return result;
+}
+
+template <class T>
+double largest_residual(const Model& model, const T& t, const std::vector<T>& z) {
+  std::vector<T> residuals;
+  ConstraintResiduals<T>(model)(t, z, residuals);
+  return static_cast<double>(*std::max_element(residuals.begin(), residuals.end()));
+}
+template <class T>
+double distance(const std::vector<T>& a, const std::vector<T>& b, std::size_t count) {
+  T largest(0);
+  for (std::size_t k = 0; k < count; ++k) largest = std::max(largest, abs(a[k] - b[k]));
+  return static_cast<double>(largest);
+}
+double energy(const Model& model, double t, const std::vector<double>& z) {
+  double value = 0;
+  Replay<double>(model.tape(Formula::hamiltonian))(t, z.data(), &value);
+  return value;
+}
+
+struct Named {
+  const char* name;
+  Assignments parameters;
+};
+const std::vector<Named> keeping_both{{"rattle", {}},
+                                      {"yoshida-rattle", {{"order", "4"}}},
+                                      {"suzuki-rattle", {{"order", "4"}}},
+                                      {"kahan-li-rattle", {{"order", "6"}}},
+                                      {"lobatto-spark", {{"stages", "2"}}},
+                                      {"lobatto-spark", {{"stages", "4"}}},
+                                      {"projected-rk4", {}},
+                                      {"projected-gauss", {{"stages", "1"}}}};
+
+// Sums of squares of numbers of order one: some units of round-off, 1e-16 and 1e-34.
+TEST(ConstrainedMethods, KeepBothLevelsToRoundOff) {
+  for (const Named& n : keeping_both)
+    for (const auto& on : {on_sphere(BentSphere()), model("n-pendulum"), model("torus-particle")}) {
+      const auto m = method(n.name, n.parameters);
+      const auto in_double = run<double>(*m, on, 0.004, 500);
+      EXPECT_EQ(in_double.status, Status::converged) << n.name << ' ' << on->name();
+      EXPECT_LE(largest_residual<double>(*on, 2.0, in_double.z), 1e-14) << n.name << ' ' << on->name();
+      const auto in_quad = run<Quad>(*m, on, Quad(0.004), 10);
+      EXPECT_LE(largest_residual<Quad>(*on, Quad(0.04), in_quad.z), 1e-31) << n.name << ' ' << on->name();
+    }
+}
+
+TEST(ConstrainedMethods, OthersDoNot) {  // control
+  const auto on = on_sphere(BentSphere());
+  const auto rk4 = run<double>(*method("rk4"), on, 0.05, 40);
+  EXPECT_GT(largest_residual<double>(*on, 2.0, rk4.z), 1e-7);
+  const auto shake = run<double>(*method("shake"), on, 0.05, 40);
+  EXPECT_GT(largest_residual<double>(*on, 2.0, shake.z), 1e-4);  // of the momenta
+}
+
+TEST(ConstrainedMethods, WithAKineticEnergyThatIsNotQuadraticToo) {
+  BentSphere fast;
+  fast.fast = true;
+  const auto on = on_sphere(fast);
+  for (const char* name : {"rattle", "lobatto-spark"}) {
+    const auto m = method(name);
+    EXPECT_LE(largest_residual<Quad>(*on, Quad(0.5), run<Quad>(*m, on, Quad(0.05), 10).z), 1e-32) << name;
+    EXPECT_NEAR(measure_order(*m, on).slope, m->order(*on), 0.1) << name;
+  }
+}
+
+TEST(ConstrainedMethods, HaveTheirOrders) {
+  const auto bent = on_sphere(BentSphere()), uneven = on_sphere(UnevenSphere());
+  for (const Named& n : keeping_both) {
+    const auto m = method(n.name, n.parameters);
+    EXPECT_NEAR(measure_order(*m, bent).slope, m->order(*bent), 0.1) << n.name;
+    if (motion_for(*m, uneven) == uneven || m->needs().has(Facet::vector_field))
+      if (m->refuses(*motion_for(*m, uneven)).empty())
+        EXPECT_NEAR(measure_order(*m, uneven).slope, m->order(*uneven), 0.1) << n.name << " with M(q)";
+  }
+  for (const char* name : {"shake", "lincs"})
+    EXPECT_NEAR(measure_order(*method(name), bent).slope, 2, 0.1) << name;
+}
+
+TEST(ConstrainedMethods, RattleIsTheLobattoPairOfTwoStages) {
+  const auto on = model("n-pendulum");
+  const auto rattle = run<Quad>(*method("rattle"), on, Quad(0.01), 50);
+  const auto lobatto = run<Quad>(*method("lobatto-spark", {{"stages", "2"}}), on, Quad(0.01), 50);
+  // Fifty steps of a motion whose errors grow by some e^5 a second.
+  EXPECT_LE(distance(rattle.z, lobatto.z, rattle.z.size()), 1e-30);
+  const auto other = run<Quad>(*method("lobatto-spark", {{"stages", "3"}}), on, Quad(0.01), 50);
+  EXPECT_GT(distance(rattle.z, other.z, rattle.z.size()), 1e-6);  // control
+}
+
+TEST(ConstrainedMethods, ShakeHasThePositionsOfRattle) {
+  const auto on = on_sphere(BentSphere());
+  double gap = 0;
+  for (const int steps : {20, 40}) {
+    const Quad h = Quad(1) / Quad(steps);
+    const auto rattle = run<Quad>(*method("rattle"), on, h, steps),
+               shake = run<Quad>(*method("shake"), on, h, steps);
+    EXPECT_LE(distance(rattle.z, shake.z, 3), 1e-31);
+    const double momenta = distance(rattle.z, shake.z, 6);  // of second order in h
+    if (gap > 0) EXPECT_NEAR(gap / momenta, 4, 0.2);
+    gap = momenta;
+  }
+}
+
+TEST(ConstrainedMethods, LincsComesNearerWithEveryPowerAndCorrection) {
+  const auto on = model("n-pendulum", {{"bobs", "8"}});
+  double last = 1;
+  for (const char* expansion : {"1", "4", "16"}) {
+    const auto result =
+        run<double>(*method("lincs", {{"expansion", expansion}, {"iterations", "3"}}), on, 0.001, 50);
+    const double residual = largest_residual<double>(*on, 0.05, result.z);
+    EXPECT_LT(residual, last / 3) << expansion;
+    last = residual;
+  }
+  const auto exact =
+      run<double>(*method("lincs", {{"expansion", "64"}, {"iterations", "60"}}), on, 0.001, 50);
+  const auto rattle = run<double>(*method("rattle"), on, 0.001, 50);
+  EXPECT_LE(distance(exact.z, rattle.z, rattle.z.size()), 1e-10);
+}
+
+TEST(ConstrainedMethods, EnergyDoesNotDriftWhereTheStepIsSymplectic) {
+  const auto on = on_sphere(constrained::StillSphere());
+  const auto largest_error = [&](const char* name, const Assignments& parameters, double h) {
+    const auto m = method(name, parameters);
+    const auto motion = motion_for(*m, on);
+    const auto stepper = m->stepper(motion, double());
+    std::vector<double> z;
+    for (const Real& x : on->initial()) z.push_back(x.value());
+    const double start = energy(*on, 0, z);
+    std::array<double, 4> quarters{};
+    for (std::int64_t k = 0; k < 20000; ++k) {
+      std::int64_t completed = 0;
+      EXPECT_EQ(stepper->advance(0, k, h, 1, z, completed), Status::converged);
+      double& worst = quarters[static_cast<std::size_t>(k / 5000)];
+      worst = std::max(worst, std::abs(energy(*on, 0, z) - start));
+    }
+    return quarters;
+  };
+  for (const Named& n :
+       {Named{"rattle", {}}, {"lobatto-spark", {{"stages", "3"}}}, {"yoshida-rattle", {{"order", "4"}}}}) {
+    const auto errors = largest_error(n.name, n.parameters, 0.1);
+    EXPECT_LE(errors[3], 1.5 * errors[0]) << n.name;
+  }
+  const auto control = largest_error("projected-rk4", {}, 0.1);
+  EXPECT_GT(control[3], 3 * control[0]);
+}
+
+TEST(ConstrainedMethods, MomentumMapsAreKeptOverManySteps) {
+  const auto on = model("spherical-pendulum");
+  const auto vertical = [](const std::vector<double>& z) { return z[0] * z[4] - z[1] * z[3]; };
+  std::vector<double> start;
+  for (const Real& x : on->initial()) start.push_back(x.value());
+  // 10000 steps, each with a rounding error or so of the state.
+  for (const char* name : {"rattle", "kahan-li-rattle", "lobatto-spark"})
+    EXPECT_NEAR(vertical(run<double>(*method(name), on, 0.05, 10000).z), vertical(start), 1e-13) << name;
+  EXPECT_GT(std::abs(vertical(run<double>(*method("projected-rk4"), on, 0.05, 10000).z) - vertical(start)),
+            1e-6);
+}
+
+TEST(ConstrainedMethods, RunBackToWhereTheyCameFrom) {
+  const auto on = on_sphere(BentSphere());
+  for (const Named& n : keeping_both) {
+    const auto m = method(n.name, n.parameters);
+    const auto motion = motion_for(*m, on);
+    const auto stepper = m->stepper(motion, Quad());
+    std::vector<Quad> z, start;
+    for (const Real& x : on->initial()) start.push_back(x.quad());
+    z = start;
+    std::int64_t completed = 0;
+    EXPECT_EQ(stepper->advance(Quad(0), 0, Quad(0.05), 20, z, completed), Status::converged);
+    stepper->forget();
+    EXPECT_EQ(stepper->advance(Quad(1), 0, Quad(-0.05), 20, z, completed), Status::converged);
+    if (std::string(n.name) == "projected-rk4") {
+      EXPECT_GT(distance(z, start, 6), 1e-9);  // control
+    } else {
+      EXPECT_LE(distance(z, start, 6), 1e-30) << n.name;
+    }
+  }
+}
+
+TEST(ConstrainedMethods, RattleFactorsOnceAStep) {
+  const auto result = run<double>(*method("rattle"), model("n-pendulum"), 0.001, 100);
+  EXPECT_EQ(result.counters.factorisations, 101);
+  EXPECT_EQ(result.counters.fields, 101);
+  EXPECT_LE(result.counters.iterations, 400);
+  // So do its compositions: each of the three sub-steps goes on from the one before.
+  EXPECT_EQ(run<double>(*method("yoshida-rattle"), model("n-pendulum"), 0.001, 100).counters.factorisations,
+            301);
+}
+
+TEST(ConstrainedMethods, StopWhereAStepIsTooLargeAndKeepTheState) {
+  const auto on = on_sphere(BentSphere());
+  for (const Named& n : keeping_both) {
+    const auto m = method(n.name, n.parameters);
+    const auto result = run<double>(*m, on, 40.0, 3);
+    EXPECT_NE(result.status, Status::converged) << n.name;
+    EXPECT_EQ(result.completed, 0) << n.name;
+    for (std::size_t k = 0; k < 6; ++k) EXPECT_EQ(result.z[k], on->initial()[k].value()) << n.name;
+  }
+  EXPECT_EQ(run<double>(*method("rattle"), on, 40.0, 3).status, Status::not_converged);
+}
+
+TEST(ConstrainedMethods, SayWhereConstraintsHaveNoGradient) {
+  const auto on = on_sphere(BentSphere());
+  for (const char* name : {"rattle", "shake", "lobatto-spark", "lincs"})
+    EXPECT_EQ(run<double>(*method(name), on, 0.01, 1, std::vector<double>{0, 0, 0, 1, 0, 0}).status,
+              Status::singular)
+        << name;
+}
+
+TEST(ConstrainedMethods, RefuseWhatTheyAreNotMadeFor) {
+  BentSphere rough;
+  rough.drag = Real::fraction(1, 10);
+  const auto friction = on_sphere(rough), uneven = on_sphere(UnevenSphere());
+  for (const char* name : {"rattle", "shake", "lincs", "yoshida-rattle", "lobatto-spark"})
+    EXPECT_NE(method(name)->refuses(*friction).find("friction"), std::string::npos) << name;
+  for (const char* name : {"rattle", "shake", "lincs"})
+    EXPECT_NE(method(name)->refuses(*uneven).find("T(p) + V(q, t)"), std::string::npos) << name;
+  EXPECT_EQ(method("lobatto-spark")->refuses(*uneven), "");
+  EXPECT_NE(method("rattle")->refuses(*model("pendulum")).find("holonomic"), std::string::npos);
+  EXPECT_NE(method("rk4")->refuses(*friction).find("vector-field"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace pfaff

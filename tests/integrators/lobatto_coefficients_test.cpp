@@ -1,0 +1,102 @@
+// Coefficients of the Lobatto IIIA-IIIB pairs against closed forms and the conditions that define them.
+#include <gtest/gtest.h>
+
+#include <pfaff/core/numbers/functions.hpp>
+#include <pfaff/integrators/lobatto_coefficients.hpp>
+
+namespace pfaff {
+namespace {
+
+constexpr double round_off =
+    1e-32;  // some hundred units of quad's, for the inner products of Lagrange's polynomials
+
+double gap(Quad a, Quad b) { return static_cast<double>(abs(a - b)); }
+Quad power(Quad x, int n) {
+  Quad product(1);
+  for (int k = 0; k < n; ++k) product *= x;
+  return product;
+}
+
+TEST(LobattoCoefficients, OfTwoAndThreeStagesAreTheClosedForms) {
+  const auto fraction = [](int a, int b) { return Quad(a) / Quad(b); };
+  const LobattoCoefficients two = lobatto_coefficients(2), three = lobatto_coefficients(3);
+  // hairer-lubich-wanner2006 tables II.1.1 and IV.2.1
+  const std::vector<Quad> a2{0, 0, fraction(1, 2), fraction(1, 2)}, b2{fraction(1, 2), 0, fraction(1, 2), 0};
+  const std::vector<Quad> a3{0,
+                             0,
+                             0,
+                             fraction(5, 24),
+                             fraction(1, 3),
+                             fraction(-1, 24),
+                             fraction(1, 6),
+                             fraction(2, 3),
+                             fraction(1, 6)};
+  const std::vector<Quad> b3{fraction(1, 6), fraction(-1, 6), 0, fraction(1, 6), fraction(1, 3), 0,
+                             fraction(1, 6), fraction(5, 6),  0};
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_LE(gap(two.positions[k], a2[k]), round_off) << k;
+    EXPECT_LE(gap(two.momenta[k], b2[k]), round_off) << k;
+  }
+  for (std::size_t k = 0; k < 9; ++k) {
+    EXPECT_LE(gap(three.positions[k], a3[k]), round_off) << k;
+    EXPECT_LE(gap(three.momenta[k], b3[k]), round_off) << k;
+  }
+  const LobattoCoefficients four = lobatto_coefficients(4);
+  EXPECT_LE(gap(four.nodes[1], (Quad(1) - sqrt(fraction(1, 5))) / Quad(2)), round_off);
+}
+
+TEST(LobattoCoefficients, FulfilTheirConditions) {
+  for (int stages = 2; stages <= 16; ++stages) {
+    const LobattoCoefficients l = lobatto_coefficients(stages);
+    const auto s = static_cast<std::size_t>(stages);
+    // The quadrature is exact up to degree 2 s - 3, and no further.
+    for (int degree = 0; degree <= 2 * stages - 2; ++degree) {
+      Quad sum(0);
+      for (std::size_t i = 0; i < s; ++i) sum += l.weights[i] * power(l.nodes[i], degree);
+      if (degree <= 2 * stages - 3) {
+        EXPECT_LE(gap(sum, Quad(1) / Quad(degree + 1)), round_off) << stages << ' ' << degree;
+      } else if (stages <= 8) {
+        EXPECT_GT(gap(sum, Quad(1) / Quad(degree + 1)), 1e-12) << stages;
+      }
+    }
+    for (std::size_t i = 0; i < s; ++i) {
+      for (std::size_t j = 0; j < s; ++j)
+        EXPECT_LE(gap(l.weights[i] * l.momenta[i * s + j] + l.weights[j] * l.positions[j * s + i],
+                      l.weights[i] * l.weights[j]),
+                  round_off);
+      for (int degree = 0; degree < stages; ++degree) {  // IIIA collocates, IIIB to degree s - 3
+        Quad a(0), b(0);
+        for (std::size_t j = 0; j < s; ++j) {
+          a += l.positions[i * s + j] * power(l.nodes[j], degree);
+          b += l.momenta[i * s + j] * power(l.nodes[j], degree);
+        }
+        const Quad exact = power(l.nodes[i], degree + 1) / Quad(degree + 1);
+        EXPECT_LE(gap(a, exact), round_off) << stages;
+        if (degree <= stages - 3) EXPECT_LE(gap(b, exact), 10 * round_off) << stages << ' ' << degree;
+      }
+      EXPECT_EQ(l.positions[i], Quad(0));
+      EXPECT_LE(gap(l.positions[(s - 1) * s + i], l.weights[i]), round_off);
+      EXPECT_EQ(l.momenta[i * s + s - 1], Quad(0));
+    }
+  }
+}
+
+TEST(LobattoCoefficients, MultipliersInvertTheProduct) {
+  for (int stages = 2; stages <= 16; ++stages) {
+    const LobattoCoefficients l = lobatto_coefficients(stages);
+    const auto s = static_cast<std::size_t>(stages);
+    Quad largest(0);
+    for (const Quad& x : l.multipliers) largest = std::max(largest, abs(x));
+    for (std::size_t i = 1; i < s; ++i)
+      for (std::size_t m = 1; m < s; ++m) {
+        Quad sum(0);
+        for (std::size_t j = 0; j < s; ++j)
+          for (std::size_t k = 0; k + 1 < s; ++k)
+            sum += l.positions[i * s + j] * l.momenta[j * s + k] * l.multipliers[k * (s - 1) + m - 1];
+        EXPECT_LE(gap(sum, Quad(i == m ? 1 : 0)), round_off * static_cast<double>(largest)) << stages;
+      }
+  }
+}
+
+}  // namespace
+}  // namespace pfaff
