@@ -5,7 +5,8 @@
 
 Paths: a loop by hand; static and registered path, each also with forces derived from the energies; Boost.Odeint. psi-m
 is one gradient of the generating function truncated at degree m, compiled or interpreted, in nanoseconds each.
-Structured matrices are factored and solved with in nanoseconds a row, beside loops by hand and Eigen.
+Structured matrices are factored and solved with in nanoseconds a row, beside loops by hand and Eigen. Of rods (chains,
+rings, a humanoid, ensembles) it is one right-hand side, in nanoseconds a rod.
 Repetitions are interleaved at random, so that a disturbance does not fall on one benchmark alone; of each the fastest
 is taken, which other programs disturb least. Exit status 1 when a target is missed, 2 for wrong usage.
 """
@@ -17,6 +18,7 @@ import sys
 SYSTEMS = ["harmonic-oscillator", "pendulum", "kepler"]
 BY_NAME = ["damped-pendulum", "lotka-volterra", "henon-heiles"]  # on the registered path alone
 CHAIN = [8, 16, 32, 64, 128]
+RODS = [16, 64, 256, 1024]
 METHODS = ["verlet-plain", "verlet", "rk4-plain", "rk4", "implicit-midpoint", "gauss-4", "gauss-8",
            "gauss-12", "generating-function-4", "generating-function-8", "generating-function-12"]
 STRUCTURES = {"tridiagonal": [4, 8, 16, 64, 256, 1024], "cyclic": [4, 8, 16, 64, 256, 1024],
@@ -31,7 +33,7 @@ ONLY_ODEINT = ["symplectic-euler", "dopri5", "mclachlan"]
 
 
 def measure(program, repetitions, seconds):
-    """{(system, method, path): fastest ns a step}, or a row of a matrix."""
+    """{(system, method, path): fastest ns a step}, or a row of a matrix, or a rod."""
     command = [program, "--benchmark_format=json", f"--benchmark_repetitions={repetitions}",
                "--benchmark_enable_random_interleaving=true", f"--benchmark_min_time={seconds}"]
     output = subprocess.run(command, check=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL).stdout
@@ -39,7 +41,7 @@ def measure(program, repetitions, seconds):
     for run in json.loads(output)["benchmarks"]:
         if run["run_type"] == "iteration":
             key = tuple(run["run_name"].split("/")[:3])
-            time = run["ns_per_row"] if "ns_per_row" in run else run["ns_per_step"]
+            time = next(run[unit] for unit in ("ns_per_rod", "ns_per_row", "ns_per_step") if unit in run)
             times[key] = min(times.get(key, float("inf")), time)
     return times
 
@@ -84,7 +86,24 @@ def targets(times):
         for size in sizes:
             name = f"{structure}-{size}"
             rows.append((f"{name}: library / Eigen", (name, work, "library"), (name, work, "eigen"), 1.0))
+    for formulation, limit in (("dirac", 1.5), ("lmm", 1.5)):
+        for axes in (2, 3):
+            for count in RODS:
+                chain = (f"chain-{axes}d-{count}", formulation, "registered")
+                rows.append((f"chain of {count} rods in {axes}-d, {formulation}: registered / by hand", chain,
+                             (f"chain-{axes}d-{count}", formulation, "by-hand"), limit))
+                rows.append((f"ring of {count} rods in {axes}-d, {formulation}: ring / chain",
+                             (f"ring-{axes}d-{count}", formulation, "registered"), chain, None))
+        rows.append((f"humanoid, {formulation}: humanoid / chain of 16 rods", ("humanoid", formulation, "registered"),
+                     ("chain-3d-16", formulation, "registered"), None))
     return [row for row in rows if row[1] in times and row[2] in times]
+
+
+def rod_limits(times):
+    """Rows (what, ns a rod, limit) of right-hand sides."""
+    limits = {"dirac": 16, "lmm": 12}
+    return [(f"{shape} {what} {path}", time, limits[what] if shape.startswith("chain") else None)
+            for (shape, what, path), time in sorted(times.items()) if what in limits]
 
 
 def print_times(times):
@@ -124,6 +143,14 @@ def print_ratios(rows, times):
     return missed
 
 
+def print_rods(rows):
+    print(f"\n{'right-hand side, ns a rod':<64}{'measured':>10}{'target':>10}")
+    for what, time, limit in rows:
+        verdict = "" if limit is None else f"{limit:>10.2f}" + ("" if time <= limit else "  missed")
+        print(f"{what:<64}{time:>10.2f}{verdict}")
+    return sum(limit is not None and time > limit for _, time, limit in rows)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program", help="the built pfaff_micro")
@@ -140,7 +167,8 @@ def main():
         with open(options.json, "w", encoding="utf-8") as file:
             json.dump({"/".join(key): value for key, value in times.items()}, file, indent=1)
     print_times(times)
-    return 1 if print_ratios(targets(times), times) else 0
+    missed = print_rods(rod_limits(times)) + print_ratios(targets(times), times)
+    return 1 if missed else 0
 
 
 if __name__ == "__main__":

@@ -26,9 +26,26 @@ void add_chain(int count) {
   });
 }
 
+template <int D, int Lanes>
+void add_ensemble(int count) {
+  const std::string shape =
+      std::to_string(Lanes) + "-chains-" + std::to_string(D) + "d-" + std::to_string(count);
+  add_rods(shape, "dirac", "by-hand", Lanes * count,
+           [ensemble = Ensemble<D, Lanes>(Rig<D>(count))]() mutable {
+             benchmark::DoNotOptimize(ensemble.state());
+             ensemble.dirac();
+             benchmark::ClobberMemory();
+           });
+}
+
 template <int D>
 void add_chains() {
-  for (const int count : chain_sizes) add_chain<D>(count);
+  for (const int count : chain_sizes) {
+    add_chain<D>(count);
+    add_ensemble<D, 2>(count);
+    add_ensemble<D, 4>(count);
+    add_ensemble<D, 8>(count);
+  }
 }
 
 [[maybe_unused]] const bool added = (add_chains<2>(), add_chains<3>(), true);

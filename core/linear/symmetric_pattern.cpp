@@ -199,6 +199,20 @@ std::vector<std::vector<Index>> factor_rows(const Graph& graph, const std::vecto
   return entries;
 }
 
+/// An order with the same fill in which rows that do not wait for each other are neighbours: those without
+/// earlier rows to wait for first, then those that wait for them only, and so on. Independent branches of a
+/// tree are then eliminated side by side.
+std::vector<Index> by_levels(const std::vector<Index>& order, const std::vector<std::vector<Index>>& entries) {
+  const std::size_t rows = order.size();
+  std::vector<Index> level(rows), at(rows), result(rows);
+  for (std::size_t k = 0; k < rows; ++k)
+    if (!entries[k].empty()) level[entries[k].front()] = std::max(level[entries[k].front()], level[k] + 1);
+  std::iota(at.begin(), at.end(), Index(0));
+  std::stable_sort(at.begin(), at.end(), [&](Index a, Index b) { return level[a] < level[b]; });
+  for (std::size_t k = 0; k < rows; ++k) result[k] = order[at[k]];
+  return result;
+}
+
 /// Entries, their couplings and the targets of the updates, for plan.order.
 void plan_entries(const Graph& graph, const std::vector<std::vector<Index>>& entries, std::size_t couplings,
                   EliminationPlan& plan) {
@@ -269,6 +283,7 @@ SymmetricPattern::SymmetricPattern(std::size_t rows, std::vector<Coupling> coupl
       plan_.order = minimum_degree(graph, rows);
       structure_ = MatrixStructure::sparse;
     }
+    plan_.order = by_levels(plan_.order, factor_rows(graph, plan_.order));
     const auto entries = factor_rows(graph, plan_.order);
     const std::size_t total =
         std::accumulate(entries.begin(), entries.end(), std::size_t(0),

@@ -27,7 +27,7 @@ struct RegisterOf<1> {
 };
 }  // namespace detail
 
-/// W doubles, W = 1, 2 or 4.
+/// W doubles, W = 1, 2, 4 or 8.
 template <int W>
 class Pack {
  public:
