@@ -112,10 +112,9 @@ TEST(ConstrainedMethods, HaveTheirOrders) {
   const auto bent = on_sphere(BentSphere()), uneven = on_sphere(UnevenSphere());
   for (const Named& n : keeping_both) {
     const auto m = method(n.name, n.parameters);
-    EXPECT_NEAR(measure_order(*m, bent).slope, m->order(*bent), 0.1) << n.name;
-    const bool fits = m->refuses(*motion_for(*m, uneven)).empty();
-    if (fits) {
-      EXPECT_NEAR(measure_order(*m, uneven).slope, m->order(*uneven), 0.1) << n.name << " with M(q)";
+    for (const auto& on : {motion_for(*m, bent), motion_for(*m, uneven)}) {
+      if (!m->refuses(*on).empty()) continue;
+      EXPECT_NEAR(measure_order(*m, on).slope, m->order(*on), 0.1) << n.name;
     }
   }
   for (const char* name : {"shake", "lincs"})
@@ -151,7 +150,7 @@ TEST(ConstrainedMethods, ShakeHasThePositionsOfRattle) {
 TEST(ConstrainedMethods, LincsComesNearerWithEveryPowerAndCorrection) {
   const auto on = model("n-pendulum", {{"bobs", "8"}});
   double last = 1;
-  for (const char* expansion : {"1", "4", "16"}) {
+  for (const char* expansion : {"4", "16", "64"}) {
     const auto result =
         run<double>(*method("lincs", {{"expansion", expansion}, {"iterations", "3"}}), on, 0.001, 50);
     const double residual = largest_residual<double>(*on, 0.05, result.z);
@@ -213,9 +212,10 @@ TEST(ConstrainedMethods, RunBackToWhereTheyCameFrom) {
     for (const Real& x : on->initial()) start.push_back(x.quad());
     z = start;
     std::int64_t completed = 0;
-    EXPECT_EQ(stepper->advance(Quad(0), 0, Quad(0.05), 20, z, completed), Status::converged);
+    const Quad h = Quad(1) / Quad(16);  // so that the times of the way back are those of the way there
+    EXPECT_EQ(stepper->advance(Quad(0), 0, h, 16, z, completed), Status::converged);
     stepper->forget();
-    EXPECT_EQ(stepper->advance(Quad(1), 0, Quad(-0.05), 20, z, completed), Status::converged);
+    EXPECT_EQ(stepper->advance(Quad(1), 0, -h, 16, z, completed), Status::converged);
     if (std::string(n.name) == "projected-rk4") {
       EXPECT_GT(distance(z, start, 6), 1e-9);  // control
     } else {
