@@ -17,6 +17,5 @@ const Method<Shake> shake{{.name = "shake",
 const Method<Lincs> lincs{{.name = "lincs",
                            .title = "Stoermer-Verlet with LINCS: constraint forces from a truncated series",
                            .reference = "hess1997",
-                           .order = 2,
                            .preserves = {Claim::none}}};
 }  // namespace

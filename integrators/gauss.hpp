@@ -21,6 +21,7 @@
 #include <pfaff/core/solve/summation.hpp>
 #include <pfaff/integrators/difference_predictor.hpp>
 #include <pfaff/integrators/gauss_coefficients.hpp>
+#include <pfaff/integrators/largest.hpp>
 
 namespace pfaff {
 
@@ -138,13 +139,17 @@ struct Collocation {
     do {
       w.evaluate(p, t, h, z);
       convergence.begin_iteration();
-      for (std::size_t i = 0; i < w.s(); ++i)
-        for (std::size_t k = 0; k < w.n(); ++k) {
-          T& stage = w.stage[i * w.n() + k];
-          const T next = w.combined(i, k, h);
-          convergence.add(next - stage, z[k], next);
-          stage = next;
-        }
+      if (on_constraints(p)) {
+        convergence_of_all<P>(z, h, w, convergence);
+      } else {
+        for (std::size_t i = 0; i < w.s(); ++i)
+          for (std::size_t k = 0; k < w.n(); ++k) {
+            T& stage = w.stage[i * w.n() + k];
+            const T next = w.combined(i, k, h);
+            convergence.add(next - stage, z[k], next);
+            stage = next;
+          }
+      }
       ++p.counters().iterations;
       slow = HasFieldJacobian<P> && convergence.iterations() >= 10 && convergence.ratio() > Value<T>(0.6);
     } while (!slow && !convergence.finished(60));
@@ -161,6 +166,29 @@ struct Collocation {
   }
 
  private:
+  // On a constraint surface components may stand still but for round-off, their derivatives too: they are
+  // judged with the others.
+  template <class P>
+  static bool on_constraints(const P& p) {
+    if constexpr (HasHolonomic<P>) return p.model()->constrained();
+    return false;
+  }
+  template <class P>
+  [[gnu::noinline]] static void convergence_of_all(const State<P>& z, const Scalar<P>& h, Work<P>& w,
+                                                   Convergence<Scalar<P>>& convergence) {
+    using T = Scalar<P>;
+    Largest<T> correction, reference;
+    for (std::size_t i = 0; i < w.s(); ++i)
+      for (std::size_t k = 0; k < w.n(); ++k) {
+        T& stage = w.stage[i * w.n() + k];
+        const T next = w.combined(i, k, h);
+        correction.add(next - stage);
+        reference.add(z[k] + next);
+        stage = next;
+      }
+    convergence.add(correction.get(), reference.get(), reference.get());
+  }
+
   // First stages, from what is remembered; at the start, and after a change of step, from the present slope.
   template <class P>
   void predict(const P& p, const Scalar<P>& t, const Scalar<P>& h, const State<P>& z, Work<P>& w) const {

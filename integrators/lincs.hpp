@@ -35,6 +35,10 @@ struct Lincs {
             parameter(&Lincs::compensated, "compensated", "compensated summation")};
   }
   std::span<Quad> coefficients() { return lengths; }
+  /// Where constraints are coupled the error of the series is a fixed part of their forces.
+  [[nodiscard]] int order(const Model& model) const {
+    return model.holonomic_constraints<double>()->pattern().couplings().empty() ? 2 : 1;
+  }
   [[nodiscard]] std::string refuses(const Model& model) const {
     return refuses_constrained_motion("lincs", model);
   }

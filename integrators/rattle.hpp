@@ -60,7 +60,7 @@ struct Rattle {
     // Of the n positions: carries of q and p, forces at the start, impulses, momenta at the middle and the
     // end, velocities, displacements, positions at the end, reactions.
     std::vector<T> carry, force, impulse, momentum, velocity, displacement, position, reaction;
-    std::vector<T> multiplier, residual;
+    std::vector<T> multiplier, residual, correction;
     DifferencePredictor<T, dynamic, dynamic> predictor;
     MomentumProjection<T> onto_hidden;
     Continuation<P> continuation;  // where the constraints are placed, and the force is that of
@@ -80,6 +80,7 @@ struct Rattle {
           reaction(n()),
           multiplier(p.holonomic().count()),
           residual(multiplier.size()),
+          correction(multiplier.size()),
           predictor(multiplier.size(), static_cast<std::size_t>(difference_levels<T>)),
           onto_hidden(p.holonomic()),
           continuation(p) {
@@ -156,7 +157,7 @@ struct Rattle {
     const In<T> q(z.data(), n);
     if (value_of(h) != value_of(w.last_h)) w.predictor.forget();
     for (std::size_t i = 0; i < w.multiplier.size(); ++i) w.multiplier[i] = w.predictor.expected(i);
-    const T kick = w.first * h, length = w.drift * h, reciprocal = T(1) / length;
+    const T kick = w.first * h, length = w.drift * h;
     c.apply_transpose(w.multiplier, w.reaction);
     for (std::size_t k = 0; k < n; ++k) {
       w.impulse[k] = kick * w.force[k] - w.reaction[k];
@@ -170,33 +171,68 @@ struct Rattle {
       positions.add(w.position[k]);
     }
     const T reference = positions.get();
+    for (T& x : w.correction) x = T(0);
     Convergence<T> convergence;
+    bool settled = false;
     do {
       c.values(t + h, w.position, w.residual);
       c.solve(w.residual, w.residual);
-      for (std::size_t i = 0; i < w.multiplier.size(); ++i) {
-        w.residual[i] = w.residual[i] * reciprocal;
-        w.multiplier[i] = w.multiplier[i] + w.residual[i];
-      }
-      c.apply_transpose(w.residual, w.reaction);
-      for (std::size_t k = 0; k < n; ++k) {
-        w.impulse[k] = w.impulse[k] - w.reaction[k];
-        w.momentum[k] = z[n + k] + (w.impulse[k] + w.carry[n + k]);
-      }
-      c.velocity(t, q, w.momentum, w.velocity);
-      Largest<T> correction;
-      for (std::size_t k = 0; k < n; ++k) {
-        const T displacement = length * w.velocity[k];
-        correction.add(displacement - w.displacement[k]);
-        w.displacement[k] = displacement;
-        w.position[k] = z[k] + (displacement + w.carry[k]);
-      }
+      const T moved = w.linear ? move<P>(c, z, w) : kick_back<P>(c, t, length, z, w);
       convergence.begin_iteration();
-      convergence.add(correction.get(), reference, reference);
+      convergence.add(moved, reference, reference);
       ++p.counters().iterations;
-    } while (!convergence.finished(50));
+      // The next correction would be below the rounding of phi.
+      settled = convergence.iterations() >= 2 && convergence.ratio() < Value<T>(0.1) &&
+                convergence.ratio() * relative_size(moved, reference, reference) <= unit_roundoff<T>() / 8;
+    } while (!settled && !convergence.finished(50));
     // Iterates that grow beyond all numbers are those of a step that is too large.
-    return convergence.status() == Status::converged ? Status::converged : Status::not_converged;
+    if (!settled && convergence.status() != Status::converged) return Status::not_converged;
+    for (std::size_t i = 0; i < w.multiplier.size(); ++i) {
+      w.correction[i] = w.correction[i] / length;
+      w.multiplier[i] = w.multiplier[i] + w.correction[i];
+    }
+    c.apply_transpose(w.correction, w.reaction);
+    for (std::size_t k = 0; k < n; ++k) {
+      w.impulse[k] = w.impulse[k] - w.reaction[k];
+      w.momentum[k] = z[n + k] + (w.impulse[k] + w.carry[n + k]);
+    }
+    return Status::converged;
+  }
+
+  // A correction of the positions by the solution in `residual`; returns the largest. Where H_p is linear it
+  // is H_pp B^T times that.
+  template <class P, class T = Scalar<P>>
+  static T move(HolonomicConstraints<T>& c, const State<P>& z, Work<P>& w) {
+    c.hidden_by_momentum_transpose(w.residual, w.reaction);
+    for (std::size_t i = 0; i < w.residual.size(); ++i) w.correction[i] = w.correction[i] + w.residual[i];
+    Largest<T> largest;
+    for (std::size_t k = 0; k < w.n(); ++k) {
+      largest.add(w.reaction[k]);
+      w.displacement[k] = w.displacement[k] - w.reaction[k];
+      w.position[k] = z[k] + (w.displacement[k] + w.carry[k]);
+    }
+    return largest.get();
+  }
+  // Elsewhere what the change of p' makes of it.
+  template <class P, class T = Scalar<P>>
+  static T kick_back(HolonomicConstraints<T>& c, const T& t, const T& length, const State<P>& z, Work<P>& w) {
+    const std::size_t n = w.n();
+    for (std::size_t i = 0; i < w.residual.size(); ++i) {
+      w.correction[i] = w.correction[i] + w.residual[i];
+      w.residual[i] = w.correction[i] / length;
+    }
+    c.apply_transpose(w.residual, w.reaction);
+    for (std::size_t k = 0; k < n; ++k)
+      w.momentum[k] = z[n + k] + ((w.impulse[k] - w.reaction[k]) + w.carry[n + k]);
+    c.velocity(t, In<T>(z.data(), n), w.momentum, w.velocity);
+    Largest<T> largest;
+    for (std::size_t k = 0; k < n; ++k) {
+      const T displacement = length * w.velocity[k];
+      largest.add(displacement - w.displacement[k]);
+      w.displacement[k] = displacement;
+      w.position[k] = z[k] + (displacement + w.carry[k]);
+    }
+    return largest.get();
   }
 
   // p1: adds the second kick, without its normal part, to the impulse.

@@ -8,7 +8,8 @@
 namespace pfaff {
 
 bool momentum_map(const Model& model, std::size_t invariant) {
-  if (!model.invariants()[invariant].quadratic || !model.canonical()) return false;
+  const Invariant& i = model.invariants()[invariant];
+  if (!i.quadratic || i.behaviour != Behaviour::conserved || !model.canonical()) return false;
   // No part of it is without p, none is quadratic in p: I(q, 0) = 0 and I(0, 2 p) = 2 I(0, p) at random q, p.
   Replay<Quad> values(model.tape(Formula::invariants));
   const auto n = static_cast<std::size_t>(model.dimension());
@@ -38,8 +39,9 @@ bool in_scope(Claim claim, const Model& model) {
     case Claim::k_symplectic:
       return facets.has(Facet::darboux_chart) || facets.has(Facet::generating_map);
     case Claim::quadratic_invariants:
-      return std::any_of(model.invariants().begin(), model.invariants().end(),
-                         [](const Invariant& i) { return i.quadratic; });
+      return std::any_of(model.invariants().begin(), model.invariants().end(), [](const Invariant& i) {
+        return i.quadratic && i.behaviour == Behaviour::conserved;
+      });
     case Claim::constrained_symplectic:
     case Claim::constraints:
       return facets.has(Facet::holonomic);

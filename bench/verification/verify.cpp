@@ -107,7 +107,8 @@ std::vector<Check> check_false_methods() {
     std::int64_t completed = 0;
     (void)method->stepper(model, Quad())->advance(generic_time.quad(), 0, Quad(0.1), 1, z, completed);
     std::vector<Quad> residuals;
-    ConstraintResiduals<Quad> (*model)(generic_time.quad() + Quad(0.1), z, residuals);
+    ConstraintResiduals<Quad> residuals_of(*model);
+    residuals_of(generic_time.quad() + Quad(0.1), z, residuals);
     Check& constraints = control("rk4", "constraints", model->name());
     constraints.measured = static_cast<double>(*std::max_element(residuals.begin(), residuals.end()));
     constraints.tolerance = 1e-31;

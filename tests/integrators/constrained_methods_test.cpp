@@ -34,7 +34,8 @@ Run<T> run(const MethodInstance& method, const std::shared_ptr<const Model>& mod
            std::int64_t steps, std::vector<T> start = {}) {
   const auto motion = motion_for(method, model);
   const auto stepper = method.stepper(motion, T());
-  Run<T> result{std::move(start)};
+  Run<T> result;
+  result.z = std::move(start);
   if (result.z.empty())
     for (const Real& x : model->initial()) result.z.push_back(T(x));
   result.status = stepper->advance(T(0), 0, h, steps, result.z, result.completed);
@@ -45,7 +46,8 @@ Run<T> run(const MethodInstance& method, const std::shared_ptr<const Model>& mod
 template <class T>
 double largest_residual(const Model& model, const T& t, const std::vector<T>& z) {
   std::vector<T> residuals;
-  ConstraintResiduals<T>(model)(t, z, residuals);
+  ConstraintResiduals<T> residuals_of(model);
+  residuals_of(t, z, residuals);
   return static_cast<double>(*std::max_element(residuals.begin(), residuals.end()));
 }
 template <class T>
@@ -56,7 +58,8 @@ double distance(const std::vector<T>& a, const std::vector<T>& b, std::size_t co
 }
 double energy(const Model& model, double t, const std::vector<double>& z) {
   double value = 0;
-  Replay<double>(model.tape(Formula::hamiltonian))(t, z.data(), &value);
+  Replay<double> hamiltonian(model.tape(Formula::hamiltonian));
+  hamiltonian(t, z.data(), &value);
   return value;
 }
 
@@ -109,10 +112,10 @@ TEST(ConstrainedMethods, HaveTheirOrders) {
   const auto bent = on_sphere(BentSphere()), uneven = on_sphere(UnevenSphere());
   for (const Named& n : keeping_both) {
     const auto m = method(n.name, n.parameters);
-    EXPECT_NEAR(measure_order(*m, bent).slope, m->order(*bent), 0.1) << n.name;
-    if (motion_for(*m, uneven) == uneven || m->needs().has(Facet::vector_field))
-      if (m->refuses(*motion_for(*m, uneven)).empty())
-        EXPECT_NEAR(measure_order(*m, uneven).slope, m->order(*uneven), 0.1) << n.name << " with M(q)";
+    for (const auto& on : {motion_for(*m, bent), motion_for(*m, uneven)}) {
+      if (!m->refuses(*on).empty()) continue;
+      EXPECT_NEAR(measure_order(*m, on).slope, m->order(*on), 0.1) << n.name;
+    }
   }
   for (const char* name : {"shake", "lincs"})
     EXPECT_NEAR(measure_order(*method(name), bent).slope, 2, 0.1) << name;
@@ -137,7 +140,9 @@ TEST(ConstrainedMethods, ShakeHasThePositionsOfRattle) {
                shake = run<Quad>(*method("shake"), on, h, steps);
     EXPECT_LE(distance(rattle.z, shake.z, 3), 1e-31);
     const double momenta = distance(rattle.z, shake.z, 6);  // of second order in h
-    if (gap > 0) EXPECT_NEAR(gap / momenta, 4, 0.2);
+    if (gap > 0) {
+      EXPECT_NEAR(gap / momenta, 4, 0.2);
+    }
     gap = momenta;
   }
 }
@@ -145,7 +150,7 @@ TEST(ConstrainedMethods, ShakeHasThePositionsOfRattle) {
 TEST(ConstrainedMethods, LincsComesNearerWithEveryPowerAndCorrection) {
   const auto on = model("n-pendulum", {{"bobs", "8"}});
   double last = 1;
-  for (const char* expansion : {"1", "4", "16"}) {
+  for (const char* expansion : {"4", "16", "64"}) {
     const auto result =
         run<double>(*method("lincs", {{"expansion", expansion}, {"iterations", "3"}}), on, 0.001, 50);
     const double residual = largest_residual<double>(*on, 0.05, result.z);
@@ -207,9 +212,10 @@ TEST(ConstrainedMethods, RunBackToWhereTheyCameFrom) {
     for (const Real& x : on->initial()) start.push_back(x.quad());
     z = start;
     std::int64_t completed = 0;
-    EXPECT_EQ(stepper->advance(Quad(0), 0, Quad(0.05), 20, z, completed), Status::converged);
+    const Quad h = Quad(1) / Quad(16);  // so that the times of the way back are those of the way there
+    EXPECT_EQ(stepper->advance(Quad(0), 0, h, 16, z, completed), Status::converged);
     stepper->forget();
-    EXPECT_EQ(stepper->advance(Quad(1), 0, Quad(-0.05), 20, z, completed), Status::converged);
+    EXPECT_EQ(stepper->advance(Quad(1), 0, -h, 16, z, completed), Status::converged);
     if (std::string(n.name) == "projected-rk4") {
       EXPECT_GT(distance(z, start, 6), 1e-9);  // control
     } else {
