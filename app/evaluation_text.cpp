@@ -91,8 +91,9 @@ void add_constraint_facts(const json& j, Rows& facts) {
   facts.push_back({"constraints", count});
   if (j.contains("W") && !j["rank"].is_null()) {
     facts.push_back({"W", "rank " + std::to_string(j["rank"].get<std::size_t>()) + " of " +
-                              std::to_string(j["constraint_names"].size()) + ", condition " +
-                              text_of(j["condition"])});
+                              std::to_string(j["constraint_names"].size()) + ", " +
+                              (j["condition"].is_null() ? "singular to working precision"
+                                                        : "condition " + text_of(j["condition"]))});
     if (!j["first_class"].empty()) facts.push_back({"first class", joined(j["first_class"])});
     if (!j["redundant"].empty()) facts.push_back({"redundant", joined(j["redundant"])});
   }

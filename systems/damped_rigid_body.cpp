@@ -40,7 +40,7 @@ struct DampedRigidBody {
   }
   [[nodiscard]] std::vector<Invariant> invariant_list() const {
     const auto behaviour = alpha.is(0) ? Behaviour::conserved : Behaviour::decreasing;
-    return {{"energy", "J", behaviour, true}, conserved_quadratic("casimir", "kg^2 m^4/s^2")};
+    return {{"energy", "J", behaviour, alpha.is(0)}, conserved_quadratic("casimir", "kg^2 m^4/s^2")};
   }
   [[nodiscard]] LiePoissonBracket bracket() const { return LiePoissonBracket::rigid_body(); }
   [[nodiscard]] DoubleBracket symmetric_bracket() const { return {alpha}; }
@@ -71,5 +71,5 @@ const System<DampedRigidBody> registered{
      .title = "rigid body with double-bracket damping, z' = z x Omega + alpha z x (z x Omega)",
      .reference = "bloch-krishnaprasad-marsden-ratiu1996",
      .coordinates = {{"z1", "kg m^2/s"}, {"z2", "kg m^2/s"}, {"z3", "kg m^2/s"}},
-     .initial = {Real::fraction(9, 10), Real::fraction(1, 5), Real::fraction(3, 5)}}};
+     .initial = {Real::fraction(3, 2), Real::fraction(-1, 2), 1}}};
 }  // namespace

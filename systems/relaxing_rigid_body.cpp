@@ -43,7 +43,7 @@ struct RelaxingRigidBody {
   }
   [[nodiscard]] std::vector<Invariant> invariant_list() const {
     const auto behaviour = alpha.is(0) ? Behaviour::conserved : Behaviour::increasing;
-    return {conserved_quadratic("energy", "J"), {"entropy", "kg^2 m^4/s^2", behaviour, true}};
+    return {conserved_quadratic("energy", "J"), {"entropy", "kg^2 m^4/s^2", behaviour, alpha.is(0)}};
   }
   [[nodiscard]] LiePoissonBracket bracket() const { return LiePoissonBracket::rigid_body(); }
   [[nodiscard]] RelaxationBracket symmetric_bracket() const { return {{i1, i2, i3}, alpha}; }

@@ -21,12 +21,12 @@ struct EvaluationSettings {
 /// status, rhs, energy, energy_rate, and a reason in one line where there is no rhs.
 ///
 /// With constraints also formulation and its parameters, constraint_names, constraints, W (brackets of all of
-/// them; of holonomic ones each phi is followed by its phi~), rank, condition, first_class and redundant
-/// (names), dirac_bracket (of the coordinates), solvers {name: {rhs, difference, status}}: Dirac's
-/// formulation by every solver that applies, and its largest difference from the structured one, relative to
-/// max(1, |x|). Of holonomic constraints also hidden_constraints, structure (of S), S, A, S_D (null without
-/// friction), multipliers: S lambda = P (F - friction v - p'). W and what follows from it up to 200
-/// constraints, determinants up to 60.
+/// them; of holonomic ones each phi is followed by its phi~), rank, condition (of W, null where singular),
+/// first_class and redundant (names), dirac_bracket (of the coordinates), solvers {name: {rhs, difference,
+/// status}}: Dirac's formulation by every solver that applies, and its largest difference from the structured
+/// one, relative to max(1, |x|). Of holonomic constraints also hidden_constraints, structure (of S), S, A,
+/// S_D (null without friction), multipliers: S lambda = P (F - friction v - p'). W and what follows from it
+/// up to 200 constraints, determinants up to 60.
 ///
 /// For systems K zdot + D = 0 also K, F_t, D, F, B, regular, class,
 /// self_adjoint (residuals relative to their largest terms), condition, kernel (a basis, one list per

@@ -196,7 +196,7 @@ void add_constraints(Point<T>& at, json& j) {
   j["rank"] = j["condition"] = j["first_class"] = j["redundant"] = nullptr;
   if (!brackets.finite) return;
   j["rank"] = brackets.classes.rank();
-  j["condition"] = number(brackets.classes.condition);
+  if (brackets.classes.regular()) j["condition"] = number(brackets.classes.condition);
   j["first_class"] = names_of(brackets.classes.members(ConstraintClass::first), names);
   j["redundant"] = names_of(brackets.classes.members(ConstraintClass::redundant), names);
   if (brackets.classes.regular()) return;

@@ -146,9 +146,11 @@ std::vector<T> everything(HolonomicConstraints<T>& c, const T& t, const std::vec
   of_position_level();
   if (c.place(t, q, p) != Status::converged) return {T(NAN)};
   of_position_level();
-  for (const auto numbers :
-       {c.residuals(), c.hidden(), c.hidden_rates(), c.velocities(), c.forces(), c.friction()})
+  for (const auto numbers : {c.residuals(), c.hidden(), c.hidden_rates(), c.velocities(), c.forces()})
     keep(numbers);
+  std::vector<T> friction(c.friction().begin(), c.friction().end());
+  friction.resize(n);  // none is no friction
+  keep(friction);
   c.hidden_by_position(u, of_count), keep(of_count);
   c.hidden_by_position_transpose(x, of_degrees), keep(of_degrees);
   return all;
@@ -251,7 +253,7 @@ std::vector<Check> check_false_constraints() {
     if (controls.size() == before) throw std::logic_error(what + ": no claim is called " + claim);
   };
   const auto checks_of = [](const Line& line, const char* formulation) {
-    const auto model = make_model(SystemDescriptor{.name = "line"}, line);
+    const auto model = make_model(SystemDescriptor{.name = "line", .title = "", .reference = ""}, line);
     const auto motion = formulations().get(formulation, "formulation").apply(model, {});
     return check_constraints_of("line", *model, *motion);
   };

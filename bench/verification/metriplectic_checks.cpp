@@ -142,9 +142,11 @@ struct FaultyBody {
 std::vector<Check> check_false_metriplectic() {
   std::vector<Check> controls;
   const auto control = [&](const std::string& what, Fault fault, const std::string& claim) {
-    const auto model = make_model(
-        SystemDescriptor{.name = "faulty-body", .initial = {Real(1), Real::fraction(1, 2), Real(2)}},
-        FaultyBody{fault});
+    const auto model = make_model(SystemDescriptor{.name = "faulty-body",
+                                                   .title = "",
+                                                   .reference = "",
+                                                   .initial = {Real(1), Real::fraction(1, 2), Real(2)}},
+                                  FaultyBody{fault});
     const std::size_t before = controls.size();
     for (Check check : check_metriplectic("faulty-body", *model)) {
       if (check.claim != claim || check.precision != "quad") continue;

@@ -64,8 +64,13 @@ class BeadRodSystem {
   }
   [[nodiscard]] std::vector<Invariant> invariant_list() const {
     const Momenta momenta(description());
-    std::vector<Invariant> list{description().friction.empty() ? conserved("energy", "J")
-                                                               : decreasing("energy", "J")};
+    const BeadRodDescription& d = description();
+    // Without forces the energy is kinetic, a quadratic form.
+    const bool free = d.gravity.empty() && d.pairs.empty() && d.springs.empty() && d.angles.empty() &&
+                      d.fields.empty() && d.traps.empty();
+    std::vector<Invariant> list{!d.friction.empty() ? decreasing("energy", "J")
+                                : free              ? conserved_quadratic("energy", "J")
+                                                    : conserved("energy", "J")};
     for (const std::size_t x : momenta.axes)
       list.push_back(conserved("momentum-" + std::string(1, "xyz"[x]), "kg m/s"));
     for (const auto& [x, y] : momenta.planes)

@@ -29,7 +29,7 @@ std::shared_ptr<const Model> chain(std::vector<Real> drag) {
   const nlohmann::json state = golden_pendulum()["states"][0];
   std::vector<Real> initial = reals_of(state["q"]);
   for (const Real& x : reals_of(state["p"])) initial.push_back(x);
-  return make_model(SystemDescriptor{.name = "rods", .initial = initial}, rods);
+  return make_model(SystemDescriptor{.name = "rods", .title = "", .reference = "", .initial = initial}, rods);
 }
 std::vector<std::shared_ptr<const Model>> holonomic_models() {
   return {chain({}),
@@ -426,7 +426,8 @@ struct DenseRods {
 };
 TEST(Formulations, ConstraintsOfThePhaseSpaceGiveTheSameMotion) {
   const auto structured = chain(golden_rods().drag);
-  const auto dense = make_model(SystemDescriptor{.name = "dense-rods"}, DenseRods{golden_rods()});
+  const auto dense = make_model(SystemDescriptor{.name = "dense-rods", .title = "", .reference = ""},
+                                DenseRods{golden_rods()});
   EXPECT_FALSE(dense->facets().has(Facet::holonomic));
   Points<Quad> at;
   for (const char* form : {"none", "metriplectic"})

@@ -60,7 +60,7 @@ inline Rods golden_rods() {
           real_of(golden["g"])};
 }
 inline std::shared_ptr<const Model> model_of(const Rods& rods) {
-  return make_model(SystemDescriptor{.name = "rods"}, rods);
+  return make_model(SystemDescriptor{.name = "rods", .title = "", .reference = ""}, rods);
 }
 
 /// The motion of a model in a formulation.

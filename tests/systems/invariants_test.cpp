@@ -26,7 +26,7 @@ struct Rates {
   void evaluate(Quad t, const std::vector<Quad>& z) { replay(t, z.data(), values.data()); }
   [[nodiscard]] Quad rate(std::size_t k) const { return values[k]; }
   [[nodiscard]] Quad scale(std::size_t k) const { return values[size + k]; }
-  /// The rate of the first coordinate, which is no invariant.
+  /// The rate of the last coordinate, which is no invariant.
   [[nodiscard]] Quad control(std::size_t k) const { return values[2 * size + k]; }
 
   static Tape tape_of(const Model& model) {
@@ -44,7 +44,7 @@ struct Rates {
         out[size + k] = size_of(timed[k]);
         for (std::size_t i = 0; i < z.size(); ++i)
           out[size + k] = out[size + k] + size_of(slopes[k * z.size() + i] * x[i]);
-        out[2 * size + k] = x[0];
+        out[2 * size + k] = x.back();
       }
     });
   }
