@@ -64,6 +64,15 @@ class Observer {
   void finish() {
     for (const DriftAccumulator& d : drift_) record_.drift.push_back(d.result());
     for (const DriftAccumulator& d : constraint_drift_) record_.constraints.push_back(d.result());
+    std::vector<double> times, values;
+    for (const Sample& sample : record_.samples)
+      times.push_back(static_cast<double>(sample.t - run_.t0.quad()));
+    for (std::size_t i = 0; i < constraint_drift_.size(); ++i) {
+      values.clear();
+      for (const Sample& sample : record_.samples)
+        values.push_back(static_cast<double>(sample.constraints[i]));
+      record_.growth.push_back(growth(times, values));
+    }
   }
 
  private:
@@ -211,20 +220,29 @@ template <class T>
 StepTime time_in(const ResolvedRun& run, double seconds) {
   using Clock = std::chrono::steady_clock;
   const auto stepper = run.method->stepper(run.model, T());
+  // Seconds a step over the first `count` steps, or over a tenth of a run that chooses its steps.
   const auto elapsed = [&](std::int64_t count) {
     std::vector<T> z;
     for (const Real& x : run.initial) z.push_back(T(x));
     stepper->forget();
     std::int64_t completed = 0;
+    const std::int64_t before = stepper->counters().steps;
     const auto begin = Clock::now();
-    (void)stepper->advance(T(run.t0), 0, T(run.step), count, z, completed);
+    if (run.adaptive()) {
+      T t(run.t0);
+      const T end = t + T(run.time) / T(10);
+      (void)stepper->advance_to(t, end, T(run.tolerance), z);
+    } else {
+      (void)stepper->advance(T(run.t0), 0, T(run.step), count, z, completed);
+    }
     const std::chrono::duration<double> time = Clock::now() - begin;
+    if (run.adaptive()) completed = stepper->counters().steps - before;
     return completed > 0 ? time.count() / static_cast<double>(completed) : 0.0;
   };
   std::int64_t count = std::min<std::int64_t>(run.steps, 200);
   const double rough = elapsed(count);  // warm-up
   constexpr int repetitions = 7;
-  if (rough > 0)
+  if (rough > 0 && !run.adaptive())
     count = std::clamp<std::int64_t>(static_cast<std::int64_t>(seconds / repetitions / rough), 1, run.steps);
   StepTime result;
   result.repetitions = repetitions;
