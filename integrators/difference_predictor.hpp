@@ -35,6 +35,9 @@ class DifferencePredictor {
     return sum;
   }
 
+  /// Is anything known?
+  [[nodiscard]] bool knows() const { return useful_ > 0; }
+
   /// Expects nothing more of the past.
   void forget() { useful_ = 0; }
 

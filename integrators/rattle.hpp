@@ -108,16 +108,22 @@ struct Rattle {
 
   template <HasHolonomic P>
   Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
-    using T = Scalar<P>;
-    HolonomicConstraints<T>& c = p.holonomic();
-    const std::size_t n = w.n();
+    HolonomicConstraints<Scalar<P>>& c = p.holonomic();
     Status status = start(p, c, t, h, z, w);
     if (status == Status::converged) status = drift_onto_positions(p, c, t, h, z, w);
     if (status == Status::converged) status = kick_onto_momenta(p, c, t + h, h, z, w);
+    return end(status, t, h, z, w);
+  }
+
+ protected:
+  // Adds displacement and impulse to the state, or leaves it where a part of the step has failed.
+  template <class P>
+  Status end(Status status, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
     if (status != Status::converged) {
       w.forget();
       return status;
     }
+    const std::size_t n = w.n();
     for (std::size_t k = 0; k < n; ++k) {
       add_to(z[k], w.carry[k], w.displacement[k], compensated);
       add_to(z[n + k], w.carry[n + k], w.impulse[k], compensated);
@@ -128,7 +134,6 @@ struct Rattle {
     return Status::converged;
   }
 
- private:
   // Constraints and force at the start: those of the end of the step before, where it ended here.
   template <class P>
   static Status start(const P& p, HolonomicConstraints<Scalar<P>>& c, const Scalar<P>& t, const Scalar<P>& h,

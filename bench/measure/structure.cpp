@@ -57,18 +57,76 @@ template <class T>
 StructureResidual<T>::StructureResidual(const MethodInstance& method, std::shared_ptr<const Model> model)
     : differentiate_(method, model),
       problem_(model),
-      poisson_(!model->facets().has(Facet::structure) && !model->facets().has(Facet::darboux_chart)) {}
+      poisson_(!model->facets().has(Facet::structure) && !model->facets().has(Facet::darboux_chart)),
+      constrained_(model->facets().has(Facet::holonomic)) {}
 
 template <class T>
 bool StructureResidual<T>::applies(const Model& model) {
-  return model.facets().has(Facet::structure) || model.facets().has(Facet::hamiltonian);
+  return model.facets().has(Facet::structure) || model.facets().has(Facet::hamiltonian) ||
+         model.facets().has(Facet::holonomic);
 }
+
+template <class T>
+std::vector<T> tangent_projection(const Model& model, const T& t, const std::vector<T>& z) {
+  const auto constraints = model.holonomic_constraints<T>();
+  const std::size_t size = z.size(), n = size / 2;
+  const In<T> q(z.data(), n), p(z.data() + n, n);
+  std::vector<T> matrix(size * size), u(size), move(n), by_momentum(constraints->count()),
+      normal(constraints->count());
+  if (constraints->place(t, q, p) != Status::converged) {
+    matrix.assign(size * size, std::numeric_limits<T>::quiet_NaN());
+    return matrix;
+  }
+  for (std::size_t column = 0; column < size; ++column) {
+    std::fill(u.begin(), u.end(), T(0));
+    u[column] = T(1);
+    const Out<T> u_q = Out<T>(u).first(n), u_p = Out<T>(u).subspan(n);
+    constraints->apply(u_q, normal);
+    constraints->solve(normal, normal);
+    constraints->hidden_by_momentum_transpose(normal, move);
+    for (std::size_t k = 0; k < n; ++k) u_q[k] = u_q[k] - move[k];
+    constraints->hidden_by_position(u_q, normal);
+    constraints->hidden_by_momentum(u_p, by_momentum);
+    for (std::size_t i = 0; i < normal.size(); ++i) normal[i] = normal[i] + by_momentum[i];
+    constraints->solve(normal, normal);
+    constraints->apply_transpose(normal, move);
+    for (std::size_t k = 0; k < n; ++k) u_p[k] = u_p[k] - move[k];
+    for (std::size_t row = 0; row < size; ++row) matrix[row * size + column] = u[row];
+  }
+  return matrix;
+}
+
+namespace {
+// a b of n x n matrices
+template <class T>
+std::vector<T> product(const std::vector<T>& a, const std::vector<T>& b, std::size_t n) {
+  std::vector<T> c(n * n);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = 0; k < n; ++k)
+      for (std::size_t j = 0; j < n; ++j) c[i * n + j] = c[i * n + j] + a[i * n + k] * b[k * n + j];
+  return c;
+}
+
+// M^T J M - J between tangent vectors: (M U)^T J (M U) - U^T J U with the projection U.
+template <class T>
+T tangent_residual(const std::vector<T>& m, const std::vector<T>& u, std::size_t n) {
+  std::vector<T> j(n * n), transposed(n * n);
+  for (std::size_t k = 0; k < n / 2; ++k) {
+    j[k * n + n / 2 + k] = T(-1);
+    j[(n / 2 + k) * n + k] = T(1);
+  }
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = 0; k < n; ++k) transposed[k * n + i] = u[i * n + k];
+  return congruence_residual(product(m, u, n), j, product(transposed, product(j, u, n), n));
+}
+}  // namespace
 
 template <class T>
 T StructureResidual<T>::operator()(const T& t, const T& h, const std::vector<T>& z) {
   const StepJacobian<T> step = differentiate_(t, h, z);
   if (step.status != Status::converged) return std::numeric_limits<T>::quiet_NaN();
   const std::size_t n = z.size();
+  if (constrained_) return tangent_residual(step.jacobian, tangent_projection(*problem_.model(), t, z), n);
   std::vector<T> before(n * n), after(n * n);
   if (!poisson_) {
     problem_.structure(t, z, before);
@@ -87,6 +145,8 @@ template class StepDifferentiator<double>;
 template class StepDifferentiator<Quad>;
 template class StructureResidual<double>;
 template class StructureResidual<Quad>;
+template std::vector<double> tangent_projection(const Model&, const double&, const std::vector<double>&);
+template std::vector<Quad> tangent_projection(const Model&, const Quad&, const std::vector<Quad>&);
 template double congruence_residual(const std::vector<double>&, const std::vector<double>&,
                                     const std::vector<double>&);
 template Quad congruence_residual(const std::vector<Quad>&, const std::vector<Quad>&,

@@ -29,6 +29,8 @@ class StepDifferentiator {
 };
 
 /// Measures M^T K(z', t') M - K(z, t), or M Pi(z, t) M^T - Pi(z', t') for systems with a Poisson tensor only.
+/// With holonomic constraints, M^T J M - J on vectors tangent to the surface of both levels of constraints,
+/// on which z has to be.
 template <class T>
 class StructureResidual {
  public:
@@ -42,8 +44,13 @@ class StructureResidual {
  private:
   StepDifferentiator<T> differentiate_;
   Problem<T> problem_;
-  bool poisson_;
+  bool poisson_, constrained_;
 };
+
+/// The projection onto the tangent space at (t, z) of the surface phi = 0, phi~ = 0 of a model with holonomic
+/// constraints: positions along H_pp B^T, momenta along B^T; n x n row-major. Singular constraints give NaN.
+template <class T>
+std::vector<T> tangent_projection(const Model& model, const T& t, const std::vector<T>& z);
 
 /// The same for a given Jacobian: max |M^T K1 M - K0| / max |M|^T |K1| |M|, all n x n row-major.
 template <class T>
