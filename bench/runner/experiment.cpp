@@ -145,6 +145,7 @@ ResolvedRun resolved(const Experiment& experiment, const ExperimentRun& run) {
   settings.precision = c.precision;
   try {
     ResolvedRun result = resolve(settings);
+    result.structure_residuals = c.structure && run.seed == 0;
     // Many runs are kept: fewer samples of each.
     constexpr std::int64_t ensemble_samples = 200;
     if (run.seed > 0 && !result.adaptive())

@@ -26,6 +26,7 @@ struct ExperimentCase {
   Precision precision = Precision::double_precision;
   std::vector<std::string> methods;  // labels; empty: all
   int seeds = 0;                     // > 0: an ensemble over the system's parameter `seed` = 1 ... seeds
+  bool structure = true;             // false: no structure residuals; ensembles have none in any case
   bool reference = true;             // false: no reference solution, as for long chaotic runs
 };
 

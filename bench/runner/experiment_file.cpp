@@ -19,6 +19,14 @@ std::int64_t whole(const std::string& text, std::int64_t low, std::int64_t high,
   return number->numerator();
 }
 
+// A key that says `what`, which is done without it too, or "none".
+bool wanted(Keys& keys, const std::string& key, const std::string& what, const std::string& where) {
+  const std::string text = keys.text(key, what);
+  if (text != what && text != "none")
+    throw InputError(where + ": " + unknown_name(key, text, {what, "none"}));
+  return text == what;
+}
+
 double positive(const std::string& text, const std::string& where, const std::string& key) {
   const auto number = Real::parse(text);
   if (!number || !(number->value() > 0) || !std::isfinite(number->value()))
@@ -129,11 +137,8 @@ Experiment read_experiment(const std::string& name_or_path, bool quick) {
     one.methods = c.list("methods");
     one.seeds =
         static_cast<int>(whole(c.text("seeds", "0"), 0, 10000, where + " [[case]] " + one.name, "seeds"));
-    const std::string reference = c.text("reference", "solution");
-    if (reference != "solution" && reference != "none")
-      throw InputError(where + " [[case]] " + one.name + ": " +
-                       unknown_name("reference", reference, {"solution", "none"}));
-    one.reference = reference == "solution";
+    one.reference = wanted(c, "reference", "solution", where + " [[case]] " + one.name);
+    one.structure = wanted(c, "structure", "residual", where + " [[case]] " + one.name);
     if (const toml::table* less = c.table("quick")) {
       Keys q(*less, where + " [case.quick]");
       const std::string time = q.text("time", one.time);
