@@ -26,19 +26,23 @@ int compare(const std::vector<std::string>& names, bool quick, const std::string
             line.show(what, all == 0 ? 1.0 : static_cast<double>(done) / static_cast<double>(all));
           });
     }
-    failed = failed || outcome.failed == outcome.runs;
+    failed = failed || outcome.failed == outcome.runs || !outcome.failed_claims.empty();
     j["experiments"].push_back({{"name", experiment.name},
                                 {"directory", directory.string()},
                                 {"runs", outcome.runs},
                                 {"resumed", outcome.resumed},
                                 {"failed", outcome.failed},
                                 {"report", outcome.report.string()}});
+    if (!outcome.findings.empty()) j["experiments"].back()["findings"] = outcome.findings;
     if (!json)
       std::cout << experiment.title << '\n'
                 << outcome.table << '\n'
                 << outcome.runs << (outcome.runs == 1 ? " run (" : " runs (") << outcome.resumed
                 << " resumed, " << outcome.failed << " ended early)\nresults  "
                 << (directory / "results.csv").string() << "\nreport   " << outcome.report.string() << '\n';
+    if (!outcome.failed_claims.empty())
+      std::cerr << "pfaff: " << experiment.name << ": a finding does not hold: " << outcome.failed_claims
+                << '\n';
   }
   if (json) std::cout << j.dump(1) << '\n';
   return failed ? 1 : 0;

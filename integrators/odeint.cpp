@@ -13,34 +13,11 @@
 #include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
 #include <boost/numeric/odeint/stepper/symplectic_rkn_sb3a_mclachlan.hpp>
 
-#include <pfaff/core/integrator.hpp>
+#include <pfaff/integrators/odeint_containers.hpp>
 
 namespace {
 using namespace pfaff;
 namespace odeint = boost::numeric::odeint;
-
-// odeint knows std::array and std::vector.
-template <class T, int N>
-struct Container {
-  using type = std::array<T, static_cast<std::size_t>(N)>;
-};
-template <class T>
-struct Container<T, dynamic> {
-  using type = std::vector<T>;
-};
-template <class P>
-using ContainerOf = typename Container<Scalar<P>, P::extent>::type;
-template <class P, int Size>
-using HalfOf = typename Container<Scalar<P>, P::extent == dynamic ? dynamic : P::extent / 2>::type;
-
-template <class C>
-C sized(std::size_t n) {
-  if constexpr (requires(C c) { c.resize(n); }) {
-    return C(n);
-  } else {
-    return C{};
-  }
-}
 
 // A stepper of the vector field, one fixed step at a time.
 template <template <class...> class OdeintStepper>

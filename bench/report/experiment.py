@@ -19,6 +19,10 @@ RUN_COLUMNS = ("case", "method", "step", "time", "steps", "precision", "status",
                "error_final", "structure_residual", "rhs_per_step", "jacobians_per_step", "iterations_per_step",
                "factorisations_per_step", "run")
 COST_COLUMNS = ("case", "method", "step", "ns_per_step", "ns_per_step_min", "ns_per_step_max")
+SPREAD_COLUMNS = ("case", "method", "step", "tolerance", "runs", "finished", "measure", "measured", "median", "low",
+                  "high")
+CLAIM_COLUMNS = ("case", "measure", "method", "relation", "factor", "than", "bound", "step", "runs", "holding", "needed",
+                 "holds", "ratio_median")
 MEASURES = ("max", "rms", "final", "slope", "slope_low", "slope_high", "oscillation", "exponent", "class")
 
 
@@ -45,6 +49,10 @@ class Run:
         self.status, self.message = self.cells["status"], self.cells["message"]
         self.failed = self.status != "converged"
         self.step, self.steps = self.number("step"), self.number("steps")
+        self.seed = int(self.cells.get("seed") or 0)  # of an ensemble, from 1; otherwise 0
+        self.tolerance = self.cells.get("tolerance") or ""
+        if self.tolerance:  # the method chose its steps: the mean one stands for them
+            self.step = self.number("time") / max(1.0, self.steps)
         if not (self.step > 0 and math.isfinite(self.step)):
             raise InputError(f"{self.where}, column step: expected a positive number, got '{self.cells['step']}'")
 
@@ -57,6 +65,11 @@ class Run:
 
     def drift_class(self, invariant):
         return self.cells.get(f"{invariant}:class", "")
+
+    @property
+    def size(self):
+        """What was asked for, as cost.csv names it: a step or a tolerance."""
+        return f"~{self.tolerance}" if self.tolerance else step_key(self.step)
 
     @property
     def total_ns(self):
@@ -124,7 +137,10 @@ class Experiment:
                 if n > 1:
                     raise InputError(f"experiment.json: {kind} '{name}' appears {n} times, expected once")
         self.runs, self.invariants = self._read_runs()
+        self.residuals = [n for n in self.invariants if f"{n}:growth" in self.runs[0].cells]
         self.timed = self._read_costs()
+        self.spreads = self._read_rows("ensembles.csv", SPREAD_COLUMNS)
+        self.claims = self._read_rows("findings.csv", CLAIM_COLUMNS)
         self._series, self._summaries = {}, {}
 
     def _read_runs(self):
@@ -144,7 +160,8 @@ class Experiment:
             runs.append(run)
         if not runs:
             raise InputError("results.csv: expected at least one run, found none")
-        runs.sort(key=lambda r: (self.labels.index(r.method), -r.step))
+        runs.sort(key=lambda r: (self.labels.index(r.method), -r.step) if not r.tolerance else
+                  (self.labels.index(r.method), -float(r.tolerance)))
         for case in self.cases:
             name = case.get("conserved")
             if name and name not in invariants:
@@ -162,10 +179,32 @@ class Experiment:
             step, ns, low, high = (parse(cells[k], f"{where}, column {k}")
                                    for k in ("step", "ns_per_step", "ns_per_step_min", "ns_per_step_max"))
             if ns > 0:
-                costs[cells["case"], cells["method"], step_key(step)] = Cost(ns, low, high)
+                size = f"~{cells['tolerance']}" if cells.get("tolerance") else step_key(step)
+                costs[cells["case"], cells["method"], size] = Cost(ns, low, high)
         for run in self.runs:
-            run.cost = costs.get((run.case, run.method, step_key(run.step)))
+            run.cost = costs.get((run.case, run.method, run.size))
         return any(run.cost for run in self.runs)
+
+    def _read_rows(self, name, columns):
+        """[(where, cells)] of a file that only some experiments have."""
+        path = self.folder / name
+        return read_table(path, columns)[1] if path.exists() else []
+
+    def spreads_of(self, case, measure):
+        """[(method, size, median, low, high, finished, runs)] over the seeds of an ensemble, in order."""
+        out = []
+        for where, cells in self.spreads:
+            if cells["case"] == case["name"] and cells["measure"] == measure:
+                numbers = [parse(cells[k], f"{where}, column {k}")
+                           for k in ("median", "low", "high", "finished", "runs")]
+                size = f"~{cells['tolerance']}" if cells["tolerance"] else cells["step"]
+                out.append((cells["method"], size, *numbers))
+        return out
+
+    def ensemble_of(self, run):
+        """The runs that are the same but for the seed, the run itself among them."""
+        return [r for r in self.runs if (r.case, r.method, r.size) == (run.case, run.method, run.size)
+                and (run.seed == 0) == (r.seed == 0)] if run.seed else [run]
 
     @staticmethod
     def declared_order(method, case):
@@ -173,11 +212,13 @@ class Experiment:
         return next((s["order"] for s in method.get("systems") or [] if s["name"] == case.get("system")), None)
 
     def runs_of(self, case):
-        return [r for r in self.runs if r.case == case["name"]]
+        """The runs of a case; of an ensemble, those of its first seed."""
+        return [r for r in self.runs if r.case == case["name"] and r.seed <= 1]
 
     def common_step(self, case):
         """The step at which most methods finished; the largest of several, where methods differ most."""
         runs = self.runs_of(case)
+        runs = [r for r in runs if not r.tolerance] or runs
         counts = collections.Counter(step_key(r.step) for r in runs if not r.failed)
         return max({r.step for r in runs}, key=lambda h: (counts[step_key(h)], h), default=math.nan)
 

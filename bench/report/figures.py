@@ -39,6 +39,8 @@ class Drawing:
 
 
 def drawings(experiment, case):
+    if case.get("seeds"):
+        return []  # one run of many: see constraints.py
     made = (f(experiment, case) for f in (drift, work_precision, structure))
     return [d for d in made if d is not None]
 
@@ -71,7 +73,8 @@ def round_off(case):
 def styled(experiment, run, target):
     """Index of the run's method and its legend label, which names a step other than the common one."""
     other = abs(run.step / target - 1) > 1e-9
-    return experiment.labels.index(run.method), run.method + (f" (step {run.step:.4g})" if other else "")
+    told = f" (tolerance {run.tolerance})" if run.tolerance else f" (step {run.step:.4g})" if other else ""
+    return experiment.labels.index(run.method), run.method + told
 
 
 def draw_over_time(sheet, axes, axis, experiment, target, curves, begin):

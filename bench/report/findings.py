@@ -8,6 +8,7 @@ Thresholds, all stated in the text they produce:
 """
 import math
 
+import constraints
 from experiment import UNIT_ROUND_OFF
 from figures import precision_measure, step_text, with_unit
 
@@ -53,7 +54,8 @@ def grouped(*groups):
 
 def findings(experiment, case):
     """[(subject, sentence, [items])] of one case."""
-    makers = (structure, drift, order, cost, failures)
+    makers = (structure, drift, order, cost) if not case.get("seeds") else ()
+    makers += (constraints.claims, constraints.growth, failures)
     return [found for maker in makers for found in maker(experiment, case)]
 
 
@@ -185,7 +187,7 @@ def targets(best):
 
 
 def failures(experiment, case):
-    runs = experiment.runs_of(case)
+    runs = [r for r in experiment.runs if r.case == case["name"]]
     failed = [f"{r.method} at {step_text(r.step, case)}: {r.status}{', ' + r.message if r.message else ''}"
               for r in runs if r.failed]
     return [("Failures", f"{len(failed)} of {len(runs)} runs failed:", failed)] if failed else []

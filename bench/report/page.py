@@ -85,6 +85,8 @@ def section(experiment, case, drawn):
     absent = missing(experiment, case, {drawing.kind for drawing, *_ in drawn})
     if absent:
         out.append(f"<p>{text(absent)}</p>")
+    if case.get("seeds"):
+        return "\n".join(out + [tables.spreads(experiment, case), "</section>"])
     out += [tables.results(experiment, case), tables.invariants(experiment, case), "</section>"]
     return "\n".join(out)
 
@@ -95,6 +97,8 @@ def picture(drawing, svg, width):
 
 def missing(experiment, case, kinds):
     """Why a figure is not there."""
+    if case.get("seeds"):
+        return ""
     why = []
     if "drift" not in kinds:
         why.append("no figure of drift, because " + ("no run left a series" if case.get("conserved")

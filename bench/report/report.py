@@ -2,7 +2,7 @@
 """Figures and report of an experiment:  python3 report.py EXPERIMENT_DIR
 
 Reads experiment.json, results.csv, cost.csv (if timings were measured) and runs/*/series.csv with summary.json, as
-`pfaff compare` leaves them. Writes figures/{drift,work_precision,structure}_<case>.{svg,png} and report.html beside
+`pfaff compare` leaves them. Writes figures/{drift,work_precision,structure,constraints}_<case>.{svg,png} and report.html beside
 them, the same bytes for the same data. Needs matplotlib and nothing else. Exit status: 0 fine, 2 wrong usage or
 input, with one line on stderr.
 """
@@ -25,13 +25,14 @@ def write(path, content):
 
 def report(folder):
     experiment = Experiment(folder)
-    from figures import drawings  # after the input has been read: importing matplotlib takes a second
+    import constraints  # after the input has been read: importing matplotlib takes a second
+    from figures import drawings
     from page import page
     target, drawn = experiment.folder / "figures", {}
     target.mkdir(exist_ok=True)
     for case in experiment.cases:
         drawn[case["name"]] = []
-        for drawing in drawings(experiment, case):
+        for drawing in drawings(experiment, case) + constraints.drawings(experiment, case):
             sheet = drawing.draw(True)
             wide = sheet.svg(f"{drawing.name}-wide")
             write(target / f"{drawing.name}.svg", f'<?xml version="1.0" encoding="utf-8"?>\n{wide}')

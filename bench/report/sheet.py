@@ -72,7 +72,7 @@ class Sheet:
 
     def _place(self):
         """Place title, panels and legend: sizes in inches, the height follows from the legend."""
-        width = 4.4 if not self.wide else (7.6 if self.columns > 1 else 6.6)
+        width = 4.4 if not self.wide else {1: 6.6, 2: 7.6}.get(self.columns, 10.6)
         left, right, between, below = 0.95, 0.15, 0.9, 0.55
         panel_w = (width - left - right - between * (self.columns - 1)) / self.columns
         panel_h = 2.9 if self.wide else 2.5

@@ -47,7 +47,7 @@ def cases(experiment):
                ("Precision", ""), ("Drift of", ""), ("Structure", ""), ("Reference solution", "")]
     rows = []
     for case in experiment.cases:
-        steps = sorted({r.step for r in experiment.runs_of(case)}, reverse=True)
+        steps = sorted({r.step for r in experiment.runs_of(case) if not r.tolerance}, reverse=True)
         rows.append(("", [text(x if x not in (None, "") else "–") for x in (
             heading(case), case.get("system"), settings(case.get("parameters")),
             f"{case['time']} {case.get('time_unit') or ''}".strip() if "time" in case else "",
@@ -117,7 +117,7 @@ def results(experiment, case):
     for r in experiment.runs_of(case):
         status = text(r.status) + (f": {text(r.message)}" if r.failed and r.message else "")
         bodies.setdefault(r.method, []).append(("failed" if r.failed else "", [
-            text(r.method), f"{r.step:.4g}", ("✗ " if r.failed else "") + status, number(r.number("error_max")),
+            text(r.method), size_text(r), ("✗ " if r.failed else "") + status, number(r.number("error_max")),
             number(r.number("error_final")), number(r.drift(name, "max")) if name else "–",
             drift_class(r, name), slope(r, name), number(r.number("structure_residual")), per_step(r),
             duration(r.total_ns), work(r)]))
@@ -128,6 +128,25 @@ def results(experiment, case):
     if not any(r.cost for r in experiment.runs_of(case)):
         about.append("Timings were not measured.")
     return table(f"<strong>Results: {text(heading(case))}.</strong> {' '.join(about)}", columns, list(bodies.values()))
+
+
+def spreads(experiment, case):
+    """Median and range over the seeds of an ensemble, of everything that was measured."""
+    columns = [("Method", ""), ("Step or tolerance", "number"), ("Finished", "number")]
+    measures = []
+    for _, cells in experiment.spreads:
+        if cells["case"] == case["name"] and cells["measure"] not in measures and cells["measured"] != "0":
+            measures.append(cells["measure"])
+    columns += [(text(m), "number") for m in measures]
+    cells_of = {m: {(method, size): rest for method, size, *rest in experiment.spreads_of(case, m)} for m in measures}
+    rows = []
+    for method, size, *_, finished, runs in experiment.spreads_of(case, measures[0]) if measures else []:
+        shown = [cells_of[m].get((method, size), [math.nan] * 3)[:3] for m in measures]
+        rows.append(("", [text(method), text(size), f"{finished:.0f} of {runs:.0f}", *(
+            f"{number(median)}<br><small>{number(low)} … {number(high)}</small>" if not math.isnan(median) else "–"
+            for median, low, high in shown)]))
+    return table(f"<strong>Results: {text(heading(case))}.</strong> Median and range over {case['seeds']} seeds; ~ marks a "
+                 "tolerance.", columns, [rows])
 
 
 def drift_class(run, name):
@@ -146,6 +165,10 @@ def slope(run, name):
     low, high = number(run.drift(name, "slope_low")), number(run.drift(name, "slope_high"))
     interval = f"<br><small>[{low}, {high}]</small>" if "–" not in (low, high) else ""
     return number(run.drift(name, "slope")) + interval
+
+
+def size_text(run):
+    return f"~{run.tolerance}" if run.tolerance else f"{run.step:.4g}"
 
 
 def per_step(run):
@@ -172,7 +195,7 @@ def invariants(experiment, case):
     for n in names:
         expected, unit = experiment.expectation(case, n)
         columns.append((text(with_unit(n, unit)) + (f"<br><small>expected: {text(expected)}</small>"), ""))
-    rows = [("failed" if r.failed else "", [text(r.method), f"{r.step:.4g}", *(
+    rows = [("failed" if r.failed else "", [text(r.method), size_text(r), *(
         f"{number(r.drift(n, 'max'))}<br><small>{text(r.drift_class(n))}</small>" if not math.isnan(r.drift(n, "max"))
         else "–" for n in names)]) for r in runs]
     return table(f"<strong>Other invariants and constraints: {text(heading(case))}.</strong> Largest change since the "

@@ -8,6 +8,8 @@
 
 #include <pfaff/bench/measure/scope.hpp>
 #include <pfaff/bench/runner/citations.hpp>
+#include <pfaff/bench/runner/costs.hpp>
+#include <pfaff/bench/runner/experiment_findings.hpp>
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/bench/runner/results.hpp>
 
@@ -60,7 +62,10 @@ nlohmann::json description(const Experiment& experiment, const std::vector<Exper
                           {"structure", f.has(Facet::structure)     ? nlohmann::json("K-symplectic")
                                         : f.has(Facet::hamiltonian) ? nlohmann::json("symplectic")
                                                                     : nlohmann::json(nullptr)},
-                          {"reference_solution", f.has(Facet::exact_solution) ? "exact" : "30-digit"}});
+                          {"reference_solution", !c.reference                   ? "none"
+                                                 : f.has(Facet::exact_solution) ? "exact"
+                                                                                : "30-digit"}});
+    if (c.seeds > 0) j["cases"].back()["seeds"] = c.seeds;
   }
   for (const ExperimentMethod& m : experiment.methods) {
     const auto run =
@@ -82,6 +87,12 @@ nlohmann::json description(const Experiment& experiment, const std::vector<Exper
     }
     j["methods"].push_back(
         {{"label", m.label}, {"integrator", m.integrator}, {"parameters", parameters}, {"systems", systems}});
+    if (!m.tolerances.empty()) j["methods"].back()["tolerances"] = m.tolerances;
+    if (!run->resolved.settings.formulation.empty()) {
+      j["methods"].back()["formulation"] = run->resolved.settings.formulation;
+      for (const auto& [key, value] : run->resolved.model->source().formulation_parameters)
+        j["methods"].back()["parameters"]["formulation." + key] = value;
+    }
   }
   return j;
 }
@@ -110,49 +121,90 @@ void leave(const fs::path& directory, const ResolvedRun& run, const std::string&
   fs::rename(unfinished, directory, error);
   if (error) throw RunError("cannot write " + directory.string() + ": " + error.message());
 }
+
+std::string in_words(const ExperimentRun& run) {
+  return "case " + run.which->name + ", method " + run.method->label +
+         (run.tolerance.empty() ? ", step " + run.step : ", tolerance " + run.tolerance);
+}
+
+ResolvedRun resolved(const Experiment& experiment, const ExperimentRun& run) {
+  const ExperimentCase& c = *run.which;
+  const ExperimentMethod& m = *run.method;
+  RunSettings settings;
+  settings.system = c.system;
+  settings.integrator = m.integrator;
+  settings.formulation = m.formulation;
+  for (const auto& [key, value] : c.set) settings.set.emplace_back("system." + key, value);
+  if (run.seed > 0) settings.set.emplace_back("system.seed", std::to_string(run.seed));
+  for (const auto& [key, value] : m.set)
+    settings.set.emplace_back(key.starts_with("formulation.") ? key : "integrator." + key, value);
+  settings.initial = c.initial;
+  settings.step = run.step;
+  settings.tolerance = run.tolerance;
+  settings.time = c.time;
+  settings.precision = c.precision;
+  try {
+    ResolvedRun result = resolve(settings);
+    result.structure_residuals = c.structure && run.seed == 0;
+    // Many runs are kept: fewer samples of each.
+    constexpr std::int64_t ensemble_samples = 200;
+    if (run.seed > 0 && !result.adaptive())
+      result.every = std::max<std::int64_t>(1, (result.steps + ensemble_samples - 1) / ensemble_samples);
+    return result;
+  } catch (const InputError& error) {
+    throw InputError(experiment.name + ", case " + c.name + ", method " + m.label + ": " + error.what());
+  }
+}
+
+void check_conserved(const Experiment& experiment, const ExperimentCase& c, const ExperimentRun& run) {
+  std::vector<std::string> names;
+  for (const Invariant& i : run.resolved.model->invariants()) names.push_back(i.name);
+  if (!c.conserved.empty() && std::find(names.begin(), names.end(), c.conserved) == names.end())
+    throw InputError(experiment.name + ", case " + c.name + ": " +
+                     unknown_name("invariant", c.conserved, names));
+}
+
+// What a run is compared with: one solution for all runs of a case, and of a seed where it has seeds.
+std::pair<const ExperimentCase*, int> problem_of(const ExperimentRun& run) { return {run.which, run.seed}; }
+
+std::unique_ptr<ReferenceSolution> reference_of(const ExperimentRun& run) {
+  std::vector<Quad> initial;
+  for (const Real& x : run.resolved.initial) initial.push_back(x.quad());
+  // Methods on the constraints have a model without a vector field: its motion has one.
+  std::shared_ptr<const Model> model = run.resolved.model;
+  if (!model->facets().has(Facet::exact_solution) && !model->facets().has(Facet::vector_field))
+    model = formulations().get("dirac", "formulation").apply(model, {});
+  return std::make_unique<ReferenceSolution>(model, run.resolved.t0.quad(), initial,
+                                             run.resolved.time.quad());
+}
 }  // namespace
 
 std::vector<ExperimentRun> expand(const Experiment& experiment) {
   std::vector<ExperimentRun> runs;
-  for (const ExperimentCase& c : experiment.cases)
+  for (const ExperimentCase& c : experiment.cases) {
     for (const ExperimentMethod& m : experiment.methods) {
-      if (!c.methods.empty() && std::find(c.methods.begin(), c.methods.end(), m.label) == c.methods.end())
-        continue;
-      for (const std::string& step : c.steps) {
-        ExperimentRun run{&c, &m, step, slug_of(c.name + "-" + m.label + "-h" + step), {}};
-        RunSettings settings;
-        settings.system = c.system;
-        settings.integrator = m.integrator;
-        settings.formulation = m.formulation;
-        for (const auto& [key, value] : c.set) settings.set.emplace_back("system." + key, value);
-        for (const auto& [key, value] : m.set)
-          settings.set.emplace_back(key.starts_with("formulation.") ? key : "integrator." + key, value);
-        settings.initial = c.initial;
-        settings.step = step;
-        settings.time = c.time;
-        settings.precision = c.precision;
-        try {
-          run.resolved = resolve(settings);
-        } catch (const InputError& error) {
-          throw InputError(experiment.name + ", case " + c.name + ", method " + m.label + ": " +
-                           error.what());
+      if (!takes(c, m)) continue;
+      const bool adaptive = !m.tolerances.empty();
+      for (const std::string& size : adaptive ? m.tolerances : c.steps)
+        for (int seed = c.seeds > 0 ? 1 : 0; seed <= c.seeds; ++seed) {
+          ExperimentRun run{&c, &m, adaptive ? "" : size, adaptive ? size : "", seed, {}, {}};
+          run.slug = slug_of(c.name + "-" + m.label + (adaptive ? "-tol" : "-h") + size +
+                             (seed > 0 ? "-seed" + std::to_string(seed) : ""));
+          run.resolved = resolved(experiment, run);
+          runs.push_back(std::move(run));
         }
-        const auto& invariants = run.resolved.model->invariants();
-        std::vector<std::string> names;
-        for (const Invariant& i : invariants) names.push_back(i.name);
-        if (!c.conserved.empty() && std::find(names.begin(), names.end(), c.conserved) == names.end())
-          throw InputError(experiment.name + ", case " + c.name + ": " +
-                           unknown_name("invariant", c.conserved, names));
-        // Runs are kept by this name: two of the same would overwrite each other.
-        for (const ExperimentRun& other : runs)
-          if (other.slug == run.slug)
-            throw InputError(experiment.name + ": case " + c.name + ", method " + m.label + ", step " + step +
-                             " and case " + other.which->name + ", method " + other.method->label +
-                             ", step " + other.step + " would share the directory runs/" + run.slug +
-                             "; expected different names");
-        runs.push_back(std::move(run));
-      }
     }
+    check_conserved(experiment, c, runs.back());
+  }
+  // Runs are kept by this name: two of the same would overwrite each other.
+  std::map<std::string, const ExperimentRun*> kept;
+  for (const ExperimentRun& run : runs) {
+    const auto [other, fresh] = kept.emplace(run.slug, &run);
+    if (!fresh)
+      throw InputError(experiment.name + ": " + in_words(*other->second) + " and " + in_words(run) +
+                       " would share the directory runs/" + run.slug + "; expected different names");
+  }
+  check_claims(experiment, runs);
   return runs;
 }
 
@@ -189,33 +241,34 @@ ExperimentOutcome run_experiment(const Experiment& experiment, const fs::path& d
     }
   }
 
-  // One reference solution a case, shared by its runs.
-  std::map<const ExperimentCase*, std::unique_ptr<ReferenceSolution>> references;
+  std::map<std::pair<const ExperimentCase*, int>, std::unique_ptr<ReferenceSolution>> references;
   for (const ExperimentRun* run : open)
-    if (auto& slot = references[run->which]; slot == nullptr) {
-      std::vector<Quad> initial;
-      for (const Real& x : run->resolved.initial) initial.push_back(x.quad());
+    if (auto& slot = references[problem_of(*run)]; slot == nullptr && run->which->reference) {
       if (progress) progress("reference solution of " + run->which->name, outcome.resumed, runs.size());
-      slot = std::make_unique<ReferenceSolution>(run->resolved.model, run->resolved.t0.quad(), initial,
-                                                 run->resolved.time.quad());
+      slot = reference_of(*run);
     }
   std::mutex mutex;
   std::size_t done = outcome.resumed;
   oneapi::tbb::parallel_for(std::size_t{0}, open.size(), [&](std::size_t k) {
     const ExperimentRun& run = *open[k];
-    const RunRecord record = execute(run.resolved, references.at(run.which).get());
+    const RunRecord record = execute(run.resolved, references.at(problem_of(run)).get());
     leave(directory / "runs" / run.slug, run.resolved, config_text(run.resolved), record, run);
     const std::lock_guard lock(mutex);
-    if (progress)
-      progress(run.which->name + ", " + run.method->label + ", h = " + run.step, ++done, runs.size());
+    if (progress) progress(in_words(run), ++done, runs.size());
   });
 
   const std::vector<nlohmann::json> summaries = read_summaries(directory, runs);
   for (const nlohmann::json& s : summaries)
     if (s["status"] != "converged") ++outcome.failed;
   write_file(directory / "results.csv", results_csv(runs, summaries));
+  if (const std::string text = ensembles_csv(runs, summaries); !text.empty())
+    write_file(directory / "ensembles.csv", text);
+  const std::vector<Finding> findings = findings_of(experiment, runs, summaries);
+  if (!findings.empty()) write_file(directory / "findings.csv", findings_csv(findings));
+  for (const Finding& finding : findings) outcome.findings.push_back(to_json(finding));
+  outcome.failed_claims = failed_claims(findings);
   write_costs(directory, experiment, runs, progress);
-  outcome.table = results_table(directory, experiment, runs, summaries);
+  outcome.table = results_table(directory, experiment, runs, summaries) + findings_table(findings);
   if (progress) progress("figures and report", runs.size(), runs.size());
   outcome.report = make_report(directory);
   return outcome;

@@ -21,7 +21,7 @@ class Observer {
         problem_(run.model),
         constraints_(*run.model),
         values_(run.model->invariants().size()) {
-    if (StructureResidual<T>::applies(*run.model) && !run.adaptive())
+    if (run.structure_residuals && StructureResidual<T>::applies(*run.model) && !run.adaptive())
       residual_.emplace(*run.method, run.model);
     drift_.resize(values_.size());
     constraint_drift_.resize(constraint_residual_names(*run.model).size());
@@ -64,6 +64,15 @@ class Observer {
   void finish() {
     for (const DriftAccumulator& d : drift_) record_.drift.push_back(d.result());
     for (const DriftAccumulator& d : constraint_drift_) record_.constraints.push_back(d.result());
+    std::vector<double> times, values;
+    for (const Sample& sample : record_.samples)
+      times.push_back(static_cast<double>(sample.t - run_.t0.quad()));
+    for (std::size_t i = 0; i < constraint_drift_.size(); ++i) {
+      values.clear();
+      for (const Sample& sample : record_.samples)
+        values.push_back(static_cast<double>(sample.constraints[i]));
+      record_.growth.push_back(growth(times, values));
+    }
   }
 
  private:
@@ -163,9 +172,20 @@ void execute_fixed(const ResolvedRun& run, Observer<T>& observer, RunRecord& rec
   record.counters = stepper->counters();
 }
 
+// Samples at even times shorten steps. A run without any counts those that the method takes by itself; one
+// sample in eight of them hardly matters.
+int sample_intervals(const ResolvedRun& run) {
+  const auto stepper = run.method->stepper(run.model, double());
+  std::vector<double> z;
+  for (const Real& x : run.initial) z.push_back(x.value());
+  double t = run.t0.value();
+  (void)stepper->advance_to(t, t + run.time.value(), run.tolerance.value(), z);
+  return static_cast<int>(std::clamp<std::int64_t>(stepper->counters().steps / 8, 32, 200));
+}
+
 void execute_adaptive(const ResolvedRun& run, Observer<double>& observer, RunRecord& record,
                       const Progress& progress) {
-  constexpr int intervals = 200;  // samples shorten steps: few enough not to matter
+  const int intervals = sample_intervals(run);
   const auto stepper = run.method->stepper(run.model, double());
   std::vector<double> z;
   for (const Real& x : run.initial) z.push_back(x.value());
@@ -211,20 +231,29 @@ template <class T>
 StepTime time_in(const ResolvedRun& run, double seconds) {
   using Clock = std::chrono::steady_clock;
   const auto stepper = run.method->stepper(run.model, T());
+  // Seconds a step over the first `count` steps, or over a tenth of a run that chooses its steps.
   const auto elapsed = [&](std::int64_t count) {
     std::vector<T> z;
     for (const Real& x : run.initial) z.push_back(T(x));
     stepper->forget();
     std::int64_t completed = 0;
+    const std::int64_t before = stepper->counters().steps;
     const auto begin = Clock::now();
-    (void)stepper->advance(T(run.t0), 0, T(run.step), count, z, completed);
+    if (run.adaptive()) {
+      T t(run.t0);
+      const T end = t + T(run.time) / T(10);
+      (void)stepper->advance_to(t, end, T(run.tolerance), z);
+    } else {
+      (void)stepper->advance(T(run.t0), 0, T(run.step), count, z, completed);
+    }
     const std::chrono::duration<double> time = Clock::now() - begin;
+    if (run.adaptive()) completed = stepper->counters().steps - before;
     return completed > 0 ? time.count() / static_cast<double>(completed) : 0.0;
   };
   std::int64_t count = std::min<std::int64_t>(run.steps, 200);
   const double rough = elapsed(count);  // warm-up
   constexpr int repetitions = 7;
-  if (rough > 0)
+  if (rough > 0 && !run.adaptive())
     count = std::clamp<std::int64_t>(static_cast<std::int64_t>(seconds / repetitions / rough), 1, run.steps);
   StepTime result;
   result.repetitions = repetitions;

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <pfaff/bench/measure/drift.hpp>
+#include <pfaff/bench/measure/growth.hpp>
 #include <pfaff/bench/measure/reference.hpp>
 #include <pfaff/bench/measure/structure.hpp>
 #include <pfaff/bench/runner/settings.hpp>
@@ -30,7 +31,8 @@ struct RunRecord {
   std::vector<Sample> samples;
   std::vector<Drift>
       drift;  // one for each invariant, in the model's order; meant for those expected to be conserved
-  std::vector<Drift> constraints;  // of the residuals, in the order of constraint_residual_names
+  std::vector<Drift> constraints;             // of the residuals, in the order of constraint_residual_names
+  std::vector<std::optional<Growth>> growth;  // of the same
   std::vector<double>
       rise;  // the largest rise of each above what it was before; for those expected to decrease
   std::optional<double> error_max, error_final, structure_residual;
@@ -45,7 +47,8 @@ using Progress = std::function<void(double fraction)>;
 /// structure.
 RunRecord execute(const ResolvedRun& run, const ReferenceSolution* reference, const Progress& progress = {});
 
-/// Nanoseconds per step, timed alone: one warm-up, then repeated runs from the initial state.
+/// Nanoseconds per step, timed alone: one warm-up, then repeated runs from the initial state. Of a method
+/// that chooses its steps, those it takes over a stretch of the run.
 struct StepTime {
   double median = 0, minimum = 0, maximum = 0, seconds = 0;
   int repetitions = 0;

@@ -16,10 +16,6 @@ std::vector<nlohmann::json> read_summaries(const std::filesystem::path& director
 /// One row per run, deterministic columns only.
 std::string results_csv(const std::vector<ExperimentRun>& runs, const std::vector<nlohmann::json>& summaries);
 
-/// Times every run that cost.csv does not hold yet, one after another, and writes cost.csv.
-void write_costs(const std::filesystem::path& directory, const Experiment& experiment,
-                 const std::vector<ExperimentRun>& runs, const ExperimentProgress& progress);
-
 /// The terminal's table: status, error, drift, structure, cost of every run; at most 100 columns.
 std::string results_table(const std::filesystem::path& directory, const Experiment& experiment,
                           const std::vector<ExperimentRun>& runs,

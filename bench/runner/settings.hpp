@@ -43,6 +43,7 @@ struct ResolvedRun {
   Real t0, step, tolerance, time;
   std::int64_t steps = 0;  // fixed steps only
   std::int64_t every = 1;
+  bool structure_residuals = true;  // measured where the model has a structure
   [[nodiscard]] bool adaptive() const { return !settings.tolerance.empty(); }
 };
 

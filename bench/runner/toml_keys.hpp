@@ -39,6 +39,11 @@ class Keys {
     for (const toml::node& item : *node->as_array()) items.push_back(scalar(item, key));
     return items;
   }
+  /// A list, or one item of it alone.
+  std::vector<std::string> one_or_more(std::string_view key) {
+    const toml::node* node = table_.get(key);
+    return node == nullptr || node->is_array() ? list(key) : std::vector<std::string>{text(key, {})};
+  }
   Assignments assignments(std::string_view key) {
     const toml::node* node = find(key);
     if (node == nullptr) return {};
@@ -54,9 +59,11 @@ class Keys {
       throw InputError(where_ + ": key '" + std::string(key) + "': expected a table");
     return node == nullptr ? nullptr : node->as_table();
   }
-  std::vector<const toml::table*> tables(std::string_view key) {
+  /// At least one [[key]], unless none is needed.
+  std::vector<const toml::table*> tables(std::string_view key, bool needed = true) {
     const toml::node* node = find(key);
     std::vector<const toml::table*> result;
+    if (node == nullptr && !needed) return result;
     if (node == nullptr || !node->is_array_of_tables())
       throw InputError(where_ + ": expected at least one [[" + std::string(key) + "]]");
     for (const toml::node& item : *node->as_array()) result.push_back(item.as_table());

@@ -110,14 +110,20 @@ nlohmann::json summary(const ResolvedRun& run, const RunRecord& record) {
     j["constraints"] = nlohmann::json::array();
     for (std::size_t i = 0; i < names.size(); ++i) {
       const Drift& d = record.constraints[i];
-      j["constraints"].push_back({{"name", names[i]},
-                                  {"max", d.maximum},
-                                  {"rms", d.rms},
-                                  {"final", d.final_value},
-                                  {"slope", d.slope},
-                                  {"exponent", optional(d.growth_exponent)},
-                                  {"rate", optional(d.growth_rate)},
-                                  {"class", to_string(d.drift_class)}});
+      const auto& growth = record.growth[i];
+      j["constraints"].push_back(
+          {{"name", names[i]},
+           {"max", d.maximum},
+           {"rms", d.rms},
+           {"final", d.final_value},
+           {"slope", d.slope},
+           {"slope_interval", {d.slope_low, d.slope_high}},
+           {"oscillation", d.oscillation_amplitude},
+           {"exponent", optional(d.growth_exponent)},
+           {"rate", optional(d.growth_rate)},
+           {"class", to_string(d.drift_class)},
+           {"growth", growth ? nlohmann::json(growth->exponent) : nlohmann::json(nullptr)},
+           {"growth_rate", growth ? nlohmann::json(growth->rate) : nlohmann::json(nullptr)}});
     }
   }
   j["error_max"] = optional(record.error_max);

@@ -1,0 +1,99 @@
+// Boost.Odeint's Bulirsch-Stoer method. With a tolerance it is odeint's bulirsch_stoer, which chooses order
+// and step (and allocates in every step). That class has no step of a given size: a fixed step is odeint's
+// modified_midpoint of 2, 4, 6 and 8 substeps, extrapolated in h^2 as there, and so of order 8.
+#include <algorithm>
+#include <boost/numeric/odeint/algebra/algebra_dispatcher.hpp>
+#include <boost/numeric/odeint/algebra/range_algebra.hpp>
+#include <boost/numeric/odeint/stepper/bulirsch_stoer.hpp>
+#include <boost/numeric/odeint/stepper/modified_midpoint.hpp>
+
+#include <pfaff/integrators/odeint_containers.hpp>
+
+namespace {
+using namespace pfaff;
+namespace odeint = boost::numeric::odeint;
+
+struct OdeintBulirschStoer {
+  static constexpr std::size_t rows = 4;
+
+  template <class P>
+  struct Work {
+    using T = Scalar<P>;
+    odeint::modified_midpoint<ContainerOf<P>, double, ContainerOf<P>, T, odeint::range_algebra> midpoint;
+    ContainerOf<P> state, rate;
+    std::array<ContainerOf<P>, rows> table;
+    double next_step = 0.01;  // of an adaptive run, from one call to the next
+    Work(const OdeintBulirschStoer& /*method*/, const P& p)
+        : state(sized<ContainerOf<P>>(p.size())), rate(state) {
+      table.fill(state);
+    }
+  };
+
+  template <HasVectorField P>
+  Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
+    const auto system = [&](const ContainerOf<P>& x, ContainerOf<P>& rate, const Scalar<P>& time) {
+      p.field(time, x, rate);
+    };
+    std::copy(z.begin(), z.end(), w.state.begin());
+    system(w.state, w.rate, t);
+    for (std::size_t k = 0; k < rows; ++k) {
+      w.midpoint.set_steps(static_cast<unsigned short>(2 * (k + 1)));
+      w.midpoint.do_step(system, w.state, w.rate, t, w.table[k], h);
+      // Neville's scheme in h^2: after column j, row k - j has order 2 j + 2.
+      for (std::size_t j = 1; j <= k; ++j) {
+        const double ratio = static_cast<double>(k + 1) / static_cast<double>(k + 1 - j);
+        const double weight = 1.0 / (ratio * ratio - 1.0);
+        ContainerOf<P>& row = w.table[k - j];
+        for (std::size_t i = 0; i < row.size(); ++i)
+          row[i] = w.table[k - j + 1][i] + (w.table[k - j + 1][i] - row[i]) * weight;
+      }
+    }
+    std::copy(w.table[0].begin(), w.table[0].end(), z.begin());
+    return Status::converged;
+  }
+
+  template <HasVectorField P>
+  requires std::is_same_v < Scalar<P>,
+  double >
+      Status advance_to(const P& p, double& t, double end, double tolerance, State<P>& z, Work<P>& w) const {
+    odeint::bulirsch_stoer<ContainerOf<P>, double, ContainerOf<P>, double, odeint::range_algebra> stepper(
+        tolerance, tolerance);
+    const auto system = [&](const ContainerOf<P>& x, ContainerOf<P>& rate, double time) {
+      p.field(time, x, rate);
+    };
+    std::copy(z.begin(), z.end(), w.state.begin());
+    const double direction = end < t ? -1 : 1;
+    double h = direction * w.next_step;
+    Status status = Status::converged;
+    for (int rejected = 0; direction * (end - t) > 0;) {
+      const bool clipped = direction * (t + h - end) >= 0;
+      if (clipped) h = end - t;
+      const double last = h;
+      if (stepper.try_step(system, w.state, t, h) == odeint::success) {
+        ++p.counters().steps;
+        rejected = 0;
+        // A step shortened to reach the end says nothing about the next one, unless it could have been
+        // longer.
+        if (!clipped || std::abs(h) > w.next_step) w.next_step = std::abs(h);
+        // The last step ends at `end` but for round-off.
+        if (std::abs(end - t) <=
+            4 * std::numeric_limits<double>::epsilon() * std::max(std::abs(end), std::abs(last)))
+          t = end;
+      } else if (++rejected > 100 || !(std::abs(h) > 1e-14 * std::abs(t))) {
+        status = Status::not_converged;
+        break;
+      }
+    }
+    std::copy(w.state.begin(), w.state.end(), z.begin());
+    return status;
+  }
+};
+
+const Method<OdeintBulirschStoer> registered{
+    {.name = "odeint-bulirsch-stoer",
+     .title = "Boost.Odeint bulirsch_stoer; fixed steps of order 8",
+     .reference = "ahnert-mulansky2011; hairer-norsett-wanner1993 II.9",
+     .order = 8,
+     .preserves = {Claim::none},
+     .double_coefficients = true}};
+}  // namespace
