@@ -100,8 +100,10 @@ class DiracEvaluator {
         gram_(bracket.base, bracket.constraints, bracket.symmetry, dimension, Bracket::Solver::wants_tensor),
         work_(bracket.solver, dimension, bracket.constraints.count()) {}
 
-  /// vector = sharp_D(covector); `singular` where a pivot of the solver vanishes.
+  /// vector = sharp_D(covector); `singular` where a pivot of the solver vanishes, and for an odd number of
+  /// constraints of a skew bracket, whose determinant is zero but for rounding.
   Status operator()(const T& t, In<T> z, In<T> covector, Out<T> vector) {
+    if (bracket_.symmetry == Symmetry::skew && bracket_.constraints.count() % 2 != 0) return Status::singular;
     gram_.place(t, z);
     const DiracData<T> data = gram_.with(t, z, covector);
     const Status status = bracket_.solver(data, vector, work_);
@@ -128,13 +130,14 @@ struct DiracBracket {
   Solver solver;
   Symmetry symmetry = Symmetry::skew;  // of the base, and so of this bracket
 
-  /// vector = sharp_D(covector). NoDiracBracket where the solver breaks down, with the reason.
+  /// vector = sharp_D(covector). NoDiracBracket, with the reason, where the solver breaks down; in double and
+  /// quad also where W is singular to working precision (pivots made of rounding do not vanish) and where the
+  /// solver is not one for these constraints.
   template <class T>
   void sharp(const T& t, In<T> z, In<T> covector, Out<T> vector) const {
+    if constexpr (std::is_same_v<T, double> || std::is_same_v<T, Quad>) refuse_where_none(t, z, covector);
     DiracEvaluator<T, DiracBracket> evaluator(*this, z.size());
-    const Status status = evaluator(t, z, covector, vector);
-    if constexpr (detail::has_numbers<T>)
-      if (status != Status::converged) throw NoDiracBracket(why_not(t, z));
+    if (evaluator(t, z, covector, vector) != Status::converged) throw NoDiracBracket(why_not(t, z));
   }
 
   /// The classes of the constraints at a state: second class where the bracket exists, and what is wrong
@@ -147,17 +150,42 @@ struct DiracBracket {
   }
 
  private:
+  [[nodiscard]] std::vector<std::string> constraint_names() const {
+    if constexpr (requires { constraints.names(); }) {
+      return constraints.names();
+    } else {
+      std::vector<std::string> names;
+      for (std::size_t i = 1; i <= constraints.count(); ++i) names.push_back("phi" + std::to_string(i));
+      return names;
+    }
+  }
+  template <class T>
+  void refuse_where_none(const T& t, In<T> z, In<T> covector) const {
+    DiracGram<T, Base, Constraints> gram(base, constraints, symmetry, z.size(), false);
+    gram.place(t, z);
+    const DiracData<T> data = gram.with(t, z, covector);
+    // Numbers that are not finite are the evaluation's to report.
+    for (const T& w : data.gram)
+      if (!isfinite(w)) return;
+    const Classification<T> found = gram.classification();
+    if (!found.regular()) throw NoDiracBracket(describe(found, constraint_names()));
+    std::vector<double> rounded;
+    for (const T& w : data.gram) rounded.push_back(static_cast<double>(w));
+    DiracData<double> shape;
+    shape.dimension = data.dimension;
+    shape.count = data.count;
+    shape.symmetry = symmetry;
+    shape.gram = rounded;
+    if (!solver.applies(shape))
+      throw NoDiracBracket(
+          std::string(Solver::name) + ": not a solver for the brackets of these constraints, " +
+          std::string(to_string(symmetry)) + "; expected the structure it is for, or the " + "dense solver");
+  }
   template <class T>
   [[nodiscard]] std::string why_not(const T& t, In<T> z) const {
     if constexpr (std::is_same_v<T, double> || std::is_same_v<T, Quad>) {
-      std::vector<std::string> names;
-      if constexpr (requires { constraints.names(); }) {
-        names = constraints.names();
-      } else {
-        for (std::size_t i = 1; i <= constraints.count(); ++i) names.push_back("phi" + std::to_string(i));
-      }
       const Classification<T> found = classes<T>(t, z);
-      if (!found.regular()) return describe(found, names);
+      if (!found.regular()) return describe(found, constraint_names());
       return std::string(Solver::name) + ": a pivot vanishes in the order of elimination; expected " +
              "another order, or the dense solver";
     } else {
