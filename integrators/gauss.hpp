@@ -135,12 +135,12 @@ struct Collocation {
     using T = Scalar<P>;
     predict(p, t, h, z, w);
     Convergence<T> convergence;
-    bool slow = false;
+    bool slow = false, stagnant = false;
     do {
       w.evaluate(p, t, h, z);
       convergence.begin_iteration();
       if (on_constraints(p)) {
-        convergence_of_all<P>(z, h, w, convergence);
+        stagnant = advance_together<P>(z, h, w, convergence);
       } else {
         for (std::size_t i = 0; i < w.s(); ++i)
           for (std::size_t k = 0; k < w.n(); ++k) {
@@ -151,7 +151,8 @@ struct Collocation {
           }
       }
       ++p.counters().iterations;
-      slow = HasFieldJacobian<P> && convergence.iterations() >= 10 && convergence.ratio() > Value<T>(0.6);
+      slow = HasFieldJacobian<P> && convergence.iterations() >= 10 && !stagnant &&
+             convergence.ratio() > Value<T>(0.6);
     } while (!slow && !convergence.finished(60));
     Status status = convergence.status();
     if constexpr (HasFieldJacobian<P>)
@@ -173,9 +174,10 @@ struct Collocation {
     if constexpr (HasHolonomic<P>) return p.model()->constrained();
     return false;
   }
+  // True where what is left is round-off, whose corrections do not contract.
   template <class P>
-  [[gnu::noinline]] static void convergence_of_all(const State<P>& z, const Scalar<P>& h, Work<P>& w,
-                                                   Convergence<Scalar<P>>& convergence) {
+  [[gnu::noinline]] static bool advance_together(const State<P>& z, const Scalar<P>& h, Work<P>& w,
+                                                 Convergence<Scalar<P>>& convergence) {
     using T = Scalar<P>;
     Largest<T> correction, reference;
     for (std::size_t i = 0; i < w.s(); ++i)
@@ -186,7 +188,9 @@ struct Collocation {
         reference.add(z[k] + next);
         stage = next;
       }
-    convergence.add(correction.get(), reference.get(), reference.get());
+    const T moved = correction.get(), size = reference.get();
+    convergence.add(moved, size, size);
+    return relative_size(moved, size, size) <= Value<T>(65536) * unit_roundoff<T>();
   }
 
   // First stages, from what is remembered; at the start, and after a change of step, from the present slope.

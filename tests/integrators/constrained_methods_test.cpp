@@ -148,9 +148,9 @@ TEST(ConstrainedMethods, ShakeHasThePositionsOfRattle) {
 }
 
 TEST(ConstrainedMethods, LincsComesNearerWithEveryPowerAndCorrection) {
-  const auto on = model("n-pendulum", {{"bobs", "8"}});
+  const auto on = model("n-pendulum", {{"bobs", "3"}});
   double last = 1;
-  for (const char* expansion : {"4", "16", "64"}) {
+  for (const char* expansion : {"1", "4", "16"}) {
     const auto result =
         run<double>(*method("lincs", {{"expansion", expansion}, {"iterations", "3"}}), on, 0.001, 50);
     const double residual = largest_residual<double>(*on, 0.05, result.z);
