@@ -1,53 +1,14 @@
 // Nothing that is asked of rods while a run goes on allocates. The global operator new of this program counts
 // while it is told to.
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
 #include <pfaff/core/facets/problem.hpp>
 #include <pfaff/core/formulation.hpp>
 
+#include "../counted_allocations.hpp"
 #include "bead_rod_files.hpp"
 
 namespace {
-std::atomic<bool> counting = false;
-std::atomic<long> allocations = 0;
-
-void* allocate(std::size_t size, std::size_t alignment) {
-  if (counting) ++allocations;
-  const std::size_t whole = (size + alignment - 1) / alignment * alignment;
-  void* memory = alignment <= alignof(std::max_align_t) ? std::malloc(size == 0 ? 1 : size)
-                                                        : std::aligned_alloc(alignment, whole);
-  if (memory == nullptr) throw std::bad_alloc();
-  return memory;
-}
-}  // namespace
-
-void* operator new(std::size_t size) { return allocate(size, alignof(std::max_align_t)); }
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  return allocate(size, static_cast<std::size_t>(alignment));
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::align_val_t /*alignment*/) noexcept {
-  std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t /*size*/,
-                                       std::align_val_t /*alignment*/) noexcept {
-  std::free(memory);
-}
-
-namespace {
 using namespace pfaff;
-
-template <class Work>
-long allocations_of(Work&& work) {
-  allocations = 0;
-  counting = true;
-  work();
-  counting = false;
-  return allocations;
-}
+using pfaff::testing::allocations_of;
 
 template <class T>
 void expect_none(const std::string& system, const Assignments& parameters) {
