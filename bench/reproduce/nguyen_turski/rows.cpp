@@ -9,7 +9,13 @@ std::vector<ReproducedRow> reproduce_nguyen_turski() {
   nguyen_turski::recursion_rows(brackets);
   nguyen_turski::jacobi_rows(brackets);
   nguyen_turski::one_pair_rows(brackets);
-  return brackets.take();
+  Rows formulations("formulations");
+  nguyen_turski::formulation_rows(formulations);
+  nguyen_turski::tridiagonal_rows(formulations);
+  nguyen_turski::figure_2_rows(formulations);
+  std::vector<ReproducedRow> rows = brackets.take(), more = formulations.take();
+  rows.insert(rows.end(), more.begin(), more.end());
+  return rows;
 }
 
 }  // namespace pfaff

@@ -13,4 +13,9 @@ void recursion_rows(Rows& rows);    // (3.8)-(3.17), Theorems 1 and 2, Example 3
 void jacobi_rows(Rows& rows);       // (3.20), (3.21), Propositions 2 and 6
 void one_pair_rows(Rows& rows);     // the converse of (C.2)
 
+// Section "formulations": section 4 and the appendices.
+void formulation_rows(Rows& rows);  // (4.1)-(4.5), (4.7), tables 1 and 2, appendices A and B, the potential
+void tridiagonal_rows(Rows& rows);  // (4.6), appendix C
+void figure_2_rows(Rows& rows);
+
 }  // namespace pfaff::nguyen_turski
