@@ -134,7 +134,7 @@ class FoldedPath {
     return middle.usable(usable);
   }
 
- private:
+ protected:
   using L = Pack<2>;
   static constexpr std::uint32_t fixed = ~0U;  // instead of an offset: an anchor, or the additional point
 
@@ -164,6 +164,7 @@ class FoldedPath {
   struct Row {
     Vec direction, turning;
     L lower, inverse, skew, hidden, rate, multiplier, reduced;
+    L border;  // of rings: the closing rod's column
   };
   struct Offsets {
     std::uint32_t left, right;

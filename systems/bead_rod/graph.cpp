@@ -30,38 +30,41 @@ Incidence incidence_of(const BeadRodDescription& description) {
   return result;
 }
 
-// All rods as paths; none where a bead has three rods or rods close a ring.
-std::vector<RodPath> paths_of(const BeadRodDescription& d, const Incidence& rods) {
+// All rods as paths and rings; none where a bead has three rods.
+struct PathsAndRings {
+  std::vector<RodPath> paths, rings;
+};
+PathsAndRings paths_and_rings(const BeadRodDescription& d, const Incidence& rods) {
   const auto degree = [&](std::size_t bead) { return rods.start[bead + 1] - rods.start[bead]; };
+  PathsAndRings found;
   for (std::size_t bead = 0; bead < d.beads(); ++bead)
-    if (degree(bead) > 2) return {};
-  std::vector<RodPath> paths;
+    if (degree(bead) > 2) return found;
   std::vector<bool> walked(d.rods.size(), false);
-  std::size_t left = d.rods.size();
-  for (std::size_t first = 0; first < d.rods.size(); ++first) {
-    for (const bool from_first : {true, false}) {
-      std::size_t rod = first;
-      std::size_t point = from_first ? d.rods[rod].first : d.rods[rod].second;
-      if (walked[rod] || (point < d.beads() && degree(point) != 1)) continue;  // not an end
-      RodPath path{{point}};
-      for (bool more = true; more;) {
-        walked[rod] = true;
-        --left;
-        point = d.rods[rod].first == point ? d.rods[rod].second : d.rods[rod].first;
-        path.points.push_back(point);
-        more = false;
-        if (point >= d.beads()) break;
-        for (std::uint32_t k = rods.start[point]; k < rods.start[point + 1]; ++k)
-          if (rods.ends[k] / 2 != rod) {
-            rod = rods.ends[k] / 2;
-            more = true;
-            break;
-          }
+  // From `point` along `rod` until there is no other rod, or none that is new.
+  const auto walk = [&](std::size_t point, std::size_t rod) {
+    RodPath path{{point}};
+    for (bool more = true; more;) {
+      walked[rod] = true;
+      point = d.rods[rod].first == point ? d.rods[rod].second : d.rods[rod].first;
+      path.points.push_back(point);
+      more = false;
+      if (point >= d.beads()) break;
+      for (std::uint32_t k = rods.start[point]; k < rods.start[point + 1] && !more; ++k) {
+        more = !walked[rods.ends[k] / 2];
+        if (more) rod = rods.ends[k] / 2;
       }
-      paths.push_back(std::move(path));
     }
-  }
-  return left == 0 ? paths : std::vector<RodPath>();
+    return path;
+  };
+  for (std::size_t rod = 0; rod < d.rods.size(); ++rod)
+    for (const std::size_t point : {d.rods[rod].first, d.rods[rod].second})
+      if (!walked[rod] && (point >= d.beads() || degree(point) == 1)) found.paths.push_back(walk(point, rod));
+  for (std::size_t rod = 0; rod < d.rods.size(); ++rod)
+    if (!walked[rod]) {
+      found.rings.push_back(walk(d.rods[rod].first, rod));
+      found.rings.back().points.pop_back();  // where it began
+    }
+  return found;
 }
 
 // The dense S with a diagonal of ones.
@@ -122,7 +125,9 @@ RodGraph::RodGraph(const BeadRodDescription& description) : beads_(description.b
   for (const RodCoupling& c : couplings_) pairs.emplace_back(c.k, c.l);
   pattern_ = std::make_shared<const SymmetricPattern>(description.rods.size(), std::move(pairs));
 
-  paths_ = paths_of(description, rods);
+  PathsAndRings found = paths_and_rings(description, rods);
+  paths_ = std::move(found.paths);
+  rings_ = std::move(found.rings);
 
   for (std::size_t bead = 0; bead < beads_; ++bead) {
     for (std::uint32_t a = rods.start[bead]; a < rods.start[bead + 1]; ++a) {

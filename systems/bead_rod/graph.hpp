@@ -32,14 +32,16 @@ class RodGraph {
   /// The beads joined to `bead` by at most `distance` rods, larger numbers only, ascending. Ways through an
   /// anchor do not count.
   [[nodiscard]] std::vector<std::uint32_t> within(std::uint32_t bead, int distance) const;
-  /// The rods as paths, where they are nothing else; empty where rods branch or close a ring.
+  /// The rods as paths and rings, where they are nothing else; empty where rods branch. The first and the
+  /// last point of a ring are joined.
   [[nodiscard]] const std::vector<RodPath>& paths() const { return paths_; }
+  [[nodiscard]] const std::vector<RodPath>& rings() const { return rings_; }
 
  private:
   std::size_t beads_;
   std::shared_ptr<const SymmetricPattern> pattern_;
   std::vector<RodCoupling> couplings_;
-  std::vector<RodPath> paths_;
+  std::vector<RodPath> paths_, rings_;
   std::vector<std::uint32_t> start_, neighbour_;  // of bead i: neighbour_[start_[i] .. start_[i + 1])
 };
 

@@ -13,7 +13,7 @@
 
 #include <pfaff/core/facets/holonomic.hpp>
 #include <pfaff/core/linear/structured_ldlt.hpp>
-#include <pfaff/systems/bead_rod/folded_path.hpp>
+#include <pfaff/systems/bead_rod/folded_ring.hpp>
 #include <pfaff/systems/bead_rod/potentials.hpp>
 
 namespace pfaff {
@@ -119,8 +119,8 @@ class RodConstraints final : public HolonomicConstraints<T> {
 
   std::optional<Status> dirac_rates(const T& /*t*/, In<T> q, In<T> p, Out<T> q_rate, Out<T> p_rate) override {
     if constexpr (folds)
-      if (!paths_.empty())
-        return folded_rates(q, p, q_rate, p_rate, [&](FoldedPath<D>& path) {
+      if (folded_)
+        return folded_rates(q, p, q_rate, p_rate, [&](auto& path) {
           return path.dirac(q.data(), p.data(), q_rate.data(), p_rate.data());
         });
     const Status status = prepare<true>(q, p);
@@ -159,8 +159,8 @@ class RodConstraints final : public HolonomicConstraints<T> {
   std::optional<Status> multiplier_rates(const T& /*t*/, In<T> q, In<T> p, Out<T> q_rate,
                                          Out<T> p_rate) override {
     if constexpr (folds)
-      if (!paths_.empty())
-        return folded_rates(q, p, q_rate, p_rate, [&](FoldedPath<D>& path) {
+      if (folded_)
+        return folded_rates(q, p, q_rate, p_rate, [&](auto& path) {
           return path.multipliers(q.data(), p.data(), q_rate.data(), p_rate.data());
         });
     const Status status = prepare<false>(q, p);
@@ -207,7 +207,7 @@ class RodConstraints final : public HolonomicConstraints<T> {
 
  private:
   static constexpr bool folds = std::is_same_v<T, double>;
-  // In doubles, where all rods are paths.
+  // In doubles, where all rods are paths and rings.
   void fold() {
     if constexpr (folds) {
       const BeadRodDescription& d = *description_;
@@ -221,26 +221,36 @@ class RodConstraints final : public HolonomicConstraints<T> {
         for (const std::size_t point : path.points)
           if (point < d.beads()) joined[point] = true;
       }
+      for (const RodPath& ring : graph_->rings()) {
+        rings_.emplace_back(d, ring);
+        for (const std::size_t point : ring.points) joined[point] = true;
+      }
+      folded_ = !paths_.empty() || !rings_.empty();
       for (std::size_t i = 0; i < d.beads(); ++i)
         if (!joined[i]) lone_.push_back(i);
       if (!potentials_.constant()) return;
       set_forces({});
-      for (auto& path : paths_) path.set_forces(forces_.data());
+      give_forces();
     }
   }
   template <class Use>
   Status folded_rates(In<T> q, In<T> p, Out<T> q_rate, Out<T> p_rate, const Use& use) {
     Status status = set_forces(q);
-    if (!potentials_.constant())
-      for (auto& path : paths_) path.set_forces(forces_.data());
-    for (auto& path : paths_)
-      if (!use(path)) status = status == Status::converged ? Status::singular : status;
+    if (!potentials_.constant()) give_forces();
+    bool regular = true;
+    for (auto& path : paths_) regular &= use(path);
+    for (auto& ring : rings_) regular &= use(ring);
+    if (!regular && status == Status::converged) status = Status::singular;
     for (const std::size_t i : lone_)
       for (std::size_t at = i * D; at < i * D + D; ++at) {
         q_rate[at] = inverse_mass_[i] * p[at];
         p_rate[at] = forces_[at];
       }
     return status;
+  }
+  void give_forces() {
+    for (auto& path : paths_) path.set_forces(forces_.data());
+    for (auto& ring : rings_) ring.set_forces(forces_.data());
   }
   // Forces and accelerations of the beads; where they are constant, only when there are none yet.
   Status set_forces(In<T> q) {
@@ -351,8 +361,10 @@ class RodConstraints final : public HolonomicConstraints<T> {
   std::vector<T> skew_;      // A, as S in the order of couplings
   std::vector<T> coupling_;  // 1/m of the shared bead with the sign of the coupling
   std::vector<T> friction_;
-  std::vector<FoldedPath<D>> paths_;  // none where rates are not made in one pass
-  std::vector<std::size_t> lone_;     // beads without rods
+  bool folded_ = false;  // rates are made by paths and rings
+  std::vector<FoldedPath<D>> paths_;
+  std::vector<FoldedRing<D>> rings_;
+  std::vector<std::size_t> lone_;  // beads without rods
 };
 
 }  // namespace pfaff

@@ -226,6 +226,10 @@ std::vector<Shape> shapes() {
   add("a tree on an anchor", 6, R"([["a", 0], [0, 1], [1, 2], [1, 3], [3, 4], [3, 5]])",
       MatrixStructure::tree);
   add("a triangle", 3, R"([[0, 1], [1, 2], [2, 0]])", MatrixStructure::cyclic);
+  add("a ring of four", 4, R"([[0, 2], [2, 1], [3, 1], [0, 3]])", MatrixStructure::cyclic);
+  add("a ring of six", 6, R"([[0, 1], [1, 2], [2, 3], [3, 4], [4, 5], [5, 0]])", MatrixStructure::cyclic);
+  add("two rings and a chain", 10,
+      R"([[0, 1], [1, 2], [2, 0], [3, 4], [4, 5], [5, 6], [6, 3], [7, 8], [8, 9]])", MatrixStructure::sparse);
   add("a ring on an anchor", 4, R"([["a", 0], [0, 1], [1, 2], [2, 3], [3, 0]])", MatrixStructure::sparse);
   add("a braced square", 4, R"([[0, 1], [1, 2], [2, 3], [3, 0], [0, 2]])", MatrixStructure::dense);
   return list;
