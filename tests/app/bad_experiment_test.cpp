@@ -80,6 +80,39 @@ TEST(BadExperiment, SyntaxErrorsNameTheLine) {
   refused("", "time = 3\n", {"test.toml:11:"});  // twice
 }
 
+TEST(BadExperiment, SeedsTolerancesAndReferences) {
+  refused("", "seeds = \"many\"\n", {"[[case]] short", "'seeds'", "whole number", "'many'"});
+  refused("", "seeds = -1\n", {"'seeds'", "'-1'"});
+  refused("", "seeds = 3\n", {"case short", "unknown parameter", "seed"});
+  refused("", "seeds = 0\n[case.quick]\nseeds = 3\n", {"[case.quick]", "'seeds'"});
+  refused("", "reference = \"non\"\n", {"unknown reference 'non'", "did you mean 'none'?"});
+  refused("", "structure = \"yes\"\n", {"unknown structure 'yes'"});
+  refused("integrator = \"rk4\"", "integrator = \"rk4\"\ntolerance = \"1e-8\"",
+          {"method RK4", "rk4 takes fixed steps only"});
+  refused("integrator = \"rk4\"", "integrator = \"odeint-dopri5\"\ntolerance = [\"2\"]",
+          {"--tolerance: expected a number in (0, 1], got '2'"});
+}
+
+TEST(BadExperiment, Findings) {
+  const std::string finding =
+      "[[finding]]\ncase = \"short\"\nmeasure = \"error_max\"\nmethod = \"RK4\"\nrelation = "
+      "\"stays-below\"\n";
+  refused("", finding, {"[[finding]]", "'than'", "'bound'"});
+  refused("", finding + "bound = 1.0\nthan = \"RK4\"\n", {"expected one of the keys 'than'"});
+  refused("", finding + "bound = -1\n", {"'bound'", "expected a number > 0", "'-1'"});
+  refused("", finding + "than = \"RK\"\n", {"unknown method 'RK'", "did you mean 'RK4'?"});
+  refused("", finding + "bound = 1.0\nat_least = 2\n", {"'at_least'", "expected at most 1", "got 2"});
+  refused("", finding + "bound = 1.0\nstep = 0.1\n", {"no runs to compare at 0.1"});
+  refused("", finding + "bound = 1.0\nbounds = 1\n", {"unknown key 'bounds'", "did you mean 'bound'?"});
+  const auto with = [&](const std::string& what, const std::string& by) {
+    std::string text = finding + "bound = 1.0\n";
+    return text.replace(text.find(what), what.size(), by);
+  };
+  refused("", with("error_max", "eror_max"), {"unknown measure 'eror_max'", "did you mean 'error_max'?"});
+  refused("", with("\"short\"", "\"shrt\""), {"unknown case 'shrt'", "did you mean 'short'?"});
+  refused("", with("stays-below", "below"), {"unknown relation 'below'"});
+}
+
 // Runs are kept by name: two that would share one directory are refused, not mixed.
 TEST(BadExperiment, RunsWithTheSameName) {
   const std::string second = "[[method]]\nlabel = \"rk4\"\nintegrator = \"gauss\"\n";

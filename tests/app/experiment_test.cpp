@@ -154,6 +154,78 @@ TEST(Experiment, KilledAndResumedItGivesTheSameResults) {
   EXPECT_EQ(text_of(files / "whole/results.csv"), results);
 }
 
+// An ensemble of two formulations: medians, and findings of which one is wrong on purpose.
+const std::string ensemble = R"(schema = 1
+title = "An ensemble"
+[[method]]
+label = "Dirac"
+integrator = "odeint-dopri5"
+formulation = "dirac"
+tolerance = "1e-6"
+[[method]]
+label = "LMM"
+integrator = "odeint-dopri5"
+formulation = "lmm"
+tolerance = ["1e-6"]
+[[method]]
+label = "RATTLE"
+integrator = "rattle"
+[[case]]
+name = "pendula"
+system = "n-pendulum"
+set = { bobs = 2 }
+time = "5"
+steps = ["0.01"]
+seeds = 3
+reference = "none"
+conserved = "energy"
+[[finding]]
+case = "pendula"
+measure = "constraint:max"
+method = "RATTLE"
+relation = "stays-below"
+bound = "1e-13"
+)";
+
+TEST(Experiment, EnsembleWithFindings) {
+  const TemporaryDirectory files;
+  write(files / "test.toml", ensemble);
+  const Outcome outcome = run_pfaff({"compare", files / "test.toml", "--out", files / "out"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  for (const char* shown : {"3 seeds", "~1e-6", "median and range", "growth of the largest residual",
+                            "holds  constraint:max of RATTLE stays below 1e-13 in 3 of 3 runs", "9 runs"})
+    EXPECT_NE(outcome.out.find(shown), std::string::npos) << shown;
+  std::istringstream lines(outcome.out);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100U) << line;
+  const std::string results = text_of(files / "out/results.csv");
+  EXPECT_EQ(std::count(results.begin(), results.end(), '\n'), 10);
+  for (const char* column : {"hidden-constraint:growth", ",tolerance,seed,formulation,run\n"})
+    EXPECT_NE(results.find(column), std::string::npos) << column;
+  const std::string spreads = text_of(files / "out/ensembles.csv");
+  EXPECT_NE(spreads.find("pendula,LMM,,1e-6,3,3,constraint:max,3,"), std::string::npos) << spreads;
+  EXPECT_TRUE(fs::exists(files.path() / "out/figures/constraints_pendula.svg"));
+  expect_self_contained(text_of(files / "out/report.html"), 1);
+
+  // Resumed it takes every run from the disk and says the same.
+  const auto again =
+      json_of(run_pfaff({"compare", files / "test.toml", "--json", "--out", files / "out"}).out);
+  EXPECT_EQ(again["experiments"][0]["resumed"], 9);
+  EXPECT_EQ(again["experiments"][0]["findings"][0]["holding"], 3);
+  EXPECT_EQ(text_of(files / "out/results.csv"), results);
+
+  // A claim that is wrong: one line, exit status 1, everything written.
+  std::string wrong = ensemble;
+  wrong.replace(wrong.find("stays-below"), 11, "exceeds");
+  write(files / "wrong.toml", wrong);
+  const Outcome failed = run_pfaff({"compare", files / "wrong.toml", "--out", files / "wrong"});
+  EXPECT_EQ(failed.status, 1);
+  EXPECT_EQ(failed.err,
+            "pfaff: wrong: a finding does not hold: constraint:max of RATTLE exceeds 1e-13 in 0 of 3 runs, "
+            "expected in 3\n");
+  EXPECT_TRUE(fs::exists(files.path() / "wrong/report.html"));
+}
+
 TEST(Experiment, QuickRunOfOneThatShips) {
   const TemporaryDirectory files;
   Circumstances here;

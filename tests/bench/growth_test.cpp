@@ -1,0 +1,53 @@
+// Growth of residuals: powers and rates that are put in come out.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include <pfaff/bench/measure/growth.hpp>
+
+namespace {
+using pfaff::growth;
+
+struct Samples {
+  std::vector<double> times, values;
+};
+template <class F>
+Samples sampled(F&& f, int count = 200) {
+  Samples s;
+  for (int k = 0; k <= count; ++k) {
+    s.times.push_back(0.1 * k);
+    s.values.push_back(f(0.1 * k));
+  }
+  return s;
+}
+
+TEST(Growth, PowersAndRates) {
+  for (const double power : {0.5, 1.0, 2.0}) {
+    const auto s = sampled([&](double t) { return 1e-9 * std::pow(t, power); });
+    EXPECT_NEAR(growth(s.times, s.values)->exponent, power, 1e-12);  // rounding of logarithms
+  }
+  const auto s = sampled([](double t) { return 1e-12 * std::exp(0.7 * t); });
+  EXPECT_NEAR(growth(s.times, s.values)->rate, 0.7, 1e-12);
+  EXPECT_GT(growth(s.times, s.values)->exponent, 2);  // no power at all
+}
+
+TEST(Growth, SeesTheLargestSoFarAndNoSigns) {
+  const auto s = sampled([](double t) { return -1e-9 * t * std::abs(std::sin(40 * t)); });
+  EXPECT_NEAR(growth(s.times, s.values)->exponent, 1, 0.1);  // maxima are met to within a tenth
+  const auto level = sampled([](double) { return 3e-16; });
+  EXPECT_EQ(growth(level.times, level.values)->exponent, 0);
+}
+
+TEST(Growth, NothingWhereThereIsNothingToSay) {
+  EXPECT_FALSE(growth({}, {}));
+  const auto zero = sampled([](double) { return 0.0; });
+  EXPECT_FALSE(growth(zero.times, zero.values));
+  const auto few = sampled([](double t) { return t; }, 7);
+  EXPECT_FALSE(growth(few.times, few.values));
+  auto lost = sampled([](double t) { return t; });
+  lost.values.back() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(growth(lost.times, lost.values));
+}
+
+}  // namespace
