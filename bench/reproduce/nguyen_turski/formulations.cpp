@@ -34,16 +34,17 @@ Quad dot(const Numbers& a, std::size_t i, const Numbers& b, std::size_t j, std::
   return sum;
 }
 
-double lennard_jones_at_half() {
+// With the factor 4 of the usual form taken out.
+Quad lennard_jones_at_half() {
   const auto model = systems()
                          .get("chain-molecule", "system")
-                         .make({{"beads", "3"}, {"dimension", "2"}, {"epsilon", "1"}, {"charge", "0"}});
+                         .make({{"beads", "3"}, {"dimension", "2"}, {"epsilon", "1/4"}, {"charge", "0"}});
   const Numbers z{0, 0, Quad(1) / 4, 1, Quad(1) / 2, 0, 0, 0, 0, 0, 0, 0};
   Numbers values(model->invariants().size());
   Problem<Quad>(model).invariants(Quad(0), z, values);
   for (std::size_t i = 0; i < values.size(); ++i)
-    if (model->invariants()[i].name == "energy") return static_cast<double>(values[i]);
-  return 0;
+    if (model->invariants()[i].name == "energy") return values[i];
+  return Quad(0);
 }
 
 void metric_potential_rows(Rows& rows, const ConstrainedPoint& chain) {
@@ -116,9 +117,10 @@ void errata_rows(Rows& rows, const ConstrainedPoint& chain) {
   // phi depends on positions alone and friction acts on momenta: the printed bracket is 0 for all chains.
   double entry = 0;
   for (const Quad& x : entries(chain.s_friction())) entry = std::max(entry, std::abs(static_cast<double>(x)));
-  rows.claim("table 1", "headers of A and S^D", "<phi~_i, phi_j> = 0", "<phi~_i, phi~_j>", entry,
-             chain.friction(0) > Quad(0),
-             "table 1 headers: a tilde is lost; the entries are those of {phi~_i, phi~_j}, <phi~_i, phi~_j>");
+  rows.claim(
+      "table 1", "headers of A and S^D", "<phi~_i, phi_j> = 0", "<phi~_i, phi~_j>", entry,
+      chain.friction(0) > Quad(0),
+      "table 1: a tilde of the headers is lost; the entries are those of {phi~_i, phi~_j}, <phi~_i, phi~_j>");
   // Components of beads 1 ... N must follow one another.
   const std::size_t d = chain.axes();
   const auto follow = [&](auto first) {
@@ -130,13 +132,13 @@ void errata_rows(Rows& rows, const ConstrainedPoint& chain) {
   const std::size_t corrected = follow([&](std::size_t i) { return d * (i - 1) + 1; });
   rows.claim("before table 1", "components of the beads' friction", "i(d-1)+1 to i(d-1)+d", "d(i-1)+1 to di",
              static_cast<double>(printed), corrected == 0,
-             "lambda_{i(d-1)+1} ...: beads would share components; those of bead i are d(i-1)+1 to di");
+             "before table 1: with lambda_{i(d-1)+1} ... beads would share components; those of bead i are "
+             "d(i-1)+1 to di");
   // Three beads with no pair but the first and the last, half of sigma apart, at rest: energy is potential.
-  const double printed_sign = std::pow(2.0, 6) - std::pow(2.0, 12);
-  const double ours = lennard_jones_at_half();
-  rows.claim("section 4, potential", "Lennard-Jones at sigma / 2", to_string(Quad(printed_sign), 4),
-             to_string(Quad(ours), 4), std::abs(printed_sign - ours), ours > 0,
-             "potential: eps [(sig/r)^6 - (sig/r)^12] falls to -infinity; the signs are the other way round");
+  rows.erratum("section 4, potential", "Lennard-Jones at sigma / 2", {Quad(64 - 4096)}, {Quad(4096 - 64)},
+               {lennard_jones_at_half()},
+               "section 4, potential: eps [(sig/r)^6 - (sig/r)^12] falls to -infinity; the signs are the "
+               "other way round");
   const double cross = std::log(0.028 / 0.00046) / (1.06 - 0.49);
   rows.claim("discussion", "constraints at which the fits cross", "12", to_string(Quad(cross), 3),
              std::abs(12 - cross),
@@ -151,10 +153,11 @@ void humanoid_rows(Rows& rows) {
   for (std::size_t i = 0; i < p.count(); ++i)
     for (std::size_t j = i + 2; j < p.count(); ++j)
       beyond = std::max(beyond, std::abs(static_cast<double>(s(i, j))));
-  rows.claim("section 4, humanoid", "S is inverted with (4.6)", "tridiagonal",
-             "entries beyond the three diagonals up to " + to_string(Quad(beyond), 3), beyond,
-             p.structure() == MatrixStructure::tree,
-             "humanoid: rods that branch couple pairwise, S is not tridiagonal and (4.6) does not apply");
+  rows.claim(
+      "section 4, humanoid", "S is inverted with (4.6)", "tridiagonal",
+      "entries beyond the three diagonals up to " + to_string(Quad(beyond), 3), beyond,
+      p.structure() == MatrixStructure::tree,
+      "section 4, humanoid: rods that branch couple pairwise, S is not tridiagonal and (4.6) does not apply");
   const double dirac = p.energy_rate("dirac", "metriplectic"), stokes = p.energy_rate("dirac", "stokes");
   rows.claim("after (4.2)", "friction proportional to velocity", "dH/dt " + to_string(Quad(stokes), 5),
              "dH/dt " + to_string(Quad(dirac), 5), std::abs(dirac - stokes), dirac < 0 && stokes < dirac,
