@@ -56,8 +56,7 @@ void add_list(CLI::App& app, Common& common, Action& action) {
   CLI::App* sub =
       subcommand(app, common, "list", "List systems, integrators, brackets, formulations and experiments");
   auto kind = std::make_shared<std::string>();
-  sub->add_option("kind", *kind,
-                  "systems, integrators, brackets, formulations or experiments; all of them without")
+  sub->add_option("kind", *kind, "systems, integrators, brackets, formulations, experiments; all without")
       ->type_name("KIND");
   sub->callback([kind, &common, &action] { action = [kind, &common] { return list(*kind, common.json); }; });
 }

@@ -34,9 +34,10 @@ int run(const std::string& paper, const std::string& section, bool json) {
       qualitative += r.status == "qualitative";
     }
     std::cout << name << '\n' << table(lines);
+    std::vector<std::vector<std::string>> notes;
     for (const ReproducedRow& r : rows)
-      if (!r.erratum.empty()) std::cout << r.status << "  " << r.id << ": " << r.erratum << '\n';
-    std::cout << '\n'
+      if (!r.erratum.empty()) notes.push_back({r.status, r.id + ": " + r.erratum});
+    std::cout << table(notes) << '\n'
               << rows.size() << " rows: " << reproduced << " reproduced, " << errata << " errata, "
               << qualitative << " qualitative" << (ok(rows) ? "" : ", the rest FAILED") << '\n';
   }

@@ -125,8 +125,7 @@ void add_run(CLI::App& app, Common& common, Action& action) {
   auto options = std::make_shared<Options>();
   RunSettings& s = options->settings;
   sub->add_option("--system", s.system, "Name of the system")->type_name("NAME");
-  sub->add_option("--formulation", s.formulation,
-                  "Of a system with constraints: its vector field (dirac without, where one is needed)")
+  sub->add_option("--formulation", s.formulation, "Vector field of a constrained system (dirac without)")
       ->type_name("NAME");
   sub->add_option("--integrator", s.integrator, "Name of the integrator")->type_name("NAME");
   sub->add_option("--step", s.step, "Step h > 0")->type_name("h");
@@ -142,8 +141,7 @@ void add_run(CLI::App& app, Common& common, Action& action) {
   sub->add_option("--state", options->state, "JSON file with the initial state: t, and z or q and p")
       ->type_name("FILE");
   sub->add_option("--precision", options->precision, "double (default) or quad")->type_name("NAME");
-  sub->add_flag("--project-initial", s.project_initial,
-                "Move the initial state onto the constraints, and say by how much");
+  sub->add_flag("--project-initial", s.project_initial, "Move the initial state onto the constraints");
   sub->add_flag("--allow-inconsistent", s.allow_inconsistent, "Take an initial state off the constraints");
   sub->add_option("--config", options->config, "config.toml of an earlier run, to run it again")
       ->type_name("FILE");

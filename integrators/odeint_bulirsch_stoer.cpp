@@ -1,6 +1,7 @@
 // Boost.Odeint's Bulirsch-Stoer method. With a tolerance it is odeint's bulirsch_stoer, which chooses order
 // and step (and allocates in every step). That class has no step of a given size: a fixed step is odeint's
-// modified_midpoint of 2, 4, 6 and 8 substeps, extrapolated in h^2 as there, and so of order 8.
+// modified_midpoint of 2, 4, 6 and 8 substeps, extrapolated in h^2 as there, and so of order 8; every
+// number in it is a fraction, so that it steps in quad too.
 #include <algorithm>
 #include <boost/numeric/odeint/algebra/algebra_dispatcher.hpp>
 #include <boost/numeric/odeint/algebra/range_algebra.hpp>
@@ -41,8 +42,9 @@ struct OdeintBulirschStoer {
       w.midpoint.do_step(system, w.state, w.rate, t, w.table[k], h);
       // Neville's scheme in h^2: after column j, row k - j has order 2 j + 2.
       for (std::size_t j = 1; j <= k; ++j) {
-        const double ratio = static_cast<double>(k + 1) / static_cast<double>(k + 1 - j);
-        const double weight = 1.0 / (ratio * ratio - 1.0);
+        const auto fine = static_cast<int>((k + 1) * (k + 1)),
+                   coarse = static_cast<int>((k + 1 - j) * (k + 1 - j));
+        const Scalar<P> weight = Scalar<P>(coarse) / Scalar<P>(fine - coarse);
         ContainerOf<P>& row = w.table[k - j];
         for (std::size_t i = 0; i < row.size(); ++i)
           row[i] = w.table[k - j + 1][i] + (w.table[k - j + 1][i] - row[i]) * weight;
@@ -94,6 +96,5 @@ const Method<OdeintBulirschStoer> registered{
      .title = "Boost.Odeint bulirsch_stoer; fixed steps of order 8",
      .reference = "ahnert-mulansky2011; hairer-norsett-wanner1993 II.9",
      .order = 8,
-     .preserves = {Claim::none},
-     .double_coefficients = true}};
+     .preserves = {Claim::none}}};
 }  // namespace
