@@ -1,6 +1,6 @@
 // Boost.Odeint's Bulirsch-Stoer method. With a tolerance it is odeint's bulirsch_stoer, which chooses order
 // and step (and allocates in every step). That class has no step of a given size: a fixed step is odeint's
-// modified_midpoint of 2, 4, 6 and 8 substeps, extrapolated in h^2 as there, and so of order 8.
+// modified_midpoint of 2 and 4 substeps, extrapolated in h^2 as there, and so of order 4.
 #include <algorithm>
 #include <boost/numeric/odeint/algebra/algebra_dispatcher.hpp>
 #include <boost/numeric/odeint/algebra/range_algebra.hpp>
@@ -14,7 +14,7 @@ using namespace pfaff;
 namespace odeint = boost::numeric::odeint;
 
 struct OdeintBulirschStoer {
-  static constexpr std::size_t rows = 4;
+  static constexpr std::size_t rows = 2;
 
   template <class P>
   struct Work {
@@ -91,9 +91,9 @@ struct OdeintBulirschStoer {
 
 const Method<OdeintBulirschStoer> registered{
     {.name = "odeint-bulirsch-stoer",
-     .title = "Boost.Odeint bulirsch_stoer; fixed steps of order 8",
+     .title = "Boost.Odeint bulirsch_stoer; fixed steps of order 4",
      .reference = "ahnert-mulansky2011; hairer-norsett-wanner1993 II.9",
-     .order = 8,
+     .order = 4,
      .preserves = {Claim::none},
      .double_coefficients = true}};
 }  // namespace
