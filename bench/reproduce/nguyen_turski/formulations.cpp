@@ -56,9 +56,8 @@ void metric_potential_rows(Rows& rows, const ConstrainedPoint& chain) {
     differences.push_back((chain.half_log_determinant(k, step) - chain.half_log_determinant(k, -step)) /
                           (2 * step));
   const double apart = distance(gradient, differences);
-  rows.qualitative("metric potential", "gradient of kT log|S| / 2", "no formula", shown(gradient), apart,
-                   1e-13, apart <= 1e-13,
-                   "tr(S^-1 dS) / 2 beside differences of log |S| / 2, 6 beads, kT = 1");
+  rows.qualitative("metric potential", "gradient", "no formula", shown(gradient), apart, 1e-13,
+                   apart <= 1e-13, "tr(S^-1 dS) / 2 and differences of log|S| / 2");
 }
 
 void motion_rows(Rows& rows, const ConstrainedPoint& off) {
@@ -84,7 +83,7 @@ void motion_rows(Rows& rows, const ConstrainedPoint& off) {
   const double apart = distance(off.rates("dirac"), simplified);
   rows.claim("(4.7)", "equivalent to (4.2)", "equivalent", "only where phi~ = 0", apart,
              distance(on.rates("dirac"), on.rates("simplified-dirac")) <= at_round_off,
-             "(4.7): \"equivalent\" to (4.2); only on phi~ = 0, and (A.5) everywhere without friction");
+             "(4.7): only where phi~ = 0");
 }
 
 void table_rows(Rows& rows, const ConstrainedPoint& p, bool pendulum, const std::string& equation) {
@@ -117,10 +116,8 @@ void errata_rows(Rows& rows, const ConstrainedPoint& chain) {
   // phi depends on positions alone and friction acts on momenta: the printed bracket is 0 for all chains.
   double entry = 0;
   for (const Quad& x : entries(chain.s_friction())) entry = std::max(entry, std::abs(static_cast<double>(x)));
-  rows.claim(
-      "table 1", "headers of A and S^D", "<phi~_i, phi_j> = 0", "<phi~_i, phi~_j>", entry,
-      chain.friction(0) > Quad(0),
-      "table 1: a tilde of the headers is lost; the entries are those of {phi~_i, phi~_j}, <phi~_i, phi~_j>");
+  rows.claim("table 1", "headers", "<phi~_i, phi_j> = 0", "<phi~_i, phi~_j>", entry,
+             chain.friction(0) > Quad(0), "table 1: a tilde is lost, it is <phi~_i, phi~_j>");
   // Components of beads 1 ... N must follow one another.
   const std::size_t d = chain.axes();
   const auto follow = [&](auto first) {
@@ -130,20 +127,16 @@ void errata_rows(Rows& rows, const ConstrainedPoint& chain) {
   };
   const std::size_t printed = follow([&](std::size_t i) { return i * (d - 1) + 1; });
   const std::size_t corrected = follow([&](std::size_t i) { return d * (i - 1) + 1; });
-  rows.claim("before table 1", "components of the beads' friction", "i(d-1)+1 to i(d-1)+d", "d(i-1)+1 to di",
+  rows.claim("before table 1", "friction", "i(d-1)+1 to i(d-1)+d", "d(i-1)+1 to di",
              static_cast<double>(printed), corrected == 0,
-             "before table 1: with lambda_{i(d-1)+1} ... beads would share components; those of bead i are "
-             "d(i-1)+1 to di");
+             "before table 1: bead i has the components d(i-1)+1 to di");
   // Three beads with no pair but the first and the last, half of sigma apart, at rest: energy is potential.
-  rows.erratum("section 4, potential", "Lennard-Jones at sigma / 2", {Quad(64 - 4096)}, {Quad(4096 - 64)},
-               {lennard_jones_at_half()},
-               "section 4, potential: eps [(sig/r)^6 - (sig/r)^12] falls to -infinity; the signs are the "
-               "other way round");
+  rows.erratum("section 4, potential", "at sigma / 2", {Quad(64 - 4096)}, {Quad(4096 - 64)},
+               {lennard_jones_at_half()}, "section 4, potential: the signs are the other way");
   const double cross = std::log(0.028 / 0.00046) / (1.06 - 0.49);
-  rows.claim("discussion", "constraints at which the fits cross", "12", to_string(Quad(cross), 3),
-             std::abs(12 - cross),
+  rows.claim("discussion", "crossing of the fits", "12", to_string(Quad(cross), 3), std::abs(12 - cross),
              std::abs(0.028 * std::exp(0.49 * cross) - 0.00046 * std::exp(1.06 * cross)) < 1e-12,
-             "discussion: recursion is called good below 12 constraints; the quoted fits cross at K = 7.2");
+             "discussion: the quoted fits cross at K = 7.2");
 }
 
 void humanoid_rows(Rows& rows) {
@@ -153,15 +146,14 @@ void humanoid_rows(Rows& rows) {
   for (std::size_t i = 0; i < p.count(); ++i)
     for (std::size_t j = i + 2; j < p.count(); ++j)
       beyond = std::max(beyond, std::abs(static_cast<double>(s(i, j))));
-  rows.claim(
-      "section 4, humanoid", "S is inverted with (4.6)", "tridiagonal",
-      "entries beyond the three diagonals up to " + to_string(Quad(beyond), 3), beyond,
-      p.structure() == MatrixStructure::tree,
-      "section 4, humanoid: rods that branch couple pairwise, S is not tridiagonal and (4.6) does not apply");
+  rows.claim("section 4, humanoid", "S", "tridiagonal",
+             "entries beyond the three diagonals up to " + to_string(Quad(beyond), 3), beyond,
+             p.structure() == MatrixStructure::tree,
+             "section 4, humanoid: S is not tridiagonal, rods branch");
   const double dirac = p.energy_rate("dirac", "metriplectic"), stokes = p.energy_rate("dirac", "stokes");
-  rows.claim("after (4.2)", "friction proportional to velocity", "dH/dt " + to_string(Quad(stokes), 5),
+  rows.claim("after (4.2)", "friction", "dH/dt " + to_string(Quad(stokes), 5),
              "dH/dt " + to_string(Quad(dirac), 5), std::abs(dirac - stokes), dirac < 0 && stokes < dirac,
-             "after (4.2): <,>_D friction is Stokes drag with ideal constraints only for special friction");
+             "after (4.2): Stokes drag only for special friction");
 }
 
 void pendulum_rows(Rows& rows, const ConstrainedPoint& off) {
@@ -179,8 +171,8 @@ void pendulum_rows(Rows& rows, const ConstrainedPoint& off) {
     printed.push_back(as_printed / 2);
     corrected.push_back(as_corrected / 2);
   }
-  rows.erratum("(B.1)-(B.3)", "constraints of the pendulum", printed, corrected, off.residuals(),
-               "(B.1)-(B.3): phi_k with r_k - r_{k+1}; it is r_{k-1} - r_k, as (B.5) has it");
+  rows.erratum("(B.1)-(B.3)", "constraints", printed, corrected, off.residuals(),
+               "(B.1)-(B.3): r_{k-1} - r_k, not r_k - r_{k+1}");
   Quad kinetic(0), potential(0);
   for (std::size_t i = 0; i < k * d; ++i)
     kinetic += off.velocity()[i] * off.velocity()[i] * off.mass(i / d) / 2;

@@ -103,10 +103,10 @@ void tridiagonal_rows(Rows& rows) {
   rows.reproduced("(C.17)", "normalised couplings beta by themselves", normalised_couplings(q), u.beta);
   // The step from beta_k to beta_{k+1} needs the entry (k + 1, k + 1) of the layout to be 1.
   const Quad second = q.couplings[1] * u.z[1];
-  rows.qualitative("(C.11)", "place of beta_{k+1} in the matrix", "-", to_string(second, 6),
+  rows.qualitative("(C.11)", "place of beta_{k+1}", "-", to_string(second, 6),
                    static_cast<double>(abs(second - u.beta[1])), at_round_off,
                    abs(second - u.beta[1]) < Quad(at_round_off),
-                   "(C.11): beta_{k+1} stands in (k+1, k+2) and (k+2, k+1); (C.13) tested");
+                   "(C.11): at (k+1, k+2), (k+2, k+1); (C.13) tested");
 }
 
 }  // namespace pfaff::nguyen_turski
