@@ -82,12 +82,13 @@ nlohmann::json describe_method(const MethodPlugin& plugin) {
                    {"parameters", parameters_of(plugin, method->parameters())}};
   j["systems"] = nlohmann::json::array();
   for (const SystemPlugin* system : systems().all()) {
-    const auto model = motion_for(*method, system->make({}));
+    const auto whole = system->make({}), model = motion_for(*method, whole);
     if (!method->refuses(*model).empty()) continue;
     nlohmann::json claims = nlohmann::json::array();
     for (const Claim claim : claims_in_scope(*method, *model)) claims.push_back(to_string(claim));
     j["systems"].push_back(
         {{"name", system->name()}, {"order", method->order(*model)}, {"preserves", claims}});
+    if (model != whole) j["systems"].back()["formulation"] = model->source().formulation;
   }
   return j;
 }

@@ -3,10 +3,12 @@
 // modified_midpoint of 2, 4, 6 and 8 substeps, extrapolated in h^2 as there, and so of order 8; every
 // number in it is a fraction, so that it steps in quad too.
 #include <algorithm>
+#include <array>
 #include <boost/numeric/odeint/algebra/algebra_dispatcher.hpp>
 #include <boost/numeric/odeint/algebra/range_algebra.hpp>
 #include <boost/numeric/odeint/stepper/bulirsch_stoer.hpp>
 #include <boost/numeric/odeint/stepper/modified_midpoint.hpp>
+#include <span>
 
 #include <pfaff/integrators/odeint_containers.hpp>
 
@@ -16,6 +18,15 @@ namespace odeint = boost::numeric::odeint;
 
 struct OdeintBulirschStoer {
   static constexpr std::size_t rows = 4;
+  /// Weights 1/((m_k/m_i)^2 - 1) of Neville's scheme for m = 2, 4, 6, 8 substeps, row k by row, i falling.
+  std::array<Quad, rows*(rows - 1) / 2> weights = [] {
+    std::array<Quad, rows*(rows - 1) / 2> w;
+    std::size_t next = 0;
+    for (int k = 2; k <= static_cast<int>(rows); ++k)
+      for (int i = k - 1; i >= 1; --i) w[next++] = Quad(i * i) / Quad(k * k - i * i);
+    return w;
+  }();
+  std::span<Quad> coefficients() { return weights; }
 
   template <class P>
   struct Work {
@@ -42,9 +53,7 @@ struct OdeintBulirschStoer {
       w.midpoint.do_step(system, w.state, w.rate, t, w.table[k], h);
       // Neville's scheme in h^2: after column j, row k - j has order 2 j + 2.
       for (std::size_t j = 1; j <= k; ++j) {
-        const auto fine = static_cast<int>((k + 1) * (k + 1)),
-                   coarse = static_cast<int>((k + 1 - j) * (k + 1 - j));
-        const Scalar<P> weight = Scalar<P>(coarse) / Scalar<P>(fine - coarse);
+        const Scalar<P> weight = Scalar<P>(Real(weights[k * (k - 1) / 2 + j - 1]));
         ContainerOf<P>& row = w.table[k - j];
         for (std::size_t i = 0; i < row.size(); ++i)
           row[i] = w.table[k - j + 1][i] + (w.table[k - j + 1][i] - row[i]) * weight;

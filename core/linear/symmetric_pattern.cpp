@@ -202,7 +202,8 @@ std::vector<std::vector<Index>> factor_rows(const Graph& graph, const std::vecto
 /// An order with the same fill in which rows that do not wait for each other are neighbours: those without
 /// earlier rows to wait for first, then those that wait for them only, and so on. Independent branches of a
 /// tree are then eliminated side by side.
-std::vector<Index> by_levels(const std::vector<Index>& order, const std::vector<std::vector<Index>>& entries) {
+std::vector<Index> by_levels(const std::vector<Index>& order,
+                             const std::vector<std::vector<Index>>& entries) {
   const std::size_t rows = order.size();
   std::vector<Index> level(rows), at(rows), result(rows);
   for (std::size_t k = 0; k < rows; ++k)
