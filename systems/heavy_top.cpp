@@ -37,18 +37,7 @@ struct HeavyTop {
     if (symmetric()) list.push_back(conserved("axial-momentum", "kg m^2/s"));
     return list;
   }
-  [[nodiscard]] LiePoissonBracket bracket() const {
-    return {{{0, 1, 2, 1},
-             {1, 2, 0, 1},
-             {2, 0, 1, 1},
-             {0, 4, 5, 1},
-             {1, 5, 3, 1},
-             {2, 3, 4, 1},
-             {3, 1, 5, 1},
-             {4, 2, 3, 1},
-             {5, 0, 4, 1}},
-            -1};
-  }
+  [[nodiscard]] LiePoissonBracket bracket() const { return LiePoissonBracket::se3(-1); }
   template <class T>
   T hamiltonian(const T& /*t*/, In<T> z) const {
     return (z[0] * z[0] / i1 + z[1] * z[1] / i2 + z[2] * z[2] / i3) / 2 +

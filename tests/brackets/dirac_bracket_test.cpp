@@ -136,6 +136,67 @@ TEST(DiracBracket, EverySolverIsRecorded) {
   check_tape(RecursiveVectorsDirac{{{{2, 3}, {2, 3}}, {{0, 1}, {0, 1}}}});
 }
 
+// A chain of constraints of a symmetric bracket, and of the canonical one in pairs: W is tridiagonal.
+struct Chain {
+  std::size_t links = 4;
+  bool pairs = false;
+  [[nodiscard]] std::size_t count() const { return links; }
+  template <class T>
+  void values(const T& /*t*/, In<T> z, Out<T> phi) const {
+    // In pairs {phi1, phi2} = 1, {phi2, phi3} = -z1, {phi3, phi4} = 1, and no others.
+    for (std::size_t k = 0; k < links; ++k) {
+      if (!pairs) phi[k] = z[k] * z[k] / T(2) - z[k + 1];
+    }
+    if (!pairs) return;
+    phi[0] = z[0];
+    phi[1] = z[3] + z[1] * z[1] / T(2);
+    phi[2] = z[4];
+    phi[3] = -z[1] + z[2];
+  }
+};
+struct UnitMetric {
+  template <class T>
+  void sharp(const T& /*t*/, In<T> /*z*/, In<T> covector, Out<T> vector) const {
+    for (std::size_t k = 0; k < vector.size(); ++k) vector[k] = covector[k];
+  }
+};
+template <class Bracket>
+void check_structured(const Bracket& structured, std::span<const double> dense, const std::vector<double>& z,
+                      const std::vector<double>& covector) {
+  std::vector<double> direct(z.size()), replayed(z.size()), x = z;
+  structured.sharp(0.0, In<double>(z), In<double>(covector), Out<double>(direct));
+  const auto n = static_cast<int>(z.size());
+  const auto tape = std::make_shared<const Tape>(
+      record(2 * n, n, [&](const Recorded& t, std::span<const Recorded> in, std::span<Recorded> out) {
+        structured.sharp(t, in.first(z.size()), in.subspan(z.size()), out);
+      }));
+  x.insert(x.end(), covector.begin(), covector.end());
+  Replay<double> replay(tape);
+  replay(0.0, x.data(), replayed.data());
+  DiracEvaluator<double, Bracket> evaluate(structured, z.size());
+  (void)evaluate(0.0, z, covector, direct);
+  EXPECT_EQ(pfaff::testing::allocations_of([&] { (void)evaluate(0.0, z, covector, direct); }), 0);
+  for (std::size_t a = 0; a < z.size(); ++a) {
+    EXPECT_NEAR(direct[a], dense[a], 1e-14);  // numbers of order 1, cond(W) below 10
+    EXPECT_NEAR(replayed[a], dense[a], 1e-14);
+  }
+}
+TEST(DiracBracket, StructuredSolversAreRecordedAndDoNotAllocate) {
+  const std::vector<double> z{0.4, 0.3, 0.8, -0.2, 0.6, 0.1}, covector{1, -2, 0.5, 3, 0.25, -1};
+  std::vector<double> dense(6);
+  dirac(UnitMetric{}, Chain{}, DenseDirac{}, Symmetry::symmetric)
+      .sharp(0.0, In<double>(z), In<double>(covector), Out<double>(dense));
+  const auto line =
+      dirac(UnitMetric{}, Chain{},
+            StructuredDirac{std::make_shared<const SymmetricPattern>(SymmetricPattern::path(4))},
+            Symmetry::symmetric);
+  check_structured(line, dense, z, covector);
+  dirac(CanonicalBracket{}, Chain{4, true})
+      .sharp(0.0, In<double>(z), In<double>(covector), Out<double>(dense));
+  const auto skew = dirac(CanonicalBracket{}, Chain{4, true}, SkewForestDirac{{{0, 1}, {1, 2}, {2, 3}}});
+  check_structured(skew, dense, z, covector);
+}
+
 // An order chosen where its pivots are good breaks down elsewhere: the classification says so, and the tape
 // is recorded anew with the order of the new point.
 struct TurningPairs {
