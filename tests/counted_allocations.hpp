@@ -12,11 +12,14 @@ namespace pfaff::testing {
 inline std::atomic<bool> counting = false;
 inline std::atomic<long> allocations = 0;
 
-inline void* allocate(std::size_t size, std::size_t alignment) {
+inline void* allocate_or_null(std::size_t size, std::size_t alignment) noexcept {
   if (counting) ++allocations;
   const std::size_t whole = (size + alignment - 1) / alignment * alignment;
-  void* memory = alignment <= alignof(std::max_align_t) ? std::malloc(size == 0 ? 1 : size)
-                                                        : std::aligned_alloc(alignment, whole);
+  return alignment <= alignof(std::max_align_t) ? std::malloc(size == 0 ? 1 : size)
+                                                : std::aligned_alloc(alignment, whole);
+}
+inline void* allocate(std::size_t size, std::size_t alignment) {
+  void* memory = allocate_or_null(size, alignment);
   if (memory == nullptr) throw std::bad_alloc();
   return memory;
 }
@@ -39,6 +42,15 @@ long allocations_of(Work&& work) {
 }
 [[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t alignment) {
   return pfaff::testing::allocate(size, static_cast<std::size_t>(alignment));
+}
+// The standard library asks with these for room it can do without (std::stable_sort), and gives it back to
+// the delete below: the address sanitizer must not see its own new there.
+[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t& /*tag*/) noexcept {
+  return pfaff::testing::allocate_or_null(size, alignof(std::max_align_t));
+}
+[[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t alignment,
+                                     const std::nothrow_t& /*tag*/) noexcept {
+  return pfaff::testing::allocate_or_null(size, static_cast<std::size_t>(alignment));
 }
 [[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
 [[gnu::noinline]] void operator delete(void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
