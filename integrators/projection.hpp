@@ -138,7 +138,8 @@ struct SymmetricallyProjected : Base {
     Status status = w.at_start->linearise(t, In<T>(z.data(), n), In<T>(z.data() + n, n));
     if (status == Status::converged) status = c.linearise(t, In<T>(z.data(), n), In<T>(z.data() + n, n));
     p.counters().factorisations += 2;
-    Convergence<T> convergence;
+    constexpr bool in_turns = true;  // D(z1) is that of the iteration before
+    Convergence<T> convergence(in_turns);
     while (status == Status::converged) {
       std::copy(z.begin(), z.end(), w.start.begin());
       w.shift(*w.at_start, w.start);

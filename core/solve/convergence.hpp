@@ -47,6 +47,11 @@ class Convergence {
  public:
   using Number = Value<T>;
 
+  Convergence() = default;
+  /// Where one unknown lags an iteration behind another, corrections stall and contract in turns, and the
+  /// next one is not to be expected from the last two: `in_turns`.
+  explicit Convergence(bool in_turns) : in_turns_(in_turns) {}
+
   /// Call before the corrections of an iteration are added.
   void begin_iteration() {
     previous_ = size_;
@@ -73,7 +78,8 @@ class Convergence {
       const Number ratio = size_ / previous_;
       if (iterations_ == 2 && previous_ > Number(1024) * u) contraction_ = ratio;
       // The next correction would be ratio * size.
-      if (ratio < Number(0.5) && ratio * size_ <= u / Number(64)) return stop(Status::converged);
+      if (!in_turns_ && ratio < Number(0.5) && ratio * size_ <= u / Number(64))
+        return stop(Status::converged);
       if (!(size_ < previous_)) {
         // Round-off noise of a converged iteration, amplified by the sums it passes through.
         if (size_ <= Number(256) * u || (++stalls_ >= 3 && size_ <= Number(65536) * u))
@@ -97,7 +103,7 @@ class Convergence {
   }
   Number size_{0}, previous_{0}, contraction_{0};
   int iterations_ = 0, stalls_ = 0;
-  bool finite_ = true;
+  bool finite_ = true, in_turns_ = false;
   Status status_ = Status::not_converged;
 };
 
