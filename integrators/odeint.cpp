@@ -69,28 +69,9 @@ struct OdeintDopri5 : FieldStepper<Dopri5Stepper> {
     const auto system = [&](const ContainerOf<P>& x, ContainerOf<P>& rate, double time) {
       p.field(time, x, rate);
     };
-    const double direction = end < t ? -1 : 1;
-    double h = direction * std::min(std::abs(end - t), w.next_step);
-    Status status = Status::converged;
-    for (int rejected = 0; direction * (end - t) > 0;) {
-      if (direction * (t + h - end) > 0) h = end - t;
-      const double last = h;
-      const bool clipped = last == end - t;
-      if (controlled.try_step(system, w.state, t, h) == odeint::success) {
-        ++p.counters().steps;
-        rejected = 0;
-        // A step shortened to reach the end says nothing about the next one, unless it could have been
-        // longer.
-        if (!clipped || std::abs(h) > w.next_step) w.next_step = std::abs(h);
-        // The last step ends at `end` but for round-off.
-        if (std::abs(end - t) <=
-            4 * std::numeric_limits<double>::epsilon() * std::max(std::abs(end), std::abs(last)))
-          t = end;
-      } else if (++rejected > 100 || !(std::abs(h) > 1e-14 * std::abs(t))) {
-        status = Status::not_converged;
-        break;
-      }
-    }
+    const Status status = controlled_steps(p, t, end, w.next_step, [&](double& h) {
+      return controlled.try_step(system, w.state, t, h) == odeint::success;
+    });
     std::copy(w.state.begin(), w.state.end(), z.begin());
     return status;
   }

@@ -73,28 +73,9 @@ struct OdeintBulirschStoer {
       p.field(time, x, rate);
     };
     std::copy(z.begin(), z.end(), w.state.begin());
-    const double direction = end < t ? -1 : 1;
-    double h = direction * w.next_step;
-    Status status = Status::converged;
-    for (int rejected = 0; direction * (end - t) > 0;) {
-      const bool clipped = direction * (t + h - end) >= 0;
-      if (clipped) h = end - t;
-      const double last = h;
-      if (stepper.try_step(system, w.state, t, h) == odeint::success) {
-        ++p.counters().steps;
-        rejected = 0;
-        // A step shortened to reach the end says nothing about the next one, unless it could have been
-        // longer.
-        if (!clipped || std::abs(h) > w.next_step) w.next_step = std::abs(h);
-        // The last step ends at `end` but for round-off.
-        if (std::abs(end - t) <=
-            4 * std::numeric_limits<double>::epsilon() * std::max(std::abs(end), std::abs(last)))
-          t = end;
-      } else if (++rejected > 100 || !(std::abs(h) > 1e-14 * std::abs(t))) {
-        status = Status::not_converged;
-        break;
-      }
-    }
+    const Status status = controlled_steps(p, t, end, w.next_step, [&](double& h) {
+      return stepper.try_step(system, w.state, t, h) == odeint::success;
+    });
     std::copy(w.state.begin(), w.state.end(), z.begin());
     return status;
   }

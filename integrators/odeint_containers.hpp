@@ -1,7 +1,11 @@
-// States in the containers that Boost.Odeint knows: std::array where the size is known, else std::vector.
+// What methods of Boost.Odeint's share: states in the containers it knows, std::array where the size is
+// known, else std::vector; and runs with steps of its choosing.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <vector>
 
 #include <pfaff/core/integrator.hpp>
@@ -28,6 +32,32 @@ C sized(std::size_t n) {
   } else {
     return C{};
   }
+}
+
+/// Steps from t to `end` with try_step(h), which moves t by h and proposes the next h, or shortens h and says
+/// false. `next_step` > 0 is the size to begin with, and is left for the next call.
+template <class P, class TryStep>
+Status controlled_steps(const P& p, double& t, double end, double& next_step, const TryStep& try_step) {
+  const double direction = end < t ? -1 : 1;
+  double h = direction * next_step;
+  for (int rejected = 0; direction * (end - t) > 0;) {
+    const bool clipped = direction * (t + h - end) >= 0;
+    if (clipped) h = end - t;
+    const double last = h;
+    if (try_step(h)) {
+      ++p.counters().steps;
+      rejected = 0;
+      // A step shortened to reach the end says nothing about the next one, unless it could have been longer.
+      if (!clipped || std::abs(h) > next_step) next_step = std::abs(h);
+      // The last step ends at `end` but for round-off.
+      if (std::abs(end - t) <=
+          4 * std::numeric_limits<double>::epsilon() * std::max(std::abs(end), std::abs(last)))
+        t = end;
+    } else if (++rejected > 100 || !(std::abs(h) > 1e-14 * std::abs(t))) {
+      return Status::not_converged;
+    }
+  }
+  return Status::converged;
 }
 
 }  // namespace pfaff

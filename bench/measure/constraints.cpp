@@ -34,6 +34,21 @@ void note_worst(std::span<const Quad> values, std::size_t stride, std::size_t fi
     }
 }
 
+// Newton's method until the residual no longer falls: `measure` fills it, `correct` moves the state.
+template <class Measure, class Correct>
+Status iterate(std::vector<Quad>& residual, const Measure& measure, const Correct& correct) {
+  Quad last = std::numeric_limits<Quad>::infinity();
+  for (int k = 0;; ++k) {
+    measure();
+    const Quad size = norm(residual);
+    if (!isfinite(size)) return Status::non_finite;
+    if (size == Quad(0) || (k > 3 && !(size < last / Quad(2)))) return Status::converged;
+    if (k == most_iterations) return Status::not_converged;
+    last = size;
+    if (const Status status = correct(); status != Status::converged) return status;
+  }
+}
+
 ProjectionOntoConstraints project_holonomic(const Model& model, const Quad& t, std::vector<Quad>& z) {
   ProjectionOntoConstraints result;
   const auto constraints = model.holonomic_constraints<Quad>();
@@ -42,37 +57,30 @@ ProjectionOntoConstraints project_holonomic(const Model& model, const Quad& t, s
   const std::span<Quad> q = std::span<Quad>(z).first(n), p = std::span<Quad>(z).subspan(n);
   std::vector<Quad> residual(count), move(n);
   const std::vector<std::string> names = model.constraint_names();
-  constraints->values(t, q, residual);
+  const auto positions = [&] { constraints->values(t, q, residual); };
+  const auto momenta = [&] { constraints->hidden_values(t, q, p, residual); };
+  positions();
   note_worst(residual, 2, 0, names, result);
-  constraints->hidden_values(t, q, p, residual);
+  momenta();
   note_worst(residual, 2, 1, names, result);
-
-  Quad last = std::numeric_limits<Quad>::infinity();
-  for (int k = 0;; ++k) {  // until the residual no longer falls
-    constraints->values(t, q, residual);
-    const Quad size = norm(residual);
-    if (!isfinite(size)) return result.status = Status::non_finite, result;
-    if (size == Quad(0) || (k > 3 && !(size < last / Quad(2)))) break;
-    if (k == most_iterations) return result.status = Status::not_converged, result;
-    last = size;
-    if (result.status = constraints->linearise(t, q, p); result.status != Status::converged) return result;
-    constraints->solve(residual, residual);
+  const auto solve = [&] {
+    const Status status = constraints->linearise(t, q, p);
+    if (status == Status::converged) constraints->solve(residual, residual);
+    return status;
+  };
+  result.status = iterate(residual, positions, [&] {
+    const Status status = solve();
     constraints->hidden_by_momentum_transpose(residual, move);
     for (std::size_t a = 0; a < n; ++a) q[a] -= move[a];
-  }
-  last = std::numeric_limits<Quad>::infinity();
-  for (int k = 0;; ++k) {
-    constraints->hidden_values(t, q, p, residual);
-    const Quad size = norm(residual);
-    if (!isfinite(size)) return result.status = Status::non_finite, result;
-    if (size == Quad(0) || (k > 3 && !(size < last / Quad(2)))) break;
-    if (k == most_iterations) return result.status = Status::not_converged, result;
-    last = size;
-    if (result.status = constraints->linearise(t, q, p); result.status != Status::converged) return result;
-    constraints->solve(residual, residual);
-    constraints->apply_transpose(residual, move);
-    for (std::size_t a = 0; a < n; ++a) p[a] -= move[a];
-  }
+    return status;
+  });
+  if (result.status == Status::converged)
+    result.status = iterate(residual, momenta, [&] {
+      const Status status = solve();
+      constraints->apply_transpose(residual, move);
+      for (std::size_t a = 0; a < n; ++a) p[a] -= move[a];
+      return status;
+    });
   const std::span<const Quad> old(before);
   result.change = std::max(relative_change(old.first(n), q), relative_change(old.subspan(n), p));
   return result;
@@ -84,22 +92,17 @@ ProjectionOntoConstraints project_in_phase_space(const Model& model, const Quad&
   const std::size_t n = z.size(), count = values.tape().outputs.size();
   const std::vector<Quad> before = z;
   std::vector<Quad> residual(count), rows(count * n);
-  values(t, z.data(), residual.data());
+  const auto measure = [&] { values(t, z.data(), residual.data()); };
+  measure();
   note_worst(residual, 1, 0, model.constraint_names(), result);
-  Quad last = std::numeric_limits<Quad>::infinity();
-  for (int k = 0;; ++k) {
-    values(t, z.data(), residual.data());
-    const Quad size = norm(residual);
-    if (!isfinite(size)) return result.status = Status::non_finite, result;
-    if (size == Quad(0) || (k > 3 && !(size < last / Quad(2)))) break;
-    if (k == most_iterations) return result.status = Status::not_converged, result;
-    last = size;
+  result.status = iterate(residual, measure, [&] {
     slopes(t, z.data(), rows.data());
     const Matrix<Quad> g(count, rows);
     const std::vector<Quad> x = inverse(g * g.transposed()) * residual;
     for (std::size_t i = 0; i < count; ++i)
       for (std::size_t a = 0; a < n; ++a) z[a] -= g(i, a) * x[i];
-  }
+    return Status::converged;
+  });
   result.change = relative_change(before, z);
   return result;
 }

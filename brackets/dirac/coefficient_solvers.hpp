@@ -149,12 +149,15 @@ struct StructuredDirac {
   template <class T>
   struct Work {
     Work(const StructuredDirac& solver, std::size_t /*dimension*/, std::size_t count)
-        : lu(solver.pattern), coefficients(count) {}
+        : lu(solver.pattern != nullptr ? solver.pattern : HolonomicDirac::dense_pattern(0)),
+          coefficients(count) {}
     StructuredLU<T> lu;
     std::vector<T> coefficients;
   };
   template <class T>
   Status operator()(const DiracData<T>& data, Out<T> result, Work<T>& work) const {
+    if (data.symmetry == Symmetry::skew || pattern == nullptr || pattern->rows() != data.count)
+      return Status::singular;
     const auto& couplings = pattern->couplings();
     for (std::size_t i = 0; i < data.count; ++i) work.lu.diagonal()[i] = data.gram[i * data.count + i];
     for (std::size_t c = 0; c < couplings.size(); ++c) {
