@@ -34,7 +34,22 @@ void note_worst(std::span<const Quad> values, std::size_t stride, std::size_t fi
     }
 }
 
-// Newton's method until the residual no longer falls: `measure` fills it, `correct` moves the state.
+// A correction of the state, relative to it.
+struct Correction {
+  Status status = Status::converged;
+  Quad size{0};
+};
+
+// x -= move
+Quad move_by(std::span<const Quad> move, std::span<Quad> x) {
+  for (std::size_t k = 0; k < x.size(); ++k) x[k] -= move[k];
+  const Quad size = norm(x), change = norm(move);
+  return change > size ? Quad(1) : change > Quad(0) ? Quad(change / size) : Quad(0);
+}
+
+// Newton's method until the residual no longer falls, or the state no longer moves: components that are zero
+// but for round-off may come closer to zero for ever. `measure` fills the residual, `correct` moves the
+// state.
 template <class Measure, class Correct>
 Status iterate(std::vector<Quad>& residual, const Measure& measure, const Correct& correct) {
   Quad last = std::numeric_limits<Quad>::infinity();
@@ -45,7 +60,9 @@ Status iterate(std::vector<Quad>& residual, const Measure& measure, const Correc
     if (size == Quad(0) || (k > 3 && !(size < last / Quad(2)))) return Status::converged;
     if (k == most_iterations) return Status::not_converged;
     last = size;
-    if (const Status status = correct(); status != Status::converged) return status;
+    const Correction correction = correct();
+    if (correction.status != Status::converged) return correction.status;
+    if (correction.size <= unit_roundoff<Quad>() / Quad(8)) return Status::converged;
   }
 }
 
@@ -71,15 +88,13 @@ ProjectionOntoConstraints project_holonomic(const Model& model, const Quad& t, s
   result.status = iterate(residual, positions, [&] {
     const Status status = solve();
     constraints->hidden_by_momentum_transpose(residual, move);
-    for (std::size_t a = 0; a < n; ++a) q[a] -= move[a];
-    return status;
+    return Correction{status, move_by(move, q)};
   });
   if (result.status == Status::converged)
     result.status = iterate(residual, momenta, [&] {
       const Status status = solve();
       constraints->apply_transpose(residual, move);
-      for (std::size_t a = 0; a < n; ++a) p[a] -= move[a];
-      return status;
+      return Correction{status, move_by(move, p)};
     });
   const std::span<const Quad> old(before);
   result.change = std::max(relative_change(old.first(n), q), relative_change(old.subspan(n), p));
@@ -91,17 +106,15 @@ ProjectionOntoConstraints project_in_phase_space(const Model& model, const Quad&
   Replay<Quad> values(model.tape(Formula::constraints)), slopes(model.tape(Formula::constraint_gradients));
   const std::size_t n = z.size(), count = values.tape().outputs.size();
   const std::vector<Quad> before = z;
-  std::vector<Quad> residual(count), rows(count * n);
+  std::vector<Quad> residual(count), rows(count * n), move(n);
   const auto measure = [&] { values(t, z.data(), residual.data()); };
   measure();
   note_worst(residual, 1, 0, model.constraint_names(), result);
   result.status = iterate(residual, measure, [&] {
     slopes(t, z.data(), rows.data());
     const Matrix<Quad> g(count, rows);
-    const std::vector<Quad> x = inverse(g * g.transposed()) * residual;
-    for (std::size_t i = 0; i < count; ++i)
-      for (std::size_t a = 0; a < n; ++a) z[a] -= g(i, a) * x[i];
-    return Status::converged;
+    move = g.transposed() * (inverse(g * g.transposed()) * residual);
+    return Correction{Status::converged, move_by(move, z)};
   });
   result.change = relative_change(before, z);
   return result;

@@ -35,16 +35,22 @@ StepJacobian<T> StepDifferentiator<T>::operator()(const T& t, const T& h, const 
 template <class T>
 T congruence_residual(const std::vector<T>& m, const std::vector<T>& k1, const std::vector<T>& k0) {
   const auto n = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(m.size()))));
+  std::vector<T> image(n * n), image_size(n * n);  // K1 M, and the sizes of the terms of its sums
+  for (std::size_t a = 0; a < n; ++a)
+    for (std::size_t b = 0; b < n; ++b)
+      for (std::size_t j = 0; j < n; ++j) {
+        const T term = k1[a * n + b] * m[b * n + j];
+        image[a * n + j] = image[a * n + j] + term;
+        image_size[a * n + j] = image_size[a * n + j] + abs(term);
+      }
   T worst(0), scale(0);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j) {
       T sum(0), size(0);
-      for (std::size_t a = 0; a < n; ++a)
-        for (std::size_t b = 0; b < n; ++b) {
-          const T term = m[a * n + i] * k1[a * n + b] * m[b * n + j];
-          sum = sum + term;
-          size = size + abs(term);
-        }
+      for (std::size_t a = 0; a < n; ++a) {
+        sum = sum + m[a * n + i] * image[a * n + j];
+        size = size + abs(m[a * n + i]) * image_size[a * n + j];
+      }
       const T difference = abs(sum - k0[i * n + j]);
       if (isnan(difference)) return difference;
       worst = std::max(worst, difference);

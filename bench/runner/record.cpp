@@ -10,6 +10,10 @@ namespace pfaff {
 
 namespace {
 
+// A structure residual takes Jacobians, whose cost grows as the cube of the dimension: beyond this one it
+// would be most of a run.
+constexpr int most_differentiated = 64;
+
 // Observes a run of scalar T as it goes.
 template <class T>
 class Observer {
@@ -21,7 +25,8 @@ class Observer {
         problem_(run.model),
         constraints_(*run.model),
         values_(run.model->invariants().size()) {
-    if (run.structure_residuals && StructureResidual<T>::applies(*run.model) && !run.adaptive())
+    if (run.structure_residuals && StructureResidual<T>::applies(*run.model) && !run.adaptive() &&
+        run.model->dimension() <= most_differentiated)
       residual_.emplace(*run.method, run.model);
     drift_.resize(values_.size());
     constraint_drift_.resize(constraint_residual_names(*run.model).size());

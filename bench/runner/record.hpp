@@ -44,7 +44,7 @@ using Progress = std::function<void(double fraction)>;
 
 /// Runs to the end, or to where the method fails: every completed sample is kept.
 /// `reference` may be null. Structure residuals are measured at about fifty samples where the model has a
-/// structure.
+/// structure and at most 64 coordinates.
 RunRecord execute(const ResolvedRun& run, const ReferenceSolution* reference, const Progress& progress = {});
 
 /// Nanoseconds per step, timed alone: one warm-up, then repeated runs from the initial state. Of a method
