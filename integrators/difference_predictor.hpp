@@ -35,6 +35,9 @@ class DifferencePredictor {
     return sum;
   }
 
+  /// The k-th number of the last step; zero as long as nothing is known.
+  [[nodiscard]] T latest(std::size_t k) const { return useful_ > 0 ? differences_[k * levels()] : T(0); }
+
   /// Is anything known?
   [[nodiscard]] bool knows() const { return useful_ > 0; }
 

@@ -8,7 +8,9 @@
 //
 // The multipliers nu are those of the steps before, extrapolated, and corrected by Newton's method with
 // S = B H_pp B^T at q0, whose factors the momenta at the end of the step before have needed already: a step
-// factors once. The update is compensated.
+// factors once. How far a correction is from the last one is known from the contraction of steps before:
+// every sixteenth starts from the multipliers of the step before it, so that there is a contraction to see.
+// The update is compensated.
 #pragma once
 
 #include <array>
@@ -55,6 +57,7 @@ struct Rattle {
   template <class P>
   struct Work {
     using T = Scalar<P>;
+    static constexpr int watched_step = 16;
     T first, drift, last;
     bool linear;  // H_p is linear in p
     // Of the n positions: carries of q and p, forces at the start, impulses, momenta at the middle and the
@@ -65,6 +68,8 @@ struct Rattle {
     MomentumProjection<T> onto_hidden;
     Continuation<P> continuation;  // where the constraints are placed, and the force is that of
     T last_h{0};
+    Value<T> contraction{0};  // of Newton's iteration, in the step that was watched; 0: in none yet
+    int unwatched = 0;        // steps since then
 
     Work(const Rattle& method, const P& p)
         : first(Real(method.lengths[0])),
@@ -94,8 +99,28 @@ struct Rattle {
       for (T& x : carry) x = T(0);
     }
     void forget() {
-      predictor.forget();
+      forget_multipliers();
       continuation.forget();
+    }
+    void forget_multipliers() {
+      predictor.forget();
+      contraction = Value<T>(0);
+    }
+    /// The multipliers to start from.
+    void expect_multipliers() {
+      const bool watched = contraction == Value<T>(0) || ++unwatched >= watched_step;
+      for (std::size_t i = 0; i < multiplier.size(); ++i)
+        multiplier[i] = watched ? predictor.latest(i) : predictor.expected(i);
+    }
+    void watch(const Convergence<T>& convergence) {
+      if (convergence.contraction() == Value<T>(0)) return;
+      contraction = convergence.contraction();
+      unwatched = 0;
+    }
+    /// The contraction to be expected, with a factor of 2 to spare; 1 where it is not known.
+    [[nodiscard]] Value<T> expected_contraction() const {
+      const bool known = contraction > Value<T>(0) && unwatched < watched_step;
+      return known ? Value<T>(2) * contraction : Value<T>(1);
     }
     /// The step that follows is taken with `next`.
     void hand_over(Work& next) {
@@ -155,8 +180,8 @@ struct Rattle {
     using T = Scalar<P>;
     const std::size_t n = w.n();
     const In<T> q(z.data(), n);
-    if (value_of(h) != value_of(w.last_h)) w.predictor.forget();
-    for (std::size_t i = 0; i < w.multiplier.size(); ++i) w.multiplier[i] = w.predictor.expected(i);
+    if (value_of(h) != value_of(w.last_h)) w.forget_multipliers();
+    w.expect_multipliers();
     const T kick = w.first * h, length = w.drift * h;
     c.apply_transpose(w.multiplier, w.reaction);
     for (std::size_t k = 0; k < n; ++k) {
@@ -182,9 +207,11 @@ struct Rattle {
       convergence.add(moved, reference, reference);
       ++p.counters().iterations;
       // The next correction would be below the rounding of phi.
-      settled = convergence.iterations() >= 2 && convergence.ratio() < Value<T>(0.1) &&
-                convergence.ratio() * relative_size(moved, reference, reference) <= unit_roundoff<T>() / 8;
-    } while (!settled && !convergence.finished(50));
+      const Value<T> ratio = convergence.iterations() == 1 ? w.expected_contraction() : convergence.ratio();
+      settled = ratio < Value<T>(0.1) &&
+                ratio * relative_size(moved, reference, reference) <= unit_roundoff<T>() / 8;
+    } while (!convergence.finished(50) && !settled);
+    w.watch(convergence);
     // Iterates that grow beyond all numbers are those of a step that is too large.
     if (!settled && convergence.status() != Status::converged) return Status::not_converged;
     for (std::size_t i = 0; i < w.multiplier.size(); ++i) {
@@ -192,10 +219,9 @@ struct Rattle {
       w.multiplier[i] = w.multiplier[i] + w.correction[i];
     }
     c.apply_transpose(w.correction, w.reaction);
-    for (std::size_t k = 0; k < n; ++k) {
-      w.impulse[k] = w.impulse[k] - w.reaction[k];
-      w.momentum[k] = z[n + k] + (w.impulse[k] + w.carry[n + k]);
-    }
+    for (std::size_t k = 0; k < n; ++k) w.impulse[k] = w.impulse[k] - w.reaction[k];
+    if (!w.linear)  // then S depends on the momenta
+      for (std::size_t k = 0; k < n; ++k) w.momentum[k] = z[n + k] + (w.impulse[k] + w.carry[n + k]);
     return Status::converged;
   }
 

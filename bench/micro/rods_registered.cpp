@@ -1,7 +1,12 @@
 // Right-hand sides of rods as every program of Pfaff has them: system and formulation found by name, one
-// indirect call.
+// indirect call; and steps of RATTLE.
+#include <cstdint>
+#include <memory>
+#include <stdexcept>
+
 #include <pfaff/core/facets/problem.hpp>
 #include <pfaff/core/formulation.hpp>
+#include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
 
 #include "rods.hpp"
@@ -25,6 +30,29 @@ void add_field(const std::string& shape, const std::string& what, const std::str
            });
 }
 
+// h = 1e-3 s, a hundred steps a call, from a horizontal pendulum whose rods turn at random.
+void add_rattle(const std::string& shape, int count, const std::string& dimension) {
+  constexpr int steps = 100;
+  const auto model =
+      systems().get("n-pendulum", "system").make({{"bobs", std::to_string(count)}, {"dimension", dimension}});
+  const std::shared_ptr<const MethodInstance> method = integrators().get("rattle", "integrator").make({});
+  std::vector<double> start;
+  for (const Real& x : model->initial()) start.push_back(x.value());
+  const std::shared_ptr<Stepper<double>> stepper = method->stepper(model, double());
+  add_rods(shape, "rattle", "registered", static_cast<double>(steps * count),
+           [method, stepper, start, state = start, done = std::int64_t{0}]() mutable {
+             if (done == 5000) {  // the same five seconds again: later ones are faster
+               state = start;
+               done = 0;
+               stepper->forget();
+             }
+             std::int64_t completed = 0;
+             if (stepper->advance(0.0, done, 1e-3, steps, state, completed) != Status::converged)
+               throw std::runtime_error("a step of RATTLE failed");
+             done += steps;
+           });
+}
+
 void add_fields() {
   for (const char* formulation : {"dirac", "lmm"}) {
     for (const int axes : {2, 3}) {
@@ -35,6 +63,8 @@ void add_fields() {
                   {{"bobs", n}, {"dimension", dimension}}, formulation);
         add_field("ring-" + dimension + "d-" + n, formulation, "ring",
                   {{"beads", n}, {"dimension", dimension}}, formulation);
+        if (std::string(formulation) == "dirac")
+          add_rattle("chain-" + dimension + "d-" + n, count, dimension);
       }
     }
     add_field("humanoid", formulation, "humanoid", {{"friction", "0"}}, formulation);

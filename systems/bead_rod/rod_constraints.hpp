@@ -15,6 +15,7 @@
 #include <pfaff/core/linear/structured_ldlt.hpp>
 #include <pfaff/systems/bead_rod/folded_ring.hpp>
 #include <pfaff/systems/bead_rod/potentials.hpp>
+#include <pfaff/systems/bead_rod/rod_maps.hpp>
 
 namespace pfaff {
 
@@ -24,13 +25,11 @@ class RodConstraints final : public HolonomicConstraints<T> {
   RodConstraints(std::shared_ptr<const BeadRodDescription> description, std::shared_ptr<const RodGraph> graph)
       : description_(std::move(description)),
         graph_(std::move(graph)),
+        maps_(*description_),
         potentials_(description_, *graph_),
         s_(graph_->pattern()),
-        degrees_(description_->beads() * D),
-        inverse_mass_(description_->points(), T(0)),
-        positions_(description_->points() * D, T(0)),
-        velocities_(positions_),
-        forces_(positions_.size(), T(0)),
+        degrees_(maps_.degrees()),
+        forces_(description_->points() * D, T(0)),
         accelerations_(forces_),
         inverse_masses_of_rod_(description_->rods.size()),
         length_square_(inverse_masses_of_rod_),
@@ -41,17 +40,13 @@ class RodConstraints final : public HolonomicConstraints<T> {
         directions_(description_->rods.size()),
         turnings_(directions_) {
     const BeadRodDescription& d = *description_;
-    for (std::size_t i = 0; i < d.beads(); ++i) inverse_mass_[i] = T(1) / T(d.masses[i]);
-    for (std::size_t i = d.beads(); i < d.points(); ++i)
-      for (std::size_t x = 0; x < D; ++x) positions_[i * D + x] = T(d.coordinate(i, x));
     for (std::size_t k = 0; k < d.rods.size(); ++k) {
       const Rod& rod = d.rods[k];
-      ends_.push_back({static_cast<std::uint32_t>(rod.first), static_cast<std::uint32_t>(rod.second)});
       length_square_[k] = T(rod.length) * T(rod.length);
-      inverse_masses_of_rod_[k] = inverse_mass_[rod.first] + inverse_mass_[rod.second];
+      inverse_masses_of_rod_[k] = maps_.inverse_mass(rod.first) + maps_.inverse_mass(rod.second);
     }
     for (const RodCoupling& c : graph_->couplings()) {
-      const T w = inverse_mass_[c.bead];
+      const T w = maps_.inverse_mass(c.bead);
       coupling_.push_back(c.same_side ? w : -w);
     }
     skew_.resize(coupling_.size());
@@ -62,59 +57,61 @@ class RodConstraints final : public HolonomicConstraints<T> {
     fold();
   }
 
-  [[nodiscard]] std::size_t count() const override { return ends_.size(); }
+  [[nodiscard]] std::size_t count() const override { return maps_.count(); }
   [[nodiscard]] std::size_t degrees() const override { return degrees_; }
   [[nodiscard]] const SymmetricPattern& pattern() const override { return *graph_->pattern(); }
 
   void values(const T& /*t*/, In<T> q, Out<T> phi) override {
-    each_direction(q, [&](std::size_t k, const Arm& e) { phi[k] = (dot(e, e) - length_square_[k]) / T(2); });
+    maps_.each_direction(
+        q, [&](std::size_t k, const Arm& e) { phi[k] = (dot(e, e) - length_square_[k]) / T(2); });
   }
   void hidden_values(const T& /*t*/, In<T> q, In<T> p, Out<T> hidden) override {
-    move(p);
-    each_direction(q, [&](std::size_t k, const Arm& e) { hidden[k] = dot(e, difference(velocities_, k)); });
+    maps_.each_turning(q, p,
+                       [&](std::size_t k, const Arm& e, const Arm& turning) { hidden[k] = dot(e, turning); });
   }
-  void velocity(const T& /*t*/, In<T> /*q*/, In<T> p, Out<T> v) override {
-    for (std::size_t i = 0, at = 0; at < degrees_; ++i)
-      for (std::size_t x = 0; x < D; ++x, ++at) v[at] = inverse_mass_[i] * p[at];
-  }
+  void velocity(const T& /*t*/, In<T> /*q*/, In<T> p, Out<T> v) override { maps_.velocity(p, v); }
   void force(const T& /*t*/, In<T> q, In<T> /*p*/, Out<T> f) override { potentials_.forces(q, f); }
 
   Status linearise(const T& /*t*/, In<T> q, In<T> /*p*/) override {
-    each_direction(q, [&](std::size_t k, const Arm& e) {
+    maps_.each_direction(q, [&](std::size_t k, const Arm& e) {
       directions_[k] = e;
       s_.diagonal()[k] = dot(e, e) * inverse_masses_of_rod_[k];
     });
     return factor_s();
   }
-  void apply(In<T> u, Out<T> r) const override { rows_times<false>(directions_, u, r); }
-  void apply_transpose(In<T> x, Out<T> f) const override { columns_times<false>(directions_, x, f); }
+  void apply(In<T> u, Out<T> r) const override { maps_.template rows_times<false>(directions_, u, r); }
+  void apply_transpose(In<T> x, Out<T> f) const override {
+    maps_.template columns_times<false>(directions_, x, f);
+  }
   void solve(In<T> r, Out<T> x) const override { s_.solve(r.data(), x.data()); }
   void solve(In<T> r1, Out<T> x1, In<T> r2, Out<T> x2) const override {
     s_.solve(r1.data(), x1.data(), r2.data(), x2.data());
   }
-  void hidden_by_momentum(In<T> u, Out<T> r) const override { rows_times<true>(directions_, u, r); }
+  void hidden_by_momentum(In<T> u, Out<T> r) const override {
+    maps_.template rows_times<true>(directions_, u, r);
+  }
   void hidden_by_momentum_transpose(In<T> x, Out<T> v) const override {
-    columns_times<true>(directions_, x, v);
+    maps_.template columns_times<true>(directions_, x, v);
   }
 
   Status place(const T& /*t*/, In<T> q, In<T> p) override {
     const Status status = prepare<false>(q, p);
-    for (std::size_t k = 0; k < ends_.size(); ++k)
+    for (std::size_t k = 0; k < count(); ++k)
       residuals_[k] = (dot(directions_[k], directions_[k]) - length_square_[k]) / T(2);
     return status;
   }
   [[nodiscard]] std::span<const T> residuals() const override { return residuals_; }
   [[nodiscard]] std::span<const T> hidden() const override { return hidden_; }
   [[nodiscard]] std::span<const T> hidden_rates() const override { return hidden_rates_; }
-  [[nodiscard]] std::span<const T> velocities() const override {
-    return std::span<const T>(velocities_).first(degrees_);
-  }
+  [[nodiscard]] std::span<const T> velocities() const override { return maps_.velocities(); }
   [[nodiscard]] std::span<const T> forces() const override {
     return std::span<const T>(forces_).first(degrees_);
   }
-  void hidden_by_position(In<T> u, Out<T> r) const override { rows_times<false>(turnings_, u, r); }
+  void hidden_by_position(In<T> u, Out<T> r) const override {
+    maps_.template rows_times<false>(turnings_, u, r);
+  }
   void hidden_by_position_transpose(In<T> x, Out<T> f) const override {
-    columns_times<false>(turnings_, x, f);
+    maps_.template columns_times<false>(turnings_, x, f);
   }
 
   std::optional<Status> dirac_rates(const T& /*t*/, In<T> q, In<T> p, Out<T> q_rate, Out<T> p_rate) override {
@@ -134,11 +131,11 @@ class RodConstraints final : public HolonomicConstraints<T> {
     s_.solve(hidden_rates_.data(), hidden_rates_.data());
     std::copy(p.begin(), p.end(), q_rate.begin());
     std::copy_n(forces_.begin(), degrees_, p_rate.begin());
-    for (std::size_t k = 0; k < ends_.size(); ++k) {
+    for (std::size_t k = 0; k < count(); ++k) {
       const Arm& e = directions_[k];
       const Arm& u = turnings_[k];
       const T mu = multipliers_[k], x = hidden_rates_[k];
-      const std::size_t a = ends_[k].first * D, b = ends_[k].second * D;
+      const std::size_t a = maps_.ends(k).first * D, b = maps_.ends(k).second * D;
       Arm pull, push;
       for (std::size_t i = 0; i < D; ++i) {
         pull[i] = mu * e[i];
@@ -152,8 +149,7 @@ class RodConstraints final : public HolonomicConstraints<T> {
           p_rate[b + i] = p_rate[b + i] + push[i];
         }
     }
-    for (std::size_t i = 0, at = 0; at < degrees_; ++i)
-      for (std::size_t x = 0; x < D; ++x, ++at) q_rate[at] = inverse_mass_[i] * q_rate[at];
+    maps_.velocity(q_rate, q_rate);
     return status;
   }
   std::optional<Status> multiplier_rates(const T& /*t*/, In<T> q, In<T> p, Out<T> q_rate,
@@ -165,10 +161,10 @@ class RodConstraints final : public HolonomicConstraints<T> {
         });
     const Status status = prepare<false>(q, p);
     s_.solve(hidden_rates_.data(), hidden_rates_.data());
-    std::copy_n(velocities_.begin(), degrees_, q_rate.begin());
+    std::copy_n(maps_.velocities().begin(), degrees_, q_rate.begin());
     std::copy_n(forces_.begin(), degrees_, p_rate.begin());
-    for (std::size_t k = 0; k < ends_.size(); ++k) {
-      const std::size_t a = ends_[k].first * D, b = ends_[k].second * D;
+    for (std::size_t k = 0; k < count(); ++k) {
+      const std::size_t a = maps_.ends(k).first * D, b = maps_.ends(k).second * D;
       for (std::size_t i = 0; i < D; ++i) {
         const T push = hidden_rates_[k] * directions_[k][i];
         p_rate[a + i] = p_rate[a + i] - push;
@@ -183,10 +179,10 @@ class RodConstraints final : public HolonomicConstraints<T> {
     if (friction_s_ == nullptr) return Status::converged;
     const auto weight = [&](std::size_t point) {
       if (point * D >= degrees_) return T(0);
-      return friction_[point * D] * (inverse_mass_[point] * inverse_mass_[point]);
+      return friction_[point * D] * (maps_.inverse_mass(point) * maps_.inverse_mass(point));
     };
-    for (std::size_t k = 0; k < ends_.size(); ++k) {
-      const auto [a, b] = ends_[k];
+    for (std::size_t k = 0; k < count(); ++k) {
+      const auto [a, b] = maps_.ends(k);
       friction_s_->diagonal()[k] = dot(directions_[k], directions_[k]) * (weight(a) + weight(b));
     }
     const auto& couplings = graph_->couplings();
@@ -199,13 +195,16 @@ class RodConstraints final : public HolonomicConstraints<T> {
   }
   void solve_friction(In<T> r, Out<T> x) const override {
     if (friction_s_ == nullptr) {
-      for (std::size_t k = 0; k < ends_.size(); ++k) x[k] = T(0);
+      for (std::size_t k = 0; k < count(); ++k) x[k] = T(0);
     } else {
       friction_s_->solve(r.data(), x.data());
     }
   }
 
  private:
+  using Arm = typename RodMaps<T, D>::Arm;
+  static T dot(const Arm& a, const Arm& b) { return RodMaps<T, D>::dot(a, b); }
+
   static constexpr bool folds = std::is_same_v<T, double>;
   // In doubles, where all rods are paths and rings.
   void fold() {
@@ -243,7 +242,7 @@ class RodConstraints final : public HolonomicConstraints<T> {
     if (!regular && status == Status::converged) status = Status::singular;
     for (const std::size_t i : lone_)
       for (std::size_t at = i * D; at < i * D + D; ++at) {
-        q_rate[at] = inverse_mass_[i] * p[at];
+        q_rate[at] = maps_.inverse_mass(i) * p[at];
         p_rate[at] = forces_[at];
       }
     return status;
@@ -257,21 +256,18 @@ class RodConstraints final : public HolonomicConstraints<T> {
     if (potentials_.constant() && placed_) return Status::converged;
     placed_ = true;
     const Status status = potentials_.forces(q, Out<T>(forces_).first(degrees_));
-    for (std::size_t i = 0, at = 0; at < degrees_; ++i)
-      for (std::size_t x = 0; x < D; ++x, ++at) accelerations_[at] = inverse_mass_[i] * forces_[at];
+    maps_.velocity(In<T>(forces_).first(degrees_), Out<T>(accelerations_).first(degrees_));
     return status;
   }
   // D, V, phi~ and h of every rod, the factors of S, and A where it is asked for.
   template <bool Skew>
   Status prepare(In<T> q, In<T> p) {
     const Status forces = set_forces(q);
-    move(p);
-    each_direction(q, [&](std::size_t k, const Arm& e) {
-      const Arm u = difference(velocities_, k);
+    maps_.each_turning(q, p, [&](std::size_t k, const Arm& e, const Arm& u) {
       directions_[k] = e;
       turnings_[k] = u;
       hidden_[k] = dot(e, u);
-      hidden_rates_[k] = dot(u, u) + dot(e, difference(accelerations_, k));
+      hidden_rates_[k] = dot(u, u) + dot(e, maps_.difference(accelerations_, k));
       s_.diagonal()[k] = dot(e, e) * inverse_masses_of_rod_[k];
     });
     const auto& couplings = graph_->couplings();
@@ -286,77 +282,23 @@ class RodConstraints final : public HolonomicConstraints<T> {
     return forces == Status::converged ? factors : forces;
   }
 
-  using Arm = std::array<T, D>;
-  struct Ends {
-    std::uint32_t first, second;
-  };
-
-  static T dot(const Arm& a, const Arm& b) {
-    T sum = a[0] * b[0];
-    for (std::size_t x = 1; x < D; ++x) sum = sum + a[x] * b[x];
-    return sum;
-  }
-  // Of rod k, x_a - x_b, with x given for all points.
-  Arm difference(const std::vector<T>& of, std::size_t k) const {
-    const std::size_t a = ends_[k].first * D, b = ends_[k].second * D;
-    Arm r;
-    for (std::size_t x = 0; x < D; ++x) r[x] = of[a + x] - of[b + x];
-    return r;
-  }
-  template <class Use>
-  void each_direction(In<T> q, const Use& use) {
-    std::copy(q.begin(), q.end(), positions_.begin());
-    for (std::size_t k = 0; k < ends_.size(); ++k) use(k, difference(positions_, k));
-  }
-  // Velocities of the beads; those of anchors stay 0.
-  void move(In<T> p) {
-    for (std::size_t i = 0, at = 0; at < degrees_; ++i)
-      for (std::size_t x = 0; x < D; ++x, ++at) velocities_[at] = inverse_mass_[i] * p[at];
-  }
   Status factor_s() {
     const auto& couplings = graph_->couplings();
     for (std::size_t c = 0; c < coupling_.size(); ++c)
       s_.couplings()[c] = coupling_[c] * dot(directions_[couplings[c].k], directions_[couplings[c].l]);
     return s_.factor();
   }
-  // r_k = rows_k.(u_a - u_b), with u divided by the masses first where Weighted.
-  template <bool Weighted>
-  void rows_times(const std::vector<Arm>& rows, In<T> u, Out<T> r) const {
-    for (std::size_t k = 0; k < ends_.size(); ++k) {
-      const auto [a, b] = ends_[k];
-      T at_a(0), at_b(0);
-      for (std::size_t x = 0; x < D; ++x) at_a = at_a + rows[k][x] * u[a * D + x];
-      if (b * D < degrees_)
-        for (std::size_t x = 0; x < D; ++x) at_b = at_b + rows[k][x] * u[b * D + x];
-      r[k] = Weighted ? inverse_mass_[a] * at_a - inverse_mass_[b] * at_b : at_a - at_b;
-    }
-  }
-  template <bool Weighted>
-  void columns_times(const std::vector<Arm>& rows, In<T> x, Out<T> f) const {
-    for (T& y : f) y = T(0);
-    for (std::size_t k = 0; k < ends_.size(); ++k) {
-      const auto [a, b] = ends_[k];
-      for (std::size_t i = 0; i < D; ++i) {
-        const T push = rows[k][i] * x[k];
-        f[a * D + i] = f[a * D + i] + push;
-        if (b * D < degrees_) f[b * D + i] = f[b * D + i] - push;
-      }
-    }
-    if constexpr (Weighted)
-      for (std::size_t i = 0, at = 0; at < degrees_; ++i)
-        for (std::size_t axis = 0; axis < D; ++axis, ++at) f[at] = inverse_mass_[i] * f[at];
-  }
 
   std::shared_ptr<const BeadRodDescription> description_;
   std::shared_ptr<const RodGraph> graph_;
+  RodMaps<T, D> maps_;
   Potentials<T, D> potentials_;
   StructuredLDLT<T> s_;
   std::unique_ptr<StructuredLDLT<T>> friction_s_;  // none without friction
   std::size_t degrees_;
-  std::vector<T> inverse_mass_, positions_, velocities_, forces_, accelerations_;  // of all points
+  std::vector<T> forces_, accelerations_;  // of all points
   std::vector<T> inverse_masses_of_rod_, length_square_, residuals_, hidden_, hidden_rates_, multipliers_;
   std::vector<Arm> directions_, turnings_;
-  std::vector<Ends> ends_;
   bool placed_ = false;      // forces are those of some positions
   std::vector<T> skew_;      // A, as S in the order of couplings
   std::vector<T> coupling_;  // 1/m of the shared bead with the sign of the coupling
