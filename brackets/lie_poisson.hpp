@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 #include <vector>
 
 #include <pfaff/core/numbers/functions.hpp>
@@ -61,9 +60,7 @@ struct LiePoissonBracket {
   }
 
   /// Rotations, [e_1, e_2] = e_3 and cyclic. Casimirs: functions of |z|^2.
-  static LiePoissonBracket so3(Real sign = 1) {
-    return {{{0, 1, 2, 1}, {1, 2, 0, 1}, {2, 0, 1, 1}}, std::move(sign)};
-  }
+  static LiePoissonBracket so3(Real sign = 1) { return {{{0, 1, 2, 1}, {1, 2, 0, 1}, {2, 0, 1, 1}}, sign}; }
   /// Rotations and translations, z = (Pi, Gamma). Casimirs: |Gamma|^2 and Pi.Gamma.
   static LiePoissonBracket se3(Real sign = 1) {
     return {{{0, 1, 2, 1},
@@ -75,12 +72,10 @@ struct LiePoissonBracket {
              {3, 1, 5, 1},
              {4, 2, 3, 1},
              {5, 0, 4, 1}},
-            std::move(sign)};
+            sign};
   }
   /// Traceless 2 x 2 matrices, z = (h, e, f): [h, e] = 2 e, [h, f] = -2 f, [e, f] = h. Casimir: h^2 + 4 e f.
-  static LiePoissonBracket sl2(Real sign = 1) {
-    return {{{0, 1, 1, 2}, {0, 2, 2, -2}, {1, 2, 0, 1}}, std::move(sign)};
-  }
+  static LiePoissonBracket sl2(Real sign = 1) { return {{{0, 1, 1, 2}, {0, 2, 2, -2}, {1, 2, 0, 1}}, sign}; }
   /// The body bracket of a rigid body on so(3)*: {f, g} = -z.(grad f x grad g), z the angular momentum.
   static LiePoissonBracket rigid_body() { return so3(-1); }
 };

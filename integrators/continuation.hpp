@@ -39,9 +39,9 @@ class Continuation {
   [[nodiscard]] bool holds_at(const T& t, const T& h, const State<P>& z) const {
     if (!known_) return false;
     if (abs(value_of(t - t_)) > abs(value_of(h)) * Value<T>(1e-6)) return false;
-    for (std::size_t k = 0; k < z_.size(); ++k)
-      if (!identical(z[k], z_[k])) return false;
-    return true;
+    bool same = true;  // without a way out, so that comparisons go side by side
+    for (std::size_t k = 0; k < z_.size(); ++k) same = identical(z[k], z_[k]) && same;
+    return same;
   }
   /// A step of size h ended at (t, z).
   void remember(const T& t, const T& h, const State<P>& z) {

@@ -214,8 +214,9 @@ struct Rattle {
     w.watch(convergence);
     // Iterates that grow beyond all numbers are those of a step that is too large.
     if (!settled && convergence.status() != Status::converged) return Status::not_converged;
+    const T per_length = T(1) / length;
     for (std::size_t i = 0; i < w.multiplier.size(); ++i) {
-      w.correction[i] = w.correction[i] / length;
+      w.correction[i] = w.correction[i] * per_length;
       w.multiplier[i] = w.multiplier[i] + w.correction[i];
     }
     c.apply_transpose(w.correction, w.reaction);

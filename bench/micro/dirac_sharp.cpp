@@ -107,7 +107,7 @@ std::shared_ptr<const SymmetricPattern> neighbours(std::size_t rows) {
 }
 
 template <class Solver>
-void add(const std::string& kind, const Instance& instance, const Solver& solver) {
+void add([[maybe_unused]] const std::string& kind, const Instance& instance, const Solver& solver) {
   [[maybe_unused]] const auto run = [instance, solver](benchmark::State& state) {
     typename Solver::template Work<double> work(solver, instance.n, instance.count);
     std::vector<double> result(instance.n);

@@ -46,7 +46,7 @@ struct Problem {
 };
 
 template <class Run>
-void add(const std::string& name, std::size_t rows, Run run) {
+void add([[maybe_unused]] const std::string& name, std::size_t rows, Run run) {
   [[maybe_unused]] const auto measured = [run, rows](benchmark::State& state) mutable {
     for (auto _ : state) {
       run();

@@ -57,7 +57,8 @@ SplitSettings split_settings(const SystemPlugin& system, const FormulationPlugin
   std::vector<Owner> owners{{"system.", &system, &split.system}};
   if (formulation != nullptr) owners.push_back({"formulation.", formulation, &split.formulation});
   if (method != nullptr) owners.push_back({"integrator.", method, &split.integrator});
-  for (const auto& [key, value] : set) {
+  for (const auto& setting : set) {
+    const std::string &key = setting.first, &value = setting.second;
     if (key == "initial") {
       split.initial = split_commas(value);
       continue;

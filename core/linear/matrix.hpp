@@ -133,7 +133,7 @@ template <class T>
 Value<T> largest(const Matrix<T>& a) {
   Value<T> worst(0);
   for (const T& x : a.entries()) {
-    const Value<T> size = abs(value_of(x));
+    Value<T> size = abs(value_of(x));
     if (isnan(size)) return size;
     if (size > worst) worst = size;
   }

@@ -27,7 +27,8 @@ DocumentNode container(Kind kind) { return scalar(kind, {}); }
 DocumentNode from_toml(const toml::node& node, const std::string& text) {
   if (const auto* table = node.as_table()) {
     DocumentNode result = container(Kind::table);
-    for (const auto& [key, value] : *table) result.members.emplace_back(key.str(), from_toml(value, text));
+    for (const auto& [key, value] : *table)
+      result.members.push_back({std::string(key.str()), from_toml(value, text)});
     return result;
   }
   if (const auto* list = node.as_array()) {
@@ -66,9 +67,9 @@ class JsonReader : public nlohmann::json_sax<nlohmann::json> {
   bool start_object(std::size_t /*size*/) override { return open(Kind::table); }
   bool key(string_t& value) override {
     auto& members = open_.back()->members;
-    if (std::any_of(members.begin(), members.end(), [&](const auto& m) { return m.first == value; }))
+    if (std::any_of(members.begin(), members.end(), [&](const auto& m) { return m.key == value; }))
       throw InputError(path_ + ": key '" + value + "' is there twice");
-    members.emplace_back(value, DocumentNode());
+    members.push_back({value, {}});
     return true;
   }
   bool end_object() override { return close(); }
@@ -87,7 +88,7 @@ class JsonReader : public nlohmann::json_sax<nlohmann::json> {
   DocumentNode& place() {
     if (open_.empty()) return root_;
     DocumentNode& parent = *open_.back();
-    if (parent.kind == Kind::table) return parent.members.back().second;
+    if (parent.kind == Kind::table) return parent.members.back().value;
     return parent.items.emplace_back();
   }
   bool add(DocumentNode node) {

@@ -2,18 +2,23 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace pfaff {
+
+struct DocumentMember;
 
 /// A value of a document.
 struct DocumentNode {
   enum class Kind { number, text, list, table, other };
   Kind kind = Kind::other;
-  std::string text;                                           // of numbers and texts
-  std::vector<DocumentNode> items;                            // of lists
-  std::vector<std::pair<std::string, DocumentNode>> members;  // of tables
+  std::string text;                     // of numbers and texts
+  std::vector<DocumentNode> items;      // of lists
+  std::vector<DocumentMember> members;  // of tables
+};
+struct DocumentMember {
+  std::string key;
+  DocumentNode value;
 };
 
 /// Reads a file; JSON where the name ends in .json, else TOML. InputError "PATH:LINE: ..." where it is

@@ -161,7 +161,7 @@ void read_potential(BeadRodDescription& d, const Entry& entry) {
   const auto pair = [&](PairPotential p) {
     if (const auto cutoff = table.find("cutoff")) p.cutoff = cutoff->number();
     if (const auto exclude = table.find("exclude")) p.exclude = exclude->integer();
-    d.pairs.push_back(std::move(p));
+    d.pairs.push_back(p);
   };
   if (kind.text() == "lennard-jones") {
     PairPotential p;

@@ -47,11 +47,13 @@ std::unique_ptr<HolonomicConstraints<T>> rod_constraints(const BeadRodParts& par
   return parts.description->dimension == 2 ? detail::rod_constraints<T, 2>(parts)
                                            : detail::rod_constraints<T, 3>(parts);
 }
+// NOLINTBEGIN(bugprone-macro-parentheses): template arguments take none
 #define PFAFF_EVALUATORS(T)                                   \
   template T potential_energy<T>(const BeadRodParts&, In<T>); \
   template std::unique_ptr<HolonomicConstraints<T>> rod_constraints<T>(const BeadRodParts&);
 PFAFF_FOR_EVERY_SCALAR(PFAFF_EVALUATORS)
 #undef PFAFF_EVALUATORS
+// NOLINTEND(bugprone-macro-parentheses)
 
 void start_at_random(BeadRodDescription& description, int seed) {
   RandomNumbers random(seed);
