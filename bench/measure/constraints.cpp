@@ -34,17 +34,17 @@ void note_worst(std::span<const Quad> values, std::size_t stride, std::size_t fi
     }
 }
 
-// A correction of the state, relative to it.
+// A correction of the state, relative to it; none where it failed.
 struct Correction {
-  Status status = Status::converged;
+  Status status;
   Quad size{0};
 };
 
-// x -= move
+// x -= move; the size of that relative to x, not-a-number where it is not finite: the residual then says so.
 Quad move_by(std::span<const Quad> move, std::span<Quad> x) {
   for (std::size_t k = 0; k < x.size(); ++k) x[k] -= move[k];
-  const Quad size = norm(x), change = norm(move);
-  return change > size ? Quad(1) : change > Quad(0) ? Quad(change / size) : Quad(0);
+  const Quad change = norm(move);
+  return change == Quad(0) ? change : Quad(change / norm(x));
 }
 
 // Newton's method until the residual no longer falls, or the state no longer moves: components that are zero
@@ -80,22 +80,19 @@ ProjectionOntoConstraints project_holonomic(const Model& model, const Quad& t, s
   note_worst(residual, 2, 0, names, result);
   momenta();
   note_worst(residual, 2, 1, names, result);
-  const auto solve = [&] {
-    const Status status = constraints->linearise(t, q, p);
-    if (status == Status::converged) constraints->solve(residual, residual);
-    return status;
-  };
-  result.status = iterate(residual, positions, [&] {
-    const Status status = solve();
-    constraints->hidden_by_momentum_transpose(residual, move);
-    return Correction{status, move_by(move, q)};
-  });
-  if (result.status == Status::converged)
-    result.status = iterate(residual, momenta, [&] {
-      const Status status = solve();
-      constraints->apply_transpose(residual, move);
-      return Correction{status, move_by(move, p)};
+  // x is moved by along(), a combination of gradients with the coefficients S^-1 residual.
+  const auto bring = [&](std::span<Quad> x, const auto& measure, const auto& along) {
+    return iterate(residual, measure, [&] {
+      if (const Status status = constraints->linearise(t, q, p); status != Status::converged)
+        return Correction{status};
+      constraints->solve(residual, residual);
+      along();
+      return Correction{Status::converged, move_by(move, x)};
     });
+  };
+  result.status = bring(q, positions, [&] { constraints->hidden_by_momentum_transpose(residual, move); });
+  if (result.status == Status::converged)
+    result.status = bring(p, momenta, [&] { constraints->apply_transpose(residual, move); });
   const std::span<const Quad> old(before);
   result.change = std::max(relative_change(old.first(n), q), relative_change(old.subspan(n), p));
   return result;
