@@ -32,17 +32,29 @@ StepJacobian<T> StepDifferentiator<T>::operator()(const T& t, const T& h, const 
   return result;
 }
 
+namespace {
+// a b of n x n matrices
+template <class T>
+std::vector<T> product(const std::vector<T>& a, const std::vector<T>& b, std::size_t n) {
+  std::vector<T> c(n * n);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = 0; k < n; ++k)
+      for (std::size_t j = 0; j < n; ++j) c[i * n + j] = c[i * n + j] + a[i * n + k] * b[k * n + j];
+  return c;
+}
+
+template <class T>
+std::vector<T> absolute(std::vector<T> a) {
+  for (T& x : a) x = abs(x);
+  return a;
+}
+}  // namespace
+
 template <class T>
 T congruence_residual(const std::vector<T>& m, const std::vector<T>& k1, const std::vector<T>& k0) {
   const auto n = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(m.size()))));
-  std::vector<T> image(n * n), image_size(n * n);  // K1 M, and the sizes of the terms of its sums
-  for (std::size_t a = 0; a < n; ++a)
-    for (std::size_t b = 0; b < n; ++b)
-      for (std::size_t j = 0; j < n; ++j) {
-        const T term = k1[a * n + b] * m[b * n + j];
-        image[a * n + j] = image[a * n + j] + term;
-        image_size[a * n + j] = image_size[a * n + j] + abs(term);
-      }
+  const std::vector<T> image = product(k1, m, n);  // and the sizes of the terms of its sums
+  const std::vector<T> image_size = product(absolute(k1), absolute(m), n);
   T worst(0), scale(0);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j) {
@@ -103,16 +115,6 @@ std::vector<T> tangent_projection(const Model& model, const T& t, const std::vec
 }
 
 namespace {
-// a b of n x n matrices
-template <class T>
-std::vector<T> product(const std::vector<T>& a, const std::vector<T>& b, std::size_t n) {
-  std::vector<T> c(n * n);
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t k = 0; k < n; ++k)
-      for (std::size_t j = 0; j < n; ++j) c[i * n + j] = c[i * n + j] + a[i * n + k] * b[k * n + j];
-  return c;
-}
-
 // M^T J M - J between tangent vectors: (M U)^T J (M U) - U^T J U with the projection U.
 template <class T>
 T tangent_residual(const std::vector<T>& m, const std::vector<T>& u, std::size_t n) {

@@ -53,6 +53,14 @@ void add_rattle(const std::string& shape, int count, const std::string& dimensio
            });
 }
 
+void add_steps() {
+  for (const int axes : {2, 3}) {
+    const std::string dimension = std::to_string(axes);
+    for (const int count : chain_sizes)
+      add_rattle("chain-" + dimension + "d-" + std::to_string(count), count, dimension);
+  }
+}
+
 void add_fields() {
   for (const char* formulation : {"dirac", "lmm"}) {
     for (const int axes : {2, 3}) {
@@ -63,13 +71,11 @@ void add_fields() {
                   {{"bobs", n}, {"dimension", dimension}}, formulation);
         add_field("ring-" + dimension + "d-" + n, formulation, "ring",
                   {{"beads", n}, {"dimension", dimension}}, formulation);
-        if (std::string(formulation) == "dirac")
-          add_rattle("chain-" + dimension + "d-" + n, count, dimension);
       }
     }
     add_field("humanoid", formulation, "humanoid", {{"friction", "0"}}, formulation);
   }
 }
 
-[[maybe_unused]] const bool added = (add_fields(), true);
+[[maybe_unused]] const bool added = (add_fields(), add_steps(), true);
 }  // namespace

@@ -16,6 +16,7 @@ struct DocumentNode {
   std::vector<DocumentNode> items;      // of lists
   std::vector<DocumentMember> members;  // of tables
 };
+/// A key of a table, and its value.
 struct DocumentMember {
   std::string key;
   DocumentNode value;

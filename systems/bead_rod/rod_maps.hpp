@@ -59,7 +59,7 @@ class RodMaps {
   void each_direction(In<T> q, const Use& use) {
     if (chain_) {
       each_link(
-          positions_, [&](std::size_t at) { return q[at]; }, use);
+          anchor_, [&](std::size_t at) { return q[at]; }, use);
       return;
     }
     std::copy(q.begin(), q.end(), positions_.begin());
@@ -88,7 +88,7 @@ class RodMaps {
   void rows_times(const std::vector<Arm>& rows, In<T> u, Out<T> r) const {
     if (chain_) {
       each_link(
-          no_anchor_, [&](std::size_t at) { return Weighted ? T(inverse_mass_[at / D] * u[at]) : u[at]; },
+          Arm{}, [&](std::size_t at) { return Weighted ? T(inverse_mass_[at / D] * u[at]) : u[at]; },
           [&](std::size_t k, const Arm& difference) { r[k] = dot(rows[k], difference); });
       return;
     }
@@ -134,13 +134,14 @@ class RodMaps {
       if (later == 0 ? earlier < beads_ : earlier != later - 1) return;
     }
     chain_ = true;
-    no_anchor_.assign(D, T(0));
+    if (free_ == 0)
+      for (std::size_t x = 0; x < D; ++x) anchor_[x] = positions_[ends_[0].second * D + x];
   }
-  // use(k, x_a - x_b) along a chain, with x = of(at) of beads; `anchored` ends with x of the anchor.
+  // use(k, x_a - x_b) along a chain, with x = of(at) of beads and `anchored` of its anchor.
   template <class Of, class Use>
-  void each_link(const std::vector<T>& anchored, const Of& of, const Use& use) const {
+  void each_link(const Arm& anchored, const Of& of, const Use& use) const {
     Arm before;
-    for (std::size_t x = 0; x < D; ++x) before[x] = free_ == 1 ? T(of(x)) : anchored[anchored.size() - D + x];
+    for (std::size_t x = 0; x < D; ++x) before[x] = free_ == 1 ? T(of(x)) : anchored[x];
     for (std::size_t k = 0, at = free_ * D; k < ends_.size(); ++k) {
       Arm link;
       for (std::size_t x = 0; x < D; ++x, ++at) {
@@ -177,7 +178,7 @@ class RodMaps {
   bool chain_ = false;
   std::size_t free_ = 0;                   // 1: the chain begins with a free bead
   std::vector<std::uint8_t> later_first_;  // of rods of a chain: the first end is the later bead
-  std::vector<T> no_anchor_;
+  Arm anchor_{};                           // where a chain without a free bead hangs
 };
 
 }  // namespace pfaff

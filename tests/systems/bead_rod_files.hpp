@@ -1,35 +1,21 @@
-// Model files for tests, in a directory of each process: tests run side by side.
+// Model files for tests, in a directory of each process.
 #pragma once
 
 #include <gtest/gtest.h>
 
-#include <unistd.h>
-
-#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include <pfaff/core/system.hpp>
 
+#include "../temporary_directory.hpp"
+
 namespace pfaff::testing {
 
-/// A directory that lives as long as the process.
-inline const std::string& own_directory() {
-  struct Directory {
-    std::string path = ::testing::TempDir() + "pfaff-" + std::to_string(getpid()) + "/";
-    Directory() { std::filesystem::create_directories(path); }
-    ~Directory() {
-      std::error_code ignored;
-      std::filesystem::remove_all(path, ignored);
-    }
-  };
-  static const Directory directory;
-  return directory.path;
-}
-
 inline std::string write_file(const std::string& name, const std::string& text) {
-  std::string path = own_directory() + name;
+  static const TemporaryDirectory directory;  // of the process
+  std::string path = directory / name;
   std::ofstream(path) << text;
   return path;
 }
