@@ -1,4 +1,5 @@
-// The commands of the program `pfaff`: each adds itself to the command line and does its work when chosen.
+// The commands of the program `pfaff`. Each adds its options to the command line and sets what is to be done
+// when it is chosen.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -16,10 +17,10 @@ struct Common {
   std::vector<std::string> plugins;
 };
 
-/// Sets the exit status of a command that did its work: 0, or 1 where a check failed or a run ended early.
+/// The work of a command. It returns the exit status: 0, or 1 where a check failed or a run ended early.
 using Action = std::function<int()>;
 
-/// Adds a command's options; `action` is what runs when it is chosen.
+/// Each adds one command with its options to `app`; when the command is chosen it sets `action` to its work.
 void add_list(CLI::App& app, Common& common, Action& action);
 void add_describe(CLI::App& app, Common& common, Action& action);
 void add_cite(CLI::App& app, Common& common, Action& action);
@@ -28,11 +29,12 @@ void add_evaluate(CLI::App& app, Common& common, Action& action);
 void add_compare(CLI::App& app, Common& common, Action& action);
 void add_reproduce(CLI::App& app, Common& common, Action& action);
 void add_verify(CLI::App& app, Common& common, Action& action);
+void add_falsify(CLI::App& app, Common& common, Action& action);
 
 /// A subcommand with the common options.
 CLI::App* subcommand(CLI::App& app, Common& common, const std::string& name, const std::string& what);
 
-/// "key=value" settings. InputError for text without '='.
+/// The settings in texts "key=value". InputError for a text without '='.
 Assignments parse_settings(const std::vector<std::string>& texts);
 
 }  // namespace pfaff::app

@@ -1,15 +1,17 @@
-// pfaff compare: an experiment from its TOML file to table, results.csv, cost.csv, figures and report.html.
+// pfaff compare: runs an experiment from its TOML file, shows its table, and writes results.csv, cost.csv,
+// figures and report.html.
 #include <iostream>
 
 #include <pfaff/app/command.hpp>
 #include <pfaff/app/terminal.hpp>
-#include <pfaff/bench/runner/experiment.hpp>
+#include <pfaff/bench/experiment/experiment.hpp>
 
 namespace pfaff::app {
 
 namespace {
 
-int compare(const std::vector<std::string>& names, bool quick, const std::string& out, bool json) {
+int compare(const std::vector<std::string>& names, bool quick, bool force, const std::string& out,
+            bool json) {
   nlohmann::json j{{"schema", 1}, {"experiments", nlohmann::json::array()}};
   bool failed = false;
   for (const std::string& name : names) {
@@ -22,9 +24,11 @@ int compare(const std::vector<std::string>& names, bool quick, const std::string
     {
       ProgressLine line;
       outcome = run_experiment(
-          experiment, directory, [&](const std::string& what, std::size_t done, std::size_t all) {
+          experiment, directory,
+          [&](const std::string& what, std::size_t done, std::size_t all) {
             line.show(what, all == 0 ? 1.0 : static_cast<double>(done) / static_cast<double>(all));
-          });
+          },
+          force);
     }
     failed = failed || outcome.failed == outcome.runs || !outcome.failed_claims.empty();
     j["experiments"].push_back({{"name", experiment.name},
@@ -35,16 +39,17 @@ int compare(const std::vector<std::string>& names, bool quick, const std::string
                                 {"report", outcome.report.string()}});
     if (!outcome.findings.empty()) j["experiments"].back()["findings"] = outcome.findings;
     if (!json)
-      std::cout << experiment.title << '\n'
-                << outcome.table << '\n'
+      std::cout << printable(experiment.title) << '\n'
+                << printable(outcome.table) << '\n'
                 << outcome.runs << (outcome.runs == 1 ? " run (" : " runs (") << outcome.resumed
                 << " resumed, " << outcome.failed << " ended early)\nresults  "
                 << (directory / "results.csv").string() << "\nreport   " << outcome.report.string() << '\n';
     if (!outcome.failed_claims.empty())
-      std::cerr << "pfaff: " << experiment.name << ": a finding does not hold: " << outcome.failed_claims
+      std::cerr << printable("pfaff: " + experiment.name +
+                             ": a finding does not hold: " + outcome.failed_claims)
                 << '\n';
   }
-  if (json) std::cout << j.dump(1) << '\n';
+  if (json) std::cout << json_text(j);
   return failed ? 1 : 0;
 }
 
@@ -54,18 +59,20 @@ void add_compare(CLI::App& app, Common& common, Action& action) {
   CLI::App* sub = subcommand(app, common, "compare", "Run an experiment: table, CSV, figures, report");
   auto names = std::make_shared<std::vector<std::string>>();
   auto quick = std::make_shared<bool>(false);
+  auto force = std::make_shared<bool>(false);
   auto all = std::make_shared<bool>(false);
   auto out = std::make_shared<std::string>();
   sub->add_option("experiment", *names, "Name of one that ships (pfaff list experiments), or a TOML file")
       ->type_name("NAME|FILE");
   sub->add_flag("--all", *all, "Every experiment that ships");
   sub->add_flag("--quick", *quick, "Shorter horizons and fewer steps, to look at");
+  sub->add_flag("--force", *force, "Run anew what was made from other files or builds");
   sub->add_option("--out", *out, "Where results go (default pfaff-out/NAME), or resume from")
       ->type_name("DIR");
   sub->callback([=, &common, &action] {
     action = [=, &common] {
       if (*all == !names->empty()) throw InputError("compare: expected the name of an experiment, or --all");
-      return compare(*all ? experiment_names() : *names, *quick, *out, common.json);
+      return compare(*all ? experiment_names() : *names, *quick, *force, *out, common.json);
     };
   });
 }

@@ -1,13 +1,15 @@
-// pfaff describe NAME and pfaff cite NAME: everything known about a plug-in or an experiment.
+// pfaff describe NAME and pfaff cite NAME: show everything known about a plug-in or an experiment, and its
+// references.
 #include <iostream>
 #include <nlohmann/json.hpp>
 
 #include <pfaff/app/command.hpp>
 #include <pfaff/app/terminal.hpp>
-#include <pfaff/bench/measure/scope.hpp>
-#include <pfaff/bench/runner/citations.hpp>
-#include <pfaff/bench/runner/experiment.hpp>
+#include <pfaff/bench/experiment/citations.hpp>
+#include <pfaff/bench/experiment/experiment.hpp>
+#include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/core/bracket.hpp>
+#include <pfaff/core/facets/derivations/derivation.hpp>
 #include <pfaff/core/formulation.hpp>
 
 namespace pfaff::app {
@@ -27,6 +29,25 @@ nlohmann::json parameters_of(const Plugin& plugin, const Assignments& defaults) 
   return list;
 }
 
+// The keys of references.bib that are cited: the reference of a plug-in is a text with keys in it, that of an
+// experiment a list of keys. InputError where a key is not there, and where a text holds none.
+std::vector<std::string> keys_of(const nlohmann::json& described) {
+  const std::string who = described["kind"].get<std::string>() + " " + described["name"].get<std::string>();
+  const nlohmann::json& reference = described["reference"];
+  if (!reference.is_array()) {
+    std::vector<std::string> keys = keys_in(reference);
+    if (keys.empty())
+      throw InputError(who + ": its reference '" + reference.get<std::string>() +
+                       "' holds no key of references.bib");
+    return keys;
+  }
+  for (const auto& key : reference)
+    if (bibtex(key).empty())
+      throw InputError(who + ": " +
+                       unknown_name("key of references.bib", key.get<std::string>(), citation_keys()));
+  return reference;
+}
+
 // The formulations that fit a system with constraints.
 nlohmann::json formulations_of(const std::shared_ptr<const Model>& model) {
   nlohmann::json names = nlohmann::json::array();
@@ -35,17 +56,42 @@ nlohmann::json formulations_of(const std::shared_ptr<const Model>& model) {
   return names;
 }
 
+// The formulas that make what a model offers, and all that its author wrote: for each whether it is written,
+// and if not, what it is derived from.
+nlohmann::json formulas_of(const Model& model) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const FormulaRow& row : formula_table) {
+    nlohmann::json j{{"name", row.name}};
+    if (model.given(row.formula)) {
+      j["origin"] = "written, " + std::string(row.written);
+    } else {
+      const Derivation* way = derivation_of(row.formula, model);
+      if (way == nullptr ||
+          !(model.facets().meets(row.traits.offered_by) || model.facets().meets(row.traits.part_of)))
+        continue;
+      std::string from;
+      for (const Formula f : way->from)
+        if (f != Formula::count) from += (from.empty() ? " from " : ", ") + std::string(to_string(f));
+      j["origin"] = "derived" + from;
+    }
+    list.push_back(j);
+  }
+  return list;
+}
+
 nlohmann::json describe_system(const SystemPlugin& plugin) {
   const auto model = plugin.make({});
   nlohmann::json j{{"kind", "system"},
                    {"name", plugin.name()},
                    {"title", plugin.descriptor().title},
                    {"reference", plugin.descriptor().reference},
+                   {"description", plugin.descriptor().description},
                    {"dimension", model->dimension()},
                    {"time_unit", model->time_unit()},
                    {"facets", to_string(model->facets())},
                    {"autonomous", model->autonomous()},
-                   {"parameters", parameters_of(plugin, model->parameters())}};
+                   {"parameters", parameters_of(plugin, model->parameters())},
+                   {"formulas", formulas_of(*model)}};
   for (std::size_t k = 0; k < model->coordinates().size(); ++k)
     j["coordinates"].push_back(
         {{"name", model->coordinates()[k].name},
@@ -58,10 +104,12 @@ nlohmann::json describe_system(const SystemPlugin& plugin) {
   j["integrators"] = nlohmann::json::array();
   for (const MethodPlugin* method : integrators().all())
     if (method->make({})->refuses(*model).empty()) j["integrators"].push_back(method->name());
-  if (model->constrained()) {
+  if (model->restricted()) {
     j["constraints"] = model->constraint_names();
     j["formulations"] = formulations_of(model);
-    const auto motion = formulations().get("dirac", "formulation").apply(model, {});
+  }
+  if (model->restricted() && !j["formulations"].empty()) {
+    const auto motion = motion_of(model);
     j["integrators_of_formulations"] = nlohmann::json::array();
     for (const MethodPlugin* method : integrators().all())
       if (const auto instance = method->make({});
@@ -77,15 +125,23 @@ nlohmann::json describe_method(const MethodPlugin& plugin) {
                    {"name", plugin.name()},
                    {"title", plugin.descriptor().title},
                    {"reference", plugin.descriptor().reference},
+                   {"description", plugin.descriptor().description},
                    {"needs", to_string(method->needs())},
                    {"adaptive", method->adaptive()},
                    {"parameters", parameters_of(plugin, method->parameters())}};
+  // A plug-in that is built on another fits other systems with another one.
+  for (const Parameter& p : plugin.parameters()) {
+    if (p.kind != Parameter::Kind::plugin) continue;
+    for (const auto& [key, value] : method->parameters())
+      if (key == p.name) j["systems_shown_for"] = key + "=" + value;
+  }
   j["systems"] = nlohmann::json::array();
   for (const SystemPlugin* system : systems().all()) {
     const auto whole = system->make({}), model = motion_for(*method, whole);
     if (!method->refuses(*model).empty()) continue;
     nlohmann::json claims = nlohmann::json::array();
-    for (const Claim claim : claims_in_scope(*method, *model)) claims.push_back(to_string(claim));
+    for (const Claim claim : claims_in_scope(method->preserves(*model), *model))
+      claims.push_back(to_string(claim));
     j["systems"].push_back(
         {{"name", system->name()}, {"order", method->order(*model)}, {"preserves", claims}});
     if (model != whole) j["systems"].back()["formulation"] = model->source().formulation;
@@ -99,6 +155,7 @@ nlohmann::json describe_bracket(const BracketPlugin& plugin) {
           {"name", plugin.name()},
           {"title", plugin.descriptor().title},
           {"reference", plugin.descriptor().reference},
+          {"description", plugin.descriptor().description},
           {"dimension", bracket.dimension},
           {"symmetry", to_string(plugin.descriptor().symmetry)},
           {"jacobi", plugin.descriptor().jacobi},
@@ -110,7 +167,13 @@ nlohmann::json describe_formulation(const FormulationPlugin& plugin) {
                    {"name", plugin.name()},
                    {"title", plugin.descriptor().title},
                    {"reference", plugin.descriptor().reference},
+                   {"description", plugin.descriptor().description},
                    {"parameters", parameters_of(plugin, plugin.resolve({}))}};
+  const FormulationStatement statement = plugin.states({});
+  j["reactions"] = to_string(statement.reactions);
+  j["friction"] = to_string(statement.friction);
+  j["keeps"] = nlohmann::json::array();
+  for (const FormulationClaim claim : statement.keeps) j["keeps"].push_back(to_string(claim));
   j["systems"] = nlohmann::json::array();
   for (const SystemPlugin* system : systems().all())
     if (system->constrained() && plugin.refuses(*system->make({})).empty())
@@ -128,7 +191,8 @@ nlohmann::json describe_experiment(const std::string& name) {
   return j;
 }
 
-// Everything of that name: a system and an experiment may share theirs, a plug-in comes first.
+// Descriptions of everything named `name`. A system and an experiment may share a name; the plug-in comes
+// first.
 std::vector<nlohmann::json> describe(const std::string& name,
                                      const std::vector<std::string>& also_known = {}) {
   std::vector<nlohmann::json> found;
@@ -142,7 +206,7 @@ std::vector<nlohmann::json> describe(const std::string& name,
     found.push_back(describe_experiment(name));
   if (!found.empty()) return found;
   std::vector<std::string> names;
-  for (const auto& more : {systems().names(), integrators().names(), brackets().names(),
+  for (const auto& more : {systems().names(), integrators().names_and_aliases(), brackets().names(),
                            formulations().names(), experiments, also_known})
     for (const std::string& one : more)
       if (std::find(names.begin(), names.end(), one) == names.end()) names.push_back(one);
@@ -159,30 +223,35 @@ std::string text_of(const nlohmann::json& value) {
   return joined;
 }
 
-// A unit, 1 where there is none, as in the header of series.csv.
+// A unit as text, "1" where there is none, as in the header of series.csv.
 std::string unit_of(const nlohmann::json& value) {
   const std::string unit = text_of(value);
   return unit.empty() ? "1" : unit;
 }
 
-// Scalars as "key  value", lists of objects as indented tables, lists of names joined.
+// Prints a description: scalars as "key  value", the description as a paragraph, lists of objects as indented
+// tables, lists of names joined to one line.
 void print(const nlohmann::json& j) {
   std::vector<std::vector<std::string>> scalars;
   for (const char* first : {"name", "kind", "title", "reference"})
     if (j.contains(first)) scalars.push_back({first, text_of(j[first])});
   for (const auto& [key, value] : j.items()) {
-    if (key == "name" || key == "kind" || key == "title" || key == "reference" || key == "schema") continue;
+    if (key == "name" || key == "kind" || key == "title" || key == "reference" || key == "description" ||
+        key == "schema")
+      continue;
     if (!value.is_array()) scalars.push_back({key, key == "time_unit" ? unit_of(value) : text_of(value)});
     if (value.is_array() && !value.empty() && value[0].is_string()) scalars.push_back({key, text_of(value)});
   }
   std::cout << table(scalars);
+  if (const std::string text = j.value("description", ""); !text.empty())
+    std::cout << '\n' << paragraph(text);
   for (const auto& [key, value] : j.items()) {
     if (!value.is_array() || value.empty() || !value[0].is_object()) continue;
     std::cout << '\n' << key << '\n';
     std::vector<std::vector<std::string>> rows(1);
-    std::vector<std::string> columns;  // the plug-in's own order of importance
-    for (const char* column : {"name", "initial", "default", "range", "order", "expected", "unit", "title",
-                               "steps", "preserves", "meaning"})
+    std::vector<std::string> columns;  // in order of importance to the reader
+    for (const char* column : {"name", "initial", "default", "range", "order", "expected", "origin", "unit",
+                               "title", "steps", "preserves", "meaning"})
       if (value[0].contains(column) && !(column == std::string("unit") && value[0].contains("range")))
         columns.emplace_back(column);
     for (const std::string& column : columns) rows[0].push_back(rows[0].empty() ? "  " + column : column);
@@ -206,9 +275,7 @@ int cite(const std::vector<std::string>& names, bool json) {
     if (!bibtex(name).empty()) {
       found = {name};
     } else {
-      const nlohmann::json described = describe(name, citation_keys()).front();
-      const auto& reference = described["reference"];
-      found = reference.is_array() ? reference.get<std::vector<std::string>>() : keys_in(reference);
+      found = keys_of(describe(name, citation_keys()).front());
     }
     for (const std::string& key : found)
       if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
@@ -217,26 +284,25 @@ int cite(const std::vector<std::string>& names, bool json) {
     j["entries"].push_back({{"key", key}, {"citation", citation(key)}, {"bibtex", bibtex(key)}});
     if (!json) std::cout << bibtex(key) << '\n';
   }
-  if (json) std::cout << j.dump(1) << '\n';
+  if (json) std::cout << json_text(j);
   return 0;
 }
 
 }  // namespace
 
 void add_describe(CLI::App& app, Common& common, Action& action) {
-  CLI::App* sub = subcommand(app, common, "describe",
-                             "Everything about a system, an integrator, a bracket or an experiment");
+  CLI::App* sub = subcommand(app, common, "describe", "Everything about a plug-in or an experiment");
   auto name = std::make_shared<std::string>();
   sub->add_option("name", *name, "Its name, as in pfaff list")->type_name("NAME")->required();
   sub->callback([name, &common, &action] {
     action = [name, &common] {
       const std::vector<nlohmann::json> found = describe(*name);
       if (common.json) {
-        // The plug-in's own keys; what shares its name has a place beside them.
+        // The first description is the object itself; others of the same name are listed in it under "also".
         nlohmann::json j = found.front();
         j["schema"] = 1;
         for (std::size_t k = 1; k < found.size(); ++k) j["also"].push_back(found[k]);
-        std::cout << j.dump(1) << '\n';
+        std::cout << json_text(j);
       } else {
         for (std::size_t k = 0; k < found.size(); ++k) {
           if (k > 0) std::cout << '\n';

@@ -1,11 +1,13 @@
-// pfaff evaluate: a system at one state and time.
+// pfaff evaluate: shows everything the formulas of a system give at one state and time.
 #include <iostream>
 #include <sstream>
 
 #include <pfaff/app/command.hpp>
 #include <pfaff/app/evaluation_text.hpp>
 #include <pfaff/app/state_file.hpp>
-#include <pfaff/bench/runner/evaluation.hpp>
+#include <pfaff/app/terminal.hpp>
+#include <pfaff/bench/evaluation/evaluation.hpp>
+#include <pfaff/bench/runner/motion.hpp>
 
 namespace pfaff::app {
 
@@ -36,7 +38,8 @@ EvaluationSettings settings_of(const Options& options) {
   settings.at = resolve_state(run);
   if (!options.centre.empty()) {
     std::vector<std::string> texts;
-    std::stringstream stream(options.centre + ',');  // so that nothing after the last comma is a number too
+    std::stringstream stream(options.centre +
+                             ',');  // getline drops an empty last number unless a comma ends it
     for (std::string text; std::getline(stream, text, ',');) texts.push_back(text);
     settings.centre = state_numbers(*settings.at.model, texts, "centre");
   }
@@ -50,7 +53,7 @@ void add_evaluate(CLI::App& app, Common& common, Action& action) {
   auto options = std::make_shared<Options>();
   sub->add_option("--system", options->settings.system, "Name of the system")->type_name("NAME");
   sub->add_option("--formulation", options->settings.formulation,
-                  "Vector field of a constrained system (dirac without)")
+                  "Vector field of a constrained system (" + dirac_formulation().name() + " without)")
       ->type_name("NAME");
   sub->add_option("--set", options->set, "A parameter (nu=0.3) or the state, initial=a,b,...")
       ->type_name("KEY=VALUE")
@@ -66,7 +69,7 @@ void add_evaluate(CLI::App& app, Common& common, Action& action) {
     action = [options, &common] {
       const nlohmann::json j = evaluation(settings_of(*options));
       if (common.json) {
-        std::cout << j.dump(1) << '\n';
+        std::cout << json_text(j);
       } else {
         std::cout << evaluation_text(j);
       }

@@ -17,7 +17,7 @@ std::string text_of(const json& value) {
   const double x =
       value.is_string() ? std::strtod(value.get<std::string>().c_str(), nullptr) : value.get<double>();
   char text[32];
-  std::snprintf(text, sizeof text, "%.6g", x + 0.0);  // -0 is 0
+  std::snprintf(text, sizeof text, "%.6g", x + 0.0);  // adding 0 turns -0 into 0
   return text;
 }
 std::string joined(const json& list) {
@@ -26,7 +26,7 @@ std::string joined(const json& list) {
   return text;
 }
 
-// "r - 0.5 p": a direction in the coordinates' names.
+// A direction as a combination of the names of coordinates, such as "r - 0.5 p".
 std::string combination(const json& direction, const json& names) {
   std::string text;
   for (std::size_t k = 0; k < direction.size(); ++k) {
@@ -40,8 +40,8 @@ std::string combination(const json& direction, const json& names) {
   return text;
 }
 
-// A matrix, or, where one would be too wide, its entries on one side of the diagonal that are not zero; those
-// of a symmetric one on the diagonal too.
+// A matrix as text. One that would be too wide for the terminal is shown as a list of its nonzero entries on
+// one side of the diagonal, and of those on the diagonal where it is symmetric.
 std::string matrix_text(const std::string& title, const json& matrix, const json& names, bool symmetric) {
   constexpr std::size_t widest = 6, most_entries = 60;
   Rows rows;
@@ -103,7 +103,7 @@ std::string constraint_tables(const json& j) {
   const bool holonomic = j.contains("hidden_constraints"), moves = j.contains("multipliers");
   const auto& names = j["constraint_names"];
   Rows rows{{"constraint", "value"}};
-  json own = json::array();  // names of one for each pair
+  json own = json::array();  // names of the phi alone, without their phi~
   if (holonomic) rows[0].emplace_back("hidden");
   if (moves) rows[0].emplace_back("multiplier");
   for (std::size_t k = 0; k < j["constraints"].size(); ++k) {

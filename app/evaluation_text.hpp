@@ -1,4 +1,4 @@
-// An evaluation for people: the tables of `pfaff evaluate`.
+// The tables of `pfaff evaluate`, which show an evaluation in the terminal.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace pfaff::app {
 
-/// What evaluation() found, in tables of at most 100 columns and six digits; every digit is in --json.
+/// The result of evaluation() as tables of at most 100 columns, with six digits; --json gives every digit.
 std::string evaluation_text(const nlohmann::json& j);
 
 }  // namespace pfaff::app

@@ -1,18 +1,20 @@
 // The program `pfaff`.
 //
-// Exit status: 0 fine, 1 a check failed or a run ended early, 2 wrong usage or input. Nothing but the result
-// goes to stdout; errors are one line on stderr.
+// Exit status: 0 when all went well, 1 when a check failed or a run ended early, 2 for wrong usage or input.
+// Only results go to stdout; an error is one line on stderr.
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <new>
 #include <sstream>
 
 #include <pfaff/app/command.hpp>
+#include <pfaff/app/terminal.hpp>
 #include <pfaff/core/bracket.hpp>
 #include <pfaff/core/integrator.hpp>
+#include <pfaff/core/registry/version.hpp>
 #include <pfaff/core/system.hpp>
-#include <pfaff/core/version.hpp>
 
 namespace pfaff::app {
 
@@ -21,7 +23,10 @@ CLI::App* subcommand(CLI::App& app, Common& common, const std::string& name, con
   sub->group("Commands");
   sub->add_flag("--json", common.json, "Print JSON instead of text");
   sub->add_option("--plugin", common.plugins, "Load a plug-in's shared object; may be repeated")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->take_all();
   return sub;
 }
 
@@ -38,7 +43,7 @@ Assignments parse_settings(const std::vector<std::string>& texts) {
 
 namespace {
 
-// --plugin files, then every shared object in the directories of PFAFF_PLUGIN_PATH.
+// Loads the files given by --plugin, then every shared object in the directories of PFAFF_PLUGIN_PATH.
 void load_plugins(const Common& common) {
   for (const std::string& file : common.plugins) load_plugin(file);
   const char* path = std::getenv("PFAFF_PLUGIN_PATH");
@@ -53,11 +58,36 @@ void load_plugins(const Common& common) {
     std::sort(files.begin(), files.end());
     for (const std::string& file : files) load_plugin(file);
   }
-  for (const auto* names : {&systems().duplicates(), &integrators().duplicates(), &brackets().duplicates()})
-    if (!names->empty()) throw InputError("registered twice: " + names->front());
+  if (const auto twice = registered_twice(); !twice.empty())
+    throw InputError("registered twice: " + twice.front());
 }
 
-// CLI11's complaint in our form: the nearest command or option named.
+// Says what is wrong in one line on stderr.
+void complain(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  std::cerr << "pfaff: " << printable(text) << '\n';
+}
+
+// CLI11 takes what follows an option for its value even where that is an option itself: `--out -h` would
+// write to a directory of this name. Says so; empty where no option stands in the place of a value.
+std::string missing_value(const CLI::App& app, int argc, char** argv) {
+  const std::string command = argc > 1 ? argv[1] : "";
+  const auto named = app.get_subcommands([&](const CLI::App* one) { return one->get_name() == command; });
+  if (named.empty()) return {};
+  const CLI::App* sub = named.front();
+  for (int k = 2; k + 1 < argc && argv[k] != std::string("--"); ++k) {
+    const std::string name = argv[k], next = argv[k + 1];
+    const CLI::Option* option = name.starts_with("--") ? sub->get_option_no_throw(name) : nullptr;
+    if (option == nullptr || option->get_items_expected_min() == 0) continue;
+    if (next == "--" || (next.size() > 1 && next[0] == '-' && sub->get_option_no_throw(next) != nullptr))
+      return name + ": expected a value, " + option->get_type_name() + ", got the option '" + next + "' (" +
+             name + "=" + next + " takes it as the value)";
+    ++k;
+  }
+  return {};
+}
+
+// CLI11's error in the form of our messages, with the nearest command or option named.
 std::string usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
   std::vector<std::string> commands;
   for (const CLI::App* sub : app.get_subcommands(nullptr)) commands.push_back(sub->get_name());
@@ -70,8 +100,8 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& error, int a
   }
   if (std::find(commands.begin(), commands.end(), command) == commands.end())
     return unknown_name("command", command, commands);
-  // An option that is not known explains whatever else is missing. Values of options do not count, nor does
-  // what follows `--`.
+  // Where an option is unknown, the message is about that one, because it also explains why others are
+  // missing. Values of options are not looked at, nor is anything after `--`.
   const CLI::App& sub = *app.get_subcommand(command);
   std::vector<std::string> options;
   for (const CLI::Option* option : sub.get_options())
@@ -90,8 +120,29 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& error, int a
   return text + " (see pfaff " + command + " --help)";
 }
 
+// Does the work and sees to it that all of its output was written; the exit status. Whatever is thrown ends
+// here, in one line.
+int run(const Action& work) {
+  try {
+    const int status = work();
+    std::cout.flush();
+    if (!std::cout) throw RunError("cannot write to standard output");
+    return status;
+  } catch (const InputError& error) {
+    complain(error.what());
+    return 2;
+  } catch (const std::bad_alloc&) {
+    complain("out of memory");
+    return 1;
+  } catch (...) {
+    complain(words_of_current_exception());
+    return 1;
+  }
+}
+
 int run(int argc, char** argv) {
-  // A reader that closes its end early is an error to report, not a reason to die of.
+  // When the reader of stdout closes its end early, the write fails and is reported as an error; without this
+  // the signal would end the program silently.
   std::signal(SIGPIPE, SIG_IGN);
   CLI::App app{"Pfaff: structure-preserving integration, what drifts and what it costs", "pfaff"};
   app.get_formatter()->label("SUBCOMMAND", "COMMAND");
@@ -107,30 +158,31 @@ int run(int argc, char** argv) {
   add_compare(app, common, action);
   add_reproduce(app, common, action);
   add_verify(app, common, action);
+  add_falsify(app, common, action);
   app.footer(
       "pfaff COMMAND --help shows the options of a command.\n"
       "Exit status: 0 fine, 1 a check failed or a run ended early, 2 wrong usage or input.\n");
+  if (const std::string missing = missing_value(app, argc, argv); !missing.empty()) {
+    complain(missing);
+    return 2;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {
-    return app.exit(success);
+    if (const std::string missing = missing_value(app, argc, argv); !missing.empty()) {
+      complain(missing);
+      return 2;
+    }
+    action = [&] { return app.exit(success); };
+    return run(action);
   } catch (const CLI::ParseError& error) {
-    std::cerr << "pfaff: " << usage_error(app, error, argc, argv) << '\n';
+    complain(usage_error(app, error, argc, argv));
     return 2;
   }
-  try {
+  return run([&] {
     load_plugins(common);
-    const int status = action();
-    std::cout.flush();
-    if (!std::cout) throw RunError("cannot write to standard output");
-    return status;
-  } catch (const InputError& error) {
-    std::cerr << "pfaff: " << error.what() << '\n';
-    return 2;
-  } catch (const std::exception& error) {
-    std::cerr << "pfaff: " << error.what() << '\n';
-    return 1;
-  }
+    return action();
+  });
 }
 
 }  // namespace

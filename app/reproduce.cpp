@@ -1,46 +1,121 @@
-// pfaff reproduce: a paper's printed values beside ours.
+// pfaff reproduce: prints the values printed in a paper beside those computed here, and what of the papers is
+// covered.
+#include <algorithm>
 #include <array>
 #include <iostream>
 
 #include <pfaff/app/command.hpp>
 #include <pfaff/app/terminal.hpp>
-#include <pfaff/bench/reproduce/reproduce.hpp>
+#include <pfaff/bench/reproduce/coverage/coverage.hpp>
+#include <pfaff/core/errors/errors.hpp>
 
 namespace pfaff::app {
 
 namespace {
-int run(const std::string& paper, const std::string& section, bool json) {
+
+struct Options {
+  std::string paper, section;
+  bool coverage = false;
+  [[nodiscard]] std::vector<std::string> chosen() const {
+    return paper.empty() ? papers() : std::vector<std::string>{paper};
+  }
+};
+
+void print_rows(const std::string& paper, const std::vector<ReproducedRow>& rows) {
+  std::vector<std::vector<std::string>> lines{{"published", "printed", "ours", "difference", "status"}};
+  const auto shortened = [](const std::string& text) {
+    return text.size() > 20 ? text.substr(0, 18) + ".." : text;
+  };
+  const auto count = [&](const char* status) {
+    return std::to_string(
+        std::count_if(rows.begin(), rows.end(), [&](const ReproducedRow& r) { return r.status == status; }));
+  };
+  for (const ReproducedRow& r : rows) {
+    std::array<char, 32> difference{};
+    std::snprintf(difference.data(), difference.size(), "%.1e", r.difference);
+    std::string id = r.id;
+    if (id.size() > 34) id = id.substr(0, 32) + "..";
+    lines.push_back({id, shortened(r.printed), shortened(r.ours), difference.data(), r.status});
+  }
+  std::cout << paper << '\n' << table(lines);
+  std::vector<std::vector<std::string>> notes;
+  for (const ReproducedRow& r : rows)
+    if (!r.erratum.empty()) notes.push_back({r.status, r.id + ": " + r.erratum});
+  std::cout << table(notes) << '\n'
+            << rows.size() << " rows: " << count("reproduced") << " reproduced, " << count("improved")
+            << " improved, " << count("erratum") << " errata, " << count("qualitative") << " qualitative"
+            << (ok(rows) ? "" : ", the rest FAILED") << '\n';
+}
+
+// A cell of at most `limit` characters.
+std::string fitted(const std::string& text, std::size_t limit) {
+  return text.size() > limit ? text.substr(0, limit - 2) + ".." : text;
+}
+
+void print_coverage(const Coverage& coverage) {
+  std::vector<std::vector<std::string>> counts{{coverage.paper, "items", "rows", "reason", "pending"}};
+  const auto add = [&](const std::string& name, const std::array<std::size_t, 3>& numbers) {
+    counts.push_back({name, std::to_string(numbers[0] + numbers[1] + numbers[2]), std::to_string(numbers[0]),
+                      std::to_string(numbers[1]), std::to_string(numbers[2])});
+  };
+  for (int k = 0; k <= static_cast<int>(ItemKind::statement); ++k) {
+    const auto kind = static_cast<ItemKind>(k);
+    const std::array<std::size_t, 3> numbers{coverage.count(kind, Cover::rows),
+                                             coverage.count(kind, Cover::reason),
+                                             coverage.count(kind, Cover::pending)};
+    if (numbers[0] + numbers[1] + numbers[2] > 0) add("  " + to_string(kind), numbers);
+  }
+  add("  all", {coverage.count(Cover::rows), coverage.count(Cover::reason), coverage.count(Cover::pending)});
+  std::cout << table(counts);
+  std::vector<std::vector<std::string>> without;
+  for (const CoveredItem& c : coverage.items)
+    if (c.item.cover != Cover::rows)
+      without.push_back({"  " + fitted(c.item.name, 24), to_string(c.item.cover), fitted(c.item.note, 42)});
+  std::cout << table(without);
+  for (const std::string& fault : coverage.faults) std::cout << paragraph("FAULT " + fault);
+  std::cout << '\n';
+}
+
+// One JSON value: that of the paper, or of all papers together.
+void print_json(const Options& options, const nlohmann::json& papers, bool good) {
+  nlohmann::json all{{"schema", 1}};
+  if (options.paper.empty()) {
+    all["ok"] = good;
+    all["papers"] = papers;
+  } else {
+    all.update(papers.front());
+  }
+  std::cout << json_text(all);
+}
+
+int run(const Options& options, bool json) {
+  if (options.paper.empty() && !options.section.empty())
+    throw InputError("--section " + options.section +
+                     ": expected a paper before it, because sections are a paper's");
+  if (options.coverage && !options.section.empty())
+    throw InputError("--section and --coverage exclude each other: the coverage is that of a whole paper");
   bool good = true;
-  for (const std::string& name : paper.empty() ? papers() : std::vector<std::string>{paper}) {
-    const auto rows = reproduce(name, section);
-    good = good && ok(rows);
-    if (json) {
-      std::cout << to_json(name, rows).dump(1) << '\n';
+  nlohmann::json all = nlohmann::json::array();
+  for (const std::string& paper : options.chosen()) {
+    if (options.coverage) {
+      const Coverage coverage = coverage_of(paper);
+      good = good && coverage.faults.empty();
+      if (json) {
+        all.push_back(to_json(coverage));
+      } else {
+        print_coverage(coverage);
+      }
       continue;
     }
-    std::vector<std::vector<std::string>> lines{{"published", "printed", "ours", "difference", "status"}};
-    const auto shortened = [](const std::string& text) {
-      return text.size() > 20 ? text.substr(0, 18) + ".." : text;
-    };
-    int reproduced = 0, errata = 0, qualitative = 0;
-    for (const ReproducedRow& r : rows) {
-      std::array<char, 32> difference{};
-      std::snprintf(difference.data(), difference.size(), "%.1e", r.difference);
-      std::string id = r.id;
-      if (id.size() > 34) id = id.substr(0, 32) + "..";
-      lines.push_back({id, shortened(r.printed), shortened(r.ours), difference.data(), r.status});
-      reproduced += r.status == "reproduced";
-      errata += r.status == "erratum";
-      qualitative += r.status == "qualitative";
+    const auto rows = reproduce(paper, options.section);
+    good = good && ok(rows);
+    if (json) {
+      all.push_back(to_json(paper, rows));
+    } else {
+      print_rows(paper, rows);
     }
-    std::cout << name << '\n' << table(lines);
-    std::vector<std::vector<std::string>> notes;
-    for (const ReproducedRow& r : rows)
-      if (!r.erratum.empty()) notes.push_back({r.status, r.id + ": " + r.erratum});
-    std::cout << table(notes) << '\n'
-              << rows.size() << " rows: " << reproduced << " reproduced, " << errata << " errata, "
-              << qualitative << " qualitative" << (ok(rows) ? "" : ", the rest FAILED") << '\n';
   }
+  if (json) print_json(options, all, good);
   return good ? 0 : 1;
 }
 }  // namespace
@@ -48,14 +123,14 @@ int run(const std::string& paper, const std::string& section, bool json) {
 void add_reproduce(CLI::App& app, Common& common, Action& action) {
   CLI::App* sub = subcommand(app, common, "reproduce",
                              "Published values beside ours: reproduced, erratum or qualitative");
-  auto paper = std::make_shared<std::string>();
-  auto section = std::make_shared<std::string>();
+  auto options = std::make_shared<Options>();
   std::string known;
   for (const std::string& name : papers()) known += (known.empty() ? "" : ", ") + name;
-  sub->add_option("paper", *paper, known + "; all of them without")->type_name("PAPER");
-  sub->add_option("--section", *section, "One section only")->type_name("SECTION");
-  sub->callback(
-      [=, &common, &action] { action = [=, &common] { return run(*paper, *section, common.json); }; });
+  sub->add_option("paper", options->paper, known + "; all of them without")->type_name("PAPER");
+  sub->add_option("--section", options->section, "One section only")->type_name("SECTION");
+  sub->add_flag("--coverage", options->coverage,
+                "Which items of a paper have rows, and why others have none");
+  sub->callback([=, &common, &action] { action = [=, &common] { return run(*options, common.json); }; });
 }
 
 }  // namespace pfaff::app

@@ -1,12 +1,15 @@
-// pfaff run: one run, to a directory or to standard output.
-#include <fstream>
+// pfaff run: makes one run and writes it to a directory or to standard output.
 #include <iostream>
 
 #include <pfaff/app/command.hpp>
 #include <pfaff/app/state_file.hpp>
 #include <pfaff/app/terminal.hpp>
+#include <pfaff/bench/runner/config_file.hpp>
+#include <pfaff/bench/runner/directory_lock.hpp>
 #include <pfaff/bench/runner/files.hpp>
-#include <pfaff/bench/runner/record.hpp>
+#include <pfaff/bench/runner/interruption.hpp>
+#include <pfaff/bench/runner/motion.hpp>
+#include <pfaff/bench/runner/run_directory.hpp>
 
 namespace pfaff::app {
 
@@ -15,19 +18,21 @@ namespace {
 struct Options {
   RunSettings settings;
   std::vector<std::string> set;
-  std::string every, precision, out, state, config;
+  std::string every, precision, out, state, config, reference, max_steps;
+  bool force = false;
 };
 
-// What the options ask for, from a config.toml or from the options themselves, unresolved.
-RunSettings settings_of(const Options& options) {
+// What the options ask for, read from a config.toml or from the options themselves, not yet resolved.
+RunConfig config_of(const Options& options) {
   if (options.out.empty())
     throw InputError("--out is missing: a new directory for the run, or - for its series on standard output");
-  RunSettings settings = options.settings;
+  RunConfig config{options.settings, {}};
+  RunSettings& settings = config.settings;
   if (!options.config.empty()) {
-    for (const std::string& other :
-         {settings.system, settings.formulation, settings.integrator, settings.time, settings.step,
-          settings.tolerance, options.every, options.precision, options.state})
-      if (!other.empty() || !options.set.empty())
+    for (const std::string& other : {settings.system, settings.formulation, settings.integrator,
+                                     settings.time, settings.step, settings.tolerance, options.every,
+                                     options.precision, options.state, options.reference, options.max_steps})
+      if (!other.empty() || !options.set.empty() || settings.project_initial || settings.allow_inconsistent)
         throw InputError("--config holds the whole run; expected no other settings beside it");
     return read_config(options.config);
   }
@@ -39,83 +44,105 @@ RunSettings settings_of(const Options& options) {
   settings.set = parse_settings(options.set);
   if (!options.precision.empty()) settings.precision = parse_precision(options.precision);
   if (!options.every.empty()) settings.every = parse_every(options.every, "--every");
+  if (!options.reference.empty()) settings.reference = parse_errors_against(options.reference, "--reference");
+  if (!options.max_steps.empty()) settings.step_budget = parse_every(options.max_steps, "--max-steps");
   if (!options.state.empty()) {
     for (const auto& [key, value] : settings.set)
       if (key == "initial") throw InputError("--state and --set initial exclude each other");
     read_state(options.state, settings);
   }
-  return settings;
+  return config;
+}
+
+// The run that the options ask for. One that was made before is not repeated from other files and builds
+// than then, unless that is forced.
+ResolvedRun resolved_run(const Options& options) {
+  const RunConfig config = config_of(options);
+  load_missing_plugins(config.origins, options.config);
+  ResolvedRun run = resolve(config.settings);
+  if (const auto changed = differences(config.origins, run.origins); !changed.empty() && !options.force)
+    throw InputError(options.config + ": " + in_one_line(changed) +
+                     "; expected what it was made from, or --force to run it as things are now");
+  return run;
+}
+
+// A summary for the terminal.
+std::string summary_table(const nlohmann::json& j, const std::string& written, const std::string& out) {
+  const auto number = [&](const nlohmann::json& x) {
+    return x.is_number() ? scientific(x.get<double>()) : std::string("not finite");
+  };
+  std::vector<std::vector<std::string>> rows{
+      {"status", j["status"].get<std::string>() + " after " +
+                     std::to_string(j["completed"].get<std::int64_t>()) + " steps"}};
+  if (!j["error_max"].is_null())
+    rows.push_back({"error", "max " + number(j["error_max"]) + ", final " + number(j["error_final"])});
+  const int failures = j.value("structure_failures", 0);
+  if (!j["structure_residual"].is_null() || failures > 0)
+    rows.push_back({"structure", "residual " + number(j["structure_residual"]) +
+                                     (failures > 0 ? ", not finite at " + std::to_string(failures) +
+                                                         (failures == 1 ? " sample" : " samples")
+                                                   : "")});
+  for (const auto& i : j["invariants"])
+    if (i.contains("max"))
+      rows.push_back({i["name"], "drift max " + number(i["max"]) + ", rms " + number(i["rms"]) + ", slope " +
+                                     number(i["slope"]) + ", " + i["class"].get<std::string>()});
+    else if (const auto setback = setback_in(i))
+      rows.push_back({i["name"], "largest " + setback->move + " " + number(setback->size) + ", expected to " +
+                                     setback->expected});
+  if (j.contains("constraints"))
+    for (const auto& c : j["constraints"])
+      rows.push_back({c["name"], "residual max " + number(c["max"]) + ", final " + number(c["final"]) + ", " +
+                                     c["class"].get<std::string>()});
+  if (j.contains("projected_initial"))
+    rows.push_back(
+        {"initial", "moved onto the constraints, relative change " + number(j["projected_initial"])});
+  rows.push_back({written, out + "/{config.toml, series.csv, summary.json}"});
+  return table(rows);
+}
+
+// Prints what a run left, made now or before, and gives the exit status.
+int finish(const nlohmann::json& j, const std::string& text) {
+  std::cout << text;
+  if (j["status"] == "converged") return 0;
+  std::cerr << "pfaff: the run ended early: " << j["message"].get<std::string>() << " ("
+            << j["status"].get<std::string>() << "); completed samples are kept\n";
+  return 1;
+}
+
+RunRecord executed(const ResolvedRun& resolved) {
+  const Interruption interruption;
+  const auto reference = reference_asked_for(resolved);
+  ProgressLine line;
+  return execute(
+      resolved, reference.get(),
+      [&](double fraction) {
+        line.show(resolved.model->name() + ", " + resolved.settings.integrator, fraction);
+      },
+      &Interruption::stop());
 }
 
 int run(const Options& options, bool json) {
-  const ResolvedRun resolved = resolve(settings_of(options));
-  const bool to_stdout = options.out == "-";
-  if (!to_stdout) make_output_directory(options.out);
-
-  std::unique_ptr<ReferenceSolution> reference;
-  if (resolved.model->facets().has(Facet::exact_solution)) {
-    std::vector<Quad> initial;
-    for (const Real& x : resolved.initial) initial.push_back(x.quad());
-    reference = std::make_unique<ReferenceSolution>(resolved.model, resolved.t0.quad(), initial,
-                                                    resolved.time.quad());
-  }
-  RunRecord record;
-  {
-    ProgressLine line;
-    record = execute(resolved, reference.get(), [&](double fraction) {
-      line.show(resolved.model->name() + ", " + resolved.settings.integrator, fraction);
-    });
-  }
-  if (to_stdout) {
-    std::cout << series_csv(resolved, record) << std::flush;
+  const ResolvedRun resolved = resolved_run(options);
+  if (options.out == "-") {
+    const RunRecord record = executed(resolved);
+    const std::string series = series_csv(resolved, record);
+    std::cout << series << std::flush;
     if (!std::cout) throw RunError("cannot write to standard output");
-  } else {
-    const std::filesystem::path directory = options.out;
-    const nlohmann::json j = summary(resolved, record);
-    write_file(directory / "config.toml", config_text(resolved));
-    write_file(directory / "series.csv", series_csv(resolved, record));
-    write_file(directory / "summary.json", j.dump(1) + "\n");
-    if (json) {
-      std::cout << j.dump(1) << '\n';
-    } else {
-      std::vector<std::vector<std::string>> rows{
-          {"status",
-           std::string(to_string(record.status)) + " after " + std::to_string(record.completed) + " steps"}};
-      const auto scientific = [](double x) {
-        char text[32];
-        std::snprintf(text, sizeof text, "%.3g", x);
-        return std::string(text);
-      };
-      if (record.error_max)
-        rows.push_back(
-            {"error", "max " + scientific(*record.error_max) + ", final " + scientific(*record.error_final)});
-      if (record.structure_residual)
-        rows.push_back({"structure", "residual " + scientific(*record.structure_residual)});
-      for (const auto& i : j["invariants"])
-        if (i.contains("max"))
-          rows.push_back({i["name"], "drift max " + scientific(i["max"]) + ", rms " + scientific(i["rms"]) +
-                                         ", slope " + scientific(i["slope"]) + ", " +
-                                         i["class"].get<std::string>()});
-        else if (i.contains("largest_rise"))
-          rows.push_back(
-              {i["name"], "largest rise " + scientific(i["largest_rise"]) + ", expected to decrease"});
-      if (j.contains("constraints"))
-        for (const auto& c : j["constraints"])
-          rows.push_back({c["name"], "residual max " + scientific(c["max"]) + ", final " +
-                                         scientific(c["final"]) + ", " + c["class"].get<std::string>()});
-      if (j.contains("projected_initial"))
-        rows.push_back(
-            {"initial", "moved onto the constraints, relative change " + scientific(j["projected_initial"])});
-      rows.push_back({"written", options.out + "/{config.toml, series.csv, summary.json}"});
-      std::cout << table(rows);
-    }
+    return finish(summary(resolved, record), "");
   }
-  if (record.status != Status::converged) {
-    std::cerr << "pfaff: the run ended early: " << record.message << " (" << to_string(record.status)
-              << "); completed samples are kept\n";
-    return 1;
-  }
-  return 0;
+  const std::filesystem::path directory = options.out;
+  make_output_directory(directory, run_file_names());
+  const DirectoryLock lock(directory, "pfaff run");
+  const KeptRun kept = kept_run(directory, resolved);
+  const std::string where = "output directory '" + options.out + "' holds ";
+  if (kept.other)
+    throw InputError(where +
+                     "another run; expected a new directory, an empty one, or the settings of that run");
+  if (kept.outdated() && !options.force)
+    throw InputError(where + "this run, but " + in_one_line(kept.changed) +
+                     "; expected a new directory, or --force to run it anew");
+  const nlohmann::json j = kept.current() ? kept.summary : write_run(directory, resolved, executed(resolved));
+  return finish(j, json ? json_text(j) : summary_table(j, kept.current() ? "kept" : "written", options.out));
 }
 
 }  // namespace
@@ -125,7 +152,8 @@ void add_run(CLI::App& app, Common& common, Action& action) {
   auto options = std::make_shared<Options>();
   RunSettings& s = options->settings;
   sub->add_option("--system", s.system, "Name of the system")->type_name("NAME");
-  sub->add_option("--formulation", s.formulation, "Vector field of a constrained system (dirac without)")
+  sub->add_option("--formulation", s.formulation,
+                  "Vector field of a constrained system (" + dirac_formulation().name() + " without)")
       ->type_name("NAME");
   sub->add_option("--integrator", s.integrator, "Name of the integrator")->type_name("NAME");
   sub->add_option("--step", s.step, "Step h > 0")->type_name("h");
@@ -141,10 +169,16 @@ void add_run(CLI::App& app, Common& common, Action& action) {
   sub->add_option("--state", options->state, "JSON file with the initial state: t, and z or q and p")
       ->type_name("FILE");
   sub->add_option("--precision", options->precision, "double (default) or quad")->type_name("NAME");
+  sub->add_option("--reference", options->reference,
+                  "Errors against: exact (default), solution (exact or 30-digit), none")
+      ->type_name("NAME");
+  sub->add_option("--max-steps", options->max_steps, "Steps that a run may take (default 1e12)")
+      ->type_name("N");
   sub->add_flag("--project-initial", s.project_initial, "Move the initial state onto the constraints");
   sub->add_flag("--allow-inconsistent", s.allow_inconsistent, "Take an initial state off the constraints");
   sub->add_option("--config", options->config, "config.toml of an earlier run, to run it again")
       ->type_name("FILE");
+  sub->add_flag("--force", options->force, "Run anew what was made from other files or builds");
   sub->add_option("--out", options->out, "New directory for the run, or - for its series on standard output")
       ->type_name("DIR|-");
   sub->callback(

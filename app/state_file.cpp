@@ -1,19 +1,55 @@
 #include <pfaff/app/state_file.hpp>
 
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include <pfaff/bench/runner/files.hpp>
 
 namespace pfaff::app {
 
 namespace {
-// Numbers keep the digits they are written with, which a double would not.
+// A JSON parser that keeps numbers as the text they are written as, because a double would lose digits.
 struct ExactNumbers : nlohmann::detail::json_sax_dom_parser<nlohmann::json> {
-  explicit ExactNumbers(nlohmann::json& result) : json_sax_dom_parser(result, false) {}
+  ExactNumbers(nlohmann::json& result, const std::string& path)
+      : json_sax_dom_parser(result, false), path_(path) {}
+  // Of a key that is there twice the parser keeps the last; which one was meant, nobody knows.
+  bool key(std::string& name) {
+    if (depth_ == 1 && !keys_.insert(name).second)
+      throw InputError(path_ + ": key '" + name + "' is there twice");
+    return json_sax_dom_parser::key(name);
+  }
+  bool start_object(std::size_t size) {
+    open();
+    return json_sax_dom_parser::start_object(size);
+  }
+  bool end_object() {
+    --depth_;
+    return json_sax_dom_parser::end_object();
+  }
+  bool start_array(std::size_t size) {
+    open();
+    return json_sax_dom_parser::start_array(size);
+  }
+  bool end_array() {
+    --depth_;
+    return json_sax_dom_parser::end_array();
+  }
   bool number_float(double /*rounded*/, const std::string& written) {
     std::string text = written;
     return string(text);
   }
+
+ private:
+  // Values are copied by a function that calls itself for each level, so there is a limit to these.
+  void open() {
+    constexpr int deepest = 8;
+    if (++depth_ > deepest)
+      throw InputError(path_ + ": expected lists of numbers, got lists inside one another");
+  }
+
+  const std::string& path_;
+  int depth_ = 0;
+  std::set<std::string> keys_;
 };
 
 std::string number_text(const nlohmann::json& value, const std::string& where) {
@@ -26,7 +62,7 @@ std::string number_text(const nlohmann::json& value, const std::string& where) {
 
 void read_state(const std::string& path, RunSettings& settings) {
   nlohmann::json j;
-  ExactNumbers reader(j);
+  ExactNumbers reader(j, path);
   if (!nlohmann::json::sax_parse(read_file(path), &reader) || !j.is_object())
     throw InputError(path + ": expected a JSON object with t and z (or q and p)");
   for (const auto& [key, value] : j.items())
@@ -42,6 +78,9 @@ void read_state(const std::string& path, RunSettings& settings) {
     if (!part.is_array()) throw InputError(path + ": expected a list of numbers");
     for (const nlohmann::json& x : part) settings.initial.push_back(number_text(x, path));
   }
+  if (parts.size() == 2 && parts[0].size() != parts[1].size())
+    throw InputError(path + ": expected as many numbers in q as in p, got " +
+                     std::to_string(parts[0].size()) + " and " + std::to_string(parts[1].size()));
   if (settings.initial.empty()) throw InputError(path + ": expected numbers, got an empty list");
 }
 

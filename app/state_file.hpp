@@ -1,4 +1,4 @@
-// The file that --state names.
+// Reading the file that --state names, which gives the initial state of a run.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace pfaff::app {
 
-/// Reads {t, z} or {t, q, p}, t optional, into t0 and initial; numbers keep the digits they are written with.
-/// InputError, naming the file, for anything else.
+/// Reads a JSON object {t, z} or {t, q, p}, in which t is optional, into `t0` and `initial` of the settings.
+/// Numbers keep the digits they are written with. InputError, naming the file, for anything else.
 void read_state(const std::string& path, RunSettings& settings);
 
 }  // namespace pfaff::app

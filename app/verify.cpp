@@ -1,48 +1,45 @@
-// pfaff verify: every claim of every plug-in, counted per claim, system and precision.
+// pfaff verify: checks the claims of plug-ins and shows how many checks passed for each claim, system
+// and precision.
 #include <array>
+#include <cmath>
 #include <iostream>
 #include <map>
 
 #include <pfaff/app/command.hpp>
 #include <pfaff/app/terminal.hpp>
+#include <pfaff/bench/runner/settings.hpp>
 #include <pfaff/bench/verification/check.hpp>
 
 namespace pfaff::app {
 
 namespace {
 
-std::string scientific(double x) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.3g", x);
-  return text.data();
-}
-
-std::string parameters_of(const Check& c) {
-  std::string text;
-  for (const auto& [key, value] : c.parameters) text += " " + key + "=" + value;
-  return text;
-}
-
 struct Count {
-  int passed = 0, failed = 0, measured = 0, rejected = 0;
-  double worst = 0;
+  int passed = 0, failed = 0, measured = 0;
+  double worst = 0, outside = 0;  // the largest values in scope and outside
 };
 
+// What counts as large: of an order, how far it falls short of the claim.
+void note(double& worst, const Check& c) {
+  const double size = c.claim == "order" ? c.expected - c.measured : c.measured;
+  worst = std::isnan(size) || std::isnan(worst) ? NAN : std::max(worst, size);
+}
+
 void print(const std::vector<Check>& checks) {
-  // One row for a claim, a system and a precision.
+  // The table has one row for each claim, system and precision.
   std::map<std::array<std::string, 3>, Count> counts;
   std::vector<std::array<std::string, 3>> order;
   std::vector<std::vector<std::string>> controls{{"control", "system", "measured", "claimed", "result"}};
   std::vector<std::vector<std::string>> failures;
   for (const Check& c : checks) {
     if (!good(c))
-      failures.push_back({"  " + c.plugin + parameters_of(c), c.claim, c.system, c.precision,
+      failures.push_back({"  " + called(c.plugin, c.parameters), c.claim, c.system, c.precision,
                           "measured " + scientific(c.measured) + ", expected " + scientific(c.expected) +
                               " within " + scientific(c.tolerance) +
                               (c.reason.empty() ? "" : " (" + c.reason + ")")});
     if (c.control) {
       controls.push_back(
-          {"  " + c.plugin + parameters_of(c) + ": " + c.claim, c.system, scientific(c.measured),
+          {"  " + called(c.plugin, c.parameters) + ": " + c.claim, c.system, scientific(c.measured),
            c.claim.starts_with("order") ? scientific(c.expected) : "<= " + scientific(c.tolerance),
            std::string(to_string(c.result))});
       continue;
@@ -55,24 +52,26 @@ void print(const std::vector<Check>& checks) {
     count.passed += c.result == CheckResult::pass;
     count.failed += c.result == CheckResult::fail;
     count.measured += c.result == CheckResult::measured;
-    if (c.result == CheckResult::pass)
-      count.worst = std::max(count.worst, c.claim == "order" ? c.expected - c.measured : c.measured);
+    if (c.result == CheckResult::pass || c.result == CheckResult::fail) note(count.worst, c);
+    if (c.result == CheckResult::measured) note(count.outside, c);
   }
   std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) { return a < b; });
   std::vector<std::vector<std::string>> rows{
-      {"claim", "system", "precision", "pass", "fail", "outside", "worst in scope"}};
+      {"claim", "system", "precision", "pass", "fail", "worst", "outside", "worst"}};
   for (const auto& key : order) {
     const Count& n = counts[key];
     rows.push_back({key[0], key[1].empty() ? "-" : key[1], key[2], std::to_string(n.passed),
-                    std::to_string(n.failed), std::to_string(n.measured),
-                    n.passed > 0 ? scientific(n.worst) : "-"});
+                    std::to_string(n.failed), n.passed + n.failed > 0 ? scientific(n.worst) : "-",
+                    std::to_string(n.measured), n.measured > 0 ? scientific(n.outside) : "-"});
   }
-  std::cout << table(rows)
-            << "(outside: out of the claim's scope, measured but not judged; worst of order: claimed less "
-               "measured)\n";
+  std::cout
+      << table(rows)
+      << "(outside: the claim is not made there or is out of its scope, so that it is measured and not\n"
+         "judged; worst: the largest value, failures included, and of order the claimed less the measured)\n";
   if (controls.size() > 1) {
     std::cout << "\ncontrols, false claims that must be rejected\n";
-    // One line a plug-in and system is enough to read; every control is in --json.
+    // The terminal shows at most two controls of each plug-in, which is enough to read, and every control
+    // that was not rejected; --json has all of them.
     std::map<std::string, int> shown;
     std::vector<std::vector<std::string>> some{controls.front()};
     int rejected = 0;
@@ -86,11 +85,11 @@ void print(const std::vector<Check>& checks) {
   if (!failures.empty()) std::cout << "\nfailed\n" << table(failures);
 }
 
-int run(const std::vector<std::string>& names, bool full, bool json) {
+int run(const VerificationSettings& settings, bool json) {
   std::vector<Check> checks;
   {
     ProgressLine line;
-    checks = verify(names, full, [&](const std::string& what, std::size_t done, std::size_t all) {
+    checks = verify(settings, [&](const std::string& what, std::size_t done, std::size_t all) {
       line.show(what, static_cast<double>(done) / static_cast<double>(all));
     });
   }
@@ -104,8 +103,7 @@ int run(const std::vector<std::string>& names, bool full, bool json) {
   if (json) {
     nlohmann::json list = nlohmann::json::array();
     for (const Check& c : checks) list.push_back(to_json(c));
-    std::cout << nlohmann::json{{"schema", 1}, {"ok", ok}, {"counts", totals}, {"checks", list}}.dump(1)
-              << '\n';
+    std::cout << json_text({{"schema", 1}, {"ok", ok}, {"counts", totals}, {"checks", list}});
   } else {
     print(checks);
     std::cout << '\n'
@@ -120,13 +118,22 @@ int run(const std::vector<std::string>& names, bool full, bool json) {
 }  // namespace
 
 void add_verify(CLI::App& app, Common& common, Action& action) {
-  CLI::App* sub = subcommand(app, common, "verify", "Test every claim of every plug-in, in double and quad");
-  auto names = std::make_shared<std::vector<std::string>>();
-  auto full = std::make_shared<bool>(false);
-  sub->add_option("name", *names, "Plug-ins, systems, brackets, integrators or controls; all without")
+  CLI::App* sub = subcommand(app, common, "verify", "Test the claims of plug-ins, in double and quad");
+  auto settings = std::make_shared<VerificationSettings>();
+  auto set = std::make_shared<std::vector<std::string>>();
+  sub->add_option("name", settings->names, "Plug-ins, kinds of them (systems ...), or controls; all without")
       ->type_name("NAME");
-  sub->add_flag("--full", *full, "Higher orders and more variants");
-  sub->callback([=, &common, &action] { action = [=, &common] { return run(*names, *full, common.json); }; });
+  sub->add_flag("--full", settings->full, "Higher orders and more variants");
+  sub->add_option("--set", *set, "A parameter of the one plug-in that is named")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->take_all();
+  sub->callback([=, &common, &action] {
+    action = [=, &common] {
+      settings->set = parse_settings(*set);
+      return run(*settings, common.json);
+    };
+  });
 }
 
 }  // namespace pfaff::app

@@ -24,9 +24,14 @@ struct Birkhoffian {
   }
 };
 
-const Bracket<Birkhoffian> registered{{.name = "birkhoffian",
-                                       .title = "K^-1 of a Birkhoffian one-form, by differentiation",
-                                       .reference = "su-qin (5), (67)",
-                                       .symmetry = Symmetry::skew,
-                                       .jacobi = true}};
+const Bracket<Birkhoffian> registered{
+    {.name = "birkhoffian",
+     .title = "K^-1 of a Birkhoffian one-form, by differentiation",
+     .reference = "su-qin (5), (67)",
+     .description =
+         "The inverse of the structure K = dF of a sample one-form that depends on state and time, by "
+         "differentiation. Take it as the example of a bracket that is not written down: any one-form of a "
+         "regular K makes one. It obeys Jacobi's identity because K is closed, and ends where K is singular.",
+     .symmetry = Symmetry::skew,
+     .jacobi = true}};
 }  // namespace

@@ -14,9 +14,13 @@ struct Canonical : CanonicalBracket {
   [[nodiscard]] int dimension() const { return 2 * degrees; }
 };
 
-const Bracket<Canonical> registered{{.name = "canonical",
-                                     .title = "canonical bracket {q_i, p_j} = delta_ij",
-                                     .reference = "marsden-ratiu1999 2.7",
-                                     .symmetry = Symmetry::skew,
-                                     .jacobi = true}};
+const Bracket<Canonical> registered{
+    {.name = "canonical",
+     .title = "canonical bracket {q_i, p_j} = delta_ij",
+     .reference = "marsden-ratiu1999 2.7",
+     .description = "The bracket of positions and momenta, of any even dimension. Take it wherever "
+                    "coordinates are canonical; systems given by energies T + V or by H alone have it "
+                    "without asking. It is constant and regular and has no Casimirs.",
+     .symmetry = Symmetry::skew,
+     .jacobi = true}};
 }  // namespace

@@ -20,9 +20,14 @@ struct ConstantPoisson {
   }
 };
 
-const Bracket<ConstantPoisson> registered{{.name = "constant-poisson",
-                                           .title = "constant Poisson tensor in three dimensions",
-                                           .reference = "marsden-ratiu1999 10.1",
-                                           .symmetry = Symmetry::skew,
-                                           .jacobi = true}};
+const Bracket<ConstantPoisson> registered{
+    {.name = "constant-poisson",
+     .title = "constant Poisson tensor in three dimensions",
+     .reference = "marsden-ratiu1999 10.1",
+     .description =
+         "A constant bracket of three dimensions, which is degenerate because its dimension is odd. Take it "
+         "to test what is done with Casimirs in the simplest case: its one Casimir is linear. Every "
+         "Runge-Kutta method keeps a linear Casimir, so that it tells no methods apart.",
+     .symmetry = Symmetry::skew,
+     .jacobi = true}};
 }  // namespace

@@ -12,29 +12,31 @@ struct LiePoisson {
                       "rotations, rigid motions, traceless 2 x 2 matrices")};
   }
   [[nodiscard]] int dimension() const { return algebra == "se3" ? 6 : 3; }
-  [[nodiscard]] int casimir_count() const { return algebra == "se3" ? 2 : 1; }
+  [[nodiscard]] int casimir_count() const { return bracket().casimir_count(); }
   template <class T>
   void sharp(const T& t, In<T> z, In<T> covector, Out<T> vector) const {
-    const auto bracket = algebra == "se3"   ? LiePoissonBracket::se3(-1)
-                         : algebra == "sl2" ? LiePoissonBracket::sl2(-1)
-                                            : LiePoissonBracket::rigid_body();
-    bracket.sharp(t, z, covector, vector);
+    bracket().sharp(t, z, covector, vector);
   }
   template <class T>
-  void casimirs(const T& /*t*/, In<T> z, Out<T> values) const {
-    if (algebra == "sl2") {
-      values[0] = z[0] * z[0] + T(4) * z[1] * z[2];
-      return;
-    }
-    const std::size_t first = algebra == "se3" ? 3 : 0;
-    values[0] = z[first] * z[first] + z[first + 1] * z[first + 1] + z[first + 2] * z[first + 2];
-    if (algebra == "se3") values[1] = z[0] * z[3] + z[1] * z[4] + z[2] * z[5];
+  void casimirs(const T& t, In<T> z, Out<T> values) const {
+    bracket().casimirs(t, z, values);
+  }
+
+ private:
+  [[nodiscard]] LiePoissonBracket bracket() const {
+    return algebra == "se3"   ? LiePoissonBracket::se3(-1)
+           : algebra == "sl2" ? LiePoissonBracket::sl2(-1)
+                              : LiePoissonBracket::rigid_body();
   }
 };
 
-const Bracket<LiePoisson> registered{{.name = "lie-poisson",
-                                      .title = "Lie-Poisson brackets {z_i, z_j} = -c_ij^k z_k",
-                                      .reference = "marsden-ratiu1999 (1.2.13), 10.1",
-                                      .symmetry = Symmetry::skew,
-                                      .jacobi = true}};
+const Bracket<LiePoisson> registered{
+    {.name = "lie-poisson",
+     .title = "Lie-Poisson brackets {z_i, z_j} = -c_ij^k z_k",
+     .reference = "marsden-ratiu1999 (1.2.13), 10.1",
+     .description = "The brackets of the duals of so(3), se(3) and sl(2), linear in the state. Take them for "
+                    "rigid bodies, tops and their like. They are degenerate: each has Casimirs, which every "
+                    "motion keeps and a numerical method need not.",
+     .symmetry = Symmetry::skew,
+     .jacobi = true}};
 }  // namespace

@@ -16,10 +16,28 @@ struct StructureConstant {
   Real value;
 };
 
-/// The bracket {z_i, z_j} = sign * c_ij^k z_k.
+/// The term value z_i z_j of a quadratic form.
+struct QuadraticTerm {
+  int i, j;
+  Real value;
+};
+
+/// The bracket {z_i, z_j} = sign * c_ij^k z_k, with those of its Casimirs that are quadratic forms.
 struct LiePoissonBracket {
   std::vector<StructureConstant> constants;
   Real sign = 1;
+  std::vector<std::vector<QuadraticTerm>> quadratic_casimirs{};
+
+  [[nodiscard]] int casimir_count() const { return static_cast<int>(quadratic_casimirs.size()); }
+  template <class T>
+  void casimirs(const T& /*t*/, In<T> z, Out<T> values) const {
+    for (std::size_t c = 0; c < quadratic_casimirs.size(); ++c) {
+      values[c] = T(0);
+      for (const QuadraticTerm& q : quadratic_casimirs[c])
+        values[c] =
+            values[c] + T(q.value) * z[static_cast<std::size_t>(q.i)] * z[static_cast<std::size_t>(q.j)];
+    }
+  }
 
   template <class T>
   void sharp(const T& /*t*/, In<T> z, In<T> covector, Out<T> vector) const {
@@ -60,7 +78,9 @@ struct LiePoissonBracket {
   }
 
   /// Rotations, [e_1, e_2] = e_3 and cyclic. Casimirs: functions of |z|^2.
-  static LiePoissonBracket so3(Real sign = 1) { return {{{0, 1, 2, 1}, {1, 2, 0, 1}, {2, 0, 1, 1}}, sign}; }
+  static LiePoissonBracket so3(Real sign = 1) {
+    return {{{0, 1, 2, 1}, {1, 2, 0, 1}, {2, 0, 1, 1}}, sign, {{{0, 0, 1}, {1, 1, 1}, {2, 2, 1}}}};
+  }
   /// Rotations and translations, z = (Pi, Gamma). Casimirs: |Gamma|^2 and Pi.Gamma.
   static LiePoissonBracket se3(Real sign = 1) {
     return {{{0, 1, 2, 1},
@@ -72,10 +92,13 @@ struct LiePoissonBracket {
              {3, 1, 5, 1},
              {4, 2, 3, 1},
              {5, 0, 4, 1}},
-            sign};
+            sign,
+            {{{3, 3, 1}, {4, 4, 1}, {5, 5, 1}}, {{0, 3, 1}, {1, 4, 1}, {2, 5, 1}}}};
   }
   /// Traceless 2 x 2 matrices, z = (h, e, f): [h, e] = 2 e, [h, f] = -2 f, [e, f] = h. Casimir: h^2 + 4 e f.
-  static LiePoissonBracket sl2(Real sign = 1) { return {{{0, 1, 1, 2}, {0, 2, 2, -2}, {1, 2, 0, 1}}, sign}; }
+  static LiePoissonBracket sl2(Real sign = 1) {
+    return {{{0, 1, 1, 2}, {0, 2, 2, -2}, {1, 2, 0, 1}}, sign, {{{0, 0, 1}, {1, 2, 4}}}};
+  }
   /// The body bracket of a rigid body on so(3)*: {f, g} = -z.(grad f x grad g), z the angular momentum.
   static LiePoissonBracket rigid_body() { return so3(-1); }
 };

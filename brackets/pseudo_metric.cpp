@@ -1,5 +1,6 @@
-// A constant symmetric bracket of any signature as a plug-in: <z_i, z_i> = +1, -1 or 0. Constraints with
-// <phi, phi> = 0 that are no Casimirs (null directions) need pairs as pivots.
+// A constant symmetric bracket of any signature as a plug-in: <z_i, z_i> = +1, -1 or 0. The sum of a
+// coordinate with +1 and one with -1 has <phi, phi> = 0 without being a Casimir. An elimination of such
+// constraints needs pairs of them as pivots.
 #include <pfaff/core/bracket.hpp>
 
 namespace {
@@ -27,9 +28,14 @@ struct PseudoMetric {
   }
 };
 
-const Bracket<PseudoMetric> registered{{.name = "pseudo-metric",
-                                        .title = "constant symmetric bracket of any signature",
-                                        .reference = "nguyen-turski section 2",
-                                        .symmetry = Symmetry::symmetric,
-                                        .jacobi = false}};
+const Bracket<PseudoMetric> registered{
+    {.name = "pseudo-metric",
+     .title = "constant symmetric bracket of any signature",
+     .reference = "nguyen-turski section 2",
+     .description =
+         "A constant symmetric bracket with squares of either sign or zero. Take it to test symmetric Dirac "
+         "brackets where a constraint may have a vanishing square without being a Casimir, so that pivots "
+         "are needed in pairs. It is no friction: squares may be negative, and an energy may grow by it.",
+     .symmetry = Symmetry::symmetric,
+     .jacobi = false}};
 }  // namespace

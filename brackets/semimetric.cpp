@@ -21,10 +21,15 @@ struct Semimetric {
   }
 };
 
-const Bracket<Semimetric> registered{{.name = "semimetric",
-                                      .title = "friction, <p_i, p_j> = delta_ij lambda_i",
-                                      .reference = "nguyen-turski section 4",
-                                      .symmetry = Symmetry::symmetric,
-                                      .jacobi = false,
-                                      .semimetric = true}};
+const Bracket<Semimetric> registered{
+    {.name = "semimetric",
+     .title = "friction, <p_i, p_j> = delta_ij lambda_i",
+     .reference = "nguyen-turski section 4",
+     .description =
+         "The symmetric bracket of linear friction, which acts on momenta alone. Take it beside a Poisson "
+         "bracket to make a damped system: energy falls at the rate <H, H>. It is degenerate, as positions "
+         "are Casimirs of it, and obeys no Jacobi identity; its coefficients are not negative.",
+     .symmetry = Symmetry::symmetric,
+     .jacobi = false,
+     .semimetric = true}};
 }  // namespace

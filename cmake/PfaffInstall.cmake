@@ -4,9 +4,10 @@ include(CMakePackageConfigHelpers)
 install(TARGETS pfaff pfaff_bench EXPORT PfaffTargets
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS pfaff_app RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(DIRECTORY core brackets systems integrators DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pfaff
+install(DIRECTORY core brackets formulations systems integrators DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pfaff
         FILES_MATCHING PATTERN "*.hpp")
-install(DIRECTORY bench/measure bench/runner bench/verification bench/reproduce
+install(DIRECTORY bench/measure bench/runner bench/experiment bench/evaluation bench/verification
+                  bench/reproduce
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pfaff/bench FILES_MATCHING PATTERN "*.hpp")
 install(DIRECTORY bench/report bench/experiments DESTINATION ${CMAKE_INSTALL_DATADIR}/pfaff
         PATTERN "__pycache__" EXCLUDE)

@@ -11,6 +11,8 @@ function(pfaff_target target)
                                            # GCC joins neighbouring results into vector loads; behind a call
                                            # those wait for scalar stores to leave the store buffer.
                                            $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>)
+  # The build ID names the build in the identity of a run (bench/runner/origins.hpp).
+  target_link_options(${target} PRIVATE -Wl,--build-id)
   if(PFAFF_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
@@ -22,10 +24,14 @@ function(pfaff_target target)
                                              -fno-sanitize-recover=all)
     target_link_options(${target} PRIVATE -fsanitize=${PFAFF_SANITIZE})
   endif()
-  target_compile_definitions(${target} PRIVATE
-    PFAFF_BUILD_FLAGS="${CMAKE_BUILD_TYPE} ${CMAKE_CXX_FLAGS_${pfaff_build_type}} -ffp-contract=off ${PFAFF_MARCH}"
-    PFAFF_SOURCE_DIRECTORY="${PROJECT_SOURCE_DIR}")
-  set_target_properties(${target} PROPERTIES INSTALL_RPATH "$ORIGIN:$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
+endfunction()
+
+# Libraries are looked for beside the file that needs them, never in the current directory. CMake pads the run path
+# of what is to be installed with colons, so that the installed one fits in its place, and the loader takes an empty
+# entry for the current directory; what is installed therefore has its final run path from the beginning.
+set(CMAKE_BUILD_RPATH_USE_ORIGIN ON)
+function(pfaff_run_path target)
+  set_target_properties(${target} PROPERTIES BUILD_WITH_INSTALL_RPATH ON INSTALL_RPATH "${ARGN}")
 endfunction()
 
 if(NOT CMAKE_BUILD_TYPE)

@@ -28,6 +28,8 @@ needed=(
   "git program:git"
   "clang-format program:clang-format"
   "clang-tidy program:clang-tidy"
+  "libclang-dev header:clang-c/Index.h"
+  "llvm-dev program:llvm-config"
   "shellcheck program:shellcheck"
 )
 

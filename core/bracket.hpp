@@ -2,13 +2,15 @@
 //
 // B is a struct in an anonymous namespace with `dimension` (static constexpr int or member function),
 // optional parameters, and
-//   template <class T> void sharp(const T& t, In<T> z, In<T> covector, Out<T> vector) const;   // Pi(z, t)
-//   covector
-// and, where it claims Casimirs, casimir_count() and casimirs(t, z, values).
+//   template <class T> void sharp(const T& t, In<T> z, In<T> covector, Out<T> vector) const;
+// which writes Pi(z, t) covector, and, where it claims Casimirs, casimir_count() and casimirs(t, z, values).
+// One of these names with another signature is refused by the compiler, which says what was expected.
 #pragma once
 
+#include <concepts>
 #include <memory>
 
+#include <pfaff/core/registry/member_names.hpp>
 #include <pfaff/core/registry/plugin.hpp>
 #include <pfaff/core/registry/registry.hpp>
 #include <pfaff/core/tape/recorder.hpp>
@@ -26,6 +28,7 @@ struct BracketDescriptor {
   std::string name;
   std::string title;
   std::string reference;
+  std::string description{};  // two to four sentences: what it is, when to take it, where it ends
   Symmetry symmetry = Symmetry::skew;
   bool jacobi = true;       // claims the Jacobi identity
   bool semimetric = false;  // claims <f, f> >= 0
@@ -52,11 +55,59 @@ class BracketPlugin : public Plugin {
   BracketDescriptor descriptor_;
 };
 
+// Kinds share some names: each kind looks its own up in a namespace of its own.
+namespace detail::bracket {
+PFAFF_MEMBER_NAME(casimir_count)
+PFAFF_MEMBER_NAME(casimirs)
+}  // namespace detail::bracket
+
+namespace detail {
+
+template <class B>
+concept WritesSharp = requires(const B& b, const Recorded& t, In<Recorded> z, Out<Recorded> vector) {
+  b.sharp(t, z, z, vector);
+};
+template <class B>
+concept WritesDimension = requires(const B& b) {
+  { b.dimension() } -> std::convertible_to<int>;
+}
+|| requires {
+  { B::dimension } -> std::convertible_to<int>;
+};
+template <class B>
+concept WritesCasimirCount = requires(const B& b) {
+  { b.casimir_count() } -> std::convertible_to<int>;
+};
+template <class B>
+concept WritesCasimirs = requires(const B& b, const Recorded& t, In<Recorded> z, Out<Recorded> values) {
+  b.casimirs(t, z, values);
+};
+
+/// Refuses, while B is compiled, a struct that is no bracket, and members that bear the name of an optional
+/// one and cannot be used as one.
+template <class B>
+constexpr void check_bracket_members() {
+  static_assert(WritesSharp<B>,
+                "sharp: expected template <class T> void sharp(const T& t, In<T> z, In<T> covector, Out<T> "
+                "vector) const");
+  static_assert(WritesDimension<B>,
+                "dimension: expected static constexpr int dimension or int dimension() const");
+  static_assert(WritesCasimirCount<B> || !bracket::has_casimir_count<B>,
+                "casimir_count: expected int casimir_count() const");
+  static_assert(
+      WritesCasimirs<B> || !bracket::has_casimirs<B>,
+      "casimirs: expected template <class T> void casimirs(const T& t, In<T> z, Out<T> values) const");
+  static_assert(bracket::has_casimir_count<B> == bracket::has_casimirs<B>,
+                "casimir_count and casimirs belong together: one of them is missing");
+}
+
+}  // namespace detail
+
 /// Records the sharp map of a bracket object.
 template <class B>
 std::shared_ptr<const Tape> sharp_tape(const B& bracket, int dimension) {
-  return std::make_shared<const Tape>(record(
-      2 * dimension, dimension, [&](const Recorded& t, std::span<const Recorded> x, std::span<Recorded> out) {
+  return std::make_shared<const Tape>(
+      record(2 * dimension, dimension, [&](const Recorded& t, In<Recorded> x, Out<Recorded> out) {
         const auto n = static_cast<std::size_t>(dimension);
         bracket.sharp(t, x.first(n), x.subspan(n), out);
       }));
@@ -69,25 +120,26 @@ class Bracket final : public BracketPlugin {
   explicit Bracket(BracketDescriptor descriptor,
                    const std::source_location& where = std::source_location::current())
       : BracketPlugin(std::move(descriptor), parameters_of<B>(), typeid(B), where) {
+    detail::check_bracket_members<B>();
     brackets().add(this);
   }
   [[nodiscard]] BracketInstance make(const Assignments& assignments) const override {
-    B object;
-    assign_all(parameters(), &object, assignments, "bracket " + name());
-    int dimension = 0;
-    if constexpr (requires { object.dimension(); }) {
-      dimension = object.dimension();
-    } else {
-      dimension = B::dimension;
-    }
-    BracketInstance instance{dimension, resolved(parameters(), &object), sharp_tape(object, dimension), {}};
-    if constexpr (requires { object.casimir_count(); })
-      instance.casimirs = std::make_shared<const Tape>(
-          record(dimension, object.casimir_count(),
-                 [&](const Recorded& t, std::span<const Recorded> z, std::span<Recorded> values) {
-                   object.casimirs(t, z, values);
-                 }));
-    return instance;
+    return on_behalf_of("bracket " + name(), [&] {
+      B object;
+      assign_all(parameters(), &object, assignments, "bracket " + name());
+      int dimension = 0;
+      if constexpr (requires { object.dimension(); }) {
+        dimension = object.dimension();
+      } else {
+        dimension = B::dimension;
+      }
+      BracketInstance instance{dimension, resolved(parameters(), &object), sharp_tape(object, dimension), {}};
+      if constexpr (requires { object.casimir_count(); })
+        instance.casimirs = std::make_shared<const Tape>(record(
+            dimension, object.casimir_count(),
+            [&](const Recorded& t, In<Recorded> z, Out<Recorded> values) { object.casimirs(t, z, values); }));
+      return instance;
+    });
   }
 };
 

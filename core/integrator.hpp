@@ -4,18 +4,50 @@
 //   template <class P> struct Work { Work(const M&, const P&); … };                        // optional
 //   template <HasVectorField P>
 //   Status step(const P&, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>&) const;
-// Optional members: order(model) and preserves(model) where a claim depends on parameters or problem;
-// order_is_lower_bound(), where the leading error is so small that measured slopes may exceed the order;
-// validate(), called once parameters are set; coefficients(), a mutable span over the numbers that define the
-// method (the control that changes one of them by 1e-6 needs it); refuses(model), a reason or an empty
-// string; instances(full), the parameters that verification runs through; advance_to(problem, t, end,
-// tolerance, z, work) for methods that choose their steps.
+//
+// Optional members of M. One of these names with another signature is refused by the compiler, which says
+// what was expected (core/facets/method_members.hpp).
+//   static parameters()          the settings of the method
+//   validate()                   called once parameters are set. What it cannot accept it throws as an
+//                                InputError that says what was given and what was expected; the name of the
+//                                registered method is put before it
+//   order(model)                 where the order depends on parameters or problem
+//   preserves(model)             where what is kept depends on parameters or problem
+//   order_is_lower_bound()       true where the leading error is so small that measured slopes may exceed
+//                                the order
+//   order_is_exact()             true where measured slopes may not exceed the order on any system; otherwise
+//                                they may wherever a structure is constant in time, since symmetries can add
+//                                to the order there
+//   refuses(model)               why the method cannot run on a model that offers what it needs, or empty.
+//                                The reason is the predicate of a sentence, such as "keeps energies and needs
+//                                a system without friction". Its subject, the name of the registered method,
+//                                is put before it, so that a method built on another refuses in its own name
+//                                and not in that of the other
+//   coefficients()               a mutable span over the numbers that define the method: the control that
+//                                changes one of them by 1e-6 needs it
+//   static instances(full)       the parameters that verification runs through
+//   advance_to(p, t, end, tolerance, z, work)   for methods that choose their steps
+//   bool compensated             the loop over steps is compiled once for each of its two values
+//   static constexpr bool fixed_sizes = false   for methods that gain nothing from a known dimension: the
+//                                loop is then not compiled for the dimensions 2, 4 and 6 separately
+//   using Composed = Composition<B>
+//                                for a symmetric M of order 2 that derives from B: the type by which the
+//                                integrator `composition` composes M (core/facets/composition.hpp)
+//
+// Optional members of Work, by which compositions of the method pass on what it keeps between steps:
+//   carry                        what compensated sums have rounded off; swapped from sub-step to sub-step
+//   hand_over(next)              instead: gives all that belongs to the state to the workspace of the next
+//                                sub-step
+//   restart()                    forgets the history of past steps, from which the next one is predicted
 #pragma once
 
 #include <memory>
 #include <utility>
 
 #include <pfaff/core/facets/advance.hpp>
+#include <pfaff/core/facets/claims.hpp>
+#include <pfaff/core/facets/composition.hpp>
+#include <pfaff/core/facets/method_members.hpp>
 #include <pfaff/core/facets/scalars.hpp>
 #include <pfaff/core/registry/plugin.hpp>
 #include <pfaff/core/registry/registry.hpp>
@@ -23,42 +55,18 @@
 
 namespace pfaff {
 
-/// What a method may claim to keep, each with the scope in which it is tested.
-enum class Claim {
-  none,                    // an explicit "no structure claimed"
-  symmetric,               // step(-h) undoes step(h); every system
-  symplectic,              // M^T J M = J; canonical systems
-  k_symplectic,            // M^T K(z', t') M = K(z, t); systems with a Darboux chart or an alpha
-  quadratic_invariants,    // keeps every quadratic invariant; systems that have one
-  constrained_symplectic,  // u^T (M^T J M - J) v = 0 for u, v tangent to the surface of the constraints;
-                           // systems with holonomic ones
-  constraints,             // both levels of constraints hold at the end of a step; the same systems
-  momentum_maps            // keeps every invariant p^T D q; systems that have one
-};
-
-constexpr std::string_view to_string(Claim claim) {
-  constexpr std::array<std::string_view, 8> names{"none",
-                                                  "symmetric",
-                                                  "symplectic",
-                                                  "K-symplectic",
-                                                  "quadratic-invariants",
-                                                  "constrained-symplectic",
-                                                  "constraints",
-                                                  "momentum-maps"};
-  return names[static_cast<std::size_t>(claim)];
-}
-
 /// What is said about a method, once.
 struct MethodDescriptor {
-  std::string name;       // kebab-case
-  std::string title;      // one line
-  std::string reference;  // bib key and equations
-  int order = 0;          // 0: M::order(model) says
+  std::string name;           // kebab-case
+  std::string title;          // one line
+  std::string reference;      // bib key and equations
+  std::string description{};  // two to four sentences: what it is, when to take it, where it ends
+  int order = 0;              // 0: M::order(model) says
   std::vector<Claim> preserves{};
   bool double_coefficients = false;  // third-party methods whose coefficients are doubles: no claims in quad
 };
 
-/// One integration of one model: state outside, history inside. Made by MethodInstance::stepper.
+/// One integration of one model. The caller keeps the state, the stepper the history of past steps.
 template <class T>
 class Stepper {
  public:
@@ -73,36 +81,56 @@ class Stepper {
   [[nodiscard]] virtual const Counters& counters() const = 0;
 };
 
+template <class T>
+using StepperPointer = std::unique_ptr<Stepper<T>>;
+
 /// A method with its parameters fixed.
-class MethodInstance {
+class MethodInstance : public Maker<StepperPointer, StepScalars, std::shared_ptr<const Model>> {
  public:
-  virtual ~MethodInstance() = default;
   [[nodiscard]] virtual const MethodDescriptor& descriptor() const = 0;
   [[nodiscard]] virtual Assignments parameters() const = 0;
   /// Facets the method cannot do without.
   [[nodiscard]] virtual FacetSet needs() const = 0;
+  /// True for methods that work on the constraints themselves, whatever kind these are, and not on a motion
+  /// that a formulation has made of them.
+  [[nodiscard]] bool needs_constraints() const {
+    return needs().meets(facets(Facet::holonomic, Facet::constraints, Facet::velocity_constraints));
+  }
   /// Order claimed on this model.
   [[nodiscard]] virtual int order(const Model& model) const = 0;
   /// True where errors of higher order may hide the claimed one at steps that can be measured.
   [[nodiscard]] virtual bool order_is_lower_bound() const = 0;
+  /// True where the claimed order is exact on every system, the autonomous ones included.
+  [[nodiscard]] virtual bool order_is_exact() const = 0;
+  /// What the method claims, on this model or on others (claims_in_scope says what speaks of this one).
+  /// InputError where one of these claims has no check yet.
   [[nodiscard]] virtual std::vector<Claim> preserves(const Model& model) const = 0;
+  /// The method as messages call it.
+  [[nodiscard]] virtual std::string called() const { return descriptor().name; }
+  /// Why the method rejects a model that offers what it needs, as a predicate; empty when it does not.
+  [[nodiscard]] virtual std::string objection(const Model& model) const = 0;
   /// Why the method cannot run on this model, naming both sides; empty when it can.
-  [[nodiscard]] virtual std::string refuses(const Model& model) const = 0;
+  [[nodiscard]] std::string refuses(const Model& model) const {
+    if (!model.facets().includes(needs()))
+      return called() + " needs " + to_string(needs()) + "; " + model.name() + " offers " +
+             to_string(model.facets()) + model.advice(needs());
+    const std::string reason = objection(model);
+    return reason.empty() ? reason : called() + " " + reason;
+  }
   /// True when the method can choose its steps (advance_to).
   [[nodiscard]] virtual bool adaptive() const = 0;
   /// How many numbers define the method (0: not exposed), and the same method with one of them changed.
   [[nodiscard]] virtual std::size_t coefficient_count() const = 0;
   [[nodiscard]] virtual std::unique_ptr<MethodInstance> with_changed_coefficient(std::size_t index,
                                                                                  Quad amount) const = 0;
+  /// The composition of sub-steps of the lengths weights[i] h; null where M has no Composed.
+  [[nodiscard]] virtual std::unique_ptr<MethodInstance> composed(std::vector<Quad> weights) const = 0;
 
-  [[nodiscard]] virtual std::unique_ptr<Stepper<double>> stepper(std::shared_ptr<const Model> model,
-                                                                 double) const = 0;
-  [[nodiscard]] virtual std::unique_ptr<Stepper<Quad>> stepper(std::shared_ptr<const Model> model,
-                                                               Quad) const = 0;
-  [[nodiscard]] virtual std::unique_ptr<Stepper<StepDual<double>>> stepper(std::shared_ptr<const Model> model,
-                                                                           StepDual<double>) const = 0;
-  [[nodiscard]] virtual std::unique_ptr<Stepper<StepDual<Quad>>> stepper(std::shared_ptr<const Model> model,
-                                                                         StepDual<Quad>) const = 0;
+  /// The method on one model, in the scalar T.
+  template <class T>
+  [[nodiscard]] StepperPointer<T> stepper(std::shared_ptr<const Model> model, T /*scalar*/) const {
+    return make_for(std::type_identity<T>(), std::move(model));
+  }
 };
 
 /// A registered method.
@@ -173,11 +201,7 @@ class SteppingOn final : public Stepper<Scalar<P>> {
 template <class M, unsigned K>
 constexpr FacetSet needed_facet() {
   constexpr Facet f = static_cast<Facet>(K);
-  if constexpr (Steps<M, Problem<double, dynamic, FacetSet::all().without(f)>>) {
-    return {};
-  } else {
-    return FacetSet{}.with(f);
-  }
+  return Steps<M, Problem<double, dynamic, FacetSet::all().without(f)>> ? FacetSet{} : FacetSet{}.with(f);
 }
 template <class M, unsigned... K>
 constexpr FacetSet needed_facets(std::integer_sequence<unsigned, K...>) {
@@ -196,9 +220,11 @@ constexpr FacetSet needs_of() {
 namespace detail {
 
 template <class M>
-class Instance final : public MethodInstance {
+class Instance final : public MakerOf<Instance<M>, MethodInstance> {
  public:
-  Instance(const MethodPlugin& plugin, M method) : plugin_(plugin), method_(std::move(method)) {}
+  Instance(const MethodPlugin& plugin, M method) : plugin_(plugin), method_(std::move(method)) {
+    require_claimable(plugin.descriptor().preserves, plugin.name());
+  }
 
   [[nodiscard]] const MethodDescriptor& descriptor() const override { return plugin_.descriptor(); }
   [[nodiscard]] Assignments parameters() const override { return resolved(plugin_.parameters(), &method_); }
@@ -214,17 +240,20 @@ class Instance final : public MethodInstance {
     if constexpr (requires { method_.order_is_lower_bound(); }) return method_.order_is_lower_bound();
     return false;
   }
+  [[nodiscard]] bool order_is_exact() const override {
+    if constexpr (requires { method_.order_is_exact(); }) return method_.order_is_exact();
+    return false;
+  }
   [[nodiscard]] std::vector<Claim> preserves(const Model& model) const override {
     if constexpr (requires { method_.preserves(model); }) {
-      return method_.preserves(model);
+      std::vector<Claim> claims = method_.preserves(model);
+      require_claimable(claims, plugin_.name());
+      return claims;
     } else {
       return plugin_.descriptor().preserves;
     }
   }
-  [[nodiscard]] std::string refuses(const Model& model) const override {
-    if (!model.facets().includes(needs()))
-      return plugin_.name() + " needs " + to_string(needs()) + "; " + model.name() + " offers " +
-             to_string(model.facets()) + model.advice(needs());
+  [[nodiscard]] std::string objection(const Model& model) const override {
     if constexpr (requires { method_.refuses(model); }) return method_.refuses(model);
     return {};
   }
@@ -248,36 +277,35 @@ class Instance final : public MethodInstance {
     if constexpr (requires(M m) { m.coefficients(); }) copy.coefficients()[index] += amount;
     return std::make_unique<Instance>(plugin_, std::move(copy));
   }
+  [[nodiscard]] std::unique_ptr<MethodInstance> composed(std::vector<Quad> weights) const override {
+    if constexpr (requires { typename M::Composed; }) {
+      typename M::Composed composition;
+      assign_all(parameters_of<typename M::Composed>(), &composition, parameters(),
+                 "composed integrator " + plugin_.name());
+      composition.weights = std::move(weights);
+      return std::make_unique<Instance<typename M::Composed>>(plugin_, std::move(composition));
+    } else {
+      return nullptr;
+    }
+  }
 
-  [[nodiscard]] std::unique_ptr<Stepper<double>> stepper(std::shared_ptr<const Model> model,
-                                                         double) const override {
+  template <class T>
+  [[nodiscard]] StepperPointer<T> made(std::shared_ptr<const Model> model) const {
     constexpr bool sizes = [] {
       if constexpr (requires { M::fixed_sizes; }) return M::fixed_sizes;
       return true;
     }();
-    if constexpr (sizes) {  // the sizes worth a copy of the code each
-      if (model->dimension() == 2) return make<Problem<double, 2>>(std::move(model));
-      if (model->dimension() == 4) return make<Problem<double, 4>>(std::move(model));
-      if (model->dimension() == 6) return make<Problem<double, 6>>(std::move(model));
+    if constexpr (sizes && std::is_same_v<T, double>) {  // the sizes worth a copy of the code each
+      if (model->dimension() == 2) return on<Problem<T, 2>>(std::move(model));
+      if (model->dimension() == 4) return on<Problem<T, 4>>(std::move(model));
+      if (model->dimension() == 6) return on<Problem<T, 6>>(std::move(model));
     }
-    return make<Problem<double>>(std::move(model));
-  }
-  [[nodiscard]] std::unique_ptr<Stepper<Quad>> stepper(std::shared_ptr<const Model> model,
-                                                       Quad) const override {
-    return make<Problem<Quad>>(std::move(model));
-  }
-  [[nodiscard]] std::unique_ptr<Stepper<StepDual<double>>> stepper(std::shared_ptr<const Model> model,
-                                                                   StepDual<double>) const override {
-    return make<Problem<StepDual<double>>>(std::move(model));
-  }
-  [[nodiscard]] std::unique_ptr<Stepper<StepDual<Quad>>> stepper(std::shared_ptr<const Model> model,
-                                                                 StepDual<Quad>) const override {
-    return make<Problem<StepDual<Quad>>>(std::move(model));
+    return on<Problem<T>>(std::move(model));
   }
 
  private:
   template <class P>
-  auto make(std::shared_ptr<const Model> model) const {
+  auto on(std::shared_ptr<const Model> model) const {
     return std::make_unique<SteppingOn<M, P>>(method_, std::move(model));
   }
 
@@ -294,13 +322,22 @@ class Method final : public MethodPlugin {
   explicit Method(MethodDescriptor descriptor,
                   const std::source_location& where = std::source_location::current())
       : MethodPlugin(std::move(descriptor), parameters_of<M>(), typeid(M), where) {
+    detail::check_method_members<M>();
     integrators().add(this);
   }
   [[nodiscard]] std::unique_ptr<MethodInstance> make(const Assignments& assignments) const override {
-    M method;
-    assign_all(parameters(), &method, assignments, "integrator " + name());
-    if constexpr (requires { method.validate(); }) method.validate();
-    return std::make_unique<detail::Instance<M>>(*this, std::move(method));
+    return on_behalf_of("integrator " + name(), [&]() -> std::unique_ptr<MethodInstance> {
+      M method;
+      assign_all(parameters(), &method, assignments, "integrator " + name());
+      if constexpr (requires { method.validate(); }) {
+        try {
+          method.validate();
+        } catch (const InputError& error) {
+          throw InputError("integrator " + name() + ": " + error.what());
+        }
+      }
+      return std::make_unique<detail::Instance<M>>(*this, std::move(method));
+    });
   }
   [[nodiscard]] std::vector<Assignments> instances(bool full) const override {
     if constexpr (requires { M::instances(full); }) return M::instances(full);

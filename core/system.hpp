@@ -8,17 +8,21 @@
 //   damping()                                beside those: a Real nu, the system is q' = T_p,
 //                                            p' = -V_q - nu p instead
 //   hamiltonian(t, z), bracket()             H and the bracket that makes the field (canonical without
-//                                            bracket())
+//                                            bracket()); its Casimirs where it has casimir_count() and
+//                                            casimirs(t, z, values)
 //   birkhoffian(t, z), one_form(t, z, F)     the action form F.dz - B dt
 //   structure(t, z, K), covector(t, z, D)    instead: K(z, t) zdot + D(z, t) = 0 with K row-major, n x n
 //   chart(t, z, y), chart_inverse(t, y, z)   Darboux coordinates; optional chart_hamiltonian(t, y),
-//                                            chart_field(t, y, rate). Derived where K is
-//                                            constant or depends on t alone
-//   holonomic(t, q, phi)                     constraints phi(q, t) = 0 of a canonical system,
-//   constraint_count
-//                                            of them (static constexpr int or member function);
+//                                            chart_field(t, y, rate). Derived where K is constant or
+//                                            depends on t alone
+//   holonomic(t, q, phi)                     constraints phi(q, t) = 0 of a canonical system; how many says
+//                                            constraint_count, static constexpr int or member function;
 //                                            optional friction(t, z, lambda), coefficients >= 0 of momenta;
-//                                            constraint_evaluator<T>(), their operations batched
+//                                            constraint_evaluator<T>(), an object with the operations of
+//                                            core/facets/holonomic.hpp, in place of derived ones
+//   velocity_constraints(t, q, rows)         A(q, t), row-major, of constraints A v + b = 0 of the
+//                                            velocities of a canonical system; how many says
+//                                            velocity_constraint_count; optional velocity_offsets(t, q, b)
 //   constraints(t, z, phi)                   instead: constraints of the phase space, second class, beside
 //                                            hamiltonian; optional constraint_gradients(t, z, rows)
 //   symmetric_bracket(), entropy(t, z)       metriplectic: zdot = Pi dH + G dS; without entropy, Pi dH - G dH
@@ -26,9 +30,11 @@
 //                                            chart
 //   invariants(t, z, values)                 in the order of the descriptor's list
 //   exact_solution(elapsed, t0, z0, z)       the flow
+//   reversal(t, z, reversed)                 the involution rho that reverses the motion, rho o flow_h =
+//                                            flow_-h o rho
 //   initial(z)                               instead of the descriptor's list, when it depends on parameters
 //   coordinates(), invariant_list(),         instead of the descriptor's lists, when they do
-//   constraint_names()
+//   constraint_names(), velocity_constraint_names()
 // Whatever is not written is derived; whatever could be derived but is written is checked against the
 // derivation. A member of one of these names with another signature is refused by the compiler
 // (core/facets/system_formulas.hpp), a formula that writes more or fewer results than it should when a model
@@ -38,6 +44,7 @@
 #include <memory>
 
 #include <pfaff/core/facets/collector.hpp>
+#include <pfaff/core/registry/member_names.hpp>
 #include <pfaff/core/registry/plugin.hpp>
 #include <pfaff/core/registry/registry.hpp>
 
@@ -45,9 +52,10 @@ namespace pfaff {
 
 /// What is said about a system, once.
 struct SystemDescriptor {
-  std::string name;       // kebab-case
-  std::string title;      // one line with the equation of motion
-  std::string reference;  // bib key and equations
+  std::string name;           // kebab-case
+  std::string title;          // one line with the equation of motion
+  std::string reference;      // bib key and equations
+  std::string description{};  // two to four sentences: what it is, when to take it, where it ends
   std::vector<Coordinate> coordinates{};
   std::vector<Real> initial{};
   std::vector<Invariant> invariants{};
@@ -65,6 +73,8 @@ class SystemPlugin : public Plugin {
   [[nodiscard]] virtual bool constrained() const = 0;
   /// A model with these parameters; the rest keep their defaults. InputError for wrong assignments.
   [[nodiscard]] virtual std::shared_ptr<const Model> make(const Assignments& assignments) const = 0;
+  /// The parameters the system's claims are verified with; `full` asks for more than a quick check needs.
+  [[nodiscard]] virtual std::vector<Assignments> instances(bool full) const = 0;
 
  private:
   SystemDescriptor descriptor_;
@@ -89,6 +99,23 @@ std::shared_ptr<const Model> make_model(const SystemDescriptor& descriptor, cons
   return std::make_shared<const Model>(std::move(source));
 }
 
+namespace detail::system {
+PFAFF_MEMBER_NAME(instances)
+template <class S>
+concept WritesInstances = requires(bool full) {
+  { S::instances(full) } -> std::convertible_to<std::vector<Assignments>>;
+};
+}  // namespace detail::system
+
+/// The parameters that S is verified with: those of its static member instances(full), or the defaults.
+template <class S>
+std::vector<Assignments> instances_of(bool full) {
+  static_assert(detail::system::WritesInstances<S> || !detail::system::has_instances<S>,
+                "instances: expected static std::vector<Assignments> instances(bool full)");
+  if constexpr (detail::system::WritesInstances<S>) return S::instances(full);
+  return {{}};
+}
+
 /// Registers S when the library that holds it is loaded.
 template <class S>
 class System final : public SystemPlugin {
@@ -98,12 +125,15 @@ class System final : public SystemPlugin {
       : SystemPlugin(std::move(descriptor), parameters_of<S>(), typeid(S), where) {
     systems().add(this);
   }
-  [[nodiscard]] bool constrained() const override { return detail::WritesConstraintCount<S>; }
+  [[nodiscard]] bool constrained() const override { return detail::counts_constraints<S>; }
   [[nodiscard]] std::shared_ptr<const Model> make(const Assignments& assignments) const override {
-    S object;
-    assign_all(parameters(), &object, assignments, "system " + name());
-    return make_model(descriptor(), object);
+    return on_behalf_of("system " + name(), [&] {
+      S object;
+      assign_all(parameters(), &object, assignments, "system " + name());
+      return make_model(descriptor(), object);
+    });
   }
+  [[nodiscard]] std::vector<Assignments> instances(bool full) const override { return instances_of<S>(full); }
 };
 
 }  // namespace pfaff

@@ -1,6 +1,6 @@
-// Counts the allocations of a test program: its global operator new counts while it is told to.
+// Counts the allocations of a test program: its global operator new counts while counting is switched on.
 //
-// To be included by one source of a program.
+// Include it in one source of a program only, since it defines the global operators.
 #pragma once
 
 #include <atomic>
@@ -24,7 +24,7 @@ inline void* allocate(std::size_t size, std::size_t alignment) {
   return memory;
 }
 
-/// How often work() allocates.
+/// The number of allocations that work() makes.
 template <class Work>
 long allocations_of(Work&& work) {
   allocations = 0;

@@ -31,10 +31,45 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   target_compile_options(other-alignment_plugin PRIVATE $<IF:$<BOOL:${PFAFF_MARCH}>,-mno-avx,-mavx512f>)
 endif()
 
+# Flags that change the layout or the meaning of types that plug-ins and library share.
+pfaff_test_plugin(short-enums ${witness})
+target_compile_options(short-enums_plugin PRIVATE -fshort-enums)
+pfaff_test_plugin(unsigned-char ${witness})
+target_compile_options(unsigned-char_plugin PRIVATE -funsigned-char)
+
+# Plug-ins that throw while they are loaded, bear names that cannot be written, or are faulty in other ways.
+pfaff_test_plugin(throws-error app/plugins/throws_loading.cpp)
+target_compile_definitions(throws-error_plugin PRIVATE "THROWN=std::logic_error(\"not today\")")
+pfaff_test_plugin(throws-odd app/plugins/throws_loading.cpp)
+target_compile_definitions(throws-odd_plugin PRIVATE THROWN=Odd{})
+pfaff_test_plugin(ends-by-signal app/plugins/throws_loading.cpp)
+target_compile_definitions(ends-by-signal_plugin PRIVATE "WORSE=std::raise(SIGTERM)")
+pfaff_test_plugin(ends-by-itself app/plugins/throws_loading.cpp)
+target_compile_definitions(ends-by-itself_plugin PRIVATE "WORSE=std::_Exit(0)")
+pfaff_test_plugin(misnamed-system app/plugins/misnamed.cpp)
+target_compile_definitions(misnamed-system_plugin PRIVATE "NAME=\"My System\"" "PARAMETER=\"rate\"")
+pfaff_test_plugin(misnamed-parameter app/plugins/misnamed.cpp)
+target_compile_definitions(misnamed-parameter_plugin PRIVATE "NAME=\"well-named\"" "PARAMETER=\"rate=1\"")
+pfaff_test_plugin(faulty app/plugins/faulty.cpp)
+pfaff_test_plugin(throws-late app/plugins/throws_late.cpp)
+add_dependencies(app_tests faulty_plugin throws-late_plugin)
+
 # A system whose structure is degenerate.
 pfaff_test_plugin(degenerate app/plugins/degenerate.cpp)
+
+# Two builds of one plug-in.
+foreach(stiffness 1 2)
+  pfaff_test_plugin(spring-${stiffness} app/plugins/spring.cpp)
+  target_compile_definitions(spring-${stiffness}_plugin PRIVATE SPRING_STIFFNESS=${stiffness})
+endforeach()
 target_compile_definitions(app_tests PRIVATE PFAFF_TEST_PLUGINS="${pfaff_plugins}")
-add_dependencies(app_tests degenerate_plugin)
+add_dependencies(app_tests degenerate_plugin spring-1_plugin spring-2_plugin)
+
+# Methods with false claims, for the search of counterexamples.
+pfaff_test_plugin(false-claims app/plugins/false_claims.cpp)
+target_compile_definitions(bench_tests PRIVATE PFAFF_TEST_PLUGINS="${pfaff_plugins}")
+add_dependencies(bench_tests false-claims_plugin)
+add_dependencies(app_tests false-claims_plugin)
 
 target_compile_definitions(core_tests PRIVATE PFAFF_TEST_PLUGINS="${pfaff_plugins}")
 add_dependencies(core_tests fits_plugin starts-fast_plugin other-version_plugin no-stamp_plugin two-stamps_plugin
@@ -43,6 +78,11 @@ add_test(NAME core/refused COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/core/refused_test
                                    ${PROJECT_BINARY_DIR}/include ${PROJECT_SOURCE_DIR})
 add_test(NAME app/references COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/app/references_test.sh ${PROJECT_SOURCE_DIR})
 add_test(NAME app/plugins COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/app/plugins_test.sh $<TARGET_FILE:pfaff_app> ${pfaff_plugins})
+add_test(NAME app/falsify COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/app/falsify_test.sh $<TARGET_FILE:pfaff_app> ${pfaff_plugins}
+                                  "${PFAFF_SANITIZE}" "${PFAFF_MARCH}")
+set_tests_properties(app/falsify PROPERTIES TIMEOUT 600)
+add_test(NAME app/run_path COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/app/run_path_test.sh
+                                   ${PROJECT_BINARY_DIR} ${CMAKE_COMMAND} $<TARGET_FILE:pfaff_app> ${CMAKE_CXX_COMPILER})
 set(flags "")
 if(PFAFF_MARCH)
   string(APPEND flags " -march=${PFAFF_MARCH}")

@@ -1,4 +1,4 @@
-// A place for the files of a test: tests run side by side.
+// A directory of its own for the files of each test, because tests run side by side.
 #pragma once
 
 #include <stdlib.h>
@@ -11,7 +11,7 @@ namespace pfaff::testing {
 
 namespace fs = std::filesystem;
 
-/// A new directory, removed with all it holds.
+/// A new directory, which the destructor removes with everything in it.
 class TemporaryDirectory {
  public:
   TemporaryDirectory() {

@@ -29,7 +29,7 @@ ConstraintBrackets<T> constraint_brackets(const Model& model, const T& t, const 
                                Matrix<T>(count, count),
                                true,
                                {}};
-  Matrix<T> sizes(count, count);  // sums of the sizes of the terms of W
+  Matrix<T> sizes(count, count);  // for each W_ij the sum of |terms|, which bounds its rounding error
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t a = 0; a < n; ++a)
       for (std::size_t b = 0; b < n; ++b) {

@@ -1,4 +1,6 @@
-// The brackets of a system's constraints at a state: W_ij = {phi_i, phi_j} and what is made of it.
+// The Poisson brackets W_ij = {phi_i, phi_j} of a system's constraints at one state, with the values,
+// gradients and tensor they are made of, and the classes (first or second class, redundant) that follow from
+// them.
 #pragma once
 
 #include <pfaff/brackets/dirac/classification.hpp>
@@ -6,20 +8,21 @@
 
 namespace pfaff {
 
-/// K constraints on n coordinates at one state and time. Of holonomic ones every phi is followed by its
-/// hidden phi~, as in Model::constraint_names.
+/// Everything about K constraints on n coordinates at one state and time. Where the constraints are
+/// holonomic, every phi is followed by its hidden constraint phi~ = d phi / dt, as in
+/// Model::constraint_names, and K counts both.
 template <class T>
 struct ConstraintBrackets {
   std::vector<T> values;      // K
-  std::vector<T> rates;       // K: d phi / dt at rest, where constraints depend on time
+  std::vector<T> rates;       // K: the partial derivative of phi by t, zero unless phi depends on time
   Matrix<T> gradients;        // K x n
   Matrix<T> tensor;           // n x n: Pi
   Matrix<T> brackets;         // K x K: W
-  bool finite = true;         // every number above is
-  Classification<T> classes;  // of the constraints; empty where not finite
+  bool finite = true;         // true where every number above is finite
+  Classification<T> classes;  // of the constraints; left empty where `finite` is false
 };
 
-/// T is double or Quad.
+/// Evaluates the constraints of `model` at (t, z). T is double or Quad.
 template <class T>
 ConstraintBrackets<T> constraint_brackets(const Model& model, const T& t, const std::vector<T>& z);
 

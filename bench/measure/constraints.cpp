@@ -5,8 +5,8 @@
 namespace pfaff {
 
 std::vector<std::string> constraint_residual_names(const Model& model) {
-  if (!model.constrained()) return {};
-  if (model.facets().has(Facet::holonomic)) return {"constraint", "hidden-constraint"};
+  if (!model.restricted()) return {};
+  if (model.holonomic()) return {"constraint", "hidden-constraint"};
   return {"constraint"};
 }
 
@@ -18,7 +18,7 @@ Quad norm(std::span<const Quad> x) {
   for (const Quad& value : x) sum += value * value;
   return sqrt(sum);
 }
-// |after - before| / |before|, or the absolute change where there was nothing.
+// |after - before| / |before|, or |after - before| alone where `before` is zero.
 double relative_change(std::span<const Quad> before, std::span<const Quad> after) {
   std::vector<Quad> difference;
   for (std::size_t k = 0; k < before.size(); ++k) difference.push_back(after[k] - before[k]);
@@ -47,9 +47,9 @@ Quad move_by(std::span<const Quad> move, std::span<Quad> x) {
   return change == Quad(0) ? change : Quad(change / norm(x));
 }
 
-// Newton's method until the residual no longer falls, or the state no longer moves: components that are zero
-// but for round-off may come closer to zero for ever. `measure` fills the residual, `correct` moves the
-// state.
+// Newton's method until the residual no longer falls or the state no longer moves. The second criterion is
+// needed because components that are zero but for round-off may come closer to zero for ever. `measure` fills
+// the residual, `correct` moves the state.
 template <class Measure, class Correct>
 Status iterate(std::vector<Quad>& residual, const Measure& measure, const Correct& correct) {
   Quad last = std::numeric_limits<Quad>::infinity();
@@ -119,8 +119,7 @@ ProjectionOntoConstraints project_in_phase_space(const Model& model, const Quad&
 }  // namespace
 
 ProjectionOntoConstraints project_onto_constraints(const Model& model, const Quad& t, std::vector<Quad>& z) {
-  return model.facets().has(Facet::holonomic) ? project_holonomic(model, t, z)
-                                              : project_in_phase_space(model, t, z);
+  return model.holonomic() ? project_holonomic(model, t, z) : project_in_phase_space(model, t, z);
 }
 
 }  // namespace pfaff

@@ -1,4 +1,5 @@
-// How far states are from the constraints of their system, and the way back onto them.
+// How far states are from the constraints of their system, and the projection that moves them back onto
+// these.
 #pragma once
 
 #include <vector>
@@ -8,17 +9,20 @@
 
 namespace pfaff {
 
-/// Names of what ConstraintResiduals measures: "constraint" for max |phi|, and where the constraints are
-/// holonomic "hidden-constraint" for max |phi~|; none for a model without constraints.
+/// Names of the numbers that ConstraintResiduals measures, in its order. "constraint" is max |phi| over all
+/// constraints, those of velocities included; "hidden-constraint" is max |phi~| over the hidden constraints
+/// phi~ = d phi / dt, and is there only where the constraints are holonomic. Empty for a model without
+/// constraints.
 std::vector<std::string> constraint_residual_names(const Model& model);
 
-/// The largest residual of each level of constraints at a state.
+/// The largest residual of each level of constraints at a state: of phi, and of phi~ where the constraints
+/// are holonomic.
 template <class T>
 class ConstraintResiduals {
  public:
   explicit ConstraintResiduals(const Model& model) {
-    if (!model.constrained()) return;
-    if (model.facets().has(Facet::holonomic)) {
+    if (!model.restricted()) return;
+    if (model.holonomic()) {
       holonomic_ = model.holonomic_constraints<T>();
       values_.resize(holonomic_->count());
     } else {
@@ -26,7 +30,8 @@ class ConstraintResiduals {
       values_.resize(phase_space_.front().tape().outputs.size());
     }
   }
-  /// As many numbers as there are names; not-a-number where a residual is.
+  /// Fills `residuals` with one number for each of constraint_residual_names(); a number is not-a-number
+  /// where any residual of its level is.
   void operator()(const T& t, const std::vector<T>& z, std::vector<T>& residuals) {
     residuals.clear();
     if (holonomic_ != nullptr) {
@@ -64,8 +69,9 @@ struct ProjectionOntoConstraints {
   double worst_residual = 0;
 };
 
-/// Moves a state onto the constraints, in quad: positions along M^-1 B^T, then momenta along B^T; for
-/// constraints of the phase space along their gradients.
+/// Moves `z` at time `t` onto the constraints by Newton's method in quad. Holonomic constraints are met in
+/// two stages: positions move along M^-1 B^T until phi = 0, then momenta along B^T until phi~ = 0. For all
+/// other constraints the state moves along their gradients.
 ProjectionOntoConstraints project_onto_constraints(const Model& model, const Quad& t, std::vector<Quad>& z);
 
 }  // namespace pfaff

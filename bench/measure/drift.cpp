@@ -14,12 +14,13 @@ using low_frequency::Projection;
 using low_frequency::Samples;
 using Block = DriftAccumulator::Block;
 
-constexpr std::size_t fewest_samples = 32;  // to be classified
+constexpr std::size_t fewest_samples = 32;  // a series with fewer is not classified
 constexpr std::size_t envelope_points = 128;
 constexpr double largest_error = 1e150;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Prior weights of the explanations. A trend that is not a line must be shown, not merely suggested.
+/// Prior weights of the explanations that compete for a series. Trends other than a line get little, so that
+/// the data must show one clearly before it is chosen.
 constexpr low_frequency::PerNoise no_trend_prior{0.42, 0.42, 0.04};
 constexpr double linear_prior = 0.09, other_trend_prior = 0.03;
 
@@ -63,8 +64,8 @@ Block merged(const Block& a, const Block& b) {
           mean(a.mean_square, b.mean_square)};
 }
 
-/// The parameter near that of `start` that explains the data best, by golden section; 1 stays 1 if it is as
-/// good.
+/// The trend parameter near that of `start` that explains the data best, by golden-section search. The
+/// exponent 1 (a line) is kept unless the best one is better by more than 2 in log evidence.
 double refined(const Projection& data, Trend start) {
   const auto evidence = [&](double x) { return data.with_trend(Trend{start.exponential, x}); };
   double low = 0.75 * start.parameter, high = 1.34 * start.parameter;
@@ -134,8 +135,9 @@ Line fit_line(const std::vector<double>& x, const std::vector<double>& y) {
   return {xy / xx, yy - xy * xy / xx, yy};
 }
 
-/// Rate per unit of s at which the envelope grows exponentially, once it has left ten times its smallest
-/// value.
+/// The rate, per unit of s, at which the envelope grows exponentially; nothing where it does not. Only the
+/// part after the envelope has last been within ten times its smallest value is looked at, since growth
+/// starts from a floor of round-off.
 std::optional<double> exponential_rate(const Samples& envelope) {
   double floor = infinity;
   for (double value : envelope.value)
@@ -157,7 +159,7 @@ std::optional<double> exponential_rate(const Samples& envelope) {
   return grows && fits ? std::optional(exponential.slope) : std::nullopt;
 }
 
-/// Does the last quarter of the series exceed the first twofold?
+/// True where the mean over the last quarter of the series is more than twice that over the first.
 bool doubles(const std::vector<double>& value) {
   double early = 0, late = 0;
   for (std::size_t i = 0; i < value.size() / 4; ++i) {
@@ -168,26 +170,6 @@ bool doubles(const std::vector<double>& value) {
 }
 
 }  // namespace
-
-const char* to_string(DriftClass drift_class) {
-  switch (drift_class) {
-    case DriftClass::exact:
-      return "exact";
-    case DriftClass::bounded:
-      return "bounded";
-    case DriftClass::random_walk:
-      return "random_walk";
-    case DriftClass::linear:
-      return "linear";
-    case DriftClass::polynomial:
-      return "polynomial";
-    case DriftClass::exponential:
-      return "exponential";
-    case DriftClass::undetermined:
-      break;
-  }
-  return "undetermined";
-}
 
 DriftAccumulator::DriftAccumulator(std::size_t capacity)
     : capacity_(std::max<std::size_t>(capacity + capacity % 2, 64)) {

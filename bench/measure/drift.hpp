@@ -6,17 +6,19 @@
 //
 // Numbers that need no model, from all samples:
 //     maximum = max |e_k|,   rms = sqrt(mean e_k^2),   final_value = the last e_k.
-// Trend: slope with a 95 % interval that allows for correlated errors, see low_frequency.hpp. It is the
-// weighted least-squares slope of the block means with weight s (1 - s), s in (0, 1) the scaled time, and so
-// nearly blind to oscillations: over 1000 periods of one 100 times the final trend, plain least squares errs
-// by up to 20 % of the slope, this by 0.1 %. Over 40 and more periods (random period, phase and length) 97 %
-// of the intervals hold.
+// Trend: slope with a 95 % interval that allows for correlated errors, see low_frequency.hpp. The slope is
+// that of weighted least squares of the block means with weight s (1 - s), s in (0, 1) the scaled time. The
+// weight vanishes at both ends, so that oscillations hardly change the slope: with an oscillation of 1000
+// periods and 100 times the size of the final trend, plain least squares errs by up to 20 % of the slope, the
+// weighted one by 0.1 %. For runs over 40 periods and more (period, phase and length drawn at random) 97 % of
+// the intervals contain the true slope.
 // Oscillation: rms and half peak-to-peak about the plain least-squares line over all samples.
 //
-// Class. Every candidate explains the same low-frequency data; a kind of noise without trend, or all trends
-// together, must have more than half of the posterior weight (priors: drift.cpp):
+// Class. The candidates (kinds of noise without a trend, and trends in noise) are compared by their posterior
+// weights, given the same low-frequency data. A class is assigned where one kind of noise, or all trends
+// together, have more than half of the weight (the priors are in drift.cpp):
 //   bounded       no trend; noise white, AR(1), or a fast or slow oscillation         growth exponent 0
-//   random_walk   no trend; |e| ~ t^alpha, alpha = d - 1/2 of the noise, in [1/4, 1]
+//   random-walk   no trend; |e| ~ t^alpha, alpha = d - 1/2 of the noise, in [1/4, 1]
 //                 (round-off obeying Brouwer's law: 1/2 [hairer2008brouwer])          growth exponent alpha
 //   linear        trend t^p, 3/4 <= p <= 5/4, and the slope's interval excludes 0     growth exponent p
 //   polynomial    trend t^p, p > 5/4                                                  growth exponent p
@@ -26,21 +28,21 @@
 //   exact         every error is zero, and there are at least two
 //   undetermined  none of these; or fewer than 32 samples; or a sample that is not finite
 // If the means are bounded but the block rms at least doubles from the first to the last quarter of the run,
-// the block rms is classified in the same way: t cos(omega t) is linear, with slope 0. `polynomial` extends
-// the four classes of the design: quadratic growth called linear would be wrong, and the exponent says which
-// power it is.
+// the block rms is classified in the same way: t cos(omega t) is linear, with slope 0. All classes, those
+// that are not assigned yet included, are in drift_class.hpp.
 //
 // Limits, as measured (400 seeds each):
-//  - What lasts longer than the run cannot be told from a trend. A sine is bounded from 1 1/4 periods on, its
-//    slope's interval holds from 1 1/2 on; several slow ones need 2 1/2 periods of the slowest. Shorter ones
-//    are mostly undetermined, a quarter of a period is a line or a power. The period of a beat likewise.
+//  - What lasts longer than the run cannot be told from a trend. A sine is called bounded when the run covers
+//    1 1/4 of its periods or more, and the interval of its slope contains zero from 1 1/2 periods on; a sum
+//    of slow sines needs 2 1/2 periods of the slowest. Shorter runs are mostly undetermined; a quarter of a
+//    period is called a line or a power. The same is true of the period of a beat.
 //  - AR(1) errors are called a random walk in 1.5 % of runs when the run has 100 correlation times, in 20 %
-//    when it has 30, in 65 % when it has 10. On that run they are one.
-//  - Random walks: 88 to 92 % are called so, 4 % linear, 5 % bounded. The exponent of one run is good to
-//    +-0.12, with a bias of +0.05. 95 % intervals of the slope cover zero in 88 to 90 % of runs.
+//    when it has 30, in 65 % when it has 10: over so short a run the two hardly differ.
+//  - Random walks are called so in 88 to 92 % of runs, linear in 4 %, bounded in 5 %. The exponent of one run
+//    is good to +-0.12, with a bias of +0.05. 95 % intervals of the slope cover zero in 88 to 90 % of runs.
 //  - White noise is bounded in 97.5 %, undetermined in 1.5 %, a random walk in 0.8 %.
-//  - AR(1) errors of a correlation time up to 1/10 of the run: 95 % intervals hold in 97.5 to 99 %; they err
-//    on the safe side.
+//  - For AR(1) errors with a correlation time up to 1/10 of the run, 97.5 to 99 % of the 95 % intervals
+//    contain the slope: they are too wide rather than too narrow.
 //  - An integrated random walk (t^1.5 on average, with a random slope of its own) is mostly polynomial,
 //    sometimes anything; its intervals hold in 60 %.
 //  - A line in white noise must be 7 standard errors steep to be called linear in 90 % of runs (5: 70 %),
@@ -59,12 +61,9 @@
 #include <optional>
 #include <vector>
 
+#include <pfaff/bench/measure/drift_class.hpp>
+
 namespace pfaff {
-
-enum class DriftClass { exact, bounded, random_walk, linear, polynomial, exponential, undetermined };
-
-/// The class in snake_case, as in summary.json.
-const char* to_string(DriftClass drift_class);
 
 /// Units: [e] of the errors, [t] of the times.
 struct Drift {

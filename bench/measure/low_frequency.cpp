@@ -9,10 +9,10 @@ namespace {
 using Vector = std::vector<double>;
 using Matrix = std::array<Coefficients, most_projections>;
 
-/// Prior weights of the kinds of noise when the slope is estimated. Few runs wander; where one does, the data
-/// overrule these by many orders of magnitude.
+/// Prior weights of the kinds of noise when the slope is estimated. Few runs wander, so the weights of walk
+/// and smooth noise are small; where a run does wander, the data overrule them by many orders of magnitude.
 constexpr PerNoise slope_prior{0.923, 0.07, 0.007};
-/// ... and of the noise around a trend whose presence is being tested.
+/// Prior weights of the kinds of noise when the presence of a trend in it is tested.
 constexpr PerNoise trend_noise_prior{0.7, 0.3, 0.0};
 
 Vector tapered(const Vector& s, const Vector& count) {
@@ -73,7 +73,8 @@ struct Cell {
   double c, d, prior;
   Matrix cholesky;
 
-  /// A trend is not claimed on top of an oscillation of one or two periods, nor of a smooth wander.
+  /// True where a trend may be tested in this noise. Noise that looks like an oscillation of one or two
+  /// periods or like a smooth wander is excluded, because a trend cannot be told from it.
   bool carries_trend() const { return kind == walk || (kind == steady && (c == 0 || c > 10)); }
 
   void whiten(Coefficients& x, std::size_t q) const {
@@ -95,8 +96,9 @@ Matrix cholesky_of_mixture(const Matrix& v, const Matrix& white, double b) {
   return l;
 }
 
-/// The grid. White noise has half the weight of the steady kind; b >= 1e-4 keeps every V well conditioned, so
-/// that no verdict rests on the shape of a model below one per cent of its amplitude.
+/// The grid of noise models. White noise has half the weight of the steady kind. b >= 1e-4 keeps every V well
+/// conditioned, so that no verdict rests on details of a model's spectrum below one per cent of its
+/// amplitude.
 std::vector<Cell> make_cells() {
   constexpr std::size_t points = 400;
   Vector s(points);
@@ -121,7 +123,7 @@ std::vector<Cell> make_cells() {
   for (const Shape& shape : shapes) {
     const Matrix v = covariance(p, weight, shape.c, shape.d);
     for (double b : {1e-4, 1e-3, 1e-2, 0.1, 0.5}) {
-      if (shape.kind == smooth && b > 0.01) continue;  // would be a trend in white noise
+      if (shape.kind == smooth && b > 0.01) continue;  // too much like a trend in white noise
       cells.push_back({shape.kind, shape.c, shape.d, shape.prior, cholesky_of_mixture(v, white, b)});
       total[shape.kind] += shape.prior;
     }

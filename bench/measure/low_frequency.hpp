@@ -42,13 +42,17 @@ namespace pfaff::low_frequency {
 inline constexpr std::size_t most_projections = 32;
 using Coefficients = std::array<double, most_projections>;
 
-/// What the noise does in the long run. steady: stationary (white, AR(1), oscillation of at least about one
-/// and a half periods), also 1/f; walk: c = 0 and 3/4 <= d <= 3/2, growing like t^(d - 1/2); smooth: c = 0
-/// and d >= 2, a differentiable wander of which too little is seen to tell a trend from an oscillation.
+/// What the noise does in the long run.
+/// - steady: stationary (white noise, AR(1), an oscillation of at least about one and a half periods), and
+/// 1/f noise.
+/// - walk: c = 0 and 3/4 <= d <= 3/2, growing like t^(d - 1/2).
+/// - smooth: c = 0 and d >= 2, a differentiable wander, of which one run shows too little to tell a trend
+/// from an oscillation.
 enum Noise : std::size_t { steady, walk, smooth };
 using PerNoise = std::array<double, 3>;
 
-/// Scaled times s (in (0, 1), increasing), values and weights (numbers of samples), all of one length B >= 4.
+/// The block means of a series: scaled times s in (0, 1), increasing; values; and the number of samples in
+/// each block, by which it is weighted. All three have the same length B >= 4.
 struct Samples {
   std::vector<double> s, value, count;
 };
@@ -61,7 +65,7 @@ struct Slope {
 /// The series, projected and compared with every noise model of the grid.
 class Projection {
  public:
-  /// `resolution` > 0: error of a value (round-off); noise is never taken to be smaller.
+  /// `resolution` > 0 is the round-off error of one value; the noise is never taken to be smaller than that.
   Projection(const Samples& samples, double resolution);
 
   /// Number q of projections, 3 .. 32.
@@ -69,16 +73,16 @@ class Projection {
 
   Slope slope() const;
 
-  /// log p(Y | no trend, kind of noise), up to a constant common to all evidences of this object, and the
-  /// growth exponent d - 1/2, averaged over the random walks.
+  /// log_evidence: log p(Y | no trend, kind of noise), up to a constant common to all evidences of this
+  /// object. walk_exponent: the growth exponent d - 1/2, averaged over the random walks.
   struct NoiseEvidence {
     PerNoise log_evidence;
     double walk_exponent;
   };
   NoiseEvidence without_trend() const;
 
-  /// log p(Y | a + A f(s) + steady noise or random walk), same constant, with A at its best value and
-  /// log(q)/2 subtracted for it [schwarz1978].
+  /// log p(Y | a + A f(s) + steady noise or random walk), up to the same constant. The amplitude A is set to
+  /// its best value, and log(q)/2 is subtracted for that fitted parameter [schwarz1978].
   double with_trend(const std::function<double(double)>& f) const;
 
  private:

@@ -1,5 +1,5 @@
-// Reference solutions to 30 digits and more: the closed form where a system has one, else Taylor series in
-// quad.
+// Reference solutions to 30 digits and more: the closed form where a system has one, otherwise Taylor series
+// in quad.
 #pragma once
 
 #include <map>
@@ -11,7 +11,8 @@
 
 namespace pfaff {
 
-/// One Taylor step of a field in quad: order 28 and a step for which the last terms are below round-off.
+/// One Taylor step of order 28 of a model's vector field in quad, with a step size for which the last terms
+/// are below round-off.
 class TaylorExpansion {
  public:
   explicit TaylorExpansion(const Model& model);
@@ -20,9 +21,9 @@ class TaylorExpansion {
   /// coefficients.
   void expand(Quad t, const Quad* z);
   [[nodiscard]] const std::vector<Quad>& coefficients() const { return coefficients_; }
-  /// A step after which the truncated series is good to round-off.
+  /// The largest step, at most 1, for which the truncated series is accurate to round-off.
   [[nodiscard]] Quad safe_step() const;
-  /// The polynomial at `s` after the point of expansion.
+  /// Writes to `z` the value of the Taylor polynomial at time `s` after the point of expansion.
   void evaluate(Quad s, Quad* z) const;
 
  private:
@@ -32,19 +33,21 @@ class TaylorExpansion {
   std::vector<Quad> coefficients_, level_;
 };
 
-/// The flow of a model from (t, z) over `elapsed`, by Taylor steps in quad.
+/// Moves `z` from time `t` along the flow of a model over `elapsed`, which may be negative, by Taylor steps
+/// in quad.
 void taylor_flow(const Model& model, Quad t, Quad elapsed, std::vector<Quad>& z);
 
-/// The solution of an initial value problem at any later time up to `end`, kept as it is computed.
-/// Immutable once made; shared between threads.
+/// The solution of an initial value problem at any time of an interval. A Taylor solution is computed and
+/// kept by the constructor; the object is immutable afterwards, so that threads can share it.
 class ReferenceSolution {
  public:
-  /// From `initial` at `t0` to t0 + `duration` (> 0).
+  /// Solves from `initial` at `t0` to t0 + `duration` (> 0). Where the solution leaves the domain of the
+  /// formulas before that, the series ends there.
   ReferenceSolution(std::shared_ptr<const Model> model, Quad t0, std::vector<Quad> initial, Quad duration);
 
   /// "exact" for a closed form, "30-digit" for the Taylor series.
   [[nodiscard]] std::string_view kind() const { return problem_ != nullptr ? "exact" : "30-digit"; }
-  /// The state at time t.
+  /// The state at time t, not before t0.
   [[nodiscard]] std::vector<Quad> at(Quad t) const;
 
  private:

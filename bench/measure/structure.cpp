@@ -33,7 +33,7 @@ StepJacobian<T> StepDifferentiator<T>::operator()(const T& t, const T& h, const 
 }
 
 namespace {
-// a b of n x n matrices
+// The product a b of n x n matrices.
 template <class T>
 std::vector<T> product(const std::vector<T>& a, const std::vector<T>& b, std::size_t n) {
   std::vector<T> c(n * n);
@@ -53,7 +53,7 @@ std::vector<T> absolute(std::vector<T> a) {
 template <class T>
 T congruence_residual(const std::vector<T>& m, const std::vector<T>& k1, const std::vector<T>& k0) {
   const auto n = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(m.size()))));
-  const std::vector<T> image = product(k1, m, n);  // and the sizes of the terms of its sums
+  const std::vector<T> image = product(k1, m, n);  // image_size sums the absolute values of the same terms
   const std::vector<T> image_size = product(absolute(k1), absolute(m), n);
   T worst(0), scale(0);
   for (std::size_t i = 0; i < n; ++i)
@@ -71,17 +71,21 @@ T congruence_residual(const std::vector<T>& m, const std::vector<T>& k1, const s
   return worst / scale;
 }
 
-template <class T>
-StructureResidual<T>::StructureResidual(const MethodInstance& method, std::shared_ptr<const Model> model)
-    : differentiate_(method, model),
-      problem_(model),
-      poisson_(!model->facets().has(Facet::structure) && !model->facets().has(Facet::darboux_chart)),
-      constrained_(model->facets().has(Facet::holonomic)) {}
+std::string_view structure_name(const Model& model) {
+  const FacetSet facets = model.facets();
+  if (model.holonomic()) return "constrained-symplectic";
+  if (facets.has(Facet::structure)) return "K-symplectic";
+  if (!facets.has(Facet::hamiltonian)) return {};
+  return facets.has(Facet::darboux_chart) ? "symplectic" : "poisson";
+}
 
 template <class T>
-bool StructureResidual<T>::applies(const Model& model) {
-  return model.facets().has(Facet::structure) || model.facets().has(Facet::hamiltonian) ||
-         model.facets().has(Facet::holonomic);
+KeptStructure<T>::KeptStructure(std::shared_ptr<const Model> model)
+    : problem_(model), poisson_(structure_name(*model) == "poisson"), constrained_(model->holonomic()) {}
+
+template <class T>
+bool KeptStructure<T>::applies(const Model& model) {
+  return !structure_name(model).empty();
 }
 
 template <class T>
@@ -115,14 +119,17 @@ std::vector<T> tangent_projection(const Model& model, const T& t, const std::vec
 }
 
 namespace {
-// M^T J M - J between tangent vectors: (M U)^T J (M U) - U^T J U with the projection U.
+// The residual M^T J M - J restricted to tangent vectors: (M U)^T J (M U) - U^T J U, where U is the
+// projection onto the tangent space.
 template <class T>
-T tangent_residual(const std::vector<T>& m, const std::vector<T>& u, std::size_t n) {
+T tangent_residual(const std::vector<T>& m, const std::vector<T>& u, const std::vector<T>& units,
+                   std::size_t n) {
   std::vector<T> j(n * n), transposed(n * n);
   for (std::size_t k = 0; k < n / 2; ++k) {
     j[k * n + n / 2 + k] = T(-1);
     j[(n / 2 + k) * n + k] = T(1);
   }
+  j = in_units(std::move(j), units, 1, 1);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t k = 0; k < n; ++k) transposed[k * n + i] = u[i * n + k];
   return congruence_residual(product(m, u, n), j, product(transposed, product(j, u, n), n));
@@ -130,29 +137,35 @@ T tangent_residual(const std::vector<T>& m, const std::vector<T>& u, std::size_t
 }  // namespace
 
 template <class T>
-T StructureResidual<T>::operator()(const T& t, const T& h, const std::vector<T>& z) {
-  const StepJacobian<T> step = differentiate_(t, h, z);
+T KeptStructure<T>::operator()(const StepJacobian<T>& step, const T& t, const T& h, const std::vector<T>& z,
+                               const std::vector<T>& units) {
   if (step.status != Status::converged) return std::numeric_limits<T>::quiet_NaN();
   const std::size_t n = z.size();
-  if (constrained_) return tangent_residual(step.jacobian, tangent_projection(*problem_.model(), t, z), n);
+  const std::vector<T> jacobian = in_units(step.jacobian, units, -1, 1);
+  if (constrained_) {
+    const std::vector<T> tangent = in_units(tangent_projection(*problem_.model(), t, z), units, -1, 1);
+    return tangent_residual(jacobian, tangent, units, n);
+  }
   std::vector<T> before(n * n), after(n * n);
   if (!poisson_) {
     problem_.structure(t, z, before);
     problem_.structure(t + h, step.z, after);
-    return congruence_residual(step.jacobian, after, before);
+    return congruence_residual(jacobian, in_units(std::move(after), units, 1, 1),
+                               in_units(std::move(before), units, 1, 1));
   }
   problem_.poisson_tensor(t, z, before);
   problem_.poisson_tensor(t + h, step.z, after);
   std::vector<T> transposed(n * n);
   for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j < n; ++j) transposed[j * n + i] = step.jacobian[i * n + j];
-  return congruence_residual(transposed, before, after);
+    for (std::size_t j = 0; j < n; ++j) transposed[j * n + i] = jacobian[i * n + j];
+  return congruence_residual(transposed, in_units(std::move(before), units, -1, -1),
+                             in_units(std::move(after), units, -1, -1));
 }
 
 template class StepDifferentiator<double>;
 template class StepDifferentiator<Quad>;
-template class StructureResidual<double>;
-template class StructureResidual<Quad>;
+template class KeptStructure<double>;
+template class KeptStructure<Quad>;
 template std::vector<double> tangent_projection(const Model&, const double&, const std::vector<double>&);
 template std::vector<Quad> tangent_projection(const Model&, const Quad&, const std::vector<Quad>&);
 template double congruence_residual(const std::vector<double>&, const std::vector<double>&,

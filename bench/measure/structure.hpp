@@ -1,7 +1,9 @@
-// The Jacobian of a step, implicit solve included, and what it does to the structure.
+// The Jacobian of a step, taken through the implicit solve, and how well it preserves the structure of the
+// system (symplectic, K-symplectic, Poisson).
 #pragma once
 
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include <pfaff/core/integrator.hpp>
@@ -16,8 +18,9 @@ struct StepJacobian {
   std::vector<T> jacobian;  // row-major
 };
 
-/// Differentiates single steps of a method on a model. The derivative is that of the converged step: each
-/// evaluation starts without history, and the implicit solve converges in its derivative parts too.
+/// Differentiates single steps of a method on a model by running them with dual numbers. The derivative is
+/// that of the converged step: each evaluation starts without the history of earlier steps, and the implicit
+/// solve iterates until its derivative parts have converged too.
 template <class T>
 class StepDifferentiator {
  public:
@@ -28,31 +31,73 @@ class StepDifferentiator {
   std::unique_ptr<Stepper<StepDual<T>>> stepper_;
 };
 
-/// Measures M^T K(z', t') M - K(z, t), or M Pi(z, t) M^T - Pi(z', t') for systems with a Poisson tensor only.
-/// With holonomic constraints, M^T J M - J on vectors tangent to the surface of both levels of constraints,
-/// on which z has to be.
+/// The name, as in claims and reports, of the structure that the exact motion of a model preserves and
+/// KeptStructure measures: constrained-symplectic for holonomic constraints, K-symplectic for a structure
+/// K(z, t), symplectic for the canonical one, poisson where there is only a Poisson tensor; empty where there
+/// is none.
+std::string_view structure_name(const Model& model);
+
+/// Measures how far a differentiated step (z, t) -> (z', t') with Jacobian M is from preserving the model's
+/// structure. The residual is M^T K(z', t') M - K(z, t) for a structure K, and M Pi(z, t) M^T - Pi(z', t')
+/// for systems with a Poisson tensor only. With holonomic constraints it is M^T J M - J on vectors tangent to
+/// the surface phi = 0, phi~ = 0, on which z has to lie.
 template <class T>
-class StructureResidual {
+class KeptStructure {
  public:
-  StructureResidual(const MethodInstance& method, std::shared_ptr<const Model> model);
+  explicit KeptStructure(std::shared_ptr<const Model> model);
   /// True when the model has a structure to keep.
   [[nodiscard]] static bool applies(const Model& model);
-  /// The largest entry of the residual over the largest entry of |M|^T |K| |M|: round-off for a
-  /// structure-preserving step. NaN when the step fails.
-  T operator()(const T& t, const T& h, const std::vector<T>& z);
+  /// The largest entry of the residual, divided by the largest entry of |M|^T |K| |M|, for the step of size h
+  /// from z at time t. It is at round-off for a structure-preserving step, and NaN where the step has failed.
+  /// With `units`, one size for each coordinate, all matrices are taken in coordinates divided by them, so
+  /// that the residual does not depend on the units in which the system is written.
+  T operator()(const StepJacobian<T>& step, const T& t, const T& h, const std::vector<T>& z,
+               const std::vector<T>& units = {});
 
  private:
-  StepDifferentiator<T> differentiate_;
   Problem<T> problem_;
   bool poisson_, constrained_;
 };
 
+/// Takes a step, differentiates it and measures how well it preserves the structure.
+template <class T>
+class StructureResidual {
+ public:
+  StructureResidual(const MethodInstance& method, const std::shared_ptr<const Model>& model)
+      : differentiate_(method, model), kept_(model) {}
+  [[nodiscard]] static bool applies(const Model& model) { return KeptStructure<T>::applies(model); }
+  /// The residual that KeptStructure defines, of the step of size h from z at time t.
+  T operator()(const T& t, const T& h, const std::vector<T>& z) {
+    return kept_(differentiate_(t, h, z), t, h, z);
+  }
+
+ private:
+  StepDifferentiator<T> differentiate_;
+  KeptStructure<T> kept_;
+};
+
 /// The projection onto the tangent space at (t, z) of the surface phi = 0, phi~ = 0 of a model with holonomic
-/// constraints: positions along H_pp B^T, momenta along B^T; n x n row-major. Singular constraints give NaN.
+/// constraints, as an n x n row-major matrix. Normal components are removed from positions along H_pp B^T and
+/// from momenta along B^T. Singular constraints give NaN.
 template <class T>
 std::vector<T> tangent_projection(const Model& model, const T& t, const std::vector<T>& z);
 
-/// The same for a given Jacobian: max |M^T K1 M - K0| / max |M|^T |K1| |M|, all n x n row-major.
+/// The matrix in coordinates divided by `units`: a_ij u_i^row u_j^column. A Jacobian has the exponents -1 and
+/// 1, a two-form 1 and 1, a Poisson tensor -1 and -1. Without units the matrix is returned as it is.
+template <class T>
+std::vector<T> in_units(std::vector<T> a, const std::vector<T>& units, int row, int column) {
+  const std::size_t n = units.size();
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j) {
+      T& x = a[i * n + j];
+      x = row > 0 ? T(x * units[i]) : T(x / units[i]);
+      x = column > 0 ? T(x * units[j]) : T(x / units[j]);
+    }
+  return a;
+}
+
+/// The relative residual of KeptStructure for given matrices: max |M^T K1 M - K0| / max |M|^T |K1| |M|, all n
+/// x n row-major.
 template <class T>
 T congruence_residual(const std::vector<T>& m, const std::vector<T>& k1, const std::vector<T>& k0);
 

@@ -1,5 +1,5 @@
-// The Verlet loops that someone would write for one system and nothing else, with the arithmetic of the
-// systems' own formulas. The compensated ones keep what each addition rounds off.
+// Verlet loops as someone would write them for one system and nothing else, with the arithmetic of the
+// systems' own formulas. Compensated loops carry along what each addition rounds off.
 #include "cases.hpp"
 
 #include <cmath>

@@ -1,9 +1,9 @@
-// What every benchmark here measures: chunks of 1000 steps of size 0.01 from the same start, in nanoseconds a
-// step.
+// What the benchmarks of steps have in common: each measures chunks of 1000 steps of size 0.01 from the same
+// start, in nanoseconds per step.
 //
-// Names are system/method/path. Paths: by-hand (a loop of doubles), static (concrete system and method),
-// registered (through the registries), and the last two with forces derived from the energies instead of the
-// author's; odeint.
+// Names are system/method/path. The paths are by-hand (a loop of doubles), static (concrete system and method
+// types), registered (through the registries), static and registered with forces derived from the energies
+// instead of written by the author, and odeint.
 #pragma once
 
 #include <benchmark/benchmark.h>
@@ -13,16 +13,16 @@
 #include <string>
 
 #include <pfaff/core/numbers/functions.hpp>
-#include <pfaff/systems/harmonic_oscillator.hpp>
-#include <pfaff/systems/kepler.hpp>
-#include <pfaff/systems/pendulum.hpp>
+#include <pfaff/systems/canonical/harmonic_oscillator.hpp>
+#include <pfaff/systems/canonical/kepler.hpp>
+#include <pfaff/systems/canonical/pendulum.hpp>
 
 namespace pfaff::micro {
 
 inline constexpr std::int64_t chunk = 1000;
 inline constexpr double step_size = 0.01;
 
-/// The name a system is registered with and where its runs start.
+/// The name that a system is registered with, and the state its runs start from.
 template <class S>
 struct Case;
 template <>
@@ -41,7 +41,7 @@ struct Case<Kepler> {
   static constexpr std::array<double, 4> start{0.4, 0, 0, 2};
 };
 
-/// Systems that run on the registered path alone are known by name.
+/// Systems that are measured on the registered path alone need no type of their own but this tag.
 struct HenonHeiles {};
 template <>
 struct Case<HenonHeiles> {
@@ -78,7 +78,8 @@ struct Case<DampedChain<N>> {
   }();
 };
 
-/// A system of which only the energies are known: what is derived from them, at what cost.
+/// A system that offers its energies only, so that all other formulas are derived from them; it shows what
+/// the derivation costs.
 template <class S>
 struct EnergiesOnly {
   static constexpr int dimension = S::dimension;
@@ -93,8 +94,8 @@ struct EnergiesOnly {
   }
 };
 
-/// Adds the benchmark of run(z, h), which takes a chunk of steps of size h from z in place. Neither is known
-/// to the compiler.
+/// Adds the benchmark of run(z, h), which takes a chunk of steps of size h from z in place. Both arguments
+/// are hidden from the compiler, so that it cannot compute anything beforehand.
 template <class S, class Run>
 void add(const std::string& method, const std::string& path, Run run) {
   const std::string name = std::string(Case<S>::name) + "/" + method + "/" + path;
@@ -102,7 +103,7 @@ void add(const std::string& method, const std::string& path, Run run) {
     const volatile double unknown = step_size;
     for (auto _ : state) {
       auto z = Case<S>::start;
-      // By address: DoNotOptimize(z) itself spoils the value with GCC in Benchmark 1.7.
+      // The address is passed, because DoNotOptimize(z) itself spoils the value with GCC in Benchmark 1.7.
       benchmark::DoNotOptimize(z.data());
       run(z, unknown);
       benchmark::DoNotOptimize(z.data());

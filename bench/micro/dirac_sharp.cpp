@@ -1,9 +1,10 @@
-// One application of a Dirac bracket, sharp_D of a covector, by each solver: nanoseconds for K constraints on
-// n = 2 K + 4 coordinates, brackets and gradients given. dirac_sharp.py fits the exponents.
+// Measures one application of a Dirac bracket to a covector, sharp_D, by each solver, in nanoseconds, for K
+// constraints on n = 2 K + 4 coordinates; the base brackets and the gradients are given. dirac_sharp.py fits
+// the exponents of K.
 //
-// Names are dirac-KIND-K/solver: `dense` a skew bracket with every {phi_i, phi_j} different from zero,
-// `chain` constraints phi_k, phi~_k of which neighbours meet, so that S is tridiagonal, and `path` a
-// symmetric bracket with a tridiagonal W.
+// Names are dirac-KIND-K/solver. The kinds are `dense`, a skew bracket with every {phi_i, phi_j} different
+// from zero; `chain`, constraints phi_k, phi~_k of which only neighbours have a bracket, so that S is
+// tridiagonal; and `path`, a symmetric bracket with a tridiagonal W.
 #include <benchmark/benchmark.h>
 
 #include <random>
@@ -58,7 +59,8 @@ struct Instance {
   }
 };
 
-// Pairs (phi_k, phi~_k) with a pivot of their own, everything else smaller: no elimination breaks down.
+// A dense instance in which the bracket of each pair (phi_k, phi~_k) is larger than every other, so that
+// these are pivots and no elimination breaks down.
 Instance dense(std::size_t count) {
   Instance d(count, Symmetry::skew);
   std::mt19937 random(1);

@@ -1,8 +1,8 @@
-// One gradient psi(w) of the generating function truncated at degree m, variant S: interpreted from the tape
-// and compiled. Time is in nanoseconds an evaluation (reported as a step's).
+// Measures one gradient psi(w) of the generating function truncated at degree m, variant S, interpreted from
+// the tape and compiled. The time is that of one evaluation, in nanoseconds (the counter calls it a step).
 #include <pfaff/core/facets/problem.hpp>
 #include <pfaff/core/system.hpp>
-#include <pfaff/integrators/gradient_evaluator.hpp>
+#include <pfaff/integrators/generating/gradient_evaluator.hpp>
 
 #include "cases.hpp"
 
@@ -18,7 +18,8 @@ void add_gradient(int order, const std::string& path, const std::shared_ptr<cons
     auto psi = w;
     for (std::int64_t k = 0; k < chunk; ++k) {
       (*gradient)(w.data(), psi.data());
-      // The next point waits for this gradient, as the next correction of a step does.
+      // The next point depends on this gradient, as the next correction of a step does, so that evaluations
+      // cannot overlap.
       for (std::size_t i = 0; i < w.size(); ++i) w[i] += 1e-9 * psi[i];
     }
   });

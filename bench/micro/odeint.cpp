@@ -1,4 +1,5 @@
-// Boost.Odeint's steppers on the same formulas, concrete systems in std::array: the yardstick everyone has.
+// Boost.Odeint's steppers on the same formulas, with concrete systems in std::array, for comparison with a
+// widely used library.
 #include <algorithm>
 #include <boost/numeric/odeint/stepper/runge_kutta4.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>

@@ -1,4 +1,4 @@
-// The same methods as every program of Pfaff runs them: found by name, one indirect call for each formula.
+// The methods as the programs of Pfaff run them: found by name, with one indirect call for each formula.
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
 
@@ -40,7 +40,7 @@ void add_methods() {
   add_registered<S>("generating-function-8", "registered", model, "generating-function", {{"order", "8"}});
 }
 
-// What a generating function of the same order costs beside Gauss collocation, where its structure matters.
+// Generating functions beside Gauss collocation of the same order, on systems where their structure matters.
 template <class S>
 void add_generating_functions() {
   const SharedModel model = systems().get(Case<S>::name, "system").make({});
@@ -51,7 +51,7 @@ void add_generating_functions() {
   }
 }
 
-// What a chain costs with its length.
+// A chain of N bodies, to show how the cost grows with its length.
 template <int N>
 void add_chain() {
   const SharedModel model =

@@ -1,11 +1,12 @@
-// The loops that someone would write for a hanging chain of rods and nothing else: the right-hand sides of
-// the full Dirac form (nguyen-turski (4.2)) and of Lagrange multipliers (nguyen-turski (A.5)), and a step of
-// RATTLE. Gravity acts, there is no friction. Nanoseconds per rod.
+// The loops that someone would write for a hanging chain of rods and nothing else: right-hand sides of the
+// full Dirac form (nguyen-turski (4.2)) and of Lagrange multipliers (nguyen-turski (A.5)), and a step of
+// RATTLE. Gravity acts and there is no friction. Times are in nanoseconds per rod.
 //
-// S is tridiagonal. Its elimination runs from both ends at once, the left half of the chain in one lane of a
-// pack and the right half, mirrored, in the other: what waits for a division does so for both. An ensemble
-// holds one chain in each lane and eliminates from the anchor.
-#include "rods.hpp"
+// S is tridiagonal. For a single chain its elimination runs from both ends at once, with the left half of the
+// chain in one lane of a pack and the right half, mirrored, in the other, so that each division serves both
+// halves. An ensemble holds one chain in each lane and eliminates from the anchor.
+#include "chain_ensemble.hpp"
+#include "halved_chain.hpp"
 
 namespace {
 using namespace pfaff::micro;

@@ -1,5 +1,5 @@
-// Right-hand sides of rods as every program of Pfaff has them: system and formulation found by name, one
-// indirect call; and steps of RATTLE.
+// Right-hand sides of rods as the programs of Pfaff compute them, with system and formulation found by name
+// and one indirect call, and steps of RATTLE.
 #include <cstdint>
 #include <memory>
 #include <stdexcept>
@@ -30,7 +30,8 @@ void add_field(const std::string& shape, const std::string& what, const std::str
            });
 }
 
-// h = 1e-3 s, a hundred steps a call, from a horizontal pendulum whose rods turn at random.
+// A hundred steps of h = 1e-3 s in each call. The runs start from a horizontal pendulum whose rods turn at
+// random.
 void add_rattle(const std::string& shape, int count, const std::string& dimension) {
   constexpr int steps = 100;
   const auto model =
@@ -41,7 +42,7 @@ void add_rattle(const std::string& shape, int count, const std::string& dimensio
   const std::shared_ptr<Stepper<double>> stepper = method->stepper(model, double());
   add_rods(shape, "rattle", "registered", static_cast<double>(steps * count),
            [method, stepper, start, state = start, done = std::int64_t{0}]() mutable {
-             if (done == 5000) {  // the same five seconds again: later ones are faster
+             if (done == 5000) {  // start over after five seconds, since the chain moves faster later
                state = start;
                done = 0;
                stepper->forget();

@@ -1,10 +1,11 @@
-// Concrete methods on concrete systems: what the compiler makes of the formulas when it sees everything.
+// Concrete method types on concrete system types: how fast the formulas run when the compiler sees
+// everything.
 #include <pfaff/core/facets/advance.hpp>
 #include <pfaff/core/facets/static_problem.hpp>
-#include <pfaff/integrators/explicit_runge_kutta.hpp>
-#include <pfaff/integrators/gauss.hpp>
-#include <pfaff/integrators/generating_function.hpp>
-#include <pfaff/integrators/splitting.hpp>
+#include <pfaff/integrators/generating/generating_function.hpp>
+#include <pfaff/integrators/runge_kutta/explicit_runge_kutta.hpp>
+#include <pfaff/integrators/runge_kutta/gauss.hpp>
+#include <pfaff/integrators/splitting/splitting.hpp>
 
 #include "cases.hpp"
 
@@ -12,7 +13,7 @@ namespace {
 using namespace pfaff;
 using namespace pfaff::micro;
 
-// S gives the formulas, C the start.
+// The system S gives the formulas, the case C the name and the start.
 template <class C, class S, class M>
 void add_static(const std::string& name, const std::string& path, const M& method) {
   using P = StaticProblem<S>;

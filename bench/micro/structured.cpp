@@ -1,10 +1,11 @@
-// Factoring a matrix of every structure and solving with it, in nanoseconds a row: the library, Eigen's
-// sparse L D L^T with its pattern analysed beforehand, and for tridiagonal matrices the loops someone would
-// write.
+// Measures factoring a matrix of each structure and solving with it, in nanoseconds per row: by the library,
+// by Eigen's sparse L D L^T with the pattern analysed beforehand, and, for tridiagonal matrices, by the loops
+// that someone would write by hand.
 //
-// Names are structure-rows/what/path. What: factor-and-solve of one right-hand side (entries are copied in),
-// solve, and solve-two, two right-hand sides at once. Paths: library, shuffled (the same with rows in random
-// order), quad (of the library), one-end and both-ends (by hand), eigen.
+// Names are structure-rows/what/path. The second part is factor-and-solve (of one right-hand side, copying of
+// the entries included), solve, or solve-two (two right-hand sides at once). The paths are library, shuffled
+// (the library with rows in random order), quad (the library in quad), one-end and both-ends (by hand), and
+// eigen.
 #include <benchmark/benchmark.h>
 
 #include <Eigen/SparseCholesky>
@@ -112,7 +113,7 @@ void add_eigen(const std::string& structure, const Problem& problem) {
   });
 }
 
-/// The loop of the textbook: divides by every pivot in turn.
+/// The loop of the textbook, which eliminates from one end and divides by every pivot in turn.
 void one_end(std::size_t rows, const double* c, const double* b, const double* right, double* x, double* l) {
   double pivot = c[0], y = right[0];
   for (std::size_t k = 0; k + 1 < rows; ++k) {
@@ -126,7 +127,7 @@ void one_end(std::size_t rows, const double* c, const double* b, const double* r
   for (std::size_t k = rows - 1; k-- > 0;) x[k] = y = x[k] - l[k] * y;
 }
 
-/// The same from both ends.
+/// The same elimination from both ends at once.
 void both_ends(std::size_t rows, const double* c, const double* b, const double* right, double* x,
                double* l) {
   const std::size_t middle = rows / 2;
@@ -188,7 +189,7 @@ Couplings shuffled(std::size_t rows, Couplings couplings) {
   for (auto& [i, j] : couplings) i = name[i], j = name[j];
   return couplings;
 }
-/// Rods are pairs of points; two of them are coupled by a common one.
+/// The couplings between rods, each given as a pair of points: two rods are coupled where they share a point.
 Couplings of_rods(const Couplings& rods) {
   Couplings result;
   for (std::size_t i = 0; i < rods.size(); ++i)
@@ -198,7 +199,7 @@ Couplings of_rods(const Couplings& rods) {
         result.emplace_back(i, j);
   return result;
 }
-/// A spine with a rod that hangs on every other point.
+/// A chain of rods with one more rod hanging from every other point.
 Couplings ribs(std::size_t rods) {
   Couplings points;
   for (std::size_t spine = 0, next = 1; points.size() < rods;) {

@@ -1,8 +1,8 @@
-"""Residuals of constraints: how far from their surface methods and formulations are, against time.
+"""Residuals of constraints: how far methods and formulations are from the constraint surface, against time.
 
 One panel for the drift of the conserved quantity where the case names one, then one for each level of constraints:
-the largest |phi|, and the largest of the hidden constraints, |phi~|. Of an ensemble a line is the median over its
-seeds, in each of BINS stretches of time the median of the largest values.
+the largest |phi|, and the largest of the hidden constraints, |phi~|. Time is cut into BINS stretches. A line shows the
+largest value in each of them; for an ensemble it shows the median of these largest values over the seeds.
 """
 import bisect
 import math
@@ -25,7 +25,7 @@ def drawings(experiment, case):
 
 
 def panel_curves(experiment, case, name, runs):
-    """[(run, times, values)]: medians over the seeds of what each run shows in stretches of its time."""
+    """[(run, times, values)]: the largest size of the quantity in each stretch of time, the median over the seeds."""
     curves = []
     for run in runs:
         shown = []
@@ -126,7 +126,7 @@ def growth(experiment, case):
 
 
 def claims(experiment, case):
-    """[(subject, sentence, [items])]: what the experiment claims of its methods, and whether it holds."""
+    """[(subject, sentence, [items])]: the claims that the experiment makes of its methods, and whether they hold."""
     items = []
     for _, c in experiment.claims:
         if c["case"] != case["name"]:

@@ -12,6 +12,7 @@ import decimal
 import math
 import pathlib
 
+import drift_classes
 from files import InputError, allow, parse, read_csv, read_json, read_table, require
 
 UNIT_ROUND_OFF = {"double": 2.0**-53, "quad": 2.0**-113}
@@ -24,6 +25,9 @@ SPREAD_COLUMNS = ("case", "method", "step", "tolerance", "runs", "finished", "me
 CLAIM_COLUMNS = ("case", "measure", "method", "relation", "factor", "than", "bound", "step", "runs", "holding", "needed",
                  "holds", "ratio_median")
 MEASURES = ("max", "rms", "final", "slope", "slope_low", "slope_high", "oscillation", "exponent", "class")
+
+# Of a quantity that is expected to move in one direction: the verb for that, and its moves in the other direction.
+DIRECTIONS = {"decreasing": ("decrease", "rise"), "increasing": ("increase", "fall")}
 
 
 def step_key(step):
@@ -93,12 +97,15 @@ class Series:
     def scale(self):
         return max(1.0, abs(self.initial)) if math.isfinite(self.initial) else 1.0
 
-    def rises(self):
-        """The largest rise up to t, max of I(t2) - I(t1) over t1 <= t2 <= t: zero for a quantity that never grows."""
+    def setbacks(self, expected):
+        """The largest move against the expected direction up to t: of a quantity that is expected to decrease the rise
+        max of I(t2) - I(t1) over t1 <= t2 <= t, of one that is expected to increase the fall; zero where there is none.
+        """
+        sign = {"decreasing": 1, "increasing": -1}[expected]
         lowest, largest, out = math.inf, 0.0, []
         for x in self.change:
-            lowest = min(lowest, x)
-            largest = max(largest, x - lowest)
+            lowest = min(lowest, sign * x)
+            largest = max(largest, sign * x - lowest)
             out.append(largest)
         return out
 
@@ -109,12 +116,13 @@ class Experiment:
         if not self.folder.is_dir():
             raise InputError(f"{folder}: expected the directory of an experiment")
         self.head = read_json(self.folder / "experiment.json")
-        require(self.head, "experiment.json", name=str, title=str, cases=list, methods=list)
+        require(self.head, "experiment.json", name=str, title=str, cases=list, methods=list, drift_classes=list)
         allow(self.head, "experiment.json", description=str, reference=list, citation=list, notes=list, versions=dict)
         if self.head.get("schema") != 1:
             raise InputError(f"experiment.json: expected \"schema\": 1, got {self.head.get('schema')!r}")
         if self.head.get("reference") and "citation" not in self.head:
             raise InputError("experiment.json: 'reference' names sources, but the list 'citation' is missing")
+        self.drift_classes = drift_classes.read(self.head["drift_classes"])
         self.cases, self.methods = self.head["cases"], self.head["methods"]
         for i, case in enumerate(self.cases):
             require(case, f"experiment.json, case {i + 1}", name=str, precision=str)
@@ -157,6 +165,8 @@ class Experiment:
                 raise InputError(f"{where}: case '{run.case}' is not in experiment.json")
             if run.method not in self.labels:
                 raise InputError(f"{where}: method '{run.method}' is not in experiment.json")
+            for name in invariants:
+                drift_classes.check(run.drift_class(name), self.drift_classes, f"{where}, column {name}:class")
             runs.append(run)
         if not runs:
             raise InputError("results.csv: expected at least one run, found none")
@@ -216,7 +226,7 @@ class Experiment:
         return [r for r in self.runs if r.case == case["name"] and r.seed <= 1]
 
     def common_step(self, case):
-        """The step at which most methods finished; the largest of several, where methods differ most."""
+        """The step at which most methods finished. Of several such steps the largest, as methods differ most there."""
         runs = self.runs_of(case)
         runs = [r for r in runs if not r.tolerance] or runs
         counts = collections.Counter(step_key(r.step) for r in runs if not r.failed)

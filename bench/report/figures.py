@@ -2,8 +2,8 @@
 
 drift           |I(t) - I(0)| / max(1, |I(0)|) of the conserved quantity I at the step most methods share; the unit
                 1 keeps the measure meaningful for I(0) near 0. Grey: unit round-off u, and u sqrt(n) after n steps,
-                Brouwer's law for a random walk of roundings. Where I is expected to decrease: I itself, and its
-                largest rise so far, which is zero as long as I never grows.
+                Brouwer's law for a random walk of roundings. Where I is expected to decrease or to increase: I
+                itself, and its largest move in the other direction so far, which is zero where there is none.
 work-precision  largest error against processor time and against right-hand sides (steps where a method counts no
                 right-hand sides), one line over the steps of each method, finished runs only.
 structure       the residual of M^T K(z',t') M = K(z,t), M the Jacobian of one step, against step and against time.
@@ -16,7 +16,7 @@ import re
 import statistics
 import typing
 
-from experiment import UNIT_ROUND_OFF
+from experiment import DIRECTIONS, UNIT_ROUND_OFF
 from scales import EXPLOSION, ErrorAxis, decade_axis, envelope, step_axis, time_axis
 from sheet import Sheet, plain
 
@@ -115,27 +115,28 @@ def drift(experiment, case):
     time_label = with_unit("time t", case.get("time_unit") or pairs[0][1].time_unit)
     target = experiment.common_step(case)
     at_step = step_text(target, case)
-    rises = [(r, *envelope(s.time, [x / s.scale for x in s.rises()])) for r, s in pairs]
     u, u_label = round_off(case)
-    decreasing = expected == "decreasing"
-    if decreasing:
-        title = f"{heading(case)}: {invariant}, expected to decrease ({at_step})"
+    directed = expected in DIRECTIONS
+    if directed:
+        direction, move = DIRECTIONS[expected]
+        setbacks = [(r, *envelope(s.time, [x / s.scale for x in s.setbacks(expected)])) for r, s in pairs]
+        title = f"{heading(case)}: {invariant}, expected to {direction} ({at_step})"
     elif expected == "conserved":
         title = f"{heading(case)}: drift of {invariant} ({at_step})"
     else:
         title = f"{heading(case)}: change of {invariant}, not a conserved quantity ({at_step})"
-    axis = ErrorAxis([v for *_, v in (rises if decreasing else curves)], u)
+    axis = ErrorAxis([v for *_, v in (setbacks if directed else curves)], u)
     begin = min(t[0] for _, t, _ in curves if t)
 
     def draw(wide):
-        sheet = Sheet(2 if decreasing else 1, wide, title)
+        sheet = Sheet(2 if directed else 1, wide, title)
         last = sheet.axes[-1]
         sheet.level(last, u, u_label)
-        if decreasing:
-            values_of_decreasing(sheet, experiment, target, pairs)
+        if directed:
+            values_of_directed(sheet, experiment, target, pairs, expected)
             sheet.axes[0].set(xlabel=plain(time_label), ylabel=plain(with_unit(f"{invariant}: I(t)", unit)))
-            draw_over_time(sheet, last, axis, experiment, target, rises, begin)
-            last.set_ylabel(plain(f"largest rise of {invariant} so far\n/ max({one}, |I(0)|)"))
+            draw_over_time(sheet, last, axis, experiment, target, setbacks, begin)
+            last.set_ylabel(plain(f"largest {move} of {invariant} so far\n/ max({one}, |I(0)|)"))
         else:
             end = max(c[1][-1] for c in curves if c[1])
             times = [begin * (end / begin) ** (k / 60) for k in range(61)]
@@ -147,15 +148,15 @@ def drift(experiment, case):
         last.set_xlabel(plain(time_label))
         return sheet
 
-    what = (f"{invariant} is expected to decrease, so its change is no error: shown are its value and its largest "
-            "rise from any earlier value, which should stay at round-off." if decreasing else
+    what = (f"{invariant} is expected to {direction}, so its change is no error: shown are its value and its largest "
+            f"{move} from any earlier value, which should stay at round-off." if directed else
             f"Change of {invariant} since the start, at {at_step}. The lower grey lines are unit round-off u and the "
             "growth u √n of a random walk of n roundings.")
     return Drawing("drift", case, title, sentences(what, ENVELOPE, *axis.remarks(), lost), draw)
 
 
-def values_of_decreasing(sheet, experiment, target, pairs):
-    """Left panel for a quantity that is expected to decrease: the quantity itself, against time."""
+def values_of_directed(sheet, experiment, target, pairs, expected):
+    """Left panel for a quantity that is expected to decrease or to increase: the quantity itself, against time."""
     axes = sheet.axes[0]
     for n, (run, s) in enumerate(pairs):
         index, label = styled(experiment, run, target)
@@ -163,11 +164,13 @@ def values_of_decreasing(sheet, experiment, target, pairs):
         shown = [(s.time[k], s.initial + s.change[k]) for k in keep]
         gap = max(1, len(shown) // 6)
         sheet.method(axes, *zip(*shown), index, label, markevery=(n * gap // len(pairs), gap))
-    starts = [s.initial for _, s in pairs if math.isfinite(s.initial)]
-    lowest = [s.initial + min(x for x in s.change if math.isfinite(x)) for _, s in pairs if math.isfinite(s.initial)]
-    if lowest and max(starts) > statistics.median(lowest):  # a method that exploded leaves the frame
-        room = 0.1 * (max(starts) - statistics.median(lowest))
-        axes.set_ylim(statistics.median(lowest) - room, max(starts) + room)
+    finite = [s for _, s in pairs if math.isfinite(s.initial)]
+    backward, forward = (max, min) if expected == "decreasing" else (min, max)
+    start = backward((s.initial for s in finite), default=math.nan)
+    ends = [s.initial + forward(x for x in s.change if math.isfinite(x)) for s in finite]
+    if ends and forward(start, statistics.median(ends)) != start:  # a method that exploded leaves the frame
+        low, high = sorted((start, statistics.median(ends)))
+        axes.set_ylim(low - 0.1 * (high - low), high + 0.1 * (high - low))
     time_axis(axes, 0, max(s.time[-1] for _, s in pairs))
 
 

@@ -19,7 +19,7 @@ def parse(text, where):
 
 
 def require(table, where, **kinds):
-    """A JSON object that has these keys, of these types."""
+    """Refuse what is not a JSON object with these keys, of these types."""
     if not isinstance(table, dict):
         raise InputError(f"{where}: expected an object")
     for key, kind in kinds.items():
@@ -29,7 +29,7 @@ def require(table, where, **kinds):
 
 
 def allow(table, where, **kinds):
-    """These keys, where they are present and not null, have these types."""
+    """Refuse these keys where they are present, not null and of another type."""
     names = {str: "a string", list: "a list", dict: "an object"}
     for key, kind in kinds.items():
         if table.get(key) is not None and not isinstance(table[key], kind):

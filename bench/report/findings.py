@@ -9,13 +9,12 @@ Thresholds, all stated in the text they produce:
 import math
 
 import constraints
-from experiment import UNIT_ROUND_OFF
+from experiment import DIRECTIONS, UNIT_ROUND_OFF
 from figures import precision_measure, step_text, with_unit
 
 ROUND_OFF = 1000
 ABOVE_ROUND_OFF = 1e5
 ORDER_TOLERANCE = 0.3
-CLASSES = ("exact", "bounded", "random-walk", "linear", "exponential", "undetermined")
 
 
 def number(x):
@@ -96,40 +95,51 @@ def drift(experiment, case):
     expected, unit = experiment.expectation(case, name)
     runs = [r for r in experiment.at_common_step(case) if not r.failed]
     at = "at " + step_text(experiment.common_step(case), case)
-    if expected == "decreasing":
-        return rising(experiment, case, name, runs, at)
+    if expected in DIRECTIONS:
+        return setbacks(experiment, case, name, runs, at)
     rate = slope_unit(unit, case.get("time_unit") or "")
     items = []
-    for kind in CLASSES:
-        some = [(r, number(r.drift(name, "max"))) for r in runs if r.drift_class(name) == kind]
-        if kind == "linear":
-            shown = [f"{r.method} at {number(r.drift(name, 'slope'))} [{number(r.drift(name, 'slope_low'))}, "
-                     f"{number(r.drift(name, 'slope_high'))}] {rate}".rstrip() for r, top in some]
-        elif kind == "random-walk":
-            shown = [f"{r.method} (as t^{number(r.drift(name, 'exponent'))}, at most {top})" for r, top in some]
-        else:
-            shown = [r.method + ("" if kind == "exact" else f" (at most {top})") for r, top in some]
+    for kind in experiment.drift_classes.values():
+        some = [sized(r, name, kind.measure, rate) for r in runs if r.drift_class(name) == kind.name]
         if some:
-            items.append(f"{kind}: {listed(shown)}")
+            items.append(f"{kind.name}: {listed(some)}")
+    if not items:
+        return []
+    unclassified = [r.method for r in runs if not r.drift_class(name)]
+    items += grouped(("without a class, because it was not measured", unclassified))
     subject = "Drift" if expected == "conserved" else "Change"
-    return [(subject, f"{subject} of {with_unit(name, unit)} {at}, by class:", items)] if items else []
+    return [(subject, f"{subject} of {with_unit(name, unit)} {at}, by class:", items)]
 
 
-def largest_rise(experiment, run, name):
-    """The largest rise of an invariant in a run, over max(1, |I(0)|); nan without a series."""
+def sized(run, name, measure, rate):
+    """The run's method, with the drift number that its class is sized by."""
+    top = number(run.drift(name, "max"))
+    if measure == "slope":
+        return (f"{run.method} at {number(run.drift(name, 'slope'))} [{number(run.drift(name, 'slope_low'))}, "
+                f"{number(run.drift(name, 'slope_high'))}] {rate}").rstrip()
+    if measure == "exponent":
+        return f"{run.method} (as t^{number(run.drift(name, 'exponent'))}, at most {top})"
+    return run.method + (f" (at most {top})" if measure == "max" else "")
+
+
+def largest_setback(experiment, run, name, expected):
+    """The largest move of an invariant against its expected direction, over max(1, |I(0)|); nan without a series."""
     series = experiment.series(run, name)
-    return series.rises()[-1] / series.scale if series and series.time else math.nan
+    return series.setbacks(expected)[-1] / series.scale if series and series.time else math.nan
 
 
-def rising(experiment, case, name, runs, at):
-    """Findings on a quantity that is expected to decrease: who lets it rise."""
-    rises = {r.method: largest_rise(experiment, r, name) for r in runs}
-    never = [m for m, x in rises.items() if x <= limit(case)]
-    does = [f"{m} (by {number(x)})" for m, x in rises.items() if x > limit(case)]
-    text = (f"{name} is expected to decrease, so its change is not an error. Whether it rises {at} by more than "
+def setbacks(experiment, case, name, runs, at):
+    """Findings on a quantity that is expected to move in one direction: who lets it move in the other."""
+    expected = experiment.expectation(case, name)[0]
+    direction, move = DIRECTIONS[expected]
+    sizes = {r.method: largest_setback(experiment, r, name, expected) for r in runs}
+    never = [m for m, x in sizes.items() if x <= limit(case)]
+    does = [f"{m} (by {number(x)})" for m, x in sizes.items() if x > limit(case)]
+    unknown = [m for m, x in sizes.items() if math.isnan(x)]
+    text = (f"{name} is expected to {direction}, so its change is not an error. Whether it {move}s {at} by more than "
             f"{ROUND_OFF} u between any two samples:")
-    items = grouped(("never rises", never), ("rises", does))
-    return [("Decrease", text, items)] if items else []
+    items = grouped((f"never {move}s", never), (f"{move}s", does), ("not known, without a series", unknown))
+    return [(direction.capitalize(), text, items)] if items else []
 
 
 def order(experiment, case):

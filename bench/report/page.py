@@ -1,7 +1,7 @@
 """report.html: one file without scripts or anything fetched, for a screen of any width and for paper.
 
-Order: what was run, what it shows, then every case with its figures and tables, then how to make it again and whom
-to cite. Every figure is inlined twice, wide and narrow; the style sheet shows the one that fits the screen.
+Order: what was run, what it shows, then every case with its figures and tables, then what the classes of drift say,
+how to make it again and whom to cite. Every figure is inlined twice, wide and narrow; the style sheet shows the one that fits the screen.
 """
 import html
 import math
@@ -25,7 +25,7 @@ def page(experiment, drawn):
     style = (pathlib.Path(__file__).parent / "page.css").read_text(encoding="utf-8")
     body = [opening(experiment), summary(experiment)]
     body += [section(experiment, case, drawn[case["name"]]) for case in experiment.cases]
-    body += [notes(head), provenance(head), citations(head)]
+    body += [tables.drift_classes(experiment), notes(head), provenance(head), citations(head)]
     return "\n".join([
         "<!DOCTYPE html>", '<html lang="en">', "<head>", '<meta charset="utf-8">',
         f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">',

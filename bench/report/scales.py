@@ -29,7 +29,7 @@ class ErrorAxis:
         self.floor = 10.0 ** (self.low - 0.6 * self.stride)
 
     def place(self, values):
-        """Zeros to their line; what is not a number stays a gap."""
+        """The values with zeros moved to the line for zero; what is not a number leaves a gap."""
         return [self.floor if v == 0 else v if math.isfinite(v) else math.nan for v in values]
 
     def apply(self, axes):

@@ -3,7 +3,8 @@ import html
 import math
 
 from figures import heading, step_text, with_unit
-from findings import duration, largest_rise, number, slope_unit
+from experiment import DIRECTIONS
+from findings import duration, largest_setback, number, slope_unit
 
 
 def text(value):
@@ -64,7 +65,7 @@ def methods(experiment):
 
 
 def by_system(method, say):
-    """What is said of every system, once where it is the same for all."""
+    """What say() gives for each system that the method claims something of; said once where it is the same for all."""
     said = {s["name"]: say(s) for s in method.get("systems") or []}
     if len(set(said.values())) <= 1:
         return next(iter(said.values()), "")
@@ -86,8 +87,9 @@ def overview(experiment):
             rows.append(("", [text(label), *(overview_cell(experiment, *cell) if cell else "–" for cell in cells)]))
     steps = ", ".join(f"{heading(c)}: {step_text(experiment.common_step(c), c)}" for c in experiment.cases)
     return table("<strong>At a glance.</strong> Class and size of the drift of each case's conserved quantity (of one "
-                 "that is expected to decrease, its largest rise over max(1, |I(0)|)), and the structure "
-                 f"residual, at the step that most methods share ({text(steps)}).", columns, [rows])
+                 "that is expected to decrease or increase, its largest move in the other direction over "
+                 f"max(1, |I(0)|)), and the structure residual, at the step that most methods share ({text(steps)}).",
+                 columns, [rows])
 
 
 def overview_cell(experiment, case, run):
@@ -95,8 +97,9 @@ def overview_cell(experiment, case, run):
         return f"<strong>✗ {text(run.status)}</strong>"
     name, residual = case.get("conserved"), run.number("structure_residual")
     shown = []
-    if name and experiment.expectation(case, name)[0] == "decreasing":
-        shown = [f"rises by {number(largest_rise(experiment, run, name))}"]
+    expected = experiment.expectation(case, name)[0] if name else ""
+    if expected in DIRECTIONS:
+        shown = [f"{DIRECTIONS[expected][1]}s by {number(largest_setback(experiment, run, name, expected))}"]
     elif name:
         shown = [f"{text(run.drift_class(name))} {number(run.drift(name, 'max'))}".strip()]
     shown += [] if math.isnan(residual) else [f"<small>structure {number(residual)}</small>"]
@@ -119,11 +122,11 @@ def results(experiment, case):
         bodies.setdefault(r.method, []).append(("failed" if r.failed else "", [
             text(r.method), size_text(r), ("✗ " if r.failed else "") + status, number(r.number("error_max")),
             number(r.number("error_final")), number(r.drift(name, "max")) if name else "–",
-            drift_class(r, name), slope(r, name), number(r.number("structure_residual")), per_step(r),
+            drift_class(experiment, r, name), slope(r, name), number(r.number("structure_residual")), per_step(r),
             duration(r.total_ns), work(r)]))
     about = ["Errors are relative to the norm of the reference solution."] if case.get("reference_solution") else []
-    if expected == "decreasing":
-        about.append(f"{text(name)} is expected to decrease: its change is not an error.")
+    if expected in DIRECTIONS:
+        about.append(f"{text(name)} is expected to {DIRECTIONS[expected][0]}: its change is not an error.")
     about.append("Work per step: f right-hand sides, J Jacobians, it Newton iterations, LU factorisations.")
     if not any(r.cost for r in experiment.runs_of(case)):
         about.append("Timings were not measured.")
@@ -149,10 +152,19 @@ def spreads(experiment, case):
                  "tolerance.", columns, [rows])
 
 
-def drift_class(run, name):
-    kind = text(run.drift_class(name)) if name else ""
+def drift_classes(experiment):
+    """What each class says, of those that a run of the experiment is in."""
+    seen = {r.drift_class(n) for r in experiment.runs for n in experiment.invariants}
+    rows = [("", [text(c.name), text(c.meaning)]) for c in experiment.drift_classes.values() if c.name in seen]
+    return table("<strong>Classes of drift.</strong> How an error grows over a run, or does not; the size is another "
+                 "question.", [("Class", ""), ("What the error does", "")], [rows]) if rows else ""
+
+
+def drift_class(experiment, run, name):
+    name_of_class = run.drift_class(name) if name else ""
+    kind = text(name_of_class)
     exponent, oscillation = (run.drift(name, m) if name else math.nan for m in ("exponent", "oscillation"))
-    if kind == "random-walk" and not math.isnan(exponent):
+    if kind and experiment.drift_classes[name_of_class].measure == "exponent" and not math.isnan(exponent):
         kind += f", t<sup>{number(exponent)}</sup>"
     if not math.isnan(oscillation):
         kind += f"<br><small>oscillation {number(oscillation)}</small>"

@@ -1,10 +1,15 @@
-// Exact samples for formulas about matrices of brackets: fractions, always the same ones.
+// Exact samples for formulas about matrices of brackets: fractions, always the same ones. The engine's Dirac
+// brackets of such matrices.
 #pragma once
 
 #include <cstddef>
 #include <random>
 
+#include <pfaff/bench/reproduce/printed/dense.hpp>
 #include <pfaff/bench/reproduce/rows.hpp>
+#include <pfaff/brackets/conformance/residuals.hpp>
+#include <pfaff/brackets/dirac/dirac.hpp>
+#include <pfaff/brackets/tensor.hpp>
 #include <pfaff/core/linear/matrix.hpp>
 #include <pfaff/core/numbers/rational.hpp>
 
@@ -55,19 +60,48 @@ inline Numbers quads(const std::vector<Rational>& x) {
   return rounded;
 }
 inline Numbers quads(const ExactMatrix& m) { return quads(m.entries()); }
+inline Numbers quads(const printed::Table<Rational>& m) { return quads(printed::listed(m)); }
 /// So many zeros.
 inline Numbers zeros(std::size_t count) { return Numbers(count); }
 
+/// The same numbers for printed formulas.
+template <class T>
+printed::Table<T> table_of(const Matrix<T>& m) {
+  printed::Table<T> table = printed::zero_table<T>(m.rows(), m.columns());
+  for (std::size_t i = 0; i < m.rows(); ++i)
+    for (std::size_t j = 0; j < m.columns(); ++j) table[i][j] = m(i, j);
+  return table;
+}
+
+/// The first coordinates as constraints.
+struct FirstCoordinates {
+  std::size_t number = 0;
+  [[nodiscard]] std::size_t count() const { return number; }
+  template <class T>
+  void values(const T& /*t*/, In<T> z, Out<T> phi) const {
+    for (std::size_t i = 0; i < number; ++i) phi[i] = z[i];
+  }
+  template <class T>
+  void gradients(const T& /*t*/, In<T> z, Out<T> rows) const {
+    for (std::size_t i = 0; i < number; ++i)
+      for (std::size_t k = 0; k < z.size(); ++k) rows[i * z.size() + k] = T(i == k ? 1 : 0);
+  }
+};
+
+/// The engine's Dirac bracket of the elements after the first `count`, which are the constraints, from all
+/// their brackets G: G is the tensor of a bracket of the coordinates, and the first coordinates are the
+/// constraints.
+template <class Solver = DenseDirac>
+ExactMatrix engine_brackets(const ExactMatrix& g, std::size_t count, Symmetry symmetry, Solver solver = {}) {
+  const auto base = tensor_bracket([g](const auto&, auto, auto entries) {
+    for (std::size_t k = 0; k < entries.size(); ++k) entries[k] = g.entries()[k];
+  });
+  const auto bracket = dirac(base, FirstCoordinates{count}, solver, symmetry);
+  const ExactMatrix all = bracket_matrix<Rational>(bracket, Rational(0), std::vector<Rational>(g.rows()));
+  return all.block(count, count, g.rows() - count, g.rows() - count);
+}
+
 /// Columns that span the kernel of A, whose leading square block is regular.
 ExactMatrix kernel_columns(const ExactMatrix& a);
-/// (1.2) and (3.5): P - P A^T (A P A^T)^-1 A P, on covectors, A the gradients of the constraints in rows.
-ExactMatrix dirac_tensor(const ExactMatrix& p, const ExactMatrix& a);
-/// (3.5) among the elements after the first `count` of a matrix of brackets, which are the constraints.
-ExactMatrix dirac_brackets(const ExactMatrix& g, std::size_t count);
-/// The determinant of some rows and columns, F[rows, columns] of nguyen-turski (3.1).
-Rational minor_of(const ExactMatrix& f, const std::vector<std::size_t>& rows,
-                  const std::vector<std::size_t>& columns);
-/// 0, 1, ..., n - 1, and then some more.
-std::vector<std::size_t> counted(std::size_t n, std::initializer_list<std::size_t> more = {});
 
 }  // namespace pfaff

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include <pfaff/core/registry/errors.hpp>
+#include <pfaff/core/errors/errors.hpp>
 
 namespace pfaff {
 
@@ -48,7 +48,8 @@ std::vector<ReproducedRow> reproduce(const std::string& paper, const std::string
 
 bool ok(const std::vector<ReproducedRow>& rows) {
   return std::all_of(rows.begin(), rows.end(), [](const ReproducedRow& row) {
-    return row.status == "reproduced" || row.status == "erratum" || row.status == "qualitative";
+    return row.status == "reproduced" || row.status == "improved" || row.status == "erratum" ||
+           row.status == "qualitative";
   });
 }
 
@@ -61,7 +62,7 @@ nlohmann::json to_json(const std::string& paper, const std::vector<ReproducedRow
     row["erratum"] = r.erratum.empty() ? nlohmann::json(nullptr) : nlohmann::json(r.erratum);
     list.push_back(row);
   }
-  return {{"schema", 1}, {"paper", paper}, {"ok", ok(rows)}, {"rows", list}};
+  return {{"paper", paper}, {"ok", ok(rows)}, {"rows", list}};
 }
 
 }  // namespace pfaff

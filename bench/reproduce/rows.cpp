@@ -1,8 +1,5 @@
 #include <pfaff/bench/reproduce/rows.hpp>
 
-#include <algorithm>
-#include <cmath>
-
 namespace pfaff {
 
 std::string shown(const Numbers& x) {
@@ -13,64 +10,47 @@ std::string shown(const Numbers& x) {
   }
   return text;
 }
-double distance(const Numbers& a, const Numbers& b) {
-  if (a.size() != b.size()) return INFINITY;
-  double worst = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) {
-    const auto difference = static_cast<double>(abs(a[k] - b[k]));
-    if (!std::isfinite(difference)) return INFINITY;
-    worst = std::max(worst, difference);
-  }
-  return worst;
-}
+std::string shown(double x) { return to_string(Quad(x), 4); }
 
-void Rows::add(ReproducedRow row) {
+void Rows::add(const std::string& equation, const std::string& what, const Texts& texts, Evidence evidence,
+               const std::string& entry) {
+  ReproducedRow row;
+  row.id = equation + " " + what;
   row.section = section_;
-  row.id = row.equation + " " + row.id;
+  row.equation = equation;
+  row.printed = texts.printed;
+  row.ours = texts.ours;
+  const bool numbers = !evidence.printed.empty();
+  row.difference = numbers ? distance(evidence.printed, evidence.ours) : evidence.conditions.front().value;
+  row.tolerance = numbers ? evidence.tolerance : evidence.conditions.front().bound;
+  row.status = judge(evidence);
+  row.erratum = entry;
+  row.evidence = std::move(evidence);
   rows_.push_back(std::move(row));
 }
+
 void Rows::reproduced(const std::string& equation, const std::string& what, const Numbers& printed,
                       const Numbers& ours) {
-  ReproducedRow r{what,         "", equation, shown(printed), shown(ours), distance(printed, ours),
-                  at_round_off, "", ""};
-  r.status = r.difference <= r.tolerance ? "reproduced" : "failed";
-  add(r);
+  add(equation, what, {shown(printed), shown(ours)},
+      {Evidence::Kind::value, printed, {}, ours, {}, at_round_off}, "");
 }
-void Rows::measured(const std::string& equation, const std::string& what, double printed, double ours,
-                    double tolerance) {
-  ReproducedRow r{what,
-                  "",
-                  equation,
-                  to_string(Quad(printed), 4),
-                  to_string(Quad(ours), 4),
-                  std::abs(printed - ours),
-                  tolerance,
-                  "",
-                  ""};
-  r.status = r.difference <= r.tolerance ? "reproduced" : "failed";
-  add(r);
+void Rows::order(const std::string& equation, const std::string& what, double printed, double measured,
+                 double tolerance) {
+  add(equation, what, {shown(printed), shown(measured)},
+      {Evidence::Kind::order, {Quad(printed)}, {}, {Quad(measured)}, {}, tolerance}, "");
 }
 void Rows::erratum(const std::string& equation, const std::string& what, const Numbers& printed,
                    const Numbers& corrected, const Numbers& ours, const std::string& entry) {
-  ReproducedRow r{what,         "", equation, shown(printed), shown(ours), distance(printed, ours),
-                  at_round_off, "", entry};
-  const bool shown_to_be =
-      r.difference > clearly && std::isfinite(r.difference) && distance(corrected, ours) <= at_round_off;
-  r.status = shown_to_be ? "erratum" : "failed";
-  add(r);
+  add(equation, what, {shown(printed), shown(ours)},
+      {Evidence::Kind::misprint, printed, corrected, ours, {}, at_round_off}, entry);
 }
-void Rows::claim(const std::string& equation, const std::string& what, const std::string& printed,
-                 const std::string& ours, double difference, bool corrected_holds, const std::string& entry) {
-  ReproducedRow r{what, "", equation, printed, ours, difference, at_round_off, "", entry};
-  r.status = difference > clearly && std::isfinite(difference) && corrected_holds ? "erratum" : "failed";
-  add(r);
+void Rows::claim(const std::string& equation, const std::string& what, const Texts& texts,
+                 const std::vector<Condition>& conditions, const std::string& entry) {
+  add(equation, what, texts, {Evidence::Kind::claim, {}, {}, {}, conditions, at_round_off}, entry);
 }
-void Rows::qualitative(const std::string& equation, const std::string& what, const std::string& printed,
-                       const std::string& ours, double difference, double tolerance, bool holds,
-                       const std::string& tested) {
-  ReproducedRow r{what, "", equation, printed, ours, difference, tolerance, "", tested};
-  r.status = holds ? "qualitative" : "failed";
-  add(r);
+void Rows::qualitative(const std::string& equation, const std::string& what, const Texts& texts,
+                       const std::vector<Condition>& conditions, const std::string& tested) {
+  add(equation, what, texts, {Evidence::Kind::property, {}, {}, {}, conditions, at_round_off}, tested);
 }
 
 }  // namespace pfaff

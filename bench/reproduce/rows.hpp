@@ -1,26 +1,25 @@
-// The rows of a paper's reproduction: how printed and computed numbers are compared and what the result is
-// called.
+// The rows of a paper's reproduction, as its sections write them down.
+//
+// "Printed" is computed by the files of bench/reproduce/printed/ alone, which know the formulas of the papers
+// and nothing of the engine, and "ours" by the engine alone: its plug-ins, tapes and solvers.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include <pfaff/bench/reproduce/reproduce.hpp>
-#include <pfaff/core/numbers/quad.hpp>
 
 namespace pfaff {
 
-using Numbers = std::vector<Quad>;
-
-/// Quad: 1e-34 a rounding, a few hundred of them on numbers about 1.
-inline constexpr double at_round_off = 1e-30;
-/// What a misprint must differ by to be called one.
-inline constexpr double clearly = 1e-6;
-
 /// Six digits of each number.
 std::string shown(const Numbers& x);
-/// The largest difference of two entries; infinite where one is not a number.
-double distance(const Numbers& a, const Numbers& b);
+/// Four digits.
+std::string shown(double x);
+
+/// What stands in a row without numbers to compare: texts instead of what is printed and of what is ours.
+struct Texts {
+  std::string printed, ours;
+};
 
 /// Collects the rows of one section.
 class Rows {
@@ -30,26 +29,26 @@ class Rows {
   /// Printed and ours agree to round-off.
   void reproduced(const std::string& equation, const std::string& what, const Numbers& printed,
                   const Numbers& ours);
-  /// A number agrees to a tolerance of its own.
-  void measured(const std::string& equation, const std::string& what, double printed, double ours,
-                double tolerance);
+  /// An order of convergence agrees with the printed one to a tolerance of its own, or is higher by one.
+  void order(const std::string& equation, const std::string& what, double printed, double measured,
+             double tolerance);
   /// A misprint: the printed value must differ from ours clearly, and the corrected one must not.
   void erratum(const std::string& equation, const std::string& what, const Numbers& printed,
                const Numbers& corrected, const Numbers& ours, const std::string& entry);
-  /// A claim that is wrong as printed, with what was measured, how far off it is and whether the corrected
-  /// one was seen to hold.
-  void claim(const std::string& equation, const std::string& what, const std::string& printed,
-             const std::string& ours, double difference, bool corrected_holds, const std::string& entry);
+  /// A claim that is wrong as printed. The conditions are that it is, and that the corrected one holds; the
+  /// value of the first is shown as the difference.
+  void claim(const std::string& equation, const std::string& what, const Texts& texts,
+             const std::vector<Condition>& conditions, const std::string& entry);
   /// Something that no printed number says: a misprint of notation, whose corrected form is tested, or a
-  /// property.
-  void qualitative(const std::string& equation, const std::string& what, const std::string& printed,
-                   const std::string& ours, double difference, double tolerance, bool holds,
-                   const std::string& tested);
+  /// property. The value and the bound of the first condition are shown.
+  void qualitative(const std::string& equation, const std::string& what, const Texts& texts,
+                   const std::vector<Condition>& conditions, const std::string& tested);
 
   [[nodiscard]] std::vector<ReproducedRow> take() { return std::move(rows_); }
 
  private:
-  void add(ReproducedRow row);
+  void add(const std::string& equation, const std::string& what, const Texts& texts, Evidence evidence,
+           const std::string& entry);
   std::string section_;
   std::vector<ReproducedRow> rows_;
 };

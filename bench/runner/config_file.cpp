@@ -1,30 +1,115 @@
-// Reading the config.toml of a run, which is all that is needed to run it again.
-#include <pfaff/bench/runner/settings.hpp>
+#include <pfaff/bench/runner/config_file.hpp>
+
+#include <sstream>
+
 #include <pfaff/bench/runner/toml_keys.hpp>
 
 namespace pfaff {
 
-RunSettings read_config(const std::string& path) {
+namespace {
+// The text as a TOML string on one line, with quotation marks, backslashes and control characters escaped.
+std::string quoted(const std::string& text) {
+  std::ostringstream stream;
+  const toml::value<std::string> value(text);
+  stream << toml::toml_formatter(value, toml::format_flags::allow_unicode_strings);
+  return stream.str();
+}
+
+void write_table(std::ostream& text, const std::string& name, const Assignments& entries) {
+  if (entries.empty()) return;
+  text << "\n[" << name << "]\n";
+  for (const auto& [key, value] : entries) text << quoted(key) << " = " << quoted(value) << '\n';
+}
+}  // namespace
+
+std::string settings_text(const ResolvedRun& run) {
+  const RunSettings& s = run.settings;
+  std::ostringstream text;
+  text << "schema = 1\n";
+  const auto line = [&](const char* key, std::string_view value) {
+    text << key << " = " << quoted(std::string(value)) << '\n';
+  };
+  if (!s.of_case.empty()) line("case", s.of_case);
+  if (!s.of_method.empty()) line("method", s.of_method);
+  line("system", run.model->name());
+  line("integrator", s.integrator);
+  if (!s.formulation.empty()) line("formulation", s.formulation);
+  line("precision", to_string(s.precision));
+  line("t0", to_string(run.t0));
+  line("time", to_string(run.time));
+  if (run.adaptive()) {
+    line("tolerance", to_string(run.tolerance));
+  } else {
+    line("step", to_string(run.step));
+    text << "every = " << run.every << '\n';
+  }
+  if (s.step_budget != default_step_budget) text << "max_steps = " << s.step_budget << '\n';
+  line("reference", to_string(s.reference));
+  line("structure", s.structure_residuals ? "residual" : "none");
+  if (s.project_initial) line("project_initial", "yes");
+  if (s.allow_inconsistent) line("allow_inconsistent", "yes");
+  text << "initial = [";
+  const std::vector<Real>& initial = s.project_initial ? run.given_initial : run.initial;
+  for (std::size_t k = 0; k < initial.size(); ++k)
+    text << (k == 0 ? "" : ", ") << quoted(to_string(initial[k]));
+  text << "]\n";
+  Assignments set;
+  for (const auto& [key, value] : run.model->parameters()) set.emplace_back("system." + key, value);
+  for (const auto& [key, value] : run.model->source().formulation_parameters)
+    set.emplace_back("formulation." + key, value);
+  for (const auto& [key, value] : run.method->parameters()) set.emplace_back("integrator." + key, value);
+  write_table(text, "set", set);
+  return text.str();
+}
+
+std::string config_text(const ResolvedRun& run) {
+  std::ostringstream text;
+  text << settings_text(run);
+  write_table(text, "files", run.origins.files);
+  write_table(text, "plugins", run.origins.plugins);
+  write_table(text, "libraries", run.origins.libraries);
+  return text.str();
+}
+
+RunConfig read_config(const std::string& path) {
   const toml::table root = parse_toml(path);
   Keys keys(root, path);
   if (const std::string schema = keys.required("schema"); schema != "1")
     throw InputError(path + ": key 'schema': expected 1, got " + schema);
-  RunSettings settings;
+  const auto choice = [&](const char* key, const std::string& fallback, const std::string& other) {
+    return keys.read(key, fallback, [&](const std::string& text) {
+      if (text != fallback && text != other)
+        throw InputError(unknown_name("answer", text, {fallback, other}));
+      return text == other;
+    });
+  };
+  RunConfig config;
+  RunSettings& settings = config.settings;
+  settings.of_case = keys.text("case", "");
+  settings.of_method = keys.text("method", "");
   settings.system = keys.required("system");
   settings.integrator = keys.required("integrator");
   settings.formulation = keys.text("formulation", "");
-  settings.precision = parse_precision(keys.text("precision", "double"));
+  settings.precision = keys.read("precision", "double", parse_precision);
   settings.t0 = keys.text("t0", "0");
   settings.time = keys.required("time");
   settings.step = keys.text("step", "");
   settings.tolerance = keys.text("tolerance", "");
   if (const std::string every = keys.text("every", ""); !every.empty())
     settings.every = parse_every(every, path + ": key 'every'");
-  settings.allow_inconsistent = keys.text("allow_inconsistent", "no") == "yes";
-  settings.initial = keys.list("initial");
+  if (const std::string most = keys.text("max_steps", ""); !most.empty())
+    settings.step_budget = parse_every(most, path + ": key 'max_steps'");
+  settings.reference = parse_errors_against(keys.text("reference", "exact"), path + ": key 'reference'");
+  settings.structure_residuals = !choice("structure", "residual", "none");
+  settings.project_initial = choice("project_initial", "no", "yes");
+  settings.allow_inconsistent = choice("allow_inconsistent", "no", "yes");
+  settings.initial = keys.list_of_some("initial");
   settings.set = keys.assignments("set");
+  config.origins.files = keys.assignments("files");
+  config.origins.plugins = keys.assignments("plugins");
+  config.origins.libraries = keys.assignments("libraries");
   keys.finish();
-  return settings;
+  return config;
 }
 
 }  // namespace pfaff

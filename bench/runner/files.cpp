@@ -1,34 +1,69 @@
 #include <pfaff/bench/runner/files.hpp>
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <sstream>
 
-#include <pfaff/core/registry/errors.hpp>
+#include <pfaff/bench/runner/directory_lock.hpp>
+#include <pfaff/core/errors/errors.hpp>
 
 namespace pfaff {
 
 namespace fs = std::filesystem;
 
+namespace {
+// Puts a file, or the names that a directory holds, onto the disk; true where that worked. Some file systems
+// cannot do it for directories and say EINVAL, which is no failure.
+bool brought_to_disk(int file) { return fsync(file) == 0 || errno == EINVAL; }
+
+bool directory_brought_to_disk(const fs::path& path) {
+  const int directory = open(path.empty() ? "." : path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (directory < 0) return false;
+  const bool done = brought_to_disk(directory);
+  close(directory);
+  return done;
+}
+
+// Writes all of the text, and brings it to the disk; true where that worked, otherwise errno says why.
+bool written(int file, const std::string& text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const ssize_t count = write(file, text.data() + at, text.size() - at);
+    if (count < 0 && errno != EINTR) return false;
+    if (count > 0) at += static_cast<std::size_t>(count);
+  }
+  return brought_to_disk(file);
+}
+}  // namespace
+
 void write_file(const fs::path& path, const std::string& text) {
   const fs::path temporary = path.string() + ".part";
-  errno = 0;
-  {
-    std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
-    file << text;
-    file.flush();
-    file.close();
-    if (!file) {
-      const std::string reason = errno != 0 ? std::strerror(errno) : "write failed";
-      std::error_code ignored;
-      fs::remove(temporary, ignored);
-      throw RunError("cannot write " + path.string() + ": " + reason);
-    }
-  }
+  const auto fail = [&](const std::string& reason) {
+    std::error_code ignored;
+    fs::remove(temporary, ignored);
+    throw RunError("cannot write " + path.string() + ": " + reason);
+  };
+  const int file = open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (file < 0) fail(std::strerror(errno));
+  const bool whole = written(file, text);
+  const int reason = errno;
+  if (close(file) != 0 && whole) fail(std::strerror(errno));
+  if (!whole) fail(std::strerror(reason));
   std::error_code error;
   fs::rename(temporary, path, error);
-  if (error) throw RunError("cannot write " + path.string() + ": " + error.message());
+  if (error) fail(error.message());
+  if (!directory_brought_to_disk(path.parent_path())) fail(std::strerror(errno));
+}
+
+void rename_directory(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::rename(from, to, error);
+  if (!error && !directory_brought_to_disk(to.parent_path())) error.assign(errno, std::generic_category());
+  if (error) throw RunError("cannot write " + to.string() + ": " + error.message());
 }
 
 std::string read_file(const fs::path& path) {
@@ -39,14 +74,23 @@ std::string read_file(const fs::path& path) {
   return text.str();
 }
 
-void make_output_directory(const fs::path& path) {
+void make_output_directory(const fs::path& path, const std::vector<std::string>& ours) {
   std::error_code error;
-  if (fs::exists(path, error) && !(fs::is_directory(path, error) && fs::is_empty(path, error)))
+  const fs::path probe = path / ".probe";
+  const auto is_ours = [&](const fs::path& file) {
+    const fs::path whole = file.extension() == ".part" ? file.stem() : file;
+    return whole == probe.filename() || whole == DirectoryLock::file_name ||
+           std::find(ours.begin(), ours.end(), whole) != ours.end();
+  };
+  bool taken = fs::exists(path, error) && !fs::is_directory(path, error);
+  if (fs::is_directory(path, error))
+    for (const auto& entry : fs::directory_iterator(path, error))
+      taken = taken || !is_ours(entry.path().filename());
+  if (taken)
     throw InputError("output directory '" + path.string() +
                      "' exists already; expected a new or an empty one");
   fs::create_directories(path, error);
   if (error) throw InputError("output directory '" + path.string() + "' cannot be made: " + error.message());
-  const fs::path probe = path / ".probe";
   try {
     write_file(probe, "\n");
   } catch (const RunError&) {
@@ -55,10 +99,14 @@ void make_output_directory(const fs::path& path) {
   fs::remove(probe, error);
 }
 
+fs::path program_path() {
+  std::error_code error;
+  return fs::read_symlink("/proc/self/exe", error);
+}
+
 fs::path data_directory() {
   std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  if (!error) {
+  if (const fs::path program = program_path(); !program.empty()) {
     fs::path installed = program.parent_path().parent_path() / PFAFF_INSTALLED_DATA;
     if (fs::exists(installed / "experiments", error)) return installed;
   }

@@ -1,8 +1,10 @@
-// Files and directories of runs: written to a temporary name and renamed, so that nothing is ever half there.
+// Files and directories of runs. A file is written under a temporary name, brought to the disk, and then
+// renamed, so that neither an interrupted program nor a power cut ever leaves half a file.
 #pragma once
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace pfaff {
 
@@ -10,12 +12,19 @@ namespace pfaff {
 /// writable.
 void write_file(const std::filesystem::path& path, const std::string& text);
 
+/// Renames a directory whose files are written already. RunError where that fails.
+void rename_directory(const std::filesystem::path& from, const std::filesystem::path& to);
+
 /// The text of a file. InputError when it cannot be read.
 std::string read_file(const std::filesystem::path& path);
 
-/// Makes a new directory that is ready to write to. InputError when `path` exists with something in it, or
-/// when it cannot be made or written.
-void make_output_directory(const std::filesystem::path& path);
+/// Makes a new directory that can be written to. An existing one is taken where it holds nothing but files
+/// named in `ours` and what an interrupted program leaves: their unfinished forms and a lock. InputError when
+/// `path` exists with anything else in it, or cannot be made or written.
+void make_output_directory(const std::filesystem::path& path, const std::vector<std::string>& ours = {});
+
+/// The file of the running program; empty where the system does not tell.
+std::filesystem::path program_path();
 
 /// Where the experiments, the report scripts and references.bib are: beside the installed program, or in the
 /// tree the program was built from.

@@ -2,108 +2,37 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 
-#include <pfaff/bench/measure/constraints.hpp>
+#include <pfaff/bench/runner/motion.hpp>
+#include <pfaff/bench/runner/observer.hpp>
 
 namespace pfaff {
 
 namespace {
 
-// A structure residual takes Jacobians, whose cost grows as the cube of the dimension: beyond this one it
-// would be most of a run.
-constexpr int most_differentiated = 64;
-
-// Observes a run of scalar T as it goes.
+// Where a run has ended, for messages.
 template <class T>
-class Observer {
- public:
-  Observer(const ResolvedRun& run, const ReferenceSolution* reference, RunRecord& record)
-      : run_(run),
-        reference_(reference),
-        record_(record),
-        problem_(run.model),
-        constraints_(*run.model),
-        values_(run.model->invariants().size()) {
-    if (run.structure_residuals && StructureResidual<T>::applies(*run.model) && !run.adaptive() &&
-        run.model->dimension() <= most_differentiated)
-      residual_.emplace(*run.method, run.model);
-    drift_.resize(values_.size());
-    constraint_drift_.resize(constraint_residual_names(*run.model).size());
-    lowest_.assign(values_.size(), std::numeric_limits<T>::infinity());
-    record_.rise.assign(values_.size(), 0.0);
-  }
+std::string at(const T& t, std::int64_t step) {
+  return "at t = " + to_string(Quad(t), 10) + " (step " + std::to_string(step) + ")";
+}
 
-  // Drift sees every step; `keep` adds a row to the series, `structure` a residual to the row.
-  void observe(const T& t, const std::vector<T>& z, bool keep, bool structure) {
-    if (!values_.empty()) problem_.invariants(t, z, values_);
-    if (initial_.empty()) initial_ = values_;
-    for (std::size_t i = 0; i < values_.size(); ++i) {
-      drift_[i].add(static_cast<double>(t), static_cast<double>(values_[i] - initial_[i]));
-      lowest_[i] = std::min(lowest_[i], values_[i]);
-      record_.rise[i] = std::max(record_.rise[i], static_cast<double>(values_[i] - lowest_[i]));
-    }
-    constraints_(t, z, residuals_);
-    for (std::size_t i = 0; i < residuals_.size(); ++i)
-      constraint_drift_[i].add(static_cast<double>(t), static_cast<double>(residuals_[i]));
-    if (!keep) return;
-    Sample sample{Quad(t),
-                  {z.begin(), z.end()},
-                  {values_.begin(), values_.end()},
-                  {residuals_.begin(), residuals_.end()},
-                  {},
-                  {}};
-    if (reference_ != nullptr) sample.error = relative_error(sample);
-    if (structure && residual_) {
-      const T r = (*residual_)(t, T(run_.step), z);
-      if (isfinite(r)) sample.structure = Quad(r);
-      if (isfinite(r)) worst(record_.structure_residual, static_cast<double>(r));
-    }
-    if (sample.error) {
-      worst(record_.error_max, static_cast<double>(*sample.error));
-      record_.error_final = static_cast<double>(*sample.error);
-    }
-    record_.samples.push_back(std::move(sample));
-  }
+// Ends a run at which something measured is not finite; true where there is such a thing.
+template <class T>
+bool ended_by(const std::string& not_finite, const T& t, std::int64_t step, RunRecord& record) {
+  if (not_finite.empty()) return false;
+  record.status = Status::non_finite;
+  record.message = not_finite + " " + at(t, step);
+  return true;
+}
 
-  void finish() {
-    for (const DriftAccumulator& d : drift_) record_.drift.push_back(d.result());
-    for (const DriftAccumulator& d : constraint_drift_) record_.constraints.push_back(d.result());
-    std::vector<double> times, values;
-    for (const Sample& sample : record_.samples)
-      times.push_back(static_cast<double>(sample.t - run_.t0.quad()));
-    for (std::size_t i = 0; i < constraint_drift_.size(); ++i) {
-      values.clear();
-      for (const Sample& sample : record_.samples)
-        values.push_back(static_cast<double>(sample.constraints[i]));
-      record_.growth.push_back(growth(times, values));
-    }
-  }
-
- private:
-  static void worst(std::optional<double>& slot, double value) {
-    if (!slot || value > *slot || std::isnan(value)) slot = value;
-  }
-  [[nodiscard]] Quad relative_error(const Sample& sample) const {
-    const std::vector<Quad> exact = reference_->at(sample.t);
-    Quad distance(0), norm(0);
-    for (std::size_t k = 0; k < exact.size(); ++k) {
-      const Quad d = sample.state[k] - exact[k];
-      distance += d * d;
-      norm += exact[k] * exact[k];
-    }
-    return sqrt(distance / norm);
-  }
-
-  const ResolvedRun& run_;
-  const ReferenceSolution* reference_;
-  RunRecord& record_;
-  Problem<T> problem_;
-  std::optional<StructureResidual<T>> residual_;
-  ConstraintResiduals<T> constraints_;
-  std::vector<T> values_, initial_, lowest_, residuals_;
-  std::vector<DriftAccumulator> drift_, constraint_drift_;
-};
+// Ends a run that has been asked to stop; true where it has.
+template <class T>
+bool interrupted(const std::atomic<bool>* stop, const T& t, std::int64_t step, RunRecord& record) {
+  if (stop == nullptr || !stop->load(std::memory_order_relaxed)) return false;
+  record.interrupted = true;
+  record.message = "it was interrupted " + at(t, step);
+  return true;
+}
 
 std::string failure(Status status, const std::string& when) {
   switch (status) {
@@ -119,8 +48,8 @@ std::string failure(Status status, const std::string& when) {
   return {};
 }
 
-// What a smaller step does at (t, z), where one of size h failed: the largest that still works, to a few
-// percent.
+// For a step of size h that failed at (t, z): a phrase that names the largest smaller step that still works,
+// to a few percent.
 template <class T>
 std::string smaller_step(const ResolvedRun& run, const T& t, const T& h, const std::vector<T>& z) {
   const auto works = [&](const T& step) {
@@ -142,20 +71,21 @@ std::string smaller_step(const ResolvedRun& run, const T& t, const T& h, const s
 }
 
 template <class T>
-void execute_fixed(const ResolvedRun& run, Observer<T>& observer, RunRecord& record,
-                   const Progress& progress) {
+void execute_fixed(const ResolvedRun& run, Observer<T>& observer, RunRecord& record, const Progress& progress,
+                   const std::atomic<bool>* stop) {
   const auto stepper = run.method->stepper(run.model, T());
   std::vector<T> z;
   for (const Real& x : run.initial) z.push_back(T(x));
   const T t0(run.t0), h(run.step);
   const auto time = [&](std::int64_t k) { return t0 + T(static_cast<double>(k)) * h; };
-  // Drift is watched at every step up to two million, evenly beyond that.
+  // Drift is measured at every step in runs of up to two million steps, and at evenly spaced ones in longer
+  // runs.
   const std::int64_t stride = std::min(run.every, std::max<std::int64_t>(1, run.steps / 2000000));
   const std::int64_t rows = run.steps / run.every + 1;
   const std::int64_t structure_rows = std::max<std::int64_t>(1, rows / 50);
-  observer.observe(time(0), z, true, true);
   std::int64_t row = 0;
-  for (std::int64_t k = 0; k < run.steps;) {
+  bool ended = ended_by(observer.observe(time(0), z, true, true), time(0), 0, record);
+  for (std::int64_t k = 0; k < run.steps && !ended;) {
     const std::int64_t next_row = std::min(run.steps, (k / run.every + 1) * run.every);
     const std::int64_t count = std::min(stride, next_row - k);
     std::int64_t completed = 0;
@@ -164,21 +94,24 @@ void execute_fixed(const ResolvedRun& run, Observer<T>& observer, RunRecord& rec
     if (status != Status::converged) {
       record.status = status;
       const T reached = time(k + completed);
-      record.message =
-          failure(status, "at t = " + to_string(Quad(reached), 10)) + smaller_step(run, reached, h, z);
+      record.message = failure(status, at(reached, k + completed)) + smaller_step(run, reached, h, z);
       break;
     }
     k += count;
     const bool keep = k % run.every == 0 || k == run.steps;
     if (keep) ++row;
-    observer.observe(time(k), z, keep, keep && (row % structure_rows == 0 || k == run.steps));
+    const bool structure = keep && (row % structure_rows == 0 || k == run.steps);
+    const bool bad = ended_by(observer.observe(time(k), z, keep, structure), time(k), k, record);
+    if (bad) record.completed = k - count;  // the steps behind which all was finite
+    ended = bad || (k < run.steps && interrupted(stop, time(k), k, record));
     if (progress && keep) progress(static_cast<double>(k) / static_cast<double>(run.steps));
   }
   record.counters = stepper->counters();
 }
 
-// Samples at even times shorten steps. A run without any counts those that the method takes by itself; one
-// sample in eight of them hardly matters.
+// The number of intervals between evenly spaced samples of a run whose method chooses its steps. Every sample
+// forces a step to end there and so shortens it. A trial run without samples counts the steps that the method
+// takes by itself; with one sample for every eight of them the shortening hardly matters.
 int sample_intervals(const ResolvedRun& run) {
   const auto stepper = run.method->stepper(run.model, double());
   std::vector<double> z;
@@ -188,23 +121,34 @@ int sample_intervals(const ResolvedRun& run) {
   return static_cast<int>(std::clamp<std::int64_t>(stepper->counters().steps / 8, 32, 200));
 }
 
+// Ends a run that has taken more steps than it may; true where it has.
+bool beyond_budget(const ResolvedRun& run, double t, std::int64_t steps, RunRecord& record) {
+  if (steps <= run.settings.step_budget) return false;
+  record.status = Status::not_converged;
+  record.message = "more than " + std::to_string(run.settings.step_budget) +
+                   " steps (--max-steps) were taken " + at(t, steps);
+  return true;
+}
+
 void execute_adaptive(const ResolvedRun& run, Observer<double>& observer, RunRecord& record,
-                      const Progress& progress) {
+                      const Progress& progress, const std::atomic<bool>* stop) {
   const int intervals = sample_intervals(run);
   const auto stepper = run.method->stepper(run.model, double());
   std::vector<double> z;
   for (const Real& x : run.initial) z.push_back(x.value());
   double t = run.t0.value();
-  observer.observe(t, z, true, false);
-  for (int k = 1; k <= intervals; ++k) {
+  bool ended = ended_by(observer.observe(t, z, true, false), t, 0, record);
+  for (int k = 1; k <= intervals && !ended; ++k) {
     const double end = run.t0.value() + run.time.value() * k / intervals;
     const Status status = stepper->advance_to(t, end, run.tolerance.value(), z);
     if (status != Status::converged) {
       record.status = status;
-      record.message = "the step control gave up at t = " + to_string(Quad(t), 10);
+      record.message = "the step control gave up " + at(t, stepper->counters().steps);
       break;
     }
-    observer.observe(t, z, true, false);
+    const std::int64_t steps = stepper->counters().steps;
+    ended = ended_by(observer.observe(t, z, true, false), t, steps, record) ||
+            (k < intervals && (beyond_budget(run, t, steps, record) || interrupted(stop, t, steps, record)));
     if (progress) progress(static_cast<double>(k) / intervals);
   }
   record.counters = stepper->counters();
@@ -213,20 +157,68 @@ void execute_adaptive(const ResolvedRun& run, Observer<double>& observer, RunRec
 
 }  // namespace
 
-RunRecord execute(const ResolvedRun& run, const ReferenceSolution* reference, const Progress& progress) {
-  RunRecord record;
+std::unique_ptr<ReferenceSolution> reference_of(const ResolvedRun& run) {
+  std::vector<Quad> initial;
+  for (const Real& x : run.initial) initial.push_back(x.quad());
+  // A method that steps on the constraints runs on a model without a vector field. The Taylor reference needs
+  // one, so it is computed from the motion of that model.
+  const bool exact = run.model->facets().has(Facet::exact_solution);
+  return std::make_unique<ReferenceSolution>(exact ? run.model : motion_of(run.model), run.t0.quad(), initial,
+                                             run.time.quad());
+}
+
+std::unique_ptr<ReferenceSolution> reference_asked_for(const ResolvedRun& run) {
+  const ErrorsAgainst against = run.settings.reference;
+  const bool exact = run.model->facets().has(Facet::exact_solution);
+  const bool wanted = against == ErrorsAgainst::solution || (against == ErrorsAgainst::exact && exact);
+  if (!wanted) return nullptr;
+  return reference_of(run);
+}
+
+namespace {
+// Makes of what a step or a formula throws, which is a fault of its plug-in, an error that names the method,
+// the system and the time from which the run did not go on. To be called in a catch clause.
+[[noreturn]] void report_thrown(const ResolvedRun& run, const RunRecord& record) {
+  const std::string words = words_of_current_exception();
+  const Quad reached = run.adaptive()
+                           ? (record.samples.empty() ? run.t0.quad() : record.samples.back().t)
+                           : run.t0.quad() + Quad(static_cast<double>(record.completed)) * run.step.quad();
+  throw RunError("integrator " + run.settings.integrator + " on system " + run.model->name() +
+                 ": thrown after t = " + to_string(reached, 10) + ": " + words);
+}
+
+void execute_into(const ResolvedRun& run, const ReferenceSolution* reference, const Progress& progress,
+                  const std::atomic<bool>* stop, RunRecord& record) {
   if (run.settings.precision == Precision::quad) {
     Observer<Quad> observer(run, reference, record);
-    execute_fixed(run, observer, record, progress);
+    execute_fixed(run, observer, record, progress, stop);
     observer.finish();
   } else {
     Observer<double> observer(run, reference, record);
     if (run.adaptive()) {
-      execute_adaptive(run, observer, record, progress);
+      execute_adaptive(run, observer, record, progress, stop);
     } else {
-      execute_fixed(run, observer, record, progress);
+      execute_fixed(run, observer, record, progress, stop);
     }
     observer.finish();
+  }
+}
+}  // namespace
+
+RunRecord execute(const ResolvedRun& run, const ReferenceSolution* reference, const Progress& progress,
+                  const std::atomic<bool>* stop) {
+  RunRecord record;
+  try {
+    execute_into(run, reference, progress, stop, record);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const RunError&) {
+    throw;
+  } catch (const InputError&) {
+    if (record.samples.empty()) throw;  // what a method refuses before its first step
+    report_thrown(run, record);
+  } catch (...) {
+    report_thrown(run, record);
   }
   return record;
 }
@@ -236,7 +228,8 @@ template <class T>
 StepTime time_in(const ResolvedRun& run, double seconds) {
   using Clock = std::chrono::steady_clock;
   const auto stepper = run.method->stepper(run.model, T());
-  // Seconds a step over the first `count` steps, or over a tenth of a run that chooses its steps.
+  // Seconds per step over the first `count` steps, or, for a run that chooses its steps, over a tenth of the
+  // run.
   const auto elapsed = [&](std::int64_t count) {
     std::vector<T> z;
     for (const Real& x : run.initial) z.push_back(T(x));

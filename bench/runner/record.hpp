@@ -1,7 +1,10 @@
-// What a run leaves in memory: samples, drift, accuracy, structure, cost counts.
+// Running a method on a system and what the run leaves in memory: samples, drift, accuracy, structure
+// residuals and cost counts.
 #pragma once
 
+#include <atomic>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,39 +19,54 @@
 
 namespace pfaff {
 
-/// One observed instant; numbers are kept in quad and printed in the run's precision.
+/// The run at one instant. Numbers are kept in quad whatever the run's precision, and printed in that
+/// precision.
 struct Sample {
   Quad t;
-  std::vector<Quad> state, invariants, constraints;  // the last: the largest residual of each level
+  std::vector<Quad> state, invariants, constraints;  // `constraints`: the largest residual of each level
   std::optional<Quad> error;                         // relative to the reference solution's norm
   std::optional<Quad> structure;                     // structure residual of one step from here
 };
 
 struct RunRecord {
   Status status = Status::converged;
-  std::string message;  // why a run ended early, one line
+  bool interrupted = false;  // it was asked to stop, and did so after `completed` steps
+  std::string message;       // why a run ended early, one line
   std::int64_t completed = 0;
   std::vector<Sample> samples;
   std::vector<Drift>
-      drift;  // one for each invariant, in the model's order; meant for those expected to be conserved
+      drift;  // of every invariant, in the model's order; meaningful for those expected to be conserved
   std::vector<Drift> constraints;             // of the residuals, in the order of constraint_residual_names
-  std::vector<std::optional<Growth>> growth;  // of the same
-  std::vector<double>
-      rise;  // the largest rise of each above what it was before; for those expected to decrease
+  std::vector<std::optional<Growth>> growth;  // of the same residuals
+  std::vector<double> setback;  // the largest move of each invariant against its expected direction
   std::optional<double> error_max, error_final, structure_residual;
+  int structure_failures =
+      0;  // samples from which no step could be differentiated, or not to a finite number
   Counters counters;
 };
 
 /// Called now and then with the fraction of a run that is done.
 using Progress = std::function<void(double fraction)>;
 
-/// Runs to the end, or to where the method fails: every completed sample is kept.
-/// `reference` may be null. Structure residuals are measured at about fifty samples where the model has a
-/// structure and at most 64 coordinates.
-RunRecord execute(const ResolvedRun& run, const ReferenceSolution* reference, const Progress& progress = {});
+/// Runs to the end, or to where the method fails or something measured is not finite: the state, an
+/// invariant, its drift, a residual or the error. The samples completed by then are kept.
+/// `reference` may be null, and errors are then not measured. Structure residuals are measured at about fifty
+/// samples, where the model has a structure and at most 64 coordinates. Where `stop` becomes true, the run
+/// ends after the step (with steps of the method's choosing, at the sample) that it is at. RunError, naming
+/// the method, the system and the time, where a step or a formula throws.
+RunRecord execute(const ResolvedRun& run, const ReferenceSolution* reference, const Progress& progress = {},
+                  const std::atomic<bool>* stop = nullptr);
 
-/// Nanoseconds per step, timed alone: one warm-up, then repeated runs from the initial state. Of a method
-/// that chooses its steps, those it takes over a stretch of the run.
+/// The solution that a run is compared with: the exact one where the system has it, otherwise Taylor steps of
+/// its motion in quad.
+std::unique_ptr<ReferenceSolution> reference_of(const ResolvedRun& run);
+
+/// The same, or null where the settings of the run ask for no errors or the system has no exact solution that
+/// they ask for.
+std::unique_ptr<ReferenceSolution> reference_asked_for(const ResolvedRun& run);
+
+/// Nanoseconds per step, measured while nothing else runs: one warm-up, then repeated runs from the initial
+/// state. For a method that chooses its steps, these are the steps it takes over a stretch of the run.
 struct StepTime {
   double median = 0, minimum = 0, maximum = 0, seconds = 0;
   int repetitions = 0;
@@ -57,8 +75,17 @@ StepTime time_steps(const ResolvedRun& run, double seconds);
 
 /// The text of series.csv.
 std::string series_csv(const ResolvedRun& run, const RunRecord& record);
-/// The content of summary.json.
+/// The content of summary.json, but for the checksum that write_run adds.
 nlohmann::json summary(const ResolvedRun& run, const RunRecord& record);
+
+/// The largest move of an invariant against its expected direction, read from the invariant's entry in
+/// summary.json.
+struct SetbackInSummary {
+  std::string move, expected;  // "rise" and "decrease", or "fall" and "increase"
+  nlohmann::json size;         // a number, or null where it is not finite
+};
+/// The setback in `invariant`; nothing where the invariant has no expected direction.
+std::optional<SetbackInSummary> setback_in(const nlohmann::json& invariant);
 /// Versions and flags of this build.
 nlohmann::json versions();
 

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include <pfaff/bench/measure/constraints.hpp>
+#include <pfaff/bench/runner/motion.hpp>
 
 namespace pfaff {
 
@@ -22,10 +24,25 @@ std::int64_t parse_every(const std::string& text, const std::string& where) {
 }
 std::string_view to_string(Precision precision) { return precision == Precision::quad ? "quad" : "double"; }
 
+ErrorsAgainst parse_errors_against(const std::string& text, const std::string& where) {
+  for (const ErrorsAgainst against : {ErrorsAgainst::none, ErrorsAgainst::exact, ErrorsAgainst::solution})
+    if (text == to_string(against)) return against;
+  throw InputError(where + ": " + unknown_name("reference", text, {"none", "exact", "solution"}));
+}
+std::string_view to_string(ErrorsAgainst against) {
+  constexpr std::array<std::string_view, 3> names{"none", "exact", "solution"};
+  return names[static_cast<std::size_t>(against)];
+}
+
+std::string called(std::string name, const Assignments& parameters) {
+  for (const auto& [key, value] : parameters) name += " " + key + "=" + value;
+  return name;
+}
+
 namespace {
 std::vector<std::string> split_commas(const std::string& text) {
   std::vector<std::string> parts;
-  std::stringstream stream(text + ',');  // so that nothing after the last comma is a part too
+  std::stringstream stream(text + ',');  // getline drops an empty last part unless a comma ends it
   for (std::string part; std::getline(stream, part, ',');) {
     const auto first = part.find_first_not_of(' '), last = part.find_last_not_of(' ');
     parts.push_back(first == std::string::npos ? "" : part.substr(first, last - first + 1));
@@ -42,7 +59,7 @@ Real number(const std::string& text, const std::string& what) {
 
 bool knows(const Plugin& plugin, const std::string& key) {
   return std::any_of(plugin.parameters().begin(), plugin.parameters().end(),
-                     [&](const Parameter& p) { return p.name == key; });
+                     [&](const Parameter& p) { return p.takes(key); });
 }
 }  // namespace
 
@@ -57,16 +74,23 @@ SplitSettings split_settings(const SystemPlugin& system, const FormulationPlugin
   std::vector<Owner> owners{{"system.", &system, &split.system}};
   if (formulation != nullptr) owners.push_back({"formulation.", formulation, &split.formulation});
   if (method != nullptr) owners.push_back({"integrator.", method, &split.integrator});
+  const auto give = [](const Owner& owner, const std::string& key, const std::string& value) {
+    if (is_set(*owner.assignments, key))
+      throw InputError("parameter '" + key + "' of " + owner.plugin->name() +
+                       " is set twice; expected one value");
+    owner.assignments->emplace_back(key, value);
+  };
   for (const auto& setting : set) {
     const std::string &key = setting.first, &value = setting.second;
     if (key == "initial") {
+      if (!split.initial.empty()) throw InputError("'initial' is set twice; expected one state");
       split.initial = split_commas(value);
       continue;
     }
     if (const auto named = std::find_if(owners.begin(), owners.end(),
                                         [&](const Owner& o) { return key.starts_with(o.prefix); });
         named != owners.end()) {
-      named->assignments->emplace_back(key.substr(named->prefix.size()), value);
+      give(*named, key.substr(named->prefix.size()), value);
       continue;
     }
     std::vector<const Owner*> knowing;
@@ -87,14 +111,9 @@ SplitSettings split_settings(const SystemPlugin& system, const FormulationPlugin
       }
       throw InputError(unknown_name("parameter", key, names) + " (of " + of + ")");
     }
-    knowing[0]->assignments->emplace_back(key, value);
+    give(*knowing[0], key, value);
   }
   return split;
-}
-
-std::shared_ptr<const Model> motion_for(const MethodInstance& method, std::shared_ptr<const Model> model) {
-  if (!model->constrained() || method.refuses(*model).empty()) return model;
-  return formulations().get("dirac", "formulation").apply(model, {});
 }
 
 std::vector<Real> state_numbers(const Model& model, const std::vector<std::string>& texts,
@@ -110,36 +129,30 @@ std::vector<Real> state_numbers(const Model& model, const std::vector<std::strin
 }
 
 namespace {
-// The state in `texts`, the model's own without.
+// The state written in `texts`, or the model's own initial state where `texts` is empty.
 std::vector<Real> initial_state(const Model& model, const std::vector<std::string>& texts) {
   const auto dimension = static_cast<std::size_t>(model.dimension());
   if (model.coordinates().size() != dimension)
     throw InputError("system " + model.name() + " names " + std::to_string(model.coordinates().size()) +
                      " coordinates; expected " + std::to_string(dimension));
   if (!texts.empty()) return state_numbers(model, texts, "initial");
+  if (!model.initial().empty() && model.initial().size() != dimension)
+    throw InputError("system " + model.name() + " lists an initial state of " +
+                     std::to_string(model.initial().size()) + " numbers; expected " +
+                     std::to_string(dimension) + ", or --set initial=");
   if (model.initial().size() != dimension)
     throw InputError("system " + model.name() + " has no initial state of its own; expected --set initial=");
   return model.initial();
 }
-}  // namespace
 
-namespace {
-// Which formulation a run of this system is looked at in; null where there is none.
-const FormulationPlugin* formulation_of(const RunSettings& settings, const SystemPlugin& system) {
-  if (!settings.formulation.empty()) {
-    const FormulationPlugin& named = formulations().get(settings.formulation, "formulation");
-    if (!system.constrained())
-      throw InputError("--formulation: " + system.name() + " has no constraints; expected none");
-    return &named;
-  }
-  return system.constrained() ? &formulations().get("dirac", "formulation") : nullptr;
-}
-
-// A state off the constraints is refused, or moved onto them, or taken as it is.
+// Decides about an initial state that is off the constraints, according to the settings: it is moved onto
+// them, taken as it is, or refused (InputError).
 void check_consistency(const RunSettings& settings, ResolvedRun& run) {
-  if (!run.model->constrained()) {
-    if (settings.project_initial)
-      throw InputError("--project-initial: system " + run.model->name() + " has no constraints");
+  if (!run.model->restricted()) {
+    if (settings.project_initial || settings.allow_inconsistent)
+      throw InputError(
+          (settings.project_initial ? "--project-initial: system " : "--allow-inconsistent: system ") +
+          run.model->name() + " has no constraints");
     return;
   }
   if (settings.allow_inconsistent) return;
@@ -154,7 +167,7 @@ void check_consistency(const RunSettings& settings, ResolvedRun& run) {
   if (projection.status != Status::converged)
     throw InputError(where + " and the state cannot be moved onto the constraints (" +
                      std::string(to_string(projection.status)) + ")");
-  // Round-off of decimal inputs in double is no inconsistency.
+  // A decimal input rounds when it becomes a double; residuals of that size are no inconsistency.
   constexpr double round_off = 1e-13;
   if (settings.project_initial) {
     run.projected = projection.change;
@@ -165,27 +178,72 @@ void check_consistency(const RunSettings& settings, ResolvedRun& run) {
                      change.data() + ", relatively), or --allow-inconsistent");
   }
 }
+
+// The state that is asked for, in one of the two ways there are; empty where it is not.
+std::vector<std::string> asked_state(const RunSettings& settings, const SplitSettings& split) {
+  if (!settings.initial.empty() && !split.initial.empty())
+    throw InputError("'initial' is set twice, by itself and among the parameters; expected one state");
+  return settings.initial.empty() ? split.initial : settings.initial;
+}
 }  // namespace
 
 ResolvedState resolve_state(const RunSettings& settings) {
   const SystemPlugin& system = systems().get(settings.system, "system");
-  const FormulationPlugin* formulation = formulation_of(settings, system);
+  const FormulationPlugin* formulation = formulation_for(system, settings.formulation);
   const SplitSettings split = split_settings(system, formulation, nullptr, settings.set);
   ResolvedState result;
   result.model = system.make(split.system);
   if (formulation != nullptr) result.model = formulation->apply(result.model, split.formulation);
-  result.state = initial_state(*result.model, settings.initial.empty() ? split.initial : settings.initial);
+  result.state = initial_state(*result.model, asked_state(settings, split));
   result.t = number(settings.t0, "time");
   return result;
 }
+
+namespace {
+// Fills in run.origins. `read` are the files as they were before the model was made of them.
+void note_origins(ResolvedRun& run, const SystemPlugin& system, const MethodPlugin& method,
+                  const Assignments& read) {
+  add_origins(system, run.model->parameters(), run.origins);
+  for (const auto& [path, hash] : read)
+    if (std::find(run.origins.files.begin(), run.origins.files.end(), std::pair(path, hash)) ==
+        run.origins.files.end())
+      throw InputError(path + ": changed while it was read; expected a file that stays as it is");
+  add_origins(method, run.method->parameters(), run.origins);
+  if (!run.settings.formulation.empty())
+    add_origins(formulations().get(run.settings.formulation, "formulation"),
+                run.model->source().formulation_parameters, run.origins);
+  run.origins.libraries = libraries();
+}
+
+// Refuses times and steps of which nothing is left in the scalar T of the run: a step or a duration that
+// rounds to zero, and one that is lost when it is added to a time of the run (t + h = t).
+template <class T>
+void check_times(const ResolvedRun& run, const std::string& step_text, const std::string& option) {
+  const T t0(run.t0), end = t0 + T(run.time), step(run.adaptive() ? run.time : run.step);
+  const T latest = std::max(abs(t0), abs(end));
+  const std::string in = " in " + std::string(to_string(run.settings.precision)) + " precision";
+  const std::string expected = std::is_same_v<T, Quad> ? "" : ", or --precision quad";
+  if (!(step > T(0)))
+    throw InputError(option + ": " + step_text + " rounds to 0" + in + "; expected a larger number" +
+                     expected);
+  if (!(latest + step > latest))
+    throw InputError(option + ": " + step_text + " vanishes beside the time " + to_string(Quad(latest), 6) +
+                     in + " (t + h = t); expected a larger number" + expected);
+}
+}  // namespace
 
 ResolvedRun resolve(const RunSettings& settings) {
   ResolvedRun run;
   run.settings = settings;
   const SystemPlugin& system = systems().get(settings.system, "system");
   const MethodPlugin& method = integrators().get(settings.integrator, "integrator");
-  const FormulationPlugin* formulation = formulation_of(settings, system);
-  const SplitSettings split = split_settings(system, formulation, &method, settings.set);
+  const FormulationPlugin* formulation = formulation_for(system, settings.formulation);
+  SplitSettings split = split_settings(system, formulation, &method, settings.set);
+  split.system = with_absolute_paths(system.parameters(), std::move(split.system));
+  split.integrator = with_absolute_paths(method.parameters(), std::move(split.integrator));
+  if (formulation != nullptr)
+    split.formulation = with_absolute_paths(formulation->parameters(), std::move(split.formulation));
+  const Assignments read = files_of(system.parameters(), split.system);
   run.model = system.make(split.system);
   run.method = method.make(split.integrator);
   if (formulation != nullptr && !run.method->refuses(*run.model).empty()) {
@@ -199,14 +257,16 @@ ResolvedRun resolve(const RunSettings& settings) {
   if (settings.precision == Precision::quad && run.method->descriptor().double_coefficients)
     throw InputError(method.name() + " has coefficients in double only; expected --precision double");
 
-  run.initial = initial_state(*run.model, settings.initial.empty() ? split.initial : settings.initial);
+  note_origins(run, system, method, read);
+  run.initial = initial_state(*run.model, asked_state(settings, split));
   run.t0 = number(settings.t0, "initial time");
   run.time = number(settings.time, "--time");
   if (!(run.time > Real(0))) throw InputError("--time: expected a duration > 0, got '" + settings.time + "'");
 
+  run.given_initial = run.initial;
   check_consistency(settings, run);
   // A state outside the domain of the formulas is refused here, not discovered as NaN later.
-  if (run.model->facets().has(Facet::vector_field)) {
+  if (run.model->moves()) {
     const Problem<double> problem(run.model);
     std::vector<double> z, rate(run.initial.size());
     for (const Real& x : run.initial) z.push_back(x.value());
@@ -221,10 +281,18 @@ ResolvedRun resolve(const RunSettings& settings) {
     run.tolerance = number(settings.tolerance, "--tolerance");
     if (!(run.tolerance > Real(0)) || run.tolerance > Real(1))
       throw InputError("--tolerance: expected a number in (0, 1], got '" + settings.tolerance + "'");
+    if (settings.every > 0)
+      throw InputError(
+          "--every counts steps of one length; with --tolerance samples are evenly spaced in time");
     if (!run.method->adaptive())
       throw InputError(method.name() + " takes fixed steps only; expected --step instead of --tolerance");
     if (settings.precision == Precision::quad)
       throw InputError("--tolerance: adaptive steps are available in double only");
+    constexpr double round_off = std::numeric_limits<double>::epsilon();
+    if (run.tolerance.value() < round_off)
+      throw InputError("--tolerance: " + settings.tolerance + " is below round-off, which is " +
+                       to_string(Quad(round_off), 3) + "; expected at least that");
+    check_times<double>(run, settings.time, "--time");
     return run;
   }
   if (settings.step.empty())
@@ -234,42 +302,22 @@ ResolvedRun resolve(const RunSettings& settings) {
   if (run.step > run.time)
     throw InputError("--step: expected at most the duration " + settings.time + ", got '" + settings.step +
                      "'");
+  if (settings.precision == Precision::quad) {
+    check_times<Quad>(run, settings.step, "--step");
+  } else {
+    check_times<double>(run, settings.step, "--step");
+  }
   const double ratio = (run.time / run.step).value();
-  if (ratio > 1e15)
-    throw InputError("--step: " + settings.step + " is too small for a duration of " + settings.time);
-  // The horizon is a whole number of steps; a duration that is not is shortened to one.
+  if (!(ratio <= static_cast<double>(settings.step_budget)))
+    throw InputError("--step: " + settings.step + " is too small for a duration of " + settings.time +
+                     ": that takes " + to_string(Quad(ratio), 3) + " steps; expected at most " +
+                     std::to_string(settings.step_budget) + " (--max-steps)");
+  // A run has a whole number of steps; a duration that is not a multiple of the step is shortened to one.
   const double nearest = std::round(ratio);
   run.steps =
       static_cast<std::int64_t>(std::abs(ratio - nearest) < 1e-9 * nearest ? nearest : std::floor(ratio));
   run.every = settings.every > 0 ? settings.every : std::max<std::int64_t>(1, (run.steps + 999) / 1000);
   return run;
-}
-
-std::string config_text(const ResolvedRun& run) {
-  std::ostringstream text;
-  const auto quoted = [](const std::string& s) { return '"' + s + '"'; };
-  text << "schema = 1\nsystem = " << quoted(run.model->name())
-       << "\nintegrator = " << quoted(run.settings.integrator)
-       << (run.settings.formulation.empty() ? "" : "\nformulation = " + quoted(run.settings.formulation))
-       << "\nprecision = " << quoted(std::string(to_string(run.settings.precision)))
-       << "\nt0 = " << quoted(to_string(run.t0)) << "\ntime = " << quoted(to_string(run.time)) << '\n';
-  if (run.adaptive()) {
-    text << "tolerance = " << quoted(to_string(run.tolerance)) << '\n';
-  } else {
-    text << "step = " << quoted(to_string(run.step)) << "\nevery = " << run.every << '\n';
-  }
-  if (run.settings.allow_inconsistent) text << "allow_inconsistent = \"yes\"\n";
-  text << "initial = [";
-  for (std::size_t k = 0; k < run.initial.size(); ++k)
-    text << (k == 0 ? "" : ", ") << quoted(to_string(run.initial[k]));
-  text << "]\n\n[set]\n";
-  for (const auto& [key, value] : run.model->parameters())
-    text << "\"system." << key << "\" = " << quoted(value) << '\n';
-  for (const auto& [key, value] : run.model->source().formulation_parameters)
-    text << "\"formulation." << key << "\" = " << quoted(value) << '\n';
-  for (const auto& [key, value] : run.method->parameters())
-    text << "\"integrator." << key << "\" = " << quoted(value) << '\n';
-  return text.str();
 }
 
 }  // namespace pfaff

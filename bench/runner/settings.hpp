@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <pfaff/bench/runner/origins.hpp>
 #include <pfaff/core/formulation.hpp>
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
@@ -17,21 +18,41 @@ enum class Precision { double_precision, quad };
 Precision parse_precision(const std::string& text);
 std::string_view to_string(Precision precision);
 
-/// A whole number of steps > 0; InputError, naming `where`, otherwise.
+/// The number of steps between samples, a whole number > 0; otherwise InputError, which names `where`.
 std::int64_t parse_every(const std::string& text, const std::string& where);
 
-/// A run as it is asked for: all numbers as text, so that each precision parses them exactly.
+/// What the errors of a run are measured against.
+enum class ErrorsAgainst {
+  none,     // errors are not measured
+  exact,    // the exact solution, where the system has one
+  solution  // the exact solution or else Taylor series in quad
+};
+/// "none", "exact" or "solution"; InputError, which begins with `where`, otherwise.
+ErrorsAgainst parse_errors_against(const std::string& text, const std::string& where);
+std::string_view to_string(ErrorsAgainst against);
+
+/// The number of steps that a run may take where nothing else is said.
+constexpr std::int64_t default_step_budget = 1000000000000;
+
+/// A run as it is asked for. All numbers are text, so that each precision parses every digit.
 struct RunSettings {
   std::string system, integrator;
-  std::string formulation;           // empty: dirac where the integrator needs a vector field
-  Assignments set;                   // nu=0.3, system.nu=0.3, integrator.order=4, initial=1,0.5
-  std::vector<std::string> initial;  // empty: the system's own
+  std::string formulation;  // empty: that of formulation_for() where the integrator needs a vector field
+  Assignments set;          // nu=0.3, system.nu=0.3, integrator.order=4, initial=1,0.5
+  std::vector<std::string> initial;  // empty: the system's own initial state
   std::string t0 = "0", step, tolerance, time;
   std::int64_t every = 0;  // 0: chosen for about a thousand samples
   Precision precision = Precision::double_precision;
   bool project_initial = false;     // move the initial state onto the constraints
-  bool allow_inconsistent = false;  // or take it as it is, off them
+  bool allow_inconsistent = false;  // or take it as it is though it is off them
+  ErrorsAgainst reference = ErrorsAgainst::exact;
+  bool structure_residuals = true;                 // measured where the model has a structure
+  std::int64_t step_budget = default_step_budget;  // more steps are refused, or end the run
+  std::string of_case, of_method;                  // what an experiment calls the run; otherwise empty
 };
+
+/// A plug-in with its parameters, as texts for the reader call it: "gauss stages=2".
+std::string called(std::string name, const Assignments& parameters);
 
 /// A checked run, ready to start.
 struct ResolvedRun {
@@ -39,16 +60,18 @@ struct ResolvedRun {
   std::shared_ptr<const Model> model;
   std::shared_ptr<const MethodInstance> method;
   std::vector<Real> initial;
+  std::vector<Real> given_initial;  // `initial` before it was moved onto the constraints
   double projected = 0;  // the relative change of the initial state where it was moved onto the constraints
   Real t0, step, tolerance, time;
   std::int64_t steps = 0;  // fixed steps only
   std::int64_t every = 1;
-  bool structure_residuals = true;  // measured where the model has a structure
+  Origins origins;  // the files and builds that it was made from
   [[nodiscard]] bool adaptive() const { return !settings.tolerance.empty(); }
 };
 
-/// Settings split by whom they belong to. A bare key that two of them know must be given as system.KEY,
-/// formulation.KEY or integrator.KEY (InputError); `initial` is taken out. Null: there is none.
+/// Settings sorted by the plug-in they belong to. A bare key that two of the plug-ins know must be given as
+/// system.KEY, formulation.KEY or integrator.KEY (InputError otherwise). `initial` belongs to none of them
+/// and is taken out. `formulation` and `method` may be null where the run has none.
 struct SplitSettings {
   Assignments system, formulation, integrator;
   std::vector<std::string> initial;
@@ -56,29 +79,21 @@ struct SplitSettings {
 SplitSettings split_settings(const SystemPlugin& system, const FormulationPlugin* formulation,
                              const MethodPlugin* method, const Assignments& set);
 
-/// The model that a method runs on: the model itself where the method fits, else its motion in Dirac's
-/// formulation where it has constraints.
-std::shared_ptr<const Model> motion_for(const MethodInstance& method, std::shared_ptr<const Model> model);
-
-/// Where a system is looked at: its model, a state and a time.
+/// A system at one state and time.
 struct ResolvedState {
   std::shared_ptr<const Model> model;
   std::vector<Real> state;
   Real t;
 };
-/// Checks what belongs to the system and its formulation alone: names, parameters, `initial` and `t0`. A
-/// system with constraints is looked at in Dirac's formulation unless another is named.
+/// Resolves and checks what belongs to the system and its formulation alone: names, parameters, `initial` and
+/// `t0`. A system with constraints is taken in the formulation that formulation_for() gives.
 ResolvedState resolve_state(const RunSettings& settings);
 /// One finite number for each coordinate of the model; InputError, naming `what` ("initial"), otherwise.
 std::vector<Real> state_numbers(const Model& model, const std::vector<std::string>& texts,
                                 const std::string& what);
 
-/// Checks everything about a run: names, parameters, fit of method and system, state, step, horizon.
+/// Checks everything about a run: names, parameters, fit of method and system, state, step, horizon. Paths of
+/// files among the parameters become absolute.
 ResolvedRun resolve(const RunSettings& settings);
-
-/// A run as the text of its config.toml, from which it can be run again.
-std::string config_text(const ResolvedRun& run);
-/// The settings in a config.toml. InputError for unknown keys and wrong types.
-RunSettings read_config(const std::string& path);
 
 }  // namespace pfaff

@@ -5,12 +5,12 @@
 namespace pfaff {
 
 namespace {
-// The text of a value, which stands on one line.
+// The text of a value as the file writes it; values stand on one line.
 std::string written(const std::string& text, const toml::source_region& region) {
   return source_text(text, region.begin.line, region.begin.column, region.end.column);
 }
 
-// Replaces floating-point numbers by the text they are written as.
+// Replaces floating-point numbers by strings with the text they are written as.
 void keep_digits(toml::array& array, const std::string& text);
 void keep_digits(toml::table& table, const std::string& text) {
   for (auto&& [key, node] : table) {

@@ -14,11 +14,13 @@
 
 namespace pfaff {
 
-/// Parses a file. Numbers with a point or an exponent become the strings they are written as: a double would
-/// lose digits that quad has. InputError with file and line when it is not TOML.
+/// Parses a file. A number with a point or an exponent becomes a string of the text it is written as, because
+/// a double would lose digits that quad can hold. InputError, with file and line, when the file is not TOML.
 toml::table parse_toml(const std::filesystem::path& path);
 
-/// A table whose keys are checked: what is not asked for by finish() is an error that names the nearest key.
+/// A TOML table whose keys are checked. Each reading function notes the key it was asked for; finish() then
+/// throws InputError for a key that nobody asked for and names the nearest known one. `where` begins every
+/// message.
 class Keys {
  public:
   Keys(const toml::table& table, std::string where) : table_(table), where_(std::move(where)) {}
@@ -26,6 +28,19 @@ class Keys {
   std::string text(std::string_view key, const std::string& fallback) {
     const toml::node* node = find(key);
     return node == nullptr ? fallback : scalar(*node, key);
+  }
+  /// The text of a key, made a value by read(text), whose InputError then names the place.
+  template <class Read>
+  auto read(std::string_view key, const std::string& fallback, Read&& read) {
+    const std::string given = text(key, fallback);
+    try {
+      return read(given);
+    } catch (const InputError& error) {
+      const toml::node* node = table_.get(key);
+      const auto line = node == nullptr ? 0 : node->source().begin.line;
+      throw InputError(where_ + (line == 0 ? "" : ", line " + std::to_string(line)) + ": key '" +
+                       std::string(key) + "': " + error.what());
+    }
   }
   std::string required(std::string_view key) {
     if (table_.get(key) == nullptr) throw InputError(where_ + ": key '" + std::string(key) + "' is missing");
@@ -39,7 +54,15 @@ class Keys {
     for (const toml::node& item : *node->as_array()) items.push_back(scalar(item, key));
     return items;
   }
-  /// A list, or one item of it alone.
+  /// A list that holds something where it is there; empty where it is not.
+  std::vector<std::string> list_of_some(std::string_view key) {
+    std::vector<std::string> items = list(key);
+    if (items.empty() && table_.get(key) != nullptr)
+      throw InputError(where_ + ": key '" + std::string(key) +
+                       "': expected a number at least, got an empty list");
+    return items;
+  }
+  /// A list; a single item without brackets is a list of one.
   std::vector<std::string> one_or_more(std::string_view key) {
     const toml::node* node = table_.get(key);
     return node == nullptr || node->is_array() ? list(key) : std::vector<std::string>{text(key, {})};
@@ -59,7 +82,7 @@ class Keys {
       throw InputError(where_ + ": key '" + std::string(key) + "': expected a table");
     return node == nullptr ? nullptr : node->as_table();
   }
-  /// At least one [[key]], unless none is needed.
+  /// The tables of an array [[key]]. InputError where there is none, unless `needed` is false.
   std::vector<const toml::table*> tables(std::string_view key, bool needed = true) {
     const toml::node* node = find(key);
     std::vector<const toml::table*> result;

@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include <pfaff/bench/measure/constraints.hpp>
+#include <pfaff/bench/measure/setback.hpp>
 #include <pfaff/bench/runner/record.hpp>
 
 namespace pfaff {
@@ -17,7 +18,16 @@ std::string header(const std::string& name, const std::string& unit) {
 nlohmann::json optional(const std::optional<double>& x) {
   return x ? nlohmann::json(*x) : nlohmann::json(nullptr);
 }
+std::string setback_key(const SetbackWords& words) { return "largest_" + std::string(words.move); }
 }  // namespace
+
+std::optional<SetbackInSummary> setback_in(const nlohmann::json& invariant) {
+  for (const Behaviour behaviour : {Behaviour::decreasing, Behaviour::increasing})
+    if (const auto words = setback_words(behaviour); invariant.contains(setback_key(*words)))
+      return SetbackInSummary{std::string(words->move), std::string(words->expected),
+                              invariant[setback_key(*words)]};
+  return std::nullopt;
+}
 
 std::string series_csv(const ResolvedRun& run, const RunRecord& record) {
   const bool error = !record.samples.empty() && record.samples.front().error.has_value();
@@ -56,6 +66,8 @@ nlohmann::json summary(const ResolvedRun& run, const RunRecord& record) {
   j["schema"] = 1;
   j["system"] = run.model->name();
   j["integrator"] = run.settings.integrator;
+  if (!run.settings.of_case.empty()) j["case"] = run.settings.of_case;
+  if (!run.settings.of_method.empty()) j["method"] = run.settings.of_method;
   for (const auto& [key, value] : run.model->parameters()) j["parameters"]["system." + key] = value;
   for (const auto& [key, value] : run.method->parameters()) j["parameters"]["integrator." + key] = value;
   if (!run.settings.formulation.empty()) {
@@ -73,7 +85,7 @@ nlohmann::json summary(const ResolvedRun& run, const RunRecord& record) {
     j["steps"] = run.steps;
   }
   j["completed"] = record.completed;
-  j["status"] = to_string(record.status);
+  j["status"] = record.interrupted ? "interrupted" : to_string(record.status);
   j["message"] = record.message;
   j["series"] = "series.csv";
   j["invariants"] = nlohmann::json::array();
@@ -101,8 +113,8 @@ nlohmann::json summary(const ResolvedRun& run, const RunRecord& record) {
       entry["rate"] = optional(d.growth_rate);
       entry["class"] = to_string(d.drift_class);
       entry["samples"] = d.samples;
-    } else if (invariant.behaviour == Behaviour::decreasing) {
-      entry["largest_rise"] = record.rise[i];
+    } else if (const auto words = setback_words(invariant.behaviour)) {
+      entry[setback_key(*words)] = record.setback[i];
     }
     j["invariants"].push_back(entry);
   }
@@ -129,6 +141,7 @@ nlohmann::json summary(const ResolvedRun& run, const RunRecord& record) {
   j["error_max"] = optional(record.error_max);
   j["error_final"] = optional(record.error_final);
   j["structure_residual"] = optional(record.structure_residual);
+  if (record.structure_failures > 0) j["structure_failures"] = record.structure_failures;
   const Counters& c = record.counters;
   j["counts"] = {{"steps", c.steps},
                  {"right_hand_sides", c.fields},

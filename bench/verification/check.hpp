@@ -1,4 +1,5 @@
-// Checks: every claim of every plug-in, measured, with its tolerance and its controls.
+// Checks: every claim of every plug-in is measured against its tolerance, and claims known to be false
+// (controls) must be found false by the same measure.
 #pragma once
 
 #include <functional>
@@ -7,14 +8,19 @@
 
 #include <nlohmann/json.hpp>
 
+#include <pfaff/bench/runner/motion.hpp>
+#include <pfaff/core/bracket.hpp>
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
 
 namespace pfaff {
 
-/// pass: the claim holds. fail: it does not. measured: outside the claim's scope, shown only. rejected: a
-/// control, a claim known to be false, was found to be false, as it must be. skipped: was not measured, with
-/// the reason.
+/// The result of a check.
+/// - pass: the claim holds.
+/// - fail: the claim does not hold.
+/// - measured: the claim is not made here or out of its scope; the number is only shown.
+/// - rejected: the check is a control, a claim known to be false, and was found false, as it must be.
+/// - skipped: it was not measured, for the reason given.
 enum class CheckResult { pass, fail, measured, rejected, skipped };
 std::string_view to_string(CheckResult result);
 
@@ -27,71 +33,98 @@ struct Check {
   std::string reason;
 };
 
-/// True where a check is as it should be: claims in scope pass, controls are rejected; out of scope, what was
-/// measured is fine whatever it is, and what was skipped gives its reason.
+/// True where a check is as it should be: a claim in scope passes and a control is rejected. Out of scope,
+/// any measured value is good. A skipped check is good when it gives its reason.
 bool good(const Check& check);
 
 nlohmann::json to_json(const Check& check);
 
-/// A point on a system where claims are measured: the initial state moved off any symmetry, at a time that is
-/// not 0, and where there are constraints back onto them. InputError when the model has no initial state, or
-/// no such point was found.
+/// A state of a system at which claims are measured, for use with `generic_time`: the initial state, moved
+/// off any symmetry that could hide an error, and moved back onto the constraints where there are any.
+/// InputError when the model has no initial state, or when no such point was found.
 std::vector<Real> generic_state(const Model& model);
 inline const Real generic_time = Real::fraction(37, 100);
+/// The time in which the motion from z at t changes by about its own size, as a power of two and from the
+/// Taylor series of the motion; times within a factor of eight of one are taken as one, so that steps are the
+/// same for all ordinary systems. One where the motion has too many coordinates for its series.
+Quad own_time(const Model& motion, const Real& t, const std::vector<Real>& z);
 
-/// The model, or where it has constraints and no vector field its motion in Dirac's formulation.
-std::shared_ptr<const Model> motion_of(const std::shared_ptr<const Model>& model);
-
-/// Measured order of a method from local errors in quad against Taylor series: log2 of successive errors
-/// under halving of the step, minus one, taken down until three slopes agree to 0.02, or, where round-off
-/// comes first, extrapolated from the last two. Of methods that need holonomic constraints, from errors at
-/// the end of a fixed interval instead: momenta of central differences, which do not accumulate their errors,
-/// are as good as the positions there. Methods with double coefficients are measured in quad arithmetic down
-/// to the error of their coefficients.
+/// The order of a method, measured from its errors in quad against Taylor series. The error of a single step
+/// is measured while the step is halved; the slope is log2 of the ratio of successive errors, minus one.
+/// Halving ends when, of four slopes or more, the last two differ by less than 0.01 and the two before by
+/// less than 0.02; where round-off comes first, the slope is extrapolated from the last ones. Methods that
+/// need constraints are measured by their errors at the end of a fixed interval instead, without the minus
+/// one. The reason is that momenta of central differences do not accumulate their errors: over many steps
+/// they are as accurate as the positions, but after one step they are not. So are methods with history, whose
+/// first steps are those of another method, which makes the starting values. Methods whose coefficients are
+/// doubles are measured in quad too, down to the error of their coefficients.
 struct MeasuredOrder {
   double slope = 0;
   bool settled = false;
   std::string reason;  // when nothing could be measured
 };
-MeasuredOrder measure_order(const MethodInstance& method, const std::shared_ptr<const Model>& model);
-/// The slope as the step falls to 1e-10 by factors of ten: where a wrong coefficient shows.
+MeasuredOrder measure_order(const MethodInstance& method, const std::shared_ptr<const Model>& model,
+                            bool history = false);
+/// The order measured as the step falls by factors of ten to 1e-10. A small error of a coefficient dominates
+/// the error of so small a step, and so lowers the slope.
 double order_at_small_steps(const MethodInstance& method, const std::shared_ptr<const Model>& model);
 
 /// Checks of one method with given parameters on one system, in double and quad.
 std::vector<Check> check_method(const MethodPlugin& plugin, const Assignments& parameters,
                                 const SystemPlugin& system);
+/// The same for a method and a model that fit each other, listed under the name `system`.
+std::vector<Check> check_method(const MethodInstance& method, const Assignments& parameters,
+                                const std::string& system, const std::shared_ptr<const Model>& model);
 /// The method with one coefficient changed by 1e-6 must lose its order or its structure.
 std::vector<Check> check_changed_coefficient(const MethodPlugin& plugin, const Assignments& parameters,
                                              const SystemPlugin& system);
-/// Structure, chart, overrides, invariants and exact solution of a system.
-std::vector<Check> check_system(const SystemPlugin& system);
-/// Of a system with constraints: that it starts on them, that they are second class there, that what was
-/// written of them is what is derived (named constraint by constraint), and that Dirac's formulation keeps
-/// them off their surface too.
+/// Checks the structure, chart, overrides, invariants and exact solution of a system with these parameters.
+std::vector<Check> check_system(const SystemPlugin& system, const Assignments& parameters = {});
+/// Checks of a system with constraints: the initial state is on them, they are second class there, the
+/// author's own evaluator computes what is derived from the formulas, and Dirac's formulation keeps the
+/// constraints, off their surface too.
 std::vector<Check> check_constraints(const std::string& name, const std::shared_ptr<const Model>& model);
-/// Of a metriplectic system: its symmetric bracket, the degeneracy conditions, what energy and entropy do.
+/// Checks of a metriplectic system: its symmetric bracket, the degeneracy conditions, and the signs of the
+/// rates of energy and entropy.
 std::vector<Check> check_metriplectic(const std::string& name, const Model& model);
-/// Symmetry and Jacobi identity of a bracket.
-std::vector<Check> check_bracket(const std::string& plugin);
-/// Brackets that are not what they are claimed to be, which must be rejected: one without Jacobi's identity,
-/// one not quite skew.
+/// Checks of a motion that states a reversal rho, at states near `centre`: rho is an involution, and it turns
+/// the field round, d rho X = -X o rho.
+std::vector<Check> check_reversal(const std::string& name, const Model& motion,
+                                  const std::vector<Real>& centre);
+/// Symmetry and Jacobi identity of a bracket with these parameters.
+std::vector<Check> check_bracket(const BracketPlugin& plugin, const Assignments& parameters);
+/// The parameters that a bracket is verified with: the defaults, and each choice it offers.
+std::vector<Assignments> instances_of(const BracketPlugin& plugin);
+/// Controls: one bracket without Jacobi's identity and one that is not quite skew, both of which must be
+/// rejected.
 std::vector<Check> check_false_brackets();
-/// Equations K zdot + D = 0 that are not self-adjoint, by one entry of D, of K, and a chart that is not
-/// Darboux's at the time it is used.
+/// Controls: equations K zdot + D = 0 that are not self-adjoint because one entry of D or of K is changed,
+/// and a chart that is not Darboux's at the time it is used.
 std::vector<Check> check_false_structures();
-/// Constraints that are not what they are claimed to be: off the surface at the start, with a wrong gradient,
-/// dependent, or not kept.
+/// Controls: constraints that the initial state is off, with a wrong gradient, dependent on each other, or
+/// not kept by the motion.
 std::vector<Check> check_false_constraints();
-/// Metriplectic systems with a symmetric bracket or an entropy that is wrong by 1e-6, or in its sign.
+/// Controls: metriplectic systems whose symmetric bracket or entropy is wrong by 1e-6 or in its sign.
 std::vector<Check> check_false_metriplectic();
-/// Methods that are not what they are claimed to be: RK4 symplectic and K-symplectic, su-qin (105) as
-/// printed.
+/// Controls: reversals that are wrong by 1e-6 and so no involution, or that do not turn the field round.
+std::vector<Check> check_false_reversals();
+/// Controls: a method with a false claim of every kind, and the scheme su-qin (105) as printed, which has a
+/// misprint.
 std::vector<Check> check_false_methods();
 
-/// Everything, or what the names select (plug-ins or "su-qin" groups); jobs run in parallel, results in fixed
-/// order. `full` adds the large orders.
+/// What is verified.
+struct VerificationSettings {
+  std::vector<std::string>
+      names{};        // of plug-ins or kinds of them (systems ...), or controls; all when empty
+  bool full = false;  // the large orders and more variants too
+  /// Parameters of the one plug-in that is named, instead of those that it is verified with otherwise.
+  Assignments set{};
+};
+
+/// Runs the checks. They run in parallel and their results come in a fixed order. InputError for an unknown
+/// name, and for parameters where not exactly one plug-in is named.
 std::vector<Check> verify(
-    const std::vector<std::string>& names, bool full,
-    const std::function<void(const std::string& what, std::size_t done, std::size_t all)>& progress);
+    const VerificationSettings& settings,
+    const std::function<void(const std::string& what, std::size_t done, std::size_t all)>& progress = {});
 
 }  // namespace pfaff

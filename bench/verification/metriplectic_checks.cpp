@@ -1,6 +1,6 @@
-// The claims of metriplectic systems (morrison1986): zdot = Pi dH + G dS with Pi dS = 0 and G dH = 0, or
-// Pi dH - G dH; G symmetric and non-negative, so that the energy is conserved and the entropy never falls, or
-// the energy never rises.
+// The claims of metriplectic systems (morrison1986). The field is zdot = Pi dH + G dS with Pi dS = 0 and G dH
+// = 0, so that the energy is conserved and the entropy never falls, or zdot = Pi dH - G dH, so that the
+// energy never rises. G is symmetric and non-negative in both.
 #include <stdexcept>
 
 #include <pfaff/bench/verification/residuals.hpp>
@@ -15,7 +15,7 @@ std::vector<Recorded> slope_of(const Tape& function, const Recorded& t, Argument
   return gradient(function, t, z, one);
 }
 
-// tensor d(function), which has to vanish.
+// The vector tensor d(function), which has to vanish.
 std::shared_ptr<const Tape> sharp_of(const Tape& tensor, const Tape& function) {
   return expression(function.inputs, function.inputs, [&](const Recorded& t, Arguments z, Results out) {
     const auto matrix = evaluate(tensor, t, z), slope = slope_of(function, t, z);
@@ -24,7 +24,8 @@ std::shared_ptr<const Tape> sharp_of(const Tape& tensor, const Tape& function) {
   });
 }
 
-// The rate of a function along the field; only its part of the forbidden sign where one is allowed.
+// The rate of a function along the field. Where the function may rise, only the falling part is returned, and
+// the other way round; `neither` returns the whole rate.
 enum class May { neither, rise, fall };
 std::shared_ptr<const Tape> rate_of(const Tape& function, const Tape& field, May may) {
   return expression(function.inputs, 1, [&](const Recorded& t, Arguments z, Results out) {
@@ -36,19 +37,21 @@ std::shared_ptr<const Tape> rate_of(const Tape& function, const Tape& field, May
   });
 }
 
-// The number of negative or indefinite pivots of G (Sylvester), over random states.
+// The number of negative or indefinite pivots of a symmetric tensor over random states; by Sylvester's law of
+// inertia it is zero where the tensor is non-negative.
 template <class T>
-Check not_negative(const std::string& name, const std::shared_ptr<const Tape>& tensor,
-                   const std::vector<Real>& centre, const char* precision) {
-  std::mt19937_64 random(20041);
-  std::uniform_real_distribution<double> offset(-0.05, 0.05);
+Check not_negative(const std::string& plugin, const std::string& claim, const std::string& system,
+                   const std::shared_ptr<const Tape>& tensor, const std::vector<Real>& centre,
+                   const char* precision) {
+  NearbyStates<T> states(centre);
   Replay<T> replay(tensor);
   const std::size_t n = centre.size();
-  std::vector<T> z(n), g(n * n);
+  std::vector<T> g(n * n);
   double negative = 0;
   for (int k = 0; k < points; ++k) {
-    for (std::size_t i = 0; i < n; ++i) z[i] = T(centre[i]) + T(offset(random));
-    replay(T(1 + offset(random)), z.data(), g.data());
+    T time;
+    const std::vector<T>& z = states.next(time);
+    replay(time, z.data(), g.data());
     bool finite = true;
     for (const T& x : g) finite = finite && isfinite(x);
     if (!finite) {
@@ -58,10 +61,17 @@ Check not_negative(const std::string& name, const std::shared_ptr<const Tape>& t
     for (const auto& pivot : classify(Matrix<T>(n, g), Symmetry::symmetric).pivots)
       if (pivot.rows.size() == 2 || pivot.value < T(0)) ++negative;
   }
-  return named(name, "symmetric bracket is non-negative", name, precision, negative, 0);
+  return named(plugin, claim, system, precision, negative, 0);
 }
 
 }  // namespace
+
+std::vector<Check> check_not_negative(const std::string& plugin, const std::string& claim,
+                                      const std::string& system, const std::shared_ptr<const Tape>& tensor,
+                                      const std::vector<Real>& centre) {
+  return {not_negative<double>(plugin, claim, system, tensor, centre, "double"),
+          not_negative<Quad>(plugin, claim, system, tensor, centre, "quad")};
+}
 
 std::vector<Check> check_metriplectic(const std::string& name, const Model& model) {
   std::vector<Check> checks;
@@ -77,8 +87,8 @@ std::vector<Check> check_metriplectic(const std::string& name, const Model& mode
                                           out[i * n + j] = g[i * n + j] - g[j * n + i];
                                     });
   both(checks, name, "symmetric bracket is symmetric", name, skew_part, centre);
-  checks.push_back(not_negative<double>(name, symmetric, centre, "double"));
-  checks.push_back(not_negative<Quad>(name, symmetric, centre, "quad"));
+  for (Check& check : check_not_negative(name, "symmetric bracket is non-negative", name, symmetric, centre))
+    checks.push_back(std::move(check));
   if (!model.given(Formula::entropy)) {
     both(checks, name, "energy does not rise", name, rate_of(*energy, *field, May::fall), centre);
     return checks;
@@ -95,7 +105,7 @@ std::vector<Check> check_metriplectic(const std::string& name, const Model& mode
 
 namespace {
 
-// A body about its centre of mass whose relaxation is wrong in one of these ways.
+// A body that turns about its centre of mass, with a relaxation that is wrong in one of these ways.
 enum class Fault { none, moves_energy, not_symmetric, indefinite, entropy_no_casimir };
 struct FaultyBracket {
   Fault fault;

@@ -1,44 +1,41 @@
-// The claims of systems and brackets: that what was written agrees with what is derived, that structures are
-// what they are said to be, that invariants and exact solutions are right. Measured at random points with a
+// The claims of systems: what was written agrees with what is derived, structures have the properties they
+// are claimed to have, and invariants and exact solutions are right. Measured at random points drawn with a
 // fixed seed.
 #include <pfaff/bench/measure/reference.hpp>
 #include <pfaff/bench/verification/check.hpp>
 #include <pfaff/bench/verification/residuals.hpp>
-#include <pfaff/core/bracket.hpp>
 #include <pfaff/core/formulation.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/replay.hpp>
-#include <pfaff/integrators/generating_map_check.hpp>
+#include <pfaff/integrators/generating/generating_map_check.hpp>
 
 namespace pfaff {
 
 namespace {
 
-// [Pi, Pi]^{ijk} = sum_l Pi^il d_l Pi^jk + cyclic, and the symmetric part, as tapes.
-std::shared_ptr<const Tape> jacobiator(const Tape& tensor, int n) {
-  const auto size = static_cast<std::size_t>(n);
-  return expression(n, n * n * n, [&](const Recorded& t, Arguments z, Results out) {
-    const auto pi = evaluate(tensor, t, z);
-    const auto slope = jacobian(tensor, t, z);  // slope[(i n + j) n + l]
-    for (std::size_t i = 0; i < size; ++i)
-      for (std::size_t j = 0; j < size; ++j)
-        for (std::size_t k = 0; k < size; ++k) {
-          Recorded sum(0);
-          for (std::size_t l = 0; l < size; ++l)
-            sum = sum + pi[i * size + l] * slope[(j * size + k) * size + l] +
-                  pi[j * size + l] * slope[(k * size + i) * size + l] +
-                  pi[k * size + l] * slope[(i * size + j) * size + l];
-          out[(i * size + j) * size + k] = sum;
-        }
-  });
-}
-std::shared_ptr<const Tape> symmetric_part(const Tape& tensor, int n) {
-  const auto size = static_cast<std::size_t>(n);
-  return expression(n, n * n, [&](const Recorded& t, Arguments z, Results out) {
-    const auto pi = evaluate(tensor, t, z);
-    for (std::size_t i = 0; i < size; ++i)
-      for (std::size_t j = 0; j < size; ++j) out[i * size + j] = pi[i * size + j] + pi[j * size + i];
-  });
+// A number that is the same at every state is conserved by everything, so that its conservation says nothing.
+// It varies where its values at random states differ by more than the bounds of their rounding errors.
+Check varies(const std::string& system, const std::string& invariant,
+             const std::shared_ptr<const Tape>& values, std::size_t k, const std::vector<Real>& centre) {
+  using W = WithRounding<Quad>;
+  NearbyStates<Quad> states(centre);
+  Replay<W> replay(values);
+  std::vector<W> out(values->outputs.size());
+  W first;
+  double largest = 0;
+  for (int j = 0; j < points; ++j) {
+    Quad time;
+    const std::vector<Quad>& z = states.next(time);
+    // At one time, since an invariant may depend on it.
+    replay(W(Quad(1)), std::vector<W>(z.begin(), z.end()).data(), out.data());
+    if (j == 0) first = out[k];
+    largest = std::max(largest, relative_to_rounding(out[k] - first));
+  }
+  Check check = named(system, invariant + " varies", system, "quad", largest, 0);
+  check.expected = residual_tolerance<Quad>();
+  check.result = largest > check.expected ? CheckResult::pass : CheckResult::fail;
+  if (check.result == CheckResult::fail) check.reason = "the same at every state, so that it says nothing";
+  return check;
 }
 
 void invariants(std::vector<Check>& checks, const SystemPlugin& plugin, const Model& model,
@@ -54,10 +51,14 @@ void invariants(std::vector<Check>& checks, const SystemPlugin& plugin, const Mo
       out[0] = directional_derivative(*values, t, Recorded(1), z, x)[k];
     });
     if (list[k].behaviour == Behaviour::conserved) {
+      checks.push_back(varies(plugin.name(), list[k].name, values, k, centre));
+      if (list[k].quadratic)
+        both(checks, plugin.name(), list[k].name + " is quadratic", plugin.name(),
+             third_difference(*values, k), centre);
       both(checks, plugin.name(), "conserves " + list[k].name, plugin.name(), rate, centre);
     } else if (list[k].behaviour == Behaviour::decreasing || list[k].behaviour == Behaviour::increasing) {
       const bool falls = list[k].behaviour == Behaviour::decreasing;
-      // The positive part of the forbidden sign.
+      // The part of the rate that has the forbidden sign, made positive.
       const auto wrong = expression(n, 1, [&](const Recorded& t, Arguments z, Results out) {
         const Recorded r = evaluate(*rate, t, z)[0];
         out[0] = falls ? select(r, r, Recorded(0)) : select(r, Recorded(0), -r);
@@ -68,7 +69,7 @@ void invariants(std::vector<Check>& checks, const SystemPlugin& plugin, const Mo
   }
 }
 
-// The exact solution satisfies the differential equation and starts where it should.
+// The exact solution satisfies the differential equation and starts at its initial state.
 void exact_solution(std::vector<Check>& checks, const SystemPlugin& plugin, const Model& model,
                     std::vector<Real> centre) {
   const int n = model.dimension();
@@ -99,7 +100,7 @@ void darboux(std::vector<Check>& checks, const SystemPlugin& plugin, const Model
     for (std::size_t k = 0; k < size; ++k) out[k] = back[k] - z[k];
   });
   both(checks, plugin.name(), "chart inverse", plugin.name(), round_trip, generic_state(model));
-  // The field in the chart is the field: Y_z X + Y_t.
+  // The chart carries the field X of the system into the field of the chart: Y_z X + Y_t.
   const auto field = model.tape(Formula::field), in_chart = model.tape(Formula::chart_field);
   const auto carried = expression(n, n, [&](const Recorded& t, Arguments z, Results out) {
     const auto x = evaluate(*field, t, z);
@@ -110,7 +111,7 @@ void darboux(std::vector<Check>& checks, const SystemPlugin& plugin, const Model
   both(checks, plugin.name(), "field in the chart", plugin.name(), carried, generic_state(model));
 }
 
-// The mechanical energy and the rate of friction make the field.
+// The field made from T + V and the rate of friction agrees with the field of the system.
 void conformal(std::vector<Check>& checks, const SystemPlugin& plugin, const Model& model) {
   const Tape damped = damped_field(model);
   const auto field = model.tape(Formula::field);
@@ -125,39 +126,23 @@ void conformal(std::vector<Check>& checks, const SystemPlugin& plugin, const Mod
 
 }  // namespace
 
-std::vector<Check> check_system(const SystemPlugin& plugin) {
-  const auto model = plugin.make({});
+std::vector<Check> check_system(const SystemPlugin& plugin, const Assignments& parameters) {
+  const auto model = plugin.make(parameters);
   const int n = model->dimension();
   std::vector<Check> checks;
-  // With constraints, what is said of invariants and solutions is said of Dirac's formulation, near their
-  // surface and off it.
-  const bool constrained = model->constrained();
+  // With constraints, the claims about invariants, solutions and reversals are claims about Dirac's
+  // formulation, near the surface of the constraints and off it.
   const auto motion = motion_of(model);
-  const std::vector<Real> centre = constrained ? model->initial() : generic_state(*model);
-  // What the author wrote against what is derived without it.
-  constexpr std::array<std::pair<Formula, const char*>, 4> overrides{{{Formula::field, "field"},
-                                                                      {Formula::force, "force"},
-                                                                      {Formula::velocity, "velocity"},
-                                                                      {Formula::chart_field, "chart field"}}};
-  for (const auto& [formula, name] : overrides) {
-    if (!model->given(formula) || (constrained && formula == Formula::field)) continue;
-    const auto derived = model->derived(formula);
-    if (derived == nullptr) continue;
-    const auto given = model->tape(formula);
-    const auto difference = expression(given->inputs, static_cast<int>(given->outputs.size()),
-                                       [&](const Recorded& t, Arguments z, Results out) {
-                                         const auto a = evaluate(*given, t, z), b = evaluate(*derived, t, z);
-                                         for (std::size_t k = 0; k < a.size(); ++k) out[k] = a[k] - b[k];
-                                       });
-    const std::vector<Real> where(centre.begin(), centre.begin() + given->inputs);
-    both(checks, plugin.name(), std::string("written ") + name + " is the derived one", plugin.name(),
-         difference, where);
-  }
+  const std::vector<Real> centre = model->restricted() ? model->initial() : generic_state(*model);
+  for (Check& check : check_overrides(plugin.name(), *model, centre)) checks.push_back(std::move(check));
   if (model->facets().has(Facet::hamiltonian) || model->facets().has(Facet::structure) ||
       model->given(Formula::poisson_tensor)) {
     const auto tensor = model->tape(Formula::poisson_tensor);
     both(checks, plugin.name(), "bracket is skew", plugin.name(), symmetric_part(*tensor, n), centre);
     both(checks, plugin.name(), "Jacobi identity", plugin.name(), jacobiator(*tensor, n), centre);
+    if (model->given(Formula::casimirs))
+      both(checks, plugin.name(), "Casimirs", plugin.name(),
+           sharp_of_casimirs(*tensor, *model->tape(Formula::casimirs)), centre);
   }
   if (model->facets().has(Facet::structure)) {
     for (Check& check : check_self_adjointness(plugin.name(), *model)) checks.push_back(std::move(check));
@@ -171,140 +156,15 @@ std::vector<Check> check_system(const SystemPlugin& plugin) {
     if (!alpha.holds) checks.back().result = CheckResult::fail;
     checks.back().reason = alpha.message;
   }
-  if (constrained)
+  if (model->constrained())
     for (Check& check : check_constraints(plugin.name(), model)) checks.push_back(std::move(check));
   if (model->facets().has(Facet::metriplectic))
     for (Check& check : check_metriplectic(plugin.name(), *model)) checks.push_back(std::move(check));
   invariants(checks, plugin, *motion, centre);
   if (model->facets().has(Facet::exact_solution)) exact_solution(checks, plugin, *motion, centre);
-  return checks;
-}
-
-namespace {
-// The tensor of a sharp map, column by column.
-std::shared_ptr<const Tape> tensor_of(const Tape& sharp, int n) {
-  const auto size = static_cast<std::size_t>(n);
-  return expression(n, n * n, [&](const Recorded& t, Arguments z, Results out) {
-    for (std::size_t j = 0; j < size; ++j) {
-      std::vector<Recorded> x(z.begin(), z.end());
-      x.resize(2 * size);
-      x[size + j] = Recorded(1);
-      const auto column = evaluate(sharp, t, x);
-      for (std::size_t i = 0; i < size; ++i) out[i * size + j] = column[i];
-    }
-  });
-}
-std::shared_ptr<const Tape> skew_part(const Tape& tensor, int n) {
-  const auto size = static_cast<std::size_t>(n);
-  return expression(n, n * n, [&](const Recorded& t, Arguments z, Results out) {
-    const auto g = evaluate(tensor, t, z);
-    for (std::size_t i = 0; i < size; ++i)
-      for (std::size_t j = 0; j < size; ++j) out[i * size + j] = g[i * size + j] - g[j * size + i];
-  });
-}
-// How negative alpha.G alpha is for some covectors: 0 where it is not.
-std::shared_ptr<const Tape> negative_part(const Tape& tensor, int n) {
-  const auto size = static_cast<std::size_t>(n);
-  constexpr int covectors = 8;
-  return expression(n, covectors, [&](const Recorded& t, Arguments z, Results out) {
-    const auto g = evaluate(tensor, t, z);
-    for (int k = 0; k < covectors; ++k) {
-      const auto alpha = [&](std::size_t i) {
-        return Recorded(Real::fraction((static_cast<int>(i) * 5 + k * 7) % 11 - 5, 3));
-      };
-      Recorded square(0);
-      for (std::size_t i = 0; i < size; ++i)
-        for (std::size_t j = 0; j < size; ++j) square = square + alpha(i) * g[i * size + j] * alpha(j);
-      out[static_cast<std::size_t>(k)] = select(-square, -square, Recorded(0));
-    }
-  });
-}
-std::vector<Real> bracket_point(int n) {
-  std::vector<Real> z;
-  for (int k = 0; k < n; ++k) z.push_back(Real::fraction(3 + 2 * k, 7));
-  return z;
-}
-}  // namespace
-
-namespace {
-void check_instance(std::vector<Check>& checks, const BracketPlugin& plugin, const Assignments& parameters) {
-  const BracketInstance bracket = plugin.make(parameters);
-  const int n = bracket.dimension;
-  const auto size = static_cast<std::size_t>(n);
-  const auto tensor = tensor_of(*bracket.sharp, n);
-  const std::vector<Real> centre = bracket_point(n);
-  const std::size_t first = checks.size();
-  if (plugin.descriptor().symmetry == Symmetry::skew)
-    both(checks, plugin.name(), "skew", "", symmetric_part(*tensor, n), centre);
-  if (plugin.descriptor().symmetry == Symmetry::symmetric)
-    both(checks, plugin.name(), "symmetric", "", skew_part(*tensor, n), centre);
-  if (plugin.descriptor().jacobi)
-    both(checks, plugin.name(), "Jacobi identity", "", jacobiator(*tensor, n), centre);
-  if (plugin.descriptor().semimetric)
-    both(checks, plugin.name(), "semimetric", "", negative_part(*tensor, n), centre);
-  if (bracket.casimirs != nullptr)
-    both(checks, plugin.name(), "Casimirs", "",
-         expression(n, static_cast<int>(bracket.casimirs->outputs.size()) * n,
-                    [&](const Recorded& t, Arguments z, Results out) {
-                      const auto pi = evaluate(*tensor, t, z), slopes = jacobian(*bracket.casimirs, t, z);
-                      for (std::size_t c = 0; c * size < slopes.size(); ++c)
-                        for (std::size_t i = 0; i < size; ++i)
-                          for (std::size_t j = 0; j < size; ++j)
-                            out[c * size + i] = out[c * size + i] + pi[i * size + j] * slopes[c * size + j];
-                    }),
-         centre);
-  for (std::size_t k = first; k < checks.size(); ++k) checks[k].parameters = parameters;
-}
-}  // namespace
-
-std::vector<Check> check_bracket(const std::string& name) {
-  const BracketPlugin& plugin = brackets().get(name, "bracket");
-  std::vector<Check> checks;
-  check_instance(checks, plugin, {});
-  // A choice among brackets is as many brackets.
-  for (const Parameter& p : plugin.parameters())
-    if (p.kind == Parameter::Kind::choice)
-      for (std::size_t k = 1; k < p.choices.size(); ++k)
-        check_instance(checks, plugin, {{p.name, p.choices[k]}});
-  return checks;
-}
-
-std::vector<Check> check_false_brackets() {
-  std::vector<Check> checks;
-  // {f, g} = a.(grad f x grad g) obeys Jacobi exactly when a.curl a = 0; here a = (y, -x, 1), a.curl a = -2.
-  const auto twisted = record(3, 9, [](const Recorded&, Arguments z, Results out) {
-    const std::array<Recorded, 3> a{z[1], -z[0], Recorded(1)};
-    out[1] = a[2];
-    out[3] = -a[2];
-    out[5] = a[0];
-    out[7] = -a[0];
-    out[6] = a[1];
-    out[2] = -a[1];
-  });
-  const auto lopsided = record(2, 4, [](const Recorded&, Arguments z, Results out) {
-    out[1] = z[0];
-    out[2] = z[0] * Recorded(Real::fraction(-999999, 1000000));
-  });
-  const auto control = [&](const char* plugin, const char* claim, double measured) {
-    Check check = named(plugin, claim, "", "quad", measured, 1e-31);
-    check.scope = "control";
-    check.control = true;
-    check.result = measured <= check.tolerance ? CheckResult::pass : CheckResult::rejected;
-    checks.push_back(check);
-  };
-  control("bracket a x grad, a.curl a = -2", "Jacobi identity",
-          static_cast<double>(largest<Quad>(jacobiator(twisted, 3), bracket_point(3))));
-  // G = [[1, 2], [2, 1]] is no semimetric.
-  const auto indefinite = record(2, 4, [](const Recorded&, Arguments, Results out) {
-    out[0] = out[3] = Recorded(1);
-    out[1] = out[2] = Recorded(2);
-  });
-  control("bracket [[1, 2], [2, 1]]", "semimetric",
-          static_cast<double>(largest<Quad>(negative_part(indefinite, 2), bracket_point(2))));
-  control("bracket skew but for 1e-6", "symmetric",
-          static_cast<double>(largest<Quad>(skew_part(lopsided, 2), bracket_point(2))));
-  control("bracket skew but for 1e-6", "skew",
-          static_cast<double>(largest<Quad>(symmetric_part(lopsided, 2), bracket_point(2))));
+  if (model->given(Formula::reversal))
+    for (Check& check : check_reversal(plugin.name(), *motion, centre)) checks.push_back(std::move(check));
+  for (Check& check : checks) check.parameters = parameters;
   return checks;
 }
 

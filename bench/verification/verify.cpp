@@ -1,14 +1,13 @@
-// Runs the checks: what there is to do, in parallel, in a fixed order of results.
+// Runs the checks: collects the jobs, runs them in parallel and returns their results in a fixed order.
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <mutex>
 
-#include <pfaff/bench/measure/constraints.hpp>
-#include <pfaff/bench/measure/structure.hpp>
 #include <pfaff/bench/runner/settings.hpp>
 #include <pfaff/bench/verification/check.hpp>
-#include <pfaff/core/bracket.hpp>
+#include <pfaff/bench/verification/formulation_checks.hpp>
+#include <pfaff/bench/verification/random_checks.hpp>
 #include <pfaff/core/formulation.hpp>
 
 namespace pfaff {
@@ -35,198 +34,180 @@ nlohmann::json to_json(const Check& c) {
           {"reason", c.reason}};
 }
 
-std::vector<Real> generic_state(const Model& model) {
-  if (model.initial().size() != static_cast<std::size_t>(model.dimension()))
-    throw InputError("system " + model.name() + " has " + std::to_string(model.initial().size()) +
-                     " initial values, near which its claims are measured; expected " +
-                     std::to_string(model.dimension()));
-  std::vector<Real> z = model.initial();
-  for (std::size_t k = 0; k < z.size(); ++k) {
-    const auto i = static_cast<std::int64_t>(k);
-    // Systems of many bodies would be torn apart by numbers that grow with the index.
-    const std::int64_t amount = model.constrained() ? i % 5 : i;
-    z[k] = z[k] + Real::fraction(i % 2 == 0 ? 7 + 2 * amount : -5 - 3 * amount, 101);
-  }
-  if (model.constrained()) {
-    std::vector<Quad> moved;
-    for (const Real& x : z) moved.push_back(x.quad());
-    const auto projection = project_onto_constraints(model, generic_time.quad(), moved);
-    if (projection.status != Status::converged)
-      throw InputError("system " + model.name() +
-                       ": no state on its constraints was found near its initial state (" +
-                       std::string(to_string(projection.status)) + ")");
-    for (std::size_t k = 0; k < z.size(); ++k) z[k] = Real(moved[k]);
-  }
-  return z;
-}
-
-std::shared_ptr<const Model> motion_of(const std::shared_ptr<const Model>& model) {
-  if (!model->constrained() || model->facets().has(Facet::vector_field)) return model;
-  return formulations().get("dirac", "formulation").apply(model, {});
-}
-
-std::vector<Check> check_false_methods() {
-  std::vector<Check> checks;
-  const auto control = [&](const std::string& plugin, const std::string& claim,
-                           const std::string& system) -> Check& {
-    Check check;
-    check.plugin = plugin;
-    check.claim = claim;
-    check.scope = "control";
-    check.system = system;
-    check.precision = "quad";
-    check.control = true;
-    checks.push_back(check);
-    return checks.back();
-  };
-  const auto decide = [](Check& check) {
-    check.result = check.measured <= check.tolerance ? CheckResult::pass : CheckResult::rejected;
-  };
-  for (const auto& [name, claim] :
-       {std::pair{"pendulum", "symplectic"}, std::pair{"damped-pendulum", "K-symplectic"}}) {
-    const auto model = systems().get(name, "system").make({});
-    const auto method = integrators().get("rk4", "integrator").make({});
-    std::vector<Quad> z;
-    for (const Real& x : generic_state(*model)) z.push_back(x.quad());
-    Check& check = control("rk4", claim, name);
-    check.measured =
-        static_cast<double>(StructureResidual<Quad>(*method, model)(generic_time.quad(), Quad(0.1), z));
-    check.tolerance = 1e-31;
-    decide(check);
-  }
-  {  // RK4 in Dirac's formulation leaves the surface, and is not symplectic on it.
-    const auto method = integrators().get("rk4", "integrator").make({});
-    const auto model = motion_of(systems().get("spherical-pendulum", "system").make({}));
-    std::vector<Quad> z;
-    for (const Real& x : generic_state(*model)) z.push_back(x.quad());
-    Check& symplectic = control("rk4", "constrained-symplectic", model->name());
-    symplectic.measured =
-        static_cast<double>(StructureResidual<Quad>(*method, model)(generic_time.quad(), Quad(0.1), z));
-    symplectic.tolerance = 1e-31;
-    decide(symplectic);
-    std::int64_t completed = 0;
-    (void)method->stepper(model, Quad())->advance(generic_time.quad(), 0, Quad(0.1), 1, z, completed);
-    std::vector<Quad> residuals;
-    ConstraintResiduals<Quad> residuals_of(*model);
-    residuals_of(generic_time.quad() + Quad(0.1), z, residuals);
-    Check& constraints = control("rk4", "constraints", model->name());
-    constraints.measured = static_cast<double>(*std::max_element(residuals.begin(), residuals.end()));
-    constraints.tolerance = 1e-31;
-    decide(constraints);
-  }
-  // su-qin (105) as printed, -8 a e^{-nu tau} instead of -8 b e^{-nu tau}: its determinant is not e^{-nu
-  // tau}, and it leaves an error of order tau^2 against the exact transition matrix, whose lower left entry
-  // is -e^{-nu tau/2} sin(w tau)/w with w^2 = 1 - nu^2/4.
-  const Quad nu(Real::fraction(3, 10));
-  const auto lower_left = [&](Quad tau) {
-    const Quad a = Quad(2) * tau - nu * tau * tau, b = Quad(2) * tau + nu * tau * tau;
-    return -Quad(8) * a * exp(-(nu * tau)) / (Quad(16) + a * b);
-  };
-  const Quad tau(0.1);
-  const Quad a = Quad(2) * tau - nu * tau * tau, b = Quad(2) * tau + nu * tau * tau, d = Quad(16) + a * b;
-  const Quad decay = exp(-(nu * tau));
-  const Quad determinant =
-      (Quad(16) - a * b) / d * ((Quad(16) - a * b) / d) * decay - Quad(8) * a / d * lower_left(tau);
-  Check& structure = control("su-qin (105) as printed", "K-symplectic", "damped-oscillator");
-  structure.measured = static_cast<double>(abs(determinant - decay));
-  structure.tolerance = 1e-31;
-  decide(structure);
-  const Quad w = sqrt(Quad(1) - nu * nu / Quad(4));
-  const auto error = [&](Quad h) { return abs(lower_left(h) + exp(-(nu * h) / Quad(2)) * sin(w * h) / w); };
-  Check& order = control("su-qin (105) as printed", "order", "damped-oscillator");
-  order.expected = 2;
-  order.tolerance = 0.1;
-  order.measured = static_cast<double>(log(error(Quad(1e-4)) / error(Quad(1e-5))) / log(Quad(10))) - 1;
-  order.result =
-      order.measured < order.expected - order.tolerance ? CheckResult::rejected : CheckResult::pass;
-  return checks;
-}
-
 namespace {
 struct Job {
   std::string what;
   std::function<std::vector<Check>()> run;
 };
 
-// Beyond this dimension the derivatives of formulated fields in quad are more than a check should cost.
+// The field of a formulation is differentiated in quad up to this dimension only; beyond it a check would
+// cost too much.
 constexpr int most_formulated = 8;
 
-// Controls need a nonlinear system that fits: the damped pendulum for chart methods, the spherical pendulum
-// for those that need constraints, the pendulum for the rest.
-std::string controlled_on(const MethodPlugin& method) {
-  const auto instance = method.make({});
+// The system on which the controls of a method run. It has to be nonlinear and to fit: the damped pendulum
+// for chart methods, the spherical pendulum for methods that need constraints, the pendulum for the rest.
+std::string controlled_on(const MethodInstance& method) {
   for (const char* name : {"damped-pendulum", "pendulum"})
-    if (instance->refuses(*systems().get(name, "").make({})).empty()) return name;
+    if (method.refuses(*systems().get(name, "").make({})).empty()) return name;
   return "spherical-pendulum";
 }
 
-std::vector<Job> jobs_of(const std::vector<std::string>& names, bool full) {
-  const auto wanted = [&](const std::string& name) {
-    return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
-  };
-  std::vector<Job> jobs;
-  for (const SystemPlugin* system : systems().all())
-    if (wanted(system->name()) || wanted("systems"))
-      jobs.push_back({system->name(), [system] { return check_system(*system); }});
-  for (const BracketPlugin* bracket : brackets().all())
-    if (wanted(bracket->name()) || wanted("brackets"))
-      jobs.push_back({bracket->name(), [bracket] { return check_bracket(bracket->name()); }});
-  if (wanted("brackets") || wanted("controls")) jobs.push_back({"false brackets", check_false_brackets});
-  if (wanted("systems") || wanted("controls")) {
-    jobs.push_back({"false structures", check_false_structures});
-    jobs.push_back({"false constraints", check_false_constraints});
-    jobs.push_back({"false metriplectic systems", check_false_metriplectic});
+// The checks to be run, in their order.
+class Jobs {
+ public:
+  explicit Jobs(const VerificationSettings& settings) : settings_(settings) {
+    add_systems();
+    add_brackets();
+    add_formulations();
+    add_controls();
+    add_methods();
   }
-  if (wanted("rk4") || wanted("integrators") || wanted("controls"))
-    jobs.push_back({"false methods", check_false_methods});
-  for (const MethodPlugin* method : integrators().all()) {
-    const std::string nonlinear = controlled_on(*method);
+  [[nodiscard]] const std::vector<Job>& all() const { return jobs_; }
+
+ private:
+  [[nodiscard]] bool wanted(const std::string& name) const {
+    const auto& names = settings_.names;
+    return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
+  }
+  [[nodiscard]] bool named(const std::string& name) const { return !settings_.names.empty() && wanted(name); }
+  // The parameters of a plug-in: those that are set where it is the one that is named.
+  [[nodiscard]] std::vector<Assignments> parameters(const std::string& name,
+                                                    std::vector<Assignments> instances) const {
+    if (settings_.set.empty() || !named(name)) return instances;
+    return {settings_.set};
+  }
+  // The parameters with which methods run on a system.
+  [[nodiscard]] Assignments parameters_of(const SystemPlugin& system) const {
+    return parameters(system.name(), {{}}).front();
+  }
+
+  void add_systems() {
     for (const SystemPlugin* system : systems().all()) {
-      const bool named = wanted(method->name()) && !names.empty();
-      if (!wanted(method->name()) && !wanted(system->name()) && !wanted("integrators")) continue;
-      const auto model = system->make({});
-      for (const Assignments& parameters : method->instances(full)) {
-        const auto instance = method->make(parameters);
-        const auto motion = motion_for(*instance, model);
-        if (!instance->refuses(*motion).empty()) continue;
-        // Methods for vector fields claim nothing of constraints: in a quick check one system with
-        // constraints shows what they do there.
-        const bool in_passing = motion != model && !instance->needs().has(Facet::holonomic);
-        if (in_passing && !full && !named &&
-            (system->name() != "spherical-pendulum" || parameters != method->instances(full).front()))
-          continue;
-        if (in_passing && model->dimension() > most_formulated) continue;
-        std::string what = method->name();
-        for (const auto& [key, value] : parameters) what += " " + key + "=" + value;
-        what += " on " + system->name();
-        jobs.push_back({what, [=] {
-                          auto checks = check_method(*method, parameters, *system);
-                          if (system->name() == nonlinear)
-                            for (Check& check : check_changed_coefficient(*method, parameters, *system))
-                              checks.push_back(std::move(check));
-                          return checks;
-                        }});
-      }
+      if (!wanted(system->name()) && !wanted("systems")) continue;
+      for (const Assignments& p : parameters(system->name(), system->instances(settings_.full)))
+        jobs_.push_back({called(system->name(), p), [=] { return check_system(*system, p); }});
     }
   }
-  return jobs;
+
+  void add_brackets() {
+    for (const BracketPlugin* bracket : brackets().all()) {
+      if (!wanted(bracket->name()) && !wanted("brackets")) continue;
+      for (const Assignments& p : parameters(bracket->name(), instances_of(*bracket)))
+        jobs_.push_back({called(bracket->name(), p), [=] { return check_bracket(*bracket, p); }});
+    }
+  }
+
+  // On every system that they fit and on a random graph of rods.
+  void add_formulations() {
+    std::vector<std::shared_ptr<const Model>> models;
+    for (const SystemPlugin* system : systems().all())
+      if (system->constrained()) models.push_back(system->make(parameters_of(*system)));
+    models.push_back(random_rods());
+    for (const FormulationPlugin* formulation : formulations().all())
+      for (const auto& model : models) {
+        if (!wanted(formulation->name()) && !wanted("formulations") && !wanted(model->name())) continue;
+        for (const Assignments& p : parameters(formulation->name(), formulation->instances(settings_.full)))
+          if (verified_on(*formulation, p, *model))
+            jobs_.push_back({called(formulation->name(), p) + " of " + model->name(),
+                             [=] { return check_formulation(*formulation, p, model); }});
+      }
+  }
+
+  void add_controls() {
+    if (wanted("brackets") || wanted("controls")) jobs_.push_back({"false brackets", check_false_brackets});
+    if (wanted("systems") || wanted("controls")) {
+      jobs_.push_back({"false structures", check_false_structures});
+      jobs_.push_back({"false constraints", check_false_constraints});
+      jobs_.push_back({"false metriplectic systems", check_false_metriplectic});
+      jobs_.push_back({"false reversals", check_false_reversals});
+    }
+    if (wanted("integrators") || wanted("controls")) jobs_.push_back({"false methods", check_false_methods});
+  }
+
+  void add_methods() {
+    std::vector<const MethodPlugin*> methods = integrators().all();
+    // An alias is verified only when asked for, as what it names is verified anyway.
+    for (const MethodPlugin* alias : integrators().aliases())
+      if (named(alias->name())) methods.push_back(alias);
+    for (const MethodPlugin* method : methods) {
+      const bool all = wanted(method->name()) || wanted("integrators");
+      if (all) add_random_systems(*method);
+      for (const SystemPlugin* system : systems().all())
+        if (all || wanted(system->name())) add_method(*method, *system);
+    }
+  }
+
+  void add_random_systems(const MethodPlugin& method) {
+    std::size_t turn = 0;
+    for (const Assignments& p : parameters(method.name(), method.instances(settings_.full))) {
+      jobs_.push_back({called(method.name(), p) + " on random systems",
+                       [=, &method] { return check_on_random_systems(method, p, turn); }});
+      if (!settings_.full) ++turn;
+    }
+  }
+
+  void add_method(const MethodPlugin& method, const SystemPlugin& system) {
+    const auto model = system.make(parameters_of(system));
+    const auto instances = parameters(method.name(), method.instances(settings_.full));
+    for (const Assignments& p : instances) {
+      const auto instance = method.make(p);
+      const auto motion = motion_for(*instance, model);
+      if (!instance->refuses(*motion).empty()) continue;
+      // Methods for vector fields claim nothing about constraints; in a quick check they run on one system
+      // with constraints, to show what they do there.
+      const bool in_passing = motion != model && !instance->needs_constraints();
+      if (in_passing && !settings_.full && !named(method.name()) &&
+          (system.name() != "spherical-pendulum" || p != instances.front()))
+        continue;
+      if (in_passing && model->dimension() > most_formulated) continue;
+      const std::string on = called(system.name(), parameters_of(system));
+      jobs_.push_back({called(method.name(), p) + " on " + on, [=, &method, &system] {
+                         const auto made = method.make(p);
+                         auto checks = check_method(*made, p, on, motion);
+                         if (system.name() == controlled_on(*made))
+                           for (Check& check : check_changed_coefficient(method, p, system))
+                             checks.push_back(std::move(check));
+                         return checks;
+                       }});
+    }
+  }
+
+  const VerificationSettings& settings_;
+  std::vector<Job> jobs_;
+};
+
+// Refuses names that nothing has, and parameters that are not those of one plug-in.
+void validate(const VerificationSettings& settings) {
+  const std::vector<std::string> kinds{"systems", "brackets", "integrators", "formulations", "controls"};
+  std::vector<std::string> known = kinds;
+  for (const auto& more :
+       {systems().names(), integrators().names_and_aliases(), brackets().names(), formulations().names()})
+    known.insert(known.end(), more.begin(), more.end());
+  for (const std::string& name : settings.names)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw InputError(unknown_name("name", name, known));
+  if (settings.set.empty()) return;
+  if (settings.names.size() != 1 ||
+      std::find(kinds.begin(), kinds.end(), settings.names.front()) != kinds.end())
+    throw InputError("--set: expected the name of one plug-in, whose parameters these are");
 }
 }  // namespace
 
-std::vector<Check> verify(const std::vector<std::string>& names, bool full,
+std::vector<Check> verify(const VerificationSettings& settings,
                           const std::function<void(const std::string&, std::size_t, std::size_t)>& progress) {
-  std::vector<std::string> known{"systems", "brackets", "integrators", "controls"};
-  for (const auto& more : {systems().names(), integrators().names(), brackets().names()})
-    known.insert(known.end(), more.begin(), more.end());
-  for (const std::string& name : names)
-    if (std::find(known.begin(), known.end(), name) == known.end())
-      throw InputError(unknown_name("name", name, known));
-  const std::vector<Job> jobs = jobs_of(names, full);
+  validate(settings);
+  const std::vector<Job> jobs = Jobs(settings).all();
   std::vector<std::vector<Check>> results(jobs.size());
   std::mutex mutex;
   std::size_t done = 0;
   oneapi::tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t k) {
-    results[k] = jobs[k].run();
+    try {
+      results[k] = jobs[k].run();
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (...) {
+      throw RunError(jobs[k].what + ": " + words_of_current_exception());
+    }
     const std::lock_guard lock(mutex);
     if (progress) progress(jobs[k].what, ++done, jobs.size());
   });

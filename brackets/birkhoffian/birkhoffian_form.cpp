@@ -22,12 +22,13 @@ BirkhoffianClass birkhoffian_class(const Model& model) {
 }
 
 namespace {
-// d with largest |d_i k_ij d_j| of about 1 in every row; a row of zeros keeps 1.
+// Scales d with which the largest |d_i k_ij d_j| of every row is about 1. A row of zeros keeps the scale 1.
 template <class T>
 std::vector<T> balance(const Matrix<T>& k) {
   const std::size_t n = k.rows();
   std::vector<T> d(n, T(1)), next(n, T(1));
-  // Each round halves the exponents' distance from 1; doubles span 2048 of them.
+  // Each round halves the binary exponent of every row's largest entry. Doubles span 2048 exponents, so that
+  // 16 rounds bring it close to 0.
   for (int round = 0; round < 16; ++round) {
     for (std::size_t i = 0; i < n; ++i) {
       T largest(0);
@@ -39,7 +40,8 @@ std::vector<T> balance(const Matrix<T>& k) {
   return d;
 }
 
-// Rows to reduced echelon form, pivots the largest left; each row divided by its largest component.
+// Brings rows to reduced echelon form, each time with the largest entry that is left as pivot, and divides
+// each row by its largest component.
 template <class T>
 void reduce(std::vector<std::vector<T>>& rows) {
   if (rows.empty()) return;
@@ -64,7 +66,7 @@ void reduce(std::vector<std::vector<T>>& rows) {
       if (abs(x) > abs(largest)) largest = x;
     for (T& x : row) {
       x = x / largest;
-      // What elimination leaves of a zero.
+      // The round-off that elimination leaves in place of a zero.
       if (abs(x) < T(8 * static_cast<int>(n)) * std::numeric_limits<T>::epsilon()) x = T(0);
     }
   }

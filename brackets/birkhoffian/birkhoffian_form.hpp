@@ -13,14 +13,16 @@
 
 namespace pfaff {
 
-/// su-qin, definition 2.1: F and B free of time; F free of time; F not.
+/// The classes of su-qin, definition 2.1: autonomous where neither F nor B depends on time, semi-autonomous
+/// where only B does, nonautonomous where F does.
 enum class BirkhoffianClass { autonomous, semi_autonomous, nonautonomous };
 
 std::string_view to_string(BirkhoffianClass kind);
 
-/// The class of the action form, by the formulas as they stand with the parameters' values: a gauge that
-/// brings time into F makes the same equations nonautonomous. Of K and D where the model has no F and B:
-/// theirs by inverse_problem depend on time as K and D do. Expects the facet `structure`.
+/// The class of the model's action form, read from the formulas with the parameters' values. It belongs to F
+/// and B and not to the equations: a gauge that brings time into F makes the same equations nonautonomous.
+/// Where the model has no F and B it is read from K and D, because the F and B that inverse_problem makes of
+/// them depend on time as they do. Expects the facet `structure`.
 BirkhoffianClass birkhoffian_class(const Model& model);
 
 /// Degeneracy of a square matrix.
@@ -31,9 +33,9 @@ struct Degeneracy {
   std::vector<std::vector<T>> kernel;  // a basis in echelon form, the largest component of each 1
 };
 
-/// Regular when no singular value is below n roundings of the largest, once rows and columns are scaled alike
-/// to largest entries of 1: coordinates of any units are judged alike. A matrix that is not finite is not
-/// regular, has no kernel and a condition that is not a number.
+/// Regular when no singular value is below n roundings of the largest. Before that, rows and columns are
+/// scaled by the same factors to largest entries of 1, so that the units of the coordinates do not matter. A
+/// matrix that is not finite is not regular, has no kernel and a condition that is not a number.
 template <class T>
 Degeneracy<T> degeneracy(const Matrix<T>& k);
 

@@ -16,7 +16,7 @@ namespace pfaff {
 
 /// The largest residual of a condition's components, and the largest sum of absolute values of the terms of
 /// one: residual / scale is of the order of round-off where the condition holds. Both are 0 where every term
-/// is, as for a constant K; NaN where a term is.
+/// is 0, as for a constant K, and NaN where a term is NaN.
 template <class T>
 struct Residual {
   T residual{0}, scale{0};

@@ -7,6 +7,21 @@
 
 namespace pfaff {
 
+/// The gradient at z of a function f that can be evaluated with any scalar, f.operator()<T>(z), by dual
+/// numbers.
+template <class T, class F>
+std::vector<T> gradient_by_duals(const F& f, In<T> z) {
+  using D = Dual<T, 1>;
+  std::vector<D> x(z.begin(), z.end());
+  std::vector<T> slope(z.size());
+  for (std::size_t k = 0; k < z.size(); ++k) {
+    x[k].derivative[0] = T(1);
+    slope[k] = f.template operator()<D>(x).derivative[0];
+    x[k].derivative[0] = T(0);
+  }
+  return slope;
+}
+
 /// z -> {f, g}(z) of a bracket at time 0. F and G have operator()<T>(z) and gradient<T>(z), as Polynomial and
 /// this class do. References are kept.
 template <class B, class F, class G>
@@ -22,18 +37,9 @@ class BracketFunction {
     for (std::size_t i = 0; i < df.size(); ++i) sum = sum + df[i] * image[i];
     return sum;
   }
-  /// By dual numbers.
   template <class T>
   std::vector<T> gradient(In<T> z) const {
-    using D = Dual<T, 1>;
-    std::vector<D> x(z.begin(), z.end());
-    std::vector<T> slope(z.size());
-    for (std::size_t k = 0; k < z.size(); ++k) {
-      x[k].derivative[0] = T(1);
-      slope[k] = (*this).template operator()<D>(x).derivative[0];
-      x[k].derivative[0] = T(0);
-    }
-    return slope;
+    return gradient_by_duals<T>(*this, z);
   }
 
  private:

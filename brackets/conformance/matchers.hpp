@@ -3,8 +3,8 @@
 //   EXPECT_THAT(MyBracket{}, pfaff::IsSkew(pfaff::BracketSamples{.centre = {1, 2, 3}}));
 //
 // Each evaluates the bracket in quad at random points about a centre, with random polynomials, always the
-// same. A sum passes where it is round-off of its terms: `roundings` of them. A failure says where and by how
-// much.
+// same. A residual passes where it is at most `roundings` units of round-off of its terms. A failure says
+// where and by how much.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -25,12 +25,13 @@ struct BracketSamples {
   int points = 20;
   Quad time = 0;
   unsigned seed = 1;
-  /// What a sum of n^3 products of numbers that carry a few roundings each may leave. Brackets that solve
-  /// linear systems lose their condition number besides.
+  /// How many units of round-off of its terms a residual may have. The default suits sums of n^3 products of
+  /// numbers that carry a few roundings each. Brackets that solve linear systems need more, by their
+  /// condition number.
   double roundings = 1e4;
 };
 
-/// The worst of a residual over the samples, by the size of its terms, with the point where it occurs.
+/// The worst residual over the samples, relative to the size of its terms, with the point where it occurs.
 struct WorstResidual {
   double relative = 0;
   std::vector<Quad> point;
@@ -50,7 +51,7 @@ struct WorstResidual {
   }
 };
 
-/// measure(z, f, g, h) at every sample, random polynomials each time.
+/// The worst of measure(z, f, g, h) over all samples, with new random polynomials f, g and h at each.
 template <class Measure>
 WorstResidual worst_residual(const BracketSamples& samples, Measure&& measure) {
   std::mt19937 random(samples.seed);

@@ -174,8 +174,8 @@ IdentityResidual<T> casimir_residual(const B& bracket, const T& t, In<T> z, cons
   return worst;
 }
 
-/// The least <f, f> over the covectors given, by the largest of its terms: not below round-off where the
-/// bracket is semimetric.
+/// The least <f, f> over the covectors given, relative to the sum of the absolute values of its terms: not
+/// below round-off where the bracket is semimetric.
 template <class T, class B>
 double least_square(const B& bracket, const T& t, In<T> z, const std::vector<std::vector<T>>& covectors) {
   const auto p = bracket_matrix<T>(bracket, t, z);

@@ -4,8 +4,8 @@
 #include <numeric>
 
 #include <pfaff/brackets/dirac/elimination.hpp>
+#include <pfaff/core/errors/errors.hpp>
 #include <pfaff/core/numbers/rational.hpp>
-#include <pfaff/core/registry/errors.hpp>
 
 namespace pfaff {
 
@@ -40,7 +40,7 @@ LU<T> factored(const Matrix<T>& a, bool& regular) {
   return lu;
 }
 
-/// Combinations e_j - sum_C x_C e_C with W[R, :] times it zero, for each j.
+/// For each j of `free`, the combination e_j - sum_C x_C e_C of constraints that W[rows, :] takes to zero.
 template <class T>
 std::vector<Combination<T>> null_combinations(const Matrix<T>& w, const std::vector<std::size_t>& rows,
                                               const std::vector<std::size_t>& columns,

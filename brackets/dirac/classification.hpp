@@ -55,9 +55,9 @@ struct Classification {
   std::vector<Combination<T>> dependent;
   /// The 1-norm condition number of W on the second class; 1 where there is none.
   double condition = 1;
-  /// False where rows and columns of the pivots are different constraints and no set found carries the rank
-  /// by itself, so that there is no Dirac bracket of these constraints (only where W is neither symmetric nor
-  /// skew): `classes` calls all of them first class then.
+  /// False where rows and columns of the pivots are different constraints and no set of constraints was found
+  /// whose own brackets have the rank of W, so that there is no Dirac bracket of these constraints (only
+  /// where W is neither symmetric nor skew): `classes` calls all of them first class then.
   bool principal = true;
   /// Units in which brackets are compared: scale_i |W_ij| scale_j is about 1 on average; 1 for exact scalars.
   std::vector<double> scale;
@@ -73,10 +73,10 @@ struct Classification {
 
 /// Classifies constraints with brackets W (square). `gradients` has their gradients in its rows, or no rows
 /// where they are not known: nothing is called redundant then. `sizes` has the sums of absolute values of the
-/// terms that W was added from, or no rows for |W|: a number is zero where it is below the rounding of its
-/// terms, K 16 u of them. Exact scalars: zero is zero. InputError where shapes do not fit or a number is not
-/// finite.
-/// T is double, Quad or Rational.
+/// terms that W was added from, or no rows where |W| is to serve for them. A number counts as zero where it
+/// is below the rounding of its terms, 16 K u times their size with the unit round-off u; in exact scalars
+/// only zero does. InputError where shapes do not fit or a number is not finite. T is double, Quad or
+/// Rational.
 template <class T>
 Classification<T> classify(const Matrix<T>& w, Symmetry symmetry,
                            const Matrix<T>& gradients = Matrix<T>(0, 0),
@@ -97,7 +97,7 @@ IndependentRows<T> independent_rows(const Matrix<T>& rows, double tolerance,
                                     const std::vector<T>& sizes = {});
 
 /// The recursion in a given order, with no choice: (3.8) of nguyen-turski for symmetric and other W, (3.15)
-/// for skew W (pairs in a row).
+/// for skew W (in pairs of consecutive constraints).
 template <class T>
 struct PlainRecursion {
   std::vector<T> pivots;  // up to the one that vanishes
@@ -111,10 +111,11 @@ PlainRecursion<T> plain_recursion(const Matrix<T>& w, Symmetry symmetry, std::sp
 struct OrderElsewhere {
   bool good = true;
   std::size_t step = 0;  // the step with the worst pivot
-  double ratio = 1;      // that pivot by the best one available there; 0 where it vanishes
+  double ratio = 1;      // that pivot over the best one available there; 0 where it vanishes
 };
 /// A pivot that is smaller than `accepted` times the best one available at the same step is no longer good:
-/// the recursion loses 1/accepted digits to it. W may also have another rank there, which is never good.
+/// the recursion may magnify errors by 1/accepted there. W may also have another rank there, which is never
+/// good.
 template <class T>
 OrderElsewhere order_elsewhere(const Classification<T>& chosen, const Matrix<T>& w, double accepted = 1e-3);
 

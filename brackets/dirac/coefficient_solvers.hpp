@@ -237,7 +237,7 @@ struct SkewForestDirac {
     if (work.pairs.size() * 2 != data.count) return Status::singular;
     const auto w = [&](std::size_t i, std::size_t j) -> const T& { return data.gram[i * data.count + j]; };
     std::fill(work.known.begin(), work.known.end(), char{0});
-    // c of the row's one unknown, which is `unknown`.
+    // Solves a row for the one coefficient in it that is not known yet.
     const auto solve_row = [&](std::size_t row, std::size_t unknown) {
       if (!detail::usable_pivot(w(row, unknown))) return false;
       T sum = data.brackets[row];
@@ -247,7 +247,7 @@ struct SkewForestDirac {
       work.known[unknown] = 1;
       return true;
     };
-    // A leaf's row has its partner and constraints that were partners before it.
+    // The row of a leaf contains its partner and partners of earlier leaves, whose coefficients are known.
     for (const auto& [leaf, parent] : work.pairs)
       if (!solve_row(leaf, parent)) return Status::singular;
     for (std::size_t k = work.pairs.size(); k-- > 0;)

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include <pfaff/core/errors/errors.hpp>
 #include <pfaff/core/numbers/dual.hpp>
-#include <pfaff/core/registry/errors.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 
 namespace pfaff {

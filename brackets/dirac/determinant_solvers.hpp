@@ -1,8 +1,8 @@
 // The Dirac bracket as a ratio of determinants (nguyen-turski (3.6), (3.7)), and of Pfaffians for skew
-// brackets, which gives the sign that (3.18), the square, loses:
+// brackets, which gives the sign that (3.18), an equation of squares, loses:
 //   eta_D(f, g) = det [[W, eta(phi, g)], [eta(f, phi), eta(f, g)]] / det W,
 //   {f, g}_D = Pf W(phi_1 .. phi_K, f, g) / Pf W(phi_1 .. phi_K),   Pf [[0, a], [-a, 0]] = a.
-// References for the others: one determinant a coordinate, O(n K^3).
+// They are references for the other solvers and cost one determinant for each coordinate, O(n K^3).
 //
 // Determinants and Pfaffians are polynomials in their entries. Where formulas are recorded they are computed
 // without divisions and without pivots (Berkowitz's method; the expansion of the Pfaffian over pairings, for

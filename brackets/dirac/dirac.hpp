@@ -50,7 +50,7 @@ class DiracGram {
         column_(unit_.size()),
         tensor_(unit_.size() * unit_.size()) {}
 
-  /// Everything that depends on the state alone.
+  /// Computes everything that depends on the state alone.
   void place(const T& t, In<T> z) {
     const std::size_t n = dimension_;
     if constexpr (WritesGradients<Constraints, T>) {

@@ -3,67 +3,21 @@
 #include <algorithm>
 #include <random>
 
+#include <pfaff/brackets/dirac/recorded_constraints.hpp>
+#include <pfaff/core/errors/errors.hpp>
 #include <pfaff/core/numbers/with_rounding.hpp>
-#include <pfaff/core/registry/errors.hpp>
-#include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/replay.hpp>
 
 namespace pfaff {
 
 namespace {
 
-using Arguments = std::span<const Recorded>;
-using Results = std::span<Recorded>;
+using namespace recorded_constraints;
 using Indices = std::vector<std::size_t>;
 
-// First-order error bounds are trusted up to this factor.
+// Error bounds of first order in the rounding are multiplied by this factor before a number counts as
+// nonzero.
 constexpr int trust = 16;
-
-Recorded product(std::span<const Recorded> a, std::span<const Recorded> b) {
-  Recorded sum(0);
-  for (std::size_t k = 0; k < a.size(); ++k) sum = sum + a[k] * b[k];
-  return sum;
-}
-
-/// The tape of several tapes' outputs, one after the other.
-std::shared_ptr<const Tape> joined(const Tape& first, const Tape& second) {
-  const auto count = static_cast<int>(first.outputs.size() + second.outputs.size());
-  return std::make_shared<const Tape>(
-      record(first.inputs, count, [&](const Recorded& t, Arguments z, Results out) {
-        const auto a = evaluate(first, t, z), b = evaluate(second, t, z);
-        std::copy(b.begin(), b.end(), std::copy(a.begin(), a.end(), out.begin()));
-      }));
-}
-
-/// Rates d_t phi + {phi, H} and brackets {phi_a, phi_m} with the primary constraints, as recorded
-/// expressions.
-struct Brackets {
-  std::vector<Recorded> rates;    // K
-  std::vector<Recorded> primary;  // K x primary
-  std::vector<Recorded> all;      // K x K where asked for
-
-  Brackets(const ConstrainedHamiltonian& system, const Tape& constraints, const Recorded& t, Arguments z,
-           bool mutual) {
-    const std::size_t n = z.size(), count = constraints.outputs.size();
-    const std::size_t columns = mutual ? count : system.primary->outputs.size();
-    const auto gradients = jacobian(constraints, t, z);
-    const auto row = [&](std::size_t k) { return Arguments(gradients).subspan(k * n, n); };
-    const auto sharp = [&](Arguments covector) {
-      std::vector<Recorded> x(z.begin(), z.end());
-      x.insert(x.end(), covector.begin(), covector.end());
-      return evaluate(*system.sharp, t, x);
-    };
-    rates = time_derivative(constraints, t, z);
-    const auto velocity = sharp(gradient(*system.hamiltonian, t, z, std::vector<Recorded>{Recorded(1)}));
-    for (std::size_t a = 0; a < count; ++a) rates[a] = rates[a] + product(row(a), velocity);
-    std::vector<Recorded>& brackets = mutual ? all : primary;
-    brackets.resize(count * columns);
-    for (std::size_t m = 0; m < columns; ++m) {
-      const auto image = sharp(row(m));
-      for (std::size_t a = 0; a < count; ++a) brackets[a * columns + m] = product(row(a), image);
-    }
-  }
-};
 
 template <class T>
 class Algorithm {
@@ -88,12 +42,8 @@ class Algorithm {
  private:
   [[nodiscard]] std::size_t primary() const { return system_.primary->outputs.size(); }
 
-  static Tape only(const Tape& tape, std::size_t k) {
-    return record(tape.inputs, 1,
-                  [&](const Recorded& t, Arguments z, Results out) { out[0] = evaluate(tape, t, z)[k]; });
-  }
-
-  // The outputs of a tape with the errors that inputs good to a few units in the last place make of them.
+  // The outputs of a tape with bounds of their errors, on the assumption that the coordinates of the point
+  // are accurate to a few units in the last place of the largest one.
   std::vector<Number> at(const std::vector<T>& point, const Tape& tape) const {
     T largest(0);
     for (const T& x : point) largest = std::max(largest, T(abs(x)));
@@ -111,8 +61,9 @@ class Algorithm {
       for (std::size_t j = 0; j < m.columns(); ++j) m(i, j) = x[i * m.columns() + j].value;
     return m;
   }
-  // What independent_rows() compares with: lengths of the errors of each row, those of the other rows that
-  // may be subtracted from it included.
+  // For each row, the length of the error vector that independent_rows() compares what is left of the row
+  // with. The errors of earlier rows are included, because multiples of those rows may be subtracted from
+  // this one.
   static std::vector<T> error_lengths(const std::vector<Number>& x, std::size_t rows) {
     const std::size_t n = x.size() / rows;
     std::vector<T> lengths(rows);
@@ -129,7 +80,7 @@ class Algorithm {
     return lengths;
   }
 
-  // Is the gradient of the last of the constraints independent of the others?
+  // True where the gradient of the last of the constraints is independent of the gradients of the others.
   bool independent(const Tape& constraints) const {
     const std::size_t count = constraints.outputs.size();
     const auto gradients = at(result_.point, jacobian_tape(constraints));
@@ -141,7 +92,8 @@ class Algorithm {
     return std::find(rows.dependent.begin(), rows.dependent.end(), count - 1) == rows.dependent.end();
   }
 
-  // The point of the constraints next to `point`, by Newton steps normal to them. False where there is none.
+  // Moves `point` to a nearby one on the constraints, by Newton steps normal to them. False where none is
+  // found.
   bool project(const Tape& constraints, std::vector<T>& point) const {
     const std::size_t count = constraints.outputs.size(), n = point.size();
     const Tape slopes = jacobian_tape(constraints);
@@ -171,7 +123,9 @@ class Algorithm {
     return false;
   }
 
-  // Takes a condition in where it is new. False where the algorithm ends; `taken_` says whether it was new.
+  // Adds a condition to the constraints where it is new, and moves the point onto it. A condition that
+  // depends on the known ones and vanishes with them is left out, or noted without use where `keep_dependent`
+  // is set. Returns false where the algorithm ends here; `taken_` says whether the condition was new.
   bool admit(const Tape& condition, const FoundConstraint& what, bool keep_dependent) {
     taken_ = false;
     const auto with = known_ ? joined(*known_, condition) : std::make_shared<const Tape>(condition);
@@ -216,7 +170,8 @@ class Algorithm {
     return true;
   }
 
-  // Pivots of {phi_a, phi_m}, rows of early generations first.
+  // Chooses pivots of the matrix {phi_a, phi_m}, rows of early generations first: row rows[k] determines the
+  // multiplier of column columns[k].
   void choose(std::vector<Number> m, Indices& rows, Indices& columns) const {
     const std::size_t width = primary(), count = result_.constraints.size();
     rows.clear();
@@ -250,7 +205,8 @@ class Algorithm {
       }
   }
 
-  // u of the columns chosen, and chi of every constraint: zero by construction for the rows chosen.
+  // The tape of the multipliers u of the columns chosen, followed by chi of every constraint, which is zero
+  // by construction for the rows chosen.
   Tape conditions(const Indices& rows, const Indices& columns) const {
     const Tape& constraints = *result_.values;
     const std::size_t width = primary(), count = constraints.outputs.size(), rank = rows.size();
@@ -285,7 +241,8 @@ class Algorithm {
               }));
   }
 
-  // Looks for one new constraint; false where there is none, or no motion.
+  // Looks for one new constraint. False where there is none, and where the algorithm ends because there is no
+  // motion.
   bool find_one(int generations) {
     Indices rows, columns;
     choose(brackets(false), rows, columns);
@@ -327,7 +284,8 @@ class Algorithm {
     result_.classes = classify(values, Symmetry::skew, value_rows(gradients, count), sizes);
   }
 
-  // A multiplier is determined only where no arbitrary one changes it.
+  // Marks multipliers as not determined that change with an arbitrary one: the solution for u_C contains the
+  // multipliers of the columns not chosen, which are free.
   void untie(const std::vector<Number>& m, const Indices& rows, const Indices& columns) {
     const std::size_t width = primary(), rank = rows.size();
     if (rank == 0) return;
@@ -348,7 +306,7 @@ class Algorithm {
   const ConstrainedHamiltonian& system_;
   T t_;
   ConstraintAlgorithm<T> result_;
-  std::shared_ptr<const Tape> known_;  // independent constraints
+  std::shared_ptr<const Tape> known_;  // the constraints with independent gradients
   bool taken_ = false;
 };
 
@@ -367,20 +325,6 @@ void check(const ConstrainedHamiltonian& system, std::size_t dimension) {
 
 }  // namespace
 
-std::string_view to_string(ConstraintClosure closure) {
-  switch (closure) {
-    case ConstraintClosure::closed:
-      return "closed";
-    case ConstraintClosure::inconsistent:
-      return "inconsistent";
-    case ConstraintClosure::irregular:
-      return "irregular";
-    case ConstraintClosure::unreachable:
-      return "unreachable";
-  }
-  return "unknown";
-}
-
 template <class T>
 ConstraintAlgorithm<T> dirac_bergmann(const ConstrainedHamiltonian& system, const T& t, In<T> z,
                                       int generations) {
@@ -388,36 +332,8 @@ ConstraintAlgorithm<T> dirac_bergmann(const ConstrainedHamiltonian& system, cons
   return Algorithm<T>(system, t, z).run(generations);
 }
 
-template <class T>
-std::string describe(const ConstraintAlgorithm<T>& result) {
-  std::string text;
-  std::vector<std::string> names;
-  int last = 0;
-  for (const FoundConstraint& c : result.constraints) {
-    names.push_back(c.name);
-    last = std::max(last, c.generation);
-  }
-  for (int generation = 1; generation <= last; ++generation) {
-    text += "generation " + std::to_string(generation) + ":";
-    for (const FoundConstraint& c : result.constraints)
-      if (c.generation == generation) text += " " + c.name;
-    text += "\n";
-  }
-  if (result.closure != ConstraintClosure::closed)
-    return text + std::string(to_string(result.closure)) + ": " + result.trouble;
-  text += "closed after " + std::to_string(last) + (last == 1 ? " generation\n" : " generations\n");
-  for (std::size_t m = 0; m < result.multipliers.size(); ++m)
-    text += "multiplier of " + names[m] +
-            (result.multipliers[m].determined ? " = " + to_string(Quad(result.multipliers[m].value), 6) + "\n"
-                                              : std::string(" is not determined\n"));
-  return text + describe(result.classes, names);
-}
-
-#define PFAFF_INSTANTIATE(T)                                                                           \
-  template ConstraintAlgorithm<T> dirac_bergmann(const ConstrainedHamiltonian&, const T&, In<T>, int); \
-  template std::string describe(const ConstraintAlgorithm<T>&);
-PFAFF_INSTANTIATE(double)
-PFAFF_INSTANTIATE(Quad)
-#undef PFAFF_INSTANTIATE
+template ConstraintAlgorithm<double> dirac_bergmann(const ConstrainedHamiltonian&, const double&, In<double>,
+                                                    int);
+template ConstraintAlgorithm<Quad> dirac_bergmann(const ConstrainedHamiltonian&, const Quad&, In<Quad>, int);
 
 }  // namespace pfaff

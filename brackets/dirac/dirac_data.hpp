@@ -5,8 +5,8 @@
 #include <vector>
 
 #include <pfaff/brackets/dirac/classification.hpp>
+#include <pfaff/core/errors/status.hpp>
 #include <pfaff/core/linear/pivot.hpp>
-#include <pfaff/core/solve/status.hpp>
 
 namespace pfaff {
 
@@ -55,7 +55,8 @@ EliminationOrder pivoted_order(const Classification<T>& classification) {
 
 namespace detail {
 
-/// A pivot that is zero or not finite ends an elimination; recorded formulas have none to look at.
+/// False for a pivot that is zero or not finite, which ends an elimination. Formulas that are being recorded
+/// have no numbers to inspect, so that every pivot is taken for usable.
 template <class T>
 bool usable_pivot(const T& pivot) {
   if constexpr (has_numbers<T>) {

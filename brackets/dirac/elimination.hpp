@@ -10,11 +10,12 @@
 
 namespace pfaff {
 
-/// A Gram matrix G with what is left of it after each step, and the size of the terms behind each entry.
+/// What is left of a Gram matrix G after each step of an elimination. For every entry it keeps the size of
+/// the terms that the entry was computed from, by which its round-off is judged.
 template <class T>
 class Elimination {
  public:
-  /// Indices of `w` that take part are those of `active`.
+  /// Only the constraints with an index in `active` take part.
   Elimination(const Matrix<T>& w, Symmetry symmetry, const Matrix<T>& sizes, std::vector<std::size_t> active)
       : symmetry_(symmetry), g_(w), sizes_(w.rows(), w.columns()), rows_(std::move(active)), columns_(rows_) {
     const std::size_t n = w.rows();
@@ -27,21 +28,22 @@ class Elimination {
     balance();
   }
 
-  /// Compares in units found elsewhere.
+  /// Compares in the units that were found for another matrix.
   void set_scale(const std::vector<double>& scale) { scale_ = scale; }
   [[nodiscard]] const std::vector<double>& scale() const { return scale_; }
   [[nodiscard]] const std::vector<std::size_t>& rows() const { return rows_; }
   [[nodiscard]] const std::vector<std::size_t>& columns() const { return columns_; }
   [[nodiscard]] const T& operator()(std::size_t i, std::size_t j) const { return g_(i, j); }
 
-  /// Magnitude of G_ij for comparisons: units of the constraints removed, 0 where it is round-off of its
-  /// terms.
+  /// The magnitude of G_ij for comparisons, in which the units of the constraints cancel; 0 where G_ij is no
+  /// more than the round-off of its terms.
   [[nodiscard]] double magnitude(std::size_t i, std::size_t j) const {
     const T size = abs(g_(i, j));
     if (!(size > zero_ * sizes_(i, j))) return 0;
     return std::max(static_cast<double>(size) * scale_[i] * scale_[j], smallest);
   }
-  /// That of the pivot of a step, comparable between steps of one constraint and of two.
+  /// The magnitude of the pivot of a step. For a pair of a symmetric bracket it is the root of the
+  /// determinant, so that steps of one constraint and of two can be compared.
   [[nodiscard]] double magnitude(const Pivot<T>& pivot) const {
     const std::size_t a = pivot.rows[0];
     if (pivot.rows.size() == 1) return magnitude(a, pivot.columns[0]);
@@ -70,7 +72,8 @@ class Elimination {
           pair = {{i, j}, {i, j}, {}};
         }
       }
-    // Bunch & Parlett: the constant that bounds the growth of two single steps by that of one of a pair.
+    // Bunch & Parlett's constant, with which two steps of one constraint and one step of a pair have the same
+    // bound of growth.
     constexpr double single_preferred = 0.6403882032022076;
     Pivot<T> chosen = largest_single > 0 && largest_single >= single_preferred * largest_pair ? single : pair;
     if (!chosen.rows.empty()) chosen.value = value(chosen);
@@ -86,7 +89,8 @@ class Elimination {
     return g_(a, a) * g_(b, b) - g_(a, b) * g_(b, a);
   }
 
-  /// G <- G - G[:, columns] (G[rows, columns])^-1 G[rows, :], with the exact zeros that it has.
+  /// G <- G - G[:, columns] (G[rows, columns])^-1 G[rows, :]. The rows and columns of the step, zero by this
+  /// formula, become exactly zero.
   void eliminate(const Pivot<T>& pivot) {
     const Matrix<T> g = g_, sizes = sizes_;
     const T value = this->value(pivot);
@@ -103,7 +107,7 @@ class Elimination {
   }
 
  private:
-  static constexpr double smallest = 1e-300;  // of an exact number that no double is near to
+  static constexpr double smallest = 1e-300;  // for an exact number that is smaller than any double
 
   void reduce(const Matrix<T>& g, const Matrix<T>& sizes, const Pivot<T>& pivot, const T& value,
               std::size_t i, std::size_t j) {
@@ -137,8 +141,9 @@ class Elimination {
     grow(of_left * sizes(a, j) + of_right * sizes(b, j));
   }
 
-  // Scales s with s_i |terms of G_ij| s_j about 1: the least sum of squares of their logarithms, which other
-  // units of the constraints do not change (Curtis & Reid), by coordinate descent.
+  // Finds scales s with s_i |terms of G_ij| s_j about 1: those with the least sum of squares of the
+  // logarithms of these products (Curtis & Reid), by coordinate descent. Other units of the constraints
+  // change the scales and leave the products as they are.
   void balance() {
     const std::size_t n = g_.rows();
     scale_.assign(n, 1);

@@ -15,7 +15,7 @@ namespace pfaff {
 
 /// C has count() and gradients(t, z, rows): K x n. V has columns(t, z, covectors as rows of C, vectors): K
 /// vectors of n, one after the other, which together with the tangent space of the level sets make up the
-/// whole space. Not finite where they do not. Allocates; for checks at points.
+/// whole space. Where they do not, the result is not finite. It allocates and is meant for checks at points.
 template <class B, class C, class V>
 struct AlmostDiracReduction {
   B base;

@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include <pfaff/brackets/dirac/classification.hpp>
+#include <pfaff/core/errors/errors.hpp>
 #include <pfaff/core/linear/singular_values.hpp>
 #include <pfaff/core/numbers/rational.hpp>
-#include <pfaff/core/registry/errors.hpp>
 
 namespace pfaff {
 

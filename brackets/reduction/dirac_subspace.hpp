@@ -1,4 +1,5 @@
-// The condition of Dirac subspaces and submanifolds, F and P(F^0) meet in 0 alone, and what goes with it.
+// The condition that a subspace F, such as the tangent space of a submanifold, is a Dirac subspace: F and
+// P(F^0) meet in 0 alone. With it come the ranks and the angle by which it is judged.
 #pragma once
 
 #include <cstddef>
@@ -28,7 +29,7 @@ struct DiracSubspace {
 template <class T>
 DiracSubspace dirac_subspace(const Matrix<T>& p, const Matrix<T>& a);
 
-/// "TN and P(TN^0) meet in 0: angle 0.93 (W has rank 2 of 2)".
+/// "TN and P(TN^0) meet in 0: angle 0.93 (brackets of the constraints have rank 2 of 2)".
 std::string describe(const DiracSubspace& subspace);
 
 }  // namespace pfaff

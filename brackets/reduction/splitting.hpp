@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <pfaff/core/errors/errors.hpp>
 #include <pfaff/core/linear/matrix.hpp>
-#include <pfaff/core/registry/errors.hpp>
 
 namespace pfaff {
 

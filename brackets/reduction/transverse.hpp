@@ -4,8 +4,8 @@
 
 #include <cstddef>
 
+#include <pfaff/core/errors/errors.hpp>
 #include <pfaff/core/linear/matrix.hpp>
-#include <pfaff/core/registry/errors.hpp>
 
 namespace pfaff {
 

@@ -1,11 +1,12 @@
-// advance: the loop around a method's step, at integer times t0 + k h.
+// advance: the loop around a method's step. Step k starts at t0 + k h, computed from the integer k, so that
+// no round-off adds up in the time.
 #pragma once
 
 #include <cstdint>
 #include <type_traits>
 
+#include <pfaff/core/errors/status.hpp>
 #include <pfaff/core/facets/problem.hpp>
-#include <pfaff/core/solve/status.hpp>
 
 namespace pfaff {
 
@@ -41,7 +42,8 @@ concept Steps = requires(const M& m, const P& p, const Scalar<P>& t, State<P>& z
 };
 
 namespace detail {
-/// loop(method) with `compensated` a constant in each of two copies of the loop, so that no step tests it.
+/// Returns loop(method). Where the method has a member `compensated`, the loop is compiled twice, with true
+/// and with false as a constant, so that no step has to test it.
 template <class M, class Loop>
 Status unswitched(const M& method, Loop&& loop) {
   if constexpr (std::is_trivially_copyable_v<M> && requires { method.compensated; }) {

@@ -1,10 +1,11 @@
 // A system's field in the Darboux chart, compiled for truncated series in 1, 2 and 4 lanes of doubles.
 //
 // What SeriesReplay does by interpreting the tape, this does by running the author's formula itself with the
-// scalar OnlineSeries: 3-10 times faster, and several nodes in the lanes of one vector register. A
-// collocation feeds level l of the field, combined over the lanes, back into level l + 1 of the inputs; all
-// its levels are one call. The numbers of levels that low orders have are compiled in, so that no loop is
-// left of the recurrences; others share one copy.
+// scalar OnlineSeries. It is 3-10 times faster, and takes several nodes at once in the lanes of one vector
+// register. Level l is the l-th coefficient of a series. A collocation computes level l of the field,
+// combines it over the lanes and feeds it back as level l + 1 of the inputs; one call runs through all
+// levels. For the numbers of levels that low orders have, the recurrences are compiled without loops; all
+// other numbers share one copy with loops.
 #pragma once
 
 #include <array>
@@ -14,12 +15,13 @@
 #include <utility>
 #include <vector>
 
-#include <pfaff/core/facets/system_formulas.hpp>
+#include <pfaff/core/facets/written_formulas.hpp>
 #include <pfaff/core/numbers/dual.hpp>
 #include <pfaff/core/tape/online_series.hpp>
 
-// Inlined as a whole, so that slots are known where they are used; not where every access of memory is
-// watched, which would take minutes to compile.
+// Marks functions into which all their calls are inlined, so that the compiler knows every slot where it is
+// used. The address sanitizer adds code to every access of memory, with which this would take minutes to
+// compile; it does without.
 #ifdef __SANITIZE_ADDRESS__
 #define PFAFF_FLATTEN
 #else
@@ -28,16 +30,16 @@
 
 namespace pfaff {
 
-/// How a collocation goes on from the field's level l at its nodes: the inputs' level l + 1 is columns X_l,
-/// and sums gather weight X_l.
+/// How a collocation goes on from X_l, level l of the field at its nodes: the matrix `columns` times X_l is
+/// level l + 1 of the inputs, and `weight` times X_l is added to the sums.
 template <int W>
 struct SeriesCombination {
   std::size_t levels = 0;
   bool symmetric = false;  // only even levels reach the sums, and odd levels have columns of their own
   Pack<W> weight;
   std::vector<std::array<Pack<W>, W>> columns;  // [2 kind + parity of the level][lane of X]
-  std::vector<std::size_t> kind;                // of each component
-  bool one_kind = true;
+  std::vector<std::size_t> kind;                // of each component: which of the columns it takes
+  bool one_kind = true;                         // all components take the same
 };
 
 /// The formula in W lanes. Slots are [slot][series_capacity]: the n inputs first, then time, then the
@@ -46,11 +48,11 @@ template <int W>
 struct SeriesWidth {
   /// Levels 0 .. levels-1 of the slots that depend on time alone.
   void (*time)(const void* system, Pack<W>* slots, int levels) = nullptr;
-  /// All levels from inputs w, the same in every lane: result = the sums over levels and lanes.
+  /// Computes all levels from the inputs w, the same in every lane; result = the sums over levels and lanes.
   using Collocate = void (*)(const void* system, Pack<W>* slots, const SeriesCombination<W>& combination,
                              const double* w, double* result);
   Collocate collocate = nullptr;
-  Collocate collocate_known = nullptr;  // for `known` levels and one kind
+  Collocate collocate_known = nullptr;  // the same without loops, for `known` levels and one kind
   std::size_t known = 0;
 };
 
@@ -90,16 +92,17 @@ concept FixedSize = requires {
   typename std::integral_constant<int, S::dimension>;
 };
 
-// The author of S writes the chart's field, or the force and velocity that are one.
+// True where the author of S writes the chart's field, or the velocity and force that together are this
+// field.
 template <class S>
 concept CompilesChartField = FixedSize<S> &&
-    (WritesChartField<S, double> ||
-     (WritesKinetic<S, double> && WritesPotential<S, double> && WritesForce<S, double> &&
-      WritesVelocity<S, double> && !WritesDamping<S>));
+    (writes<S, Formula::chart_field, double> ||
+     (writes<S, Formula::kinetic, double> && writes<S, Formula::potential, double> &&
+      writes<S, Formula::force, double> && writes<S, Formula::velocity, double> && !WritesDamping<S>));
 
 template <CompilesChartField S, class T>
 void chart_field_of(const S& s, const T& t, In<T> y, Out<T> rate) {
-  if constexpr (WritesChartField<S, double>) {
+  if constexpr (writes<S, Formula::chart_field, double>) {
     s.chart_field(t, y, rate);
   } else {
     constexpr std::size_t half = S::dimension / 2;
@@ -108,7 +111,7 @@ void chart_field_of(const S& s, const T& t, In<T> y, Out<T> rate) {
   }
 }
 
-// One run of the formula; outputs: the slots of its results.
+// Runs the formula once and returns in `outputs` the slots of its results.
 template <class S, int W>
 void run_series(const S& s, SeriesRun<W>& run,
                 std::array<int, static_cast<std::size_t>(S::dimension)>& outputs) {
@@ -137,7 +140,8 @@ PFAFF_FLATTEN void expand_time(const void* system, Pack<W>* slots, int levels) {
   }
 }
 
-// Level `level` of the field, and of the collocation.
+// Computes one level of the field, adds it to the sums and, unless it is the last, forms the inputs' next
+// one.
 template <class S, int W, bool OneKind>
 void collocate_level(const S& s, Pack<W>* slots, const SeriesCombination<W>& c, std::size_t level, bool last,
                      std::array<Pack<W>, static_cast<std::size_t>(S::dimension)>& sum) {
@@ -191,7 +195,8 @@ SeriesWidth<W> series_width(std::integer_sequence<int, Levels...> /*known*/) {
 
 }  // namespace detail
 
-/// The chart's field of S. The symmetric schemes of order 4 (one lane) and 8 (two lanes) know their levels.
+/// The chart's field of S, ready for series. The numbers of levels compiled without loops include those of
+/// the symmetric schemes of order 4 (one lane, 3 levels) and 8 (two lanes, 7 levels).
 template <detail::CompilesChartField S>
 const CompiledSeries& compiled_series() {
   static const CompiledSeries series{S::dimension, &detail::series_layout<S>,

@@ -23,13 +23,12 @@ struct Evaluator {
 };
 
 /// A formula compiled for the scalars of methods; every evaluator it makes has buffers of its own.
-class FormulaProgram {
+class FormulaProgram : public Maker<Evaluator, StepScalars> {
  public:
-  virtual ~FormulaProgram() = default;
-  [[nodiscard]] virtual Evaluator<double> evaluator(double) const = 0;
-  [[nodiscard]] virtual Evaluator<Quad> evaluator(Quad) const = 0;
-  [[nodiscard]] virtual Evaluator<StepDual<double>> evaluator(StepDual<double>) const = 0;
-  [[nodiscard]] virtual Evaluator<StepDual<Quad>> evaluator(StepDual<Quad>) const = 0;
+  template <class T>
+  [[nodiscard]] Evaluator<T> evaluator(T /*scalar*/) const {
+    return make_for(std::type_identity<T>());
+  }
   /// The same formula as a tape.
   [[nodiscard]] virtual Tape record() const = 0;
 };
@@ -38,16 +37,19 @@ class FormulaProgram {
 /// every scalar T, the recording one included, an object with buffers of its own: make<T>(), to be called as
 /// object(t, In<T> arguments, Out<T> results).
 template <class F>
-class Program final : public FormulaProgram {
+class Program final : public MakerOf<Program<F>, FormulaProgram> {
  public:
   explicit Program(F formula) : formula_(std::make_shared<const F>(std::move(formula))) {}
-  [[nodiscard]] Evaluator<double> evaluator(double /*scalar*/) const override { return bind<double>(); }
-  [[nodiscard]] Evaluator<Quad> evaluator(Quad /*scalar*/) const override { return bind<Quad>(); }
-  [[nodiscard]] Evaluator<StepDual<double>> evaluator(StepDual<double> /*scalar*/) const override {
-    return bind<StepDual<double>>();
-  }
-  [[nodiscard]] Evaluator<StepDual<Quad>> evaluator(StepDual<Quad> /*scalar*/) const override {
-    return bind<StepDual<Quad>>();
+  // Each evaluator is used by one thread, so writing to its buffers through a const context is safe.
+  template <class T>
+  [[nodiscard]] Evaluator<T> made() const {
+    auto bound = std::make_shared<Bound<T>>(formula_);
+    const void* context = bound.get();
+    return {[](const void* c, const T& t, const T* arguments, T* results) {
+              auto& b = *static_cast<Bound<T>*>(const_cast<void*>(c));  // NOLINT
+              b.object(t, In<T>(arguments, b.inputs), Out<T>(results, b.outputs));
+            },
+            context, std::move(bound)};
   }
   [[nodiscard]] Tape record() const override {
     return pfaff::record(formula_->inputs(), formula_->outputs(),
@@ -68,18 +70,6 @@ class Program final : public FormulaProgram {
     std::size_t inputs, outputs;
     decltype(std::declval<const F&>().template make<T>()) object;
   };
-  // Each evaluator is used by one thread, so writing to its buffers through a const context is safe.
-  template <class T>
-  [[nodiscard]] Evaluator<T> bind() const {
-    auto bound = std::make_shared<Bound<T>>(formula_);
-    const void* context = bound.get();
-    return {[](const void* c, const T& t, const T* arguments, T* results) {
-              auto& b = *static_cast<Bound<T>*>(const_cast<void*>(c));  // NOLINT
-              b.object(t, In<T>(arguments, b.inputs), Out<T>(results, b.outputs));
-            },
-            context, std::move(bound)};
-  }
-
   std::shared_ptr<const F> formula_;
 };
 

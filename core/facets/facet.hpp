@@ -1,39 +1,35 @@
-// The facets: what a system may offer and what a method may need. This list is the only one.
+// The facets, what a system may offer and what a method may need, and the formulas behind them.
 //
-// It drives the members of Problem, the concepts that methods are constrained by, the needs that the registry
-// finds out, and the message when a pairing does not fit.
+// Both are made of the rows in core/facets/formula_rows.hpp, the only list: a facet or a formula is added
+// there. Whoever runs through all of them (`describe`, messages, checks) uses facet_table and formula_table.
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 
 namespace pfaff {
 
 enum class Facet : unsigned {
-  vector_field,    // dz/dt = X(z, t)
-  hamiltonian,     // an energy and the bracket that makes X of it
-  separable,       // canonical, H = T(p) + V(q, t)
-  conformal,       // q' = T_p(p), p' = -V_q(q, t) - nu p: the canonical structure times e^{nu t} is kept
-  structure,       // K(z, t) zdot + D(z, t) = 0, self-adjoint: K skew and closed, d_t K = D_z - D_z^T
-  birkhoffian,     // that of the action of F(z, t).dz - B(z, t) dt: K = dF, D = -(grad B + F_t)
-  darboux_chart,   // coordinates y in which the structure is constant and canonical
-  generating_map,  // alpha of pairs of states, through which generating functions make maps
-  holonomic,       // canonical, with constraints phi(q, t) = 0 (core/facets/holonomic.hpp)
-  constraints,     // an energy and a bracket, with constraints phi(z, t) = 0 that are second class
-  metriplectic,    // an energy with two brackets, Poisson's and a symmetric one; an entropy or none
-  invariants,      // named quantities with their expected behaviour
-  exact_solution,  // the flow in closed form
+#define PFAFF_FACET(name, ...) name,
+#include <pfaff/core/facets/formula_rows.hpp>
   count
 };
 
+/// A facet's name in the program's output, and what it says of a system.
+struct FacetRow {
+  std::string_view name, meaning;
+};
+
+inline constexpr std::array<FacetRow, static_cast<std::size_t>(Facet::count)> facet_table{{
+#define PFAFF_FACET(name, text, meaning) {text, meaning},
+#include <pfaff/core/facets/formula_rows.hpp>
+}};
+
 constexpr std::string_view to_string(Facet facet) {
-  constexpr std::array<std::string_view, static_cast<std::size_t>(Facet::count)> names{
-      "vector-field", "hamiltonian",   "separable",      "conformal", "structure",
-      "birkhoffian",  "darboux-chart", "generating-map", "holonomic", "constraints",
-      "metriplectic", "invariants",    "exact-solution"};
-  return names[static_cast<std::size_t>(facet)];
+  return facet_table[static_cast<std::size_t>(facet)].name;
 }
 
 /// A set of facets; usable as a template argument.
@@ -47,45 +43,70 @@ struct FacetSet {
     return {bits & ~(1U << static_cast<unsigned>(f))};
   }
   [[nodiscard]] constexpr bool includes(FacetSet other) const { return (bits & other.bits) == other.bits; }
+  /// True where one facet at least is in both.
+  [[nodiscard]] constexpr bool meets(FacetSet other) const { return (bits & other.bits) != 0; }
   friend constexpr bool operator==(FacetSet, FacetSet) = default;
 };
+
+/// The set of these facets.
+template <class... F>
+constexpr FacetSet facets(F... each) {
+  return {((1U << static_cast<unsigned>(each)) | ... | 0U)};
+}
 
 /// The facets' names joined by ", ".
 std::string to_string(FacetSet set);
 
 /// The formulas behind the facets. Each is a map (t, arguments) -> results.
 enum class Formula : unsigned {
-  field,                 // n -> n
-  field_jacobian,        // n -> n x n
-  hamiltonian,           // n -> 1
-  hamiltonian_gradient,  // n -> n
-  poisson_tensor,        // n -> n x n
-  kinetic,               // p: n/2 -> 1
-  potential,             // q: n/2 -> 1
-  force,                 // q: n/2 -> n/2, minus the potential's gradient
-  velocity,              // p: n/2 -> n/2, the kinetic energy's gradient
-  birkhoffian,           // n -> 1
-  one_form,              // n -> n
-  structure,             // n -> n x n, K_ij = d_i F_j - d_j F_i
-  covector,              // n -> n, D = -(grad B + F_t)
-  chart,                 // n -> n, y = chart(t, z)
-  chart_inverse,         // n -> n
-  chart_hamiltonian,     // n -> 1, of y
-  chart_field,           // n -> n, of y
-  chart_field_jacobian,  // n -> n x n
-  alpha,                 // time t; (new state, old state, t0): 2n + 1 -> (w^, w): 2n
-  holonomic,             // q: n/2 -> number of constraints
-  friction,              // n -> n/2, coefficients lambda >= 0 of the momenta
-  constraints,           // n -> number of constraints, all of them: with hidden ones where holonomic
-  constraint_gradients,  // n -> number of constraints x n
-  symmetric_tensor,      // n -> n x n, the symmetric bracket of a metriplectic system
-  entropy,               // n -> 1
-  invariants,            // n -> number of invariants
-  exact_solution,        // time elapsed; (initial state, initial time): n + 1 -> n
+#define PFAFF_FORMULA(name, ...) name,
+#define PFAFF_BRACKET(name, ...) name,
+#define PFAFF_DERIVED(name, ...) name,
+#include <pfaff/core/facets/formula_rows.hpp>
   count
 };
 
 constexpr std::size_t formula_count = static_cast<std::size_t>(Formula::count);
 constexpr std::size_t index(Formula formula) { return static_cast<std::size_t>(formula); }
+
+/// What an evaluation of a formula counts as in the work of a method.
+enum class Counts { nothing, field, jacobian };
+
+/// What is true of a formula beside its signature.
+struct FormulaTraits {
+  bool compiled = false;        // also kept compiled for doubles; its sizes must be made of n alone
+  bool may_skip_zeros = false;  // results that are zero need not be written
+  bool listed = false;          // one result for each entry of the descriptor's list; written if it has any
+  bool unique = true;           // what is written must equal what is derived
+  FacetSet offered_by{};        // a problem has a member of this name where it offers one of these facets
+  FacetSet part_of{};           // further facets that the formula belongs to, without such a member
+  Counts counts = Counts::nothing;
+};
+
+/// Where a formula comes from, if it is not derived: a member of the author's struct, the object that one of
+/// its members returns, or nowhere.
+enum class Origin { member, bracket, none };
+
+/// One formula. `written` is the author's member with its arguments, "field(t, z, rate)" or "bracket()";
+/// empty for what is always derived. Sizes are text, made of n, invariants, casimirs and counts.
+struct FormulaRow {
+  Formula formula;
+  Origin origin;
+  std::string_view name, written, reads, writes;
+  FormulaTraits traits;
+};
+
+inline constexpr std::array<FormulaRow, formula_count> formula_table{{
+#define PFAFF_FORMULA(name, result, signature, call, reads, writes, ...) \
+  {Formula::name, Origin::member, #name, #name #call, #reads, #writes, FormulaTraits{__VA_ARGS__}},
+#define PFAFF_BRACKET(name, member, part, writes, ...) \
+  {Formula::name, Origin::bracket, #name, #member "()", "n", #writes, FormulaTraits{__VA_ARGS__}},
+#define PFAFF_DERIVED(name, reads, writes, ...) \
+  {Formula::name, Origin::none, #name, "", #reads, #writes, FormulaTraits{__VA_ARGS__}},
+#include <pfaff/core/facets/formula_rows.hpp>
+}};
+
+constexpr const FormulaRow& row_of(Formula formula) { return formula_table[index(formula)]; }
+constexpr std::string_view to_string(Formula formula) { return row_of(formula).name; }
 
 }  // namespace pfaff

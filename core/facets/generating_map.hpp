@@ -7,24 +7,16 @@
 // on (su-qin (32)-(34)). Tapes have one time, so t0 becomes the last input.
 #pragma once
 
-#include <pfaff/core/numbers/functions.hpp>
-#include <pfaff/core/tape/recorder.hpp>
+#include <pfaff/core/facets/written_formulas.hpp>
 
 namespace pfaff {
-
-/// author.alpha with the inputs (z', z, t0), 2n + 1, and the outputs (w^, w), 2n, in one span each; time t.
-template <class A>
-void call_alpha(const A& author, const Recorded& t, In<Recorded> inputs, Out<Recorded> outputs) {
-  const std::size_t n = inputs.size() / 2;
-  author.alpha(t, inputs[2 * n], inputs.first(n), inputs.subspan(n, n), outputs.first(n),
-               outputs.subspan(n, n));
-}
 
 /// The tape of author.alpha for states of n numbers.
 template <class A>
 Tape record_alpha(const A& author, int dimension) {
-  return record(2 * dimension + 1, 2 * dimension,
-                [&](const Recorded& t, In<Recorded> x, Out<Recorded> out) { call_alpha(author, t, x, out); });
+  return record(2 * dimension + 1, 2 * dimension, [&](const Recorded& t, In<Recorded> x, Out<Recorded> out) {
+    detail::write<Formula::alpha>(author, t, x, out);
+  });
 }
 
 }  // namespace pfaff

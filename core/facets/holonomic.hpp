@@ -1,32 +1,39 @@
-// HolonomicConstraints: the constraints phi(q, t) = 0 of a canonical system with Hamiltonian H(q, p, t), as
-// methods and formulations see them, for one scalar.
+// The constraints phi(q, t) = 0 of a canonical system with Hamiltonian H(q, p, t), as methods and
+// formulations see them, for one scalar.
 //
-// Position level, for methods that keep the constraints themselves: phi, the linear maps B = dphi/dq and its
-// transpose, and solves with S = B H_pp B^T. Phase space, for formulations (nguyen-turski section 4): also
-// v = H_p, the hidden constraints phi~ = {phi, H}, h = {phi~, H}, T = dphi~/dq and P = dphi~/dp = B H_pp.
-// Every operation is batched: one virtual call, whatever the number of constraints. S is factored in its own
-// structure, which the pattern reports. The object owns its buffers; no operation allocates.
+// PositionConstraints is what methods use that keep the constraints themselves: phi, the linear maps B =
+// dphi/dq and its transpose, and solves with S = B H_pp B^T. HolonomicConstraints adds what formulations use,
+// which make equations of motion in the phase space (nguyen-turski section 4): v = H_p, the hidden
+// constraints phi~ = {phi, H} + phi_t, h = {phi~, H} + phi~_t, T = dphi~/dq and P = dphi~/dp = B H_pp, and
+// friction. Every operation is batched: one virtual call, whatever the number of constraints. An operation
+// that places something evaluates it at a point and keeps it for the operations that follow. S is factored in
+// its own structure, which the pattern reports. The object owns its buffers; no operation allocates.
+//
+// What each operation owes is stated as identities in core/facets/conformance/constraint_identities.hpp, with
+// which the author of an evaluator tests it.
 #pragma once
 
+#include <array>
 #include <memory>
-#include <optional>
 #include <span>
+#include <string_view>
 
+#include <pfaff/core/errors/status.hpp>
 #include <pfaff/core/facets/scalars.hpp>
 #include <pfaff/core/linear/symmetric_pattern.hpp>
 #include <pfaff/core/numbers/functions.hpp>
-#include <pfaff/core/solve/status.hpp>
 #include <pfaff/core/tape/recorder.hpp>
 
 namespace pfaff {
 
+/// The constraints of positions, and what methods need to find momenta that keep them.
 template <class T>
-class HolonomicConstraints {
+class PositionConstraints {
  public:
-  HolonomicConstraints() = default;
-  HolonomicConstraints(const HolonomicConstraints&) = delete;
-  HolonomicConstraints& operator=(const HolonomicConstraints&) = delete;
-  virtual ~HolonomicConstraints() = default;
+  PositionConstraints() = default;
+  PositionConstraints(const PositionConstraints&) = delete;
+  PositionConstraints& operator=(const PositionConstraints&) = delete;
+  virtual ~PositionConstraints() = default;
 
   /// The number of constraints, K, and of positions, n; momenta are as many.
   [[nodiscard]] virtual std::size_t count() const = 0;
@@ -51,7 +58,7 @@ class HolonomicConstraints {
   virtual void apply_transpose(In<T> x, Out<T> f) const = 0;
   /// S x = r, as last placed; x may be r.
   virtual void solve(In<T> r, Out<T> x) const = 0;
-  /// Two of them at once, which hides the latency of recurrences.
+  /// Solves for two right-hand sides at once: while the recurrence of one waits, that of the other goes on.
   virtual void solve(In<T> r1, Out<T> x1, In<T> r2, Out<T> x2) const {
     solve(r1, x1);
     solve(r2, x2);
@@ -59,8 +66,37 @@ class HolonomicConstraints {
   /// r = P u and v = P^T x with P = B H_pp, as last placed.
   virtual void hidden_by_momentum(In<T> u, Out<T> r) const = 0;
   virtual void hidden_by_momentum_transpose(In<T> x, Out<T> v) const = 0;
+};
 
-  /// Places all of that and, at (q, p, t), what the next five return and T.
+/// Along which vectors of the phase space (q, p) the reactions of holonomic constraints point, and what
+/// determines their sizes.
+enum class Reactions {
+  ideal,        // (0, B^T x), d'Alembert's: phi~' = 0
+  two_level,    // (P^T x, B^T y): phi' = 0 and phi~' = 0
+  hamiltonian,  // along the Hamiltonian fields of phi and phi~, (P^T x, -T^T x - B^T y): phi' = phi~' = 0
+  other         // anything else
+};
+
+constexpr std::string_view to_string(Reactions reactions) {
+  constexpr std::array<std::string_view, 4> names{"ideal", "two-level", "hamiltonian", "other"};
+  return names[static_cast<std::size_t>(reactions)];
+}
+
+/// The whole right-hand side, without friction, of the motion with one kind of reactions.
+template <class T>
+class ConstrainedRates {
+ public:
+  virtual ~ConstrainedRates() = default;
+  /// q' and p' at (q, p, t). The call may overwrite whatever the constraints had placed before.
+  virtual Status operator()(const T& t, In<T> q, In<T> p, Out<T> q_rate, Out<T> p_rate) = 0;
+};
+
+/// The constraints in the phase space: what formulations need to make equations of motion.
+template <class T>
+class HolonomicConstraints : public PositionConstraints<T> {
+ public:
+  /// Places B and the factors of S as linearise does and, at the same (q, p, t), T and what the next five
+  /// members return.
   virtual Status place(const T& t, In<T> q, In<T> p) = 0;
   [[nodiscard]] virtual std::span<const T> residuals() const = 0;     // phi
   [[nodiscard]] virtual std::span<const T> hidden() const = 0;        // phi~
@@ -71,60 +107,34 @@ class HolonomicConstraints {
   virtual void hidden_by_position(In<T> u, Out<T> r) const = 0;
   virtual void hidden_by_position_transpose(In<T> x, Out<T> f) const = 0;
 
-  /// Without friction, the rates of Dirac's formulation, nguyen-turski (4.2), or of Lagrange's multipliers,
-  /// (A.5), for systems that have them in fewer passes than the operations above make; nullopt, with nothing
-  /// written, from those that have not.
-  virtual std::optional<Status> dirac_rates(const T& /*t*/, In<T> /*q*/, In<T> /*p*/, Out<T> /*q_rate*/,
-                                            Out<T> /*p_rate*/) {
-    return std::nullopt;
-  }
-  virtual std::optional<Status> multiplier_rates(const T& /*t*/, In<T> /*q*/, In<T> /*p*/, Out<T> /*q_rate*/,
-                                                 Out<T> /*p_rate*/) {
-    return std::nullopt;
-  }
+  /// The motion with one kind of reactions as one operation, offered by evaluators that need fewer passes for
+  /// it than the operations above together; null from all others. The object lives as long as this one: ask
+  /// for it once and use it at every step.
+  [[nodiscard]] virtual ConstrainedRates<T>* rates(Reactions /*reactions*/) { return nullptr; }
 
-  /// The coefficients lambda >= 0 of friction, one for each momentum, at the state last placed; empty where
-  /// there is none.
+  /// The coefficients lambda >= 0 of friction, one for each momentum, at the state last placed. Where the
+  /// system has no friction it is empty, and so even before anything is placed.
   [[nodiscard]] virtual std::span<const T> friction() const = 0;
-  /// Factors S^D = P diag(lambda) P^T at the state last placed. It is singular where beads are without
-  /// friction; solves are then on its range.
+  /// Factors S^D = P diag(lambda) P^T at the state last placed. S^D may be singular where some lambda are
+  /// zero; solve_friction then expects right-hand sides in its range.
   virtual Status factor_friction() = 0;
   virtual void solve_friction(In<T> r, Out<T> x) const = 0;
 };
 
+template <class T>
+using HolonomicPointer = std::unique_ptr<HolonomicConstraints<T>>;
+
 /// Makes the constraints of one system for every scalar.
-class HolonomicFactory {
- public:
-  virtual ~HolonomicFactory() = default;
-  [[nodiscard]] virtual std::unique_ptr<HolonomicConstraints<double>> make(double) const = 0;
-  [[nodiscard]] virtual std::unique_ptr<HolonomicConstraints<Quad>> make(Quad) const = 0;
-  [[nodiscard]] virtual std::unique_ptr<HolonomicConstraints<StepDual<double>>> make(
-      StepDual<double>) const = 0;
-  [[nodiscard]] virtual std::unique_ptr<HolonomicConstraints<StepDual<Quad>>> make(StepDual<Quad>) const = 0;
-  [[nodiscard]] virtual std::unique_ptr<HolonomicConstraints<Recorded>> make(Recorded) const = 0;
-};
+class HolonomicFactory : public Maker<HolonomicPointer, FormulaScalars> {};
 
 /// The factory that calls source->template constraint_evaluator<T>() for each scalar.
 template <class Source>
-class HolonomicFactoryOf final : public HolonomicFactory {
+class HolonomicFactoryOf final : public MakerOf<HolonomicFactoryOf<Source>, HolonomicFactory> {
  public:
   explicit HolonomicFactoryOf(std::shared_ptr<const Source> source) : source_(std::move(source)) {}
-  [[nodiscard]] std::unique_ptr<HolonomicConstraints<double>> make(double /*scalar*/) const override {
-    return source_->template constraint_evaluator<double>();
-  }
-  [[nodiscard]] std::unique_ptr<HolonomicConstraints<Quad>> make(Quad /*scalar*/) const override {
-    return source_->template constraint_evaluator<Quad>();
-  }
-  [[nodiscard]] std::unique_ptr<HolonomicConstraints<StepDual<double>>> make(
-      StepDual<double> /*scalar*/) const override {
-    return source_->template constraint_evaluator<StepDual<double>>();
-  }
-  [[nodiscard]] std::unique_ptr<HolonomicConstraints<StepDual<Quad>>> make(
-      StepDual<Quad> /*scalar*/) const override {
-    return source_->template constraint_evaluator<StepDual<Quad>>();
-  }
-  [[nodiscard]] std::unique_ptr<HolonomicConstraints<Recorded>> make(Recorded /*scalar*/) const override {
-    return source_->template constraint_evaluator<Recorded>();
+  template <class T>
+  [[nodiscard]] HolonomicPointer<T> made() const {
+    return source_->template constraint_evaluator<T>();
   }
 
  private:

@@ -1,10 +1,10 @@
 // Model: one instance of a system, its parameters fixed, as a set of formulas.
 //
 // A model is immutable and shared between threads. What the author wrote is recorded as tapes; everything
-// else that a facet promises is derived from those on first use: the field of a Hamiltonian through its
-// bracket or from K zdot + D = 0 with, for a Birkhoffian system, K = dF and D = -(grad B + F_t) (su-qin (4),
-// (5), (67)), forces, Jacobians, the
-// Darboux chart of a structure K that is constant or depends on time alone, the field in the chart.
+// else that a facet promises is derived from those on first use: forces, Jacobians, the Darboux chart of a
+// structure K that is constant or depends on time alone, the field in that chart, and the field itself. The
+// field follows from a Hamiltonian through its bracket, or from K zdot + D = 0 with, for a Birkhoffian
+// system, K = dF and D = -(grad B + F_t) (su-qin (4), (5), (67)).
 //
 // A model with constraints is no vector field yet, and offers none: a formulation (core/formulation.hpp)
 // makes one of it, another model.
@@ -78,10 +78,11 @@ struct ModelSource {
   std::array<std::shared_ptr<const Tape>, formula_count> given;
   std::array<CompiledFormula, formula_count> compiled{};
   const CompiledSeries* chart_field_series = nullptr;
-  std::array<std::shared_ptr<const FormulaProgram>, formula_count> programs;  // instead of given
-  std::shared_ptr<const HolonomicFactory> holonomic;                          // null: from the tapes
-  std::vector<std::string> constraint_names;                                  // of phi, in the author's order
-  std::optional<bool> autonomous;  // for those whose tapes are too long to look at
+  std::array<std::shared_ptr<const FormulaProgram>, formula_count> programs;   // instead of given
+  std::shared_ptr<const HolonomicFactory> holonomic;                           // null: from the tapes
+#define PFAFF_COUNT(name, member, names, ...) std::vector<std::string> names;  // in the author's order
+#include <pfaff/core/facets/formula_rows.hpp>
+  std::optional<bool> autonomous;  // said beforehand where the tapes are too long to be searched for the time
   std::string formulation;         // the formulation that made the field, or empty
   std::vector<std::pair<std::string, std::string>> formulation_parameters;
   std::shared_ptr<const void> system;  // keeps the author's object alive for compiled formulas
@@ -101,10 +102,33 @@ class Model {
     return source_.parameters;
   }
   [[nodiscard]] FacetSet facets() const { return facets_; }
-  /// What the model was made of; a formulation makes another of it.
+  /// The facets that the formulas make by themselves. facets() leaves out those that are not true of the
+  /// motion where constraints or a second bracket take part in it; derivations rest on content().
+  [[nodiscard]] FacetSet content() const { return content_; }
+  /// The pivots, chosen at t = 0, by which the chart is derived from a structure that is constant or depends
+  /// on time alone; empty where the chart is not derived in this way.
+  [[nodiscard]] const PivotPairs& chart_pivots() const { return pivots_; }
+  /// What the model was made of. A formulation copies and completes it, and makes another model of the copy.
   [[nodiscard]] const ModelSource& source() const { return source_; }
-  /// True where states are restricted by constraints, formulated or not.
-  [[nodiscard]] bool constrained() const { return content_.has(Facet::constraints); }
+  // Questions by meaning. Callers ask these instead of testing facets, so that a new kind of constraint or of
+  // motion changes the answers here and no code elsewhere.
+
+  /// True where states must lie on a surface, whatever kind of constraints makes it and whether a formulation
+  /// has made a motion of them or not. `constraint_names` are then the equations of the surface.
+  [[nodiscard]] bool restricted() const {
+    return content_.meets(pfaff::facets(Facet::constraints, Facet::velocity_constraints));
+  }
+  /// True where the model offers a vector field, dz/dt = X(z, t): of its own, or from a formulation.
+  [[nodiscard]] bool moves() const { return facets_.has(Facet::vector_field); }
+  /// True where the constraints are phi(q, t) = 0, of positions, each of which implies a hidden one for the
+  /// momenta: holonomic_constraints<T>() gives them, and methods may keep them themselves.
+  [[nodiscard]] bool holonomic() const { return facets_.has(Facet::holonomic); }
+  /// True where the constraints phi(z, t) = 0, holonomic ones and their hidden ones included, have Poisson
+  /// brackets among each other that Dirac's bracket can be made of: Formula::constraints and its gradients.
+  [[nodiscard]] bool constrained() const { return facets_.has(Facet::constraints); }
+  /// True where there is an energy H(z, t), tape(Formula::hamiltonian), whatever else takes part in the
+  /// motion.
+  [[nodiscard]] bool has_energy() const { return content_.has(Facet::hamiltonian); }
   /// True for an H = T(p) + V(q, t) in canonical coordinates, constrained or not.
   [[nodiscard]] bool separable_energy() const { return content_.has(Facet::separable); }
   /// True where no coefficient of friction can differ from zero.
@@ -115,7 +139,7 @@ class Model {
   /// The holonomic constraints for one scalar; std::logic_error where there are none.
   template <class T>
   [[nodiscard]] std::unique_ptr<HolonomicConstraints<T>> holonomic_constraints() const {
-    return holonomic_factory().make(T());
+    return holonomic_factory().make_for(std::type_identity<T>());
   }
   /// True when the canonical bracket on (q, p) is the system's own.
   [[nodiscard]] bool canonical() const { return source_.canonical; }
@@ -128,8 +152,8 @@ class Model {
   /// What the author can do about a missing facet of `needs`, as an addition to a message ("; its structure K
   /// depends on the state: ..."); empty when there is nothing to say.
   [[nodiscard]] std::string advice(FacetSet needs) const;
-  /// The same derived even where the author wrote it; null where it cannot be derived. (Charts are not
-  /// unique: one that the author wrote is not derived again.)
+  /// The tape of a formula as it is derived from others, even where the author wrote it; null where it cannot
+  /// be derived. (Charts are not unique: one that the author wrote is not derived again.)
   [[nodiscard]] std::shared_ptr<const Tape> derived(Formula formula) const;
   /// True where the author wrote the formula.
   [[nodiscard]] bool given(Formula formula) const {
@@ -139,8 +163,9 @@ class Model {
   [[nodiscard]] const FormulaProgram* program(Formula formula) const {
     return source_.programs[index(formula)].get();
   }
-  /// The author's double version and the object to call it with; null when there is none. Canonical
-  /// coordinates are Darboux's, so the field is that in the chart.
+  /// The author's code for doubles, to be called with system(); null when there is none. Canonical
+  /// coordinates are Darboux coordinates already, so that the code of the field is also that of the field in
+  /// the chart.
   [[nodiscard]] CompiledFormula compiled(Formula formula) const {
     const bool same = formula == Formula::chart_field && source_.canonical && !given(Formula::chart);
     return source_.compiled[index(same ? Formula::field : formula)];
@@ -149,15 +174,15 @@ class Model {
   [[nodiscard]] const CompiledSeries* chart_field_series() const { return source_.chart_field_series; }
   [[nodiscard]] const void* system() const { return source_.system.get(); }
 
-  /// Does the field depend on time explicitly? Do the field in the chart, and the structure?
+  /// True where the field does not depend on time explicitly; the next ones ask the same of the field in the
+  /// chart and of the structure.
   [[nodiscard]] bool autonomous() const;
   [[nodiscard]] bool chart_autonomous() const { return tape(Formula::chart_field)->autonomous(); }
 
  private:
-  /// Pivots at t = 0 for the chart of a structure of time alone.
-  [[nodiscard]] PivotPairs chart_pivots() const;
+  [[nodiscard]] PivotPairs pivots_of_structure() const;
 
-  /// What the formulas make, before constraints hide what is not true of the constrained motion.
+  /// What content() is before a chart derived from the structure is added.
   [[nodiscard]] FacetSet content_of_formulas() const;
   [[nodiscard]] const HolonomicFactory& holonomic_factory() const;
 
@@ -168,6 +193,11 @@ class Model {
   mutable std::array<std::shared_ptr<const Tape>, formula_count> tapes_;
   mutable std::shared_ptr<const HolonomicFactory> holonomic_;
 };
+
+/// How a formula follows from others (core/facets/derivations/derivation.hpp).
+struct Derivation;
+/// The way in which a model derives a formula; null where it cannot.
+const Derivation* derivation_of(Formula formula, const Model& model);
 
 /// The field (T_p, -V_q - nu p) that the conformal facet stands for.
 Tape damped_field(const Model& model);

@@ -1,12 +1,16 @@
 #include <pfaff/core/facets/problem.hpp>
 
+#include <tuple>
+
 #include <pfaff/core/facets/scalars.hpp>
+#include <pfaff/core/numbers/formula_scalar.hpp>
 #include <pfaff/core/tape/replay.hpp>
 
 namespace pfaff {
 
 namespace {
-// A replay keeps buffers; each problem has its own, so writing to them through a const context is safe.
+// A replay writes to buffers of its own. Every problem has its own replays, so that writing through a const
+// context is safe.
 template <class T>
 void replayed(const void* context, const T& t, const T* arguments, T* results) {
   (*static_cast<Replay<T>*>(const_cast<void*>(context)))(t, arguments, results);  // NOLINT
@@ -23,9 +27,14 @@ Evaluator<T> make_evaluator(const std::shared_ptr<const Model>& model, Formula f
   return {&replayed<T>, context, std::move(replay)};
 }
 
-template Evaluator<double> make_evaluator(const std::shared_ptr<const Model>&, Formula);
-template Evaluator<Quad> make_evaluator(const std::shared_ptr<const Model>&, Formula);
-template Evaluator<StepDual<double>> make_evaluator(const std::shared_ptr<const Model>&, Formula);
-template Evaluator<StepDual<Quad>> make_evaluator(const std::shared_ptr<const Model>&, Formula);
+// Emits make_evaluator for every scalar of the list, and says what one of them lacks.
+template <class List>
+struct EvaluatorInstances;
+template <class... T>
+struct EvaluatorInstances<Scalars<T...>> {
+  static_assert((check_step_scalar<T>() && ...));
+  static constexpr std::tuple all{&make_evaluator<T>...};
+};
+template struct EvaluatorInstances<StepScalars>;
 
 }  // namespace pfaff

@@ -1,8 +1,9 @@
 // Problem: a model as a method sees it, for one scalar and one size.
 //
 // A problem owns the evaluators and their buffers, so each stepper has its own; the model behind it is
-// shared. Its members exist facet by facet, which is what the concepts at the end, the registry's search for
-// a method's needs and the erased path all rest on. A facet evaluation costs one virtual call.
+// shared. A member exists only where the problem offers its facet: by this the concepts at the end tell what
+// a problem offers, and needs_of (core/integrator.hpp) what a method needs. A facet evaluation costs one
+// indirect call.
 #pragma once
 
 #include <concepts>
@@ -17,11 +18,11 @@
 namespace pfaff {
 
 /// The author's compiled formula or program where there is one, else a replay of the tape.
-/// Instantiated for double, Quad and the duals over them that step Jacobians use.
+/// Instantiated for StepScalars.
 template <class T>
 Evaluator<T> make_evaluator(const std::shared_ptr<const Model>& model, Formula formula);
 
-/// The work a method has done. Counted outside the static path.
+/// The work a method has done. StaticProblem, made for speed, does not count it.
 struct Counters {
   std::int64_t steps = 0;
   std::int64_t fields = 0;  // right-hand sides (one of a separable system: a force)
@@ -46,89 +47,37 @@ class Problem {
   [[nodiscard]] Counters& counters() const { return counters_; }
   [[nodiscard]] const std::shared_ptr<const Model>& model() const { return model_; }
 
-  /// Makes an evaluator before the first step, so that no step allocates. Kept out of line, and out of every
-  /// use.
+  /// Makes an evaluator before the first step, so that no step allocates. Not inlined, so that this code,
+  /// which runs once, does not swell every place that evaluates a formula.
   [[gnu::noinline]] void prepare(Formula formula) const {
     evaluators_[index(formula)] = make_evaluator<T>(model_, formula);
   }
 
-  /// rate = X(z, t).
-  void field(const T& t, In<T> z, Out<T> rate) const requires(Facets.has(Facet::vector_field)) {
-    ++counters_.fields;
-    use(Formula::field, t, z.data(), rate.data());
+  // One member for every formula that a facet offers, with the signature and the meaning of its row. Derived
+  // formulas and those recorded from a bracket have the signature void name(t, z, out).
+#define PFAFF_FORMULA(name, result, signature, call, ...)                                       \
+  result name signature const requires(Facets.meets(row_of(Formula::name).traits.offered_by)) { \
+    return evaluated<Formula::name> call;                                                       \
   }
-  /// matrix[i n + j] = dX_i / dz_j.
-  void field_jacobian(const T& t, In<T> z, Out<T> matrix) const requires(Facets.has(Facet::vector_field)) {
-    ++counters_.jacobians;
-    use(Formula::field_jacobian, t, z.data(), matrix.data());
+#define PFAFF_DERIVED(name, ...)                                              \
+  void name(const T& t, In<T> z, Out<T> out)                                  \
+      const requires(Facets.meets(row_of(Formula::name).traits.offered_by)) { \
+    evaluated<Formula::name>(t, z, out);                                      \
   }
-  /// H(z, t).
-  [[nodiscard]] T hamiltonian(const T& t, In<T> z) const requires(Facets.has(Facet::hamiltonian)) {
-    T value;
-    use(Formula::hamiltonian, t, z.data(), &value);
-    return value;
-  }
-  /// The Poisson tensor Pi(z, t), row-major, with X = Pi grad H.
-  void poisson_tensor(const T& t, In<T> z, Out<T> matrix) const requires(Facets.has(Facet::hamiltonian)) {
-    use(Formula::poisson_tensor, t, z.data(), matrix.data());
-  }
-  /// -dV/dq.
-  void force(const T& t, In<T> q, Out<T> f) const requires(Facets.has(Facet::separable)) {
-    ++counters_.fields;
-    use(Formula::force, t, q.data(), f.data());
-  }
-  /// dT/dp.
-  void velocity(const T& t, In<T> p, Out<T> v) const requires(Facets.has(Facet::separable)) {
-    use(Formula::velocity, t, p.data(), v.data());
-  }
+#define PFAFF_BRACKET(name, ...) PFAFF_DERIVED(name)
+#include <pfaff/core/facets/formula_rows.hpp>
+
+  // What a facet offers beside its formulas.
+
   /// The rate nu in p' = -V_q - nu p.
   [[nodiscard]] T damping() const requires(Facets.has(Facet::conformal)) { return T(model_->damping()); }
   /// -dV/dq, friction left out.
   void undamped_force(const T& t, In<T> q, Out<T> f) const requires(Facets.has(Facet::conformal)) {
-    ++counters_.fields;
-    use(Formula::force, t, q.data(), f.data());
+    evaluated<Formula::force>(t, q, f);
   }
   /// dT/dp.
   void undamped_velocity(const T& t, In<T> p, Out<T> v) const requires(Facets.has(Facet::conformal)) {
-    use(Formula::velocity, t, p.data(), v.data());
-  }
-  /// B(z, t).
-  [[nodiscard]] T birkhoffian(const T& t, In<T> z) const requires(Facets.has(Facet::birkhoffian)) {
-    T value;
-    use(Formula::birkhoffian, t, z.data(), &value);
-    return value;
-  }
-  /// F(z, t).
-  void one_form(const T& t, In<T> z, Out<T> f) const requires(Facets.has(Facet::birkhoffian)) {
-    use(Formula::one_form, t, z.data(), f.data());
-  }
-  /// K(z, t), row-major. Constant and canonical, -J, for canonical systems.
-  void structure(const T& t, In<T> z, Out<T> matrix) const
-      requires(Facets.has(Facet::structure) || Facets.has(Facet::darboux_chart)) {
-    use(Formula::structure, t, z.data(), matrix.data());
-  }
-  /// D(z, t) of K zdot + D = 0.
-  void covector(const T& t, In<T> z, Out<T> d) const requires(Facets.has(Facet::structure)) {
-    use(Formula::covector, t, z.data(), d.data());
-  }
-  /// y = chart(t, z), the structure there being constant: K_c = [[0, -I], [I, 0]].
-  void chart(const T& t, In<T> z, Out<T> y) const requires(Facets.has(Facet::darboux_chart)) {
-    use(Formula::chart, t, z.data(), y.data());
-  }
-  /// z = chart_inverse(t, y).
-  void chart_inverse(const T& t, In<T> y, Out<T> z) const requires(Facets.has(Facet::darboux_chart)) {
-    use(Formula::chart_inverse, t, y.data(), z.data());
-  }
-  /// dy/dt = Y(y, t).
-  void chart_field(const T& t, In<T> y, Out<T> rate) const requires(Facets.has(Facet::darboux_chart)) {
-    ++counters_.fields;
-    use(Formula::chart_field, t, y.data(), rate.data());
-  }
-  /// matrix[i n + j] = dY_i / dy_j.
-  void chart_field_jacobian(const T& t, In<T> y, Out<T> matrix) const
-      requires(Facets.has(Facet::darboux_chart)) {
-    ++counters_.jacobians;
-    use(Formula::chart_field_jacobian, t, y.data(), matrix.data());
+    evaluated<Formula::velocity>(t, p, v);
   }
   /// The tape of Y, for methods that expand it in series.
   [[nodiscard]] std::shared_ptr<const Tape> chart_field_tape() const
@@ -152,17 +101,31 @@ class Problem {
       holonomic_ = model_->holonomic_constraints<T>();
     return *holonomic_;
   }
-  /// Values of the named invariants, in the model's order.
-  void invariants(const T& t, In<T> z, Out<T> values) const requires(Facets.has(Facet::invariants)) {
-    use(Formula::invariants, t, z.data(), values.data());
-  }
   /// State after `elapsed` from z0 at t0: initial = (z0, t0), n + 1 numbers.
   void exact_solution(const T& elapsed, In<T> initial, Out<T> z) const
       requires(Facets.has(Facet::exact_solution)) {
-    use(Formula::exact_solution, elapsed, initial.data(), z.data());
+    evaluated<Formula::exact_solution>(elapsed, initial, z);
   }
 
  private:
+  template <Formula F>
+  void evaluated(const T& t, In<T> x, Out<T> out) const {
+    count<F>();
+    use(F, t, x.data(), out.data());
+  }
+  template <Formula F>
+  [[nodiscard]] T evaluated(const T& t, In<T> x) const {
+    count<F>();
+    T value;
+    use(F, t, x.data(), &value);
+    return value;
+  }
+  template <Formula F>
+  void count() const {
+    constexpr Counts counts = row_of(F).traits.counts;
+    if constexpr (counts == Counts::field) ++counters_.fields;
+    if constexpr (counts == Counts::jacobian) ++counters_.jacobians;
+  }
   void use(Formula formula, const T& t, const T* arguments, T* results) const {
     const Evaluator<T>& evaluator = evaluators_[index(formula)];
     if (evaluator.call == nullptr) [[unlikely]]
@@ -214,6 +177,12 @@ concept HasDarbouxChart = requires(const P& p, const Scalar<P>& t, State<P>& z) 
 template <class P>
 concept HasHolonomic = requires(const P& p) {
   p.holonomic();
+};
+
+template <class P>
+concept HasVelocityConstraints = requires(const P& p, const Scalar<P>& t, State<P>& z) {
+  p.velocity_constraints(t, z, z);
+  p.velocity_offsets(t, z, z);
 };
 
 template <class P>

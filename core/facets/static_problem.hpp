@@ -12,8 +12,8 @@
 // that expand the field in series it is recorded when they are set up; the Darboux chart of a canonical
 // system is the identity.
 //
-// Limits: S::dimension is a constant, and only what dual numbers give cheaply is derived. Birkhoffian systems
-// and those with a bracket of their own have a static field where their author wrote one.
+// Limits: S::dimension has to be a constant, and only what dual numbers give cheaply is derived. Birkhoffian
+// systems and those with a bracket of their own therefore have a field here only where their author wrote it.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@
 
 #include <pfaff/core/facets/compiled_series.hpp>
 #include <pfaff/core/facets/problem.hpp>
-#include <pfaff/core/facets/system_formulas.hpp>
+#include <pfaff/core/facets/written_formulas.hpp>
 #include <pfaff/core/numbers/dual.hpp>
 #include <pfaff/core/tape/recorder.hpp>
 
@@ -60,12 +60,13 @@ class StaticProblem {
   using Scalar = T;
   static constexpr int extent = S::dimension;
   using State = Vector<T, extent>;
-  static constexpr bool energies = detail::WritesKinetic<S, T> && detail::WritesPotential<S, T>;
+  static constexpr bool energies =
+      detail::writes<S, Formula::kinetic, T> && detail::writes<S, Formula::potential, T>;
   static constexpr bool conformal = energies && detail::WritesDamping<S>;
   static constexpr bool separable = energies && !conformal;
-  static constexpr bool canonical =
-      separable || (detail::WritesHamiltonian<S, T> && !detail::WritesBracket<S>);
-  static constexpr bool has_field = canonical || conformal || detail::WritesField<S, T>;
+  static constexpr bool canonical = separable || (detail::writes<S, Formula::hamiltonian, T> &&
+                                                  !detail::writes<S, Formula::poisson_tensor>);
+  static constexpr bool has_field = canonical || conformal || detail::writes<S, Formula::field, T>;
 
   explicit StaticProblem(S system = {}) : system_(std::move(system)) {}
 
@@ -139,7 +140,7 @@ class StaticProblem {
   }
   template <class U>
   void force_of(const U& t, In<U> q, Out<U> f) const {
-    if constexpr (detail::WritesForce<S, U>) {
+    if constexpr (detail::writes<S, Formula::force, U>) {
       system_.force(t, q, f);
     } else {
       detail::dual_gradient<half>([&]<class D>(const D& s, In<D> x) { return system_.potential(s, x); }, t, q,
@@ -149,7 +150,7 @@ class StaticProblem {
   }
   template <class U>
   void velocity_of(const U& t, In<U> p, Out<U> v) const {
-    if constexpr (detail::WritesVelocity<S, U>) {
+    if constexpr (detail::writes<S, Formula::velocity, U>) {
       system_.velocity(t, p, v);
     } else {
       detail::dual_gradient<half>([&]<class D>(const D& s, In<D> x) { return system_.kinetic(s, x); }, t, p,
@@ -158,7 +159,7 @@ class StaticProblem {
   }
   template <class U>
   void field_of(const U& t, In<U> z, Out<U> rate) const {
-    if constexpr (detail::WritesField<S, U>) {
+    if constexpr (detail::writes<S, Formula::field, U>) {
       system_.field(t, z, rate);
     } else if constexpr (separable || conformal) {
       velocity_of<U>(t, z.subspan(half), rate.first(half));

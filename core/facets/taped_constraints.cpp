@@ -25,7 +25,8 @@ SparseRows sparse(const Numbers& matrix, std::size_t rows, std::size_t stride, s
   return result;
 }
 
-// sum_a x_ia weight_a y_ja for j >= i on the tape: the diagonal, the couplings, and where they are.
+// Puts the entries sum_a x_ia weight_a y_ja with j >= i on the tape, the diagonal first and the couplings,
+// those that are not zero by construction, after it. Returns where the couplings are.
 std::shared_ptr<const SymmetricPattern> gram(const Numbers& x, std::size_t x_stride, std::size_t x_first,
                                              const Numbers& y, std::size_t y_stride, std::size_t y_first,
                                              const Numbers& weight, std::size_t rows, std::size_t columns,
@@ -84,7 +85,7 @@ HolonomicTapes record_holonomic(const Model& model) {
   });
   const Tape& hidden = *tapes.hidden;
 
-  // B, P and S with their entries; the rest of a placement follows them.
+  // The entries of B, P and S. The tape of a whole placement begins with the same.
   const auto linear = [&](const Recorded& t, const Numbers& z, const Numbers& slopes_of_hidden,
                           Numbers& out) {
     const Numbers b = jacobian(phi, t, positions(z));

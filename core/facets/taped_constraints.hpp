@@ -1,7 +1,8 @@
 // The constraints phi(q, t) = 0 of any canonical H(q, p, t), from tapes.
 //
-// Everything is derived: phi~ = {phi, H} + phi_t, its rate, and B, P, T by differentiation onto the tape,
-// which also tells where they have entries; S = B H_pp B^T is then factored in the structure that follows.
+// Everything is derived from the formulas phi and H: phi~ = {phi, H} + phi_t, its rate, and B, P, T by
+// differentiation onto the tape. The tape also tells where these matrices have entries, and from this follows
+// the structure in which S = B H_pp B^T is factored.
 // H may have any mass matrix M(q), and need not be quadratic in p.
 #pragma once
 
@@ -20,7 +21,7 @@ struct SparseRows {
   std::vector<std::size_t> begin, columns;
 };
 
-/// What is recorded once for a system.
+/// The tapes that are recorded once for a system, and the structure of the matrices on them.
 struct HolonomicTapes {
   std::size_t count = 0, degrees = 0;
   std::shared_ptr<const Tape> values;    // (q, t) -> phi
@@ -33,7 +34,7 @@ struct HolonomicTapes {
   bool friction = false;
 };
 
-/// Records them from the formulas holonomic, hamiltonian and, where there is one, friction of a model.
+/// Records these tapes from the formulas holonomic, hamiltonian and, where there is one, friction of a model.
 HolonomicTapes record_holonomic(const Model& model);
 
 template <class T>

@@ -37,8 +37,8 @@ class LU {
   }
 
  private:
-  // Sizes N worth unrolling are known to the compiler; 0 is any size. Divisions are done once, by pivots and
-  // scales.
+  // N is the size where the compiler gains by unrolling (2 and 4), and 0 for any other. There is one
+  // division for each row's scale and one for each pivot; everything else multiplies by their reciprocals.
   template <std::size_t N>
   bool eliminate() {
     const std::size_t n = N == 0 ? n_ : N;

@@ -1,6 +1,7 @@
 // Matrix: a small dense matrix over any scalar, for formulas that are stated in blocks.
 //
-// Sizes are known at run time; every operation allocates its result, so that it has no place inside a step.
+// Sizes are known at run time and every operation allocates its result, so that a Matrix has no place
+// inside a step.
 #pragma once
 
 #include <cstddef>

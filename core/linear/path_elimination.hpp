@@ -1,8 +1,8 @@
 // Elimination of a tridiagonal matrix, with or without a border, from both ends towards the middle.
 //
-// A division waits for the one before it. Two eliminations that start at the two ends and meet in the middle
-// are independent of each other and hide half of the waiting. Every row is divided by its pivot once; later
-// passes multiply.
+// A division of a tridiagonal elimination has to wait for the one before it. Two eliminations that start at
+// the two ends and meet in the middle are independent of each other, so that each works while the other
+// waits. Every row is divided by its pivot once; later passes multiply by the stored reciprocal.
 #pragma once
 
 #include <array>
@@ -14,9 +14,10 @@
 
 namespace pfaff::detail {
 
-/// A matrix and its factors L D U, unit triangular L and U. Entry c of `lower` is a_ji, of `upper` a_ij for
-/// coupling c = (i, j), i < j, with a zero behind the last. `below` and `above` hold the entries of L and U.
-/// The two pairs are one where the matrix is symmetric.
+/// A matrix A and its factors L D U, unit triangular L and U. For coupling c = (i, j), i < j, lower[c] is
+/// a_ji and upper[c] is a_ij. One more entry, a zero, stands behind the last and serves neighbouring places
+/// that are not coupled, as between two paths. `below` and `above` hold the entries of L and U. Where A is
+/// symmetric, `lower` and `upper` are the same array, and so are `below` and `above`.
 template <class T>
 struct EliminationView {
   const T *diagonal, *lower, *upper;
@@ -31,8 +32,8 @@ struct RightHandSides {
   std::array<B*, Count> x;
 };
 
-/// x, or 0 where x is more than 2^400 times smaller than `scale`: along a ring the border's entries shrink
-/// by a factor a row, and arithmetic with what is left of them when they underflow is many times slower.
+/// x with what lies far below 2^-400 of `scale` rounded away. Along a ring the border's entries shrink by a
+/// factor from row to row until they underflow, and arithmetic with subnormal numbers is many times slower.
 /// Nothing that could be seen in a result is lost.
 template <class T>
 T without_traces(const T& x, const T& scale) {
@@ -44,9 +45,10 @@ T without_traces(const T& x, const T& scale) {
   }
 }
 
-/// The path of a tridiagonal matrix, or of a ring whose last row is the border. Place k of the path is a row,
-/// and below[k] and above[k] are the factors' entries of places k and k + 1; behind them are those of the
-/// border and place k.
+/// Elimination of a tridiagonal matrix, or, with Border, of a ring: a path and one more row, the border, that
+/// is coupled to both ends. Place k is the k-th row along the path, row order[k] of the plan; with Natural
+/// the two numbers are equal. The factors' entries between places k and k + 1 are below[k] and above[k].
+/// Behind them, from the number of places on, stand those between the border and place k.
 template <class T, bool Symmetric, bool Natural, bool Border>
 class PathElimination {
  public:
@@ -57,8 +59,8 @@ class PathElimination {
   void factor(Pivots& pivots) const {
     factor_forward(pivots, RightHandSides<T, 0>{});
   }
-  /// One pass fewer than factor() and solve(): right-hand sides are eliminated while divisions are waited
-  /// for.
+  /// The same as factor() and then solve(), in one pass fewer: the right-hand sides are eliminated while
+  /// the divisions of the factorisation are under way.
   template <class Pivots, class B, std::size_t Count>
   void factor_and_solve(Pivots& pivots, const RightHandSides<B, Count>& sides) const {
     factor_forward(pivots, sides);
@@ -81,15 +83,18 @@ class PathElimination {
   }
 
  private:
-  /// One of the two fronts of an elimination: its place, the pivot there and its error, what the next ones
-  /// take over from them; the border's entries in this row, and what the border's pivot has lost so far.
+  /// One of the two fronts of an elimination. `at` is the place it has reached, with its pivot and the
+  /// pivot's error there. `subtracted` and `passed_error` are what elimination of this row takes from the
+  /// next place's pivot and adds to its error. `border_lower` and `border_upper` are the border's entries
+  /// in this row by now, and `border_sum` and `border_error` what this front takes from the border's pivot
+  /// and adds to its error.
   struct Front {
     std::size_t at;
     T pivot, error;
     T subtracted{}, passed_error{};
     T border_lower{}, border_upper{}, border_sum{}, border_error{};
   };
-  /// The right-hand sides at a front, and what the border's have lost so far.
+  /// The right-hand sides at a front, and what it will take from the border's.
   template <class B, std::size_t Count>
   struct Sides {
     std::array<B, Count> y;
@@ -150,7 +155,7 @@ class PathElimination {
       u = upper * r;
       view_.above[between] = u;
     }
-    // The product of the couplings does not wait for the division.
+    // The product of the couplings needs no division, so that it is ready when the reciprocal is.
     front.subtracted = (lower * upper) * r;
     if constexpr (Pivots::follow_errors) front.passed_error = (l * u) * front.error;
     if constexpr (Border) {
@@ -167,7 +172,7 @@ class PathElimination {
         front.border_upper = without_traces(T(-(front.border_upper * l)), view_.diagonal[here]);
     }
   }
-  /// Leaves the front's right-hand sides where they belong.
+  /// Stores the right-hand sides of the front's row and adds what they take from the border's.
   template <class B, std::size_t Count>
   void keep(Sides<B, Count>& at_front, std::size_t at, const RightHandSides<B, Count>& sides) const {
     for (std::size_t c = 0; c < Count; ++c) {
@@ -182,8 +187,9 @@ class PathElimination {
     keep(at_front, at, sides);
     for (std::size_t c = 0; c < Count; ++c) at_front.y[c] = sides.right[c][row(next)] - l * at_front.y[c];
   }
-  /// The right-hand sides in the middle and in the border, once both fronts are there; `other_at` is the
-  /// last place of the other front, the middle where it has none.
+  /// Completes the right-hand sides of the middle row and of the border once both fronts have arrived.
+  /// `other_at` is the last place of the second front before the middle, or the middle itself if the path
+  /// is too short for a second front.
   template <class B, std::size_t Count>
   void meet(Sides<B, Count>& front, Sides<B, Count>& other, std::size_t other_at,
             const RightHandSides<B, Count>& sides) const {
@@ -202,7 +208,7 @@ class PathElimination {
 
   template <class Pivots, class B, std::size_t Count>
   void factor_forward(Pivots& pivots, const RightHandSides<B, Count>& sides) const {
-    // A ring's links: .. rows_ - 1 to the border, the border to place 0.
+    // In a ring, link rows_ - 1 couples the last place and the border, link rows_ the border and place 0.
     Front left = start(0, rows_), right = start(rows_ - 1, rows_ - 1);
     Sides<B, Count> left_sides = start(sides, 0), right_sides = start(sides, rows_ - 1);
     const auto eliminate = [&](Front& front, Sides<B, Count>& at_front, std::size_t next) {

@@ -1,4 +1,5 @@
-// What is done with a pivot of an elimination without row exchanges: divided by, or left out.
+// What an elimination without row exchanges does with its pivots. RegularPivots divides by every one and
+// notes when one cannot be divided by; SemidefinitePivots leaves out those that are zero to round-off.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +10,7 @@
 
 namespace pfaff::detail {
 
-/// True for scalars whose numbers can be looked at; formulas that are being recorded have none.
+/// True for scalars whose numbers can be inspected. A formula that is being recorded has none yet.
 template <class T>
 inline constexpr bool has_numbers = std::numeric_limits<Value<T>>::is_specialized;
 template <int W>
@@ -46,7 +47,8 @@ class RegularPivots {
       usable_ = usable_ && is_usable(pivot);
       return usable_ ? T(1) / pivot : T(0);
     } else {
-      // The reciprocal is 0 or infinite where the pivot is infinite, zero or too small.
+      // It is enough to test the reciprocal, which is 0 or infinite where the pivot is infinite, zero or
+      // too small.
       T r = T(1) / pivot;
       usable_ = usable_ & is_usable(r);
       return r;
@@ -58,22 +60,25 @@ class RegularPivots {
   bool usable_ = true;
 };
 
-/// Pivots of a semidefinite matrix: one that is no more than the round-off in it belongs to a direction
-/// outside the range, and is replaced by infinity.
+/// Pivots of a semidefinite matrix. A pivot no larger than its own round-off belongs to a direction outside
+/// the matrix's range. It is replaced by infinity: its reciprocal, and with it the unknown of its row,
+/// becomes 0.
 ///
-/// The elimination follows the error of every pivot, in units of round-off: forming the entry a_ii and
-/// subtracting from it what never exceeds it costs about a_ii, and l_ik^2 times the error of pivot k comes in
-/// with the row k that is eliminated from row i. Where pivots shrink along a chain, errors of the first
-/// rows are many times the last rows' own.
+/// The elimination keeps a bound of the error of every pivot, in units of round-off. The bound of pivot i
+/// starts at a_ii, for forming the entry and for subtracting from it what never exceeds it. Eliminating row
+/// k from row i adds l_ik^2 times the error of pivot k. Where pivots shrink along a chain, the errors that
+/// come down from its first rows are many times those that arise in its last rows, so that a pivot cannot
+/// be judged by its own a_ii alone.
 template <class T>
 class SemidefinitePivots {
  public:
   static constexpr bool follow_errors = true;
   /// 1 / pivot, or 0 for a pivot that is dropped.
   T reciprocal(const T& pivot, const T& error) {
-    // A sum that pivot / 64 does not change says that the pivot is no larger than some units of round-off, in
-    // whatever precision it is computed. 64, because the entries were computed, too: an inner product of
-    // three or four terms for each, and l_ik passes the errors of couplings on twice.
+    // If adding pivot / 64 does not change the error bound, the pivot is no larger than some units of
+    // round-off, in whatever precision it is computed. The factor is 64 because the entries were computed,
+    // too: each is an inner product of three or four terms, and l_ik passes the errors of couplings on
+    // twice.
     const T visible = (error + pivot / T(64)) - error;
     const T safe = select(visible, pivot, T(1));
     const T r = select(visible, T(1) / safe, T(0));

@@ -29,7 +29,8 @@ SingularValues<T> singular_values(Matrix<T> a) {
       m(i, q) = s * left + c * right;
     }
   };
-  // Quadratic convergence: ten sweeps are many, and a tie within round-off must not go on for ever.
+  // Convergence is quadratic, so that ten sweeps are already many. The limit is for two columns that are
+  // orthogonal to within round-off and would be rotated for ever.
   bool rotated = true;
   for (int sweep = 0; rotated && sweep < 40; ++sweep) {
     rotated = false;

@@ -1,5 +1,5 @@
-// Elimination on a static pattern: all entries and updates are known beforehand; and of a dense matrix, whose
-// indices are arithmetic.
+// Elimination of every structure other than a path or a ring. For a tree or a sparse matrix the pattern's
+// plan lists all entries and updates beforehand; for a dense matrix their indices are computed.
 #pragma once
 
 #include <array>
@@ -141,7 +141,8 @@ class StaticElimination {
   std::size_t rows_;
 };
 
-/// L D U of a dense matrix in its own order; columns of L and rows of U one after the other.
+/// L D U of a dense matrix in its own order. The columns of L, and the rows of U, are stored one after the
+/// other.
 template <class T, bool Symmetric>
 class DenseElimination {
  public:

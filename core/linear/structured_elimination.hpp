@@ -1,4 +1,5 @@
-// What StructuredLDLT and StructuredLU have in common: storage, and the choice of the elimination.
+// What StructuredLDLT and StructuredLU have in common: the storage of a matrix on a pattern and of its
+// factors, and the choice of the elimination that suits the pattern's structure.
 #pragma once
 
 #include <algorithm>
@@ -8,11 +9,11 @@
 #include <utility>
 #include <vector>
 
+#include <pfaff/core/errors/status.hpp>
 #include <pfaff/core/linear/path_elimination.hpp>
 #include <pfaff/core/linear/pivot.hpp>
 #include <pfaff/core/linear/static_elimination.hpp>
 #include <pfaff/core/linear/symmetric_pattern.hpp>
-#include <pfaff/core/solve/status.hpp>
 
 namespace pfaff::detail {
 
@@ -35,8 +36,9 @@ class StructuredElimination {
   T* diagonal() { return diagonal_.data(); }
   [[nodiscard]] const T* diagonal() const { return diagonal_.data(); }
 
-  /// Factors the entries. `singular` where a pivot is zero or not finite; formulas that are being recorded
-  /// have no numbers to look at and always go on.
+  /// Factors the entries. Returns `singular` where a pivot is zero or not finite. Formulas that are being
+  /// recorded have no numbers to inspect, so that their factorisation always goes on and is reported as
+  /// converged.
   Status factor() {
     RegularPivots<T> pivots;
     dropped_ = 0;
@@ -69,8 +71,8 @@ class StructuredElimination {
   }
 
   /// The largest diagonal entry of |L| |D| |U| after factor(), relative to the largest entry of the matrix:
-  /// how much elimination without exchanges magnifies round-off. 1 for a positive definite matrix, as large
-  /// as pivots are small for others. Allocates; for reports and tests.
+  /// how much elimination without exchanges magnifies round-off. It is 1 for a positive definite matrix;
+  /// for others it is the larger, the smaller a pivot is. Allocates; for reports and tests.
   [[nodiscard]] Value<T> growth() const {
     std::vector<Value<T>> sums(pattern_->rows(), Value<T>(0));
     const auto pivot = [&](std::size_t i) {
@@ -130,7 +132,7 @@ class StructuredElimination {
             error_.data()};
   }
 
-  /// For what only reads the factors.
+  /// The view for functions that only read the factors.
   EliminationView<T> const_view() const { return const_cast<StructuredElimination*>(this)->view(); }
 
   template <class B, std::size_t Count>

@@ -1,5 +1,6 @@
-// StructuredLU: L D U of a matrix with a symmetric pattern and values that need not be symmetric, without row
-// exchanges: B(q_0) M^-1 B(q_1)^T of a Newton iteration, or the skew matrix of brackets of constraints.
+// StructuredLU: L D U of a matrix whose pattern is symmetric and whose values need not be, without row
+// exchanges. Made for B(q_0) M^-1 B(q_1)^T of a Newton iteration and for the skew matrix of brackets of
+// constraints.
 #pragma once
 
 #include <pfaff/core/linear/structured_elimination.hpp>
@@ -7,7 +8,7 @@
 namespace pfaff {
 
 /// L D U over any scalar. Without exchanges a pivot may vanish although the matrix is regular (every skew
-/// matrix has a zero diagonal): factor() says so.
+/// matrix has a zero diagonal); factor() then returns `singular`.
 template <class T>
 class StructuredLU : public detail::StructuredElimination<T, false> {
  public:

@@ -16,7 +16,7 @@ using Coupling = SymmetricPattern::Coupling;
 
 Index narrow(std::size_t i) { return static_cast<Index>(i); }
 
-/// Who is coupled with whom, and by which coupling.
+/// The neighbours of every row, each with the coupling that leads to it.
 struct Graph {
   struct Neighbour {
     Index row, coupling;
@@ -78,8 +78,8 @@ bool plan_paths_or_ring(const Graph& graph, std::size_t rows, std::size_t coupli
   return plan.order.size() == rows;
 }
 
-/// Rows in the order of a maximum cardinality search, last found first: without fill if any order is
-/// (tarjan-yannakakis1984).
+/// Rows in the order of a maximum cardinality search, last found first. It has no fill if any order has
+/// none (tarjan-yannakakis1984).
 std::vector<Index> leaf_first(const Graph& graph, std::size_t rows) {
   // Rows not yet found, in lists by the number of their found neighbours.
   const Index none = narrow(rows);
@@ -125,8 +125,9 @@ std::vector<Index> positions_of(const std::vector<Index>& order) {
   return position;
 }
 
-/// True where elimination in this order couples no rows that are not coupled: all later neighbours of a row
-/// are neighbours of the first of them.
+/// True where elimination in this order couples no rows that are not coupled already, that is, where all
+/// later neighbours of a row are neighbours of the first of them. That first one is asked about the others
+/// when its turn comes.
 bool without_fill(const Graph& graph, const std::vector<Index>& order) {
   const std::vector<Index> position = positions_of(order);
   const std::size_t rows = order.size();
@@ -149,8 +150,8 @@ bool without_fill(const Graph& graph, const std::vector<Index>& order) {
   return true;
 }
 
-/// The rows that couple with each row when it is eliminated, with fill, in an order of minimum degree (ties
-/// to the lower row).
+/// An order of minimum degree: the next row is always one with the fewest couplings left, fill included (of
+/// equal ones, the row with the lower number).
 std::vector<Index> minimum_degree(const Graph& graph, std::size_t rows) {
   std::vector<std::set<Index>> left(rows);
   for (std::size_t i = 0; i < rows; ++i)
@@ -174,8 +175,9 @@ std::vector<Index> minimum_degree(const Graph& graph, std::size_t rows) {
   return order;
 }
 
-/// The later rows of every row's factor entries, each sorted by position: the row's own couplings and those
-/// of the rows it is first coupled with.
+/// For every k, the positions of the later rows that the k-th row is coupled with in the factor, sorted.
+/// They come from its own couplings and from its children, the earlier rows whose first later row it is:
+/// their other later rows are coupled with it by fill.
 std::vector<std::vector<Index>> factor_rows(const Graph& graph, const std::vector<Index>& order) {
   const std::size_t rows = order.size();
   const std::vector<Index> position = positions_of(order);
@@ -199,9 +201,9 @@ std::vector<std::vector<Index>> factor_rows(const Graph& graph, const std::vecto
   return entries;
 }
 
-/// An order with the same fill in which rows that do not wait for each other are neighbours: those without
-/// earlier rows to wait for first, then those that wait for them only, and so on. Independent branches of a
-/// tree are then eliminated side by side.
+/// An order with the same fill in which rows that do not wait for each other are neighbours: first the rows
+/// that wait for none, then those that wait for these only, and so on. Independent branches of a tree are
+/// then eliminated side by side.
 std::vector<Index> by_levels(const std::vector<Index>& order,
                              const std::vector<std::vector<Index>>& entries) {
   const std::size_t rows = order.size();

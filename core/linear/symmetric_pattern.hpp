@@ -1,10 +1,10 @@
 // SymmetricPattern: where a symmetric matrix has entries, and in which order it is best eliminated.
 //
 // The matrices of constrained mechanics, S = B M^-1 B^T, have a row for every constraint and couple two
-// constraints that move a common particle. A chain of rods gives a tridiagonal matrix, a closed chain a
-// cyclic one, a branching tree of rods cliques around the branching points (chordal: eliminated from the
-// leaves inwards nothing fills in). The pattern finds out which it is, once; factors on it are then made by
-// loops that know all indices beforehand.
+// constraints that move a common particle. A chain of rods gives a tridiagonal matrix and a closed chain a
+// cyclic one. A branching tree of rods gives a clique at every branching point and with it a chordal graph,
+// in which elimination from the leaves inwards creates no new entries. The pattern finds out once which of
+// these it is. Factorisations on it then run through lists of indices that are known beforehand.
 #pragma once
 
 #include <cstddef>
@@ -44,7 +44,8 @@ constexpr std::string_view to_string(MatrixStructure structure) {
   return "unknown";
 }
 
-/// How a matrix is eliminated. Rows carry their own numbers throughout, so that nothing is ever permuted.
+/// The order of an elimination and its lists of indices. Rows keep their own numbers throughout, so that
+/// neither a matrix nor a right-hand side is ever permuted.
 struct EliminationPlan {
   using Index = std::uint32_t;
   /// The row that is eliminated k-th; along the path or ring where the structure is one.
@@ -61,7 +62,8 @@ struct EliminationPlan {
   std::vector<Index> start;
   /// The later row of an entry, and its coupling (the number of couplings for fill).
   std::vector<Index> row, coupling;
-  /// For the k-th row, entries a > b, b slowest: the entry that couples the later rows of a and of b.
+  /// The updates, in the order in which they are made: for the k-th row and each two of its entries a > b
+  /// (b in the outer loop), the entry that couples the later row of a with the later row of b.
   std::vector<Index> target;
 };
 

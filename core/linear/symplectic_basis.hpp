@@ -47,9 +47,10 @@ void eliminate_pair(std::vector<T>& form, std::vector<char>& left, std::size_t a
 }
 }  // namespace detail
 
-/// Pairs for the skew n x n matrix `form` (row-major), each the largest product left. Empty when the form is
-/// degenerate to working precision: what is left is no more than the rounding of what was subtracted from
-/// it, entry by entry, so that entries may differ by their units.
+/// Pairs for the skew n x n matrix `form` (row-major): each time the two coordinates whose remaining
+/// product is largest. Empty when the form is degenerate to working precision, that is, when no remaining
+/// entry exceeds the rounding of what was subtracted from it. Every entry is judged by its own
+/// subtractions, so that entries may have different units.
 inline PivotPairs choose_pivot_pairs(std::span<const double> form, std::size_t n) {
   std::vector<double> products(form.begin(), form.end()), subtracted(n * n);
   for (std::size_t k = 0; k < n * n; ++k) subtracted[k] = std::abs(form[k]);
@@ -87,8 +88,9 @@ inline PivotPairs choose_pivot_pairs(std::span<const double> form, std::size_t n
 }
 
 /// The matrix E (row-major, its columns are the basis) with E^T K E = K_c for the skew matrix K = `form` of
-/// size n = 2 pairs.size(), eliminating `pairs` in their order. Column k belongs to the first of pair k,
-/// column n/2 + k to the second, divided by minus their product. A vanishing pivot gives non-finite entries.
+/// size n = 2 pairs.size(), eliminating `pairs` in their order. Column k belongs to the first coordinate of
+/// pair k. Column n/2 + k belongs to the second and is divided by minus the product of the two. A vanishing
+/// pivot gives non-finite entries.
 template <class T>
 std::vector<T> symplectic_basis(std::span<const T> form, const PivotPairs& pairs) {
   const std::size_t half = pairs.size(), n = 2 * half;

@@ -1,11 +1,12 @@
 // The inverse of a symmetric tridiagonal matrix in closed form: by minors, as a one-pair matrix, and by an
 // upper triangular factor.
 //
-// References for small systems, exact over rationals where no root is taken. The inverse is full, so that it
-// costs K^2 numbers, and minors grow like the product of all pivots: a chain of a few hundred rows leaves the
-// range of double (and one of a few thousand that of quad). Systems are solved by StructuredLDLT.
+// These are references for small systems, exact over rationals where no root is taken. They do not serve
+// larger ones: the inverse is full and has K^2 entries, and minors grow like the product of all pivots, so
+// that a chain of a few hundred rows leaves the range of double (and one of a few thousand that of quad).
+// Systems are solved by StructuredLDLT.
 //
-// Numbers are counted from 0 here and from 1 in the reference, nguyen-turski, section 4 and appendix C.
+// Rows are counted from 0 here and from 1 in the reference, nguyen-turski, section 4 and appendix C.
 #pragma once
 
 #include <algorithm>
@@ -30,8 +31,8 @@ struct Tridiagonal {
   }
 };
 
-/// The determinants of the blocks of rows first .. first + k - 1, for k = 0 .. K - first: d_k^(first + 1) of
-/// nguyen-turski (C.5), with 1 for the empty block, where the print has 0.
+/// The determinants of the blocks of rows first .. first + k - 1, for k = 0 .. K - first: d_k^(first + 1)
+/// of nguyen-turski (C.5), with 1 for the empty block, where the reference prints 0.
 template <class T>
 std::vector<T> block_minors(const Tridiagonal<T>& s, std::size_t first) {
   std::vector<T> d{T(1)};
@@ -132,8 +133,8 @@ Tridiagonal<T> tridiagonal_inverse(const OnePair<T>& pair) {
 }
 
 /// The upper triangular U with U^T S U = 1 of a positive definite tridiagonal S: U_ij = z_i y_i ... y_{j-1}
-/// x_j for i <= j (nguyen-turski (C.12) - (C.15), with x_K = 1, which the print leaves open). As U U^T is the
-/// inverse, U grows no faster than its entries: nothing overflows before they do.
+/// x_j for i <= j (nguyen-turski (C.12) - (C.15), with x_K = 1, which the reference leaves open). As U U^T
+/// is the inverse of S, nothing in U overflows before the entries of the inverse do.
 template <class T>
 struct InverseFactor {
   std::vector<T> x, y, z;  // K, K - 1, K numbers

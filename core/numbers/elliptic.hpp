@@ -5,8 +5,9 @@
 //
 // with the invariants x^2 + y^2 and x^2 + z^2. It is the pendulum (x, z the sine and cosine of half the
 // angle, y half the angular velocity) and, scaled, the free rigid body. From any initial state the addition
-// theorems (abramowitz-stegun1964 16.17) give the flow without inverting an elliptic integral. In x, y, z
-// they hold no quotient by k, and the denominator 1 - m sn^2(u) sn^2(v) becomes cn^2(u) + sn^2(u) z^2.
+// theorems (abramowitz-stegun1964 16.17) give the flow without inverting an elliptic integral. Written in
+// x, y, z they contain no quotient by k, and their denominator 1 - m sn^2(u) sn^2(v) becomes
+// cn^2(u) + sn^2(u) z^2.
 //
 // sn, cn, dn come by descending Landen transformations (abramowitz-stegun1964 16.12),
 //
@@ -39,7 +40,7 @@ inline Real smallest_complement() { return Real(Quad(1e-70)); }
 /// Jacobi's functions of u for 0 <= m <= 1; `complement` is 1 - m.
 template <class T>
 JacobiFunctions<T> jacobi_functions(const T& u, const T& m, const T& complement) {
-  // From k' = 1e-35 eleven steps lead to k = 6e-27, whose square is nothing in quad.
+  // From k' = 1e-35 eleven steps lead to k = 6e-27, whose square is below the round-off of quad.
   constexpr std::size_t steps = 11;
   const T elliptic = complement - T(smallest_complement());  // positive: not the separatrix
   T prime = sqrt(select(elliptic, complement, T(smallest_complement())));
@@ -56,8 +57,8 @@ JacobiFunctions<T> jacobi_functions(const T& u, const T& m, const T& complement)
   T sn = sin(mean), cn = cos(mean), dn(1);
   for (std::size_t n = steps; n-- > 0;) {
     const T s2 = sn * sn, inverse = 1 / (1 + modulus[n] * s2);
-    // (1 - k_1 s^2)/(1 + k_1 s^2) without the cancellation, and with 1 = c^2 + s^2 above and below, or the
-    // rounding errors of that sum would grow with every step.
+    // (1 - k_1 s^2)/(1 + k_1 s^2) without the cancellation, and with c^2 + s^2 for 1 in numerator and
+    // denominator. Otherwise the rounding errors in c^2 + s^2 = 1 would grow with every step.
     const T c2 = cn * cn, next = (c2 + rest[n] * s2) / (c2 + s2 + modulus[n] * s2);
     sn = (1 + modulus[n]) * sn * inverse;
     cn = cn * dn * inverse;
@@ -98,7 +99,8 @@ struct JacobiState {
   T x, y, z;
 };
 
-/// The state after a time, and what it does not show of the angle a of x = r sin a, z = r cos a.
+/// The state after a time. With x = r sin a, z = r cos a it shows the angle a only up to whole turns;
+/// `revolving` and `mean` say how a grows.
 template <class T>
 struct JacobiFlow {
   JacobiState<T> state;
@@ -108,8 +110,8 @@ struct JacobiFlow {
 
 /// The flow of x' = y z, y' = -x z, z' = -x y from any state, equilibria included.
 ///
-/// y and z are alike; the larger in size is dn, the one without zeros. Time is scaled by r,
-/// r^2 = x^2 + max(y^2, z^2), and m' = |y^2 - z^2|/r^2.
+/// The equations are symmetric in y and z. The larger of the two in size takes the part of dn, which has no
+/// zeros. Time is scaled by r, r^2 = x^2 + max(y^2, z^2), and m' = |y^2 - z^2|/r^2.
 template <class T>
 JacobiFlow<T> jacobi_flow(const T& t, const JacobiState<T>& start) {
   const T difference = (start.y - start.z) * (start.y + start.z);

@@ -6,17 +6,32 @@
 #include <span>
 #include <type_traits>
 
+#include <pfaff/core/numbers/checked_span.hpp>
 #include <pfaff/core/numbers/quad.hpp>
 #include <pfaff/core/numbers/real.hpp>
 
 namespace pfaff {
 
+class Recorded;
+
+/// The spans of formulas over T: plain ones, but for the recording scalar, which is not in a hurry.
+template <class T>
+struct FormulaSpans {
+  using In = std::span<const T>;
+  using Out = std::span<T>;
+};
+template <>
+struct FormulaSpans<Recorded> {
+  using In = CheckedSpan<const Recorded>;
+  using Out = CheckedSpan<Recorded>;
+};
+
 /// A read-only vector argument of a formula. T is deduced from another argument or given.
 template <class T>
-using In = std::span<const std::type_identity_t<T>>;
+using In = typename FormulaSpans<T>::In;
 /// A vector that a formula fills.
 template <class T>
-using Out = std::span<std::type_identity_t<T>>;
+using Out = typename FormulaSpans<T>::Out;
 
 // The standard functions for double; every other scalar brings its own, found by argument-dependent lookup.
 using std::abs;

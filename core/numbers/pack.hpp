@@ -1,4 +1,5 @@
-// Pack: W doubles that are added and multiplied together, in the widest vector registers the build may use.
+// Pack: W doubles that are added and multiplied together, in the widest vector registers the build may use; a
+// scalar that formulas can be evaluated with. Functions are those of the standard library, lane by lane.
 //
 // For code that does the same to several nodes at once. Registers of 16 bytes belong to every machine of this
 // architecture; those of 32 bytes are used where the build allows them. The lanes of a pack that a caller has
@@ -7,6 +8,8 @@
 
 #include <array>
 #include <cstddef>
+
+#include <pfaff/core/numbers/functions.hpp>
 
 namespace pfaff {
 
@@ -41,7 +44,9 @@ class Pack {
     for (Register& r : registers_) r = broadcast(x);
   }
 
-  /// One number in each lane: without a way through memory, which set() may take.
+  explicit Pack(const Real& x) : Pack(x.value()) {}
+
+  /// One number in each lane, put together in registers, where set() may go through memory.
   Pack(double first, double second) requires(W == 2) : registers_{{Register{first, second}}} {}
 
   [[nodiscard]] double operator[](std::size_t lane) const {
@@ -94,6 +99,33 @@ class Pack {
     for (std::size_t k = 0; k < count; ++k)
       r.registers_[k] = condition.registers_[k] > 0 ? positive.registers_[k] : otherwise.registers_[k];
     return r;
+  }
+
+  /// f of the number in every lane.
+  template <class F>
+  [[nodiscard]] Pack each(const F& f) const {
+    Pack r;
+    for (std::size_t lane = 0; lane < W; ++lane) r.set(lane, f((*this)[lane]));
+    return r;
+  }
+  friend Pack sqrt(const Pack& a) {
+    return a.each([](double x) { return std::sqrt(x); });
+  }
+  friend Pack exp(const Pack& a) {
+    return a.each([](double x) { return std::exp(x); });
+  }
+  friend Pack log(const Pack& a) {
+    return a.each([](double x) { return std::log(x); });
+  }
+  friend Pack sin(const Pack& a) {
+    return a.each([](double x) { return std::sin(x); });
+  }
+  friend Pack cos(const Pack& a) {
+    return a.each([](double x) { return std::cos(x); });
+  }
+  /// x^y for a constant exponent.
+  friend Pack pow(const Pack& a, const Real& y) {
+    return a.each([e = y.value()](double x) { return std::pow(x, e); });
   }
 
  private:

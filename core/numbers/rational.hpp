@@ -1,7 +1,8 @@
 // Rational: exact fractions of integers of any length, for identities that must hold to the last digit.
 //
 // A scalar like the others as far as + - * / and comparisons go; roots and transcendental functions do not
-// exist. Costs a heavy header, memory and, as numerators grow, time: nothing for a step.
+// exist. It costs a heavy header, memory and, as numerators grow, time, so that it has no place inside a
+// step.
 #pragma once
 
 #include <boost/multiprecision/cpp_int.hpp>

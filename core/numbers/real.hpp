@@ -82,41 +82,41 @@ inline namespace literals {
 Real operator""_r(const char* text);
 }  // namespace literals
 
-/// What a formula may be evaluated with besides Real itself and integers.
+/// A type that constants convert to. What a scalar owes beside that: core/numbers/formula_scalar.hpp.
 template <class T>
-concept FormulaScalar =
+concept MixesWithReal =
     !std::is_integral_v<std::remove_cvref_t<T>> && !std::same_as<std::remove_cvref_t<T>, Real> &&
     std::constructible_from<T, const Real&>;
 
-template <FormulaScalar T>
+template <MixesWithReal T>
 T operator+(const Real& a, const T& b) {
   return T(a) + b;
 }
-template <FormulaScalar T>
+template <MixesWithReal T>
 T operator-(const Real& a, const T& b) {
   return T(a) - b;
 }
-template <FormulaScalar T>
+template <MixesWithReal T>
 T operator*(const Real& a, const T& b) {
   return T(a) * b;
 }
-template <FormulaScalar T>
+template <MixesWithReal T>
 T operator/(const Real& a, const T& b) {
   return T(a) / b;
 }
-template <FormulaScalar T>
+template <MixesWithReal T>
 T operator+(const T& a, const Real& b) {
   return a + T(b);
 }
-template <FormulaScalar T>
+template <MixesWithReal T>
 T operator-(const T& a, const Real& b) {
   return a - T(b);
 }
-template <FormulaScalar T>
+template <MixesWithReal T>
 T operator*(const T& a, const Real& b) {
   return a * T(b);
 }
-template <FormulaScalar T>
+template <MixesWithReal T>
 T operator/(const T& a, const Real& b) {
   return a / T(b);
 }

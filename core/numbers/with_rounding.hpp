@@ -1,7 +1,8 @@
 // WithRounding: a number and a bound of the rounding errors that have gone into it.
 //
-// Tells what is zero from what is the round-off of its terms, in whatever units: formulas replayed with this
-// scalar give their results and the sizes of their errors, to first order (running error analysis).
+// It tells a result that differs from zero from one that is only the round-off of its terms, whatever its
+// unit. A formula replayed with this scalar gives its results together with bounds of their errors, to first
+// order (running error analysis).
 #pragma once
 
 #include <cmath>
@@ -14,7 +15,7 @@ namespace pfaff {
 template <class T>
 struct WithRounding {
   T value{};
-  T error{};  // by unit_roundoff<T>()
+  T error{};  // in units of unit_roundoff<T>()
 
   WithRounding() = default;
   WithRounding(int v) : value(v) {}       // NOLINT(google-explicit-constructor)
@@ -57,7 +58,8 @@ T value_of(const WithRounding<T>& x) {
   return x.value;
 }
 
-/// f(x) with the slope of f: errors of the argument, magnified, and one rounding of the result.
+/// f(x), where `slope` is f'(x) up to its sign: the error of the argument times the slope, and one rounding
+/// of the result.
 template <class T>
 WithRounding<T> rounded(const WithRounding<T>& x, const T& f, const T& slope) {
   return {f, T(abs(slope)) * x.error + T(abs(f))};

@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
-#include <pfaff/core/registry/errors.hpp>
+#include <pfaff/core/errors/errors.hpp>
 
 namespace pfaff {
 
@@ -21,8 +22,8 @@ bool read_at(std::ifstream& file, std::uint64_t offset, void* to, std::uint64_t 
 }
 
 // Adds the texts of Pfaff's notes among the notes in `bytes`. Notes are looked for at every word instead of
-// being followed from one to the next, so that padding between them, as compilers and sanitizers add it,
-// hides none.
+// being followed from one to the next, because compilers and sanitizers add padding between them, behind
+// which a note would be missed.
 void collect_stamps(const std::vector<char>& bytes, std::vector<std::string>& stamps) {
   constexpr std::size_t owner_room = 8;
   for (std::size_t at = 0; at + sizeof(ElfW(Nhdr)) + owner_room <= bytes.size(); at += 4) {
@@ -55,8 +56,15 @@ std::string difference(const std::string& a, const std::string& b) {
 }  // namespace
 
 std::vector<std::string> abi_stamps(const std::string& path) {
+  // Whoever opens a pipe waits for its other end, and a device may never end: only files are opened.
+  std::error_code error;
+  const auto kind = std::filesystem::status(path, error).type();
+  if (kind != std::filesystem::file_type::regular && kind != std::filesystem::file_type::not_found)
+    throw InputError("plug-in '" + path +
+                     "': is no regular file; expected a shared object built against Pfaff");
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError("plug-in '" + path + "': cannot be read");
+  const std::uint64_t size = std::filesystem::file_size(path, error);
+  if (!file || error) throw InputError("plug-in '" + path + "': cannot be read");
   ElfW(Ehdr) header;
   constexpr unsigned char native = sizeof(void*) == 8 ? ELFCLASS64 : ELFCLASS32;
   if (!read_at(file, 0, &header, sizeof header) || std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0 ||
@@ -67,7 +75,14 @@ std::vector<std::string> abi_stamps(const std::string& path) {
   for (std::uint64_t k = 0; k < header.e_phnum; ++k) {
     ElfW(Phdr) segment;
     constexpr std::uint64_t most = 1U << 20U;  // notes are small; a larger size is a damaged file's
-    if (!read_at(file, header.e_phoff + k * sizeof segment, &segment, sizeof segment)) break;
+    const bool read = read_at(file, header.e_phoff + k * sizeof segment, &segment, sizeof segment);
+    // A segment is mapped into memory; the part that lies behind the end of the file can be mapped but not
+    // read, and the first look at it ends the process.
+    if (!read || (segment.p_type != PT_NULL && segment.p_type != PT_GNU_STACK &&
+                  (segment.p_offset > size || segment.p_filesz > size - segment.p_offset ||
+                   (segment.p_type == PT_LOAD && segment.p_filesz > segment.p_memsz))))
+      throw InputError("plug-in '" + path + "': is cut off or damaged, its segment " + std::to_string(k + 1) +
+                       " reaches behind the end of the file; expected a whole shared object");
     if (segment.p_type != PT_NOTE || segment.p_filesz > most) continue;
     std::vector<char> bytes(segment.p_filesz);
     if (read_at(file, segment.p_offset, bytes.data(), bytes.size())) collect_stamps(bytes, stamps);
@@ -75,12 +90,14 @@ std::vector<std::string> abi_stamps(const std::string& path) {
   return stamps;
 }
 
+std::string own_abi_stamp() { return abi_note.text; }
+
 void require_same_abi(const std::string& path) {
   const std::vector<std::string> stamps = abi_stamps(path);
   if (stamps.empty())
     throw InputError("plug-in '" + path +
                      "': has no Pfaff ABI stamp; expected a shared object built against Pfaff");
-  const std::string own = PFAFF_ABI_STAMP;
+  const std::string own = own_abi_stamp();
   for (const std::string& stamp : stamps)
     if (stamp != own)
       throw InputError("plug-in '" + path + "': built for " + difference(stamp, own) + "; expected " +

@@ -25,7 +25,8 @@ class Plugin {
   virtual ~Plugin() = default;
 
   [[nodiscard]] const std::string& name() const { return name_; }
-  [[nodiscard]] const std::vector<Parameter>& parameters() const { return parameters_; }
+  /// What can be set. Virtual for aliases, which leave out what they set themselves.
+  [[nodiscard]] virtual const std::vector<Parameter>& parameters() const { return parameters_; }
   /// The source file of the registration.
   [[nodiscard]] const std::string& file() const { return file_; }
   /// True when the plug-in's type has internal linkage, so that two files cannot silently share one name.

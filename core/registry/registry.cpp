@@ -2,14 +2,21 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <cfenv>
 
-#include <pfaff/core/bracket.hpp>
-#include <pfaff/core/formulation.hpp>
-#include <pfaff/core/integrator.hpp>
-#include <pfaff/core/system.hpp>
+#include <pfaff/core/registry/abi.hpp>
+#include <pfaff/core/registry/trial_load.hpp>
 
 namespace pfaff {
+
+bool is_kebab_case(std::string_view name) {
+  const auto small = [](char c) { return c >= 'a' && c <= 'z'; };
+  return !name.empty() && small(name.front()) && name.back() != '-' &&
+         name.find("--") == std::string_view::npos && std::all_of(name.begin(), name.end(), [&](char c) {
+           return small(c) || (c >= '0' && c <= '9') || c == '-';
+         });
+}
 
 Registry<SystemPlugin>& systems() {
   static Registry<SystemPlugin> registry;
@@ -28,20 +35,39 @@ Registry<FormulationPlugin>& formulations() {
   return registry;
 }
 
+std::vector<std::string> registered_twice() {
+  std::vector<std::string> all;
+  for (const auto* names : {&systems().duplicates(), &integrators().duplicates(), &brackets().duplicates(),
+                            &formulations().duplicates()})
+    all.insert(all.end(), names->begin(), names->end());
+  return all;
+}
+
+std::vector<std::string> misnamed() {
+  std::vector<std::string> all;
+  for (const auto* names :
+       {&systems().misnamed(), &integrators().misnamed(), &brackets().misnamed(), &formulations().misnamed()})
+    all.insert(all.end(), names->begin(), names->end());
+  return all;
+}
+
 void load_plugin(const std::string& path) {
   require_same_abi(path);
   const std::string local = path.find('/') == std::string::npos ? "./" + path : path;
-  // Whatever the file's start-up code does to the rounding and the treatment of subnormals is undone.
+  if (const std::string reason = trial_load(local); !reason.empty())
+    throw InputError("plug-in '" + path + "': " + reason);
+  // The file's start-up code may change the rounding and the treatment of subnormals, as code built with
+  // -ffast-math does; this is undone.
   std::fenv_t arithmetic;
   std::fegetenv(&arithmetic);
   const void* handle = dlopen(local.c_str(), RTLD_NOW | RTLD_LOCAL);
   std::fesetenv(&arithmetic);
   if (handle == nullptr) throw InputError("plug-in '" + path + "': " + dlerror());
   std::string twice;
-  for (const auto* names : {&systems().duplicates(), &integrators().duplicates(), &brackets().duplicates(),
-                            &formulations().duplicates()})
-    for (const std::string& name : *names) twice += (twice.empty() ? "" : "; ") + name;
+  for (const std::string& name : registered_twice()) twice += (twice.empty() ? "" : "; ") + name;
   if (!twice.empty()) throw InputError("registered twice: " + twice);
+  if (const auto names = misnamed(); !names.empty())
+    throw InputError("plug-in '" + path + "': " + names.front());
 }
 
 }  // namespace pfaff

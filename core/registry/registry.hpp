@@ -1,15 +1,22 @@
 // Registries: every plug-in of a kind by name, filled by static objects while libraries are loaded.
 //
-// Registering never throws: a second plug-in of the same name is kept aside and reported with both files.
+// Registering never throws: a second plug-in of the same name, and one whose name or parameter cannot be
+// written on a command line, is kept aside and reported with its file. An alias, a plug-in under another name
+// and with some parameters set, is found by name and not listed.
 #pragma once
 
 #include <algorithm>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include <pfaff/core/registry/errors.hpp>
+#include <pfaff/core/errors/errors.hpp>
 
 namespace pfaff {
+
+/// True for kebab-case, as in "damped-pendulum": a small letter, then small letters, digits and single
+/// hyphens.
+bool is_kebab_case(std::string_view name);
 
 class SystemPlugin;
 class MethodPlugin;
@@ -22,22 +29,30 @@ class Registry {
  public:
   /// Adds a plug-in with static lifetime.
   void add(const P* plugin) {
-    const auto [place, taken] = find_place(plugin->name());
-    if (taken) {
-      duplicates_.push_back(plugin->name() + " in " + (*place)->file() + " and " + plugin->file());
-    } else {
-      plugins_.insert(place, plugin);
-    }
+    if constexpr (requires { plugin->parameters(); })
+      for (const auto& parameter : plugin->parameters())
+        if (!is_kebab_case(parameter.name)) {
+          refuse(*plugin, "parameter", parameter.name);
+          return;
+        }
+    insert(plugin, plugins_, aliases_);
   }
+  /// Adds another name for a plug-in, itself of the plug-in's kind: it is found by its name and not listed.
+  void add_alias(const P* alias) { insert(alias, aliases_, plugins_); }
 
-  /// Plug-ins in alphabetical order.
+  /// Plug-ins in alphabetical order, without aliases.
   [[nodiscard]] const std::vector<const P*>& all() const { return plugins_; }
+  /// Aliases in alphabetical order.
+  [[nodiscard]] const std::vector<const P*>& aliases() const { return aliases_; }
   /// One line for every name registered twice.
   [[nodiscard]] const std::vector<std::string>& duplicates() const { return duplicates_; }
+  /// One line for every plug-in that was not registered because of its name or a parameter's.
+  [[nodiscard]] const std::vector<std::string>& misnamed() const { return misnamed_; }
 
+  /// The plug-in or alias of that name; null where there is none.
   [[nodiscard]] const P* find(std::string_view name) const {
-    for (const P* plugin : plugins_)
-      if (plugin->name() == name) return plugin;
+    for (const auto* list : {&plugins_, &aliases_})
+      if (const auto place = place_of(name, *list); has(name, *list, place)) return *place;
     return nullptr;
   }
   [[nodiscard]] std::vector<std::string> names() const {
@@ -45,22 +60,48 @@ class Registry {
     for (const P* plugin : plugins_) result.push_back(plugin->name());
     return result;
   }
+  /// The names of plug-ins and, after them, of aliases.
+  [[nodiscard]] std::vector<std::string> names_and_aliases() const {
+    std::vector<std::string> result = names();
+    for (const P* alias : aliases_) result.push_back(alias->name());
+    return result;
+  }
   /// The plug-in of that name; InputError with the nearest name otherwise. `kind` is "system", "integrator"…
   const P& get(std::string_view name, std::string_view kind) const {
     if (const P* plugin = find(name)) return *plugin;
-    throw InputError(unknown_name(kind, name, names()));
+    // An alias may be the nearest name; the list of what there is does without them.
+    const std::string near = nearest(name, names_and_aliases());
+    throw InputError(unknown_name(kind, name, near.empty() ? names() : names_and_aliases()));
   }
 
  private:
-  std::pair<typename std::vector<const P*>::iterator, bool> find_place(const std::string& name) {
-    auto place =
-        std::lower_bound(plugins_.begin(), plugins_.end(), name,
-                         [](const P* plugin, const std::string& key) { return plugin->name() < key; });
-    return {place, place != plugins_.end() && (*place)->name() == name};
+  using List = std::vector<const P*>;
+
+  static typename List::const_iterator place_of(std::string_view name, const List& list) {
+    return std::lower_bound(list.begin(), list.end(), name,
+                            [](const P* plugin, std::string_view key) { return plugin->name() < key; });
+  }
+  static bool has(std::string_view name, const List& list, typename List::const_iterator place) {
+    return place != list.end() && (*place)->name() == name;
+  }
+  void insert(const P* plugin, List& list, const List& other) {
+    const std::string& name = plugin->name();
+    if (!is_kebab_case(name)) return refuse(*plugin, "name", name);
+    for (const List* taken : {static_cast<const List*>(&list), &other})
+      if (const auto place = place_of(name, *taken); has(name, *taken, place)) {
+        duplicates_.push_back(name + " in " + (*place)->file() + " and " + plugin->file());
+        return;
+      }
+    list.insert(place_of(name, list), plugin);
   }
 
-  std::vector<const P*> plugins_;
-  std::vector<std::string> duplicates_;
+  void refuse(const P& plugin, std::string_view what, const std::string& text) {
+    misnamed_.push_back(plugin.name() + " in " + plugin.file() + ": the " + std::string(what) + " '" + text +
+                        "'; expected kebab-case, such as 'damped-pendulum'");
+  }
+
+  List plugins_, aliases_;
+  std::vector<std::string> duplicates_, misnamed_;
 };
 
 /// The registries, one of each kind in the process.
@@ -69,8 +110,16 @@ Registry<MethodPlugin>& integrators();
 Registry<BracketPlugin>& brackets();
 Registry<FormulationPlugin>& formulations();
 
-/// Loads a plug-in's shared object and with it its registrations. Refuses, before loading, a file whose ABI
-/// stamp is missing or different (InputError).
+/// One line for every name of any kind that is registered twice.
+std::vector<std::string> registered_twice();
+
+/// One line for every plug-in of any kind that was not registered because of its name or a parameter's.
+std::vector<std::string> misnamed();
+
+/// Loads a plug-in's shared object and with it its registrations. InputError, before anything of it is
+/// loaded, for a file that is no whole shared object or whose ABI stamp is missing or different; then, from a
+/// process of its own in which it is loaded first, for a file whose initialisers throw or end the process;
+/// and afterwards for names that are registered twice or are not kebab-case.
 void load_plugin(const std::string& path);
 
 }  // namespace pfaff

@@ -1,4 +1,4 @@
-// Text of a file as it was written, where a parser hands on less than that.
+// source_text: a part of a file as it was written, for a number that a parser hands on as a rounded double.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 namespace pfaff {
 
 /// Columns begin .. end - 1 of a line of `text`; lines and columns count from 1, columns in characters, not
-/// bytes (UTF-8). Underscores are left out: in numbers they are ornament.
+/// bytes (UTF-8). Underscores are left out: inside a number they only separate digits.
 inline std::string source_text(const std::string& text, std::size_t line, std::size_t begin,
                                std::size_t end) {
   std::size_t at = 0;

@@ -11,8 +11,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include <pfaff/core/errors/status.hpp>
 #include <pfaff/core/numbers/dual.hpp>
-#include <pfaff/core/solve/status.hpp>
 
 namespace pfaff {
 
@@ -21,8 +21,9 @@ template <class T>
 Value<T> relative_size(const T& delta, const T& reference, const T& change) {
   const Value<T> d = abs(value_of(delta));
   const Value<T> scale = std::max(abs(value_of(reference)), abs(value_of(change)));
-  // A NaN must not vanish. Whether the correction is zero decides nothing where it can be divided: a branch
-  // that ends every iteration at random would cost more than the division.
+  // A NaN must not vanish: it passes through the division and through the last line. A correction of zero is
+  // divided like any other, because the processor cannot predict which one is zero, and a wrong prediction
+  // costs more than the division.
   if (scale > Value<T>(0)) return d / scale;
   return d > Value<T>(0) ? std::numeric_limits<Value<T>>::infinity() : d;
 }
@@ -48,8 +49,9 @@ class Convergence {
   using Number = Value<T>;
 
   Convergence() = default;
-  /// Where one unknown lags an iteration behind another, corrections stall and contract in turns, and the
-  /// next one is not to be expected from the last two: `in_turns`.
+  /// `in_turns` is for iterations in which one unknown lags an iteration behind another. Corrections then
+  /// stall and contract in turns, so that the last two do not foretell the next one and no such forecast ends
+  /// the iteration.
   explicit Convergence(bool in_turns) : in_turns_(in_turns) {}
 
   /// Call before the corrections of an iteration are added.
@@ -66,8 +68,9 @@ class Convergence {
     if (s > size_) size_ = s;
   }
   /// True when the iteration should stop; `status()` then says how. Corrections already seen are to be
-  /// applied. `known_contraction` is that of iterations like this one, where they have been watched: the
-  /// first correction may then be the last, with a factor of 100 to spare.
+  /// applied. `known_contraction` is the ratio by which corrections shrank in earlier iterations like this
+  /// one; 1 where it is not known. With it the first correction may be the last: it is when the next one,
+  /// even at 100 times that ratio, would be well below round-off.
   bool finished(int limit, const Number& known_contraction = Number(1)) {
     const Number u = unit_roundoff<T>();
     if (!finite_) return stop(Status::non_finite);
@@ -91,7 +94,8 @@ class Convergence {
   }
   /// The last contraction ratio; 1 before two iterations are done.
   [[nodiscard]] Number ratio() const { return iterations_ < 2 ? Number(1) : size_ / previous_; }
-  /// The first contraction ratio, where corrections were large enough for it to mean something; else 0.
+  /// The ratio of the second correction to the first, where the first was far enough above round-off for the
+  /// ratio to mean something; otherwise 0.
   [[nodiscard]] Number contraction() const { return contraction_; }
   [[nodiscard]] int iterations() const { return iterations_; }
   [[nodiscard]] Status status() const { return status_; }

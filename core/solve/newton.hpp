@@ -11,8 +11,9 @@ namespace pfaff {
 
 /// Solves residual(x) = 0 with corrections -matrix^-1 residual, the matrix being an approximate Jacobian that
 /// is factored already. T may be a dual over the matrix's numbers: derivatives converge with the values.
-/// `residual(x, r)` fills r; `reference` and `change` give the sizes each component is judged by
-/// (Convergence); `correction` and `r` are buffers of x's size. On return x is the last iterate.
+/// `residual(x, r)` fills r. The correction of a component is judged by the larger of its `reference` and its
+/// own size (Convergence). `correction` and `r` are buffers of x's size. On return x is the last iterate and
+/// `iterations` their number.
 template <class T, class Residual>
 Status newton(const LU<Value<T>>& matrix, Residual&& residual, std::span<T> x, std::span<const T> reference,
               std::span<T> r, std::span<T> correction, int limit, int& iterations) {

@@ -89,13 +89,13 @@ class Guard {
   static Guard always() { return Guard(true, Recorded()); }
   Guard() = default;
 
-  /// Used inside a branch taken where `condition` > 0 (`taken`) or elsewhere, of a select that has this
-  /// guard.
+  /// The guard of a value that is used in one branch of a select which has this guard itself: in the branch
+  /// that is taken where `condition` > 0 (`taken`), or in the other.
   [[nodiscard]] Guard within(const Recorded& condition, bool taken) const {
     const Recorded branch = taken ? condition : negated(condition);
     return Guard(false, always_ ? branch : select(condition_, branch, Recorded(-1)));
   }
-  /// Used here and there.
+  /// Adds a second use to those of this guard.
   void join(const Guard& other) {
     if (always_ || other.always_) {
       *this = always();
@@ -144,7 +144,8 @@ std::vector<Recorded> gradient(const Tape& tape, const Recorded& t, std::span<co
   for (std::size_t k = x.size(); k-- > static_cast<std::size_t>(tape.state_begin);) {
     const Instruction& i = tape.code[k];
     const Recorded& w = adjoint[k];
-    // An adjoint handed on as it is, and one times a derivative.
+    // `pass` hands an adjoint on as it is. `add` is for an adjoint times a derivative, which may be NaN in a
+    // branch that is not taken and is therefore guarded.
     const auto pass = [&](int slot, const Recorded& value) { add_within(guards[k], slot, value); };
     const auto add = [&](int slot, const Recorded& value) { add_within(guards[k], slot, guards[k](value)); };
     if (i.operation == Operation::solve) {

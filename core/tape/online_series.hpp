@@ -1,15 +1,15 @@
-// OnlineSeries: the scalar with which a formula, run once for each level, extends its own truncated power
-// series by that level, in W lanes at once. The compiled counterpart of SeriesReplay (series.hpp, where the
-// recurrences are).
+// OnlineSeries: a scalar for truncated power series, in W lanes at once. A formula that is run with it once
+// for each level extends its own series by one coefficient each time. It is the compiled counterpart of
+// SeriesReplay (series.hpp, where the recurrences are).
 //
 // Every operation of the formula takes the next slot of the workspace, slot[levels], and computes one
 // coefficient there from the coefficients below it. Slots are counted in the order in which the formula runs,
-// which is the same at every level; once all is inlined the count, what is constant and what depends on time
-// alone are known to the compiler, and what is left are the recurrences themselves on fixed addresses. So the
-// formula must run the same operations every time: no branch on values, as for every formula here. What
-// depends on time alone is computed in a pass of its own.
+// which is the same at every level. Once everything is inlined, the compiler knows the number of each slot,
+// what is constant and what depends on time alone; only the recurrences are left, on fixed addresses. The
+// formula must therefore run the same operations every time: no branch on values, as for every formula here.
+// What depends on time alone is computed in a pass of its own.
 //
-// Limits: levels <= series_capacity; a formula whose size is a constant. Lanes share one time at level 0.
+// Limits: levels <= series_capacity; the formula's size is a constant; all lanes have one time at level 0.
 #pragma once
 
 #include <cmath>
@@ -50,7 +50,7 @@ class OnlineSeries {
   OnlineSeries(SeriesRun<W>& run, int slot, bool of_time, int degree = series_capacity)
       : run_(&run), slot_(slot), of_time_(of_time), degree_(degree) {}
 
-  /// The slot of this series; one is taken for a constant.
+  /// The slot of this series. A constant has none of its own and takes the next one.
   int placed(SeriesRun<W>& run) const {
     if (run_ != nullptr) return slot_;
     const int slot = run.next++;
@@ -233,7 +233,8 @@ class OnlineSeries {
   [[nodiscard]] OnlineSeries kind_with(const OnlineSeries& o) const {
     return next_slot(of_time_ && o.of_time());
   }
-  // f at level 0, lane by lane; once where only the time is in it, which all lanes share there.
+  // f at level 0, lane by lane. For a function of time alone it is computed once, as all lanes have the same
+  // time there.
   template <class F>
   [[nodiscard]] P each(F f) const {
     if (of_time_) return P(f(at(0)[0]));

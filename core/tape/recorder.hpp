@@ -23,7 +23,8 @@ class Recorded {
   Recorded() = default;
   Recorded(int value) : constant_(value) {}  // NOLINT(google-explicit-constructor)
   explicit Recorded(const Real& value) : constant_(value) {}
-  /// Would be cut to an int: constants of a formula are ints and Reals.
+  /// Refused, because a floating-point number would be cut to an int. The constants of a formula are ints and
+  /// Reals.
   template <std::floating_point F>
   Recorded(F value) = delete;
   Recorded(Recorder* recorder, int slot) : recorder_(recorder), slot_(slot) {}
@@ -109,7 +110,7 @@ Tape record(int inputs, int outputs, Formula&& formula) {
   Recorder recorder(inputs);
   const std::vector<Recorded> z = recorder.inputs();
   std::vector<Recorded> results(static_cast<std::size_t>(outputs));
-  formula(recorder.time(), std::span<const Recorded>(z), std::span<Recorded>(results));
+  formula(recorder.time(), In<Recorded>(z), Out<Recorded>(results));
   return recorder.finish(results);
 }
 

@@ -1,10 +1,10 @@
 // SeriesReplay: a tape evaluated in truncated power series, level by level, at several nodes (lanes) at once.
 //
-// Every slot holds x(s) = sum_l x_l s^l. Level l of every instruction needs levels 0..l of its operands only,
-// so a caller may compute level l of its own unknowns from level l-1 of the outputs and go on (online
-// evaluation): this is what turns an implicit collocation into one explicit pass (GENERATING-FUNCTION
-// schemes) and an ODE into its Taylor series. Slots that depend on time alone are computed for all levels
-// when the time is set.
+// Every slot holds x(s) = sum_l x_l s^l. Level l of every instruction needs levels 0..l of its operands only.
+// A caller may therefore compute level l of its own unknowns from level l-1 of the outputs and go on (online
+// evaluation). This turns the implicit collocation of a generating-function scheme into one explicit pass,
+// and an ODE into its Taylor series. Slots that depend on time alone are computed for all levels when the
+// time is set.
 //
 // Recurrences at level l, sums over i: product sum a_i b_{l-i}; quotient (a_l - sum_{i>=1} b_i q_{l-i}) /
 // b_0; exp (1/l) sum i a_i e_{l-i}; sine and cosine coupled; log, sqrt; a^r: sum (i r - (l - i)) a_i p_{l-i}

@@ -49,7 +49,8 @@ bool Tape::state_independent() const {
 }
 
 namespace {
-// Calls visit(slot) for every slot an instruction reads (groups: for the group's first instruction only).
+// Calls visit(slot) for every slot that an instruction reads. The slots of a linear system are read by the
+// first instruction of its group.
 template <class Visit>
 void operands(const Instruction& i, const std::vector<LinearSystem>& solves, Visit&& visit) {
   switch (i.operation) {
@@ -79,7 +80,8 @@ void operands(const Instruction& i, const std::vector<LinearSystem>& solves, Vis
       return;
   }
 }
-// The first instruction of the group that writes slot k.
+// The first instruction of the group that writes slot k. A group is a sine with its cosine or all components
+// of a linear solve; other instructions are groups of one.
 std::size_t group_start(const std::vector<Instruction>& code, std::size_t k) {
   if (code[k].operation == Operation::cosine) return k - 1;
   if (code[k].operation == Operation::solve_next) return k - static_cast<std::size_t>(code[k].b);
@@ -91,7 +93,7 @@ Tape Recorder::finish(std::span<const Recorded> outputs) {
   std::vector<int> results;
   for (const Recorded& output : outputs) results.push_back(slot_of(output));
 
-  // What is needed: groups (sine with cosine, all components of a solve) are kept whole.
+  // Mark what the outputs need, last instruction first. A group is kept whole.
   const std::size_t n = code_.size();
   std::vector<char> needed(n, 0);
   for (const int slot : results) needed[static_cast<std::size_t>(slot)] = 1;

@@ -22,9 +22,13 @@ struct Duffing {
   }
 };
 
-const System<Duffing> registered{{.name = "duffing",
-                                  .title = "Duffing oscillator, q'' + alpha q + beta q^3 = 0",
-                                  .reference = "duffing1918",
-                                  .coordinates = {{"q", "m"}, {"p", "m/s"}},
-                                  .initial = {0.5_r, 0}}};
+const System<Duffing> registered{
+    {.name = "duffing",
+     .title = "Duffing oscillator, q'' + alpha q + beta q^3 = 0",
+     .reference = "duffing1918",
+     .description = "A particle in a double well without friction, the example of a plug-in outside the "
+                    "tree. Take it as a start for a system of your own. It conserves its energy and has an "
+                    "unstable point at the origin, where motions separate.",
+     .coordinates = {{"q", "m"}, {"p", "m/s"}},
+     .initial = {0.5_r, 0}}};
 }  // namespace

@@ -24,9 +24,12 @@ struct Ralston {
   }
 };
 
-const Method<Ralston> registered{{.name = "ralston",
-                                  .title = "Ralston's method of order 3",
-                                  .reference = "ralston1962",
-                                  .order = 3,
-                                  .preserves = {Claim::none}}};
+const Method<Ralston> registered{
+    {.name = "ralston",
+     .title = "Ralston's method of order 3",
+     .reference = "ralston1962",
+     .description = "Ralston's explicit Runge-Kutta method of order 3, the example of an integrator outside "
+                    "the tree. Take it as a start for a method of your own. It keeps no structure.",
+     .order = 3,
+     .preserves = {Claim::none}}};
 }  // namespace

@@ -2,7 +2,7 @@
 // and the old momentum. docs/generating-functions.md takes this code; check_lagrangian tests it.
 #pragma once
 
-#include <pfaff/integrators/lagrangian_transformation.hpp>
+#include <pfaff/integrators/generating/lagrangian_transformation.hpp>
 
 namespace pfaff::examples {
 

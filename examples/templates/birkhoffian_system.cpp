@@ -62,10 +62,13 @@ struct DampedTrap {
   }
 };
 
-const System<DampedTrap> registered{{.name = "template-birkhoffian",
-                                     .title = "damped particle in a quartic trap, m q'' + c q' + k q^3 = 0",
-                                     .reference = "su-qin (4), (92)-(94)",
-                                     .coordinates = {{"q", "m"}, {"v", "m/s"}},
-                                     .initial = {1, 0.2_r},
-                                     .invariants = {decreasing("energy", "J")}}};
+const System<DampedTrap> registered{
+    {.name = "template-birkhoffian",
+     .title = "damped particle in a quartic trap, m q'' + c q' + k q^3 = 0",
+     .reference = "su-qin (4), (92)-(94)",
+     .description = "A damped particle in a quartic trap in Birkhoff's form, the template of such systems. "
+                    "Say what moves and what the system is good for. Say where it ends, too.",
+     .coordinates = {{"q", "m"}, {"v", "m/s"}},
+     .initial = {1, 0.2_r},
+     .invariants = {decreasing("energy", "J")}}};
 }  // namespace

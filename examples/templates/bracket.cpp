@@ -26,9 +26,12 @@ struct LogCanonical {
   }
 };
 
-const Bracket<LogCanonical> registered{{.name = "template-bracket",
-                                        .title = "log-canonical bracket {z_i, z_j} = a_ij z_i z_j",
-                                        .reference = "marsden-ratiu1999 10.1",
-                                        .symmetry = Symmetry::skew,
-                                        .jacobi = true}};
+const Bracket<LogCanonical> registered{
+    {.name = "template-bracket",
+     .title = "log-canonical bracket {z_i, z_j} = a_ij z_i z_j",
+     .reference = "marsden-ratiu1999 10.1",
+     .description = "The log-canonical bracket in three dimensions, the template of a bracket. Say what it "
+                    "is and when to take it. Say where it ends, too.",
+     .symmetry = Symmetry::skew,
+     .jacobi = true}};
 }  // namespace

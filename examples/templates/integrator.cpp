@@ -46,9 +46,12 @@ struct TwoStage {  // parameters only: the object is shared between runs and nev
   }
 };
 
-const Method<TwoStage> registered{{.name = "template-integrator",
-                                   .title = "explicit midpoint rule",
-                                   .reference = "hairer-norsett-wanner1993 II.1",
-                                   .order = 2,
-                                   .preserves = {Claim::none}}};
+const Method<TwoStage> registered{
+    {.name = "template-integrator",
+     .title = "explicit midpoint rule",
+     .reference = "hairer-norsett-wanner1993 II.1",
+     .description = "The explicit midpoint rule with a free node, the template of an integrator. Say what it "
+                    "is and when to take it. Say where it ends, too.",
+     .order = 2,
+     .preserves = {Claim::none}}};
 }  // namespace

@@ -42,7 +42,9 @@ struct QuarticTrap {
 const System<QuarticTrap> registered{
     {.name = "template-system",  // kebab-case, unique
      .title = "particle in a quartic trap, m q'' + k q^3 = 0",
-     .reference = "hairer-lubich-wanner2006 I.1",  // key in references.bib, equation
+     .reference = "hairer-lubich-wanner2006 I.1",
+     .description = "A particle in a quartic trap, the template of a system. Say what moves and what the "
+                    "system is good for. Say where it ends, too.",  // key in references.bib, equation
      .coordinates = {{"q1", "m"}, {"q2", "m"}, {"p1", "kg m/s"}, {"p2", "kg m/s"}},
      .initial = {1, 0.5_r, 0, 0.2_r},
      .invariants = {conserved("energy", "J")}}};

@@ -26,7 +26,12 @@ struct BeadRod : BeadRodSystem<BeadRod> {
   }
 };
 
-const System<BeadRod> registered{{.name = "bead-rod",
-                                  .title = "point masses and rigid rods, from a model file",
-                                  .reference = "nguyen-turski section 4"}};
+const System<BeadRod> registered{
+    {.name = "bead-rod",
+     .title = "point masses and rigid rods, from a model file",
+     .reference = "nguyen-turski section 4",
+     .description = "Point masses and rigid rods from a model file, joined in any way, with anchors, "
+                    "friction and the usual forces. Take it for molecules, linkages and chains of your own; "
+                    "S is solved in the structure that the graph of rods has, in linear time for chains, "
+                    "trees and rings. Redundant rods make S singular and are refused."}};
 }  // namespace

@@ -40,8 +40,8 @@ class CellList {
     return true;
   }
 
-  /// Calls use(i, j), i < j, once for every pair in the same or in adjacent cells, which has all pairs closer
-  /// than the width. For each i in turn.
+  /// Calls use(i, j), i < j, once for every pair in the same or in adjacent cells, among which are all pairs
+  /// closer than the width. Pairs come in the order of i.
   template <class Use>
   void each_pair(const Use& use) const {
     for (std::size_t i = 0; i < cells_.size(); ++i) {

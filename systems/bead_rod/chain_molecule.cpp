@@ -67,5 +67,9 @@ struct ChainMolecule : BeadRodSystem<ChainMolecule> {
 const System<ChainMolecule> registered{
     {.name = "chain-molecule",
      .title = "free chain of beads on rigid rods, with Lennard-Jones and Coulomb forces",
-     .reference = "nguyen-turski (4.3), (4.4)"}};
+     .reference = "nguyen-turski (4.3), (4.4)",
+     .description = "A free chain of beads on rigid rods with Lennard-Jones and Coulomb forces and friction, "
+                    "as in models of polymers. Take it to compare formulations and methods in three "
+                    "dimensions with forces between all pairs, which cost more than the constraints from a "
+                    "few dozen beads on. Beads that come close make the motion stiff."}};
 }  // namespace

@@ -4,7 +4,7 @@
 #include <map>
 #include <utility>
 
-#include <pfaff/core/registry/errors.hpp>
+#include <pfaff/core/errors/errors.hpp>
 #include <pfaff/systems/bead_rod/graph.hpp>
 
 namespace pfaff {

@@ -86,11 +86,11 @@ struct BeadRodDescription {
   [[nodiscard]] const Real& coordinate(std::size_t point, std::size_t axis) const {
     return point < beads() ? positions[point * axes() + axis] : anchors[point - beads()].position[axis];
   }
-  /// Between two points at the start.
+  /// The distance of two points at the start.
   [[nodiscard]] Real distance(std::size_t a, std::size_t b) const;
   /// "bead 3" or "anchor 'origin'".
   [[nodiscard]] std::string name_of(std::size_t point) const;
-  /// Rods, or springs and so on, are refused where they make no sense: InputError "ORIGIN: rods[2]: ...".
+  /// Refuses a description that makes no sense, part by part: InputError "ORIGIN: rods[2]: ...".
   void check() const;
 };
 

@@ -8,7 +8,7 @@
 #include <toml++/toml.h>
 #include <nlohmann/json.hpp>
 
-#include <pfaff/core/registry/errors.hpp>
+#include <pfaff/core/errors/errors.hpp>
 #include <pfaff/core/registry/source_text.hpp>
 
 namespace pfaff {
@@ -96,7 +96,12 @@ class JsonReader : public nlohmann::json_sax<nlohmann::json> {
     return true;
   }
   // An open node stays where it is: only the last item or member of a node is ever open.
+  // Values are destroyed by a function that calls itself for each level, so there is a limit to these.
   bool open(Kind kind) {
+    constexpr std::size_t deepest = 64;
+    if (open_.size() == deepest)
+      throw InputError(path_ + ": expected at most " + std::to_string(deepest) +
+                       " lists and tables inside one another");
     DocumentNode& node = place();
     node = container(kind);
     open_.push_back(&node);

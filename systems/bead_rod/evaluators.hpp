@@ -11,7 +11,3 @@ template <class T, int D>
 std::unique_ptr<HolonomicConstraints<T>> rod_constraints(const BeadRodParts& parts);
 
 }  // namespace pfaff::detail
-
-#define PFAFF_FOR_EVERY_SCALAR(USE) \
-  USE(double)                       \
-  USE(pfaff::Quad) USE(pfaff::StepDual<double>) USE(pfaff::StepDual<pfaff::Quad>) USE(pfaff::Recorded)

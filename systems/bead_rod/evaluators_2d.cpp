@@ -2,11 +2,5 @@
 #include <pfaff/systems/bead_rod/evaluators_of_dimension.hpp>
 
 namespace pfaff::detail {
-// NOLINTBEGIN(bugprone-macro-parentheses): template arguments take none
-#define PFAFF_EVALUATORS(T)                                      \
-  template T potential_energy<T, 2>(const BeadRodParts&, In<T>); \
-  template std::unique_ptr<HolonomicConstraints<T>> rod_constraints<T, 2>(const BeadRodParts&);
-PFAFF_FOR_EVERY_SCALAR(PFAFF_EVALUATORS)
-#undef PFAFF_EVALUATORS
-// NOLINTEND(bugprone-macro-parentheses)
+template struct EvaluatorInstances<2>;
 }  // namespace pfaff::detail

@@ -1,6 +1,8 @@
 // The definitions that the files of each dimension instantiate.
 #pragma once
 
+#include <tuple>
+
 #include <pfaff/systems/bead_rod/evaluators.hpp>
 #include <pfaff/systems/bead_rod/rod_constraints.hpp>
 
@@ -15,5 +17,14 @@ template <class T, int D>
 std::unique_ptr<HolonomicConstraints<T>> rod_constraints(const BeadRodParts& parts) {
   return std::make_unique<RodConstraints<T, D>>(parts.description, parts.graph);
 }
+
+/// Emits both for every scalar of the list.
+template <int D, class List = FormulaScalars>
+struct EvaluatorInstances;
+template <int D, class... T>
+struct EvaluatorInstances<D, Scalars<T...>> {
+  static constexpr std::tuple energies{&potential_energy<T, D>...};
+  static constexpr std::tuple constraints{&rod_constraints<T, D>...};
+};
 
 }  // namespace pfaff::detail

@@ -3,19 +3,20 @@
 //   Dirac         mu = S^-1 phi~, x = S^-1 (h - A mu), q' = v - M^-1 B^T mu, p' = f - B^T x + T^T mu
 //   multipliers   x = S^-1 h, q' = v, p' = f - B^T x
 //
-// S and A are tridiagonal. The path is folded in the middle: one lane of a pack goes through the left half,
-// the other through the mirrored right half, so that what waits for the division of an elimination does so
-// for both. A path with an odd number of rods gets one more at the right end, coupled to nothing: a point of
-// mass 1 beside the last one, moving with it.
+// S and A are tridiagonal. The path is folded in the middle: one lane of a pack goes through the left half
+// and the other through the mirrored right half, so that both halves share the wait for each division of an
+// elimination. A path with an odd number of rods gets one more at the right end, to make the halves equally
+// long. It is coupled to nothing: its end is a point of mass 1 beside the last bead, which moves with that
+// bead.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
 #include <vector>
 
+#include <pfaff/core/errors/status.hpp>
 #include <pfaff/core/numbers/functions.hpp>
 #include <pfaff/core/numbers/pack.hpp>
-#include <pfaff/core/solve/status.hpp>
 #include <pfaff/systems/bead_rod/description.hpp>
 #include <pfaff/systems/bead_rod/graph.hpp>
 
@@ -24,7 +25,8 @@ namespace pfaff {
 template <int D>
 class FoldedPath {
  public:
-  /// True where the path has the form that is folded: not an odd number of rods between two anchors.
+  /// True where the path can be folded. An odd number of rods between two anchors cannot: no end is a bead,
+  /// beside which the additional rod would stand.
   static bool fits(const BeadRodDescription& d, const RodPath& path) {
     const bool odd = path.points.size() % 2 == 0;
     return !(odd && path.points.front() >= d.beads() && path.points.back() >= d.beads());
@@ -181,7 +183,8 @@ class FoldedPath {
     [[nodiscard]] L solve(const L& y) const {
       return {(y[0] * right_ - coupling_ * y[1]) * scale_, (y[1] * left_ - coupling_ * y[0]) * scale_};
     }
-    /// True where all pivots were: of each, `products` has zero times its reciprocal.
+    /// True where all pivots were usable. `products` is the sum of zero times the reciprocal of each: 0 where
+    /// all reciprocals are finite, and otherwise not-a-number.
     [[nodiscard]] bool usable(const L& products) const {
       return products[0] == 0 && products[1] == 0 && scale_ * 0 == 0;
     }
@@ -210,8 +213,8 @@ class FoldedPath {
     return r;
   }
 
-  // Geometry, and the elimination of S with phi~ (Dirac) or h at its right-hand side. Returns zero times all
-  // reciprocals of pivots.
+  // Geometry, and the elimination of S with phi~ (Dirac) or h at its right-hand side. Returns the sum of zero
+  // times the reciprocal of each pivot, for Middle::usable().
   template <bool Dirac>
   L eliminate(const double* q, const double* p) {
     Vec beside = anchors_, still{};

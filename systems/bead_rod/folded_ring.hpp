@@ -3,7 +3,7 @@
 //
 //   S = [[S_path, c], [c^T, s]],   g = S_path^-1 c,   x_b = (r_b - g.r)/(s - g.c),   x = S_path^-1 r - g x_b.
 //
-// c has entries at the two rods that the closing rod touches alone.
+// c has entries only at the two rods that the closing rod touches.
 #pragma once
 
 #include <pfaff/systems/bead_rod/folded_path.hpp>
@@ -121,9 +121,11 @@ class FoldedRing : private FoldedPath<D> {
  private:
   using Path::across;
 
-  // The row where the right lane's end touches the closing rod: the additional rod is not of the ring.
+  // The row where the right lane's end touches the closing rod. Where a rod was added to make the halves
+  // equally long, it is row 0 there, and no part of the ring.
   [[nodiscard]] std::size_t right_end() const { return this->odd_ ? 1 : 0; }
-  // The closing rod points at point 0 of either lane.
+  // The closing rod's direction and turning, with these factors: plus at its end in the left lane, minus at
+  // its end in the right lane.
   [[nodiscard]] Vec lanes(double of_direction, double of_turning) const {
     Vec r;
     for (std::size_t k = 0; k < D; ++k) {

@@ -33,7 +33,12 @@ struct FourBar : BeadRodSystem<FourBar> {
   }
 };
 
-const System<FourBar> registered{{.name = "four-bar",
-                                  .title = "four-bar linkage: a closed loop of three rods and the ground",
-                                  .reference = "nguyen-turski section 4"}};
+const System<FourBar> registered{
+    {.name = "four-bar",
+     .title = "four-bar linkage: a closed loop of three rods and the ground",
+     .reference = "nguyen-turski section 4",
+     .description = "Crank, coupler and rocker on two anchors, a closed loop with one degree of freedom. "
+                    "Take it as the smallest mechanism with a loop. Where all bars of a linkage fall on one "
+                    "line the constraints depend on each other: near such a position S is nearly singular "
+                    "and every formulation loses digits."}};
 }  // namespace

@@ -75,7 +75,12 @@ struct Humanoid : BeadRodSystem<Humanoid> {
   }
 };
 
-const System<Humanoid> registered{{.name = "humanoid",
-                                   .title = "a human figure of 13 points and 12 rods, falling",
-                                   .reference = "nguyen-turski section 4; winter2009"}};
+const System<Humanoid> registered{
+    {.name = "humanoid",
+     .title = "a human figure of 13 points and 12 rods, falling",
+     .reference = "nguyen-turski section 4; winter2009",
+     .description = "A human figure of 13 points and 12 rods that falls, with lengths and masses after "
+                    "tables of anthropometry. Take it as a branched graph of rods, where S is solved along "
+                    "the tree. It has no joints' limits, no muscles and no ground: it is a test of "
+                    "constraints and not a model of walking."}};
 }  // namespace

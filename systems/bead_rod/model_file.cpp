@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include <pfaff/core/registry/errors.hpp>
+#include <pfaff/core/errors/errors.hpp>
 #include <pfaff/systems/bead_rod/document.hpp>
 
 namespace pfaff {

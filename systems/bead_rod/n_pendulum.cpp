@@ -18,6 +18,10 @@ struct NPendulum : BeadRodSystem<NPendulum> {
         parameter(&NPendulum::drag, "friction", "kg/s", 0, 1e3, "of each bob"),
         parameter(&NPendulum::seed, "seed", "", 0, 1000000000, "of the velocities at the start; 0: at rest")};
   }
+  // In space, one bob, and with friction.
+  static std::vector<Assignments> instances(bool /*full*/) {
+    return {{}, {{"bobs", "1"}}, {{"bobs", "2"}, {"dimension", "3"}}, {{"friction", "0.5"}}};
+  }
   [[nodiscard]] BeadRodDescription describe() const {
     BeadRodDescription d;
     d.origin = "system n-pendulum";
@@ -39,7 +43,12 @@ struct NPendulum : BeadRodSystem<NPendulum> {
   }
 };
 
-const System<NPendulum> registered{{.name = "n-pendulum",
-                                    .title = "pendulum of N bobs on rigid rods, in a plane or in space",
-                                    .reference = "nguyen-turski (B.1)-(B.5)"}};
+const System<NPendulum> registered{
+    {.name = "n-pendulum",
+     .title = "pendulum of N bobs on rigid rods, in a plane or in space",
+     .reference = "nguyen-turski (B.1)-(B.5)",
+     .description = "A chain of N bobs on rigid rods, hanging from a point, in the plane or in space. Take "
+                    "it to see how cost and accuracy scale with the number of constraints: S is tridiagonal "
+                    "and solved in linear time. Long chains are chaotic within a few swings, and only energy "
+                    "and momenta can be compared after that."}};
 }  // namespace

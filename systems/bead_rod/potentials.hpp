@@ -17,9 +17,9 @@
 #include <memory>
 #include <vector>
 
+#include <pfaff/core/errors/status.hpp>
 #include <pfaff/core/numbers/elliptic.hpp>
 #include <pfaff/core/numbers/functions.hpp>
-#include <pfaff/core/solve/status.hpp>
 #include <pfaff/systems/bead_rod/cell_list.hpp>
 #include <pfaff/systems/bead_rod/description.hpp>
 #include <pfaff/systems/bead_rod/graph.hpp>
@@ -182,8 +182,9 @@ class Potentials {
     return false;
   }
 
-  // Calls use(i, j, r_i - r_j, |r_i - r_j|^2, share) for the pairs of p, with a share of 1, or of 0 for pairs
-  // that a formula being recorded may leave out. False where a pair is at distance zero or not a number.
+  // Calls use(i, j, r_i - r_j, |r_i - r_j|^2, share) for the pairs of p. The share is 1, but a formula that
+  // is being recorded cannot skip the pairs beyond the cut-off and gets them with a share of 0. False where a
+  // pair is at distance zero or not a number.
   template <class Use>
   bool visit(const Pairs& p, In<T> q, const Use& use) {
     bool regular = true;

@@ -43,5 +43,11 @@ struct Ring : BeadRodSystem<Ring> {
 };
 
 const System<Ring> registered{
-    {.name = "ring", .title = "closed chain of beads on rigid rods", .reference = "nguyen-turski section 4"}};
+    {.name = "ring",
+     .title = "closed chain of beads on rigid rods",
+     .reference = "nguyen-turski section 4",
+     .description =
+         "A closed chain of beads and rods, free in space, started as a regular polygon. Take it as the case "
+         "where S is cyclic, with conserved momenta and angular momenta. Without gravity and friction it "
+         "only turns and flexes; in the plane a polygon with all rods on one line is a singular position."}};
 }  // namespace

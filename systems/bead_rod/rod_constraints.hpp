@@ -114,7 +114,59 @@ class RodConstraints final : public HolonomicConstraints<T> {
     maps_.template columns_times<false>(turnings_, x, f);
   }
 
-  std::optional<Status> dirac_rates(const T& /*t*/, In<T> q, In<T> p, Out<T> q_rate, Out<T> p_rate) override {
+  [[nodiscard]] ConstrainedRates<T>* rates(Reactions reactions) override {
+    if (reactions == Reactions::hamiltonian) return &hamiltonian_;
+    return reactions == Reactions::ideal ? &ideal_ : nullptr;
+  }
+
+  [[nodiscard]] std::span<const T> friction() const override { return friction_; }
+  Status factor_friction() override {
+    if (friction_s_ == nullptr) return Status::converged;
+    const auto weight = [&](std::size_t point) {
+      if (point * D >= degrees_) return T(0);
+      return friction_[point * D] * (maps_.inverse_mass(point) * maps_.inverse_mass(point));
+    };
+    for (std::size_t k = 0; k < count(); ++k) {
+      const auto [a, b] = maps_.ends(k);
+      friction_s_->diagonal()[k] = dot(directions_[k], directions_[k]) * (weight(a) + weight(b));
+    }
+    const auto& couplings = graph_->couplings();
+    for (std::size_t c = 0; c < couplings.size(); ++c) {
+      const T product =
+          weight(couplings[c].bead) * dot(directions_[couplings[c].k], directions_[couplings[c].l]);
+      friction_s_->couplings()[c] = couplings[c].same_side ? product : -product;
+    }
+    return friction_s_->factor_semidefinite();
+  }
+  void solve_friction(In<T> r, Out<T> x) const override {
+    if (friction_s_ == nullptr) {
+      for (std::size_t k = 0; k < count(); ++k) x[k] = T(0);
+    } else {
+      friction_s_->solve(r.data(), x.data());
+    }
+  }
+
+ private:
+  using Arm = typename RodMaps<T, D>::Arm;
+  static T dot(const Arm& a, const Arm& b) { return RodMaps<T, D>::dot(a, b); }
+
+  // Dirac's equations, nguyen-turski (4.2), and Lagrange's, (A.5), in two passes over the rods.
+  struct HamiltonianRates final : ConstrainedRates<T> {
+    explicit HamiltonianRates(RodConstraints& of) : rods(of) {}
+    Status operator()(const T& /*t*/, In<T> q, In<T> p, Out<T> q_rate, Out<T> p_rate) override {
+      return rods.hamiltonian_rates(q, p, q_rate, p_rate);
+    }
+    RodConstraints& rods;
+  };
+  struct IdealRates final : ConstrainedRates<T> {
+    explicit IdealRates(RodConstraints& of) : rods(of) {}
+    Status operator()(const T& /*t*/, In<T> q, In<T> p, Out<T> q_rate, Out<T> p_rate) override {
+      return rods.ideal_rates(q, p, q_rate, p_rate);
+    }
+    RodConstraints& rods;
+  };
+
+  Status hamiltonian_rates(In<T> q, In<T> p, Out<T> q_rate, Out<T> p_rate) {
     if constexpr (folds)
       if (folded_)
         return folded_rates(q, p, q_rate, p_rate, [&](auto& path) {
@@ -152,8 +204,7 @@ class RodConstraints final : public HolonomicConstraints<T> {
     maps_.velocity(q_rate, q_rate);
     return status;
   }
-  std::optional<Status> multiplier_rates(const T& /*t*/, In<T> q, In<T> p, Out<T> q_rate,
-                                         Out<T> p_rate) override {
+  Status ideal_rates(In<T> q, In<T> p, Out<T> q_rate, Out<T> p_rate) {
     if constexpr (folds)
       if (folded_)
         return folded_rates(q, p, q_rate, p_rate, [&](auto& path) {
@@ -174,39 +225,8 @@ class RodConstraints final : public HolonomicConstraints<T> {
     return status;
   }
 
-  [[nodiscard]] std::span<const T> friction() const override { return friction_; }
-  Status factor_friction() override {
-    if (friction_s_ == nullptr) return Status::converged;
-    const auto weight = [&](std::size_t point) {
-      if (point * D >= degrees_) return T(0);
-      return friction_[point * D] * (maps_.inverse_mass(point) * maps_.inverse_mass(point));
-    };
-    for (std::size_t k = 0; k < count(); ++k) {
-      const auto [a, b] = maps_.ends(k);
-      friction_s_->diagonal()[k] = dot(directions_[k], directions_[k]) * (weight(a) + weight(b));
-    }
-    const auto& couplings = graph_->couplings();
-    for (std::size_t c = 0; c < couplings.size(); ++c) {
-      const T product =
-          weight(couplings[c].bead) * dot(directions_[couplings[c].k], directions_[couplings[c].l]);
-      friction_s_->couplings()[c] = couplings[c].same_side ? product : -product;
-    }
-    return friction_s_->factor_semidefinite();
-  }
-  void solve_friction(In<T> r, Out<T> x) const override {
-    if (friction_s_ == nullptr) {
-      for (std::size_t k = 0; k < count(); ++k) x[k] = T(0);
-    } else {
-      friction_s_->solve(r.data(), x.data());
-    }
-  }
-
- private:
-  using Arm = typename RodMaps<T, D>::Arm;
-  static T dot(const Arm& a, const Arm& b) { return RodMaps<T, D>::dot(a, b); }
-
   static constexpr bool folds = std::is_same_v<T, double>;
-  // In doubles, where all rods are paths and rings.
+  // Makes the folded paths and rings that compute rates in doubles, where all rods are parts of such.
   void fold() {
     if constexpr (folds) {
       const BeadRodDescription& d = *description_;
@@ -307,6 +327,8 @@ class RodConstraints final : public HolonomicConstraints<T> {
   std::vector<FoldedPath<D>> paths_;
   std::vector<FoldedRing<D>> rings_;
   std::vector<std::size_t> lone_;  // beads without rods
+  HamiltonianRates hamiltonian_{*this};
+  IdealRates ideal_{*this};
 };
 
 }  // namespace pfaff

@@ -1,7 +1,8 @@
-// The linear maps of rods between numbers of rods and vectors of beads, and the directions they are made of.
+// The linear maps between one number for each rod and one vector for each bead, such as B and B^T, and the
+// directions of the rods that they are made of.
 //
-// Of a graph they are loops over rods. Chains whose rods follow one another, from an anchor or from a free
-// bead, go from bead to bead, with what two rods share kept in registers.
+// For a general graph they are loops over rods. In a chain, whose rods follow one another from an anchor or
+// from a free bead, they go from bead to bead and keep what two neighbouring rods share in registers.
 #pragma once
 
 #include <algorithm>
@@ -121,8 +122,8 @@ class RodMaps {
   }
 
  private:
-  // Rod k of a chain joins bead k + free_ and the one before it, from either to the other; without a free
-  // bead the first joins bead 0 and an anchor.
+  // Rod k of a chain joins bead k + free_ and the one before it, in either direction; without a free bead the
+  // first joins bead 0 and an anchor.
   void find_chain() {
     if (ends_.empty() || ends_.size() > beads_ || ends_.size() + 1 < beads_) return;
     free_ = beads_ - ends_.size();

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <tuple>
 
-#include <pfaff/core/registry/errors.hpp>
+#include <pfaff/core/errors/errors.hpp>
 #include <pfaff/systems/bead_rod/evaluators.hpp>
 
 namespace pfaff {
@@ -47,13 +48,18 @@ std::unique_ptr<HolonomicConstraints<T>> rod_constraints(const BeadRodParts& par
   return parts.description->dimension == 2 ? detail::rod_constraints<T, 2>(parts)
                                            : detail::rod_constraints<T, 3>(parts);
 }
-// NOLINTBEGIN(bugprone-macro-parentheses): template arguments take none
-#define PFAFF_EVALUATORS(T)                                   \
-  template T potential_energy<T>(const BeadRodParts&, In<T>); \
-  template std::unique_ptr<HolonomicConstraints<T>> rod_constraints<T>(const BeadRodParts&);
-PFAFF_FOR_EVERY_SCALAR(PFAFF_EVALUATORS)
-#undef PFAFF_EVALUATORS
-// NOLINTEND(bugprone-macro-parentheses)
+
+namespace detail {
+// Emits both for every scalar of the list.
+template <class List>
+struct RodInstances;
+template <class... T>
+struct RodInstances<Scalars<T...>> {
+  static constexpr std::tuple energies{&pfaff::potential_energy<T>...};
+  static constexpr std::tuple constraints{&pfaff::rod_constraints<T>...};
+};
+template struct RodInstances<FormulaScalars>;
+}  // namespace detail
 
 void start_at_random(BeadRodDescription& description, int seed) {
   RandomNumbers random(seed);

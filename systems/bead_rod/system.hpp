@@ -146,7 +146,7 @@ class BeadRodSystem {
   [[nodiscard]] const BeadRodDescription& description() const { return *parts().description; }
 
  private:
-  // Made when it is first asked for, while the model is: the parameters are fixed by then.
+  // Made when it is first asked for. That is while the model is made, when the parameters are fixed.
   [[nodiscard]] const BeadRodParts& parts() const {
     if (parts_ == nullptr)
       parts_ = std::make_shared<const BeadRodParts>(static_cast<const S*>(this)->describe());

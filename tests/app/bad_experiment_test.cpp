@@ -1,4 +1,5 @@
-// Experiments that are not well formed: one line that says where, exit status 2, nothing written.
+// Experiments that are not well formed are refused: with one line that says where, exit status 2, and nothing
+// written.
 #include "command.hpp"
 
 namespace {
@@ -48,7 +49,8 @@ TEST(BadExperiment, UnknownNames) {
   refused("\"rk4\"", "\"rk5\"", {"method RK4", "unknown integrator 'rk5'", "did you mean 'rk4'?"});
   refused("damped-oscillator", "damped-oscilator", {"unknown system", "did you mean 'damped-oscillator'?"});
   refused("", "methods = [\"RK 4\"]\n", {"[[case]] short", "unknown method 'RK 4'", "did you mean 'RK4'?"});
-  refused("", "precision = \"singel\"\n", {"unknown precision 'singel'"});
+  refused("", "precision = \"singel\"\n",
+          {"test.toml [[case]], line 11", "'precision'", "unknown precision 'singel'"});
   refused("\"rk4\"", "\"verlet\"", {"verlet needs separable; damped-oscillator offers vector-field"});
 }
 
@@ -72,6 +74,7 @@ TEST(BadExperiment, NumbersOutOfRange) {
   refused("\"2\"", "inf", {"'inf'"});
   refused("", "set = { nu = 11 }\n", {"case short", "'nu'", "0 .. 10", "'11'"});
   refused("", "initial = [1]\n", {"case short", "expected 2 numbers, got 1"});
+  refused("", "initial = []\n", {"[[case]]", "'initial'", "empty list"});
 }
 
 TEST(BadExperiment, SyntaxErrorsNameTheLine) {

@@ -1,4 +1,5 @@
-// Names that do not exist: one line, the nearest one offered, exit status 2, nothing written.
+// Names that do not exist are refused: with one line that offers the nearest one, exit status 2, and nothing
+// written.
 #include "command.hpp"
 
 namespace {

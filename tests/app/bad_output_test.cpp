@@ -1,4 +1,5 @@
-// Output that cannot be written: refused before work starts (2), or reported after it (1), never half there.
+// Output that cannot be written is refused before work starts (exit status 2) or reported after it (1), and
+// never leaves half a file.
 #include "command.hpp"
 
 namespace {

@@ -1,4 +1,5 @@
-// Settings of a run that make no sense: one line that says what was expected, exit status 2, nothing written.
+// Settings of a run that make no sense are refused: with one line that says what was expected, exit status 2,
+// and nothing written.
 #include "command.hpp"
 
 namespace {
@@ -125,7 +126,9 @@ TEST(BadSettings, Step) {
     expect_refused(pendulum({"--time", "1", "--step", bad}), {"--step: expected a finite", "'" + bad + "'"});
   expect_refused(pendulum({"--time", "1", "--step", "2"}),
                  {"--step: expected at most the duration 1", "'2'"});
-  expect_refused(pendulum({"--time", "1", "--step", "1e-30"}), {"--step: 1e-30 is too small"});
+  expect_refused(pendulum({"--time", "1", "--step", "1e-30"}),
+                 {"--step: 1e-30 vanishes beside the time 1", "t + h = t"});
+  expect_refused(pendulum({"--time", "1", "--step", "1e-13"}), {"--step: 1e-13 is too small", "--max-steps"});
 }
 
 TEST(BadSettings, Time) {

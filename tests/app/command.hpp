@@ -53,6 +53,7 @@ struct Outcome {
 struct Circumstances {
   fs::path directory;                  // where it works; empty: where the test does
   std::optional<rlim_t> largest_file;  // bytes; longer files fail to be written, as on a full disk
+  std::optional<rlim_t> memory;        // bytes of address space
   std::string standard_output;         // a file instead of a pipe, such as /dev/full
   bool nobody_reads = false;           // standard output is a pipe whose reader has gone
 };
@@ -76,6 +77,10 @@ class Program {
         if (setrlimit(RLIMIT_FSIZE, &limit) != 0) _exit(126);
         std::signal(SIGXFSZ, SIG_IGN);
       }
+      if (circumstances.memory) {
+        const rlimit limit{*circumstances.memory, *circumstances.memory};
+        if (setrlimit(RLIMIT_AS, &limit) != 0) _exit(126);
+      }
       std::signal(SIGPIPE, SIG_DFL);
       alarm(300);  // what never ends is a failure
       int out = out_[1];
@@ -94,7 +99,9 @@ class Program {
   Program& operator=(const Program&) = delete;
 
   /// What `kill -9` does.
-  void kill() const { ::kill(id_, SIGKILL); }
+  void kill() const { send(SIGKILL); }
+  void send(int signal) const { ::kill(id_, signal); }
+  [[nodiscard]] pid_t id() const { return id_; }
   /// True once it has ended; it must still be waited for.
   [[nodiscard]] bool ended() const {
     siginfo_t info{};

@@ -1,5 +1,6 @@
-// pfaff list, describe, cite and --help: what they say, in JSON and on a screen of 100 columns.
+// pfaff list, describe, cite and --help: what they print, as JSON and as text of at most 100 columns.
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "command.hpp"
@@ -47,7 +48,9 @@ TEST(List, KindsAndNames) {
     EXPECT_TRUE(names_of(all["systems"]).contains(name)) << name;
   for (const char* name : {"generating-function", "gauss", "verlet", "rk4"})
     EXPECT_TRUE(names_of(all["integrators"]).contains(name)) << name;
-  for (const char* kind : {"systems", "integrators", "brackets", "experiments"}) {
+  for (const char* name : {"dirac", "simplified-dirac", "lmm", "ggl"})
+    EXPECT_TRUE(names_of(all["formulations"]).contains(name)) << name;
+  for (const char* kind : {"systems", "integrators", "brackets", "formulations", "experiments"}) {
     EXPECT_EQ(asked({"list", kind})[kind], all[kind]);
     const std::string text = printed({"list", kind});
     for (const auto& item : all[kind]) {
@@ -55,6 +58,57 @@ TEST(List, KindsAndNames) {
       EXPECT_NE(text.find("  " + item["name"].get<std::string>() + " "), std::string::npos) << item["name"];
     }
   }
+}
+
+// Who offers a facet and who needs it is what `describe` says of each system and each integrator.
+TEST(List, FacetsWithTheirFormulasAndWhoOffersAndNeedsThem) {
+  const auto facets = asked({"list", "facets"})["facets"];
+  const std::set<std::string> names = names_of(facets);
+  EXPECT_TRUE(names.contains("vector-field") && names.contains("velocity-constraints"));
+  std::set<std::string> in_use;
+  const auto check = [&](const char* name, const char* key, const char* others) {
+    const std::string said = asked({"describe", name})[key];
+    for (const auto& facet : facets) {
+      const auto& list = facet[others];
+      const bool listed = std::find(list.begin(), list.end(), name) != list.end();
+      const bool has = (", " + said + ",").find(", " + facet["name"].get<std::string>() + ",") != said.npos;
+      EXPECT_EQ(listed, has) << name << " " << facet["name"];
+      if (listed) in_use.insert(facet["name"]);
+    }
+  };
+  for (const char* name : {"henon-heiles", "damped-oscillator", "spherical-pendulum", "free-rigid-body"})
+    check(name, "facets", "offered_by");
+  EXPECT_GE(in_use.size(), 6U);
+  in_use.clear();
+  for (const char* name : {"verlet", "rk4", "rattle", "gauss-darboux"}) check(name, "needs", "needed_by");
+  EXPECT_GE(in_use.size(), 4U);
+  for (const auto& facet : facets) {
+    EXPECT_FALSE(facet["meaning"].get<std::string>().empty()) << facet["name"];
+    EXPECT_FALSE(facet["formulas"].empty()) << facet["name"];
+    if (facet["name"] == "separable") {
+      EXPECT_EQ(names_of(facet["formulas"]),
+                (std::set<std::string>{"kinetic", "potential", "force", "velocity"}));
+      EXPECT_EQ(facet["formulas"][0]["written"], "kinetic(t, p)");
+    }
+  }
+  for (const auto& facet : facets) {
+    const auto& needed = facet["needed_by"];
+    EXPECT_EQ(std::find(needed.begin(), needed.end(), "lmm") != needed.end(), facet["name"] == "holonomic");
+  }
+  const std::string text = printed({"list", "facets"});
+  expect_narrow(text);
+  for (const std::string& name : names) EXPECT_NE(text.find("\n  " + name + " "), std::string::npos) << name;
+}
+
+// Of formulas, `describe` says which are written and what the others come from.
+TEST(Describe, Formulas) {
+  std::map<std::string, std::string> origin;
+  const auto described = asked({"describe", "damped-pendulum"});
+  for (const auto& formula : described["formulas"]) origin[formula["name"]] = formula["origin"];
+  EXPECT_EQ(origin["one_form"], "written, one_form(t, z, form)");
+  EXPECT_EQ(origin["structure"], "derived from one_form");
+  EXPECT_EQ(origin["field_jacobian"], "derived from field");
+  EXPECT_FALSE(origin.contains("hamiltonian") || origin.contains("constraints"));
 }
 
 TEST(Describe, Systems) {
@@ -84,10 +138,10 @@ TEST(Describe, ASystemAndTheExperimentOfItsName) {
   EXPECT_EQ(j["also"][0]["cases"][0]["name"], "weak-damping");
   const std::string text = printed({"describe", "damped-oscillator"});
   const std::size_t system = text.find("kind         system\n"),
-                    experiment = text.find("kind         experiment\n");
+                    experiment = text.find("kind       experiment\n");
   EXPECT_LT(system, experiment);
   EXPECT_NE(experiment, std::string::npos) << text;
-  EXPECT_NE(text.find("reference    su-qin, "), std::string::npos) << "a list is not shown as JSON";
+  EXPECT_NE(text.find("reference  su-qin, "), std::string::npos) << "a list is not shown as JSON";
   EXPECT_FALSE(asked({"describe", "free-rigid-body"}).contains("also"));
 }
 
@@ -114,10 +168,34 @@ TEST(Describe, Integrators) {
   }
 }
 
+TEST(Describe, ACompositionSaysWhichBasesThereAre) {
+  const auto j = asked({"describe", "composition"});
+  const nlohmann::json base{{"name", "base"},
+                            {"default", "midpoint-darboux(compensated=yes)"},
+                            {"range", "conformal-splitting|midpoint-darboux|rattle|verlet"},
+                            {"unit", ""},
+                            {"meaning", "the symmetric method of order 2 that takes the sub-steps"}};
+  EXPECT_EQ(j["parameters"][2], base);
+  EXPECT_EQ(j["parameters"][0]["range"], "yoshida|suzuki|kahan-li");
+}
+
+TEST(Describe, AliasesAreDescribedAndNotListed) {
+  const auto j = asked({"describe", "kahan-li-verlet"});
+  EXPECT_EQ(j["name"], "kahan-li-verlet");
+  EXPECT_EQ(j["title"], "composition with scheme=kahan-li, base=verlet");
+  EXPECT_EQ(j["needs"], "separable");
+  ASSERT_EQ(j["parameters"].size(), 2U);
+  EXPECT_EQ(j["parameters"][0]["default"], "6");
+  EXPECT_EQ(j["parameters"][1]["name"], "compensated");
+  EXPECT_EQ(j["parameters"][1]["range"], "yes|no");
+  expect_narrow(printed({"describe", "kahan-li-verlet"}));
+  EXPECT_FALSE(names_of(asked({"list"})["integrators"]).contains("kahan-li-verlet"));
+}
+
 TEST(Describe, EverythingThatIsListedWithin100Columns) {
   const auto all = asked({"list"});
   expect_narrow(printed({"list"}));
-  for (const char* kind : {"systems", "integrators", "brackets", "experiments"})
+  for (const char* kind : {"systems", "integrators", "brackets", "formulations", "experiments"})
     for (const std::string& name : names_of(all[kind])) {
       const std::string text = printed({"describe", name});
       expect_narrow(text);
@@ -132,6 +210,49 @@ TEST(Describe, EverythingThatIsListedWithin100Columns) {
     }
 }
 
+TEST(Describe, Formulations) {
+  const auto j = asked({"describe", "lmm"});
+  EXPECT_EQ(j["kind"], "formulation");
+  EXPECT_EQ(j["reactions"], "ideal");
+  EXPECT_EQ(j["friction"], "stokes");
+  EXPECT_EQ(j["keeps"], nlohmann::json({"tangent", "hidden-constraints"}));
+  EXPECT_TRUE(names_of(j["systems"]).contains("n-pendulum"));
+  EXPECT_FALSE(names_of(j["systems"]).contains("guiding-centre"));
+  const auto dirac = asked({"describe", "dirac"});
+  EXPECT_EQ(dirac["friction"], "metriplectic");
+  EXPECT_TRUE(names_of(dirac["systems"]).contains("guiding-centre"));
+}
+
+// Why a text is no description of a plug-in; empty where it is one.
+std::string fault_of(const std::string& description) {
+  int sentences = 0;
+  for (std::size_t k = 0; k < description.size(); ++k)
+    sentences += description[k] == '.' && (k + 1 == description.size() || description[k + 1] == ' ');
+  if (sentences < 2) return "fewer than two sentences";
+  if (description.size() > 600) return "more than 600 characters";
+  return description.ends_with('.') ? "" : "does not end with a sentence";
+}
+TEST(Describe, EveryPlugInSaysWhatItIsAndWhenToTakeIt) {
+  const auto all = asked({"list"});
+  for (const char* kind : {"systems", "integrators", "brackets", "formulations"})
+    for (const std::string& name : names_of(all[kind]))
+      EXPECT_EQ(fault_of(asked({"describe", name}).value("description", "")), "") << kind << ' ' << name;
+  for (const std::string& control : {std::string(), std::string("One sentence."), std::string("No sentence"),
+                                     std::string("One. Two"), "One." + std::string(600, ' ') + "Two."})
+    EXPECT_NE(fault_of(control), "") << control;
+}
+TEST(Describe, TheDescriptionIsAParagraphOf80Columns) {
+  const std::string text = printed({"describe", "rk4"});
+  const std::size_t begin = text.find("\n\n") + 2, end = text.find("\n\n", begin);
+  std::istringstream lines(text.substr(begin, end - begin));
+  std::string joined_again;
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_LE(line.size(), 80U) << line;
+    joined_again += (joined_again.empty() ? "" : " ") + line;
+  }
+  EXPECT_EQ(joined_again, asked({"describe", "rk4"})["description"].get<std::string>());
+}
+
 TEST(Cite, PlugInsAndKeys) {
   const auto j = asked({"cite", "damped-pendulum", "su-qin"});
   ASSERT_EQ(j["entries"].size(), 1U) << "each key once";
@@ -141,7 +262,7 @@ TEST(Cite, PlugInsAndKeys) {
   EXPECT_EQ(printed({"cite", "su-qin"}), j["entries"][0]["bibtex"].get<std::string>() + "\n");
   // Everything that is listed has something to cite.
   const auto all = asked({"list"});
-  for (const char* kind : {"systems", "integrators", "brackets", "experiments"})
+  for (const char* kind : {"systems", "integrators", "brackets", "formulations", "experiments"})
     for (const std::string& name : names_of(all[kind]))
       EXPECT_FALSE(asked({"cite", name})["entries"].empty()) << kind << ' ' << name;
 }
@@ -151,7 +272,8 @@ TEST(Help, EveryCommand) {
   expect_narrow(help);
   EXPECT_NE(help.find("Exit status: 0 fine"), std::string::npos);
   EXPECT_TRUE(help.ends_with('\n'));
-  for (const std::string command : {"list", "describe", "cite", "run", "compare", "reproduce", "verify"}) {
+  for (const std::string command :
+       {"list", "describe", "cite", "run", "compare", "reproduce", "verify", "falsify"}) {
     EXPECT_NE(help.find("\n  " + command + " "), std::string::npos) << command;
     const std::string text = printed({command, "--help"});
     expect_narrow(text);

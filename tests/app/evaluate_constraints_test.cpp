@@ -1,4 +1,5 @@
-// pfaff evaluate of systems with constraints: the keys, the solvers, and what is refused by name.
+// pfaff evaluate on systems with constraints: the keys of its JSON, the agreement of the solvers, and
+// constraints that are not second class, which it names.
 #include <cmath>
 #include <set>
 #include <sstream>

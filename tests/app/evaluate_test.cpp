@@ -1,4 +1,5 @@
-// pfaff evaluate: keys, values against closed forms, states where formulas fail, and refusals.
+// pfaff evaluate: the keys of its JSON, values against closed forms, states at which formulas fail, and what
+// it refuses.
 #include <cmath>
 #include <set>
 

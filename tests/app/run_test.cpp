@@ -1,4 +1,4 @@
-// pfaff run: what a run prints and leaves.
+// pfaff run: what a run prints, and the files it leaves.
 #include <cmath>
 #include <cstdio>
 #include <set>

@@ -1,4 +1,5 @@
-// Initial states and the constraints of their system: checked, moved onto them, refused, taken as they are.
+// Initial states that may be off the constraints of their system: they are checked, moved onto them, refused,
+// or taken as they are.
 #include <gtest/gtest.h>
 
 #include <algorithm>

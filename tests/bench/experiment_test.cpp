@@ -1,15 +1,14 @@
-// Experiments as they are read and kept: digits of TOML numbers, claims in scope, timings that outlive a
-// kill.
+// Reading and keeping experiments: TOML numbers keep their digits, claims must be in scope, and timings
+// survive when the program is killed.
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
 #include <unistd.h>
 
-#include <pfaff/bench/measure/scope.hpp>
-#include <pfaff/bench/runner/experiment.hpp>
+#include <pfaff/bench/experiment/experiment.hpp>
+#include <pfaff/bench/experiment/results.hpp>
 #include <pfaff/bench/runner/files.hpp>
-#include <pfaff/bench/runner/results.hpp>
 #include <pfaff/core/bracket.hpp>
 
 namespace {
@@ -84,10 +83,11 @@ steps = [0.5]
 TEST_F(Experiments, ClaimsAreThoseInScopeOfEachSystem) {
   (void)run_experiment(read(two_systems), directory / "out", {});
   const auto j = nlohmann::json::parse(read_file(directory / "out/experiment.json"));
-  const nlohmann::json gauss{{{"name", "damped-oscillator"}, {"order", 4}, {"preserves", {"symmetric"}}},
-                             {{"name", "harmonic-oscillator"},
-                              {"order", 4},
-                              {"preserves", {"symmetric", "symplectic", "quadratic-invariants"}}}};
+  const nlohmann::json gauss{
+      {{"name", "damped-oscillator"}, {"order", 4}, {"preserves", {"symmetric"}}},
+      {{"name", "harmonic-oscillator"},
+       {"order", 4},
+       {"preserves", {"symmetric", "reversible", "symplectic", "quadratic-invariants"}}}};
   EXPECT_EQ(j["methods"][0]["systems"], gauss);
   EXPECT_EQ(j["methods"][1]["systems"][0]["preserves"], nlohmann::json{"none"});
 }
@@ -144,19 +144,6 @@ TEST_F(Experiments, TheTableMarksTrendsBelowRoundOff) {
   EXPECT_NE(table("bounded", 0).find("(damped-oscillator, T = 1)"), std::string::npos);
   experiment.cases[0].conserved = "energy";
   EXPECT_NE(table("bounded", 0).find("never rises"), std::string::npos);
-}
-
-TEST(Scope, OfEachClaim) {
-  const auto model = [](const char* name) { return systems().get(name, "system").make({}); };
-  for (const auto& [name, symplectic, k, quadratic] :
-       {std::tuple{"pendulum", true, true, false}, std::tuple{"kepler", true, true, true},
-        std::tuple{"damped-pendulum", false, true, false},
-        std::tuple{"free-rigid-body", false, false, true}}) {
-    EXPECT_TRUE(in_scope(Claim::symmetric, *model(name))) << name;
-    EXPECT_EQ(in_scope(Claim::symplectic, *model(name)), symplectic) << name;
-    EXPECT_EQ(in_scope(Claim::k_symplectic, *model(name)), k) << name;
-    EXPECT_EQ(in_scope(Claim::quadratic_invariants, *model(name)), quadratic) << name;
-  }
 }
 
 }  // namespace

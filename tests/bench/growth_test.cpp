@@ -1,4 +1,4 @@
-// Growth of residuals: powers and rates that are put in come out.
+// Growth of residuals: made-up series with a known power or rate give that power or rate back.
 #include <gtest/gtest.h>
 
 #include <cmath>

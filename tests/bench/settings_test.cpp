@@ -1,4 +1,5 @@
-// Settings of runs: whose a parameter is, how many steps fit, what config.toml says.
+// Settings of runs: which plug-in a parameter belongs to, how many steps fit into the time, and what
+// config.toml says.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -6,7 +7,7 @@
 
 #include <unistd.h>
 
-#include <pfaff/bench/runner/settings.hpp>
+#include <pfaff/bench/runner/config_file.hpp>
 
 namespace {
 
@@ -32,15 +33,14 @@ std::string complaint(const RunSettings& settings) {
 TEST(Settings, AreSplitByWhoKnowsThem) {
   const auto& system = systems().get("damped-pendulum", "system");
   const auto& method = integrators().get("generating-function", "integrator");
-  const SplitSettings split = split_settings(system, nullptr, &method,
-                                             {{"order", "6"},
-                                              {"nu", "0.5"},
-                                              {"initial", " 1, -2"},
-                                              {"system.nu", "0.7"},
-                                              {"integrator.variant", "P"}});
-  EXPECT_EQ(split.system, (Assignments{{"nu", "0.5"}, {"nu", "0.7"}}));
+  const SplitSettings split = split_settings(
+      system, nullptr, &method,
+      {{"order", "6"}, {"initial", " 1, -2"}, {"system.nu", "0.7"}, {"integrator.variant", "P"}});
+  EXPECT_EQ(split.system, (Assignments{{"nu", "0.7"}}));
   EXPECT_EQ(split.integrator, (Assignments{{"order", "6"}, {"variant", "P"}}));
   EXPECT_EQ(split.initial, (std::vector<std::string>{"1", "-2"}));
+  EXPECT_THROW((void)split_settings(system, nullptr, &method, {{"nu", "0.5"}, {"system.nu", "0.7"}}),
+               InputError);
   EXPECT_THROW((void)split_settings(system, nullptr, &method, {{"mu", "1"}}), InputError);
   EXPECT_THROW((void)split_settings(system, nullptr, nullptr, {{"order", "6"}}), InputError);
 }
@@ -149,7 +149,7 @@ TEST(Settings, ConfigIsReadBackAsItWas) {
   ASSERT_GE(file, 0);
   close(file);
   std::ofstream(name) << text;
-  const RunSettings again = read_config(name);
+  const RunSettings again = read_config(name).settings;
   EXPECT_EQ(config_text(resolve(again)), text);
   EXPECT_EQ(again.precision, Precision::quad);
   EXPECT_EQ(again.every, 3);

@@ -1,11 +1,11 @@
-// The Jacobian of a step and what it does to the structure: round-off where it is kept, and clearly not
-// elsewhere.
+// The Jacobian of a step and the structure residual made from it: at round-off for methods that preserve the
+// structure, and clearly above it for others.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include <pfaff/bench/measure/structure.hpp>
-#include <pfaff/core/system.hpp>
+#include <pfaff/bench/runner/motion.hpp>
 
 namespace {
 
@@ -57,6 +57,17 @@ TEST(Structure, VerletInQuad) { EXPECT_LE(residual<Quad>(*method_of("verlet"), m
 TEST(Structure, AppliesWhereThereIsOne) {
   EXPECT_TRUE(StructureResidual<double>::applies(*model_of("damped-pendulum")));
   EXPECT_TRUE(StructureResidual<double>::applies(*model_of("kepler")));
+  EXPECT_FALSE(StructureResidual<double>::applies(*model_of("relaxing-rigid-body")));
+}
+
+TEST(Structure, IsNamedAsItIsMeasured) {
+  const auto pendulum = model_of("spherical-pendulum");
+  EXPECT_EQ(structure_name(*pendulum), "constrained-symplectic");
+  EXPECT_EQ(structure_name(*motion_of(pendulum)), "constrained-symplectic");
+  EXPECT_EQ(structure_name(*model_of("damped-pendulum")), "K-symplectic");
+  EXPECT_EQ(structure_name(*model_of("pendulum")), "symplectic");
+  EXPECT_EQ(structure_name(*model_of("free-rigid-body")), "poisson");
+  EXPECT_EQ(structure_name(*model_of("relaxing-rigid-body")), "");  // dissipates: nothing is kept
 }
 
 TEST(Structure, JacobianOfAStepOfRK4IsItsStabilityPolynomial) {

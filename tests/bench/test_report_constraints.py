@@ -3,7 +3,7 @@ import json
 import math
 import unittest
 
-from synthetic import COLUMNS, Fresh, U, reading, run, save
+from synthetic import CLASSES, COLUMNS, Fresh, U, reading, run, save
 
 import constraints  # noqa: E402
 
@@ -22,8 +22,8 @@ def ensemble(folder):
                                                       "run"], "")
             row.update({"case": "many", "system": "pendula", "method": label, "integrator": label, "time": 20,
                         "steps": 1000, "precision": "double", "status": "converged", "rhs_per_step": 7, "run": slug,
-                        "tolerance": "1e-8", "seed": seed, "energy:max": 1e-6, "energy:class": "linear",
-                        "constraint:max": seed * 1e-9 * 20**power, "constraint:class": "linear",
+                        "tolerance": "1e-8", "seed": seed, "energy:max": 1e-6, "energy:class": "drifting",
+                        "constraint:max": seed * 1e-9 * 20**power, "constraint:class": "drifting",
                         "constraint:growth": power})
             rows.append(row)
             path = folder / "runs" / slug
@@ -34,7 +34,7 @@ def ensemble(folder):
                 {"name": "energy", "unit": "J", "expected": "conserved"}]}))
         for measure, scale in (("constraint:max", 1e-9 * 20**power), ("constraint:growth", power)):
             spreads.append(["many", label, "", "1e-8", SEEDS, SEEDS, measure, SEEDS, 2 * scale, scale, 3 * scale])
-    head = {"schema": 1, "name": "ensemble", "title": "Many", "cases": [
+    head = {"schema": 1, "name": "ensemble", "title": "Many", "drift_classes": CLASSES, "cases": [
         {"name": "many", "title": "Many <b>", "system": "pendula", "precision": "double", "time_unit": "s",
          "conserved": "energy", "seeds": SEEDS}], "methods": [{"label": m} for m in ("mild", "wild")]}
     (folder / "experiment.json").write_text(json.dumps(head))

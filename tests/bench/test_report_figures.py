@@ -68,9 +68,10 @@ class Numbers(Fresh):
         self.assertIn((times[1234], values[1234]), list(zip(t, v)))
         self.assertEqual(t, sorted(t))
 
-    def test_largest_rise(self):
+    def test_largest_move_against_the_expected_direction(self):
         series = reading.Series([0, 1, 2, 3, 4], "s", 5, [0, -2, -1, -4, -3.5], "J", [])
-        self.assertEqual(series.rises(), [0, 0, 1, 1, 1])
+        self.assertEqual(series.setbacks("decreasing"), [0, 0, 1, 1, 1])
+        self.assertEqual(series.setbacks("increasing"), [0, 2, 2, 4, 4])
 
 
 if __name__ == "__main__":

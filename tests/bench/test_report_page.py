@@ -55,7 +55,7 @@ class Whole(unittest.TestCase):
 
     def test_findings(self):
         for said in ("The symplectic structure is kept to round-off by 1 of 3 methods", "kept: mid", "falling as h 5.0",
-                     "Drift of energy [J] at step 0.2 s, by class:", "bounded: mid (at most 1.11e-16)",
+                     "Drift of energy [J] at step 0.2 s, by class:", "near: mid (at most 1.11e-16)",
                      "rk at 4e-8 [3.2e-8, 5.33e-8] J/s", "energy is expected to decrease",
                      "never rises: mid, rk and bad",
                      "within 0.3 of the declared order: mid (2.00), rk (4.00) and bad (4.00)",

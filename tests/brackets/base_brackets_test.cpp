@@ -1,5 +1,5 @@
-// Base brackets and their combinations, each against what it is claimed to be, with one that is not beside
-// it.
+// Base brackets and their combinations: each passes the claims made about it, and beside it one that must
+// fail them does.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,8 +1,9 @@
-// Pivots of the recursion: ranks, classes and redundant constraints; where plain orders break down and why.
+// Classification of constraints: ranks, classes and redundant constraints, the pivots that recursion chooses,
+// and where plain orders break down and why.
 #include <gtest/gtest.h>
 
 #include <pfaff/brackets/dirac/classification.hpp>
-#include <pfaff/core/registry/errors.hpp>
+#include <pfaff/core/errors/errors.hpp>
 
 #include "golden_brackets.hpp"
 #include "random_gram.hpp"

@@ -1,5 +1,5 @@
-// The matchers that authors test their brackets with: registered brackets pass, and each matcher is failed by
-// a bracket made to fail it.
+// The matchers with which authors test their brackets: registered brackets pass them, and each matcher fails
+// a bracket that is made to fail it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-// Dirac and Bergmann's algorithm on systems whose constraints are known in closed form.
+// The algorithm of Dirac and Bergmann on systems whose constraints are known in closed form.
 #include <gtest/gtest.h>
 
 #include <pfaff/brackets/canonical.hpp>
 #include <pfaff/brackets/dirac/dirac_bergmann.hpp>
 #include <pfaff/brackets/lie_poisson.hpp>
-#include <pfaff/core/registry/errors.hpp>
+#include <pfaff/core/errors/errors.hpp>
 #include <pfaff/core/tape/replay.hpp>
 
 namespace {

@@ -1,5 +1,6 @@
-// dirac(base, constraints, solver) as a bracket: reference values, gradients by hand and derived, the tape,
-// nesting, break-downs by name, no allocation.
+// dirac(base, constraints, solver) used as a bracket: reference values, gradients written by hand and
+// derived, recording on tapes, Dirac brackets of Dirac brackets, named reasons where there is none, and
+// evaluation without allocation.
 #include <gtest/gtest.h>
 
 #include <fstream>

@@ -1,5 +1,6 @@
-// Properties of Dirac brackets of random polynomial constraints at random points, off the constraint surface,
-// exactly in rationals: what is inherited, Casimirs, Jacobi (nguyen-turski Proposition 6, (3.20), (3.21)).
+// Properties of Dirac brackets of random polynomial constraints at random points off the constraint surface,
+// exact in rationals: what they inherit from the base bracket, Casimirs, Jacobi (nguyen-turski Proposition 6,
+// (3.20), (3.21)).
 #include <gtest/gtest.h>
 
 #include <pfaff/brackets/conformance/bracket_function.hpp>

@@ -1,5 +1,5 @@
-// Dirac brackets that do not exist but for rounding, and solvers used on what they are not for: refused by
-// name.
+// Refusals with a named reason: Dirac brackets that seem to exist only because of rounding, and solvers used
+// on matrices that they are not for.
 #include <gtest/gtest.h>
 
 #include <pfaff/brackets/canonical.hpp>

@@ -1,5 +1,6 @@
-// Every solver of the Dirac bracket gives the same bracket: exactly in rationals, to conditioning in double
-// and quad, on 1000 random instances; and those for structured matrices on matrices of their structure.
+// All solvers of the Dirac bracket give the same bracket: exactly in rationals, and within conditioning in
+// double and quad, on 1000 random instances. Solvers for structured matrices are tested on matrices of their
+// structure.
 #include <gtest/gtest.h>
 
 #include "dirac_instance.hpp"

@@ -1,5 +1,5 @@
-// nguyen-turski section 3 as identities of matrices of brackets, exact in rationals: Tanner's identities, the
-// determinant form, Theorems 1 and 2 at every level, Propositions 4 and 5.
+// Section 3 of nguyen-turski as identities between matrices of brackets, exact in rationals: Tanner's
+// identities, the determinant form, Theorems 1 and 2 at every level, Propositions 4 and 5.
 #include <gtest/gtest.h>
 
 #include <pfaff/brackets/dirac/elimination.hpp>

@@ -1,2 +1,2 @@
-// The test that authors of brackets start from, as it is.
+// Compiles and runs, unchanged, the template of a test that authors of brackets start from.
 #include "../../examples/templates/tests/bracket_test.cpp"

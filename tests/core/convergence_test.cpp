@@ -1,4 +1,5 @@
-// When an iteration has nothing left to gain, and sums that do not lose what they round off.
+// When an iteration has converged to round-off and cannot improve further, and compensated sums that keep
+// what each addition rounds off.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Differentiation of tapes, forward and reverse, against differences in quad.
+// Derivatives of tapes, forward and reverse, against differences in quad.
 #include <gtest/gtest.h>
 
 #include <cmath>

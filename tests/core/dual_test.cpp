@@ -1,4 +1,4 @@
-// Dual: every operation against differences in quad and against identities.
+// Dual numbers: every operation against differences in quad, and against identities between derivatives.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,9 +1,9 @@
-// Texts of errors: the nearest name, or what there is to choose from.
+// Texts of errors about unknown names: they offer the nearest name, or list what there is to choose from.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include <pfaff/core/registry/errors.hpp>
+#include <pfaff/core/errors/errors.hpp>
 #include <pfaff/core/registry/registry.hpp>
 #include <pfaff/core/system.hpp>
 

@@ -1,4 +1,5 @@
-// LU: against Eigen, with rows of very different scale, singular matrices and richer right-hand sides.
+// LU against Eigen, with rows of very different scale, singular matrices, and right-hand sides of richer
+// scalars than the matrix.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>

@@ -1,4 +1,5 @@
-// The simplified Newton iteration: round-off, statuses, derivatives of implicit functions.
+// The simplified Newton iteration: accuracy to round-off, its statuses, and derivatives of functions defined
+// implicitly.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,5 @@
-// Parameters: assigned from text, ranged, and refused in one line that says what was expected.
+// Parameters are read from text and checked against their range; a bad value is refused in one line that says
+// what was expected.
 #include <gtest/gtest.h>
 
 #include <pfaff/core/registry/parameter.hpp>

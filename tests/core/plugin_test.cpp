@@ -1,9 +1,12 @@
-// The ABI stamp as the loader sees it: notes found and compared, damaged files refused, arithmetic left
-// alone.
+// The ABI stamp as the plug-in loader reads it: stamps are found and compared, and damaged files are refused.
+// Loading does not change the floating-point arithmetic of the program.
 #include <gtest/gtest.h>
+#include <link.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cfloat>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -26,7 +29,7 @@ std::string refusal(const std::string& path) {
 }
 
 TEST(AbiStamp, EveryTranslationUnitLeavesOne) {
-  EXPECT_EQ(abi_stamps(plugin("fits")), std::vector<std::string>{PFAFF_ABI_STAMP});
+  EXPECT_EQ(abi_stamps(plugin("fits")), std::vector<std::string>{own_abi_stamp()});
   EXPECT_EQ(abi_stamps(plugin("two-stamps")).size(), 2U);
   EXPECT_GE(abi_stamps(plugin("templates")).size(), 3U);
   EXPECT_TRUE(abi_stamps(plugin("no-stamp")).empty());
@@ -58,6 +61,59 @@ TEST(AbiStamp, DamagedFilesAreRefused) {
     EXPECT_NE(refusal(written(damaged)), "") << at;
   }
   std::filesystem::remove(path);
+}
+
+// A segment behind the end of the file can be mapped and not read: the loader, or the first call, would die
+// of it.
+TEST(AbiStamp, FilesThatAreCutOffAreRefused) {
+  std::ifstream file(plugin("fits"), std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  std::uint64_t segments_end = 0;
+  ElfW(Ehdr) header;
+  std::memcpy(&header, bytes.data(), sizeof header);
+  for (std::size_t k = 0; k < header.e_phnum; ++k) {
+    ElfW(Phdr) segment;
+    std::memcpy(&segment, bytes.data() + header.e_phoff + k * sizeof segment, sizeof segment);
+    if (segment.p_type == PT_LOAD)
+      segments_end = std::max<std::uint64_t>(segments_end, segment.p_offset + segment.p_filesz);
+  }
+  ASSERT_GT(segments_end, 2048U);
+  ASSERT_LT(segments_end, bytes.size());
+  const auto path =
+      std::filesystem::temp_directory_path() / ("pfaff-cut-off-" + std::to_string(getpid()) + ".so");
+  const auto cut = [&](std::size_t size) {
+    std::ofstream(path, std::ios::binary) << bytes.substr(0, size);
+    return refusal(path.string());
+  };
+  for (std::size_t size = 64; size < segments_end; size += 509) EXPECT_NE(cut(size), "") << size;
+  EXPECT_NE(cut(segments_end - 1).find("is cut off or damaged"), std::string::npos);
+  // The controls: with all of its segments, and whole, it is accepted.
+  EXPECT_EQ(cut(segments_end), "");
+  EXPECT_EQ(cut(bytes.size()), "");
+  // Sizes that overflow when they are added.
+  std::string damaged = bytes;
+  ElfW(Phdr) segment;
+  std::memcpy(&segment, damaged.data() + header.e_phoff, sizeof segment);
+  segment.p_offset = ~std::uint64_t{0} - 8;
+  segment.p_filesz = 16;
+  std::memcpy(damaged.data() + header.e_phoff, &segment, sizeof segment);
+  std::ofstream(path, std::ios::binary) << damaged;
+  EXPECT_NE(refusal(path.string()).find("is cut off or damaged"), std::string::npos);
+  std::filesystem::remove(path);
+}
+
+TEST(AbiStamp, OnlyFilesAreOpened) {
+  EXPECT_NE(refusal("/dev/zero").find("is no regular file"), std::string::npos);
+  EXPECT_NE(refusal("/tmp").find("is no regular file"), std::string::npos);
+  EXPECT_NE(refusal("/missing.so").find("cannot be read"), std::string::npos);
+}
+
+// The words by which the flags -fshort-enums, -fpack-struct and -funsigned-char show.
+TEST(AbiStamp, SaysHowTypesAreLaidOut) {
+  const std::string stamp = own_abi_stamp();
+  for (const char* word : {" char=", " enum=4", " packing=8"})
+    EXPECT_NE(stamp.find(word), std::string::npos) << stamp;
+  EXPECT_EQ(stamp.find('?'), std::string::npos) << stamp;
 }
 
 // A library linked with -ffast-math sets the processor to flush subnormals when it is loaded.

@@ -1,4 +1,4 @@
-// Real: decimals and fractions before they take a precision.
+// Real: exact decimals and fractions, before they are rounded to a precision.
 #include <gtest/gtest.h>
 
 #include <cstdint>

@@ -1,20 +1,26 @@
 #!/usr/bin/env bash
-# Sources that the compiler must refuse, each for the reasons that its comments give; a sound one is the control.
+# Sources that the compiler must refuse, each for the reasons that its comments give; of every kind of plug-in a
+# sound one, its template, is the control.
 set -euo pipefail
 compiler=$1 include=$2 root=$3
 compile() { "$compiler" -std=c++20 -fsyntax-only -I "$include" "$1" 2>&1; }
 
-compile "$root/examples/templates/system.cpp" || { echo "the control was refused"; exit 1; }
+for kind in system integrator bracket formulation; do
+  compile "$root/examples/templates/$kind.cpp" || { echo "the control, a sound $kind, was refused"; exit 1; }
+done
 for source in "$root"/tests/core/refused/*.cpp; do
   if said=$(compile "$source"); then
     echo "$source was accepted"
     exit 1
   fi
+  reasons=0
   while IFS= read -r reason; do
     grep -qF -- "static assertion failed: $reason" <<<"$said" || {
       echo "$source: expected '$reason' in"
       echo "$said"
       exit 1
     }
+    reasons=$((reasons + 1))
   done < <(sed -n 's|^// refused: ||p' "$source")
+  [[ $reasons -gt 0 ]] || { echo "$source gives no reasons"; exit 1; }
 done

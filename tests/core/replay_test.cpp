@@ -1,4 +1,4 @@
-// Replay: a tape evaluated with doubles, quads and duals is the formula itself.
+// Replay: a tape evaluated with doubles, quads and duals gives the same as the formula it was recorded from.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>

@@ -1,5 +1,5 @@
-// SeriesReplay: truncated power series of every operation, several lanes at once, and solutions of equations
-// online.
+// SeriesReplay: truncated power series of every operation, several lanes at once, and solutions of
+// differential equations computed degree by degree.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,5 @@
-// Factoring and solving allocate nothing, on any structure, in any of the scalars a step is computed with.
+// Factoring and solving allocate no memory, on any structure, in any of the scalars that steps are computed
+// with.
 #include <gtest/gtest.h>
 
 #include <pfaff/core/facets/scalars.hpp>

@@ -1,5 +1,5 @@
-// L D L^T on every structure: exact over rationals, within bounds of round-off in double and quad, the same
-// for duals, recorded formulas and packs; against Eigen.
+// L D L^T factorizations on every structure: exact over rationals, within round-off bounds in double and
+// quad, compared with Eigen, and the same for duals, recorded formulas and packs.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>

@@ -1,4 +1,4 @@
-// L D U of matrices that are not symmetric, on every structure.
+// L D U factorizations of matrices that are not symmetric, on every structure.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>

@@ -1,4 +1,5 @@
-// Semidefinite matrices: how many pivots are dropped, and that what remains solves on the range.
+// Factorizations of semidefinite matrices: how many pivots are dropped, and that the remaining factors solve
+// equations whose right-hand sides are in the range.
 #include <gtest/gtest.h>
 
 #include <pfaff/core/numbers/dual.hpp>

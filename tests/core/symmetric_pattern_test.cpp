@@ -1,4 +1,5 @@
-// Which structure a pattern is, and in what order it is eliminated.
+// Patterns of symmetric matrices: which structure a pattern is recognized as, and in what order its rows are
+// eliminated.
 #include <gtest/gtest.h>
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// Symplectic Gram-Schmidt: E^T K E is canonical in every scalar, and degenerate forms are seen as such.
+// Symplectic Gram-Schmidt: E^T K E is canonical in every scalar, and degenerate forms are recognized as such.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// What a struct offers as a system: names found whatever their signature, formulas that write what they
-// should.
+// What a struct offers as a system: its formulas are found by name whatever their signature, and each must
+// write all of its results and nothing beyond them.
 #include <gtest/gtest.h>
 
 #include <pfaff/core/system.hpp>
@@ -59,17 +59,17 @@ struct ReturnsNothing {
 
 TEST(SystemFormulas, NamesAreFoundWhateverTheirSignature) {
   using namespace pfaff::detail;
-  EXPECT_TRUE(names_field<Fits> && WritesField<Fits>);
-  EXPECT_TRUE(names_field<NoTime> && !WritesField<NoTime>);
-  EXPECT_TRUE(names_field<NotConst> && !WritesField<NotConst>);
-  EXPECT_TRUE(names_field<DoublesOnly> && !WritesField<DoublesOnly>);
-  EXPECT_TRUE(names_field<NotATemplate> && !WritesField<NotATemplate>);
-  EXPECT_TRUE(names_field<Private> && !WritesField<Private>);
-  EXPECT_TRUE(names_field<Overloaded> && !WritesField<Overloaded>);
-  EXPECT_TRUE(names_field<Inherits> && !WritesField<Inherits>);
-  EXPECT_TRUE(names_kinetic<ReturnsNothing> && !WritesKinetic<ReturnsNothing>);
-  EXPECT_FALSE(names_field<DataOfTheName> || names_field<StaticDataOfTheName>);
-  EXPECT_FALSE(names_kinetic<Fits>);
+  EXPECT_TRUE((names<Fits, Formula::field> && writes<Fits, Formula::field>));
+  EXPECT_TRUE((names<NoTime, Formula::field> && !writes<NoTime, Formula::field>));
+  EXPECT_TRUE((names<NotConst, Formula::field> && !writes<NotConst, Formula::field>));
+  EXPECT_TRUE((names<DoublesOnly, Formula::field> && !writes<DoublesOnly, Formula::field>));
+  EXPECT_TRUE((names<NotATemplate, Formula::field> && !writes<NotATemplate, Formula::field>));
+  EXPECT_TRUE((names<Private, Formula::field> && !writes<Private, Formula::field>));
+  EXPECT_TRUE((names<Overloaded, Formula::field> && !writes<Overloaded, Formula::field>));
+  EXPECT_TRUE((names<Inherits, Formula::field> && !writes<Inherits, Formula::field>));
+  EXPECT_TRUE((names<ReturnsNothing, Formula::kinetic> && !writes<ReturnsNothing, Formula::kinetic>));
+  EXPECT_FALSE((names<DataOfTheName, Formula::field> || names<StaticDataOfTheName, Formula::field>));
+  EXPECT_FALSE((names<Fits, Formula::kinetic>));
 }
 
 // An oscillator whose formulas write as many results as they are told to, through pointers, since a span with

@@ -1,4 +1,4 @@
-// Recording: what a formula becomes on its tape.
+// Recording: what a formula becomes on its tape, and which simplifications are made on the way.
 #include <gtest/gtest.h>
 
 #include <algorithm>

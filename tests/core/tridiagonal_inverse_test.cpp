@@ -1,5 +1,5 @@
 // The closed forms of the inverse of a tridiagonal matrix: reference values of a chain of six beads, exact
-// identities over rationals, and where minors leave the range of numbers.
+// identities over rationals, and chains so long that minors overflow.
 #include <gtest/gtest.h>
 
 #include <cmath>

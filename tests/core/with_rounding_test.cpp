@@ -1,4 +1,5 @@
-// Error bounds that travel with numbers: they bound the true errors, and not by far.
+// Numbers that carry a bound of their rounding error: the bound holds for the true error, and is not far
+// above it.
 #include <gtest/gtest.h>
 
 #include <pfaff/core/numbers/with_rounding.hpp>

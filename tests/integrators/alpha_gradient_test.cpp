@@ -1,11 +1,12 @@
-// The gradient of the generating function of any alpha: its terms against the chart's engine, the recursion
-// written down literally, and identities between transformations.
+// The gradient of the generating function for any transformation alpha: its terms against those of the
+// Darboux chart's engine and against the recursion written out literally, and identities between
+// transformations.
 #include <gtest/gtest.h>
 
+#include <pfaff/bench/reproduce/su_qin/generating_expansion.hpp>
 #include <pfaff/core/system.hpp>
-#include <pfaff/integrators/alpha_gradient.hpp>
-#include <pfaff/integrators/generating_expansion.hpp>
-#include <pfaff/integrators/generating_gradient.hpp>
+#include <pfaff/integrators/generating/alpha_gradient.hpp>
+#include <pfaff/integrators/generating/generating_gradient.hpp>
 
 #include "mixed_alpha.hpp"
 

@@ -1,5 +1,5 @@
-// A Birkhoffian system that nothing is simple about: K depends on z and t, the chart on both, and B is not
-// the Hamiltonian in the chart.
+// A Birkhoffian system without any simplification that could hide an error: K depends on z and t, the chart
+// on both, and B is not the Hamiltonian in the chart.
 //
 //   y = (q, e^t p (1 + q^2) + t q^3),  F = y_2 dq + d(t q p),  B = y_2^2/2 - cos q + q sin t - q p
 #pragma once

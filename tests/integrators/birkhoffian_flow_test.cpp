@@ -1,4 +1,5 @@
-// The geometry under the schemes: the contact form of Birkhoff's equations and the law of their flow.
+// The geometry on which the Birkhoffian schemes rest: the contact form of Birkhoff's equations, and the
+// composition law of their flow between two times.
 #include <gtest/gtest.h>
 
 #include <pfaff/bench/measure/structure.hpp>

@@ -1,7 +1,7 @@
-// That every method makes claims and can be controlled; the claims themselves are run by `pfaff verify`.
+// Every method makes claims and has controls. The claims themselves are measured by `pfaff verify`.
 #include <gtest/gtest.h>
 
-#include <pfaff/bench/runner/settings.hpp>
+#include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/bench/verification/check.hpp>
 #include <pfaff/core/bracket.hpp>
 

@@ -1,5 +1,6 @@
-// The compiled gradient of a generating function is the interpreted one, for every operation a formula may
-// use, every registered field that is compiled, every number of lanes and every share of w.
+// The compiled gradient of a generating function gives the same as the interpreted one, for every operation
+// that a formula may use, every registered field that is compiled, every number of lanes, and every share of
+// old and new coordinates in w.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,7 +8,7 @@
 #include <pfaff/core/facets/problem.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/core/tape/replay.hpp>
-#include <pfaff/integrators/gradient_evaluator.hpp>
+#include <pfaff/integrators/generating/gradient_evaluator.hpp>
 
 namespace pfaff {
 namespace {

@@ -1,11 +1,11 @@
-// Weights of compositions against their order conditions, counted another way; what compositions do with
-// their base's history and compensation.
+// Weights of compositions fulfil their order conditions, which are generated here in a way independent of the
+// library; and compositions handle the history and compensation of their base method rightly.
 #include <gtest/gtest.h>
 
 #include <functional>
 
 #include <pfaff/bench/verification/check.hpp>
-#include <pfaff/integrators/composition_weights.hpp>
+#include <pfaff/integrators/composition/composition_weights.hpp>
 
 namespace pfaff {
 namespace {

@@ -1,10 +1,11 @@
-// Conformal splitting: M^T J M = e^{-nu h} J exactly, its transition matrix in closed form, and the facet.
+// Conformal splitting: M^T J M = e^{-nu h} J to round-off, its transition matrix in closed form, and the
+// facet that it needs.
 #include <gtest/gtest.h>
 
 #include <pfaff/bench/measure/structure.hpp>
 #include <pfaff/bench/verification/check.hpp>
 #include <pfaff/core/facets/static_problem.hpp>
-#include <pfaff/integrators/conformal_splitting.hpp>
+#include <pfaff/integrators/splitting/conformal_splitting.hpp>
 
 namespace pfaff {
 namespace {

@@ -1,10 +1,11 @@
-// Methods on the constraint surface: what they keep over many steps, what they agree with, how they end.
+// Methods that step on the constraint surface: what they keep over many steps, which other results they agree
+// with, and how they end when they fail.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include <pfaff/bench/measure/constraints.hpp>
-#include <pfaff/bench/runner/settings.hpp>
+#include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/bench/verification/check.hpp>
 #include <pfaff/tests/integrators/constrained_systems.hpp>
 
@@ -265,6 +266,18 @@ TEST(ConstrainedMethods, RefuseWhatTheyAreNotMadeFor) {
   EXPECT_EQ(method("lobatto-spark")->refuses(*uneven), "");
   EXPECT_NE(method("rattle")->refuses(*model("pendulum")).find("holonomic"), std::string::npos);
   EXPECT_NE(method("rk4")->refuses(*friction).find("vector-field"), std::string::npos);
+}
+
+TEST(ConstrainedMethods, RefuseInTheirOwnNames) {
+  BentSphere rough;
+  rough.drag = Real::fraction(1, 10);
+  const auto friction = on_sphere(rough);
+  const std::string reason =
+      " keeps energies and needs a system without friction; " + friction->name() + " has friction";
+  for (const char* name : {"rattle", "shake", "lincs", "yoshida-rattle", "lobatto-spark"})
+    EXPECT_EQ(method(name)->refuses(*friction), name + reason);
+  EXPECT_EQ(integrators().get("composition", "integrator").make({{"base", "rattle"}})->refuses(*friction),
+            "composition of rattle" + reason);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Constrained systems made in tests: small, without symmetry where it would hide errors.
+// Systems with constraints that are made for tests: small, and without symmetries that could hide errors.
 #pragma once
 
 #include <pfaff/core/system.hpp>

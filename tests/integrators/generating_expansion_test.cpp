@@ -1,13 +1,13 @@
-// The engine's terms tau^k phi_w^(k) against the theory written down literally: the recursion by total
-// derivatives, the multilinear expansion (su-qin (77)-(78) corrected), the scalar Hamilton-Jacobi form, and
-// closed forms.
+// The terms tau^k phi_w^(k) that the engine computes, against the theory written out literally: the recursion
+// by total derivatives, the multilinear expansion (su-qin (77)-(78) corrected), the scalar Hamilton-Jacobi
+// form, and closed forms.
 #include <gtest/gtest.h>
 
+#include <pfaff/bench/reproduce/su_qin/generating_expansion.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/replay.hpp>
-#include <pfaff/integrators/generating_expansion.hpp>
-#include <pfaff/integrators/generating_gradient.hpp>
+#include <pfaff/integrators/generating/generating_gradient.hpp>
 
 #include "bent.hpp"
 
@@ -98,14 +98,14 @@ TEST(GeneratingExpansion, BothAgreeWithTheEngineInFourDimensions) {
 TEST(GeneratingExpansion, PrintedExpansionDoesNot) {  // control
   const auto oscillator = damped("damped-oscillator");
   const auto printed =
-      expand_gradient(evolution(*oscillator, chart_alpha(*oscillator)), 2, 2, ExpansionRule::as_printed);
+      expand_gradient(evolution(*oscillator, chart_alpha(*oscillator)), 2, 2, ExpansionRule::printed_78);
   EXPECT_LE(distance(value(printed[1], start, point), engine(*oscillator, 1, start, point)), at_round_off);
   // It says phi_w^(2) = 0 for the oscillator, which (104) contradicts.
   EXPECT_LE(distance(value(printed[2], start, point), {Quad(0), Quad(0)}), at_round_off);
   EXPECT_GT(distance(engine(*oscillator, 2, start, point), {Quad(0), Quad(0)}), 1e-2);
 
   const auto model = bent();
-  const auto other = expand_gradient(evolution(*model, chart_alpha(*model)), 2, 4, ExpansionRule::as_printed);
+  const auto other = expand_gradient(evolution(*model, chart_alpha(*model)), 2, 4, ExpansionRule::printed_78);
   for (int k = 2; k <= 4; ++k)
     EXPECT_GT(
         distance(value(other[static_cast<std::size_t>(k)], start, point), engine(*model, k, start, point)),

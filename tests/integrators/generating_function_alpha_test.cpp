@@ -1,5 +1,5 @@
-// The schemes of a user's alpha: structure, order, symmetry, agreement with the chart's scheme, and what is
-// refused.
+// The schemes of a transformation alpha that a user gives: structure, order, symmetry, agreement with the
+// scheme in the chart, and what is refused.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include <pfaff/bench/verification/check.hpp>
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
-#include <pfaff/integrators/generating_map_check.hpp>
+#include <pfaff/integrators/generating/generating_map_check.hpp>
 
 #include "mixed_alpha.hpp"
 

@@ -1,16 +1,16 @@
-// What su-qin proves about maps and generating functions, on maps themselves: steps of registered methods,
-// exact flows, and maps that a random gradient defines.
+// The theorems of su-qin about maps and generating functions, checked on maps: steps of registered methods,
+// exact flows, and maps defined by a random gradient.
 #include <gtest/gtest.h>
 
 #include <random>
 
 #include <pfaff/bench/measure/structure.hpp>
+#include <pfaff/bench/reproduce/su_qin/generating_expansion.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/examples/templates/alpha.hpp>
-#include <pfaff/integrators/generating_expansion.hpp>
-#include <pfaff/integrators/generating_gradient.hpp>
-#include <pfaff/integrators/lagrangian_transformation.hpp>
+#include <pfaff/integrators/generating/generating_gradient.hpp>
+#include <pfaff/integrators/generating/lagrangian_transformation.hpp>
 
 #include "bent.hpp"
 

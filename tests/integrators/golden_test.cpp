@@ -1,6 +1,6 @@
 // The generating-function scheme against reference values of 30 digits and more: transition matrices of the
-// damped oscillator, one-step maps, Jacobians, coefficients and trajectories of the damped pendulum, through
-// the same code as any other system.
+// damped oscillator; one-step maps, Jacobians, coefficients and trajectories of the damped pendulum. The
+// systems go through the same code as any other.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -8,7 +8,7 @@
 
 #include <pfaff/bench/measure/structure.hpp>
 #include <pfaff/core/system.hpp>
-#include <pfaff/integrators/generating_gradient.hpp>
+#include <pfaff/integrators/generating/generating_gradient.hpp>
 
 namespace pfaff {
 namespace {

@@ -1,5 +1,6 @@
-// Generating functions of orders 13 to 20, in quad: beyond what verification sees, for its steps are too
-// small there. One large step against Gauss collocation of order 32 in two half steps.
+// Generating functions of orders 13 to 20 in quad, which verification cannot measure because their errors
+// reach round-off at its steps. One large step is compared with two half steps of Gauss collocation of order
+// 32.
 #include <gtest/gtest.h>
 
 #include <pfaff/bench/measure/structure.hpp>

@@ -1,11 +1,11 @@
-// Transformations alpha as authors write them, linear and not: (34) is checked from the recorded formula, and
-// what is wrong with a wrong one is said.
+// Transformations alpha as authors write them, linear and not: condition (34) of su-qin is checked on the
+// recorded formula, and a transformation that violates it is refused with the reason.
 #include <gtest/gtest.h>
 
 #include <pfaff/core/facets/model.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/examples/templates/alpha.hpp>
-#include <pfaff/integrators/lagrangian_transformation.hpp>
+#include <pfaff/integrators/generating/lagrangian_transformation.hpp>
 
 namespace pfaff {
 namespace {

@@ -1,5 +1,5 @@
-// The leap-frog scheme: its two-step rule, its order over many steps, and the structure and stability it
-// lacks.
+// The leap-frog scheme: its two-step rule, its order over many steps, and that it neither preserves the
+// structure nor is stable where the motion is damped.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <pfaff/core/numbers/functions.hpp>
-#include <pfaff/integrators/lobatto_coefficients.hpp>
+#include <pfaff/integrators/constrained/lobatto_coefficients.hpp>
 
 namespace pfaff {
 namespace {

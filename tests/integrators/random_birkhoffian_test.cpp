@@ -1,7 +1,7 @@
-// The engine on Birkhoffian systems that nobody has written down: a random polynomial Hamiltonian and the
-// canonical one-form, pulled back through random polynomial shears that depend on time. The composed shears
-// are the Darboux chart, so F, B and the chart are known and everything else is derived: K(z, t), the field,
-// the field in the chart.
+// The engine on random Birkhoffian systems. Each is a random polynomial Hamiltonian with the canonical
+// one-form, pulled back through random polynomial shears that depend on time. The composed shears are the
+// Darboux chart, so that F, B and the chart are known; K(z, t), the field and the field in the chart are
+// derived.
 #include <gtest/gtest.h>
 
 #include <random>

@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include <pfaff/integrators/fractional_transformation.hpp>
+#include <pfaff/integrators/generating/fractional_transformation.hpp>
 
 namespace pfaff::testing {
 

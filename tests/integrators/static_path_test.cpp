@@ -1,6 +1,6 @@
-// The static path computes what the registered one does: the same bits where the arithmetic is the same, the
-// same numbers to round-off where an iteration is between, and its derived formulas are the author's to
-// round-off.
+// The static path computes the same as the registered one: the same bits where the arithmetic is the same,
+// the same numbers to round-off where an iteration is involved. Its derived formulas agree with the author's
+// to round-off.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,13 +8,13 @@
 #include <pfaff/core/facets/static_problem.hpp>
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
-#include <pfaff/integrators/explicit_runge_kutta.hpp>
-#include <pfaff/integrators/gauss.hpp>
-#include <pfaff/integrators/generating_function.hpp>
-#include <pfaff/integrators/splitting.hpp>
-#include <pfaff/systems/harmonic_oscillator.hpp>
-#include <pfaff/systems/kepler.hpp>
-#include <pfaff/systems/pendulum.hpp>
+#include <pfaff/integrators/generating/generating_function.hpp>
+#include <pfaff/integrators/runge_kutta/explicit_runge_kutta.hpp>
+#include <pfaff/integrators/runge_kutta/gauss.hpp>
+#include <pfaff/integrators/splitting/splitting.hpp>
+#include <pfaff/systems/canonical/harmonic_oscillator.hpp>
+#include <pfaff/systems/canonical/kepler.hpp>
+#include <pfaff/systems/canonical/pendulum.hpp>
 
 namespace pfaff {
 namespace {

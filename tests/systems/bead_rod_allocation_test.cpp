@@ -1,5 +1,5 @@
-// Nothing that is asked of rods while a run goes on allocates. The global operator new of this program counts
-// while it is told to.
+// Bead-rod systems allocate no memory in anything a run asks of them. The global operator new of this program
+// counts allocations while counting is switched on.
 #include <pfaff/core/facets/problem.hpp>
 #include <pfaff/core/formulation.hpp>
 

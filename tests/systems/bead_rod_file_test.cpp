@@ -1,5 +1,5 @@
-// Model files: what is read from TOML and JSON, and that whatever is wrong is refused in one line that says
-// what, where and what was expected.
+// Model files in TOML and JSON: what is read from them, and that anything wrong is refused in one line that
+// says what, where and what was expected.
 #include "bead_rod_files.hpp"
 
 namespace {

@@ -1,5 +1,6 @@
-// Bead-rod systems read from files, against reference values of 38 digits: the constraints' matrices and what
-// they are made of, energies, and right-hand sides of every formulation, on and off the constraint surface.
+// Bead-rod systems read from files, against reference values of 38 digits: the matrices of the constraints
+// and what they are made of, energies, and right-hand sides of every formulation, on and off the constraint
+// surface.
 #include <pfaff/core/facets/problem.hpp>
 #include <pfaff/core/formulation.hpp>
 

@@ -1,5 +1,6 @@
-// Bead-rod systems: forces against the energy's derivatives, cells against all pairs, every graph's
-// right-hand sides against the same formulas made from tapes, structure, memory, random starts.
+// Bead-rod systems: forces against derivatives of the energy, pairs found by cells against all pairs,
+// right-hand sides of every graph against the same formulas made from tapes, structure of S, memory, and
+// random starts.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -191,7 +192,9 @@ TEST(BeadRod, PairsAtDistanceZeroAreNotFinite) {
     EXPECT_EQ(constraints->place(0, apart, rest), Status::converged);
     EXPECT_EQ(constraints->place(0, meeting, rest), Status::non_finite);
     std::vector<double> q_rate(6), p_rate(6);
-    EXPECT_EQ(constraints->dirac_rates(0, meeting, rest, q_rate, p_rate), Status::non_finite);
+    auto* const rates = constraints->rates(Reactions::hamiltonian);
+    ASSERT_NE(rates, nullptr);
+    EXPECT_EQ((*rates)(0, meeting, rest, q_rate, p_rate), Status::non_finite);
   }
 }
 

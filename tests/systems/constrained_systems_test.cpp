@@ -1,4 +1,4 @@
-// Closed forms of systems with constraints.
+// Systems with constraints against closed forms of their motion and their brackets.
 #include <gtest/gtest.h>
 
 #include <pfaff/bench/measure/constraints.hpp>
@@ -6,7 +6,7 @@
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/replay.hpp>
 
-#include "../brackets/rods.hpp"
+#include "../formulations/rods.hpp"
 #include "motion.hpp"
 #include "samples.hpp"
 #include "taylor_flow.hpp"

@@ -1,5 +1,5 @@
-// The field and the structure that the action form of a system gives, against both written out by hand, and
-// conserved quantities along its solutions.
+// The field and the structure that are derived from the action form of a system, against both written out by
+// hand, and conserved quantities along its solutions.
 #include <gtest/gtest.h>
 
 #include <functional>

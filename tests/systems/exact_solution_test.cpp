@@ -1,4 +1,4 @@
-// Every exact solution a system offers, against Taylor series of its field.
+// Every exact solution that a system offers agrees with Taylor series of its field.
 #include <gtest/gtest.h>
 
 #include <pfaff/core/facets/problem.hpp>

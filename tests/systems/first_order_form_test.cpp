@@ -1,5 +1,5 @@
-// Systems written as K zdot + D = 0: the field, the Poisson tensor, charts and what does not fit, against the
-// same system written by F and B.
+// Systems written as K zdot + D = 0: the field, the Poisson tensor and charts, against the same system
+// written by F and B, and what is refused because it does not fit together.
 #include <gtest/gtest.h>
 
 #include <pfaff/bench/measure/structure.hpp>

@@ -1,4 +1,5 @@
-// What systems say of their invariants, from the derivative along the field.
+// What systems declare about their invariants (conserved, decreasing, quadratic and so on) is true by their
+// derivatives along the field.
 #include <gtest/gtest.h>
 
 #include <pfaff/core/tape/derivatives.hpp>

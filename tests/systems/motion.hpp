@@ -1,4 +1,5 @@
-// What moves: a system itself, or with constraints its motion in Dirac's formulation.
+// The model that moves for a system: the system itself, or, where it has constraints, its motion in Dirac's
+// formulation.
 #pragma once
 
 #include <pfaff/core/formulation.hpp>

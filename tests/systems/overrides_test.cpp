@@ -1,4 +1,4 @@
-// What an author wrote although it could be derived must be what is derived.
+// A formula that an author writes although it could be derived must give the same as the derived one.
 #include <gtest/gtest.h>
 
 #include <pfaff/core/tape/derivatives.hpp>

@@ -1,4 +1,4 @@
-// Closed forms of the heavy top and of rigid bodies that relax or lose energy.
+// The heavy top, and rigid bodies that relax or lose energy, against closed forms.
 #include <gtest/gtest.h>
 
 #include <pfaff/core/system.hpp>

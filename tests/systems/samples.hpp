@@ -1,4 +1,5 @@
-// Random instances of registered systems: parameters about their defaults, states about the initial one.
+// Random instances of registered systems, with parameters near their defaults and states near the initial
+// one.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// An integration that shares nothing with closed forms: Taylor steps in quad on the tape of a field.
+// An integration that shares nothing with the closed forms it is compared with: Taylor steps in quad on the
+// tape of a field.
 #pragma once
 
 #include <algorithm>

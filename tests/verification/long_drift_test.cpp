@@ -1,5 +1,6 @@
-// RATTLE over a million steps of the 4-pendulum from 32 random starts: both levels of constraints stay at
-// round-off, and the energy, which oscillates, has no trend that its own correlation does not explain.
+// RATTLE over a million steps of the 4-pendulum, from 32 random starts. Both levels of constraints stay at
+// round-off; the energy oscillates, and any trend in it is within what the correlation of its errors
+// explains.
 #include <gtest/gtest.h>
 
 #include <pfaff/bench/runner/record.hpp>

@@ -1,6 +1,10 @@
-// Nguyen & Turski, figure 2: the 4-pendulum in three formulations, over 32 seeds of its velocities. The paper
-// prints no numbers: its claim is counted, with dopri5 at a tolerance of 1e-8 and T = 20.
+// Nguyen & Turski, figure 2: errors of energy and of constraints of the 4-pendulum, by the Hamilton-Dirac
+// equations (4.2), by (4.7) and by (A.5), over 32 seeds of its velocities. The paper prints no numbers: its
+// claim, that the errors of (4.7) and (A.5) always grow faster, is counted, with dopri5 at a tolerance of
+// 1e-8 and T = 20. Without friction (4.7) and (A.5) are one field and their runs are the same, so that
+// "simplified-dirac" stands for both; that the fields are one is a row of its own.
 #include <algorithm>
+#include <cmath>
 
 #include <pfaff/bench/reproduce/nguyen_turski/rows.hpp>
 #include <pfaff/bench/runner/record.hpp>
@@ -9,8 +13,12 @@ namespace pfaff::nguyen_turski {
 
 namespace {
 constexpr int seeds = 32;
+constexpr int nearly_all = 30;
 
-double largest_constraint(const std::string& formulation, int seed) {
+struct Errors {
+  double constraint = std::numeric_limits<double>::quiet_NaN(), energy = constraint;
+};
+Errors largest_errors(const std::string& formulation, int seed) {
   RunSettings settings;
   settings.system = "n-pendulum";
   settings.integrator = "odeint-dopri5";
@@ -18,28 +26,35 @@ double largest_constraint(const std::string& formulation, int seed) {
   settings.set = {{"system.bobs", "4"}, {"system.seed", std::to_string(seed)}};
   settings.tolerance = "1e-8";
   settings.time = "20";
-  const RunRecord record = execute(resolve(settings), nullptr);
-  return record.status == Status::converged ? record.constraints.front().maximum
-                                            : std::numeric_limits<double>::quiet_NaN();
+  const ResolvedRun run = resolve(settings);
+  const RunRecord record = execute(run, nullptr);
+  if (record.status != Status::converged) return {};
+  Errors errors;
+  errors.constraint = record.constraints.front().maximum;
+  for (std::size_t k = 0; k < record.drift.size(); ++k)
+    if (run.model->invariants()[k].name == "energy") errors.energy = record.drift[k].maximum;
+  return errors;
+}
+
+void counted(Rows& rows, const std::string& what, std::vector<double> ratios) {
+  const auto exceeds = std::count_if(ratios.begin(), ratios.end(), [](double ratio) { return ratio > 1; });
+  std::nth_element(ratios.begin(), ratios.begin() + seeds / 2, ratios.end());
+  rows.qualitative("figure 2", what, {"always larger", "for " + std::to_string(exceeds) + " of 32 seeds"},
+                   {at_least(static_cast<double>(exceeds), nearly_all), at_least(ratios[seeds / 2], 1)},
+                   "those of (4.7), (A.5) exceed those of (4.2) for " + std::to_string(exceeds) +
+                       " of 32 seeds; median ratio " + shown(ratios[seeds / 2]));
 }
 }  // namespace
 
 void figure_2_rows(Rows& rows) {
-  for (const std::string formulation : {"lmm", "simplified-dirac"}) {
-    int exceeds = 0;
-    std::vector<double> ratios;
-    for (int seed = 1; seed <= seeds; ++seed) {
-      const double other = largest_constraint(formulation, seed), dirac = largest_constraint("dirac", seed);
-      exceeds += other > dirac;
-      ratios.push_back(other / dirac);
-    }
-    std::nth_element(ratios.begin(), ratios.begin() + seeds / 2, ratios.end());
-    const std::string counted = std::to_string(exceeds) + " of 32 seeds";
-    rows.qualitative(
-        "figure 2", formulation, "no numbers", "exceeds Dirac's for " + counted, ratios[seeds / 2], 0,
-        exceeds >= 30,
-        "exceeds dirac's |phi| for " + counted + "; ratio " + to_string(Quad(ratios[seeds / 2]), 3));
+  std::vector<double> constraints, energies;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const Errors other = largest_errors("simplified-dirac", seed), dirac = largest_errors("dirac", seed);
+    constraints.push_back(other.constraint / dirac.constraint);
+    energies.push_back(other.energy / dirac.energy);
   }
+  counted(rows, "errors of constraints", constraints);
+  counted(rows, "errors of energy", energies);
 }
 
 }  // namespace pfaff::nguyen_turski

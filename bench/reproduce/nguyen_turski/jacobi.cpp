@@ -1,6 +1,7 @@
-// Nguyen & Turski, Propositions 2 and 6, (3.20), (3.21): Jacobi's identity. Exact, off the constraint
+// Nguyen & Turski, Propositions 1, 2 and 6, (3.20), (3.21): Jacobi's identity. Exact, off the constraint
 // surface.
 #include <pfaff/bench/reproduce/nguyen_turski/rows.hpp>
+#include <pfaff/bench/reproduce/printed/jacobi.hpp>
 #include <pfaff/brackets/canonical.hpp>
 #include <pfaff/brackets/conformance/bracket_function.hpp>
 #include <pfaff/brackets/conformance/polynomial_brackets.hpp>
@@ -10,8 +11,8 @@ namespace pfaff::nguyen_turski {
 
 namespace {
 
-template <class B>
-using Dirac = AlmostDiracReduction<B, PolynomialConstraints, DiracComplement<B>>;
+template <class B, class C>
+using Dirac = AlmostDiracReduction<B, C, DiracComplement<B>>;
 
 void propositions(Rows& rows) {
   ExactSamples samples(10);
@@ -21,81 +22,154 @@ void propositions(Rows& rows) {
   const auto residual = [&](const auto& bracket) {
     return static_cast<Quad>(jacobi_residual<Rational>(bracket, Rational(0), z).residual);
   };
-  const Dirac<CanonicalBracket> dirac{{}, constraints, {}};
+  const Dirac<CanonicalBracket, PolynomialConstraints> dirac{{}, constraints, {}};
   const AlmostDiracReduction<CanonicalBracket, PolynomialConstraints, NormalComplement> almost{
       {}, constraints, {}};
-  rows.reproduced("Proposition 2", "Jacobi of the reduction along P(TN^0)", zeros(1), {residual(dirac)});
-  const Quad left = residual(almost);
-  rows.qualitative("after (2.1)", "almost Poisson only", "Jacobi may not hold",
-                   "residual " + to_string(left, 4), static_cast<double>(left), 0,
-                   static_cast<double>(left) > clearly, "Jacobi fails for the reduction along normals");
+  rows.reproduced("Proposition 1, Proposition 2", "Jacobi of the reduction along P(TN^0)", zeros(1),
+                  {residual(dirac)});
+  const auto left = static_cast<double>(residual(almost));
+  rows.qualitative("after (2.1)", "almost Poisson only", {"Jacobi may not hold", "residual " + shown(left)},
+                   {at_least(left, clearly)}, "Jacobi fails for the reduction along normals");
   // Two nested levels: rank 4 of constraints in seven dimensions with a bracket that depends on the point.
   const NambuCanonicalBracket poisson{Polynomial(3, samples.random())};
   const PolynomialConstraints four(4, 7, samples.random());
-  const Dirac<NambuCanonicalBracket> deeper{poisson, four, {poisson}};
+  const Dirac<NambuCanonicalBracket, PolynomialConstraints> deeper{poisson, four, {poisson}};
   const auto at = samples.point(7);
   rows.reproduced("Proposition 6", "Jacobi of a Dirac bracket off the surface", zeros(1),
                   {static_cast<Quad>(jacobi_residual<Rational>(deeper, Rational(0), at).residual)});
   const PolynomialBracket skew(Symmetry::skew, n, samples.random());
-  const Dirac<PolynomialBracket> broken{skew, constraints, {skew}};
-  const Quad control = residual(broken);
-  rows.qualitative("Proposition 6", "hypothesis", "Lie or Poisson bracket",
-                   "residual " + to_string(control, 4), static_cast<double>(control), 0,
-                   static_cast<double>(control) > clearly, "control: a skew bracket without Jacobi has none");
+  const Dirac<PolynomialBracket, PolynomialConstraints> broken{skew, constraints, {skew}};
+  const auto control = static_cast<double>(residual(broken));
+  rows.qualitative("Proposition 6", "hypothesis", {"Lie or Poisson bracket", "residual " + shown(control)},
+                   {at_least(control, clearly)}, "control: a skew bracket without Jacobi has none");
 }
 
-/// The sums of (3.20) and both sides of (3.21).
-struct Expansion {
-  std::vector<Rational> sums;
-  Rational jacobi, expanded;
+// A polynomial of the printed formulas as the engine's brackets take functions: a value for any scalar, and a
+// gradient by dual numbers. Its coefficients are integers.
+struct EngineFunction {
+  printed::Polynomial polynomial;
+
+  template <class T>
+  T operator()(In<T> z) const {
+    T sum(0);
+    for (const auto& [powers, coefficient] : polynomial.terms()) {
+      T term(static_cast<int>(static_cast<double>(coefficient)));
+      for (std::size_t k = 0; k < powers.size(); ++k)
+        for (int power = 0; power < powers[k]; ++power) term = term * z[k];
+      sum = sum + term;
+    }
+    return sum;
+  }
+  template <class T>
+  std::vector<T> gradient(In<T> z) const {
+    return gradient_by_duals<T>(*this, z);
+  }
 };
-template <class B>
-Expansion expansion(const B& bracket, ExactSamples& samples, std::size_t n) {
-  const auto z = samples.point(n);
+struct EngineTensor {
+  printed::PolynomialTensor entries;
+  template <class T>
+  void sharp(const T& /*t*/, In<T> z, In<T> covector, Out<T> vector) const {
+    for (std::size_t i = 0; i < z.size(); ++i) {
+      vector[i] = T(0);
+      for (std::size_t j = 0; j < z.size(); ++j)
+        vector[i] = vector[i] + EngineFunction{entries[i][j]}.template operator()<T>(z) * covector[j];
+    }
+  }
+};
+struct EngineConstraints {
+  std::vector<EngineFunction> functions;
+  [[nodiscard]] std::size_t count() const { return functions.size(); }
+  template <class T>
+  void gradients(const T& /*t*/, In<T> z, Out<T> rows) const {
+    for (std::size_t k = 0; k < functions.size(); ++k) {
+      const auto slope = functions[k].gradient<T>(z);
+      for (std::size_t i = 0; i < z.size(); ++i) rows[k * z.size() + i] = slope[i];
+    }
+  }
+};
+
+// A sum of every variable and some products of two or three, with coefficients from -3 to 3.
+printed::Polynomial random_polynomial(ExactSamples& samples, std::size_t n, int products) {
+  std::uniform_int_distribution<int> coefficient(-3, 3), degree(2, 3);
+  std::uniform_int_distribution<std::size_t> variable(0, n - 1);
   auto& random = samples.random();
-  const Polynomial f(n, random), g(n, random), h(n, random);
-  const PolynomialConstraints phi(2, n, random);
-  const Polynomial &p1 = phi.functions[0], &p2 = phi.functions[1];
-  const auto function = [&](const auto& a, const auto& b) { return BracketFunction(bracket, a, b); };
-  const auto at = [&](const auto& x) { return x.template operator()<Rational>(z); };
-  const auto value = [&](const auto& a, const auto& b) { return at(function(a, b)); };
-  const auto a1 = function(f, p1), a2 = function(f, p2), b1 = function(g, p1), b2 = function(g, p2),
-             c1 = function(h, p1), c2 = function(h, p2), p12 = function(p1, p2);
-  const auto fg = function(f, g), fh = function(f, h), hg = function(h, g), gh = function(g, h),
-             hf = function(h, f);
-  const auto sum = [&](const auto& a, const auto& g1, const auto& f1, const auto& b, const auto& p,
-                       const auto& fg1) { return value(a, g1) + value(f1, b) + value(p, fg1); };
-  const Rational i1 = sum(a1, g, f, b1, p1, fg), i2 = sum(a2, g, f, b2, p2, fg);
-  const Rational j1 = sum(a1, h, f, c1, p1, fh), j2 = sum(a2, h, f, c2, p2, fh);
-  const Rational k1 = sum(c1, g, h, b1, p1, hg), k2 = sum(c2, g, h, b2, p2, hg);
-  const Rational d = sum(p2, a1, a2, p1, f, p12), e = sum(p2, b1, b2, p1, g, p12),
-                 last = sum(p2, c1, c2, p1, h, p12);
-  const Rational s = Rational(1) / at(p12);
-  const Rational first =
-      (at(a2) * k1 - at(a1) * k2) + (at(b2) * j1 - at(b1) * j2) + (at(c1) * i2 - at(c2) * i1);
-  const Rational second = (at(a1) * at(b2) - at(a2) * at(b1)) * last +
-                          (at(c1) * at(a2) - at(c2) * at(a1)) * e + (at(b1) * at(c2) - at(b2) * at(c1)) * d;
-  const Dirac<B> dirac{bracket, phi, {bracket}};
-  const auto gh_d = BracketFunction(dirac, g, h), hf_d = BracketFunction(dirac, h, f),
-             fg_d = BracketFunction(dirac, f, g);
-  return {{i1, i2, j1, j2, k1, k2, d, e, last},
-          at(BracketFunction(dirac, f, gh_d)) + at(BracketFunction(dirac, g, hf_d)) +
-              at(BracketFunction(dirac, h, fg_d)),
-          value(f, gh) + value(g, hf) + value(h, fg) + first * s + second * s * s};
+  printed::Polynomial sum;
+  const auto factor = [&](std::size_t k) { return printed::Polynomial::variable(k); };
+  for (std::size_t k = 0; k < n; ++k)
+    sum = sum + printed::Polynomial(Rational(coefficient(random))) * factor(k);
+  for (int k = 0; k < products; ++k) {
+    printed::Polynomial term(Rational(coefficient(random)));
+    for (int power = degree(random); power > 0; --power) term = term * factor(variable(random));
+    sum = sum + term;
+  }
+  return sum;
+}
+
+// {f, {g, h}} + {g, {h, f}} + {h, {f, g}} of a bracket of the engine.
+template <class B>
+Rational jacobi_sum(const B& bracket, const std::vector<EngineFunction>& functions,
+                    const std::vector<Rational>& z) {
+  Rational sum(0);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const BracketFunction inner(bracket, functions[(k + 1) % 3], functions[(k + 2) % 3]);
+    sum = sum + BracketFunction(bracket, functions[k], inner).template operator()<Rational>(z);
+  }
+  return sum;
+}
+
+// (3.20) by the engine's brackets, the nine sums of three functions and two constraints.
+template <class B>
+std::vector<Rational> sums(const B& bracket, const std::vector<EngineFunction>& functions,
+                           const std::vector<EngineFunction>& phi, const std::vector<Rational>& z) {
+  std::vector<Rational> list;
+  for (std::size_t i = 0; i < 2; ++i)
+    for (const auto& [left, right] : {std::pair{0U, 1U}, {0U, 2U}, {2U, 1U}})
+      list.push_back(jacobi_sum(bracket, {functions[left], functions[right], phi[i]}, z));
+  for (std::size_t k = 0; k < 3; ++k) list.push_back(jacobi_sum(bracket, {functions[k], phi[0], phi[1]}, z));
+  return list;
 }
 
 void expansions(Rows& rows) {
   ExactSamples samples(11);
-  const Expansion canonical = expansion(CanonicalBracket{}, samples, 6);
-  rows.reproduced("(3.20)", "the sums of a Poisson bracket", zeros(9), quads(canonical.sums));
   // Five dimensions: on the level sets of two constraints in four, every skew bracket obeys Jacobi's
   // identity.
-  const PolynomialBracket skew(Symmetry::skew, 5, samples.random());
-  const Expansion any = expansion(skew, samples, 5);
-  rows.reproduced("(3.21)", "an identity for any skew bracket", quads({any.expanded}), quads({any.jacobi}));
-  const auto size = std::abs(static_cast<double>(any.jacobi));
-  rows.qualitative("(3.21)", "without Jacobi", "-", "Jacobi " + to_string(Quad(size), 4), size, 0,
-                   size > clearly, "control: both sides above differ from 0");
+  constexpr std::size_t n = 5;
+  std::vector<printed::Polynomial> printed_functions, printed_constraints;
+  for (int k = 0; k < 3; ++k) printed_functions.push_back(random_polynomial(samples, n, 3));
+  for (int k = 0; k < 2; ++k) printed_constraints.push_back(random_polynomial(samples, n, 2));
+  printed::PolynomialTensor tensor(n, std::vector<printed::Polynomial>(n));
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i + 1; j < n; ++j) {
+      tensor[i][j] = random_polynomial(samples, n, 1);
+      tensor[j][i] = printed::Polynomial() - tensor[i][j];
+    }
+  std::vector<Rational> z;
+  for (std::size_t k = 0; k < n; ++k)
+    z.push_back(Rational(static_cast<int>((3 * k * k + 2) % 7) - 2) / Rational(4));
+  std::vector<EngineFunction> functions;
+  for (const auto& f : printed_functions) functions.push_back({f});
+  const EngineConstraints constraints{{{printed_constraints[0]}, {printed_constraints[1]}}};
+  const EngineTensor skew{tensor};
+  const Dirac<EngineTensor, EngineConstraints> dirac{skew, constraints, {skew}};
+  const Rational jacobi = jacobi_sum(dirac, functions, z);
+  rows.reproduced("(3.21)", "an identity for any skew bracket",
+                  quads({printed::jacobi_expansion(tensor, printed_functions, printed_constraints, z)}),
+                  quads({jacobi}));
+  const auto size = std::abs(static_cast<double>(jacobi));
+  rows.qualitative("(3.21)", "without Jacobi", {"-", "Jacobi " + shown(size)}, {at_least(size, clearly)},
+                   "control: both sides above differ from 0");
+  // The canonical bracket of six dimensions is Poisson.
+  std::vector<EngineFunction> of_six;
+  for (int k = 0; k < 5; ++k) of_six.push_back({random_polynomial(samples, 6, 4)});
+  const std::vector<EngineFunction> first(of_six.begin(), of_six.begin() + 3),
+      last(of_six.begin() + 3, of_six.end());
+  rows.reproduced("(3.20)", "the sums of a Poisson bracket", zeros(9),
+                  quads(sums(CanonicalBracket{}, first, last, samples.point(6))));
+  const std::vector<Rational> broken = sums(skew, functions, constraints.functions, z);
+  double largest_sum = 0;
+  for (const Rational& x : broken) largest_sum = std::max(largest_sum, std::abs(static_cast<double>(x)));
+  rows.qualitative("(3.20)", "without Jacobi", {"-", "up to " + shown(largest_sum)},
+                   {at_least(largest_sum, clearly)}, "control: the sums of a skew bracket do not vanish");
 }
 
 }  // namespace

@@ -1,93 +1,128 @@
-// Nguyen & Turski, (1.1), (1.2) and section 2: the brackets, and reductions of constant tensors.
+// Nguyen & Turski, (1.1), (1.2) and section 2: the brackets, and reductions of tensors.
 #include <pfaff/bench/reproduce/nguyen_turski/rows.hpp>
-#include <pfaff/brackets/canonical.hpp>
-#include <pfaff/brackets/conformance/residuals.hpp>
-#include <pfaff/brackets/dirac/elimination.hpp>
+#include <pfaff/bench/reproduce/printed/brackets.hpp>
+#include <pfaff/brackets/conformance/polynomial_brackets.hpp>
+#include <pfaff/brackets/reduction/almost_dirac.hpp>
 #include <pfaff/brackets/reduction/dirac_subspace.hpp>
 #include <pfaff/brackets/reduction/splitting.hpp>
+#include <pfaff/core/tape/replay.hpp>
 
 namespace pfaff::nguyen_turski {
 
 namespace {
 
-void brackets(Rows& rows) {
-  ExactSamples samples(1);
-  const auto z = samples.point(6);
-  const ExactMatrix j = bracket_matrix<Rational>(CanonicalBracket{}, Rational(0), z);
-  const ExactMatrix f = samples.any(1, 6), g = samples.any(1, 6);
-  Rational printed(0);
-  for (std::size_t k = 0; k < 3; ++k) printed += f(0, k) * g(0, 3 + k) - f(0, 3 + k) * g(0, k);
-  rows.reproduced("(1.1)", "canonical bracket of two covectors", quads({printed}),
-                  quads(f * j * g.transposed()));
-  // The sum of (1.2) entry by entry beside the recursion with pivots.
-  const ExactMatrix gram = samples.skew(6);
-  const ExactMatrix c = inverse(gram.block(0, 0, 4, 4));
-  ExactMatrix sum = gram.block(4, 4, 2, 2);
-  for (std::size_t a = 0; a < 2; ++a)
-    for (std::size_t b = 0; b < 2; ++b)
-      for (std::size_t i = 0; i < 4; ++i)
-        for (std::size_t k = 0; k < 4; ++k) sum(a, b) = sum(a, b) - gram(4 + a, i) * c(i, k) * gram(k, 4 + b);
-  const auto classes = classify(gram.block(0, 0, 4, 4), Symmetry::skew);
-  Elimination<Rational> recursion(gram, Symmetry::skew, ExactMatrix(0, 0), counted(6));
-  for (const auto& pivot : classes.pivots) recursion.eliminate(pivot);
-  ExactMatrix ours(2, 2);
-  for (std::size_t a = 0; a < 2; ++a)
-    for (std::size_t b = 0; b < 2; ++b) ours(a, b) = recursion(4 + a, 4 + b);
-  rows.reproduced("(1.2)", "Dirac bracket, 4 constraints", quads(sum), quads(ours));
-  const ExactMatrix odd = samples.skew(5);
-  rows.reproduced("(1.2)", "rank of a skew W is even: det of 5 x 5", zeros(1), quads({determinant(odd)}));
+// The tensor of a registered bracket of constant structure.
+Matrix<Quad> registered_tensor(const std::string& name, const Assignments& set) {
+  const BracketInstance bracket = pfaff::brackets().get(name, "bracket").make(set);
+  const auto n = static_cast<std::size_t>(bracket.dimension);
+  Replay<Quad> sharp(bracket.sharp);
+  Matrix<Quad> tensor(n, n);
+  for (std::size_t j = 0; j < n; ++j) {
+    Numbers arguments(2 * n), column(n);
+    arguments[n + j] = Quad(1);
+    sharp(Quad(0), arguments.data(), column.data());
+    for (std::size_t i = 0; i < n; ++i) tensor(i, j) = column[i];
+  }
+  return tensor;
 }
 
-void reductions(Rows& rows) {
+void definitions(Rows& rows) {
+  ExactSamples samples(1);
+  const Matrix<Quad> j = registered_tensor("canonical", {{"degrees", "3"}});
+  const Numbers f = quads(samples.any(1, 6)), g = quads(samples.any(1, 6)), image = j * g;
+  Quad ours(0);
+  for (std::size_t k = 0; k < f.size(); ++k) ours += f[k] * image[k];
+  rows.reproduced("(1.1)", "canonical bracket of two covectors", {printed::canonical_bracket(f, g)}, {ours});
+  const ExactMatrix gram = samples.skew(6);
+  rows.reproduced("(1.2)", "Dirac bracket, 4 constraints", quads(printed::dirac_brackets(table_of(gram), 4)),
+                  quads(engine_brackets(gram, 4, Symmetry::skew)));
+  const auto odd = classify(samples.skew(5), Symmetry::skew);
+  rows.qualitative("(1.2)", "rank of a skew W is even", {"even", std::to_string(odd.rank()) + " of 5"},
+                   {at_most(static_cast<double>(odd.rank() % 2), 0), at_most(odd.regular() ? 1 : 0, 0)},
+                   "five constraints are not all second class");
+}
+
+void linear(Rows& rows) {
   ExactSamples samples(2);
   constexpr std::size_t n = 6, k = 2;
   const ExactMatrix a = samples.any(k, n), f = kernel_columns(a), p = samples.skew(n);
-  const Splitting<Rational> other(f, a.transposed()), dirac(f, p * a.transposed());
-  const ExactMatrix alpha = samples.any(1, n), beta = samples.any(1, n);
-  rows.reproduced("(2.1)", "K_F(alpha, beta) = K(p* alpha, p* beta)",
-                  quads((alpha * other.projection()) * p * (beta * other.projection()).transposed()),
-                  quads(alpha * other.reduced(p) * beta.transposed()));
+  const ExactMatrix normals = a.transposed(), along = p * a.transposed();
+  const Splitting<Rational> other(f, normals), dirac(f, along);
+  rows.reproduced("(2.1), Definition 1", "K_F = K(p* ., p* .) along normals",
+                  quads(printed::reduced_tensor(table_of(p), table_of(f), table_of(normals))),
+                  quads(other.reduced(p)));
   const ExactMatrix square = p * p.transposed(), reduced = other.reduced(square);
+  const ExactMatrix alpha = samples.any(1, n);
   const auto least = static_cast<double>((alpha * reduced * alpha.transposed())(0, 0));
-  rows.qualitative("(2.1)", "sign of K_F", "K_F(a, a) >= 0", to_string(Quad(least), 4), 0, 0,
-                   least > 0 && largest(reduced - reduced.transposed()) == Rational(0),
-                   "symmetry and sign are inherited");
-  const ExactMatrix along = ExactMatrix::identity(n) - dirac.projection();
+  rows.qualitative(
+      "(2.1)", "sign of K_F", {"K_F(a, a) >= 0", shown(least)},
+      {at_least(least, 0), at_most(static_cast<double>(largest(reduced - reduced.transposed())), 0)},
+      "symmetry and sign are inherited");
   rows.reproduced("Proposition 1", "P = P_F + P_V for V = P(F^0)", quads(p),
-                  quads(dirac.reduced(p) + along * p * along.transposed()));
-  rows.reproduced("Proposition 1", "P_F is the Dirac bracket (1.2)", quads(dirac_tensor(p, a)),
-                  quads(dirac.reduced(p)));
+                  quads(dirac.reduced(p) + Splitting<Rational>(along, f).reduced(p)));
+  rows.reproduced("Proposition 1", "P_F is the Dirac bracket (1.2)",
+                  quads(printed::dirac_tensor(table_of(p), table_of(a))), quads(dirac.reduced(p)));
   rows.reproduced("after Proposition 1", "Dirac projection: p(P F^0)", zeros(n * k),
                   quads(dirac.dirac_projection_defect(p)));
   const auto subspace = dirac_subspace(p, a);
-  const ExactMatrix defect = other.dirac_projection_defect(p);
-  rows.claim("Propositions 1, 2", "P(F^0) is in V", "p(P F^0) = 0 for every V",
-             "largest " + to_string(static_cast<Quad>(largest(defect)), 4) + " for the normals",
-             static_cast<double>(largest(defect)),
-             subspace.meets_in_zero() && largest(dirac.dirac_projection_defect(p)) == Rational(0),
-             "Propositions 1, 2: V must be chosen so");
+  const auto defect = static_cast<double>(largest(other.dirac_projection_defect(p)));
+  rows.claim("Proposition 1, Proposition 2", "P(F^0) is in V",
+             {"p(P F^0) = 0 for every V", "largest " + shown(defect) + " for the normals"},
+             {at_least(defect, clearly), is_true(subspace.meets_in_zero()),
+              at_most(static_cast<double>(largest(dirac.dirac_projection_defect(p))), 0)},
+             "Proposition 1, Proposition 2: V must be chosen so");
+  const ExactMatrix complement = ExactMatrix::identity(n) - dirac.projection();
   const auto dimension = [](const ExactMatrix& m) {
     return static_cast<double>(independent_rows(m, 0).independent.size());
   };
-  const double printed = dimension(along * f), corrected = dimension(along);
-  rows.claim("after Proposition 1", "V_p = (Id - p) F", "dimension " + to_string(Quad(printed), 2),
-             "dimension " + to_string(Quad(corrected), 2), corrected - printed, corrected == double{k},
+  const double of_f = dimension(complement * f), of_e = dimension(complement);
+  rows.claim("after Proposition 1", "V_p = (Id - p) F",
+             {"dimension " + shown(of_f), "dimension " + shown(of_e)},
+             {at_least(of_e - of_f, 1), at_most(std::abs(of_e - double{k}), 0)},
              "after Proposition 1: V_p = (Id - p) E");
-  ExactMatrix lagrangian(2, n);
+}
+
+// (2.2) at a point of two polynomial constraints, along their normals and along P(TN^0).
+void submanifolds(Rows& rows) {
+  ExactSamples samples(14);
+  constexpr std::size_t n = 6;
+  const PolynomialConstraints constraints(2, n, samples.random());
+  const PolynomialBracket skew(Symmetry::skew, n, samples.random());
+  const auto z = samples.point(n);
+  std::vector<Rational> gradients(2 * n);
+  constraints.gradients<Rational>(Rational(0), z, gradients);
+  const ExactMatrix a(2, gradients), p = bracket_matrix<Rational>(skew, Rational(0), z),
+                                     f = kernel_columns(a);
+  const AlmostDiracReduction<PolynomialBracket, PolynomialConstraints, NormalComplement> normal{
+      skew, constraints, {}};
+  rows.reproduced("(2.2)", "reduction along normals",
+                  quads(printed::reduced_tensor(table_of(p), table_of(f), table_of(a.transposed()))),
+                  quads(bracket_matrix<Rational>(normal, Rational(0), z)));
+  const AlmostDiracReduction<PolynomialBracket, PolynomialConstraints, DiracComplement<PolynomialBracket>>
+      dirac{skew, constraints, {skew}};
+  rows.reproduced("(2.2)", "reduction along P(TN^0)",
+                  quads(printed::reduced_tensor(table_of(p), table_of(f), table_of(p * a.transposed()))),
+                  quads(bracket_matrix<Rational>(dirac, Rational(0), z)));
+  const auto subspace = dirac_subspace(p, a);
+  ExactMatrix lagrangian(2, n), j(n, n);
   lagrangian(0, 0) = lagrangian(1, 1) = 1;
-  const ExactMatrix j = bracket_matrix<Rational>(CanonicalBracket{}, Rational(0), samples.point(n));
+  for (std::size_t k = 0; k < n / 2; ++k) {
+    j(k, n / 2 + k) = 1;
+    j(n / 2 + k, k) = -1;
+  }
   const auto not_dirac = dirac_subspace(j, lagrangian);
-  rows.qualitative(
-      "Definition 2", "Dirac submanifold", "TN and P(TN^0) meet in 0", describe(subspace), subspace.angle, 0,
-      subspace.splits() && subspace.angle > 1e-3 && !not_dirac.meets_in_zero() && not_dirac.angle == 0,
-      "holds where W is regular; q1 = q2 = 0 has angle 0");
+  rows.qualitative("Definition 2", "Dirac submanifold", {"TN and P(TN^0) meet in 0", describe(subspace)},
+                   {at_least(subspace.angle, 1e-3), is_true(subspace.splits()),
+                    is_true(!not_dirac.meets_in_zero()), at_most(not_dirac.angle, 0)},
+                   "holds where W is regular; q1 = q2 = 0 has angle 0");
 }
 
 }  // namespace
 
 void reduction_rows(Rows& rows) {
-  brackets(rows);
-  reductions(rows);
+  definitions(rows);
+  linear(rows);
+  submanifolds(rows);
 }
 
 }  // namespace pfaff::nguyen_turski

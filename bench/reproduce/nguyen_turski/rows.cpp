@@ -8,9 +8,9 @@ std::vector<ReproducedRow> reproduce_nguyen_turski() {
   nguyen_turski::determinant_rows(brackets);
   nguyen_turski::recursion_rows(brackets);
   nguyen_turski::jacobi_rows(brackets);
-  nguyen_turski::one_pair_rows(brackets);
   Rows formulations("formulations");
-  nguyen_turski::formulation_rows(formulations);
+  nguyen_turski::motion_rows(formulations);
+  nguyen_turski::table_rows(formulations);
   nguyen_turski::tridiagonal_rows(formulations);
   nguyen_turski::figure_2_rows(formulations);
   std::vector<ReproducedRow> rows = brackets.take(), more = formulations.take();

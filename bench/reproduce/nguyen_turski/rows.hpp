@@ -6,15 +6,15 @@
 
 namespace pfaff::nguyen_turski {
 
-// Section "brackets": sections 1 to 3 and the one-pair matrices of appendix C.
+// Section "brackets": sections 1 to 3.
 void reduction_rows(Rows& rows);    // (1.1), (1.2), section 2
 void determinant_rows(Rows& rows);  // (3.2)-(3.7), (3.18), (3.19)
 void recursion_rows(Rows& rows);    // (3.8)-(3.17), Theorems 1 and 2, Example 3.1, break-downs
 void jacobi_rows(Rows& rows);       // (3.20), (3.21), Propositions 2 and 6
-void one_pair_rows(Rows& rows);     // the converse of (C.2)
 
 // Section "formulations": section 4 and the appendices.
-void formulation_rows(Rows& rows);  // (4.1)-(4.5), (4.7), tables 1 and 2, appendices A and B, the potential
+void motion_rows(Rows& rows);       // (4.1), (4.2), (4.7), appendix A
+void table_rows(Rows& rows);        // (4.3)-(4.6), tables 1 and 2, appendix B, other numbers of section 4
 void tridiagonal_rows(Rows& rows);  // (4.6), appendix C
 void figure_2_rows(Rows& rows);
 

@@ -1,5 +1,6 @@
 // Pitanga & Rodrigues, section 3.2: the transverse Poisson structure. Exact in rationals.
 #include <pfaff/bench/reproduce/exact.hpp>
+#include <pfaff/bench/reproduce/printed/brackets.hpp>
 #include <pfaff/brackets/reduction/dirac_subspace.hpp>
 #include <pfaff/brackets/reduction/transverse.hpp>
 
@@ -7,7 +8,10 @@ namespace pfaff {
 
 namespace {
 
-// Pi_W of rank 6 on seven dimensions, four constraints, two functions.
+using Table = printed::Table<Rational>;
+
+// Pi_W of rank 6 on seven dimensions, four constraints, two functions. What is printed is made of the tables
+// alone: X^a in rows, lambda^{ab} and lambda_ab.
 struct Sample {
   ExactSamples samples{21};
   ExactMatrix p = [this] {
@@ -16,15 +20,24 @@ struct Sample {
   }();
   ExactMatrix dx = samples.any(4, 7), f = samples.any(1, 7), g = samples.any(1, 7);
   TransverseStructure<Rational> structure{p, dx};
+
+  Table tensor = table_of(p), gradients = table_of(dx), df = table_of(f), dg = table_of(g);
+  Table fields = printed::product(gradients, tensor);
+  Table lambda = printed::product(fields, printed::transposed(gradients)),
+        lambda_inverse = printed::inverse(lambda);
+  /// p*_TS = lambda_ab dx^a (x) X^b on covectors.
+  Table leaf_projection =
+      printed::product(printed::transposed(gradients), printed::product(lambda_inverse, fields));
 };
 
 void conditions(Rows& rows, const Sample& s) {
   const auto subspace = dirac_subspace(s.p, s.dx);
   const bool regular = determinant(s.structure.lambda()) != Rational(0);
-  rows.qualitative("(a), (b)", "TW = TM + sharp(Ann TM)", "equivalent to (a) and (b)", describe(subspace),
-                   subspace.angle, 0, subspace.splits() && regular,
+  rows.qualitative("(a), (b)", "TW = TM + sharp(Ann TM)", {"equivalent to (a) and (b)", describe(subspace)},
+                   {is_true(subspace.splits()), is_true(regular)},
                    "they hold, and the constraints' brackets are regular");
-  // A constraint that is a Casimir breaks (b), one pair that commutes breaks (a).
+  // Condition (b) fails for a constraint that is a Casimir, condition (a) for one, here q2, that commutes
+  // with all constraints without being a Casimir.
   ExactMatrix commuting(4, 7);
   ExactMatrix j(7, 7);
   for (std::size_t k = 0; k < 3; ++k) {
@@ -33,54 +46,60 @@ void conditions(Rows& rows, const Sample& s) {
   }
   commuting(0, 0) = commuting(1, 1) = commuting(2, 3) = commuting(3, 6) = 1;
   const auto broken = dirac_subspace(j, commuting);
-  rows.qualitative("(a), (b)", "each can fail", "-", describe(broken), broken.angle, 0,
-                   !broken.meets_in_zero() && !broken.transversal(),
+  rows.qualitative("(a), (b)", "each can fail", {"-", describe(broken)},
+                   {is_true(!broken.meets_in_zero()), is_true(!broken.transversal())},
                    "control: q1, p1, q2 and a Casimir as constraints");
-  rows.reproduced("(13)", "p . sharp . p* on TM", quads(dirac_tensor(s.p, s.dx)),
+  const Table onto = printed::difference(printed::unit_table<Rational>(7), s.leaf_projection);
+  rows.reproduced("(13)", "p . sharp . p* on TM",
+                  quads(printed::product(printed::transposed(onto), printed::product(s.tensor, onto))),
+                  quads(s.structure.transverse()));
+  rows.reproduced("(13)", "is the Dirac bracket", quads(printed::dirac_tensor(s.tensor, s.gradients)),
                   quads(s.structure.composed()));
 }
 
 void projectors(Rows& rows, const Sample& s) {
   const auto& structure = s.structure;
-  const ExactMatrix x = structure.fields(), onto = structure.leaf_projection();
+  const ExactMatrix onto = structure.leaf_projection(), x = structure.fields();
   // (14) with X^a(f) = {x^a, f}: X^a(x^b), rows a.
-  const ExactMatrix acting = x * s.dx.transposed();
-  rows.erratum("(14)", "{x^a, x^b}", quads(acting.transposed()), quads(acting), quads(structure.lambda()),
-               "(14): X^a(x^b), X^a(f) = {x^a, f} as afterwards");
-  // (15): f + u_b x^b. At x^b = 0 the differential of tau(fbar) is df + X^a(f) lambda_ab dx^b.
-  const ExactMatrix xf = x * s.f.transposed();
-  const ExactMatrix tau = s.f + xf.transposed() * structure.lambda_inverse() * s.dx;
+  rows.erratum("(14)", "{x^a, x^b}", quads(printed::transposed(s.lambda)), quads(s.lambda),
+               quads(structure.lambda()), "(14): X^a(x^b), X^a(f) = {x^a, f} as afterwards");
+  // (15): f + u_b x^b. At x^b = 0 the differential of tau(fbar) is df less its projection onto the leaf.
+  const ExactMatrix tau = s.f - (onto * s.f.transposed()).transposed();
   rows.reproduced("(15)", "X^a of (I - x^b lambda_ba X^a) f", zeros(4), quads(x * tau.transposed()));
   // sigma(x^c) = x^c: its differential X^a(x^c) lambda_ab dx^b, printed, and with lambda_ba.
-  const ExactMatrix printed = acting.transposed() * structure.lambda_inverse() * s.dx;
-  const ExactMatrix corrected = acting.transposed() * structure.lambda_inverse().transposed() * s.dx;
-  rows.erratum("after (15)", "sigma(x^c) = x^c", quads(printed), quads(corrected), quads(s.dx),
-               "after (15): sigma(g) = X^a(g) lambda_ba x^b");
-  rows.reproduced("before (16)", "p*_TS(dx^b) = dx^b", quads(s.dx),
+  const Table acting = printed::transposed(s.lambda);
+  rows.erratum(
+      "after (15)", "sigma(x^c) = x^c",
+      quads(printed::product(acting, printed::product(s.lambda_inverse, s.gradients))),
+      quads(printed::product(acting, printed::product(printed::transposed(s.lambda_inverse), s.gradients))),
+      quads((onto * s.dx.transposed()).transposed()), "after (15): sigma(g) = X^a(g) lambda_ba x^b");
+  rows.reproduced("before (16)", "p*_TS", quads(s.leaf_projection), quads(onto));
+  rows.reproduced("before (16)", "p*_TS(dx^b) = dx^b", quads(s.gradients),
                   quads((onto * s.dx.transposed()).transposed()));
-  rows.reproduced("before (16)", "p*_TS is a projector", quads(onto), quads(onto * onto));
-  rows.reproduced("before (16)", "p_TS(X^c) = X^c", quads(x),
+  rows.reproduced("before (16)", "p_TS(X^c) = X^c", quads(s.fields),
                   quads((onto.transposed() * x.transposed()).transposed()));
 }
 
 void tensors(Rows& rows, const Sample& s) {
   const auto& structure = s.structure;
-  const ExactMatrix x = structure.fields(), onto = structure.leaf_projection();
-  const ExactMatrix half = x.transposed() * structure.lambda_inverse() * x;  // 1/2 lambda_ab X^a ^ X^b
-  rows.erratum("(16), before (17)", "Pi_S", quads(half), quads(-half), quads(onto.transposed() * s.p * onto),
+  // 1/2 lambda_ab X^a ^ X^b
+  const Table half = printed::product(printed::transposed(s.fields),
+                                      printed::product(s.lambda_inverse, s.fields)),
+              minus = printed::difference(printed::zero_table<Rational>(7, 7), half);
+  rows.erratum("(16), before (17)", "Pi_S", quads(half), quads(minus), quads(structure.leaf()),
                "(16), before (17): Pi_S = -1/2 lambda_ab X^a ^ X^b");
-  rows.reproduced(
-      "(17)", "{f, g} - {f, x^a} lambda_ab {x^b, g}",
-      quads(s.f * s.p * s.g.transposed() -
-            (s.f * s.p * s.dx.transposed()) * structure.lambda_inverse() * (s.dx * s.p * s.g.transposed())),
-      quads(s.f * structure.transverse() * s.g.transposed()));
-  rows.reproduced("(17)", "is nguyen-turski (1.2)", quads(dirac_tensor(s.p, s.dx)),
+  const auto bracket = [&](const Table& a, const Table& b) {
+    return printed::product(a, printed::product(s.tensor, printed::transposed(b)));
+  };
+  const Table last = printed::product(bracket(s.df, s.gradients),
+                                      printed::product(s.lambda_inverse, bracket(s.gradients, s.dg)));
+  rows.reproduced("(17)", "{f, g} - {f, x^a} lambda_ab {x^b, g}",
+                  quads(printed::difference(bracket(s.df, s.dg), last)),
+                  quads(s.f * structure.transverse() * s.g.transposed()));
+  rows.reproduced("(17)", "is nguyen-turski (1.2)", quads(printed::dirac_tensor(s.tensor, s.gradients)),
                   quads(structure.transverse()));
-  const ExactMatrix fx = s.f * s.p * s.dx.transposed(), gx = s.g * s.p * s.dx.transposed();
-  const ExactMatrix projected =
-      fx * structure.lambda_inverse() * structure.lambda() * (gx * structure.lambda_inverse()).transposed();
-  rows.reproduced("after (17)", "w_S(p X_f, p X_g) = {f, x^c} lambda_ca {x^a, g}",
-                  quads(-(fx * structure.lambda_inverse() * gx.transposed())), quads(projected));
+  rows.reproduced("after (17)", "w_S(p X_f, p X_g) = {f, x^c} lambda_ca {x^a, g}", quads(last),
+                  quads(s.f * structure.leaf() * s.g.transposed()));
 }
 
 }  // namespace

@@ -1,34 +1,45 @@
 // Su & Qin, section 5, (100)-(107): coefficients of the damped oscillator's generating function and its
 // schemes, through the registered methods.
-#include <array>
 #include <cmath>
+#include <functional>
 
-#include <pfaff/bench/reproduce/su_qin/oscillator.hpp>
+#include <pfaff/bench/reproduce/printed/oscillator.hpp>
+#include <pfaff/bench/reproduce/su_qin/generating_expansion.hpp>
+#include <pfaff/bench/reproduce/su_qin/rows.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
-#include <pfaff/integrators/generating_expansion.hpp>
+#include <pfaff/integrators/generating/lagrangian_transformation.hpp>
 
 namespace pfaff::su_qin {
 
 namespace {
 
-using Entries = std::array<Quad, 4>;  // row-major
-
 class OscillatorSchemes {
  public:
   std::vector<ReproducedRow> rows() {
     coefficients();
-    schemes();
+    first_order();
+    second_order();
+    centre();
     return rows_.take();
   }
 
  private:
   Rows rows_{"5"};
-  const Quad e0_ = exp(nu * t0);
+  printed::Oscillator printed_{nu, t0, t1};
   std::shared_ptr<const Model> model_ = damped("damped-oscillator");
+  Numbers z_{Quad(0.5), Quad(0.1)};
+  Matrix<Quad> k1_ = structure(*model_, t1, z_);
 
-  static Numbers list(const Entries& m) { return {m.begin(), m.end()}; }
-
-  // (100), (104): coefficients of the generating function, as (R, P) components of phi_w^(k) at w = (R, P).
+  [[nodiscard]] StepJacobian<Quad> step(int order) const {
+    return step_of("generating-function", {{"order", std::to_string(order)}, {"variant", "P"}}, model_, z_);
+  }
+  // M^T K(t1) M of a step.
+  [[nodiscard]] Numbers kept(const StepJacobian<Quad>& step) const {
+    const Matrix<Quad> m(2, step.jacobian);
+    return (m.transposed() * k1_ * m).entries();
+  }
+  // The engine's coefficients, as (R, P) components of phi_w^(k) at w = (R, P): the chart's P has the other
+  // sign.
   [[nodiscard]] Numbers coefficient(int k, const Numbers& w) const {
     const Numbers in_chart = engine_term(*model_, k, {w[0], -w[1]});
     return {in_chart[0], -in_chart[1]};
@@ -36,83 +47,72 @@ class OscillatorSchemes {
 
   void coefficients() {
     const Numbers w{Quad(0.6), Quad(0.3)};
-    rows_.reproduced("(100)", "phi_w^(0)", {Quad(0), Quad(0)}, coefficient(0, w));
-    rows_.reproduced("(100)", "phi_w^(1)", {-e0_ * w[0], -w[1] / e0_}, coefficient(1, w));
-    rows_.reproduced("(104)", "phi_w^(2)", {-nu / Quad(2) * e0_ * w[0], nu / Quad(2) / e0_ * w[1]},
-                     coefficient(2, w));
-    // (101): w^ = phi_w^(1) tau is what the scheme of order 1 solves.
-    const StepJacobian<Quad> step =
-        step_of("generating-function", {{"order", "1"}, {"variant", "P"}}, model_, {Quad(0.5), Quad(0.1)});
-    const Numbers a = alpha_of(*model_, step.z, {Quad(0.5), Quad(0.1)});
-    rows_.reproduced("(101)", "w^ = tau phi_w^(1)(w)", {-tau * e0_ * a[2], -tau / e0_ * a[3]}, {a[0], a[1]});
+    rows_.reproduced("(100)", "phi_w^(0)", printed_.coefficient(0, w), coefficient(0, w));
+    rows_.reproduced("(100)", "phi_w^(1)", printed_.coefficient(1, w), coefficient(1, w));
+    rows_.reproduced("(104)", "phi_w^(2)", printed_.coefficient(2, w), coefficient(2, w));
     // (101) and (104) print phi^(k), a number, where its gradient stands: the gradient of the number that the
     // scalar equation gives is the vector printed.
     const Tape phi = expand_scalar(scalar_evolution(*model_->tape(Formula::chart_hamiltonian)), 2, 2)[2];
     const Numbers slope = value(jacobian_tape(phi), t0, {w[0], -w[1]});
-    const double residual =
-        distance({slope[0], -slope[1]}, {-nu / Quad(2) * e0_ * w[0], nu / Quad(2) / e0_ * w[1]});
-    rows_.qualitative("(101), (104)", "phi^(k) for its gradient", "phi^(2) = (-nu/2 E0 R, ..)",
-                      "phi_w^(2), phi^(2) = " + shown(value(phi, t0, {w[0], -w[1]})), residual, at_round_off,
-                      residual <= at_round_off, "(101), (104): what is printed is phi_w^(k)");
+    rows_.qualitative(
+        "(101), (104)", "phi^(k) for its gradient",
+        {"phi^(2) = (-nu/2 E0 R, ..)", "phi_w^(2), phi^(2) = " + shown(value(phi, t0, {w[0], -w[1]}))},
+        {at_most(distance({slope[0], -slope[1]}, printed_.coefficient(2, w)), at_round_off)},
+        "(101), (104): what is printed is phi_w^(k)");
+    // (106): a and b are what the gradient's matrix at order 2 says, N = phi_w^(1) tau + phi_w^(2) tau^2.
+    const Numbers c1 = coefficient(1, {Quad(1), Quad(1)}), c2 = coefficient(2, {Quad(1), Quad(1)});
+    const Quad e0 = exp(nu * t0);
+    rows_.reproduced(
+        "(106)", "a, b", {printed_.a(), printed_.b()},
+        {-(2 * e0 * (c1[1] * tau + c2[1] * tau * tau)), -(2 / e0 * (c1[0] * tau + c2[0] * tau * tau))});
   }
 
-  static Quad determinant(const Entries& m) { return m[0] * m[3] - m[1] * m[2]; }
-
-  // The transition matrix of (105) with a given numerator in the lower left.
-  [[nodiscard]] Entries transition(Quad h, bool printed) const {
-    const Quad a = Quad(2) * h - nu * h * h, b = Quad(2) * h + nu * h * h, e = exp(-(nu * h));
-    const Quad d = Quad(16) + a * b, c = Quad(16) - a * b;
-    return {c / d, Quad(8) * a / d, -Quad(8) * (printed ? a : b) * e / d, c * e / d};
+  void first_order() {
+    const auto one = step(1);
+    // (101): w^ = phi_w^(1)(w) tau on the step, w^ by the engine from the alpha of a plug-in.
+    LagrangianTransformation<Quad> alpha(damped("damped-pendulum")->tape(Formula::alpha));
+    const Numbers w_hat = part(alpha(t1, t0, one.z, z_), 0, 2);
+    rows_.reproduced("(101)", "w^ = tau phi_w^(1)(w)",
+                     printed_.gradient(1, part(printed_.alpha(one.z, z_), 2, 2)), w_hat);
+    rows_.reproduced("(102)", "transition matrix, order 1", printed::listed(printed_.first_order()),
+                     one.jacobian);
+    rows_.order("(102)", "order", 1, local_order([](const auto& o) { return o.first_order(); }), 0.01);
+    rows_.reproduced("(103)", "A^T K(t1) A = K(t0)", printed::listed(printed_.k0()), kept(one));
   }
-  // Local order: slope of |T(h) - exact(h)| less one.
-  [[nodiscard]] double local_order(bool printed) const {
-    const auto error = [&](Quad h) {
-      return distance(list(transition(h, printed)), linear_flow<Quad>(*model_, h).entries());
+
+  // Local order of a transition matrix: slope of |T(h) - exact(h)| less one.
+  [[nodiscard]] double local_order(
+      const std::function<printed::Table<Quad>(const printed::Oscillator&)>& transition) const {
+    const auto error = [&](const Quad& h) {
+      return distance(printed::listed(transition(printed::Oscillator(nu, t0, t0 + h))),
+                      linear_flow<Quad>(*model_, h).entries());
     };
-    return std::log10(error(Quad(1) / Quad(1000)) / error(Quad(1) / Quad(10000))) - 1;
+    return std::log10(error(Quad(1) / 1000) / error(Quad(1) / 10000)) - 1;
   }
 
-  void schemes() {
-    const Numbers z{Quad(0.5), Quad(0.1)};
-    const Quad e = exp(-(nu * tau)), s = Quad(4) + tau * tau;
-    const Entries first{(Quad(4) - tau * tau) / s, Quad(4) * tau / s, -Quad(4) * tau / s * e,
-                        (Quad(4) - tau * tau) / s * e};
-    const auto one = step_of("generating-function", {{"order", "1"}, {"variant", "P"}}, model_, z);
-    rows_.reproduced("(102)", "transition matrix, order 1", list(first), one.jacobian);
-    Numbers k1(4), k0(4);
-    const Problem<Quad> problem(model_);
-    problem.structure(t1, z, k1);
-    problem.structure(t0, z, k0);
-    rows_.reproduced("(103)", "A^T K(t1) A = K(t0)", {Quad(0)}, {congruence_residual(one.jacobian, k1, k0)});
+  void second_order() {
+    const auto two = step(2);
+    const auto as_printed = printed_.second_order(printed::Form::as_printed),
+               corrected = printed_.second_order(printed::Form::corrected);
+    rows_.erratum("(105)", "transition matrix, order 2, as printed", printed::listed(as_printed),
+                  printed::listed(corrected), two.jacobian, "(105): the lower left entry has b");
+    const double wrong = local_order([](const auto&o) { return o.second_order(printed::Form::as_printed); }),
+                 right = local_order([](const auto&o) { return o.second_order(printed::Form::corrected); });
+    const auto off = static_cast<double>(abs(printed::determinant(as_printed) - exp(-(nu * tau))));
+    rows_.claim("(105)", "as printed: symplectic, of order 2",
+                {"det e^{-nu tau}, order 2", "det off by " + shown(off) + ", order " + shown(wrong)},
+                {at_least(off, clearly), at_most(wrong, 1.9)}, "(105): the lower left entry has b");
+    rows_.reproduced("(105)", "corrected", printed::listed(corrected), two.jacobian);
+    rows_.reproduced("(105)", "corrected: K-symplectic", printed::listed(printed_.k0()), kept(two));
+    rows_.order("(105)", "corrected: order", 2, right, 0.01);
+  }
 
-    const auto two = step_of("generating-function", {{"order", "2"}, {"variant", "P"}}, model_, z);
-    rows_.erratum("(105)", "transition matrix, order 2, as printed", list(transition(tau, true)),
-                  list(transition(tau, false)), two.jacobian, "(105): the lower left entry has b");
-    const Quad off = abs(determinant(transition(tau, true)) - e);
-    rows_.claim("(105)", "as printed: symplectic, of order 2", "det e^{-nu tau}, order 2",
-                "det off by " + to_string(off, 3) + ", order " + to_string(Quad(local_order(true)), 3),
-                static_cast<double>(off), local_order(true) < 1.9, "(105): the lower left entry has b");
-    rows_.reproduced("(105)", "corrected", list(transition(tau, false)), two.jacobian);
-    rows_.reproduced("(105)", "corrected: K-symplectic", {Quad(0)},
-                     {congruence_residual(two.jacobian, k1, k0)});
-    rows_.measured("(105)", "corrected: order", 2, local_order(false), 0.01);
-    // (106): a and b are what the generating gradient's matrix at order 2 says: N = phi^(1) tau + phi^(2)
-    // tau^2.
-    const Numbers at{Quad(1), Quad(1)};
-    const Numbers c1 = coefficient(1, at), c2 = coefficient(2, at);
-    rows_.reproduced("(106)", "a, b", {Quad(2) * tau - nu * tau * tau, Quad(2) * tau + nu * tau * tau},
-                     {-Quad(2) * e0_ * (c1[1] * tau + c2[1] * tau * tau),
-                      -Quad(2) / e0_ * (c1[0] * tau + c2[0] * tau * tau)});
-
-    const Quad d = tau * tau + Quad(2) * nu * tau + Quad(4);
-    const Entries centre{(Quad(4) + Quad(2) * nu * tau - tau * tau) / d, Quad(4) * tau / d,
-                         -Quad(4) * tau / d, (Quad(4) - Quad(2) * nu * tau - tau * tau) / d};
-    const auto euler = step_of("implicit-midpoint", {}, model_, z);
-    rows_.reproduced("(107)", "Euler centre scheme", list(centre), euler.jacobian);
-    const Quad residual = congruence_residual(euler.jacobian, k1, k0);
-    rows_.qualitative("(107)", "is not K-symplectic", "not symplectic", "residual " + to_string(residual, 3),
-                      static_cast<double>(residual), clearly, static_cast<double>(residual) > clearly,
-                      "the residual of A^T K A = K exceeds 1e-6");
+  void centre() {
+    const auto euler = step_of("implicit-midpoint", {}, model_, z_);
+    rows_.reproduced("(107)", "Euler centre scheme", printed::listed(printed_.centre()), euler.jacobian);
+    const double residual = distance(kept(euler), printed::listed(printed_.k0()));
+    rows_.qualitative("(107)", "is not K-symplectic", {"not symplectic", "residual " + shown(residual)},
+                      {at_least(residual, clearly)}, "the residual of A^T K A = K exceeds 1e-6");
   }
 };
 

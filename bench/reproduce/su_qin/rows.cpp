@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include <pfaff/integrators/generating_gradient.hpp>
+#include <pfaff/integrators/generating/generating_gradient.hpp>
 
 namespace pfaff::su_qin {
 

@@ -2,7 +2,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include <pfaff/core/version.hpp>
+#include <pfaff/core/registry/version.hpp>
 #ifdef OTHER_VERSION
 #undef PFAFF_VERSION_TEXT
 #define PFAFF_VERSION_TEXT "0.0.9"

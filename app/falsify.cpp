@@ -1,0 +1,244 @@
+// pfaff falsify: searches for the smallest system on which a claim of a method fails, or judges a claim on a
+// system by name.
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+
+#include <pfaff/app/command.hpp>
+#include <pfaff/app/terminal.hpp>
+#include <pfaff/bench/falsification/falsify.hpp>
+#include <pfaff/bench/runner/files.hpp>
+#include <pfaff/bench/runner/settings.hpp>
+#include <pfaff/bench/verification/random_checks.hpp>
+#include <pfaff/core/system.hpp>
+
+namespace pfaff::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string method, claim, system, step = "1/10", at = "0", out;
+  std::vector<std::string> set;
+  std::uint64_t seed = 1, systems = FalsificationSettings().systems;
+  std::optional<double> budget;
+  int steps = 1;
+  bool all = false;
+};
+
+constexpr double budget_of_all = 300;  // of one integrator that of FalsificationSettings
+
+Real number_of(const std::string& text, const char* option) {
+  const auto number = Real::parse(text);
+  if (!number)
+    throw InputError(std::string(option) + ": expected a number such as 0.1 or 1/3, got '" + text + "'");
+  return *number;
+}
+
+std::vector<ClaimUnderTest> tests_of(const Options& options) {
+  if (options.all == !options.method.empty())
+    throw InputError("falsify: expected the name of an integrator or --all (see pfaff list integrators)");
+  if (options.all && !options.set.empty())
+    throw InputError("--set: with --all every integrator has its own parameters; expected one integrator");
+  std::optional<Claim> claim;
+  if (!options.claim.empty()) claim = claim_named(options.claim);
+  if (!options.all)
+    return claims_under_test(integrators().get(options.method, "integrator"), parse_settings(options.set),
+                             claim);
+  std::vector<ClaimUnderTest> tests;
+  for (const MethodPlugin* plugin : integrators().all())
+    for (ClaimUnderTest& test : claims_under_test(*plugin, {}, claim))
+      if (test.made) tests.push_back(std::move(test));
+  return tests;
+}
+
+// Where headers are, beside the program: in the tree that it was built in, or where it is installed.
+std::string include_directory() {
+  std::error_code error;
+  const fs::path program = program_path();
+  for (const fs::path& place : {program.parent_path(), program.parent_path().parent_path()})
+    if (fs::exists(place / "include/pfaff/core/system.hpp", error)) return (place / "include").string();
+  throw RunError("the headers of Pfaff are not beside the program " + program.string());
+}
+
+// The commands that compile a counterexample's source and judge the claim on it.
+std::vector<std::string> commands_of(const FalsificationResult& result, const Common& common) {
+  const std::string name = named_system(result.test, *result.counterexample).name;
+  std::string show = "pfaff falsify " + showing_arguments(result.test, *result.counterexample);
+  for (const std::string& plugin : common.plugins) show += " --plugin " + shell_word(plugin);
+  return {"c++ -std=c++20 -O1 -fPIC -shared -ffp-contract=off -Wno-psabi -I " +
+              shell_word(include_directory()) + " " + name + ".cpp -o " + name + ".so",
+          show + " --plugin ./" + name + ".so"};
+}
+
+nlohmann::json to_json(const FalsificationResult& result, const Common& common) {
+  nlohmann::json parameters = nlohmann::json::object();
+  for (const auto& [key, value] : result.test.parameters) parameters[key] = value;
+  nlohmann::json j{{"method", result.test.method->descriptor().name},
+                   {"parameters", parameters},
+                   {"claim", to_string(result.test.claim)},
+                   {"claimed", result.test.made},
+                   {"tried", result.tried},
+                   {"result", result.counterexample ? "falsified"
+                              : result.tried > 0    ? "held"
+                                                    : "untested"},
+                   {"counterexample", nullptr}};
+  if (!result.counterexample) return j;
+  const Counterexample& found = *result.counterexample;
+  const auto commands = commands_of(result, common);
+  j["counterexample"] = {{"system", named_system(result.test, found).name},
+                         {"kind", to_string(found.recipe.kind)},
+                         {"dimension", found.recipe.dimension},
+                         {"step", to_string(found.at.step)},
+                         {"steps", found.at.count},
+                         {"time", to_string(found.at.time)},
+                         {"residuals", found.judgement.residuals},
+                         {"residual_in_double", found.judgement.in_double},
+                         {"exponent", found.judgement.exponent},
+                         {"source", source_of(result.test, found, commands)},
+                         {"commands", commands}};
+  return j;
+}
+
+void print(const std::vector<FalsificationResult>& results, const Common& common) {
+  std::string last;
+  for (const FalsificationResult& result : results) {
+    if (const std::string name = called(result.test.method->descriptor().name, result.test.parameters);
+        name != last) {
+      std::cout << name << '\n';
+      last = name;
+    }
+    std::array<char, 80> line{};
+    std::snprintf(line.data(), line.size(), "  %-24s%6d systems  %s",
+                  std::string(to_string(result.test.claim)).c_str(), result.tried,
+                  result.counterexample ? "FALSIFIED"
+                  : result.tried > 0    ? "held"
+                                        : "untested: nothing in its scope");
+    std::cout << line.data() << (result.test.made ? "" : " (not claimed)") << '\n';
+    if (!result.counterexample) continue;
+    const Counterexample& found = *result.counterexample;
+    std::cout << "    " << found.recipe.dimension
+              << (found.recipe.dimension == 1 ? " variable" : " variables") << ", residual "
+              << scientific(found.judgement.residuals.front()) << " at h = " << to_string(found.at.step)
+              << ": " << named_system(result.test, found).name << '\n';
+  }
+  for (const FalsificationResult& result : results) {
+    if (!result.counterexample) continue;
+    const auto commands = commands_of(result, common);
+    std::cout << '\n'
+              << named_system(result.test, *result.counterexample).name << ".cpp:\n\n"
+              << source_of(result.test, *result.counterexample, commands);
+  }
+}
+
+int search(const Options& options, const Common& common) {
+  std::vector<ClaimUnderTest> tests = tests_of(options);
+  FalsificationSettings settings;
+  settings.seed = options.seed;
+  settings.systems = options.systems;
+  settings.budget = options.budget.value_or(options.all ? budget_of_all : settings.budget);
+  std::vector<FalsificationResult> results;
+  {
+    ProgressLine line;
+    results = falsify(std::move(tests), settings,
+                      [&](const std::string& what, double fraction) { line.show(what, fraction); });
+  }
+  std::size_t falsified = 0, systems = 0;
+  nlohmann::json list = nlohmann::json::array();
+  for (const FalsificationResult& result : results) {
+    falsified += result.counterexample ? 1 : 0;
+    systems += static_cast<std::size_t>(result.tried);
+    if (common.json) list.push_back(to_json(result, common));
+    if (result.counterexample && !options.out.empty())
+      write_file(fs::path(options.out) / (named_system(result.test, *result.counterexample).name + ".cpp"),
+                 source_of(result.test, *result.counterexample, commands_of(result, common)));
+  }
+  if (common.json) {
+    std::cout << json_text(
+        {{"schema", 1}, {"ok", falsified == 0}, {"seed", settings.seed}, {"results", list}});
+  } else {
+    print(results, common);
+    std::cout << (results.empty() ? "" : "\n") << results.size() << " claims on " << systems
+              << " random systems, seed " << settings.seed << ": " << falsified << " falsified\n";
+  }
+  return falsified == 0 ? 0 : 1;
+}
+
+// Judges one claim on a system by name, at its initial state.
+int show(const Options& options, const Common& common) {
+  if (options.all || options.method.empty() || options.claim.empty())
+    throw InputError("--system: expected an integrator and its --claim beside it");
+  const Claim claim = claim_named(options.claim);
+  const auto method = integrators().get(options.method, "integrator").make(parse_settings(options.set));
+  const auto system = systems().get(options.system, "system").make({});
+  JudgedStep at{model_in_scope(*method, claim, system), system->initial(), number_of(options.at, "--at"),
+                number_of(options.step, "--step"), options.steps};
+  if (!(at.step > Real(0))) throw InputError("--step: expected a number above 0, got " + options.step);
+  if (at.model == nullptr)
+    throw InputError("--system: " + options.system + " does not fit " + method->called() +
+                     " or is not in the scope of " + options.claim +
+                     ", which is: " + std::string(claim_row(claim).scope));
+  const Judgement judgement = judge(*method, claim, at);
+  if (common.json) {
+    std::cout << json_text({{"schema", 1},
+                            {"ok", !judgement.falsified},
+                            {"residuals", judgement.residuals},
+                            {"residual_in_double", judgement.in_double},
+                            {"exponent", judgement.exponent},
+                            {"reason", judgement.reason}});
+    return judgement.falsified ? 1 : 0;
+  }
+  std::cout << paragraph(std::string(claim_row(claim).meaning));
+  for (std::size_t k = 0; k < judgement.residuals.size(); ++k)
+    std::cout << "residual of " << options.steps << (options.steps == 1 ? " step, h" : " steps, h")
+              << (k == 0 ? "" : "/" + std::to_string(1U << k)) << ": " << scientific(judgement.residuals[k])
+              << '\n';
+  std::cout << "residual in double: " << scientific(judgement.in_double) << '\n'
+            << (judgement.falsified ? "FALSIFIED: above " + scientific(falsifying_residual(*method))
+                                    : "not falsified: " + judgement.reason)
+            << '\n';
+  return judgement.falsified ? 1 : 0;
+}
+
+}  // namespace
+
+void add_falsify(CLI::App& app, Common& common, Action& action) {
+  CLI::App* sub = subcommand(app, common, "falsify", "Search for the smallest system on which a claim fails");
+  auto options = std::make_shared<Options>();
+  sub->add_option("method", options->method, "Name of the integrator")->type_name("METHOD");
+  sub->add_flag("--all", options->all, "Every claim of every integrator");
+  sub->add_option("--claim", options->claim, "One claim, made or not; all that are made without")
+      ->type_name("NAME");
+  sub->add_option("--set", options->set, "A parameter of the integrator (stages=2)")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->take_all();
+  sub->add_option("--seed", options->seed, "Of the random systems, 1 without")->type_name("N");
+  sub->add_option("--budget", options->budget, "Seconds; 60 without, 300 with --all")
+      ->type_name("SECONDS")
+      ->check(CLI::PositiveNumber);
+  sub->add_option("--systems", options->systems, "At most so many random systems for each claim")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
+  sub->add_option("--out", options->out, "Directory for the sources of plug-ins, besides printing them")
+      ->type_name("DIR")
+      ->check(CLI::ExistingDirectory);
+  sub->add_option("--system", options->system, "Judge the claim on this system, from its initial state")
+      ->type_name("NAME");
+  sub->add_option("--step", options->step, "With --system: the step, 1/10 without")->type_name("h");
+  sub->add_option("--steps", options->steps, "With --system: how many steps in a row, 1 without")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
+  sub->add_option("--at", options->at, "With --system: the time at which the step begins, 0 without")
+      ->type_name("t");
+  sub->callback([options, &common, &action] {
+    action = [options, &common] {
+      return options->system.empty() ? search(*options, common) : show(*options, common);
+    };
+  });
+}
+
+}  // namespace pfaff::app

@@ -1,0 +1,46 @@
+// A system evaluated at one state and time: everything its formulas give there.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include <pfaff/bench/runner/settings.hpp>
+
+namespace pfaff {
+
+/// What to evaluate, and in which precision.
+struct EvaluationSettings {
+  ResolvedState at;
+  Precision precision = Precision::double_precision;
+  std::optional<std::vector<Real>> centre;  // of the inverse problem; evaluation() says what stands in for it
+};
+
+/// The content of `pfaff evaluate --json`. Numbers are JSON numbers in double and strings in quad; null where
+/// a number is not finite or the quantity does not exist.
+///
+/// Every system has schema, system, parameters, precision, t, coordinates, state, status (of the solve for
+/// the rate: converged, singular, non_finite), rhs, energy, energy_rate, and a reason, in one line, where
+/// there is no rhs.
+///
+/// Systems with constraints also have formulation and its parameters, constraint_names and constraints. Where
+/// the constraints have Poisson brackets, these are added:
+/// - W, the matrix of all brackets. Holonomic constraints stand in pairs: each phi is followed by its phi~.
+/// - rank and condition of W (condition is null where W is singular), first_class and redundant (names).
+/// - dirac_bracket, the brackets of the coordinates.
+/// - solvers {name: {rhs, difference, status}}: Dirac's formulation by every solver that applies, and its
+/// largest difference from the structured one, relative to max(1, |x|).
+///
+/// Holonomic constraints also have hidden_constraints, structure (of S), S, A, S_D (null without friction)
+/// and multipliers, the lambda of S lambda = P (F - friction v - p'). W and what follows from it are given
+/// for up to 200 constraints, the solvers by determinants for up to 60.
+///
+/// Systems K zdot + D = 0 also have K, F_t, D, F, B, regular, class, self_adjoint (residuals relative to
+/// their largest terms), condition, kernel (a basis, one list per direction) and centre (null where F and B
+/// are the author's). Where a system does not give F and B, they are constructed about the given centre, by
+/// default about the initial state of the system, or about the evaluated state where it has none. InputError
+/// for a centre where there is no K.
+nlohmann::json evaluation(const EvaluationSettings& settings);
+
+}  // namespace pfaff

@@ -1,0 +1,97 @@
+// Timing of runs. What has been timed is kept in cost.csv from one call to the next.
+#include <pfaff/bench/experiment/costs.hpp>
+
+#include <cstdlib>
+#include <sstream>
+
+#include <pfaff/bench/experiment/cells.hpp>
+#include <pfaff/bench/runner/files.hpp>
+
+namespace pfaff {
+
+namespace fs = std::filesystem;
+
+namespace {
+bool any_tolerance(const std::vector<ExperimentRun>& runs) {
+  for (const ExperimentRun& run : runs)
+    if (!run.tolerance.empty()) return true;
+  return false;
+}
+// The first cells of a run's row. They leave the seed out, so that all runs of an ensemble share one row,
+// timed with the first seed.
+std::string key_of(const ExperimentRun& run, bool tolerances) {
+  return csv_quoted(run.which->name) + "," + csv_quoted(run.method->label) + "," + csv_quoted(run.step) +
+         (tolerances ? "," + csv_quoted(run.tolerance) : "");
+}
+std::string costs_csv(const std::vector<ExperimentRun>& runs, const Costs& costs) {
+  const bool tolerances = any_tolerance(runs);
+  std::string text = std::string("case,method,step,") + (tolerances ? "tolerance," : "") +
+                     "ns_per_step,ns_per_step_min,ns_per_step_max,repetitions,seconds\n";
+  for (const ExperimentRun& run : runs)
+    if (const auto row = costs.find(key_of(run, tolerances)); run.seed <= 1 && row != costs.end())
+      text += row->second.text + "\n";
+  return text;
+}
+}  // namespace
+
+Costs read_costs(const fs::path& path, const std::vector<ExperimentRun>& runs) {
+  Costs costs;
+  std::error_code error;
+  if (!fs::exists(path, error)) return costs;
+  const bool tolerances = any_tolerance(runs);
+  std::istringstream stream(read_file(path));
+  std::string line;
+  std::getline(stream, line);
+  while (std::getline(stream, line))
+    for (const ExperimentRun& run : runs)
+      if (const std::string key = key_of(run, tolerances); line.starts_with(key + ","))
+        costs[key] = {line, std::atof(line.c_str() + key.size() + 1)};
+  return costs;
+}
+
+std::optional<double> cost_of(const ExperimentRun& run, const Costs& costs,
+                              const std::vector<ExperimentRun>& runs) {
+  const auto row = costs.find(key_of(run, any_tolerance(runs)));
+  return row == costs.end() ? std::nullopt : std::optional(row->second.median);
+}
+
+void keep_costs(const fs::path& directory, const std::vector<ExperimentRun>& runs,
+                const std::function<bool(const ExperimentRun&)>& keeps) {
+  const fs::path path = directory / "cost.csv";
+  std::error_code error;
+  if (!fs::exists(path, error)) return;
+  const bool tolerances = any_tolerance(runs);
+  Costs costs = read_costs(path, runs);
+  for (const ExperimentRun& run : runs)
+    if (run.seed <= 1 && !keeps(run)) costs.erase(key_of(run, tolerances));
+  write_file(path, costs_csv(runs, costs));
+}
+
+void write_costs(const fs::path& directory, const Experiment& experiment,
+                 const std::vector<ExperimentRun>& runs, const ExperimentProgress& progress) {
+  const fs::path path = directory / "cost.csv";
+  const bool tolerances = any_tolerance(runs);
+  Costs costs = read_costs(path, runs);
+  std::size_t done = 0;
+  for (const ExperimentRun& run : runs) {
+    if (progress)
+      progress("timing " + run.which->name + ", " + run.method->label + ", " +
+                   (run.tolerance.empty() ? "h = " + run.step : "tolerance " + run.tolerance),
+               done, runs.size());
+    ++done;
+    const std::string key = key_of(run, tolerances);
+    if (run.seed > 1 || costs.contains(key)) continue;
+    const StepTime time = time_steps(run.resolved, experiment.quick ? 0.05 : 0.3);
+    costs[key].text = key + "," + as_text(time.median, "%.6g") + "," + as_text(time.minimum, "%.6g") + "," +
+                      as_text(time.maximum, "%.6g") + "," + std::to_string(time.repetitions) + "," +
+                      as_text(time.seconds, "%.4g");
+    write_file(
+        path,
+        costs_csv(runs, costs));  // after each run, so that no timing is lost when the program is killed
+  }
+  write_file(
+      path,
+      costs_csv(runs, costs));  // also without new timings: rows of runs no longer asked for are dropped
+}
+
+}  // namespace pfaff

@@ -1,0 +1,40 @@
+// What steps cost in processor time, kept in cost.csv. The numbers are comparable only within one machine and
+// build.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <pfaff/bench/experiment/experiment.hpp>
+
+namespace pfaff {
+
+/// A row of cost.csv as text, and the median in it in nanoseconds per step.
+struct CostRow {
+  std::string text;
+  double median = 0;
+};
+/// Rows of cost.csv by their first cells: case, method, and step or tolerance.
+using Costs = std::map<std::string, CostRow>;
+
+/// The rows of cost.csv that belong to `runs`; none where the file does not exist.
+Costs read_costs(const std::filesystem::path& path, const std::vector<ExperimentRun>& runs);
+
+/// Nanoseconds per step of `run`; nothing where it has not been timed. `runs` are all runs of the experiment.
+std::optional<double> cost_of(const ExperimentRun& run, const Costs& costs,
+                              const std::vector<ExperimentRun>& runs);
+
+/// Removes from cost.csv, where there is one, the rows of runs for which `keeps` is false.
+void keep_costs(const std::filesystem::path& directory, const std::vector<ExperimentRun>& runs,
+                const std::function<bool(const ExperimentRun&)>& keeps);
+
+/// Times every run that cost.csv does not hold yet, one after another, and writes cost.csv. The runs of an
+/// ensemble differ only in their seed, so that only the first of them is timed.
+void write_costs(const std::filesystem::path& directory, const Experiment& experiment,
+                 const std::vector<ExperimentRun>& runs, const ExperimentProgress& progress);
+
+}  // namespace pfaff

@@ -1,0 +1,144 @@
+#include <pfaff/bench/experiment/results.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <sstream>
+
+#include <sys/wait.h>
+
+#include <pfaff/bench/experiment/cells.hpp>
+#include <pfaff/bench/runner/files.hpp>
+
+namespace pfaff {
+
+namespace fs = std::filesystem;
+
+namespace {
+std::string cell(const nlohmann::json& value) {
+  if (value.is_null()) return {};
+  if (value.is_string()) return value.get<std::string>();
+  return as_text(value.get<double>(), "%.17g");
+}
+std::string parameters_of(const ExperimentRun& run) {
+  std::string text;
+  for (const auto& [key, value] : run.resolved.method->parameters())
+    text += (text.empty() ? "" : " ") + key + "=" + value;
+  for (const auto& [key, value] : run.resolved.model->source().formulation_parameters)
+    text += (text.empty() ? "" : " ") + ("formulation." + key) + "=" + value;
+  return text;
+}
+// The cells of an invariant or a residual, as many as it has column heads; all of them empty where the
+// summary has no entry for it.
+std::string drift_cells(const nlohmann::json* found) {
+  std::string text;
+  for (const char* m : {"max", "rms", "final", "slope"}) text += "," + (found ? cell((*found)[m]) : "");
+  for (const std::size_t end : {0U, 1U}) text += "," + (found ? cell((*found)["slope_interval"][end]) : "");
+  for (const char* m : {"oscillation", "exponent", "class"}) text += "," + (found ? cell((*found)[m]) : "");
+  return text;
+}
+const nlohmann::json* entry(const nlohmann::json& summary, const char* list, const std::string& name) {
+  if (!summary.contains(list)) return nullptr;
+  for (const nlohmann::json& e : summary[list])
+    if (e["name"] == name && e.contains("max")) return &e;
+  return nullptr;
+}
+}  // namespace
+
+std::vector<nlohmann::json> read_summaries(const fs::path& directory,
+                                           const std::vector<ExperimentRun>& runs) {
+  std::vector<nlohmann::json> summaries;
+  for (const ExperimentRun& run : runs)
+    summaries.push_back(nlohmann::json::parse(read_file(directory / "runs" / run.slug / "summary.json")));
+  return summaries;
+}
+
+std::string results_csv(const std::vector<ExperimentRun>& runs,
+                        const std::vector<nlohmann::json>& summaries) {
+  std::vector<std::string> invariants;
+  for (const nlohmann::json& s : summaries)
+    for (const nlohmann::json& i : s["invariants"])
+      if (i["expected"] != "free" &&
+          std::find(invariants.begin(), invariants.end(), i["name"]) == invariants.end())
+        invariants.push_back(i["name"]);
+  std::vector<std::string> residuals;
+  for (const nlohmann::json& s : summaries)
+    if (s.contains("constraints"))
+      for (const nlohmann::json& c : s["constraints"])
+        if (std::find(residuals.begin(), residuals.end(), c["name"]) == residuals.end())
+          residuals.push_back(c["name"]);
+  const bool tolerances =
+      std::any_of(runs.begin(), runs.end(), [](const ExperimentRun& r) { return !r.tolerance.empty(); });
+  const bool seeds = std::any_of(runs.begin(), runs.end(), [](const ExperimentRun& r) { return r.seed > 0; });
+  const bool formulated = std::any_of(runs.begin(), runs.end(), [](const ExperimentRun& r) {
+    return !r.resolved.settings.formulation.empty();
+  });
+
+  std::ostringstream text;
+  text << "case,system,method,integrator,parameters,step,time,steps,precision,status,message,error_max,error_"
+          "final,"
+          "structure_residual,rhs_per_step,jacobians_per_step,iterations_per_step,factorisations_per_step";
+  for (const auto* names : {&invariants, &residuals})
+    for (const std::string& name : *names) {
+      for (const char* m :
+           {"max", "rms", "final", "slope", "slope_low", "slope_high", "oscillation", "exponent", "class"})
+        text << ',' << name << ':' << m;
+      if (names == &residuals) text << ',' << name << ":growth," << name << ":growth_rate";
+    }
+  text << (tolerances ? ",tolerance" : "") << (seeds ? ",seed" : "") << (formulated ? ",formulation" : "")
+       << ",run\n";
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    const ExperimentRun& run = runs[k];
+    const nlohmann::json& s = summaries[k];
+    const double steps = std::max(1.0, s["counts"]["steps"].get<double>());
+    text << csv_quoted(run.which->name) << ',' << run.which->system << ',' << csv_quoted(run.method->label)
+         << ',' << run.method->integrator << ',' << csv_quoted(parameters_of(run)) << ','
+         << csv_quoted(run.step) << ',' << to_string(run.resolved.time) << ',' << s["completed"] << ','
+         << s["precision"].get<std::string>() << ',' << s["status"].get<std::string>() << ','
+         << csv_quoted(s["message"]) << ',' << cell(s["error_max"]) << ',' << cell(s["error_final"]) << ','
+         << cell(s["structure_residual"]);
+    for (const char* count : {"right_hand_sides", "jacobians", "iterations", "factorisations"})
+      text << ',' << as_text(s["counts"][count].get<double>() / steps, "%.6g");
+    for (const std::string& name : invariants) text << drift_cells(entry(s, "invariants", name));
+    for (const std::string& name : residuals) {
+      const nlohmann::json* found = entry(s, "constraints", name);
+      text << drift_cells(found);
+      for (const char* m : {"growth", "growth_rate"}) text << ',' << (found ? cell((*found)[m]) : "");
+    }
+    if (tolerances) text << ',' << run.tolerance;
+    if (seeds) text << ',' << (run.seed > 0 ? std::to_string(run.seed) : "");
+    if (formulated) text << ',' << run.resolved.settings.formulation;
+    text << ',' << run.slug << '\n';
+  }
+  return text.str();
+}
+
+fs::path make_report(const fs::path& directory) {
+  const fs::path script = data_directory() / "report" / "report.py";
+  // matplotlib is installed as a package of the operating system and is seen by its own Python only, so that
+  // /usr/bin/python3 goes before any other.
+  std::error_code error;
+  const std::string python = fs::exists("/usr/bin/python3", error) ? "/usr/bin/python3" : "python3";
+  const auto shell_quoted = [](const std::string& path) {
+    std::string text = "'";
+    for (const char c : path) text += c == '\'' ? "'\\''" : std::string(1, c);
+    return text + "'";
+  };
+  const std::string command =
+      python + " " + shell_quoted(script.string()) + " " + shell_quoted(directory.string()) + " 2>&1";
+  FILE* pipe = popen(command.c_str(), "r");
+  if (pipe == nullptr) throw RunError("cannot start " + python + " for the report");
+  std::string output;
+  std::array<char, 256> buffer{};
+  while (std::fgets(buffer.data(), static_cast<int>(buffer.size()), pipe) != nullptr) output += buffer.data();
+  const int status = pclose(pipe);
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+    while (!output.empty() && output.back() == '\n') output.pop_back();
+    const std::size_t newline = output.rfind('\n');
+    throw RunError("the report could not be made (results.csv and cost.csv are complete): " +
+                   (newline == std::string::npos ? output : output.substr(newline + 1)));
+  }
+  return directory / "report.html";
+}
+
+}  // namespace pfaff

@@ -1,0 +1,30 @@
+// What is made of an experiment's runs: results.csv, the table in the terminal, and the report.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <pfaff/bench/experiment/experiment.hpp>
+
+namespace pfaff {
+
+/// The summaries of all runs, in order.
+std::vector<nlohmann::json> read_summaries(const std::filesystem::path& directory,
+                                           const std::vector<ExperimentRun>& runs);
+
+/// The text of results.csv, one row per run. It has deterministic columns only, so that the same experiment
+/// gives the same file; timings are in cost.csv.
+std::string results_csv(const std::vector<ExperimentRun>& runs, const std::vector<nlohmann::json>& summaries);
+
+/// The table for the terminal, with status, error, drift, structure residual and cost of every run, at most
+/// 100 columns wide.
+std::string results_table(const std::filesystem::path& directory, const Experiment& experiment,
+                          const std::vector<ExperimentRun>& runs,
+                          const std::vector<nlohmann::json>& summaries);
+
+/// Runs the report scripts, which draw the figures and write report.html, and returns the path of the report.
+/// RunError with the message of the scripts when they fail.
+std::filesystem::path make_report(const std::filesystem::path& directory);
+
+}  // namespace pfaff

@@ -1,0 +1,81 @@
+// Counterexamples as text: the plug-in and the command that shows it.
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdio>
+
+#include <pfaff/bench/falsification/falsify.hpp>
+
+namespace pfaff {
+
+namespace {
+
+std::string number(double x) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.3g", x);
+  return text.data();
+}
+
+std::string settings_text(const ClaimUnderTest& test) {
+  std::string text;
+  for (const auto& [key, value] : test.parameters) text += " --set " + shell_word(key + "=" + value);
+  return text;
+}
+
+}  // namespace
+
+std::string shell_word(const std::string& text) {
+  constexpr const char* plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_./=,:+-";
+  if (!text.empty() && text.find_first_not_of(plain) == std::string::npos) return text;
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? "'\\''" : std::string(1, c);
+  return word + "'";
+}
+
+PolynomialSystem named_system(const ClaimUnderTest& test, const Counterexample& counterexample) {
+  PolynomialSystem system = counterexample.system;
+  const std::string method = test.method->descriptor().name;
+  std::string claim(to_string(test.claim));
+  system.title = "a system on which " + method + " does not keep the claim " + claim;
+  std::transform(claim.begin(), claim.end(), claim.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  system.name = method + "-not-" + claim;
+  return system;
+}
+
+std::string showing_arguments(const ClaimUnderTest& test, const Counterexample& counterexample) {
+  const JudgedStep& at = counterexample.at;
+  std::string text = test.method->descriptor().name + settings_text(test) + " --claim " +
+                     std::string(to_string(test.claim)) + " --system " +
+                     named_system(test, counterexample).name + " --step " + to_string(at.step);
+  if (at.count > 1) text += " --steps " + std::to_string(at.count);
+  if (!at.time.is(0)) text += " --at " + to_string(at.time);
+  return text;
+}
+
+std::string source_of(const ClaimUnderTest& test, const Counterexample& counterexample,
+                      const std::vector<std::string>& commands) {
+  const Judgement& judgement = counterexample.judgement;
+  std::vector<std::string> comment{"A system on which the integrator " + test.method->descriptor().name +
+                                       " does not keep the claim " + std::string(to_string(test.claim)) + ":",
+                                   std::string(claim_row(test.claim).meaning),
+                                   "The residual from the initial state is " +
+                                       number(judgement.residuals.front()) +
+                                       " with h = " + to_string(counterexample.at.step)};
+  if (counterexample.at.count > 1)
+    comment.back() += " in " + std::to_string(counterexample.at.count) + " steps in a row";
+  const std::size_t count = judgement.residuals.size();
+  if (count > 1) {
+    comment.back() += ", " + number(judgement.residuals[1]) + " with h/2, and falls";
+    comment.push_back("as a power of h with the exponent " + number(judgement.exponent) + ".");
+  } else {
+    comment.back() += ".";
+  }
+  if (!commands.empty()) {
+    comment.emplace_back();
+    for (const std::string& command : commands) comment.push_back("  " + command);
+  }
+  return plugin_source(named_system(test, counterexample), comment);
+}
+
+}  // namespace pfaff

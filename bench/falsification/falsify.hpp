@@ -1,0 +1,82 @@
+// Searches random systems for one on which a claim fails, and shrinks it to the smallest of its kind.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <pfaff/bench/falsification/judgement.hpp>
+#include <pfaff/bench/random_systems/recipe.hpp>
+
+namespace pfaff {
+
+/// A claim to be put to the test, whether the method makes it or not.
+struct ClaimUnderTest {
+  std::shared_ptr<const MethodInstance> method;
+  Assignments parameters;  // those that were set
+  Claim claim = Claim::none;
+  /// True where the method makes the claim; it is then searched only on systems on which it makes it.
+  bool made = true;
+};
+
+/// A system on which a claim fails.
+struct Counterexample {
+  Recipe recipe;
+  PolynomialSystem system;  // of the recipe, without formulas that nobody asks for once it is shrunk
+  JudgedStep at;
+  Judgement judgement;
+};
+
+struct FalsificationResult {
+  ClaimUnderTest test;
+  int tried = 0;  // random systems in the scope of the claim
+  std::optional<Counterexample> counterexample;
+};
+
+struct FalsificationSettings {
+  std::uint64_t seed = 1;
+  double budget = 60;  // seconds, for all claims together
+  /// The search ends when so many systems have been drawn for each claim, whatever is left of the budget, so
+  /// that its results are the same on every machine that is fast enough.
+  std::uint64_t systems = std::numeric_limits<std::uint64_t>::max();
+};
+
+/// The claims of a method with the parameters that verification runs through, or with `parameters` where they
+/// are not empty: all that it makes, or `claim` alone, made or not. InputError for parameters that do not
+/// fit.
+std::vector<ClaimUnderTest> claims_under_test(const MethodPlugin& plugin, const Assignments& parameters,
+                                              std::optional<Claim> claim);
+
+/// The claim of that name; InputError with the nearest name, and for claims that have no check yet.
+Claim claim_named(const std::string& name);
+
+/// Tries one random system after the other on every claim, as long as the budget lasts. Each claim meets the
+/// same sequence of systems whatever the budget, and what is found first is shrunk without regard to it, so
+/// that a system found with a small budget is found with a larger one too.
+std::vector<FalsificationResult> falsify(
+    std::vector<ClaimUnderTest> tests, const FalsificationSettings& settings,
+    const std::function<void(const std::string& what, double fraction)>& progress);
+
+/// The smallest counterexample that is reached from this one by leaving out and simplifying.
+Counterexample shrink(const ClaimUnderTest& test, Counterexample counterexample);
+
+/// The counterexample's system, named after the method and the claim: rk4-not-symplectic.
+PolynomialSystem named_system(const ClaimUnderTest& test, const Counterexample& counterexample);
+
+/// The command, beginning with the name of the method, that judges the claim on a registered system of that
+/// name: "METHOD --claim C --system NAME --step h ...".
+std::string showing_arguments(const ClaimUnderTest& test, const Counterexample& counterexample);
+
+/// The text as one word of a command, quoted where the shell would read anything else in it.
+std::string shell_word(const std::string& text);
+
+/// The counterexample as the source of a plug-in, with the commands that compile and show it in its opening
+/// comment.
+std::string source_of(const ClaimUnderTest& test, const Counterexample& counterexample,
+                      const std::vector<std::string>& commands);
+
+}  // namespace pfaff

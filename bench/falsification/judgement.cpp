@@ -1,0 +1,101 @@
+#include <pfaff/bench/falsification/judgement.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <pfaff/bench/falsification/many_steps.hpp>
+#include <pfaff/bench/verification/claim_checks.hpp>
+
+namespace pfaff {
+
+namespace {
+
+// Residuals are measured with the step halved up to so many times.
+constexpr int halvings = 8;
+// Above this residual double sees more than its own rounding, and has to agree with quad.
+constexpr double seen_in_double = 1e-12;
+
+const ClaimCheck& check_of(Claim claim) {
+  const auto rows = claim_checks();
+  return *std::find_if(rows.begin(), rows.end(), [&](const ClaimCheck& row) { return row.claim == claim; });
+}
+
+// The residual of at.count steps of the length h in a row. This is the only place where a claim is measured.
+template <class T>
+double residual_of(const MethodInstance& method, Claim claim, const JudgedStep& at, const Real& h) {
+  const ManySteps many(method, at.count);
+  const MethodInstance& stepped = at.count == 1 ? method : many;
+  MeasuredStep<T> step(stepped, at.model, at.state, at.time, Real(at.count) * h);
+  if constexpr (std::is_same_v<T, Quad>) {
+    return check_of(claim).in_quad(step);
+  } else {
+    return check_of(claim).in_double(step);
+  }
+}
+
+bool one_sided(Claim claim) { return claim == Claim::entropy; }
+
+// True where the residual is the same number in both precisions, which that of rounding is not.
+bool same_in_both(double a, double b) { return std::abs(a - b) <= 0.01 * std::max(std::abs(a), std::abs(b)); }
+
+// Measures while the step is halved, until the last so many exponents, each log2 of the ratio of successive
+// residuals, agree with their neighbours, or until round-off is near. True where they agree on a residual
+// that falls.
+template <class Measure>
+bool power_of_step(Judgement& judgement, const Measure& measure, Real h, double round_off, int agreeing,
+                   double tolerance) {
+  int alike = 0;
+  for (int k = 0; k < halvings; ++k) {
+    h = h / Real(2);
+    const double residual = measure(h), last = judgement.exponent;
+    if (!(residual > round_off)) break;
+    judgement.exponent = std::log2(judgement.residuals.back() / residual);
+    judgement.residuals.push_back(residual);
+    alike = k > 0 && std::abs(judgement.exponent - last) < tolerance ? alike + 1 : 1;
+    if (alike == agreeing) return judgement.exponent > 0.5;
+  }
+  return false;
+}
+
+}  // namespace
+
+double falsifying_residual(const MethodInstance& method) {
+  return method.descriptor().double_coefficients ? 1e-8 : 1e-20;
+}
+
+Judgement judge(const MethodInstance& method, Claim claim, const JudgedStep& at) {
+  const bool doubles = method.descriptor().double_coefficients;
+  const auto measure = [&](const Real& h) {
+    return doubles ? residual_of<double>(method, claim, at, h) : residual_of<Quad>(method, claim, at, h);
+  };
+  Judgement judgement;
+  judgement.residuals = {measure(at.step)};
+  const double residual = judgement.residuals.front();
+  if (std::isnan(residual)) {
+    judgement.reason = "the step did not converge";
+    return judgement;
+  }
+  judgement.in_double = doubles ? residual : residual_of<double>(method, claim, at, at.step);
+  if (!(residual > falsifying_residual(method))) {
+    judgement.reason = "the residual is that of rounding";
+    return judgement;
+  }
+  const double in_other = doubles ? residual_of<Quad>(method, claim, at, at.step) : judgement.in_double;
+  const bool same = same_in_both(in_other, residual);
+  if (one_sided(claim) || residual > seen_in_double) {
+    if (!same) {
+      judgement.reason = "the residual differs between double and quad";
+      return judgement;
+    }
+  }
+  // What only quad can see has to be a power through more halvings, since rounding may look like one by
+  // chance.
+  judgement.falsified =
+      one_sided(claim) ||
+      (residual > seen_in_double ? power_of_step(judgement, measure, at.step, doubles ? 1e-13 : 1e-30, 2, 0.5)
+                                 : power_of_step(judgement, measure, at.step, 1e-30, 4, 0.25));
+  if (!judgement.falsified) judgement.reason = "the residual is no power of the step size";
+  return judgement;
+}
+
+}  // namespace pfaff

@@ -1,0 +1,69 @@
+// Several steps of a method as one step, with all that the method keeps between them. A method of one step
+// keeps over many what it keeps over one. A method that uses its past may not: where its two-step recursion
+// lets a parasitic oscillation grow, a single step, which has no past, does not show it.
+#pragma once
+
+#include <pfaff/core/integrator.hpp>
+
+namespace pfaff {
+
+/// `count` steps of `method`, each of the length h/count, as one step of the length h.
+class ManySteps final : public MakerOf<ManySteps, MethodInstance> {
+ public:
+  /// `method` must outlive the object.
+  ManySteps(const MethodInstance& method, int count) : method_(method), count_(count) {}
+
+  [[nodiscard]] const MethodDescriptor& descriptor() const override { return method_.descriptor(); }
+  [[nodiscard]] Assignments parameters() const override { return method_.parameters(); }
+  [[nodiscard]] FacetSet needs() const override { return method_.needs(); }
+  [[nodiscard]] int order(const Model& model) const override { return method_.order(model); }
+  [[nodiscard]] bool order_is_lower_bound() const override { return method_.order_is_lower_bound(); }
+  [[nodiscard]] bool order_is_exact() const override { return method_.order_is_exact(); }
+  [[nodiscard]] std::vector<Claim> preserves(const Model& model) const override {
+    return method_.preserves(model);
+  }
+  [[nodiscard]] std::string objection(const Model& model) const override { return method_.objection(model); }
+  [[nodiscard]] bool adaptive() const override { return false; }
+  [[nodiscard]] std::size_t coefficient_count() const override { return method_.coefficient_count(); }
+  /// None: the object does not own the method that a changed one would have to refer to.
+  [[nodiscard]] std::unique_ptr<MethodInstance> with_changed_coefficient(std::size_t /*index*/,
+                                                                         Quad /*amount*/) const override {
+    return nullptr;
+  }
+  [[nodiscard]] std::unique_ptr<MethodInstance> composed(std::vector<Quad> /*weights*/) const override {
+    return nullptr;
+  }
+
+  template <class T>
+  [[nodiscard]] StepperPointer<T> made(std::shared_ptr<const Model> model) const {
+    return std::make_unique<Stepping<T>>(method_.stepper(std::move(model), T()), count_);
+  }
+
+ private:
+  template <class T>
+  class Stepping final : public Stepper<T> {
+   public:
+    Stepping(StepperPointer<T> stepper, int count) : stepper_(std::move(stepper)), count_(count) {}
+    Status advance(const T& t0, std::int64_t first, const T& h, std::int64_t count, std::span<T> z,
+                   std::int64_t& completed) override {
+      const Status status =
+          stepper_->advance(t0, first * count_, h / T(count_), count * count_, z, completed);
+      completed /= count_;
+      return status;
+    }
+    Status advance_to(T& /*t*/, const T& /*end*/, const T& /*tolerance*/, std::span<T> /*z*/) override {
+      throw InputError("several steps as one are of a fixed size");
+    }
+    void forget() override { stepper_->forget(); }
+    [[nodiscard]] const Counters& counters() const override { return stepper_->counters(); }
+
+   private:
+    StepperPointer<T> stepper_;
+    int count_;
+  };
+
+  const MethodInstance& method_;
+  int count_;
+};
+
+}  // namespace pfaff

@@ -1,0 +1,17 @@
+// Whether a method remembers earlier steps, as linear multistep methods do.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <pfaff/core/integrator.hpp>
+
+namespace pfaff {
+
+/// True where a step of size h depends on more than the state it starts from: a step taken after others
+/// differs by more than round-off from one that is taken from the same state by a stepper that has forgotten
+/// them. The steps begin at z and time t, in quad. False where one of them does not converge.
+bool keeps_history(const MethodInstance& method, const std::shared_ptr<const Model>& model, Quad t, Quad h,
+                   const std::vector<Quad>& z);
+
+}  // namespace pfaff

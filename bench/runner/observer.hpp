@@ -1,0 +1,175 @@
+// What is measured of a run while it goes: invariants and their drift, residuals, errors.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <pfaff/bench/measure/constraints.hpp>
+#include <pfaff/bench/measure/growth.hpp>
+#include <pfaff/bench/measure/history.hpp>
+#include <pfaff/bench/measure/setback.hpp>
+#include <pfaff/bench/measure/structure.hpp>
+#include <pfaff/bench/runner/record.hpp>
+
+namespace pfaff {
+
+// A structure residual needs the Jacobian of a step, whose cost grows as the cube of the dimension. Beyond
+// this dimension it would take most of a run, so it is not measured.
+inline constexpr int most_differentiated_in_runs = 64;
+
+/// The errors of one quantity over a run. A DriftAccumulator takes no more of them once one is beyond 1e150;
+/// the largest and the last one are known nevertheless, and then the sum of the squares is said to be
+/// infinite.
+class WatchedError {
+ public:
+  /// Takes the next error; false where it is not finite.
+  [[nodiscard]] bool add(double t, double error) {
+    if (!std::isfinite(error)) return false;
+    drift_.add(t, error);
+    largest_ = std::max(largest_, std::abs(error));
+    last_ = error;
+    return true;
+  }
+  [[nodiscard]] Drift result() const {
+    Drift drift = drift_.result();
+    if (drift.non_finite == 0) return drift;
+    drift.maximum = largest_;
+    drift.final_value = last_;
+    drift.rms = std::numeric_limits<double>::infinity();
+    return drift;
+  }
+
+ private:
+  DriftAccumulator drift_;
+  double largest_ = 0, last_ = 0;
+};
+
+/// Measures a run computed in the scalar T as it goes, into `record`.
+template <class T>
+class Observer {
+ public:
+  Observer(const ResolvedRun& run, const ReferenceSolution* reference, RunRecord& record)
+      : run_(run),
+        reference_(reference),
+        record_(record),
+        problem_(run.model),
+        constraints_(*run.model),
+        values_(run.model->invariants().size()) {
+    if (run.settings.structure_residuals && StructureResidual<T>::applies(*run.model) && !run.adaptive() &&
+        run.model->dimension() <= most_differentiated_in_runs && !remembers(run))
+      residual_.emplace(*run.method, run.model);
+    drift_.resize(values_.size());
+    constraint_drift_.resize(constraint_residual_names(*run.model).size());
+    for (const Invariant& invariant : run.model->invariants()) setbacks_.emplace_back(invariant.behaviour);
+  }
+
+  /// Takes the state at time t. Every call counts for drift, setbacks and constraint residuals; `keep` also
+  /// adds a row to the series, and `structure` a structure residual to that row. Says what is not finite, or
+  /// nothing. A row is kept where state and invariants are finite, without the error where that is not.
+  [[nodiscard]] std::string observe(const T& t, const std::vector<T>& z, bool keep, bool structure) {
+    const auto& invariants = run_.model->invariants();
+    if (!values_.empty()) problem_.invariants(t, z, values_);
+    for (std::size_t i = 0; i < values_.size(); ++i)
+      if (!isfinite(values_[i])) return "the invariant " + invariants[i].name + " is not finite";
+    if (initial_.empty()) initial_ = values_;
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+      const bool finite =
+          drift_[i].add(static_cast<double>(t), static_cast<double>(values_[i] - initial_[i]));
+      setbacks_[i].add(values_[i]);
+      if (invariants[i].behaviour == Behaviour::conserved && !finite)
+        return "the drift of " + invariants[i].name + " is not finite";
+      if (!std::isfinite(setbacks_[i].largest()))
+        return "the setback of " + invariants[i].name + " is not finite";
+    }
+    constraints_(t, z, residuals_);
+    for (std::size_t i = 0; i < residuals_.size(); ++i)
+      if (!constraint_drift_[i].add(static_cast<double>(t), static_cast<double>(residuals_[i])))
+        return "the residual " + constraint_residual_names(*run_.model)[i] + " is not finite";
+    return keep ? observe_sample(t, z, structure) : std::string();
+  }
+
+  /// Puts into the record what follows from all that was observed.
+  void finish() {
+    for (const WatchedError& d : drift_) record_.drift.push_back(d.result());
+    for (const Setback<T>& s : setbacks_) record_.setback.push_back(s.largest());
+    for (const WatchedError& d : constraint_drift_) record_.constraints.push_back(d.result());
+    std::vector<double> times, values;
+    for (const Sample& sample : record_.samples)
+      times.push_back(static_cast<double>(sample.t - run_.t0.quad()));
+    for (std::size_t i = 0; i < constraint_drift_.size(); ++i) {
+      values.clear();
+      for (const Sample& sample : record_.samples)
+        values.push_back(static_cast<double>(sample.constraints[i]));
+      record_.growth.push_back(growth(times, values));
+    }
+  }
+
+ private:
+  // The Jacobian of a single step says nothing about the map of several states that a method with history is.
+  static bool remembers(const ResolvedRun& run) {
+    std::vector<Quad> z;
+    for (const Real& x : run.initial) z.push_back(x.quad());
+    return keeps_history(*run.method, run.model, run.t0.quad(), run.step.quad(), z);
+  }
+
+  std::string observe_sample(const T& t, const std::vector<T>& z, bool structure) {
+    Sample sample{Quad(t),
+                  {z.begin(), z.end()},
+                  {values_.begin(), values_.end()},
+                  {residuals_.begin(), residuals_.end()},
+                  {},
+                  {}};
+    std::string not_finite;
+    if (reference_ != nullptr) {
+      const Quad error = relative_error(sample);
+      if (std::isfinite(static_cast<double>(error))) {
+        sample.error = error;
+        worst(record_.error_max, static_cast<double>(error));
+        record_.error_final = static_cast<double>(error);
+      } else {
+        not_finite = "the error against the " + std::string(reference_->kind()) +
+                     " solution (--reference none leaves it out) is not finite";
+      }
+    }
+    if (structure && residual_) {
+      const T r = (*residual_)(t, T(run_.step), z);
+      if (std::isfinite(static_cast<double>(r))) {
+        sample.structure = Quad(r);
+        worst(record_.structure_residual, static_cast<double>(r));
+      } else {
+        ++record_.structure_failures;
+      }
+    }
+    record_.samples.push_back(std::move(sample));
+    return not_finite;
+  }
+  static void worst(std::optional<double>& slot, double value) {
+    if (!slot || value > *slot) slot = value;
+  }
+  [[nodiscard]] Quad relative_error(const Sample& sample) const {
+    const std::vector<Quad> exact = reference_->at(sample.t);
+    Quad distance(0), norm(0);
+    for (std::size_t k = 0; k < exact.size(); ++k) {
+      const Quad d = sample.state[k] - exact[k];
+      distance += d * d;
+      norm += exact[k] * exact[k];
+    }
+    return distance == Quad(0) ? Quad(0) : sqrt(distance / norm);
+  }
+
+  const ResolvedRun& run_;
+  const ReferenceSolution* reference_;
+  RunRecord& record_;
+  Problem<T> problem_;
+  std::optional<StructureResidual<T>> residual_;
+  ConstraintResiduals<T> constraints_;
+  std::vector<T> values_, initial_, residuals_;
+  std::vector<Setback<T>> setbacks_;
+  std::vector<WatchedError> drift_, constraint_drift_;
+};
+
+}  // namespace pfaff

@@ -1,0 +1,164 @@
+#include <pfaff/bench/runner/origins.hpp>
+
+#include <algorithm>
+#include <filesystem>
+
+#include <nlohmann/json.hpp>
+
+#include <pfaff/bench/runner/checksum.hpp>
+#include <pfaff/bench/runner/files.hpp>
+#include <pfaff/bench/runner/loaded_objects.hpp>
+#include <pfaff/core/bracket.hpp>
+#include <pfaff/core/formulation.hpp>
+#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/system.hpp>
+
+namespace pfaff {
+
+namespace fs = std::filesystem;
+
+namespace {
+std::string file_name(const std::string& path) { return fs::path(path).filename().string(); }
+
+void add(Assignments& list, const std::string& name, const std::string& hash) {
+  const auto place = std::lower_bound(list.begin(), list.end(), std::pair(name, std::string()));
+  if (place == list.end() || place->first != name) list.emplace(place, name, hash);
+}
+
+const std::string* hash_of(const Assignments& list, const std::string& name) {
+  const auto found =
+      std::find_if(list.begin(), list.end(), [&](const auto& entry) { return entry.first == name; });
+  return found == list.end() ? nullptr : &found->second;
+}
+
+// The paths of Pfaff's own libraries, found by an object that each of them holds.
+const std::vector<std::string>& own_libraries() {
+  static const int of_bench = 0;
+  static const std::vector<std::string> paths{object_holding(&systems()).path,
+                                              object_holding(&of_bench).path};
+  return paths;
+}
+bool is_own(const LoadedObject& object) {
+  return std::find(own_libraries().begin(), own_libraries().end(), object.path) != own_libraries().end();
+}
+
+const Plugin* plugin_of(const std::string& kind, const std::string& name) {
+  if (kind == "system") return systems().find(name);
+  if (kind == "integrator") return integrators().find(name);
+  if (kind == "formulation") return formulations().find(name);
+  if (kind == "bracket") return brackets().find(name);
+  return nullptr;
+}
+
+const Parameter* parameter_of(const std::vector<Parameter>& parameters, const std::string& name) {
+  const auto found =
+      std::find_if(parameters.begin(), parameters.end(), [&](const Parameter& p) { return p.name == name; });
+  return found == parameters.end() ? nullptr : &*found;
+}
+}  // namespace
+
+Assignments with_absolute_paths(const std::vector<Parameter>& parameters, Assignments assignments) {
+  for (auto& [key, value] : assignments) {
+    const Parameter* p = parameter_of(parameters, key);
+    if (p == nullptr || p->kind != Parameter::Kind::file || value.empty()) continue;
+    try {
+      (void)nlohmann::json(value).dump();
+    } catch (const nlohmann::json::type_error&) {
+      throw InputError("parameter '" + key +
+                       "': expected a path in UTF-8, because the files of a run hold it");
+    }
+    value = fs::absolute(value).lexically_normal().string();
+  }
+  return assignments;
+}
+
+Assignments files_of(const std::vector<Parameter>& parameters, const Assignments& values) {
+  Assignments files;
+  for (const auto& [key, value] : values) {
+    const Parameter* p = parameter_of(parameters, key);
+    if (p == nullptr || value.empty()) continue;
+    if (p->kind == Parameter::Kind::file) add(files, value, sha1_of(read_file(value)));
+    if (p->kind != Parameter::Kind::plugin) continue;
+    const PluginValue inner = parse_plugin_value(value, key);
+    for (const auto& [path, hash] : files_of(p->plugins.parameters(inner.name), inner.settings))
+      add(files, path, hash);
+  }
+  return files;
+}
+
+void add_origins(const Plugin& plugin, const Assignments& values, Origins& origins) {
+  for (const auto& [path, hash] : files_of(plugin.parameters(), values)) add(origins.files, path, hash);
+  const LoadedObject object = object_holding(&plugin);
+  if (!is_own(object)) add(origins.plugins, object.path, object.build);
+  for (const auto& [key, value] : values)
+    if (const Parameter* p = parameter_of(plugin.parameters(), key);
+        p != nullptr && p->kind == Parameter::Kind::plugin) {
+      const PluginValue inner = parse_plugin_value(value, key);
+      if (const Plugin* chosen = plugin_of(p->plugins.kind, inner.name))
+        add_origins(*chosen, inner.settings, origins);
+    }
+}
+
+const Assignments& libraries() {
+  static const Assignments list = [] {
+    Assignments found;
+    for (const LoadedObject& object : loaded_objects()) {
+      const std::string name = file_name(object.path);
+      if (is_own(object) || name.starts_with("libm.so") || name.starts_with("libquadmath.so"))
+        add(found, name, object.build);
+    }
+    return found;
+  }();
+  return list;
+}
+
+std::vector<std::string> differences(const Origins& before, const Origins& now) {
+  std::vector<std::string> phrases;
+  const auto compare = [&](const Assignments& old, const Assignments& present, const std::string& changed) {
+    if (old.empty()) return;
+    for (const auto& [name, hash] : old)
+      if (const std::string* found = hash_of(present, name); found == nullptr) {
+        phrases.push_back(name + " is no longer a part of it");
+      } else if (*found != hash) {
+        phrases.push_back(name + changed);
+      }
+    for (const auto& [name, hash] : present)
+      if (hash_of(old, name) == nullptr) phrases.push_back(name + " has become a part of it");
+  };
+  // A plug-in may stand elsewhere now; its build tells whether it is the same.
+  const auto by_file_name = [](const Assignments& paths) {
+    Assignments names;
+    for (const auto& [path, build] : paths) add(names, file_name(path), build);
+    return names;
+  };
+  compare(before.files, now.files, " has changed");
+  compare(by_file_name(before.plugins), by_file_name(now.plugins), " is another build");
+  compare(before.libraries, now.libraries, " is another build");
+  return phrases;
+}
+
+std::string in_one_line(const std::vector<std::string>& phrases) {
+  constexpr std::size_t most = 3;
+  std::string text;
+  for (std::size_t k = 0; k < std::min(phrases.size(), most); ++k) text += (k == 0 ? "" : ", ") + phrases[k];
+  if (phrases.size() > most) text += " and " + std::to_string(phrases.size() - most) + " more";
+  return text;
+}
+
+void load_missing_plugins(const Origins& origins, const std::string& where) {
+  for (const auto& [path, build] : origins.plugins) {
+    const std::vector<LoadedObject> objects = loaded_objects();
+    const bool loaded =
+        std::any_of(objects.begin(), objects.end(), [&id = build, &file = path](const LoadedObject& object) {
+          return object.build == id || file_name(object.path) == file_name(file);
+        });
+    if (loaded) continue;
+    try {
+      load_plugin(path);
+    } catch (const InputError& error) {
+      throw InputError(where + ": " + error.what() + " (or --plugin with the file where it is now)");
+    }
+  }
+}
+
+}  // namespace pfaff

@@ -1,0 +1,224 @@
+// The claims of formulations. They are statements about the right-hand side at single points, and are
+// measured at points, without any integration.
+#include <pfaff/bench/verification/formulation_checks.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <pfaff/bench/measure/constraints.hpp>
+#include <pfaff/bench/verification/dense_motion.hpp>
+#include <pfaff/core/facets/problem.hpp>
+#include <pfaff/systems/bead_rod/system.hpp>
+
+namespace pfaff {
+
+namespace {
+
+constexpr int states_on_surface = 4, states_off_surface = 6;
+constexpr int small = 8, large = 96;  // dimensions
+
+struct RandomRods : BeadRodSystem<RandomRods> {
+  [[nodiscard]] static BeadRodDescription describe() {
+    BeadRodDescription d;
+    d.origin = "random rods";
+    d.dimension = 3;
+    constexpr std::size_t beads = 9;
+    std::mt19937 random(2718);
+    const auto draw = [&](int low, int high) {
+      return low + static_cast<int>(random() % static_cast<unsigned>(high - low + 1));
+    };
+    d.anchors.push_back({"origin", {0, 0, 0}});
+    for (std::size_t i = 0; i < beads; ++i) {
+      d.masses.push_back(Real::fraction(draw(50, 200), 100));
+      d.friction.push_back(i % 3 == 0 ? Real(0) : Real::fraction(draw(10, 90), 100));
+      for (int x = 0; x < 3; ++x) {
+        d.positions.push_back(Real::fraction(draw(-150, 150), 100));
+        d.momenta.push_back(Real::fraction(draw(-100, 100), 100));
+      }
+    }
+    d.gravity = {0, 0, Real::fraction(-981, 100)};
+    const auto join = [&](std::size_t a, std::size_t b) { d.rods.push_back({a, b, d.distance(a, b)}); };
+    join(0, beads);
+    for (std::size_t i = 1; i < beads; ++i)
+      join(i, static_cast<std::size_t>(draw(0, static_cast<int>(i) - 1)));
+    join(beads - 2, 1);  // a loop
+    return d;
+  }
+};
+
+template <class T>
+struct Precision;
+template <>
+struct Precision<double> {
+  static constexpr const char* name = "double";
+  static constexpr double tolerance = 1e-13;
+};
+template <>
+struct Precision<Quad> {
+  static constexpr const char* name = "quad";
+  static constexpr double tolerance = 1e-31;
+};
+
+// The worst values over all points, each relative to the sizes of its terms and the condition of the
+// constraints.
+struct Measured {
+  double definition = 0, constraints = 0, hidden = 0, energy = 0;
+  bool defined = false;
+
+  static void note(double& worst, double value) {
+    worst = std::isnan(value) || std::isnan(worst) ? NAN : std::max(worst, value);
+  }
+  void at(const DenseMotion& motion, const std::vector<Quad>& field, const std::vector<Quad>& expected) {
+    const double condition = std::max(1.0, motion.condition());
+    const DenseMotion::Rates rates = motion.rates(field);
+    note(constraints, rates.constraints / condition);
+    note(hidden, rates.hidden / condition);
+    note(energy, rates.energy / condition);
+    defined = !expected.empty();
+    Quad size(1);
+    for (const Quad& x : expected) size = std::max(size, abs(x));
+    for (std::size_t k = 0; k < expected.size(); ++k)
+      note(definition, static_cast<double>(abs(field[k] - expected[k]) / size) / condition);
+  }
+};
+
+class FormulationChecker {
+ public:
+  FormulationChecker(const FormulationPlugin& plugin, const Assignments& parameters,
+                     std::shared_ptr<const Model> model)
+      : plugin_(plugin),
+        parameters_(parameters),
+        model_(std::move(model)),
+        statement_(plugin.states(parameters)),
+        formulated_(plugin.apply(model_, parameters)),
+        motion_(*model_) {
+    const bool moving = !model_->tape(Formula::constraints)->autonomous() ||
+                        !model_->tape(Formula::hamiltonian)->autonomous();
+    const bool dissipates = (model_->given(Formula::friction) && !model_->frictionless()) ||
+                            model_->given(Formula::symmetric_tensor);
+    energy_in_scope_ = !moving && (!dissipates || statement_.friction == FrictionForm::none);
+  }
+
+  std::vector<Check> run() {
+    measure<double>();
+    measure<Quad>();
+    return std::move(checks_);
+  }
+
+ private:
+  [[nodiscard]] bool claims(FormulationClaim claim) const {
+    return std::find(statement_.keeps.begin(), statement_.keeps.end(), claim) != statement_.keeps.end();
+  }
+  // True where the reactions are defined off the surface of the constraints too. On the surface their
+  // directions define them; off it this takes, in addition, a claim about what they keep.
+  [[nodiscard]] bool defined_everywhere() const {
+    return claims(FormulationClaim::constraints) ||
+           (statement_.reactions == Reactions::ideal && claims(FormulationClaim::hidden_constraints));
+  }
+
+  template <class T>
+  void measure() {
+    Measured on, off, reversed_on, reversed_off;
+    std::mt19937_64 random(20044);
+    std::uniform_real_distribution<double> offset(-0.05, 0.05);
+    const Evaluator<T> field = make_evaluator<T>(formulated_, Formula::field);
+    for (int k = 0; k < states_on_surface + states_off_surface; ++k) {
+      const bool surface = k < states_on_surface;
+      const T t(1 + offset(random));
+      std::vector<Quad> state;
+      for (const Real& x : model_->initial()) state.push_back(x.quad() + Quad(offset(random)));
+      if (surface && project_onto_constraints(*model_, Quad(t), state).status != Status::converged) continue;
+      std::vector<T> z, rate(state.size());
+      for (const Quad& x : state) z.push_back(static_cast<T>(x));
+      field.call(field.context, t, z.data(), rate.data());
+      motion_.place(Quad(t), {z.begin(), z.end()});
+      const std::vector<Quad> given(rate.begin(), rate.end()), expected = motion_.field(statement_);
+      (surface ? on : off).at(motion_, given, expected);
+      Measured& wrong = surface ? reversed_on : reversed_off;
+      wrong.at(motion_, reversed(given), expected);
+      wrong.energy = motion_.rates(tilted(given)).energy;
+    }
+    judge<T>(on, off, false);
+    if constexpr (std::is_same_v<T, Quad>) judge<T>(reversed_on, reversed_off, true);
+  }
+
+  // The field with the opposite sign of the reactions in the momenta, which are the second half of the state.
+  [[nodiscard]] std::vector<Quad> reversed(std::vector<Quad> field) const {
+    const std::vector<Quad> free = motion_.free_field();
+    for (std::size_t k = field.size() / 2; k < field.size(); ++k) field[k] = Quad(2) * free[k] - field[k];
+    return field;
+  }
+
+  // The field with a little of the energy's gradient added.
+  [[nodiscard]] std::vector<Quad> tilted(std::vector<Quad> field) const {
+    const std::vector<Quad> gradient = motion_.energy_gradient();
+    for (std::size_t k = 0; k < field.size(); ++k) field[k] = field[k] - Quad(1e-6) * gradient[k];
+    return field;
+  }
+
+  template <class T>
+  void judge(const Measured& on, const Measured& off, bool control) {
+    const auto check = [&](const std::string& claim, const char* scope, bool in_scope, double measured,
+                           const char* wrong = ", its reactions reversed") {
+      if (control && !in_scope) return;
+      Check& c = checks_.emplace_back();
+      c.plugin = plugin_.name() + (control ? wrong : "");
+      c.claim = claim;
+      c.scope = control ? "control" : scope;
+      c.system = model_->name();
+      c.precision = Precision<T>::name;
+      c.parameters = parameters_;
+      c.measured = measured;
+      c.tolerance = Precision<T>::tolerance;
+      c.in_scope = in_scope;
+      c.control = control;
+      const bool holds = measured <= c.tolerance;
+      c.result = control    ? holds ? CheckResult::pass : CheckResult::rejected
+                 : in_scope ? holds ? CheckResult::pass : CheckResult::fail
+                            : CheckResult::measured;
+    };
+    const bool hidden = model_->facets().has(Facet::holonomic);
+    if (on.defined) {
+      check("field is its definition", "on the surface", claims(FormulationClaim::tangent), on.definition);
+      check("field is its definition", "off the surface", defined_everywhere(), off.definition);
+    }
+    check("tangent", "on the surface", claims(FormulationClaim::tangent),
+          std::max(on.constraints, on.hidden));
+    if (hidden)
+      check("keeps hidden-constraints", "off the surface", claims(FormulationClaim::hidden_constraints),
+            off.hidden);
+    check("keeps constraints", "off the surface", claims(FormulationClaim::constraints),
+          std::max(off.constraints, off.hidden));
+    if (energy_in_scope_)
+      check("keeps energy", "off the surface", claims(FormulationClaim::energy), off.energy,
+            ", its field tilted by 1e-6");
+  }
+
+  const FormulationPlugin& plugin_;
+  const Assignments& parameters_;
+  std::shared_ptr<const Model> model_;
+  FormulationStatement statement_;
+  std::shared_ptr<const Model> formulated_;
+  DenseMotion motion_;
+  bool energy_in_scope_ = false;
+  std::vector<Check> checks_;
+};
+
+}  // namespace
+
+std::shared_ptr<const Model> random_rods() {
+  return make_model(SystemDescriptor{.name = "random rods", .title = "", .reference = ""}, RandomRods{});
+}
+
+bool verified_on(const FormulationPlugin& plugin, const Assignments& parameters, const Model& model) {
+  if (!plugin.refuses(model).empty() || model.dimension() > large) return false;
+  return parameters == plugin.instances(false).front() || model.dimension() <= small || !model.frictionless();
+}
+
+std::vector<Check> check_formulation(const FormulationPlugin& plugin, const Assignments& parameters,
+                                     const std::shared_ptr<const Model>& model) {
+  return FormulationChecker(plugin, parameters, model).run();
+}
+
+}  // namespace pfaff

@@ -1,0 +1,33 @@
+// The state at which claims are measured.
+#include <pfaff/bench/measure/constraints.hpp>
+#include <pfaff/bench/verification/check.hpp>
+
+namespace pfaff {
+
+std::vector<Real> generic_state(const Model& model) {
+  if (model.initial().size() != static_cast<std::size_t>(model.dimension()))
+    throw InputError("system " + model.name() + " has " + std::to_string(model.initial().size()) +
+                     " initial values, near which its claims are measured; expected " +
+                     std::to_string(model.dimension()));
+  std::vector<Real> z = model.initial();
+  for (std::size_t k = 0; k < z.size(); ++k) {
+    const auto i = static_cast<std::int64_t>(k);
+    // Offsets that grow with the index would tear systems of many bodies apart, so with constraints they
+    // repeat.
+    const std::int64_t amount = model.restricted() ? i % 5 : i;
+    z[k] = z[k] + Real::fraction(i % 2 == 0 ? 7 + 2 * amount : -5 - 3 * amount, 101);
+  }
+  if (model.restricted()) {
+    std::vector<Quad> moved;
+    for (const Real& x : z) moved.push_back(x.quad());
+    const auto projection = project_onto_constraints(model, generic_time.quad(), moved);
+    if (projection.status != Status::converged)
+      throw InputError("system " + model.name() +
+                       ": no state on its constraints was found near its initial state (" +
+                       std::string(to_string(projection.status)) + ")");
+    for (std::size_t k = 0; k < z.size(); ++k) z[k] = Real(moved[k]);
+  }
+  return z;
+}
+
+}  // namespace pfaff

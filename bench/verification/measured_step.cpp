@@ -1,0 +1,74 @@
+#include <pfaff/bench/verification/measured_step.hpp>
+
+#include <algorithm>
+
+#include <pfaff/bench/runner/motion.hpp>
+
+namespace pfaff {
+
+template <class T>
+MeasuredStep<T>::MeasuredStep(const MethodInstance& method, std::shared_ptr<const Model> model,
+                              const std::vector<Real>& start, const Real& t, const Real& h, int warm_up)
+    : method_(method),
+      model_(std::move(model)),
+      begin_(t),
+      t_(T(t) + T(warm_up) * T(h)),
+      h_(h),
+      warm_up_(warm_up) {
+  for (const Real& x : start) start_.push_back(T(x));
+}
+
+template <class T>
+const std::optional<std::vector<T>>& MeasuredStep<T>::end() {
+  if (taken_) return end_;
+  taken_ = true;
+  stepper().forget();
+  std::int64_t completed = 0;
+  status_ = stepper().advance(begin_, 0, h_, warm_up_, start_, completed);
+  if (status_ != Status::converged) return end_;
+  std::vector<T> z = start_;
+  status_ = stepper().advance(begin_, warm_up_, h_, 1, z, completed);
+  if (status_ == Status::converged) end_ = std::move(z);
+  return end_;
+}
+
+template <class T>
+std::optional<std::vector<T>> MeasuredStep<T>::after(const T& time, const T& length, std::vector<T> z,
+                                                     int count) {
+  stepper().forget();
+  std::int64_t completed = 0;
+  if (stepper().advance(time, 0, length, count, z, completed) != Status::converged) return std::nullopt;
+  return z;
+}
+
+template <class T>
+const StepJacobian<T>& MeasuredStep<T>::jacobian() {
+  if (!jacobian_) jacobian_ = StepDifferentiator<T>(method_, model_)(t_, h_, start());
+  return *jacobian_;
+}
+
+template <class T>
+const std::vector<T>& MeasuredStep<T>::scales() {
+  if (scales_.empty()) {
+    const std::vector<T> last = end().value_or(start_);
+    scales_ = step_scales<T>(*motion_of(model_), t_, h_, start_, last);
+  }
+  return scales_;
+}
+
+template <class T>
+T MeasuredStep<T>::distance(const std::vector<T>& a, const std::vector<T>& b) {
+  T largest(0);
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    const T difference = abs(a[k] - b[k]);
+    if (difference == T(0)) continue;
+    const T relative = difference / scales()[k];
+    largest = isnan(relative) || isnan(largest) ? relative + largest : std::max(largest, relative);
+  }
+  return largest;
+}
+
+template class MeasuredStep<double>;
+template class MeasuredStep<Quad>;
+
+}  // namespace pfaff

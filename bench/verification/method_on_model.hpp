@@ -1,0 +1,100 @@
+// One method with given parameters on one model, which the checks of methods look at, and the functions with
+// which they record their results.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <pfaff/bench/verification/check.hpp>
+#include <pfaff/bench/verification/measured_step.hpp>
+
+namespace pfaff {
+
+class MethodOnModel {
+ public:
+  /// Both must outlive the object. `system` is the name that the checks are listed under.
+  MethodOnModel(const MethodInstance& method, const Assignments& parameters, const std::string& system,
+                const std::shared_ptr<const Model>& model);
+
+  [[nodiscard]] const MethodInstance& method() const { return method_; }
+  [[nodiscard]] const std::shared_ptr<const Model>& model() const { return model_; }
+  /// What the method claims on this model, without `none`. On canonical systems K-symplectic means the same
+  /// as symplectic, and the two are one claim.
+  [[nodiscard]] const std::vector<Claim>& claims() const { return claims_; }
+  [[nodiscard]] bool claims(Claim claim) const;
+  /// True where the method's coefficients are doubles, so that it does not reach round-off in quad.
+  [[nodiscard]] bool double_coefficients() const { return method_.descriptor().double_coefficients; }
+  /// True where the model is small enough for Jacobians and Taylor series in quad.
+  [[nodiscard]] bool differentiable() const;
+  /// True where the method remembers earlier steps. Its claims are then measured on a step that has others
+  /// before it, and nothing is measured on the Jacobian of a step, which says nothing about the map of
+  /// several states that such a method is.
+  [[nodiscard]] bool history() const { return history_; }
+  /// The size of the step on which claims are measured: check_step in the system's own time, halved until the
+  /// step converges in double and in quad. `steps()` is false where none did.
+  [[nodiscard]] const Real& step_size() const { return step_size_; }
+  [[nodiscard]] bool steps() const { return failure_ == Status::converged; }
+  /// By how much the round-off of a step is more than that of a short method. A composition has a sub-step
+  /// for each coefficient, and sub-steps round independently, so that what they round off adds up as the
+  /// square root of their number (measured with 41); up to 25 stay within the tolerance.
+  [[nodiscard]] double growth_of_round_off() const;
+  /// How the shortest step that was tried failed.
+  [[nodiscard]] Status failure() const { return failure_; }
+  /// The step on which all claims are measured.
+  template <class T>
+  [[nodiscard]] MeasuredStep<T>& step() {
+    if constexpr (std::is_same_v<T, Quad>) {
+      return *in_quad_;
+    } else {
+      return *in_double_;
+    }
+  }
+
+  /// A check with the names of this method and model filled in, and no result yet.
+  Check check(const std::string& claim, const std::string& scope, const char* precision) const;
+  /// The check of a residual: it must be within `limit` where the claim is made, and is only shown where it
+  /// is not.
+  Check residual(const std::string& claim, const std::string& scope, bool claimed, const char* precision,
+                 double value, double limit) const;
+
+ private:
+  const MethodInstance& method_;
+  Assignments parameters_;
+  std::string system_;
+  std::shared_ptr<const Model> model_;
+  std::vector<Claim> claims_;
+  std::vector<Real> start_;
+  Real step_size_;
+  bool history_ = false;
+  Status failure_ = Status::converged;
+  std::unique_ptr<MeasuredStep<double>> in_double_;
+  std::unique_ptr<MeasuredStep<Quad>> in_quad_;
+};
+
+/// The step size with which claims are measured, in the system's own time (own_time). It is small enough for
+/// nearly every implicit solve to converge, even in the longest sub-steps of compositions (five times the
+/// step and more), and large enough for a false claim to show.
+inline const Real check_step = Real::fraction(1, 20);
+
+// order_checks.cpp
+/// `conditions_judge` where the order conditions are judged too.
+Check check_order(const MethodOnModel& on, bool conditions_judge);
+// order_conditions.cpp
+/// The coefficients of h^0, ..., h^p in the error of one step, p being the order but at most 8; they vanish
+/// for a method of that order. The largest one, relative to the scales of the step. nullopt where they say
+/// nothing: on systems with constraints, of methods that need constraints, that remember earlier steps or
+/// whose coefficients are doubles, and beyond 16 coordinates.
+std::optional<Check> check_order_conditions(MethodOnModel& on);
+
+// adaptive_checks.cpp
+std::vector<Check> check_adaptive(MethodOnModel& on);
+
+// step_checks.cpp
+/// That the method can step where its claims are judged.
+Check check_steps(const MethodOnModel& on);
+Check check_precisions(MethodOnModel& on);
+Check check_step_jacobian(MethodOnModel& on);
+
+}  // namespace pfaff

@@ -1,0 +1,102 @@
+// The order conditions of a method, measured: the error of one step expands in powers of h, and the
+// coefficients up to that of h^p vanish. A slope of errors finds the order of the largest part of the error;
+// this finds any part of lower order, however small its coefficient is.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <pfaff/bench/measure/reference.hpp>
+#include <pfaff/bench/verification/method_on_model.hpp>
+
+namespace pfaff {
+
+namespace {
+
+// The error of a step is an analytic function of h. It is interpolated at Chebyshev points of [-r, r]. The
+// largest r is a sixteenth of the system's own time; it is quartered until the terms of the highest degrees
+// are so small that nothing of the function is left out, since the long sub-steps of compositions have
+// shorter series.
+constexpr int interpolation_points = 28, points_left_out = 3, most_radii = 5;
+const Quad largest_radius = Quad(1) / Quad(16);
+constexpr double nothing_left_out = 1e-23;
+// Coefficients in units of r^-k times the solution. Interpolation multiplies round-off, 1e-34, by the
+// coefficients of Chebyshev polynomials, up to 1e9 for the orders here. A coefficient of a method that is
+// wrong by 1e-9 leaves 1e-9 (1/16)^k, 2e-19 at k = 8.
+constexpr double tolerance_of_conditions = 1e-22;
+constexpr int most_conditions = 8;
+constexpr std::size_t most_coordinates = 16;
+
+// Solves the Vandermonde system sum_k c_k x_j^k = f_j by divided differences, which is accurate for ordered
+// points (Bjorck & Pereyra's algorithm). The values become the coefficients.
+void interpolate(const std::vector<Quad>& x, std::vector<Quad>& f) {
+  const std::size_t n = x.size();
+  for (std::size_t k = 0; k + 1 < n; ++k)
+    for (std::size_t j = n - 1; j > k; --j) f[j] = (f[j] - f[j - 1]) / (x[j] - x[j - k - 1]);
+  for (std::size_t k = n - 1; k-- > 0;)
+    for (std::size_t j = k; j + 1 < n; ++j) f[j] -= f[j + 1] * x[k];
+}
+
+// The coefficients of the error in powers of h/r, relative to the scales of the step:
+// errors[component][degree]. Empty where a step did not converge.
+std::vector<std::vector<Quad>> error_series(MethodOnModel& on, const TaylorExpansion& solution,
+                                            const std::vector<Quad>& start, const Quad& radius) {
+  MeasuredStep<Quad>& step = on.step<Quad>();
+  std::vector<Quad> x, exact(start.size());
+  for (int j = 0; j < interpolation_points; ++j)
+    x.emplace_back(std::cos(std::numbers::pi * (j + 0.5) / interpolation_points));
+  std::vector<std::vector<Quad>> errors(start.size(), std::vector<Quad>(x.size()));
+  for (std::size_t j = 0; j < x.size(); ++j) {
+    const Quad h = x[j] * radius;
+    const auto end = step.after(generic_time.quad(), h, start);
+    if (!end) return {};
+    solution.evaluate(h, exact.data());
+    for (std::size_t k = 0; k < start.size(); ++k) errors[k][j] = ((*end)[k] - exact[k]) / step.scales()[k];
+  }
+  for (auto& component : errors) interpolate(x, component);
+  return errors;
+}
+
+// The largest coefficient of the degrees first, ..., last, and its degree.
+std::pair<Quad, int> largest_of(const std::vector<std::vector<Quad>>& errors, int first, int last) {
+  std::pair<Quad, int> largest{Quad(0), first};
+  for (const auto& component : errors)
+    for (int degree = first; degree <= last; ++degree)
+      if (const Quad size = abs(component[static_cast<std::size_t>(degree)]); !(size <= largest.first))
+        largest = {size, degree};
+  return largest;
+}
+
+}  // namespace
+
+std::optional<Check> check_order_conditions(MethodOnModel& on) {
+  const MethodInstance& method = on.method();
+  const int order = method.order(*on.model());
+  std::vector<Quad> start;
+  for (const Real& x : generic_state(*on.model())) start.push_back(x.quad());
+  if (method.needs_constraints() || on.history() || on.double_coefficients() ||
+      start.size() > most_coordinates || on.model()->restricted() || order <= 0)
+    return std::nullopt;
+  TaylorExpansion solution(*motion_of(on.model()));
+  solution.expand(generic_time.quad(), start.data());
+  Check check = on.check("order conditions", "every system", "quad");
+  check.tolerance = tolerance_of_conditions;
+  Quad radius = largest_radius * (on.step_size() / check_step).quad();
+  for (int k = 0; k < most_radii; ++k, radius = radius / Quad(4)) {
+    const auto errors = error_series(on, solution, start, radius);
+    if (errors.empty() ||
+        !(largest_of(errors, interpolation_points - points_left_out, interpolation_points - 1).first <=
+          Quad(nothing_left_out)))
+      continue;
+    const auto [size, degree] = largest_of(errors, 0, std::min(order, most_conditions));
+    check.measured = static_cast<double>(size);
+    check.result = check.measured <= check.tolerance ? CheckResult::pass : CheckResult::fail;
+    if (check.result == CheckResult::fail)
+      check.reason = "the error of a step has a part of degree " + std::to_string(degree) + " in h";
+    return check;
+  }
+  check.in_scope = false;
+  check.reason = "the error of a step has no series that 28 terms resolve";
+  return check;
+}
+
+}  // namespace pfaff

@@ -1,0 +1,66 @@
+// What every step has to satisfy, whatever the method claims: it gives the same numbers in both precisions,
+// and its Jacobian is the derivative of the step itself.
+#include <pfaff/bench/verification/method_on_model.hpp>
+
+namespace pfaff {
+
+Check check_steps(const MethodOnModel& on) {
+  Check check = on.check("steps", "every system", "both");
+  check.measured = on.step_size().value();
+  check.result = on.steps() ? CheckResult::pass : CheckResult::fail;
+  if (!on.steps())
+    check.reason = "no step converges, down to the size measured (" + std::string(to_string(on.failure())) +
+                   "), so that nothing can be judged";
+  return check;
+}
+
+Check check_precisions(MethodOnModel& on) {
+  // In quad from the very numbers from which the step in double begins.
+  const auto as_double = [](const Real& x) { return Real(Quad(x.value())); };
+  std::vector<Real> start;
+  for (const Real& x : generic_state(*on.model())) start.push_back(as_double(x));
+  MeasuredStep<Quad> exact(on.method(), on.model(), start, as_double(generic_time), as_double(on.step_size()),
+                           on.step<double>().warm_up());
+  const auto& end = on.step<double>().end();
+  double difference = no_step;
+  if (end && exact.end())
+    difference =
+        static_cast<double>(exact.distance(std::vector<Quad>(end->begin(), end->end()), *exact.end()));
+  return on.residual("double-is-quad-rounded", "every system", true, "double", difference,
+                     tolerance<double>() * on.growth_of_round_off());
+}
+
+// Compares the Jacobian of the converged step with central differences of order 4 in quad, whose error is
+// delta^4 + u/delta. With constraints, steps return to the surface along directions that turn fast, so that
+// delta is smaller there.
+Check check_step_jacobian(MethodOnModel& on) {
+  MeasuredStep<Quad>& step = on.step<Quad>();
+  const std::vector<Quad>& scales = step.scales();
+  const Quad part(on.model()->restricted() ? 2e-8 : 1e-7);
+  const std::vector<Quad>& jacobian = step.jacobian().jacobian;
+  bool judged = step.jacobian().status == Status::converged;
+  Quad worst(0), largest(0);
+  const std::size_t n = step.start().size();
+  for (std::size_t j = 0; j < n && judged; ++j) {
+    const Quad delta = part * scales[j];
+    std::vector<Quad> slope(n);
+    for (const int offset : {-2, -1, 1, 2}) {
+      std::vector<Quad> moved = step.start();
+      moved[j] += Quad(offset) * delta;
+      const auto end = step.after(step.t(), step.h(), std::move(moved));
+      judged = judged && end.has_value();
+      if (!judged) break;
+      const Quad weight = Quad(offset == 2 ? -1 : offset == 1 ? 8 : offset == -1 ? -8 : 1) / Quad(12);
+      for (std::size_t i = 0; i < n; ++i) slope[i] += weight * (*end)[i] / delta;
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      const Quad unit = scales[j] / scales[i];
+      worst = std::max(worst, abs(slope[i] - jacobian[i * n + j]) * unit);
+      largest = std::max(largest, abs(jacobian[i * n + j]) * unit);
+    }
+  }
+  return on.residual("step-jacobian", "every system", true, "quad",
+                     judged ? static_cast<double>(worst / largest) : no_step, 1e-24);
+}
+
+}  // namespace pfaff

@@ -1,0 +1,76 @@
+#include <pfaff/core/errors/errors.hpp>
+
+#include <cxxabi.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <exception>
+#include <memory>
+#include <numeric>
+
+namespace pfaff {
+
+namespace {
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t substitution = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substitution});
+    }
+  }
+  return row[b.size()];
+}
+}  // namespace
+
+std::string words_of_current_exception() {
+  try {
+    throw;
+  } catch (const std::exception& error) {
+    return error.what();
+  } catch (const std::string& text) {
+    return text;
+  } catch (const char* text) {
+    return text == nullptr ? "an exception without words" : text;
+  } catch (...) {
+    const std::type_info* type = abi::__cxa_current_exception_type();
+    if (type == nullptr) return "an exception of another language";
+    int status = 0;
+    const std::unique_ptr<char, decltype(&std::free)> name(
+        abi::__cxa_demangle(type->name(), nullptr, nullptr, &status), &std::free);
+    return std::string("an exception of type ") + (status == 0 ? name.get() : type->name());
+  }
+}
+
+std::string nearest(std::string_view name, const std::vector<std::string>& candidates) {
+  std::string best;
+  // Half of the name may be wrong, of short ones one letter: 'h' is not near 'nu'.
+  std::size_t distance = std::max<std::size_t>(1, name.size() / 2);
+  for (const std::string& candidate : candidates) {
+    // A name typed short is near to what it begins.
+    const bool prefix = name.size() >= 3 && candidate.starts_with(name);
+    const std::size_t d = prefix ? 1 : edit_distance(name, candidate);
+    if (d <= distance && (best.empty() || d < distance)) {
+      best = candidate;
+      distance = d;
+    }
+  }
+  return best;
+}
+
+std::string unknown_name(std::string_view kind, std::string_view name,
+                         const std::vector<std::string>& candidates) {
+  std::string text = "unknown " + std::string(kind) + " '" + std::string(name) + "'";
+  if (const std::string near = nearest(name, candidates); !near.empty())
+    return text + "; did you mean '" + near + "'?";
+  if (candidates.empty()) return text + "; there is none to choose from";
+  text += "; expected one of: ";
+  for (std::size_t k = 0; k < candidates.size(); ++k) text += (k == 0 ? "" : ", ") + candidates[k];
+  return text;
+}
+
+}  // namespace pfaff

@@ -1,0 +1,52 @@
+// Errors that reach the user, each one line: what, where, what was expected.
+#pragma once
+
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pfaff {
+
+/// Wrong usage or input (exit status 2): found before work starts.
+class InputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Something went wrong while working (exit status 1), such as a disk that is full.
+class RunError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The exception that is being handled, in words: what it says or, where it is none of the standard
+/// library's, its type. To be called in a catch clause only.
+std::string words_of_current_exception();
+
+/// Returns work(). What it throws, of whatever type, becomes an InputError that begins with `who`, the
+/// plug-in whose code is run; an InputError, a RunError and a lack of memory pass as they are.
+template <class Work>
+auto on_behalf_of(std::string_view who, Work&& work) {
+  try {
+    return work();
+  } catch (const InputError&) {
+    throw;
+  } catch (const RunError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (...) {
+    throw InputError(std::string(who) + ": " + words_of_current_exception());
+  }
+}
+
+/// The candidate closest to `name` by edit distance; empty when none is near.
+std::string nearest(std::string_view name, const std::vector<std::string>& candidates);
+
+/// "unknown system 'damped-oscilator'; did you mean 'damped-oscillator'?" or with the list of valid names.
+std::string unknown_name(std::string_view kind, std::string_view name,
+                         const std::vector<std::string>& candidates);
+
+}  // namespace pfaff

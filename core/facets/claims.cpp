@@ -1,0 +1,148 @@
+#include <pfaff/core/facets/claims.hpp>
+
+#include <algorithm>
+#include <random>
+
+#include <pfaff/core/errors/errors.hpp>
+#include <pfaff/core/tape/replay.hpp>
+
+namespace pfaff {
+
+bool momentum_map(const Model& model, std::size_t invariant) {
+  const Invariant& i = model.invariants()[invariant];
+  if (!i.quadratic || i.behaviour != Behaviour::conserved || !model.canonical()) return false;
+  // A quadratic invariant has no part without p where I(q, 0) = 0, and none quadratic in p where
+  // I(0, 2 p) = 2 I(0, p). Both are tried at random q and p.
+  Replay<Quad> values(model.tape(Formula::invariants));
+  const auto n = static_cast<std::size_t>(model.dimension());
+  std::mt19937_64 random(20041);
+  std::uniform_real_distribution<double> number(-1, 1);
+  std::vector<Quad> positions(n), momenta(n), twice(n), out(model.invariants().size());
+  for (std::size_t k = 0; k < n / 2; ++k) {
+    positions[k] = Quad(number(random));
+    momenta[n / 2 + k] = Quad(number(random));
+    twice[n / 2 + k] = Quad(2) * momenta[n / 2 + k];
+  }
+  const auto value = [&](const std::vector<Quad>& z) {
+    values(Quad(0), z.data(), out.data());
+    return out[invariant];
+  };
+  const Quad round_off(1e-30);  // of a sum of products of numbers below one
+  return abs(value(positions)) <= round_off && abs(value(twice) - Quad(2) * value(momenta)) <= round_off;
+}
+
+namespace {
+
+// The scopes, by the names they have in the list.
+
+bool every_system(const Model& /*model*/) { return true; }
+
+bool canonical_structure(const Model& model) {
+  return model.facets().has(Facet::darboux_chart) && !model.facets().has(Facet::structure);
+}
+
+bool chart_or_alpha(const Model& model) {
+  return model.facets().has(Facet::darboux_chart) || model.facets().has(Facet::generating_map);
+}
+
+bool poisson_tensor_alone(const Model& model) {
+  return model.facets().has(Facet::hamiltonian) && !model.facets().has(Facet::structure) &&
+         !model.facets().has(Facet::darboux_chart);
+}
+
+bool stated_reversal(const Model& model) { return model.given(Formula::reversal) && model.autonomous(); }
+
+bool stated_casimirs(const Model& model) {
+  return model.facets().has(Facet::hamiltonian) && model.given(Formula::casimirs);
+}
+
+bool holonomic_constraints(const Model& model) { return model.holonomic(); }
+
+bool velocity_constraints(const Model& model) { return model.facets().has(Facet::velocity_constraints); }
+
+bool linear_friction(const Model& model) { return model.facets().has(Facet::conformal); }
+
+// The trace of the field's Jacobian vanishes: always where the structure is canonical; elsewhere at random
+// points near the initial state.
+bool divergence_free(const Model& model) {
+  if (!model.moves() || model.restricted()) return false;
+  if (canonical_structure(model)) return true;
+  const auto n = static_cast<std::size_t>(model.dimension());
+  if (model.initial().size() != n) return false;  // there is no point to look at
+  Replay<Quad> slopes(model.tape(Formula::field_jacobian));
+  std::mt19937_64 random(20041);
+  std::uniform_real_distribution<double> offset(-0.05, 0.05);
+  std::vector<Quad> z(n), jacobian(n * n);
+  for (int point = 0; point < 3; ++point) {
+    for (std::size_t k = 0; k < n; ++k) z[k] = Quad(model.initial()[k]) + Quad(offset(random));
+    slopes(Quad(1 + offset(random)), z.data(), jacobian.data());
+    Quad trace(0), size(1);
+    for (std::size_t k = 0; k < n; ++k) {
+      trace += jacobian[k * n + k];
+      size += abs(jacobian[k * n + k]);
+    }
+    if (!(abs(trace) <= Quad(1e-30) * size)) return false;  // some thousand units of round-off
+  }
+  return true;
+}
+
+bool conserved(const Invariant& invariant) { return invariant.behaviour == Behaviour::conserved; }
+
+bool conserved_invariants(const Model& model) {
+  return std::any_of(model.invariants().begin(), model.invariants().end(), conserved);
+}
+
+bool quadratic_invariants(const Model& model) {
+  return std::any_of(model.invariants().begin(), model.invariants().end(),
+                     [](const Invariant& i) { return i.quadratic && conserved(i); });
+}
+
+bool momentum_maps(const Model& model) {
+  for (std::size_t k = 0; k < model.invariants().size(); ++k)
+    if (momentum_map(model, k)) return true;
+  return false;
+}
+
+// Along the motion dH/dt = H_t whatever the bracket, so that H is conserved where it does not depend on time.
+bool conserved_energy(const Model& model) {
+  return model.facets().has(Facet::hamiltonian) && model.tape(Formula::hamiltonian)->autonomous();
+}
+
+bool entropy_of_two_brackets(const Model& model) {
+  return model.facets().has(Facet::metriplectic) && model.given(Formula::entropy);
+}
+
+}  // namespace
+
+bool in_scope(Claim claim, const Model& model) {
+  switch (claim) {
+#define PFAFF_CLAIM(claim, name, speaks_of, ...) \
+  case Claim::claim:                             \
+    return speaks_of(model);
+#include <pfaff/core/facets/claim_rows.hpp>
+    case Claim::none:
+      break;
+  }
+  return false;
+}
+
+std::vector<Claim> claims_in_scope(const std::vector<Claim>& claims, const Model& model) {
+  std::vector<Claim> meant;
+  for (const Claim claim : claims)
+    if (in_scope(claim, model)) meant.push_back(claim);
+  if (meant.empty()) meant.push_back(Claim::none);
+  return meant;
+}
+
+void require_claimable(const std::vector<Claim>& claims, const std::string& method) {
+  for (const ClaimRow& row : claim_table) {
+    if (!row.foreseen || std::find(claims.begin(), claims.end(), row.claim) == claims.end()) continue;
+    std::string claimable;
+    for (const ClaimRow& other : claim_table)
+      if (!other.foreseen) claimable += (claimable.empty() ? "" : ", ") + std::string(other.name);
+    throw InputError("integrator " + method + " claims " + std::string(row.name) +
+                     ", which has no check yet; expected none or some of " + claimable);
+  }
+}
+
+}  // namespace pfaff

@@ -1,0 +1,69 @@
+// Claims: what a method may say that it keeps, each with its meaning and with the systems it speaks of. The
+// rows are in claim_rows.hpp; a claim's check and its control are in bench/verification/claim_checks.cpp.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <pfaff/core/facets/model.hpp>
+
+namespace pfaff {
+
+/// What a method may claim to keep. `none` is an explicit "no structure claimed" and has no row.
+enum class Claim {
+  none,
+#define PFAFF_CLAIM(claim, ...) claim,
+#include <pfaff/core/facets/claim_rows.hpp>
+};
+
+/// One row of the list.
+struct ClaimRow {
+  Claim claim;
+  std::string_view name;     // kebab-case
+  std::string_view meaning;  // a sentence
+  std::string_view scope;    // the systems it speaks of, in words
+  bool foreseen = false;     // named, but without a check: no method may claim it yet
+};
+
+namespace detail {
+// The part of a row that follows its predicate.
+struct ClaimTexts {
+  std::string_view meaning, scope;
+  bool foreseen = false;
+};
+constexpr ClaimRow claim_row_of(Claim claim, std::string_view name, ClaimTexts texts) {
+  return {claim, name, texts.meaning, texts.scope, texts.foreseen};
+}
+}  // namespace detail
+
+/// Every claim but `none`, in the order of the list.
+inline constexpr std::array claim_table{
+#define PFAFF_CLAIM(claim, name, speaks_of, ...) \
+  detail::claim_row_of(Claim::claim, name, detail::ClaimTexts{__VA_ARGS__}),
+#include <pfaff/core/facets/claim_rows.hpp>
+};
+
+/// The row of a claim other than `none`.
+constexpr const ClaimRow& claim_row(Claim claim) { return claim_table[static_cast<std::size_t>(claim) - 1]; }
+
+/// The claim's name: "K-symplectic"; "none" for Claim::none.
+constexpr std::string_view to_string(Claim claim) {
+  return claim == Claim::none ? "none" : claim_row(claim).name;
+}
+
+/// True where the claim speaks of this model; never for Claim::none.
+bool in_scope(Claim claim, const Model& model);
+
+/// The claims that speak of this model; Claim::none alone where none of them does.
+std::vector<Claim> claims_in_scope(const std::vector<Claim>& claims, const Model& model);
+
+/// True where the system is canonical and the invariant of this index is conserved and has the form
+/// p^T (D q + d) with constant D and d.
+bool momentum_map(const Model& model, std::size_t invariant);
+
+/// InputError, naming the method, where one of its claims is foreseen and has no check yet.
+void require_claimable(const std::vector<Claim>& claims, const std::string& method);
+
+}  // namespace pfaff

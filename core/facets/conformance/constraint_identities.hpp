@@ -1,0 +1,239 @@
+// What an evaluator of holonomic constraints owes (core/facets/holonomic.hpp): identities between its
+// operations and the formulas of its model, and how far they are from holding. They are for authors of
+// evaluators, inside the tree or outside; the matcher of constraint_matchers.hpp puts them into a test.
+//
+// Every operation is tried, the batched ones and those that only some scalars have included, because an error
+// in an operation that is not tried here could stay unnoticed.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <pfaff/core/facets/conformance/dense_constraints.hpp>
+#include <pfaff/core/facets/model.hpp>
+
+namespace pfaff {
+
+/// An identity, named after the operation that it speaks of, and how far it is from holding: the largest
+/// difference between its two sides, by the sizes of their terms, in units of round-off.
+struct ConstraintIdentity {
+  std::string operation;
+  double roundings = 0;
+};
+
+/// Where evaluators are sampled: states about the model's initial one, on and off the surface.
+struct ConstraintSamples {
+  double spread = 0.05;  // in every coordinate
+  int points = 10;
+  unsigned seed = 20041;
+  /// The largest error allowed, in units of round-off: sums over a few hundred terms and eliminations lose
+  /// that much.
+  double roundings = 1e4;
+};
+
+namespace detail {
+
+/// Measures the identities of one evaluator at one point after another, and keeps the largest error of each.
+template <class T>
+class ConstraintConformance {
+ public:
+  ConstraintConformance(HolonomicConstraints<T>& constraints, const Model& model)
+      : c_(constraints), dense_(model) {}
+
+  [[nodiscard]] std::vector<ConstraintIdentity> worst() const { return worst_; }
+
+  /// False where sizes do not fit and nothing else can be tried.
+  bool sizes() {
+    note("count", c_.count() == dense_.count() ? 0 : INFINITY);
+    note("degrees", c_.degrees() == dense_.degrees() ? 0 : INFINITY);
+    note("pattern", c_.pattern().rows() == dense_.count() ? 0 : INFINITY);
+    return c_.count() == dense_.count() && c_.degrees() == dense_.degrees() &&
+           c_.pattern().rows() == dense_.count();
+  }
+
+  /// All identities; linear maps are placed by linearise at `first` and by place at `second`.
+  void at(const T& t, const std::vector<T>& first, const std::vector<T>& second) {
+    const std::size_t n = c_.degrees();
+    place(t, first);
+    In<T> q = In<T>(first).first(n), p = In<T>(first).subspan(n);
+    std::vector<T> k(c_.count()), d(n);
+    c_.values(t, q, k), same("values", k, dense_.residuals, size_of(dense_.by_position, q));
+    c_.hidden_values(t, q, p, k), same("hidden_values", k, dense_.hidden, size_of(dense_.by_momentum, p));
+    c_.velocity(t, q, p, d), same("velocity", d, dense_.velocities);
+    c_.force(t, q, p, d), same("force", d, dense_.forces);
+    note("linearise", c_.linearise(t, q, p) == Status::converged ? 0 : INFINITY);
+    linear_maps("");
+    place(t, second);
+    q = In<T>(second).first(n), p = In<T>(second).subspan(n);
+    note("place", c_.place(t, q, p) == Status::converged ? 0 : INFINITY);
+    linear_maps(" once placed");
+    same("residuals", c_.residuals(), dense_.residuals, size_of(dense_.by_position, q));
+    same("hidden", c_.hidden(), dense_.hidden, size_of(dense_.by_momentum, p));
+    same("hidden_rates", c_.hidden_rates(), dense_.hidden_rates,
+         size_of(dense_.hidden_by_position, dense_.velocities) + size_of(dense_.by_momentum, dense_.forces));
+    same("velocities", c_.velocities(), dense_.velocities);
+    same("forces", c_.forces(), dense_.forces);
+    map("hidden_by_position", dense_.hidden_by_position,
+        [&](In<T> u, Out<T> r) { c_.hidden_by_position(u, r); });
+    map("hidden_by_position_transpose", dense_.hidden_by_position.transposed(),
+        [&](In<T> x, Out<T> f) { c_.hidden_by_position_transpose(x, f); });
+    friction();
+    fast_rates(Reactions::ideal, "rates, ideal", t, q, p);
+    fast_rates(Reactions::two_level, "rates, two-level", t, q, p);
+    fast_rates(Reactions::hamiltonian, "rates, hamiltonian", t, q, p);
+  }
+
+ private:
+  void note(const std::string& operation, double roundings) {
+    if (std::isnan(roundings)) roundings = INFINITY;
+    for (ConstraintIdentity& identity : worst_)
+      if (identity.operation == operation) {
+        identity.roundings = std::max(identity.roundings, roundings);
+        return;
+      }
+    worst_.push_back({operation, roundings});
+  }
+
+  void place(const T& t, const std::vector<T>& z) {
+    dense_.place(Quad(t), {std::vector<Quad>(z.begin(), z.end())});
+  }
+
+  static double magnitude(const auto& numbers) {
+    double largest = 0;
+    for (const auto& x : numbers) {
+      const auto size = static_cast<double>(abs(Quad(x)));
+      largest = std::isnan(size) ? size : std::max(largest, size);
+    }
+    return largest;
+  }
+  // The largest sum of the terms of a product.
+  static double size_of(const Matrix<Quad>& m, const auto& x) {
+    double largest = 0;
+    for (std::size_t i = 0; i < m.rows(); ++i) {
+      double sum = 0;
+      for (std::size_t j = 0; j < m.columns(); ++j) sum += static_cast<double>(abs(m(i, j) * Quad(x[j])));
+      largest = std::max(largest, sum);
+    }
+    return largest;
+  }
+  void same(const std::string& operation, const auto& given, const std::vector<Quad>& expected,
+            double size = 0, double condition = 1) {
+    if (given.size() != expected.size()) return note(operation, INFINITY);
+    double worst = 0;
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      const auto difference = static_cast<double>(abs(Quad(given[i]) - expected[i]));
+      worst = std::isnan(difference) ? INFINITY : std::max(worst, difference);
+    }
+    size = std::max({size, magnitude(expected), 1.0});
+    note(operation, worst / (size * condition * static_cast<double>(unit_roundoff<T>())));
+  }
+
+  [[nodiscard]] std::vector<T> random(std::size_t size) {
+    std::uniform_real_distribution<double> draw(-1, 1);
+    std::vector<T> numbers;
+    for (std::size_t k = 0; k < size; ++k) numbers.push_back(T(draw(random_)));
+    return numbers;
+  }
+  static std::vector<Quad> quad(const std::vector<T>& x) { return {x.begin(), x.end()}; }
+
+  // r = M u for a random u.
+  template <class Apply>
+  void map(const std::string& operation, const Matrix<Quad>& m, const Apply& apply) {
+    const std::vector<T> u = random(m.columns());
+    std::vector<T> r(m.rows());
+    apply(u, r);
+    same(operation, r, m * quad(u), size_of(m, u));
+  }
+  // M x = r, judged by the residual r - M x.
+  void solved(const std::string& operation, const Matrix<Quad>& m, const std::vector<T>& x,
+              const std::vector<T>& r) {
+    same(operation, m * quad(x), quad(r), size_of(m, x));
+  }
+
+  void linear_maps(const std::string& when) {
+    const SymmetricPattern& pattern = c_.pattern();
+    double outside = 0;
+    for (std::size_t i = 0; i < c_.count(); ++i)
+      for (std::size_t j = i + 1; j < c_.count(); ++j)
+        if (pattern.coupling(i, j) == SymmetricPattern::npos)
+          outside = std::max(outside, static_cast<double>(abs(dense_.s(i, j))));
+    note("pattern", outside / static_cast<double>(unit_roundoff<T>()) / (1 + magnitude(dense_.s.entries())));
+    map("apply" + when, dense_.by_position, [&](In<T> u, Out<T> r) { c_.apply(u, r); });
+    map("apply_transpose" + when, dense_.by_position.transposed(),
+        [&](In<T> x, Out<T> f) { c_.apply_transpose(x, f); });
+    map("hidden_by_momentum" + when, dense_.by_momentum,
+        [&](In<T> u, Out<T> r) { c_.hidden_by_momentum(u, r); });
+    map("hidden_by_momentum_transpose" + when, dense_.by_momentum.transposed(),
+        [&](In<T> x, Out<T> v) { c_.hidden_by_momentum_transpose(x, v); });
+    const std::vector<T> r1 = random(c_.count()), r2 = random(c_.count());
+    std::vector<T> x1(c_.count()), x2(c_.count());
+    c_.solve(r1, x1), solved("solve" + when, dense_.s, x1, r1);
+    x1 = r1;
+    c_.solve(x1, x1), solved("solve in place" + when, dense_.s, x1, r1);
+    c_.solve(r1, x1, r2, x2);
+    solved("solve of two" + when, dense_.s, x1, r1), solved("solve of two" + when, dense_.s, x2, r2);
+  }
+
+  void friction() {
+    const std::span<const T> lambda = c_.friction();
+    std::vector<T> given(lambda.begin(), lambda.end());
+    if (given.empty()) given.resize(c_.degrees());  // an empty list means no friction
+    same("friction", given, dense_.friction);
+    // S^D may be singular: the right-hand side is in its range.
+    Matrix<Quad> weighted = dense_.by_momentum;
+    for (std::size_t i = 0; i < c_.count(); ++i)
+      for (std::size_t a = 0; a < c_.degrees(); ++a) weighted(i, a) = weighted(i, a) * dense_.friction[a];
+    const Matrix<Quad> s = weighted * dense_.by_momentum.transposed();
+    note("factor_friction", c_.factor_friction() == Status::converged ? 0 : INFINITY);
+    std::vector<T> r, x(c_.count());
+    for (const Quad& value : s* quad(random(c_.count()))) r.push_back(static_cast<T>(value));
+    c_.solve_friction(r, x);
+    solved("solve_friction", s, x, r);
+  }
+
+  void fast_rates(Reactions reactions, const char* operation, const T& t, In<T> q, In<T> p) {
+    ConstrainedRates<T>* const rates = c_.rates(reactions);
+    if (rates == nullptr) return note(operation, 0);
+    std::vector<T> z(2 * q.size());
+    const Out<T> out(z);
+    const Status status = (*rates)(t, q, p, out.first(q.size()), out.subspan(q.size()));
+    if (status != Status::converged) return note(operation, INFINITY);
+    same(operation, z, dense_.rates(reactions), 0, dense_.condition());
+  }
+
+  HolonomicConstraints<T>& c_;
+  DenseConstraints dense_;
+  std::vector<ConstraintIdentity> worst_;
+  std::mt19937_64 random_{7};
+};
+
+}  // namespace detail
+
+/// Every identity, at its worst over the samples. `constraints` are those of `model`, whose formulas they are
+/// held against; scalars double and Quad.
+template <class T>
+std::vector<ConstraintIdentity> constraint_identities(HolonomicConstraints<T>& constraints,
+                                                      const Model& model,
+                                                      const ConstraintSamples& samples = {}) {
+  detail::ConstraintConformance<T> conformance(constraints, model);
+  if (!conformance.sizes()) return conformance.worst();
+  std::mt19937_64 random(samples.seed);
+  std::uniform_real_distribution<double> offset(-samples.spread, samples.spread);
+  const auto near_start = [&] {
+    std::vector<T> z;
+    for (const Real& x : model.initial()) z.push_back(T(x) + T(offset(random)));
+    return z;
+  };
+  for (int k = 0; k < samples.points; ++k) {
+    const T t(1 + offset(random));
+    const std::vector<T> first = near_start(), second = near_start();
+    conformance.at(t, first, second);
+  }
+  return conformance.worst();
+}
+
+}  // namespace pfaff

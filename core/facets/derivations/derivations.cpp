@@ -1,0 +1,51 @@
+// All derivations in one list: the first of a formula that applies to a model is taken.
+#include <algorithm>
+
+#include <pfaff/core/facets/derivations/charts.hpp>
+#include <pfaff/core/facets/derivations/constraints.hpp>
+#include <pfaff/core/facets/derivations/energies.hpp>
+#include <pfaff/core/facets/derivations/metriplectic.hpp>
+#include <pfaff/core/facets/derivations/structures.hpp>
+
+namespace pfaff {
+
+namespace {
+template <std::size_t... N>
+constexpr auto joined(const std::array<Derivation, N>&... families) {
+  std::array<Derivation, (N + ...)> all{};
+  auto end = all.begin();
+  ((end = std::copy(families.begin(), families.end(), end)), ...);
+  return all;
+}
+
+// Where the field can be derived in several ways the order decides: two brackets come before one, an energy
+// before a structure, a structure before friction.
+constexpr auto derivations = joined(derive::metriplectic, derive::energies, derive::structures,
+                                    derive::damped_energies, derive::charts, derive::constraints);
+
+// True where every formula that no author can write has a derivation.
+constexpr bool complete() {
+  return std::all_of(formula_table.begin(), formula_table.end(), [](const FormulaRow& row) {
+    return row.origin != Origin::none ||
+           std::any_of(derivations.begin(), derivations.end(),
+                       [&](const Derivation& d) { return d.of == row.formula; });
+  });
+}
+static_assert(complete(), "a formula that authors do not write, PFAFF_DERIVED, needs a derivation");
+}  // namespace
+
+const Derivation* derivation_of(Formula formula, const Model& model) {
+  const auto* const found = std::find_if(derivations.begin(), derivations.end(), [&](const Derivation& d) {
+    return d.of == formula && d.applies(model);
+  });
+  return found == derivations.end() ? nullptr : found;
+}
+
+std::shared_ptr<const Tape> Model::derived(Formula formula) const {
+  const Derivation* way = derivation_of(formula, *this);
+  return way == nullptr ? nullptr : way->make(*this);
+}
+
+Tape damped_field(const Model& model) { return *derive::damped_field(model); }
+
+}  // namespace pfaff

@@ -1,0 +1,160 @@
+// The members that an integrator's struct may have, and the check that a member with one of these names also
+// has the signature expected. What each of them is for is said at the top of core/integrator.hpp.
+#pragma once
+
+#include <concepts>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <pfaff/core/facets/advance.hpp>
+#include <pfaff/core/registry/member_names.hpp>
+#include <pfaff/core/registry/parameter.hpp>
+
+namespace pfaff {
+enum class Claim;
+
+// Kinds share some names: each kind looks its own up in a namespace of its own.
+namespace detail::method {
+PFAFF_MEMBER_NAME(Work)
+PFAFF_MEMBER_NAME(order)
+PFAFF_MEMBER_NAME(preserves)
+PFAFF_MEMBER_NAME(order_is_lower_bound)
+PFAFF_MEMBER_NAME(order_is_exact)
+PFAFF_MEMBER_NAME(validate)
+PFAFF_MEMBER_NAME(coefficients)
+PFAFF_MEMBER_NAME(refuses)
+PFAFF_MEMBER_NAME(instances)
+PFAFF_MEMBER_NAME(advance_to)
+PFAFF_MEMBER_NAME(fixed_sizes)
+PFAFF_MEMBER_NAME(compensated)
+PFAFF_MEMBER_NAME(Composed)
+PFAFF_MEMBER_NAME(restart)
+PFAFF_MEMBER_NAME(hand_over)
+}  // namespace detail::method
+
+namespace detail {
+
+// The problem on which signatures are tried: every facet, in double.
+using TriedProblem = Problem<double>;
+
+template <class M>
+concept WritesWork = requires {
+  typename M::template Work<TriedProblem>;
+  requires std::constructible_from < typename M::template Work<TriedProblem>,
+  const M&, const TriedProblem& > ;
+};
+template <class M>
+concept WritesOrder = requires(const M& m, const Model& model) {
+  { m.order(model) } -> std::same_as<int>;
+};
+template <class M>
+concept WritesPreserves = requires(const M& m, const Model& model) {
+  { m.preserves(model) } -> std::convertible_to<std::vector<Claim>>;
+};
+template <class M>
+concept WritesOrderIsLowerBound = requires(const M& m) {
+  { m.order_is_lower_bound() } -> std::same_as<bool>;
+};
+template <class M>
+concept WritesOrderIsExact = requires(const M& m) {
+  { m.order_is_exact() } -> std::same_as<bool>;
+};
+template <class M>
+concept WritesValidate = requires(M& m) {
+  m.validate();
+};
+template <class M>
+concept WritesCoefficients = requires(M& m) {
+  { m.coefficients() } -> std::convertible_to<std::span<Quad>>;
+};
+template <class M>
+concept WritesRefuses = requires(const M& m, const Model& model) {
+  { m.refuses(model) } -> std::convertible_to<std::string>;
+};
+template <class M>
+concept WritesInstances = requires(bool full) {
+  { M::instances(full) } -> std::convertible_to<std::vector<Assignments>>;
+};
+template <class M>
+concept WritesAdvanceTo = requires(const M& m, const TriedProblem& p, double& t, double end,
+                                   State<TriedProblem>& z, Work<M, TriedProblem>& w) {
+  { m.advance_to(p, t, end, end, z, w) } -> std::same_as<Status>;
+};
+template <class M>
+concept WritesFixedSizes = requires {
+  requires std::same_as<decltype(M::fixed_sizes), const bool>;
+};
+template <class M>
+concept WritesCompensated = requires(M& m) {
+  requires std::same_as<decltype((m.compensated)), bool&>;
+};
+template <class M>
+concept WritesComposed = requires(typename M::Composed& composed, const TriedProblem& p, double t,
+                                  State<TriedProblem>& z, Work<typename M::Composed, TriedProblem>& w) {
+  requires std::default_initializable<typename M::Composed>;
+  requires std::same_as < decltype((composed.weights)), std::vector<Quad>
+  & > ;
+  { std::as_const(composed).step(p, t, t, z, w) } -> std::same_as<Status>;
+};
+template <class W>
+concept WritesRestart = requires(W& w) {
+  { w.restart() } -> std::same_as<void>;
+};
+template <class W>
+concept WritesHandOver = requires(W& w, W& next) {
+  w.hand_over(next);
+};
+
+/// Refuses, while W is compiled, members of a workspace that bear a name of its protocol and do not fit it.
+template <class W>
+constexpr void check_work_members() {
+  static_assert(!std::is_final_v<W>, "Work must not be final: its members are looked up by derivation");
+  static_assert(WritesRestart<W> || !method::names_restart<W>, "restart of Work: expected void restart()");
+  static_assert(WritesHandOver<W> || !method::names_hand_over<W>,
+                "hand_over of Work: expected void hand_over(Work& next)");
+}
+
+/// Refuses, while M is compiled, members that bear the name of an optional one and cannot be used as one, and
+/// a struct that does not step.
+template <class M>
+constexpr void check_method_members() {
+  static_assert(WritesWork<M> || !method::has_Work<M>,
+                "Work: expected template <class P> struct Work with a constructor Work(const M&, const P&)");
+  static_assert(
+      Steps<M, TriedProblem>,
+      "step: expected template <HasVectorField P> Status step(const P& p, const Scalar<P>& t, const "
+      "Scalar<P>& h, State<P>& z, Work<P>& work) const, with whatever facet's concept it needs");
+  static_assert(WritesOrder<M> || !method::has_order<M>,
+                "order: expected int order(const Model& model) const");
+  static_assert(WritesPreserves<M> || !method::has_preserves<M>,
+                "preserves: expected std::vector<Claim> preserves(const Model& model) const");
+  static_assert(WritesOrderIsLowerBound<M> || !method::has_order_is_lower_bound<M>,
+                "order_is_lower_bound: expected bool order_is_lower_bound() const");
+  static_assert(WritesOrderIsExact<M> || !method::has_order_is_exact<M>,
+                "order_is_exact: expected bool order_is_exact() const");
+  static_assert(WritesValidate<M> || !method::has_validate<M>, "validate: expected void validate()");
+  static_assert(WritesCoefficients<M> || !method::has_coefficients<M>,
+                "coefficients: expected std::span<Quad> coefficients()");
+  static_assert(WritesRefuses<M> || !method::has_refuses<M>,
+                "refuses: expected std::string refuses(const Model& model) const");
+  static_assert(WritesInstances<M> || !method::has_instances<M>,
+                "instances: expected static std::vector<Assignments> instances(bool full)");
+  static_assert(
+      WritesAdvanceTo<M> || !method::has_advance_to<M>,
+      "advance_to: expected template <class P> Status advance_to(const P& p, double& t, double end, "
+      "double tolerance, State<P>& z, Work<P>& work) const");
+  static_assert(WritesFixedSizes<M> || !method::has_fixed_sizes<M>,
+                "fixed_sizes: expected static constexpr bool fixed_sizes");
+  static_assert(WritesCompensated<M> || !method::has_compensated<M>,
+                "compensated: expected a member bool compensated");
+  static_assert(
+      WritesComposed<M> || !method::has_Composed<M>,
+      "Composed: expected using Composed = Composition<the method without Composed>, or another method "
+      "that steps and has std::vector<Quad> weights");
+  check_work_members<Work<M, TriedProblem>>();
+}
+
+}  // namespace detail
+}  // namespace pfaff

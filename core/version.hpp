@@ -1,4 +1,0 @@
-// Pfaff's number. The build reads it from here.
-#pragma once
-
-#define PFAFF_VERSION_TEXT "0.1.0"

@@ -1,0 +1,198 @@
+// Compositions of symmetric methods of order 2 as one plug-in: a scheme, which is a family of weights, over a
+// base, and the short names of those that are met most. Families: yoshida1990 (few stages, large errors),
+// suzuki1990 (many stages, smaller ones), kahan-li1997 (the best known of orders 6 and 8).
+#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/method_alias.hpp>
+#include <pfaff/integrators/composition/composition_weights.hpp>
+
+namespace {
+using namespace pfaff;
+
+struct Scheme {
+  std::string name;
+  std::vector<std::string> orders;                 // the lowest first
+  std::size_t verified = 0, verified_in_full = 0;  // how many of them have their claims verified
+  std::vector<Quad> (*weights)(int order) = nullptr;
+};
+
+const std::vector<Scheme>& schemes() {
+  static const std::vector<Scheme> list{{"yoshida", {"4", "6", "8", "10", "12"}, 3, 4, yoshida_weights},
+                                        {"suzuki", {"4", "6", "8", "10", "12"}, 2, 3, suzuki_weights},
+                                        {"kahan-li", {"6", "8"}, 2, 2, kahan_li_weights}};
+  return list;
+}
+
+std::vector<std::string> scheme_names() {
+  std::vector<std::string> names;
+  for (const Scheme& scheme : schemes()) names.push_back(scheme.name);
+  return names;
+}
+
+bool symmetric(const MethodPlugin& method) {
+  const std::vector<Claim>& kept = method.descriptor().preserves;
+  return std::find(kept.begin(), kept.end(), Claim::symmetric) != kept.end();
+}
+
+// Why a method cannot be a base; empty when it can.
+std::string unfit(const MethodPlugin& plugin, const MethodInstance& method) {
+  if (method.adaptive()) return "it chooses its steps itself";
+  const bool composable = method.composed({Quad(1)}) != nullptr;
+  if (!symmetric(plugin) && (composable || !plugin.descriptor().preserves.empty()))
+    return "it is not symmetric";
+  if (!composable) return "it does not say how it is composed";
+  return plugin.descriptor().order == 2 ? "" : "its order is not 2";
+}
+
+std::vector<std::string> bases() {
+  std::vector<std::string> names;
+  for (const MethodPlugin* method : integrators().all())
+    if (unfit(*method, *method->make({})).empty()) names.push_back(method->name());
+  return names;
+}
+
+// The base with its parameters set.
+std::unique_ptr<MethodInstance> made_base(const PluginValue& base) {
+  const MethodPlugin& plugin = integrators().get(base.name, "integrator");
+  auto method = plugin.make(base.settings);
+  const std::string reason = unfit(plugin, *method);
+  if (reason.empty()) return method;
+  std::string list;
+  for (const std::string& name : bases()) list += (list.empty() ? "" : ", ") + name;
+  throw InputError("composition cannot have the base " + base.name + ": " + reason +
+                   "; expected one of: " + list);
+}
+
+struct Composing {
+  std::string scheme = "yoshida", order;  // an empty order stands for the scheme's lowest
+  PluginValue base{"midpoint-darboux"};
+
+  static std::vector<Parameter> parameters() {
+    return {parameter(&Composing::scheme, "scheme", scheme_names(), "family of weights"),
+            parameter(&Composing::order, "order", {"4", "6", "8", "10", "12"},
+                      "order of the composition, without one the scheme's lowest; kahan-li has 6 and 8"),
+            parameter(&Composing::base, "base",
+                      {.kind = "integrator",
+                       .names = bases,
+                       .parameters =
+                           [](const std::string& name) {
+                             return integrators().get(name, "integrator").parameters();
+                           },
+                       .resolve = [](const PluginValue& value) { return made_base(value)->parameters(); }},
+                      "the symmetric method of order 2 that takes the sub-steps")};
+  }
+};
+
+// The base's own composition under the name and with the parameters of this plug-in.
+class CompositionInstance final : public MakerOf<CompositionInstance, MethodInstance> {
+ public:
+  CompositionInstance(const MethodPlugin& plugin, Composing settings,
+                      std::unique_ptr<MethodInstance> composed)
+      : plugin_(plugin), settings_(std::move(settings)), composed_(std::move(composed)) {}
+
+  [[nodiscard]] const MethodDescriptor& descriptor() const override { return plugin_.descriptor(); }
+  [[nodiscard]] Assignments parameters() const override { return resolved(plugin_.parameters(), &settings_); }
+  [[nodiscard]] FacetSet needs() const override { return composed_->needs(); }
+  [[nodiscard]] int order(const Model& /*model*/) const override { return std::stoi(settings_.order); }
+  [[nodiscard]] bool order_is_lower_bound() const override { return composed_->order_is_lower_bound(); }
+  [[nodiscard]] bool order_is_exact() const override { return composed_->order_is_exact(); }
+  /// What the base keeps in steps of either sign. Claims on entropy are left out: a sub-step back in time
+  /// lets it fall.
+  [[nodiscard]] std::vector<Claim> preserves(const Model& model) const override {
+    std::vector<Claim> kept = composed_->preserves(model);
+    std::erase(kept, Claim::entropy);
+    return kept;
+  }
+  [[nodiscard]] std::string called() const override { return plugin_.name() + " of " + settings_.base.name; }
+  [[nodiscard]] std::string objection(const Model& model) const override {
+    return composed_->objection(model);
+  }
+  [[nodiscard]] bool adaptive() const override { return false; }
+  [[nodiscard]] std::size_t coefficient_count() const override { return composed_->coefficient_count(); }
+  [[nodiscard]] std::unique_ptr<MethodInstance> with_changed_coefficient(std::size_t index,
+                                                                         Quad amount) const override {
+    return std::make_unique<CompositionInstance>(plugin_, settings_,
+                                                 composed_->with_changed_coefficient(index, amount));
+  }
+  /// Null, because the weights are made for bases of order 2 and a composition is of a higher order.
+  [[nodiscard]] std::unique_ptr<MethodInstance> composed(std::vector<Quad> /*weights*/) const override {
+    return nullptr;
+  }
+  template <class T>
+  [[nodiscard]] StepperPointer<T> made(std::shared_ptr<const Model> model) const {
+    return composed_->stepper(std::move(model), T());
+  }
+
+ private:
+  const MethodPlugin& plugin_;
+  Composing settings_;
+  std::unique_ptr<MethodInstance> composed_;
+};
+
+class CompositionPlugin final : public MethodPlugin {
+ public:
+  explicit CompositionPlugin(MethodDescriptor descriptor,
+                             const std::source_location& where = std::source_location::current())
+      : MethodPlugin(std::move(descriptor), Composing::parameters(), typeid(CompositionPlugin), where) {
+    integrators().add(this);
+  }
+
+  [[nodiscard]] std::unique_ptr<MethodInstance> make(const Assignments& assignments) const override {
+    Composing settings;
+    const std::string owner = "integrator " + name();
+    assign_all(parameters(), &settings, assignments, owner);
+    const Scheme& scheme = *std::find_if(schemes().begin(), schemes().end(),
+                                         [&](const Scheme& s) { return s.name == settings.scheme; });
+    if (settings.order.empty()) settings.order = scheme.orders.front();
+    if (std::find(scheme.orders.begin(), scheme.orders.end(), settings.order) == scheme.orders.end()) {
+      std::string orders;
+      for (const std::string& order : scheme.orders) orders += (orders.empty() ? "" : "|") + order;
+      throw InputError("parameter 'order' of " + owner + ": expected " + orders +
+                       " with scheme=" + scheme.name + ", got '" + settings.order + "'");
+    }
+    const auto base = made_base(settings.base);
+    settings.base.settings = base->parameters();
+    auto composed = base->composed(scheme.weights(std::stoi(settings.order)));
+    return std::make_unique<CompositionInstance>(*this, std::move(settings), std::move(composed));
+  }
+
+  [[nodiscard]] std::vector<Assignments> instances(bool full) const override {
+    std::vector<Assignments> list;
+    for (const std::string& base : bases())
+      for (const Scheme& scheme : schemes())
+        for (std::size_t k = 0; k < (full ? scheme.verified_in_full : scheme.verified); ++k)
+          list.push_back({{"scheme", scheme.name}, {"order", scheme.orders[k]}, {"base", base}});
+    return list;
+  }
+};
+
+const CompositionPlugin composition{
+    {.name = "composition",
+     .title = "symmetric compositions of a symmetric method of order 2",
+     .reference =
+         "yoshida1990; suzuki1990; kahan-li1997; hairer-lubich-wanner2006 (II.4.4), (II.4.5), (V.3.11), "
+         "(V.3.13)",
+     .description =
+         "Sub-steps of a symmetric base of order 2, some of them back in time, with weights that raise the "
+         "order to 4, 6, 8 or more. Take it where the base keeps what matters and its order is too low: "
+         "everything that the base keeps in steps of either sign is kept. The scheme kahan-li has the "
+         "smallest errors for its work at orders 6 and 8, suzuki smaller ones than yoshida at order 4. "
+         "Friction acts the wrong way in sub-steps back in time, so that stiff decay sets the step."}};
+
+const Assignments compensated{{"compensated", "base.compensated"}};
+
+Assignments over(const char* base, const char* scheme) { return {{"scheme", scheme}, {"base", base}}; }
+
+const MethodAlias yoshida{composition, "yoshida", over("midpoint-darboux", "yoshida"), compensated};
+const MethodAlias suzuki{composition, "suzuki", over("midpoint-darboux", "suzuki"), compensated};
+const MethodAlias kahan_li{composition, "kahan-li", over("midpoint-darboux", "kahan-li"), compensated};
+const MethodAlias yoshida_verlet{composition, "yoshida-verlet", over("verlet", "yoshida"), compensated};
+const MethodAlias suzuki_verlet{composition, "suzuki-verlet", over("verlet", "suzuki"), compensated};
+const MethodAlias kahan_li_verlet{composition, "kahan-li-verlet", over("verlet", "kahan-li"), compensated};
+const MethodAlias yoshida_rattle{composition, "yoshida-rattle", over("rattle", "yoshida"), compensated};
+const MethodAlias suzuki_rattle{composition, "suzuki-rattle", over("rattle", "suzuki"), compensated};
+const MethodAlias kahan_li_rattle{composition, "kahan-li-rattle", over("rattle", "kahan-li"), compensated};
+const MethodAlias suzuki_conformal{composition, "suzuki-conformal", over("conformal-splitting", "suzuki"),
+                                   compensated};
+const MethodAlias kahan_li_conformal{composition, "kahan-li-conformal",
+                                     over("conformal-splitting", "kahan-li"), compensated};
+}  // namespace

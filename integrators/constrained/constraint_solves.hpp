@@ -1,0 +1,79 @@
+// What methods on the constraint surface have in common: the projection of momenta onto the hidden
+// constraints, and a test whether the velocity H_p is linear in the momenta.
+#pragma once
+
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include <pfaff/core/facets/holonomic.hpp>
+#include <pfaff/core/solve/convergence.hpp>
+#include <pfaff/integrators/support/largest.hpp>
+
+namespace pfaff {
+
+/// True where H_p at (t, q) is linear in p, to round-off and over scales from 1 to a million: one solve then
+/// satisfies the hidden constraints.
+template <class T>
+bool velocity_is_linear(PositionConstraints<T>& constraints, const T& t, In<T> q) {
+  const std::size_t n = constraints.degrees();
+  std::vector<T> p(n), sum(n), v(n);
+  for (const double scale : {1.0, 1024.0, 1048576.0}) {
+    Largest<Value<T>> largest, difference;
+    // v(a) + v(b) - v(a + b) - v(0), which is zero where v is linear up to a constant
+    for (const int part : {0, 1, 2, 3}) {
+      for (std::size_t k = 0; k < n; ++k) {
+        const double a = scale * (1 + static_cast<double>(k % 7) / 8),
+                     b = scale * (static_cast<double>(k % 5) / 4 - 0.5);
+        p[k] = T((part == 0 || part == 2 ? a : 0) + (part == 1 || part == 2 ? b : 0));
+      }
+      constraints.velocity(t, q, p, v);
+      for (std::size_t k = 0; k < n; ++k) {
+        sum[k] = part < 2 ? sum[k] + v[k] : sum[k] - v[k];
+        largest.add(value_of(v[k]));
+      }
+    }
+    for (const T& x : sum) difference.add(value_of(x));
+    if (!(difference.get() <= Value<T>(64) * unit_roundoff<T>() * largest.get())) return false;
+  }
+  return true;
+}
+
+/// The projection of momenta onto the hidden constraints, with its buffers.
+template <class T>
+struct MomentumProjection {
+  explicit MomentumProjection(const PositionConstraints<T>& constraints)
+      : hidden(constraints.count()), reaction(constraints.degrees()) {}
+
+  /// Finds the x with which p + change - B^T x satisfies the hidden constraints phi~(q, p, t) = 0; the
+  /// constraints must have been placed at (t, q). `p` is the momentum before and `carry` what its additions
+  /// have rounded off. `change` is left with what is to be added, change - B^T x; `moved` is a buffer.
+  /// `linear` says that H_p is linear in p, so that one solve is enough.
+  Status operator()(PositionConstraints<T>& constraints, const T& t, In<T> q, In<T> p, In<T> carry,
+                    Out<T> change, Out<T> moved, bool linear) {
+    Convergence<T> convergence;
+    do {
+      for (std::size_t k = 0; k < moved.size(); ++k) moved[k] = p[k] + (change[k] + carry[k]);
+      constraints.hidden_values(t, q, moved, hidden);
+      constraints.solve(hidden, hidden);
+      constraints.apply_transpose(hidden, reaction);
+      Largest<T> correction, reference;
+      for (std::size_t k = 0; k < moved.size(); ++k) {
+        change[k] = change[k] - reaction[k];
+        if (!linear) {
+          correction.add(reaction[k]);
+          reference.add(p[k]);
+          reference.add(change[k]);
+        }
+      }
+      if (linear) break;
+      convergence.begin_iteration();
+      convergence.add(correction.get(), reference.get(), reference.get());
+    } while (!convergence.finished(50));
+    return linear ? Status::converged : convergence.status();
+  }
+
+  std::vector<T> hidden, reaction;
+};
+
+}  // namespace pfaff

@@ -1,0 +1,26 @@
+// Coefficients of the Lobatto IIIA-IIIB pair of any number of stages, computed to quad accuracy.
+#pragma once
+
+#include <vector>
+
+#include <pfaff/core/numbers/quad.hpp>
+
+namespace pfaff {
+
+/// The s-stage Lobatto IIIA-IIIB pair (hairer-lubich-wanner2006 II.1.4, IV.2.2): order 2 s - 2, symmetric,
+/// symplectic together. The first row of IIIA and the last column of IIIB are zero.
+struct LobattoCoefficients {
+  int stages = 0;
+  std::vector<Quad> nodes;      // c_i in [0, 1], ascending, both ends included
+  std::vector<Quad> weights;    // b_i
+  std::vector<Quad> positions;  // IIIA, row-major: collocation at the nodes
+  std::vector<Quad> momenta;    // IIIB, row-major: b_i a^_ij + b_j a_ji = b_i b_j
+  /// The inverse of the rows 2 ... s and columns 1 ... s - 1 of the product IIIA IIIB, row-major. With it the
+  /// multipliers are found that displace the stages by given amounts.
+  std::vector<Quad> multipliers;
+};
+
+/// Nodes by Newton's method on the derivative of a Legendre polynomial. `stages` >= 2.
+LobattoCoefficients lobatto_coefficients(int stages);
+
+}  // namespace pfaff

@@ -1,0 +1,269 @@
+// The Lobatto IIIA-IIIB pair for H(q, p, t) with constraints phi(q, t) = 0, B = dphi/dq:
+//
+//   Q_i = q0 + h sum_j a_ij H_p(Q_j, P_j),   P_i = p0 + h sum_j a^_ij (-H_q(Q_j, P_j) - B(Q_j)^T L_j),
+//   phi(Q_i) = 0,   q1 = Q_s,   p1 = p0 + h sum_j b_j (-H_q(Q_j, P_j) - B(Q_j)^T L_j),   phi~(q1, p1) = 0
+//
+// (jay1996; hairer-lubich-wanner2006 VII.1.5): order 2 s - 2, symmetric, symplectic on the constraint
+// surface; with s = 2 and H = T(p) + V(q, t) it is RATTLE. Any mass matrix M(q), no friction.
+//
+// The last column of IIIB is zero, so that L_s stands in p1 alone, where the hidden constraints determine it.
+// Everything else is iterated to round-off: the stages by fixed-point iteration from extrapolated slopes, the
+// multipliers by a simplified Newton method. In place of the products B(Q_i) H_pp B(Q_j)^T its matrix has S
+// at q0, so that an iteration solves with S once for each stage. The update is compensated.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <pfaff/core/facets/problem.hpp>
+#include <pfaff/core/registry/parameter.hpp>
+#include <pfaff/core/solve/summation.hpp>
+#include <pfaff/integrators/constrained/constraint_solves.hpp>
+#include <pfaff/integrators/constrained/lobatto_coefficients.hpp>
+#include <pfaff/integrators/support/difference_predictor.hpp>
+
+namespace pfaff {
+
+/// The Lobatto IIIA-IIIB pair on the constraint surface.
+struct LobattoSpark {
+  int stages = 3;
+  bool compensated = true;
+  LobattoCoefficients tableau = lobatto_coefficients(3);
+
+  static constexpr bool fixed_sizes = false;  // the work is in batched calls, which take no fixed size
+
+  static std::vector<Parameter> parameters() {
+    return {parameter(&LobattoSpark::stages, "stages", "", 2, 16, "number of stages s; the order is 2 s - 2"),
+            parameter(&LobattoSpark::compensated, "compensated", "compensated summation")};
+  }
+  static std::vector<Assignments> instances(bool full) {
+    std::vector<Assignments> list;
+    for (int s = 2; s <= (full ? 6 : 5); ++s) list.push_back({{"stages", std::to_string(s)}});
+    return list;
+  }
+  void validate() { tableau = lobatto_coefficients(stages); }
+  [[nodiscard]] int order(const Model& /*model*/) const { return 2 * stages - 2; }
+  /// The weights b of the momenta.
+  std::span<Quad> coefficients() { return tableau.weights; }
+  [[nodiscard]] std::string refuses(const Model& model) const {
+    if (!model.frictionless())
+      return "keeps energies and needs a system without friction; " + model.name() + " has friction";
+    return {};
+  }
+
+  template <class P>
+  struct Work {
+    using T = Scalar<P>;
+    std::vector<T> b, c, a, a_hat, to_multipliers;
+    // The constraints, placed at each stage, because every iteration needs the B(Q_i) of all stages. The
+    // first are placed at q0.
+    std::vector<std::unique_ptr<PositionConstraints<T>>> at;
+    // [stage][component]: Q, P, H_p, the force with its reactions; [stage][constraint]: L, solutions.
+    std::vector<T> position, momentum, velocity, force, multiplier, solution;
+    std::vector<T> carry, impulse, move, end;
+    DifferencePredictor<T, dynamic, dynamic> predictor;  // of velocities, forces, multipliers
+    MomentumProjection<T> onto_hidden;
+    T last_h{0};
+
+    Work(const LobattoSpark& method, const P& p)
+        : b(converted(method.tableau.weights)),
+          c(converted(method.tableau.nodes)),
+          a(converted(method.tableau.positions)),
+          a_hat(converted(method.tableau.momenta)),
+          to_multipliers(converted(method.tableau.multipliers)),
+          position(s() * p.size() / 2),
+          momentum(position.size()),
+          velocity(position.size()),
+          force(position.size()),
+          multiplier((s() - 1) * p.holonomic().count()),
+          solution(multiplier.size()),
+          carry(p.size()),
+          impulse(n()),
+          move(n()),
+          end(n()),
+          predictor(velocity.size() + force.size() + multiplier.size(),
+                    static_cast<std::size_t>(difference_levels<T>)),
+          onto_hidden(p.holonomic()) {
+      for (std::size_t i = 0; i < s(); ++i) at.push_back(p.model()->template holonomic_constraints<T>());
+    }
+
+    [[nodiscard]] std::size_t s() const { return b.size(); }
+    [[nodiscard]] std::size_t n() const { return carry.size() / 2; }
+    [[nodiscard]] std::size_t count() const { return multiplier.size() / (s() - 1); }
+    Out<T> stage(std::vector<T>& all, std::size_t i) const { return Out<T>(all).subspan(i * n(), n()); }
+    Out<T> constraint(std::vector<T>& all, std::size_t i) const {
+      return Out<T>(all).subspan(i * count(), count());
+    }
+    /// The k-th of the numbers that are predicted.
+    T& predicted(std::size_t k) {
+      if (k < velocity.size()) return velocity[k];
+      k -= velocity.size();
+      return k < force.size() ? force[k] : multiplier[k - force.size()];
+    }
+    /// Forgets the past, round-off included: the next step depends on its state alone.
+    void restart() {
+      predictor.forget();
+      for (T& x : carry) x = T(0);
+    }
+
+   private:
+    static std::vector<T> converted(const std::vector<Quad>& numbers) {
+      std::vector<T> list;
+      for (const Quad& x : numbers) list.push_back(T(Real(x)));
+      return list;
+    }
+  };
+
+  template <HasHolonomic P>
+  Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
+    const std::size_t n = w.n();
+    Status status = solve_stages(p, t, h, z, w);
+    if (status == Status::converged) status = end_momentum(p, t, h, z, w);
+    if (status != Status::converged) {
+      w.predictor.forget();
+      return status;
+    }
+    w.predictor.remember([&w](std::size_t k) { return w.predicted(k); });
+    w.last_h = h;
+    for (std::size_t k = 0; k < n; ++k) {
+      add_to(z[k], w.carry[k], w.move[k], compensated);
+      add_to(z[n + k], w.carry[n + k], w.impulse[k], compensated);
+    }
+    return Status::converged;
+  }
+
+ private:
+  // sum_j weights_j rates_j, component k, of the first `stages` stages
+  template <class W, class T>
+  static T sum(const W& w, const T* weights, const std::vector<T>& rates, std::size_t stages, std::size_t k) {
+    T total = weights[0] * rates[k];
+    for (std::size_t j = 1; j < stages; ++j) total = total + weights[j] * rates[j * w.n() + k];
+    return total;
+  }
+
+  // The slopes to start the iteration from: extrapolated ones where past steps are known, else those at the
+  // start of the step.
+  template <class P>
+  static void predict(const P& p, const Scalar<P>& t, const Scalar<P>& h, const State<P>& z, Work<P>& w) {
+    using T = Scalar<P>;
+    const std::size_t n = w.n();
+    const In<T> q(z.data(), n), momentum(z.data() + n, n);
+    const std::size_t all = w.velocity.size() + w.force.size() + w.multiplier.size();
+    if (value_of(h) != value_of(w.last_h)) w.predictor.forget();
+    for (std::size_t k = 0; k < all; ++k) w.predicted(k) = w.predictor.expected(k);
+    if (w.predictor.knows()) return;
+    w.at[0]->velocity(t, q, momentum, w.stage(w.velocity, 0));
+    w.at[0]->force(t, q, momentum, w.stage(w.force, 0));
+    ++p.counters().fields;
+    for (std::size_t k = n; k < w.velocity.size(); ++k) {
+      w.velocity[k] = w.velocity[k - n];
+      w.force[k] = w.force[k - n];
+    }
+  }
+
+  // Finds the stages Q and P, and in `move` the change from q0 to q1.
+  template <class P>
+  static Status solve_stages(const P& p, const Scalar<P>& t, const Scalar<P>& h, const State<P>& z,
+                             Work<P>& w) {
+    using T = Scalar<P>;
+    const std::size_t n = w.n(), s = w.s();
+    ++p.counters().factorisations;
+    if (const Status status = w.at[0]->linearise(t, In<T>(z.data(), n), In<T>(z.data() + n, n));
+        status != Status::converged)
+      return status;
+    predict(p, t, h, z, w);
+    for (std::size_t k = 0; k < n; ++k) w.position[k] = z[k] + w.carry[k];
+    Convergence<T> convergence;
+    bool first = true;
+    do {
+      Largest<T> moved, positions;
+      // P_i, into which L_s and the force of the last stage do not enter.
+      for (std::size_t i = 0; i < s; ++i)
+        for (std::size_t k = 0; k < n; ++k)
+          w.momentum[i * n + k] =
+              z[n + k] + (h * sum(w, w.a_hat.data() + i * s, w.force, s - 1, k) + w.carry[n + k]);
+      if (first)
+        for (std::size_t i = 1; i < s; ++i)
+          for (std::size_t k = 0; k < n; ++k)
+            w.position[i * n + k] = z[k] + (h * sum(w, w.a.data() + i * s, w.velocity, s, k) + w.carry[k]);
+      for (std::size_t i = 0; i < s; ++i)
+        w.at[0]->velocity(t + w.c[i] * h, w.stage(w.position, i), w.stage(w.momentum, i),
+                          w.stage(w.velocity, i));
+      // Q_i, moved onto phi = 0 with the multipliers that do so.
+      for (std::size_t i = 1; i < s; ++i) {
+        for (std::size_t k = 0; k < n; ++k) {
+          w.move[k] = h * sum(w, w.a.data() + i * s, w.velocity, s, k);
+          w.end[k] = z[k] + (w.move[k] + w.carry[k]);
+        }
+        const Out<T> solution = w.constraint(w.solution, i - 1);
+        w.at[0]->values(t + w.c[i] * h, w.end, solution);
+        w.at[0]->solve(solution, solution);
+        w.at[0]->hidden_by_momentum_transpose(solution, w.impulse);
+        for (std::size_t k = 0; k < n; ++k) {
+          w.move[k] = w.move[k] - w.impulse[k];
+          const T next = z[k] + (w.move[k] + w.carry[k]);
+          moved.add(next - w.position[i * n + k]);
+          positions.add(next);
+          w.position[i * n + k] = next;
+        }
+      }
+      if (const Status status = react(p, t, h, w); status != Status::converged) return status;
+      convergence.begin_iteration();
+      convergence.add(moved.get(), positions.get(), positions.get());
+      ++p.counters().iterations;
+      first = false;
+    } while (!convergence.finished(100));
+    // Iterates that overflow come from a step that is too large, and are reported as not converged, too.
+    return convergence.status() == Status::converged ? Status::converged : Status::not_converged;
+  }
+
+  // Corrects the multipliers L_1 ... L_{s-1} and fills the forces with their reactions.
+  template <class P>
+  static Status react(const P& p, const Scalar<P>& t, const Scalar<P>& h, Work<P>& w) {
+    using T = Scalar<P>;
+    const std::size_t n = w.n(), s = w.s(), count = w.count();
+    const T scale = T(1) / (h * h);
+    for (std::size_t j = 0; j + 1 < s; ++j) {
+      const Out<T> multiplier = w.constraint(w.multiplier, j), force = w.stage(w.force, j);
+      for (std::size_t c = 0; c < count; ++c)
+        for (std::size_t i = 0; i + 1 < s; ++i)
+          multiplier[c] =
+              multiplier[c] + scale * w.to_multipliers[j * (s - 1) + i] * w.solution[i * count + c];
+      const T time = t + w.c[j] * h;
+      if (j > 0) {
+        ++p.counters().factorisations;
+        if (const Status status = w.at[j]->linearise(time, w.stage(w.position, j), w.stage(w.momentum, j));
+            status != Status::converged)
+          return status;
+      }
+      w.at[j]->apply_transpose(multiplier, w.impulse);
+      ++p.counters().fields;
+      w.at[j]->force(time, w.stage(w.position, j), w.stage(w.momentum, j), force);
+      for (std::size_t k = 0; k < n; ++k) force[k] = force[k] - w.impulse[k];
+    }
+    return Status::converged;
+  }
+
+  // Finds, in `impulse`, the change from p0 to p1.
+  template <class P>
+  static Status end_momentum(const P& p, const Scalar<P>& t, const Scalar<P>& h, const State<P>& z,
+                             Work<P>& w) {
+    using T = Scalar<P>;
+    const std::size_t n = w.n(), s = w.s();
+    PositionConstraints<T>& last = *w.at[s - 1];
+    const In<T> q = w.stage(w.position, s - 1), p0(z.data() + n, n);
+    ++p.counters().factorisations;
+    if (const Status status = last.linearise(t + h, q, w.stage(w.momentum, s - 1));
+        status != Status::converged)
+      return status;
+    ++p.counters().fields;
+    last.force(t + h, q, w.stage(w.momentum, s - 1), w.stage(w.force, s - 1));
+    for (std::size_t k = 0; k < n; ++k) w.impulse[k] = h * sum(w, w.b.data(), w.force, s, k);
+    return w.onto_hidden(last, t + h, q, p0, In<T>(w.carry).subspan(n), w.impulse, w.end, false);
+  }
+};
+
+}  // namespace pfaff

@@ -1,0 +1,283 @@
+// K(z,t)-symplectic schemes of any order from truncated generating functions (su-qin (87)-(88)).
+//
+// In Darboux coordinates y = chart(z, t), with w = P y' + (I - P) y:   y' = y + psi(w),
+// psi the gradient of the generating function truncated at tau^m (generating_gradient.hpp), P a normal
+// Darboux matrix (generating_share.hpp). Exactly K-symplectic for every m and every step for which it can be
+// solved; order m, and m + 1 for odd m in the midpoint form where the field in the chart does not depend on
+// time. With m = 1 and the midpoint form this is su-qin (102), with m = 2 variant P the corrected (105).
+// Variant S, even m, expands at the mid-time: symmetric as well. Degrees beyond m, from the same nodes, bring
+// the error constant close to that of Gauss collocation in the chart.
+//
+// The step solves w = y + P psi(w), with Y the field in the chart. A first w is predicted from past steps and
+// corrected with one factorisation of I - tau P Y_y or, for many degrees of freedom, without derivatives. The
+// structure holds only as accurately as this equation is solved. The iteration therefore goes on to round-off
+// in every component by itself, because a chart such as (r, e^{nu t} p) mixes numbers forty decades apart.
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/solve/convergence.hpp>
+#include <pfaff/integrators/generating/gradient_evaluator.hpp>
+#include <pfaff/integrators/support/continuation.hpp>
+#include <pfaff/integrators/support/difference_predictor.hpp>
+#include <pfaff/integrators/support/remembered_contraction.hpp>
+
+namespace pfaff {
+
+/// The scheme of order `truncation`. Call validate() once the parameters are set.
+struct GeneratingFunction {
+  static constexpr std::size_t history_length = 8;
+  /// The largest number of coordinates for which the correction factors a matrix.
+  static constexpr std::size_t largest_matrix = 8;
+  static constexpr bool fixed_sizes = false;  // the work is in the series, whose size is its own
+  int truncation = 4, extra = 0;
+  std::string variant = "auto", form = "midpoint";
+  std::vector<Real> normal;
+  bool compensated = true;
+  GaussCoefficients gauss;
+
+  static std::vector<Parameter> parameters() {
+    using G = GeneratingFunction;
+    return {
+        parameter(&G::truncation, "order", "", 1, 40,
+                  "degree m at which the generating function is truncated"),
+        parameter(
+            &G::variant, "variant", {"auto", "P", "S"},
+            "P expands at the start of the step, S at its middle (even orders); auto: S where it can be"),
+        parameter(&G::form, "form", {"midpoint", "qhat-p", "q-phat", "normal"},
+                  "which old and new coordinates w mixes"),
+        parameter(&G::normal, "normal", "", -100, 100,
+                  "form normal: V of P = (I + V)/2 by rows, or a,b,c,d for its blocks a I, b I, c I, d I"),
+        parameter(&G::extra, "extra", "", 0, 8, "degrees kept beyond m, from the same nodes (even)"),
+        parameter(&G::compensated, "compensated", "compensated summation")};
+  }
+  /// Every order up to the highest in the variant it takes by default; besides, even orders in variant P, the
+  /// other forms, and extra degrees.
+  static std::vector<Assignments> instances(bool full) {
+    std::vector<Assignments> list;
+    const int highest = full ? 14 : 12;  // beyond, quad has too few digits to see a slope on every system
+    for (int m = 1; m <= highest; ++m) list.push_back({{"order", std::to_string(m)}});
+    for (int m = 2; m <= highest; m += 2) list.push_back({{"order", std::to_string(m)}, {"variant", "P"}});
+    for (int m = 1; m <= (full ? 12 : 6); ++m)
+      for (const char* mixed : {"qhat-p", "q-phat"})
+        list.push_back({{"order", std::to_string(m)}, {"form", mixed}});
+    for (int m = 1; m <= (full ? 12 : 4); ++m)
+      list.push_back({{"order", std::to_string(m)}, {"form", "normal"}, {"normal", "0.2,0.1,-0.3,-0.2"}});
+    for (int m = 1; m <= 8; ++m)
+      list.push_back({{"order", std::to_string(m)}, {"extra", m % 4 < 2 ? "2" : "4"}});
+    return list;
+  }
+  void validate() {
+    const auto refuse = [](const std::string& text) { throw InputError(text); };
+    if (variant == "S" && truncation % 2 != 0)
+      refuse("variant S needs an even order, got order " + std::to_string(truncation) +
+             "; expected variant P or an even order");
+    if (variant == "S" && form != "midpoint") refuse("variant S needs form midpoint, got '" + form + "'");
+    if (extra % 2 != 0) refuse("extra degrees come in pairs, got " + std::to_string(extra));
+    if ((form == "normal") != !normal.empty())
+      refuse(form == "normal" ? "form normal needs its matrix, e.g. normal=0.3,0.2,-0.4,-0.3"
+                              : "a matrix is given with form " + form + "; expected form normal");
+    gauss = gauss_coefficients((truncation + 1) / 2);
+  }
+  [[nodiscard]] bool symmetric_variant() const {
+    return variant == "S" || (variant == "auto" && truncation % 2 == 0 && form == "midpoint");
+  }
+  [[nodiscard]] GeneratingShare share() const {
+    if (form == "normal") return GeneratingShare(normal);
+    return form == "midpoint" ? GeneratingForm::midpoint
+           : form == "qhat-p" ? GeneratingForm::new_q_old_p
+                              : GeneratingForm::old_q_new_p;
+  }
+  [[nodiscard]] std::string refuses(const Model& model) const {
+    const auto n = static_cast<std::size_t>(model.dimension());
+    if (!share().fits(n))
+      return "has a matrix of " + std::to_string(normal.size()) + " entries; " + model.name() +
+             " takes 4 or " + std::to_string(n * n);
+    if (const Quad defect = share().defect(n); defect > Quad(1e-30))
+      return "has a matrix V that is not in sp(" + std::to_string(n) + "): J V + V^T J is " +
+             to_string(defect, 3) + ", expected 0";
+    return {};
+  }
+  [[nodiscard]] int order(const Model& model) const {
+    if (extra > 0) return 2 * gauss.stages;
+    const bool gains = truncation % 2 == 1 && form == "midpoint" && model.chart_autonomous();
+    return truncation + (gains ? 1 : 0);
+  }
+  /// With extra degrees the error of order 2 s is that of the collocation, too small to show at once.
+  [[nodiscard]] bool order_is_lower_bound() const { return extra > 0; }
+  /// order(model) counts the order that odd m gain on autonomous systems.
+  [[nodiscard]] bool order_is_exact() const { return true; }
+  [[nodiscard]] std::vector<Claim> preserves(const Model& model) const {
+    std::vector<Claim> claims{Claim::symplectic, Claim::k_symplectic};
+    if (symmetric_variant() || (form == "midpoint" && model.chart_autonomous()))
+      claims.push_back(Claim::symmetric);
+    // The midpoint form commutes with linear maps of the chart. Canonical coordinates are their own chart, in
+    // which a linear reversal of the motion is such a map.
+    if (form == "midpoint" && model.canonical() && model.chart_autonomous())
+      claims.push_back(Claim::reversible);
+    return claims;
+  }
+  /// The weights b of the collocation: changing one breaks consistency.
+  std::span<Quad> coefficients() { return gauss.weights; }
+
+  template <class P>
+  struct Work {
+    using T = Scalar<P>;
+    std::size_t n;
+    ShareMatrix<T> share;
+    bool midpoint;
+    GradientEvaluator<T> gradient;
+    std::vector<T> y, carry, d, w, psi, residual, correction, moved, rate, start, jacobian;
+    DifferencePredictor<T, dynamic, dynamic> past;  // of d
+    LU<Value<T>> matrix;
+    Continuation<P> continuation;
+    RememberedContraction<Value<T>> contraction;  // of the corrections: the slowest since the start
+
+    Work(const GeneratingFunction& m, const P& p)
+        : n(p.size()),
+          share(m.share(), n),
+          midpoint(m.share().midpoint(n)),
+          gradient(p, m.truncation, m.symmetric_variant(), m.extra, m.share(), m.gauss),
+          y(n),
+          carry(n),
+          d(n),
+          w(n),
+          psi(n),
+          residual(n),
+          correction(n),
+          moved(n),
+          rate(n),
+          start(n),
+          jacobian(factors() ? n * n : 0),
+          past(n, history_length),
+          matrix(factors() ? n : 0),
+          continuation(p) {
+      p.prepare(Formula::chart_field);
+      if (factors()) p.prepare(Formula::chart_field_jacobian);
+      p.prepare(Formula::chart);
+      p.prepare(Formula::chart_inverse);
+    }
+
+    [[nodiscard]] bool factors() const { return n <= largest_matrix; }
+    // w = y + d, with what the sums so far have rounded off.
+    void place() {
+      for (std::size_t k = 0; k < n; ++k) w[k] = y[k] + (d[k] + carry[k]);
+    }
+    Status fail(Status status) {
+      continuation.forget();
+      return status;
+    }
+  };
+
+  template <HasDarbouxChart P>
+  Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
+    using T = Scalar<P>;
+    predict(p, t, h, z, w);
+    if (const Status status = factor(p, t, h, w); status != Status::converged) return w.fail(status);
+    w.gradient.set_step(t, h);
+    Convergence<T> convergence;
+    do {
+      w.gradient(w.w.data(), w.psi.data());
+      ++p.counters().iterations;
+      p.counters().fields += static_cast<std::int64_t>(w.gradient.evaluations());
+      for (std::size_t k = 0; k < w.n; ++k) w.residual[k] = w.share.row(k, w.psi.data()) - w.d[k];
+      correct(p, t, h, w);
+      convergence.begin_iteration();
+      for (std::size_t k = 0; k < w.n; ++k) {
+        w.d[k] = w.d[k] + w.correction[k];
+        convergence.add(w.correction[k], w.y[k], w.psi[k]);
+      }
+      w.place();
+    } while (!convergence.finished(50, w.contraction.ratio()));
+    if (convergence.status() != Status::converged) return w.fail(convergence.status());
+    w.contraction.remember_slowest(convergence.contraction());
+
+    if (!w.midpoint) w.gradient(w.w.data(), w.psi.data());
+    for (std::size_t k = 0; k < w.n; ++k)
+      add_to(w.y[k], w.carry[k], w.midpoint ? w.d[k] + w.d[k] : w.psi[k], compensated);
+    w.past.remember([&w](std::size_t k) { return w.d[k]; });
+    p.chart_inverse(t + h, w.y, z);
+    w.continuation.remember(t + h, h, z);
+    return Status::converged;
+  }
+
+ private:
+  // The first w = y + d. Where past steps are known d is extrapolated from them. Otherwise it is P h Y, with
+  // the field Y taken at the mid-time, at the point that half an Euler step reaches.
+  template <class P>
+  static void predict(const P& p, const Scalar<P>& t, const Scalar<P>& h, const State<P>& z, Work<P>& w) {
+    using T = Scalar<P>;
+    if (w.continuation.holds(t, h, z)) {
+      for (std::size_t k = 0; k < w.n; ++k) w.d[k] = w.past.expected(k);
+    } else {
+      p.chart(t, z, w.y);
+      for (T& x : w.carry) x = T(0);
+      w.past.forget();
+      w.contraction.forget();
+      p.chart_field(t, w.y, w.rate);
+      for (std::size_t k = 0; k < w.n; ++k) w.w[k] = w.y[k] + h / T(2) * w.rate[k];
+      p.chart_field(t + h / T(2), w.w, w.rate);
+      for (std::size_t k = 0; k < w.n; ++k) w.d[k] = h * w.share.row(k, w.rate.data());
+    }
+    w.place();
+  }
+
+  // Factors I - h P Y_y at the predicted point and the mid-time, where corrections use this matrix.
+  template <class P>
+  static Status factor(const P& p, const Scalar<P>& t, const Scalar<P>& h, Work<P>& w) {
+    using T = Scalar<P>;
+    if (!w.factors()) return Status::converged;
+    p.chart_field_jacobian(t + h / T(2), w.w, w.jacobian);
+    for (const T& x : w.jacobian)
+      if (!isfinite(value_of(x))) return Status::non_finite;
+    for (std::size_t i = 0; i < w.n; ++i)
+      for (std::size_t j = 0; j < w.n; ++j) {
+        Value<T> sum(0);
+        if (w.share.diagonal()) {
+          sum = value_of(w.share(i, i)) * value_of(w.jacobian[i * w.n + j]);
+        } else {
+          for (std::size_t k = 0; k < w.n; ++k)
+            sum = sum + value_of(w.share(i, k)) * value_of(w.jacobian[k * w.n + j]);
+        }
+        w.matrix(i, j) = (i == j ? Value<T>(1) : Value<T>(0)) - value_of(h) * sum;
+      }
+    ++p.counters().factorisations;
+    return w.matrix.factor() ? Status::converged : Status::singular;
+  }
+
+  // Solves (I - h P Y_y) correction = residual. Without a matrix it does so by a few iterations of
+  // correction = residual + h P (Y(w + correction) - Y(w)). Both take h Y_y for the Jacobian of psi, which is
+  // wrong by O(h^3).
+  template <class P>
+  static void correct(const P& p, const Scalar<P>& t, const Scalar<P>& h, Work<P>& w) {
+    using T = Scalar<P>;
+    if (w.factors()) return w.matrix.solve(w.residual.data(), w.correction.data());
+    const T middle = t + h / T(2);
+    p.chart_field(middle, w.w, w.start);
+    w.correction = w.residual;
+    Value<T> last = std::numeric_limits<Value<T>>::infinity();
+    for (int iteration = 0; iteration < 12; ++iteration) {
+      for (std::size_t k = 0; k < w.n; ++k) w.moved[k] = w.w[k] + w.correction[k];
+      p.chart_field(middle, w.moved, w.rate);
+      for (std::size_t k = 0; k < w.n; ++k) w.moved[k] = w.rate[k] - w.start[k];
+      Value<T> change(0), size(0);
+      for (std::size_t k = 0; k < w.n; ++k) {
+        const T next = w.residual[k] + h * w.share.row(k, w.moved.data());
+        change = std::max(change, relative_size(T(next - w.correction[k]), w.y[k], w.psi[k]));
+        size = std::max(size, relative_size(next, w.y[k], w.psi[k]));
+        w.correction[k] = next;
+      }
+      // Enough where the correction is more accurate than the next evaluation of psi can tell, or where it no
+      // longer improves because the differences of the field are down to round-off.
+      if (!(change > Value<T>(1e-3) * size) || !(change < last)) return;
+      last = change;
+    }
+  }
+};
+
+}  // namespace pfaff

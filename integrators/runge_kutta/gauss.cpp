@@ -1,0 +1,31 @@
+// The Gauss methods as plug-ins.
+#include <pfaff/core/integrator.hpp>
+#include <pfaff/integrators/runge_kutta/gauss.hpp>
+
+namespace {
+using namespace pfaff;
+
+struct Gauss : pfaff::Gauss {};
+struct ImplicitMidpoint : pfaff::ImplicitMidpoint {};
+
+const Method<Gauss> gauss{
+    {.name = "gauss",
+     .title = "Gauss collocation, order 2 s",
+     .reference = "hairer-lubich-wanner2006 (II.1.3)",
+     .description =
+         "Gauss collocation of any number of stages s, implicit and of order 2 s. Take it for smooth "
+         "problems at high accuracy and for long runs of any vector field: it is symmetric, symplectic for "
+         "constant structures, and keeps quadratic invariants. Structures that depend on the state or on "
+         "time are not kept in the system's own variables, and each step solves equations.",
+     .preserves = {Claim::symmetric, Claim::reversible, Claim::symplectic, Claim::quadratic_invariants}}};
+const Method<ImplicitMidpoint> midpoint{
+    {.name = "implicit-midpoint",
+     .title = "implicit midpoint rule (Euler centre scheme)",
+     .reference = "su-qin (107); hairer-lubich-wanner2006 (II.1.4)",
+     .description = "The implicit midpoint rule, Gauss collocation of one stage and the Euler centre scheme "
+                    "of Feng's school. Take it as the simplest symplectic method for energies that are not "
+                    "separable, and where quadratic invariants have to stay. Its order is 2, and for "
+                    "structures that depend on the state or on time it is no longer symplectic.",
+     .order = 2,
+     .preserves = {Claim::symmetric, Claim::reversible, Claim::symplectic, Claim::quadratic_invariants}}};
+}  // namespace

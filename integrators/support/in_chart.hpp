@@ -1,0 +1,76 @@
+// Methods for vector fields, run in Darboux coordinates.
+//
+// In the chart y = chart(t, z) the structure is constant and canonical, and the field is that of a
+// Hamiltonian. A method that is symplectic for constant structure is therefore K(z,t)-symplectic when it
+// steps y: with the chart's Jacobian Y_z, Y_z^T K_c Y_z = K (su-qin, after (33)), so that z -> z' keeps K(z,
+// t) where the step y -> y' keeps K_c.
+//
+// Between steps the method goes on from y, with its compensation and history, and z is only computed from it.
+// Where somebody has changed the state z since the last step, y is computed from z and the method restarts.
+#pragma once
+
+#include <pfaff/core/facets/advance.hpp>
+#include <pfaff/integrators/support/continuation.hpp>
+#include <pfaff/integrators/support/problem_view.hpp>
+
+namespace pfaff {
+
+/// The problem P as its Darboux chart shows it: states are y, the field is Y(y, t). Refers to P.
+template <class P>
+class InChart : public ProblemView<P> {
+ public:
+  using typename ProblemView<P>::Scalar;
+  using ProblemView<P>::ProblemView;
+
+  /// Makes the evaluator of the formula that stands for `formula` in the chart.
+  void prepare(Formula formula) const {
+    this->problem().prepare(formula == Formula::field            ? Formula::chart_field
+                            : formula == Formula::field_jacobian ? Formula::chart_field_jacobian
+                                                                 : formula);
+  }
+  /// rate = Y(y, t).
+  void field(const Scalar& t, In<Scalar> y, Out<Scalar> rate) const requires HasDarbouxChart<P> {
+    this->problem().chart_field(t, y, rate);
+  }
+  /// matrix[i n + j] = dY_i / dy_j.
+  void field_jacobian(const Scalar& t, In<Scalar> y, Out<Scalar> matrix) const requires HasDarbouxChart<P> {
+    this->problem().chart_field_jacobian(t, y, matrix);
+  }
+};
+
+/// The method Base, whose workspace can restart(), in Darboux coordinates.
+template <class Base>
+struct InDarbouxChart : Base {
+  template <class P>
+  struct Work {
+    pfaff::Work<Base, InChart<P>> inner;
+    State<P> y;
+    Continuation<P> continuation;
+
+    Work(const InDarbouxChart& method, const P& p)
+        : inner(method, InChart<P>(p)), y(p.make_state()), continuation(p) {
+      for (const Formula formula : {Formula::chart, Formula::chart_inverse, Formula::chart_field})
+        p.prepare(formula);
+    }
+  };
+
+  template <HasDarbouxChart P>
+  requires Steps<Base, InChart<P>> Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h,
+                                               State<P>& z, Work<P>& w)
+  const {
+    if (!w.continuation.holds(t, h, z)) {
+      p.chart(t, z, w.y);
+      w.inner.restart();
+    }
+    const Status status = Base::step(InChart<P>(p), t, h, w.y, w.inner);
+    if (status != Status::converged) {
+      w.continuation.forget();
+      return status;
+    }
+    p.chart_inverse(t + h, w.y, z);
+    w.continuation.remember(t + h, h, z);
+    return Status::converged;
+  }
+};
+
+}  // namespace pfaff

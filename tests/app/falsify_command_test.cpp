@@ -1,0 +1,97 @@
+// pfaff falsify: what it prints, its exit status, and what it refuses.
+#include <set>
+
+#include "command.hpp"
+
+namespace {
+using namespace pfaff::testing;
+
+nlohmann::json falsified(const std::vector<std::string>& arguments, int status) {
+  std::vector<std::string> all{"falsify", "--json"};
+  all.insert(all.end(), arguments.begin(), arguments.end());
+  const Outcome outcome = run_pfaff(all);
+  EXPECT_EQ(outcome.status, status) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  const auto j = json_of(outcome.out);
+  EXPECT_EQ(j["ok"], status == 0);
+  return j;
+}
+
+TEST(Falsify, ClaimOfAMethodThatDoesNotMakeIt) {
+  const auto j = falsified({"rk4", "--claim", "symplectic"}, 1);
+  ASSERT_EQ(j["results"].size(), 1U);
+  const auto& result = j["results"][0];
+  EXPECT_EQ(result["method"], "rk4");
+  EXPECT_EQ(result["claim"], "symplectic");
+  EXPECT_EQ(result["claimed"], false);
+  EXPECT_EQ(result["result"], "falsified");
+  const auto& found = result["counterexample"];
+  EXPECT_EQ(found["system"], "rk4-not-symplectic");
+  EXPECT_EQ(found["dimension"], 2);
+  EXPECT_GT(found["residuals"][0].get<double>(), 1e-10);
+  EXPECT_NE(found["source"].get<std::string>().find("const System<Found> registered"), std::string::npos);
+  EXPECT_EQ(found["commands"].size(), 2U);
+  // The same seed gives the same system.
+  EXPECT_EQ(falsified({"rk4", "--claim", "symplectic", "--seed", "1"}, 1), j);
+}
+
+TEST(Falsify, ClaimsThatHold) {
+  const auto j = falsified({"verlet", "--systems", "20"}, 0);
+  std::set<std::string> claims;
+  for (const auto& result : j["results"]) {
+    EXPECT_EQ(result["result"], "held") << result;
+    EXPECT_GT(result["tried"], 0);
+    claims.insert(result["claim"].get<std::string>());
+  }
+  EXPECT_EQ(claims, (std::set<std::string>{"symplectic", "symmetric", "reversible"}));
+}
+
+TEST(Falsify, NoClaims) {
+  const auto j = falsified({"rk4"}, 0);
+  EXPECT_TRUE(j["results"].empty());
+}
+
+TEST(Falsify, Text) {
+  const Outcome outcome = run_pfaff({"falsify", "verlet", "--systems", "5"});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_NE(outcome.out.find("held"), std::string::npos);
+  EXPECT_NE(outcome.out.find("seed 1: 0 falsified"), std::string::npos) << outcome.out;
+  std::istringstream lines(outcome.out);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80U) << line;
+}
+
+TEST(Falsify, OneSystem) {
+  EXPECT_GT(falsified({"rk4", "--claim", "symplectic", "--system", "pendulum"}, 1)["exponent"], 4);
+  EXPECT_EQ(falsified({"verlet", "--claim", "symplectic", "--system", "pendulum"}, 0)["reason"],
+            "the residual is that of rounding");
+}
+
+TEST(Falsify, Refusals) {
+  const auto refused = [](std::vector<std::string> arguments, const std::string& said) {
+    arguments.insert(arguments.begin(), "falsify");
+    const Outcome outcome = run_pfaff(arguments);
+    EXPECT_EQ(outcome.status, 2) << outcome.out;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_NE(outcome.err.find(said), std::string::npos) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  };
+  refused({}, "expected the name of an integrator or --all");
+  refused({"rk4", "--all"}, "expected the name of an integrator or --all");
+  refused({"rk5"}, "did you mean 'rk4'?");
+  refused({"rk4", "--claim", "simplectic"}, "did you mean 'symplectic'?");
+  refused({"rk4", "--claim", "nonholonomic-momentum"}, "has no check yet");
+  refused({"gauss", "--set", "stags=2"}, "stags");
+  refused({"--all", "--set", "stages=2"}, "--set: with --all");
+  refused({"rk4", "--budget", "0"}, "--budget");
+  refused({"rk4", "--systems", "0"}, "--systems");
+  refused({"rk4", "--seed", "x"}, "--seed");
+  refused({"rk4", "--claim", "energy", "--out", "nowhere/at/all"}, "--out");
+  refused({"rk4", "--system", "pendulum"}, "--claim");
+  refused({"rk4", "--claim", "casimirs", "--system", "pendulum"}, "is not in the scope of casimirs");
+  refused({"rk4", "--claim", "energy", "--system", "pendulm"}, "did you mean 'pendulum'?");
+  refused({"rk4", "--claim", "energy", "--system", "pendulum", "--step", "0"}, "--step: expected");
+  refused({"rk4", "--claim", "energy", "--system", "pendulum", "--step", "h"}, "--step: expected");
+}
+
+}  // namespace

@@ -1,0 +1,55 @@
+#!/usr/bin/env bash
+# What `pfaff falsify` prints: a plug-in that compiles, and a command that shows on it that the claim fails.
+#   falsify_test.sh PROGRAM PLUGINS SANITIZERS MARCH
+set -euo pipefail
+pfaff=$1
+plugins=$2
+sanitizers=$3
+march=$4
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+cd "$scratch"
+PATH=$(dirname "$pfaff"):$PATH
+export CXXFLAGS="${sanitizers:+-fsanitize=$sanitizers} ${march:+-march=$march}"
+
+fail() {
+  printf 'FAILED %s\n' "$*" >&2
+  exit 1
+}
+
+# falsified NAME ARGUMENT...: finds a counterexample, which is called NAME, compiles what is printed and runs the
+# command that is printed with it.
+falsified() {
+  local name=$1 status=0 compile show
+  shift
+  pfaff falsify "$@" --budget 60 --out . >"$name.text" 2>"$name.err" || status=$?
+  [[ $status == 1 ]] || fail "falsify $*: exit status $status, expected 1: $(<"$name.err")$(<"$name.text")"
+  [[ $(sed '/^$/q' "$name.text" | wc -L) -le 80 ]] || fail "falsify $*: the table is wider than 80 columns"
+  compile=$(sed -n 's|^//   \(c++ .*\)$|\1|p' "$name.cpp")
+  show=$(sed -n 's|^//   \(pfaff falsify .*\)$|\1|p' "$name.cpp")
+  [[ -n $compile && -n $show ]] || fail "falsify $*: no commands in $name.cpp"
+  grep -qF -- "$show" "$name.text" || fail "falsify $*: the command is not printed"
+  bash -c "$compile $CXXFLAGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror" 2>"$name.log" ||
+    fail "$name.cpp does not compile: $(<"$name.log")"
+  status=0
+  bash -c "$show" >"$name.shown" 2>&1 || status=$?
+  [[ $status == 1 ]] || fail "$show: exit status $status, expected 1: $(<"$name.shown")"
+  grep -q '^FALSIFIED' "$name.shown" || fail "$show: $(<"$name.shown")"
+  # The control: the same command judges that a method which keeps the claim keeps it on this system too.
+  if [[ -n ${keeper:-} ]]; then
+    status=0
+    bash -c "${show/pfaff falsify */pfaff falsify $keeper ${show#pfaff falsify * }}" >"$name.kept" 2>&1 || status=$?
+    [[ $status == 0 ]] || fail "$keeper on $name: exit status $status, expected 0: $(<"$name.kept")"
+  fi
+}
+
+keeper=gauss falsified rk4-not-symplectic rk4 --claim symplectic
+keeper=gauss falsified rk4-not-quadratic-invariants rk4 --claim quadratic-invariants
+keeper=gauss-darboux falsified rk4-not-k-symplectic rk4 --claim K-symplectic
+keeper=rattle falsified rk4-not-constrained-symplectic rk4 --claim constrained-symplectic
+falsified rk4-not-casimirs rk4 --claim casimirs
+falsified rk4-not-entropy rk4 --claim entropy
+falsified rk4-not-conformal rk4 --claim conformal
+falsified false-singly-diagonal-not-symplectic false-singly-diagonal --plugin "$plugins/false-claims.so"
+falsified false-two-step-not-symmetric false-two-step --plugin "$plugins/false-claims.so"
+echo "falsify: as expected"

@@ -1,0 +1,242 @@
+// Verification of methods that fail, remember, skip or are wrong by very little: each fault is found, and the
+// same method without the fault passes.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <pfaff/bench/runner/record.hpp>
+#include <pfaff/bench/verification/check.hpp>
+#include <pfaff/core/integrator.hpp>
+
+namespace {
+using namespace pfaff;
+
+MethodDescriptor described(std::string name, int order, std::vector<Claim> preserves = {Claim::none}) {
+  return {.name = std::move(name),
+          .title = "",
+          .reference = "",
+          .order = order,
+          .preserves = std::move(preserves)};
+}
+
+// The claims that are not as they should be, each once.
+std::vector<std::string> bad(const std::vector<Check>& checks) {
+  std::vector<std::string> names;
+  for (const Check& check : checks)
+    if (!check.control && !good(check) && std::find(names.begin(), names.end(), check.claim) == names.end())
+      names.push_back(check.claim);
+  std::sort(names.begin(), names.end());
+  return names;
+}
+std::vector<std::string> bad(const MethodPlugin& method, const char* system) {
+  return bad(check_method(method, {}, systems().get(system, "system")));
+}
+using Names = std::vector<std::string>;
+
+// The explicit Euler method, which gives up on steps longer than a bound.
+struct BoundedEuler {
+  static constexpr double longest = 0.04;
+  template <class P>
+  struct Work {
+    State<P> slope;
+    Work(const BoundedEuler& /*method*/, const P& p) : slope(p.make_state()) {}
+  };
+  template <HasVectorField P>
+  Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
+    if (abs(value_of(h)) > longest) return Status::not_converged;
+    p.field(t, z, w.slope);
+    for (std::size_t k = 0; k < z.size(); ++k) z[k] = z[k] + h * w.slope[k];
+    return Status::converged;
+  }
+};
+
+TEST(JudgedSteps, AMethodIsJudgedAtAStepThatItCanTake) {
+  static const Method<BoundedEuler> claims{described("bounded-euler", 1, {Claim::quadratic_invariants})};
+  const auto checks = check_method(claims, {}, systems().get("harmonic-oscillator", "system"));
+  const auto steps =
+      std::find_if(checks.begin(), checks.end(), [](const Check& c) { return c.claim == "steps"; });
+  ASSERT_NE(steps, checks.end());
+  EXPECT_EQ(steps->result, CheckResult::pass);
+  EXPECT_EQ(steps->measured, 0.025);
+  EXPECT_EQ(bad(checks), Names{"quadratic-invariants"});
+}
+
+struct Stuck {
+  template <HasVectorField P>
+  Status step(const P& /*p*/, const Scalar<P>& /*t*/, const Scalar<P>& /*h*/, State<P>& /*z*/,
+              NoWork& /*w*/) const {
+    return Status::not_converged;
+  }
+};
+
+TEST(JudgedSteps, AMethodThatNeverStepsFails) {
+  static const Method<Stuck> stuck{described("stuck", 2, {Claim::symplectic})};
+  EXPECT_EQ(bad(stuck, "pendulum"), Names{"steps"});
+}
+
+// The backward differentiation formula of two steps, z_2 = 4/3 z_1 - 1/3 z_0 + beta h f(z_2), with implicit
+// midpoint steps for the starting values. Both equations are solved by iteration.
+template <int numerator, int denominator>
+struct Differentiation {
+  template <class P>
+  struct Work {
+    State<P> before, slope, end, middle;
+    bool started = false;
+    Work(const Differentiation& /*method*/, const P& p)
+        : before(p.make_state()), slope(p.make_state()), end(p.make_state()), middle(p.make_state()) {}
+  };
+  template <HasVectorField P>
+  Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
+    using T = Scalar<P>;
+    const T beta = T(numerator) / T(denominator), third = T(1) / T(3);
+    w.end = z;
+    for (int k = 0; k < 100; ++k) {
+      for (std::size_t i = 0; i < z.size(); ++i)
+        w.middle[i] = w.started ? w.end[i] : (z[i] + w.end[i]) / T(2);
+      p.field(w.started ? t + h : t + h / T(2), w.middle, w.slope);
+      for (std::size_t i = 0; i < z.size(); ++i)
+        w.end[i] = w.started ? 4 * third * z[i] - third * w.before[i] + beta * h * w.slope[i]
+                             : z[i] + h * w.slope[i];
+    }
+    w.before = z;
+    z = w.end;
+    w.started = true;
+    return Status::converged;
+  }
+};
+
+// The classical Runge-Kutta method.
+struct Classical {
+  template <class P>
+  struct Work {
+    State<P> slope, stage, sum;
+    Work(const Classical& /*method*/, const P& p)
+        : slope(p.make_state()), stage(p.make_state()), sum(p.make_state()) {}
+  };
+  template <HasVectorField P>
+  Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
+    using T = Scalar<P>;
+    p.field(t, z, w.slope);
+    w.sum = w.slope;
+    for (int k = 1; k < 4; ++k) {
+      const T part = k == 3 ? h : h / T(2);
+      for (std::size_t i = 0; i < z.size(); ++i) w.stage[i] = z[i] + part * w.slope[i];
+      p.field(t + part, w.stage, w.slope);
+      for (std::size_t i = 0; i < z.size(); ++i) w.sum[i] = w.sum[i] + (k == 3 ? w.slope[i] : 2 * w.slope[i]);
+    }
+    for (std::size_t i = 0; i < z.size(); ++i) z[i] = z[i] + h * w.sum[i] / T(6);
+    return Status::converged;
+  }
+};
+
+// The explicit method of Adams of order 4, with the classical method for the starting values.
+struct Adams {
+  template <class P>
+  struct Work {
+    std::array<State<P>, 4> slopes;  // the last one first
+    pfaff::Work<Classical, P> start;
+    int known = 0;
+    Work(const Adams& /*method*/, const P& p)
+        : slopes{p.make_state(), p.make_state(), p.make_state(), p.make_state()}, start(Classical(), p) {}
+  };
+  template <HasVectorField P>
+  Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
+    using T = Scalar<P>;
+    std::rotate(w.slopes.begin(), w.slopes.end() - 1, w.slopes.end());
+    p.field(t, z, w.slopes[0]);
+    if (++w.known < 4) return Classical().step(p, t, h, z, w.start);
+    for (std::size_t i = 0; i < z.size(); ++i)
+      z[i] = z[i] + h *
+                        (T(55) * w.slopes[0][i] - T(59) * w.slopes[1][i] + T(37) * w.slopes[2][i] -
+                         T(9) * w.slopes[3][i]) /
+                        T(24);
+    return Status::converged;
+  }
+};
+
+TEST(JudgedSteps, MethodsWithHistoryAreJudgedAfterTheirStart) {
+  static const Method<Differentiation<2, 3>> right{described("differentiation", 2)};
+  static const Method<Differentiation<9, 10>> wrong{described("false-differentiation", 2)};
+  static const Method<Adams> adams{described("adams-4", 4)};
+  static const Method<Adams> vain{described("adams-called-5", 5)};
+  for (const char* system : {"pendulum", "driven-duffing"}) {
+    SCOPED_TRACE(system);
+    EXPECT_EQ(bad(right, system), Names{});
+    EXPECT_EQ(bad(wrong, system), Names{"order"});
+    EXPECT_EQ(bad(adams, system), Names{});
+    EXPECT_EQ(bad(vain, system), Names{"order"});
+  }
+}
+
+TEST(JudgedSteps, AStructureThatCannotBeJudgedIsNotClaimed) {
+  static const Method<Adams> claims{described("adams-claimed-symplectic", 4, {Claim::symplectic})};
+  const auto checks = check_method(claims, {}, systems().get("pendulum", "system"));
+  EXPECT_EQ(bad(checks), Names{"symplectic"});
+  for (const Check& check : checks) {
+    if (check.claim != "symplectic") continue;
+    EXPECT_NE(check.reason.find("remembers"), std::string::npos) << check.reason;
+  }
+}
+
+TEST(JudgedSteps, RunsOfMethodsWithHistoryShowNoStructureOfOneStep) {
+  RunSettings settings;
+  settings.system = "pendulum";
+  settings.step = "0.1";
+  settings.time = "1";
+  settings.integrator = "leap-frog";
+  EXPECT_EQ(execute(resolve(settings), nullptr).structure_residual, std::nullopt);
+  settings.integrator = "rk4";
+  EXPECT_NE(execute(resolve(settings), nullptr).structure_residual, std::nullopt);
+}
+
+// Runs with a tolerance by equal steps of the classical method, as many as the tolerance asks for, with one
+// fault.
+enum class Fault { none, skips, stops_short, overshoots, careless, idle };
+template <Fault fault>
+struct Adaptive : Classical {
+  template <HasVectorField P>
+  requires std::is_same_v < Scalar<P>,
+  double >
+      Status advance_to(const P& p, double& t, double end, double tolerance, State<P>& z, Work<P>& w) const {
+    const double goal = fault == Fault::overshoots ? end + 1e-9 * (end - t) : end;
+    const auto steps =
+        fault == Fault::careless ? std::int64_t{10} : std::llround(10 / std::pow(tolerance, 0.25));
+    const double begin = t, h = (goal - t) / static_cast<double>(steps);
+    if (fault != Fault::skips)
+      for (std::int64_t k = 0; k < steps; ++k) (void)step(p, begin + static_cast<double>(k) * h, h, z, w);
+    p.counters().steps += fault == Fault::idle ? 0 : steps;
+    t = fault == Fault::stops_short ? end - h : goal;
+    return Status::converged;
+  }
+};
+
+TEST(JudgedSteps, RunsWithAToleranceEndWhereTheyShouldWithTheErrorTheyShould) {
+  static const Method<Adaptive<Fault::none>> none{described("adaptive", 4)};
+  static const Method<Adaptive<Fault::skips>> skips{described("adaptive-skips", 4)};
+  static const Method<Adaptive<Fault::stops_short>> stops{described("adaptive-stops-short", 4)};
+  static const Method<Adaptive<Fault::overshoots>> beyond{described("adaptive-overshoots", 4)};
+  static const Method<Adaptive<Fault::careless>> careless{described("adaptive-careless", 4)};
+  static const Method<Adaptive<Fault::idle>> idle{described("adaptive-idle", 4)};
+  EXPECT_EQ(bad(none, "harmonic-oscillator"), Names{});
+  const Names both{"tolerance", "tolerance, backwards"};
+  for (const MethodPlugin* plugin :
+       std::initializer_list<const MethodPlugin*>{&skips, &stops, &beyond, &careless, &idle})
+    EXPECT_EQ(bad(*plugin, "harmonic-oscillator"), both) << plugin->name();
+  EXPECT_EQ(bad(integrators().get("odeint-dopri5", ""), "harmonic-oscillator"), Names{});
+}
+
+TEST(JudgedSteps, ACoefficientThatIsWrongByABillionthIsFound) {
+  for (const char* name : {"verlet", "rk4", "gauss"}) {
+    const MethodPlugin& plugin = integrators().get(name, "integrator");
+    const auto method = plugin.make({});
+    const auto model = systems().get("henon-heiles", "system").make({});
+    ASSERT_EQ(bad(check_method(*method, {}, "henon-heiles", model)), Names{});
+    for (std::size_t k = 0; k < method->coefficient_count(); ++k)
+      EXPECT_NE(
+          bad(check_method(*method->with_changed_coefficient(k, Quad(1e-9)), {}, "henon-heiles", model)),
+          Names{})
+          << name << " coefficient " << k;
+  }
+}
+}  // namespace

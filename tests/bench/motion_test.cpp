@@ -1,0 +1,62 @@
+// Which formulation moves a system with constraints: the one that is named, the default for methods and for
+// whatever else needs the motion.
+#include <gtest/gtest.h>
+
+#include <pfaff/bench/runner/motion.hpp>
+#include <pfaff/bench/runner/record.hpp>
+
+namespace {
+
+using namespace pfaff;
+
+const SystemPlugin& system_named(const char* name) { return systems().get(name, "system"); }
+std::shared_ptr<const MethodInstance> method_named(const char* name) {
+  return integrators().get(name, "integrator").make({});
+}
+
+TEST(Motion, OfWhatMovesIsTheModelItself) {
+  for (const char* name : {"pendulum", "damped-pendulum", "free-rigid-body"}) {
+    const auto model = system_named(name).make({});
+    EXPECT_EQ(motion_of(model), model) << name;
+  }
+  const auto raw = system_named("spherical-pendulum").make({});
+  EXPECT_FALSE(raw->moves());
+  const auto motion = motion_of(raw);
+  EXPECT_TRUE(motion->moves());
+  EXPECT_EQ(motion->source().formulation, dirac_formulation().name());
+  EXPECT_EQ(motion_of(motion), motion);
+}
+
+TEST(Motion, ForAMethodOnTheConstraintsIsTheModelItself) {
+  const auto raw = system_named("spherical-pendulum").make({});
+  EXPECT_EQ(motion_for(*method_named("rattle"), raw), raw);
+  EXPECT_EQ(motion_for(*method_named("rk4"), raw)->source().formulation, dirac_formulation().name());
+}
+
+TEST(Motion, FormulationIsTheOneNamed) {
+  const SystemPlugin& constrained = system_named("spherical-pendulum");
+  EXPECT_EQ(formulation_for(constrained, ""), &dirac_formulation());
+  EXPECT_EQ(formulation_for(constrained, "lmm")->name(), "lmm");
+  EXPECT_EQ(formulation_for(system_named("pendulum"), ""), nullptr);
+  EXPECT_THROW((void)formulation_for(constrained, "lmn"), InputError);
+  EXPECT_THROW((void)formulation_for(system_named("pendulum"), "lmm"), InputError);
+}
+
+// The reference of a run on the constraints is the motion of its model: RATTLE approaches it with the step.
+TEST(Motion, IsWhatRunsOnConstraintsAreComparedWith) {
+  const auto error = [](const char* step) {
+    RunSettings settings;
+    settings.system = "spherical-pendulum";
+    settings.integrator = "rattle";
+    settings.step = step;
+    settings.time = "1";
+    const ResolvedRun run = resolve(settings);
+    EXPECT_FALSE(run.model->moves());
+    return *execute(run, reference_of(run).get()).error_max;
+  };
+  const double coarse = error("0.02"), fine = error("0.01");
+  EXPECT_LT(coarse, 1e-2);
+  EXPECT_NEAR(coarse / fine, 4, 0.2);
+}
+
+}  // namespace

@@ -1,0 +1,85 @@
+// Quantities that are expected to move in one direction: what runs report about moves in the opposite one.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include <pfaff/bench/experiment/experiment_findings.hpp>
+#include <pfaff/bench/measure/setback.hpp>
+
+namespace {
+
+using namespace pfaff;
+
+TEST(Setback, IsTheLargestMoveAgainstTheExpectedDirection) {
+  const std::vector<double> values{5, 3, 4, 1, 1.5, std::nan("")};
+  const auto largest = [&](Behaviour behaviour) {
+    Setback<double> setback(behaviour);
+    for (const double x : values) setback.add(x);
+    return setback.largest();
+  };
+  EXPECT_EQ(largest(Behaviour::decreasing), 1);  // from 3 to 4
+  EXPECT_EQ(largest(Behaviour::increasing), 4);  // from 5 to 1
+  EXPECT_EQ(largest(Behaviour::conserved), 0);
+  EXPECT_EQ(largest(Behaviour::free), 0);
+}
+
+// q = cos t from 1 on: its position falls and never rises until t = pi, whatever it is declared to do.
+struct Oscillator {
+  static constexpr int dimension = 2;
+  template <class T>
+  T kinetic(const T& /*t*/, In<T> p) const {
+    return p[0] * p[0] / 2;
+  }
+  template <class T>
+  T potential(const T& /*t*/, In<T> q) const {
+    return q[0] * q[0] / 2;
+  }
+  template <class T>
+  void invariants(const T& /*t*/, In<T> z, Out<T> values) const {
+    values[0] = values[1] = z[0];
+  }
+};
+
+RunSettings settings_of(const char* system) {
+  RunSettings settings;
+  settings.system = system;
+  settings.integrator = "rk4";
+  settings.step = "0.01";
+  settings.time = "3";
+  return settings;
+}
+
+TEST(Setback, RunsMeasureBothDirections) {
+  ResolvedRun run = resolve(settings_of("harmonic-oscillator"));
+  run.model = make_model(SystemDescriptor{.name = "oscillator",
+                                          .title = "",
+                                          .reference = "",
+                                          .coordinates = {{"q", "m"}, {"p", "m/s"}},
+                                          .initial = {1, 0},
+                                          .invariants = {{"falling", "m", Behaviour::decreasing},
+                                                         {"rising", "m", Behaviour::increasing}}},
+                         Oscillator{});
+  run.initial = {1, 0};
+  const nlohmann::json j = summary(run, execute(run, nullptr));
+  EXPECT_EQ(j["invariants"][0]["largest_rise"], 0.0);
+  EXPECT_FALSE(j["invariants"][0].contains("largest_fall"));
+  EXPECT_NEAR(j["invariants"][1]["largest_fall"].get<double>(), 1 - std::cos(3), 1e-9);  // the control
+  EXPECT_FALSE(j["invariants"][1].contains("largest_rise"));
+  EXPECT_EQ(j["invariants"][1]["expected"], "increasing");
+
+  EXPECT_EQ(measures_of(*run.model, false), (std::vector<std::string>{"falling:rise", "rising:fall"}));
+  EXPECT_EQ(measured(j, "falling:rise"), 0.0);
+  EXPECT_EQ(measured(j, "rising:fall"), j["invariants"][1]["largest_fall"].get<double>());
+  EXPECT_EQ(measured(j, "falling:fall"), std::nullopt);
+  EXPECT_EQ(setback_in(j["invariants"][1])->move, "fall");
+}
+
+TEST(Setback, EntropyOfARelaxingBodyNeverFalls) {
+  const ResolvedRun run = resolve(settings_of("relaxing-rigid-body"));
+  const RunRecord record = execute(run, nullptr);
+  ASSERT_EQ(run.model->invariants()[1].behaviour, Behaviour::increasing);
+  EXPECT_EQ(record.setback[1], 0);
+  EXPECT_GT(record.samples.back().invariants[1], record.samples.front().invariants[1]);
+}
+
+}  // namespace

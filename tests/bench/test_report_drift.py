@@ -1,0 +1,131 @@
+"""bench/report: classes of drift come from experiment.json alone, and quantities that are expected to move one way."""
+import json
+import unittest
+
+from synthetic import CLASSES, Fresh, figures, load, parsed, reading, run, save, synthetic
+
+import findings  # noqa: E402
+
+NAMES = [c["name"] for c in CLASSES]
+
+
+class Classes(Fresh):
+    """As many methods as classes; each method is given one of the classes."""
+
+    def setUp(self):
+        super().setUp()
+        synthetic(self.folder, steps=(0.1,), extra_methods=len(CLASSES) - 3)
+        head = json.loads((self.folder / "experiment.json").read_text())
+        self.labels = [m["label"] for m in head["methods"]]
+        self.classify(dict(zip(self.labels, NAMES)))
+        self.edit("results.csv", "status", lambda x: "converged")
+
+    def classify(self, classes):
+        rows = load(self.folder / "results.csv")
+        method, kind = rows[0].index("method"), rows[0].index("energy:class")
+        for row in rows[1:]:
+            row[kind] = classes[row[method]]
+        save(self.folder / "results.csv", rows)
+
+    def drift(self):
+        """The items of the finding on drift."""
+        shown = reading.Experiment(self.folder)
+        found = findings.drift(shown, shown.cases[0])
+        return found[0][2] if found else []
+
+    def test_every_method_stands_in_one_class(self):
+        items = self.drift()
+        self.assertEqual([item.partition(": ")[0] for item in items], NAMES)
+        for label, name in zip(self.labels, NAMES):
+            holding = [item for item in items if label in item]
+            self.assertEqual(len(holding), 1, label)
+            self.assertTrue(holding[0].startswith(f"{name}: {label}"), holding)
+        self.assertEqual(items[0], f"still: {self.labels[0]}")
+        self.assertIn(" [", items[NAMES.index("drifting")])
+        self.assertIn("(as t^", items[NAMES.index("spread-out")])
+
+    def test_a_run_without_a_class_is_named(self):
+        self.classify(dict(zip(self.labels, [*NAMES[:-1], ""])))
+        self.assertEqual(self.drift()[-1], f"without a class, because it was not measured: {self.labels[-1]}")
+        self.classify(dict.fromkeys(self.labels, ""))
+        self.assertEqual(self.drift(), [])  # a quantity that is free to change has no classes at all
+
+    def test_an_unknown_class_is_refused(self):
+        for name, told in (("spread_out", "did you mean 'spread-out'?"),
+                           ("zigzag", "expected one of still, near, drifting, spread-out, unused")):
+            self.classify(dict(zip(self.labels, [name, *NAMES[1:]])))
+            status, stderr = run(self.folder)
+            self.assertEqual(status, 2)
+            self.assertEqual(stderr, "report.py: results.csv, line 2, column energy:class: unknown drift class "
+                             f"'{name}'; {told}\n")
+            self.assertFalse((self.folder / "report.html").exists())
+
+    def test_the_page_tells_what_classes_mean(self):
+        self.classify(dict(zip(self.labels, [*NAMES[:-1], "near"])))
+        self.assertEqual(run(self.folder)[0], 0)
+        page = parsed(self.folder)
+        for entry in CLASSES[:-1]:
+            self.assertIn(entry["meaning"], page.text)
+        self.assertNotIn(CLASSES[-1]["meaning"], page.text)  # no run is in it
+
+    def test_the_list_is_checked(self):
+        path = self.folder / "experiment.json"
+        whole = json.loads(path.read_text())
+        for classes, told in ((None, "key 'drift_classes' is missing"),
+                              ([{"name": "near"}], "drift class 1: key 'meaning' is missing"),
+                              ([*CLASSES, CLASSES[1]], "drift class 'near' appears 2 times, expected once"),
+                              ([CLASSES[0] | {"measure": "rms"}], "one of max, slope, exponent, got 'rms'")):
+            head = {k: v for k, v in whole.items() if k != "drift_classes"}
+            path.write_text(json.dumps(head if classes is None else head | {"drift_classes": classes}))
+            status, stderr = run(self.folder)
+            self.assertEqual(status, 2)
+            self.assertIn(told, stderr)
+
+
+class Directed(Fresh):
+    """The damped case's energy falls; declared as one that is expected to decrease, then to increase."""
+
+    def expect(self, behaviour):
+        synthetic(self.folder, steps=(0.2, 0.1))  # `bad` fails at the larger one
+        for path in self.folder.glob("runs/damped-*/summary.json"):
+            path.write_text(path.read_text().replace("decreasing", behaviour))
+        self.assertEqual(run(self.folder)[0], 0)
+        self.shown = reading.Experiment(self.folder)
+        return findings.drift(self.shown, self.shown.cases[1])[0]
+
+    def test_what_falls_may_fall(self):
+        subject, sentence, items = self.expect("decreasing")
+        self.assertEqual((subject, items), ("Decrease", ["never rises: mid, rk and bad"]))
+        self.assertIn("energy is expected to decrease", sentence)
+
+    def test_what_falls_is_expected_to_increase(self):
+        subject, sentence, items = self.expect("increasing")
+        self.assertEqual(subject, "Increase")
+        self.assertIn("energy is expected to increase", sentence)
+        self.assertEqual(items, ["falls: mid (by 0.982), rk (by 0.982) and bad (by 0.982)"])  # 1 - exp(-4)
+        drawn = figures.drift(self.shown, self.shown.cases[1])
+        self.assertIn("expected to increase", drawn.title)
+        self.assertIn("largest fall of energy so far", drawn.draw(True).axes[1].get_ylabel())
+        self.assertIn("falls by 0.982", parsed(self.folder).text)
+
+    def test_a_run_without_a_series_is_named(self):
+        self.expect("increasing")
+        (self.folder / "runs" / "damped-0-0.1" / "series.csv").unlink()
+        self.shown = reading.Experiment(self.folder)
+        items = findings.drift(self.shown, self.shown.cases[1])[0][2]
+        self.assertEqual(items[-1], "not known, without a series: mid")
+
+    def test_the_frame_holds_what_goes_up(self):
+        self.expect("increasing")
+        rising = [(r, self.shown.series(r, "energy")) for r in self.shown.at_common_step(self.shown.cases[1])]
+        for _, series in rising:
+            series.change = [-x for x in series.change]  # from 1 to 1.98
+        sheet = figures.Sheet(2, True, "energy")
+        figures.values_of_directed(sheet, self.shown, 0.1, rising, "increasing")
+        low, high = sheet.axes[0].get_ylim()
+        self.assertAlmostEqual(low, 1 - 0.0982, places=3)
+        self.assertAlmostEqual(high, 1.982 + 0.0982, places=3)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,72 @@
+// A hanging chain of rods in the plane, written as an author would write it. It is the pendulum of the golden
+// file, in Cartesian coordinates, bob by bob, the second coordinate pointing up.
+#pragma once
+
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include <pfaff/core/formulation.hpp>
+#include <pfaff/core/system.hpp>
+
+namespace pfaff::testing {
+
+struct Rods {
+  std::vector<Real> masses, lengths, drag;
+  Real gravity = 9.81_r;
+  [[nodiscard]] int dimension() const { return static_cast<int>(4 * masses.size()); }
+  [[nodiscard]] int constraint_count() const { return static_cast<int>(masses.size()); }
+
+  template <class T>
+  T kinetic(const T& /*t*/, In<T> p) const {
+    T sum(0);
+    for (std::size_t k = 0; k < masses.size(); ++k)
+      sum = sum + (p[2 * k] * p[2 * k] + p[2 * k + 1] * p[2 * k + 1]) / (2 * masses[k]);
+    return sum;
+  }
+  template <class T>
+  T potential(const T& /*t*/, In<T> q) const {
+    T sum(0);
+    for (std::size_t k = 0; k < masses.size(); ++k) sum = sum + masses[k] * (gravity * q[2 * k + 1]);
+    return sum;
+  }
+  template <class T>
+  void holonomic(const T& /*t*/, In<T> q, Out<T> phi) const {
+    for (std::size_t k = 0; k < masses.size(); ++k) {
+      const T x = k == 0 ? q[0] : q[2 * k - 2] - q[2 * k], y = k == 0 ? q[1] : q[2 * k - 1] - q[2 * k + 1];
+      phi[k] = (x * x + y * y - lengths[k] * lengths[k]) / 2;
+    }
+  }
+  template <class T>
+  void friction(const T& /*t*/, In<T> /*z*/, Out<T> lambda) const {
+    for (std::size_t k = 0; k < drag.size(); ++k) lambda[2 * k] = lambda[2 * k + 1] = T(drag[k]);
+  }
+};
+
+inline Real real_of(const nlohmann::json& text) { return Real::parse(text.get<std::string>()).value(); }
+inline std::vector<Real> reals_of(const nlohmann::json& list) {
+  std::vector<Real> values;
+  for (const auto& text : list) values.push_back(real_of(text));
+  return values;
+}
+inline nlohmann::json golden_pendulum() {
+  return nlohmann::json::parse(std::ifstream(PFAFF_GOLDEN "/pendulum4_2d.json"));
+}
+inline Rods golden_rods() {
+  const nlohmann::json golden = golden_pendulum();
+  return {reals_of(golden["masses"]), reals_of(golden["lengths"]), reals_of(golden["Lambda"]),
+          real_of(golden["g"])};
+}
+inline std::shared_ptr<const Model> model_of(const Rods& rods) {
+  return make_model(SystemDescriptor{.name = "rods", .title = "", .reference = ""}, rods);
+}
+
+/// The motion of a model in a formulation.
+inline std::shared_ptr<const Model> motion(const std::shared_ptr<const Model>& model, const char* formulation,
+                                           const Assignments& set = {}) {
+  return formulations().get(formulation, "formulation").apply(model, set);
+}
+
+}  // namespace pfaff::testing

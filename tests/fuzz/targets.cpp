@@ -1,0 +1,93 @@
+#include "targets.hpp"
+
+#include <stdexcept>
+
+#include <pfaff/app/state_file.hpp>
+#include <pfaff/bench/experiment/experiment.hpp>
+#include <pfaff/bench/runner/config_file.hpp>
+#include <pfaff/bench/runner/record.hpp>
+
+namespace pfaff::fuzz {
+
+namespace {
+void require_one_line(const InputError& error) {
+  const std::string text = error.what();
+  if (text.empty() || text.find('\n') != std::string::npos)
+    throw std::logic_error("a message that is not one line: '" + text + "'");
+}
+
+// What has been reached when `later` is done, which may refuse.
+template <class Later>
+Reached then(Later&& later) {
+  try {
+    later();
+  } catch (const InputError& error) {
+    require_one_line(error);
+    return Reached::parsed;
+  }
+  return Reached::resolved;
+}
+
+void take_few_steps(const ResolvedRun& run) {
+  if (run.adaptive() || run.steps > 8 || run.model->dimension() > 24) return;
+  (void)execute(run, nullptr);
+}
+
+// The number of runs of an experiment, from which its resolution takes its time.
+std::size_t runs_of(const Experiment& experiment) {
+  std::size_t runs = 0;
+  for (const ExperimentCase& c : experiment.cases)
+    for (const ExperimentMethod& m : experiment.methods)
+      runs += (m.tolerances.empty() ? c.steps.size() : m.tolerances.size()) *
+              static_cast<std::size_t>(c.seeds + 1);
+  return runs;
+}
+
+Reached read_and_resolve_state(const std::string& file) {
+  RunSettings settings;
+  app::read_state(file, settings);
+  settings.system = settings.initial.size() == 4 ? "kepler" : "damped-oscillator";
+  return then([&] { (void)resolve_state(settings); });
+}
+Reached read_and_resolve_configuration(const std::string& file) {
+  const RunSettings settings = read_config(file).settings;
+  return then([&] { take_few_steps(resolve(settings)); });
+}
+Reached read_and_resolve_experiment(const std::string& file) {
+  const Experiment experiment = read_experiment(file, false);
+  (void)read_experiment(file, true);
+  if (runs_of(experiment) > 16) return Reached::parsed;
+  return then([&] { (void)expand(experiment); });
+}
+Reached read_and_resolve_model(const std::string& file) {
+  RunSettings settings;
+  settings.system = "bead-rod";
+  settings.set = {{"model", file}};
+  const auto model = systems().get("bead-rod", "system").make(settings.set);
+  settings.integrator = "rk4";
+  settings.step = "0.01";
+  settings.time = "0.02";
+  settings.project_initial = model->restricted();
+  return then([&] { take_few_steps(resolve(settings)); });
+}
+}  // namespace
+
+Reached read_and_resolve(Language language, const std::filesystem::path& file) {
+  try {
+    switch (language) {
+      case Language::state:
+        return read_and_resolve_state(file.string());
+      case Language::configuration:
+        return read_and_resolve_configuration(file.string());
+      case Language::experiment:
+        return read_and_resolve_experiment(file.string());
+      case Language::model:
+        return read_and_resolve_model(file.string());
+    }
+  } catch (const InputError& error) {
+    require_one_line(error);
+  }
+  return Reached::refused;
+}
+
+}  // namespace pfaff::fuzz

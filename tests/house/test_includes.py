@@ -1,0 +1,65 @@
+"""The check of includes: what breaks a rule of the house is found and named, what keeps them passes."""
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+PROJECT = Path(__file__).resolve().parents[2]
+
+
+class Includes(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.root = Path(self.folder.name)
+        self.write("core/numbers/real.hpp", "#pragma once\n#include <vector>\nusing Numbers = std::vector<double>;\n")
+        self.write("core/linear/lu.hpp", "#pragma once\n#include <pfaff/core/numbers/real.hpp>\ninline Numbers lu() { return {}; }\n")
+        self.write("brackets/canonical.hpp", "#pragma once\n#include <pfaff/core/linear/lu.hpp>\n")
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def write(self, name, text):
+        path = self.root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+
+    def check(self, *options):
+        done = subprocess.run([sys.executable, PROJECT / ".ci/includes.py", "--root", self.root, *options],
+                              capture_output=True, text=True, check=False)
+        return done.returncode, done.stderr
+
+    def test_what_keeps_the_rules_passes(self):
+        self.assertEqual(self.check(), (0, ""))
+
+    def test_an_arrow_that_runs_back_is_named(self):
+        self.write("core/registry/registry.cpp", "#include <vector>\n#include <pfaff/brackets/canonical.hpp>\n")
+        status, said = self.check("--no-compile")
+        self.assertEqual(status, 1)
+        self.assertIn("core/registry/registry.cpp:2: core includes brackets/canonical.hpp", said)
+
+    def test_a_formulation_that_includes_a_bracket_is_named(self):
+        self.write("formulations/dirac.cpp", '#include <pfaff/brackets/canonical.hpp>\n')
+        self.assertEqual(self.check("--no-compile")[0], 1)
+
+    def test_a_cycle_of_folders_is_named_with_its_includes(self):
+        self.write("core/numbers/quad.hpp", '#pragma once\n#include "../linear/lu.hpp"\n')
+        status, said = self.check("--no-compile")
+        self.assertEqual(status, 1)
+        self.assertIn("cycle of folders core/linear -> core/numbers -> core/linear", said)
+        self.assertIn("core/numbers/quad.hpp:2 includes core/linear/lu.hpp", said)
+
+    def test_a_header_that_needs_another_before_it_is_named(self):
+        self.write("core/linear/norm.hpp", "#pragma once\ninline double norm(const Numbers& x) { return x[0]; }\n")
+        status, said = self.check()
+        self.assertEqual(status, 1)
+        self.assertIn("core/linear/norm.hpp does not compile by itself", said)
+
+    def test_the_project_keeps_its_arrows(self):
+        done = subprocess.run([sys.executable, PROJECT / ".ci/includes.py", "--no-compile"],
+                              capture_output=True, text=True, check=False)
+        self.assertEqual(done.stderr, "")
+
+
+if __name__ == "__main__":
+    unittest.main()
