@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include <pfaff/core/facets/taped_constraints.hpp>
+#include <pfaff/core/facets/taped_velocity_constraints.hpp>
 #include <pfaff/core/tape/replay.hpp>
 
 namespace pfaff {
@@ -103,6 +104,14 @@ const HolonomicFactory& Model::holonomic_factory() const {
         std::make_shared<const TapedConstraintSource>(
             TapedConstraintSource{std::make_shared<const HolonomicTapes>(record_holonomic(*this))}));
   return *holonomic_;
+}
+
+const VelocityFactory& Model::velocity_factory() const {
+  if (!content_.has(Facet::velocity_constraints))
+    throw std::logic_error("system " + name() + " has no velocity constraints");
+  const std::lock_guard lock(mutex_);
+  if (velocity_ == nullptr) velocity_ = std::make_shared<const TapedVelocityFactory>(record_velocity(*this));
+  return *velocity_;
 }
 
 PivotPairs Model::pivots_of_structure() const {

@@ -21,6 +21,7 @@
 #include <pfaff/core/facets/evaluator.hpp>
 #include <pfaff/core/facets/facet.hpp>
 #include <pfaff/core/facets/holonomic.hpp>
+#include <pfaff/core/facets/velocity_constraints.hpp>
 #include <pfaff/core/linear/symplectic_basis.hpp>
 #include <pfaff/core/tape/tape.hpp>
 
@@ -141,6 +142,15 @@ class Model {
   [[nodiscard]] std::unique_ptr<HolonomicConstraints<T>> holonomic_constraints() const {
     return holonomic_factory().make_for(std::type_identity<T>());
   }
+  /// True where velocities are constrained, A(q, t) v + b(q, t) = 0: velocity_constraints<T>() gives the
+  /// constraints, and methods may keep them themselves.
+  [[nodiscard]] bool nonholonomic() const { return facets_.has(Facet::velocity_constraints); }
+  /// All constraints at the level of velocities for one scalar; std::logic_error where the system has no
+  /// velocity constraints.
+  template <class T>
+  [[nodiscard]] VelocityPointer<T> velocity_constraints() const {
+    return velocity_factory().make_for(std::type_identity<T>());
+  }
   /// True when the canonical bracket on (q, p) is the system's own.
   [[nodiscard]] bool canonical() const { return source_.canonical; }
 
@@ -185,6 +195,7 @@ class Model {
   /// What content() is before a chart derived from the structure is added.
   [[nodiscard]] FacetSet content_of_formulas() const;
   [[nodiscard]] const HolonomicFactory& holonomic_factory() const;
+  [[nodiscard]] const VelocityFactory& velocity_factory() const;
 
   ModelSource source_;
   FacetSet content_, facets_;
@@ -192,6 +203,7 @@ class Model {
   mutable std::recursive_mutex mutex_;
   mutable std::array<std::shared_ptr<const Tape>, formula_count> tapes_;
   mutable std::shared_ptr<const HolonomicFactory> holonomic_;
+  mutable std::shared_ptr<const VelocityFactory> velocity_;
 };
 
 /// How a formula follows from others (core/facets/derivations/derivation.hpp).

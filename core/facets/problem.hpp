@@ -101,6 +101,13 @@ class Problem {
       holonomic_ = model_->holonomic_constraints<T>();
     return *holonomic_;
   }
+  /// All constraints at the level of velocities, A v + b = 0, with buffers of their own.
+  [[nodiscard]] VelocityConstraints<T>& nonholonomic() const
+      requires(Facets.has(Facet::velocity_constraints)) {
+    if (velocity_ == nullptr) [[unlikely]]
+      velocity_ = model_->velocity_constraints<T>();
+    return *velocity_;
+  }
   /// State after `elapsed` from z0 at t0: initial = (z0, t0), n + 1 numbers.
   void exact_solution(const T& elapsed, In<T> initial, Out<T> z) const
       requires(Facets.has(Facet::exact_solution)) {
@@ -137,6 +144,7 @@ class Problem {
   std::size_t size_;
   mutable std::array<Evaluator<T>, formula_count> evaluators_;
   mutable std::shared_ptr<HolonomicConstraints<T>> holonomic_;
+  mutable std::shared_ptr<VelocityConstraints<T>> velocity_;
   mutable Counters counters_;
 };
 
@@ -183,6 +191,7 @@ template <class P>
 concept HasVelocityConstraints = requires(const P& p, const Scalar<P>& t, State<P>& z) {
   p.velocity_constraints(t, z, z);
   p.velocity_offsets(t, z, z);
+  p.nonholonomic();
 };
 
 template <class P>

@@ -9,17 +9,13 @@
 #include <vector>
 
 #include <pfaff/core/facets/holonomic.hpp>
+#include <pfaff/core/facets/sparse_tape.hpp>
 #include <pfaff/core/linear/structured_ldlt.hpp>
 #include <pfaff/core/tape/replay.hpp>
 
 namespace pfaff {
 
 class Model;
-
-/// Where a K x n matrix has entries, row by row: columns[begin[i]] ... columns[begin[i + 1] - 1].
-struct SparseRows {
-  std::vector<std::size_t> begin, columns;
-};
 
 /// The tapes that are recorded once for a system, and the structure of the matrices on them.
 struct HolonomicTapes {
@@ -76,17 +72,17 @@ class TapedConstraints final : public HolonomicConstraints<T> {
     linear_(t, state_.data(), placed_.data());
     return factor();
   }
-  void apply(In<T> u, Out<T> r) const override { multiply(tapes_->by_position, 0, u, r); }
-  void apply_transpose(In<T> x, Out<T> f) const override { multiply_transpose(tapes_->by_position, 0, x, f); }
+  void apply(In<T> u, Out<T> r) const override { tapes_->by_position.multiply<T>(placed_.data(), u, r); }
+  void apply_transpose(In<T> x, Out<T> f) const override { tapes_->by_position.multiply_transpose<T>(placed_.data(), x, f); }
   void solve(In<T> r, Out<T> x) const override { ldlt_.solve(r.data(), x.data()); }
   void solve(In<T> r1, Out<T> x1, In<T> r2, Out<T> x2) const override {
     ldlt_.solve(r1.data(), x1.data(), r2.data(), x2.data());
   }
   void hidden_by_momentum(In<T> u, Out<T> r) const override {
-    multiply(tapes_->by_momentum, momentum_begin(), u, r);
+    tapes_->by_momentum.multiply<T>(placed_.data() + momentum_begin(), u, r);
   }
   void hidden_by_momentum_transpose(In<T> x, Out<T> v) const override {
-    multiply_transpose(tapes_->by_momentum, momentum_begin(), x, v);
+    tapes_->by_momentum.multiply_transpose<T>(placed_.data() + momentum_begin(), x, v);
   }
 
   Status place(const T& t, In<T> q, In<T> p) override {
@@ -102,10 +98,10 @@ class TapedConstraints final : public HolonomicConstraints<T> {
     return part(2 * degrees() + 2 * count(), count());
   }
   void hidden_by_position(In<T> u, Out<T> r) const override {
-    multiply(tapes_->hidden_by_position, hidden_begin(), u, r);
+    tapes_->hidden_by_position.multiply<T>(placed_.data() + hidden_begin(), u, r);
   }
   void hidden_by_position_transpose(In<T> x, Out<T> f) const override {
-    multiply_transpose(tapes_->hidden_by_position, hidden_begin(), x, f);
+    tapes_->hidden_by_position.multiply_transpose<T>(placed_.data() + hidden_begin(), x, f);
   }
 
   [[nodiscard]] std::span<const T> friction() const override {
@@ -154,21 +150,6 @@ class TapedConstraints final : public HolonomicConstraints<T> {
       ldlt_.couplings()[c] = entries[count() + c];
     return ldlt_.factor();
   }
-  void multiply(const SparseRows& rows, std::size_t first, In<T> u, Out<T> r) const {
-    for (std::size_t i = 0; i < count(); ++i) {
-      T sum(0);
-      for (std::size_t e = rows.begin[i]; e < rows.begin[i + 1]; ++e)
-        sum = sum + placed_[first + e] * u[rows.columns[e]];
-      r[i] = sum;
-    }
-  }
-  void multiply_transpose(const SparseRows& rows, std::size_t first, In<T> x, Out<T> f) const {
-    for (T& value : f) value = T(0);
-    for (std::size_t i = 0; i < count(); ++i)
-      for (std::size_t e = rows.begin[i]; e < rows.begin[i + 1]; ++e)
-        f[rows.columns[e]] = f[rows.columns[e]] + placed_[first + e] * x[i];
-  }
-
   std::shared_ptr<const HolonomicTapes> tapes_;
   Replay<T> values_, hidden_, gradient_, linear_, place_;
   std::vector<T> state_, slopes_, placed_;
