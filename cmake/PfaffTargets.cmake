@@ -20,10 +20,24 @@ function(pfaff_target target)
     target_compile_options(${target} PRIVATE -march=${PFAFF_MARCH})
   endif()
   if(PFAFF_SANITIZE)
+    # Three checks are left out, with which a quarter of the build's time goes: following a null pointer and loading
+    # a pack from where it is not aligned stop the program by themselves, and the address sanitizer knows objects'
+    # sizes better.
     target_compile_options(${target} PRIVATE -fsanitize=${PFAFF_SANITIZE} -fno-omit-frame-pointer
-                                             -fno-sanitize-recover=all)
+                                             -fno-sanitize-recover=all
+                                             -fno-sanitize=null,alignment,object-size)
     target_link_options(${target} PRIVATE -fsanitize=${PFAFF_SANITIZE})
   endif()
+endfunction()
+
+# What runs once, prints or is a test is compiled in half the time with few optimisations; what is measured is not.
+# With so few of them GCC's 12th version takes parts of std::regex for uninitialised.
+set(pfaff_cold_options "$<$<CONFIG:Release>:-Og;-Wno-maybe-uninitialized>")
+function(pfaff_cold_target target)
+  target_compile_options(${target} PRIVATE ${pfaff_cold_options})
+endfunction()
+function(pfaff_cold_sources)
+  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "${pfaff_cold_options}")
 endfunction()
 
 # Libraries are looked for beside the file that needs them, never in the current directory. CMake pads the run path
