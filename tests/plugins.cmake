@@ -1,7 +1,6 @@
 # Plug-ins outside the library: the templates of CONTRIBUTING.md as they stand, files that must be refused before
 # they are loaded, sources that the compiler must refuse, and the examples built against the installed package. One
 # more test looks at the citations.
-set(pfaff_plugins ${CMAKE_CURRENT_BINARY_DIR}/plugins)
 
 function(pfaff_test_plugin name)
   add_library(${name}_plugin MODULE ${ARGN})
@@ -62,16 +61,13 @@ foreach(stiffness 1 2)
   pfaff_test_plugin(spring-${stiffness} app/plugins/spring.cpp)
   target_compile_definitions(spring-${stiffness}_plugin PRIVATE SPRING_STIFFNESS=${stiffness})
 endforeach()
-target_compile_definitions(app_tests PRIVATE PFAFF_TEST_PLUGINS="${pfaff_plugins}")
 add_dependencies(app_tests degenerate_plugin spring-1_plugin spring-2_plugin)
 
 # Methods with false claims, for the search of counterexamples.
 pfaff_test_plugin(false-claims app/plugins/false_claims.cpp)
-target_compile_definitions(bench_tests PRIVATE PFAFF_TEST_PLUGINS="${pfaff_plugins}")
 add_dependencies(bench_tests false-claims_plugin)
 add_dependencies(app_tests false-claims_plugin)
 
-target_compile_definitions(core_tests PRIVATE PFAFF_TEST_PLUGINS="${pfaff_plugins}")
 add_dependencies(core_tests fits_plugin starts-fast_plugin other-version_plugin no-stamp_plugin two-stamps_plugin
                  fast-math_plugin templates_plugin)
 add_test(NAME core/refused COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/core/refused_test.sh ${CMAKE_CXX_COMPILER}
