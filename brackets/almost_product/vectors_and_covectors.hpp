@@ -169,6 +169,13 @@ Matrix<T> gram(const LinearMap<T, From, DualSpace<From>>& tensor, const std::vec
   return values;
 }
 
+/// One of them, tensor(x, y).
+template <class T, class From, class Space>
+T value_on(const LinearMap<T, From, DualSpace<From>>& tensor, const Element<T, Space>& x,
+           const Element<T, Space>& y) {
+  return gram(tensor, std::vector<Element<T, Space>>{x}, std::vector<Element<T, Space>>{y})(0, 0);
+}
+
 /// The rows of a K x n matrix as covectors, the columns of an n x K matrix as vectors.
 template <class T>
 std::vector<Covector<T>> covectors_in_rows(const Matrix<T>& a) {
