@@ -4,6 +4,7 @@
 
 #include <pfaff/bench/evaluation/evaluation.hpp>
 #include <pfaff/bench/runner/motion.hpp>
+#include <pfaff/core/tape/recorder.hpp>
 
 namespace {
 
@@ -25,6 +26,114 @@ TEST(Evaluation, OfConstraintsWithoutAFormulationHasNoMotion) {
     EXPECT_EQ(without[key], with[key]) << key;
   EXPECT_EQ(with["rhs"].size(), raw->initial().size());  // the control
   EXPECT_FALSE(with.contains("reason"));
+}
+
+// A sleigh by its centre of mass: mass 1, J = 2, r = 1/2.
+struct Sleigh {
+  static constexpr int dimension = 6, velocity_constraint_count = 1;
+  template <class T>
+  T hamiltonian(const T& /*t*/, In<T> z) const {
+    return (z[3] * z[3] + z[4] * z[4] + z[5] * z[5] / 2) / 2;
+  }
+  template <class T>
+  void velocity_constraints(const T& /*t*/, In<T> q, Out<T> rows) const {
+    rows[0] = -sin(q[2]);
+    rows[1] = cos(q[2]);
+    rows[2] = -T(1) / T(2);
+  }
+};
+struct Quartic : Sleigh {
+  template <class T>
+  T hamiltonian(const T& /*t*/, In<T> z) const {
+    return z[3] * z[3] * z[3] * z[3] + z[4] * z[4] + z[5] * z[5];
+  }
+};
+// Two constraints that are one where x = 0.
+struct Crossing : Sleigh {
+  static constexpr int velocity_constraint_count = 2;
+  template <class T>
+  void velocity_constraints(const T& /*t*/, In<T> q, Out<T> rows) const {
+    for (std::size_t k = 0; k < 6; ++k) rows[k] = T(1);
+    rows[3] = T(1) + q[0];
+  }
+};
+const SystemDescriptor sledge{
+    .name = "sledge",
+    .title = "",
+    .reference = "",
+    .coordinates = {
+        {"x", "m"}, {"y", "m"}, {"theta", ""}, {"px", "m/s"}, {"py", "m/s"}, {"ptheta", "m^2/s"}}};
+
+template <class S>
+nlohmann::json evaluated_at(const S& system, const std::vector<Real>& state, Precision precision) {
+  EvaluationSettings settings;
+  settings.at = {make_model(sledge, system), state, Real(0)};
+  settings.precision = precision;
+  return evaluation(settings);
+}
+
+// At theta = 0 with u = 3, omega = 2: P = I - (0, 1, -r/J)(0, 1, -r) / (1 + r^2/J), the reaction is (omega u
+// / S) (0, 1, -r), S = 9/8, and the momenta are p = (3, r omega, J omega).
+TEST(Evaluation, OfVelocityConstraintsShowsTheNonholonomicBracket) {
+  const std::vector<Real> state{0, 0, 0, 3, 1, 4};
+  const auto j = evaluated_at(Sleigh{}, state, Precision::double_precision);
+  EXPECT_EQ(j["constraints"], (nlohmann::json{0.0}));
+  EXPECT_EQ(j["multipliers"].size(), 1U);
+  const std::vector<double> force = j["constraint_forces"], expected{0, 6 * 8.0 / 9, -3 * 8.0 / 9};
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(force[k], expected[k], 1e-15) << k;
+  const auto& bracket = j["nonholonomic"];
+  const std::vector<std::vector<double>> p = bracket["P"],
+                                         projector{{1, 0, 0}, {0, 1.0 / 9, 4.0 / 9}, {0, 2.0 / 9, 8.0 / 9}};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(p[i][k], projector[i][k], 1e-15) << i << k;
+  EXPECT_EQ(bracket["bracket"].size(), 6U);
+  EXPECT_EQ(bracket["rank"], 4);
+  EXPECT_EQ(bracket["casimirs"], (nlohmann::json{"psi1"}));
+  EXPECT_LE(bracket["casimir_residual"].get<double>(), 1e-15);
+  EXPECT_LE(bracket["one_form_residual"].get<double>(), 1e-15);
+  EXPECT_GT(std::abs(bracket["jacobiator"]["value"].get<double>()), 0.1);
+  EXPECT_EQ(bracket["jacobiator"]["of"].size(), 3U);
+  EXPECT_TRUE(bracket["flow_difference"].is_null());  // nothing moves it yet
+  const auto quad = evaluated_at(Sleigh{}, state, Precision::quad);
+  EXPECT_LE(std::abs(std::stod(quad["nonholonomic"]["casimir_residual"].get<std::string>())), 1e-32);
+}
+
+TEST(Evaluation, ComparesTheNonholonomicFlowWithTheMotion) {
+  // The sleigh's motion, by hand; and off by a little.
+  const auto moved = [](int wrong) {
+    ModelSource source = make_model(sledge, Sleigh{})->source();
+    source.formulation = "by hand";
+    source.given[index(Formula::field)] = std::make_shared<const Tape>(
+        record(6, 6, [wrong](const Recorded& /*t*/, std::span<const Recorded> z, std::span<Recorded> rate) {
+          const Recorded s = sin(z[2]), c = cos(z[2]), omega = z[5] / 2,
+                         reaction = omega * (z[3] * c + z[4] * s) * 8 / 9;
+          rate[0] = z[3];
+          rate[1] = z[4];
+          rate[2] = omega;
+          rate[3] = -s * reaction;
+          rate[4] = c * reaction;
+          rate[5] = -reaction / 2 + Recorded(wrong) / 1000;
+        }));
+    EvaluationSettings settings;
+    settings.at = {
+        std::make_shared<const Model>(std::move(source)), {1, 2, Real(1) / Real(3), 3, 1, 4}, Real(0)};
+    settings.precision = Precision::quad;
+    return std::stod(evaluation(settings)["nonholonomic"]["flow_difference"].get<std::string>());
+  };
+  EXPECT_LE(moved(0), 1e-32);
+  EXPECT_NEAR(moved(1), 1e-3, 1e-12);
+}
+
+TEST(Evaluation, OfVelocityConstraintsSaysWhereThereIsNoBracket) {
+  const std::vector<Real> state{0, 0, 0, 3, 1, 4};
+  EXPECT_TRUE(evaluated_at(Quartic{}, state, Precision::double_precision)["nonholonomic"].is_null());
+  const auto j = evaluated_at(Crossing{}, state, Precision::double_precision);
+  EXPECT_TRUE(j["nonholonomic"].is_null());
+  EXPECT_TRUE(j["multipliers"].is_null());
+  EXPECT_EQ(j["status"], "singular");
+  EXPECT_EQ(
+      j["reason"],
+      "one-forms: row 2 (psi2) is a combination of row 1 (psi1); expected one-forms that are independent");
 }
 
 }  // namespace
