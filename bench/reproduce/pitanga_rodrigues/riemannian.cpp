@@ -64,10 +64,6 @@ void splitting_of_the_metric(Rows& rows, const Sample& s) {
   rows.reproduced("(3)", "g(P* phi, P* psi), the last line",
                   quads(List{printed_value(s.phi, s.psi) - printed_value(q_phi, q_psi)}),
                   quads(List{ours(p * phi, p * psi)}));
-  rows.erratum("(3)", "g(P* phi, P* psi), the first line",
-               quads(List{printed_value(minus(s.phi, q_phi), minus(s.psi, q_phi))}),
-               quads(List{printed_value(minus(s.phi, q_phi), minus(s.psi, q_psi))}),
-               quads(List{ours(p * phi, p * psi)}), "(3): psi - Q*(psi) in the second argument");
   const auto parts = split(sharp, s.straight);
   rows.reproduced("(4)", "g = g_P + g_Q, before it", quads(s.inverse_table),
                   quads((parts.admissible + parts.complement).matrix()));
@@ -79,6 +75,18 @@ void splitting_of_the_metric(Rows& rows, const Sample& s) {
                   quads(List{ours(reflection * phi, reflection * psi)}));
 
   const auto oblique_q = s.slanted.complement().transposed(), oblique_p = s.slanted.admissible().transposed();
+  // Q*(phi) in the place of Q*(psi) changes nothing where the projectors are orthogonal, as P* phi is
+  // orthogonal to both.
+  const auto first_line = [&](const CovectorOperator<Rational>& one,
+                              const CovectorOperator<Rational>& other) {
+    return ours(one * phi, psi - other * phi) - ours(one * phi, one * psi);
+  };
+  rows.qualitative(
+      "(3)", "the first line", {"psi - Q*(phi)", "psi - Q*(psi)"},
+      {at_most(size_of(first_line(p, q)), 0), at_least(size_of(first_line(oblique_p, oblique_q)), clearly),
+       at_most(size_of(ours(oblique_p * phi, psi - oblique_q * psi) - ours(oblique_p * phi, oblique_p * psi)),
+               0)},
+      "(3): psi - Q*(psi) in the second argument; notation, of no effect on orthogonal projectors");
   rows.claim("(1)-(4)", "for every almost-product structure", {"yes", "no: for orthogonal projectors"},
              {at_least(size_of(ours(oblique_q * phi, psi) - ours(phi, oblique_q * psi)), clearly),
               at_least(size_of(ours(oblique_q * phi, psi) - ours(oblique_q * phi, oblique_q * psi)), clearly),

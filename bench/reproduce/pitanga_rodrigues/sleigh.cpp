@@ -56,15 +56,17 @@ void projector(Rows& rows, const EnginePoint& engine, const Formulas& formulas) 
   rows.reproduced("Remark 2", "X", formulas.x(), x.components());
   rows.reproduced("Remark 2", "G = alpha(X)", {formulas.g()}, {g});
   rows.reproduced("Remark 2", "|X|^2 = G", {formulas.g()}, {value_on(metric.flat(), x, x)});
-  printed::Table<Quad> product{{}, {}, {}};
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j) product[i].push_back(formulas.x()[i] * formulas.alpha()[j]);
-  const auto scaled = [&](const Quad& factor) {
-    return printed::listed(printed::sum(product, printed::zero_table<Quad>(3, 3), factor));
+  // g* X is the covector alpha, so that what is printed is alpha (x) alpha.
+  const auto product = [&](const Numbers& left) {
+    Numbers entries;
+    for (const Quad& l : left)
+      for (const Quad& r : formulas.alpha()) entries.push_back(l * r);
+    return entries;
   };
-  // The metric in front of X is read as a factor, G: that of the projector is 1 / G.
-  rows.erratum("Remark 2", "Q = G X (x) alpha", scaled(formulas.g()), scaled(Quad(1) / formulas.g()),
-               q.entries(), "Remark 2: Q = G^-1 X (x) alpha, whose trace is 1");
+  Numbers shortened = formulas.x();
+  for (Quad& component : shortened) component = component / formulas.g();
+  rows.erratum("Remark 2", "Q = g* X (x) alpha", product(printed::product(formulas.metric(), formulas.x())),
+               product(shortened), q.entries(), "Remark 2: Q = G^-1 X (x) alpha, whose trace is 1");
 }
 
 void motion(Rows& rows, const EnginePoint& engine, const Formulas& formulas) {
