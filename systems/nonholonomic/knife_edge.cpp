@@ -20,7 +20,7 @@ struct KnifeEdge {
   Real mass = 1, inertia = 0.5_r, gravity = 4.9_r;
   static std::vector<Parameter> parameters() {
     return {parameter(&KnifeEdge::mass, "mass", "kg", 1e-3, 1e3),
-            parameter(&KnifeEdge::inertia, "J", "kg m^2", 1e-3, 1e3, "moment of inertia"),
+            parameter(&KnifeEdge::inertia, "inertia", "kg m^2", 1e-3, 1e3, "moment of inertia"),
             parameter(&KnifeEdge::gravity, "gravity", "m/s^2", 0, 1e3, "acceleration down the slope")};
   }
   static std::vector<std::string> velocity_constraint_names() { return {"knife-edge"}; }

@@ -33,8 +33,8 @@ struct RollingBall {
   Real mass = 1, radius = 1, inertia = 0.4_r, omega = 0.9_r;
   static std::vector<Parameter> parameters() {
     return {parameter(&RollingBall::mass, "mass", "kg", 1e-3, 1e3),
-            parameter(&RollingBall::radius, "r", "m", 1e-3, 1e3, "radius"),
-            parameter(&RollingBall::inertia, "I", "kg m^2", 1e-6, 1e6, "moment of inertia"),
+            parameter(&RollingBall::radius, "radius", "m", 1e-3, 1e3),
+            parameter(&RollingBall::inertia, "inertia", "kg m^2", 1e-6, 1e6, "moment of inertia"),
             parameter(&RollingBall::omega, "omega", "rad/s", -1e3, 1e3, "angular velocity of the table")};
   }
   // On the turntable, and on a table at rest.

@@ -18,11 +18,12 @@ struct RollingDisk {
   static constexpr int velocity_constraint_count = 2;
   Real mass = 1, radius = 0.5_r, axial = 0.125_r, vertical = 0.0625_r;
   static std::vector<Parameter> parameters() {
-    return {
-        parameter(&RollingDisk::mass, "mass", "kg", 1e-3, 1e3),
-        parameter(&RollingDisk::radius, "r", "m", 1e-3, 1e3, "radius"),
-        parameter(&RollingDisk::axial, "I", "kg m^2", 1e-6, 1e6, "moment of inertia about the axis"),
-        parameter(&RollingDisk::vertical, "J", "kg m^2", 1e-6, 1e6, "moment of inertia about a diameter")};
+    return {parameter(&RollingDisk::mass, "mass", "kg", 1e-3, 1e3),
+            parameter(&RollingDisk::radius, "radius", "m", 1e-3, 1e3),
+            parameter(&RollingDisk::axial, "axial-inertia", "kg m^2", 1e-6, 1e6,
+                      "moment of inertia about the axis"),
+            parameter(&RollingDisk::vertical, "vertical-inertia", "kg m^2", 1e-6, 1e6,
+                      "moment of inertia about a diameter")};
   }
   static std::vector<std::string> velocity_constraint_names() { return {"rolling-x", "rolling-y"}; }
   // Rolling at 1.2 rad/s, turning at 0.7 rad/s.

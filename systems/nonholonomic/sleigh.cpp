@@ -65,10 +65,11 @@ struct Sleigh {
   static constexpr int velocity_constraint_count = 1;
   Real mass = 1, inertia = 0.5_r, offset = 0.4_r;
   static std::vector<Parameter> parameters() {
-    return {
-        parameter(&Sleigh::mass, "mass", "kg", 1e-3, 1e3),
-        parameter(&Sleigh::inertia, "J", "kg m^2", 1e-3, 1e3, "moment of inertia about the centre of mass"),
-        parameter(&Sleigh::offset, "r", "m", 1e-3, 1e3, "of the centre of mass ahead of the knife edge")};
+    return {parameter(&Sleigh::mass, "mass", "kg", 1e-3, 1e3),
+            parameter(&Sleigh::inertia, "inertia", "kg m^2", 1e-3, 1e3,
+                      "moment of inertia about the centre of mass"),
+            parameter(&Sleigh::offset, "offset", "m", 1e-3, 1e3,
+                      "of the centre of mass ahead of the knife edge")};
   }
   static std::vector<std::string> velocity_constraint_names() { return {"knife-edge"}; }
   // The edge at the origin, running at 0.6 m/s and turning at 1.1 rad/s.
@@ -161,7 +162,7 @@ const System<Sleigh> registered{
          "A rigid body on a plane with a knife edge behind its centre of mass. Take it as the "
          "standard small test of velocity constraints: energy is conserved, yet every motion but "
          "the straight ones turns until the centre of mass runs ahead, so that no invariant volume "
-         "exists. The exact solution is good to 1e-30 for J <= 200 m r^2 and holds for states "
+         "exists. The exact solution is good to 1e-30 for inertia <= 200 mass offset^2 and holds for states "
          "that satisfy the constraint.",
      .coordinates = {{"x", "m"},
                      {"y", "m"},

@@ -23,11 +23,13 @@ struct Snakeboard {
   Real mass = 1, length = 0.5_r, rider = 0.1_r, wheels = 0.05_r, stiffness = 0;
   static std::vector<Parameter> parameters() {
     using S = Snakeboard;
-    return {parameter(&S::mass, "mass", "kg", 1e-3, 1e3),
-            parameter(&S::length, "l", "m", 1e-3, 1e3, "from the centre to a pair of wheels"),
-            parameter(&S::rider, "J0", "kg m^2", 1e-6, 1e6, "moment of inertia of the rider, below mass l^2"),
-            parameter(&S::wheels, "J1", "kg m^2", 1e-6, 1e6, "moment of inertia of a pair of wheels"),
-            parameter(&S::stiffness, "stiffness", "J", 0, 1e6, "c of the spring that centres the steering")};
+    return {
+        parameter(&S::mass, "mass", "kg", 1e-3, 1e3),
+        parameter(&S::length, "length", "m", 1e-3, 1e3, "from the centre to a pair of wheels"),
+        parameter(&S::rider, "rider-inertia", "kg m^2", 1e-6, 1e6,
+                  "moment of inertia of the rider, below mass length^2"),
+        parameter(&S::wheels, "wheel-inertia", "kg m^2", 1e-6, 1e6, "moment of inertia of a pair of wheels"),
+        parameter(&S::stiffness, "stiffness", "J", 0, 1e6, "c of the spring that centres the steering")};
   }
   static std::vector<Assignments> instances(bool /*full*/) { return {{}, {{"stiffness", "0.3"}}}; }
   static std::vector<std::string> velocity_constraint_names() { return {"front-wheels", "back-wheels"}; }
