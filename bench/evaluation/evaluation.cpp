@@ -49,7 +49,7 @@ void evaluate_in(const EvaluationSettings& settings, json& j) {
     add_birkhoffian(at, centre, j);
   }
   if (model.restricted()) add_constraints(at, j);
-  if (model.nonholonomic()) add_velocity_constraints(at, j);
+  if (model.nonholonomic()) add_nonholonomic_bracket(at, j);
   if (at.regular && !model.moves()) {
     at.regular = false;
     at.reason =

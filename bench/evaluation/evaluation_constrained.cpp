@@ -266,6 +266,9 @@ void add_constrained_motion(Point<T>& at, const std::vector<T>& rate, json& j) {
     constraints->by_momentum(force, multipliers);
     constraints->solve(multipliers, multipliers);
     j["multipliers"] = placed ? list(multipliers) : json(nullptr);
+    constraints->apply_transpose(multipliers, force);
+    for (T& f : force) f = -f;
+    j["constraint_forces"] = placed ? list(force) : json(nullptr);
   }
   if (!model.constrained() || model.constraint_names().size() > most_dense) return;
   const ConstraintBrackets<T> brackets = constraint_brackets(model, at.t, at.z);

@@ -10,21 +10,6 @@ namespace {
 // Up to so many positions: the Jacobiator costs the fourth power of their number.
 constexpr std::size_t most_positions = 40;
 
-// S lambda = {psi, H} + psi_t, and the forces -A^T lambda on the momenta.
-template <class T>
-void add_forces(Point<T>& at, json& j) {
-  const auto constraints = at.model->template velocity_constraints<T>();
-  const std::size_t n = constraints->degrees();
-  j["multipliers"] = j["constraint_forces"] = nullptr;
-  if (constraints->place(at.t, In<T>(at.z).first(n), In<T>(at.z).subspan(n)) != Status::converged) return;
-  std::vector<T> multipliers(constraints->count()), forces(n);
-  constraints->solve(constraints->rates(), multipliers);
-  constraints->apply_transpose(multipliers, forces);
-  for (T& f : forces) f = -f;
-  j["multipliers"] = list(at.seen(multipliers));
-  j["constraint_forces"] = list(at.seen(forces));
-}
-
 // The largest component of Pibar grad H - (rate of the state), both on the constraints.
 template <class T>
 json flow_difference(const Point<T>& at, const NonholonomicBracket& bracket, const Matrix<T>& tensor) {
@@ -59,11 +44,10 @@ json bracket_of(const Point<T>& at, const NonholonomicBracket& bracket) {
 }  // namespace
 
 template <class T>
-void add_velocity_constraints(Point<T>& at, json& j) {
+void add_nonholonomic_bracket(Point<T>& at, json& j) {
   const Model& model = *at.model;
-  add_forces(at, j);
   j["nonholonomic"] = nullptr;
-  if (!at.finite || model.dimension() > static_cast<int>(2 * most_positions)) return;
+  if (!at.finite || !at.regular || model.dimension() > static_cast<int>(2 * most_positions)) return;
   std::unique_ptr<const NonholonomicBracket> bracket;
   try {
     bracket = std::make_unique<const NonholonomicBracket>(model);
@@ -78,7 +62,7 @@ void add_velocity_constraints(Point<T>& at, json& j) {
   }
 }
 
-template void add_velocity_constraints(Point<double>&, json&);
-template void add_velocity_constraints(Point<Quad>&, json&);
+template void add_nonholonomic_bracket(Point<double>&, json&);
+template void add_nonholonomic_bracket(Point<Quad>&, json&);
 
 }  // namespace pfaff::evaluation_parts

@@ -21,12 +21,10 @@ class EnginePoint {
   [[nodiscard]] const Numbers& state() const { return state_; }
   [[nodiscard]] Numbers q() const { return first_half(state_); }
   [[nodiscard]] Numbers p() const { return second_half(state_); }
-  /// q' = H_p, p' = -H_q - A^T lambda, and q'' that follows.
-  [[nodiscard]] const Numbers& velocity() const { return velocity_; }
-  [[nodiscard]] const Numbers& momentum_rate() const { return momentum_rate_; }
+  /// (q', p') in the formulation `nonholonomic`, and q'' that follows.
+  [[nodiscard]] const Numbers& rate() const { return rate_; }
+  [[nodiscard]] Numbers velocity() const { return first_half(rate_); }
   [[nodiscard]] const Numbers& acceleration() const { return acceleration_; }
-  /// q' and p' one after the other.
-  [[nodiscard]] Numbers rate() const;
   [[nodiscard]] Numbers energy_slopes() const { return energy_slopes_; }
   [[nodiscard]] Quad energy() const;
   /// psi at this state, or at any other.
@@ -46,13 +44,13 @@ class EnginePoint {
   }
 
  private:
-  // H_q and H_p where the state moves at a rate: their derivatives along it.
-  [[nodiscard]] Numbers slopes_along(const Numbers& rate) const;
+  // The derivatives of H_q and H_p along a motion of the state and of time.
+  [[nodiscard]] Numbers slopes_along(const Numbers& rate, const Quad& time_rate) const;
 
   std::shared_ptr<const Model> model_;
   Quad t_;
   NonholonomicBracket bracket_;
-  Numbers state_, energy_slopes_, velocity_, momentum_rate_, acceleration_;
+  Numbers state_, rate_, energy_slopes_, acceleration_;
 };
 
 }  // namespace pfaff::pitanga_rodrigues
