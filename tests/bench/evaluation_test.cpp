@@ -67,7 +67,7 @@ const SystemDescriptor sledge{
 template <class S>
 nlohmann::json evaluated_at(const S& system, const std::vector<Real>& state, Precision precision) {
   EvaluationSettings settings;
-  settings.at = {make_model(sledge, system), state, Real(0)};
+  settings.at = {motion_of(make_model(sledge, system)), state, Real(0)};
   settings.precision = precision;
   return evaluation(settings);
 }
@@ -93,35 +93,34 @@ TEST(Evaluation, OfVelocityConstraintsShowsTheNonholonomicBracket) {
   EXPECT_LE(bracket["one_form_residual"].get<double>(), 1e-15);
   EXPECT_GT(std::abs(bracket["jacobiator"]["value"].get<double>()), 0.1);
   EXPECT_EQ(bracket["jacobiator"]["of"].size(), 3U);
-  EXPECT_TRUE(bracket["flow_difference"].is_null());  // nothing moves it yet
+  EXPECT_LE(bracket["flow_difference"].get<double>(), 1e-15);
   const auto quad = evaluated_at(Sleigh{}, state, Precision::quad);
-  EXPECT_LE(std::abs(std::stod(quad["nonholonomic"]["casimir_residual"].get<std::string>())), 1e-32);
+  for (const char* key : {"casimir_residual", "one_form_residual", "flow_difference"})
+    EXPECT_LE(std::stod(quad["nonholonomic"][key].get<std::string>()), 1e-32) << key;
 }
 
+// Controls: without a motion there is nothing to compare, and another one is told from the bracket's.
 TEST(Evaluation, ComparesTheNonholonomicFlowWithTheMotion) {
-  // The sleigh's motion, by hand; and off by a little.
-  const auto moved = [](int wrong) {
-    ModelSource source = make_model(sledge, Sleigh{})->source();
-    source.formulation = "by hand";
-    source.given[index(Formula::field)] = std::make_shared<const Tape>(
-        record(6, 6, [wrong](const Recorded& /*t*/, std::span<const Recorded> z, std::span<Recorded> rate) {
-          const Recorded s = sin(z[2]), c = cos(z[2]), omega = z[5] / 2,
-                         reaction = omega * (z[3] * c + z[4] * s) * 8 / 9;
-          rate[0] = z[3];
-          rate[1] = z[4];
-          rate[2] = omega;
-          rate[3] = -s * reaction;
-          rate[4] = c * reaction;
-          rate[5] = -reaction / 2 + Recorded(wrong) / 1000;
-        }));
+  const auto raw = make_model(sledge, Sleigh{});
+  const auto difference = [](const std::shared_ptr<const Model>& model) {
     EvaluationSettings settings;
-    settings.at = {
-        std::make_shared<const Model>(std::move(source)), {1, 2, Real(1) / Real(3), 3, 1, 4}, Real(0)};
+    settings.at = {model, {1, 2, Real(1) / Real(3), 3, 1, 4}, Real(0)};
     settings.precision = Precision::quad;
-    return std::stod(evaluation(settings)["nonholonomic"]["flow_difference"].get<std::string>());
+    return evaluation(settings)["nonholonomic"]["flow_difference"];
   };
-  EXPECT_LE(moved(0), 1e-32);
-  EXPECT_NEAR(moved(1), 1e-3, 1e-12);
+  EXPECT_TRUE(difference(raw).is_null());
+  const auto moving = motion_of(raw);
+  EXPECT_LE(std::stod(difference(moving).get<std::string>()), 1e-32);
+  ModelSource source = raw->source();
+  source.formulation = "by hand";
+  source.given[index(Formula::field)] = std::make_shared<const Tape>(
+      record(6, 6, [&](const Recorded& t, std::span<const Recorded> z, std::span<Recorded> rate) {
+        const std::vector<Recorded> motion = evaluate(*moving->tape(Formula::field), t, z);
+        for (std::size_t k = 0; k < 6; ++k) rate[k] = motion[k];
+        rate[4] = rate[4] + Recorded(1) / 1000;
+      }));
+  const auto wrong = difference(std::make_shared<const Model>(std::move(source)));
+  EXPECT_NEAR(std::stod(wrong.get<std::string>()), 1e-3, 1e-12);
 }
 
 TEST(Evaluation, OfVelocityConstraintsSaysWhereThereIsNoBracket) {
@@ -129,11 +128,8 @@ TEST(Evaluation, OfVelocityConstraintsSaysWhereThereIsNoBracket) {
   EXPECT_TRUE(evaluated_at(Quartic{}, state, Precision::double_precision)["nonholonomic"].is_null());
   const auto j = evaluated_at(Crossing{}, state, Precision::double_precision);
   EXPECT_TRUE(j["nonholonomic"].is_null());
-  EXPECT_TRUE(j["multipliers"].is_null());
   EXPECT_EQ(j["status"], "singular");
-  EXPECT_EQ(
-      j["reason"],
-      "one-forms: row 2 (psi2) is a combination of row 1 (psi1); expected one-forms that are independent");
+  EXPECT_NE(j["reason"].get<std::string>().find("psi2"), std::string::npos) << j["reason"];
 }
 
 }  // namespace

@@ -17,10 +17,6 @@ template <class From, class To>
 double size_of(const LinearMap<Rational, From, To>& m) {
   return static_cast<double>(largest(m.matrix()));
 }
-List minus(List a, const List& b) {
-  for (std::size_t k = 0; k < a.size(); ++k) a[k] = a[k] - b[k];
-  return a;
-}
 
 // A metric of five dimensions and two one-forms in general position. The tables hold the same numbers for
 // what is printed.
