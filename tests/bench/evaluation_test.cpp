@@ -4,7 +4,7 @@
 
 #include <pfaff/bench/evaluation/evaluation.hpp>
 #include <pfaff/bench/runner/motion.hpp>
-#include <pfaff/core/tape/recorder.hpp>
+#include <pfaff/core/tape/derivatives.hpp>
 
 namespace {
 
