@@ -110,8 +110,11 @@ void add_bracket_facts(const json& bracket, Rows& facts) {
   const auto& jacobiator = bracket["jacobiator"];
   facts.push_back(
       {"Jacobi", "largest sum " + text_of(jacobiator["value"]) + ", of " + joined(jacobiator["of"])});
-  if (!bracket["flow_difference"].is_null())
-    facts.push_back({"flow", "{z, H}_nh is the rhs to " + text_of(bracket["flow_difference"])});
+  if (bracket["flow_difference"].is_null()) return;
+  const std::string difference = text_of(bracket["flow_difference"]);
+  const bool same = std::strtod(difference.c_str(), nullptr) < 1e-8;
+  facts.push_back({"flow", same ? "{z, H}_nh is the rhs, to " + difference
+                                : "{z, H}_nh is not the rhs, which differs by " + difference});
 }
 
 std::string constraint_tables(const json& j) {

@@ -38,16 +38,18 @@ std::vector<T> replayed(const std::shared_ptr<const Tape>& tape, const T& t, con
   return out;
 }
 
-// The largest component of Pibar covector, relative to the sum of absolute values of its terms.
+// The largest component of Pibar covector, relative to the largest sum of absolute values of the terms of
+// one.
 template <class T>
 double image_of(const Matrix<T>& tensor, const std::vector<T>& covector) {
-  double worst = 0;
+  IdentityResidual<T> worst;
   for (std::size_t i = 0; i < tensor.rows(); ++i) {
     IdentityResidual<T> r;
     for (std::size_t j = 0; j < covector.size(); ++j) r.add(tensor(i, j) * covector[j]);
-    worst = std::max(worst, r.relative());
+    if (!(abs(r.residual) <= worst.residual)) worst.residual = abs(r.residual);
+    if (!(r.size <= worst.size)) worst.size = r.size;
   }
-  return worst;
+  return worst.relative();
 }
 
 template <class T>
@@ -60,7 +62,9 @@ Jacobiator<T> largest_jacobiator(const Matrix<T>& p, const std::vector<Matrix<T>
         T sum(0);
         for (std::size_t l = 0; l < n; ++l)
           sum = sum + p(i, l) * slopes[l](j, k) + p(j, l) * slopes[l](k, i) + p(k, l) * slopes[l](i, j);
-        if (worst.coordinates[2] == 0 || abs(sum) > abs(worst.value)) worst = {sum, {i, j, k}};
+        // Of sums that are equal but for rounding the first one is named, in every precision.
+        const T margin = abs(worst.value) / T(1 << 20);
+        if (worst.coordinates[2] == 0 || abs(sum) > abs(worst.value) + margin) worst = {sum, {i, j, k}};
       }
   return worst;
 }
