@@ -53,17 +53,17 @@ void matrices(Rows& rows) {
                       formulas.u(), printed::product(formulas.small_q(), printed::inverse(formulas.u())))),
                   quads(straight.complement().matrix()));
   rows.erratum(item, "the expansion of Q", quads(formulas.expansion(2)), quads(formulas.expansion(0)),
-               quads(straight.complement().matrix()), "4.2: y^2 dx (x) d/dx in Q");
+               quads(straight.complement().matrix()), "contact form's matrices: y^2 dx (x) d/dx in Q");
   const TangentVector<Rational> xi = raised(metric.sharp(), slanted.one_forms())[0];
   const Rational square = value_on(metric.flat(), xi, xi);
-  rows.erratum(item, "the norm of X^Q",
-               quads(std::vector<Rational>{formulas.norm_of_xi() * formulas.norm_of_xi()}),
-               quads(std::vector<Rational>{formulas.norm_of_xi()}), quads(std::vector<Rational>{square}),
-               "4.2: 1 + y^2 is the square of the norm of X^Q, and Q has its inverse in front");
-  rows.erratum("(8)", "G_ww of the contact form", quads(std::vector<Rational>{formulas.metric()[2][2]}),
+  rows.erratum(
+      item, "the norm of X^Q", quads(std::vector<Rational>{formulas.norm_of_xi() * formulas.norm_of_xi()}),
+      quads(std::vector<Rational>{formulas.norm_of_xi()}), quads(std::vector<Rational>{square}),
+      "contact form's matrices: 1 + y^2 is the square of the norm of X^Q, and Q has its inverse in front");
+  rows.erratum("(7), (8)", "G_ww of the contact form", quads(std::vector<Rational>{formulas.metric()[2][2]}),
                quads(std::vector<Rational>{Rational(1) / formulas.d}),
                quads(inverse(gram(metric.sharp(), slanted.one_forms(), slanted.one_forms()))),
-               "(8): 1/(1 + y^2), not the 1 of (7)");
+               "(7), (8): 1/(1 + y^2), not the 1 of (7)");
   rows.qualitative(
       item, "they are not orthogonal, before them", {"g_{a al} - g_{al be} Gamma^be_a != 0", "y"},
       {at_least(static_cast<double>(abs(value_on(metric.flat(), frame[0], frame[2]))), clearly),
@@ -89,7 +89,7 @@ void heisenberg(Rows& rows) {
   std::vector<Rational> opposite;
   for (const Rational& x : formulas.x_q()) opposite.push_back(-x);
   rows.erratum("Heisenberg algebra", "[X_1, X_2]", quads(formulas.x_q()), quads(opposite),
-               quads(lie_bracket(x1, x2, z).components()), "4.2: [X_1, X_2] = -X^q");
+               quads(lie_bracket(x1, x2, z).components()), "Heisenberg algebra: [X_1, X_2] = -X^q");
   rows.reproduced("Heisenberg algebra", "[X_1, X^q]", zeros(3), quads(lie_bracket(x1, xq, z).components()));
   rows.reproduced("Heisenberg algebra", "[X_2, X^q]", zeros(3), quads(lie_bracket(x2, xq, z).components()));
 }

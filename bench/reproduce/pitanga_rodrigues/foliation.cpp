@@ -26,7 +26,7 @@ void foliation_rows(Rows& rows) {
   rows.erratum("X_u", "the fields across the leaves", quads(printed::transversal_fields(tables, across)),
                quads(printed::transversal_fields(tables, leaf)),
                quads(onto_rest.block(0, leaf, n, across).transposed()),
-               "Section 3.1: the sum in X_u runs to m, the dimension of the leaf");
+               "X_u: the sum runs to m, the dimension of the leaf");
   const auto idempotent_to = [](const ExactMatrix& m) { return static_cast<double>(largest(m * m - m)); };
   const auto printed_map = printed::leaf_map_11(lambda, forms);
   const auto square = printed::difference(printed::product(printed_map, printed_map), printed_map);

@@ -138,7 +138,7 @@ void projections(Rows& rows) {
                   zeros(m));
   rows.erratum("(23)", "A dz with dz = P^t d eta", printed::product(a, printed::product(p_star, eta)),
                printed::product(a, printed::product(p, eta)), values_of(structure, displaced),
-               "(23)-(26): Q and P act on vectors, dz = P d eta; covectors need their transposes");
+               "(23): Q and P act on vectors, dz = P d eta; covectors need their transposes");
   // E = M z'' + grad V of the engine's motion.
   Numbers force = engine.acceleration();
   const Polynomial potential = potential_polynomial();
@@ -146,10 +146,9 @@ void projections(Rows& rows) {
     force[k] = static_cast<Quad>(mass(k)) * force[k] + potential.slope(k).at(engine.q());
   const Covector<Quad> e(force);
   rows.erratum("(24)", "P E", printed::product(p, force), printed::product(p_star, force),
-               (structure.admissible().transposed() * e).components(),
-               "(23)-(26): E is a covector, P^T E = 0");
+               (structure.admissible().transposed() * e).components(), "(24): E is a covector, P^T E = 0");
   rows.erratum("(25)", "E = Q E", printed::product(q, force), printed::product(q_star, force), force,
-               "(23)-(26): E is a covector, E = Q^T E");
+               "(25): E is a covector, E = Q^T E");
   rows.reproduced("(26)", "Q, on vectors", printed::listed(q), structure.complement().matrix().entries());
 }
 

@@ -183,10 +183,10 @@ void local_expressions(Rows& rows, const Sample& s) {
                   quads(gram(sharp, dz, dz)));
   rows.erratum("(7)", "after it, the coefficients of X_a (x) Y_alpha", quads(upper.mixed),
                quads(halved(upper.mixed)), quads(gram(sharp, dz, s.one_forms)),
-               "after (7): g^{a al} + g^{ab} Gamma^al_b of each of X_a (x) Y_al and Y_al (x) X_a");
+               "(7), after it: g^{a al} + g^{ab} Gamma^al_b of each of X_a (x) Y_al and Y_al (x) X_a");
   rows.erratum("(7)", "after it, the coefficients of Y_alpha (x) Y_beta", quads(upper.constrained),
                quads(symmetrised(upper.constrained)), quads(gram(sharp, s.one_forms, s.one_forms)),
-               "after (7): symmetric in al and be");
+               "(7), after it: symmetric in al and be");
 }
 
 void metric_projectors(Rows& rows, const Sample& s) {
@@ -197,7 +197,7 @@ void metric_projectors(Rows& rows, const Sample& s) {
                quads(printed::metric_q(s.inverse_table, s.w,
                                        printed::metric_coefficients(s.g_table, s.gamma_table).constrained)),
                quads(s.q_table), quads(s.straight.complement().matrix()),
-               "(8): G_{al be} is the inverse of G^{al be}, not the g_{al be} of (7)");
+               "(7), (8): in (8) G_{al be} is the inverse of G^{al be}, not the g_{al be} of (7)");
   rows.reproduced("(8), (9)", "q", quads(s.q_table), quads(s.straight.complement().matrix()));
   rows.reproduced("(9)", "q q = q, after it", quads(printed::product(s.q_table, s.q_table)),
                   quads(s.straight.complement().matrix()));

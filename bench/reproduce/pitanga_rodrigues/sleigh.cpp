@@ -30,9 +30,10 @@ void kinematics(Rows& rows, const EnginePoint& engine, const Formulas& formulas)
   const Numbers contact = contact_velocity(engine.q(), v);
   rows.reproduced("(27)", "u, the speed along the blade", {formulas.along(v)}, {contact[0]});
   rows.reproduced("(28)", "v, the speed across it", {formulas.across(v)}, {contact[1]});
-  rows.erratum("position of the sleigh", "the speed across the blade of the point (x, y)",
-               {v[1] * formulas.c - v[0] * formulas.s}, {formulas.across(v)}, engine.constraints(off),
-               "Section 4.1: (x, y) is the centre of mass, as in (29) and (32), and not the knife edge");
+  rows.erratum(
+      "position of the sleigh", "the speed across the blade of the point (x, y)",
+      {v[1] * formulas.c - v[0] * formulas.s}, {formulas.across(v)}, engine.constraints(off),
+      "position of the sleigh: (x, y) is the centre of mass, as in (29) and (32), and not the knife edge");
   rows.reproduced("(29)", "v, of the engine's constraint", {formulas.across(v)}, engine.constraints(off));
   rows.reproduced("(29)", "v = 0 on the constraint", {formulas.across(engine.velocity())}, zeros(1));
   const auto structure = engine.projectors();
