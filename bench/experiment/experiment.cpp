@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <mutex>
+#include <tuple>
 
 #include <pfaff/bench/experiment/citations.hpp>
 #include <pfaff/bench/experiment/costs.hpp>
@@ -161,8 +162,13 @@ void check_conserved(const Experiment& experiment, const ExperimentCase& c, cons
 }
 
 // The key of the reference solution that a run is compared with. All runs of a case share one solution, or
-// all runs of one seed where the case has seeds.
-std::pair<const ExperimentCase*, int> problem_of(const ExperimentRun& run) { return {run.which, run.seed}; }
+// all runs of one seed where the case has seeds. A formulation that makes an energy of its own makes another
+// motion, which has a solution of its own.
+using ProblemKey = std::tuple<const ExperimentCase*, int, std::string>;
+ProblemKey problem_of(const ExperimentRun& run) {
+  const Model& model = *run.resolved.model;
+  return {run.which, run.seed, model.restricted() ? std::string() : model.source().formulation};
+}
 }  // namespace
 
 std::vector<ExperimentRun> expand(const Experiment& experiment) {
@@ -272,7 +278,7 @@ ExperimentOutcome run_experiment(const Experiment& experiment, const fs::path& d
   ExperimentOutcome outcome;
   outcome.runs = runs.size();
   outcome.resumed = runs.size() - open.size();
-  std::map<std::pair<const ExperimentCase*, int>, std::unique_ptr<ReferenceSolution>> references;
+  std::map<ProblemKey, std::unique_ptr<ReferenceSolution>> references;
   for (const ExperimentRun* run : open)
     if (auto& slot = references[problem_of(*run)]; slot == nullptr && run->which->reference) {
       if (progress) progress("reference solution of " + run->which->name, outcome.resumed, runs.size());

@@ -46,10 +46,13 @@ struct Job {
 constexpr int most_formulated = 8;
 
 // The system on which the controls of a method run. It has to be nonlinear and to fit: the damped pendulum
-// for chart methods, the spherical pendulum for methods that need constraints, the pendulum for the rest.
+// for chart methods, the spherical pendulum for methods that need constraints, a contact oscillator for those
+// that need constraints of velocities, the pendulum for the rest.
 std::string controlled_on(const MethodInstance& method) {
-  for (const char* name : {"damped-pendulum", "pendulum"})
-    if (method.refuses(*systems().get(name, "").make({})).empty()) return name;
+  for (const char* name : {"damped-pendulum", "pendulum", "contact-oscillator"})
+    if (const SystemPlugin* system = systems().find(name);
+        system != nullptr && method.refuses(*system->make({})).empty())
+      return name;
   return "spherical-pendulum";
 }
 
