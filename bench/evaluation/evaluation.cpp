@@ -83,7 +83,7 @@ nlohmann::json evaluation(const EvaluationSettings& settings) {
          {"precision", to_string(settings.precision)},
          {"coordinates", json::array()}};
   for (const auto& [key, value] : model.parameters()) j["parameters"][key] = value;
-  if (model.restricted()) {
+  if (model.restricted() || !model.source().formulation.empty()) {
     j["formulation"] = model.source().formulation;
     for (const auto& [key, value] : model.source().formulation_parameters)
       j["parameters"]["formulation." + key] = value;
