@@ -70,12 +70,11 @@ struct Blade {
 // d/dt (A v) = 0, on the surface and off it. Here A V_q = -sin a, and A' v = -a' (v_x cos a + v_y sin a).
 std::shared_ptr<const Model> sliding_blade() {
   const auto blade = make_model(
-      SystemDescriptor{
-          .name = "sliding-blade",
-          .title = "",
-          .reference = "",
-          .invariants = {conserved("energy", "J"), conserved_quadratic("spin", "J s")},
-          .initial = {0, 0, Real::fraction(1, 2), 1, Real::fraction(1, 2), Real::fraction(3, 2)}},
+      SystemDescriptor{.name = "sliding-blade",
+                       .title = "",
+                       .reference = "",
+                       .initial = {0, 0, Real::fraction(1, 2), 1, Real::fraction(1, 2), Real::fraction(3, 2)},
+                       .invariants = {conserved("energy", "J"), conserved_quadratic("spin", "J s")}},
       Blade());
   ModelSource source = blade->source();
   source.formulation = "exact";
