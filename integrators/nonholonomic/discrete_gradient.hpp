@@ -30,12 +30,14 @@
 #include <utility>
 #include <vector>
 
+#include <pfaff/core/facets/claims.hpp>
 #include <pfaff/core/facets/problem.hpp>
 #include <pfaff/core/registry/parameter.hpp>
 #include <pfaff/core/solve/convergence.hpp>
 #include <pfaff/core/solve/summation.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/replay.hpp>
+#include <pfaff/integrators/nonholonomic/linear_reversal.hpp>
 #include <pfaff/integrators/support/difference_predictor.hpp>
 #include <pfaff/integrators/support/largest.hpp>
 
@@ -68,6 +70,12 @@ struct NonholonomicDiscreteGradient {
 
   static std::vector<Parameter> parameters() {
     return {parameter(&NonholonomicDiscreteGradient::compensated, "compensated", "compensated summation")};
+  }
+
+  [[nodiscard]] std::vector<Claim> preserves(const Model& model) const {
+    std::vector<Claim> kept{Claim::symmetric, Claim::energy, Claim::velocity_constraints};
+    if (linear_reversal(model)) kept.push_back(Claim::reversible);
+    return kept;
   }
 
   template <class P>

@@ -18,7 +18,6 @@
 
 #include <algorithm>
 #include <array>
-#include <random>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,23 +26,11 @@
 #include <pfaff/core/facets/problem.hpp>
 #include <pfaff/core/registry/parameter.hpp>
 #include <pfaff/core/solve/summation.hpp>
-#include <pfaff/core/tape/replay.hpp>
 #include <pfaff/integrators/constrained/constraint_solves.hpp>
+#include <pfaff/integrators/nonholonomic/linear_reversal.hpp>
 #include <pfaff/integrators/support/continuation.hpp>
 
 namespace pfaff {
-
-/// True where the reversal that the system states leaves positions as they are.
-inline bool reversal_keeps_positions(const Model& model) {
-  if (!model.given(Formula::reversal)) return false;
-  Replay<double> reversal(model.tape(Formula::reversal));
-  std::mt19937_64 random(20041);
-  std::uniform_real_distribution<double> number(-1, 1);
-  std::vector<double> z(static_cast<std::size_t>(model.dimension())), reversed(z.size());
-  for (double& x : z) x = number(random);
-  reversal(0.0, z.data(), reversed.data());
-  return std::equal(z.begin(), z.begin() + static_cast<std::ptrdiff_t>(z.size() / 2), reversed.begin());
-}
 
 /// What these methods have in common: the ways to the middle and to the end, the reflected momentum, and the
 /// projection with which a step ends.
@@ -57,7 +44,7 @@ struct ReflectedMomentum {
   std::span<Quad> coefficients() { return halves; }
   [[nodiscard]] std::vector<Claim> preserves(const Model& model) const {
     std::vector<Claim> kept{Claim::symmetric, Claim::velocity_constraints, Claim::nonholonomic_momentum};
-    if (reversal_keeps_positions(model)) kept.push_back(Claim::reversible);
+    if (linear_reversal(model, true)) kept.push_back(Claim::reversible);
     return kept;
   }
 
