@@ -68,6 +68,7 @@ nlohmann::json description(const Experiment& experiment, const std::vector<Exper
                           {"time_unit", model.time_unit()},
                           {"precision", to_string(c.precision)},
                           {"conserved", c.conserved},
+                          {"motion", c.motion},
                           {"structure", structure},
                           {"reference_solution", !c.reference ? "none"
                                                  : exact      ? "exact"
@@ -153,12 +154,17 @@ ResolvedRun resolved(const Experiment& experiment, const ExperimentRun& run) {
   }
 }
 
-void check_conserved(const Experiment& experiment, const ExperimentCase& c, const ExperimentRun& run) {
-  std::vector<std::string> names;
+void check_names(const Experiment& experiment, const ExperimentCase& c, const ExperimentRun& run) {
+  std::vector<std::string> names, coordinates;
   for (const Invariant& i : run.resolved.model->invariants()) names.push_back(i.name);
   if (!c.conserved.empty() && std::find(names.begin(), names.end(), c.conserved) == names.end())
     throw InputError(experiment.name + ", case " + c.name + ": " +
                      unknown_name("invariant", c.conserved, names));
+  for (const Coordinate& x : run.resolved.model->coordinates()) coordinates.push_back(x.name);
+  for (const std::string& name : c.motion)
+    if (std::find(coordinates.begin(), coordinates.end(), name) == coordinates.end())
+      throw InputError(experiment.name + ", case " + c.name + ": " +
+                       unknown_name("coordinate", name, coordinates));
 }
 
 // The key of the reference solution that a run is compared with. All runs of a case share one solution, or
@@ -186,7 +192,7 @@ std::vector<ExperimentRun> expand(const Experiment& experiment) {
           runs.push_back(std::move(run));
         }
     }
-    check_conserved(experiment, c, runs.back());
+    check_names(experiment, c, runs.back());
   }
   // The slug names the directory of a run; two runs with the same slug would overwrite each other.
   std::map<std::string, const ExperimentRun*> kept;
