@@ -30,15 +30,12 @@
 #include <utility>
 #include <vector>
 
-#include <pfaff/core/facets/claims.hpp>
 #include <pfaff/core/facets/problem.hpp>
-#include <pfaff/core/registry/parameter.hpp>
 #include <pfaff/core/solve/convergence.hpp>
 #include <pfaff/core/solve/summation.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/replay.hpp>
 #include <pfaff/integrators/nonholonomic/energy_slopes.hpp>
-#include <pfaff/integrators/nonholonomic/linear_reversal.hpp>
 #include <pfaff/integrators/support/difference_predictor.hpp>
 #include <pfaff/integrators/support/largest.hpp>
 #include <pfaff/integrators/support/remembered_contraction.hpp>
@@ -65,20 +62,8 @@ inline std::shared_ptr<const Tape> weighted_constraint_gradient(const Model& mod
 }
 
 /// The method of the opening comment.
-struct NonholonomicDiscreteGradient {
+struct MultiplierDiscreteGradient {
   bool compensated = true;
-
-  static constexpr bool fixed_sizes = false;  // the work is in batched calls, which take no fixed size
-
-  static std::vector<Parameter> parameters() {
-    return {parameter(&NonholonomicDiscreteGradient::compensated, "compensated", "compensated summation")};
-  }
-
-  [[nodiscard]] std::vector<Claim> preserves(const Model& model) const {
-    std::vector<Claim> kept{Claim::symmetric, Claim::energy, Claim::velocity_constraints};
-    if (linear_reversal(model)) kept.push_back(Claim::reversible);
-    return kept;
-  }
 
   template <class P>
   struct Work {
@@ -94,7 +79,7 @@ struct NonholonomicDiscreteGradient {
     RememberedContraction<Value<T>> contraction;
     T last_h{0};
 
-    Work(const NonholonomicDiscreteGradient& /*method*/, const P& p)
+    Work(const MultiplierDiscreteGradient& /*method*/, const P& p)
         : energy(make_evaluator<T>(p.model(), Formula::hamiltonian)),
           energy_slopes(p.model()),
           weighted(weighted_constraint_gradient(*p.model())),
