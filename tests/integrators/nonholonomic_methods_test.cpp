@@ -35,6 +35,8 @@ TEST(Nonholonomic, MethodsHaveOrderTwo) {
       if (!m->refuses(*golden_models()[k]).empty()) continue;
       EXPECT_NEAR(slope(*m, k, 64), 2, 0.03) << name << ' ' << k;
     }
+  for (std::size_t k = 0; k < 4; ++k)
+    EXPECT_NEAR(slope(*method("nonholonomic-discrete-gradient", {{"form", "multipliers"}}), k, 64), 2, 0.05);
 }
 TEST(Nonholonomic, CompositionsReachHigherOrders) {
   for (const char* base : {"dla", "nonholonomic-discrete-gradient"}) {
@@ -85,14 +87,16 @@ TEST(Nonholonomic, OnesInTheMiddleDoNot) {  // control, and what the description
   EXPECT_NEAR(std::log2(slip_of(0.03125) / slip_of(0.015625)), 2, 0.2);
 }
 
-double energy_error(const char* name, const std::shared_ptr<const Model>& model) {
-  const auto start = initial<Quad>(*model), z = run(*method(name), model, Quad(0.125), 40, start);
+double energy_error(const char* name, const std::shared_ptr<const Model>& model,
+                    const Assignments& parameters = {}) {
+  const auto start = initial<Quad>(*model), z = run(*method(name, parameters), model, Quad(0.125), 40, start);
   const Quad before = values(*model, Formula::hamiltonian, Quad(0), start).front();
   return static_cast<double>(abs(values(*model, Formula::hamiltonian, Quad(0), z).front() - before));
 }
 TEST(Nonholonomic, DiscreteGradientKeepsEnergies) {
   for (const auto& model : golden_models()) {
     EXPECT_LE(energy_error("nonholonomic-discrete-gradient", model), 1e-31) << model->name();
+    EXPECT_LE(energy_error("nonholonomic-discrete-gradient", model, {{"form", "multipliers"}}), 1e-31);
     EXPECT_GT(energy_error("gni", model), 1e-7) << model->name();  // control
   }
   EXPECT_GT(energy_error("dla", golden_models()[0]), 1e-6);
@@ -150,8 +154,8 @@ TEST(Nonholonomic, MomentaOfAllowedSymmetriesAreKept) {
   for (const char* name : {"dla", "gni", "nonholonomic-leap-frog", "mclachlan-perlmutter"})
     EXPECT_LE(static_cast<double>(abs(run(*method(name), edge, Quad(0.125), 40, start)[5] - start[5])), 1e-32)
         << name;
-  EXPECT_GT(static_cast<double>(abs(
-                run(*method("nonholonomic-discrete-gradient"), edge, Quad(0.125), 40, start)[5] - start[5])),
+  const auto other = method("nonholonomic-discrete-gradient", {{"form", "multipliers"}});
+  EXPECT_GT(static_cast<double>(abs(run(*other, edge, Quad(0.125), 40, start)[5] - start[5])),
             1e-6);  // control
 }
 

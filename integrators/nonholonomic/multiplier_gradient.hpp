@@ -30,16 +30,15 @@
 #include <utility>
 #include <vector>
 
-#include <pfaff/core/facets/claims.hpp>
 #include <pfaff/core/facets/problem.hpp>
-#include <pfaff/core/registry/parameter.hpp>
 #include <pfaff/core/solve/convergence.hpp>
 #include <pfaff/core/solve/summation.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/replay.hpp>
-#include <pfaff/integrators/nonholonomic/linear_reversal.hpp>
+#include <pfaff/integrators/nonholonomic/energy_slopes.hpp>
 #include <pfaff/integrators/support/difference_predictor.hpp>
 #include <pfaff/integrators/support/largest.hpp>
+#include <pfaff/integrators/support/remembered_contraction.hpp>
 
 namespace pfaff {
 
@@ -63,35 +62,26 @@ inline std::shared_ptr<const Tape> weighted_constraint_gradient(const Model& mod
 }
 
 /// The method of the opening comment.
-struct NonholonomicDiscreteGradient {
+struct MultiplierDiscreteGradient {
   bool compensated = true;
-
-  static constexpr bool fixed_sizes = false;  // the work is in batched calls, which take no fixed size
-
-  static std::vector<Parameter> parameters() {
-    return {parameter(&NonholonomicDiscreteGradient::compensated, "compensated", "compensated summation")};
-  }
-
-  [[nodiscard]] std::vector<Claim> preserves(const Model& model) const {
-    std::vector<Claim> kept{Claim::symmetric, Claim::energy, Claim::velocity_constraints};
-    if (linear_reversal(model)) kept.push_back(Claim::reversible);
-    return kept;
-  }
 
   template <class P>
   struct Work {
     using T = Scalar<P>;
     Evaluator<T> energy;
+    EnergySlopes<T> energy_slopes;
     Replay<T> weighted;    // the gradient of x.psi
     std::vector<T> carry;  // what the sums of q and p have rounded off
     // D, what corrects it, z0 + D/2 followed by x, z0 + D, and the gradient of x.psi: (q, p)
     std::vector<T> change, next, middle, end, slopes;
     std::vector<T> y, residual, reaction;
     DifferencePredictor<T, dynamic, dynamic> predictor;  // of D/h, x, y
+    RememberedContraction<Value<T>> contraction;
     T last_h{0};
 
-    Work(const NonholonomicDiscreteGradient& /*method*/, const P& p)
+    Work(const MultiplierDiscreteGradient& /*method*/, const P& p)
         : energy(make_evaluator<T>(p.model(), Formula::hamiltonian)),
+          energy_slopes(p.model()),
           weighted(weighted_constraint_gradient(*p.model())),
           carry(p.size()),
           change(p.size()),
@@ -113,6 +103,7 @@ struct NonholonomicDiscreteGradient {
     /// Forgets the past, round-off included: the next step depends on its state alone.
     void restart() {
       predictor.forget();
+      contraction.forget();
       for (T& c : carry) c = T(0);
     }
   };
@@ -125,6 +116,8 @@ struct NonholonomicDiscreteGradient {
     if (Status status = predict(p, t, h, z, w); status != Status::converged) return status;
     for (std::size_t k = 0; k < size; ++k) w.end[k] = z[k] + w.carry[k];
     const T energy = w.energy_at(middle_time, w.end);
+    for (std::size_t k = 0; k < size; ++k) w.middle[k] = w.end[k] + w.change[k] / T(2);
+    w.weighted(middle_time, w.middle.data(), w.slopes.data());
     Convergence<T> convergence;
     Status status = Status::converged;
     do {
@@ -142,7 +135,8 @@ struct NonholonomicDiscreteGradient {
       }
       std::swap(w.change, w.next);
       ++p.counters().iterations;
-    } while (!convergence.finished(100));
+    } while (!convergence.finished(100, w.contraction.ratio()));
+    w.contraction.remember_slowest(convergence.contraction());
     // Iterates that overflow come from a step that is too large, and are reported as not converged, too.
     if (status == Status::converged && convergence.status() != Status::converged)
       status = Status::not_converged;
@@ -202,13 +196,15 @@ struct NonholonomicDiscreteGradient {
     if (const Status status = c.place(time, In<T>(w.middle.data(), n), In<T>(w.middle.data() + n, n));
         status != Status::converged)
       return status;
-    w.weighted(time, w.middle.data(), w.slopes.data());
     const T s = secant(c, w.energy_at(time, w.end) - energy, z, w), per_step = T(1) / h;
+    for (std::size_t j = 0; j < w.y.size(); ++j) w.residual[j] = w.x(j);
+    c.by_momentum_transpose(w.residual, Out<T>(w.end.data(), n));
     c.apply_transpose(w.y, w.reaction);
     for (std::size_t k = 0; k < n; ++k) {
-      w.next[k] = h * (c.velocities()[k] + (s * w.change[n + k] - w.slopes[n + k]));
+      w.next[k] = h * (c.velocities()[k] + (s * w.change[n + k] - w.end[k]));
       w.next[n + k] = h * ((c.forces()[k] - w.reaction[k]) + (w.slopes[k] - s * w.change[k]));
     }
+    if (w.energy_slopes.separable()) follow(c, time, h, z, w);
     // x, by which A(qm) (q1 - q0) + h b(qm) = 0, where b = psi - A v.
     for (std::size_t k = 0; k < n; ++k) w.reaction[k] = per_step * w.next[k] - c.velocities()[k];
     c.apply(w.reaction, w.residual);
@@ -217,6 +213,10 @@ struct NonholonomicDiscreteGradient {
     c.by_momentum_transpose(w.residual, w.reaction);
     for (std::size_t j = 0; j < w.y.size(); ++j) w.x(j) = w.x(j) + w.residual[j];
     for (std::size_t k = 0; k < n; ++k) w.next[k] = w.next[k] - h * w.reaction[k];
+    // The same x in the momenta.
+    for (std::size_t k = 0; k < n; ++k) w.next[n + k] = w.next[n + k] - h * w.slopes[k];
+    w.weighted(time, w.middle.data(), w.slopes.data());
+    for (std::size_t k = 0; k < n; ++k) w.next[n + k] = w.next[n + k] + h * w.slopes[k];
     // y, by which psi(z1) = 0.
     for (std::size_t k = 0; k < size; ++k) w.end[k] = z[k] + (w.next[k] + w.carry[k]);
     c.values(t + h, In<T>(w.end.data(), n), In<T>(w.end.data() + n, n), w.residual);
@@ -225,6 +225,16 @@ struct NonholonomicDiscreteGradient {
     for (std::size_t j = 0; j < w.y.size(); ++j) w.y[j] = w.y[j] + per_step * w.residual[j];
     for (std::size_t k = 0; k < n; ++k) w.next[n + k] = w.next[n + k] - w.reaction[k];
     return Status::converged;
+  }
+
+  // Moves the positions of `next` with the velocity at the new middle of its momenta. Where H = T(p) + V(q,
+  // t) this costs little, and corrections then contract by h^2 and not by h.
+  template <class T>
+  static void follow(const VelocityConstraints<T>& c, const T& time, const T& h, const auto& z, auto& w) {
+    const std::size_t n = w.n();
+    for (std::size_t k = n; k < 2 * n; ++k) w.end[k] = z[k] + (w.next[k] / T(2) + w.carry[k]);
+    w.energy_slopes.velocity(time, In<T>(w.end.data() + n, n), w.reaction);
+    for (std::size_t k = 0; k < n; ++k) w.next[k] = w.next[k] + h * (w.reaction[k] - c.velocities()[k]);
   }
 
   // The factor of D in H_bar - sum_j x_j psi_bar_j, where psi is zero at both ends of the step. `gain` is
