@@ -4,11 +4,15 @@ namespace pfaff {
 
 namespace {
 const FormulationPlugin& default_formulation(bool of_velocities) {
-  return of_velocities ? formulations().get("nonholonomic", "formulation") : dirac_formulation();
+  return of_velocities ? nonholonomic_formulation() : dirac_formulation();
 }
 }  // namespace
 
 const FormulationPlugin& dirac_formulation() { return formulations().get("dirac", "formulation"); }
+
+const FormulationPlugin& nonholonomic_formulation() {
+  return formulations().get("nonholonomic", "formulation");
+}
 
 const FormulationPlugin& default_formulation(const Model& model) {
   return default_formulation(model.nonholonomic());

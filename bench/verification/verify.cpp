@@ -46,11 +46,12 @@ struct Job {
 constexpr int most_formulated = 8;
 
 // The system on which the controls of a method run. It has to be nonlinear and to fit: the damped pendulum
-// for chart methods, the spherical pendulum for methods that need constraints, the pendulum for the rest.
+// for chart methods, the pendulum for other motions, and for methods that need constraints the contact
+// oscillator where these are of velocities, else the spherical pendulum.
 std::string controlled_on(const MethodInstance& method) {
   for (const char* name : {"damped-pendulum", "pendulum"})
     if (method.refuses(*systems().get(name, "").make({})).empty()) return name;
-  return "spherical-pendulum";
+  return method.needs().has(Facet::velocity_constraints) ? "contact-oscillator" : "spherical-pendulum";
 }
 
 // The checks to be run, in their order.

@@ -43,8 +43,8 @@ template <class T>
 Turn<T> turn_of(const T& sine0, const T& cosine0, const T& x) {
   const T square = cosine0 * cosine0, length = select(x, x, -x), decay = exp(-length);
   const T size = select(sine0, sine0, -sine0), larger = 1 + size, smaller = square / larger;
-  const T with = select(sine0, x, -x);  // positive where the larger bracket grows
-  const T growing = select(with, larger, smaller), falling = select(with, smaller, larger);
+  const T up = select(sine0, larger, smaller), down = select(sine0, smaller, larger);
+  const T growing = select(x, up, down), falling = select(x, down, up);
   const T sum = select(square, growing + falling * decay * decay, T(2));
   const T difference = growing - falling * decay * decay;
   Turn<T> turn{sine0,

@@ -237,7 +237,7 @@ TEST(ExactSolution, OfTheSleighHoldsInEveryRegime) {
 }
 
 TEST(ExactSolution, OfCircularPathsHoldsOnStraightLinesToo) {
-  for (const double turning : {0.0, 1e-200, 1e-20, 1e-9, -1e-3, 0.3, 40.0}) {
+  for (const double turning : {0.0, 1e-200, 1e-20, 1e-9, -1e-3, 0.3, 5.0}) {
     compare_special("heisenberg-geodesic", {}, {{0.3, -0.5, 0.2, 0.8, 0.6, turning}});
     compare_special("knife-edge", {}, {{0, 0, 0.3, 0.7, 0.2, turning}});
     compare_special("rolling-disk", {}, {{0, 0, 0.3, 0.1, 0.5, 0.2, turning / 16, 0.15}});

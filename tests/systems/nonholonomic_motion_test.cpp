@@ -45,7 +45,7 @@ TEST(NonholonomicMotion, ClosedFormsStayOnTheConstraints) {
         Problem<Quad>(model).exact_solution(Quad(time), start, z);
         // Momenta of size one to ten.
         EXPECT_LE(size_of(values(model->tape(Formula::constraints), z)), 1e-31) << time;
-        z.back() += Quad(1e-6);              // the control
+        z.back() += Quad(1e-6);                // the control
         if (plugin->name() != "knife-edge") {  // whose constraint does not see p_theta
           EXPECT_GT(size_of(values(model->tape(Formula::constraints), z)), 1e-9);
         }

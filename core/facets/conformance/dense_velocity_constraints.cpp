@@ -71,6 +71,9 @@ std::shared_ptr<const Tape> record_everything(const Model& model) {
                for (std::size_t k = 0; k < n; ++k) out[at++] = moved[n + k];
                for (std::size_t i = 0; i < n; ++i)
                  for (std::size_t j = 0; j < n; ++j) out[at++] = curvature[(n + i) * size + n + j];
+               const Numbers slopes_of_psi = jacobian(psi, t, z);
+               for (std::size_t i = 0; i < count; ++i)
+                 for (std::size_t j = 0; j < n; ++j) out[at++] = slopes_of_psi[i * size + j];
                append(evaluate(linear, t, z.first(n)), at, out);
                append(directional_derivative(linear, t, Recorded(1), z.first(n), v), at, out);
              }));
