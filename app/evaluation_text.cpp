@@ -40,10 +40,13 @@ std::string combination(const json& direction, const json& names) {
   return text;
 }
 
+// Up to so many columns a matrix is shown as a whole.
+constexpr std::size_t widest = 6;
+
 // A matrix as text. One that would be too wide for the terminal is shown as a list of its nonzero entries on
 // one side of the diagonal, and of those on the diagonal where it is symmetric.
 std::string matrix_text(const std::string& title, const json& matrix, const json& names, bool symmetric) {
-  constexpr std::size_t widest = 6, most_entries = 60;
+  constexpr std::size_t most_entries = 60;
   Rows rows;
   if (matrix.size() <= widest) {
     rows.push_back({title});
@@ -99,8 +102,25 @@ void add_constraint_facts(const json& j, Rows& facts) {
   }
 }
 
+void add_bracket_facts(const json& bracket, Rows& facts) {
+  facts.push_back({"{,}_nh", "rank " + std::to_string(bracket["rank"].get<std::size_t>()) + " of " +
+                                 std::to_string(bracket["bracket"].size())});
+  facts.push_back({"Casimirs", joined(bracket["casimirs"]) + " to " + text_of(bracket["casimir_residual"]) +
+                                   " (relative)"});
+  const auto& jacobiator = bracket["jacobiator"];
+  facts.push_back(
+      {"Jacobi", "largest sum " + text_of(jacobiator["value"]) + ", of " + joined(jacobiator["of"])});
+  if (bracket["flow_difference"].is_null()) return;
+  const std::string difference = text_of(bracket["flow_difference"]);
+  const bool same = std::strtod(difference.c_str(), nullptr) < 1e-8;
+  facts.push_back({"flow", same ? "{z, H}_nh is the rhs, to " + difference
+                                : "{z, H}_nh is not the rhs, which differs by " + difference});
+}
+
 std::string constraint_tables(const json& j) {
-  const bool holonomic = j.contains("hidden_constraints"), moves = j.contains("multipliers");
+  const bool holonomic = j.contains("hidden_constraints"),
+             moves = j.contains("multipliers") &&
+                     (j["multipliers"].is_null() || j["multipliers"].size() == j["constraints"].size());
   const auto& names = j["constraint_names"];
   Rows rows{{"constraint", "value"}};
   json own = json::array();  // names of the phi alone, without their phi~
@@ -117,6 +137,12 @@ std::string constraint_tables(const json& j) {
     if (j.contains(key) && !j[key].is_null()) text += matrix_text(key, j[key], own, key[0] == 'S');
   if (j.contains("W")) text += matrix_text("W", j["W"], names, false);
   if (j.contains("dirac_bracket")) text += matrix_text("{,}_D", j["dirac_bracket"], j["coordinates"], false);
+  if (j.contains("nonholonomic") && !j["nonholonomic"].is_null()) {
+    json positions = json::array();
+    for (std::size_t k = 0; k < j["coordinates"].size() / 2; ++k) positions.push_back(j["coordinates"][k]);
+    if (positions.size() <= widest) text += matrix_text("P", j["nonholonomic"]["P"], positions, false);
+    text += matrix_text("{,}_nh", j["nonholonomic"]["bracket"], j["coordinates"], false);
+  }
   if (!j.contains("solvers")) return text;
   Rows solvers{{"solver", "difference", "status"}};
   for (const auto& [name, solver] : j["solvers"].items())
@@ -142,13 +168,19 @@ std::string evaluation_text(const json& j) {
     if (!j[key].is_null()) facts.push_back({label, text_of(j[key])});
   if (structured) add_structure_facts(j, facts);
   if (constrained) add_constraint_facts(j, facts);
+  if (j.contains("nonholonomic") && !j["nonholonomic"].is_null()) add_bracket_facts(j["nonholonomic"], facts);
+  const bool forced = j.contains("constraint_forces") && !j["constraint_forces"].is_null();
   Rows rows{{"coordinate", "state", "rhs"}};
   if (structured)
     for (const char* label : {"D", "F", "F_t"}) rows[0].emplace_back(label);
+  if (forced) rows[0].emplace_back("constraint force");
   for (std::size_t k = 0; k < names.size(); ++k) {
     rows.push_back({names[k], text_of(j["state"][k]), j["rhs"].is_null() ? "-" : text_of(j["rhs"][k])});
     if (structured)
       for (const char* key : {"D", "F", "F_t"}) rows.back().push_back(text_of(j[key][k]));
+    if (forced)
+      rows.back().push_back(k < names.size() / 2 ? ""
+                                                 : text_of(j["constraint_forces"][k - names.size() / 2]));
   }
   std::string text = table(facts) + '\n' + table(rows);
   if (structured) text += matrix_text("K", j["K"], names, false);

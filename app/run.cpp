@@ -153,7 +153,8 @@ void add_run(CLI::App& app, Common& common, Action& action) {
   RunSettings& s = options->settings;
   sub->add_option("--system", s.system, "Name of the system")->type_name("NAME");
   sub->add_option("--formulation", s.formulation,
-                  "Vector field of a constrained system (" + dirac_formulation().name() + " without)")
+                  "Vector field of a constrained system (without: " + dirac_formulation().name() + ", or " +
+                      nonholonomic_formulation().name() + " for velocity constraints)")
       ->type_name("NAME");
   sub->add_option("--integrator", s.integrator, "Name of the integrator")->type_name("NAME");
   sub->add_option("--step", s.step, "Step h > 0")->type_name("h");

@@ -69,8 +69,11 @@ class SystemPlugin : public Plugin {
                const std::source_location& where)
       : Plugin(descriptor.name, std::move(parameters), type, where), descriptor_(std::move(descriptor)) {}
   [[nodiscard]] const SystemDescriptor& descriptor() const { return descriptor_; }
-  /// True for systems with constraints, whose motion is a formulation's.
+  /// True for systems with constraints, of positions, velocities or the phase space, whose motion is a
+  /// formulation's.
   [[nodiscard]] virtual bool constrained() const = 0;
+  /// True for those of them that constrain velocities, alone or beside positions.
+  [[nodiscard]] virtual bool constrains_velocities() const = 0;
   /// A model with these parameters; the rest keep their defaults. InputError for wrong assignments.
   [[nodiscard]] virtual std::shared_ptr<const Model> make(const Assignments& assignments) const = 0;
   /// The parameters the system's claims are verified with; `full` asks for more than a quick check needs.
@@ -125,7 +128,10 @@ class System final : public SystemPlugin {
       : SystemPlugin(std::move(descriptor), parameters_of<S>(), typeid(S), where) {
     systems().add(this);
   }
-  [[nodiscard]] bool constrained() const override { return detail::counts_constraints<S>; }
+  [[nodiscard]] bool constrained() const override {
+    return detail::counts_constraints<S> || constrains_velocities();
+  }
+  [[nodiscard]] bool constrains_velocities() const override { return detail::counts_velocity_constraints<S>; }
   [[nodiscard]] std::shared_ptr<const Model> make(const Assignments& assignments) const override {
     return on_behalf_of("system " + name(), [&] {
       S object;

@@ -49,6 +49,7 @@ void evaluate_in(const EvaluationSettings& settings, json& j) {
     add_birkhoffian(at, centre, j);
   }
   if (model.restricted()) add_constraints(at, j);
+  if (model.nonholonomic()) add_nonholonomic_bracket(at, j);
   if (at.regular && !model.moves()) {
     at.regular = false;
     at.reason =
@@ -83,7 +84,7 @@ nlohmann::json evaluation(const EvaluationSettings& settings) {
          {"precision", to_string(settings.precision)},
          {"coordinates", json::array()}};
   for (const auto& [key, value] : model.parameters()) j["parameters"][key] = value;
-  if (model.restricted()) {
+  if (model.restricted() || !model.source().formulation.empty()) {
     j["formulation"] = model.source().formulation;
     for (const auto& [key, value] : model.source().formulation_parameters)
       j["parameters"]["formulation." + key] = value;

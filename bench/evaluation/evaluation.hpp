@@ -36,6 +36,17 @@ struct EvaluationSettings {
 /// and multipliers, the lambda of S lambda = P (F - friction v - p'). W and what follows from it are given
 /// for up to 200 constraints, the solvers by determinants for up to 60.
 ///
+/// Constraints of velocities also have
+/// - structure (of S), velocity_rows, the rows of A, and S; where they move, multipliers, the lambda of S
+/// lambda = A H_pp (-H_q - p'), and constraint_forces, -A^T lambda;
+/// - nonholonomic: P, the projector onto admissible velocities; bracket, the tensor Pibar at the momenta that
+/// P^T projects onto the constraints; its rank, its casimirs (names) with casimir_residual, the largest of
+/// |Pibar d psi| relative to its terms, and one_form_residual, that of the covectors (A_alpha, 0);
+/// jacobiator, the largest {x, {y, z}} + {y, {z, x}} + {z, {x, y}} of three coordinates (value, of);
+/// flow_difference, |Pibar grad H - rhs|, which is round-off where b = 0 and nothing depends on time. Null
+/// where H is not quadratic in the momenta, where constraints depend on each other (the reason says which),
+/// and for more than 40 positions.
+///
 /// Systems K zdot + D = 0 also have K, F_t, D, F, B, regular, class, self_adjoint (residuals relative to
 /// their largest terms), condition, kernel (a basis, one list per direction) and centre (null where F and B
 /// are the author's). Where a system does not give F and B, they are constructed about the given centre, by

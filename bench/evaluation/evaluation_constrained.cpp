@@ -3,6 +3,7 @@
 // by every solver of Dirac's bracket.
 #include <pfaff/bench/evaluation/evaluation_parts.hpp>
 #include <pfaff/bench/measure/constraint_brackets.hpp>
+#include <pfaff/bench/measure/constraints.hpp>
 #include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/brackets/dirac/dirac.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
@@ -169,6 +170,32 @@ class Solvers {
   std::vector<T> reference_, friction_;
 };
 
+// A, row by row, S = A H_pp A^T and its structure, of constraints at the level of velocities.
+template <class T>
+void add_velocity_constraints(Point<T>& at, json& j) {
+  const auto constraints = at.model->template velocity_constraints<T>();
+  const std::size_t n = constraints->degrees(), count = constraints->count();
+  std::vector<Quad> state;
+  for (const T& x : at.z) state.push_back(Quad(x));
+  at.reason = dependent_velocity_constraints(*at.model, Quad(at.t), state);
+  at.regular = at.reason.empty();
+  j["structure"] = to_string(constraints->pattern().structure());
+  if (count > most_dense) return;
+  (void)constraints->linearise(at.t, In<T>(at.z).first(n), In<T>(at.z).subspan(n));  // told apart above
+  Matrix<T> a(count, n), s(count, count);
+  std::vector<T> unit(count), row(n), column(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    unit[i] = T(1);
+    constraints->apply_transpose(unit, row);
+    unit[i] = T(0);
+    constraints->by_momentum(row, column);
+    for (std::size_t k = 0; k < n; ++k) a(i, k) = row[k];
+    for (std::size_t k = 0; k < count; ++k) s(k, i) = column[k];
+  }
+  j["velocity_rows"] = rows(a);
+  j["S"] = rows(s);
+}
+
 }  // namespace
 
 template <class T>
@@ -189,6 +216,7 @@ void add_constraints(Point<T>& at, json& j) {
   } else {
     j["constraints"] = list(at.seen(at.values(model.tape(Formula::constraints))));
   }
+  if (model.nonholonomic()) add_velocity_constraints(at, j);
   if (!model.constrained() || names.size() > most_dense) return;
   const ConstraintBrackets<T> brackets = constraint_brackets(model, at.t, at.z);
   at.finite = at.finite && brackets.finite;
@@ -226,6 +254,21 @@ void add_constrained_motion(Point<T>& at, const std::vector<T>& rate, json& j) {
     constraints->hidden_by_momentum(force, multipliers);
     constraints->solve(multipliers, multipliers);
     j["multipliers"] = placed ? list(multipliers) : json(nullptr);
+  }
+  if (model.nonholonomic()) {
+    // S lambda = P (-H_q - p').
+    const auto constraints = model.velocity_constraints<T>();
+    const std::size_t n = constraints->degrees();
+    const bool placed =
+        constraints->place(at.t, In<T>(at.z).first(n), In<T>(at.z).subspan(n)) == Status::converged;
+    std::vector<T> force(n), multipliers(constraints->count());
+    for (std::size_t k = 0; k < n; ++k) force[k] = constraints->forces()[k] - rate[n + k];
+    constraints->by_momentum(force, multipliers);
+    constraints->solve(multipliers, multipliers);
+    j["multipliers"] = placed ? list(multipliers) : json(nullptr);
+    constraints->apply_transpose(multipliers, force);
+    for (T& f : force) f = -f;
+    j["constraint_forces"] = placed ? list(force) : json(nullptr);
   }
   if (!model.constrained() || model.constraint_names().size() > most_dense) return;
   const ConstraintBrackets<T> brackets = constraint_brackets(model, at.t, at.z);

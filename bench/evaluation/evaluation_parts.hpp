@@ -81,7 +81,11 @@ void add_birkhoffian(Point<T>& at, std::optional<std::vector<Real>> centre, json
 /// structure, S, A, S_D, W, rank, condition, first_class, redundant.
 template <class T>
 void add_constraints(Point<T>& at, json& j);
-/// Adds the keys of constraints that need the rate of the state: multipliers, dirac_bracket, solvers.
+/// Adds the key of constraints of velocities: nonholonomic.
+template <class T>
+void add_nonholonomic_bracket(Point<T>& at, json& j);
+/// Adds the keys of constraints that need the rate of the state: multipliers, constraint_forces,
+/// dirac_bracket, solvers.
 template <class T>
 void add_constrained_motion(Point<T>& at, const std::vector<T>& rate, json& j);
 

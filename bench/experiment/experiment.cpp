@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <mutex>
+#include <tuple>
 
 #include <pfaff/bench/experiment/citations.hpp>
 #include <pfaff/bench/experiment/costs.hpp>
@@ -67,6 +68,7 @@ nlohmann::json description(const Experiment& experiment, const std::vector<Exper
                           {"time_unit", model.time_unit()},
                           {"precision", to_string(c.precision)},
                           {"conserved", c.conserved},
+                          {"motion", c.motion},
                           {"structure", structure},
                           {"reference_solution", !c.reference ? "none"
                                                  : exact      ? "exact"
@@ -152,17 +154,27 @@ ResolvedRun resolved(const Experiment& experiment, const ExperimentRun& run) {
   }
 }
 
-void check_conserved(const Experiment& experiment, const ExperimentCase& c, const ExperimentRun& run) {
-  std::vector<std::string> names;
+void check_names(const Experiment& experiment, const ExperimentCase& c, const ExperimentRun& run) {
+  std::vector<std::string> names, coordinates;
   for (const Invariant& i : run.resolved.model->invariants()) names.push_back(i.name);
   if (!c.conserved.empty() && std::find(names.begin(), names.end(), c.conserved) == names.end())
     throw InputError(experiment.name + ", case " + c.name + ": " +
                      unknown_name("invariant", c.conserved, names));
+  for (const Coordinate& x : run.resolved.model->coordinates()) coordinates.push_back(x.name);
+  for (const std::string& name : c.motion)
+    if (std::find(coordinates.begin(), coordinates.end(), name) == coordinates.end())
+      throw InputError(experiment.name + ", case " + c.name + ": " +
+                       unknown_name("coordinate", name, coordinates));
 }
 
 // The key of the reference solution that a run is compared with. All runs of a case share one solution, or
-// all runs of one seed where the case has seeds.
-std::pair<const ExperimentCase*, int> problem_of(const ExperimentRun& run) { return {run.which, run.seed}; }
+// all runs of one seed where the case has seeds. A formulation that makes an energy of its own makes another
+// motion, which has a solution of its own.
+using ProblemKey = std::tuple<const ExperimentCase*, int, std::string>;
+ProblemKey problem_of(const ExperimentRun& run) {
+  const Model& model = *run.resolved.model;
+  return {run.which, run.seed, model.restricted() ? std::string() : model.source().formulation};
+}
 }  // namespace
 
 std::vector<ExperimentRun> expand(const Experiment& experiment) {
@@ -180,7 +192,7 @@ std::vector<ExperimentRun> expand(const Experiment& experiment) {
           runs.push_back(std::move(run));
         }
     }
-    check_conserved(experiment, c, runs.back());
+    check_names(experiment, c, runs.back());
   }
   // The slug names the directory of a run; two runs with the same slug would overwrite each other.
   std::map<std::string, const ExperimentRun*> kept;
@@ -272,7 +284,7 @@ ExperimentOutcome run_experiment(const Experiment& experiment, const fs::path& d
   ExperimentOutcome outcome;
   outcome.runs = runs.size();
   outcome.resumed = runs.size() - open.size();
-  std::map<std::pair<const ExperimentCase*, int>, std::unique_ptr<ReferenceSolution>> references;
+  std::map<ProblemKey, std::unique_ptr<ReferenceSolution>> references;
   for (const ExperimentRun* run : open)
     if (auto& slot = references[problem_of(*run)]; slot == nullptr && run->which->reference) {
       if (progress) progress("reference solution of " + run->which->name, outcome.resumed, runs.size());

@@ -24,7 +24,8 @@ struct ExperimentCase {
   std::string name, title, system, time;
   Assignments set;
   std::vector<std::string> initial, steps;
-  std::string conserved;  // the invariant whose drift is shown
+  std::string conserved;            // the invariant whose drift is shown
+  std::vector<std::string> motion;  // two coordinates, whose tracks in their plane are drawn; or none
   Precision precision = Precision::double_precision;
   std::vector<std::string> methods;  // labels; empty: all
   int seeds = 0;                     // > 0: an ensemble over the system's parameter `seed` = 1 ... seeds

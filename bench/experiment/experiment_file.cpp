@@ -133,6 +133,10 @@ Experiment read_experiment(const std::string& name_or_path, bool quick) {
     one.initial = c.list_of_some("initial");
     one.steps = c.list("steps");
     one.conserved = c.text("conserved", "");
+    one.motion = c.list("motion");
+    if (!one.motion.empty() && one.motion.size() != 2)
+      throw InputError(where + " [[case]] " + one.name + ": key 'motion': expected two coordinates, got " +
+                       std::to_string(one.motion.size()));
     one.precision = c.read("precision", "double", parse_precision);
     one.methods = c.list("methods");
     one.seeds =

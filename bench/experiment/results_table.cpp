@@ -94,9 +94,11 @@ void Rows::free_motion(std::ostream& text) {
   }
 }
 
-// The residual of a level of constraints, and the exponent of time with which it grows.
+// The residual of a level of constraints, and the exponent of time with which it grows; dashes where the
+// motion of a run has no such level.
 std::string residual(const nlohmann::json& summary, std::size_t level) {
-  if (summary["constraints"].size() <= level) return formatted("%8s %5s", "-", "-");
+  if (!summary.contains("constraints") || summary["constraints"].size() <= level)
+    return formatted("%8s %5s", "-", "-");
   const nlohmann::json& c = summary["constraints"][level];
   return formatted("%8s %5s", scientific(c["max"]).c_str(),
                    c["growth"].is_null() ? "-" : as_text(c["growth"].get<double>(), "%.1f").c_str());
@@ -136,7 +138,8 @@ void Rows::constrained_motion(std::ostream& text) {
 void Rows::ensemble(std::ostream& text) const {
   std::vector<std::string> measures, heads, levels;
   for (const ExperimentRun& run : runs)
-    if (run.which == &which) levels = constraint_residual_names(*run.resolved.model);
+    if (run.which == &which && run.resolved.model->restricted())
+      levels = constraint_residual_names(*run.resolved.model);
   if (!which.conserved.empty()) {
     measures.push_back(which.conserved + ":max");
     heads.push_back("drift of " + which.conserved);
@@ -194,12 +197,15 @@ std::string results_table(const fs::path& directory, const Experiment& experimen
     Rows rows{c, runs, summaries, costs};
     const auto run =
         std::find_if(runs.begin(), runs.end(), [&](const ExperimentRun& r) { return r.which == &c; });
+    const bool restricted = std::any_of(runs.begin(), runs.end(), [&](const ExperimentRun& r) {
+      return r.which == &c && r.resolved.model->restricted();
+    });
     text << '\n'
          << c.title << "  (" << c.system << ", T = " << to_string(run->resolved.time)
          << (c.seeds > 0 ? ", " + std::to_string(c.seeds) + " seeds" : "") << ")\n";
     if (c.seeds > 0) {
       rows.ensemble(text);
-    } else if (run->resolved.model->restricted()) {
+    } else if (restricted) {
       rows.constrained_motion(text);
     } else {
       rows.free_motion(text);

@@ -10,6 +10,13 @@ std::vector<std::string> constraint_residual_names(const Model& model) {
   return {"constraint"};
 }
 
+std::vector<std::string> velocity_constraint_names(const Model& model) {
+  std::vector<std::string> names;
+  for (const std::string& name : model.source().constraint_names) names.push_back(name + "~");
+  for (const std::string& name : model.source().velocity_constraint_names) names.push_back(name);
+  return names;
+}
+
 namespace {
 constexpr int most_iterations = 50;
 
@@ -66,37 +73,92 @@ Status iterate(std::vector<Quad>& residual, const Measure& measure, const Correc
   }
 }
 
-ProjectionOntoConstraints project_holonomic(const Model& model, const Quad& t, std::vector<Quad>& z) {
-  ProjectionOntoConstraints result;
-  const auto constraints = model.holonomic_constraints<Quad>();
-  const std::size_t n = constraints->degrees(), count = constraints->count();
-  const std::vector<Quad> before = z;
-  const std::span<Quad> q = std::span<Quad>(z).first(n), p = std::span<Quad>(z).subspan(n);
-  std::vector<Quad> residual(count), move(n);
-  const std::vector<std::string> names = model.constraint_names();
-  const auto positions = [&] { constraints->values(t, q, residual); };
-  const auto momenta = [&] { constraints->hidden_values(t, q, p, residual); };
-  positions();
-  note_worst(residual, 2, 0, names, result);
-  momenta();
-  note_worst(residual, 2, 1, names, result);
-  // x is moved by along(), a combination of gradients with the coefficients S^-1 residual.
-  const auto bring = [&](std::span<Quad> x, const auto& measure, const auto& along) {
-    return iterate(residual, measure, [&] {
-      if (const Status status = constraints->linearise(t, q, p); status != Status::converged)
-        return Correction{status};
-      constraints->solve(residual, residual);
-      along();
-      return Correction{Status::converged, move_by(move, x)};
-    });
-  };
-  result.status = bring(q, positions, [&] { constraints->hidden_by_momentum_transpose(residual, move); });
-  if (result.status == Status::converged)
-    result.status = bring(p, momenta, [&] { constraints->apply_transpose(residual, move); });
-  const std::span<const Quad> old(before);
-  result.change = std::max(relative_change(old.first(n), q), relative_change(old.subspan(n), p));
-  return result;
+// Moves x, the positions or the momenta of (q, p), until measure() finds no residual: along(), a combination
+// of gradients with the coefficients S^-1 residual, fills the move. S is that of `constraints`.
+template <class Constraints, class Measure, class Along>
+Status bring(Constraints& constraints, const Quad& t, std::span<const Quad> q, std::span<const Quad> p,
+             std::span<Quad> x, std::vector<Quad>& residual, const std::vector<Quad>& move,
+             const Measure& measure, const Along& along) {
+  return iterate(residual, measure, [&] {
+    if (const Status status = constraints.linearise(t, q, p); status != Status::converged)
+      return Correction{status};
+    constraints.solve(residual, residual);
+    along();
+    return Correction{Status::converged, move_by(move, x)};
+  });
 }
+
+// Positions and momenta of a state, which are brought onto their constraints one after the other.
+class InStages {
+ public:
+  InStages(const Model& model, const Quad& t, std::vector<Quad>& z)
+      : model_(model),
+        t_(t),
+        before_(z),
+        n_(z.size() / 2),
+        q_(std::span<Quad>(z).first(n_)),
+        p_(std::span<Quad>(z).subspan(n_)),
+        move_(n_),
+        names_(model.constraint_names()) {}
+
+  ProjectionOntoConstraints result() {
+    const std::span<const Quad> old(before_);
+    result_.change = std::max(relative_change(old.first(n_), q_), relative_change(old.subspan(n_), p_));
+    return result_;
+  }
+
+  void holonomic() {
+    const auto constraints = model_.holonomic_constraints<Quad>();
+    residual_.resize(constraints->count());
+    const auto momenta = [&] { constraints->hidden_values(t_, q_, p_, residual_); };
+    note_positions(*constraints);
+    momenta();
+    note_worst(residual_, 2, 1, names_, result_);
+    move_positions(*constraints);
+    if (result_.status == Status::converged)
+      result_.status = bring(*constraints, t_, q_, p_, p_, residual_, move_, momenta,
+                             [&] { constraints->apply_transpose(residual_, move_); });
+  }
+
+  // Holonomic constraints beside those of velocities first; their rates are among the psi.
+  void velocities() {
+    const auto constraints = model_.velocity_constraints<Quad>();
+    const auto momenta = [&] { constraints->values(t_, q_, p_, residual_); };
+    std::vector<Quad> psi(constraints->count());
+    constraints->values(t_, q_, p_, psi);
+    note_worst(psi, 1, 0, velocity_constraint_names(model_), result_);
+    if (const std::size_t hidden = model_.source().constraint_names.size(); hidden > 0) {
+      const auto positions = model_.holonomic_constraints<Quad>();
+      residual_.resize(hidden);
+      note_positions(*positions);
+      move_positions(*positions);
+    }
+    residual_.resize(psi.size());
+    if (result_.status == Status::converged)
+      result_.status = bring(*constraints, t_, q_, p_, p_, residual_, move_, momenta,
+                             [&] { constraints->apply_transpose(residual_, move_); });
+  }
+
+ private:
+  void note_positions(HolonomicConstraints<Quad>& constraints) {
+    constraints.values(t_, q_, residual_);
+    note_worst(residual_, 2, 0, names_, result_);
+  }
+  void move_positions(HolonomicConstraints<Quad>& constraints) {
+    result_.status = bring(
+        constraints, t_, q_, p_, q_, residual_, move_, [&] { constraints.values(t_, q_, residual_); },
+        [&] { constraints.hidden_by_momentum_transpose(residual_, move_); });
+  }
+
+  const Model& model_;
+  const Quad& t_;
+  const std::vector<Quad> before_;
+  const std::size_t n_;
+  const std::span<Quad> q_, p_;
+  std::vector<Quad> residual_, move_;
+  const std::vector<std::string> names_;
+  ProjectionOntoConstraints result_;
+};
 
 ProjectionOntoConstraints project_in_phase_space(const Model& model, const Quad& t, std::vector<Quad>& z) {
   ProjectionOntoConstraints result;
@@ -119,7 +181,14 @@ ProjectionOntoConstraints project_in_phase_space(const Model& model, const Quad&
 }  // namespace
 
 ProjectionOntoConstraints project_onto_constraints(const Model& model, const Quad& t, std::vector<Quad>& z) {
-  return model.holonomic() ? project_holonomic(model, t, z) : project_in_phase_space(model, t, z);
+  if (!model.holonomic() && !model.nonholonomic()) return project_in_phase_space(model, t, z);
+  InStages stages(model, t, z);
+  if (model.holonomic()) {
+    stages.holonomic();
+  } else {
+    stages.velocities();
+  }
+  return stages.result();
 }
 
 }  // namespace pfaff

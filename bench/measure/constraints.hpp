@@ -61,6 +61,14 @@ class ConstraintResiduals {
   std::vector<T> values_;
 };
 
+/// Names of the velocity constraints psi in the order of VelocityConstraints: the hidden ones of holonomic
+/// constraints, then those of velocities themselves.
+std::vector<std::string> velocity_constraint_names(const Model& model);
+
+/// Why velocity constraints define no motion at a state, as a whole sentence with the names of the rows of A:
+/// a row is zero or depends on others, or no velocity meets all constraints. Empty where they define one.
+std::string dependent_velocity_constraints(const Model& model, const Quad& t, const std::vector<Quad>& z);
+
 /// What it took to bring a state onto its constraints.
 struct ProjectionOntoConstraints {
   Status status = Status::converged;
@@ -70,8 +78,10 @@ struct ProjectionOntoConstraints {
 };
 
 /// Moves `z` at time `t` onto the constraints by Newton's method in quad. Holonomic constraints are met in
-/// two stages: positions move along M^-1 B^T until phi = 0, then momenta along B^T until phi~ = 0. For all
-/// other constraints the state moves along their gradients.
+/// two stages: positions move along M^-1 B^T until phi = 0, then momenta along B^T until phi~ = 0. Where
+/// velocities are constrained, momenta move along A^T until A v + b = 0, which for a quadratic H is the
+/// projection in the metric of the masses; holonomic constraints beside them are met by positions first. For
+/// all other constraints the state moves along their gradients.
 ProjectionOntoConstraints project_onto_constraints(const Model& model, const Quad& t, std::vector<Quad>& z);
 
 }  // namespace pfaff

@@ -17,6 +17,10 @@ import sys
 
 SYSTEMS = ["harmonic-oscillator", "pendulum", "kepler"]
 BY_NAME = ["damped-pendulum", "lotka-volterra", "henon-heiles"]  # on the registered path alone
+NONHOLONOMIC = ["sleigh", "contact-oscillator", "quartic-nonholonomic"]
+# Methods for velocity constraints, each with the limit of its step in steps of RK4 on the projected equations.
+PROJECTED = {"dla": 1.2, "gni": 1.2, "nonholonomic-leap-frog": None, "mclachlan-perlmutter": None,
+             "nonholonomic-discrete-gradient": 3.0, "velocity-projected-rk4": None, "odeint-dopri5": None}
 CHAIN = [8, 16, 32, 64, 128]
 RODS = [16, 64, 256, 1024]
 METHODS = ["verlet-plain", "verlet", "rk4-plain", "rk4", "implicit-midpoint", "gauss-4", "gauss-8",
@@ -76,6 +80,10 @@ def targets(times):
         rows.append((f"damped pendula, order 8: {longer} / {shorter} of them",
                      (f"damped-pendula-{longer}", "generating-function-8", "registered"),
                      (f"damped-pendula-{shorter}", "generating-function-8", "registered"), 2.2))
+    for system in NONHOLONOMIC:
+        for method, limit in PROJECTED.items():
+            rows.append((f"{system}: {method} / RK4", (system, method, "registered"), (system, "rk4", "registered"),
+                         limit))
     work = "factor-and-solve"
     for rows_of_matrix in STRUCTURES["tridiagonal"]:
         name = f"tridiagonal-{rows_of_matrix}"
@@ -108,9 +116,9 @@ def rod_limits(times):
 
 def print_times(times):
     print(f"{'ns a step':<30}" + "".join(f"{title:>11}" for title in PATHS.values()))
-    for system in SYSTEMS + BY_NAME + [f"damped-pendula-{n}" for n in CHAIN]:
+    for system in SYSTEMS + BY_NAME + [f"damped-pendula-{n}" for n in CHAIN] + NONHOLONOMIC:
         print(system)
-        for method in METHODS + ONLY_ODEINT:
+        for method in METHODS + ONLY_ODEINT + list(PROJECTED):
             names = [RIVALS.get(method, method if method in ONLY_ODEINT else "") if path == "odeint" else method
                      for path in PATHS]
             cells = [times.get((system, name, path)) for name, path in zip(names, PATHS)]

@@ -127,7 +127,9 @@ class Experiment:
         for i, case in enumerate(self.cases):
             require(case, f"experiment.json, case {i + 1}", name=str, precision=str)
             allow(case, f"experiment.json, case {case['name']}", title=str, parameters=dict, time_unit=str,
-                  conserved=str, structure=str)
+                  conserved=str, structure=str, motion=list)
+            if len(case.get("motion") or []) not in (0, 2):
+                raise InputError(f"experiment.json, case {case['name']}: expected 'motion' to name two coordinates")
             if case["precision"] not in UNIT_ROUND_OFF:
                 raise InputError(f"experiment.json, case {case['name']}: expected precision double or quad, "
                                  f"got '{case['precision']}'")
@@ -242,12 +244,14 @@ class Experiment:
         return list(chosen.values())
 
     def series(self, run, invariant):
-        """The run's series with one invariant (or None), or None where the run left no series."""
+        """The run's series with one invariant (or None), or None where the run left no series. The residuals of
+        constraints are None too where the run's motion has none, as vakonomic motion among others."""
         key = (run.slug, invariant)
         if key not in self._series:
             path = self.folder / "runs" / run.slug / "series.csv"
             found = bool(run.slug) and path.exists()
-            self._series[key] = read_series(path, invariant, run.cells["precision"]) if found else None
+            self._series[key] = (read_series(path, invariant, run.cells["precision"], invariant in self.residuals)
+                                 if found else None)
         return self._series[key]
 
     def expectation(self, case, invariant):
@@ -272,13 +276,15 @@ def invariants_of(path):
     return summary.get("invariants") or []
 
 
-def read_series(path, invariant, precision):
+def read_series(path, invariant, precision, may_lack=False):
     where = "/".join(path.parts[-3:])
     columns, rows = read_csv(path, where)
     names, units = zip(*map(split_unit, columns)) if columns else ((), ())
     if not names or names[0] != "t":
         raise InputError(f"{where}: the first column is expected to be 't [unit]'")
     if invariant is not None and invariant not in names:
+        if may_lack:
+            return None
         raise InputError(f"{where}: column '{invariant}' is missing")
 
     def column(name):

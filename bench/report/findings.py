@@ -9,6 +9,7 @@ Thresholds, all stated in the text they produce:
 import math
 
 import constraints
+import ensembles
 from experiment import DIRECTIONS, UNIT_ROUND_OFF
 from figures import precision_measure, step_text, with_unit
 
@@ -54,7 +55,7 @@ def grouped(*groups):
 def findings(experiment, case):
     """[(subject, sentence, [items])] of one case."""
     makers = (structure, drift, order, cost) if not case.get("seeds") else ()
-    makers += (constraints.claims, constraints.growth, failures)
+    makers += (constraints.claims, ensembles.findings, constraints.growth, failures)
     return [found for maker in makers for found in maker(experiment, case)]
 
 

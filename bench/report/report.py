@@ -2,7 +2,7 @@
 """Figures and report of an experiment:  python3 report.py EXPERIMENT_DIR
 
 Reads experiment.json, results.csv, cost.csv (if timings were measured) and runs/*/series.csv with summary.json, as
-`pfaff compare` leaves them. Writes figures/{drift,work_precision,structure,constraints}_<case>.{svg,png} and report.html beside
+`pfaff compare` leaves them. Writes figures/{motion,drift,work_precision,structure,constraints,ensemble}_<case>.{svg,png} and report.html beside
 them, the same bytes for the same data. Needs matplotlib and nothing else. Exit status: 0 fine, 2 wrong usage or
 input, with one line on stderr.
 """
@@ -26,13 +26,16 @@ def write(path, content):
 def report(folder):
     experiment = Experiment(folder)
     import constraints  # after the input has been read: importing matplotlib takes a second
+    import ensembles
+    import motion
     from figures import drawings
     from page import page
     target, drawn = experiment.folder / "figures", {}
     target.mkdir(exist_ok=True)
     for case in experiment.cases:
         drawn[case["name"]] = []
-        for drawing in drawings(experiment, case) + constraints.drawings(experiment, case):
+        for drawing in (motion.drawings(experiment, case) + drawings(experiment, case)
+                        + constraints.drawings(experiment, case) + ensembles.drawings(experiment, case)):
             sheet = drawing.draw(True)
             wide = sheet.svg(f"{drawing.name}-wide")
             write(target / f"{drawing.name}.svg", f'<?xml version="1.0" encoding="utf-8"?>\n{wide}')

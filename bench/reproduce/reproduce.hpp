@@ -39,7 +39,7 @@ bool ok(const std::vector<ReproducedRow>& rows);
 std::vector<ReproducedRow> reproduce_su_qin();
 /// Nguyen & Turski (nguyen_turski/): sections "brackets" and "formulations".
 std::vector<ReproducedRow> reproduce_nguyen_turski();
-/// Pitanga & Rodrigues (pitanga_rodrigues/): section "transverse".
+/// Pitanga & Rodrigues (pitanga_rodrigues/): sections "projectors", "transverse", "sleigh" and "contact".
 std::vector<ReproducedRow> reproduce_pitanga_rodrigues();
 
 }  // namespace pfaff

@@ -2,18 +2,33 @@
 
 namespace pfaff {
 
+namespace {
+const FormulationPlugin& default_formulation(bool of_velocities) {
+  return of_velocities ? nonholonomic_formulation() : dirac_formulation();
+}
+}  // namespace
+
 const FormulationPlugin& dirac_formulation() { return formulations().get("dirac", "formulation"); }
+
+const FormulationPlugin& nonholonomic_formulation() {
+  return formulations().get("nonholonomic", "formulation");
+}
+
+const FormulationPlugin& default_formulation(const Model& model) {
+  return default_formulation(model.nonholonomic());
+}
 
 const FormulationPlugin* formulation_for(const SystemPlugin& system, const std::string& name) {
   const FormulationPlugin* named = name.empty() ? nullptr : &formulations().get(name, "formulation");
-  if (system.constrained()) return named != nullptr ? named : &dirac_formulation();
+  if (system.constrained())
+    return named != nullptr ? named : &default_formulation(system.constrains_velocities());
   if (named != nullptr)
     throw InputError("--formulation: " + system.name() + " has no constraints; expected none");
   return nullptr;
 }
 
 std::shared_ptr<const Model> motion_of(const std::shared_ptr<const Model>& model) {
-  return model->moves() || !model->restricted() ? model : dirac_formulation().apply(model, {});
+  return model->moves() || !model->restricted() ? model : default_formulation(*model).apply(model, {});
 }
 
 std::shared_ptr<const Model> motion_for(const MethodInstance& method,

@@ -145,14 +145,27 @@ std::vector<Real> initial_state(const Model& model, const std::vector<std::strin
   return model.initial();
 }
 
+// Refuses a state at which the velocity constraints of a system define no motion. `whole` is the system
+// before a formulation was applied, which may have solved the constraints.
+void check_independence(const Model& whole, const ResolvedRun& run) {
+  if (!whole.nonholonomic()) return;
+  std::vector<Quad> z;
+  for (const Real& x : run.initial) z.push_back(x.quad());
+  if (const std::string reason = dependent_velocity_constraints(whole, run.t0.quad(), z); !reason.empty())
+    throw InputError("initial state of " + whole.name() + ": " + reason +
+                     "; expected a state where the constraints are independent");
+}
+
 // Decides about an initial state that is off the constraints, according to the settings: it is moved onto
 // them, taken as it is, or refused (InputError).
 void check_consistency(const RunSettings& settings, ResolvedRun& run) {
   if (!run.model->restricted()) {
     if (settings.project_initial || settings.allow_inconsistent)
       throw InputError(
-          (settings.project_initial ? "--project-initial: system " : "--allow-inconsistent: system ") +
-          run.model->name() + " has no constraints");
+          std::string(settings.project_initial ? "--project-initial: " : "--allow-inconsistent: ") +
+          (run.model->source().formulation.empty()
+               ? "system " + run.model->name() + " has no constraints"
+               : "states of formulation " + run.model->source().formulation + " are not constrained"));
     return;
   }
   if (settings.allow_inconsistent) return;
@@ -244,7 +257,7 @@ ResolvedRun resolve(const RunSettings& settings) {
   if (formulation != nullptr)
     split.formulation = with_absolute_paths(formulation->parameters(), std::move(split.formulation));
   const Assignments read = files_of(system.parameters(), split.system);
-  run.model = system.make(split.system);
+  const auto whole = run.model = system.make(split.system);
   run.method = method.make(split.integrator);
   if (formulation != nullptr && !run.method->refuses(*run.model).empty()) {
     run.settings.formulation = formulation->name();
@@ -264,6 +277,7 @@ ResolvedRun resolve(const RunSettings& settings) {
   if (!(run.time > Real(0))) throw InputError("--time: expected a duration > 0, got '" + settings.time + "'");
 
   run.given_initial = run.initial;
+  check_independence(*whole, run);
   check_consistency(settings, run);
   // A state outside the domain of the formulas is refused here, not discovered as NaN later.
   if (run.model->moves()) {

@@ -88,7 +88,14 @@ constexpr std::array checks{
     ClaimCheck{.claim = Claim::velocity_constraints,
                .in_double = velocity_constraints_residual<double>,
                .in_quad = velocity_constraints_residual<Quad>,
-               .control = {.method = "rk4", .system = "sliding blade", .model = &sliding_blade}}};
+               .control = {.method = "rk4", .system = "sliding blade", .model = &sliding_blade}},
+    // The discrete gradients of the constraint turn the blade.
+    ClaimCheck{
+        .claim = Claim::nonholonomic_momentum,
+        .in_double = nonholonomic_momentum_residual<double>,
+        .in_quad = nonholonomic_momentum_residual<Quad>,
+        .control = {
+            .method = "nonholonomic-discrete-gradient", .system = "sliding blade", .model = &sliding_blade}}};
 
 constexpr bool complete() {
   std::size_t k = 0;

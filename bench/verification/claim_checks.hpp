@@ -71,6 +71,9 @@ double quadratic_invariants_residual(MeasuredStep<T>& step);
 /// The largest change of a conserved p^T (D q + d).
 template <class T>
 double momentum_maps_residual(MeasuredStep<T>& step);
+/// The largest change of a conserved p^T (D q + d) along directions that velocity constraints allow.
+template <class T>
+double nonholonomic_momentum_residual(MeasuredStep<T>& step);
 /// The change of the energy H.
 template <class T>
 double energy_residual(MeasuredStep<T>& step);
@@ -89,7 +92,7 @@ double constraints_residual(MeasuredStep<T>& step);
 /// The largest residual of the constraints of velocities.
 template <class T>
 double velocity_constraints_residual(MeasuredStep<T>& step);
-/// A system for the control: a blade that slides and turns on a plane under one velocity constraint. Its
+/// A system for the controls: a blade that slides and turns on a plane under one velocity constraint. Its
 /// vector field contains the exact reaction of the constraint.
 std::shared_ptr<const Model> sliding_blade();
 

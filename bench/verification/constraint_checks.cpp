@@ -1,12 +1,14 @@
 // The claims of systems with constraints: the initial state is on the constraints, these are second class
-// there, the author's own evaluator computes what is derived, and Dirac's formulation keeps the constraints,
-// off their surface too. (Gradients that an author writes are compared with derived ones, as all formulas
-// are, in override_checks.cpp.)
+// there, or independent where they constrain velocities, evaluators compute what is derived, and the default
+// formulation keeps the constraints, off their surface too. (Gradients that an author writes are compared
+// with derived ones, as all formulas are, in override_checks.cpp.)
 #include <stdexcept>
 
 #include <pfaff/bench/measure/constraint_brackets.hpp>
+#include <pfaff/bench/measure/constraints.hpp>
 #include <pfaff/bench/verification/residuals.hpp>
 #include <pfaff/core/facets/conformance/constraint_identities.hpp>
+#include <pfaff/core/facets/conformance/velocity_identities.hpp>
 #include <pfaff/core/formulation.hpp>
 
 namespace pfaff {
@@ -32,11 +34,13 @@ template <class T>
 Check initial_residual(const std::string& name, const Model& model, const char* precision, double tolerance) {
   std::vector<T> z;
   for (const Real& x : model.initial()) z.push_back(T(x));
-  const ConstraintBrackets<T> at = constraint_brackets(model, T(0), z);
+  Replay<T> replay(model.tape(Formula::constraints));
+  std::vector<T> values(replay.tape().outputs.size());
+  replay(T(0), z.data(), values.data());
   double worst = 0;
   std::string which;
-  for (std::size_t k = 0; k < at.values.size(); ++k)
-    if (const auto size = static_cast<double>(abs(at.values[k])); !(size <= worst)) {
+  for (std::size_t k = 0; k < values.size(); ++k)
+    if (const auto size = static_cast<double>(abs(values[k])); !(size <= worst)) {
       worst = size;
       which = model.constraint_names()[k];
     }
@@ -75,35 +79,69 @@ std::vector<Check> check_constraints_of(const std::string& name, const Model& mo
   return checks;
 }
 
-// The identities that an author's own evaluator of the constraints must satisfy together with the formulas of
-// the system.
-template <class T>
-Check written_evaluator(const std::string& name, const Model& model, const char* precision,
-                        double tolerance) {
-  const auto constraints = model.holonomic_constraints<T>();
+// The identities that an evaluator must satisfy together with the formulas of the system.
+template <class T, class Constraints>
+Check evaluator(const std::string& name, Constraints& constraints, const Model& model, const char* claim,
+                const char* precision, double tolerance) {
   double worst = 0;
   std::string which;
-  for (const ConstraintIdentity& identity : constraint_identities(*constraints, model)) {
+  for (const ConstraintIdentity& identity : constraint_identities(constraints, model)) {
     const double measured = identity.roundings * static_cast<double>(unit_roundoff<T>());
     if (measured <= worst) continue;
     worst = measured;
     which = identity.operation;
   }
-  Check check = named(name, "written constraints are the derived ones", name, precision, worst, tolerance);
+  Check check = named(name, claim, name, precision, worst, tolerance);
   if (check.result == CheckResult::fail) check.reason = "operation " + which;
   return check;
+}
+
+// What is claimed of velocity constraints. Holonomic ones beside them are kept at the level of velocities:
+// off the surface their positions drift.
+std::vector<Check> check_velocity_constraints(const std::string& name, const Model& model,
+                                              const Model& motion) {
+  std::vector<Check> checks;
+  checks.push_back(initial_residual<double>(name, model, "double", 1e-14));
+  checks.push_back(initial_residual<Quad>(name, model, "quad", 1e-32));
+  std::vector<Quad> z;
+  for (const Real& x : model.initial()) z.push_back(x.quad());
+  const std::string dependent = dependent_velocity_constraints(model, Quad(0), z);
+  checks.push_back(named(name, "constraints are independent", name, "quad", dependent.empty() ? 0 : 1, 0));
+  checks.back().scope = "initial state";
+  checks.back().reason = dependent;
+  const auto all = model.tape(Formula::constraints);
+  const auto rates =
+      rates_along(*all, *model.derived(Formula::constraint_gradients), *motion.tape(Formula::field));
+  const std::size_t holonomic = model.source().constraint_names.size();
+  const auto kept = expression(model.dimension(), static_cast<int>(all->outputs.size() - holonomic),
+                               [&](const Recorded& t, Arguments at, Results out) {
+                                 const auto every = evaluate(*rates, t, at);
+                                 for (std::size_t k = 0; k < out.size(); ++k)
+                                   out[k] = every[k < holonomic ? 2 * k + 1 : holonomic + k];
+                               });
+  both(checks, name, "constraints are kept by " + motion.source().formulation, name, kept, model.initial());
+  // Sums and eliminations in another order, hence the tolerances.
+  const char* claim = "evaluated constraints are the derived ones";
+  checks.push_back(
+      evaluator<double>(name, *model.velocity_constraints<double>(), model, claim, "double", 1e-12));
+  checks.push_back(evaluator<Quad>(name, *model.velocity_constraints<Quad>(), model, claim, "quad", 1e-30));
+  return checks;
 }
 
 }  // namespace
 
 std::vector<Check> check_constraints(const std::string& name, const std::shared_ptr<const Model>& model) {
   const auto motion = motion_of(model);
+  if (model->nonholonomic()) return check_velocity_constraints(name, *model, *motion);
   std::vector<Check> checks = check_constraints_of(name, *model, *motion);
   if (model->source().holonomic != nullptr) {
     // The two evaluators sum and eliminate in different orders, so that they differ by rounding times the
     // condition of S, which is up to a hundred.
-    checks.push_back(written_evaluator<double>(name, *model, "double", 1e-12));
-    checks.push_back(written_evaluator<Quad>(name, *model, "quad", 1e-30));
+    const char* claim = "written constraints are the derived ones";
+    checks.push_back(
+        evaluator<double>(name, *model->holonomic_constraints<double>(), *model, claim, "double", 1e-12));
+    checks.push_back(
+        evaluator<Quad>(name, *model->holonomic_constraints<Quad>(), *model, claim, "quad", 1e-30));
   }
   return checks;
 }
@@ -147,6 +185,37 @@ struct Line {
   }
 };
 
+// A blade on a plane, held by velocity constraints, in versions each of which has one thing wrong.
+struct FaultyBlade {
+  static constexpr int dimension = 6;
+  static constexpr int velocity_constraint_count = 2;
+  bool off = false, dependent = false, contradicting = false;
+  static std::vector<std::string> velocity_constraint_names() { return {"blade", "spin"}; }
+  template <class T>
+  void initial(Out<T> z) const {
+    z[2] = T(1);
+    z[3] = cos(T(1)) + T(off ? Real::fraction(1, 1000000) : Real(0));
+    z[4] = sin(T(1));
+    z[5] = T(dependent ? 0 : 1);
+  }
+  template <class T>
+  T hamiltonian(const T& /*t*/, In<T> z) const {
+    return (z[3] * z[3] + z[4] * z[4] + z[5] * z[5]) / 2 + z[0];
+  }
+  template <class T>
+  void velocity_constraints(const T& /*t*/, In<T> q, Out<T> rows) const {
+    rows[0] = -sin(q[2]);
+    rows[1] = cos(q[2]);
+    rows[3] = dependent ? T(-3 * sin(q[2])) : T(0);
+    rows[4] = dependent ? T(3 * cos(q[2])) : T(0);
+    rows[5] = T(dependent ? 0 : 1);
+  }
+  template <class T>
+  void velocity_offsets(const T& /*t*/, In<T> /*q*/, Out<T> b) const {
+    b[1] = T(dependent && !contradicting ? 0 : -1);
+  }
+};
+
 }  // namespace
 
 std::vector<Check> check_false_constraints() {
@@ -177,6 +246,16 @@ std::vector<Check> check_false_constraints() {
           checks_of({.wrong_gradient = true}));
   control("line, the same constraint twice", "constraints are second class", checks_of({.dependent = true}));
   control("line, the same constraint twice", "constraints are kept", checks_of({.dependent = true}));
+  const auto checks_of_blade = [](const FaultyBlade& blade) {
+    const auto model = make_model(SystemDescriptor{.name = "blade", .title = "", .reference = ""}, blade);
+    return check_velocity_constraints("blade", *model, *motion_of(model));
+  };
+  control("blade, initial state moved by 1e-6", "initial state", checks_of_blade({.off = true}));
+  control("blade, the same constraint twice", "constraints are independent",
+          checks_of_blade({.dependent = true}));
+  control("blade, the same constraint twice", "constraints are kept", checks_of_blade({.dependent = true}));
+  control("blade, two constraints that contradict each other", "constraints are independent",
+          checks_of_blade({.dependent = true, .contradicting = true}));
   // The simplified equations are valid on the surface only; off it they let the constraints of positions
   // drift, which must be found.
   const SystemPlugin& pendulum = systems().get("spherical-pendulum", "system");

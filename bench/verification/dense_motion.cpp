@@ -97,6 +97,8 @@ std::vector<Quad> DenseMotion::PhaseSpace::projected(const Matrix<Quad>& tensor,
 DenseMotion::DenseMotion(const Model& model) {
   if (model.facets().has(Facet::holonomic)) {
     holonomic_ = std::make_unique<DenseConstraints>(model);
+  } else if (model.nonholonomic()) {
+    velocities_ = std::make_unique<DenseVelocityConstraints>(model);
   } else {
     phase_space_ = std::make_unique<PhaseSpace>(model);
   }
@@ -105,12 +107,18 @@ DenseMotion::DenseMotion(const Model& model) {
 void DenseMotion::place(Quad t, const std::vector<Quad>& z) {
   if (holonomic_ != nullptr) {
     holonomic_->place(t, z);
+  } else if (velocities_ != nullptr) {
+    velocities_->place(t, z);
   } else {
     phase_space_->place(t, z);
   }
 }
 
-std::vector<Quad> DenseMotion::field(const FormulationStatement& statement) const {
+std::vector<Quad> DenseMotion::field(const FormulationStatement& statement) {
+  if (velocities_ != nullptr) {
+    if (statement.of_an_energy) return velocities_->vakonomic_motion();
+    return statement.reactions == Reactions::ideal ? velocities_->nonholonomic_motion() : std::vector<Quad>();
+  }
   if (phase_space_ != nullptr) {
     if (statement.reactions != Reactions::hamiltonian) return {};
     std::vector<Quad> rate =
@@ -130,20 +138,50 @@ std::vector<Quad> DenseMotion::field(const FormulationStatement& statement) cons
 
 std::vector<Quad> DenseMotion::free_field() const {
   if (phase_space_ != nullptr) return phase_space_->pi * phase_space_->energy;
-  std::vector<Quad> rate = holonomic_->velocities;
-  rate.insert(rate.end(), holonomic_->forces.begin(), holonomic_->forces.end());
+  std::vector<Quad> rate = velocities_ != nullptr ? velocities_->velocities : holonomic_->velocities;
+  const std::vector<Quad>& forces = velocities_ != nullptr ? velocities_->forces : holonomic_->forces;
+  rate.insert(rate.end(), forces.begin(), forces.end());
   return rate;
 }
 
 std::vector<Quad> DenseMotion::energy_gradient() const {
   if (phase_space_ != nullptr) return phase_space_->energy;
-  std::vector<Quad> gradient;
-  for (const Quad& x : holonomic_->forces) gradient.push_back(-x);
-  gradient.insert(gradient.end(), holonomic_->velocities.begin(), holonomic_->velocities.end());
+  const std::vector<Quad> flow = free_field();  // (H_p, -H_q)
+  const std::size_t n = flow.size() / 2;
+  std::vector<Quad> gradient(flow.size());
+  for (std::size_t k = 0; k < n; ++k) {
+    gradient[k] = -flow[n + k];
+    gradient[n + k] = flow[k];
+  }
   return gradient;
 }
 
+DenseMotion::Rates DenseMotion::rates_of_velocities(const std::vector<Quad>& field) const {
+  Rates rates;
+  Sums sums;
+  const DenseVelocityConstraints& c = *velocities_;
+  const std::size_t n = c.degrees();
+  // psi' = {psi, H} + psi_t + psi_q (q' - v) + P (p' + H_q).
+  for (std::size_t i = 0; i < c.count(); ++i) {
+    sums.add(c.rates[i]);
+    for (std::size_t a = 0; a < n; ++a) {
+      sums.add(c.by_position(i, a) * (field[a] - c.velocities[a]));
+      sums.add(c.by_momentum(i, a) * (field[n + a] - c.forces[a]));
+    }
+    sums.end(rates.velocities);
+    sums.add(c.offsets[i]);
+    for (std::size_t a = 0; a < n; ++a) sums.add(c.rows(i, a) * field[a]);
+    sums.end(rates.inadmissible);
+    if (i < c.holonomic()) rates.constraints = std::max(rates.constraints, rates.inadmissible);
+  }
+  const std::vector<Quad> gradient = energy_gradient();
+  for (std::size_t a = 0; a < field.size(); ++a) sums.add(gradient[a] * field[a]);
+  sums.end(rates.energy);
+  return rates;
+}
+
 DenseMotion::Rates DenseMotion::rates(const std::vector<Quad>& field) const {
+  if (velocities_ != nullptr) return rates_of_velocities(field);
   Rates rates;
   Sums sums;
   if (phase_space_ != nullptr) {
@@ -178,6 +216,7 @@ DenseMotion::Rates DenseMotion::rates(const std::vector<Quad>& field) const {
 
 double DenseMotion::condition() const {
   if (holonomic_ != nullptr) return holonomic_->condition();
+  if (velocities_ != nullptr) return velocities_->condition();
   const Matrix<Quad> w = phase_space_->rows * phase_space_->pi * phase_space_->rows.transposed();
   const auto size = static_cast<double>(largest(w) * largest(inverse(w)));
   return std::isnan(size) ? std::numeric_limits<double>::infinity() : static_cast<double>(w.rows()) * size;

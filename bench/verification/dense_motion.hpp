@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <pfaff/core/facets/conformance/dense_constraints.hpp>
+#include <pfaff/core/facets/conformance/dense_velocity_constraints.hpp>
 #include <pfaff/core/formulation.hpp>
 
 namespace pfaff {
@@ -17,22 +18,25 @@ class DenseMotion {
   void place(Quad t, const std::vector<Quad>& z);
 
   /// The right-hand side that a formulation's statement defines; empty where the statement defines nothing
-  /// here. For holonomic constraints it is made with the statement's reactions and friction. For constraints
-  /// phi(z, t) = 0 of the phase space with hamiltonian reactions it is nguyen-turski (1.2) word for word, Pi
-  /// dH - X_i (W^-1)_ij (dphi_j Pi dH + d_t phi_j) with X_i = Pi dphi_i, plus the same expression for the
-  /// symmetric bracket, over those constraints that are no Casimirs of it.
-  [[nodiscard]] std::vector<Quad> field(const FormulationStatement& statement) const;
+  /// here. For holonomic constraints it is made with the statement's reactions and friction. For velocity
+  /// constraints it is Lagrange and d'Alembert's motion where the statement has ideal reactions, and
+  /// vakonomic motion where it makes an energy, both by saddle-point systems. For constraints phi(z, t) = 0
+  /// of the phase space with hamiltonian reactions it is nguyen-turski (1.2) word for word, Pi dH - X_i
+  /// (W^-1)_ij (dphi_j Pi dH + d_t phi_j) with X_i = Pi dphi_i, plus the same expression for the symmetric
+  /// bracket, over those constraints that are no Casimirs of it.
+  [[nodiscard]] std::vector<Quad> field(const FormulationStatement& statement);
 
   /// The field without constraints and friction.
   [[nodiscard]] std::vector<Quad> free_field() const;
   /// dH.
   [[nodiscard]] std::vector<Quad> energy_gradient() const;
 
-  /// The largest rates phi', phi~' and H' along a field, each relative to the size of its terms. The explicit
-  /// dependence of H on time is left out. phi~' is 0 for constraints of the phase space, which have no hidden
-  /// ones.
+  /// The largest rates phi', phi~', psi' and H' along a field and the largest A q' + b, each relative to the
+  /// size of its terms; zero where there is no such thing. phi~' belongs to holonomic constraints alone,
+  /// since among velocity constraints it is one of the psi'. The explicit dependence of H on time is left
+  /// out.
   struct Rates {
-    double constraints = 0, hidden = 0, energy = 0;
+    double constraints = 0, hidden = 0, velocities = 0, energy = 0, inadmissible = 0;
   };
   [[nodiscard]] Rates rates(const std::vector<Quad>& field) const;
 
@@ -53,7 +57,10 @@ class DenseMotion {
                                               const std::vector<Quad>& shift) const;
   };
 
+  [[nodiscard]] Rates rates_of_velocities(const std::vector<Quad>& field) const;
+
   std::unique_ptr<DenseConstraints> holonomic_;
+  std::unique_ptr<DenseVelocityConstraints> velocities_;
   std::unique_ptr<PhaseSpace> phase_space_;
 };
 

@@ -17,6 +17,16 @@ namespace {
 
 constexpr int states_on_surface = 4, states_off_surface = 6;
 constexpr int small = 8, large = 96;  // dimensions
+constexpr const char* tilted_field = ", its field tilted by 1e-6";
+
+// True where the offsets b of velocity constraints vanish.
+bool homogeneous(const Model& model) {
+  const Tape& b = *model.tape(Formula::velocity_offsets);
+  return std::all_of(b.outputs.begin(), b.outputs.end(), [&](int slot) {
+    const Instruction& i = b.code[static_cast<std::size_t>(slot)];
+    return i.operation == Operation::constant && b.constants[static_cast<std::size_t>(i.a)].is(0);
+  });
+}
 
 struct RandomRods : BeadRodSystem<RandomRods> {
   [[nodiscard]] static BeadRodDescription describe() {
@@ -63,7 +73,7 @@ struct Precision<Quad> {
 // The worst values over all points, each relative to the sizes of its terms and the condition of the
 // constraints.
 struct Measured {
-  double definition = 0, constraints = 0, hidden = 0, energy = 0;
+  double definition = 0, constraints = 0, hidden = 0, velocities = 0, energy = 0, inadmissible = 0;
   bool defined = false;
 
   static void note(double& worst, double value) {
@@ -74,6 +84,8 @@ struct Measured {
     const DenseMotion::Rates rates = motion.rates(field);
     note(constraints, rates.constraints / condition);
     note(hidden, rates.hidden / condition);
+    note(velocities, rates.velocities / condition);
+    note(inadmissible, rates.inadmissible / condition);
     note(energy, rates.energy / condition);
     defined = !expected.empty();
     Quad size(1);
@@ -111,9 +123,11 @@ class FormulationChecker {
     return std::find(statement_.keeps.begin(), statement_.keeps.end(), claim) != statement_.keeps.end();
   }
   // True where the reactions are defined off the surface of the constraints too. On the surface their
-  // directions define them; off it this takes, in addition, a claim about what they keep.
+  // directions define them; off it this takes, in addition, a claim about what they keep. An energy defines
+  // its motion everywhere.
   [[nodiscard]] bool defined_everywhere() const {
-    return claims(FormulationClaim::constraints) ||
+    return statement_.of_an_energy || claims(FormulationClaim::constraints) ||
+           claims(FormulationClaim::velocity_constraints) ||
            (statement_.reactions == Reactions::ideal && claims(FormulationClaim::hidden_constraints));
   }
 
@@ -143,10 +157,12 @@ class FormulationChecker {
     if constexpr (std::is_same_v<T, Quad>) judge<T>(reversed_on, reversed_off, true);
   }
 
-  // The field with the opposite sign of the reactions in the momenta, which are the second half of the state.
+  // The field with the opposite sign of the reactions in the momenta, which are the second half of the state,
+  // and where an energy makes the motion in the positions too, whose velocities it changes.
   [[nodiscard]] std::vector<Quad> reversed(std::vector<Quad> field) const {
     const std::vector<Quad> free = motion_.free_field();
-    for (std::size_t k = field.size() / 2; k < field.size(); ++k) field[k] = Quad(2) * free[k] - field[k];
+    for (std::size_t k = statement_.of_an_energy ? 0 : field.size() / 2; k < field.size(); ++k)
+      field[k] = Quad(2) * free[k] - field[k];
     return field;
   }
 
@@ -184,15 +200,26 @@ class FormulationChecker {
       check("field is its definition", "off the surface", defined_everywhere(), off.definition);
     }
     check("tangent", "on the surface", claims(FormulationClaim::tangent),
-          std::max(on.constraints, on.hidden));
+          std::max({on.constraints, on.hidden, on.velocities}));
     if (hidden)
       check("keeps hidden-constraints", "off the surface", claims(FormulationClaim::hidden_constraints),
             off.hidden);
+    if (model_->nonholonomic()) return judge_velocities(check, on, off);
     check("keeps constraints", "off the surface", claims(FormulationClaim::constraints),
           std::max(off.constraints, off.hidden));
     if (energy_in_scope_)
-      check("keeps energy", "off the surface", claims(FormulationClaim::energy), off.energy,
-            ", its field tilted by 1e-6");
+      check("keeps energy", "off the surface", claims(FormulationClaim::energy), off.energy, tilted_field);
+  }
+
+  // The claims about velocity constraints.
+  template <class Judge>
+  void judge_velocities(const Judge& check, const Measured& on, const Measured& off) {
+    check("keeps velocity-constraints", "off the surface", claims(FormulationClaim::velocity_constraints),
+          off.velocities);
+    check("admissible", "off the surface", claims(FormulationClaim::admissible), off.inadmissible);
+    if (energy_in_scope_ && homogeneous(*model_))
+      check("keeps energy-on-surface", "on the surface", claims(FormulationClaim::energy_on_surface),
+            on.energy, tilted_field);
   }
 
   const FormulationPlugin& plugin_;

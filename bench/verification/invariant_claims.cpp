@@ -55,6 +55,12 @@ double momentum_maps_residual(MeasuredStep<T>& step) {
 }
 
 template <class T>
+double nonholonomic_momentum_residual(MeasuredStep<T>& step) {
+  return largest_change(step, Formula::invariants,
+                        [&](std::size_t k) { return allowed_momentum_map(*step.model(), k); });
+}
+
+template <class T>
 double energy_residual(MeasuredStep<T>& step) {
   return largest_change(step, Formula::hamiltonian, [](std::size_t) { return true; });
 }
@@ -91,6 +97,8 @@ template double quadratic_invariants_residual(MeasuredStep<double>&);
 template double quadratic_invariants_residual(MeasuredStep<Quad>&);
 template double momentum_maps_residual(MeasuredStep<double>&);
 template double momentum_maps_residual(MeasuredStep<Quad>&);
+template double nonholonomic_momentum_residual(MeasuredStep<double>&);
+template double nonholonomic_momentum_residual(MeasuredStep<Quad>&);
 template double energy_residual(MeasuredStep<double>&);
 template double energy_residual(MeasuredStep<Quad>&);
 template double casimirs_residual(MeasuredStep<double>&);

@@ -15,7 +15,8 @@ MeasuredStep<T>::MeasuredStep(const MethodInstance& method, std::shared_ptr<cons
       t_(T(t) + T(warm_up) * T(h)),
       h_(h),
       warm_up_(warm_up) {
-  for (const Real& x : start) start_.push_back(T(x));
+  for (const Real& x : start) begin_state_.push_back(T(x));
+  start_ = begin_state_;
 }
 
 template <class T>
@@ -38,6 +39,17 @@ std::optional<std::vector<T>> MeasuredStep<T>::after(const T& time, const T& len
   stepper().forget();
   std::int64_t completed = 0;
   if (stepper().advance(time, 0, length, count, z, completed) != Status::converged) return std::nullopt;
+  return z;
+}
+
+template <class T>
+std::optional<std::vector<T>> MeasuredStep<T>::then(const T& length, std::vector<T> z) {
+  stepper().forget();
+  std::int64_t completed = 0;
+  std::vector<T> before = begin_state_;
+  if (stepper().advance(begin_, 0, h_, warm_up_ + 1, before, completed) != Status::converged ||
+      stepper().advance(t_ + h_, 0, length, 1, z, completed) != Status::converged)
+    return std::nullopt;
   return z;
 }
 

@@ -58,6 +58,9 @@ class MeasuredStep {
   /// The state after `count` steps of size `length` from z at `time`, without history; nullopt where one does
   /// not converge.
   std::optional<std::vector<T>> after(const T& time, const T& length, std::vector<T> z, int count = 1);
+  /// The state after one more step of size `length` from z at the time where the measured step ends, by the
+  /// stepper that has just taken the warm-up and the measured step; nullopt where one does not converge.
+  std::optional<std::vector<T>> then(const T& length, std::vector<T> z);
   /// The Jacobian of the step without history, from dual numbers carried through the converged step.
   const StepJacobian<T>& jacobian();
   /// The sizes against which residuals of the step are judged, one for each coordinate (step_scales).
@@ -77,7 +80,7 @@ class MeasuredStep {
   std::shared_ptr<const Model> model_;
   T begin_, t_, h_;  // the time before the warm-up, that of the measured step, and its size
   int warm_up_;
-  std::vector<T> start_;
+  std::vector<T> begin_state_, start_;  // before the warm-up and after it
   std::unique_ptr<Stepper<T>> stepper_;
   bool taken_ = false;
   Status status_ = Status::converged;

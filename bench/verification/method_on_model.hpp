@@ -80,7 +80,7 @@ inline const Real check_step = Real::fraction(1, 20);
 
 // order_checks.cpp
 /// `conditions_judge` where the order conditions are judged too.
-Check check_order(const MethodOnModel& on, bool conditions_judge);
+Check check_order(MethodOnModel& on, bool conditions_judge);
 // order_conditions.cpp
 /// The coefficients of h^0, ..., h^p in the error of one step, p being the order but at most 8; they vanish
 /// for a method of that order. The largest one, relative to the scales of the step. nullopt where they say

@@ -28,7 +28,7 @@ std::shared_ptr<const Model> model_in_scope(const MethodInstance& method, Claim 
                                             const std::shared_ptr<const Model>& model) {
   std::shared_ptr<const Model> fitting = model;
   if (!method.refuses(*model).empty()) {
-    if (model->moves() || !model->restricted() || !dirac_formulation().refuses(*model).empty())
+    if (model->moves() || !model->restricted() || !default_formulation(*model).refuses(*model).empty())
       return nullptr;
     fitting = motion_of(model);
     if (!method.refuses(*fitting).empty()) return nullptr;

@@ -124,6 +124,10 @@ bool is_quadratic(const Model& model, std::size_t invariant);
 /// is Darboux's.
 std::shared_ptr<const Tape> darboux_residual(const Tape& chart, const Tape& structure);
 
+/// (z, t) -> the state on the velocity constraints of a model that projection in the metric of its masses
+/// makes of z, for states near the surface. Holonomic constraints beside them are met first.
+std::shared_ptr<const Tape> onto_velocity_constraints(const Model& model);
+
 /// Compares what the author wrote with what is derived without it, at random states near `centre`: every
 /// formula of the table that is written and can be derived, and the gradients of constraints one by one, by
 /// the names of the constraints.

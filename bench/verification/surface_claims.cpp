@@ -41,7 +41,7 @@ double velocity_constraints_residual(MeasuredStep<T>& step) {
 namespace {
 
 // A blade at (x, y) with the direction (cos a, sin a) on a slope, all masses one. It does not slide sideways:
-// A v = 0 with A = (-sin a, cos a, 0).
+// A v = 0 with A = (-sin a, cos a, 0). Nothing turns it, so that its spin p_a is conserved.
 struct Blade {
   static constexpr int dimension = 6, velocity_constraint_count = 1;
   template <class T>
@@ -57,6 +57,11 @@ struct Blade {
     rows[0] = -sin(q[2]);
     rows[1] = cos(q[2]);
   }
+  template <class T>
+  void invariants(const T& t, In<T> z, Out<T> values) const {
+    values[0] = kinetic(t, z.subspan(3)) + potential(t, z.first(3));
+    values[1] = z[5];
+  }
 };
 
 }  // namespace
@@ -64,12 +69,13 @@ struct Blade {
 // The blade's exact motion is p' = -V_q + A^T lambda with lambda = A V_q - A' v. Since A A^T = 1, this makes
 // d/dt (A v) = 0, on the surface and off it. Here A V_q = -sin a, and A' v = -a' (v_x cos a + v_y sin a).
 std::shared_ptr<const Model> sliding_blade() {
-  const auto blade = make_model(SystemDescriptor{.name = "sliding-blade",
-                                                 .title = "",
-                                                 .reference = "",
-                                                 .initial = {0, 0, Real::fraction(1, 2), 1,
-                                                             Real::fraction(1, 2), Real::fraction(3, 2)}},
-                                Blade());
+  const auto blade = make_model(
+      SystemDescriptor{.name = "sliding-blade",
+                       .title = "",
+                       .reference = "",
+                       .initial = {0, 0, Real::fraction(1, 2), 1, Real::fraction(1, 2), Real::fraction(3, 2)},
+                       .invariants = {conserved("energy", "J"), conserved_quadratic("spin", "J s")}},
+      Blade());
   ModelSource source = blade->source();
   source.formulation = "exact";
   source.given[index(Formula::field)] = std::make_shared<const Tape>(

@@ -1,4 +1,6 @@
-// Claims about symmetry: what undoes a step, another of -h or, by way of a reversal, another of h.
+// Claims about symmetry: what undoes a step, another of -h or, by way of a reversal, another of h. Methods
+// that remember earlier steps take the second step with what they remember of the first, since their map is
+// one of the state and of what is remembered.
 #include <pfaff/bench/verification/claim_checks.hpp>
 #include <pfaff/core/tape/replay.hpp>
 
@@ -15,7 +17,9 @@ double distance_from_start(MeasuredStep<T>& step, const std::optional<std::vecto
 template <class T>
 double symmetry_residual(MeasuredStep<T>& step) {
   if (!step.end()) return no_step;
-  return distance_from_start(step, step.after(step.t() + step.h(), -step.h(), *step.end()));
+  return distance_from_start(step, step.warm_up() > 0
+                                       ? step.then(-step.h(), *step.end())
+                                       : step.after(step.t() + step.h(), -step.h(), *step.end()));
 }
 
 // The claim speaks of autonomous systems only, so that both steps may be taken at the same time t.
@@ -28,7 +32,8 @@ double reversibility_residual(MeasuredStep<T>& step) {
     return out;
   };
   if (!step.end()) return no_step;
-  const auto back = step.after(step.t(), step.h(), reversed(*step.end()));
+  const auto back = step.warm_up() > 0 ? step.then(step.h(), reversed(*step.end()))
+                                       : step.after(step.t(), step.h(), reversed(*step.end()));
   if (!back) return no_step;
   return distance_from_start(step, std::optional(reversed(*back)));
 }

@@ -8,6 +8,7 @@
 #include <pfaff/bench/verification/check.hpp>
 #include <pfaff/bench/verification/formulation_checks.hpp>
 #include <pfaff/bench/verification/random_checks.hpp>
+#include <pfaff/bench/verification/skated_models.hpp>
 #include <pfaff/core/formulation.hpp>
 
 namespace pfaff {
@@ -45,11 +46,12 @@ struct Job {
 constexpr int most_formulated = 8;
 
 // The system on which the controls of a method run. It has to be nonlinear and to fit: the damped pendulum
-// for chart methods, the spherical pendulum for methods that need constraints, the pendulum for the rest.
+// for chart methods, the pendulum for other motions, and for methods that need constraints the contact
+// oscillator where these are of velocities, else the spherical pendulum.
 std::string controlled_on(const MethodInstance& method) {
   for (const char* name : {"damped-pendulum", "pendulum"})
     if (method.refuses(*systems().get(name, "").make({})).empty()) return name;
-  return "spherical-pendulum";
+  return method.needs().has(Facet::velocity_constraints) ? "contact-oscillator" : "spherical-pendulum";
 }
 
 // The checks to be run, in their order.
@@ -97,12 +99,14 @@ class Jobs {
     }
   }
 
-  // On every system that they fit and on a random graph of rods.
+  // On every system that they fit, on a random graph of rods, and on models with velocity constraints of
+  // every kind.
   void add_formulations() {
     std::vector<std::shared_ptr<const Model>> models;
     for (const SystemPlugin* system : systems().all())
       if (system->constrained()) models.push_back(system->make(parameters_of(*system)));
     models.push_back(random_rods());
+    for (const auto& model : skated_models()) models.push_back(model);
     for (const FormulationPlugin* formulation : formulations().all())
       for (const auto& model : models) {
         if (!wanted(formulation->name()) && !wanted("formulations") && !wanted(model->name())) continue;

@@ -53,7 +53,7 @@ PFAFF_CLAIM(momentum_maps, "momentum-maps", momentum_maps,
             .scope = "quadratic invariants p^T D q")
 PFAFF_CLAIM(energy, "energy", conserved_energy,
             .meaning = "The energy H keeps its value, to round-off and whatever its degree.",
-            .scope = "autonomous Hamiltonian systems")
+            .scope = "autonomous Hamiltonian systems, also with constraints A v = 0")
 PFAFF_CLAIM(casimirs, "casimirs", stated_casimirs,
             .meaning = "Every Casimir of the bracket keeps its value.",
             .scope = "Hamiltonian systems whose bracket states its Casimirs")
@@ -71,10 +71,9 @@ PFAFF_CLAIM(velocity_constraints, "velocity-constraints", velocity_constraints,
             .scope = "velocity constraints")
 
 // Laws of change.
-PFAFF_CLAIM(nonholonomic_momentum, "nonholonomic-momentum", velocity_constraints,
-            .meaning = "The momentum along a symmetry that the velocity constraints allow changes as the momentum equation says.",
-            .scope = "velocity constraints",
-            .foreseen = true)
+PFAFF_CLAIM(nonholonomic_momentum, "nonholonomic-momentum", allowed_momentum_maps,
+            .meaning = "Every conserved momentum map p^T (D q + d) along directions D q + d that the velocity constraints allow keeps its value, as the momentum equation says.",
+            .scope = "velocity constraints that allow the direction of a conserved momentum map")
 
 // Rounding.
 PFAFF_CLAIM(unbiased_round_off, "unbiased-round-off", conserved_invariants,

@@ -31,6 +31,30 @@ bool momentum_map(const Model& model, std::size_t invariant) {
   return abs(value(positions)) <= round_off && abs(value(twice) - Quad(2) * value(momenta)) <= round_off;
 }
 
+bool allowed_momentum_map(const Model& model, std::size_t invariant) {
+  if (!model.nonholonomic() || !momentum_map(model, invariant)) return false;
+  Replay<Quad> values(model.tape(Formula::invariants)), rows(model.tape(Formula::velocity_constraints));
+  const auto n = static_cast<std::size_t>(model.dimension()) / 2;
+  std::mt19937_64 random(20041);
+  std::uniform_real_distribution<double> number(-1, 1);
+  std::vector<Quad> z(2 * n), out(model.invariants().size()), a(rows.tape().outputs.size());
+  for (int point = 0; point < 3; ++point) {
+    for (std::size_t k = 0; k < n; ++k) z[k] = Quad(number(random));
+    const Quad t(number(random));
+    rows(t, z.data(), a.data());
+    std::vector<Quad> along(a.size() / n);
+    for (std::size_t k = 0; k < n; ++k) {  // component k of D q + d is the invariant with p = e_k
+      z[n + k] = Quad(1);
+      values(t, z.data(), out.data());
+      z[n + k] = Quad(0);
+      for (std::size_t i = 0; i < along.size(); ++i) along[i] += a[i * n + k] * out[invariant];
+    }
+    for (const Quad& x : along)
+      if (!(abs(x) <= Quad(1e-30))) return false;  // round-off of a sum of products of ordinary numbers
+  }
+  return true;
+}
+
 namespace {
 
 // The scopes, by the names they have in the list.
@@ -103,9 +127,22 @@ bool momentum_maps(const Model& model) {
   return false;
 }
 
+bool allowed_momentum_maps(const Model& model) {
+  for (std::size_t k = 0; k < model.invariants().size(); ++k)
+    if (allowed_momentum_map(model, k)) return true;
+  return false;
+}
+
+// True where no constraint of velocities does work: b = 0, and holonomic constraints beside do not move.
+bool workless_constraints(const Model& model) {
+  return model.nonholonomic() && !model.given(Formula::velocity_offsets) &&
+         (!model.given(Formula::holonomic) || model.tape(Formula::holonomic)->autonomous());
+}
+
 // Along the motion dH/dt = H_t whatever the bracket, so that H is conserved where it does not depend on time.
 bool conserved_energy(const Model& model) {
-  return model.facets().has(Facet::hamiltonian) && model.tape(Formula::hamiltonian)->autonomous();
+  return (model.facets().has(Facet::hamiltonian) || workless_constraints(model)) &&
+         model.tape(Formula::hamiltonian)->autonomous();
 }
 
 bool entropy_of_two_brackets(const Model& model) {

@@ -63,6 +63,10 @@ std::vector<Claim> claims_in_scope(const std::vector<Claim>& claims, const Model
 /// p^T (D q + d) with constant D and d.
 bool momentum_map(const Model& model, std::size_t invariant);
 
+/// True where the system has velocity constraints and the invariant is a momentum map along directions that
+/// they allow, A(q, t) (D q + d) = 0.
+bool allowed_momentum_map(const Model& model, std::size_t invariant);
+
 /// InputError, naming the method, where one of its claims is foreseen and has no check yet.
 void require_claimable(const std::vector<Claim>& claims, const std::string& method);
 

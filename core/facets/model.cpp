@@ -125,8 +125,8 @@ PivotPairs Model::pivots_of_structure() const {
 }
 
 std::string Model::advice(FacetSet needs) const {
-  if (facets_.has(Facet::velocity_constraints) && !facets_.includes(needs))
-    return "; no formulation makes a motion of its velocity constraints";
+  if (facets_.has(Facet::velocity_constraints) && !moves() && needs.has(Facet::vector_field))
+    return "; a formulation of its velocity constraints makes a motion of them";
   if (needs.has(Facet::generating_map) && !facets_.has(Facet::generating_map))
     return facets_.has(Facet::structure) || source_.canonical ? "; write alpha(t, t0, new_z, old_z, w_hat, w)"
                                                               : "";

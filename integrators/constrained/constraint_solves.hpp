@@ -1,5 +1,6 @@
-// What methods on the constraint surface have in common: the projection of momenta onto the hidden
-// constraints, and a test whether the velocity H_p is linear in the momenta.
+// What methods on a constraint surface have in common: the projection of momenta onto the constraints of
+// velocities, hidden ones of holonomic constraints or A v + b = 0, and a test whether the velocity H_p is
+// linear in the momenta.
 #pragma once
 
 #include <cmath>
@@ -7,15 +8,16 @@
 #include <vector>
 
 #include <pfaff/core/facets/holonomic.hpp>
+#include <pfaff/core/facets/velocity_constraints.hpp>
 #include <pfaff/core/solve/convergence.hpp>
 #include <pfaff/integrators/support/largest.hpp>
 
 namespace pfaff {
 
 /// True where H_p at (t, q) is linear in p, to round-off and over scales from 1 to a million: one solve then
-/// satisfies the hidden constraints.
-template <class T>
-bool velocity_is_linear(PositionConstraints<T>& constraints, const T& t, In<T> q) {
+/// satisfies the constraints of velocities.
+template <class T, class Constraints>
+bool velocity_is_linear(Constraints& constraints, const T& t, In<T> q) {
   const std::size_t n = constraints.degrees();
   std::vector<T> p(n), sum(n), v(n);
   for (const double scale : {1.0, 1024.0, 1048576.0}) {
@@ -39,22 +41,38 @@ bool velocity_is_linear(PositionConstraints<T>& constraints, const T& t, In<T> q
   return true;
 }
 
-/// The projection of momenta onto the hidden constraints, with its buffers.
+namespace detail {
+// What constraints leave of the velocities' equations: phi~ of holonomic ones, psi of those of velocities.
+template <class T>
+void velocity_residuals(PositionConstraints<T>& c, const T& t, In<T> q, In<T> p, Out<T> residuals) {
+  c.hidden_values(t, q, p, residuals);
+}
+template <class T>
+void velocity_residuals(VelocityConstraints<T>& c, const T& t, In<T> q, In<T> p, Out<T> residuals) {
+  c.values(t, q, p, residuals);
+}
+}  // namespace detail
+
+/// The projection of momenta onto the constraints of velocities, with its buffers. The constraints are
+/// PositionConstraints, of which phi~ is meant and B = phi_q, or VelocityConstraints, psi = A v + b and B =
+/// A.
 template <class T>
 struct MomentumProjection {
-  explicit MomentumProjection(const PositionConstraints<T>& constraints)
+  template <class Constraints>
+  explicit MomentumProjection(const Constraints& constraints)
       : hidden(constraints.count()), reaction(constraints.degrees()) {}
 
-  /// Finds the x with which p + change - B^T x satisfies the hidden constraints phi~(q, p, t) = 0; the
-  /// constraints must have been placed at (t, q). `p` is the momentum before and `carry` what its additions
-  /// have rounded off. `change` is left with what is to be added, change - B^T x; `moved` is a buffer.
-  /// `linear` says that H_p is linear in p, so that one solve is enough.
-  Status operator()(PositionConstraints<T>& constraints, const T& t, In<T> q, In<T> p, In<T> carry,
-                    Out<T> change, Out<T> moved, bool linear) {
+  /// Finds the x with which p + change - B^T x satisfies the constraints phi~(q, p, t) = 0 or psi(q, p, t) =
+  /// 0; they must have been placed at (t, q). `p` is the momentum before and `carry` what its additions have
+  /// rounded off. `change` is left with what is to be added, change - B^T x; `moved` is a buffer. `linear`
+  /// says that H_p is linear in p, so that one solve is enough.
+  template <class Constraints>
+  Status operator()(Constraints& constraints, const T& t, In<T> q, In<T> p, In<T> carry, Out<T> change,
+                    Out<T> moved, bool linear) {
     Convergence<T> convergence;
     do {
       for (std::size_t k = 0; k < moved.size(); ++k) moved[k] = p[k] + (change[k] + carry[k]);
-      constraints.hidden_values(t, q, moved, hidden);
+      detail::velocity_residuals<T>(constraints, t, q, moved, hidden);
       constraints.solve(hidden, hidden);
       constraints.apply_transpose(hidden, reaction);
       Largest<T> correction, reference;

@@ -174,7 +174,7 @@ struct Collocation {
   // by themselves such components would never converge, so that all are judged together.
   template <class P>
   static bool on_constraints(const P& p) {
-    if constexpr (HasHolonomic<P>) return p.model()->constrained();
+    if constexpr (HasHolonomic<P> || HasVelocityConstraints<P>) return p.model()->restricted();
     return false;
   }
   // True where the corrections are only round-off. They contract no further, which is no reason for Newton's

@@ -125,6 +125,25 @@ TEST(EvaluateConstraints, NamesWhatIsNotSecondClass) {
   EXPECT_FALSE(axis.contains("solvers"));
 }
 
+// Constraints of velocities: their forces and the nonholonomic bracket, of which the motion is the flow.
+TEST(EvaluateConstraints, TheSleigh) {
+  const auto j = evaluated({"sleigh"});
+  EXPECT_EQ(j["formulation"], "nonholonomic");
+  EXPECT_EQ(j["status"], "converged");
+  EXPECT_EQ(j["constraint_forces"].size(), 3U);
+  EXPECT_EQ(keys_of(j["nonholonomic"]),
+            (std::set<std::string>{"P", "bracket", "rank", "casimirs", "casimir_residual",
+                                   "one_form_residual", "jacobiator", "flow_difference"}));
+  EXPECT_EQ(j["nonholonomic"]["rank"], 4);
+  EXPECT_EQ(j["nonholonomic"]["casimirs"], j["constraint_names"]);
+  EXPECT_LE(number(j["nonholonomic"]["flow_difference"]), 1e-14);
+  const Outcome text = run_pfaff({"evaluate", "--system", "sleigh"});
+  for (const char* part : {"constraint force", "{,}_nh", "rank 4 of 6", "Casimirs", "Jacobi"})
+    EXPECT_NE(text.out.find(part), std::string::npos) << part << " in\n" << text.out;
+  std::stringstream lines(text.out);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100U) << line;
+}
+
 TEST(EvaluateConstraints, TablesKeepToAHundredColumns) {
   for (const char* system : {"spherical-pendulum", "polar-double-pendulum", "guiding-centre", "n-pendulum"}) {
     const Outcome outcome = run_pfaff({"evaluate", "--system", system});

@@ -80,7 +80,7 @@ TEST(Falsify, Refusals) {
   refused({"rk4", "--all"}, "expected the name of an integrator or --all");
   refused({"rk5"}, "did you mean 'rk4'?");
   refused({"rk4", "--claim", "simplectic"}, "did you mean 'symplectic'?");
-  refused({"rk4", "--claim", "nonholonomic-momentum"}, "has no check yet");
+  refused({"rk4", "--claim", "unbiased-round-off"}, "has no check yet");
   refused({"gauss", "--set", "stags=2"}, "stags");
   refused({"--all", "--set", "stages=2"}, "--set: with --all");
   refused({"rk4", "--budget", "0"}, "--budget");

@@ -201,7 +201,7 @@ std::set<std::string> expect_rows(const std::string& paper, const std::string& h
 }
 
 TEST(Reproduce, NguyenTurski) { expect_rows("nguyen-turski", "Nguyen & Turski", 14); }
-TEST(Reproduce, PitangaRodrigues) { expect_rows("pitanga-rodrigues", "Pitanga & Rodrigues", 3); }
+TEST(Reproduce, PitangaRodrigues) { expect_rows("pitanga-rodrigues", "Pitanga & Rodrigues", 24); }
 TEST(Reproduce, SuQin) { expect_rows("su-qin", "Su & Qin", 17); }
 
 // Without a paper the output is one JSON value.

@@ -103,6 +103,7 @@ TEST(ClaimTable, ScopesSpeakOfTheSystemsMeant) {
       {Claim::constraints, {{"spherical-pendulum", "n-pendulum"}, {"pendulum", "n-pendulum-angles"}}},
       {Claim::constrained_symplectic, {{"spherical-pendulum"}, {"pendulum"}}},
       {Claim::velocity_constraints, {{}, {"pendulum", "spherical-pendulum"}}},
+      {Claim::nonholonomic_momentum, {{}, {"pendulum", "spherical-pendulum"}}},
       {Claim::conformal, {{"damped-pendulum", "damped-oscillator"}, {"pendulum", "driven-duffing"}}},
       {Claim::volume, {{"henon-heiles", "free-rigid-body"}, {"damped-pendulum", "lotka-volterra"}}},
       {Claim::reversible, {{"pendulum", "free-rigid-body"}, {"damped-pendulum", "lotka-volterra"}}},
@@ -122,7 +123,9 @@ TEST(ClaimTable, VelocityConstraintsAreASurfaceOfTheirOwn) {
   EXPECT_TRUE(blade->restricted());
   EXPECT_TRUE(blade->moves());
   EXPECT_TRUE(in_scope(Claim::velocity_constraints, *blade));
-  for (const Claim claim : {Claim::constraints, Claim::energy, Claim::volume, Claim::symplectic})
+  EXPECT_TRUE(in_scope(Claim::energy, *blade));  // A v = 0 does no work
+  EXPECT_TRUE(in_scope(Claim::nonholonomic_momentum, *blade));
+  for (const Claim claim : {Claim::constraints, Claim::volume, Claim::symplectic})
     EXPECT_FALSE(in_scope(claim, *blade)) << to_string(claim);
 }
 

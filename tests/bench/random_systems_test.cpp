@@ -91,7 +91,6 @@ TEST(RandomSystems, OfferWhatTheirKindSays) {
 TEST(RandomSystems, ConserveTheirInvariants) {
   int measured = 0;
   every_recipe([&](const Recipe& recipe) {
-    if (recipe.kind == SystemKind::rolling) return;  // no formulation moves it
     const auto model = motion_of(model_of(system_of(recipe)));
     if (model->invariants().empty()) return;
     const auto invariants = model->tape(Formula::invariants);

@@ -147,6 +147,13 @@ TEST(Coverage, EndsWhereThePapersEnd) {
   EXPECT_THROW(items_of("su-qn"), InputError);
 }
 
+// Nothing of this paper is left for later; what has no row cannot have one.
+TEST(Coverage, OfPitangaAndRodriguesIsWhole) {
+  const std::vector<PaperItem>& items = pitanga_rodrigues_items();
+  EXPECT_GT(items.size(), 50U);
+  for (const PaperItem& item : items) EXPECT_NE(item.cover, Cover::pending) << item.name;
+}
+
 ReproducedRow row_named(const std::string& equation) {
   ReproducedRow row;
   row.equation = equation;

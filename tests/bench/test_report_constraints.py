@@ -67,6 +67,16 @@ class Ensembles(Fresh):
         self.assertTrue((self.folder / "figures" / "constraints_many.svg").exists())
         self.assertFalse((self.folder / "figures" / "drift_many.svg").exists())
 
+    def test_runs_whose_motion_has_no_constraints_are_left_out(self):
+        folder = ensemble(self.folder)
+        for seed in range(1, SEEDS + 1):
+            path = folder / "runs" / f"mild-{seed}" / "series.csv"
+            save(path, [line.split(",")[:2] for line in path.read_text().splitlines()])
+        shown = reading.Experiment(folder)
+        curves = constraints.panel_curves(shown, shown.cases[0], "constraint", shown.runs_of(shown.cases[0]))
+        self.assertEqual([c[0].method for c in curves], ["wild"])
+        self.assertEqual(run(folder)[0], 0)
+
     def test_three_panels_have_room(self):
         shown = reading.Experiment(ensemble(self.folder))
         drawing, = constraints.drawings(shown, shown.cases[0])

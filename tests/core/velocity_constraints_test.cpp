@@ -70,11 +70,16 @@ TEST(VelocityConstraints, AreOfferedAndNoVectorFieldIs) {
   EXPECT_FALSE(model->holonomic());
   EXPECT_TRUE(model->autonomous());
   EXPECT_EQ(model->advice(facets(Facet::vector_field)),
-            "; no formulation makes a motion of its velocity constraints");
+            "; a formulation of its velocity constraints makes a motion of them");
   EXPECT_EQ(model->advice(facets(Facet::velocity_constraints)), "");
   EXPECT_EQ(
       formulations().get("dirac", "formulation").refuses(*model),
-      "formulation dirac needs a system with constraints; sleigh offers velocity-constraints, invariants");
+      "formulation dirac makes no motion of velocity constraints, which sleigh has; expected nonholonomic "
+      "or vakonomic");
+  const auto moving = formulations().get("nonholonomic", "formulation").apply(model, {});
+  EXPECT_EQ(moving->facets(),
+            facets(Facet::velocity_constraints, Facet::invariants).with(Facet::vector_field));
+  EXPECT_EQ(moving->advice(facets(Facet::separable)), "");
 }
 
 TEST(VelocityConstraints, TapesAreWhatTheirAuthorWrote) {

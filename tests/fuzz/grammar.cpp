@@ -138,6 +138,7 @@ std::string random_experiment(Choices& choices) {
     if (choices.once_in(3)) text << "initial = " << list_of_numbers(choices, dimension_of(system)) << '\n';
     if (choices.once_in(4)) text << "precision = " << quoted(precision(choices)) << '\n';
     if (choices.once_in(4)) text << "conserved = \"energy\"\n";
+    if (choices.once_in(6)) text << "motion = " << choices.one_of({R"(["q", "p"])", R"(["x"])"}) << '\n';
     if (choices.once_in(4)) text << "methods = [" << quoted(choices.one_of(labels)) << "]\n";
     if (choices.once_in(6)) text << "seeds = " << choices.below(3) << '\n';
     if (choices.once_in(6)) text << "reference = " << quoted(choices.one_of({"none", "solution"})) << '\n';

@@ -6,6 +6,8 @@
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
 
+#include <pfaff/tests/integrators/nonholonomic_samples.hpp>
+
 #include "../counted_allocations.hpp"
 
 namespace pfaff {
@@ -45,6 +47,26 @@ void no_method_allocates() {
 
 TEST(Allocation, NoStepAllocatesInDouble) { no_method_allocates<double>(); }
 TEST(Allocation, NoStepAllocatesInQuad) { no_method_allocates<Quad>(); }
+
+template <class T>
+void no_method_allocates_on_velocity_constraints() {
+  for (const auto& model : nonholonomic::golden_models())
+    for (const char* name :
+         {"dla", "gni", "nonholonomic-leap-frog", "mclachlan-perlmutter", "nonholonomic-discrete-gradient",
+          "composition", "velocity-projected-rk4", "velocity-projected-gauss"}) {
+      const auto method = std::string(name) == "composition" ? nonholonomic::composed("dla", "kahan-li", "6")
+                                                             : nonholonomic::method(name);
+      const auto motion = motion_for(*method, model);
+      if (!method->refuses(*motion).empty()) continue;
+      const auto stepper = method->stepper(motion, T(0));
+      EXPECT_EQ(allocations_of_steps(*stepper, *motion, T(Real::fraction(1, 100)), 4), 0)
+          << name << " on " << model->name();
+    }
+}
+TEST(Allocation, NoStepAllocatesOnVelocityConstraints) {
+  no_method_allocates_on_velocity_constraints<double>();
+  no_method_allocates_on_velocity_constraints<Quad>();
+}
 
 TEST(Allocation, NeitherDoesNewtonsIteration) {
   // omega h = 10: fixed-point iteration diverges.

@@ -11,6 +11,7 @@
 namespace {
 using namespace pfaff;
 using pfaff::testing::motion_of;
+using pfaff::testing::on_velocity_constraints;
 using pfaff::testing::Samples;
 using pfaff::testing::taylor_flow;
 using Numbers = std::vector<Quad>;
@@ -118,6 +119,8 @@ TEST(ExactSolution, AgreesWithTaylorSeries) {
       // Starts are doubles, so that a double and a quad run are the same problem.
       Numbers rounded;
       for (const Quad x : start) rounded.emplace_back(static_cast<double>(x));
+      // Doubles do not meet velocity constraints, on which exact solutions hold.
+      rounded = on_velocity_constraints(*plugin, parameters, rounded);
       SCOPED_TRACE(plugin->name() + " " + pfaff::testing::describe(parameters, rounded));
       compare_at_all_times(model, rounded);
     }
@@ -130,7 +133,7 @@ TEST(ExactSolution, IsAGroup) {
     for (int k = 0; k < 50; ++k) {
       const Assignments parameters = samples.parameters(*plugin);
       const auto model = motion_of(plugin->make(parameters));
-      const Numbers start = samples.start(*model);
+      const Numbers start = on_velocity_constraints(*plugin, parameters, samples.start(*model));
       SCOPED_TRACE(plugin->name() + " " + pfaff::testing::describe(parameters, start));
       const Quad a = samples.quad(-5, 5), b = samples.quad(-5, 5);
       const double scale = condition(model, start, static_cast<double>(a + b)) +
@@ -148,9 +151,10 @@ TEST(ExactSolution, IsAGroup) {
 
 void compare_special(const char* system, const Assignments& parameters,
                      const std::vector<std::vector<double>>& starts) {
-  const auto model = systems().get(system, "system").make(parameters);
+  const SystemPlugin& plugin = systems().get(system, "system");
+  const auto model = motion_of(plugin.make(parameters));
   for (const auto& z : starts) {
-    const Numbers start(z.begin(), z.end());
+    const Numbers start = on_velocity_constraints(plugin, parameters, Numbers(z.begin(), z.end()));
     SCOPED_TRACE(std::string(system) + " " + pfaff::testing::describe(parameters, start));
     compare_at_all_times(model, start);
   }
@@ -209,6 +213,41 @@ TEST(ExactSolution, OfTheOscillatorHoldsWhenOverdampedAndCritical) {
   const auto model = systems().get("damped-oscillator", "system").make({{"nu", "10"}});
   const double late = exact<double>(model, {Quad(1), Quad(0)}, 400.0)[0], rate = 5 + std::sqrt(24);
   EXPECT_NEAR(late, std::exp(-400 / rate) * (0.5 + 2.5 / std::sqrt(24)), 1e-13 * late);
+}
+
+TEST(ExactSolution, OfTheSleighHoldsInEveryRegime) {
+  // Straight ahead, straight backwards (which is unstable), at rest, about to turn, turning either way.
+  compare_special("sleigh", {},
+                  {{0.3, -0.2, 0, 1, 0, 0},
+                   {0.3, -0.2, 0, -1, 0, 0},
+                   {0.3, -0.2, 1, 0, 0, 0},
+                   {0, 0, 0, -1, 8e-9, 1e-8},
+                   {0, 0, 0, 1, -8e-9, -1e-8},
+                   {0, 0, 0.5, 0, 0, 2},
+                   {0, 0, 0.5, 0, 0, -2},
+                   {1, 2, -3, -0.7, 0.1, -0.9}});
+  // The largest ratio of inertia to offset for which it is said to hold, and a small one.
+  compare_special("sleigh", {{"inertia", "2"}, {"offset", "0.1"}}, {{0, 0, 0, -0.5, 0.05, 1}});
+  compare_special("sleigh", {{"inertia", "0.01"}, {"offset", "2"}}, {{0, 0, 0, -0.5, 2, 0.01}});
+  // After a long time nothing overflows: it runs straight ahead at the speed that the energy leaves it.
+  const auto model = motion_of(systems().get("sleigh", "system").make({}));
+  const auto late = exact<double>(model, {Quad(0), Quad(0), Quad(0), Quad(0), Quad(0.8), Quad(1)}, 1e5);
+  for (const double x : late) EXPECT_TRUE(std::isfinite(x));
+  EXPECT_NEAR(std::hypot(late[3], late[4]), std::sqrt(2 * (0.32 + 1)), 1e-12);
+}
+
+TEST(ExactSolution, OfCircularPathsHoldsOnStraightLinesToo) {
+  for (const double turning : {0.0, 1e-200, 1e-20, 1e-9, -1e-3, 0.3, 5.0}) {
+    compare_special("heisenberg-geodesic", {}, {{0.3, -0.5, 0.2, 0.8, 0.6, turning}});
+    compare_special("knife-edge", {}, {{0, 0, 0.3, 0.7, 0.2, turning}});
+    compare_special("rolling-disk", {}, {{0, 0, 0.3, 0.1, 0.5, 0.2, turning / 16, 0.15}});
+  }
+}
+
+TEST(ExactSolution, OfTheContactParticleHoldsFarOutAndWhereYStands) {
+  for (const double rate : {0.0, 1e-200, 1e-20, 1e-9, -1e-3, 0.5, -3.0})
+    for (const double y : {0.0, 1e-20, -0.7, 30.0})
+      compare_special("contact-particle", {}, {{0.3, y, 0.1, 0.8, rate, 0.8 * y}});
 }
 
 TEST(ExactSolution, OfKeplerHoldsFromCirclesToNeedles) {

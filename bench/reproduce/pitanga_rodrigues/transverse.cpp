@@ -1,10 +1,10 @@
 // Pitanga & Rodrigues, section 3.2: the transverse Poisson structure. Exact in rationals.
-#include <pfaff/bench/reproduce/exact.hpp>
+#include <pfaff/bench/reproduce/pitanga_rodrigues/rows.hpp>
 #include <pfaff/bench/reproduce/printed/brackets.hpp>
 #include <pfaff/brackets/reduction/dirac_subspace.hpp>
 #include <pfaff/brackets/reduction/transverse.hpp>
 
-namespace pfaff {
+namespace pfaff::pitanga_rodrigues {
 
 namespace {
 
@@ -104,13 +104,11 @@ void tensors(Rows& rows, const Sample& s) {
 
 }  // namespace
 
-std::vector<ReproducedRow> reproduce_pitanga_rodrigues() {
-  Rows rows("transverse");
+void transverse_rows(Rows& rows) {
   const Sample sample;
   conditions(rows, sample);
   projectors(rows, sample);
   tensors(rows, sample);
-  return rows.take();
 }
 
-}  // namespace pfaff
+}  // namespace pfaff::pitanga_rodrigues

@@ -1,50 +1,26 @@
 // What an evaluator of holonomic constraints owes (core/facets/holonomic.hpp): identities between its
 // operations and the formulas of its model, and how far they are from holding. They are for authors of
-// evaluators, inside the tree or outside; the matcher of constraint_matchers.hpp puts them into a test.
+// evaluators, inside the tree or outside; the matcher of constraint_matchers.hpp puts them into a test. Those
+// of velocity constraints stand in velocity_identities.hpp.
 //
 // Every operation is tried, the batched ones and those that only some scalars have included, because an error
 // in an operation that is not tried here could stay unnoticed.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <random>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include <pfaff/core/facets/conformance/dense_constraints.hpp>
+#include <pfaff/core/facets/conformance/measured_identities.hpp>
 #include <pfaff/core/facets/model.hpp>
 
 namespace pfaff {
-
-/// An identity, named after the operation that it speaks of, and how far it is from holding: the largest
-/// difference between its two sides, by the sizes of their terms, in units of round-off.
-struct ConstraintIdentity {
-  std::string operation;
-  double roundings = 0;
-};
-
-/// Where evaluators are sampled: states about the model's initial one, on and off the surface.
-struct ConstraintSamples {
-  double spread = 0.05;  // in every coordinate
-  int points = 10;
-  unsigned seed = 20041;
-  /// The largest error allowed, in units of round-off: sums over a few hundred terms and eliminations lose
-  /// that much.
-  double roundings = 1e4;
-};
 
 namespace detail {
 
 /// Measures the identities of one evaluator at one point after another, and keeps the largest error of each.
 template <class T>
-class ConstraintConformance {
+class ConstraintConformance : public MeasuredIdentities<T> {
  public:
   ConstraintConformance(HolonomicConstraints<T>& constraints, const Model& model)
       : c_(constraints), dense_(model) {}
-
-  [[nodiscard]] std::vector<ConstraintIdentity> worst() const { return worst_; }
 
   /// False where sizes do not fit and nothing else can be tried.
   bool sizes() {
@@ -88,80 +64,22 @@ class ConstraintConformance {
   }
 
  private:
-  void note(const std::string& operation, double roundings) {
-    if (std::isnan(roundings)) roundings = INFINITY;
-    for (ConstraintIdentity& identity : worst_)
-      if (identity.operation == operation) {
-        identity.roundings = std::max(identity.roundings, roundings);
-        return;
-      }
-    worst_.push_back({operation, roundings});
-  }
+  using Base = MeasuredIdentities<T>;
+  using Base::magnitude;
+  using Base::map;
+  using Base::note;
+  using Base::quad;
+  using Base::random;
+  using Base::same;
+  using Base::size_of;
+  using Base::solved;
 
   void place(const T& t, const std::vector<T>& z) {
     dense_.place(Quad(t), {std::vector<Quad>(z.begin(), z.end())});
   }
 
-  static double magnitude(const auto& numbers) {
-    double largest = 0;
-    for (const auto& x : numbers) {
-      const auto size = static_cast<double>(abs(Quad(x)));
-      largest = std::isnan(size) ? size : std::max(largest, size);
-    }
-    return largest;
-  }
-  // The largest sum of the terms of a product.
-  static double size_of(const Matrix<Quad>& m, const auto& x) {
-    double largest = 0;
-    for (std::size_t i = 0; i < m.rows(); ++i) {
-      double sum = 0;
-      for (std::size_t j = 0; j < m.columns(); ++j) sum += static_cast<double>(abs(m(i, j) * Quad(x[j])));
-      largest = std::max(largest, sum);
-    }
-    return largest;
-  }
-  void same(const std::string& operation, const auto& given, const std::vector<Quad>& expected,
-            double size = 0, double condition = 1) {
-    if (given.size() != expected.size()) return note(operation, INFINITY);
-    double worst = 0;
-    for (std::size_t i = 0; i < expected.size(); ++i) {
-      const auto difference = static_cast<double>(abs(Quad(given[i]) - expected[i]));
-      worst = std::isnan(difference) ? INFINITY : std::max(worst, difference);
-    }
-    size = std::max({size, magnitude(expected), 1.0});
-    note(operation, worst / (size * condition * static_cast<double>(unit_roundoff<T>())));
-  }
-
-  [[nodiscard]] std::vector<T> random(std::size_t size) {
-    std::uniform_real_distribution<double> draw(-1, 1);
-    std::vector<T> numbers;
-    for (std::size_t k = 0; k < size; ++k) numbers.push_back(T(draw(random_)));
-    return numbers;
-  }
-  static std::vector<Quad> quad(const std::vector<T>& x) { return {x.begin(), x.end()}; }
-
-  // r = M u for a random u.
-  template <class Apply>
-  void map(const std::string& operation, const Matrix<Quad>& m, const Apply& apply) {
-    const std::vector<T> u = random(m.columns());
-    std::vector<T> r(m.rows());
-    apply(u, r);
-    same(operation, r, m * quad(u), size_of(m, u));
-  }
-  // M x = r, judged by the residual r - M x.
-  void solved(const std::string& operation, const Matrix<Quad>& m, const std::vector<T>& x,
-              const std::vector<T>& r) {
-    same(operation, m * quad(x), quad(r), size_of(m, x));
-  }
-
   void linear_maps(const std::string& when) {
-    const SymmetricPattern& pattern = c_.pattern();
-    double outside = 0;
-    for (std::size_t i = 0; i < c_.count(); ++i)
-      for (std::size_t j = i + 1; j < c_.count(); ++j)
-        if (pattern.coupling(i, j) == SymmetricPattern::npos)
-          outside = std::max(outside, static_cast<double>(abs(dense_.s(i, j))));
-    note("pattern", outside / static_cast<double>(unit_roundoff<T>()) / (1 + magnitude(dense_.s.entries())));
+    Base::within(c_.pattern(), dense_.s);
     map("apply" + when, dense_.by_position, [&](In<T> u, Out<T> r) { c_.apply(u, r); });
     map("apply_transpose" + when, dense_.by_position.transposed(),
         [&](In<T> x, Out<T> f) { c_.apply_transpose(x, f); });
@@ -207,8 +125,6 @@ class ConstraintConformance {
 
   HolonomicConstraints<T>& c_;
   DenseConstraints dense_;
-  std::vector<ConstraintIdentity> worst_;
-  std::mt19937_64 random_{7};
 };
 
 }  // namespace detail
@@ -219,21 +135,7 @@ template <class T>
 std::vector<ConstraintIdentity> constraint_identities(HolonomicConstraints<T>& constraints,
                                                       const Model& model,
                                                       const ConstraintSamples& samples = {}) {
-  detail::ConstraintConformance<T> conformance(constraints, model);
-  if (!conformance.sizes()) return conformance.worst();
-  std::mt19937_64 random(samples.seed);
-  std::uniform_real_distribution<double> offset(-samples.spread, samples.spread);
-  const auto near_start = [&] {
-    std::vector<T> z;
-    for (const Real& x : model.initial()) z.push_back(T(x) + T(offset(random)));
-    return z;
-  };
-  for (int k = 0; k < samples.points; ++k) {
-    const T t(1 + offset(random));
-    const std::vector<T> first = near_start(), second = near_start();
-    conformance.at(t, first, second);
-  }
-  return conformance.worst();
+  return detail::worst_over<T>(detail::ConstraintConformance<T>(constraints, model), model, samples);
 }
 
 }  // namespace pfaff

@@ -1,5 +1,5 @@
-// A matcher (Google Mock) with which the author of an evaluator of holonomic constraints tests it, in the
-// tree or outside:
+// A matcher (Google Mock) with which the author of an evaluator of holonomic or velocity constraints tests
+// it, in the tree or outside:
 //
 //   const auto constraints = model->holonomic_constraints<double>();
 //   EXPECT_THAT(constraints.get(), pfaff::KeepsConstraintIdentities(model, pfaff::ConstraintSamples{}));
@@ -11,6 +11,7 @@
 #include <gmock/gmock.h>
 
 #include <pfaff/core/facets/conformance/constraint_identities.hpp>
+#include <pfaff/core/facets/conformance/velocity_identities.hpp>
 
 namespace pfaff {
 

@@ -46,6 +46,43 @@ struct WorkOfSizes {
     return Status::converged;
   }
 };
+// refused: field: expected template <class T> Status field(HolonomicConstraints<T>& constraints, const T& t,
+struct FieldOfOtherConstraints {
+  template <class T>
+  struct Work {
+    Work(const FieldOfOtherConstraints& /*formulation*/, VelocityConstraints<T>& /*constraints*/) {}
+  };
+  template <class T>
+  Status field(HolonomicConstraints<T>& /*constraints*/, const T& /*t*/, In<T> /*q*/, In<T> /*p*/,
+               Out<T> /*q_rate*/, Out<T> /*p_rate*/, Work<T>& /*work*/) const {
+    return Status::converged;
+  }
+};
+// refused: hamiltonian_tape: expected Tape hamiltonian_tape(const Model& model) const
+struct EnergyShared {
+  [[nodiscard]] std::shared_ptr<const Tape> hamiltonian_tape(const Model& /*model*/) const { return nullptr; }
+};
+// refused: hamiltonian_tape and field or field_tape make two motions of a system
+struct EnergyAndField : Free {
+  [[nodiscard]] Tape hamiltonian_tape(const Model& model) const { return *model.tape(Formula::hamiltonian); }
+};
+// refused: field_tape is written beside a field of holonomic constraints
+struct FieldTapeOfVelocities {
+  template <class T>
+  struct Work {
+    Work(const FieldTapeOfVelocities& /*formulation*/, VelocityConstraints<T>& /*constraints*/) {}
+  };
+  template <class T>
+  Status field(VelocityConstraints<T>& /*constraints*/, const T& /*t*/, In<T> /*q*/, In<T> /*p*/,
+               Out<T> /*q_rate*/, Out<T> /*p_rate*/, Work<T>& /*work*/) const {
+    return Status::converged;
+  }
+  [[nodiscard]] Tape field_tape(const Model& model) const { return *model.tape(Formula::field); }
+};
+// refused: refuses: expected std::string refuses(const Model& model) const
+struct RefusesSilently : Free {
+  [[nodiscard]] bool refuses(const Model& /*model*/) const { return false; }
+};
 // refused: field_tape: expected Tape field_tape(const Model& model) const
 struct FieldTapeShared : Free {
   [[nodiscard]] std::shared_ptr<const Tape> field_tape(const Model& /*model*/) const { return nullptr; }
@@ -71,8 +108,17 @@ struct Closed final : Free {};
 
 template <class F>
 const Formulation<F> registered{{.name = "refused", .title = "", .reference = ""}};
-const FormulationPlugin* const all[] = {&registered<FieldWithoutStatus>,   &registered<WorkOfSizes>,
-                                        &registered<FieldTapeShared>,      &registered<KeepsOfAModel>,
-                                        &registered<FrictionByName>,       &registered<InstancesWithoutFull>,
-                                        &registered<ParametersOfAnObject>, &registered<Closed>};
+const FormulationPlugin* const all[] = {&registered<FieldWithoutStatus>,
+                                        &registered<WorkOfSizes>,
+                                        &registered<FieldOfOtherConstraints>,
+                                        &registered<EnergyShared>,
+                                        &registered<EnergyAndField>,
+                                        &registered<FieldTapeOfVelocities>,
+                                        &registered<RefusesSilently>,
+                                        &registered<FieldTapeShared>,
+                                        &registered<KeepsOfAModel>,
+                                        &registered<FrictionByName>,
+                                        &registered<InstancesWithoutFull>,
+                                        &registered<ParametersOfAnObject>,
+                                        &registered<Closed>};
 }  // namespace

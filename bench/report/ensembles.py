@@ -1,0 +1,90 @@
+"""Ensembles: how the error of the conserved quantity spreads over the seeds of a case.
+
+At each of the times that all finished runs of a method share, the root mean square over the seeds of I(t) - I(0), and
+the power of time that it grows with: the slope of a straight line through log rms against log t in the second half of
+the decades shown. An unbiased error that is independent from step to step grows as t^0.5, one with a bias as t^1.
+"""
+import math
+
+from figures import Drawing, heading, round_off, sentences, step_text, styled, with_unit
+from scales import ErrorAxis, time_axis
+from sheet import Sheet, plain
+
+
+def drawings(experiment, case):
+    invariant = case.get("conserved")
+    if not case.get("seeds") or not invariant or experiment.expectation(case, invariant)[0] != "conserved":
+        return []
+    curves = spreads(experiment, case)
+    return [drawn(experiment, case, curves)] if curves else []
+
+
+def spreads(experiment, case):
+    """[(run, times, rms over the seeds)] of each method at the common step; runs that failed are left out."""
+    curves = []
+    for run in experiment.at_common_step(case):
+        members = [experiment.series(r, case["conserved"]) for r in experiment.ensemble_of(run) if not r.failed]
+        members = [m for m in members if m is not None and m.time]
+        shared = set.intersection(*(set(m.time) for m in members)) if members else set()
+        sums = dict.fromkeys(sorted(t for t in shared if t > 0), 0.0)
+        for m in members:
+            for t, change in zip(m.time, m.change):
+                if t in sums:
+                    sums[t] += change * change
+        if sums:
+            curves.append((run, list(sums), [math.sqrt(s / len(members)) for s in sums.values()]))
+    return curves
+
+
+def exponent(times, values):
+    """The power of time that the values grow with, or nan where too few are positive."""
+    if not times:
+        return math.nan
+    begin = math.sqrt(times[0] * times[-1])
+    points = [(math.log(t), math.log(v)) for t, v in zip(times, values) if t >= begin and v > 0 and math.isfinite(v)]
+    if len(points) < 3:
+        return math.nan
+    x, y = (sum(p[k] for p in points) / len(points) for k in (0, 1))
+    width = sum((p[0] - x) ** 2 for p in points)
+    return sum((p[0] - x) * (p[1] - y) for p in points) / width if width > 0 else math.nan
+
+
+def findings(experiment, case):
+    """[(subject, sentence, [items])]: the size of the spread at the end and the power of time it grows with."""
+    if not drawings(experiment, case):
+        return []
+    items = [f"{run.method}: {values[-1]:.1e}, as " + ("–" if math.isnan(p) else f"t^{p:.2f}")
+             for run, times, values in spreads(experiment, case) for p in [exponent(times, values)]]
+    return [("Spread", f"Root mean square of the error of {case['conserved']} over {case['seeds']} seeds at the end, and "
+             "the power of time that it grows with in the second half of the decades:", items)]
+
+
+def drawn(experiment, case, curves):
+    invariant, target = case["conserved"], experiment.common_step(case)
+    unit = experiment.expectation(case, invariant)[1]
+    u, u_label = round_off(case)
+    axis = ErrorAxis([values for *_, values in curves], u)
+    title = f"{heading(case)}: rms error of {invariant} over {case['seeds']} seeds"
+
+    def draw(wide):
+        sheet = Sheet(1, wide, title)
+        axes = sheet.axes[0]
+        sheet.level(axes, u, u_label)
+        begin, end = min(c[1][0] for c in curves), max(c[1][-1] for c in curves)
+        largest = max((v for *_, values in curves for v in values if math.isfinite(v)), default=1.0)
+        for power, dash in ((0.5, (0, (1, 1.5))), (1, (0, (4, 1.5)))):
+            line = [largest * (t / end) ** power for t in (begin, end)]
+            sheet.level(axes, ([begin, end], line), f"as t^{power:g}", linestyle=dash)
+        for n, (run, times, values) in enumerate(curves):
+            index, label = styled(experiment, run, target)
+            gap = max(1, len(times) // 6)
+            sheet.method(axes, times, axis.place(values), index, label, markevery=(n * gap // len(curves), gap))
+        time_axis(axes, begin, end)
+        axis.apply(axes)
+        axes.set(xlabel=plain(with_unit("time t", case.get("time_unit"))),
+                 ylabel=plain(with_unit(f"rms over seeds of {invariant}: I(t) − I(0)", unit)))
+        return sheet
+
+    return Drawing("ensemble", case, title, sentences(
+        f"Root mean square over the seeds that finished, {step_text(target, case)}. Independent errors without a bias "
+        "grow as t^0.5, errors with a bias as t^1.", *axis.remarks()), draw)

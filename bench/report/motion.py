@@ -1,0 +1,71 @@
+"""The motion: tracks of the runs in the plane of two coordinates, as far as a case names them in `motion`.
+
+Both axes have the same scale where the coordinates have the same unit, so that a circle is a circle. A method's track is
+that of its run at the step most methods share; an ensemble shows its first seed. The start is marked.
+"""
+import math
+
+from figures import Drawing, heading, sentences, step_text, styled, with_unit
+from sheet import Sheet, plain
+
+FRAME = 4  # a track that leaves the middle one by this many of its widths leaves the frame
+
+
+def drawings(experiment, case):
+    if not case.get("motion"):
+        return []
+    tracks = [(run, *track(experiment, case, run)) for run in experiment.at_common_step(case)]
+    tracks = [t for t in tracks if len(t[1]) > 1]
+    return [drawn(experiment, case, tracks)] if tracks else []
+
+
+def track(experiment, case, run):
+    """(values of the first coordinate, values of the second), as far as both are finite."""
+    first, second = (experiment.series(run, name) for name in case["motion"])
+    if first is None:
+        return [], []
+    pairs = [(first.initial + a, second.initial + b) for a, b in zip(first.change, second.change)]
+    pairs = [p for p in pairs if all(map(math.isfinite, p))]
+    return [p[0] for p in pairs], [p[1] for p in pairs]
+
+
+def limits(tracks):
+    """[(low, high)] of both axes: of all tracks but those that run away from the others."""
+    found = []
+    for k in (1, 2):
+        spans = sorted((min(t[k]), max(t[k])) for t in tracks)
+        low, high = spans[len(spans) // 2]
+        size = FRAME * ((high - low) or 1)
+        kept = [s for s in spans if s[0] >= low - size and s[1] <= high + size]
+        found.append((min(s[0] for s in kept), max(s[1] for s in kept)))
+    return found
+
+
+def drawn(experiment, case, tracks):
+    units = [experiment.series(tracks[0][0], name).unit for name in case["motion"]]
+    target, equal = experiment.common_step(case), units[0] == units[1]
+    title = f"{heading(case)}: {case['motion'][1]} against {case['motion'][0]}"
+    frame = limits(tracks)
+    outside = any(min(t[k]) < low or max(t[k]) > high for t in tracks for k, (low, high) in zip((1, 2), frame))
+
+    def draw(wide):
+        sheet = Sheet(1, wide, title)
+        axes = sheet.axes[0]
+        for n, (run, x, y) in enumerate(tracks):
+            index, label = styled(experiment, run, target)
+            gap = max(1, len(x) // 6)
+            sheet.method(axes, x, y, index, label, markevery=(n * gap // len(tracks), gap))
+        sheet.cross(axes, tracks[0][1][0], tracks[0][2][0], "start")
+        names = [plain(with_unit(name, unit)) for name, unit in zip(case["motion"], units)]
+        axes.set(xlabel=names[0], ylabel=names[1])
+        pads = [0.05 * ((high - low) or 1) for low, high in frame]
+        if equal:
+            axes.set_aspect("equal", adjustable="datalim")
+        axes.set_xlim(frame[0][0] - pads[0], frame[0][1] + pads[0])
+        axes.set_ylim(frame[1][0] - pads[1], frame[1][1] + pads[1])
+        return sheet
+
+    return Drawing("motion", case, title, sentences(
+        f"Tracks of the motion, {step_text(target, case)}. Methods that are accurate lie on top of each other.",
+        "Both axes have the same scale." if equal else "", "Shown is the first seed." if case.get("seeds") else "",
+        "Some tracks leave the frame." if outside else ""), draw)

@@ -1,0 +1,152 @@
+"""bench/report: tracks of the motion, and how errors spread over the seeds of an ensemble."""
+import json
+import math
+import unittest
+
+from synthetic import CLASSES, COLUMNS, Fresh, load, reading, run, save
+
+import ensembles  # noqa: E402
+import motion  # noqa: E402
+
+SEEDS = 4
+
+
+def circles(folder, motion_of=("x", "y"), away=1e3, units=("m", "m")):
+    """`round` runs on the unit circle, `small` on one of half its size, and `lost` runs away to `away`."""
+    measures = [f"energy:{m}" for m in reading.MEASURES]
+    rows = []
+    for label, size in (("round", 1.0), ("small", 0.5), ("lost", away)):
+        row = dict.fromkeys(COLUMNS + measures + ["run"], "")
+        row.update({"case": "ball", "system": "ball", "method": label, "integrator": label, "step": 0.1, "time": 10,
+                    "steps": 100, "precision": "double", "status": "converged", "rhs_per_step": 1, "run": label,
+                    "energy:max": 1e-6, "energy:class": "near"})
+        rows.append(row)
+        path = folder / "runs" / label
+        path.mkdir(parents=True)
+        table = [["t [s]", f"x [{units[0]}]", f"y [{units[1]}]", "energy [J]"]]
+        for k in range(101):
+            t = 0.1 * k
+            table.append([repr(t), repr(3 + size * math.cos(t)), repr(size * math.sin(t)), "1"])
+        save(path / "series.csv", table)
+        (path / "summary.json").write_text(json.dumps({"schema": 1, "invariants": [
+            {"name": "energy", "unit": "J", "expected": "conserved"}]}))
+    head = {"schema": 1, "name": "ball", "title": "Ball", "drift_classes": CLASSES, "cases": [
+        {"name": "ball", "title": "Ball <b>", "system": "ball", "precision": "double", "time_unit": "s",
+         "conserved": "energy", "motion": list(motion_of)}], "methods": [{"label": r["method"]} for r in rows]}
+    (folder / "experiment.json").write_text(json.dumps(head))
+    save(folder / "results.csv", [list(rows[0])] + [list(r.values()) for r in rows])
+    return folder
+
+
+class Tracks(Fresh):
+    def test_tracks_are_the_coordinates_of_the_runs(self):
+        shown = reading.Experiment(circles(self.folder))
+        case = shown.cases[0]
+        x, y = motion.track(shown, case, shown.at_common_step(case)[0])
+        self.assertEqual(len(x), 101)
+        for a, b in zip(x, y):
+            self.assertAlmostEqual(math.hypot(a - 3, b), 1)
+
+    def test_frame_leaves_out_what_runs_away(self):
+        shown = reading.Experiment(circles(self.folder))
+        drawing, = motion.drawings(shown, shown.cases[0])
+        self.assertIn("Some tracks leave the frame.", drawing.caption)
+        axes = drawing.draw(True).axes[0]
+        self.assertLess(axes.get_xlim()[1], 10)
+        self.assertEqual(axes.get_aspect(), 1)
+
+    def test_nothing_leaves_the_frame_of_tracks_alike(self):
+        shown = reading.Experiment(circles(self.folder, away=1.1))
+        drawing, = motion.drawings(shown, shown.cases[0])
+        self.assertNotIn("leave the frame", drawing.caption)
+
+    def test_different_units_have_scales_of_their_own(self):
+        shown = reading.Experiment(circles(self.folder, units=("m", "rad")))
+        drawing, = motion.drawings(shown, shown.cases[0])
+        self.assertNotIn("same scale", drawing.caption)
+        self.assertEqual(drawing.draw(False).axes[0].get_aspect(), "auto")
+
+    def test_report_draws_the_motion_and_is_the_same_again(self):
+        folder = circles(self.folder)
+        self.assertEqual(run(folder)[0], 0)
+        first = (folder / "figures" / "motion_ball.svg").read_bytes()
+        self.assertIn("Tracks of the motion", (folder / "report.html").read_text())
+        self.assertEqual(run(folder)[0], 0)
+        self.assertEqual((folder / "figures" / "motion_ball.svg").read_bytes(), first)
+
+    def test_no_motion_no_figure(self):
+        folder = circles(self.folder, motion_of=())
+        self.assertEqual(run(folder)[0], 0)
+        self.assertFalse((folder / "figures" / "motion_ball.svg").exists())
+
+    def test_wrong_names_are_refused(self):
+        for names, told in ((["x"], "two coordinates"), (["x", "w"], "column 'w' is missing")):
+            with self.subTest(names=names):
+                head = json.loads((circles(self.folder / names[-1], names) / "experiment.json").read_text())
+                self.assertEqual(head["cases"][0]["motion"], names)
+                status, said = run(self.folder / names[-1])
+                self.assertEqual(status, 2)
+                self.assertIn(told, said)
+
+
+def walks(folder, fails=""):
+    """`walk` has errors +-1e-9 t^0.5, `drift` 1e-9 t, of either sign over the seeds; `fails` names a run that failed."""
+    measures = [f"energy:{m}" for m in reading.MEASURES]
+    rows = []
+    for label, power in (("walk", 0.5), ("drift", 1)):
+        for seed in range(1, SEEDS + 1):
+            slug = f"{label}-{seed}"
+            row = dict.fromkeys(COLUMNS + measures + ["seed", "run"], "")
+            row.update({"case": "many", "system": "chaos", "method": label, "integrator": label, "step": 0.1,
+                        "time": 100, "steps": 1000, "precision": "double", "rhs_per_step": 1, "run": slug, "seed": seed,
+                        "status": "non_finite" if slug == fails else "converged", "energy:max": 1e-6,
+                        "energy:class": "near"})
+            rows.append(row)
+            path = folder / "runs" / slug
+            path.mkdir(parents=True)
+            scale = 1e-3 if slug == fails else (-1) ** seed * seed * 1e-9
+            save(path / "series.csv", [["t [s]", "energy [J]"]] + [
+                [repr(0.5 * k), repr(1 + scale * (0.5 * k) ** power)] for k in range(201)])
+            (path / "summary.json").write_text(json.dumps({"schema": 1, "invariants": [
+                {"name": "energy", "unit": "J", "expected": "conserved"}]}))
+    head = {"schema": 1, "name": "many", "title": "Many", "drift_classes": CLASSES, "cases": [
+        {"name": "many", "title": "Many", "system": "chaos", "precision": "double", "time_unit": "s",
+         "conserved": "energy", "seeds": SEEDS}], "methods": [{"label": m} for m in ("walk", "drift")]}
+    (folder / "experiment.json").write_text(json.dumps(head))
+    save(folder / "results.csv", [list(rows[0])] + [list(r.values()) for r in rows])
+    return folder
+
+
+class Spreads(Fresh):
+    def test_rms_and_its_power_of_time(self):
+        shown = reading.Experiment(walks(self.folder))
+        curves = ensembles.spreads(shown, shown.cases[0])
+        self.assertEqual([c[0].method for c in curves], ["walk", "drift"])
+        rms = math.sqrt(sum(s * s for s in range(1, SEEDS + 1)) / SEEDS)
+        for power, (_, times, values) in zip((0.5, 1), curves):
+            self.assertEqual(len(times), 200)  # without the start
+            self.assertAlmostEqual(values[-1] / (1e-9 * rms * 100**power), 1, places=5)
+            self.assertAlmostEqual(ensembles.exponent(times, values), power, places=3)
+
+    def test_power_needs_positive_values(self):
+        self.assertTrue(math.isnan(ensembles.exponent([1, 2, 3, 4], [0, 0, 0, 0])))
+        self.assertTrue(math.isnan(ensembles.exponent([], [])))
+
+    def test_failed_runs_are_left_out(self):
+        shown = reading.Experiment(walks(self.folder, fails="walk-2"))
+        curve = ensembles.spreads(shown, shown.cases[0])[0]
+        rms = math.sqrt((1 + 9 + 16) / 3)
+        self.assertAlmostEqual(curve[2][-1] / (1e-9 * rms * 10), 1, places=5)
+
+    def test_report_shows_and_tells_the_spread(self):
+        folder = walks(self.folder)
+        self.assertEqual(run(folder)[0], 0)
+        self.assertTrue((folder / "figures" / "ensemble_many.svg").exists())
+        page = (folder / "report.html").read_text()
+        self.assertIn("t<sup>0.50</sup>", page)
+        self.assertIn("t<sup>1.00</sup>", page)
+        self.assertGreater(len(load(folder / "results.csv")), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,142 @@
+// The identities of velocity constraints hold for the derived evaluator, and evaluators with one operation
+// wrong break them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <pfaff/bench/verification/skated_models.hpp>
+#include <pfaff/core/facets/conformance/constraint_matchers.hpp>
+#include <pfaff/core/facets/taped_velocity_constraints.hpp>
+
+#include "velocity_systems.hpp"
+
+namespace {
+using namespace pfaff;
+using namespace pfaff::testing;
+
+// An H that is not quadratic in p: P and S depend on the momenta.
+struct FastParticle : ContactParticle {
+  template <class T>
+  T kinetic(const T& /*t*/, In<T> p) const {
+    return sqrt(1 + p[0] * p[0] + p[1] * p[1] + 2 * p[2] * p[2]);
+  }
+};
+
+std::vector<std::shared_ptr<const Model>> models() {
+  std::vector<std::shared_ptr<const Model>> list = skated_models();
+  const std::vector<Real> six{Real::fraction(1, 3), Real::fraction(2, 3), 1, Real::fraction(1, 2), -1, 2};
+  list.push_back(model_of<ChaplyginSleigh>("sleigh", six));
+  list.push_back(model_of<FastParticle>("fast particle", six));
+  return list;
+}
+
+TEST(VelocityConformance, TheDerivedEvaluatorKeepsEveryIdentity) {
+  const ConstraintSamples samples;
+  for (const auto& model : models()) {
+    SCOPED_TRACE(model->name());
+    EXPECT_THAT(model->velocity_constraints<double>().get(), KeepsConstraintIdentities(model, samples));
+    EXPECT_THAT(model->velocity_constraints<Quad>().get(), KeepsConstraintIdentities(model, samples));
+  }
+}
+
+enum class Broken {
+  values,
+  velocity,
+  force,
+  apply,
+  apply_transpose,
+  solve,
+  by_momentum,
+  by_momentum_transpose,
+  place,
+  residuals,
+  rates,
+  velocities,
+  forces,
+  none
+};
+
+// An evaluator with one operation wrong by a relative 1e-8, or placed wrongly.
+class Wrong final : public VelocityConstraints<double> {
+ public:
+  Wrong(VelocityPointer<double> right, Broken broken) : right_(std::move(right)), broken_(broken) {}
+  [[nodiscard]] std::size_t count() const override { return right_->count(); }
+  [[nodiscard]] std::size_t degrees() const override { return right_->degrees(); }
+  [[nodiscard]] const SymmetricPattern& pattern() const override { return right_->pattern(); }
+  void values(const double& t, In<double> q, In<double> p, Out<double> psi) override {
+    right_->values(t, q, p, psi), spoil(Broken::values, psi);
+  }
+  void velocity(const double& t, In<double> q, In<double> p, Out<double> v) override {
+    right_->velocity(t, q, p, v), spoil(Broken::velocity, v);
+  }
+  void force(const double& t, In<double> q, In<double> p, Out<double> f) override {
+    right_->force(t, q, p, f), spoil(Broken::force, f);
+  }
+  Status linearise(const double& t, In<double> q, In<double> p) override {
+    return right_->linearise(t, q, p);
+  }
+  void apply(In<double> u, Out<double> r) const override { right_->apply(u, r), spoil(Broken::apply, r); }
+  void apply_transpose(In<double> x, Out<double> f) const override {
+    right_->apply_transpose(x, f), spoil(Broken::apply_transpose, f);
+  }
+  void solve(In<double> r, Out<double> x) const override { right_->solve(r, x), spoil(Broken::solve, x); }
+  void by_momentum(In<double> u, Out<double> r) const override {
+    right_->by_momentum(u, r), spoil(Broken::by_momentum, r);
+  }
+  void by_momentum_transpose(In<double> x, Out<double> v) const override {
+    right_->by_momentum_transpose(x, v), spoil(Broken::by_momentum_transpose, v);
+  }
+  Status place(const double& t, In<double> q, In<double> p) override {
+    const Status status = right_->place(broken_ == Broken::place ? t + 1e-8 : t, q, p);
+    for (const auto& [part, values] : {std::pair(&residuals_, right_->residuals()),
+                                       {&rates_, right_->rates()},
+                                       {&velocities_, right_->velocities()},
+                                       {&forces_, right_->forces()}})
+      part->assign(values.begin(), values.end());
+    spoil(Broken::residuals, residuals_), spoil(Broken::rates, rates_);
+    spoil(Broken::velocities, velocities_), spoil(Broken::forces, forces_);
+    return status;
+  }
+  [[nodiscard]] std::span<const double> residuals() const override { return residuals_; }
+  [[nodiscard]] std::span<const double> rates() const override { return rates_; }
+  [[nodiscard]] std::span<const double> velocities() const override { return velocities_; }
+  [[nodiscard]] std::span<const double> forces() const override { return forces_; }
+
+ private:
+  void spoil(Broken operation, std::span<double> numbers) const {
+    if (operation == broken_) numbers[0] += 1e-8;
+  }
+  VelocityPointer<double> right_;
+  Broken broken_;
+  std::vector<double> residuals_, rates_, velocities_, forces_;
+};
+
+TEST(VelocityConformance, EveryWrongOperationIsFound) {
+  const auto model = two_blades(true);
+  for (int k = 0; k <= static_cast<int>(Broken::none); ++k) {
+    const auto broken = static_cast<Broken>(k);
+    Wrong wrong(model->velocity_constraints<double>(), broken);
+    if (broken == Broken::none) {
+      EXPECT_THAT(&wrong, KeepsConstraintIdentities(model, ConstraintSamples{}));
+    } else {
+      EXPECT_THAT(&wrong, ::testing::Not(KeepsConstraintIdentities(model, ConstraintSamples{}))) << k;
+    }
+  }
+}
+
+// A chain of rods with a blade: S couples neighbours, and the blade to the two rods at its bead, which leaves
+// a structure without fill. A placement then takes work in proportion to the length of the chain.
+TEST(VelocityConformance, AChainWithABladeIsLinearInItsLength) {
+  const auto work = [](int beads) {
+    const VelocityTapes tapes = record_velocity(*skated_chain(beads));
+    const auto size = static_cast<std::size_t>(beads);
+    EXPECT_EQ(tapes.count, size + 1);
+    EXPECT_EQ(tapes.pattern->couplings().size(), size + 1);
+    EXPECT_EQ(tapes.pattern->structure(), MatrixStructure::tree);
+    EXPECT_EQ(tapes.pattern->fill(), 0U);
+    return tapes.place->code.size();
+  };
+  const std::size_t short_one = work(10), middle = work(20), long_one = work(30);
+  EXPECT_EQ(long_one - middle, middle - short_one);
+}
+
+}  // namespace
