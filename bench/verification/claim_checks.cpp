@@ -89,13 +89,10 @@ constexpr std::array checks{
                .in_double = velocity_constraints_residual<double>,
                .in_quad = velocity_constraints_residual<Quad>,
                .control = {.method = "rk4", .system = "sliding blade", .model = &sliding_blade}},
-    // The discrete gradients of the constraint turn the blade.
-    ClaimCheck{
-        .claim = Claim::nonholonomic_momentum,
-        .in_double = nonholonomic_momentum_residual<double>,
-        .in_quad = nonholonomic_momentum_residual<Quad>,
-        .control = {
-            .method = "nonholonomic-discrete-gradient", .system = "sliding blade", .model = &sliding_blade}}};
+    ClaimCheck{.claim = Claim::nonholonomic_momentum,
+               .in_double = nonholonomic_momentum_residual<double>,
+               .in_quad = nonholonomic_momentum_residual<Quad>,
+               .control = {.method = "rk4", .system = "bead in a bowl", .model = &bead_in_a_bowl}}};
 
 constexpr bool complete() {
   std::size_t k = 0;

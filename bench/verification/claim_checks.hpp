@@ -74,6 +74,9 @@ double momentum_maps_residual(MeasuredStep<T>& step);
 /// The largest change of a conserved p^T (D q + d) along directions that velocity constraints allow.
 template <class T>
 double nonholonomic_momentum_residual(MeasuredStep<T>& step);
+/// A system for the control: a bead that slides in a bowl under a velocity constraint, which lets it go
+/// round.
+std::shared_ptr<const Model> bead_in_a_bowl();
 /// The change of the energy H.
 template <class T>
 double energy_residual(MeasuredStep<T>& step);

@@ -1,6 +1,8 @@
 // Claims about numbers that a step conserves, or changes in one direction only.
+#include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/bench/verification/claim_checks.hpp>
 #include <pfaff/bench/verification/residuals.hpp>
+#include <pfaff/core/system.hpp>
 
 namespace pfaff {
 
@@ -58,6 +60,41 @@ template <class T>
 double nonholonomic_momentum_residual(MeasuredStep<T>& step) {
   return largest_change(step, Formula::invariants,
                         [&](std::size_t k) { return allowed_momentum_map(*step.model(), k); });
+}
+
+namespace {
+// z' + x x' + y y' = 0 and the potential z, all masses one. Nothing hinders the bead from going round, and
+// nothing pushes it: its angular momentum x p_y - y p_x is conserved.
+struct Bowl {
+  static constexpr int dimension = 6, velocity_constraint_count = 1;
+  template <class T>
+  T kinetic(const T& /*t*/, In<T> p) const {
+    return (p[0] * p[0] + p[1] * p[1] + p[2] * p[2]) / 2;
+  }
+  template <class T>
+  T potential(const T& /*t*/, In<T> q) const {
+    return q[2];
+  }
+  template <class T>
+  void velocity_constraints(const T& /*t*/, In<T> q, Out<T> rows) const {
+    rows[0] = q[0];
+    rows[1] = q[1];
+    rows[2] = T(1);
+  }
+  template <class T>
+  void invariants(const T& /*t*/, In<T> z, Out<T> values) const {
+    values[0] = z[0] * z[4] - z[1] * z[3];
+  }
+};
+}  // namespace
+
+std::shared_ptr<const Model> bead_in_a_bowl() {
+  return motion_of(make_model(SystemDescriptor{.name = "bead-in-a-bowl",
+                                               .title = "",
+                                               .reference = "",
+                                               .initial = {Real(1), 0, 0, 0, Real(1), 0},
+                                               .invariants = {conserved_quadratic("turn", "J s")}},
+                              Bowl()));
 }
 
 template <class T>

@@ -82,7 +82,7 @@ class Recording {
       std::copy(x.begin(), x.end(), out.begin());
     });
     made.momentum = shared(record(n + r, n, [&](const Recorded& t, In<Recorded> in, Out<Recorded> out) {
-      const Numbers p = momentum_at(t, in.first(n_), in.subspan(n_), basis);
+      const Numbers p = momentum_at(t, in.first(n_), in.subspan(n_), basis, dependent);
       std::copy(p.begin(), p.end(), out.begin());
     }));
     made.energy = shared(record(n + r, 1, [&](const Recorded& t, In<Recorded> in, Out<Recorded> out) {
@@ -137,21 +137,12 @@ class Recording {
     return x;
   }
 
-  // p = X (X^T X)^-1 pi - A^T S^-1 psi, where psi = A H_p at the first term.
-  [[nodiscard]] Numbers momentum_at(const Recorded& t, In<Recorded> q, In<Recorded> pi,
-                                    const Tape& basis) const {
+  // p = p^ - A^T S^-1 psi, where X^T p^ = pi and psi = A H_p at p^.
+  [[nodiscard]] Numbers momentum_at(const Recorded& t, In<Recorded> q, In<Recorded> pi, const Tape& basis,
+                                    const Places& dependent) const {
     const Numbers a = evaluate(*rows_, t, q), x = evaluate(basis, t, q);
-    const std::size_t r = rank();
-    Numbers gram(r * r), z(q.begin(), q.end());
-    for (std::size_t i = 0; i < r; ++i)
-      for (std::size_t j = 0; j < r; ++j)
-        for (std::size_t k = 0; k < n_; ++k) gram[i * r + j] = gram[i * r + j] + x[k * r + i] * x[k * r + j];
-    const Numbers weights = block_solve(gram, pi);
-    for (std::size_t k = 0; k < n_; ++k) {
-      Recorded sum(0);
-      for (std::size_t i = 0; i < r; ++i) sum = sum + x[k * r + i] * weights[i];
-      z.push_back(sum);
-    }
+    Numbers z(q.begin(), q.end());
+    for (const Recorded& component : lifted(x, pi, dependent)) z.push_back(component);
     const Numbers slopes = evaluate(*slopes_, t, z);
     Numbers psi(count_), s(count_ * count_);
     for (std::size_t j = 0; j < count_; ++j) {
@@ -172,16 +163,25 @@ class Recording {
     return p;
   }
 
-  // X^T X is the unit matrix but for the vectors of C, which come first.
-  [[nodiscard]] Numbers block_solve(const Numbers& gram, In<Recorded> pi) const {
-    const std::size_t r = rank(), size = coupled_.size() - count_;
-    Numbers block;
-    for (std::size_t i = 0; i < size; ++i)
-      block.insert(block.end(), gram.begin() + static_cast<std::ptrdiff_t>(i * r),
-                   gram.begin() + static_cast<std::ptrdiff_t>(i * r + size));
-    Numbers weights = size == 0 ? Numbers{} : solve(block, pi.first(size));
-    weights.insert(weights.end(), pi.begin() + static_cast<std::ptrdiff_t>(size), pi.end());
-    return weights;
+  // Some p^ with X^T p^ = pi. Where there is one vector of C, it is that along the vector; otherwise it is
+  // zero at D, and divided by the determinant, which the choice of D keeps from zero.
+  [[nodiscard]] Numbers lifted(const Numbers& x, In<Recorded> pi, const Places& dependent) const {
+    const std::size_t r = rank(), of_coupled = coupled_.size() - count_;
+    Numbers p(n_);
+    for (std::size_t k = 0; k < free_.size(); ++k) p[free_[k]] = pi[of_coupled + k];
+    if (of_coupled == 1) {
+      Recorded square(0);
+      for (const std::size_t place : coupled_) square = square + x[place * r] * x[place * r];
+      for (const std::size_t place : coupled_) p[place] = x[place * r] * pi[0] / square;
+      return p;
+    }
+    std::size_t column = 0;
+    for (const std::size_t place : coupled_) {
+      if (std::find(dependent.begin(), dependent.end(), place) != dependent.end()) continue;
+      p[place] = pi[column] / x[place * r + column];
+      ++column;
+    }
+    return p;
   }
 
   // Gam, row-major.

@@ -13,6 +13,7 @@
 // is compensated.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -26,7 +27,7 @@
 #include <pfaff/integrators/support/continuation.hpp>
 #include <pfaff/integrators/support/difference_predictor.hpp>
 #include <pfaff/integrators/support/largest.hpp>
-#include <pfaff/integrators/support/remembered_contraction.hpp>
+#include <pfaff/integrators/support/settled.hpp>
 
 namespace pfaff {
 
@@ -87,7 +88,7 @@ struct KernelDiscreteGradient {
           middle(n + r),
           end(n + r),
           slopes(n + r + n * r + r * r),
-          predictor(n + r, static_cast<std::size_t>(difference_levels<T>)),
+          predictor(n + r, static_cast<std::size_t>(difference_levels<T>) + 2),
           continuation(p) {
       for (const KernelTapes& tapes : coordinates.choices)
         choices.push_back({Replay<T>(tapes.energy), Replay<T>(tapes.middle), Replay<T>(tapes.momentum),
@@ -110,6 +111,7 @@ struct KernelDiscreteGradient {
       rates(h, T(0), w, w.change);
     }
     Convergence<T> convergence;
+    bool finished = false;
     do {
       ++p.counters().fields;
       for (std::size_t k = 0; k < size; ++k) {
@@ -122,12 +124,12 @@ struct KernelDiscreteGradient {
       formulas.energy(middle_time, w.end.data(), &end_energy);
       rates(h, secant(end_energy - energy, z, w), w, w.next);
       convergence.begin_iteration();
-      judge(convergence, z, w);
+      finished = settled(convergence, judge(convergence, z, w), w.contraction);
       std::swap(w.change, w.next);
       ++p.counters().iterations;
-    } while (!convergence.finished(100, w.contraction.ratio()));
+    } while (!convergence.finished(100) && !finished);
     w.contraction.remember_slowest(convergence.contraction());
-    if (convergence.status() != Status::converged) {
+    if (!finished && convergence.status() != Status::converged) {
       // Iterates that overflow come from a step that is too large, and are reported as not converged, too.
       w.forget();
       return Status::not_converged;
@@ -206,17 +208,36 @@ struct KernelDiscreteGradient {
     return (gain - linear) / square;
   }
 
+  // Positions and momenta are judged each by their own largest component. Derivatives of either may be zero
+  // but for round-off, and are judged together. Returns the size of the larger correction.
   template <class T, class Z, class W>
-  static void judge(Convergence<T>& convergence, const Z& z, const W& w) {
-    for (const auto& [begin, end] : {std::pair(std::size_t{0}, w.n), std::pair(w.n, w.n + w.r)}) {
-      Largest<T> correction, reference;
-      for (std::size_t k = begin; k < end; ++k) {
-        correction.add(w.next[k] - w.change[k]);
-        reference.add(at_start(z, w, k));
-        reference.add(w.next[k]);
+  static Value<T> judge(Convergence<T>& convergence, const Z& z, const W& w) {
+    Largest<T> moved, kicked, positions, momenta, all;
+    for (std::size_t k = 0; k < w.n + w.r; ++k) {
+      const T begin = at_start(z, w, k);
+      (k < w.n ? moved : kicked).add(w.next[k] - w.change[k]);
+      for (Largest<T>* scale : {k < w.n ? &positions : &momenta, &all}) {
+        scale->add(begin);
+        scale->add(w.next[k]);
       }
-      convergence.add(correction.get(), reference.get(), reference.get());
     }
+    const T of_positions = scale_of(positions.get(), all.get()),
+            of_momenta = scale_of(momenta.get(), all.get());
+    const T move = moved.get(), kick = kicked.get();
+    convergence.add(move, of_positions, of_positions);
+    convergence.add(kick, of_momenta, of_momenta);
+    return std::max(relative_size(move, of_positions, of_positions),
+                    relative_size(kick, of_momenta, of_momenta));
+  }
+  template <class T>
+  static T scale_of(const T& own, const T& /*all*/) {
+    return own;
+  }
+  template <class T, int N>
+  static Dual<T, N> scale_of(const Dual<T, N>& own, const Dual<T, N>& all) {
+    Dual<T, N> scale = all;
+    scale.value = scale_of(own.value, all.value);
+    return scale;
   }
 };
 

@@ -11,6 +11,7 @@
 // in place of A(qm) H_pp A(q0)^T.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include <pfaff/core/facets/problem.hpp>
@@ -18,7 +19,7 @@
 #include <pfaff/integrators/nonholonomic/energy_slopes.hpp>
 #include <pfaff/integrators/support/difference_predictor.hpp>
 #include <pfaff/integrators/support/largest.hpp>
-#include <pfaff/integrators/support/remembered_contraction.hpp>
+#include <pfaff/integrators/support/settled.hpp>
 
 namespace pfaff {
 
@@ -38,7 +39,7 @@ class MiddlePoint {
         correction_(n()),
         multiplier_(count),
         residual_(count),
-        predictor_(2 * n() + count, static_cast<std::size_t>(difference_levels<T>)) {}
+        predictor_(2 * n() + count, static_cast<std::size_t>(difference_levels<T>) + 2) {}
 
   /// v, f and A(q0)^T lambda as found.
   [[nodiscard]] In<T> velocity() const { return velocity_; }
@@ -53,6 +54,7 @@ class MiddlePoint {
     predict(p, c, t, h, half, q0, q_carry, p0, p_change);
     const T middle = t + half;
     Convergence<T> convergence;
+    bool finished = false;
     do {
       Largest<T> moved, positions, kicked, momenta;
       ++p.counters().fields;
@@ -77,14 +79,19 @@ class MiddlePoint {
         momenta.add(momentum_[k]);
         momenta.add(p0[k]);
       }
+      const T move = moved.get(), kick = kicked.get(), position = positions.get(), momentum = momenta.get();
       convergence.begin_iteration();
-      convergence.add(moved.get(), positions.get(), positions.get());
-      convergence.add(kicked.get(), momenta.get(), momenta.get());
+      convergence.add(move, position, position);
+      convergence.add(kick, momentum, momentum);
       ++p.counters().iterations;
-    } while (!convergence.finished(100, contraction_.ratio()));
+      finished =
+          settled(convergence,
+                  std::max(relative_size(move, position, position), relative_size(kick, momentum, momentum)),
+                  contraction_);
+    } while (!convergence.finished(100) && !finished);
     contraction_.remember_slowest(convergence.contraction());
     // Iterates that overflow come from a step that is too large, and are reported as not converged, too.
-    return convergence.status() == Status::converged ? Status::converged : Status::not_converged;
+    return finished || convergence.status() == Status::converged ? Status::converged : Status::not_converged;
   }
 
   /// The step whose middle was found is taken: what it was made of is remembered.
