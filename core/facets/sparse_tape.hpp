@@ -1,5 +1,5 @@
-// Matrices on tapes: what is recorded of one are its entries that are not zero by construction, and from where
-// they are follows the structure in which it is multiplied and factored.
+// Matrices on tapes: what is recorded of one are its entries that are not zero by construction, and from
+// where they are follows the structure in which it is multiplied and factored.
 #pragma once
 
 #include <cstddef>
@@ -34,12 +34,12 @@ struct SparseRows {
   void multiply_transpose(const T* entries, In<T> x, Out<T> f) const {
     for (T& value : f) value = T(0);
     for (std::size_t i = 0; i < rows(); ++i)
-      for (std::size_t e = begin[i]; e < begin[i + 1]; ++e)
-        f[columns[e]] = f[columns[e]] + entries[e] * x[i];
+      for (std::size_t e = begin[i]; e < begin[i + 1]; ++e) f[columns[e]] = f[columns[e]] + entries[e] * x[i];
   }
 };
 
-/// A matrix on a tape, `rows` x `columns`, that stands in the columns from `first` of one with `stride` columns.
+/// A matrix on a tape, `rows` x `columns`, that stands in the columns from `first` of one with `stride`
+/// columns.
 struct RecordedMatrix {
   const std::vector<Recorded>& entries;
   std::size_t rows, columns, stride, first;

@@ -73,7 +73,9 @@ class TapedConstraints final : public HolonomicConstraints<T> {
     return factor();
   }
   void apply(In<T> u, Out<T> r) const override { tapes_->by_position.multiply<T>(placed_.data(), u, r); }
-  void apply_transpose(In<T> x, Out<T> f) const override { tapes_->by_position.multiply_transpose<T>(placed_.data(), x, f); }
+  void apply_transpose(In<T> x, Out<T> f) const override {
+    tapes_->by_position.multiply_transpose<T>(placed_.data(), x, f);
+  }
   void solve(In<T> r, Out<T> x) const override { ldlt_.solve(r.data(), x.data()); }
   void solve(In<T> r1, Out<T> x1, In<T> r2, Out<T> x2) const override {
     ldlt_.solve(r1.data(), x1.data(), r2.data(), x2.data());

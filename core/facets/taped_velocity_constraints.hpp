@@ -2,8 +2,8 @@
 //
 // Everything is derived from the formulas A, b, phi and H: psi = A v + b with v = H_p, phi's rows and values
 // at the level of velocities, P = dpsi/dp and the rate {psi, H} + psi_t by differentiation onto the tape. The
-// tape also tells where these matrices have entries, and from this follows the structure in which S = P A^T is
-// factored. H may have any mass matrix M(q), and need not be quadratic in p.
+// tape also tells where these matrices have entries, and from this follows the structure in which S = P A^T
+// is factored. H may have any mass matrix M(q), and need not be quadratic in p.
 #pragma once
 
 #include <vector>

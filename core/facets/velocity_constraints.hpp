@@ -4,8 +4,8 @@
 // They are written psi(q, p, t) = A v + b. Where the system has holonomic constraints phi(q, t) = 0 as well,
 // these stand first, at the level of velocities: their rows of A are dphi/dq, and their b is phi_t.
 // Constraint forces are A^T x (d'Alembert). With P = dpsi/dp = A H_pp, the matrix S = P A^T is that of A
-// M^-1 A^T for a kinetic energy with the mass matrix M; it is factored in its own structure, which the pattern
-// reports.
+// M^-1 A^T for a kinetic energy with the mass matrix M; it is factored in its own structure, which the
+// pattern reports.
 //
 // Every operation is batched: one virtual call, whatever the number of constraints. An operation that places
 // something evaluates it at a point and keeps it for the operations that follow. The object owns its buffers;
