@@ -55,7 +55,8 @@ struct KernelDiscreteGradient {
     Continuation<P> continuation;
     T last_h{0}, length;
 
-    Work(const KernelDiscreteGradient& /*method*/, const P& p) : Work(p, *kernel_coordinates(*p.model())) {}
+    Work(const KernelDiscreteGradient& method, const P& p)
+        : Work(method, p, *kernel_coordinates(*p.model())) {}
     /// Forgets the past, round-off included: the next step depends on its state alone.
     void restart() {
       forget();
