@@ -1,6 +1,8 @@
 // Discrete gradient methods for velocity constraints as a plug-in: in coordinates of the kernel of A where
 // the system has them, and with multipliers in the phase space elsewhere.
+#include <array>
 #include <optional>
+#include <span>
 #include <string>
 
 #include <pfaff/core/integrator.hpp>
@@ -14,6 +16,7 @@ using namespace pfaff;
 struct BothForms {
   std::string form = "automatic";
   bool compensated = true;
+  std::array<Quad, 1> lengths{Quad(1)};  // of the change of the state, in units of the step
 
   static constexpr bool fixed_sizes = false;  // the work is in batched calls, which take no fixed size
 
@@ -26,6 +29,7 @@ struct BothForms {
   static std::vector<Assignments> instances(bool /*full*/) {
     return {{{"form", "automatic"}}, {{"form", "multipliers"}}};
   }
+  std::span<Quad> coefficients() { return lengths; }
   [[nodiscard]] std::string refuses(const Model& model) const {
     const std::string reason = form == "kernel" ? no_kernel_coordinates(model) : std::string();
     return reason.empty() ? reason : reason + ": take form=multipliers";
@@ -42,9 +46,9 @@ struct BothForms {
     std::optional<MultiplierDiscreteGradient::Work<P>> multipliers;
     Work(const BothForms& method, const P& p) {
       if (method.form != "multipliers" && no_kernel_coordinates(*p.model()).empty()) {
-        kernel.emplace(KernelDiscreteGradient{}, p);
+        kernel.emplace(KernelDiscreteGradient{.length = method.lengths[0]}, p);
       } else {
-        multipliers.emplace(MultiplierDiscreteGradient{}, p);
+        multipliers.emplace(MultiplierDiscreteGradient{.length = method.lengths[0]}, p);
       }
     }
     void restart() { kernel ? kernel->restart() : multipliers->restart(); }
@@ -59,8 +63,8 @@ struct BothForms {
 
   template <HasVelocityConstraints P>
   Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
-    if (w.kernel) return KernelDiscreteGradient{compensated}.step(p, t, h, z, *w.kernel);
-    return MultiplierDiscreteGradient{compensated}.step(p, t, h, z, *w.multipliers);
+    if (w.kernel) return KernelDiscreteGradient{.compensated = compensated}.step(p, t, h, z, *w.kernel);
+    return MultiplierDiscreteGradient{.compensated = compensated}.step(p, t, h, z, *w.multipliers);
   }
 };
 

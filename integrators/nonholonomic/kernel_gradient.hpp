@@ -34,6 +34,7 @@ namespace pfaff {
 /// The method of the opening comment.
 struct KernelDiscreteGradient {
   bool compensated = true;
+  Quad length{1};  // of D, in units of the step
 
   template <class P>
   struct Work {
@@ -52,9 +53,10 @@ struct KernelDiscreteGradient {
     DifferencePredictor<T, dynamic, dynamic> predictor;  // of D/h
     RememberedContraction<Value<T>> contraction;
     Continuation<P> continuation;
-    T last_h{0};
+    T last_h{0}, length;
 
-    Work(const KernelDiscreteGradient& /*method*/, const P& p) : Work(p, *kernel_coordinates(*p.model())) {}
+    Work(const KernelDiscreteGradient& method, const P& p)
+        : Work(method, p, *kernel_coordinates(*p.model())) {}
     /// Forgets the past, round-off included: the next step depends on its state alone.
     void restart() {
       forget();
@@ -76,7 +78,7 @@ struct KernelDiscreteGradient {
     }
 
    private:
-    Work(const P& p, const KernelCoordinates& coordinates)
+    Work(const KernelDiscreteGradient& method, const P& p, const KernelCoordinates& coordinates)
         : n(coordinates.degrees),
           r(coordinates.rank),
           determinants(coordinates.determinants),
@@ -89,7 +91,8 @@ struct KernelDiscreteGradient {
           end(n + r),
           slopes(n + r + n * r + r * r),
           predictor(n + r, static_cast<std::size_t>(difference_levels<T>) + 2),
-          continuation(p) {
+          continuation(p),
+          length(Real(method.length)) {
       for (const KernelTapes& tapes : coordinates.choices)
         choices.push_back({Replay<T>(tapes.energy), Replay<T>(tapes.middle), Replay<T>(tapes.momentum),
                            Replay<T>(tapes.reduced)});
@@ -108,7 +111,7 @@ struct KernelDiscreteGradient {
     formulas.energy(middle_time, w.end.data(), &energy);
     if (!w.predictor.knows()) {
       formulas.middle(middle_time, w.end.data(), w.slopes.data());
-      rates(h, T(0), w, w.change);
+      rates(w.length * h, T(0), w, w.change);
     }
     Convergence<T> convergence;
     bool finished = false;
@@ -122,7 +125,7 @@ struct KernelDiscreteGradient {
       formulas.middle(middle_time, w.middle.data(), w.slopes.data());
       T end_energy;
       formulas.energy(middle_time, w.end.data(), &end_energy);
-      rates(h, secant(end_energy - energy, z, w), w, w.next);
+      rates(w.length * h, secant(end_energy - energy, z, w), w, w.next);
       convergence.begin_iteration();
       finished = settled(convergence, judge(convergence, z, w), w.contraction);
       std::swap(w.change, w.next);

@@ -64,6 +64,7 @@ inline std::shared_ptr<const Tape> weighted_constraint_gradient(const Model& mod
 /// The method of the opening comment.
 struct MultiplierDiscreteGradient {
   bool compensated = true;
+  Quad length{1};  // of D, in units of the step
 
   template <class P>
   struct Work {
@@ -77,9 +78,9 @@ struct MultiplierDiscreteGradient {
     std::vector<T> y, residual, reaction;
     DifferencePredictor<T, dynamic, dynamic> predictor;  // of D/h, x, y
     RememberedContraction<Value<T>> contraction;
-    T last_h{0};
+    T last_h{0}, length;
 
-    Work(const MultiplierDiscreteGradient& /*method*/, const P& p)
+    Work(const MultiplierDiscreteGradient& method, const P& p)
         : energy(make_evaluator<T>(p.model(), Formula::hamiltonian)),
           energy_slopes(p.model()),
           weighted(weighted_constraint_gradient(*p.model())),
@@ -92,7 +93,8 @@ struct MultiplierDiscreteGradient {
           y(p.nonholonomic().count()),
           residual(y.size()),
           reaction(n()),
-          predictor(p.size() + 2 * y.size(), static_cast<std::size_t>(difference_levels<T>)) {}
+          predictor(p.size() + 2 * y.size(), static_cast<std::size_t>(difference_levels<T>)),
+          length(Real(method.length)) {}
     [[nodiscard]] std::size_t n() const { return carry.size() / 2; }
     [[nodiscard]] T& x(std::size_t j) { return middle[carry.size() + j]; }
     [[nodiscard]] T energy_at(const T& t, const std::vector<T>& z) const {
@@ -196,15 +198,16 @@ struct MultiplierDiscreteGradient {
     if (const Status status = c.place(time, In<T>(w.middle.data(), n), In<T>(w.middle.data() + n, n));
         status != Status::converged)
       return status;
-    const T s = secant(c, w.energy_at(time, w.end) - energy, z, w), per_step = T(1) / h;
+    const T s = secant(c, w.energy_at(time, w.end) - energy, z, w), reach = w.length * h,
+            per_step = T(1) / reach;
     for (std::size_t j = 0; j < w.y.size(); ++j) w.residual[j] = w.x(j);
     c.by_momentum_transpose(w.residual, Out<T>(w.end.data(), n));
     c.apply_transpose(w.y, w.reaction);
     for (std::size_t k = 0; k < n; ++k) {
-      w.next[k] = h * (c.velocities()[k] + (s * w.change[n + k] - w.end[k]));
-      w.next[n + k] = h * ((c.forces()[k] - w.reaction[k]) + (w.slopes[k] - s * w.change[k]));
+      w.next[k] = reach * (c.velocities()[k] + (s * w.change[n + k] - w.end[k]));
+      w.next[n + k] = reach * ((c.forces()[k] - w.reaction[k]) + (w.slopes[k] - s * w.change[k]));
     }
-    if (w.energy_slopes.separable()) follow(c, time, h, z, w);
+    if (w.energy_slopes.separable()) follow(c, time, reach, z, w);
     // x, by which A(qm) (q1 - q0) + h b(qm) = 0, where b = psi - A v.
     for (std::size_t k = 0; k < n; ++k) w.reaction[k] = per_step * w.next[k] - c.velocities()[k];
     c.apply(w.reaction, w.residual);
@@ -212,11 +215,11 @@ struct MultiplierDiscreteGradient {
     c.solve(w.residual, w.residual);
     c.by_momentum_transpose(w.residual, w.reaction);
     for (std::size_t j = 0; j < w.y.size(); ++j) w.x(j) = w.x(j) + w.residual[j];
-    for (std::size_t k = 0; k < n; ++k) w.next[k] = w.next[k] - h * w.reaction[k];
+    for (std::size_t k = 0; k < n; ++k) w.next[k] = w.next[k] - reach * w.reaction[k];
     // The same x in the momenta.
-    for (std::size_t k = 0; k < n; ++k) w.next[n + k] = w.next[n + k] - h * w.slopes[k];
+    for (std::size_t k = 0; k < n; ++k) w.next[n + k] = w.next[n + k] - reach * w.slopes[k];
     w.weighted(time, w.middle.data(), w.slopes.data());
-    for (std::size_t k = 0; k < n; ++k) w.next[n + k] = w.next[n + k] + h * w.slopes[k];
+    for (std::size_t k = 0; k < n; ++k) w.next[n + k] = w.next[n + k] + reach * w.slopes[k];
     // y, by which psi(z1) = 0.
     for (std::size_t k = 0; k < size; ++k) w.end[k] = z[k] + (w.next[k] + w.carry[k]);
     c.values(t + h, In<T>(w.end.data(), n), In<T>(w.end.data() + n, n), w.residual);
