@@ -53,8 +53,8 @@ void add_evaluate(CLI::App& app, Common& common, Action& action) {
   auto options = std::make_shared<Options>();
   sub->add_option("--system", options->settings.system, "Name of the system")->type_name("NAME");
   sub->add_option("--formulation", options->settings.formulation,
-                  "Vector field of a constrained system (without: " + dirac_formulation().name() + ", or " +
-                      nonholonomic_formulation().name() + " for velocity constraints)")
+                  "Motion of a system with constraints (without: " + dirac_formulation().name() + " or " +
+                      nonholonomic_formulation().name() + ")")
       ->type_name("NAME");
   sub->add_option("--set", options->set, "A parameter (nu=0.3) or the state, initial=a,b,...")
       ->type_name("KEY=VALUE")

@@ -153,8 +153,8 @@ void add_run(CLI::App& app, Common& common, Action& action) {
   RunSettings& s = options->settings;
   sub->add_option("--system", s.system, "Name of the system")->type_name("NAME");
   sub->add_option("--formulation", s.formulation,
-                  "Vector field of a constrained system (without: " + dirac_formulation().name() + ", or " +
-                      nonholonomic_formulation().name() + " for velocity constraints)")
+                  "Motion of a system with constraints (without: " + dirac_formulation().name() + " or " +
+                      nonholonomic_formulation().name() + ")")
       ->type_name("NAME");
   sub->add_option("--integrator", s.integrator, "Name of the integrator")->type_name("NAME");
   sub->add_option("--step", s.step, "Step h > 0")->type_name("h");

@@ -42,12 +42,12 @@ PFAFF_CLAIM(symmetric, "symmetric", every_system,
             .scope = "every system")
 PFAFF_CLAIM(reversible, "reversible", stated_reversal,
             .meaning = "A step, rho, another step of the same size and rho lead back to the start.",
-            .scope = "autonomous systems that state a reversal rho")
+            .scope = "autonomous systems that state a reversal rho, a linear one")
 
 // What is a number at each end of a step.
 PFAFF_CLAIM(quadratic_invariants, "quadratic-invariants", quadratic_invariants,
             .meaning = "Every conserved quadratic form in z keeps its value.",
-            .scope = "quadratic invariants")
+            .scope = "quadratic invariants, without velocity constraints")
 PFAFF_CLAIM(momentum_maps, "momentum-maps", momentum_maps,
             .meaning = "Every conserved momentum map p^T (D q + d) keeps its value.",
             .scope = "quadratic invariants p^T D q")

@@ -4,6 +4,7 @@
 #include <random>
 
 #include <pfaff/core/errors/errors.hpp>
+#include <pfaff/core/facets/linear_reversal.hpp>
 #include <pfaff/core/tape/replay.hpp>
 
 namespace pfaff {
@@ -74,7 +75,7 @@ bool poisson_tensor_alone(const Model& model) {
          !model.facets().has(Facet::darboux_chart);
 }
 
-bool stated_reversal(const Model& model) { return model.given(Formula::reversal) && model.autonomous(); }
+bool stated_reversal(const Model& model) { return linear_reversal(model) && model.autonomous(); }
 
 bool stated_casimirs(const Model& model) {
   return model.facets().has(Facet::hamiltonian) && model.given(Formula::casimirs);
@@ -116,7 +117,10 @@ bool conserved_invariants(const Model& model) {
   return std::any_of(model.invariants().begin(), model.invariants().end(), conserved);
 }
 
+// What a motion with velocity constraints conserves it conserves on their surface, which methods that keep
+// quadratic forms may leave within a step.
 bool quadratic_invariants(const Model& model) {
+  if (model.nonholonomic()) return false;
   return std::any_of(model.invariants().begin(), model.invariants().end(),
                      [](const Invariant& i) { return i.quadratic && conserved(i); });
 }

@@ -7,7 +7,6 @@
 
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/integrators/nonholonomic/kernel_gradient.hpp>
-#include <pfaff/integrators/nonholonomic/linear_reversal.hpp>
 #include <pfaff/integrators/nonholonomic/multiplier_gradient.hpp>
 
 namespace {
@@ -33,11 +32,6 @@ struct BothForms {
   [[nodiscard]] std::string refuses(const Model& model) const {
     const std::string reason = form == "kernel" ? no_kernel_coordinates(model) : std::string();
     return reason.empty() ? reason : reason + ": take form=multipliers";
-  }
-  [[nodiscard]] std::vector<Claim> preserves(const Model& model) const {
-    std::vector<Claim> kept{Claim::symmetric, Claim::energy, Claim::velocity_constraints};
-    if (linear_reversal(model)) kept.push_back(Claim::reversible);
-    return kept;
   }
 
   template <class P>

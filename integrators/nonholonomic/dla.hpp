@@ -21,11 +21,9 @@
 #include <utility>
 #include <vector>
 
-#include <pfaff/core/facets/claims.hpp>
 #include <pfaff/core/registry/parameter.hpp>
 #include <pfaff/core/solve/summation.hpp>
 #include <pfaff/integrators/constrained/constraint_solves.hpp>
-#include <pfaff/integrators/nonholonomic/linear_reversal.hpp>
 #include <pfaff/integrators/nonholonomic/middle_point.hpp>
 #include <pfaff/integrators/support/continuation.hpp>
 
@@ -43,11 +41,6 @@ struct DiscreteLagrangeDAlembert {
     return {parameter(&DiscreteLagrangeDAlembert::compensated, "compensated", "compensated summation")};
   }
   std::span<Quad> coefficients() { return halves; }
-  [[nodiscard]] std::vector<Claim> preserves(const Model& model) const {
-    std::vector<Claim> kept{Claim::symmetric, Claim::velocity_constraints, Claim::nonholonomic_momentum};
-    if (linear_reversal(model)) kept.push_back(Claim::reversible);
-    return kept;
-  }
 
   template <class P>
   struct Work {

@@ -19,7 +19,6 @@
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/integrators/constrained/constraint_solves.hpp>
 #include <pfaff/integrators/nonholonomic/energy_slopes.hpp>
-#include <pfaff/integrators/nonholonomic/linear_reversal.hpp>
 
 namespace {
 using namespace pfaff;
@@ -35,11 +34,6 @@ struct McLachlanPerlmutter {
     return {parameter(&McLachlanPerlmutter::compensated, "compensated", "compensated summation")};
   }
   std::span<Quad> coefficients() { return lengths; }
-  [[nodiscard]] std::vector<Claim> preserves(const Model& model) const {
-    std::vector<Claim> kept{Claim::symmetric, Claim::nonholonomic_momentum};
-    if (linear_reversal(model)) kept.push_back(Claim::reversible);
-    return kept;
-  }
   [[nodiscard]] std::string refuses(const Model& model) const {
     if (model.separable_energy()) return {};
     return "needs H = T(p) + V(q, t); the Hamiltonian of " + model.name() +

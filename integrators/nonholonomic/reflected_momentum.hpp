@@ -23,11 +23,11 @@
 #include <vector>
 
 #include <pfaff/core/facets/claims.hpp>
+#include <pfaff/core/facets/linear_reversal.hpp>
 #include <pfaff/core/facets/problem.hpp>
 #include <pfaff/core/registry/parameter.hpp>
 #include <pfaff/core/solve/summation.hpp>
 #include <pfaff/integrators/constrained/constraint_solves.hpp>
-#include <pfaff/integrators/nonholonomic/linear_reversal.hpp>
 #include <pfaff/integrators/support/continuation.hpp>
 
 namespace pfaff {

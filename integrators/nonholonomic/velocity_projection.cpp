@@ -1,6 +1,5 @@
 // Methods projected onto velocity constraints as plug-ins.
 #include <pfaff/core/integrator.hpp>
-#include <pfaff/integrators/nonholonomic/linear_reversal.hpp>
 #include <pfaff/integrators/nonholonomic/velocity_projection.hpp>
 #include <pfaff/integrators/runge_kutta/explicit_runge_kutta.hpp>
 #include <pfaff/integrators/runge_kutta/gauss.hpp>
@@ -10,11 +9,6 @@ using namespace pfaff;
 
 struct VelocityProjectedRungeKutta4 : VelocityProjected<RungeKutta4> {};
 struct VelocityProjectedGauss : SymmetricallyVelocityProjected<Gauss> {
-  [[nodiscard]] std::vector<Claim> preserves(const Model& model) const {
-    std::vector<Claim> kept{Claim::symmetric, Claim::velocity_constraints};
-    if (linear_reversal(model)) kept.push_back(Claim::reversible);
-    return kept;
-  }
   /// Every iteration solves for all stages, which is slow: a quick check takes one order only.
   static std::vector<Assignments> instances(bool full) {
     if (!full) return {{{"stages", "2"}}};

@@ -21,14 +21,17 @@ template <class T>
 inline constexpr int difference_levels = std::numeric_limits<Value<T>>::digits / 10;
 
 /// The most differences that a predictor can keep.
-inline constexpr int most_difference_levels = 12;
+inline constexpr int most_difference_levels = 16;
 
 /// Predicts `Size` numbers from up to `Levels` past steps; `Levels` is at most most_difference_levels, and
 /// both may be dynamic.
 template <class T, int Size, int Levels>
 class DifferencePredictor {
  public:
-  DifferencePredictor(std::size_t size, std::size_t levels) : levels_(levels), differences_(size * levels) {}
+  /// `levels` beyond most_difference_levels are not kept.
+  DifferencePredictor(std::size_t size, std::size_t levels)
+      : levels_(std::min(levels, static_cast<std::size_t>(most_difference_levels))),
+        differences_(size * levels_) {}
 
   /// The k-th number expected; zero as long as nothing is known.
   [[nodiscard]] T expected(std::size_t k) const {
