@@ -114,7 +114,10 @@ struct KernelDiscreteGradient {
       rates(w.length * h, T(0), w, w.change);
     }
     Convergence<T> convergence;
-    bool finished = false;
+    // Corrections shrink unevenly: a small ratio may be followed by one that is a thousand times larger. So
+    // two rounds in turn have to say that the next correction is lost in rounding, unless the first round
+    // does.
+    bool settled_before = false, finished = false;
     do {
       ++p.counters().fields;
       for (std::size_t k = 0; k < size; ++k) {
@@ -127,16 +130,21 @@ struct KernelDiscreteGradient {
       formulas.energy(middle_time, w.end.data(), &end_energy);
       rates(w.length * h, secant(end_energy - energy, z, w), w, w.next);
       convergence.begin_iteration();
-      finished = settled(convergence, judge(convergence, z, w), w.contraction);
+      const bool lost = settled(convergence, judge(convergence, z, w), w.contraction);
       std::swap(w.change, w.next);
       ++p.counters().iterations;
-    } while (!convergence.finished(100) && !finished);
+      const bool stopped = convergence.finished(100);
+      const bool settled_now =
+          settled_before || lost || (stopped && convergence.status() == Status::converged);
+      if (stopped && !settled_now) {
+        // Iterates that overflow come from a step that is too large, and are reported as not converged, too.
+        w.forget();
+        return Status::not_converged;
+      }
+      finished = settled_now && (settled_before || convergence.iterations() == 1);
+      settled_before = settled_now;
+    } while (!finished);
     w.contraction.remember_slowest(convergence.contraction());
-    if (!finished && convergence.status() != Status::converged) {
-      // Iterates that overflow come from a step that is too large, and are reported as not converged, too.
-      w.forget();
-      return Status::not_converged;
-    }
     w.predictor.remember([&](std::size_t k) { return w.change[k] / h; });
     w.last_h = h;
     for (std::size_t k = 0; k < w.n; ++k) add_to(z[k], w.carry[k], w.change[k], compensated);
