@@ -43,6 +43,11 @@ MethodOnModel::MethodOnModel(const MethodInstance& method, const Assignments& pa
     in_quad_ = std::make_unique<MeasuredStep<Quad>>(method, model, start_, generic_time, h, warm_up);
     failure_ = in_double_->status();
     if (failure_ == Status::converged) failure_ = in_quad_->status();
+    // The derivative of a step takes more iterations than the step, and is judged as well.
+    if (failure_ == Status::converged && !history_ && differentiable()) {
+      failure_ = in_double_->jacobian().status;
+      if (failure_ == Status::converged) failure_ = in_quad_->jacobian().status;
+    }
     if (failure_ == Status::converged) return;
   }
 }

@@ -33,7 +33,7 @@ class MethodOnModel {
   /// several states that such a method is.
   [[nodiscard]] bool history() const { return history_; }
   /// The size of the step on which claims are measured: check_step in the system's own time, halved until the
-  /// step converges in double and in quad. `steps()` is false where none did.
+  /// step and its derivative converge in double and in quad. `steps()` is false where none did.
   [[nodiscard]] const Real& step_size() const { return step_size_; }
   [[nodiscard]] bool steps() const { return failure_ == Status::converged; }
   /// By how much the round-off of a step is more than that of a short method. A composition has a sub-step

@@ -27,7 +27,7 @@
 #include <pfaff/integrators/support/continuation.hpp>
 #include <pfaff/integrators/support/difference_predictor.hpp>
 #include <pfaff/integrators/support/largest.hpp>
-#include <pfaff/integrators/support/settled.hpp>
+#include <pfaff/integrators/support/remembered_contraction.hpp>
 
 namespace pfaff {
 
@@ -107,7 +107,7 @@ struct KernelDiscreteGradient {
     start(t, h, z, w);
     auto& formulas = w.choices[w.chosen];
     for (std::size_t k = 0; k < size; ++k) w.end[k] = at_start(z, w, k);
-    T energy;
+    T energy(0);
     formulas.energy(middle_time, w.end.data(), &energy);
     if (!w.predictor.knows()) {
       formulas.middle(middle_time, w.end.data(), w.slopes.data());
@@ -126,16 +126,15 @@ struct KernelDiscreteGradient {
         w.end[k] = begin + w.change[k];
       }
       formulas.middle(middle_time, w.middle.data(), w.slopes.data());
-      T end_energy;
+      T end_energy(0);
       formulas.energy(middle_time, w.end.data(), &end_energy);
       rates(w.length * h, secant(end_energy - energy, z, w), w, w.next);
       convergence.begin_iteration();
-      const bool lost = settled(convergence, judge(convergence, z, w), w.contraction);
+      judge(convergence, z, w);
       std::swap(w.change, w.next);
       ++p.counters().iterations;
-      const bool stopped = convergence.finished(100);
-      const bool settled_now =
-          settled_before || lost || (stopped && convergence.status() == Status::converged);
+      const bool stopped = convergence.finished(100, w.contraction.ratio());
+      const bool settled_now = settled_before || (stopped && convergence.status() == Status::converged);
       if (stopped && !settled_now) {
         // Iterates that overflow come from a step that is too large, and are reported as not converged, too.
         w.forget();
@@ -220,9 +219,9 @@ struct KernelDiscreteGradient {
   }
 
   // Positions and momenta are judged each by their own largest component. Derivatives of either may be zero
-  // but for round-off, and are judged together. Returns the size of the larger correction.
+  // but for round-off, and are judged together.
   template <class T, class Z, class W>
-  static Value<T> judge(Convergence<T>& convergence, const Z& z, const W& w) {
+  static void judge(Convergence<T>& convergence, const Z& z, const W& w) {
     Largest<T> moved, kicked, positions, momenta, all;
     for (std::size_t k = 0; k < w.n + w.r; ++k) {
       const T begin = at_start(z, w, k);
@@ -234,11 +233,8 @@ struct KernelDiscreteGradient {
     }
     const T of_positions = scale_of(positions.get(), all.get()),
             of_momenta = scale_of(momenta.get(), all.get());
-    const T move = moved.get(), kick = kicked.get();
-    convergence.add(move, of_positions, of_positions);
-    convergence.add(kick, of_momenta, of_momenta);
-    return std::max(relative_size(move, of_positions, of_positions),
-                    relative_size(kick, of_momenta, of_momenta));
+    convergence.add(moved.get(), of_positions, of_positions);
+    convergence.add(kicked.get(), of_momenta, of_momenta);
   }
   template <class T>
   static T scale_of(const T& own, const T& /*all*/) {

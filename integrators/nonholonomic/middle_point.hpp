@@ -19,7 +19,7 @@
 #include <pfaff/integrators/nonholonomic/energy_slopes.hpp>
 #include <pfaff/integrators/support/difference_predictor.hpp>
 #include <pfaff/integrators/support/largest.hpp>
-#include <pfaff/integrators/support/settled.hpp>
+#include <pfaff/integrators/support/remembered_contraction.hpp>
 
 namespace pfaff {
 
@@ -54,7 +54,6 @@ class MiddlePoint {
     predict(p, c, t, h, half, q0, q_carry, p0, p_change);
     const T middle = t + half;
     Convergence<T> convergence;
-    bool finished = false;
     do {
       Largest<T> moved, positions, kicked, momenta;
       ++p.counters().fields;
@@ -79,19 +78,14 @@ class MiddlePoint {
         momenta.add(momentum_[k]);
         momenta.add(p0[k]);
       }
-      const T move = moved.get(), kick = kicked.get(), position = positions.get(), momentum = momenta.get();
       convergence.begin_iteration();
-      convergence.add(move, position, position);
-      convergence.add(kick, momentum, momentum);
+      convergence.add(moved.get(), positions.get(), positions.get());
+      convergence.add(kicked.get(), momenta.get(), momenta.get());
       ++p.counters().iterations;
-      finished =
-          settled(convergence,
-                  std::max(relative_size(move, position, position), relative_size(kick, momentum, momentum)),
-                  contraction_);
-    } while (!convergence.finished(100) && !finished);
+    } while (!convergence.finished(100, contraction_.ratio()));
     contraction_.remember_slowest(convergence.contraction());
     // Iterates that overflow come from a step that is too large, and are reported as not converged, too.
-    return finished || convergence.status() == Status::converged ? Status::converged : Status::not_converged;
+    return convergence.status() == Status::converged ? Status::converged : Status::not_converged;
   }
 
   /// The step whose middle was found is taken: what it was made of is remembered.

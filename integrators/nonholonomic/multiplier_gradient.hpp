@@ -98,7 +98,7 @@ struct MultiplierDiscreteGradient {
     [[nodiscard]] std::size_t n() const { return carry.size() / 2; }
     [[nodiscard]] T& x(std::size_t j) { return middle[carry.size() + j]; }
     [[nodiscard]] T energy_at(const T& t, const std::vector<T>& z) const {
-      T value;
+      T value(0);
       energy.call(energy.context, t, z.data(), &value);
       return value;
     }

@@ -8,6 +8,8 @@
 //   x = x_0 + (C/b) (asinh y - asinh y_0),   z = z_0 + (C/b) (s - s_0).
 // Neither difference is formed: (s - s_0)/b = t (y + y_0)/(s + s_0), and asinh y - asinh y_0 = asinh w with
 // w = s_0 y - s y_0 = b t (1 + s s_0 - y y_0)/(s + s_0).
+#include <cstdint>
+
 #include <pfaff/core/system.hpp>
 #include <pfaff/systems/canonical/reversed_momenta.hpp>
 
@@ -21,7 +23,7 @@ T cardinal_asinh(const T& w) {
   // term left out is below 1e-37.
   const T square = w * w;
   T series(1);
-  for (int k = 18; k >= 1; --k)
+  for (std::int64_t k = 18; k >= 1; --k)
     series = 1 - square * Real::fraction((2 * k - 1) * (2 * k - 1), 2 * k * (2 * k + 1)) * series;
   const T large = square - Real::fraction(1, 100), size = select(large, select(w, w, -w), T(1));
   return select(large, log(size + sqrt(1 + size * size)) / size, series);

@@ -39,16 +39,15 @@ TEST(Nonholonomic, MethodsHaveOrderTwo) {
     EXPECT_NEAR(slope(*method("nonholonomic-discrete-gradient", {{"form", "multipliers"}}), k, 64), 2, 0.05);
 }
 TEST(Nonholonomic, CompositionsReachHigherOrders) {
-  for (const char* base : {"dla", "nonholonomic-discrete-gradient"}) {
-    EXPECT_NEAR(slope(*composed(base, "suzuki", "4"), 0, 16), 4, 0.1) << base;
-    EXPECT_NEAR(slope(*composed(base, "suzuki", "4"), 3, 16), 4, 0.1) << base;
-    EXPECT_NEAR(slope(*composed(base, "kahan-li", "6"), 2, 16), 6, 0.1) << base;
-    EXPECT_NEAR(slope(*composed(base, "kahan-li", "8"), 0, 8), 8, 0.3) << base;
-  }
+  EXPECT_NEAR(slope(*composed("dla", "suzuki", "4"), 0, 16), 4, 0.1);
+  EXPECT_NEAR(slope(*composed("dla", "suzuki", "4"), 3, 16), 4, 0.1);
+  EXPECT_NEAR(slope(*composed("dla", "kahan-li", "6"), 2, 16), 6, 0.1);
+  EXPECT_NEAR(slope(*composed("dla", "kahan-li", "8"), 0, 8), 8, 0.3);
 }
 // Control: sub-steps of these leave an error that depends on their size (see their files).
 TEST(Nonholonomic, OtherMethodsCannotBeComposed) {
-  for (const char* base : {"gni", "nonholonomic-leap-frog", "mclachlan-perlmutter"}) {
+  for (const char* base :
+       {"gni", "nonholonomic-leap-frog", "mclachlan-perlmutter", "nonholonomic-discrete-gradient"}) {
     try {
       (void)composed(base, "suzuki", "4");
       FAIL() << base;

@@ -98,7 +98,8 @@ void motion(Rows& rows) {
   const EnginePoint engine(contact_model(), Quad(0),
                            {Quad(1), Quad(3) / 5, Quad(-2), Quad(7) / 4, Quad(-1) / 3, Quad(2)});
   const printed::ContactFormulas<Quad> formulas{engine.q()[1]};
-  const Numbers v{Quad(2), Quad(-1) / 3, Quad(5) / 7}, a = engine.acceleration();
+  const Numbers v{Quad(2), Quad(-1) / 3, Quad(5) / 7};
+  const Numbers& a = engine.acceleration();
   Numbers off = engine.q();
   off.insert(off.end(), v.begin(), v.end());  // unit masses: momenta are velocities
   rows.reproduced("(36)", "f", {formulas.constraint(v)}, engine.constraints(off));

@@ -71,7 +71,8 @@ void projector(Rows& rows, const EnginePoint& engine, const Formulas& formulas) 
 }
 
 void motion(Rows& rows, const EnginePoint& engine, const Formulas& formulas) {
-  const Numbers a = engine.acceleration(), v = engine.velocity();
+  const Numbers& a = engine.acceleration();
+  const Numbers v = engine.velocity();
   rows.reproduced("(34)", "z'' = Q z''", printed::product(formulas.q(), a), a);
   // The rank of z'' = Q z'' alone, and with A z'' + A' v = 0.
   const auto structure = engine.projectors();
