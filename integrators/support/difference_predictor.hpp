@@ -53,7 +53,7 @@ class DifferencePredictor {
   template <class Actual>
   void remember(const Actual& actual) {
     std::array<Value<T>, static_cast<std::size_t>(most_difference_levels)> size{};
-    for (std::size_t k = 0; k < differences_.size() / levels(); ++k) {
+    for (std::size_t k = 0; k * levels() < differences_.size(); ++k) {
       T difference = actual(k);
       for (std::size_t d = 0; d < levels(); ++d) {
         T& kept = differences_[k * levels() + d];
