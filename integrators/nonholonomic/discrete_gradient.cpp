@@ -45,14 +45,6 @@ struct BothForms {
         multipliers.emplace(MultiplierDiscreteGradient{.length = method.lengths[0]}, p);
       }
     }
-    void restart() { kernel ? kernel->restart() : multipliers->restart(); }
-    void hand_over(Work& next) {
-      if (kernel) {
-        kernel->hand_over(*next.kernel);
-      } else {
-        std::swap(multipliers->carry, next.multipliers->carry);
-      }
-    }
   };
 
   template <HasVelocityConstraints P>

@@ -57,23 +57,10 @@ struct KernelDiscreteGradient {
 
     Work(const KernelDiscreteGradient& method, const P& p)
         : Work(method, p, *kernel_coordinates(*p.model())) {}
-    /// Forgets the past, round-off included: the next step depends on its state alone.
-    void restart() {
-      forget();
-      for (T& x : carry) x = T(0);
-    }
+    /// Forgets past steps; the next one is iterated from its state alone.
     void forget() {
       predictor.forget();
       contraction.forget();
-      continuation.forget();
-    }
-    /// The step that follows is taken with `next_work`.
-    void hand_over(Work& next_work) {
-      if (this == &next_work) return;
-      std::swap(pi, next_work.pi);
-      std::swap(carry, next_work.carry);
-      std::swap(continuation, next_work.continuation);
-      std::swap(chosen, next_work.chosen);
       continuation.forget();
     }
 

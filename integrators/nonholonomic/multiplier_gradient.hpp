@@ -102,12 +102,6 @@ struct MultiplierDiscreteGradient {
       energy.call(energy.context, t, z.data(), &value);
       return value;
     }
-    /// Forgets the past, round-off included: the next step depends on its state alone.
-    void restart() {
-      predictor.forget();
-      contraction.forget();
-      for (T& c : carry) c = T(0);
-    }
   };
 
   template <HasVelocityConstraints P>
