@@ -54,8 +54,8 @@ struct BothForms {
   }
 };
 
-// It is not offered to compositions: in their longest sub-steps the iteration stops short of round-off, which
-// 31 sub-steps of order 10 lose three digits by.
+// It is not offered to compositions: with 31 sub-steps, of order 10, a step and its reverse miss the start by
+// 1e-13 in double on gyroscopic-contact-oscillator, where 1e-14 is round-off. The cause has not been found.
 const Method<BothForms> registered{
     {.name = "nonholonomic-discrete-gradient",
      .title = "discrete gradient methods for velocity constraints, which keep the energy",
