@@ -7,7 +7,9 @@
 #include <sstream>
 
 #include <pfaff/bench/measure/constraints.hpp>
+#include <pfaff/bench/runner/checksum.hpp>
 #include <pfaff/bench/runner/motion.hpp>
+#include <pfaff/systems/text/text_system.hpp>
 
 namespace pfaff {
 
@@ -201,7 +203,7 @@ std::vector<std::string> asked_state(const RunSettings& settings, const SplitSet
 }  // namespace
 
 ResolvedState resolve_state(const RunSettings& settings) {
-  const SystemPlugin& system = systems().get(settings.system, "system");
+  const SystemPlugin& system = system_named(settings.system);
   const FormulationPlugin* formulation = formulation_for(system, settings.formulation);
   const SplitSettings split = split_settings(system, formulation, nullptr, settings.set);
   ResolvedState result;
@@ -221,6 +223,8 @@ void note_origins(ResolvedRun& run, const SystemPlugin& system, const MethodPlug
     if (std::find(run.origins.files.begin(), run.origins.files.end(), std::pair(path, hash)) ==
         run.origins.files.end())
       throw InputError(path + ": changed while it was read; expected a file that stays as it is");
+  if (const auto* text = dynamic_cast<const TextSystem*>(&system))
+    for (const auto& [path, contents] : text->files()) add_file(run.origins, path, sha1_of(contents));
   add_origins(method, run.method->parameters(), run.origins);
   if (!run.settings.formulation.empty())
     add_origins(formulations().get(run.settings.formulation, "formulation"),
@@ -248,7 +252,9 @@ void check_times(const ResolvedRun& run, const std::string& step_text, const std
 ResolvedRun resolve(const RunSettings& settings) {
   ResolvedRun run;
   run.settings = settings;
-  const SystemPlugin& system = systems().get(settings.system, "system");
+  const SystemPlugin& system = system_named(settings.system);
+  if (const auto* text = dynamic_cast<const TextSystem*>(&system))
+    run.settings.system = text->files().front().first;
   const MethodPlugin& method = integrators().get(settings.integrator, "integrator");
   const FormulationPlugin* formulation = formulation_for(system, settings.formulation);
   SplitSettings split = split_settings(system, formulation, &method, settings.set);
