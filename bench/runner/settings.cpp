@@ -218,13 +218,16 @@ namespace {
 // Fills in run.origins. `read` are the files as they were before the model was made of them.
 void note_origins(ResolvedRun& run, const SystemPlugin& system, const MethodPlugin& method,
                   const Assignments& read) {
-  add_origins(system, run.model->parameters(), run.origins);
+  // A text model is made when its file is read and belongs to no shared object.
+  if (const auto* text = dynamic_cast<const TextSystem*>(&system)) {
+    for (const auto& [path, contents] : text->files()) add_file(run.origins, path, sha1_of(contents));
+  } else {
+    add_origins(system, run.model->parameters(), run.origins);
+  }
   for (const auto& [path, hash] : read)
     if (std::find(run.origins.files.begin(), run.origins.files.end(), std::pair(path, hash)) ==
         run.origins.files.end())
       throw InputError(path + ": changed while it was read; expected a file that stays as it is");
-  if (const auto* text = dynamic_cast<const TextSystem*>(&system))
-    for (const auto& [path, contents] : text->files()) add_file(run.origins, path, sha1_of(contents));
   add_origins(method, run.method->parameters(), run.origins);
   if (!run.settings.formulation.empty())
     add_origins(formulations().get(run.settings.formulation, "formulation"),

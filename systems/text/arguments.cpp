@@ -147,9 +147,11 @@ void TextNames::check_definitions(const TextDeclaration& declaration) const {
   };
   Scope scope = constants_;
   define_state(scope, part(0, n));
-  define_state(scope, part(1, n), "new_");
-  define_state(scope, part(2, n), "old_");
-  define_list(scope, chart_coordinates_, "y", part(3, n));
+  if (declaration.has(Formula::alpha)) {
+    define_state(scope, part(1, n), "new_");
+    define_state(scope, part(2, n), "old_");
+  }
+  if (declaration.has(Formula::chart)) define_list(scope, chart_coordinates_, "y", part(3, n));
   if (declaration.lagrangian) define_list(scope, velocities_, "v", part(1, n / 2));
   for (const char* time : {"t", "t0", "elapsed"}) scope.define(time, recorder.time());
   std::vector<Recorded> values;

@@ -166,6 +166,10 @@ TextDeclaration read_declaration(const Document& document) {
       d.invariants.push_back(read_invariant(member));
     }
   }
+  // Where chart coordinates and velocities have no names of their own, they are y[1], ... and v[1], ...
+  if (d.has(Formula::chart) && d.chart_coordinates.empty())
+    names.take(d.find(Formula::chart)->place, "y", "chart coordinate");
+  if (d.lagrangian && d.velocities.empty()) names.take(d.lagrangian->place, "v", "velocity");
   root.finish();
   check_formulas(d, document.root);
   return d;

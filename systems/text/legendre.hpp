@@ -2,8 +2,8 @@
 //
 //   L = v.M v/2 + b.v + L_0,   p = M v + b,   H = (p - b).M^-1 (p - b)/2 - L_0,
 //
-// with M(q, t) = L_vv, b(q, t) = L_v at v = 0 and L_0(q, t) = L at v = 0 (landau-lifshitz1976 section 40). Where M is constant
-// and b is zero, H = T(p) + V(q, t) is separable.
+// with M(q, t) = L_vv, b(q, t) = L_v at v = 0 and L_0(q, t) = L at v = 0 (landau-lifshitz1976 section 40).
+// Where M is constant and b is zero, H = T(p) + V(q, t) is separable.
 #pragma once
 
 #include <memory>

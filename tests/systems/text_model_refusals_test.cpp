@@ -14,7 +14,7 @@ using namespace pfaff;
 
 // The message for a model, without its folder.
 std::string message(const std::string& text, const Assignments& set = {}) {
-  const testing::TemporaryDirectory directory;
+  const pfaff::testing::TemporaryDirectory directory;
   const std::string file = (directory.path() / "model.toml").string();
   std::ofstream(file) << text;
   try {
@@ -57,6 +57,8 @@ TEST(TextModelRefusals, KeysAndFiles) {
                  "model.toml:4:16: parameter 'sin': this name has a meaning of its own");
   expect_refused(spring + "invariants = { H = { of = \"q\", behaviour = \"constant\" } }\n",
                  "model.toml:4:45: unknown behaviour 'constant'");
+  expect_refused(two + "lagrangian = \"v[1]^2/2\"\nparameters = { v = 1 }\n",
+                 "model.toml:2:15: velocity 'v' has the name of a parameter");
   EXPECT_EQ(message(spring, {{"b", "2"}}).find("unknown parameter 'b'"), 0U);
 }
 
@@ -66,7 +68,7 @@ TEST(TextModelRefusals, Formulas) {
   expect_refused(two + "kinetic = \"q^2/2\"\npotential = \"q^2/2\"\n",
                  "model.toml:2:12: 'q' is no argument of kinetic, a function of momenta and time");
   expect_refused(two + "field = [\"p\"]\n", "model.toml:2:9: field: expected 2 expressions, got 1");
-  expect_refused(two + "field = [\"p\", \"-sin(r)\"]\n", "model.toml:2:20: unknown name 'r'");
+  expect_refused(two + "field = [\"p\", \"-sin(r)\"]\n", "model.toml:2:21: unknown name 'r'");
   expect_refused(two + "field = [\"p\", \"-x\"]\n[let]\nx = \"y\"\ny = \"2*x\"\n",
                  "model.toml:5:8: 'x' is defined by itself: x -> y -> x");
   expect_refused(spring + "let = { unused = \"1 + mist\" }\n", "model.toml:4:23: unknown name 'mist'");
@@ -103,7 +105,7 @@ TEST(TextModelRefusals, LagrangiansThatCannotBeSolved) {
 }
 
 TEST(TextModelRefusals, ShowThePlace) {
-  const testing::TemporaryDirectory directory;
+  const pfaff::testing::TemporaryDirectory directory;
   const std::string file = (directory.path() / "model.toml").string();
   std::ofstream(file) << two + "kinetic = \"p^2/2\"\npotential = \"\"\"\nq^2/2 +\n  mass*q\"\"\"\n";
   try {

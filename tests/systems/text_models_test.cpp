@@ -150,7 +150,7 @@ TEST(TextModels, PassTheChecksOfEverySystem) {
 
 // What is false is found in text as it is in C++.
 TEST(TextModels, FalseClaimsAreFound) {
-  const testing::TemporaryDirectory directory;
+  const pfaff::testing::TemporaryDirectory directory;
   const auto bad = [&](const std::string& name, const std::string& text, bool bracket) {
     const fs::path file = directory.path() / (name + ".toml");
     std::ofstream(file) << text;
@@ -171,7 +171,7 @@ TEST(TextModels, FalseClaimsAreFound) {
 }
 
 TEST(TextModels, TheContentsOfTheFilesBelongToARun) {
-  const testing::TemporaryDirectory directory;
+  const pfaff::testing::TemporaryDirectory directory;
   const fs::path file = directory.path() / "spring.toml";
   const auto write = [&](const std::string& stiffness) {
     std::ofstream(file)
