@@ -11,6 +11,7 @@
 #include <pfaff/core/bracket.hpp>
 #include <pfaff/core/facets/derivations/derivation.hpp>
 #include <pfaff/core/formulation.hpp>
+#include <pfaff/systems/text/text_system.hpp>
 
 namespace pfaff::app {
 
@@ -196,6 +197,9 @@ nlohmann::json describe_experiment(const std::string& name) {
 std::vector<nlohmann::json> describe(const std::string& name,
                                      const std::vector<std::string>& also_known = {}) {
   std::vector<nlohmann::json> found;
+  if (text::is_text_file(name))
+    return {is_text_bracket(name) ? describe_bracket(bracket_named(name))
+                                  : describe_system(system_named(name))};
   if (const auto* system = systems().find(name)) found.push_back(describe_system(*system));
   if (const auto* method = integrators().find(name)) found.push_back(describe_method(*method));
   if (const auto* bracket = brackets().find(name)) found.push_back(describe_bracket(*bracket));

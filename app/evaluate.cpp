@@ -51,7 +51,9 @@ EvaluationSettings settings_of(const Options& options) {
 void add_evaluate(CLI::App& app, Common& common, Action& action) {
   CLI::App* sub = subcommand(app, common, "evaluate", "A system at one state: its field, energy, structure");
   auto options = std::make_shared<Options>();
-  sub->add_option("--system", options->settings.system, "Name of the system")->type_name("NAME");
+  sub->add_option("--system", options->settings.system,
+                  "Name of the system, or the file of one written as text")
+      ->type_name("NAME|FILE.toml");
   sub->add_option("--formulation", options->settings.formulation,
                   "Motion of a system with constraints (without: " + dirac_formulation().name() + " or " +
                       nonholonomic_formulation().name() + ")")

@@ -12,7 +12,7 @@
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/bench/runner/settings.hpp>
 #include <pfaff/bench/verification/random_checks.hpp>
-#include <pfaff/core/system.hpp>
+#include <pfaff/systems/text/text_system.hpp>
 
 namespace pfaff::app {
 
@@ -173,7 +173,7 @@ int show(const Options& options, const Common& common) {
     throw InputError("--system: expected an integrator and its --claim beside it");
   const Claim claim = claim_named(options.claim);
   const auto method = integrators().get(options.method, "integrator").make(parse_settings(options.set));
-  const auto system = systems().get(options.system, "system").make({});
+  const auto system = system_named(options.system).make({});
   JudgedStep at{model_in_scope(*method, claim, system), system->initial(), number_of(options.at, "--at"),
                 number_of(options.step, "--step"), options.steps};
   if (!(at.step > Real(0))) throw InputError("--step: expected a number above 0, got " + options.step);

@@ -15,6 +15,7 @@
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/registry/version.hpp>
 #include <pfaff/core/system.hpp>
+#include <pfaff/core/text/source.hpp>
 
 namespace pfaff::app {
 
@@ -128,6 +129,10 @@ int run(const Action& work) {
     std::cout.flush();
     if (!std::cout) throw RunError("cannot write to standard output");
     return status;
+  } catch (const text::TextError& error) {
+    complain(error.what());
+    if (!error.excerpt().empty()) std::cerr << error.excerpt() << '\n';
+    return 2;
   } catch (const InputError& error) {
     complain(error.what());
     return 2;

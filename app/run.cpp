@@ -151,7 +151,8 @@ void add_run(CLI::App& app, Common& common, Action& action) {
   CLI::App* sub = subcommand(app, common, "run", "Integrate one system with one method");
   auto options = std::make_shared<Options>();
   RunSettings& s = options->settings;
-  sub->add_option("--system", s.system, "Name of the system")->type_name("NAME");
+  sub->add_option("--system", s.system, "Name of the system, or the file of one written as text")
+      ->type_name("NAME|FILE.toml");
   sub->add_option("--formulation", s.formulation,
                   "Motion of a system with constraints (without: " + dirac_formulation().name() + " or " +
                       nonholonomic_formulation().name() + ")")

@@ -31,7 +31,7 @@ std::string settings_text(const ResolvedRun& run) {
   };
   if (!s.of_case.empty()) line("case", s.of_case);
   if (!s.of_method.empty()) line("method", s.of_method);
-  line("system", run.model->name());
+  line("system", s.system);  // of a text model the path, which is absolute
   line("integrator", s.integrator);
   if (!s.formulation.empty()) line("formulation", s.formulation);
   line("precision", to_string(s.precision));

@@ -86,6 +86,10 @@ Assignments files_of(const std::vector<Parameter>& parameters, const Assignments
   return files;
 }
 
+void add_file(Origins& origins, const std::string& path, const std::string& hash) {
+  add(origins.files, path, hash);
+}
+
 void add_origins(const Plugin& plugin, const Assignments& values, Origins& origins) {
   for (const auto& [path, hash] : files_of(plugin.parameters(), values)) add(origins.files, path, hash);
   const LoadedObject object = object_holding(&plugin);

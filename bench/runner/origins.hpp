@@ -24,6 +24,9 @@ Assignments with_absolute_paths(const std::vector<Parameter>& parameters, Assign
 /// with their hashes. InputError for a file that cannot be read.
 Assignments files_of(const std::vector<Parameter>& parameters, const Assignments& values);
 
+/// Adds a file with the hash of its contents.
+void add_file(Origins& origins, const std::string& path, const std::string& hash);
+
 /// Adds the files that the plug-in reads with these values and the shared objects that it and the plug-ins
 /// among its values come from. Objects of Pfaff itself are libraries and not added.
 void add_origins(const Plugin& plugin, const Assignments& values, Origins& origins);

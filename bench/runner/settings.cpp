@@ -7,7 +7,9 @@
 #include <sstream>
 
 #include <pfaff/bench/measure/constraints.hpp>
+#include <pfaff/bench/runner/checksum.hpp>
 #include <pfaff/bench/runner/motion.hpp>
+#include <pfaff/systems/text/text_system.hpp>
 
 namespace pfaff {
 
@@ -201,7 +203,7 @@ std::vector<std::string> asked_state(const RunSettings& settings, const SplitSet
 }  // namespace
 
 ResolvedState resolve_state(const RunSettings& settings) {
-  const SystemPlugin& system = systems().get(settings.system, "system");
+  const SystemPlugin& system = system_named(settings.system);
   const FormulationPlugin* formulation = formulation_for(system, settings.formulation);
   const SplitSettings split = split_settings(system, formulation, nullptr, settings.set);
   ResolvedState result;
@@ -216,7 +218,12 @@ namespace {
 // Fills in run.origins. `read` are the files as they were before the model was made of them.
 void note_origins(ResolvedRun& run, const SystemPlugin& system, const MethodPlugin& method,
                   const Assignments& read) {
-  add_origins(system, run.model->parameters(), run.origins);
+  // A text model is made when its file is read and belongs to no shared object.
+  if (const auto* text = dynamic_cast<const TextSystem*>(&system)) {
+    for (const auto& [path, contents] : text->files()) add_file(run.origins, path, sha1_of(contents));
+  } else {
+    add_origins(system, run.model->parameters(), run.origins);
+  }
   for (const auto& [path, hash] : read)
     if (std::find(run.origins.files.begin(), run.origins.files.end(), std::pair(path, hash)) ==
         run.origins.files.end())
@@ -248,7 +255,9 @@ void check_times(const ResolvedRun& run, const std::string& step_text, const std
 ResolvedRun resolve(const RunSettings& settings) {
   ResolvedRun run;
   run.settings = settings;
-  const SystemPlugin& system = systems().get(settings.system, "system");
+  const SystemPlugin& system = system_named(settings.system);
+  if (const auto* text = dynamic_cast<const TextSystem*>(&system))
+    run.settings.system = text->files().front().first;
   const MethodPlugin& method = integrators().get(settings.integrator, "integrator");
   const FormulationPlugin* formulation = formulation_for(system, settings.formulation);
   SplitSettings split = split_settings(system, formulation, &method, settings.set);

@@ -2,6 +2,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <map>
 #include <mutex>
 
 #include <pfaff/bench/runner/settings.hpp>
@@ -10,6 +11,7 @@
 #include <pfaff/bench/verification/random_checks.hpp>
 #include <pfaff/bench/verification/skated_models.hpp>
 #include <pfaff/core/formulation.hpp>
+#include <pfaff/systems/text/text_system.hpp>
 
 namespace pfaff {
 
@@ -57,7 +59,9 @@ std::string controlled_on(const MethodInstance& method) {
 // The checks to be run, in their order.
 class Jobs {
  public:
-  explicit Jobs(const VerificationSettings& settings) : settings_(settings) {
+  explicit Jobs(const VerificationSettings& settings)
+      : settings_(settings), systems_(systems().all()), brackets_(brackets().all()) {
+    add_texts();
     add_systems();
     add_brackets();
     add_formulations();
@@ -71,6 +75,11 @@ class Jobs {
     const auto& names = settings_.names;
     return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
   }
+  // The name that a plug-in is asked for by: of one written as text the path of its file.
+  [[nodiscard]] std::string asked_as(const Plugin& plugin) const {
+    const auto text = texts_.find(&plugin);
+    return text == texts_.end() ? plugin.name() : text->second;
+  }
   [[nodiscard]] bool named(const std::string& name) const { return !settings_.names.empty() && wanted(name); }
   // The parameters of a plug-in: those that are set where it is the one that is named.
   [[nodiscard]] std::vector<Assignments> parameters(const std::string& name,
@@ -80,21 +89,35 @@ class Jobs {
   }
   // The parameters with which methods run on a system.
   [[nodiscard]] Assignments parameters_of(const SystemPlugin& system) const {
-    return parameters(system.name(), {{}}).front();
+    return parameters(asked_as(system), {{}}).front();
+  }
+
+  // Systems and brackets written as text, where their files are named.
+  void add_texts() {
+    for (const std::string& name : settings_.names) {
+      if (!text::is_text_file(name)) continue;
+      if (is_text_bracket(name)) {
+        brackets_.push_back(&bracket_named(name));
+        texts_[brackets_.back()] = name;
+      } else {
+        systems_.push_back(&system_named(name));
+        texts_[systems_.back()] = name;
+      }
+    }
   }
 
   void add_systems() {
-    for (const SystemPlugin* system : systems().all()) {
-      if (!wanted(system->name()) && !wanted("systems")) continue;
-      for (const Assignments& p : parameters(system->name(), system->instances(settings_.full)))
+    for (const SystemPlugin* system : systems_) {
+      if (!wanted(asked_as(*system)) && !wanted("systems")) continue;
+      for (const Assignments& p : parameters(asked_as(*system), system->instances(settings_.full)))
         jobs_.push_back({called(system->name(), p), [=] { return check_system(*system, p); }});
     }
   }
 
   void add_brackets() {
-    for (const BracketPlugin* bracket : brackets().all()) {
-      if (!wanted(bracket->name()) && !wanted("brackets")) continue;
-      for (const Assignments& p : parameters(bracket->name(), instances_of(*bracket)))
+    for (const BracketPlugin* bracket : brackets_) {
+      if (!wanted(asked_as(*bracket)) && !wanted("brackets")) continue;
+      for (const Assignments& p : parameters(asked_as(*bracket), instances_of(*bracket)))
         jobs_.push_back({called(bracket->name(), p), [=] { return check_bracket(*bracket, p); }});
     }
   }
@@ -102,14 +125,17 @@ class Jobs {
   // On every system that they fit, on a random graph of rods, and on models with velocity constraints of
   // every kind.
   void add_formulations() {
-    std::vector<std::shared_ptr<const Model>> models;
-    for (const SystemPlugin* system : systems().all())
-      if (system->constrained()) models.push_back(system->make(parameters_of(*system)));
-    models.push_back(random_rods());
-    for (const auto& model : skated_models()) models.push_back(model);
+    std::vector<std::pair<std::shared_ptr<const Model>, std::string>>
+        models;  // with what they are asked for by
+    for (const SystemPlugin* system : systems_)
+      if (system->constrained()) models.emplace_back(system->make(parameters_of(*system)), asked_as(*system));
+    const auto rods = random_rods();
+    models.emplace_back(rods, rods->name());
+    for (const auto& model : skated_models()) models.emplace_back(model, model->name());
     for (const FormulationPlugin* formulation : formulations().all())
-      for (const auto& model : models) {
-        if (!wanted(formulation->name()) && !wanted("formulations") && !wanted(model->name())) continue;
+      for (const auto& [made, asked] : models) {
+        const std::shared_ptr<const Model>& model = made;
+        if (!wanted(formulation->name()) && !wanted("formulations") && !wanted(asked)) continue;
         for (const Assignments& p : parameters(formulation->name(), formulation->instances(settings_.full)))
           if (verified_on(*formulation, p, *model))
             jobs_.push_back({called(formulation->name(), p) + " of " + model->name(),
@@ -136,8 +162,8 @@ class Jobs {
     for (const MethodPlugin* method : methods) {
       const bool all = wanted(method->name()) || wanted("integrators");
       if (all) add_random_systems(*method);
-      for (const SystemPlugin* system : systems().all())
-        if (all || wanted(system->name())) add_method(*method, *system);
+      for (const SystemPlugin* system : systems_)
+        if (all || wanted(asked_as(*system))) add_method(*method, *system);
     }
   }
 
@@ -177,6 +203,9 @@ class Jobs {
   }
 
   const VerificationSettings& settings_;
+  std::vector<const SystemPlugin*> systems_;
+  std::vector<const BracketPlugin*> brackets_;
+  std::map<const Plugin*, std::string> texts_;  // plug-ins written as text, and their files
   std::vector<Job> jobs_;
 };
 
@@ -188,7 +217,7 @@ void validate(const VerificationSettings& settings) {
        {systems().names(), integrators().names_and_aliases(), brackets().names(), formulations().names()})
     known.insert(known.end(), more.begin(), more.end());
   for (const std::string& name : settings.names)
-    if (std::find(known.begin(), known.end(), name) == known.end())
+    if (!text::is_text_file(name) && std::find(known.begin(), known.end(), name) == known.end())
       throw InputError(unknown_name("name", name, known));
   if (settings.set.empty()) return;
   if (settings.names.size() != 1 ||

@@ -1,0 +1,221 @@
+#include <pfaff/systems/text/model.hpp>
+
+#include <algorithm>
+
+#include <pfaff/brackets/text/text_bracket.hpp>
+#include <pfaff/core/tape/derivatives.hpp>
+#include <pfaff/systems/text/arguments.hpp>
+#include <pfaff/systems/text/legendre.hpp>
+
+namespace pfaff::text {
+
+namespace {
+using Tapes = std::shared_ptr<const Tape>;
+
+class Builder {
+ public:
+  Builder(const TextDeclaration& declaration, const std::vector<Real>& values)
+      : d_(declaration), names_(declaration, values), n_(names_.dimension()) {
+    source_.name = d_.name;
+    source_.dimension = static_cast<int>(n_);
+    source_.time_unit = d_.time_unit;
+    source_.coordinates = names_.coordinates();
+    for (std::size_t k = 0; k < values.size(); ++k)
+      source_.parameters.emplace_back(d_.parameters[k].name, to_string(values[k]));
+  }
+
+  ModelSource build() && {
+    names_.check_definitions(d_);
+    if (d_.initial) source_.initial = constants(*d_.initial, "initial");
+    if (d_.damping) {
+      const std::vector<Real> rate = constants(*d_.damping, "damping");
+      if (rate.size() != 1) refuse(d_.damping->place, 0, "damping: expected one number");
+      source_.damping = rate.front();
+    }
+    for (std::size_t k = 0; k < formula_count; ++k)
+      if (d_.formulas[k]) take(static_cast<Formula>(k), *d_.formulas[k]);
+    if (d_.lagrangian) take_lagrangian();
+    if (d_.bracket) take_bracket(*d_.bracket, Formula::poisson_tensor);
+    if (d_.symmetric_bracket) take_bracket(*d_.symmetric_bracket, Formula::symmetric_tensor);
+    if (!d_.velocity_constraints.empty()) take_velocity_constraints();
+    if (!d_.invariants.empty()) take_invariants();
+    const auto given = [&](Formula f) { return source_.given[index(f)] != nullptr; };
+    source_.canonical =
+        (given(Formula::kinetic) && !d_.damping) || (given(Formula::hamiltonian) && !d_.bracket);
+    if (source_.canonical || d_.damping) require_pairs();
+    return std::move(source_);
+  }
+
+ private:
+  std::vector<Real> constants(const TextFormula& formula, const std::string& what) const {
+    Scope scope = names_.scope(Arguments::none, what, {}, {});
+    std::vector<Recorded> values;
+    for (const Expression& e : formula.results) scope.append(e, values);
+    std::vector<Real> numbers;
+    for (const Recorded& x : values) numbers.push_back(x.constant());
+    if (what == "initial" && numbers.size() != n_)
+      refuse(formula.place, 0,
+             "initial: expected " + std::to_string(n_) + " numbers, one for each coordinate, got " +
+                 std::to_string(numbers.size()));
+    return numbers;
+  }
+
+  // Positions and momenta come in pairs.
+  void require_pairs() const {
+    if (n_ % 2 == 0) return;
+    refuse(d_.coordinates.front().place, 0,
+           "there are " + std::to_string(n_) +
+               " coordinates; expected an even number, first all positions and then their momenta");
+  }
+
+  // The tape of expressions. `expected` is how many results there must be, 0 where any number will do.
+  Tapes recorded(const std::vector<Expression>& expressions, Arguments arguments, const std::string& what,
+                 std::size_t expected, const Source& place) const {
+    if (arguments == Arguments::positions || arguments == Arguments::momenta) require_pairs();
+    Recorder recorder(static_cast<int>(names_.inputs(arguments)));
+    Scope scope = names_.scope(arguments, what, recorder.time(), recorder.inputs());
+    std::vector<Recorded> results;
+    for (const Expression& e : expressions) scope.append(e, results);
+    if (expected == 0 ? results.empty() : results.size() != expected)
+      refuse(place, 0,
+             what + ": expected " + (expected == 0 ? "at least one" : std::to_string(expected)) +
+                 (expected <= 1 ? " expression, got " : " expressions, got ") +
+                 std::to_string(results.size()));
+    return std::make_shared<const Tape>(recorder.finish(results));
+  }
+
+  // How many results a formula has; 0 where its author decides.
+  [[nodiscard]] std::size_t results_of(Formula formula) const {
+    switch (formula) {
+      case Formula::hamiltonian:
+      case Formula::kinetic:
+      case Formula::potential:
+      case Formula::birkhoffian:
+      case Formula::chart_hamiltonian:
+      case Formula::entropy:
+        return 1;
+      case Formula::force:
+      case Formula::velocity:
+      case Formula::friction:
+        return n_ / 2;
+      case Formula::structure:
+        return n_ * n_;
+      case Formula::alpha:
+        return 2 * n_;
+      case Formula::holonomic:
+      case Formula::constraints:
+      case Formula::casimirs:
+        return 0;
+      default:
+        return n_;
+    }
+  }
+
+  void take(Formula formula, const TextFormula& written) {
+    const std::string what(to_string(formula));
+    auto tape = recorded(written.results, arguments_of(formula), what, results_of(formula), written.place);
+    if (formula == Formula::holonomic || formula == Formula::constraints) {
+      source_.constraint_names = written.names;
+      if (written.names.empty() || written.names.size() != tape->outputs.size()) {
+        source_.constraint_names.clear();
+        for (std::size_t k = 1; k <= tape->outputs.size(); ++k)
+          source_.constraint_names.push_back("phi" + std::to_string(k));
+      }
+    }
+    source_.given[index(formula)] = std::move(tape);
+  }
+
+  void take_lagrangian() {
+    require_pairs();
+    const auto tape =
+        recorded(d_.lagrangian->results, Arguments::velocities, "lagrangian", 1, d_.lagrangian->place);
+    std::vector<Real> q(n_ / 2);
+    for (std::size_t k = 0; k < q.size(); ++k)  // without an initial state any positions will do
+      q[k] = source_.initial.empty() ? Real::fraction(static_cast<std::int64_t>(2 * k + 3), 7)
+                                     : source_.initial[k];
+    LegendreTransform made = legendre_transform(*tape, q);
+    if (!made.refused.empty())
+      refuse(d_.lagrangian->results.front().source(), 0, "lagrangian: " + made.refused);
+    source_.given[index(Formula::hamiltonian)] = std::move(made.hamiltonian);
+    source_.given[index(Formula::kinetic)] = std::move(made.kinetic);
+    source_.given[index(Formula::potential)] = std::move(made.potential);
+  }
+
+  // The tensor of a bracket, column by column from the sharp map of a plug-in, or as its rows are written.
+  void take_bracket(const GivenBracket& bracket, Formula formula) {
+    const std::string what = formula == Formula::poisson_tensor ? "bracket" : "symmetric_bracket";
+    if (bracket.plugin.empty()) {
+      source_.given[index(formula)] =
+          recorded(bracket.rows, Arguments::state, "rows of " + what, n_ * n_, bracket.place);
+      return;
+    }
+    const BracketInstance made = [&] {
+      try {
+        return bracket_instance(bracket.plugin, d_.path);
+      } catch (const TextError&) {
+        throw;
+      } catch (const InputError& error) {
+        refuse(bracket.place, 0, what + ": " + error.what());
+      }
+    }();
+    if (static_cast<std::size_t>(made.dimension) != n_)
+      refuse(bracket.place, 0,
+             what + ": it has dimension " + std::to_string(made.dimension) + "; expected " +
+                 std::to_string(n_) + ", the number of coordinates");
+    const int n = made.dimension;
+    source_.given[index(formula)] = std::make_shared<const Tape>(
+        record(n, n * n, [&](const Recorded& t, In<Recorded> z, Out<Recorded> out) {
+          for (std::size_t j = 0; j < n_; ++j) {
+            std::vector<Recorded> point(z.begin(), z.end());
+            point.resize(2 * n_, Recorded(0));
+            point[n_ + j] = Recorded(1);
+            const std::vector<Recorded> column = evaluate(*made.sharp, t, point);
+            for (std::size_t i = 0; i < n_; ++i) out[i * n_ + j] = column[i];
+          }
+        }));
+    if (formula == Formula::poisson_tensor) source_.given[index(Formula::casimirs)] = made.casimirs;
+  }
+
+  void take_velocity_constraints() {
+    std::vector<Expression> rows, offsets;
+    bool any_offset = false;
+    for (const TextVelocityConstraint& c : d_.velocity_constraints) {
+      // Each row by itself, so that the wrong one is named.
+      (void)recorded(c.row, Arguments::positions, "row of " + c.name, n_ / 2,
+                     c.row.empty() ? Source{{}, d_.path} : c.row.front().source());
+      rows.insert(rows.end(), c.row.begin(), c.row.end());
+      offsets.push_back(c.offset ? *c.offset : Expression(Source{"0", d_.path}));
+      any_offset = any_offset || c.offset.has_value();
+      source_.velocity_constraint_names.push_back(c.name);
+    }
+    const Source place{{}, d_.path};
+    source_.given[index(Formula::velocity_constraints)] =
+        recorded(rows, Arguments::positions, "velocity_constraints",
+                 rows.empty() ? 0 : d_.velocity_constraints.size() * (n_ / 2), place);
+    if (any_offset)
+      source_.given[index(Formula::velocity_offsets)] =
+          recorded(offsets, Arguments::positions, "b of velocity_constraints", offsets.size(), place);
+  }
+
+  void take_invariants() {
+    std::vector<Expression> values;
+    for (const TextInvariant& i : d_.invariants) {
+      values.push_back(i.of);
+      source_.invariants.push_back(i.invariant);
+    }
+    source_.given[index(Formula::invariants)] =
+        recorded(values, Arguments::state, "invariants", values.size(), Source{{}, d_.path});
+  }
+
+  const TextDeclaration& d_;
+  TextNames names_;
+  std::size_t n_;
+  ModelSource source_;
+};
+}  // namespace
+
+ModelSource model_source(const TextDeclaration& declaration, const std::vector<Real>& values) {
+  return Builder(declaration, values).build();
+}
+
+}  // namespace pfaff::text

@@ -1,0 +1,68 @@
+#include <pfaff/systems/text/text_system.hpp>
+
+#include <filesystem>
+#include <map>
+#include <mutex>
+
+#include <pfaff/systems/text/model.hpp>
+
+namespace pfaff {
+
+namespace {
+using text::TextDeclaration;
+
+std::string absolute(const std::string& path) {
+  return std::filesystem::absolute(path).lexically_normal().string();
+}
+}  // namespace
+
+TextSystem::TextSystem(SystemDescriptor descriptor, std::vector<Parameter> parameters,
+                       TextDeclaration declaration, std::vector<std::pair<std::string, std::string>> files)
+    : SystemPlugin(std::move(descriptor), std::move(parameters), typeid(TextSystem),
+                   std::source_location::current()),
+      declaration_(std::move(declaration)),
+      files_(std::move(files)) {}
+
+std::unique_ptr<const TextSystem> TextSystem::read(const std::string& path) {
+  const text::Document document = text::read_document(path);
+  TextDeclaration declaration = text::read_declaration(document);
+  const ModelSource source = text::model_source(declaration, text::default_values(declaration.parameters));
+  std::vector<std::pair<std::string, std::string>> files{{absolute(path), document.contents}};
+  for (const auto& bracket : {declaration.bracket, declaration.symmetric_bracket})
+    if (bracket && text::is_text_file(bracket->plugin)) {
+      const std::string file = text::beside(bracket->plugin, path);
+      files.emplace_back(absolute(file), text::read_document(file).contents);
+    }
+  SystemDescriptor descriptor{.name = declaration.name,
+                              .title = declaration.title,
+                              .reference = declaration.reference,
+                              .description = declaration.description,
+                              .coordinates = source.coordinates,
+                              .initial = source.initial,
+                              .invariants = source.invariants,
+                              .time_unit = declaration.time_unit};
+  std::vector<Parameter> parameters = text::plugin_parameters(declaration.parameters);
+  return std::unique_ptr<const TextSystem>(
+      new TextSystem(std::move(descriptor), std::move(parameters), std::move(declaration), std::move(files)));
+}
+
+std::shared_ptr<const Model> TextSystem::make(const Assignments& assignments) const {
+  return on_behalf_of("system " + name(), [&] {
+    std::vector<Real> values = text::default_values(declaration_.parameters);
+    assign_all(parameters(), &values, assignments, "system " + name());
+    return std::make_shared<const Model>(text::model_source(declaration_, values));
+  });
+}
+
+std::vector<Assignments> TextSystem::instances(bool /*full*/) const { return {{}}; }
+
+const SystemPlugin& system_named(const std::string& name) {
+  if (!text::is_text_file(name)) return systems().get(name, "system");
+  static std::mutex mutex;
+  static std::map<std::vector<std::pair<std::string, std::string>>, std::unique_ptr<const TextSystem>> read;
+  std::unique_ptr<const TextSystem> system = TextSystem::read(name);
+  const std::lock_guard lock(mutex);
+  return *read.try_emplace(system->files(), std::move(system)).first->second;
+}
+
+}  // namespace pfaff

@@ -1,0 +1,196 @@
+// Systems written as text: those of examples/models against the same systems written in C++, in double and
+// in quad, and all of them by the checks of every system.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+#include <pfaff/bench/runner/motion.hpp>
+#include <pfaff/bench/runner/settings.hpp>
+#include <pfaff/bench/verification/check.hpp>
+#include <pfaff/systems/text/text_system.hpp>
+
+#include "../temporary_directory.hpp"
+
+namespace {
+using namespace pfaff;
+namespace fs = std::filesystem;
+using enum Formula;
+
+fs::path examples() { return fs::path(PFAFF_GOLDEN) / "../../examples/models"; }
+std::shared_ptr<const Model> text_model(const std::string& name, const Assignments& set = {}) {
+  return system_named((examples() / (name + ".toml")).string()).make(set);
+}
+
+// The largest difference of a formula's results, relative to their size, at random states of order one.
+template <class T>
+double difference(const std::shared_ptr<const Model>& a, const std::shared_ptr<const Model>& b, Formula f) {
+  const auto first = make_evaluator<T>(a, f), second = make_evaluator<T>(b, f);
+  const std::size_t inputs = 2 * static_cast<std::size_t>(a->dimension()) + 1;  // as many as alpha reads
+  const std::size_t outputs = inputs * inputs;
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> number(0.3, 1.3);
+  double worst = 0;
+  for (int k = 0; k < 5; ++k) {
+    std::vector<T> z(inputs), x(outputs, T(0)), y(outputs, T(0));
+    for (T& c : z) c = T(number(random));
+    const T t(number(random));
+    first.call(first.context, t, z.data(), x.data());
+    second.call(second.context, t, z.data(), y.data());
+    bool some = false;
+    for (std::size_t i = 0; i < outputs; ++i) {
+      some = some || static_cast<double>(y[i]) != 0;
+      worst = std::max(
+          worst, static_cast<double>(abs(x[i] - y[i])) / std::max(1.0, std::abs(static_cast<double>(y[i]))));
+    }
+    EXPECT_TRUE(some) << to_string(f);
+  }
+  return worst;
+}
+
+void expect_twins(const std::string& name, const std::string& system, std::initializer_list<Formula> formulas,
+                  const Assignments& set = {}, const Assignments& set_twin = {}) {
+  const auto text = text_model(name, set), twin = systems().get(system, "system").make(set_twin);
+  for (const Formula f : formulas) {
+    const auto a = f == field ? motion_of(text) : text, b = f == field ? motion_of(twin) : twin;
+    // Other orders of operations in a handful of terms, and the linear solves of formulations.
+    EXPECT_LT(difference<double>(a, b, f), 2e-13) << name << " " << to_string(f);
+    EXPECT_LT(difference<Quad>(a, b, f), 1e-30) << name << " " << to_string(f);
+  }
+}
+
+TEST(TextModels, AgreeWithTheirTwins) {
+  expect_twins("henon-heiles", "henon-heiles", {field, force, velocity, hamiltonian, reversal, invariants});
+  expect_twins("henon-heiles", "henon-heiles", {field}, {{"lambda", "0.7"}}, {{"lambda", "7/10"}});
+  expect_twins("damped-pendulum", "damped-pendulum",
+               {field, structure, covector, chart, chart_inverse, chart_field, alpha, invariants});
+  expect_twins("lagrangian-pendulum", "pendulum", {field, kinetic, potential}, {{"omega", "1.5"}},
+               {{"omega", "1.5"}});
+  expect_twins("double-pendulum", "n-pendulum-angles", {field, hamiltonian, reversal}, {{"n", "3"}},
+               {{"bobs", "3"}});
+  expect_twins("spherical-pendulum", "spherical-pendulum", {field, holonomic, constraints, invariants});
+  expect_twins("sleigh", "sleigh", {field, velocity_constraints, reversal, invariants});
+  expect_twins("predator-prey", "lotka-volterra", {field, invariants});
+  expect_twins("relaxing-rigid-body", "relaxing-rigid-body",
+               {field, poisson_tensor, symmetric_tensor, casimirs, entropy});
+  expect_twins("free-rigid-body", "free-rigid-body", {field, poisson_tensor, casimirs, reversal, invariants});
+  expect_twins("sphere-particle", "sphere-particle", {field, constraints});
+}
+
+TEST(TextModels, ADifferentTwinIsSeen) {
+  const auto text = text_model("henon-heiles", {{"lambda", "1.000001"}});
+  const auto twin = systems().get("henon-heiles", "system").make({});
+  EXPECT_GT(difference<double>(text, twin, field), 1e-8);
+}
+
+TEST(TextModels, StartWhereTheirTwinsDo) {
+  for (const char* name : {"henon-heiles", "damped-pendulum", "spherical-pendulum", "sleigh",
+                           "relaxing-rigid-body", "free-rigid-body", "sphere-particle"}) {
+    const auto text = text_model(name), twin = systems().get(name, "system").make({});
+    ASSERT_EQ(text->initial().size(), twin->initial().size()) << name;
+    for (std::size_t k = 0; k < text->initial().size(); ++k) {
+      EXPECT_EQ(text->coordinates()[k].name, twin->coordinates()[k].name);
+      EXPECT_LT(static_cast<double>(abs(text->initial()[k].quad() - twin->initial()[k].quad())), 1e-33)
+          << name;
+    }
+  }
+}
+
+TEST(TextModels, OfferWhatTheirTwinsOffer) {
+  for (const char* name : {"henon-heiles", "spherical-pendulum"})
+    EXPECT_EQ(to_string(text_model(name)->facets()),
+              to_string(systems().get(name, "system").make({})->facets()));
+  EXPECT_TRUE(text_model("lagrangian-pendulum")->facets().has(Facet::separable));
+  EXPECT_FALSE(text_model("double-pendulum")->facets().has(Facet::separable));
+  EXPECT_TRUE(text_model("damped-pendulum")->facets().has(Facet::generating_map));
+  EXPECT_TRUE(text_model("conformal-oscillator")->facets().has(Facet::conformal));
+  EXPECT_EQ(text_model("spherical-pendulum")->constraint_names(), (std::vector<std::string>{"rod", "rod~"}));
+  EXPECT_EQ(text_model("sleigh")->constraint_names(), (std::vector<std::string>{"knife-edge"}));
+}
+
+// The force of the lattice by a loop over its springs.
+TEST(TextModels, LatticesHaveTheSizeOfAParameter) {
+  constexpr std::size_t n = 50;
+  const auto model = text_model("lattice", {{"n", "50"}, {"alpha", "0.3"}});
+  ASSERT_EQ(model->dimension(), 100);
+  EXPECT_EQ(model->coordinates().back().name, "p50");
+  const auto evaluator = make_evaluator<Quad>(model, force);
+  std::vector<Quad> q(n), f(n), expected(n);
+  for (std::size_t k = 0; k < n; ++k) q[k] = sin(Quad(static_cast<int>(3 * k)));
+  evaluator.call(evaluator.context, Quad(0), q.data(), f.data());
+  const Quad alpha = Quad(3) / Quad(10), beta = Quad(1) / Quad(10);
+  for (std::size_t k = 0; k <= n; ++k) {
+    const Quad d = (k < n ? q[k] : Quad(0)) - (k > 0 ? q[k - 1] : Quad(0));
+    const Quad tension = d + alpha * d * d + beta * d * d * d;
+    if (k < n) expected[k] = expected[k] - tension;
+    if (k > 0) expected[k - 1] = expected[k - 1] + tension;
+  }
+  for (std::size_t k = 0; k < n; ++k)
+    EXPECT_LT(static_cast<double>(abs(f[k] - expected[k])), 1e-32) << k;  // six terms of order one
+}
+
+TEST(TextModels, PassTheChecksOfEverySystem) {
+  int systems_checked = 0;
+  for (const auto& entry : fs::directory_iterator(examples())) {
+    const std::string path = entry.path().string();
+    if (is_text_bracket(path)) {
+      for (const Check& check : check_bracket(bracket_named(path), {}))
+        EXPECT_TRUE(good(check)) << path << ": " << check.claim << " " << check.measured;
+      continue;
+    }
+    const auto checks = check_system(system_named(path), {});
+    for (const Check& check : checks)
+      EXPECT_TRUE(good(check)) << path << ": " << check.claim << " " << check.measured;
+    ++systems_checked;
+  }
+  EXPECT_GE(systems_checked, 13);
+}
+
+// What is false is found in text as it is in C++.
+TEST(TextModels, FalseClaimsAreFound) {
+  const pfaff::testing::TemporaryDirectory directory;
+  const auto bad = [&](const std::string& name, const std::string& text, bool bracket) {
+    const fs::path file = directory.path() / (name + ".toml");
+    std::ofstream(file) << text;
+    const auto checks = bracket ? check_bracket(bracket_named(file.string()), {})
+                                : check_system(system_named(file.string()), {});
+    return std::any_of(checks.begin(), checks.end(), [](const Check& check) { return !good(check); });
+  };
+  const std::string spring =
+      "coordinates = [\"q\", \"p\"]\ninitial = [1, 0.2]\nkinetic = \"p^2/2\"\npotential = \"q^4/4\"\n";
+  EXPECT_FALSE(bad("true", spring + "invariants = { H = \"p^2/2 + q^4/4\" }\n", false));
+  EXPECT_TRUE(bad("invariant", spring + "invariants = { H = \"p^2/2 + q^4/4.000001\" }\n", false));
+  EXPECT_TRUE(bad("reversal", spring + "reversal = [\"q\", \"p\"]\n", false));
+  EXPECT_TRUE(bad("override", spring + "force = [\"-q^3*1.000001\"]\n", false));
+  EXPECT_TRUE(bad("bracket",
+                  "coordinates = [\"x\", \"y\", \"z\"]\nsymmetry = \"skew\"\njacobi = true\n"
+                  "tensor = [[\"0\", \"z\", \"x\"], [\"-z\", \"0\", \"1\"], [\"-x\", \"-1\", \"0\"]]\n",
+                  true));
+}
+
+TEST(TextModels, TheContentsOfTheFilesBelongToARun) {
+  const pfaff::testing::TemporaryDirectory directory;
+  const fs::path file = directory.path() / "spring.toml";
+  const auto write = [&](const std::string& stiffness) {
+    std::ofstream(file)
+        << "coordinates = [\"q\", \"p\"]\ninitial = [1, 0.2]\nkinetic = \"p^2/2\"\npotential = \"" +
+               stiffness + "*q^2/2\"\n";
+  };
+  RunSettings settings;
+  settings.system = file.string();
+  settings.integrator = "verlet";
+  settings.step = "0.1";
+  settings.time = "1";
+  write("2");
+  const ResolvedRun first = resolve(settings), again = resolve(settings);
+  EXPECT_EQ(&system_named(file.string()), &system_named(file.string()));
+  ASSERT_EQ(first.origins.files.size(), 1U);
+  EXPECT_EQ(first.origins.files[0].first, fs::absolute(file).lexically_normal().string());
+  EXPECT_TRUE(differences(first.origins, again.origins).empty());
+  write("3");
+  const ResolvedRun changed = resolve(settings);
+  EXPECT_EQ(differences(first.origins, changed.origins).size(), 1U);
+}
+}  // namespace
