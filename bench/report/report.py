@@ -2,8 +2,8 @@
 """Figures and report of an experiment:  python3 report.py EXPERIMENT_DIR
 
 Reads experiment.json, results.csv, cost.csv (if timings were measured) and runs/*/series.csv with summary.json, as
-`pfaff compare` leaves them. Writes figures/{motion,drift,work_precision,structure,constraints,ensemble}_<case>.{svg,png} and report.html beside
-them, the same bytes for the same data. Needs matplotlib and nothing else. Exit status: 0 fine, 2 wrong usage or
+`pfaff compare` leaves them. Writes figures/<kind>_<case>.{svg,png} and report.html beside them, the same bytes for the same
+data. Needs matplotlib and nothing else. Exit status: 0 fine, 2 wrong usage or
 input, with one line on stderr.
 """
 import os
@@ -25,23 +25,21 @@ def write(path, content):
 
 def report(folder):
     experiment = Experiment(folder)
-    import constraints  # after the input has been read: importing matplotlib takes a second
-    import ensembles
-    import motion
-    from figures import drawings
-    from page import page
-    target, drawn = experiment.folder / "figures", {}
+    import page  # after the input has been read: importing matplotlib takes a second
+    from drawn import drawn
+    from verdict import Verdict
+    target, pictures = experiment.folder / "figures", {}
     target.mkdir(exist_ok=True)
-    for case in experiment.cases:
-        drawn[case["name"]] = []
-        for drawing in (motion.drawings(experiment, case) + drawings(experiment, case)
-                        + constraints.drawings(experiment, case) + ensembles.drawings(experiment, case)):
+    verdicts = [Verdict(experiment, case) for case in experiment.cases]
+    for verdict in verdicts:
+        shown = pictures[verdict.case["name"]] = []
+        for drawing in drawn(verdict):
             sheet = drawing.draw(True)
-            wide = sheet.svg(f"{drawing.name}-wide")
-            write(target / f"{drawing.name}.svg", f'<?xml version="1.0" encoding="utf-8"?>\n{wide}')
+            alone = sheet.svg(f"{drawing.name}-wide", coloured=True)
+            write(target / f"{drawing.name}.svg", f'<?xml version="1.0" encoding="utf-8"?>\n{alone}')
             write(target / f"{drawing.name}.png", sheet.png())
-            drawn[case["name"]].append((drawing, wide, drawing.draw(False).svg(f"{drawing.name}-narrow")))
-    write(experiment.folder / "report.html", page(experiment, drawn))
+            shown.append((drawing, sheet.svg(f"{drawing.name}-wide"), drawing.draw(False).svg(f"{drawing.name}-narrow")))
+    write(experiment.folder / "report.html", page.page(experiment, verdicts, pictures))
     return experiment.folder / "report.html"
 
 
