@@ -59,7 +59,7 @@ class Canvas:
 
     def labels(self, axes, x, y):
         axes.set_xlabel(plain(x), fontsize=self.font, labelpad=3)
-        axes.set_ylabel(plain(y), fontsize=self.font, labelpad=3)
+        axes.set_ylabel(plain(y), fontsize=self.font, labelpad=6)
 
     def line(self, axes, x, y, told="", **style):
         """A line with a title that is shown when it is pointed at."""

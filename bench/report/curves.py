@@ -17,6 +17,7 @@ from findings import ROUND_OFF
 
 CONTENDED = 1.3  # a timing whose median is above this times its fastest repetition was disturbed
 LOST = 0.5  # a relative error of this size says nothing any more: the phase is lost
+GROWN = 1e5  # units of round-off to which a residual that is round-off at the coarsest step may grow at finer ones
 RESIDUAL_ABOVE = 1000  # units of round-off above which residuals show their power of the step
 ZERO = 0.1  # units of round-off at which an error of zero stands, which has no place on a logarithmic axis
 STUDENT = {1: 12.706, 2: 4.303}  # 95 % two-sided quantiles, by degrees of freedom
@@ -66,8 +67,13 @@ class Curve:
 
     @property
     def kept(self):
-        """Whether the structure is kept at every step; None where it was not measured."""
-        return all(x <= ROUND_OFF * self.unit for _, x in self.residuals) if self.residuals else None
+        """Whether the structure is kept at every step; None where it was not measured. What truncation leaves of a residual is
+        largest at the coarsest step, so that it must be round-off there; at finer steps round-off may grow, because what a
+        method solves for in a step is divided by the step."""
+        if not self.residuals:
+            return None
+        return (max(self.residuals)[1] <= ROUND_OFF * self.unit
+                and all(x <= GROWN * self.unit for _, x in self.residuals))
 
     def residual_power(self):
         """The power of the step that the residual falls with, or nan."""

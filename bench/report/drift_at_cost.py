@@ -82,7 +82,7 @@ def draw(verdict, found, axis, wide):
     columns = min(len(families), 4 if wide else 2)
     rows = math.ceil(len(families) / columns)
     width, font = (1120, 12.5) if wide else (368, 11)
-    left, top, between, below, tall = (66, 24, 16, 46, 230) if wide else (50, 22, 8, 44, 170)
+    left, top, between, below, tall = (72, 24, 16, 46, 230) if wide else (60, 22, 8, 44, 170)
     panel = (width - left - 6 - between * (columns - 1)) / columns
     if columns == 1:
         panel = min(panel, 520)

@@ -14,7 +14,7 @@ from experiment import DIRECTIONS, UNIT_ROUND_OFF
 from figures import precision_measure, step_text, with_unit
 from wording import duration, listed, number
 
-ROUND_OFF = 400
+ROUND_OFF = 1000
 ABOVE_ROUND_OFF = 1e5
 ORDER_TOLERANCE = 0.3
 

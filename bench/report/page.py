@@ -8,6 +8,7 @@ import base64
 import hashlib
 import pathlib
 
+import constraints
 import folded
 import structure
 from canvas import BAND, FRONT, GREY, INK, MID, PAPER, RULE
@@ -84,6 +85,8 @@ def section(experiment, verdict, drawn, first):
         out += [f'<p class="casefind">{finding(verdict)}</p>',
                 f'<p class="where">{second + "<br>" if second else ""}{holds(verdict)}</p>']
     out.append(table(verdict))
+    for _, said, items in constraints.claims(experiment, case):
+        out.append(f"<h3>Claims</h3><p class=\"lede\">{text(said)}</p><ul>{''.join(f'<li>{text(i)}</li>' for i in items)}</ul>")
     for key, title, kinds in SECTIONS:
         some = [d for d in drawn if d[0].kind in kinds]
         if some:

@@ -12,7 +12,7 @@ from experiment import DIRECTIONS
 from families import family_of
 from figures import heading
 from findings import ROUND_OFF
-from wording import counted, listed, power, text, two_digits
+from wording import counted, listed, plain_text, power, text, two_digits
 
 
 def name(row):
@@ -55,7 +55,8 @@ def cheapest(verdict):
         return ""
     best = verdict.best(verdict.target)
     what = "error" if verdict.relative else f"drift of {text(verdict.invariant)}"
-    out = (f"at {what} {target_text(verdict.target)} {names(best)} {'is' if len(best) == 1 else 'are'} cheapest, "
+    who = names(best) if len(best) <= 3 else f"{names(best[:2])} and {len(best) - 2} others"
+    out = (f"at {what} {target_text(verdict.target)} {who} {'is' if len(best) == 1 else 'are'} cheapest, "
            f"{spent(verdict, best[0], verdict.target)}")
     lead = best[0]
     if lead.curve.kept:
@@ -84,7 +85,12 @@ def collective(rows, others):
     families = list(dict.fromkeys(r.curve.family for r in rows))
     if not {f.key for f in families} & {r.curve.family.key for r in others}:
         return names(rows) if len(rows) <= len(families) else listed(f.plural for f in families)
-    return names(rows) if len(rows) <= 4 else f"{len(rows)} methods"
+    return names(rows) if len(rows) <= 4 else f"{len(rows)} of {len(rows) + len(others)} methods"
+
+
+def few(rows, said):
+    """Whether they were too many to name: all that is said of them is how many."""
+    return said.startswith(f"{len(rows)} of ")
 
 
 def along_with(verdict):
@@ -95,7 +101,10 @@ def along_with(verdict):
         return f", and like all others {structure}" if len(keep) > 1 else f", and {structure}"
     if len(keep) == 1:
         return f", and alone {structure}"
-    return f", and like all but {collective(lose, keep)} {structure}"
+    whose = collective(lose, keep)
+    if few(lose, whose):
+        return f", and like {len(keep) - 1} others {structure}"
+    return f", and like all but {whose} {structure}"
 
 
 def keepers(verdict):
@@ -109,9 +118,9 @@ def keepers(verdict):
     if not lose:
         return f"all methods keep {structure}"
     who, whose = collective(keep, lose), collective(lose, keep)
-    shorter = len(whose) < len(who)
+    shorter = len(plain_text(whose)) < len(plain_text(who)) and not few(lose, whose)
     out = f"all but {whose} keep {structure}" if shorter else (
-        f"only {who} {'keeps' if len(keep) == 1 else 'keep'} {structure}")
+        f"{'only ' if 2 * len(keep) < len(keep) + len(lose) or not few(keep, who) else ''}{who} {'keeps' if len(keep) == 1 else 'keep'} {structure}")
     cheap = sorted((r for r in keep if verdict.target and r.times[verdict.target][0] > 0),
                    key=lambda r: r.times[verdict.target][0])
     if not cheap:
@@ -132,13 +141,14 @@ def subject(verdict):
     gauss = [r for r in reached if r.curve.family.key == "gauss" and r.curve.claimed == ours.curve.claimed]
     if not gauss:
         return ""
+    best = verdict.best(verdict.target)
     cheap, dear = sorted((ours, gauss[0]), key=lambda r: r.times[verdict.target][0])
     ratio = dear.times[verdict.target][0] / cheap.times[verdict.target][0]
     times = [f"{name(r)} ({spent(verdict, r, verdict.target)})" for r in (cheap, dear)]
     which = ", which keeps it" if dear.curve.kept and cheap.curve.kept is False else ""
     if ratio < 1.1:
-        return f"{times[0]} and {times[1]} cost the same"
-    if cheap is verdict.best(verdict.target)[0]:
+        return "" if cheap in best and dear in best else f"{times[0]} and {times[1]} cost the same"
+    if cheap is best[0]:
         return f"{name(dear)} costs {two_digits(ratio)} times as much ({spent(verdict, dear, verdict.target)}){which}"
     return f"{times[0]} is {two_digits(ratio)}× cheaper than {times[1]}{which}"
 
@@ -149,8 +159,8 @@ def trends(verdict):
     for row in verdict.rows:
         if verdict.loses(row):
             losing.setdefault(row.drift_class, []).append(row)
-    return "; ".join(f"{names(rows)} {'lets' if len(rows) == 1 else 'let'} the {text(verdict.invariant)} drift "
-                     f"({text(kind)})" for kind, rows in losing.items())
+    return "; ".join(f"{names(rows) if len(rows) <= 6 else f'{len(rows)} methods'} {'lets' if len(rows) == 1 else 'let'} the "
+                     f"{text(verdict.invariant)} drift ({text(kind)})" for kind, rows in losing.items())
 
 
 def drifting(verdict):

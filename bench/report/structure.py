@@ -30,7 +30,7 @@ def drawings(verdict):
     caption = sentences(
         "Residual of the structure that the exact flow keeps, of one step from states of the run, over the size of the terms "
         "it is the difference of. A residual that falls with the step is accuracy, not structure.",
-        f"The band ends at {ROUND_OFF} units of round-off, up to which the structure counts as kept.",
+        f"The band ends at {ROUND_OFF} units of round-off, where a method that keeps the structure begins at its coarsest step.",
         f"Along the run: each method in the run whose cost is nearest to {verdict.cost_text(verdict.level)}."
         if along and verdict.level > 0 else "", *axis.remarks())
     return [Drawing("structure", verdict.case, f"{heading(verdict.case)}: structure of one step", caption,
@@ -51,7 +51,7 @@ def lede(verdict):
 def draw(verdict, judged, along, axis, wide):
     several = len({h for r in judged for h, _ in r.curve.residuals}) > 1
     panels = (["step"] if several or not along else []) + (["time"] if along else [])
-    width, font, left, top, right, below, tall = (1120, 12.5, 66, 14, 116, 46, 250) if wide else (368, 11, 52, 12, 84, 44, 200)
+    width, font, left, top, right, below, tall = (1120, 12.5, 72, 14, 116, 46, 250) if wide else (368, 11, 60, 12, 84, 44, 200)
     across = len(panels) if wide else 1
     each = (width - across * (left + right)) / across
     canvas = Canvas(width if wide and across > 1 else min(width, 704), (len(panels) if not wide else 1) * (top + tall + below),

@@ -10,7 +10,7 @@ from families import mark
 from figures import slug, step_text, with_unit
 from findings import ROUND_OFF
 from verdict import TARGETS
-from wording import minus, power, size, text, two_digits
+from wording import minus, power, raised, size, text, two_digits
 
 NEVER = 1e9  # sorts after everything
 
@@ -27,7 +27,7 @@ def table(verdict):
         else:
             groups.append((c["group"], [c]))
     top = "".join(
-        f'<th scope="colgroup" colspan="{len(some)}" class="grp{narrow_class(some)}">{group}</th>' if group else
+        f'<th scope="colgroup" colspan="{len(some)}" class="grp">{group}</th>' if group else
         f'<th scope="col" rowspan="2"{attributes(some[0])}>{some[0]["head"]}</th>' for group, some in groups)
     second = "".join(f'<th scope="col"{attributes(c)}>{c["head"]}</th>' for g, some in groups if g for c in some)
     name = slug(verdict.case)
@@ -46,11 +46,6 @@ def table(verdict):
             cells.append(f'<td class="{classes}" data-v="{NEVER if value is None else f"{value:.6g}"}"{told}>{shown}</td>')
         out.append(f'<tr data-family="{row.curve.family.key}">{"".join(cells)}</tr>')
     return "\n".join(out + ["</tbody></table></div>"])
-
-
-def narrow_class(columns):
-    """A group stands on narrow screens if one of its columns does."""
-    return "" if any("more" not in c["class"].split() for c in columns) else " more"
 
 
 def attributes(column):
@@ -76,13 +71,13 @@ def all_columns(verdict):
         moves = DIRECTIONS.get(verdict.expected)
         unit = verdict.experiment.expectation(verdict.case, verdict.invariant)[1]
         head = f"{moves[1]} of {verdict.invariant}" if moves else f"drift of {with_unit(verdict.invariant, unit)}"
-        columns.append(column(text(head), "", lambda r: drift_cell(verdict, r), level))
+        columns.append(column(raised(text(head)), "", lambda r: drift_cell(verdict, r), level))
     for level_name in verdict.experiment.residuals:
-        columns.append(column(text(level_name.replace("-", " ")), "more", lambda r, n=level_name: level_cell(r, n), level))
+        columns.append(column(text(level_name.replace("hidden-", "hidden ")), "r more", lambda r, n=level_name: level_cell(r, n), level))
     if verdict.comparable and verdict.relative:
         columns.append(column("error", "r", lambda r: error_cell(verdict, r), level))
     for target in asked:
-        columns.append(column(power(round(math.log10(target))), "r lead" if target == lead else "r more",
+        columns.append(column(f'<span class="short">{spent} to </span>{power(round(math.log10(target)))}', "r lead" if target == lead else "r more",
                               lambda r, t=target: time_cell(verdict, r, t), f"{spent} to reach {what}",
                               sorted=target == lead))
     columns += [column("claim", "r more", claim_cell, "order"),
@@ -128,7 +123,7 @@ def level_cell(row, name):
     if row.run is None or math.isnan(row.run.drift(name, "max")):
         return "na", None, "–"
     top = row.run.drift(name, "max")
-    return "", math.log10(max(top, 1e-40)), f'<span class="cls">{text(row.run.drift_class(name) or "–")}</span> {size(top)}'
+    return "r", math.log10(max(top, 1e-40)), size(top), row.run.drift_class(name)
 
 
 def error_cell(verdict, row):
@@ -136,7 +131,8 @@ def error_cell(verdict, row):
         return "na", None, "–"
     star = '<span class="star" title="cannot cost this much: its nearest run">*</span>' if row.off else ""
     shown = "phase lost" if row.error >= 0.5 else size(row.error)
-    return "", math.log10(max(row.error, 1e-40)), f'{strip(row)}<span class="num">{shown}</span>{star}'
+    return "", math.log10(max(row.error, 1e-40)), (
+        "" if verdict.experiment.residuals else strip(row)) + f'<span class="num">{shown}</span>{star}'
 
 
 def strip(row):
@@ -175,7 +171,7 @@ def order_cell(row):
             return "na", None, "–"
         why = ("the method chooses its steps" if row.curve.adaptive else
                "fewer than two runs lie between the lost phase and round-off")
-        return "na", -1.0, "not measurable here", why
+        return "na unseen", -1.0, "not measurable here", why
     spread = "finest pair" if math.isnan(order.interval) else f"± {max(order.interval, 0.005):.2f}"
     return "warn" if order.surprising else "", order.value, f"{order.value:.2f} <small>{spread}</small>"
 
@@ -188,7 +184,8 @@ def caption(verdict):
         parts.append(f"Sorted by the {spent} to {'error' if verdict.relative else 'drift'} {power(round(math.log10(lead)))}; "
                      "× is the ratio to the best, ≤ says that the coarsest run is better already, – that no run reaches it.")
     if verdict.level > 0:
-        parts.append("At equal cost: the error is interpolated between runs, drift and residual are of the nearest run.")
+        level = verdict.cost_text(verdict.level) + ("" if verdict.work == "time" else f" {verdict.work}")
+        parts.append(f"At equal cost, {level}: the error is interpolated between runs, drift and residual are of the nearest run.")
     if verdict.structured:
         parts.append("Filled marks keep the structure at every step, open ones do not.")
     if verdict.case.get("seeds"):

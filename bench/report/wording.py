@@ -71,6 +71,11 @@ def size(x):
     return f"{minus(mantissa)}·{power(int(exponent))}"
 
 
+def raised(markup):
+    """HTML: powers of units raised, m^2/s^2."""
+    return re.sub(r"\^(-?[0-9]+)", lambda m: f"<sup>{minus(m[1])}</sup>", markup)
+
+
 def listed(items):
     items = list(items)
     return items[0] if len(items) == 1 else ", ".join(items[:-1]) + " and " + items[-1] if items else "none"

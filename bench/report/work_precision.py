@@ -34,8 +34,8 @@ class Look:
         return canvas, axes
 
 
-WIDE = Look(704, 520, 12.5, (64, 14, 10, 46))
-NARROW = Look(368, 400, 11.5, (54, 10, 6, 42))
+WIDE = Look(704, 520, 12.5, (70, 14, 10, 46))
+NARROW = Look(368, 400, 11.5, (60, 10, 6, 42))
 
 
 def drawings(verdict):
@@ -121,6 +121,7 @@ def frame(verdict, axes, some, named):
     longest = sorted(max(p.cost for p in c.measured()) for c in some)
     kept = max(longest[(3 * len(longest) - 1) // 4],
                max((max(p.cost for p in c.measured()) for c in some if c.label in named[:1]), default=0))
+    kept = max(kept, max(p.cost for p in front(some)))
     begin = min(p.cost for c in some for p in c.measured())
     axes.set(xscale="log", yscale="log", xlim=(begin / 1.35, kept * 1.35), ylim=(low, high))
     return low, high
@@ -163,7 +164,7 @@ def annotate(canvas, axes, verdict, some, named, look, limits):
     if limits[0] < floor:
         axes.axhspan(limits[0], floor, color=BAND, zorder=0, linewidth=0)
         taken.append(band_text(canvas, "round-off", box.x0 + 4, box.y0 + 3, "bottom", small))
-    fan = order_fan(canvas, axes, box, every, taken, small)
+    fan = order_fan(canvas, axes, box, every, small) if verdict.relative else None
     if fan:
         taken.append(fan)
     labels = []
@@ -198,7 +199,7 @@ def band_text(canvas, text, x, y, side, small):
     return x - 2, low - 2, x + width + 2, low + height + 2
 
 
-def order_fan(canvas, axes, box, every, taken, small):
+def order_fan(canvas, axes, box, every, small):
     """Slopes of the orders 2, 4 and 8, in the lower left; its box, or None where there is no room for it."""
     decade = [(box.x1 - box.x0) / math.log10(axes.get_xlim()[1] / axes.get_xlim()[0]),
               (box.y1 - box.y0) / math.log10(axes.get_ylim()[1] / axes.get_ylim()[0])]

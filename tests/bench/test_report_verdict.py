@@ -117,6 +117,11 @@ class Structure(unittest.TestCase):
         self.assertFalse(curve(power_law(4), residuals=[(0.1, 1e-9), (0.05, 3e-16)]).kept)  # small is accuracy
         self.assertIsNone(curve(power_law(4)).kept)
 
+    def test_round_off_may_grow_as_steps_become_smaller(self):
+        self.assertTrue(curve(power_law(4), residuals=[(0.1, 5e-14), (0.01, 1e-12)]).kept)
+        self.assertFalse(curve(power_law(4), residuals=[(0.1, 5e-14), (0.01, 1e-9)]).kept)
+        self.assertFalse(curve(power_law(4), residuals=[(0.1, 1e-12), (0.01, 5e-14)]).kept)  # it falls: truncation
+
     def test_power_of_the_step(self):
         some = curve(power_law(4), residuals=[(h, h**5) for h in (0.1, 0.05)] + [(0.001, 1e-16)])
         self.assertAlmostEqual(some.residual_power(), 5)
