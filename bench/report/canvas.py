@@ -42,29 +42,33 @@ def plain(text):
 class Canvas:
     """A figure of a size in pixels, in which panels are placed by their distance from its top left corner."""
 
-    def __init__(self, width, height, font=12.5):
-        self.width, self.height, self.font = width, height, font
+    def __init__(self, width, height, font=12.5, scale=1.0):
+        self.width, self.height, self.font, self.scale = width, height, font, scale  # scale: of lines and marks
         self.figure = Figure(figsize=(width / 72, height / 72), dpi=72)
         FigureCanvasAgg(self.figure)
         self.axes, self.titles, self.description, self.drawn = [], {}, "", None
+        self.printed = False  # on paper a unit is a point
         self.renderer = self.figure.canvas.get_renderer()
 
     def panel(self, left, top, width, height):
         axes = self.figure.add_axes((left / self.width, 1 - (top + height) / self.height, width / self.width,
                                      height / self.height), label=str(len(self.axes)))
-        axes.tick_params(labelsize=0.92 * self.font, length=3)
+        axes.tick_params(labelsize=0.92 * self.font, length=3 * self.scale, width=0.7 * self.scale, pad=3.5 * self.scale)
+        for spine in axes.spines.values():
+            spine.set_linewidth(0.7 * self.scale)
         axes.grid(False, axis="x")
         self.axes.append(axes)
         return axes
 
     def labels(self, axes, x, y):
-        axes.set_xlabel(plain(x), fontsize=self.font, labelpad=3)
-        axes.set_ylabel(plain(y), fontsize=self.font, labelpad=6)
+        axes.set_xlabel(plain(x), fontsize=self.font, labelpad=3 * self.scale)
+        axes.set_ylabel(plain(y), fontsize=self.font, labelpad=6 * self.scale)
 
     def line(self, axes, x, y, told="", **style):
         """A line with a title that is shown when it is pointed at."""
         gid = f"line{len(self.titles)}"
         self.titles[gid] = told
+        style |= {k: self.scale * style[k] for k in ("linewidth", "markersize", "markeredgewidth") if k in style}
         return axes.plot(x, y, gid=gid, **style)[0]
 
     def write(self, axes, x, y, text, size=1.0, **style):
@@ -75,7 +79,7 @@ class Canvas:
     def leader(self, begin, end, colour):
         """A thin straight line between two points, in pixels from the bottom left of the figure."""
         x, y = ([a / 72, b / 72] for a, b in zip(begin, end))
-        self.figure.add_artist(Line2D(x, y, color=colour, linewidth=0.7, transform=self.figure.dpi_scale_trans))
+        self.figure.add_artist(Line2D(x, y, color=colour, linewidth=0.7 * self.scale, transform=self.figure.dpi_scale_trans))
 
     def measure(self, text, size=1.0, weight="normal"):
         """(width, height) of a text in pixels."""
@@ -87,7 +91,7 @@ class Canvas:
     def svg(self, prefix, coloured=False):
         """The figure as an SVG element (no XML prologue); with `coloured`, in colours of its own for a file of its own."""
         self.drawn = self.drawn or self.save("svg")
-        return svg_text(self.drawn, prefix, self.description, self.titles, coloured)
+        return svg_text(self.drawn, prefix, self.description, self.titles, coloured, unit="pt" if self.printed else "")
 
     def png(self):
         return self.save("png")
@@ -99,17 +103,21 @@ class Canvas:
 def saved(figure, kind, dpi=160):
     metadata = {"svg": {"Date": None, "Creator": None, "Format": None, "Type": None}, "png": {"Software": None},
                 "pdf": {"Creator": None, "Producer": None, "CreationDate": None}}.get(kind)
+    if kind == "pgf":  # text, and without metadata
+        buffer = io.StringIO()
+        figure.savefig(buffer, format=kind)
+        return buffer.getvalue()
     buffer = io.BytesIO()
     figure.savefig(buffer, format=kind, dpi=dpi, metadata=metadata)
     return buffer.getvalue()
 
 
-def svg_text(content, prefix, description, titles, coloured, scale=1.0):
+def svg_text(content, prefix, description, titles, coloured, scale=1.0, unit=""):
     text = content.decode("utf-8")
     text = text[text.index("<svg"):]
     text = re.sub(r"\s*<metadata>.*?</metadata>", "", text, flags=re.S)
     text = re.sub(r'\b(?:d|x|y)="[^"]*"', lambda m: re.sub(r"(\.\d)\d+", r"\1", m[0]), text)
-    text = re.sub(r'(width|height)="([0-9.]+)pt"', lambda m: f'{m[1]}="{scale * float(m[2]):g}"', text, count=2)
+    text = re.sub(r'(width|height)="([0-9.]+)pt"', lambda m: f'{m[1]}="{scale * float(m[2]):g}{unit}"', text, count=2)
     text = re.sub(r"'DejaVu Sans'(?:, [^;\"]*)?", FONTS, text)
     for gid, told in titles.items():
         text = text.replace(f'<g id="{gid}">', f'<g id="{gid}" class="mline">'

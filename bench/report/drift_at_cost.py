@@ -7,6 +7,7 @@ whose class of drift is sized by a slope. Dotted: 2 u sqrt(n) after n steps, wha
 Of a quantity that is expected to decrease or to increase the error is drawn: its difference from that of the most accurate
 run of the case, at the times that both have.
 """
+import dataclasses
 import math
 import statistics
 
@@ -19,6 +20,29 @@ from labels import pushed_apart
 from scales import ErrorAxis, envelope, logarithmic, time_axis
 from sentence import drifting, finding
 from wording import plain_text
+
+
+@dataclasses.dataclass
+class Panels:
+    """Sizes in pixels: margins around and between panels, and how many stand side by side."""
+    width: float
+    font: float
+    left: float
+    top: float
+    between: float
+    below: float
+    tall: float
+    columns: int
+    title: float = 1.0  # size of the families' names
+    scale: float = 1.0  # of lines
+
+
+WIDE = Panels(1120, 12.5, 72, 24, 16, 46, 230, 4)
+NARROW = Panels(368, 11, 60, 22, 8, 44, 170, 2, 0.88)
+
+
+def paper(width):
+    return Panels(width, 7, 42, 15, 6, 26, 100, 2 if width < 350 else 4, 0.88, 0.6)
 
 
 def drawings(verdict):
@@ -74,30 +98,27 @@ def drawing(verdict, found, told):
         "the fitted trend; dotted: 2u√n, what n steps of round-off add up to.")
     caption = sentences(told, level, what, "A curve joins the largest values in short stretches of time.", *axis.remarks())
     return Drawing("drift", case, f"{heading(case)}: drift at equal cost", caption,
-                   lambda wide: draw(verdict, found, axis, wide))
+                   lambda wide: draw(verdict, found, axis, WIDE if wide else NARROW), "",
+                   lambda width: draw(verdict, found, axis, paper(width)))
 
 
-def draw(verdict, found, axis, wide):
+def draw(verdict, found, axis, look):
     families = [f for f in FAMILIES if any(row.curve.family is f for row, *_ in found)]
-    columns = min(len(families), 4 if wide else 2)
+    columns = min(len(families), look.columns)
     rows = math.ceil(len(families) / columns)
-    width, font = (1120, 12.5) if wide else (368, 11)
-    left, top, between, below, tall = (72, 24, 16, 46, 230) if wide else (60, 22, 8, 44, 170)
-    panel = (width - left - 6 - between * (columns - 1)) / columns
-    if columns == 1:
-        panel = min(panel, 520)
-    height = rows * (top + tall) + below
-    canvas = Canvas(width, height, font)
+    panel = min(520, (look.width - look.left - 6 - look.between * (columns - 1)) / columns)
+    canvas = Canvas(look.width, rows * (look.top + look.tall) + look.below, look.font, look.scale)
     canvas.description = plain_text(drifting(verdict) or finding(verdict))
     times = [t for _, ts, _ in found for t in ts]
     begin, end = min(times), max(times)
     rank = ranks(verdict.curves)
     for k, family in enumerate(families):
         row, col = divmod(k, columns)
-        axes = canvas.panel(left + col * (panel + between), top + row * (top + tall), panel, tall)
+        axes = canvas.panel(look.left + col * (panel + look.between), look.top + row * (look.top + look.tall), panel,
+                            look.tall)
         for other, ts, values in found:
             if other.curve.family is not family:
-                axes.plot(ts, axis.place(values), color=RULE, linewidth=0.8, zorder=1)
+                axes.plot(ts, axis.place(values), color=RULE, linewidth=0.8 * look.scale, zorder=1)
         own = [(r, ts, values) for r, ts, values in found if r.curve.family is family and ts]
         for r, ts, values in own:
             shown = style(family, rank[r.label], r.curve.kept is not False) | {"linewidth": 1.5, "marker": ""}
@@ -108,8 +129,8 @@ def draw(verdict, found, axis, wide):
         time_axis(axes, begin if logarithmic(begin, end) else 0, end)
         axis.apply(axes)
         axes.tick_params(axis="x", labelbottom=k >= len(families) - columns)
-        axes.tick_params(axis="y", labelleft=col == 0, length=3 if col == 0 else 0)
-        axes.set_title(family.plural[:1].upper() + family.plural[1:], loc="left", fontsize=font * (1 if wide else 0.88),
+        axes.tick_params(axis="y", labelleft=col == 0, length=3 * look.scale if col == 0 else 0)
+        axes.set_title(family.plural[:1].upper() + family.plural[1:], loc="left", fontsize=look.font * look.title,
                        color=family.light, weight="bold", pad=5)
         unit = verdict.case.get("time_unit") or ""
         canvas.labels(axes, with_unit("t", unit) if k >= len(families) - columns else "",
@@ -128,7 +149,7 @@ def trend(axes, verdict, row, begin, end, family):
     slope = abs(row.run.drift(verdict.invariant, "slope")) / series.scale
     if slope > 0:
         ts = [begin * (end / begin) ** (k / 40) for k in range(41)]
-        axes.plot(ts, [slope * t for t in ts], color=family.light, linewidth=0.8, linestyle=(0, (4, 3)), zorder=2)
+        axes.plot(ts, [slope * t for t in ts], color=family.light, linewidth=0.6, linestyle=(0, (4, 3)), zorder=2)
 
 
 def round_off(axes, verdict, rows, begin, end):
@@ -136,7 +157,7 @@ def round_off(axes, verdict, rows, begin, end):
         return
     u, step = UNIT_ROUND_OFF[verdict.case["precision"]], statistics.median(r.run.step for r in rows)
     ts = [begin * (end / begin) ** (k / 40) for k in range(41)]
-    axes.plot(ts, [2 * u * math.sqrt(max(1.0, t / step)) for t in ts], color=MID, linewidth=0.9, linestyle=(0, (1, 2)), zorder=2)
+    axes.plot(ts, [2 * u * math.sqrt(max(1.0, t / step)) for t in ts], color=MID, linewidth=0.7, linestyle=(0, (1, 2)), zorder=2)
 
 
 def end_labels(canvas, axes, ends):

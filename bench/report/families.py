@@ -20,7 +20,7 @@ class Family:
 
 FAMILIES = (
     Family("generating", "generating functions", ("generating",), "#003b68", "#3292f4", "o"),
-    Family("darboux", "Gauss methods in Darboux coordinates", ("darboux",), "#9a41ba", "#c784c4", "D"),
+    Family("darboux", "Gauss in Darboux coordinates", ("darboux",), "#9a41ba", "#c784c4", "D"),
     Family("nonholonomic", "nonholonomic integrators", ("nonholonomic", "dla", "gni", "perlmutter", "velocity"), "#3b1a8f",
            "#feb2ff", "P"),
     Family("constrained", "methods on the constraints", ("rattle", "shake", "lincs", "lobatto", "projected"), "#6b0a26",
@@ -28,7 +28,7 @@ FAMILIES = (
     Family("gauss", "Gauss collocation", ("gauss", "midpoint"), "#8f3413", "#fb894b", "s"),
     Family("splitting", "splittings and compositions", ("splitting", "composition", "verlet", "symplectic", "leap",
                                                         "mclachlan"), "#157b62", "#73e4c9", "^"),
-    Family("explicit", "explicit structure-blind methods", ("rk4", "dopri5", "bulirsch", "odeint", "runge"), "#86761c",
+    Family("explicit", "structure-blind methods", ("rk4", "dopri5", "bulirsch", "odeint", "runge"), "#86761c",
            "#f0dd9c", "v"),
     Family("other", "other methods", (), "#443b47", "#b8a693", "h"))
 
@@ -54,7 +54,7 @@ def mark(family, filled):
             f'aria-hidden="true">{SHAPES[family.mark]}</svg>')
 
 
-def style(family, rank, filled, shown="colour"):
+def style(family, rank, filled):
     """Line and marker of the method that is the rank-th of its family, as matplotlib takes them."""
     colour = family.light
     return {"color": colour, "linestyle": DASHES[rank % len(DASHES)], "marker": family.mark, "markersize": 5,

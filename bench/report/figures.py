@@ -28,6 +28,7 @@ class Drawing:
     caption: str
     draw: typing.Callable[[bool], typing.Any]  # wide? -> Sheet or Canvas
     tab: str = ""  # of several drawings of which one is shown at a time: what this one is called
+    paper: typing.Callable[[float], typing.Any] | None = None  # width in points -> Canvas for print, without a title
 
     @property
     def name(self):

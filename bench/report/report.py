@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Figures and report of an experiment:  python3 report.py EXPERIMENT_DIR
+"""Figures and report of an experiment:  python3 report.py EXPERIMENT_DIR [--figures pdf,svg,pgf,png [--width 85mm] [--style FILE]]
 
 Reads experiment.json, results.csv, cost.csv (if timings were measured) and runs/*/series.csv with summary.json, as
 `pfaff compare` leaves them. Writes figures/<kind>_<case>.{svg,png} and report.html beside them, the same bytes for the same
-data. Needs matplotlib and nothing else. Exit status: 0 fine, 2 wrong usage or
+data. With --figures it writes figures and tables for papers instead, into figures/paper/: of that width, with text as text,
+captions beside them, drawn in matplotlib's style of the file (paper.mplstyle beside this script is the one taken). Needs matplotlib and nothing else. Exit status: 0 fine, 2 wrong usage or
 input, with one line on stderr.
 """
 import os
@@ -43,15 +44,39 @@ def report(folder):
     return experiment.folder / "report.html"
 
 
+def paper(folder, options):
+    experiment = Experiment(folder)
+    import papers
+    from verdict import Verdict
+    kinds, width = papers.kinds_of(options["--figures"]), papers.width_of(options.get("--width", "85mm"))
+    verdicts = [Verdict(experiment, case) for case in experiment.cases]
+    return papers.papers(experiment, verdicts, kinds, width, options.get("--style"), write)
+
+
+def parsed(arguments):
+    """(the directory, {option: value})"""
+    options, rest = {}, list(arguments)
+    for option in ("--figures", "--width", "--style"):
+        if option in rest:
+            at = rest.index(option)
+            if at + 1 == len(rest):
+                raise InputError(f"{option}: expected a value")
+            options[option] = rest[at + 1]
+            del rest[at:at + 2]
+    if len(rest) != 1 or rest[0].startswith("--"):
+        raise InputError("expected one argument, the directory of an experiment, and options --figures, --width, --style")
+    if options and "--figures" not in options:
+        raise InputError("--width and --style are about the figures that --figures names")
+    return rest[0], options
+
+
 def main(arguments):
     if arguments in (["-h"], ["--help"]):
         print(__doc__.strip())
         return 0
-    if len(arguments) != 1:
-        print("report.py: expected one argument, the directory of an experiment", file=sys.stderr)
-        return 2
     try:
-        print(report(arguments[0]), file=sys.stderr)
+        folder, options = parsed(arguments)
+        print(paper(folder, options) if options else report(folder), file=sys.stderr)
     except (InputError, OSError) as error:
         print(f"report.py: {' '.join(str(error).split())}", file=sys.stderr)
         return 2

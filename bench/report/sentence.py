@@ -145,12 +145,15 @@ def subject(verdict):
     cheap, dear = sorted((ours, gauss[0]), key=lambda r: r.times[verdict.target][0])
     ratio = dear.times[verdict.target][0] / cheap.times[verdict.target][0]
     times = [f"{name(r)} ({spent(verdict, r, verdict.target)})" for r in (cheap, dear)]
+    if dear.times[verdict.target][1]:
+        return ""  # no more than a bound is known of it
+    least = "at least " if cheap.times[verdict.target][1] else ""
     which = ", which keeps it" if dear.curve.kept and cheap.curve.kept is False else ""
     if ratio < 1.1:
         return "" if cheap in best and dear in best else f"{times[0]} and {times[1]} cost the same"
     if cheap is best[0]:
-        return f"{name(dear)} costs {two_digits(ratio)} times as much ({spent(verdict, dear, verdict.target)}){which}"
-    return f"{times[0]} is {two_digits(ratio)}× cheaper than {times[1]}{which}"
+        return f"{name(dear)} costs {least}{two_digits(ratio)} times as much ({spent(verdict, dear, verdict.target)}){which}"
+    return f"{times[0]} is {least}{two_digits(ratio)}× cheaper than {times[1]}{which}"
 
 
 def trends(verdict):

@@ -1,6 +1,7 @@
 """The structure of a step: the residual of M^T K(z',t') M = K(z,t), M being the Jacobian of one step, against the step and
 along the run at equal cost. Methods that keep the structure at every step share one label; the rest are named.
 """
+import dataclasses
 import math
 
 from canvas import BAND, GREY, MID, Canvas
@@ -13,6 +14,28 @@ from labels import pushed_apart
 from scales import ErrorAxis, envelope, step_axis, time_axis
 from sentence import collective, kept_split, structure_of
 from wording import counted, plain_text
+
+
+@dataclasses.dataclass
+class Panels:
+    """Sizes in pixels: margins around panels, and how many stand side by side."""
+    width: float
+    font: float
+    left: float
+    top: float
+    right: float
+    below: float
+    tall: float
+    columns: int
+    scale: float = 1.0  # of lines and marks
+
+
+WIDE = Panels(1120, 12.5, 72, 14, 116, 46, 250, 2)
+NARROW = Panels(368, 11, 60, 12, 84, 44, 200, 1)
+
+
+def paper(width):
+    return Panels(width, 7, 42, 6, 56, 26, 110, 1 if width < 350 else 2, 0.6)
 
 
 def drawings(verdict):
@@ -34,7 +57,8 @@ def drawings(verdict):
         f"Along the run: each method in the run whose cost is nearest to {verdict.cost_text(verdict.level)}."
         if along and verdict.level > 0 else "", *axis.remarks())
     return [Drawing("structure", verdict.case, f"{heading(verdict.case)}: structure of one step", caption,
-                    lambda wide: draw(verdict, judged, along, axis, wide))]
+                    lambda wide: draw(verdict, judged, along, axis, WIDE if wide else NARROW), "",
+                    lambda width: draw(verdict, judged, along, axis, paper(width)))]
 
 
 def lede(verdict):
@@ -48,21 +72,17 @@ def lede(verdict):
             f"{collective(lose, keep)} {'does' if len(lose) == 1 else 'do'} not.")
 
 
-def draw(verdict, judged, along, axis, wide):
+def draw(verdict, judged, along, axis, look):
     several = len({h for r in judged for h, _ in r.curve.residuals}) > 1
     panels = (["step"] if several or not along else []) + (["time"] if along else [])
-    width, font, left, top, right, below, tall = (1120, 12.5, 72, 14, 116, 46, 250) if wide else (368, 11, 60, 12, 84, 44, 200)
-    across = len(panels) if wide else 1
-    each = (width - across * (left + right)) / across
-    canvas = Canvas(width if wide and across > 1 else min(width, 704), (len(panels) if not wide else 1) * (top + tall + below),
-                    font)
-    if wide and across == 1:
-        each = 704 - left - right
+    across = min(len(panels), look.columns)
+    part = min(704, look.width / across)
+    each, deep = part - look.left - look.right, look.top + look.tall + look.below
+    canvas = Canvas(part * across, deep * len(panels) / across, look.font, look.scale)
     canvas.description = plain_text(lede(verdict))
     rank = ranks(verdict.curves)
     for k, panel in enumerate(panels):
-        axes = canvas.panel(left + (k * (each + left + right) if wide else 0), top + (0 if wide else k * (top + tall + below)),
-                            each, tall)
+        axes = canvas.panel(look.left + part * (k % across), look.top + deep * (k // across), each, look.tall)
         axes.axhspan(1e-300, ROUND_OFF * verdict.unit, color=BAND, linewidth=0, zorder=0)
         ends = []
         lines = [(r, *zip(*r.curve.residuals)) for r in judged] if panel == "step" else along
@@ -86,7 +106,7 @@ def draw(verdict, judged, along, axis, wide):
             time_axis(axes, 0, max(x[-1] for _, x, _ in lines))
         unit = verdict.case.get("time_unit") or ""
         canvas.labels(axes, with_unit("step h", unit) + ", finer to the right" if panel == "step" else with_unit("t", unit),
-                      "structure residual of a step" if k == 0 or not wide else "")
+                      "structure residual of a step" if k % across == 0 else "")
         name_ends(canvas, axes, ends)
     return canvas
 

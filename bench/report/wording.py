@@ -46,6 +46,14 @@ def short_time(ns):
     return "–" if math.isnan(ns) else f"{ns:.0f} ns"
 
 
+def tick_time(ns):
+    """A time that stands at an axis: 1, 2, 3 or 5 times a power of ten."""
+    for size, unit in ((1e9, "s"), (1e6, "ms"), (1e3, "µs")):
+        if ns >= 0.9995 * size:
+            return f"{ns / size:.3g} {unit}"
+    return f"{ns:.3g} ns"
+
+
 def short_count(n):
     return f"{n:.0f}" if n < 99950 else f"{two_digits(n / 1e6)} million" if n >= 999500 else f"{n / 1e3:.0f} 000"
 

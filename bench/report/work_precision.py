@@ -11,9 +11,9 @@ from canvas import BAND, FRONT, GREY, MID, Canvas
 from curves import LOST, ZERO, curves, front, ranks
 from families import style
 from figures import Drawing, heading, sentences, step_text
-from labels import Label, place, sampled
+from labels import Label, inside, place, sampled
 from sentence import finding
-from wording import counted, listed, plain_text, short_count, short_time
+from wording import counted, listed, plain_text, short_count, short_time, tick_time
 
 CLIPPED = 4.0  # where relative errors end: what is above says the same, that all is lost
 
@@ -28,7 +28,7 @@ class Look:
     scale: float = 1.0  # of lines and marks
 
     def canvas(self):
-        canvas = Canvas(self.width, self.height, self.font)
+        canvas = Canvas(self.width, self.height, self.font, self.scale)
         left, top, right, bottom = self.margins
         axes = canvas.panel(left, top, self.width - left - right, self.height - top - bottom)
         return canvas, axes
@@ -36,6 +36,11 @@ class Look:
 
 WIDE = Look(704, 520, 12.5, (70, 14, 10, 46))
 NARROW = Look(368, 400, 11.5, (60, 10, 6, 42))
+
+
+def paper(width):
+    """For print, in points: 7 pt text, lines of 1 pt."""
+    return Look(width, 0.81 * width, 7, (40, 5, 4, 26), 0.6)
 
 
 def drawings(verdict):
@@ -60,6 +65,8 @@ def drawing(verdict, work, some):
     caption = sentences(
         "Down and to the left is better: a point is a run, along a line the step becomes smaller.",
         "Shaded in yellow: the Pareto front.",
+        f"Band at the top: error of at least {LOST}, the phase is lost." if verdict.relative and any(
+            p.error >= LOST for c in some for p in c.points) else "",
         "Whiskers run from the fastest repetition to the median." if work == "time" else "",
         f"{contended} of {timed} timings were disturbed (median over 1.3 times the fastest)." if work == "time" and contended
         else "",
@@ -71,7 +78,8 @@ def drawing(verdict, work, some):
             p.error == ZERO * verdict.unit for c in some for p in c.points) else "")
     kind = "work_precision" if work == verdict.work else "work_precision_" + work.replace("right-hand sides", "evaluations")
     return Drawing(kind, case, f"{heading(case)}: work and precision", caption,
-                   lambda wide: draw(verdict, work, some, named, WIDE if wide else NARROW), work)
+                   lambda wide: draw(verdict, work, some, named, WIDE if wide else NARROW), work,
+                   lambda width: draw(verdict, work, some, named, paper(width)))
 
 
 def draw(verdict, work, some, named, look):
@@ -86,9 +94,9 @@ def draw(verdict, work, some, named, look):
     for curve in sorted(some, key=lambda c: c.label in named):
         colour = curve.label in named
         shown = style(curve.family, rank[curve.label], curve.kept is not False)
-        shown |= {"linewidth": 1.7 * look.scale, "markersize": 5.5 * look.scale, "zorder": 4}
+        shown |= {"linewidth": 1.7, "markersize": 5.5, "zorder": 4}
         if not colour:
-            shown |= {"color": GREY, "markeredgecolor": GREY, "linewidth": 0.9 * look.scale, "markersize": 3.4 * look.scale,
+            shown |= {"color": GREY, "markeredgecolor": GREY, "linewidth": 0.9, "markersize": 3.4,
                       "linestyle": "-", "zorder": 3} | ({"markerfacecolor": GREY} if curve.kept is not False else {})
         points = curve.measured()
         costs, errors = [p.cost for p in points], clipped(verdict, [p.error for p in points])
@@ -100,7 +108,7 @@ def draw(verdict, work, some, named, look):
                 axes.plot([p.cost, p.slowest], [e, e], color=shown["color"], linewidth=0.7 * look.scale, zorder=2)
     words = {"time": "time of the run", "right-hand sides": "right-hand sides of the run", "steps": "steps of the run"}
     canvas.labels(axes, words[work], "largest relative error" if verdict.relative else f"largest drift of {verdict.invariant}")
-    ticks(axes, work, look.width)
+    ticks(axes, work, look.width, look.font)
     annotate(canvas, axes, verdict, some, named, look, (low, high))
     return canvas
 
@@ -127,7 +135,7 @@ def frame(verdict, axes, some, named):
     return low, high
 
 
-def ticks(axes, work, width):
+def ticks(axes, work, width, font):
     low, high = axes.get_ylim()
     powers = [k for k in range(math.ceil(math.log10(low)), math.floor(math.log10(high)) + 1)]
     stride = 3 if len(powers) > 7 else 2 if len(powers) > 5 else 1
@@ -136,14 +144,14 @@ def ticks(axes, work, width):
     axes.set_yticks([], minor=True)
     low, high = axes.get_xlim()
     decades = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
-    room = width / 95
+    room = width / (7.6 * font)
     for steps in ((1, 2, 5), (1, 3), (1,)):
         at = [m * 10.0**k for k in decades for m in steps if low <= m * 10.0**k <= high]
         if len(at) <= room:
             break
     else:
         at = at[::math.ceil(len(at) / room)]
-    axes.set_xticks(at, [short_time(x) if work == "time" else short_count(x) for x in at])
+    axes.set_xticks(at, [tick_time(x) if work == "time" else short_count(x) for x in at])
     axes.set_xticks([], minor=True)
 
 
@@ -159,21 +167,21 @@ def annotate(canvas, axes, verdict, some, named, look, limits):
     taken = []
     if verdict.relative and limits[1] > LOST:
         axes.axhspan(LOST, limits[1], color=BAND, zorder=0, linewidth=0)
-        taken.append(band_text(canvas, "error ≥ 0.5: phase lost", box.x0 + 4, box.y1 - 4, "top", small))
+        taken.append(band_text(canvas, "phase lost", box, "top", small, every))
     floor = verdict.floor()
     if limits[0] < floor:
         axes.axhspan(limits[0], floor, color=BAND, zorder=0, linewidth=0)
-        taken.append(band_text(canvas, "round-off", box.x0 + 4, box.y0 + 3, "bottom", small))
+        taken.append(band_text(canvas, "round-off", box, "bottom", small, every))
     fan = order_fan(canvas, axes, box, every, small) if verdict.relative else None
     if fan:
         taken.append(fan)
     labels = []
     for curve in sorted(some, key=lambda c: named.index(c.label) if c.label in named else len(named)):
-        inside = [p for p in lines[curve.label] if area[0] <= p[0] <= area[2] and area[1] <= p[1] <= area[3]]
-        if inside:
+        within = [p for p in lines[curve.label] if area[0] <= p[0] <= area[2] and area[1] <= p[1] <= area[3]]
+        if within:
             coloured = curve.label in named
             size = canvas.measure(curve.label, 1.0 if coloured else small, "bold" if coloured else "normal")
-            labels.append(Label(curve.label, inside, *size, needed=coloured))
+            labels.append(Label(curve.label, within, *size, needed=coloured))
     steps = [Label(step_label(p.run), [pixel], *canvas.measure(step_label(p.run), 0.8), needed=False)
              for c in some if named and c.label == named[0] for p, pixel in zip(c.measured(), lines[c.label])]
     placed = place(labels + steps, area, list(lines.values()), taken)
@@ -192,11 +200,14 @@ def step_label(run):
     return f"~{run.tolerance}" if run.tolerance else f"{run.step:.4g}"
 
 
-def band_text(canvas, text, x, y, side, small):
+def band_text(canvas, text, box, side, small, every):
+    """What a band at the top or the bottom means, at that end of it which fewer lines cross; the box of the text."""
     width, height = canvas.measure(text, small)
-    canvas.write(canvas.axes[0], x, y, text, small, color=MID, va=side, ha="left")
-    low = y - height if side == "top" else y
-    return x - 2, low - 2, x + width + 2, low + height + 2
+    low = box.y1 - 3 - height if side == "top" else box.y0 + 2
+    ends = [(x - 2, low - 2, x + width + 2, low + height + 2) for x in (box.x0 + 4, box.x1 - 4 - width)]
+    found = min(ends, key=lambda end: inside(every, end))
+    canvas.write(canvas.axes[0], found[0] + 2, low, text, small, color=MID, va="bottom", ha="left")
+    return found
 
 
 def order_fan(canvas, axes, box, every, small):
