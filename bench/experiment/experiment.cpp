@@ -47,8 +47,10 @@ nlohmann::json description(const Experiment& experiment, const std::vector<Exper
                    {"quick", experiment.quick},
                    {"versions", versions()}};
   for (const DriftClassEntry& entry : drift_classes())
-    j["drift_classes"].push_back(
-        {{"name", entry.name}, {"meaning", entry.meaning}, {"measure", entry.measure}});
+    j["drift_classes"].push_back({{"name", entry.name},
+                                  {"meaning", entry.meaning},
+                                  {"measure", entry.measure},
+                                  {"grows", entry.grows}});
   j["citation"] = nlohmann::json::array();
   for (const std::string& key : experiment.reference) j["citation"].push_back(citation(key));
   for (const ExperimentCase& c : experiment.cases) {

@@ -10,7 +10,8 @@ import statistics
 
 from figures import Drawing, heading, round_off, sentences, step_text, styled, with_unit
 from scales import ErrorAxis, logarithmic, time_axis
-from sheet import Sheet, plain
+from canvas import plain
+from sheet import Sheet
 
 BINS = 60
 LABELS = {"constraint": r"constraints, max $|\varphi|$", "hidden-constraint": r"hidden constraints, max $|\tilde\varphi|$"}
@@ -83,9 +84,9 @@ def constraints(experiment, case, names):
             axis = axes_of[name]
             sheet.level(axes, u, u_label)
             for n, (run, times, values) in enumerate(curves[name]):
-                index, label = styled(experiment, run, target)
+                look, label = styled(experiment, run, target)
                 gap = max(1, len(times) // 6)
-                sheet.method(axes, times, axis.place(values), index, label,
+                sheet.method(axes, times, axis.place(values), look, label,
                              markevery=(n * gap // max(1, len(curves[name])), gap))
                 if run.failed and not seeds:
                     sheet.cross(axes, times[-1], axis.place(values)[-1], "run ended early")

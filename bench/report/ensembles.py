@@ -8,7 +8,8 @@ import math
 
 from figures import Drawing, heading, round_off, sentences, step_text, styled, with_unit
 from scales import ErrorAxis, time_axis
-from sheet import Sheet, plain
+from canvas import plain
+from sheet import Sheet
 
 
 def drawings(experiment, case):
@@ -76,9 +77,9 @@ def drawn(experiment, case, curves):
             line = [largest * (t / end) ** power for t in (begin, end)]
             sheet.level(axes, ([begin, end], line), f"as t^{power:g}", linestyle=dash)
         for n, (run, times, values) in enumerate(curves):
-            index, label = styled(experiment, run, target)
+            look, label = styled(experiment, run, target)
             gap = max(1, len(times) // 6)
-            sheet.method(axes, times, axis.place(values), index, label, markevery=(n * gap // len(curves), gap))
+            sheet.method(axes, times, axis.place(values), look, label, markevery=(n * gap // len(curves), gap))
         time_axis(axes, begin, end)
         axis.apply(axes)
         axes.set(xlabel=plain(with_unit("time t", case.get("time_unit"))),

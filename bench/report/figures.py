@@ -1,14 +1,9 @@
-"""The three figures of a case: drift against time, work against precision, structure residual.
+"""What figures of a case share, and its drift at equal step.
 
-drift           |I(t) - I(0)| / max(1, |I(0)|) of the conserved quantity I at the step most methods share; the unit
-                1 keeps the measure meaningful for I(0) near 0. Grey: unit round-off u, and u sqrt(n) after n steps,
-                Brouwer's law for a random walk of roundings. Where I is expected to decrease or to increase: I
-                itself, and its largest move in the other direction so far, which is zero where there is none.
-work-precision  largest error against processor time and against right-hand sides (steps where a method counts no
-                right-hand sides), one line over the steps of each method, finished runs only.
-structure       the residual of M^T K(z',t') M = K(z,t), M the Jacobian of one step, against step and against time.
-
-Each figure function returns a Drawing, or None where the case has nothing to draw.
+The drift is |I(t) - I(0)| / max(1, |I(0)|) of the conserved quantity I at the step most methods share; the unit 1 keeps the
+measure meaningful for I(0) near 0. Grey: unit round-off u, and u sqrt(n) after n steps, Brouwer's law for a random walk of
+roundings. Where I is expected to decrease or to increase: I itself, and its largest move in the other direction so far, which
+is zero where there is none.
 """
 import dataclasses
 import math
@@ -16,11 +11,12 @@ import re
 import statistics
 import typing
 
+from canvas import plain
 from experiment import DIRECTIONS, UNIT_ROUND_OFF
-from scales import EXPLOSION, ErrorAxis, decade_axis, envelope, step_axis, time_axis
-from sheet import Sheet, plain
+from families import family_of, style
+from scales import ErrorAxis, envelope, time_axis
+from sheet import Sheet
 
-EXACT = r"$|z-z_\mathrm{exact}|\,/\,|z_\mathrm{exact}|$"
 ENVELOPE = "Each line joins the largest values within short stretches of time."
 
 
@@ -30,19 +26,14 @@ class Drawing:
     case: dict
     title: str
     caption: str
-    draw: typing.Callable[[bool], Sheet]  # wide? -> sheet
+    draw: typing.Callable[[bool], typing.Any]  # wide? -> Sheet or Canvas
+    tab: str = ""  # of several drawings of which one is shown at a time: what this one is called
+    paper: typing.Callable[[float], typing.Any] | None = None  # width in points -> Canvas for print, without a title
 
     @property
     def name(self):
         """The file name without its ending."""
         return f"{self.kind}_{slug(self.case)}"
-
-
-def drawings(experiment, case):
-    if case.get("seeds"):
-        return []  # one run of many: see constraints.py
-    made = (f(experiment, case) for f in (drift, work_precision, structure))
-    return [d for d in made if d is not None]
 
 
 def slug(case):
@@ -70,11 +61,18 @@ def round_off(case):
     return u, f"unit round-off u = {u:.1e}"
 
 
+def look_of(experiment, label):
+    """How the lines of a method look: its family's colour and mark, and a dash by its place among those of the family."""
+    families = {m["label"]: family_of(m.get("integrator") or m["label"]) for m in experiment.methods}
+    kin = [other for other, family in families.items() if family is families[label]]
+    return style(families[label], kin.index(label), kin.index(label) % 2 == 0)
+
+
 def styled(experiment, run, target):
-    """Index of the run's method and its legend label, which names a step other than the common one."""
+    """How the run's line looks, and its legend label, which names a step other than the common one."""
     other = abs(run.step / target - 1) > 1e-9
     told = f" (tolerance {run.tolerance})" if run.tolerance else f" (step {run.step:.4g})" if other else ""
-    return experiment.labels.index(run.method), run.method + told
+    return look_of(experiment, run.method), run.method + told
 
 
 def draw_over_time(sheet, axes, axis, experiment, target, curves, begin):
@@ -82,9 +80,9 @@ def draw_over_time(sheet, axes, axis, experiment, target, curves, begin):
     for n, (run, times, values) in enumerate(curves):
         if not times:
             continue
-        index, label = styled(experiment, run, target)
+        look, label = styled(experiment, run, target)
         gap = max(1, len(times) // 6)
-        sheet.method(axes, times, axis.place(values), index, label, markevery=(n * gap // max(1, len(curves)), gap))
+        sheet.method(axes, times, axis.place(values), look, label, markevery=(n * gap // max(1, len(curves)), gap))
         if run.failed:
             seen = [p for p in zip(times, axis.place(values)) if p[1] <= 10.0**axis.high]
             if seen:
@@ -101,7 +99,8 @@ def shared_series(experiment, case, invariant):
             f"No series for: {', '.join(lost)}." if lost else "")
 
 
-def drift(experiment, case):
+def drift_at_equal_step(experiment, case):
+    """The Drawing, or None where there is nothing to draw."""
     invariant = case.get("conserved")
     if not invariant:
         return None
@@ -152,18 +151,18 @@ def drift(experiment, case):
             f"{move} from any earlier value, which should stay at round-off." if directed else
             f"Change of {invariant} since the start, at {at_step}. The lower grey lines are unit round-off u and the "
             "growth u √n of a random walk of n roundings.")
-    return Drawing("drift", case, title, sentences(what, ENVELOPE, *axis.remarks(), lost), draw)
+    return Drawing("drift_at_equal_step", case, title, sentences(what, ENVELOPE, *axis.remarks(), lost), draw)
 
 
 def values_of_directed(sheet, experiment, target, pairs, expected):
     """Left panel for a quantity that is expected to decrease or to increase: the quantity itself, against time."""
     axes = sheet.axes[0]
     for n, (run, s) in enumerate(pairs):
-        index, label = styled(experiment, run, target)
+        look, label = styled(experiment, run, target)
         keep = range(0, len(s.time), max(1, len(s.time) // 200))
         shown = [(s.time[k], s.initial + s.change[k]) for k in keep]
         gap = max(1, len(shown) // 6)
-        sheet.method(axes, *zip(*shown), index, label, markevery=(n * gap // len(pairs), gap))
+        sheet.method(axes, *zip(*shown), look, label, markevery=(n * gap // len(pairs), gap))
     finite = [s for _, s in pairs if math.isfinite(s.initial)]
     backward, forward = (max, min) if expected == "decreasing" else (min, max)
     start = backward((s.initial for s in finite), default=math.nan)
@@ -175,97 +174,11 @@ def values_of_directed(sheet, experiment, target, pairs, expected):
 
 
 def precision_measure(experiment, case):
-    """(function run -> error, axis label): the largest error, or the largest drift without a reference solution.
-
-    With None as function where there is neither.
-    """
+    """A function run -> error: the largest error, or the largest drift without a reference solution; None where there is
+    neither."""
     runs, invariant = experiment.runs_of(case), case.get("conserved")
     if any(math.isfinite(r.number("error_max")) for r in runs):
-        return lambda r: r.number("error_max"), "largest relative error\n" + EXACT
+        return lambda r: r.number("error_max")
     if invariant and experiment.expectation(case, invariant)[0] == "conserved":
-        unit = experiment.expectation(case, invariant)[1]
-        return lambda r: r.drift(invariant, "max"), plain(
-            with_unit(f"no reference solution: largest drift\nof {invariant}", unit))
-    return None, ""
-
-
-def work_measures(experiment, case):
-    """[(function run -> cost, axis label)]: processor time if measured, and right-hand sides or steps."""
-    finished = [r for r in experiment.runs_of(case) if not r.failed]
-    out = [(lambda r: r.total_ns, "processor time of the run [ns]")] if any(r.cost for r in finished) else []
-    if all(r.total_rhs > 0 for r in finished):
-        return out + [(lambda r: r.total_rhs, "right-hand sides evaluated")]
-    return out + [(lambda r: r.steps, "steps")]
-
-
-def work_precision(experiment, case):
-    error, y_label = precision_measure(experiment, case)
-    finished = [r for r in experiment.runs_of(case) if not r.failed]
-    if error is None or not any(math.isfinite(error(r)) for r in finished):
-        return None
-    works = work_measures(experiment, case)
-    lines = {m: [r for r in finished if r.method == m] for m in experiment.labels}
-    lines = {m: rs for m, rs in lines.items() if rs}
-    axis = ErrorAxis([[error(r) for r in rs] for rs in lines.values()], explosion=10 if EXACT in y_label else EXPLOSION)
-    title = f"{heading(case)}: work and precision"
-
-    def draw(wide):
-        sheet = Sheet(len(works), wide, title)
-        for axes, (work, x_label) in zip(sheet.axes, works):
-            for method, runs in lines.items():
-                points = [(work(r), e) for r, e in zip(runs, axis.place([error(r) for r in runs])) if work(r) > 0]
-                if points:
-                    sheet.method(axes, *zip(*points), experiment.labels.index(method), method)
-            decade_axis(axes, [work(r) for r in finished])
-            axis.apply(axes)
-            axes.set(xlabel=plain(x_label), ylabel=y_label)
-        return sheet
-
-    failed = [f"{r.method} at {step_text(r.step, case)} ({r.status})" for r in experiment.runs_of(case) if r.failed]
-    timing = "" if any(r.cost for r in finished) else "Timings were not measured."
-    counted = "" if all(r.total_rhs > 0 for r in finished) else (
-        "Steps stand for work here, because not every method counts right-hand sides; steps of different methods cost "
-        "different amounts.")
-    return Drawing("work_precision", case, title, sentences(
-        "Below and to the left is better: each point is a finished run, each line a method over its steps.", timing,
-        counted, *axis.remarks(), f"Not drawn, because they failed: {', '.join(failed)}." if failed else ""), draw)
-
-
-def structure(experiment, case):
-    runs = [r for r in experiment.runs_of(case) if not math.isnan(r.number("structure_residual"))]
-    by_step = {m: [r for r in runs if r.method == m] for m in experiment.labels}
-    by_step = {m: rs for m, rs in by_step.items() if rs}
-    pairs, _ = shared_series(experiment, case, case.get("conserved") or None)
-    curves = [(r, *envelope(s.time, s.residual, linear=True)) for r, s in pairs]
-    curves = [c for c in curves if c[1]]
-    if not by_step and not curves:
-        return None
-    panels = ["step"] if by_step and len({r.step for r in runs}) > 1 or not curves else []
-    panels += ["time"] if curves else []
-    u, u_label = round_off(case)
-    values = [[r.number("structure_residual") for r in rs] for rs in by_step.values()] if "step" in panels else []
-    axis = ErrorAxis(values + [v for *_, v in curves], u)
-    target, unit = experiment.common_step(case), case.get("time_unit")
-    title = f"{heading(case)}: {case.get('structure') or 'symplectic'} structure of one step"
-
-    def draw(wide):
-        sheet = Sheet(len(panels), wide, title)
-        for axes, panel in zip(sheet.axes, panels):
-            sheet.level(axes, u, u_label)
-            axes.set_ylabel("structure residual\n" + r"$\Vert M^{T}K(\hat{z},\hat{t}\,)\,M-K(z,t)\Vert$")
-            if panel == "step":
-                for method, some in by_step.items():
-                    residuals = axis.place([r.number("structure_residual") for r in some])
-                    sheet.method(axes, [r.step for r in some], residuals, experiment.labels.index(method), method)
-                step_axis(axes, [r.step for r in runs])
-                axes.set_xlabel(plain(with_unit("step h", unit)))
-                axis.apply(axes)
-            else:
-                draw_over_time(sheet, axes, axis, experiment, target, curves, 0)
-                axes.set_xlabel(plain(with_unit("time t", unit)))
-        return sheet
-
-    time = f"Against time: {step_text(target, case)}." if "time" in panels and "step" in panels else ""
-    return Drawing("structure", case, title, sentences(
-        "Residual of the structure that the exact flow keeps, M being the Jacobian of one step. A method that has the "
-        "structure stays near the grey line of unit round-off at every step.", time, *axis.remarks()), draw)
+        return lambda r: r.drift(invariant, "max")
+    return None

@@ -30,7 +30,7 @@ def require(table, where, **kinds):
 
 def allow(table, where, **kinds):
     """Refuse these keys where they are present, not null and of another type."""
-    names = {str: "a string", list: "a list", dict: "an object"}
+    names = {str: "a string", list: "a list", dict: "an object", bool: "true or false"}
     for key, kind in kinds.items():
         if table.get(key) is not None and not isinstance(table[key], kind):
             raise InputError(f"{where}: expected '{key}' to be {names[kind]}")

@@ -12,39 +12,16 @@ import constraints
 import ensembles
 from experiment import DIRECTIONS, UNIT_ROUND_OFF
 from figures import precision_measure, step_text, with_unit
+from wording import duration, listed, number
 
 ROUND_OFF = 1000
 ABOVE_ROUND_OFF = 1e5
 ORDER_TOLERANCE = 0.3
 
 
-def number(x):
-    """Three digits: 0.123, 1200, 1.23e-6; a dash where there is no number."""
-    if math.isnan(x):
-        return "–"
-    if x == 0 or 0.01 <= abs(x) < 999.5 or math.isinf(x):
-        return f"{x:.3g}"
-    if 999.5 <= abs(x) < 1e6:
-        return f"{x:.0f}"
-    mantissa, _, exponent = f"{x:.2e}".partition("e")
-    return f"{float(mantissa):g}e{int(exponent)}"
-
-
-def duration(ns):
-    for size, unit in ((1e9, "s"), (1e6, "ms"), (1e3, "µs")):
-        if ns >= size:
-            return f"{number(ns / size)} {unit}"
-    return "–" if math.isnan(ns) else f"{number(ns)} ns"
-
-
 def slope_unit(unit, time_unit):
     unit = "" if unit == "1" else unit
     return f"{unit or 1}/{time_unit}" if time_unit else unit
-
-
-def listed(items):
-    items = list(items)
-    return items[0] if len(items) == 1 else ", ".join(items[:-1]) + " and " + items[-1] if items else "none"
 
 
 def grouped(*groups):
@@ -163,7 +140,7 @@ def order(experiment, case):
 
 
 def cost(experiment, case):
-    error, _ = precision_measure(experiment, case)
+    error = precision_measure(experiment, case)
     runs = [r for r in experiment.runs_of(case) if not r.failed and error is not None and math.isfinite(error(r))]
     methods = {r.method for r in runs}
     if len(methods) < 2:

@@ -6,7 +6,8 @@ that of its run at the step most methods share; an ensemble shows its first seed
 import math
 
 from figures import Drawing, heading, sentences, step_text, styled, with_unit
-from sheet import Sheet, plain
+from canvas import plain
+from sheet import Sheet
 
 FRAME = 4  # a track that leaves the middle one by this many of its widths leaves the frame
 
@@ -52,9 +53,9 @@ def drawn(experiment, case, tracks):
         sheet = Sheet(1, wide, title)
         axes = sheet.axes[0]
         for n, (run, x, y) in enumerate(tracks):
-            index, label = styled(experiment, run, target)
+            look, label = styled(experiment, run, target)
             gap = max(1, len(x) // 6)
-            sheet.method(axes, x, y, index, label, markevery=(n * gap // len(tracks), gap))
+            sheet.method(axes, x, y, look, label, markevery=(n * gap // len(tracks), gap))
         sheet.cross(axes, tracks[0][1][0], tracks[0][2][0], "start")
         names = [plain(with_unit(name, unit)) for name, unit in zip(case["motion"], units)]
         axes.set(xlabel=names[0], ylabel=names[1])

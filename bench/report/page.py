@@ -1,134 +1,166 @@
-"""report.html: one file without scripts or anything fetched, for a screen of any width and for paper.
+"""report.html: one file in which nothing is fetched, for a screen of any width, light or dark, and for paper.
 
-Order: what was run, what it shows, then every case with its figures and tables, then what the classes of drift say,
-how to make it again and whom to cite. Every figure is inlined twice, wide and narrow; the style sheet shows the one that fits the screen.
+Order: the sentence, then every case with its verdict table and figures, then, folded, what lies behind them. Every figure is
+inlined twice, wide and narrow; the style sheet shows the one that fits the screen. Everything but sorting the table works
+without the one inline script.
 """
-import html
-import math
+import base64
+import hashlib
 import pathlib
-import re
 
-import tables
+import constraints
+import folded
+import structure
+from canvas import BAND, FRONT, GREY, INK, MID, PAPER, RULE
+from experiment import DIRECTIONS
+from families import FAMILIES, mark
 from figures import heading, slug
-from findings import findings
+from sentence import drifting, finding, holds
+from verdict_table import table
+from wording import plain_text, power, text
 
-POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:"
+DARK = {"paper": "#151618", "ink": "#ececea", "mid": "#a5a6ab", "rule": "#383a3f", "grey": "#6d6f76", "band": "#1f2226",
+        "front": "#4c431f", "soft": "#1c1e21", "bad": "#ff9a76", "good": "#6fd6a8"} | {f.key: f.dark for f in FAMILIES}
+LIGHT = {"paper": PAPER, "ink": INK, "mid": MID, "rule": RULE, "grey": GREY, "band": BAND, "front": FRONT, "soft": "#f6f6f4",
+         "bad": "#a3330f", "good": "#0d6b49"} | {f.key: f.light for f in FAMILIES}
+
+SECTIONS = (("work", "Work and precision", ("work_precision", "work_precision_evaluations")),
+            ("drift", "Drift at equal cost", ("drift",)), ("structure", "Structure", ("structure",)),
+            ("motion", "Motion", ("motion",)), ("constraints", "Constraints", ("constraints",)),
+            ("spread", "Spread over the seeds", ("ensemble",)))
 
 
-def text(value):
-    return html.escape(str(value))
-
-
-def page(experiment, drawn):
+def page(experiment, verdicts, drawn):
     """The page; `drawn` maps a case's name to its [(drawing, wide svg, narrow svg)]."""
-    head = experiment.head
-    style = (pathlib.Path(__file__).parent / "page.css").read_text(encoding="utf-8")
-    body = [opening(experiment), summary(experiment)]
-    body += [section(experiment, case, drawn[case["name"]]) for case in experiment.cases]
-    body += [tables.drift_classes(experiment), notes(head), provenance(head), citations(head)]
+    head, here = experiment.head, pathlib.Path(__file__).parent
+    script = (here / "page.js").read_text(encoding="utf-8")
+    digest = base64.b64encode(hashlib.sha256(script.encode("utf-8")).digest()).decode("ascii")
+    policy = f"default-src 'none'; style-src 'unsafe-inline'; img-src data:; script-src 'sha256-{digest}'"
+    body = [opening(experiment, verdicts, drawn), "<main>"]
+    body += [section(experiment, v, drawn[v.case["name"]], first=k == 0) for k, v in enumerate(verdicts)]
+    body += ["</main>", folded.footer(experiment, verdicts, drawn, lambda d: figure([d], ""))]
     return "\n".join([
         "<!DOCTYPE html>", '<html lang="en">', "<head>", '<meta charset="utf-8">',
-        f'<meta http-equiv="Content-Security-Policy" content="{POLICY}">',
+        f'<meta http-equiv="Content-Security-Policy" content="{policy}">',
         '<meta name="viewport" content="width=device-width, initial-scale=1">',
-        f"<title>{text(head['title'])}</title>", f"<style>\n{style}</style>", "</head>", "<body>",
-        *filter(None, body), "</body>", "</html>", ""])
+        f'<meta name="description" content="{text(plain_text(finding(verdicts[0])))}">',
+        f"<title>{text(head['title'])}</title>",
+        f"<style>\n{colours()}{(here / 'page.css').read_text(encoding='utf-8')}</style>", "</head>", "<body>",
+        *filter(None, body), f"<script>{script}</script>", "</body>", "</html>", ""])
 
 
-def opening(experiment):
-    head, runs = experiment.head, experiment.runs
-    failed = sum(r.failed for r in runs)
-    out = ["<header>", f"<h1>{text(head['title'])}</h1>"]
-    if head.get("description"):
-        out.append(f'<p class="lead">{text(head["description"])}</p>')
+def colours():
+    def block(some):
+        return ";".join(f"--{k}:{v}" for k, v in some.items())
+    classes = "".join(f".c-{f.key}{{color:var(--{f.key})}}" for f in FAMILIES)
+    return (f":root{{{block(LIGHT)};color-scheme:light}}\n"
+            f"@media screen and (prefers-color-scheme:dark){{:root{{{block(DARK)};color-scheme:dark}}}}\n{classes}\n")
+
+
+def opening(experiment, verdicts, drawn):
+    head, first = experiment.head, verdicts[0]
+    out = ["<header>", '<p class="kicker">Pfaff experiment report</p>', f"<h1>{text(head['title'])}</h1>",
+           f'<p class="find">{finding(first)}</p>']
     if head.get("quick"):
         out.append('<p class="notice"><strong>Quick run.</strong> Times and steps were cut down to see that everything '
                    "works; draw no conclusions from it.</p>")
-    used = len({r.method for r in runs})
-    out.append(f"<p>{count(len(experiment.cases), 'case')}, {count(used, 'method')}, {count(len(runs), 'run')}"
-               + (f", of which <strong>{failed} failed</strong>" if failed else ", all finished") + ". "
-               + ("Timings come from a separate serial pass: the median of repetitions, with its spread."
-                  if experiment.timed else "Timings were not measured.") + "</p></header>")
-    out += ["<h2>What was run</h2>", tables.cases(experiment), tables.methods(experiment)]
+    second = drifting(first)
+    out.append(f'<p class="where">{second + "<br>" if second else ""}{holds(first)}</p>')
+    if len(verdicts) > 1:
+        links = " ".join(f'<a href="#case-{slug(v.case)}">{text(heading(v.case))}</a>' for v in verdicts)
+        out.append(f"<nav>{links} <a href=\"#runs\">Runs and provenance</a></nav></header>")
+    else:
+        name = slug(first.case)
+        kinds = {d.kind for d, *_ in drawn[first.case["name"]]}
+        links = " ".join(f'<a href="#{key}-{name}">{title}</a>' for key, title, some in SECTIONS if kinds & set(some))
+        out.append(f'<nav><a href="#case-{name}">Verdict</a> {links} <a href="#runs">Runs and provenance</a></nav></header>')
     return "\n".join(out)
 
 
-def count(n, noun):
-    return f"{n} {noun}" + ("" if n == 1 else "s")
-
-
-def summary(experiment):
-    out = ["<h2>Findings</h2>", "<p>Every sentence is computed from the data below.</p>",
-           tables.overview(experiment)]
-    for case in experiment.cases:
-        out.append(f'<h3><a href="#case-{text(slug(case))}">{text(heading(case))}</a></h3>')
-        said = findings(experiment, case)
-        out.append(f"<ul>{''.join(map(finding, said))}</ul>" if said else "<p>Nothing to compare.</p>")
-    return "\n".join(out)
-
-
-def finding(found):
-    subject, sentence, items = found
-    return (f"<li><strong>{text(subject)}.</strong> {text(sentence)}"
-            + ("<ul>" + "".join(f"<li>{powers(text(i))}</li>" for i in items) + "</ul>" if items else "") + "</li>\n")
-
-
-def powers(escaped):
-    """t^0.5 with a raised exponent."""
-    return re.sub(r"\b([ht])\^(-?[0-9.]*[0-9])", r"\1<sup>\2</sup>", escaped)
-
-
-def section(experiment, case, drawn):
-    out = [f'<section id="case-{text(slug(case))}">', f"<h2>{text(heading(case))}</h2>"]
-    for drawing, wide, narrow in drawn:
-        out.append(f"<figure>\n{picture(drawing, wide, 'wide')}\n{picture(drawing, narrow, 'narrow')}\n"
-                   f"<figcaption>{text(drawing.caption)}</figcaption></figure>")
-    absent = missing(experiment, case, {drawing.kind for drawing, *_ in drawn})
+def section(experiment, verdict, drawn, first):
+    case, name = verdict.case, slug(verdict.case)
+    out = [f'<section class="case" id="case-{name}">', f"<h2>{text(heading(case))}</h2>"]
+    if not first:
+        second = drifting(verdict)
+        out += [f'<p class="casefind">{finding(verdict)}</p>',
+                f'<p class="where">{second + "<br>" if second else ""}{holds(verdict)}</p>']
+    out.append(table(verdict))
+    for _, said, items in constraints.claims(experiment, case):
+        out.append(f"<h3>Claims</h3><p class=\"lede\">{text(said)}</p><ul>{''.join(f'<li>{text(i)}</li>' for i in items)}</ul>")
+    for key, title, kinds in SECTIONS:
+        some = [d for d in drawn if d[0].kind in kinds]
+        if some:
+            out.append(f'<h3 id="{key}-{name}">{title}</h3>')
+            if key == "structure":
+                out.append(f'<p class="lede">{structure.lede(verdict)}</p>')
+            shown = figure(some, f"{key}-{name}")
+            cheapest = cheapest_table(verdict) if key == "work" else ""
+            out.append(f'<div class="grid">{shown}<div>{cheapest}</div></div>' if cheapest else shown)
+    absent = missing(verdict, {d.kind for d, *_ in drawn})
     if absent:
-        out.append(f"<p>{text(absent)}</p>")
-    if case.get("seeds"):
-        return "\n".join(out + [tables.spreads(experiment, case), "</section>"])
-    out += [tables.results(experiment, case), tables.invariants(experiment, case), "</section>"]
-    return "\n".join(out)
+        out.append(f'<p class="where">{text(absent)}</p>')
+    return "\n".join(out + ["</section>"])
 
 
-def picture(drawing, svg, width):
-    return svg.replace("<svg ", f'<svg class="{width}" role="img" aria-label="{text(drawing.title)}" ', 1)
+def figure(some, name):
+    """The drawings as one figure; of several, one is shown at a time."""
+    if len(some) == 1:
+        drawing, wide, narrow = some[0]
+        return f"<figure>{pictures(drawing, wide, narrow)}\n<figcaption>{text(drawing.caption)}</figcaption></figure>"
+    tabs = "".join(f'<input type="radio" name="{name}" id="{name}-{k}"{" checked" if k == 0 else ""}>'
+                   f'<label for="{name}-{k}">{text(d.tab)}</label>' for k, (d, *_) in enumerate(some))
+    panes = "".join(f'<div class="pane p{k}">{pictures(d, wide, narrow)}</div>' for k, (d, wide, narrow) in enumerate(some))
+    return f'<figure class="tabs">{tabs}{panes}\n<figcaption>{text(some[0][0].caption)}</figcaption></figure>'
 
 
-def missing(experiment, case, kinds):
+def pictures(drawing, wide, narrow):
+    return "\n".join(svg.replace("<svg ", f'<svg class="{width}" role="img" aria-label="{text(drawing.title)}" ', 1)
+                     for svg, width in ((wide, "wide"), (narrow, "narrow")))
+
+
+def cheapest_table(verdict):
+    """Who is cheapest at each power of ten that two methods or more reach, down to where round-off rules."""
+    floor = verdict.floor()
+    rows = []
+    for k in range(1, 16):
+        target = float(f"1e-{k}")
+        reached = [r for r in verdict.rows if r.times[target][0] > 0]
+        if len(reached) < 2 or target < floor or all(r.times[target][1] for r in reached):
+            continue
+        best = verdict.best(target)[0]
+        keeping = min((r for r in reached if r.curve.kept), key=lambda r: r.times[target][0], default=None)
+        rows.append(f'<tr><th scope="row">{power(-k)}</th>{cheapest_cell(verdict, best, target)}'
+                    + (cheapest_cell(verdict, keeping, target) if verdict.structured else "") + "</tr>")
+    if not rows:
+        return ""
+    what = "error" if verdict.relative else "drift"
+    keeping = '<th colspan="2">keeping the structure</th>' if verdict.structured else ""
+    return (f'<table class="mini"><caption>Cheapest at each {what}</caption><thead><tr><th>{what}</th><th colspan="2">of all</th>'
+            f'{keeping}</tr></thead><tbody>{"".join(rows)}</tbody></table>')
+
+
+def cheapest_cell(verdict, row, target):
+    if row is None:
+        return '<td class="na">–</td><td></td>'
+    cost, at_most = row.times[target]
+    return (f'<td>{mark(row.curve.family, row.curve.kept is not False)}<span class="c-{row.curve.family.key}">'
+            f'{text(row.label)}</span></td><td class="r">{"≤ " if at_most else ""}{verdict.cost_text(cost)}</td>')
+
+
+def missing(verdict, kinds):
     """Why a figure is not there."""
-    if case.get("seeds"):
+    if verdict.case.get("seeds"):
         return ""
     why = []
     if "drift" not in kinds:
-        why.append("no figure of drift, because " + ("no run left a series" if case.get("conserved")
-                                                     else "the case names no conserved quantity"))
+        why.append("no figure of drift, because " + ("the case names no conserved quantity" if not verdict.invariant
+                                                     else "the error of a quantity that changes is seen only beside an "
+                                                     "accurate solution" if verdict.expected in DIRECTIONS and not
+                                                     verdict.relative else "no run left a series"))
     if "work_precision" not in kinds:
-        errors = any(math.isfinite(r.number("error_max")) for r in experiment.runs_of(case))
-        why.append("no figure of work and precision, because " + ("no run with an error finished" if errors
-                                                                  else "the case has no reference solution"))
+        why.append("no figure of work and precision, because " + (
+            "no run with an error finished" if verdict.relative or verdict.comparable else
+            "the case has no reference solution"))
     if "structure" not in kinds:
         why.append("no figure of structure, because no structure residual was measured")
     return f"There is {'; there is '.join(why)}." if why else ""
-
-
-def notes(head):
-    lines = head.get("notes") or []
-    return "<h2>Notes</h2>\n<ul>" + "\n".join(f"<li>{text(n)}</li>" for n in lines) + "</ul>" if lines else ""
-
-
-def provenance(head):
-    rows = [(k, v) for k, v in (head.get("versions") or {}).items() if v not in (None, "")]
-    rows.append(("make it again", f"pfaff compare {head['name']}" + (" --quick" if head.get("quick") else "")))
-    rows.append(("data", "experiment.json, results.csv, cost.csv and runs/ beside this page; figures/ holds the "
-                 "figures as SVG and PNG"))
-    return ("<h2>Provenance</h2>\n<dl>"
-            + "\n".join(f"<dt>{text(k)}</dt><dd>{text(v)}</dd>" for k, v in rows) + "</dl>")
-
-
-def citations(head):
-    lines, keys = head.get("citation") or [], head.get("reference") or []
-    if not lines and not keys:
-        return ""
-    return ("<h2>Please cite</h2>\n" + (f"<p>Keys: {text(', '.join(keys))}</p>\n" if keys else "")
-            + "<ul>" + "\n".join(f"<li>{text(line)}</li>" for line in lines) + "</ul>")

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Figures and report of an experiment:  python3 report.py EXPERIMENT_DIR
+"""Figures and report of an experiment:  python3 report.py EXPERIMENT_DIR [--figures pdf,svg,pgf,png [--width 85mm] [--style FILE]]
 
 Reads experiment.json, results.csv, cost.csv (if timings were measured) and runs/*/series.csv with summary.json, as
-`pfaff compare` leaves them. Writes figures/{motion,drift,work_precision,structure,constraints,ensemble}_<case>.{svg,png} and report.html beside
-them, the same bytes for the same data. Needs matplotlib and nothing else. Exit status: 0 fine, 2 wrong usage or
+`pfaff compare` leaves them. Writes figures/<kind>_<case>.{svg,png} and report.html beside them, the same bytes for the same
+data. With --figures it writes figures and tables for papers instead, into figures/paper/: of that width, with text as text,
+captions beside them, drawn in matplotlib's style of the file (paper.mplstyle beside this script is the one taken). Needs matplotlib and nothing else. Exit status: 0 fine, 2 wrong usage or
 input, with one line on stderr.
 """
 import os
@@ -25,35 +26,57 @@ def write(path, content):
 
 def report(folder):
     experiment = Experiment(folder)
-    import constraints  # after the input has been read: importing matplotlib takes a second
-    import ensembles
-    import motion
-    from figures import drawings
-    from page import page
-    target, drawn = experiment.folder / "figures", {}
+    import page  # after the input has been read: importing matplotlib takes a second
+    from drawn import drawn
+    from verdict import Verdict
+    target, pictures = experiment.folder / "figures", {}
     target.mkdir(exist_ok=True)
-    for case in experiment.cases:
-        drawn[case["name"]] = []
-        for drawing in (motion.drawings(experiment, case) + drawings(experiment, case)
-                        + constraints.drawings(experiment, case) + ensembles.drawings(experiment, case)):
+    verdicts = [Verdict(experiment, case) for case in experiment.cases]
+    for verdict in verdicts:
+        shown = pictures[verdict.case["name"]] = []
+        for drawing in drawn(verdict):
             sheet = drawing.draw(True)
-            wide = sheet.svg(f"{drawing.name}-wide")
-            write(target / f"{drawing.name}.svg", f'<?xml version="1.0" encoding="utf-8"?>\n{wide}')
+            alone = sheet.svg(f"{drawing.name}-wide", coloured=True)
+            write(target / f"{drawing.name}.svg", f'<?xml version="1.0" encoding="utf-8"?>\n{alone}')
             write(target / f"{drawing.name}.png", sheet.png())
-            drawn[case["name"]].append((drawing, wide, drawing.draw(False).svg(f"{drawing.name}-narrow")))
-    write(experiment.folder / "report.html", page(experiment, drawn))
+            shown.append((drawing, sheet.svg(f"{drawing.name}-wide"), drawing.draw(False).svg(f"{drawing.name}-narrow")))
+    write(experiment.folder / "report.html", page.page(experiment, verdicts, pictures))
     return experiment.folder / "report.html"
+
+
+def paper(folder, options):
+    experiment = Experiment(folder)
+    import papers
+    from verdict import Verdict
+    kinds, width = papers.kinds_of(options["--figures"]), papers.width_of(options.get("--width", "85mm"))
+    verdicts = [Verdict(experiment, case) for case in experiment.cases]
+    return papers.papers(experiment, verdicts, kinds, width, options.get("--style"), write)
+
+
+def parsed(arguments):
+    """(the directory, {option: value})"""
+    options, rest = {}, list(arguments)
+    for option in ("--figures", "--width", "--style"):
+        if option in rest:
+            at = rest.index(option)
+            if at + 1 == len(rest):
+                raise InputError(f"{option}: expected a value")
+            options[option] = rest[at + 1]
+            del rest[at:at + 2]
+    if len(rest) != 1 or rest[0].startswith("--"):
+        raise InputError("expected one argument, the directory of an experiment, and options --figures, --width, --style")
+    if options and "--figures" not in options:
+        raise InputError("--width and --style are about the figures that --figures names")
+    return rest[0], options
 
 
 def main(arguments):
     if arguments in (["-h"], ["--help"]):
         print(__doc__.strip())
         return 0
-    if len(arguments) != 1:
-        print("report.py: expected one argument, the directory of an experiment", file=sys.stderr)
-        return 2
     try:
-        print(report(arguments[0]), file=sys.stderr)
+        folder, options = parsed(arguments)
+        print(paper(folder, options) if options else report(folder), file=sys.stderr)
     except (InputError, OSError) as error:
         print(f"report.py: {' '.join(str(error).split())}", file=sys.stderr)
         return 2

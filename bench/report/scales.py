@@ -50,15 +50,6 @@ class ErrorAxis:
                 + (["Values far beyond the rest leave the frame at the top."] if self.clipped else []))
 
 
-def decade_axis(axes, values):
-    """A logarithmic x axis over whole decades."""
-    kept = positive(values) or [1.0]
-    low, high = math.floor(math.log10(min(kept)) + 1e-9), math.ceil(math.log10(max(kept)) - 1e-9)
-    high = max(high, low + 1)
-    log_ticks(axes, range(low, high + 1, math.ceil((high - low) / 5)))
-    axes.set_xlim(10.0**low / 1.15, 10.0**high * 1.15)
-
-
 def time_axis(axes, begin, end):
     """Logarithmic over two decades or more, otherwise (and for begin = 0) linear."""
     if not logarithmic(begin, end):

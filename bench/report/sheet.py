@@ -1,43 +1,15 @@
-"""The sheet a figure is drawn on: panels side by side (wide) or stacked (narrow), one legend below them all.
+"""The sheet a figure with a legend is drawn on: panels side by side (wide) or stacked (narrow), one legend below them all.
 
-Lines differ by colour (Okabe and Ito's palette), marker and dash, so that they stay apart for colour-blind readers
-and in grey; a method has the same look in every figure of a report. Output is deterministic: fixed salt for SVG
-ids, no dates, the font that matplotlib ships; each SVG's ids carry a prefix, so that several fit in one page.
+A line has the colour and mark of its method's family, as in every figure; within a family lines differ by dash.
 """
-import io
 import math
-import re
 import textwrap
 
-import matplotlib
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-matplotlib.rcdefaults()
-matplotlib.rcParams.update({
-    "svg.hashsalt": "pfaff", "svg.fonttype": "path", "font.family": "DejaVu Sans", "mathtext.fontset": "dejavusans",
-    "font.size": 9, "axes.labelsize": 9, "axes.titlesize": 9, "xtick.labelsize": 8, "ytick.labelsize": 8,
-    "legend.fontsize": 8, "axes.linewidth": 0.7, "lines.linewidth": 1.3, "lines.markersize": 5,
-    "axes.grid": True, "grid.color": "#dddddd", "grid.linewidth": 0.5, "axes.axisbelow": True,
-    "axes.spines.top": False, "axes.spines.right": False, "axes.unicode_minus": True,
-})
-
-COLOURS = ("#000000", "#D55E00", "#0072B2", "#009E73", "#CC79A7", "#56B4E9", "#B8860B")
-MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", "p", ">", "*", "h")
-DASHES = ("-", (0, (5, 1.6)), (0, (1.4, 1.2)), (0, (6, 1.5, 1.2, 1.5)), (0, (3, 1, 1, 1, 1, 1)))
-
-
-def look(index):
-    """Line and marker of the index-th method; every other marker is hollow, so that one shows behind another."""
-    colour = COLOURS[index % len(COLOURS)]
-    return {"color": colour, "linestyle": DASHES[index % len(DASHES)], "marker": MARKERS[index % len(MARKERS)],
-            "markerfacecolor": "white" if index % 2 else colour, "markeredgecolor": colour, "markeredgewidth": 1.1}
-
-
-def plain(text):
-    """Text that matplotlib is not to read as mathematics."""
-    return str(text).replace("$", r"\$")
+from canvas import INK, MID, PAPER, plain, saved, svg_text
 
 
 class Sheet:
@@ -48,17 +20,16 @@ class Sheet:
         self.figure = Figure()
         FigureCanvasAgg(self.figure)
         self.axes = [self.figure.add_axes((0.1, 0.1, 0.8, 0.8), label=str(i)) for i in range(panels)]
-        self.placed = False
+        self.placed, self.drawn = False, None
         self.methods, self.levels = {}, {}  # legend: label -> handle; methods come first
 
-    def method(self, axes, x, y, index, label, **style):
-        shown = look(index) | style
-        axes.plot(x, y, zorder=3, **shown)
-        self.methods.setdefault(plain(label), Line2D([], [], **look(index)))
+    def method(self, axes, x, y, look, label, **style):
+        axes.plot(x, y, zorder=3, **(look | style))
+        self.methods.setdefault(plain(label), Line2D([], [], **look))
 
     def level(self, axes, y, label, **style):
         """A thin grey line: one level, or a curve as (x, y)."""
-        style = {"color": "#555555", "linewidth": 0.9, "linestyle": (0, (8, 2))} | style
+        style = {"color": MID, "linewidth": 0.9, "linestyle": (0, (8, 2))} | style
         if isinstance(y, tuple):
             axes.plot(*y, zorder=2, **style)
         else:
@@ -66,7 +37,7 @@ class Sheet:
         self.levels.setdefault(label, Line2D([], [], **style))
 
     def cross(self, axes, x, y, label):
-        style = {"color": "#000000", "marker": "X", "linestyle": "none", "markersize": 9, "markeredgecolor": "white"}
+        style = {"color": INK, "marker": "X", "linestyle": "none", "markersize": 9, "markeredgecolor": PAPER}
         axes.plot(x, y, zorder=4, **style)
         self.levels.setdefault(label, Line2D([], [], **style))
 
@@ -110,23 +81,16 @@ class Sheet:
             legend.remove()
         return None, 0
 
-    def svg(self, prefix):
-        """The figure as an SVG element (no XML prologue) whose ids start with `prefix`."""
-        text = self._save("svg", {"Date": None, "Creator": None, "Format": None, "Type": None}).decode("utf-8")
-        text = text[text.index("<svg"):]
-        text = re.sub(r"\s*<metadata>.*?</metadata>", "", text, flags=re.S)
-        text = re.sub(r'\b(?:d|x|y)="[^"]*"', lambda m: re.sub(r"(\.\d\d\d)\d+", r"\1", m[0]), text)  # a third smaller
-        text = re.sub(r'\bid="([^"]*)"', rf'id="{prefix}-\1"', text)
-        text = re.sub(r'href="#([^"]*)"', rf'href="#{prefix}-\1"', text)
-        return re.sub(r"url\(#([^)]*)\)", rf"url(#{prefix}-\1)", text)
+    def svg(self, prefix, coloured=False):
+        """The figure as an SVG element, as Canvas.svg gives it."""
+        self.drawn = self.drawn or self._save("svg")
+        return svg_text(self.drawn, prefix, self.title, {}, coloured, scale=4 / 3)
 
     def png(self):
-        return self._save("png", {"Software": None})
+        return self._save("png")
 
-    def _save(self, kind, metadata):
+    def _save(self, kind):
         if not self.placed:
             self._place()
             self.placed = True
-        buffer = io.BytesIO()
-        self.figure.savefig(buffer, format=kind, dpi=160, metadata=metadata)
-        return buffer.getvalue()
+        return saved(self.figure, kind)

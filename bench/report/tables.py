@@ -1,14 +1,10 @@
 """The tables of the report: what was run, the results of a case, and its other invariants."""
-import html
 import math
 
 from figures import heading, step_text, with_unit
 from experiment import DIRECTIONS
-from findings import duration, largest_setback, number, slope_unit
-
-
-def text(value):
-    return html.escape(str(value))
+from findings import largest_setback, slope_unit
+from wording import duration, number, text
 
 
 def settings(parameters):

@@ -22,11 +22,11 @@ COLUMNS = ("case,system,method,integrator,parameters,step,time,steps,precision,s
            "structure_residual,rhs_per_step,jacobians_per_step,iterations_per_step,factorisations_per_step").split(",")
 U = 2.0**-53
 # Classes of drift of a program that nobody has written: the report knows those that experiment.json lists, no others.
-CLASSES = [{"name": "still", "meaning": "does not move & never will", "measure": ""},
-           {"name": "near", "meaning": "stays near", "measure": "max"},
-           {"name": "drifting", "meaning": "drifts along", "measure": "slope"},
-           {"name": "spread-out", "meaning": "spreads out", "measure": "exponent"},
-           {"name": "unused", "meaning": "is in no run", "measure": "max"}]
+CLASSES = [{"name": "still", "meaning": "does not move & never will", "measure": "", "grows": False},
+           {"name": "near", "meaning": "stays near", "measure": "max", "grows": False},
+           {"name": "drifting", "meaning": "drifts along", "measure": "slope", "grows": True},
+           {"name": "spread-out", "meaning": "spreads out", "measure": "exponent", "grows": True},
+           {"name": "unused", "meaning": "is in no run", "measure": "max", "grows": False}]
 
 
 def synthetic(folder, steps=(0.4, 0.2, 0.1), extra_methods=0):
@@ -133,7 +133,8 @@ class Balance(html.parser.HTMLParser):
             self.open.pop()
 
     def handle_data(self, data):
-        self.words.append(data)
+        if self.open[-1:] not in (["style"], ["script"]):
+            self.words.append(data)
 
 
 def parsed(folder):

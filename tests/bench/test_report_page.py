@@ -1,4 +1,6 @@
 """bench/report: what report.py makes of whole, partial and unusual experiments."""
+import base64
+import hashlib
 import os
 import re
 import subprocess
@@ -8,6 +10,9 @@ import unittest
 import xml.etree.ElementTree
 
 from synthetic import SCRIPTS, Fresh, figures, parsed, reading, run, synthetic
+
+import verdict  # noqa: E402
+import work_precision  # noqa: E402
 
 
 class Whole(unittest.TestCase):
@@ -26,9 +31,9 @@ class Whole(unittest.TestCase):
 
     def test_files(self):
         self.assertEqual(self.status, 0, self.stderr)
-        expected = {f"{kind}_{case}.{end}" for kind in ("drift", "work_precision", "structure")
-                    for end in ("svg", "png") for case in ("osc", "damped")}
-        expected -= {"work_precision_damped.svg", "work_precision_damped.png"}
+        kinds = {"osc": ("work_precision", "work_precision_evaluations", "drift", "drift_at_equal_step", "structure"),
+                 "damped": ("drift_at_equal_step", "structure")}
+        expected = {f"{kind}_{case}.{end}" for case, some in kinds.items() for kind in some for end in ("svg", "png")}
         self.assertEqual({p.name for p in (self.folder / "figures").iterdir()}, expected)
         self.assertEqual({p.name for p in self.folder.iterdir()},  # and no temporary name is left
                          {"experiment.json", "results.csv", "cost.csv", "runs", "figures", "report.html"})
@@ -41,13 +46,35 @@ class Whole(unittest.TestCase):
     def test_page_stands_alone(self):
         self.assertEqual(self.page.open, [])
         self.assertEqual(len(self.page.ids), len(set(self.page.ids)))
-        self.assertTrue(self.page.tags.isdisjoint({"script", "link", "img", "iframe"}))
+        self.assertTrue(self.page.tags.isdisjoint({"link", "img", "iframe"}))
         self.assertEqual([x for x in self.page.links if not x.startswith("#")], [])
         targets = {x[1:] for x in self.page.links}
         self.assertLessEqual(targets, set(self.page.ids))
         source = (self.folder / "report.html").read_text(encoding="utf-8")
         self.assertNotRegex(source, r"url\((?!#)|@import")
         self.assertLessEqual(set(re.findall(r"url\(#([^)]*)\)", source)), set(self.page.ids))
+
+    def test_one_script_which_the_policy_names(self):
+        source = (self.folder / "report.html").read_text(encoding="utf-8")
+        script, = re.findall(r"<script>(.*?)</script>", source, flags=re.S)
+        digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
+        self.assertIn(f"script-src 'sha256-{digest}'", source)
+        self.assertNotRegex(source, r"\son[a-z]+=")
+
+    def test_every_figure_tells_its_finding(self):
+        source = (self.folder / "report.html").read_text(encoding="utf-8")
+        figures_of_page = re.findall(r"<svg class=\"(?:wide|narrow)\"[^>]*>(<desc>[^<]+</desc>)?", source)
+        self.assertGreater(len(figures_of_page), 10)
+        self.assertTrue(all(figures_of_page))
+
+    def test_colours_are_those_of_the_style_sheet(self):
+        source = (self.folder / "report.html").read_text(encoding="utf-8")
+        drawn = "".join(re.findall(r"<svg .*?</svg>", source, flags=re.S))
+        self.assertEqual(set(re.findall(r"#[0-9a-f]{6}\b", drawn)) - set(self.page.ids), set())
+        for variable in set(re.findall(r"var\(--([a-z]+)\)", drawn)):
+            self.assertEqual(len(re.findall(rf"--{variable}:#", source)), 2, variable)  # light and dark
+        alone = (self.folder / "figures" / "drift_osc.svg").read_text(encoding="utf-8")
+        self.assertNotIn("var(", alone)
 
     def test_text_is_escaped(self):
         self.assertIn("A & B <script>", self.page.text)
@@ -71,8 +98,8 @@ class Whole(unittest.TestCase):
 
     def test_decreasing_is_in_the_title(self):
         shown = reading.Experiment(self.folder)
-        self.assertIn("expected to decrease", figures.drift(shown, shown.cases[1]).title)
-        self.assertNotIn("expected to decrease", figures.drift(shown, shown.cases[0]).title)
+        self.assertIn("expected to decrease", figures.drift_at_equal_step(shown, shown.cases[1]).title)
+        self.assertNotIn("expected to decrease", figures.drift_at_equal_step(shown, shown.cases[0]).title)
 
     def test_same_bytes_again(self):
         paths = [self.folder / "report.html", *sorted((self.folder / "figures").iterdir())]
@@ -96,13 +123,14 @@ class Variants(Fresh):
         page = self.fine()
         self.assertIn("Timings were not measured.", page.text)
         self.assertIn("Cheapest run in right-hand sides", page.text)
+        self.assertIn("right-hand sides stand for cost", page.text)
 
     def test_zero_and_infinite(self):
         synthetic(self.folder)
         self.edit("results.csv", "error_max", lambda x: "0", lambda row: row[2] == "mid")
         self.edit("results.csv", "structure_residual", lambda x: "inf", lambda row: row[2] == "bad")
         shown = reading.Experiment(self.folder)
-        self.assertIn("zeros", figures.work_precision(shown, shown.cases[0]).caption)
+        self.assertIn("Errors of zero", work_precision.drawings(verdict.Verdict(shown, shown.cases[0]))[0].caption)
         self.fine()
 
     def test_all_failed(self):
@@ -127,7 +155,10 @@ class Variants(Fresh):
     def test_steps_stand_in_for_right_hand_sides(self):
         synthetic(self.folder)
         self.edit("results.csv", "rhs_per_step", lambda x: "0", lambda row: row[2] == "mid")
-        self.assertIn("not every method counts right-hand sides", self.fine().text)
+        (self.folder / "cost.csv").unlink()
+        page = self.fine()
+        self.assertIn("steps stand for cost", page.text)
+        self.assertIn("steps of the run", page.text)
 
 
 if __name__ == "__main__":

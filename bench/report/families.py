@@ -1,0 +1,61 @@
+"""Families of methods. A family has one colour and one mark in every report, so that it is recognised from report to report.
+
+A method belongs to the first family of which a word stands in the name of its integrator; a method that nobody has
+placed is of the last one. Colours come in pairs, for light and for dark paper; that families also differ in their marks
+keeps them apart in grey and for every kind of sight. Within a family lines are solid, dashed, dotted and dash-dotted, by
+falling order. A filled mark says that the method keeps the structure of its problem, an open one that it does not.
+"""
+import dataclasses
+
+
+@dataclasses.dataclass(frozen=True)
+class Family:
+    key: str  # as style sheets name it
+    plural: str  # as sentences name it
+    words: tuple
+    light: str
+    dark: str
+    mark: str  # as matplotlib names it
+
+
+FAMILIES = (
+    Family("generating", "generating functions", ("generating",), "#003b68", "#3292f4", "o"),
+    Family("darboux", "Gauss in Darboux coordinates", ("darboux",), "#9a41ba", "#c784c4", "D"),
+    Family("nonholonomic", "nonholonomic integrators", ("nonholonomic", "dla", "gni", "perlmutter", "velocity"), "#3b1a8f",
+           "#feb2ff", "P"),
+    Family("constrained", "methods on the constraints", ("rattle", "shake", "lincs", "lobatto", "projected"), "#6b0a26",
+           "#ff486a", "p"),
+    Family("gauss", "Gauss collocation", ("gauss", "midpoint"), "#8f3413", "#fb894b", "s"),
+    Family("splitting", "splittings and compositions", ("splitting", "composition", "verlet", "symplectic", "leap",
+                                                        "mclachlan"), "#157b62", "#73e4c9", "^"),
+    Family("explicit", "structure-blind methods", ("rk4", "dopri5", "bulirsch", "odeint", "runge"), "#86761c",
+           "#f0dd9c", "v"),
+    Family("other", "other methods", (), "#443b47", "#b8a693", "h"))
+
+DASHES = ("-", (0, (5, 1.8)), (0, (1.4, 1.4)), (0, (6, 1.6, 1.4, 1.6)))
+
+# The marks in a box from 0 to 12, as SVG has them.
+SHAPES = {"o": '<circle cx="6" cy="6" r="4.4"/>', "s": '<rect x="2" y="2" width="8" height="8"/>',
+          "D": '<path d="M6 .9 11.1 6 6 11.1 .9 6Z"/>', "^": '<path d="M6 1.3 11 10.2H1Z"/>',
+          "v": '<path d="M6 10.7 11 1.8H1Z"/>', "p": '<path d="M6 1 11 4.7 9.1 10.6H2.9L1 4.7Z"/>',
+          "P": '<path d="M4.3 1H7.7V4.3H11V7.7H7.7V11H4.3V7.7H1V4.3H4.3Z"/>',
+          "h": '<path d="M6 .8 10.5 3.4V8.6L6 11.2 1.5 8.6V3.4Z"/>'}
+
+
+def family_of(integrator):
+    words = set(integrator.split("-"))
+    return next((f for f in FAMILIES if words & set(f.words)), FAMILIES[-1])
+
+
+def mark(family, filled):
+    """The mark as an SVG element, in the family's colour on whatever paper."""
+    kind = "full" if filled else "open"
+    return (f'<svg class="mk {kind}" style="--c:var(--{family.key})" width="12" height="12" viewBox="0 0 12 12" '
+            f'aria-hidden="true">{SHAPES[family.mark]}</svg>')
+
+
+def style(family, rank, filled):
+    """Line and marker of the method that is the rank-th of its family, as matplotlib takes them."""
+    colour = family.light
+    return {"color": colour, "linestyle": DASHES[rank % len(DASHES)], "marker": family.mark, "markersize": 5,
+            "markerfacecolor": colour if filled else "#fefefe", "markeredgecolor": colour, "markeredgewidth": 1.2}

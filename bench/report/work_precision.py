@@ -1,0 +1,235 @@
+"""Work and precision of a case: the error of every run against what it cost, a line for each method over its steps.
+
+At most eight lines have the colour of their family, the rest is grey and behind them. Shaded: the Pareto front, which is
+what no other run beats in both cost and error; the band in which the phase is lost; and the band in which round-off rules.
+The fan of slopes says how steep an order is where cost goes with 1/h. The steps stand at the points of the cheapest method.
+"""
+import dataclasses
+import math
+
+from canvas import BAND, FRONT, GREY, MID, Canvas
+from curves import LOST, ZERO, curves, front, ranks
+from families import style
+from figures import Drawing, heading, sentences, step_text
+from labels import Label, inside, place, sampled
+from sentence import finding
+from wording import counted, listed, plain_text, short_count, short_time, tick_time
+
+CLIPPED = 4.0  # where relative errors end: what is above says the same, that all is lost
+
+
+@dataclasses.dataclass
+class Look:
+    """Sizes of a figure in pixels: margins are left, top, right, bottom."""
+    width: float
+    height: float
+    font: float
+    margins: tuple
+    scale: float = 1.0  # of lines and marks
+
+    def canvas(self):
+        canvas = Canvas(self.width, self.height, self.font, self.scale)
+        left, top, right, bottom = self.margins
+        axes = canvas.panel(left, top, self.width - left - right, self.height - top - bottom)
+        return canvas, axes
+
+
+WIDE = Look(704, 520, 12.5, (70, 14, 10, 46))
+NARROW = Look(368, 400, 11.5, (60, 10, 6, 42))
+
+
+def paper(width):
+    """For print, in points: 7 pt text, lines of 1 pt."""
+    return Look(width, 0.81 * width, 7, (40, 5, 4, 26), 0.6)
+
+
+def drawings(verdict):
+    """The drawing against time and, where every method counts them, that against right-hand sides."""
+    if not verdict.comparable or not any(p.error > 0 for c in verdict.curves for p in c.measured()):
+        return []
+    out = [drawing(verdict, verdict.work, verdict.curves)]
+    finished = [r for r in verdict.experiment.runs_of(verdict.case) if not r.failed]
+    if verdict.work == "time" and all(r.total_rhs > 0 for r in finished):
+        work = "right-hand sides"
+        out.append(drawing(verdict, work, curves(verdict.experiment, verdict.case, work)))
+    return out
+
+
+def drawing(verdict, work, some):
+    case = verdict.case
+    some = [c for c in some if c.measured()]
+    named = [n for n in verdict.named() if n in {c.label for c in some}]
+    grey = [c.label for c in some if c.label not in named]
+    failed = [f"{r.method} at {step_text(r.step, case)}" for r in verdict.experiment.runs if r.case == case["name"] and r.failed]
+    contended, timed = verdict.contended
+    caption = sentences(
+        "Down and to the left is better: a point is a run, along a line the step becomes smaller.",
+        "Shaded in yellow: the Pareto front.",
+        f"Band at the top: error of at least {LOST}, the phase is lost." if verdict.relative and any(
+            p.error >= LOST for c in some for p in c.points) else "",
+        "Whiskers run from the fastest repetition to the median." if work == "time" else "",
+        f"{contended} of {timed} timings were disturbed (median over 1.3 times the fastest)." if work == "time" and contended
+        else "",
+        f"Steps at the points are those of {named[0]}." if named else "",
+        f"In grey: {listed(grey)}." if grey else "",
+        f"Not drawn, because they failed: {listed(failed)}." if len(failed) <= 4 and failed else
+        f"{counted(len(failed), 'run')} failed and {'is' if len(failed) == 1 else 'are'} not drawn." if failed else "",
+        "Errors of zero stand at a tenth of round-off." if any(
+            p.error == ZERO * verdict.unit for c in some for p in c.points) else "")
+    kind = "work_precision" if work == verdict.work else "work_precision_" + work.replace("right-hand sides", "evaluations")
+    return Drawing(kind, case, f"{heading(case)}: work and precision", caption,
+                   lambda wide: draw(verdict, work, some, named, WIDE if wide else NARROW), work,
+                   lambda width: draw(verdict, work, some, named, paper(width)))
+
+
+def draw(verdict, work, some, named, look):
+    canvas, axes = look.canvas()
+    canvas.description = plain_text(finding(verdict))
+    low, high = frame(verdict, axes, some, named)
+    rank = ranks(some)
+    show = short_time if work == "time" else short_count
+
+    axes.plot([p.cost for p in front(some)], clipped(verdict, [p.error for p in front(some)]), color=FRONT,
+              linewidth=13 * look.scale, solid_capstyle="round", solid_joinstyle="round", zorder=1)
+    for curve in sorted(some, key=lambda c: c.label in named):
+        colour = curve.label in named
+        shown = style(curve.family, rank[curve.label], curve.kept is not False)
+        shown |= {"linewidth": 1.7, "markersize": 5.5, "zorder": 4}
+        if not colour:
+            shown |= {"color": GREY, "markeredgecolor": GREY, "linewidth": 0.9, "markersize": 3.4,
+                      "linestyle": "-", "zorder": 3} | ({"markerfacecolor": GREY} if curve.kept is not False else {})
+        points = curve.measured()
+        costs, errors = [p.cost for p in points], clipped(verdict, [p.error for p in points])
+        told = f"{curve.label}: " + "; ".join(
+            f"{size_of(p.run)}, error {p.error:.1e}, {show(p.cost)}" for p in points)
+        canvas.line(axes, costs, errors, told, **shown)
+        if work == "time" and colour:
+            for p, e in zip(points, errors):
+                axes.plot([p.cost, p.slowest], [e, e], color=shown["color"], linewidth=0.7 * look.scale, zorder=2)
+    words = {"time": "time of the run", "right-hand sides": "right-hand sides of the run", "steps": "steps of the run"}
+    canvas.labels(axes, words[work], "largest relative error" if verdict.relative else f"largest drift of {verdict.invariant}")
+    ticks(axes, work, look.width, look.font)
+    annotate(canvas, axes, verdict, some, named, look, (low, high))
+    return canvas
+
+
+def size_of(run):
+    return f"tolerance {run.tolerance}" if run.tolerance else f"h = {run.step:.4g}"
+
+
+def clipped(verdict, errors):
+    return [min(e, CLIPPED) for e in errors] if verdict.relative else errors
+
+
+def frame(verdict, axes, some, named):
+    """Set the axes: decades of error, and costs up to the third quartile of the longest runs."""
+    errors = [e for c in some for p in c.measured() for e in clipped(verdict, [p.error])]
+    low = 10.0 ** math.floor(math.log10(min(errors)) - 0.3)
+    high = 2 * CLIPPED if verdict.relative and max(errors) > LOST / 2 else 10.0 ** math.ceil(math.log10(max(errors)) + 0.1)
+    longest = sorted(max(p.cost for p in c.measured()) for c in some)
+    kept = max(longest[(3 * len(longest) - 1) // 4],
+               max((max(p.cost for p in c.measured()) for c in some if c.label in named[:1]), default=0))
+    kept = max(kept, max(p.cost for p in front(some)))
+    begin = min(p.cost for c in some for p in c.measured())
+    axes.set(xscale="log", yscale="log", xlim=(begin / 1.35, kept * 1.35), ylim=(low, high))
+    return low, high
+
+
+def ticks(axes, work, width, font):
+    low, high = axes.get_ylim()
+    powers = [k for k in range(math.ceil(math.log10(low)), math.floor(math.log10(high)) + 1)]
+    stride = 3 if len(powers) > 7 else 2 if len(powers) > 5 else 1
+    some = [k for k in powers if k % stride == 0]
+    axes.set_yticks([10.0**k for k in some], [r"$1$" if k == 0 else f"$10^{{{k}}}$" for k in some])
+    axes.set_yticks([], minor=True)
+    low, high = axes.get_xlim()
+    decades = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
+    room = width / (7.6 * font)
+    for steps in ((1, 2, 5), (1, 3), (1,)):
+        at = [m * 10.0**k for k in decades for m in steps if low <= m * 10.0**k <= high]
+        if len(at) <= room:
+            break
+    else:
+        at = at[::math.ceil(len(at) / room)]
+    axes.set_xticks(at, [tick_time(x) if work == "time" else short_count(x) for x in at])
+    axes.set_xticks([], minor=True)
+
+
+def annotate(canvas, axes, verdict, some, named, look, limits):
+    """Bands, the fan of orders, labels at the lines and steps at the points."""
+    small = 0.88
+    to_pixels = axes.transData.transform
+    box = axes.get_window_extent(canvas.renderer)
+    area = (box.x0 + 2, box.y0 + 2, box.x1 - 2, box.y1 - 1)
+    lines = {c.label: [tuple(to_pixels(xy)) for xy in zip([p.cost for p in c.measured()], clipped(
+        verdict, [p.error for p in c.measured()]))] for c in some}
+    every = [pixel for line in lines.values() for pixel in sampled(line)]
+    taken = []
+    if verdict.relative and limits[1] > LOST:
+        axes.axhspan(LOST, limits[1], color=BAND, zorder=0, linewidth=0)
+        taken.append(band_text(canvas, "phase lost", box, "top", small, every))
+    floor = verdict.floor()
+    if limits[0] < floor:
+        axes.axhspan(limits[0], floor, color=BAND, zorder=0, linewidth=0)
+        taken.append(band_text(canvas, "round-off", box, "bottom", small, every))
+    fan = order_fan(canvas, axes, box, every, small) if verdict.relative else None
+    if fan:
+        taken.append(fan)
+    labels = []
+    for curve in sorted(some, key=lambda c: named.index(c.label) if c.label in named else len(named)):
+        within = [p for p in lines[curve.label] if area[0] <= p[0] <= area[2] and area[1] <= p[1] <= area[3]]
+        if within:
+            coloured = curve.label in named
+            size = canvas.measure(curve.label, 1.0 if coloured else small, "bold" if coloured else "normal")
+            labels.append(Label(curve.label, within, *size, needed=coloured))
+    steps = [Label(step_label(p.run), [pixel], *canvas.measure(step_label(p.run), 0.8), needed=False)
+             for c in some if named and c.label == named[0] for p, pixel in zip(c.measured(), lines[c.label])]
+    placed = place(labels + steps, area, list(lines.values()), taken)
+    families = {c.label: c.family for c in some}
+    for label in placed:
+        coloured = label.text in named
+        colour = families[label.text].light if coloured else MID
+        if label.far and label.text in families:
+            x, y = (min(max(a, low), high) for a, low, high in zip(label.anchor, label.box[:2], label.box[2:]))
+            canvas.leader((x, y), label.anchor, colour)
+        canvas.write(axes, label.box[0], label.box[1], label.text, 1.0 if coloured else small if label.text in families else 0.8,
+                     color=colour, weight="bold" if coloured else "normal", va="bottom", ha="left", zorder=6)
+
+
+def step_label(run):
+    return f"~{run.tolerance}" if run.tolerance else f"{run.step:.4g}"
+
+
+def band_text(canvas, text, box, side, small, every):
+    """What a band at the top or the bottom means, at that end of it which fewer lines cross; the box of the text."""
+    width, height = canvas.measure(text, small)
+    low = box.y1 - 3 - height if side == "top" else box.y0 + 2
+    ends = [(x - 2, low - 2, x + width + 2, low + height + 2) for x in (box.x0 + 4, box.x1 - 4 - width)]
+    found = min(ends, key=lambda end: inside(every, end))
+    canvas.write(canvas.axes[0], found[0] + 2, low, text, small, color=MID, va="bottom", ha="left")
+    return found
+
+
+def order_fan(canvas, axes, box, every, small):
+    """Slopes of the orders 2, 4 and 8, in the lower left; its box, or None where there is no room for it."""
+    decade = [(box.x1 - box.x0) / math.log10(axes.get_xlim()[1] / axes.get_xlim()[0]),
+              (box.y1 - box.y0) / math.log10(axes.get_ylim()[1] / axes.get_ylim()[0])]
+    width = min(0.11 * (box.x1 - box.x0), 0.24 * (box.y1 - box.y0) / (8 * decade[1] / decade[0]))
+    drop = width * decade[1] / decade[0]
+    line = canvas.measure("order", small)[1]
+    need = (max(width + 22, 44), 8 * drop + 2.2 * line)
+    for part in (0.62, 0.5, 0.42, 0.34, 0.27):
+        x, top = box.x0 + 14, box.y0 + part * (box.y1 - box.y0)
+        area = (x - 4, top - need[1], x + need[0], top)
+        if area[1] < box.y0 + 24 or any(area[0] <= a <= area[2] and area[1] <= b <= area[3] for a, b in every):
+            continue
+        canvas.write(axes, x, top - line, "order", small, color=MID, va="bottom")
+        y = top - 1.4 * line
+        last = math.inf
+        canvas.leader((x, y), (x + width, y), MID)
+        for order in (2, 4, 8):
+            canvas.leader((x, y), (x + width, y - order * drop), MID)
+            last = min(y - order * drop, last - 0.8 * line)
+            canvas.write(axes, x + width + 4, last, str(order), small, color=MID, va="center")
+        return area
+    return None
