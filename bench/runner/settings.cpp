@@ -8,6 +8,7 @@
 
 #include <pfaff/bench/measure/constraints.hpp>
 #include <pfaff/bench/runner/motion.hpp>
+#include <pfaff/integrators/tables/method_table.hpp>
 
 namespace pfaff {
 
@@ -249,7 +250,8 @@ ResolvedRun resolve(const RunSettings& settings) {
   ResolvedRun run;
   run.settings = settings;
   const SystemPlugin& system = systems().get(settings.system, "system");
-  const MethodPlugin& method = integrators().get(settings.integrator, "integrator");
+  const MethodPlugin& method = integrator_named(settings.integrator);
+  if (const auto* table = dynamic_cast<const MethodTable*>(&method)) run.settings.integrator = table->path();
   const FormulationPlugin* formulation = formulation_for(system, settings.formulation);
   SplitSettings split = split_settings(system, formulation, &method, settings.set);
   split.system = with_absolute_paths(system.parameters(), std::move(split.system));

@@ -1,7 +1,7 @@
 // Order conditions and zero-stability of linear multistep methods.
 #include <gtest/gtest.h>
 
-#include <pfaff/integrators/order_conditions/multistep.hpp>
+#include <pfaff/integrators/order_conditions/multistep_conditions.hpp>
 
 namespace {
 using namespace pfaff;

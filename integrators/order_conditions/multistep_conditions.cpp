@@ -1,4 +1,4 @@
-#include <pfaff/integrators/order_conditions/multistep.hpp>
+#include <pfaff/integrators/order_conditions/multistep_conditions.hpp>
 
 #include <algorithm>
 
