@@ -134,15 +134,15 @@ std::vector<OrderCondition> composition_conditions(const std::vector<Quad>& weig
   const Words words(degrees, order);
   Series product = Series::one(words), sizes = product;
   for (const Quad& weight : weights) {
-    Series exponent(words), positive(words);
-    for (std::size_t letter = 0; letter < degrees.size(); ++letter) {
+    std::vector<Quad> powers, positive;
+    for (const int degree : degrees) {
       Quad power(1);
-      for (int k = 0; k < degrees[letter]; ++k) power *= weight;
-      exponent[words.extended(0, letter)] = power;
-      positive[words.extended(0, letter)] = abs(power);
+      for (int k = 0; k < degree; ++k) power *= weight;
+      powers.push_back(power);
+      positive.push_back(abs(power));
     }
-    product = product * exponential(exponent);
-    sizes = sizes * exponential(positive);
+    product.times_exponential_of_sum(powers);
+    sizes.times_exponential_of_sum(positive);
   }
   const Series log = logarithm(product);
   std::vector<OrderCondition> conditions;

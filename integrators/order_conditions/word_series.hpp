@@ -111,6 +111,16 @@ class WordSeries {
       }
     }
   }
+  /// This times exp(sum_l lengths[l] letter_l).
+  void times_exponential_of_sum(const std::vector<T>& lengths) {
+    std::vector<T> term = coefficients_;  // this times the k-th term of the exponential
+    for (int k = 1; k <= words_->largest_degree(); ++k) {
+      for (std::size_t w = term.size(); w-- > 1;)
+        term[w] = term[words_->beginning(w)] * lengths[words_->last(w)] / T(k);
+      term[0] = T(0);
+      for (std::size_t w = 0; w < term.size(); ++w) coefficients_[w] = coefficients_[w] + term[w];
+    }
+  }
 
  private:
   const Words* words_;

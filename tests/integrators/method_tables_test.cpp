@@ -204,7 +204,7 @@ TEST(MethodTables, BadFilesAreRefusedInOneLine) {
   expect_refused(verlet_with("0.5, 0.5", "order = 13"), {"expected at most 12"});
   expect_refused(verlet_with("0.5, 0.5", "order = 2\nkik = 1"),
                  {"unknown key 'kik'", "did you mean 'kick'?"});
-  expect_refused(verlet_with("0.5, \"g\""), {":4:15: ", "'g'"});
+  expect_refused(verlet_with("0.5, \"g\""), {":4:16: ", "'g'"});
   expect_refused(verlet_with("0.5, true"), {"key 'drift': expected a list of numbers"});
   expect_refused(verlet_with("0.5, \"1/0\""), {":4:"});
   expect_refused(verlet_with("0.2, 0.3, 0.5"), {"key 'kick': expected 3 numbers or one less", "got 1"});

@@ -54,6 +54,23 @@ TEST(Words, ExponentialAndLogarithmAreInverseInExactFractions) {
   for (std::size_t w = 0; w < words.size(); ++w) EXPECT_EQ(back[w], x[w]);
 }
 
+TEST(Words, TheThreeWaysToAnExponentialAgreeInExactFractions) {
+  const Words words({1, 1, 3}, 7);
+  const std::vector<Rational> lengths{Rational(2) / Rational(3), Rational(-5), Rational(1) / Rational(7)};
+  auto start = WordSeries<Rational>::one(words);
+  start.times_exponential(1, Rational(1) / Rational(2));
+  WordSeries<Rational> exponent(words);
+  for (std::size_t letter = 0; letter < 3; ++letter) exponent[words.extended(0, letter)] = lengths[letter];
+  WordSeries<Rational> product = start * exponential(exponent), stepped = start;
+  stepped.times_exponential_of_sum(lengths);
+  for (std::size_t w = 0; w < words.size(); ++w) EXPECT_EQ(stepped[w], product[w]);
+  WordSeries<Rational> letter(words);
+  letter[words.extended(0, 2)] = lengths[2];
+  product = start * exponential(letter);
+  start.times_exponential(2, lengths[2]);
+  for (std::size_t w = 0; w < words.size(); ++w) EXPECT_EQ(start[w], product[w]);
+}
+
 TEST(Words, TheFormulaOfBakerCampbellAndHausdorff) {
   // log(e^A e^B) = A + B + [A,B]/2 + [A,[A,B]]/12 + [B,[B,A]]/12 + [B,[A,[B,A]]]/24 ... In words: AB has the
   // coefficient 1/2, AAB 1/12, ABB 1/12, AABB 1/24, and AAAB and ABBB have none.
