@@ -11,6 +11,7 @@
 #include <pfaff/core/bracket.hpp>
 #include <pfaff/core/facets/derivations/derivation.hpp>
 #include <pfaff/core/formulation.hpp>
+#include <pfaff/integrators/tables/method_table.hpp>
 #include <pfaff/systems/text/text_system.hpp>
 
 namespace pfaff::app {
@@ -130,6 +131,14 @@ nlohmann::json describe_method(const MethodPlugin& plugin) {
                    {"needs", to_string(method->needs())},
                    {"adaptive", method->adaptive()},
                    {"parameters", parameters_of(plugin, method->parameters())}};
+  if (const auto* table = dynamic_cast<const MethodTable*>(&plugin)) j["file"] = table->path();
+  if (const auto theory = order_theory(plugin.name(), {})) {
+    const auto conditions = theory->conditions(theory->coefficients);
+    Quad worst(0);
+    for (const OrderCondition& condition : conditions) worst = std::max(worst, relative_residual(condition));
+    j["order_conditions"] = std::to_string(conditions.size()) + " by " + theory->kind + " up to order " +
+                            std::to_string(theory->order) + ", fulfilled to " + to_scientific(worst, 2);
+  }
   // A plug-in that is built on another fits other systems with another one.
   for (const Parameter& p : plugin.parameters()) {
     if (p.kind != Parameter::Kind::plugin) continue;
@@ -196,6 +205,7 @@ nlohmann::json describe_experiment(const std::string& name) {
 // first.
 std::vector<nlohmann::json> describe(const std::string& name,
                                      const std::vector<std::string>& also_known = {}) {
+  if (names_method_table(name)) return {describe_method(integrator_named(name))};
   std::vector<nlohmann::json> found;
   if (text::is_text_file(name))
     return {is_text_bracket(name) ? describe_bracket(bracket_named(name))
@@ -297,7 +307,9 @@ int cite(const std::vector<std::string>& names, bool json) {
 void add_describe(CLI::App& app, Common& common, Action& action) {
   CLI::App* sub = subcommand(app, common, "describe", "Everything about a plug-in or an experiment");
   auto name = std::make_shared<std::string>();
-  sub->add_option("name", *name, "Its name, as in pfaff list")->type_name("NAME")->required();
+  sub->add_option("name", *name, "Its name, as in pfaff list, or the file of a table of coefficients (.toml)")
+      ->type_name("NAME")
+      ->required();
   sub->callback([name, &common, &action] {
     action = [name, &common] {
       const std::vector<nlohmann::json> found = describe(*name);

@@ -12,6 +12,8 @@
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/bench/runner/settings.hpp>
 #include <pfaff/bench/verification/random_checks.hpp>
+#include <pfaff/core/system.hpp>
+#include <pfaff/integrators/tables/method_table.hpp>
 #include <pfaff/systems/text/text_system.hpp>
 
 namespace pfaff::app {
@@ -46,8 +48,7 @@ std::vector<ClaimUnderTest> tests_of(const Options& options) {
   std::optional<Claim> claim;
   if (!options.claim.empty()) claim = claim_named(options.claim);
   if (!options.all)
-    return claims_under_test(integrators().get(options.method, "integrator"), parse_settings(options.set),
-                             claim);
+    return claims_under_test(integrator_named(options.method), parse_settings(options.set), claim);
   std::vector<ClaimUnderTest> tests;
   for (const MethodPlugin* plugin : integrators().all())
     for (ClaimUnderTest& test : claims_under_test(*plugin, {}, claim))
@@ -172,7 +173,7 @@ int show(const Options& options, const Common& common) {
   if (options.all || options.method.empty() || options.claim.empty())
     throw InputError("--system: expected an integrator and its --claim beside it");
   const Claim claim = claim_named(options.claim);
-  const auto method = integrators().get(options.method, "integrator").make(parse_settings(options.set));
+  const auto method = integrator_named(options.method).make(parse_settings(options.set));
   const auto system = system_named(options.system).make({});
   JudgedStep at{model_in_scope(*method, claim, system), system->initial(), number_of(options.at, "--at"),
                 number_of(options.step, "--step"), options.steps};
@@ -208,7 +209,9 @@ int show(const Options& options, const Common& common) {
 void add_falsify(CLI::App& app, Common& common, Action& action) {
   CLI::App* sub = subcommand(app, common, "falsify", "Search for the smallest system on which a claim fails");
   auto options = std::make_shared<Options>();
-  sub->add_option("method", options->method, "Name of the integrator")->type_name("METHOD");
+  sub->add_option("method", options->method,
+                  "Name of the integrator, or the file of a table of coefficients (.toml)")
+      ->type_name("METHOD");
   sub->add_flag("--all", options->all, "Every claim of every integrator");
   sub->add_option("--claim", options->claim, "One claim, made or not; all that are made without")
       ->type_name("NAME");

@@ -16,6 +16,7 @@
 #include <pfaff/core/registry/version.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/core/text/source.hpp>
+#include <pfaff/integrators/tables/method_table.hpp>
 
 namespace pfaff::app {
 
@@ -44,9 +45,15 @@ Assignments parse_settings(const std::vector<std::string>& texts) {
 
 namespace {
 
-// Loads the files given by --plugin, then every shared object in the directories of PFAFF_PLUGIN_PATH.
+// Loads the files given by --plugin, shared objects and tables of coefficients, then every shared object in
+// the directories of PFAFF_PLUGIN_PATH.
 void load_plugins(const Common& common) {
-  for (const std::string& file : common.plugins) load_plugin(file);
+  for (const std::string& file : common.plugins)
+    if (file.ends_with(".toml")) {
+      (void)integrator_named(file);
+    } else {
+      load_plugin(file);
+    }
   const char* path = std::getenv("PFAFF_PLUGIN_PATH");
   std::stringstream directories(path != nullptr ? path : "");
   for (std::string directory; std::getline(directories, directory, ':');) {

@@ -157,7 +157,9 @@ void add_run(CLI::App& app, Common& common, Action& action) {
                   "Motion of a system with constraints (without: " + dirac_formulation().name() + " or " +
                       nonholonomic_formulation().name() + ")")
       ->type_name("NAME");
-  sub->add_option("--integrator", s.integrator, "Name of the integrator")->type_name("NAME");
+  sub->add_option("--integrator", s.integrator,
+                  "Name of the integrator, or the file of a table of coefficients (.toml)")
+      ->type_name("NAME");
   sub->add_option("--step", s.step, "Step h > 0")->type_name("h");
   sub->add_option("--tolerance", s.tolerance, "Instead of --step, for methods that choose their steps")
       ->type_name("e");

@@ -12,6 +12,7 @@
 #include <pfaff/core/formulation.hpp>
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
+#include <pfaff/integrators/tables/method_table.hpp>
 
 namespace pfaff {
 
@@ -92,8 +93,11 @@ void add_file(Origins& origins, const std::string& path, const std::string& hash
 
 void add_origins(const Plugin& plugin, const Assignments& values, Origins& origins) {
   for (const auto& [path, hash] : files_of(plugin.parameters(), values)) add(origins.files, path, hash);
-  const LoadedObject object = object_holding(&plugin);
-  if (!is_own(object)) add(origins.plugins, object.path, object.build);
+  if (const auto* table = dynamic_cast<const MethodTable*>(&plugin)) {
+    add(origins.files, table->path(), sha1_of(table->contents()));
+  } else if (const LoadedObject object = object_holding(&plugin); !is_own(object)) {
+    add(origins.plugins, object.path, object.build);
+  }
   for (const auto& [key, value] : values)
     if (const Parameter* p = parameter_of(plugin.parameters(), key);
         p != nullptr && p->kind == Parameter::Kind::plugin) {

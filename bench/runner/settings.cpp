@@ -9,6 +9,7 @@
 #include <pfaff/bench/measure/constraints.hpp>
 #include <pfaff/bench/runner/checksum.hpp>
 #include <pfaff/bench/runner/motion.hpp>
+#include <pfaff/integrators/tables/method_table.hpp>
 #include <pfaff/systems/text/text_system.hpp>
 
 namespace pfaff {
@@ -258,7 +259,8 @@ ResolvedRun resolve(const RunSettings& settings) {
   const SystemPlugin& system = system_named(settings.system);
   if (const auto* text = dynamic_cast<const TextSystem*>(&system))
     run.settings.system = text->files().front().first;
-  const MethodPlugin& method = integrators().get(settings.integrator, "integrator");
+  const MethodPlugin& method = integrator_named(settings.integrator);
+  if (const auto* table = dynamic_cast<const MethodTable*>(&method)) run.settings.integrator = table->path();
   const FormulationPlugin* formulation = formulation_for(system, settings.formulation);
   SplitSettings split = split_settings(system, formulation, &method, settings.set);
   split.system = with_absolute_paths(system.parameters(), std::move(split.system));

@@ -78,6 +78,10 @@ std::vector<Check> check_method(const MethodInstance& method, const Assignments&
 /// The method with one coefficient changed by 1e-6 must lose its order or its structure.
 std::vector<Check> check_changed_coefficient(const MethodPlugin& plugin, const Assignments& parameters,
                                              const SystemPlugin& system);
+/// The order conditions of the method's own coefficients, by trees, Lie words or whatever theory is known for
+/// it (integrators/order_conditions), with a control for each coefficient: the same conditions with 1e-9
+/// added to it, of which one must be violated. Empty where no theory is known.
+std::vector<Check> check_coefficients(const MethodPlugin& plugin, const Assignments& parameters);
 /// Checks the structure, chart, overrides, invariants and exact solution of a system with these parameters.
 std::vector<Check> check_system(const SystemPlugin& system, const Assignments& parameters = {});
 /// Checks of a system with constraints: the initial state is on them, they are second class there, the
@@ -114,9 +118,9 @@ std::vector<Check> check_false_methods();
 
 /// What is verified.
 struct VerificationSettings {
-  std::vector<std::string>
-      names{};        // of plug-ins or kinds of them (systems ...), or controls; all when empty
-  bool full = false;  // the large orders and more variants too
+  std::vector<std::string> names{};  // of plug-ins, tables of coefficients or kinds of plug-ins (systems
+                                     // ...), or controls; all when empty
+  bool full = false;                 // the large orders and more variants too
   /// Parameters of the one plug-in that is named, instead of those that it is verified with otherwise.
   Assignments set{};
 };

@@ -11,6 +11,8 @@
 #include <pfaff/bench/verification/random_checks.hpp>
 #include <pfaff/bench/verification/skated_models.hpp>
 #include <pfaff/core/formulation.hpp>
+#include <pfaff/integrators/order_conditions/order_condition.hpp>
+#include <pfaff/integrators/tables/method_table.hpp>
 #include <pfaff/systems/text/text_system.hpp>
 
 namespace pfaff {
@@ -162,9 +164,17 @@ class Jobs {
     for (const MethodPlugin* method : methods) {
       const bool all = wanted(method->name()) || wanted("integrators");
       if (all) add_random_systems(*method);
+      if (all) add_coefficients(*method);
       for (const SystemPlugin* system : systems_)
         if (all || wanted(asked_as(*system))) add_method(*method, *system);
     }
+  }
+
+  void add_coefficients(const MethodPlugin& method) {
+    for (const Assignments& p : parameters(method.name(), method.instances(settings_.full)))
+      if (order_theory(method.name(), p))
+        jobs_.push_back({"coefficients of " + called(method.name(), p),
+                         [=, &method] { return check_coefficients(method, p); }});
   }
 
   void add_random_systems(const MethodPlugin& method) {
@@ -226,8 +236,11 @@ void validate(const VerificationSettings& settings) {
 }
 }  // namespace
 
-std::vector<Check> verify(const VerificationSettings& settings,
+std::vector<Check> verify(const VerificationSettings& given,
                           const std::function<void(const std::string&, std::size_t, std::size_t)>& progress) {
+  VerificationSettings settings = given;
+  for (std::string& name : settings.names)
+    if (names_method_table(name)) name = integrator_named(name).name();
   validate(settings);
   const std::vector<Job> jobs = Jobs(settings).all();
   std::vector<std::vector<Check>> results(jobs.size());

@@ -4,6 +4,7 @@
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/method_alias.hpp>
 #include <pfaff/integrators/composition/composition_weights.hpp>
+#include <pfaff/integrators/order_conditions/word_conditions.hpp>
 
 namespace {
 using namespace pfaff;
@@ -128,6 +129,27 @@ class CompositionInstance final : public MakerOf<CompositionInstance, MethodInst
   std::unique_ptr<MethodInstance> composed_;
 };
 
+const Scheme& scheme_of(const Composing& settings) {
+  return *std::find_if(schemes().begin(), schemes().end(),
+                       [&](const Scheme& s) { return s.name == settings.scheme; });
+}
+
+// The settings with an order that the scheme has.
+Composing settings_of(const MethodPlugin& plugin, const Assignments& assignments) {
+  Composing settings;
+  const std::string owner = "integrator " + plugin.name();
+  assign_all(plugin.parameters(), &settings, assignments, owner);
+  const Scheme& scheme = scheme_of(settings);
+  if (settings.order.empty()) settings.order = scheme.orders.front();
+  if (std::find(scheme.orders.begin(), scheme.orders.end(), settings.order) == scheme.orders.end()) {
+    std::string orders;
+    for (const std::string& order : scheme.orders) orders += (orders.empty() ? "" : "|") + order;
+    throw InputError("parameter 'order' of " + owner + ": expected " + orders +
+                     " with scheme=" + scheme.name + ", got '" + settings.order + "'");
+  }
+  return settings;
+}
+
 class CompositionPlugin final : public MethodPlugin {
  public:
   explicit CompositionPlugin(MethodDescriptor descriptor,
@@ -137,21 +159,10 @@ class CompositionPlugin final : public MethodPlugin {
   }
 
   [[nodiscard]] std::unique_ptr<MethodInstance> make(const Assignments& assignments) const override {
-    Composing settings;
-    const std::string owner = "integrator " + name();
-    assign_all(parameters(), &settings, assignments, owner);
-    const Scheme& scheme = *std::find_if(schemes().begin(), schemes().end(),
-                                         [&](const Scheme& s) { return s.name == settings.scheme; });
-    if (settings.order.empty()) settings.order = scheme.orders.front();
-    if (std::find(scheme.orders.begin(), scheme.orders.end(), settings.order) == scheme.orders.end()) {
-      std::string orders;
-      for (const std::string& order : scheme.orders) orders += (orders.empty() ? "" : "|") + order;
-      throw InputError("parameter 'order' of " + owner + ": expected " + orders +
-                       " with scheme=" + scheme.name + ", got '" + settings.order + "'");
-    }
+    Composing settings = settings_of(*this, assignments);
     const auto base = made_base(settings.base);
     settings.base.settings = base->parameters();
-    auto composed = base->composed(scheme.weights(std::stoi(settings.order)));
+    auto composed = base->composed(scheme_of(settings).weights(std::stoi(settings.order)));
     return std::make_unique<CompositionInstance>(*this, std::move(settings), std::move(composed));
   }
 
@@ -177,6 +188,16 @@ const CompositionPlugin composition{
          "everything that the base keeps in steps of either sign is kept. The scheme kahan-li has the "
          "smallest errors for its work at orders 6 and 8, suzuki smaller ones than yoshida at order 4. "
          "Friction acts the wrong way in sub-steps back in time, so that stiff decay sets the step."}};
+
+// Lie words are listed up to degree 12, the largest order of the schemes.
+const KnownOrderTheory conditions{"composition", [](const Assignments& parameters) {
+                                    const Composing settings = settings_of(composition, parameters);
+                                    const int order = std::stoi(settings.order);
+                                    return OrderTheory{"words", order, scheme_of(settings).weights(order),
+                                                       [order](const std::vector<Quad>& weights) {
+                                                         return composition_conditions(weights, order);
+                                                       }};
+                                  }};
 
 const Assignments compensated{{"compensated", "base.compensated"}};
 

@@ -1,5 +1,6 @@
 // The explicit Runge-Kutta methods as plug-ins.
 #include <pfaff/core/integrator.hpp>
+#include <pfaff/integrators/order_conditions/rooted_trees.hpp>
 #include <pfaff/integrators/runge_kutta/explicit_runge_kutta.hpp>
 
 namespace {
@@ -17,4 +18,22 @@ const Method<RungeKutta4> registered{
          "runs, and here it is the control that every test of structure has to reject.",
      .order = 4,
      .preserves = {Claim::none}}};
+
+// The lower triangle of a row by row, then b, as a tableau.
+RungeKuttaTableau<Quad> tableau_of(const std::vector<Quad>& numbers) {
+  constexpr std::size_t s = RungeKutta4::stages;
+  RungeKuttaTableau<Quad> tableau{std::vector<Quad>(s * s),
+                                  std::vector<Quad>(numbers.end() - s, numbers.end())};
+  for (std::size_t i = 1, k = 0; i < s; ++i)
+    for (std::size_t j = 0; j < i; ++j) tableau.a[i * s + j] = numbers[k++];
+  return tableau;
+}
+
+const KnownOrderTheory conditions{
+    "rk4", [](const Assignments& /*parameters*/) {
+      const auto numbers = RungeKutta4().tableau;
+      return OrderTheory{"trees", 4, {numbers.begin(), numbers.end()}, [](const std::vector<Quad>& others) {
+                           return tree_conditions(tableau_of(others), 4);
+                         }};
+    }};
 }  // namespace

@@ -1,5 +1,6 @@
 // The Gauss methods as plug-ins.
 #include <pfaff/core/integrator.hpp>
+#include <pfaff/integrators/order_conditions/rooted_trees.hpp>
 #include <pfaff/integrators/runge_kutta/gauss.hpp>
 
 namespace {
@@ -28,4 +29,21 @@ const Method<ImplicitMidpoint> midpoint{
                     "structures that depend on the state or on time it is no longer symplectic.",
      .order = 2,
      .preserves = {Claim::symmetric, Claim::reversible, Claim::symplectic, Claim::quadratic_invariants}}};
+
+// The weights b are the coefficients that may change; a stays that of Gauss. Trees are listed up to order 10.
+OrderTheory gauss_theory(int stages) {
+  const GaussCoefficients g = gauss_coefficients(stages);
+  const int order = std::min(2 * stages, largest_tree);
+  return {"trees", order, g.weights, [a = g.matrix, order](const std::vector<Quad>& weights) {
+            return tree_conditions({a, weights}, order);
+          }};
+}
+const KnownOrderTheory gauss_conditions{"gauss", [](const Assignments& parameters) {
+                                          Gauss method;
+                                          assign_all(Gauss::parameters(), &method, parameters,
+                                                     "integrator gauss");
+                                          return gauss_theory(method.stages);
+                                        }};
+const KnownOrderTheory midpoint_conditions{"implicit-midpoint",
+                                           [](const Assignments& /*parameters*/) { return gauss_theory(1); }};
 }  // namespace

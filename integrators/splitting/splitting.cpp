@@ -1,5 +1,6 @@
 // The splitting methods as plug-ins.
 #include <pfaff/core/integrator.hpp>
+#include <pfaff/integrators/order_conditions/word_conditions.hpp>
 #include <pfaff/integrators/splitting/splitting.hpp>
 
 namespace {
@@ -30,4 +31,22 @@ const Method<SymplecticEuler> symplectic_euler{
                     "It is conjugate to Stoermer-Verlet, which costs the same and is of order 2.",
      .order = 1,
      .preserves = {Claim::symplectic}}};
+
+template <Part First, std::size_t N>
+OrderTheory theory_of(const Splitting<First, N>& method, int order) {
+  return {"words",
+          order,
+          {method.coefficient.begin(), method.coefficient.end()},
+          [order](const std::vector<Quad>& lengths) {
+            std::vector<PartialFlow> flows;
+            for (std::size_t k = 0; k < lengths.size(); ++k)
+              flows.push_back({(k + (First == Part::kick ? 1 : 0)) % 2, lengths[k]});
+            return splitting_conditions(flows, order);
+          }};
+}
+const KnownOrderTheory verlet_conditions{
+    "verlet", [](const Assignments& /*parameters*/) { return theory_of(pfaff::Verlet(), 2); }};
+const KnownOrderTheory euler_conditions{"symplectic-euler", [](const Assignments& /*parameters*/) {
+                                          return theory_of(pfaff::SymplecticEuler(), 1);
+                                        }};
 }  // namespace

@@ -1,0 +1,199 @@
+#include <pfaff/integrators/order_conditions/word_conditions.hpp>
+
+#include <algorithm>
+
+#include <pfaff/integrators/order_conditions/lie_quotient.hpp>
+
+namespace pfaff {
+
+namespace {
+
+using Series = WordSeries<Quad>;
+constexpr std::size_t drift = 0, kick = 1;
+
+// What is divided out consists of vectors of small integers, so that anything below this is rounding.
+const Quad rounding_of_integers = Quad(1e-20);
+
+// The name of a word, with runs of a letter as powers.
+std::string name_of(const Words& words, std::size_t word, const std::vector<std::string>& letters) {
+  std::string text;
+  const std::vector<std::size_t> spelt = words.spelt(word);
+  for (std::size_t k = 0; k < spelt.size();) {
+    std::size_t end = k;
+    while (end < spelt.size() && spelt[end] == spelt[k]) ++end;
+    text += (text.empty() ? "" : " ") + letters[spelt[k]];
+    if (end - k > 1) text += "^" + std::to_string(end - k);
+    k = end;
+  }
+  return text;
+}
+
+// Degree by degree a basis of the ideal of all brackets with two kicks or more beyond the drifts, or nothing.
+class Ideal {
+ public:
+  Ideal(const Words& words, Parts parts)
+      : words_(words), basis_(static_cast<std::size_t>(words.largest_degree()) + 1) {
+    if (parts == Parts::general) return;
+    for (int degree = 4; degree <= words.largest_degree(); ++degree) {
+      const std::vector<std::size_t> lyndon = words.lyndon(degree);
+      ReducedSpan<Quad> span(lyndon.size());
+      const auto add = [&](Series element) {
+        if (span.add(coordinates(element, lyndon), rounding_of_integers))
+          basis_[static_cast<std::size_t>(degree)].push_back(std::move(element));
+      };
+      for (const std::size_t word : lyndon)
+        if (2 * kicks(word) >= degree + 2) add(bracketing<Quad>(words, word));
+      for (const Series& element : basis_[static_cast<std::size_t>(degree) - 1])
+        for (const std::size_t x : {drift, kick}) add(commutator(letter(x), element));
+    }
+  }
+  [[nodiscard]] Series letter(std::size_t which) const {
+    Series series(words_);
+    series[words_.extended(0, which)] = Quad(1);
+    return series;
+  }
+  // The span of its elements of a degree in the coordinates of the Lyndon words, each with `beyond` zeros
+  // after them.
+  [[nodiscard]] ReducedSpan<Quad> span(int degree, std::size_t beyond = 0) const {
+    const std::vector<std::size_t> lyndon = words_.lyndon(degree);
+    ReducedSpan<Quad> result(lyndon.size());
+    for (const Series& element : basis_[static_cast<std::size_t>(degree)]) {
+      std::vector<Quad> vector = coordinates(element, lyndon);
+      vector.resize(lyndon.size() + beyond);
+      result.add(std::move(vector), rounding_of_integers);
+    }
+    return result;
+  }
+
+ private:
+  [[nodiscard]] int kicks(std::size_t word) const {
+    const std::vector<std::size_t> letters = words_.spelt(word);
+    return static_cast<int>(std::count(letters.begin(), letters.end(), kick));
+  }
+
+  const Words& words_;
+  std::vector<std::vector<Series>> basis_;
+};
+
+Series product_of(const Words& words, const std::vector<PartialFlow>& flows, bool magnitudes = false) {
+  Series product = Series::one(words);
+  for (const PartialFlow& flow : flows)
+    product.times_exponential(flow.part, magnitudes ? abs(flow.length) : flow.length);
+  return product;
+}
+
+const std::vector<std::string>& parts_named() {
+  static const std::vector<std::string> names{"drift", "kick"};
+  return names;
+}
+
+// Appends the conditions of one degree: what is left of the logarithm's part of that degree, less the letters
+// that it has to be, in the span. `sizes` are the words of the product of magnitudes.
+void append_conditions(std::vector<OrderCondition>& conditions, const Series& logarithm, const Series& sizes,
+                       const ReducedSpan<Quad>& span, std::size_t beyond, int degree,
+                       const std::vector<std::string>& letters, const std::string& kind,
+                       std::vector<Quad>* left_beyond = nullptr) {
+  const Words& words = logarithm.words();
+  const std::vector<std::size_t> lyndon = words.lyndon(degree);
+  std::vector<Quad> vector = coordinates(logarithm, lyndon);
+  Quad scale(1);
+  for (std::size_t k = 0; k < lyndon.size(); ++k) {
+    if (degree == 1 && words.degree(lyndon[k]) == 1) vector[k] -= Quad(1);
+    scale = std::max(scale, sizes[lyndon[k]]);
+  }
+  vector.resize(lyndon.size() + beyond);
+  span.reduce(vector);
+  for (std::size_t k = 0; k < lyndon.size(); ++k)
+    if (!span.is_pivot(k))
+      conditions.push_back({kind + name_of(words, lyndon[k], letters) + (degree == 1 ? " = 1" : " = 0"),
+                            degree, vector[k], scale});
+  if (left_beyond != nullptr)
+    left_beyond->assign(vector.begin() + static_cast<std::ptrdiff_t>(lyndon.size()), vector.end());
+}
+
+}  // namespace
+
+std::vector<OrderCondition> splitting_conditions(const std::vector<PartialFlow>& flows, int order,
+                                                 Parts parts) {
+  const Words words({1, 1}, order);
+  const Ideal ideal(words, parts);
+  const Series sizes = product_of(words, flows, true), log = logarithm(product_of(words, flows));
+  std::vector<OrderCondition> conditions;
+  for (int degree = 1; degree <= order; ++degree)
+    append_conditions(conditions, log, sizes, ideal.span(degree), 0, degree, parts_named(), "the Lie word ");
+  return conditions;
+}
+
+std::vector<OrderCondition> composition_conditions(const std::vector<Quad>& weights, int order) {
+  std::vector<int> degrees;
+  std::vector<std::string> letters;
+  for (int degree = 1; degree <= order; degree += 2) {
+    degrees.push_back(degree);
+    letters.push_back("Y" + std::to_string(degree));
+  }
+  const Words words(degrees, order);
+  Series product = Series::one(words), sizes = product;
+  for (const Quad& weight : weights) {
+    std::vector<Quad> powers, positive;
+    for (const int degree : degrees) {
+      Quad power(1);
+      for (int k = 0; k < degree; ++k) power *= weight;
+      powers.push_back(power);
+      positive.push_back(abs(power));
+    }
+    product.times_exponential_of_sum(powers);
+    sizes.times_exponential_of_sum(positive);
+  }
+  const Series log = logarithm(product);
+  std::vector<OrderCondition> conditions;
+  for (int degree = 1; degree <= order; ++degree)
+    append_conditions(conditions, log, sizes, ReducedSpan<Quad>(words.lyndon(degree).size()), 0, degree,
+                      letters, "the Lie word ");
+  return conditions;
+}
+
+std::vector<OrderCondition> effective_conditions(const std::vector<PartialFlow>& kernel, int order,
+                                                 Parts parts) {
+  const Words words({1, 1}, order);
+  const Ideal ideal(words, parts);
+  Series whole = ideal.letter(drift);
+  whole += ideal.letter(kick);
+  const Series sizes = product_of(words, kernel, true);
+  Series product = product_of(words, kernel);
+  std::vector<OrderCondition> conditions;
+  for (int degree = 1; degree <= order; ++degree) {
+    // exp(Q) K exp(-Q) with Q of the degree before changes the logarithm by [Q, A + B] at this degree.
+    const std::vector<std::size_t> lyndon = words.lyndon(degree);
+    std::vector<Series> processors;
+    if (degree > 1)
+      for (const std::size_t word : words.lyndon(degree - 1))
+        processors.push_back(bracketing<Quad>(words, word));
+    ReducedSpan<Quad> span = ideal.span(degree, processors.size());
+    for (std::size_t k = 0; k < processors.size(); ++k) {
+      std::vector<Quad> vector = coordinates(commutator(processors[k], whole), lyndon);
+      vector.resize(lyndon.size() + processors.size());
+      vector[lyndon.size() + k] = Quad(1);
+      span.add(std::move(vector), rounding_of_integers);
+    }
+    std::vector<Quad> factors;
+    append_conditions(conditions, logarithm(product), sizes, span, processors.size(), degree, parts_named(),
+                      "whatever the processor, the Lie word ", &factors);
+    Series processor(words);
+    for (std::size_t k = 0; k < processors.size(); ++k) {
+      processors[k] *= factors[k];
+      processor += processors[k];
+    }
+    Series back = processor;
+    back *= Quad(-1);
+    product = exponential(processor) * product * exponential(back);
+  }
+  return conditions;
+}
+
+std::vector<PartialFlow> inverse(std::vector<PartialFlow> flows) {
+  std::reverse(flows.begin(), flows.end());
+  for (PartialFlow& flow : flows) flow.length = -flow.length;
+  return flows;
+}
+
+}  // namespace pfaff

@@ -1,0 +1,253 @@
+// Methods that are read from tables of coefficients: what is checked, what is computed, and that their steps
+// are those of the same methods written in C++.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include <pfaff/core/system.hpp>
+#include <pfaff/integrators/tables/method_table.hpp>
+
+#include "../temporary_directory.hpp"
+
+namespace {
+using namespace pfaff;
+using pfaff::testing::TemporaryDirectory;
+
+const std::string shipped = std::string(PFAFF_GOLDEN) + "/../../examples/tables/";
+
+// The message with which a table is refused, or what it became.
+std::string refusal(const std::string& text) {
+  const TemporaryDirectory files;
+  std::ofstream(files / "table.toml") << text;
+  try {
+    return "accepted: " + read_method_table(files / "table.toml")->name();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+void expect_refused(const std::string& text, const std::vector<std::string>& parts) {
+  const std::string message = refusal(text);
+  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  EXPECT_NE(message.find("table.toml"), std::string::npos) << message;
+  for (const std::string& part : parts) EXPECT_NE(message.find(part), std::string::npos) << message;
+}
+
+std::string verlet_with(const std::string& drift, const std::string& more = "order = 2") {
+  return "name = \"table\"\nkind = \"splitting\"\n" + more + "\ndrift = [" + drift + "]\nkick = [1]\n";
+}
+
+std::vector<std::string> names_of(const std::vector<Claim>& claims) {
+  std::vector<std::string> names;
+  for (const Claim claim : claims) names.emplace_back(to_string(claim));
+  return names;
+}
+using Names = std::vector<std::string>;
+
+// The largest difference of two methods after twenty steps, relative to the size of the state.
+template <class T>
+double difference(const MethodInstance& a, const MethodInstance& b, const std::string& system) {
+  const std::shared_ptr<const Model> model = systems().get(system, "system").make({});
+  std::vector<T> za, zb;
+  for (const Real& x : model->initial()) za.push_back(T(x));
+  zb = za;
+  std::int64_t completed = 0;
+  const T h = T(Real::fraction(1, 20));
+  EXPECT_EQ(a.stepper(model, T())->advance(T(0), 0, h, 20, za, completed), Status::converged);
+  EXPECT_EQ(b.stepper(model, T())->advance(T(0), 0, h, 20, zb, completed), Status::converged);
+  double largest = 0, size = 0;
+  for (std::size_t k = 0; k < za.size(); ++k) {
+    largest = std::max(largest, static_cast<double>(abs(za[k] - zb[k])));
+    size = std::max(size, static_cast<double>(abs(za[k])));
+  }
+  return largest / size;
+}
+
+// The same method, up to the rounding of twenty steps of some flows each.
+void expect_same_steps(const MethodInstance& a, const MethodInstance& b, const std::string& system) {
+  EXPECT_LT(difference<double>(a, b, system), 1e-14);
+  EXPECT_LT(difference<Quad>(a, b, system), 1e-32);
+}
+
+TEST(MethodTables, EveryOneThatIsShippedIsRead) {
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(shipped)) {
+    if (entry.path().extension() != ".toml") continue;
+    const auto table = read_method_table(entry.path().string());
+    EXPECT_EQ(table->name(), entry.path().stem().string());
+    EXPECT_FALSE(table->descriptor().reference.empty()) << table->name();
+    EXPECT_EQ(table->theory().order, table->descriptor().order);
+    EXPECT_FALSE(table->descriptor().double_coefficients) << table->name();
+    ++count;
+  }
+  EXPECT_GE(count, 15);
+}
+
+TEST(MethodTables, WhatTheyKeepIsComputed) {
+  const auto kept = [](const std::string& name) {
+    return names_of(read_method_table(shipped + name + ".toml")->descriptor().preserves);
+  };
+  EXPECT_EQ(kept("dormand-prince"), Names{"none"});
+  EXPECT_EQ(kept("radau-iia-5"), Names{"none"});
+  EXPECT_EQ(kept("adams-bashforth-4"), Names{"none"});
+  EXPECT_EQ(kept("symplectic-dirk-4"),
+            (Names{"symplectic", "symmetric", "reversible", "quadratic-invariants"}));
+  EXPECT_EQ(kept("pefrl"), (Names{"symplectic", "symmetric", "reversible"}));
+  EXPECT_EQ(kept("mclachlan-atela-4"), Names{"symplectic"});
+}
+
+TEST(MethodTables, StepLikeTheSameMethodInCpp) {
+  const auto made = [](const std::string& name) { return read_method_table(shipped + name + ".toml"); };
+  const auto registered = [](const std::string& name, const Assignments& set) {
+    return integrators().get(name, "integrator").make(set);
+  };
+  const auto forest_ruth = made("forest-ruth"), suzuki = made("suzuki-4-verlet"),
+             euler = made("verlet-as-processed-euler");
+  for (const char* system : {"pendulum", "henon-heiles"}) {
+    expect_same_steps(*forest_ruth->make({}), *registered("yoshida-verlet", {{"order", "4"}}), system);
+    expect_same_steps(*suzuki->make({}), *registered("suzuki-verlet", {{"order", "4"}}), system);
+    expect_same_steps(*euler->make({}), *registered("verlet", {}), system);
+    EXPECT_GT(
+        difference<double>(*forest_ruth->make({}), *registered("suzuki-verlet", {{"order", "4"}}), system),
+        1e-12);
+  }
+}
+
+TEST(MethodTables, RungeKuttaTablesStepLikeTheSameMethodInCpp) {
+  const TemporaryDirectory files;
+  std::ofstream(files / "rk.toml") << "name = \"table\"\nkind = \"runge-kutta\"\norder = 4\n"
+                                      "a = [[], [\"1/2\"], [0, 0.5], [0, 0, 1]]\n"
+                                      "b = [\"1/6\", \"1/3\", \"1/3\", \"1/6\"]\n";
+  std::ofstream(files / "gauss.toml") << "name = \"table\"\nkind = \"runge-kutta\"\norder = 4\n"
+                                         "let = { s = \"sqrt(3)/6\" }\nc = [\"1/2 - s\", \"1/2 + s\"]\n"
+                                         "a = [[\"1/4\", \"1/4 - s\"], [\"1/4 + s\", \"1/4\"]]\n"
+                                         "b = [\"1/2\", 0.5]\n";
+  const auto explicit_one = read_method_table(files / "rk.toml"),
+             gauss = read_method_table(files / "gauss.toml");
+  for (const char* system : {"pendulum", "damped-pendulum"}) {
+    expect_same_steps(*explicit_one->make({}), *integrators().get("rk4", "").make({}), system);
+    expect_same_steps(*gauss->make({}), *integrators().get("gauss", "").make({{"stages", "2"}}), system);
+  }
+}
+
+TEST(MethodTables, AWrongCoefficientIsRefusedWithItsConditionAndResidual) {
+  EXPECT_EQ(refusal(verlet_with("0.5, \"1/2\"")), "accepted: table");
+  expect_refused(
+      verlet_with("0.5, 0.500000001"),
+      {":3: key 'order': 2, but the Lie word drift = 1, a condition of order 1, is off by 1.00e-09",
+       "expected at most"});
+  expect_refused(verlet_with("0.5, 0.500000000000000000001"),
+                 {"is off by 1.00e-21", "numbers of 36 digits", "precision = \"double\""});
+  expect_refused(verlet_with("0.4, 0.6"), {"the Lie word drift kick = 0, a condition of order 2"});
+  expect_refused(verlet_with("0.5, 0.5", "order = 4"), {"a condition of order 3"});
+  expect_refused(verlet_with("0.5, 0.5", "order = 1"),
+                 {"all conditions of order 2 hold; expected that order"});
+  expect_refused(
+      "name = \"table\"\nkind = \"runge-kutta\"\norder = 4\na = [[], [0.5], [0, 0.5], [0, 0, 1]]\n"
+      "b = [\"1/6\", \"1/3\", \"1/3\", \"1/6 + 1e-9\"]\n",
+      {"the tree t, Phi = 1/1, a condition of order 1, is off by 1.00e-09"});
+  expect_refused(
+      "name = \"table\"\nkind = \"multistep\"\norder = 2\nrho = [-1, 0, 1]\nsigma = [0, 2.001, 0]\n",
+      {"the sum of j rho_j - sigma_j = 0"});
+  expect_refused(
+      "name = \"table\"\nkind = \"composition\"\nbase = \"verlet\"\norder = 4\nweights = [0.3, 0.4, "
+      "0.3]\n",
+      {"the Lie word Y3 = 0, a condition of order 3"});
+}
+
+TEST(MethodTables, DoublesAreTakenWhereTheyAreMarked) {
+  const std::string yoshida =
+      "name = \"table\"\nkind = \"composition\"\nbase = \"verlet\"\norder = 4\n"
+      "weights = [1.3512071919596578, -1.7024143839193153, 1.3512071919596578]\n";
+  expect_refused(yoshida, {"precision = \"double\""});
+  const TemporaryDirectory files;
+  std::ofstream(files / "table.toml") << yoshida + "precision = \"double\"\n";
+  EXPECT_TRUE(read_method_table(files / "table.toml")->descriptor().double_coefficients);
+}
+
+TEST(MethodTables, AClaimThatTheNumbersDoNotBearOutIsRefused) {
+  expect_refused(
+      "name = \"table\"\nkind = \"runge-kutta\"\norder = 2\na = [[], [0.5]]\nb = [0, 1]\n"
+      "preserves = [\"symplectic\"]\n",
+      {"key 'preserves': 'symplectic' does not follow", "b2 a2,2 + b2 a2,2 = b2 b2"});
+  expect_refused(verlet_with("0.5, 0.5", "order = 2\npreserves = [\"energy\"]"),
+                 {"splittings are not tested"});
+  expect_refused(verlet_with("0.5, 0.5", "order = 2\npreserves = [\"symplectc\"]"), {"symplectic"});
+  expect_refused(
+      "name = \"table\"\nkind = \"multistep\"\norder = 2\nrho = [-1, 0, 1]\nsigma = [0, 2, 0]\n"
+      "preserves = [\"symmetric\"]\n",
+      {"a map of several states"});
+}
+
+TEST(MethodTables, AnUnstableMultistepMethodIsRefused) {
+  expect_refused("name = \"table\"\nkind = \"multistep\"\norder = 3\nrho = [-5, 4, 1]\nsigma = [2, 4, 0]\n",
+                 {"not zero-stable", "of modulus 5"});
+}
+
+TEST(MethodTables, AKernelIsToldFromItsProcessor) {
+  const std::string head = "name = \"table\"\nkind = \"processed\"\norder = 2\n";
+  expect_refused(head + "pre = { drift = [\"-1/4\"], kick = [0] }\nkernel = { drift = [1], kick = [1] }\n",
+                 {"key 'order': 2, but the Lie word drift kick = 0"});
+  expect_refused(
+      "name = \"table\"\nkind = \"processed\"\norder = 3\npre = { drift = [\"-1/2\"], kick = [0] }\n"
+      "kernel = { drift = [1], kick = [1] }\n",
+      {"key 'kernel': is not of effective order 3: whatever the processor"});
+}
+
+TEST(MethodTables, BadFilesAreRefusedInOneLine) {
+  expect_refused("name = ", {":1:"});
+  expect_refused("kind = \"splitting\"\norder = 2\n", {"key 'name': is missing"});
+  expect_refused("name = \"Table\"\nkind = \"splitting\"\norder = 2\n", {"kebab-case", "'Table'"});
+  expect_refused("name = \"table\"\nkind = \"spliting\"\norder = 2\n", {"did you mean 'splitting'?"});
+  expect_refused("name = \"table\"\nkind = \"splitting\"\norder = 0\n", {"expected a whole number > 0"});
+  expect_refused(verlet_with("0.5, 0.5", "order = 13"), {"expected at most 12"});
+  expect_refused(verlet_with("0.5, 0.5", "order = 2\nkik = 1"),
+                 {"unknown key 'kik'", "did you mean 'kick'?"});
+  expect_refused(verlet_with("0.5, \"g\""), {":4:16: ", "'g'"});
+  expect_refused(verlet_with("0.5, true"), {"key 'drift': expected a list of numbers"});
+  expect_refused(verlet_with("0.5, \"1/0\""), {":4:"});
+  expect_refused(verlet_with("0.2, 0.3, 0.5"), {"key 'kick': expected 3 numbers or one less", "got 1"});
+  expect_refused("name = \"table\"\nkind = \"runge-kutta\"\norder = 1\na = [[], []]\nb = [1]\n",
+                 {"key 'a': expected 1 rows"});
+  expect_refused(
+      "name = \"table\"\nkind = \"runge-kutta\"\norder = 2\nc = [0, 0.6]\na = [[], [0.5]]\nb = [0, 1]\n",
+      {"key 'c': the sum of row 2 of a less c2 is off by -1.00e-01"});
+  expect_refused(
+      "name = \"table\"\nkind = \"runge-kutta\"\norder = 1\na = [[0.5, 0.5], [0.5, 0.5]]\nb = [0.5, 0.5]\n",
+      {"have the same sum"});
+  expect_refused("name = \"table\"\nkind = \"composition\"\nbase = \"rk4\"\norder = 2\nweights = [1]\n",
+                 {"rk4 cannot be composed; expected a symmetric method of order 2"});
+  EXPECT_THROW((void)read_method_table("no-such-file.toml"), InputError);
+}
+
+TEST(MethodTables, ThoseOfNystroemRefuseOtherKineticEnergies) {
+  const auto table = read_method_table(shipped + "blanes-moan-srkn6.toml");
+  const auto method = table->make({});
+  EXPECT_EQ(method->refuses(*systems().get("pendulum", "").make({})), "");
+  const auto other = systems().get("lotka-volterra", "").make({});
+  EXPECT_NE(method->refuses(*other), "");
+}
+
+TEST(MethodTables, AreRegisteredUnderTheirNamesWhenTheyAreNamed) {
+  const MethodPlugin& table = integrator_named(shipped + "ruth-3.toml");
+  EXPECT_EQ(table.name(), "ruth-3");
+  EXPECT_EQ(&integrator_named(shipped + "ruth-3.toml"), &table);
+  EXPECT_EQ(integrators().find("ruth-3"), &table);
+  EXPECT_TRUE(order_theory("ruth-3", {}).has_value());
+  EXPECT_TRUE(names_method_table(shipped + "ruth-3.toml"));
+  EXPECT_FALSE(names_method_table("verlet"));
+  const TemporaryDirectory files;
+  std::ofstream(files / "verlet.toml") << "name = \"verlet\"\nkind = \"splitting\"\norder = 2\n"
+                                          "drift = [0.5, 0.5]\nkick = [1]\n";
+  try {
+    (void)integrator_named(files / "verlet.toml");
+    ADD_FAILURE() << "a name that is taken was taken again";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("'verlet' is registered in"), std::string::npos) << error.what();
+  }
+  std::ofstream(files / "model.toml") << "name = \"model\"\nfield = [\"z1\"]\n";
+  EXPECT_FALSE(names_method_table(files / "model.toml"));
+}
+
+}  // namespace
