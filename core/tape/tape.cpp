@@ -1,6 +1,7 @@
 // Turning what was recorded into a tape, and what a tape depends on.
 #include <algorithm>
 
+#include <pfaff/core/tape/operands.hpp>
 #include <pfaff/core/tape/recorder.hpp>
 
 namespace pfaff {
@@ -48,47 +49,6 @@ bool Tape::state_independent() const {
   return std::all_of(outputs.begin(), outputs.end(), [&](int slot) { return slot < state_begin; });
 }
 
-namespace {
-// Calls visit(slot) for every slot that an instruction reads. The slots of a linear system are read by the
-// first instruction of its group.
-template <class Visit>
-void operands(const Instruction& i, const std::vector<LinearSystem>& solves, Visit&& visit) {
-  switch (i.operation) {
-    case Operation::constant:
-    case Operation::time:
-    case Operation::input:
-    case Operation::solve_next:
-      return;
-    case Operation::add:
-    case Operation::subtract:
-    case Operation::multiply:
-    case Operation::divide:
-      visit(i.a);
-      visit(i.b);
-      return;
-    case Operation::select:
-      visit(i.a);
-      visit(i.b);
-      visit(i.c);
-      return;
-    case Operation::solve:
-      for (const int slot : solves[static_cast<std::size_t>(i.a)].matrix) visit(slot);
-      for (const int slot : solves[static_cast<std::size_t>(i.a)].right_hand_side) visit(slot);
-      return;
-    default:
-      visit(i.a);
-      return;
-  }
-}
-// The first instruction of the group that writes slot k. A group is a sine with its cosine or all components
-// of a linear solve; other instructions are groups of one.
-std::size_t group_start(const std::vector<Instruction>& code, std::size_t k) {
-  if (code[k].operation == Operation::cosine) return k - 1;
-  if (code[k].operation == Operation::solve_next) return k - static_cast<std::size_t>(code[k].b);
-  return k;
-}
-}  // namespace
-
 Tape Recorder::finish(std::span<const Recorded> outputs) {
   std::vector<int> results;
   for (const Recorded& output : outputs) results.push_back(slot_of(output));
@@ -101,7 +61,7 @@ Tape Recorder::finish(std::span<const Recorded> outputs) {
     if (needed[k] == 0) continue;
     const std::size_t start = group_start(code_, k);
     for (std::size_t g = start; g < n && group_start(code_, g) == start; ++g) needed[g] = 1;
-    operands(code_[start], solves_, [&](int slot) { needed[static_cast<std::size_t>(slot)] = 1; });
+    visit_operands(code_[start], solves_, [&](int slot) { needed[static_cast<std::size_t>(slot)] = 1; });
   }
 
   // Dependence: 0 constants, 1 time, 2 state.
@@ -111,8 +71,8 @@ Tape Recorder::finish(std::span<const Recorded> outputs) {
     if (code_[k].operation == Operation::input) level[k] = 2;
     const std::size_t start = group_start(code_, k);
     if (start != k) level[k] = level[start];
-    operands(code_[k], solves_,
-             [&](int slot) { level[k] = std::max(level[k], level[static_cast<std::size_t>(slot)]); });
+    visit_operands(code_[k], solves_,
+                   [&](int slot) { level[k] = std::max(level[k], level[static_cast<std::size_t>(slot)]); });
     // A function of constants alone that could not be folded is evaluated with the time part.
     if (code_[k].operation != Operation::constant) level[k] = std::max(level[k], 1);
   }
