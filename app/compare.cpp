@@ -10,12 +10,13 @@ namespace pfaff::app {
 
 namespace {
 
-int compare(const std::vector<std::string>& names, bool quick, bool force, const std::string& out,
-            bool json) {
+int compare(const std::vector<std::string>& names, bool quick, bool force, bool compile,
+            const std::string& out, bool json) {
   nlohmann::json j{{"schema", 1}, {"experiments", nlohmann::json::array()}};
   bool failed = false;
   for (const std::string& name : names) {
-    const Experiment experiment = read_experiment(name, quick);
+    Experiment experiment = read_experiment(name, quick);
+    experiment.compile = experiment.compile || compile;
     std::filesystem::path directory = out;
     if (out.empty())
       directory = std::filesystem::path("pfaff-out") / (experiment.name + (quick ? "-quick" : ""));
@@ -60,6 +61,7 @@ void add_compare(CLI::App& app, Common& common, Action& action) {
   auto names = std::make_shared<std::vector<std::string>>();
   auto quick = std::make_shared<bool>(false);
   auto force = std::make_shared<bool>(false);
+  auto compile = std::make_shared<bool>(false);
   auto all = std::make_shared<bool>(false);
   auto out = std::make_shared<std::string>();
   sub->add_option("experiment", *names, "Name of one that ships (pfaff list experiments), or a TOML file")
@@ -67,12 +69,13 @@ void add_compare(CLI::App& app, Common& common, Action& action) {
   sub->add_flag("--all", *all, "Every experiment that ships");
   sub->add_flag("--quick", *quick, "Shorter horizons and fewer steps, to look at");
   sub->add_flag("--force", *force, "Run anew what was made from other files or builds");
+  sub->add_flag("--compile", *compile, "Compile the systems' formulas with the C++ compiler of this machine");
   sub->add_option("--out", *out, "Where results go (default pfaff-out/NAME), or resume from")
       ->type_name("DIR");
   sub->callback([=, &common, &action] {
     action = [=, &common] {
       if (*all == !names->empty()) throw InputError("compare: expected the name of an experiment, or --all");
-      return compare(*all ? experiment_names() : *names, *quick, *force, *out, common.json);
+      return compare(*all ? experiment_names() : *names, *quick, *force, *compile, *out, common.json);
     };
   });
 }

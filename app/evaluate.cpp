@@ -66,6 +66,8 @@ void add_evaluate(CLI::App& app, Common& common, Action& action) {
       ->type_name("FILE");
   sub->add_option("--time", options->time, "The time, 0 without")->type_name("t");
   sub->add_option("--precision", options->precision, "double (default) or quad")->type_name("NAME");
+  sub->add_flag("--compile", options->settings.compile,
+                "Compile the system's formulas with the C++ compiler of this machine");
   sub->add_option("--centre", options->centre, "F and B from K and D about this point: a,b,...")
       ->type_name("a,b,...");
   sub->callback([options, &common, &action] {

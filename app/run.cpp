@@ -32,7 +32,8 @@ RunConfig config_of(const Options& options) {
     for (const std::string& other : {settings.system, settings.formulation, settings.integrator,
                                      settings.time, settings.step, settings.tolerance, options.every,
                                      options.precision, options.state, options.reference, options.max_steps})
-      if (!other.empty() || !options.set.empty() || settings.project_initial || settings.allow_inconsistent)
+      if (!other.empty() || !options.set.empty() || settings.compile || settings.project_initial ||
+          settings.allow_inconsistent)
         throw InputError("--config holds the whole run; expected no other settings beside it");
     return read_config(options.config);
   }
@@ -178,6 +179,8 @@ void add_run(CLI::App& app, Common& common, Action& action) {
       ->type_name("NAME");
   sub->add_option("--max-steps", options->max_steps, "Steps that a run may take (default 1e12)")
       ->type_name("N");
+  sub->add_flag("--compile", s.compile,
+                "Compile the system's formulas with the C++ compiler of this machine");
   sub->add_flag("--project-initial", s.project_initial, "Move the initial state onto the constraints");
   sub->add_flag("--allow-inconsistent", s.allow_inconsistent, "Take an initial state off the constraints");
   sub->add_option("--config", options->config, "config.toml of an earlier run, to run it again")

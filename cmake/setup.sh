@@ -23,6 +23,7 @@ needed=(
   "libbenchmark-dev header:benchmark/benchmark.h"
   "python3 program:python3"
   "python3-matplotlib module:matplotlib"
+  "python3-sympy module:sympy"
 )
 [[ ${1:-} == --lint ]] && needed+=(
   "git program:git"

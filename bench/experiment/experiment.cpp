@@ -46,6 +46,7 @@ nlohmann::json description(const Experiment& experiment, const std::vector<Exper
                    {"notes", experiment.notes},
                    {"quick", experiment.quick},
                    {"versions", versions()}};
+  if (experiment.compile) j["compile"] = true;
   for (const DriftClassEntry& entry : drift_classes())
     j["drift_classes"].push_back({{"name", entry.name},
                                   {"meaning", entry.meaning},
@@ -136,6 +137,7 @@ ResolvedRun resolved(const Experiment& experiment, const ExperimentRun& run) {
   for (const auto& [key, value] : m.set)
     settings.set.emplace_back(key.starts_with("formulation.") ? key : "integrator." + key, value);
   settings.initial = c.initial;
+  settings.compile = experiment.compile;
   settings.step = run.step;
   settings.tolerance = run.tolerance;
   settings.time = c.time;

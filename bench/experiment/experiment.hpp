@@ -51,6 +51,7 @@ struct Experiment {
   std::vector<ExperimentCase> cases;
   std::vector<ExperimentClaim> claims;
   bool quick = false;
+  bool compile = false;  // the formulas of every system, as `compile = yes` in a run
 };
 
 /// Names of the experiments that are installed with the program.

@@ -111,6 +111,10 @@ Experiment read_experiment(const std::string& name_or_path, bool quick) {
   experiment.description = keys.text("description", "");
   experiment.reference = keys.list("reference");
   experiment.notes = keys.list("notes");
+  experiment.compile = keys.read("compile", "no", [](const std::string& text) {
+    if (text != "yes" && text != "no") throw InputError(unknown_name("answer", text, {"no", "yes"}));
+    return text == "yes";
+  });
   for (const toml::table* table : keys.tables("method")) {
     Keys m(*table, where + " [[method]]");
     ExperimentMethod method;

@@ -46,6 +46,7 @@ std::string settings_text(const ResolvedRun& run) {
   if (s.step_budget != default_step_budget) text << "max_steps = " << s.step_budget << '\n';
   line("reference", to_string(s.reference));
   line("structure", s.structure_residuals ? "residual" : "none");
+  if (s.compile) line("compile", "yes");
   if (s.project_initial) line("project_initial", "yes");
   if (s.allow_inconsistent) line("allow_inconsistent", "yes");
   text << "initial = [";
@@ -101,6 +102,7 @@ RunConfig read_config(const std::string& path) {
     settings.step_budget = parse_every(most, path + ": key 'max_steps'");
   settings.reference = parse_errors_against(keys.text("reference", "exact"), path + ": key 'reference'");
   settings.structure_residuals = !choice("structure", "residual", "none");
+  settings.compile = choice("compile", "no", "yes");
   settings.project_initial = choice("project_initial", "no", "yes");
   settings.allow_inconsistent = choice("allow_inconsistent", "no", "yes");
   settings.initial = keys.list_of_some("initial");

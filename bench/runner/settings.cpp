@@ -9,6 +9,7 @@
 #include <pfaff/bench/measure/constraints.hpp>
 #include <pfaff/bench/runner/checksum.hpp>
 #include <pfaff/bench/runner/motion.hpp>
+#include <pfaff/core/native/compiled_model.hpp>
 #include <pfaff/integrators/tables/method_table.hpp>
 #include <pfaff/systems/text/text_system.hpp>
 
@@ -210,6 +211,7 @@ ResolvedState resolve_state(const RunSettings& settings) {
   ResolvedState result;
   result.model = system.make(split.system);
   if (formulation != nullptr) result.model = formulation->apply(result.model, split.formulation);
+  if (settings.compile) result.model = compiled(result.model);
   result.state = initial_state(*result.model, asked_state(settings, split));
   result.t = number(settings.t0, "time");
   return result;
@@ -280,6 +282,8 @@ ResolvedRun resolve(const RunSettings& settings) {
   if (const std::string reason = run.method->refuses(*run.model); !reason.empty()) throw InputError(reason);
   if (settings.precision == Precision::quad && run.method->descriptor().double_coefficients)
     throw InputError(method.name() + " has coefficients in double only; expected --precision double");
+
+  if (settings.compile && settings.precision == Precision::double_precision) run.model = compiled(run.model);
 
   note_origins(run, system, method, read);
   run.initial = initial_state(*run.model, asked_state(settings, split));

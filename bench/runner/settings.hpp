@@ -43,6 +43,7 @@ struct RunSettings {
   std::string t0 = "0", step, tolerance, time;
   std::int64_t every = 0;  // 0: chosen for about a thousand samples
   Precision precision = Precision::double_precision;
+  bool compile = false;  // compile the formulas that are not (core/native/compiled_model.hpp), in double
   bool project_initial = false;     // move the initial state onto the constraints
   bool allow_inconsistent = false;  // or take it as it is though it is off them
   ErrorsAgainst reference = ErrorsAgainst::exact;

@@ -141,7 +141,8 @@ class Adjoints {
       } else if (start != k) {
         active_[k] = active_[start];
       } else {
-        operands(i, tape.solves, [&](int slot) { active_[k] |= active_[static_cast<std::size_t>(slot)]; });
+        visit_operands(i, tape.solves,
+                       [&](int slot) { active_[k] |= active_[static_cast<std::size_t>(slot)]; });
       }
     }
   }
@@ -287,7 +288,7 @@ std::vector<SparseGradient> sparse_gradients(const Tape& tape, const Recorded& t
     for (std::size_t next = 0; next < cone.size(); ++next) {
       const std::size_t k = cone[next];
       if (tape.code[k].operation == Operation::solve_next) reach(group_start(tape.code, k));
-      operands(tape.code[k], tape.solves, [&](int slot) { reach(static_cast<std::size_t>(slot)); });
+      visit_operands(tape.code[k], tape.solves, [&](int slot) { reach(static_cast<std::size_t>(slot)); });
     }
     std::sort(cone.begin(), cone.end());
     adjoints.seed(tape.outputs[r], Recorded(1));

@@ -1,0 +1,78 @@
+// How a language writes numbers and operations, and the expressions of a tape written in it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <pfaff/core/emit/plan.hpp>
+
+namespace pfaff::emit {
+
+/// How strongly the parts of a text hold together: a part of a product that holds together less than a
+/// product is put in parentheses. A negative number is as weak as a sum.
+enum class Strength { sum, product, call, atom };
+
+struct Phrase {
+  std::string text;
+  Strength strength;
+};
+
+/// A language. What most of them share is written here; the members that differ are virtual.
+class Language {
+ public:
+  virtual ~Language() = default;
+
+  /// An expression gets a variable after so many operations.
+  [[nodiscard]] virtual PlanRules rules() const = 0;
+  /// Whether a + (b + c) may be written a + b + c. It may not where the order of roundings matters.
+  [[nodiscard]] virtual bool associative() const = 0;
+  [[nodiscard]] virtual Phrase number(const Real& value) const = 0;
+  /// sqrt, exp, log, sin or cos of an argument.
+  [[nodiscard]] virtual Phrase function(Operation operation, const Phrase& argument) const = 0;
+  [[nodiscard]] virtual Phrase power(const Phrase& base, const Real& exponent) const = 0;
+  /// `positive` where condition > 0, else `otherwise`.
+  [[nodiscard]] virtual Phrase choice(const Phrase& condition, const Phrase& positive,
+                                      const Phrase& otherwise) const = 0;
+  [[nodiscard]] virtual Phrase product(const Phrase& a, const Phrase& b) const;
+  [[nodiscard]] virtual Phrase quotient(const Phrase& a, const Phrase& b) const;
+  [[nodiscard]] virtual std::string parenthesised(const std::string& text) const { return "(" + text + ")"; }
+
+  /// The text of a phrase, in parentheses where it is weaker than `least`.
+  [[nodiscard]] std::string at_least(Strength least, const Phrase& phrase) const {
+    return phrase.strength < least ? parenthesised(phrase.text) : phrase.text;
+  }
+};
+
+/// The expressions of a tape in a language. `names` has a name for every slot that stands for itself but the
+/// constants.
+class Expressions {
+ public:
+  Expressions(const Tape& tape, const Plan& plan, const Language& language,
+              const std::vector<std::string>& names)
+      : tape_(tape), plan_(plan), language_(language), names_(names) {}
+
+  /// The value of a slot where it is used: its name, or what is written for it.
+  [[nodiscard]] Phrase value(int slot) const;
+  /// What the variable of a slot is set to.
+  [[nodiscard]] Phrase definition(int slot) const;
+  /// The entries of a linear system: its matrix, row by row, and then its right-hand side.
+  [[nodiscard]] std::vector<Phrase> entries(const LinearSystem& system) const;
+
+ private:
+  const Tape& tape_;
+  const Plan& plan_;
+  const Language& language_;
+  const std::vector<std::string>& names_;
+};
+
+/// The function's usual name: sqrt, exp, log, sin, cos.
+std::string_view usual_name(Operation function);
+
+/// The double nearest to a constant, in as few digits as name it, with a point or an exponent: "2.0",
+/// "1e-12".
+std::string double_text(const Real& value);
+
+/// A system's name in words that may stand in any text: what could end a comment or a string is left out.
+std::string plain_words(const std::string& text);
+
+}  // namespace pfaff::emit

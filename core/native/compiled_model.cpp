@@ -1,0 +1,101 @@
+#include <pfaff/core/native/compiled_model.hpp>
+
+#include <iostream>
+#include <mutex>
+
+#include <pfaff/core/emit/cpp_function.hpp>
+#include <pfaff/core/emit/names.hpp>
+#include <pfaff/core/native/compiler.hpp>
+
+namespace pfaff {
+
+namespace {
+using namespace emit;
+
+// Formulas that methods and runs evaluate at every step.
+constexpr std::array candidates{
+    Formula::field,       Formula::field_jacobian,       Formula::force,       Formula::velocity,
+    Formula::chart,       Formula::chart_inverse,        Formula::chart_field, Formula::chart_field_jacobian,
+    Formula::hamiltonian, Formula::hamiltonian_gradient, Formula::structure,   Formula::poisson_tensor,
+    Formula::invariants};
+
+// Longer tapes are left to be replayed; so are Jacobians of many variables, which are full of zeros.
+constexpr std::size_t longest_tape = 200000;
+constexpr int most_columns = 64;
+
+bool is_jacobian(Formula f) { return f == Formula::field_jacobian || f == Formula::chart_field_jacobian; }
+
+bool to_be_compiled(const Model& model, Formula formula) {
+  if (model.compiled(formula) != nullptr || model.program(formula) != nullptr) return false;
+  if (formula == Formula::chart_field && model.canonical() && !model.given(Formula::chart))
+    return false;  // it is the field itself
+  if (is_jacobian(formula) && (model.dimension() > most_columns || model.program(Formula::field) != nullptr))
+    return false;
+  if (!model.given(formula) && derivation_of(formula, model) == nullptr) return false;
+  return model.tape(formula)->code.size() <= longest_tape;
+}
+
+std::string symbol_of(Formula formula) { return "pfaff_" + std::string(row_of(formula).name); }
+
+std::string function_text(const Tape& tape, const std::string& symbol, const Cpp& language) {
+  Equations equations;  // names only
+  equations.tape = tape;
+  for (int k = 0; k < tape.inputs; ++k) equations.coordinates.push_back({"z" + std::to_string(k + 1), ""});
+  const Plan plan = cpp_plan(tape, language);
+  Names names({"_", cpp_reserved, &with_underscore});
+  const TextNames text_name = text_names(equations, plan, names);
+  CppInterface interface;
+  interface.name = symbol;
+  interface.part_parameters = "const double& t, const double* arguments";
+  interface.parameters = "const void*, " + interface.part_parameters + ", double* results";
+  interface.part_arguments = "t, arguments";
+  interface.input_names = text_name.inputs;
+  for (int k = 0; k < tape.inputs; ++k)
+    interface.input_values.push_back("arguments[" + std::to_string(k) + "]");
+  return cpp_function(tape, plan, language, interface, text_name.slots);
+}
+
+// What a compiled model needs besides the author's object.
+struct Owner {
+  std::shared_ptr<const void> system;
+  std::shared_ptr<const native::Library> library;
+};
+}  // namespace
+
+std::string native_text(const Model& model) {
+  const Cpp language("");
+  std::string functions, solver;
+  for (const Formula formula : candidates) {
+    if (!to_be_compiled(model, formula)) continue;
+    const Tape& tape = *model.tape(formula);
+    if (solver.empty()) solver = cpp_solver(tape);
+    functions += function_text(tape, symbol_of(formula), language) + "\n";
+  }
+  if (functions.empty()) return {};
+  return "extern \"C\" {\ndouble sqrt(double) noexcept;\ndouble exp(double) noexcept;\ndouble log(double) "
+         "noexcept;\n"
+         "double sin(double) noexcept;\ndouble cos(double) noexcept;\ndouble pow(double, double) "
+         "noexcept;\n}\n\n" +
+         solver + functions;
+}
+
+std::shared_ptr<const Model> compiled(const std::shared_ptr<const Model>& model) {
+  if (native::compiler_version().empty()) {
+    static std::once_flag said;
+    std::call_once(said,
+                   [] { std::cerr << "pfaff: there is no C++ compiler here; formulas are interpreted\n"; });
+    return model;
+  }
+  const std::string text = native_text(*model);
+  if (text.empty()) return model;
+  ModelSource source = model->source();
+  const auto owner = std::make_shared<const Owner>(
+      Owner{source.system, native::library_of(text, "system " + model->name())});
+  for (const Formula formula : candidates)
+    if (void* address = owner->library->symbol(symbol_of(formula)))
+      source.compiled[index(formula)] = reinterpret_cast<CompiledFormula>(address);
+  source.system = std::shared_ptr<const void>(owner, owner->system.get());
+  return std::make_shared<const Model>(std::move(source));
+}
+
+}  // namespace pfaff

@@ -1,0 +1,24 @@
+// Models whose formulas are compiled by the system's compiler.
+//
+// The tapes of a model are written as C++ (core/emit/), compiled and loaded, so that a system that was given
+// as text, or whose formulas are derived, runs as fast as one whose formulas its author compiled. The
+// operations and their order are those of the tape: results differ by no more than roundings of the library's
+// functions. Only doubles are compiled; all other numbers go on replaying the tapes.
+#pragma once
+
+#include <memory>
+
+#include <pfaff/core/facets/model.hpp>
+
+namespace pfaff {
+
+/// The model with compiled formulas: field, force, velocity, chart and what follows from them by
+/// differentiation, energies and invariants, as far as it has them and they are not compiled already.
+/// Formulas of constraints are left as they are. Where the machine has no compiler this is the model itself,
+/// which is said once on stderr. RunError where the compiler fails.
+std::shared_ptr<const Model> compiled(const std::shared_ptr<const Model>& model);
+
+/// The C++ text of the formulas that `compiled` compiles; empty where there is none.
+std::string native_text(const Model& model);
+
+}  // namespace pfaff

@@ -1,0 +1,36 @@
+// The system's C++ compiler: which one it is, and shared libraries made by it of texts.
+//
+// A library is kept in a directory of the user's own, $XDG_CACHE_HOME/pfaff-native or ~/.cache/pfaff-native,
+// under a name made of its text, of the compiler's version and of the flags, with the whole of which it is
+// compared before it is loaded. Files are written under other names and renamed, so that programs may share
+// the directory. Nothing goes through a shell.
+#pragma once
+
+#include <memory>
+#include <string>
+
+namespace pfaff::native {
+
+/// A loaded library; it is unloaded when the object ends.
+class Library {
+ public:
+  explicit Library(void* handle) : handle_(handle) {}
+  ~Library();
+  Library(const Library&) = delete;
+  Library& operator=(const Library&) = delete;
+  /// The address of a symbol; null where the library has none of this name.
+  [[nodiscard]] void* symbol(const std::string& name) const;
+
+ private:
+  void* handle_;
+};
+
+/// The first line of what the compiler says of its version; empty where there is no compiler. The compiler is
+/// $CXX, in which words are separated by spaces, or c++.
+const std::string& compiler_version();
+
+/// The library of a text in C++17, compiled or found in the cache. RunError, naming `what` and the file with
+/// the compiler's messages, where it does not compile, and where the cache cannot be used.
+std::shared_ptr<const Library> library_of(const std::string& text, const std::string& what);
+
+}  // namespace pfaff::native
