@@ -8,6 +8,7 @@
 #include <pfaff/bench/verification/check.hpp>
 #include <pfaff/bench/verification/formulation_checks.hpp>
 #include <pfaff/bench/verification/random_checks.hpp>
+#include <pfaff/bench/verification/random_constraints.hpp>
 #include <pfaff/bench/verification/skated_models.hpp>
 #include <pfaff/core/formulation.hpp>
 
@@ -99,13 +100,14 @@ class Jobs {
     }
   }
 
-  // On every system that they fit, on a random graph of rods, and on models with velocity constraints of
-  // every kind.
+  // On every system that they fit, on random systems of constraints, and on models with velocity constraints
+  // of every kind.
   void add_formulations() {
     std::vector<std::shared_ptr<const Model>> models;
     for (const SystemPlugin* system : systems().all())
       if (system->constrained()) models.push_back(system->make(parameters_of(*system)));
     models.push_back(random_rods());
+    for (const auto& model : random_constraints()) models.push_back(model);
     for (const auto& model : skated_models()) models.push_back(model);
     for (const FormulationPlugin* formulation : formulations().all())
       for (const auto& model : models) {
