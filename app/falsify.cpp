@@ -48,10 +48,11 @@ std::vector<ClaimUnderTest> tests_of(const Options& options) {
   std::optional<Claim> claim;
   if (!options.claim.empty()) claim = claim_named(options.claim);
   if (!options.all)
-    return claims_under_test(integrator_named(options.method), parse_settings(options.set), claim);
+    return claims_under_test(integrator_named(options.method), parse_settings(options.set), claim,
+                             options.seed);
   std::vector<ClaimUnderTest> tests;
   for (const MethodPlugin* plugin : integrators().all())
-    for (ClaimUnderTest& test : claims_under_test(*plugin, {}, claim))
+    for (ClaimUnderTest& test : claims_under_test(*plugin, {}, claim, options.seed))
       if (test.made) tests.push_back(std::move(test));
   return tests;
 }
@@ -219,7 +220,7 @@ void add_falsify(CLI::App& app, Common& common, Action& action) {
       ->type_name("KEY=VALUE")
       ->expected(1)
       ->take_all();
-  sub->add_option("--seed", options->seed, "Of the random systems, 1 without")->type_name("N");
+  sub->add_option("--seed", options->seed, "Of the random systems and parameters, 1 without")->type_name("N");
   sub->add_option("--budget", options->budget, "Seconds; 60 without, 300 with --all")
       ->type_name("SECONDS")
       ->check(CLI::PositiveNumber);

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <chrono>
 
+#include <pfaff/bench/falsification/drawn_parameters.hpp>
 #include <pfaff/bench/falsification/trial.hpp>
 
 namespace pfaff {
@@ -15,6 +16,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+// Sets of parameters that are drawn for each method.
+constexpr int draws = 2;
 // The sizes of recipes and the steps that successive systems of a kind take.
 constexpr int sizes = 3;
 const Real& step_of(std::uint64_t round) {
@@ -89,19 +92,26 @@ void try_next(Search& search, std::uint64_t seed) {
 }  // namespace
 
 std::vector<ClaimUnderTest> claims_under_test(const MethodPlugin& plugin, const Assignments& parameters,
-                                              std::optional<Claim> claim) {
+                                              std::optional<Claim> claim, std::uint64_t seed) {
   std::vector<ClaimUnderTest> tests;
-  const auto instances = parameters.empty() ? plugin.instances(false) : std::vector<Assignments>{parameters};
-  for (const Assignments& assignments : instances) {
+  const auto add = [&](const Assignments& assignments, bool drawn) {
     const std::shared_ptr<const MethodInstance> method = plugin.make(assignments);
     // What a method claims may depend on the system: all that it claims on some system is put to the test.
     for (const ClaimRow& row : claim_table) {
       if (row.foreseen || (claim && *claim != row.claim)) continue;
       const ClaimUnderTest made{method, assignments, row.claim, true};
       const bool makes = !kinds_for(made).empty();
-      if (makes || claim) tests.push_back({method, assignments, row.claim, makes});
+      if (makes || (claim && !drawn)) tests.push_back({method, assignments, row.claim, makes});
     }
+  };
+  if (!parameters.empty()) {
+    add(parameters, false);
+    return tests;
   }
+  const std::vector<Assignments> instances = plugin.instances(false);
+  for (const Assignments& assignments : instances) add(assignments, false);
+  for (const Assignments& assignments : drawn_parameters(plugin, instances, seed, draws))
+    add(assignments, true);
   return tests;
 }
 

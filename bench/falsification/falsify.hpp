@@ -45,11 +45,11 @@ struct FalsificationSettings {
   std::uint64_t systems = std::numeric_limits<std::uint64_t>::max();
 };
 
-/// The claims of a method with the parameters that verification runs through, or with `parameters` where they
-/// are not empty: all that it makes, or `claim` alone, made or not. InputError for parameters that do not
-/// fit.
+/// The claims of a method: all that it makes, or `claim` alone, made or not; with `parameters`, or where
+/// these are empty with those that verification runs through and, for claims that it makes, two more sets
+/// drawn by `seed`. InputError for parameters that do not fit.
 std::vector<ClaimUnderTest> claims_under_test(const MethodPlugin& plugin, const Assignments& parameters,
-                                              std::optional<Claim> claim);
+                                              std::optional<Claim> claim, std::uint64_t seed = 1);
 
 /// The claim of that name; InputError with the nearest name, and for claims that have no check yet.
 Claim claim_named(const std::string& name);

@@ -103,6 +103,63 @@ PolynomialSystem detail::central_system(const Recipe& recipe) {
   return system;
 }
 
+namespace {
+
+// T in p and functions of its components as a polynomial that is the same with -p, where it is.
+bool even(const SparsePolynomial& kinetic, const std::vector<AppliedFunction>& applied) {
+  const std::size_t read = kinetic.variables() - applied.size();
+  Polynomials turned;
+  for (std::size_t k = 0; k < kinetic.variables(); ++k) {
+    const bool odd = k < read || applied[k - read].function == Function::sine;
+    if (k >= read && applied[k - read].function == Function::exponential && kinetic.depends_on(k))
+      return false;
+    turned.push_back(Real(odd ? -1 : 1) * SparsePolynomial::variable(kinetic.variables(), k));
+  }
+  return kinetic.at(turned) == kinetic;
+}
+
+// A polynomial in so many first ones of `variables`, beginning with `first`, and in functions of them, which
+// begin with `functions`, as a polynomial in all.
+SparsePolynomial placed(const SparsePolynomial& p, std::size_t read, std::size_t variables, std::size_t first,
+                        std::size_t functions) {
+  Polynomials values;
+  for (std::size_t k = 0; k < p.variables(); ++k)
+    values.push_back(SparsePolynomial::variable(variables, k < read ? first + k : functions + k - read));
+  return p.at(values);
+}
+
+}  // namespace
+
+// Parts: T and V, each in d variables and in the functions of them that `applied` lists.
+PolynomialSystem detail::transcendental_system(const Recipe& recipe) {
+  PolynomialSystem system;
+  const std::size_t n = recipe.dimension, d = n / 2;
+  system.dimension = n;
+  system.canonical = true;
+  const SparsePolynomial &kinetic = recipe.parts[0].front(), &potential = recipe.parts[1].front();
+  system.formulas[Formula::kinetic] = {kinetic};
+  system.formulas[Formula::potential] = {potential};
+  system.applied[Formula::kinetic] = recipe.applied[0];
+  system.applied[Formula::potential] = recipe.applied[1];
+  const std::size_t of_momenta = recipe.applied[0].size(), all = n + of_momenta + recipe.applied[1].size();
+  std::vector<AppliedFunction>& applied = system.applied[Formula::invariants];
+  for (const AppliedFunction& f : recipe.applied[0]) applied.push_back({f.function, d + f.variable});
+  applied.insert(applied.end(), recipe.applied[1].begin(), recipe.applied[1].end());
+  const SparsePolynomial energy =
+      placed(kinetic, d, all, d, n) + placed(potential, d, all, 0, n + of_momenta);
+  bool polynomial = true;
+  for (std::size_t k = n; k < all; ++k) polynomial = polynomial && !energy.depends_on(k);
+  system.invariants.push_back({"energy", "", Behaviour::conserved, polynomial && energy.homogeneous(2)});
+  system.formulas[Formula::invariants] = {energy};
+  if (even(kinetic, recipe.applied[0])) {
+    Polynomials reversed;
+    for (std::size_t k = 0; k < n; ++k)
+      reversed.push_back(Real(k < d ? 1 : -1) * SparsePolynomial::variable(n, k));
+    system.formulas[Formula::reversal] = std::move(reversed);
+  }
+  return system;
+}
+
 std::string_view to_string(SystemKind kind) {
   constexpr std::array<std::string_view, system_kinds.size()> names{
       "separable",    "driven",       "nonseparable",
@@ -110,7 +167,7 @@ std::string_view to_string(SystemKind kind) {
       "scaled-form",  "sheared-form", "casimir-bracket",
       "metriplectic", "field",        "skew-field",
       "surface",      "revolution",   "rods",
-      "second-class", "rolling"};
+      "second-class", "rolling",      "transcendental"};
   return names[static_cast<std::size_t>(kind)];
 }
 
@@ -126,6 +183,9 @@ PolynomialSystem system_of(const Recipe& recipe) {
     case SystemKind::central:
     case SystemKind::central_nonseparable:
       system = detail::central_system(recipe);
+      break;
+    case SystemKind::transcendental:
+      system = detail::transcendental_system(recipe);
       break;
     case SystemKind::scaled_form:
     case SystemKind::sheared_form:

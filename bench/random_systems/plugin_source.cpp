@@ -55,6 +55,31 @@ std::string text_of(const SparsePolynomial& p, std::string_view reads) {
   return p.text(named(reads, p.variables()));
 }
 
+// A function as a factor of a product.
+std::string text_of(const AppliedFunction& f, std::string_view reads) {
+  const std::string x = element(reads, f.variable);
+  switch (f.function) {
+    case Function::sine:
+      return "sin(" + x + ")";
+    case Function::exponential:
+      return "exp(" + x + ")";
+    case Function::root:
+      return "sqrt(1 + " + x + " * " + x + ")";
+    case Function::bell:
+      break;
+  }
+  return "(1 / (1 + " + x + " * " + x + "))";
+}
+
+// The polynomial, whose last variables stand for functions.
+std::string text_of(const SparsePolynomial& p, const std::vector<AppliedFunction>& applied,
+                    std::string_view reads) {
+  const std::size_t read = p.variables() - applied.size();
+  return p.text([&](std::size_t k) {
+    return k == p.variables() ? "t" : k < read ? element(reads, k) : text_of(applied[k - read], reads);
+  });
+}
+
 // The polynomial as a factor: in parentheses where it has several terms or a sign.
 std::string grouped(const SparsePolynomial& p, std::string_view reads) {
   const std::string text = text_of(p, reads);
@@ -66,15 +91,17 @@ std::string member(const Signature& s, const PolynomialSystem& system) {
   Polynomials all = results;
   const bool divided = s.formula == Formula::chart_inverse && !system.chart_divisors.empty();
   if (divided) all.insert(all.end(), system.chart_divisors.begin(), system.chart_divisors.end());
+  const auto found = system.applied.find(s.formula);
+  const auto applied = found == system.applied.end() ? std::vector<AppliedFunction>() : found->second;
   const std::string name(s.name);
   std::string text = "  template <class T>\n";
   if (s.writes.empty())
     return text + "  T " + name + "(" + arguments(all, s.reads) + ") const {\n    return " +
-           text_of(results.front(), s.reads) + ";\n  }\n";
+           text_of(results.front(), applied, s.reads) + ";\n  }\n";
   text +=
       "  void " + name + "(" + arguments(all, s.reads) + ", Out<T> " + std::string(s.writes) + ") const {\n";
   for (std::size_t k = 0; k < results.size(); ++k) {
-    std::string value = text_of(results[k], s.reads);
+    std::string value = text_of(results[k], applied, s.reads);
     if (divided && system.chart_divisors[k].degree() > 0)
       value = grouped(results[k], s.reads) + " / (" + text_of(system.chart_divisors[k], s.reads) + ")";
     text += "    " + element(s.writes, k) + " = " + value + ";\n";

@@ -54,6 +54,9 @@ class Drawing {
       case SystemKind::rods:
         rods();
         break;
+      case SystemKind::transcendental:
+        transcendental();
+        break;
       default:
         constraints();
     }
@@ -133,6 +136,27 @@ class Drawing {
     if (size_ > 0 && below(2) == 0) kinetic = kinetic + Real::fraction(1, 4) * terms(d, 3, 4, 1);
     if (recipe_.kind == SystemKind::driven) potential = driven(potential, 1, 3);
     recipe_.parts = {{kinetic}, {potential}};
+  }
+  // One function of a momentum and, with the size, more of positions, each in a term of its own beside those
+  // that are drawn.
+  void transcendental() {
+    const std::size_t d = degrees();
+    dimension(2 * d);
+    for (const std::size_t count : {std::size_t{1}, static_cast<std::size_t>(1 + size_)}) {
+      std::vector<AppliedFunction>& applied = recipe_.applied.emplace_back();
+      SparsePolynomial sum(d + count);
+      for (std::size_t k = 0; k < count; ++k) {
+        applied.push_back({all_functions[below(all_functions.size())], below(d)});
+        sum = sum + coefficient() * SparsePolynomial::variable(d + count, d + k);
+      }
+      if (recipe_.parts.empty()) {
+        sum = Real::fraction(1, 2) * sum;
+        for (std::size_t k = 0; k < d; ++k) sum = sum + detail::half_square(d + count, k, 1);
+      } else {
+        sum = sum + terms(d + count, 2, 3, 1 + size_);
+      }
+      recipe_.parts.push_back({sum});
+    }
   }
   // Half of the forms, drawn by chance, depend on time.
   void action_form() {

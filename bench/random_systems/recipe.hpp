@@ -33,7 +33,8 @@ enum class SystemKind {
   revolution,            // a particle in space, everything symmetric about the third axis
   rods,                  // beads on a plane and rods between them, or to the origin
   second_class,          // q_d + f = const and p_d + g = const, f and g functions of the other variables
-  rolling                // velocity constraints A(q) v = 0
+  rolling,               // velocity constraints A(q) v = 0
+  transcendental         // T(p) + V(q), polynomials of p and q and of functions of single components
 };
 inline constexpr std::array system_kinds{
     SystemKind::separable,    SystemKind::driven,       SystemKind::nonseparable,
@@ -41,7 +42,7 @@ inline constexpr std::array system_kinds{
     SystemKind::scaled_form,  SystemKind::sheared_form, SystemKind::casimir_bracket,
     SystemKind::metriplectic, SystemKind::field,        SystemKind::skew_field,
     SystemKind::surface,      SystemKind::revolution,   SystemKind::rods,
-    SystemKind::second_class, SystemKind::rolling};
+    SystemKind::second_class, SystemKind::rolling,      SystemKind::transcendental};
 /// "separable", "second-class", ...
 std::string_view to_string(SystemKind kind);
 
@@ -56,7 +57,9 @@ struct Recipe {
   /// without them, and are made tangent.
   std::vector<Real> state;
   std::vector<Real> masses;  // of positions, or of beads, where constraints restrict them
-  Real rate;                 // of friction, or the strength of a relaxation
+  /// Of the variables of each part, those that stand in its polynomials behind them; of kind transcendental.
+  std::vector<std::vector<AppliedFunction>> applied;
+  Real rate;                                              // of friction, or the strength of a relaxation
   std::vector<std::pair<std::size_t, std::size_t>> rods;  // between beads; the last index is the origin
 };
 
@@ -79,6 +82,7 @@ namespace detail {
 // The kinds by family, each in a file of its own.
 PolynomialSystem canonical_system(const Recipe& recipe);
 PolynomialSystem central_system(const Recipe& recipe);
+PolynomialSystem transcendental_system(const Recipe& recipe);
 PolynomialSystem birkhoffian_system(const Recipe& recipe);
 PolynomialSystem bracket_system(const Recipe& recipe);
 PolynomialSystem field_system(const Recipe& recipe);

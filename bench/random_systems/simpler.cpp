@@ -90,6 +90,29 @@ Recipe without_bead(const Recipe& recipe, std::size_t bead) {
   return less;
 }
 
+// Function j of a part left out, with the terms that contain it.
+void leave_out_function(Recipe& recipe, std::size_t part, std::size_t j) {
+  for (SparsePolynomial& p : recipe.parts[part])
+    p = without_variable(p, p.variables() - recipe.applied[part].size() + j);
+  erase_at(recipe.applied[part], j);
+}
+
+// Position k and its momentum left out, with the functions of them.
+Recipe without_position_and_functions(const Recipe& recipe, std::size_t k) {
+  Recipe less = recipe;
+  less.dimension -= 2;
+  erase_at(less.state, recipe.dimension / 2 + k);
+  erase_at(less.state, k);
+  for (std::size_t part = 0; part < less.parts.size(); ++part) {
+    for (std::size_t j = less.applied[part].size(); j-- > 0;)
+      if (less.applied[part][j].variable == k) leave_out_function(less, part, j);
+    for (SparsePolynomial& p : less.parts[part]) p = without_variable(p, k);
+    for (AppliedFunction& f : less.applied[part])
+      if (f.variable > k) --f.variable;
+  }
+  return less;
+}
+
 Recipe without_component(const Recipe& recipe, std::size_t k) {
   Recipe less = recipe;
   --less.dimension;
@@ -124,6 +147,14 @@ void leave_out_variables(std::vector<Recipe>& list, const Recipe& recipe) {
       break;
     case SystemKind::field:
       for (std::size_t k = 0; k < n && n > 1; ++k) list.push_back(without_component(recipe, k));
+      break;
+    case SystemKind::transcendental:
+      for (std::size_t k = 0; k < d && d > 1; ++k) list.push_back(without_position_and_functions(recipe, k));
+      for (std::size_t part = 0; part < recipe.applied.size(); ++part)
+        for (std::size_t j = 0; j < recipe.applied[part].size(); ++j) {
+          list.push_back(recipe);
+          leave_out_function(list.back(), part, j);
+        }
       break;
     case SystemKind::rods:
       for (std::size_t k = 0; k < n / 4 && n > 4; ++k)
@@ -193,9 +224,10 @@ std::size_t length(const Real& x) { return x.is(0) ? 0 : x.is(1) ? 1 : 1 + to_st
 }  // namespace
 
 std::array<std::size_t, 4> complexity(const Recipe& recipe) {
-  // A constraint counts as one thing to be read, as a term does.
+  // A constraint counts as one thing to be read, as a term does, and so does a function.
   std::array<std::size_t, 4> result{recipe.dimension, recipe.rods.size(), 0, 0};
   if (recipe.kind == SystemKind::surface) result[1] = recipe.parts[1].size();
+  for (const auto& applied : recipe.applied) result[1] += applied.size();
   for (const Polynomials& part : recipe.parts)
     for (const SparsePolynomial& p : part)
       for (const auto& [powers, c] : p.terms()) {

@@ -112,17 +112,19 @@ void execute_fixed(const ResolvedRun& run, Observer<T>& observer, RunRecord& rec
 // The number of intervals between evenly spaced samples of a run whose method chooses its steps. Every sample
 // forces a step to end there and so shortens it. A trial run without samples counts the steps that the method
 // takes by itself; with one sample for every eight of them the shortening hardly matters.
+template <class T>
 int sample_intervals(const ResolvedRun& run) {
-  const auto stepper = run.method->stepper(run.model, double());
-  std::vector<double> z;
-  for (const Real& x : run.initial) z.push_back(x.value());
-  double t = run.t0.value();
-  (void)stepper->advance_to(t, t + run.time.value(), run.tolerance.value(), z);
+  const auto stepper = run.method->stepper(run.model, T());
+  std::vector<T> z;
+  for (const Real& x : run.initial) z.push_back(T(x));
+  T t(run.t0);
+  (void)stepper->advance_to(t, t + T(run.time), T(run.tolerance), z);
   return static_cast<int>(std::clamp<std::int64_t>(stepper->counters().steps / 8, 32, 200));
 }
 
 // Ends a run that has taken more steps than it may; true where it has.
-bool beyond_budget(const ResolvedRun& run, double t, std::int64_t steps, RunRecord& record) {
+template <class T>
+bool beyond_budget(const ResolvedRun& run, const T& t, std::int64_t steps, RunRecord& record) {
   if (steps <= run.settings.step_budget) return false;
   record.status = Status::not_converged;
   record.message = "more than " + std::to_string(run.settings.step_budget) +
@@ -130,17 +132,18 @@ bool beyond_budget(const ResolvedRun& run, double t, std::int64_t steps, RunReco
   return true;
 }
 
-void execute_adaptive(const ResolvedRun& run, Observer<double>& observer, RunRecord& record,
+template <class T>
+void execute_adaptive(const ResolvedRun& run, Observer<T>& observer, RunRecord& record,
                       const Progress& progress, const std::atomic<bool>* stop) {
-  const int intervals = sample_intervals(run);
-  const auto stepper = run.method->stepper(run.model, double());
-  std::vector<double> z;
-  for (const Real& x : run.initial) z.push_back(x.value());
-  double t = run.t0.value();
+  const int intervals = sample_intervals<T>(run);
+  const auto stepper = run.method->stepper(run.model, T());
+  std::vector<T> z;
+  for (const Real& x : run.initial) z.push_back(T(x));
+  T t(run.t0);
   bool ended = ended_by(observer.observe(t, z, true, false), t, 0, record);
   for (int k = 1; k <= intervals && !ended; ++k) {
-    const double end = run.t0.value() + run.time.value() * k / intervals;
-    const Status status = stepper->advance_to(t, end, run.tolerance.value(), z);
+    const T end = T(run.t0) + T(run.time) * T(k) / T(intervals);
+    const Status status = stepper->advance_to(t, end, T(run.tolerance), z);
     if (status != Status::converged) {
       record.status = status;
       record.message = "the step control gave up " + at(t, stepper->counters().steps);
@@ -187,20 +190,24 @@ namespace {
                  ": thrown after t = " + to_string(reached, 10) + ": " + words);
 }
 
+template <class T>
+void execute_in(const ResolvedRun& run, const ReferenceSolution* reference, const Progress& progress,
+                const std::atomic<bool>* stop, RunRecord& record) {
+  Observer<T> observer(run, reference, record);
+  if (run.adaptive()) {
+    execute_adaptive(run, observer, record, progress, stop);
+  } else {
+    execute_fixed(run, observer, record, progress, stop);
+  }
+  observer.finish();
+}
+
 void execute_into(const ResolvedRun& run, const ReferenceSolution* reference, const Progress& progress,
                   const std::atomic<bool>* stop, RunRecord& record) {
   if (run.settings.precision == Precision::quad) {
-    Observer<Quad> observer(run, reference, record);
-    execute_fixed(run, observer, record, progress, stop);
-    observer.finish();
+    execute_in<Quad>(run, reference, progress, stop, record);
   } else {
-    Observer<double> observer(run, reference, record);
-    if (run.adaptive()) {
-      execute_adaptive(run, observer, record, progress, stop);
-    } else {
-      execute_fixed(run, observer, record, progress, stop);
-    }
-    observer.finish();
+    execute_in<double>(run, reference, progress, stop, record);
   }
 }
 }  // namespace

@@ -6,6 +6,7 @@
 #include <limits>
 #include <sstream>
 
+#include <pfaff/bench/measure/chosen_steps.hpp>
 #include <pfaff/bench/measure/constraints.hpp>
 #include <pfaff/bench/runner/checksum.hpp>
 #include <pfaff/bench/runner/motion.hpp>
@@ -253,6 +254,18 @@ void check_times(const ResolvedRun& run, const std::string& step_text, const std
     throw InputError(option + ": " + step_text + " vanishes beside the time " + to_string(Quad(latest), 6) +
                      in + " (t + h = t); expected a larger number" + expected);
 }
+
+// Refuses a tolerance that no step can meet in the scalar T of the run.
+template <class T>
+void check_tolerance(const ResolvedRun& run) {
+  constexpr T round_off = std::numeric_limits<T>::epsilon();
+  if (T(run.tolerance) < round_off)
+    throw InputError("--tolerance: " + run.settings.tolerance + " is below round-off, which is " +
+                     to_string(Quad(round_off), 3) + "; expected at least that" +
+                     (adaptive_in_quad(*run.method, run.model) && !std::is_same_v<T, Quad>
+                          ? ", or --precision quad"
+                          : ""));
+}
 }  // namespace
 
 ResolvedRun resolve(const RunSettings& settings) {
@@ -315,13 +328,15 @@ ResolvedRun resolve(const RunSettings& settings) {
           "--every counts steps of one length; with --tolerance samples are evenly spaced in time");
     if (!run.method->adaptive())
       throw InputError(method.name() + " takes fixed steps only; expected --step instead of --tolerance");
-    if (settings.precision == Precision::quad)
-      throw InputError("--tolerance: adaptive steps are available in double only");
-    constexpr double round_off = std::numeric_limits<double>::epsilon();
-    if (run.tolerance.value() < round_off)
-      throw InputError("--tolerance: " + settings.tolerance + " is below round-off, which is " +
-                       to_string(Quad(round_off), 3) + "; expected at least that");
-    check_times<double>(run, settings.time, "--time");
+    if (settings.precision == Precision::quad && !adaptive_in_quad(*run.method, run.model))
+      throw InputError(method.name() + " chooses its steps in double only; expected --precision double");
+    if (settings.precision == Precision::quad) {
+      check_tolerance<Quad>(run);
+      check_times<Quad>(run, settings.time, "--time");
+    } else {
+      check_tolerance<double>(run);
+      check_times<double>(run, settings.time, "--time");
+    }
     return run;
   }
   if (settings.step.empty())

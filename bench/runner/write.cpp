@@ -113,6 +113,7 @@ nlohmann::json summary(const ResolvedRun& run, const RunRecord& record) {
       entry["rate"] = optional(d.growth_rate);
       entry["class"] = to_string(d.drift_class);
       entry["samples"] = d.samples;
+      entry["scale"] = record.scales[i];
     } else if (const auto words = setback_words(invariant.behaviour)) {
       entry[setback_key(*words)] = record.setback[i];
     }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include <pfaff/bench/measure/chosen_steps.hpp>
 #include <pfaff/bench/measure/reference.hpp>
 #include <pfaff/bench/verification/method_on_model.hpp>
 
@@ -11,28 +12,41 @@ namespace pfaff {
 
 namespace {
 
-constexpr std::array tolerances{1e-4, 1e-6, 1e-8, 1e-10};
+template <class T>
+struct Tolerances;
+template <>
+struct Tolerances<double> {
+  static constexpr const char* precision = "double";
+  static constexpr std::array values{1e-4, 1e-6, 1e-8, 1e-10};
+};
+template <>
+struct Tolerances<Quad> {
+  static constexpr const char* precision = "quad";
+  static constexpr std::array values{1e-10, 1e-16, 1e-22, 1e-28};
+};
 // A tolerance bounds the error of one step. Over the system's own time the errors of some tens of steps add
-// up, and the motion multiplies them; a method that ignores its tolerance is off by 1e6 and more at 1e-10.
+// up, and the motion multiplies them; a method that ignores its tolerance is off by 1e6 and more at the
+// smallest.
 constexpr double most_errors = 1000;
-// Steps at a tolerance of 1e-10 over the system's own time; a method of order 2 needs about 1e5.
+// Steps at the smallest tolerance over the system's own time; a method of order 2 needs about 1e5 for 1e-10.
 constexpr double most_steps = 1e6;
 
 // One run from the generic state to `elapsed` later at a tolerance. Fills `error`, in units of the tolerance,
 // and returns what is wrong, or nothing.
-std::string run_wrong(const MethodOnModel& on, const Model& motion, double elapsed, double tolerance,
+template <class T>
+std::string run_wrong(const MethodOnModel& on, const Model& motion, const T& elapsed, double tolerance,
                       double& error) {
-  const auto stepper = on.method().stepper(on.model(), double());
-  std::vector<double> z;
-  for (const Real& x : generic_state(*on.model())) z.push_back(x.value());
+  const auto stepper = on.method().stepper(on.model(), T());
+  std::vector<T> z;
+  for (const Real& x : generic_state(*on.model())) z.push_back(T(x));
   std::vector<Quad> exact(z.begin(), z.end());
-  const double begin = generic_time.value(), end = begin + elapsed;
-  double t = begin;
+  const T begin(generic_time), end = begin + elapsed;
+  T t = begin;
   // In two parts, so that the step with which the second begins is that with which the first ended.
-  for (const double to : {begin + elapsed / 3, end}) {
-    const Status status = stepper->advance_to(t, to, tolerance, z);
+  for (const T& to : {begin + elapsed / T(3), end}) {
+    const Status status = stepper->advance_to(t, to, T(tolerance), z);
     if (status != Status::converged) return "ended with '" + std::string(to_string(status)) + "'";
-    if (t != to) return "went to " + std::to_string(t) + " instead of " + std::to_string(to);
+    if (t != to) return "went to " + to_string(Quad(t), 17) + " instead of " + to_string(Quad(to), 17);
   }
   const auto steps = static_cast<double>(stepper->counters().steps);
   if (!(steps >= 1 && steps <= most_steps)) return "took " + std::to_string(steps) + " steps";
@@ -43,24 +57,22 @@ std::string run_wrong(const MethodOnModel& on, const Model& motion, double elaps
     size = std::max(size, abs(exact[k]));
     if (isnan(Quad(z[k]))) return "ended at a state that is not a number";
   }
-  error = static_cast<double>(difference / size) / tolerance;
+  error = static_cast<double>(difference / size / Quad(tolerance));
   return {};
 }
 
-}  // namespace
-
-std::vector<Check> check_adaptive(MethodOnModel& on) {
-  if (!on.method().adaptive() || !on.differentiable()) return {};
+template <class T>
+void check_in(const MethodOnModel& on, std::vector<Check>& checks) {
   const auto motion = motion_of(on.model());
-  const double time = (on.step_size() / check_step).value();
-  std::vector<Check> checks;
-  for (const double direction : {1.0, -1.0}) {
-    Check check = on.check(direction > 0 ? "tolerance" : "tolerance, backwards", "every system", "double");
+  const T time(on.step_size() / check_step);
+  for (const int direction : {1, -1}) {
+    Check check = on.check(direction > 0 ? "tolerance" : "tolerance, backwards", "every system",
+                           Tolerances<T>::precision);
     check.tolerance = most_errors;
     check.result = CheckResult::pass;
-    for (const double tolerance : tolerances) {
+    for (const double tolerance : Tolerances<T>::values) {
       double error = 0;
-      check.reason = run_wrong(on, *motion, direction * time, tolerance, error);
+      check.reason = run_wrong<T>(on, *motion, T(direction) * time, tolerance, error);
       check.measured = std::max(check.measured, error);
       const bool right = check.reason.empty() && error <= most_errors;
       if (right) continue;
@@ -71,6 +83,15 @@ std::vector<Check> check_adaptive(MethodOnModel& on) {
     }
     checks.push_back(std::move(check));
   }
+}
+
+}  // namespace
+
+std::vector<Check> check_adaptive(MethodOnModel& on) {
+  std::vector<Check> checks;
+  if (!on.method().adaptive() || !on.differentiable()) return checks;
+  check_in<double>(on, checks);
+  if (adaptive_in_quad(on.method(), on.model())) check_in<Quad>(on, checks);
   return checks;
 }
 

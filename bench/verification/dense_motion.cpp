@@ -23,23 +23,28 @@ std::vector<Quad> values(Replay<Quad>& replay, Quad t, const std::vector<Quad>& 
   return out;
 }
 
-// Sums of terms, each kept together with the sum of the sizes of its terms, which is the scale of its
-// rounding.
+// Sums of terms, each kept together with the sum of the sizes of its terms and of the bounds of their errors,
+// in units of round-off, which is the scale of its rounding.
 class Sums {
  public:
   void add(Quad term) {
     sum_ += term;
-    size_ += abs(term);
+    scale_ += abs(term);
   }
-  // Ends the current sum and keeps in `worst` the largest ratio |sum| / (1 + size) of all sums so far.
+  // factor * x, where x is known up to `bound`.
+  void add(Quad factor, Quad x, Quad bound) {
+    add(factor * x);
+    scale_ += abs(factor) * bound;
+  }
+  // Ends the current sum and keeps in `worst` the largest ratio |sum| / scale of all sums so far.
   void end(double& worst) {
-    const auto ratio = static_cast<double>(abs(sum_) / (Quad(1) + size_));
+    const double ratio = sum_ == Quad(0) ? 0 : static_cast<double>(abs(sum_) / scale_);
     worst = std::isnan(ratio) || std::isnan(worst) ? NAN : std::max(worst, ratio);
-    sum_ = size_ = Quad(0);
+    sum_ = scale_ = Quad(0);
   }
 
  private:
-  Quad sum_{0}, size_{0};
+  Quad sum_{0}, scale_{0};
 };
 
 }  // namespace
@@ -156,7 +161,8 @@ std::vector<Quad> DenseMotion::energy_gradient() const {
   return gradient;
 }
 
-DenseMotion::Rates DenseMotion::rates_of_velocities(const std::vector<Quad>& field) const {
+DenseMotion::Rates DenseMotion::rates_of_velocities(const std::vector<Quad>& field,
+                                                    const std::vector<Quad>& bounds) const {
   Rates rates;
   Sums sums;
   const DenseVelocityConstraints& c = *velocities_;
@@ -165,32 +171,32 @@ DenseMotion::Rates DenseMotion::rates_of_velocities(const std::vector<Quad>& fie
   for (std::size_t i = 0; i < c.count(); ++i) {
     sums.add(c.rates[i]);
     for (std::size_t a = 0; a < n; ++a) {
-      sums.add(c.by_position(i, a) * (field[a] - c.velocities[a]));
-      sums.add(c.by_momentum(i, a) * (field[n + a] - c.forces[a]));
+      sums.add(c.by_position(i, a), field[a] - c.velocities[a], bounds[a]);
+      sums.add(c.by_momentum(i, a), field[n + a] - c.forces[a], bounds[n + a]);
     }
     sums.end(rates.velocities);
     sums.add(c.offsets[i]);
-    for (std::size_t a = 0; a < n; ++a) sums.add(c.rows(i, a) * field[a]);
+    for (std::size_t a = 0; a < n; ++a) sums.add(c.rows(i, a), field[a], bounds[a]);
     sums.end(rates.inadmissible);
     if (i < c.holonomic()) rates.constraints = std::max(rates.constraints, rates.inadmissible);
   }
   const std::vector<Quad> gradient = energy_gradient();
-  for (std::size_t a = 0; a < field.size(); ++a) sums.add(gradient[a] * field[a]);
+  for (std::size_t a = 0; a < field.size(); ++a) sums.add(gradient[a], field[a], bounds[a]);
   sums.end(rates.energy);
   return rates;
 }
 
-DenseMotion::Rates DenseMotion::rates(const std::vector<Quad>& field) const {
-  if (velocities_ != nullptr) return rates_of_velocities(field);
+DenseMotion::Rates DenseMotion::rates(const std::vector<Quad>& field, const std::vector<Quad>& bounds) const {
+  if (velocities_ != nullptr) return rates_of_velocities(field, bounds);
   Rates rates;
   Sums sums;
   if (phase_space_ != nullptr) {
     for (std::size_t i = 0; i < phase_space_->rows.rows(); ++i) {
       sums.add(phase_space_->shift[i]);
-      for (std::size_t a = 0; a < field.size(); ++a) sums.add(phase_space_->rows(i, a) * field[a]);
+      for (std::size_t a = 0; a < field.size(); ++a) sums.add(phase_space_->rows(i, a), field[a], bounds[a]);
       sums.end(rates.constraints);
     }
-    for (std::size_t a = 0; a < field.size(); ++a) sums.add(phase_space_->energy[a] * field[a]);
+    for (std::size_t a = 0; a < field.size(); ++a) sums.add(phase_space_->energy[a], field[a], bounds[a]);
     sums.end(rates.energy);
     return rates;
   }
@@ -199,27 +205,19 @@ DenseMotion::Rates DenseMotion::rates(const std::vector<Quad>& field) const {
   for (std::size_t i = 0; i < c.count(); ++i) {
     // phi~ and h are these rates along the free field.
     sums.add(c.hidden[i]);
-    for (std::size_t a = 0; a < n; ++a) sums.add(c.by_position(i, a) * (field[a] - c.velocities[a]));
+    for (std::size_t a = 0; a < n; ++a) sums.add(c.by_position(i, a), field[a] - c.velocities[a], bounds[a]);
     sums.end(rates.constraints);
     sums.add(c.hidden_rates[i]);
     for (std::size_t a = 0; a < n; ++a) {
-      sums.add(c.hidden_by_position(i, a) * (field[a] - c.velocities[a]));
-      sums.add(c.by_momentum(i, a) * (field[n + a] - c.forces[a]));
+      sums.add(c.hidden_by_position(i, a), field[a] - c.velocities[a], bounds[a]);
+      sums.add(c.by_momentum(i, a), field[n + a] - c.forces[a], bounds[n + a]);
     }
     sums.end(rates.hidden);
   }
   const std::vector<Quad> gradient = energy_gradient();
-  for (std::size_t a = 0; a < field.size(); ++a) sums.add(gradient[a] * field[a]);
+  for (std::size_t a = 0; a < field.size(); ++a) sums.add(gradient[a], field[a], bounds[a]);
   sums.end(rates.energy);
   return rates;
-}
-
-double DenseMotion::condition() const {
-  if (holonomic_ != nullptr) return holonomic_->condition();
-  if (velocities_ != nullptr) return velocities_->condition();
-  const Matrix<Quad> w = phase_space_->rows * phase_space_->pi * phase_space_->rows.transposed();
-  const auto size = static_cast<double>(largest(w) * largest(inverse(w)));
-  return std::isnan(size) ? std::numeric_limits<double>::infinity() : static_cast<double>(w.rows()) * size;
 }
 
 }  // namespace pfaff

@@ -32,16 +32,14 @@ class DenseMotion {
   [[nodiscard]] std::vector<Quad> energy_gradient() const;
 
   /// The largest rates phi', phi~', psi' and H' along a field and the largest A q' + b, each relative to the
-  /// size of its terms; zero where there is no such thing. phi~' belongs to holonomic constraints alone,
-  /// since among velocity constraints it is one of the psi'. The explicit dependence of H on time is left
-  /// out.
+  /// sum of the sizes of its terms and of what the rounding of the field amounts to in it, `bounds` being
+  /// those of its components in units of round-off; zero where there is no such thing. phi~' belongs to
+  /// holonomic constraints alone, since among velocity constraints it is one of the psi'. The explicit
+  /// dependence of H on time is left out.
   struct Rates {
     double constraints = 0, hidden = 0, velocities = 0, energy = 0, inadmissible = 0;
   };
-  [[nodiscard]] Rates rates(const std::vector<Quad>& field) const;
-
-  /// The condition of the constraints' matrix: the factor by which a solve with it may amplify rounding.
-  [[nodiscard]] double condition() const;
+  [[nodiscard]] Rates rates(const std::vector<Quad>& field, const std::vector<Quad>& bounds) const;
 
  private:
   struct PhaseSpace {
@@ -57,7 +55,8 @@ class DenseMotion {
                                               const std::vector<Quad>& shift) const;
   };
 
-  [[nodiscard]] Rates rates_of_velocities(const std::vector<Quad>& field) const;
+  [[nodiscard]] Rates rates_of_velocities(const std::vector<Quad>& field,
+                                          const std::vector<Quad>& bounds) const;
 
   std::unique_ptr<DenseConstraints> holonomic_;
   std::unique_ptr<DenseVelocityConstraints> velocities_;

@@ -9,6 +9,7 @@
 #include <pfaff/bench/verification/check.hpp>
 #include <pfaff/bench/verification/formulation_checks.hpp>
 #include <pfaff/bench/verification/random_checks.hpp>
+#include <pfaff/bench/verification/random_constraints.hpp>
 #include <pfaff/bench/verification/skated_models.hpp>
 #include <pfaff/core/formulation.hpp>
 #include <pfaff/integrators/order_conditions/order_condition.hpp>
@@ -124,16 +125,19 @@ class Jobs {
     }
   }
 
-  // On every system that they fit, on a random graph of rods, and on models with velocity constraints of
-  // every kind.
+  // On every system that they fit, on random systems of constraints, and on models with velocity constraints
+  // of every kind.
   void add_formulations() {
     std::vector<std::pair<std::shared_ptr<const Model>, std::string>>
         models;  // with what they are asked for by
     for (const SystemPlugin* system : systems_)
       if (system->constrained()) models.emplace_back(system->make(parameters_of(*system)), asked_as(*system));
-    const auto rods = random_rods();
-    models.emplace_back(rods, rods->name());
-    for (const auto& model : skated_models()) models.emplace_back(model, model->name());
+    const auto add = [&](const std::shared_ptr<const Model>& model) {
+      models.emplace_back(model, model->name());
+    };
+    add(random_rods());
+    for (const auto& model : random_constraints()) add(model);
+    for (const auto& model : skated_models()) add(model);
     for (const FormulationPlugin* formulation : formulations().all())
       for (const auto& [made, asked] : models) {
         const std::shared_ptr<const Model>& model = made;

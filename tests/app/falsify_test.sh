@@ -52,4 +52,6 @@ falsified rk4-not-entropy rk4 --claim entropy
 falsified rk4-not-conformal rk4 --claim conformal
 falsified false-singly-diagonal-not-symplectic false-singly-diagonal --plugin "$plugins/false-claims.so"
 falsified false-two-step-not-symmetric false-two-step --plugin "$plugins/false-claims.so"
+falsified false-averaged-not-energy false-averaged --plugin "$plugins/false-claims.so"
+falsified false-with-parameters-not-symplectic false-with-parameters --plugin "$plugins/false-claims.so"
 echo "falsify: as expected"

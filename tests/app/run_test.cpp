@@ -230,4 +230,15 @@ TEST(Run, AdaptiveStepsEndAtTheHorizon) {
   EXPECT_NEAR(std::stod(rows.back()[1]), std::stod(exact.back()[1]), 1e-8);
 }
 
+// Over ten time units the errors of some steps of 1e-25 add up and the motion hardly multiplies them.
+TEST(Run, AdaptiveStepsInQuad) {
+  const auto rows = series({"extrapolation", "--tolerance", "1e-25", "--time", "10", "--precision", "quad",
+                            "--reference", "solution"});
+  EXPECT_EQ(rows.back()[0], "10");
+  const auto exact =
+      series({"gauss", "--set", "stages=12", "--step", "0.1", "--time", "10", "--precision", "quad"});
+  for (const std::size_t k : {1U, 2U})
+    EXPECT_LE(abs(quad(rows.back()[k]) - quad(exact.back()[k])), Quad(1e-23)) << k;
+}
+
 }  // namespace

@@ -1,9 +1,11 @@
 // The search for counterexamples: false claims are found and shrunk, true ones hold.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 #include <stdexcept>
 
+#include <pfaff/bench/falsification/drawn_parameters.hpp>
 #include <pfaff/bench/falsification/falsify.hpp>
 #include <pfaff/bench/falsification/many_steps.hpp>
 #include <pfaff/bench/verification/random_checks.hpp>
@@ -94,6 +96,42 @@ TEST(Falsify, MidpointRuleNeedsAStructureThatVaries) {
 TEST(Falsify, LeapFrogIsNeitherSymmetricNorKeepsEnergies) {
   EXPECT_LE(found("false-leap-frog", Claim::symmetric).recipe.dimension, 2U);
   EXPECT_EQ(found("false-leap-frog", Claim::energy).recipe.dimension, 2U);
+}
+
+// Among polynomials up to degree eight the false claim holds.
+TEST(Falsify, AveragedRatesNeedAFunctionThatIsNoPolynomial) {
+  const Counterexample counterexample = found("false-averaged", Claim::energy);
+  EXPECT_EQ(counterexample.recipe.kind, SystemKind::transcendental);
+  EXPECT_EQ(counterexample.recipe.dimension, 2U);
+  EXPECT_LE(terms_of(counterexample.recipe), 3U);
+}
+
+// The method keeps its claim with the parameters that it is verified with, and not with others.
+TEST(Falsify, ParametersAreDrawn) {
+  const auto tests = claims_under_test(method("false-with-parameters"), {}, {});
+  ASSERT_EQ(tests.size(), 3U);
+  EXPECT_TRUE(tests.front().parameters.empty());
+  const auto results = falsify(tests, {.seed = 1, .budget = 300, .systems = 20}, nullptr);
+  EXPECT_FALSE(results[0].counterexample);
+  for (const std::size_t k : {1U, 2U}) {
+    EXPECT_NE(results[k].test.parameters, (Assignments{{"wrong", "0"}}));
+    EXPECT_TRUE(results[k].counterexample) << k;
+  }
+}
+
+TEST(Falsify, DrawnParametersAreAccepted) {
+  int drawn = 0;
+  for (const MethodPlugin* plugin : integrators().all()) {
+    const auto instances = plugin->instances(false);
+    const auto list = drawn_parameters(*plugin, instances, 7, 3);
+    EXPECT_EQ(list, drawn_parameters(*plugin, instances, 7, 3)) << plugin->name();
+    for (const Assignments& settings : list) {
+      EXPECT_NO_THROW((void)plugin->make(settings)) << plugin->name();
+      EXPECT_EQ(std::find(instances.begin(), instances.end(), settings), instances.end());
+      ++drawn;
+    }
+  }
+  EXPECT_GT(drawn, 20);
 }
 
 // The first step is symmetric, so that no single step shows what the later ones do.

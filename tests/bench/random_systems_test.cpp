@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <sstream>
 
 #include <pfaff/bench/measure/constraints.hpp>
@@ -56,6 +58,7 @@ TEST(RandomSystems, OfferWhatTheirKindSays) {
       case SystemKind::separable:
       case SystemKind::driven:
       case SystemKind::central:
+      case SystemKind::transcendental:
         return Facet::separable;
       case SystemKind::nonseparable:
       case SystemKind::central_nonseparable:
@@ -193,6 +196,62 @@ TEST(RandomSystems, SourcesBreakLinesOutsideOfTexts) {
     broken += line.starts_with("        ") && !line.starts_with("         ");
   }
   EXPECT_GT(broken, 0);
+}
+
+// V of the model and V as written, for every function, at one point: the text that an author would compile is
+// the formula that methods run on.
+TEST(RandomSystems, FunctionsAreEvaluatedAndWritten) {
+  const std::array<const char*, 4> written{"sin(q[0])", "exp(q[0])", "sqrt(1 + q[0] * q[0])",
+                                           "(1 / (1 + q[0] * q[0]))"};
+  const double x = 0.7;
+  const std::array<double, 4> expected{std::sin(x), std::exp(x), std::sqrt(1 + x * x), 1 / (1 + x * x)};
+  for (std::size_t k = 0; k < all_functions.size(); ++k) {
+    Recipe recipe;
+    recipe.kind = SystemKind::transcendental;
+    recipe.state = {Real::parse("0.7").value(), 1};
+    const auto f = SparsePolynomial::variable(2, 1);
+    recipe.parts = {{detail::half_square(1, 0, 1)}, {Real(3) * f * SparsePolynomial::variable(2, 0)}};
+    recipe.applied = {{}, {{all_functions[k], 0}}};
+    const PolynomialSystem system = system_of(recipe);
+    const auto model = model_of(system);
+    const auto potential =
+        static_cast<double>(values(*model, Formula::potential, Quad(0), {Quad(x)}).front());
+    EXPECT_NEAR(potential, 3 * x * expected[k], 1e-15);
+    EXPECT_NEAR(static_cast<double>(values(*model, Formula::invariants, Quad(0), {Quad(x), Quad(2)}).front()),
+                3 * x * expected[k] + 2, 1e-15);
+    EXPECT_FALSE(system.invariants.front().quadratic);
+    EXPECT_NE(plugin_source(system, {}).find(std::string("3 * q[0] * ") + written[k]), std::string::npos)
+        << plugin_source(system, {});
+  }
+}
+
+// A reversal is offered where T(-p) = T(p), and not where a function spoils that.
+TEST(RandomSystems, FunctionsOfMomentaDecideAboutReversals) {
+  for (const Function function : all_functions) {
+    Recipe recipe;
+    recipe.kind = SystemKind::transcendental;
+    recipe.state = {1, 1};
+    recipe.parts = {{detail::half_square(2, 0, 1) + SparsePolynomial::variable(2, 1)},
+                    {detail::half_square(1, 0, 1)}};
+    recipe.applied = {{{function, 0}}, {}};
+    EXPECT_EQ(system_of(recipe).formulas.contains(Formula::reversal),
+              function == Function::root || function == Function::bell);
+  }
+}
+
+// With the time at zero the constraints are what they were; later they move.
+TEST(RandomSystems, ConstraintsAreSetInMotion) {
+  for (const SystemKind kind : {SystemKind::surface, SystemKind::rods, SystemKind::second_class}) {
+    const PolynomialSystem system = system_of(random_recipe(kind, 1, 1));
+    const auto model = model_of(system), moving = model_of(with_moving_constraints(system, 1));
+    const std::vector<Quad> z = initial(*model);
+    EXPECT_EQ(values(*moving, Formula::constraints, Quad(0), z),
+              values(*model, Formula::constraints, Quad(0), z));
+    EXPECT_NE(values(*moving, Formula::constraints, Quad(1), z),
+              values(*model, Formula::constraints, Quad(1), z));
+    EXPECT_TRUE(model->tape(Formula::constraints)->autonomous());
+    EXPECT_FALSE(moving->tape(Formula::constraints)->autonomous());
+  }
 }
 
 TEST(RandomSystems, PolynomialsAreDifferentiatedAndComposed) {

@@ -1,10 +1,11 @@
 // Su & Qin, section 4, (56)-(76): the flow's law, the evolution of the generating function (Theorem 4.1) on
 // the exact flow of the damped oscillator, the Hamilton-Jacobi equations.
+#include <functional>
+
+#include <pfaff/bench/reproduce/printed/generating.hpp>
 #include <pfaff/bench/reproduce/printed/oscillator.hpp>
-#include <pfaff/bench/reproduce/su_qin/generating_expansion.hpp>
 #include <pfaff/bench/reproduce/su_qin/papers_alpha.hpp>
 #include <pfaff/bench/reproduce/su_qin/rows.hpp>
-#include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/integrators/generating/lagrangian_transformation.hpp>
 
 namespace pfaff::su_qin {
@@ -115,33 +116,66 @@ void theorem(Rows& rows) {
       "(63): the argument N is missing");
 }
 
-// (75), (76): the gradients of phi's coefficients from the scalar equation against the engine's, all up to
-// degree 5.
+using printed::TauSeries;
+using printed::TrigonometricPolynomial;
+
+// w_k and the series of y^_k - w_k: the new state of the chart.
+TauSeries new_state(std::size_t k, TauSeries shift) {
+  shift[0] = shift[0] + TrigonometricPolynomial::variable(k);
+  return shift;
+}
+
+// (73), (75), (76): the gradients of phi's coefficients from the scalar equation, in closed form, against the
+// engine's, all up to degree 5.
 void scalar_equations(Rows& rows) {
+  constexpr int degree = 5;
   const auto compare = [&](const std::string& equation, const std::string& what, const Model& model,
-                           const Tape& scalar, const Numbers& w) {
-    const auto phi = expand_scalar(scalar, model.dimension(), 5);
+                           const std::function<TauSeries(const std::vector<TauSeries>&)>& energy,
+                           const Numbers& w) {
+    const auto phi = printed::coefficients(w.size(), degree, energy);
     Numbers theory, engine;
-    for (int k = 1; k <= 5; ++k) {
-      theory = joined(theory, value(jacobian_tape(phi[static_cast<std::size_t>(k)]), t0, w));
+    for (int k = 1; k <= degree; ++k) {
+      for (std::size_t i = 0; i < w.size(); ++i)
+        theory.push_back(phi[static_cast<std::size_t>(k)].slope(i).at(w));
       engine = joined(engine, engine_term(model, k, w));
     }
     rows.reproduced(equation, what, theory, engine);
   };
+  const Quad half = Quad(1) / Quad(2), third = Quad(1) / Quad(3);
+  // H = (|q|^2 + |p|^2)/2 + q_0^2 q_1 - q_1^3/3.
+  const auto henon_heiles = [&](const std::vector<TauSeries>& shift) {
+    std::vector<TauSeries> y;
+    for (std::size_t k = 0; k < 4; ++k) y.push_back(new_state(k, shift[k]));
+    return half * (y[0] * y[0] + y[1] * y[1] + y[2] * y[2] + y[3] * y[3]) + y[0] * y[0] * y[1] +
+           -third * (y[1] * y[1] * y[1]);
+  };
   const auto henon = systems().get("henon-heiles", "system").make({});
-  compare("(75)", "phi_t = -B, Henon-Heiles", *henon, scalar_evolution(*henon->tape(Formula::hamiltonian)),
+  compare("(75)", "phi_t = -B, Henon-Heiles", *henon, henon_heiles,
           {Quad(0.1), Quad(-0.3), Quad(0.25), Quad(0.2)});
-  const auto forced = driven(1);
-  compare("(76)", "phi_t = -B(.., t), driven", *forced, scalar_evolution(*forced->tape(Formula::hamiltonian)),
-          {Quad(0.4), Quad(-0.3)});
-  // Nonautonomous: phi_t = -(B + w^.d_t alpha_2 - S_t), S = (E p' r - E0 p r')/2.
-  const auto pendulum = damped("damped-pendulum");
-  const Tape exact_part = record(5, 1, [](const Recorded& t, Arguments x, Results out) {
-    const Recorded rate(Real::fraction(3, 10));
-    out[0] = (exp(rate * t) * x[1] * x[2] - exp(rate * x[4]) * x[3] * x[0]) / Recorded(2);
-  });
-  compare("(73)", "its scalar form, damped pendulum", *pendulum,
-          scalar_evolution(*pendulum, chart_alpha(*pendulum), exact_part), {Quad(0.6), Quad(-0.3)});
+  // H = p^2/2 - t q + q^3/3.
+  const auto with_time = [&](const std::vector<TauSeries>& shift) {
+    const TauSeries q = new_state(0, shift[0]), p = new_state(1, shift[1]);
+    TauSeries time(q.size());
+    time[0] = t0;
+    time[1] = Quad(1);
+    return half * (p * p) + Quad(-1) * (time * q) + third * (q * q * q);
+  };
+  compare("(76)", "phi_t = -B(.., t), driven", *driven(1), with_time, {Quad(0.4), Quad(-0.3)});
+  // phi_t = -(B + w^.d_t alpha_2 - S_t), S = (E p' r - E0 p r')/2, where E = e^{nu t}, y^ = (r', E p'), y = w
+  // + (w - y^) the old state, w^ = (.., -(y^_0 - y_0)), B = E (p'^2 + nu p' r')/2 - E cos r'.
+  const auto damped_pendulum = [&](const std::vector<TauSeries>& shift) {
+    const TauSeries r = new_state(0, shift[0]), ep = new_state(1, shift[1]),
+                    old_r = new_state(0, Quad(-1) * shift[0]);
+    const TauSeries e = printed::exponential(nu, t0, r.size()),
+                    inverse = printed::exponential(-nu, t0, r.size());
+    const TauSeries b =
+        half * (inverse * ep * ep + nu * (ep * r)) + Quad(-1) * (e * printed::sine_at(shift[0], 1));
+    const TauSeries second_of_w_hat = old_r + Quad(-1) * r, rate_of_alpha_2 = nu * half * ep,
+                    rate_of_s = nu * half * (ep * old_r);
+    return b + second_of_w_hat * rate_of_alpha_2 + Quad(-1) * rate_of_s;
+  };
+  compare("(73)", "its scalar form, damped pendulum", *damped("damped-pendulum"), damped_pendulum,
+          {Quad(0.6), Quad(-0.3)});
 }
 
 }  // namespace

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <functional>
 
+#include <pfaff/bench/reproduce/printed/generating.hpp>
 #include <pfaff/bench/reproduce/printed/oscillator.hpp>
-#include <pfaff/bench/reproduce/su_qin/generating_expansion.hpp>
 #include <pfaff/bench/reproduce/su_qin/rows.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/integrators/generating/lagrangian_transformation.hpp>
@@ -52,11 +52,18 @@ class OscillatorSchemes {
     rows_.reproduced("(104)", "phi_w^(2)", printed_.coefficient(2, w), coefficient(2, w));
     // (101) and (104) print phi^(k), a number, where its gradient stands: the gradient of the number that the
     // scalar equation gives is the vector printed.
-    const Tape phi = expand_scalar(scalar_evolution(*model_->tape(Formula::chart_hamiltonian)), 2, 2)[2];
-    const Numbers slope = value(jacobian_tape(phi), t0, {w[0], -w[1]});
+    // phi_t = -H with H = (e^{-nu t} y_1^2 + e^{nu t} y_0^2)/2.
+    const auto phi = printed::coefficients(2, 2, [](const std::vector<printed::TauSeries>& shift) {
+      printed::TauSeries r = shift[0], p = shift[1];
+      r[0] = r[0] + printed::TrigonometricPolynomial::variable(0);
+      p[0] = p[0] + printed::TrigonometricPolynomial::variable(1);
+      return (Quad(1) / Quad(2)) * (printed::exponential(-nu, t0, r.size()) * p * p +
+                                    printed::exponential(nu, t0, r.size()) * r * r);
+    })[2];
+    const Numbers in_chart{w[0], -w[1]}, slope{phi.slope(0).at(in_chart), phi.slope(1).at(in_chart)};
     rows_.qualitative(
         "(101), (104)", "phi^(k) for its gradient",
-        {"phi^(2) = (-nu/2 E0 R, ..)", "phi_w^(2), phi^(2) = " + shown(value(phi, t0, {w[0], -w[1]}))},
+        {"phi^(2) = (-nu/2 E0 R, ..)", "phi_w^(2), phi^(2) = " + shown(Numbers{phi.at(in_chart)})},
         {at_most(distance({slope[0], -slope[1]}, printed_.coefficient(2, w)), at_round_off)},
         "(101), (104): what is printed is phi_w^(k)");
     // (106): a and b are what the gradient's matrix at order 2 says, N = phi_w^(1) tau + phi_w^(2) tau^2.

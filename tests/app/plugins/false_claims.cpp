@@ -1,8 +1,10 @@
 // Methods that claim what they do not keep, for the search of counterexamples to find. Each keeps its claim
 // on systems that a hasty test would take.
 #include <array>
+#include <vector>
 
 #include <pfaff/core/integrator.hpp>
+#include <pfaff/core/numbers/gauss_legendre.hpp>
 #include <pfaff/integrators/constrained/projection.hpp>
 #include <pfaff/integrators/multistep/leap_frog.hpp>
 #include <pfaff/integrators/runge_kutta/gauss.hpp>
@@ -123,6 +125,72 @@ const Method<WellStarted> well_started{{.name = "false-two-step",
                                         .reference = "",
                                         .order = 2,
                                         .preserves = {Claim::symmetric}}};
+
+// The mean of the rates along the straight line from the old state to the new one, by four nodes of Gauss and
+// Legendre. The integral keeps T(p) + V(q), and so do four nodes for polynomials up to degree eight; on
+// others the energy is lost.
+struct AveragedRates {
+  std::vector<QuadratureNode> nodes = gauss_legendre(4);
+  template <class P>
+  struct Work {
+    State<P> next, mean;
+    std::vector<Scalar<P>> point, rate;
+    Work(const AveragedRates& /*method*/, const P& p)
+        : next(p.make_state()), mean(p.make_state()), point(p.size() / 2), rate(p.size() / 2) {}
+  };
+  template <HasSeparable P>
+  Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
+    using T = Scalar<P>;
+    const std::size_t d = z.size() / 2;
+    for (std::size_t k = 0; k < z.size(); ++k) w.next[k] = z[k];
+    for (int iteration = 0; iteration < 200; ++iteration) {
+      for (std::size_t k = 0; k < z.size(); ++k) w.mean[k] = T(0);
+      for (const QuadratureNode& node : nodes)
+        for (const std::size_t first : {d, std::size_t{0}}) {
+          for (std::size_t k = 0; k < d; ++k)
+            w.point[k] = z[first + k] + T(node.place) * (w.next[first + k] - z[first + k]);
+          if (first == d) {
+            p.velocity(t, w.point, w.rate);
+          } else {
+            p.force(t, w.point, w.rate);
+          }
+          for (std::size_t k = 0; k < d; ++k)
+            w.mean[d - first + k] = w.mean[d - first + k] + T(node.weight) * w.rate[k];
+        }
+      for (std::size_t k = 0; k < z.size(); ++k) w.next[k] = z[k] + h * w.mean[k];
+    }
+    for (std::size_t k = 0; k < z.size(); ++k) {
+      z[k] = w.next[k];
+      if (!isfinite(value_of(z[k]))) return Status::non_finite;
+    }
+    return Status::converged;
+  }
+};
+const Method<AveragedRates> averaged{{.name = "false-averaged",
+                                      .title = "keeps energies that are polynomials up to degree eight",
+                                      .reference = "",
+                                      .order = 2,
+                                      .preserves = {Claim::energy}}};
+
+// The midpoint rule, which is symplectic, and with another setting than the one it is verified with a step
+// that is not.
+struct SometimesMidpoint : ImplicitMidpoint {
+  int wrong = 0;
+  static std::vector<Parameter> parameters() {
+    return {parameter(&SometimesMidpoint::wrong, "wrong", "", 0, 3, "anything but 0 spoils the step")};
+  }
+  template <HasVectorField P>
+  Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
+    const Status status = ImplicitMidpoint::step(p, t, h, z, w);
+    if (wrong != 0) z[0] = z[0] + h * h * h * z[0];
+    return status;
+  }
+};
+const Method<SometimesMidpoint> sometimes{{.name = "false-with-parameters",
+                                           .title = "symplectic with the parameters it is verified with",
+                                           .reference = "",
+                                           .order = 2,
+                                           .preserves = {Claim::symplectic}}};
 
 // The midpoint rule with an error of 1e-16 that changes with every bit of its arguments, as rounding does, in
 // both precisions. Its claims are true up to rounding, so that nothing may be found here.

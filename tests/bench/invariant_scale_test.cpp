@@ -1,0 +1,63 @@
+// The scale of an invariant in a run: the size of its terms, which stays where they cancel.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include <pfaff/bench/runner/record.hpp>
+
+namespace pfaff {
+namespace {
+
+RunRecord executed(const std::string& system, const std::vector<std::string>& initial,
+                   Precision precision = Precision::double_precision) {
+  RunSettings settings;
+  settings.system = system;
+  settings.integrator = "gauss";
+  settings.step = "0.125";
+  settings.time = "4";
+  settings.every = 1;
+  settings.initial = initial;
+  settings.precision = precision;
+  return execute(resolve(settings), nullptr);
+}
+
+// E = p^2/2 - cos q of the pendulum through q = 1 with E = 0, or nearly so: with exact numbers in its state E
+// has the terms p^2/2 = cos q. One unit of round-off of the state moves it by p^2 + |q sin q|, and no formula
+// of E rounds by more than ten times its terms.
+TEST(InvariantScale, IsTheSizeOfTermsThatCancel) {
+  const RunRecord record = executed("pendulum", {"1", "1.0395"});
+  double largest_terms = 0, largest_energy = 0, least = 0;
+  for (const Sample& sample : record.samples) {
+    const auto q = static_cast<double>(sample.state[0]), p = static_cast<double>(sample.state[1]);
+    largest_terms = std::max(largest_terms, p * p / 2 + std::abs(std::cos(q)));
+    least = std::max(least, p * p + std::abs(q * std::sin(q)));
+    largest_energy = std::max(largest_energy, std::abs(static_cast<double>(sample.invariants[0])));
+  }
+  ASSERT_EQ(record.scales.size(), record.samples.front().invariants.size());
+  EXPECT_LT(largest_energy, 1e-3);
+  EXPECT_GE(record.scales[0], least);
+  EXPECT_GE(record.scales[0], largest_terms);
+  EXPECT_LE(record.scales[0], least + 10 * largest_terms);
+}
+
+// The energy of a harmonic oscillator is homogeneous of degree two, and multiplying its state by a power of
+// two rounds nothing: the scale of the run is multiplied by exactly the square.
+TEST(InvariantScale, HasTheUnitOfTheInvariant) {
+  const RunRecord one = executed("harmonic-oscillator", {"1", "0.5"});
+  const RunRecord small = executed("harmonic-oscillator", {"0.0009765625", "0.00048828125"});  // 2^-10
+  ASSERT_GT(one.scales.at(0), 0);
+  EXPECT_EQ(small.scales.at(0), std::ldexp(one.scales.at(0), -20));
+}
+
+// In quad the same run has the same scale, since it is in units of the precision's own round-off.
+TEST(InvariantScale, IsTheSameInBothPrecisions) {
+  for (const char* system : {"pendulum", "kepler", "henon-heiles"}) {
+    const RunRecord in_double = executed(system, {}), in_quad = executed(system, {}, Precision::quad);
+    ASSERT_FALSE(in_double.scales.empty());
+    for (std::size_t i = 0; i < in_double.scales.size(); ++i)
+      EXPECT_NEAR(in_double.scales[i] / in_quad.scales[i], 1, 1e-10) << system << " " << i;
+  }
+}
+
+}  // namespace
+}  // namespace pfaff
