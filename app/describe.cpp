@@ -1,7 +1,7 @@
 // pfaff describe NAME and pfaff cite NAME: show everything known about a plug-in or an experiment, and its
 // references.
 #include <iostream>
-#include <nlohmann/json.hpp>
+#include <pfaff/bench/runner/json.hpp>
 
 #include <pfaff/app/command.hpp>
 #include <pfaff/app/terminal.hpp>

@@ -2,7 +2,7 @@
 // the list is the page docs/plugins.md.
 #include <iostream>
 #include <map>
-#include <nlohmann/json.hpp>
+#include <pfaff/bench/runner/json.hpp>
 
 #include <pfaff/app/command.hpp>
 #include <pfaff/app/terminal.hpp>

@@ -1,6 +1,6 @@
 #include <pfaff/app/state_file.hpp>
 
-#include <nlohmann/json.hpp>
+#include <pfaff/bench/runner/json.hpp>
 #include <set>
 
 #include <pfaff/bench/runner/files.hpp>

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include <nlohmann/json.hpp>
+#include <pfaff/bench/runner/json.hpp>
 
 namespace pfaff::app {
 

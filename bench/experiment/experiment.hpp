@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
+#include <pfaff/bench/runner/json.hpp>
 
 #include <pfaff/bench/runner/record.hpp>
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
+#include <pfaff/bench/runner/json.hpp>
 
 #include <pfaff/bench/reproduce/evidence.hpp>
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include <nlohmann/json.hpp>
+#include <pfaff/bench/runner/json.hpp>
 
 #include <pfaff/bench/runner/checksum.hpp>
 #include <pfaff/bench/runner/files.hpp>

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
+#include <pfaff/bench/runner/json.hpp>
 
 #include <pfaff/bench/measure/drift.hpp>
 #include <pfaff/bench/measure/growth.hpp>

@@ -44,6 +44,13 @@ FacetSet Model::content_of_formulas() const {
   return content;
 }
 
+ModelSource::ModelSource() = default;
+ModelSource::ModelSource(const ModelSource&) = default;
+ModelSource::ModelSource(ModelSource&&) noexcept = default;
+ModelSource& ModelSource::operator=(const ModelSource&) = default;
+ModelSource& ModelSource::operator=(ModelSource&&) noexcept = default;
+ModelSource::~ModelSource() = default;
+
 Model::Model(ModelSource source) : source_(std::move(source)) {
   content_ = content_of_formulas();
   if (content_.has(Facet::structure) && !content_.has(Facet::darboux_chart)) {

@@ -67,6 +67,14 @@ struct CompiledSeries;
 
 /// What a system's author provides, before anything is derived.
 struct ModelSource {
+  // Written in model.cpp, since every plug-in would otherwise compile the copying of all that follows.
+  ModelSource();
+  ModelSource(const ModelSource&);
+  ModelSource(ModelSource&&) noexcept;
+  ModelSource& operator=(const ModelSource&);
+  ModelSource& operator=(ModelSource&&) noexcept;
+  ~ModelSource();
+
   std::string name;
   int dimension = 0;
   bool canonical = false;       // the bracket is the canonical one on (q, p)

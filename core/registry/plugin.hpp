@@ -15,14 +15,10 @@ namespace pfaff {
 class Plugin {
  public:
   Plugin(std::string name, std::vector<Parameter> parameters, const std::type_info& type,
-         const std::source_location& where)
-      : name_(std::move(name)),
-        parameters_(std::move(parameters)),
-        type_(type.name()),
-        file_(where.file_name()) {}
+         const std::source_location& where);
   Plugin(const Plugin&) = delete;
   Plugin& operator=(const Plugin&) = delete;
-  virtual ~Plugin() = default;
+  virtual ~Plugin();
 
   [[nodiscard]] const std::string& name() const { return name_; }
   /// What can be set. Virtual for aliases, which leave out what they set themselves.

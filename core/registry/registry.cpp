@@ -18,23 +18,6 @@ bool is_kebab_case(std::string_view name) {
          });
 }
 
-Registry<SystemPlugin>& systems() {
-  static Registry<SystemPlugin> registry;
-  return registry;
-}
-Registry<MethodPlugin>& integrators() {
-  static Registry<MethodPlugin> registry;
-  return registry;
-}
-Registry<BracketPlugin>& brackets() {
-  static Registry<BracketPlugin> registry;
-  return registry;
-}
-Registry<FormulationPlugin>& formulations() {
-  static Registry<FormulationPlugin> registry;
-  return registry;
-}
-
 std::vector<std::string> registered_twice() {
   std::vector<std::string> all;
   for (const auto* names : {&systems().duplicates(), &integrators().duplicates(), &brackets().duplicates(),

@@ -110,6 +110,12 @@ Registry<MethodPlugin>& integrators();
 Registry<BracketPlugin>& brackets();
 Registry<FormulationPlugin>& formulations();
 
+// Compiled once, in core/registries.cpp, and not in the file of every plug-in.
+extern template class Registry<SystemPlugin>;
+extern template class Registry<MethodPlugin>;
+extern template class Registry<BracketPlugin>;
+extern template class Registry<FormulationPlugin>;
+
 /// One line for every name of any kind that is registered twice.
 std::vector<std::string> registered_twice();
 

@@ -7,7 +7,7 @@
 #include <cctype>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
+#include <pfaff/bench/runner/json.hpp>
 #include <regex>
 #include <set>
 #include <sstream>

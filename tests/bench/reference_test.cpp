@@ -3,7 +3,7 @@
 
 #include <fstream>
 
-#include <nlohmann/json.hpp>
+#include <pfaff/bench/runner/json.hpp>
 
 #include <pfaff/bench/measure/reference.hpp>
 #include <pfaff/bench/runner/motion.hpp>

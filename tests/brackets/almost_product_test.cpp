@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-#include <nlohmann/json.hpp>
+#include <pfaff/bench/runner/json.hpp>
 #include <pfaff/brackets/almost_product/lie_bracket.hpp>
 #include <pfaff/brackets/almost_product/tensor_split.hpp>
 

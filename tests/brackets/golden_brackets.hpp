@@ -2,7 +2,7 @@
 #pragma once
 
 #include <fstream>
-#include <nlohmann/json.hpp>
+#include <pfaff/bench/runner/json.hpp>
 #include <string>
 
 #include <pfaff/core/linear/matrix.hpp>

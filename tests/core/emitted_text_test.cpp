@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include <nlohmann/json.hpp>
+#include <pfaff/bench/runner/json.hpp>
 
 #include <pfaff/core/emit/emitter.hpp>
 #include <pfaff/core/tape/replay.hpp>

@@ -4,7 +4,7 @@
 
 #include <cmath>
 #include <fstream>
-#include <nlohmann/json.hpp>
+#include <pfaff/bench/runner/json.hpp>
 #include <random>
 
 #include <pfaff/core/linear/structured_ldlt.hpp>

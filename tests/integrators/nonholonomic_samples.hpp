@@ -2,7 +2,7 @@
 #pragma once
 
 #include <fstream>
-#include <nlohmann/json.hpp>
+#include <pfaff/bench/runner/json.hpp>
 
 #include <pfaff/core/facets/problem.hpp>
 #include <pfaff/core/formulation.hpp>

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <nlohmann/json.hpp>
+#include <pfaff/bench/runner/json.hpp>
 
 #include <pfaff/brackets/birkhoffian/inverse_problem.hpp>
 #include <pfaff/brackets/birkhoffian/self_adjointness.hpp>
