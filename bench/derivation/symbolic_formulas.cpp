@@ -13,7 +13,8 @@ using Numbers = std::vector<Recorded>;
 std::shared_ptr<const Tape> gradient_of(const Tape& energy, std::size_t variables) {
   return record_list(energy.inputs, [&](const Recorded& t, const Numbers& x, Numbers& out) {
     out.resize(variables);
-    for (const auto& [input, slope] : sparse_gradients(energy, t, x, variables).front()) out[input] = slope;
+    const SparseGradient slopes = sparse_gradients(energy, t, x, variables).front();
+    for (const auto& entry : slopes) out[entry.first] = entry.second;
   });
 }
 
