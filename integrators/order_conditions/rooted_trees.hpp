@@ -65,11 +65,11 @@ std::vector<T> elementary_weights(const RungeKuttaTableau<T>& tableau, int order
 std::vector<OrderCondition> tree_conditions(const RungeKuttaTableau<Quad>& tableau, int order);
 
 /// The conditions b_i a_ij + b_j a_ji = b_i b_j, i <= j, by which the method keeps quadratic invariants and
-/// constant symplectic structures (hairer-lubich-wanner2006 (IV.2.2), VI.4.3). Their `order` is 0.
+/// constant symplectic structures (hairer-lubich-wanner2006, theorems IV.2.2 and VI.4.3). Their `order` is 0.
 std::vector<OrderCondition> symplecticity_conditions(const RungeKuttaTableau<Quad>& tableau);
 
 /// The conditions a_{s+1-i,s+1-j} + a_ij = b_j, by which the method is its own adjoint
-/// (hairer-lubich-wanner2006 (V.2.4)). Their `order` is 0.
+/// (hairer-lubich-wanner2006 V.2). Their `order` is 0.
 std::vector<OrderCondition> symmetry_conditions(const RungeKuttaTableau<Quad>& tableau);
 
 }  // namespace pfaff

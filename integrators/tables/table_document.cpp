@@ -1,6 +1,7 @@
 #include <pfaff/integrators/tables/table_document.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <fstream>
 #include <limits>
 #include <sstream>
@@ -186,7 +187,11 @@ void TableDocument::refuse(std::string_view key, const std::string& message) con
   const std::size_t dot = key.find('.');
   const toml::node* node = content_->root.get(key.substr(0, dot));
   const std::string line = node == nullptr ? "" : ":" + std::to_string(node->source().begin.line);
-  throw InputError(path_ + line + ": key '" + std::string(key) + "': " + message);
+  std::string text = path_ + line + ": key '" + std::string(key) + "': " + message;
+  // Texts of the file may hold line breaks, which a message of one line does not.
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return std::iscntrl(static_cast<unsigned char>(c)) != 0; }, ' ');
+  throw InputError(text);
 }
 
 }  // namespace pfaff

@@ -16,13 +16,13 @@ int order_of(const MultistepPolynomials& method, int most) {
   return order_shown(multistep_conditions(method, most), precision_of_quad_coefficients);
 }
 
-// hairer-norsett-wanner1993 III.1: (1.5), (1.9), (1.13'), and BDF from (1.22').
+// hairer-norsett-wanner1993 III.1
 const MultistepPolynomials adams_bashforth_4{over(1, {0, 0, 0, -1, 1}), over(24, {-9, 37, -59, 55, 0})};
 const MultistepPolynomials adams_moulton_4{over(1, {0, 0, -1, 1}), over(24, {1, -5, 19, 9})};
 const MultistepPolynomials leap_frog{over(1, {-1, 0, 1}), over(1, {0, 2, 0})};
 const MultistepPolynomials milne_simpson{over(1, {-1, 0, 1}), over(3, {1, 4, 1})};
 const MultistepPolynomials backward_2{over(2, {1, -4, 3}), over(1, {0, 0, 1})};
-// (3.1) there: of order 3, explicit, and not stable, with the roots 1 and -5.
+// III.3 there: of order 3, explicit, and not stable, with the roots 1 and -5.
 const MultistepPolynomials unstable{over(1, {-5, 4, 1}), over(1, {2, 4, 0})};
 
 TEST(MultistepConditions, GiveTheKnownOrders) {
