@@ -59,7 +59,10 @@ void evaluate_in(const EvaluationSettings& settings, json& j) {
   std::vector<T> rate;
   if (at.regular) rate = at.seen(at.values(at.model, Formula::field));
   j["rhs"] = at.regular ? list(rate) : json(nullptr);
-  if (model.restricted() && moves && at.finite) add_constrained_motion(at, rate, j);
+  if (model.restricted() && moves && at.finite) {
+    add_constrained_motion(at, rate, j);
+    add_dirac_bracket(at, j);
+  }
   j["energy"] = j["energy_rate"] = nullptr;
   if (const auto energy = energy_of(model)) {
     j["energy"] = number(at.seen(at.values(energy)).front());

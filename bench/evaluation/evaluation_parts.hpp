@@ -13,6 +13,9 @@
 
 namespace pfaff::evaluation_parts {
 
+/// Up to so many constraints, what costs the cube of their number once is evaluated.
+constexpr std::size_t most_dense = 200;
+
 using nlohmann::json;
 
 inline json number(double x) { return std::isfinite(x) ? json(x) : json(nullptr); }
@@ -84,9 +87,11 @@ void add_constraints(Point<T>& at, json& j);
 /// Adds the key of constraints of velocities: nonholonomic.
 template <class T>
 void add_nonholonomic_bracket(Point<T>& at, json& j);
-/// Adds the keys of constraints that need the rate of the state: multipliers, constraint_forces,
-/// dirac_bracket, solvers.
+/// Adds the keys of constraints that need the rate of the state: multipliers, constraint_forces.
 template <class T>
 void add_constrained_motion(Point<T>& at, const std::vector<T>& rate, json& j);
+/// Adds the keys of constraints that Dirac's bracket can be made of: dirac_bracket, solvers.
+template <class T>
+void add_dirac_bracket(Point<T>& at, json& j);
 
 }  // namespace pfaff::evaluation_parts
