@@ -3,6 +3,7 @@
 
 #include <pfaff/bench/experiment/experiment.hpp>
 #include <pfaff/bench/runner/toml_keys.hpp>
+#include <pfaff/core/text/vocabulary.hpp>
 
 namespace pfaff {
 
@@ -132,6 +133,7 @@ Experiment read_experiment(const std::string& name_or_path, bool quick) {
     one.name = c.required("name");
     one.title = c.text("title", one.name);
     one.system = c.required("system");
+    if (text::is_text_file(one.system)) one.system = text::beside(one.system, path.string());
     one.time = c.required("time");
     one.set = c.assignments("set");
     one.initial = c.list_of_some("initial");

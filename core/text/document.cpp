@@ -99,8 +99,10 @@ Document read_document(const std::string& path) {
     document.root = Reader(path, document.contents).value(root);
   } catch (const toml::parse_error& error) {
     const auto& at = error.source().begin;
+    std::string description(error.description());  // quotes what it saw, line breaks included
+    std::replace(description.begin(), description.end(), '\n', ' ');
     throw InputError(path + ":" + std::to_string(at.line) + ":" + std::to_string(at.column) + ": " +
-                     std::string(error.description()));
+                     description);
   }
   return document;
 }

@@ -36,9 +36,9 @@ void refuse(const Source& source, std::size_t offset, const std::string& message
   const std::size_t column =
       characters(text.substr(begin, offset - begin)) + (lines == 0 ? source.column : 1);
   const std::string caret(characters(text.substr(first, offset - first)), ' ');
-  throw TextError(
-      source.file + ":" + std::to_string(source.line + lines) + ":" + std::to_string(column) + ": " + message,
-      "  " + shown(text.substr(first, last - first)) + "\n  " + caret + "^");
+  throw TextError(source.file + ":" + std::to_string(source.line + lines) + ":" + std::to_string(column) +
+                      ": " + shown(message),
+                  "  " + shown(text.substr(first, last - first)) + "\n  " + caret + "^");
 }
 
 }  // namespace pfaff::text

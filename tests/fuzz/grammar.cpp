@@ -275,6 +275,9 @@ Input random_input(Language language, Choices& choices) {
         input = {"model.json", random_model_json(choices)};
       }
       break;
+    case Language::text:
+      input = {"text.toml", random_text_model(choices)};
+      break;
   }
   while (choices.once_in(4)) input.text = made_odd(input.text, choices);
   return input;

@@ -6,6 +6,7 @@
 #include <pfaff/bench/experiment/experiment.hpp>
 #include <pfaff/bench/runner/config_file.hpp>
 #include <pfaff/bench/runner/record.hpp>
+#include <pfaff/systems/text/text_system.hpp>
 
 namespace pfaff::fuzz {
 
@@ -70,6 +71,21 @@ Reached read_and_resolve_model(const std::string& file) {
   settings.project_initial = model->restricted();
   return then([&] { take_few_steps(resolve(settings)); });
 }
+// A system is made and, where it moves, evaluated once.
+Reached read_and_resolve_text(const std::string& file) {
+  if (is_text_bracket(file)) {
+    const auto bracket = TextBracket::read(file);
+    return then([&] { (void)bracket->make({}); });
+  }
+  const auto system = TextSystem::read(file);
+  return then([&] {
+    const auto model = system->make({});
+    if (!model->moves() || model->dimension() > 24) return;
+    const auto field = make_evaluator<double>(model, Formula::field);
+    std::vector<double> z(static_cast<std::size_t>(model->dimension()), 0.5), rate(z.size());
+    field.call(field.context, 0.25, z.data(), rate.data());
+  });
+}
 }  // namespace
 
 Reached read_and_resolve(Language language, const std::filesystem::path& file) {
@@ -83,6 +99,8 @@ Reached read_and_resolve(Language language, const std::filesystem::path& file) {
         return read_and_resolve_experiment(file.string());
       case Language::model:
         return read_and_resolve_model(file.string());
+      case Language::text:
+        return read_and_resolve_text(file.string());
     }
   } catch (const InputError& error) {
     require_one_line(error);

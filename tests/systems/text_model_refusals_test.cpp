@@ -44,6 +44,7 @@ TEST(TextModelRefusals, KeysAndFiles) {
   expect_refused("kinetic = 1\n", "model.toml:1:1: a text model: the key 'coordinates' is missing");
   expect_refused(two, "model.toml:1:1: a text model without motion");
   expect_refused(two + "field = [\n", "model.toml:");
+  expect_refused(two + "jacobi = tr\nfield = [1, 1]\n", "model.toml:2:");  // in one line
   expect_refused(spring + "let = 3\n", "model.toml:4:7: let: expected a table");
   expect_refused(spring + "name = \"Not Kebab\"\n",
                  "model.toml:4:9: the name 'Not Kebab': expected kebab-case");

@@ -1,0 +1,61 @@
+// Systems and brackets written as text, by the program: run, rerun, describe, evaluate, verify, falsify,
+// compare, and the place of an error.
+#include "command.hpp"
+
+namespace {
+
+using namespace pfaff::testing;
+
+const std::string spring =
+    "coordinates = [\"q\", \"p\"]\ninitial = [1, 0.2]\nparameters = { a = 1 }\nkinetic = \"p^2/2\"\n"
+    "potential = \"a*q^4/4\"\ninvariants = { H = \"p^2/2 + a*q^4/4\" }\n";
+
+TEST(TextModel, RunsAndRunsAgainFromItsConfiguration) {
+  const TemporaryDirectory files;
+  write(files / "spring.toml", spring);
+  const Outcome run = run_pfaff({"run", "--system", files / "spring.toml", "--integrator", "verlet", "--set",
+                                 "a=2", "--step", "0.1", "--time", "1", "--out", files / "one"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const std::vector<std::string> again{"run", "--config", files / "one/config.toml", "--out", files / "two"};
+  EXPECT_EQ(run_pfaff(again).status, 0);
+  EXPECT_EQ(text_of(files / "one/series.csv"), text_of(files / "two/series.csv"));
+  write(files / "spring.toml", spring + "# a comment\n");
+  const Outcome changed = run_pfaff({"run", "--config", files / "one/config.toml", "--out", files / "three"});
+  EXPECT_EQ(changed.status, 2);
+  EXPECT_NE(changed.err.find("spring.toml has changed"), std::string::npos) << changed.err;
+}
+
+TEST(TextModel, IsTakenWhereNamesAreTaken) {
+  const TemporaryDirectory files;
+  write(files / "spring.toml", spring);
+  write(files / "plane.toml",
+        "coordinates = [\"x\", \"y\"]\ntensor = [[\"0\", \"x\"], [\"-x\", \"0\"]]\nsymmetry = "
+        "\"skew\"\njacobi = true\n");
+  const std::string model = files / "spring.toml";
+  EXPECT_EQ(json_of(run_pfaff({"describe", model, "--json"}).out)["name"], "spring");
+  EXPECT_EQ(json_of(run_pfaff({"describe", files / "plane.toml", "--json"}).out)["dimension"], 2);
+  EXPECT_EQ(json_of(run_pfaff({"evaluate", "--system", model, "--json"}).out)["rhs"][1], -1);
+  EXPECT_EQ(run_pfaff({"verify", files / "plane.toml"}).status, 0);
+  // RK4 is not symplectic on a quartic spring.
+  EXPECT_EQ(run_pfaff({"falsify", "rk4", "--claim", "symplectic", "--system", model}).status, 1);
+  write(files / "compared.toml",
+        "schema = 1\ntitle = \"A spring\"\n[[method]]\nlabel = \"verlet\"\nintegrator = \"verlet\"\n"
+        "[[case]]\nname = \"spring\"\nsystem = \"spring.toml\"\ntime = 1\nsteps = [0.1]\n");
+  const Outcome compared = run_pfaff({"compare", files / "compared.toml", "--out", files / "compared"});
+  EXPECT_EQ(compared.status, 0) << compared.err;
+}
+
+TEST(TextModel, AnErrorShowsItsPlace) {
+  const TemporaryDirectory files;
+  write(files / "bad.toml",
+        "coordinates = [\"q\", \"p\"]\nkinetic = \"p^2/2\"\npotential = \"mas*q^2\"\nparameters = { mass = 1 "
+        "}\n");
+  const Outcome refused = run_pfaff({"run", "--system", files / "bad.toml", "--integrator", "verlet",
+                                     "--step", "0.1", "--time", "1", "--out", files / "out"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.err.find("bad.toml:3:14: unknown name 'mas'; did you mean 'mass'?\n  mas*q^2\n  ^\n"),
+            std::string::npos)
+      << refused.err;
+}
+
+}  // namespace

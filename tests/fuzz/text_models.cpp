@@ -1,0 +1,145 @@
+// Random systems and brackets written as text: expressions of every operation over the names that a model
+// declares, of every kind of motion.
+#include "grammar.hpp"
+
+namespace pfaff::fuzz {
+
+namespace {
+class TextModel {
+ public:
+  explicit TextModel(Choices& choices) : choices_(choices), several_(choices.once_in(3)) {}
+
+  std::string text() {
+    add("coordinates", several_ ? "{ q = \"n\", p = \"n\" }" : "[\"q\", \"p\"]");
+    if (choices_.once_in(2))
+      add("initial", several_ ? "[\"vector(i, 1, 2*n, 1/(i + 1))\"]" : "[0.5, \"1/3\"]");
+    add("parameters", "{ a = { value = 2, range = [0, 10], unit = \"1/s\" }, n = " +
+                          std::to_string(1 + choices_.below(4)) + " }");
+    if (choices_.once_in(2))
+      add("let", "{ r = " + quoted(expression("a")) + ", s = " + quoted("r + " + expression("t")) + " }");
+    add_motion();
+    if (choices_.once_in(3)) add("invariants", "{ H = { of = " + quoted(both()) + ", quadratic = true } }");
+    if (choices_.once_in(4)) add("reversal", list(q(), "-" + p()));
+    if (choices_.once_in(5))
+      add("holonomic",
+          choices_.once_in(2) ? "[" + quoted(positions()) + "]" : "{ rod = " + quoted(positions()) + " }");
+    if (choices_.once_in(6)) add("velocity_constraints", "[{ row = [" + quoted(positions()) + "], b = 1 }]");
+    return text_;
+  }
+
+ private:
+  void add(const std::string& key, const std::string& value) { text_ += key + " = " + value + '\n'; }
+  static std::string quoted(const std::string& expression) { return '"' + expression + '"'; }
+  [[nodiscard]] static std::string list(const std::string& first, const std::string& second) {
+    return "[" + quoted(first) + ", " + quoted(second) + "]";
+  }
+  [[nodiscard]] std::string q() const { return several_ ? "q[1]" : "q"; }
+  [[nodiscard]] std::string p() const { return several_ ? "p[n]" : "p"; }
+  std::string positions() { return expression(q()); }
+  std::string momenta() { return p() + "^2/2 + " + expression(p()); }
+  std::string both() { return expression(q()) + " + " + expression(p()); }
+
+  void add_motion() {
+    switch (choices_.below(7)) {
+      case 0:
+        add("kinetic", quoted(momenta()));
+        add("potential", quoted(positions()));
+        if (choices_.once_in(3)) add("damping", quoted("a/2"));
+        return;
+      case 1:
+        add("hamiltonian", quoted(both()));
+        if (choices_.once_in(2))
+          add("bracket", choices_.one_of({"\"canonical(degrees=1)\"", "[[\"0\", \"q\"], [\"-q\", \"0\"]]",
+                                          "\"lie-poisson\""}));
+        if (choices_.once_in(3)) {
+          add("symmetric_bracket", "[[\"0\", \"0\"], [\"0\", \"a\"]]");
+          if (choices_.once_in(2)) add("entropy", quoted(both()));
+        }
+        return;
+      case 2:
+        add("field", list(both(), both()));
+        return;
+      case 3:
+        add("birkhoffian", quoted(both()));
+        add("one_form", list(p() + "*" + both(), "-" + q()));
+        if (choices_.once_in(2)) {
+          add("chart", list(q(), "exp(a*t)*" + p()));
+          add("chart_inverse", list("y[1]", "exp(-a*t)*y[2]"));
+        }
+        return;
+      case 4:
+        add("structure", "[[\"0\", \"-1\"], [\"1\", \"0\"]]");
+        add("covector", list(both(), both()));
+        return;
+      case 5:
+        add("lagrangian", quoted(choices_.one_of({"v[1]^2/2*(2 + ", "v[1]^4 + (", "v[1] + (",
+                                                  "sum(k, 1, n, v[k]^2)/2 + ("}) +
+                                 positions() + ")"));
+        return;
+      default:
+        add("tensor", "[[\"0\", \"q\"], [\"-q\", \"0\"]]");
+        add("symmetry", choices_.one_of({"\"skew\"", "\"symmetric\""}));
+        if (choices_.once_in(2)) add("jacobi", "true");
+        return;
+    }
+  }
+
+  // An expression that reads one name mostly.
+  std::string expression(const std::string& name) {
+    if (++depth_ > 6 || choices_.once_in(3)) {
+      --depth_;
+      if (choices_.once_in(60)) return choices_.one_of({"r", "s", "x", "q", "p", "q[2]", "0"});
+      if (choices_.once_in(30)) return random_number(choices_);
+      return choices_.once_in(4) ? choices_.one_of({"t", "a", "n", "pi", "1/3"}) : name;
+    }
+    const std::string x = expression(name);
+    std::string result;
+    switch (choices_.below(9)) {
+      case 0:
+        result = x + " + " + expression(name);
+        break;
+      case 1:
+        result = x + " - " + expression(name);
+        break;
+      case 2:
+        result = "(" + x + ")*(" + expression(name) + ")";
+        break;
+      case 3:
+        result = x + "/(" + expression(name) + ")";
+        break;
+      case 4:
+        result = "(" + x + ")^" + choices_.one_of({"2", "3", "-1", "(1/2)", "a", "0", "2.5", "t"});
+        break;
+      case 5:
+        result =
+            std::string(choices_.one_of({"sqrt(", "exp(", "log(", "sin(", "cos(", "tan(", "-("})) + x + ")";
+        break;
+      case 6: {
+        const std::string index = "i" + std::to_string(depth_);
+        result = "sum(" + index + choices_.one_of({", 1, n, ", ", 2, 5, "}) + index + "*(" + x + "))";
+        break;
+      }
+      case 7:
+        result = "pow(" + x + ", " + expression(name) + ")";
+        break;
+      default:
+        result = x;
+        if (choices_.once_in(20))
+          result +=
+              choices_.one_of({" ", ")", "(", "*", "[1]", "^^", " < 1", ",", "$", " + vector(i, 1, 2, i)"});
+        break;
+    }
+    --depth_;
+    return result;
+  }
+
+  Choices& choices_;
+  bool several_;
+  int depth_ = 0;
+  std::string text_;
+};
+}  // namespace
+
+std::string random_text_model(Choices& choices) { return TextModel(choices).text(); }
+
+}  // namespace pfaff::fuzz
