@@ -28,7 +28,7 @@ namespace {
 // Values are those of IEEE arithmetic in the order of the text: no contraction, no reordering. Without errno
 // a square root is one instruction.
 constexpr std::array flags{"-std=c++17",
-                           "-O3",
+                           "-O2",
                            "-shared",
                            "-fPIC",
                            "-ffp-contract=off",

@@ -163,7 +163,7 @@ class SeriesWriter {
         break;
     }
     bool constant = true;
-    visit_operands(i, tape_.solves, [&](int slot) { constant = constant && is_constant(slot); });
+    operands(i, tape_.solves, [&](int slot) { constant = constant && is_constant(slot); });
     slot_[k] = next_++;
     return !constant;
   }
