@@ -30,6 +30,7 @@ void add_compare(CLI::App& app, Common& common, Action& action);
 void add_reproduce(CLI::App& app, Common& common, Action& action);
 void add_verify(CLI::App& app, Common& common, Action& action);
 void add_falsify(CLI::App& app, Common& common, Action& action);
+void add_derive(CLI::App& app, Common& common, Action& action);
 
 /// A subcommand with the common options.
 CLI::App* subcommand(CLI::App& app, Common& common, const std::string& name, const std::string& what);

@@ -159,6 +159,7 @@ int run(int argc, char** argv) {
   add_reproduce(app, common, action);
   add_verify(app, common, action);
   add_falsify(app, common, action);
+  add_derive(app, common, action);
   app.footer(
       "pfaff COMMAND --help shows the options of a command.\n"
       "Exit status: 0 fine, 1 a check failed or a run ended early, 2 wrong usage or input.\n");

@@ -1,15 +1,14 @@
 // Dirac's formulation: the vector field {z, H}_D - <z, H>_D of the skew and the symmetric Dirac bracket.
 // Symbols are those of core/facets/holonomic.hpp.
 //
-// Holonomic constraints (nguyen-turski (4.2)), mu = S^-1 phi~, A_ij = {phi~_i, phi~_j} = T P^T - P T^T:
-//   q' = v - P^T mu,   p' = -H_q - B^T S^-1 (h - A mu) + T^T mu + friction.
-// phi and phi~ are Casimirs: they are kept off the constraint surface too, and without friction H is.
-// Constraints phi(z, t) of the phase space (1.2), X_i = Pi dphi_i, W_ij = dphi_i.X_j:
+// Holonomic constraints (nguyen-turski (4.2)): formulations/hamiltonian_reactions.hpp. phi and phi~ are
+// Casimirs: they are kept off the constraint surface too, and without friction H is. Constraints phi(z, t) of
+// the phase space (1.2), X_i = Pi dphi_i, W_ij = dphi_i.X_j:
 //   z' = Pi dH - sum_i X_i c_i,   W c = dphi Pi dH + phi_t,
 // The field of a symmetric bracket is treated in the same way. In both, constraints that are Casimirs of the
 // bracket already are left out: their X_i vanish, and W would be singular.
 #include <pfaff/core/tape/derivatives.hpp>
-#include <pfaff/formulations/friction.hpp>
+#include <pfaff/formulations/hamiltonian_reactions.hpp>
 
 namespace {
 using namespace pfaff;
@@ -66,39 +65,14 @@ struct Dirac : WithFriction {
   template <class T>
   struct Work {
     Work(const Dirac& formulation, HolonomicConstraints<T>& constraints)
-        : multipliers(constraints.count()),
-          right(constraints.count()),
-          other(constraints.count()),
-          by_momentum(constraints.degrees()),
-          by_position(constraints.degrees()),
-          friction(formulation.friction(), constraints),
-          rates(friction.none() ? constraints.rates(Reactions::hamiltonian) : nullptr) {}
-    std::vector<T> multipliers, right, other, by_momentum, by_position;
-    Friction<T> friction;
-    ConstrainedRates<T>* rates;  // the whole field as one operation, where there is one
+        : rates(formulation.friction(), constraints) {}
+    HamiltonianReactions<T> rates;
   };
 
   template <class T>
   Status field(HolonomicConstraints<T>& constraints, const T& t, In<T> q, In<T> p, Out<T> q_rate,
                Out<T> p_rate, Work<T>& w) const {
-    if (w.rates != nullptr) return (*w.rates)(t, q, p, q_rate, p_rate);
-    const Status status = constraints.place(t, q, p);
-    const std::size_t n = q.size(), count = w.right.size();
-    constraints.solve(constraints.hidden(), w.multipliers);                  // mu
-    constraints.hidden_by_momentum_transpose(w.multipliers, w.by_momentum);  // P^T mu
-    constraints.hidden_by_position_transpose(w.multipliers, w.by_position);  // T^T mu
-    constraints.hidden_by_position(w.by_momentum, w.right);                  // T P^T mu
-    constraints.hidden_by_momentum(w.by_position, w.other);                  // P T^T mu
-    const In<T> rates = constraints.hidden_rates(), v = constraints.velocities(), f = constraints.forces();
-    for (std::size_t k = 0; k < count; ++k) w.right[k] = rates[k] - (w.right[k] - w.other[k]);
-    constraints.solve(w.right, w.right);
-    constraints.apply_transpose(w.right, p_rate);
-    for (std::size_t k = 0; k < n; ++k) {
-      q_rate[k] = v[k] - w.by_momentum[k];
-      p_rate[k] = f[k] - p_rate[k] + w.by_position[k];
-    }
-    const Status rubbed = w.friction.add(constraints, p_rate);
-    return status == Status::converged ? rubbed : status;
+    return w.rates(constraints, t, q, p, q_rate, p_rate);
   }
 
   [[nodiscard]] Tape field_tape(const Model& model) const {

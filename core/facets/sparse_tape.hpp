@@ -38,6 +38,18 @@ struct SparseRows {
   }
 };
 
+/// A matrix on a tape, of which only the entries are kept that are not zero by construction.
+struct SparseRecorded {
+  SparseRows where{{0}, {}};
+  std::vector<Recorded> entries;
+
+  void push_back(std::size_t column, const Recorded& x) {
+    where.columns.push_back(column);
+    entries.push_back(x);
+  }
+  void end_row() { where.begin.push_back(where.columns.size()); }
+};
+
 /// A matrix on a tape, `rows` x `columns`, that stands in the columns from `first` of one with `stride`
 /// columns.
 struct RecordedMatrix {
@@ -47,17 +59,26 @@ struct RecordedMatrix {
   [[nodiscard]] const Recorded& operator()(std::size_t i, std::size_t j) const {
     return entries[i * stride + first + j];
   }
+  [[nodiscard]] SparseRecorded sparse() const;
 };
 
-/// Appends the entries of a matrix that are not zero by construction to `out`.
-SparseRows record_sparse(const RecordedMatrix& matrix, std::vector<Recorded>& out);
+/// Appends the entries of a matrix that are not zero by construction to `out`, and says where they are.
+SparseRows record_sparse(const SparseRecorded& matrix, std::vector<Recorded>& out);
+inline SparseRows record_sparse(const RecordedMatrix& matrix, std::vector<Recorded>& out) {
+  return record_sparse(matrix.sparse(), out);
+}
 
 /// Appends the entries sum_a x_ia weight_a y_ja with j >= i to `out`, the diagonal first and the couplings,
 /// those that are not zero by construction, after it. No weights are weights of one. Returns where the
-/// couplings are.
-std::shared_ptr<const SymmetricPattern> record_gram(const RecordedMatrix& x, const RecordedMatrix& y,
+/// couplings are. The time is that of the products that are made, whatever the sizes of the matrices.
+std::shared_ptr<const SymmetricPattern> record_gram(const SparseRecorded& x, const SparseRecorded& y,
                                                     const std::vector<Recorded>& weight,
                                                     std::vector<Recorded>& out);
+inline std::shared_ptr<const SymmetricPattern> record_gram(const RecordedMatrix& x, const RecordedMatrix& y,
+                                                           const std::vector<Recorded>& weight,
+                                                           std::vector<Recorded>& out) {
+  return record_gram(x.sparse(), y.sparse(), weight, out);
+}
 
 /// A tape whose number of outputs is found while it is recorded: formula(t, z, out) appends them.
 template <class F>

@@ -2,58 +2,88 @@
 
 #include <pfaff/core/facets/model.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
+#include <pfaff/core/tape/sparse_gradients.hpp>
 
 namespace pfaff {
 
 namespace {
 using Numbers = std::vector<Recorded>;
+
+// The columns first .. first + columns - 1 of sparse rows.
+SparseRecorded columns_of(const std::vector<SparseGradient>& rows, std::size_t first, std::size_t columns) {
+  SparseRecorded part;
+  for (const SparseGradient& row : rows) {
+    for (const auto& entry : row)
+      if (entry.first >= first && entry.first < first + columns)
+        part.push_back(entry.first - first, entry.second);
+    part.end_row();
+  }
+  return part;
+}
 }  // namespace
 
 HolonomicTapes record_holonomic(const Model& model) {
+  HolonomicFormulas formulas;
+  formulas.values = model.tape(Formula::holonomic);
+  formulas.degrees = static_cast<std::size_t>(formulas.values->inputs);
+  formulas.gradient = model.tape(Formula::hamiltonian_gradient);
+  if (model.given(Formula::friction)) formulas.friction = model.tape(Formula::friction);
+  return record_holonomic(formulas);
+}
+
+HolonomicTapes record_holonomic(const HolonomicFormulas& formulas) {
   HolonomicTapes tapes;
-  tapes.values = model.tape(Formula::holonomic);
+  tapes.values = formulas.values;
   const Tape& phi = *tapes.values;
-  const std::size_t n = tapes.degrees = static_cast<std::size_t>(phi.inputs);
-  const std::size_t count = tapes.count = phi.outputs.size();
-  const int inputs = static_cast<int>(2 * n);
-  tapes.gradient = model.tape(Formula::hamiltonian_gradient);
+  const std::size_t n = tapes.degrees = formulas.degrees;
+  tapes.count = phi.outputs.size();
+  tapes.parameters = formulas.parameters;
+  const int inputs = static_cast<int>(2 * n + tapes.parameters);
+  tapes.gradient = formulas.gradient;
   const Tape& gradient = *tapes.gradient;
-  const auto positions = [&](const Numbers& z) { return std::span<const Recorded>(z).first(n); };
+  // What phi is evaluated at: q and the parameters.
+  const auto position = [&](const Numbers& z) {
+    Numbers at(z.begin(), z.begin() + static_cast<std::ptrdiff_t>(n));
+    at.insert(at.end(), z.begin() + static_cast<std::ptrdiff_t>(2 * n), z.end());
+    return at;
+  };
 
   tapes.hidden = record_list(inputs, [&](const Recorded& t, const Numbers& z, Numbers& out) {
     const Numbers slopes = evaluate(gradient, t, z);
-    append(out, directional_derivative(phi, t, Recorded(1), positions(z),
-                                       std::span<const Recorded>(slopes).subspan(n)));
+    Numbers velocity(slopes.begin() + static_cast<std::ptrdiff_t>(n), slopes.end());
+    velocity.resize(n + tapes.parameters);
+    append(out, directional_derivative(phi, t, Recorded(1), position(z), velocity));
   });
   const Tape& hidden = *tapes.hidden;
 
   // The entries of B, P and S. The tape of a whole placement begins with the same.
-  const auto linear = [&](const Recorded& t, const Numbers& z, const Numbers& slopes_of_hidden,
-                          Numbers& out) {
-    const Numbers b = jacobian(phi, t, positions(z));
-    const RecordedMatrix by_position{b, count, n, n, 0}, by_momentum{slopes_of_hidden, count, n, 2 * n, n};
+  const auto linear = [&](const Recorded& t, const Numbers& z,
+                          const std::vector<SparseGradient>& slopes_of_hidden, Numbers& out) {
+    const SparseRecorded by_position = columns_of(sparse_gradients(phi, t, position(z), n), 0, n),
+                         by_momentum = columns_of(slopes_of_hidden, n, n);
     tapes.by_position = record_sparse(by_position, out);
     tapes.by_momentum = record_sparse(by_momentum, out);
     tapes.pattern = record_gram(by_position, by_momentum, {}, out);
   };
   tapes.linear = record_list(inputs, [&](const Recorded& t, const Numbers& z, Numbers& out) {
-    linear(t, z, jacobian(hidden, t, z), out);
+    linear(t, z, sparse_gradients(hidden, t, z, 2 * n), out);
   });
-  tapes.friction = model.given(Formula::friction);
+  tapes.friction = formulas.friction != nullptr;
   tapes.place = record_list(inputs, [&](const Recorded& t, const Numbers& z, Numbers& out) {
-    const Numbers slopes_of_hidden = jacobian(hidden, t, z);
+    const std::vector<SparseGradient> slopes_of_hidden = sparse_gradients(hidden, t, z, 2 * n);
     linear(t, z, slopes_of_hidden, out);
     const Numbers slopes = evaluate(gradient, t, z);
     Numbers flow(slopes.begin() + static_cast<std::ptrdiff_t>(n), slopes.end());
     for (std::size_t k = 0; k < n; ++k) flow.push_back(-slopes[k]);
     append(out, flow);
-    append(out, evaluate(phi, t, positions(z)));
+    append(out, evaluate(phi, t, position(z)));
     append(out, evaluate(hidden, t, z));
+    flow.resize(2 * n + tapes.parameters);
     append(out, directional_derivative(hidden, t, Recorded(1), z, flow));
-    tapes.hidden_by_position = record_sparse({slopes_of_hidden, count, n, 2 * n, 0}, out);
-    const Numbers lambda = tapes.friction ? evaluate(*model.tape(Formula::friction), t, z) : Numbers(n);
+    tapes.hidden_by_position = record_sparse(columns_of(slopes_of_hidden, 0, n), out);
+    const Numbers lambda = tapes.friction ? evaluate(*formulas.friction, t, z) : Numbers(n);
     append(out, lambda);
-    const RecordedMatrix by_momentum{slopes_of_hidden, count, n, 2 * n, n};
+    const SparseRecorded by_momentum = columns_of(slopes_of_hidden, n, n);
     tapes.friction_pattern = record_gram(by_momentum, by_momentum, lambda, out);
   });
   return tapes;

@@ -6,6 +6,7 @@
 // H may have any mass matrix M(q), and need not be quadratic in p.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include <pfaff/core/facets/holonomic.hpp>
@@ -17,9 +18,18 @@ namespace pfaff {
 
 class Model;
 
+/// The formulas that everything else follows from. Beside coordinates they may have parameters, as the last
+/// inputs of every tape, by which nothing is differentiated.
+struct HolonomicFormulas {
+  std::size_t degrees = 0, parameters = 0;
+  std::shared_ptr<const Tape> values;    // (q, t) -> phi
+  std::shared_ptr<const Tape> gradient;  // (q, p, t) -> (H_q, H_p)
+  std::shared_ptr<const Tape> friction;  // (q, p, t) -> lambda; null where there is none
+};
+
 /// The tapes that are recorded once for a system, and the structure of the matrices on them.
 struct HolonomicTapes {
-  std::size_t count = 0, degrees = 0;
+  std::size_t count = 0, degrees = 0, parameters = 0;
   std::shared_ptr<const Tape> values;    // (q, t) -> phi
   std::shared_ptr<const Tape> hidden;    // (q, p, t) -> phi~
   std::shared_ptr<const Tape> gradient;  // (q, p, t) -> (H_q, H_p)
@@ -30,30 +40,41 @@ struct HolonomicTapes {
   bool friction = false;
 };
 
-/// Records these tapes from the formulas holonomic, hamiltonian and, where there is one, friction of a model.
+/// Records these tapes. The time is linear in the size of the formulas.
+HolonomicTapes record_holonomic(const HolonomicFormulas& formulas);
+/// The same from the formulas holonomic, hamiltonian and, where there is one, friction of a model.
 HolonomicTapes record_holonomic(const Model& model);
 
 template <class T>
-class TapedConstraints final : public HolonomicConstraints<T> {
+class TapedConstraints : public HolonomicConstraints<T> {
  public:
-  explicit TapedConstraints(std::shared_ptr<const HolonomicTapes> tapes)
+  /// `parameters` are the values of the parameters of the formulas.
+  explicit TapedConstraints(std::shared_ptr<const HolonomicTapes> tapes,
+                            const std::vector<T>& parameters = {})
       : tapes_(std::move(tapes)),
         values_(tapes_->values),
         hidden_(tapes_->hidden),
         gradient_(tapes_->gradient),
         linear_(tapes_->linear),
         place_(tapes_->place),
-        state_(2 * tapes_->degrees),
+        position_(tapes_->degrees + parameters.size()),
+        state_(2 * tapes_->degrees + parameters.size()),
         slopes_(2 * tapes_->degrees),
         placed_(tapes_->place->outputs.size()),
         ldlt_(tapes_->pattern),
-        friction_ldlt_(tapes_->friction_pattern) {}
+        friction_ldlt_(tapes_->friction_pattern) {
+    std::copy(parameters.begin(), parameters.end(), position_.end() - parameters_size(parameters));
+    std::copy(parameters.begin(), parameters.end(), state_.end() - parameters_size(parameters));
+  }
 
   [[nodiscard]] std::size_t count() const override { return tapes_->count; }
   [[nodiscard]] std::size_t degrees() const override { return tapes_->degrees; }
   [[nodiscard]] const SymmetricPattern& pattern() const override { return *tapes_->pattern; }
 
-  void values(const T& t, In<T> q, Out<T> phi) override { values_(t, q.data(), phi.data()); }
+  void values(const T& t, In<T> q, Out<T> phi) override {
+    std::copy(q.begin(), q.end(), position_.begin());
+    values_(t, position_.data(), phi.data());
+  }
   void hidden_values(const T& t, In<T> q, In<T> p, Out<T> hidden) override {
     join(q, p);
     hidden_(t, state_.data(), hidden.data());
@@ -118,7 +139,20 @@ class TapedConstraints final : public HolonomicConstraints<T> {
   }
   void solve_friction(In<T> r, Out<T> x) const override { friction_ldlt_.solve(r.data(), x.data()); }
 
+ protected:
+  /// S as last placed: its diagonal, and its couplings in the order of the pattern's.
+  [[nodiscard]] std::span<const T> diagonal() const {
+    return std::span<const T>(placed_).subspan(pattern_begin(), count());
+  }
+  [[nodiscard]] std::span<const T> couplings() const {
+    return std::span<const T>(placed_).subspan(pattern_begin() + count(),
+                                               tapes_->pattern->couplings().size());
+  }
+
  private:
+  static std::ptrdiff_t parameters_size(const std::vector<T>& parameters) {
+    return static_cast<std::ptrdiff_t>(parameters.size());
+  }
   // Outputs of `linear` come first in those of `place`: B, P, the diagonal and the couplings of S.
   [[nodiscard]] std::size_t momentum_begin() const { return tapes_->by_position.columns.size(); }
   [[nodiscard]] std::size_t pattern_begin() const {
@@ -154,7 +188,7 @@ class TapedConstraints final : public HolonomicConstraints<T> {
   }
   std::shared_ptr<const HolonomicTapes> tapes_;
   Replay<T> values_, hidden_, gradient_, linear_, place_;
-  std::vector<T> state_, slopes_, placed_;
+  std::vector<T> position_, state_, slopes_, placed_;
   StructuredLDLT<T> ldlt_, friction_ldlt_;
 };
 

@@ -1,6 +1,10 @@
 #include <pfaff/core/tape/derivatives.hpp>
 
+#include <algorithm>
+
+#include <pfaff/core/tape/operands.hpp>
 #include <pfaff/core/tape/replay.hpp>
+#include <pfaff/core/tape/sparse_gradients.hpp>
 
 namespace pfaff {
 
@@ -121,58 +125,71 @@ class Guard {
   bool used_ = false, always_ = false;
   Recorded condition_;
 };
-}  // namespace
 
-std::vector<Recorded> gradient(const Tape& tape, const Recorded& t, std::span<const Recorded> z,
-                               std::span<const Recorded> weights) {
-  Replay<Recorded> replay(borrow(tape));
-  std::vector<Recorded> outputs(tape.outputs.size());
-  replay(t, z.data(), outputs.data());
-  const std::vector<Recorded>& x = replay.slots();
-  std::vector<Recorded> adjoint(x.size()), result(z.size());
-  std::vector<Guard> guards(x.size());
-  const auto at = [&](int slot) -> const Recorded& { return x[static_cast<std::size_t>(slot)]; };
-  const auto add_within = [&](const Guard& guard, int slot, const Recorded& value) {
-    if (structurally_zero(value)) return;
-    Recorded& a = adjoint[static_cast<std::size_t>(slot)];
-    a = a + value;
-    guards[static_cast<std::size_t>(slot)].join(guard);
-  };
-  for (std::size_t k = 0; k < weights.size(); ++k) add_within(Guard::always(), tape.outputs[k], weights[k]);
+// The adjoints of the slots of a tape (reverse mode), of which only those are kept that depend on the first
+// inputs, the variables: all others have no part in a gradient.
+class Adjoints {
+ public:
+  /// `x` are the values of the slots.
+  Adjoints(const Tape& tape, const std::vector<Recorded>& x, std::size_t variables)
+      : tape_(tape), x_(x), adjoint_(x.size()), guards_(x.size()), active_(x.size(), 0) {
+    for (std::size_t k = static_cast<std::size_t>(tape.state_begin); k < x.size(); ++k) {
+      const Instruction& i = tape.code[k];
+      const std::size_t start = group_start(tape.code, k);
+      if (i.operation == Operation::input) {
+        active_[k] = static_cast<std::size_t>(i.a) < variables ? 1 : 0;
+      } else if (start != k) {
+        active_[k] = active_[start];
+      } else {
+        operands(i, tape.solves, [&](int slot) { active_[k] |= active_[static_cast<std::size_t>(slot)]; });
+      }
+    }
+  }
 
-  // Functions of constants and time alone have no gradient: the sweep stops at the first state instruction.
-  for (std::size_t k = x.size(); k-- > static_cast<std::size_t>(tape.state_begin);) {
-    const Instruction& i = tape.code[k];
-    const Recorded& w = adjoint[k];
+  [[nodiscard]] bool active(std::size_t k) const { return active_[k] != 0; }
+  void seed(int slot, const Recorded& weight) { add_within(Guard::always(), slot, weight); }
+  void clear(std::size_t k) {
+    adjoint_[k] = Recorded();
+    guards_[k] = Guard();
+  }
+
+  /// Hands the adjoint of slot k on to the operands, or to result(input, adjoint) where it is an input. Slots
+  /// are taken from the last to the first.
+  template <class Result>
+  void pass_on(std::size_t k, Result&& result) {
+    const Instruction& i = tape_.code[k];
+    const Recorded w = adjoint_[k];
+    const auto at = [&](int slot) -> const Recorded& { return x_[static_cast<std::size_t>(slot)]; };
     // `pass` hands an adjoint on as it is. `add` is for an adjoint times a derivative, which may be NaN in a
     // branch that is not taken and is therefore guarded.
-    const auto pass = [&](int slot, const Recorded& value) { add_within(guards[k], slot, value); };
-    const auto add = [&](int slot, const Recorded& value) { add_within(guards[k], slot, guards[k](value)); };
+    const auto pass = [&](int slot, const Recorded& value) { add_within(guards_[k], slot, value); };
+    const auto add = [&](int slot, const Recorded& value) {
+      if (active(static_cast<std::size_t>(slot))) add_within(guards_[k], slot, guards_[k](value));
+    };
     if (i.operation == Operation::solve) {
       // A x = b: b_bar = A^-T x_bar, A_bar = -b_bar x^T.
-      const auto s = static_cast<std::size_t>(i.a);
-      const LinearSystem& system = tape.solves[s];
+      const LinearSystem& system = tape_.solves[static_cast<std::size_t>(i.a)];
       const auto n = static_cast<std::size_t>(system.size);
       std::vector<Recorded> transposed(n * n), bar(n);
       bool zero = true;
       for (std::size_t r = 0; r < n; ++r) {
-        bar[r] = adjoint[k + r];
-        if (!structurally_zero(bar[r])) guards[k].join(guards[k + r]);
+        bar[r] = adjoint_[k + r];
+        if (!structurally_zero(bar[r])) guards_[k].join(guards_[k + r]);
         zero = zero && structurally_zero(bar[r]);
         for (std::size_t c = 0; c < n; ++c) transposed[c * n + r] = at(system.matrix[r * n + c]);
       }
-      if (zero) continue;
+      if (zero) return;
       const auto b_bar = solve(transposed, bar);
       for (std::size_t r = 0; r < n; ++r) {
         add(system.right_hand_side[r], b_bar[r]);
-        for (std::size_t c = 0; c < n; ++c) add(system.matrix[r * n + c], -(b_bar[r] * x[k + c]));
+        for (std::size_t c = 0; c < n; ++c) add(system.matrix[r * n + c], -(b_bar[r] * x_[k + c]));
       }
-      continue;
+      return;
     }
-    if (structurally_zero(w)) continue;
+    if (structurally_zero(w)) return;
     switch (i.operation) {
       case Operation::input:
-        result[static_cast<std::size_t>(i.a)] = w;
+        result(static_cast<std::size_t>(i.a), w);
         break;
       case Operation::negate:
         pass(i.a, -w);
@@ -191,37 +208,97 @@ std::vector<Recorded> gradient(const Tape& tape, const Recorded& t, std::span<co
         break;
       case Operation::divide:
         add(i.a, w / at(i.b));
-        add(i.b, -(w * x[k] / at(i.b)));
+        add(i.b, -(w * x_[k] / at(i.b)));
         break;
       case Operation::square_root:
-        add(i.a, w / (Recorded(2) * x[k]));
+        add(i.a, w / (Recorded(2) * x_[k]));
         break;
       case Operation::exponential:
-        add(i.a, w * x[k]);
+        add(i.a, w * x_[k]);
         break;
       case Operation::logarithm:
         add(i.a, w / at(i.a));
         break;
       case Operation::sine:
-        add(i.a, w * x[k + 1]);
+        add(i.a, w * x_[k + 1]);
         break;
       case Operation::cosine:
-        add(i.a, -(w * x[k - 1]));
+        add(i.a, -(w * x_[k - 1]));
         break;
       case Operation::power: {
-        const Real& y = tape.constants[static_cast<std::size_t>(i.b)];
+        const Real& y = tape_.constants[static_cast<std::size_t>(i.b)];
         add(i.a, w * (Recorded(y) * pow(at(i.a), y - Real(1))));
         break;
       }
       case Operation::select:
-        add_within(guards[k].within(at(i.a), true), i.b, select(at(i.a), w, Recorded(0)));
-        add_within(guards[k].within(at(i.a), false), i.c, select(at(i.a), Recorded(0), w));
+        add_within(guards_[k].within(at(i.a), true), i.b, select(at(i.a), w, Recorded(0)));
+        add_within(guards_[k].within(at(i.a), false), i.c, select(at(i.a), Recorded(0), w));
         break;
       default:
         break;
     }
   }
+
+ private:
+  void add_within(const Guard& guard, int slot, const Recorded& value) {
+    const auto k = static_cast<std::size_t>(slot);
+    if (structurally_zero(value) || !active(k)) return;
+    adjoint_[k] = adjoint_[k] + value;
+    guards_[k].join(guard);
+  }
+
+  const Tape& tape_;
+  const std::vector<Recorded>& x_;
+  std::vector<Recorded> adjoint_;
+  std::vector<Guard> guards_;
+  std::vector<char> active_;
+};
+}  // namespace
+
+std::vector<Recorded> gradient(const Tape& tape, const Recorded& t, std::span<const Recorded> z,
+                               std::span<const Recorded> weights) {
+  Replay<Recorded> replay(borrow(tape));
+  std::vector<Recorded> outputs(tape.outputs.size()), result(z.size());
+  replay(t, z.data(), outputs.data());
+  Adjoints adjoints(tape, replay.slots(), z.size());
+  for (std::size_t k = 0; k < weights.size(); ++k) adjoints.seed(tape.outputs[k], weights[k]);
+  // Functions of constants and time alone have no gradient: the sweep stops at the first state instruction.
+  for (std::size_t k = tape.code.size(); k-- > static_cast<std::size_t>(tape.state_begin);)
+    adjoints.pass_on(k, [&](std::size_t input, const Recorded& w) { result[input] = w; });
   return result;
+}
+
+std::vector<SparseGradient> sparse_gradients(const Tape& tape, const Recorded& t, std::span<const Recorded> z,
+                                             std::size_t variables) {
+  Replay<Recorded> replay(borrow(tape));
+  std::vector<Recorded> outputs(tape.outputs.size());
+  replay(t, z.data(), outputs.data());
+  Adjoints adjoints(tape, replay.slots(), variables);
+  std::vector<SparseGradient> rows(tape.outputs.size());
+  std::vector<std::size_t> reached(tape.code.size(), 0), cone;  // `reached` from output r: r + 1
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    cone.clear();
+    const auto reach = [&](std::size_t slot) {
+      if (!adjoints.active(slot) || reached[slot] == r + 1) return;
+      reached[slot] = r + 1;
+      cone.push_back(slot);
+    };
+    reach(static_cast<std::size_t>(tape.outputs[r]));
+    for (std::size_t next = 0; next < cone.size(); ++next) {
+      const std::size_t k = cone[next];
+      if (tape.code[k].operation == Operation::solve_next) reach(group_start(tape.code, k));
+      operands(tape.code[k], tape.solves, [&](int slot) { reach(static_cast<std::size_t>(slot)); });
+    }
+    std::sort(cone.begin(), cone.end());
+    adjoints.seed(tape.outputs[r], Recorded(1));
+    for (std::size_t next = cone.size(); next-- > 0;)
+      adjoints.pass_on(cone[next], [&](std::size_t input, const Recorded& w) {
+        if (!structurally_zero(w)) rows[r].emplace_back(input, w);
+      });
+    for (const std::size_t k : cone) adjoints.clear(k);
+    std::sort(rows[r].begin(), rows[r].end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  }
+  return rows;
 }
 
 std::vector<Recorded> jacobian(const Tape& tape, const Recorded& t, std::span<const Recorded> z) {

@@ -94,4 +94,15 @@ struct BeadRodDescription {
   void check() const;
 };
 
+/// What the constraints of a bead-rod model are beside constraints: they tell the description that the model
+/// was made of.
+class DescribedByRods {
+ public:
+  DescribedByRods() = default;
+  DescribedByRods(const DescribedByRods&) = delete;
+  DescribedByRods& operator=(const DescribedByRods&) = delete;
+  virtual ~DescribedByRods() = default;
+  [[nodiscard]] virtual const BeadRodDescription& description() const = 0;
+};
+
 }  // namespace pfaff

@@ -20,7 +20,7 @@
 namespace pfaff {
 
 template <class T, int D>
-class RodConstraints final : public HolonomicConstraints<T> {
+class RodConstraints final : public HolonomicConstraints<T>, public DescribedByRods {
  public:
   RodConstraints(std::shared_ptr<const BeadRodDescription> description, std::shared_ptr<const RodGraph> graph)
       : description_(std::move(description)),
@@ -57,6 +57,7 @@ class RodConstraints final : public HolonomicConstraints<T> {
     fold();
   }
 
+  [[nodiscard]] const BeadRodDescription& description() const override { return *description_; }
   [[nodiscard]] std::size_t count() const override { return maps_.count(); }
   [[nodiscard]] std::size_t degrees() const override { return degrees_; }
   [[nodiscard]] const SymmetricPattern& pattern() const override { return *graph_->pattern(); }

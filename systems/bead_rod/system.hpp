@@ -11,6 +11,7 @@
 #include <pfaff/core/facets/holonomic.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/systems/bead_rod/description.hpp>
+#include <pfaff/systems/bead_rod/formulas.hpp>
 #include <pfaff/systems/bead_rod/graph.hpp>
 
 namespace pfaff {
@@ -87,13 +88,8 @@ class BeadRodSystem {
   }
   template <class T>
   T kinetic(const T& /*t*/, In<T> p) const {
-    T sum(0);
-    for (std::size_t i = 0, at = 0, axes = description().axes(); i < description().beads(); ++i) {
-      T square(0);
-      for (std::size_t x = 0; x < axes; ++x, ++at) square = square + p[at] * p[at];
-      sum = sum + square / (2 * description().masses[i]);
-    }
-    return sum;
+    return rod_kinetic_energy<T>(
+        description(), [this](std::size_t i) -> const Real& { return description().masses[i]; }, p);
   }
   template <class T>
   T potential(const T& /*t*/, In<T> q) const {
@@ -101,18 +97,8 @@ class BeadRodSystem {
   }
   template <class T>
   void holonomic(const T& /*t*/, In<T> q, Out<T> phi) const {
-    const BeadRodDescription& d = description();
-    for (std::size_t k = 0; k < d.rods.size(); ++k) {
-      const Rod& rod = d.rods[k];
-      T square(0);
-      for (std::size_t x = 0; x < d.axes(); ++x) {
-        const T along =
-            q[rod.first * d.axes() + x] -
-            (rod.second < d.beads() ? q[rod.second * d.axes() + x] : T(d.coordinate(rod.second, x)));
-        square = square + along * along;
-      }
-      phi[k] = (square - rod.length * T(rod.length)) / 2;
-    }
+    rod_constraint_values<T>(
+        description(), [this](std::size_t k) -> const Real& { return description().rods[k].length; }, q, phi);
   }
   template <class T>
   void friction(const T& /*t*/, In<T> /*z*/, Out<T> lambda) const {

@@ -13,6 +13,7 @@ std::vector<ReproducedRow> reproduce_nguyen_turski() {
   nguyen_turski::table_rows(formulations);
   nguyen_turski::tridiagonal_rows(formulations);
   nguyen_turski::figure_2_rows(formulations);
+  nguyen_turski::symbolic_rows(formulations);
   std::vector<ReproducedRow> rows = brackets.take(), more = formulations.take();
   rows.insert(rows.end(), more.begin(), more.end());
   return rows;

@@ -17,5 +17,6 @@ void motion_rows(Rows& rows);       // (4.1), (4.2), (4.7), appendix A
 void table_rows(Rows& rows);        // (4.3)-(4.6), tables 1 and 2, appendix B, other numbers of section 4
 void tridiagonal_rows(Rows& rows);  // (4.6), appendix C
 void figure_2_rows(Rows& rows);
+void symbolic_rows(Rows& rows);  // brackets, growth and cost of equations derived symbolically
 
 }  // namespace pfaff::nguyen_turski

@@ -1,0 +1,98 @@
+// pfaff derive: equations of motion of a system as text and code, and how many operations they take.
+#include <chrono>
+#include <iostream>
+
+#include <pfaff/app/command.hpp>
+#include <pfaff/app/terminal.hpp>
+#include <pfaff/bench/derivation/derivation.hpp>
+#include <pfaff/bench/runner/settings.hpp>
+#include <pfaff/core/errors/errors.hpp>
+#include <pfaff/core/system.hpp>
+
+namespace pfaff::app {
+
+namespace {
+
+struct Options {
+  std::string system, method, emit = "counts";
+  std::vector<std::string> set;
+};
+
+// The form of friction among the settings, which is taken out of them.
+std::optional<FrictionForm> take_friction_form(Assignments& settings) {
+  std::optional<FrictionForm> form;
+  std::vector<std::string> names;
+  for (const FrictionForm one : {FrictionForm::metriplectic, FrictionForm::stokes, FrictionForm::none})
+    names.emplace_back(to_string(one));
+  std::erase_if(settings, [&](const auto& setting) {
+    if (setting.first != "friction-form") return false;
+    for (const FrictionForm one : {FrictionForm::metriplectic, FrictionForm::stokes, FrictionForm::none})
+      if (setting.second == to_string(one)) form = one;
+    if (!form) throw InputError(unknown_name("friction-form", setting.second, names));
+    return true;
+  });
+  return form;
+}
+
+std::string methods_in_words() {
+  std::string text;
+  for (const DerivationMethod& method : derivation_methods())
+    text += (text.empty() ? "" : ", ") + method.name;
+  return text;
+}
+
+int print_counts(const Equations& equations, double seconds, bool as_json) {
+  const nlohmann::json counts{{"schema", 1},
+                              {"system", equations.system},
+                              {"method", equations.method},
+                              {"equations", equations.coordinates.size()},
+                              {"operations", operations(equations.tape)},
+                              {"nodes", equations.tape.code.size()},
+                              {"seconds", seconds}};
+  if (as_json) {
+    std::cout << json_text(counts);
+    return 0;
+  }
+  std::string symbols;
+  for (const Symbol& symbol : equations.parameters) symbols += (symbols.empty() ? "" : " ") + symbol.name;
+  std::cout << table({{"system", "method", "equations", "operations", "nodes", "seconds"},
+                      {equations.system, equations.method, std::to_string(equations.coordinates.size()),
+                       std::to_string(operations(equations.tape)), std::to_string(equations.tape.code.size()),
+                       scientific(seconds)}});
+  std::cout << paragraph("symbols: " + (symbols.empty() ? "the coordinates alone" : symbols));
+  return 0;
+}
+
+int run(const Options& options, bool as_json) {
+  Assignments settings = parse_settings(options.set);
+  const std::optional<FrictionForm> friction = take_friction_form(settings);
+  const SystemPlugin& system = systems().get(options.system, "system");
+  if (options.emit != "counts") throw InputError(unknown_name("--emit", options.emit, {"counts"}));
+  const SplitSettings split = split_settings(system, nullptr, nullptr, settings);
+  if (!split.initial.empty()) throw InputError("--set initial: equations do not depend on a state");
+  const std::shared_ptr<const Model> model = system.make(split.system);
+  const auto begin = std::chrono::steady_clock::now();
+  const Equations equations = derive(*model, options.method, friction);
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+  return print_counts(equations, seconds.count(), as_json);
+}
+
+}  // namespace
+
+void add_derive(CLI::App& app, Common& common, Action& action) {
+  CLI::App* sub = subcommand(app, common, "derive", "Equations of motion of a system, derived symbolically");
+  auto options = std::make_shared<Options>();
+  sub->add_option("system", options->system, "Name of the system")->type_name("SYSTEM")->required();
+  sub->add_option("--method", options->method, "How they are derived: " + methods_in_words())
+      ->type_name("NAME")
+      ->required();
+  sub->add_option("--emit", options->emit, "What is printed: counts")->type_name("NAME");
+  sub->add_option("--set", options->set, "A parameter of the system (beads=12) or friction-form=NAME")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->take_all();
+  sub->callback(
+      [options, &common, &action] { action = [options, &common] { return run(*options, common.json); }; });
+}
+
+}  // namespace pfaff::app

@@ -1,0 +1,196 @@
+#include <pfaff/bench/derivation/derivation.hpp>
+
+#include <algorithm>
+#include <functional>
+#include <set>
+
+#include <pfaff/bench/derivation/engines.hpp>
+#include <pfaff/bench/derivation/explicit_solves.hpp>
+#include <pfaff/bench/derivation/redundancy.hpp>
+#include <pfaff/bench/derivation/scaled.hpp>
+#include <pfaff/bench/derivation/symbolic_formulas.hpp>
+#include <pfaff/core/errors/errors.hpp>
+#include <pfaff/core/formulation.hpp>
+#include <pfaff/formulations/ideal_reactions.hpp>
+
+namespace pfaff {
+
+namespace {
+
+using Numbers = std::vector<Recorded>;
+/// The rates of (q, p) of recorded constraints, by one method.
+using Engine = std::function<void(HolonomicConstraints<Recorded>&, const Recorded& t, In<Recorded> z,
+                                  Out<Recorded> rates, FrictionForm form)>;
+
+template <class Rates>
+void by_formulation(HolonomicConstraints<Recorded>& constraints, const Recorded& t, In<Recorded> z,
+                    Out<Recorded> rates, FrictionForm form) {
+  const std::size_t n = constraints.degrees();
+  (void)Rates(form, constraints)(constraints, t, z.first(n), z.subspan(n), rates.first(n), rates.subspan(n));
+}
+template <class Solver>
+void by_solver(HolonomicConstraints<Recorded>& constraints, const Recorded& t, In<Recorded> z,
+               Out<Recorded> rates, FrictionForm /*form*/) {
+  const std::size_t n = constraints.degrees();
+  (void)BracketRates<Solver, Recorded>(constraints)(t, z.first(n), z.subspan(n), rates);
+}
+
+struct Row {
+  DerivationMethod method;
+  FrictionForm friction;
+  Engine engine;           // empty for the two methods without holonomic constraints
+  bool recursion = false;  // eliminates constraint by constraint
+};
+const std::vector<Row>& rows() {
+  using enum FrictionForm;
+  static const std::vector<Row> list{
+      {{"ldl", "Dirac's equations, S factored in its sparsity"},
+       metriplectic,
+       by_formulation<HamiltonianReactions<Recorded>>},
+      {{"simplified", "Dirac's equations with the hidden constraints set to zero in them"},
+       metriplectic,
+       by_formulation<IdealReactions<Recorded>>},
+      {{"lmm", "Lagrange's multipliers"}, stokes, by_formulation<IdealReactions<Recorded>>},
+      {{"recursion", "one pair of constraints after the other, by vectors"},
+       metriplectic,
+       by_solver<RecursiveVectorsDirac>,
+       true},
+      {{"recursion-literal", "the recursion word for word, each bracket made once"},
+       metriplectic,
+       by_solver<RecursiveLiteralDirac>,
+       true},
+      {{"bivector", "the recursion on the whole bracket, by updates of rank 2"},
+       metriplectic,
+       by_solver<RecursiveTensorDirac>,
+       true},
+      {{"minors", "Dirac's equations with the closed inverse of a chain's S"},
+       metriplectic,
+       by_formulation<HamiltonianReactions<Recorded>>},
+      {{"nonholonomic", "projected equations of velocity constraints"}, none, {}},
+      {{"birkhoffian", "K^-1 (grad B + F_t), the structure solved for the rates"}, none, {}}};
+  return list;
+}
+const Row& row_of(const std::string& method) {
+  std::vector<std::string> names;
+  for (const Row& row : rows()) {
+    if (row.method.name == method) return row;
+    names.push_back(row.method.name);
+  }
+  throw InputError(unknown_name("method", method, names));
+}
+
+bool chain(const Model& model) {
+  return ConstraintsByMinors<Recorded>::fits(model.holonomic_constraints<double>()->pattern());
+}
+
+std::string misfit(const Model& model, const Row& row) {
+  const std::string& method = row.method.name;
+  const std::string who = "method " + method + " needs ";
+  if (method == "nonholonomic") {
+    if (!model.nonholonomic()) return who + "velocity constraints; " + model.name() + " has none";
+    return formulations().get("nonholonomic", "formulation").refuses(model);
+  }
+  if (method == "birkhoffian") {
+    const bool structured = model.facets().has(Facet::structure) || model.facets().has(Facet::hamiltonian);
+    if (structured && (model.canonical() || model.facets().has(Facet::structure))) return {};
+    return who + "a structure K(z, t) and no constraints; " + model.name() + " offers " +
+           to_string(model.facets());
+  }
+  if (!model.holonomic())
+    return who + "holonomic constraints; " + model.name() + " offers " + to_string(model.facets());
+  if (method == "minors" && !chain(model))
+    return who + "one chain of constraints; S of " + model.name() + " is none";
+  if (row.recursion && !model.tape(Formula::holonomic)->autonomous())
+    return who + "constraints that do not depend on time; those of " + model.name() + " do";
+  return {};
+}
+
+/// Keeps of the parameters, the inputs after the coordinates, those that the tape reads.
+void keep_used(Equations& equations) {
+  const int coordinates = static_cast<int>(equations.coordinates.size());
+  std::set<int> used;
+  for (const Instruction& i : equations.tape.code)
+    if (i.operation == Operation::input && i.a >= coordinates) used.insert(i.a);
+  std::vector<Symbol> names;
+  std::vector<Real> values;
+  for (const int input : used) {
+    names.push_back(equations.parameters[static_cast<std::size_t>(input - coordinates)]);
+    values.push_back(equations.parameter_values[static_cast<std::size_t>(input - coordinates)]);
+  }
+  for (Instruction& i : equations.tape.code)
+    if (i.operation == Operation::input && i.a >= coordinates)
+      i.a = coordinates + static_cast<int>(std::distance(used.begin(), used.find(i.a)));
+  equations.tape.inputs = coordinates + static_cast<int>(used.size());
+  equations.parameters = std::move(names);
+  equations.parameter_values = std::move(values);
+}
+
+void derive_holonomic(const Model& model, const Row& row, FrictionForm form, Equations& equations) {
+  const SymbolicFormulas source = symbolic_formulas(model, form != FrictionForm::none);
+  const auto tapes = std::make_shared<const HolonomicTapes>(record_holonomic(source.formulas));
+  refuse_redundant(tapes, source, model, row.recursion);
+  equations.parameters = source.parameters;
+  equations.parameter_values = source.values;
+  const std::size_t n = 2 * source.formulas.degrees;
+  Recorder recorder(static_cast<int>(n + source.parameters.size()));
+  const Numbers inputs = recorder.inputs();
+  const Numbers parameters(inputs.begin() + static_cast<std::ptrdiff_t>(n), inputs.end());
+  Numbers rates(n);
+  const auto record_with = [&](auto&& constraints) {
+    row.engine(constraints, recorder.time(), In<Recorded>(inputs).first(n), rates, form);
+  };
+  if (row.method.name == "minors") {
+    record_with(ConstraintsByMinors<Recorded>(tapes, parameters));
+  } else {
+    record_with(TapedConstraints<Recorded>(tapes, parameters));
+  }
+  equations.tape = recorder.finish(rates);
+}
+
+}  // namespace
+
+const std::vector<DerivationMethod>& derivation_methods() {
+  static const std::vector<DerivationMethod> methods = [] {
+    std::vector<DerivationMethod> list;
+    for (const Row& row : rows()) list.push_back(row.method);
+    return list;
+  }();
+  return methods;
+}
+
+std::string derivation_misfit(const Model& model, const std::string& method) {
+  return misfit(model, row_of(method));
+}
+
+Equations derive(const Model& model, const std::string& method, std::optional<FrictionForm> friction) {
+  const Row& row = row_of(method);
+  if (const std::string reason = misfit(model, row); !reason.empty()) {
+    std::string others;
+    for (const Row& other : rows())
+      if (misfit(model, other).empty()) others += (others.empty() ? "" : ", ") + other.method.name;
+    throw InputError(reason + "; methods that fit: " + (others.empty() ? "none" : others));
+  }
+  const FrictionForm form = friction.value_or(row.friction);
+  if (row.recursion && form == FrictionForm::stokes)
+    throw InputError("method " + method + " has no friction-form stokes; expected metriplectic or none");
+  Equations equations;
+  equations.system = model.name();
+  equations.method = method;
+  for (const Coordinate& c : model.coordinates()) equations.coordinates.push_back({c.name, c.unit});
+  if (row.engine) {
+    derive_holonomic(model, row, form, equations);
+  } else if (method == "nonholonomic") {
+    // The motion shares the formulas of the model, which outlives it.
+    const std::shared_ptr<const Model> borrowed(std::shared_ptr<const Model>(), &model);
+    const auto motion = formulations().get("nonholonomic", "formulation").apply(borrowed, {});
+    equations.tape = *motion->tape(Formula::field);
+  } else {
+    equations.tape =
+        *(model.given(Formula::field) ? model.derived(Formula::field) : model.tape(Formula::field));
+  }
+  equations.tape = simplified(explicit_solves(equations.tape, "system " + model.name()));
+  keep_used(equations);
+  return equations;
+}
+
+}  // namespace pfaff

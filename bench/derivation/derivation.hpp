@@ -1,0 +1,37 @@
+// Equations of motion of a system as a tape with names, made by one of several methods from its energy and
+// its constraints alone: `pfaff derive`.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <pfaff/core/emit/equations.hpp>
+#include <pfaff/core/facets/model.hpp>
+#include <pfaff/core/formulation_members.hpp>
+
+namespace pfaff {
+
+/// A way to derive equations of motion.
+struct DerivationMethod {
+  std::string name, title;
+};
+/// All of them.
+const std::vector<DerivationMethod>& derivation_methods();
+
+/// Why a method does not fit a model; empty where it does. InputError for an unknown name.
+std::string derivation_misfit(const Model& model, const std::string& method);
+
+/// The equations of a model. Friction takes the form that is asked for or, without, the method's own: that of
+/// the formulation whose equations they are. InputError for an unknown method, one that does not fit (with
+/// those that do) and constraints that are dependent whatever the state.
+Equations derive(const Model& model, const std::string& method, std::optional<FrictionForm> friction = {});
+
+/// The operations of a tape: its instructions but constants, inputs and the time.
+std::size_t operations(const Tape& tape);
+
+/// The size of the outputs' expressions as text, in which nothing is shared: the number of operations of the
+/// trees below all outputs. A double, because it grows exponentially.
+double tree_operations(const Tape& tape);
+
+}  // namespace pfaff
