@@ -1,4 +1,5 @@
 // pfaff derive: equations of motion of a system as text and code, and how many operations they take.
+#include <algorithm>
 #include <chrono>
 #include <iostream>
 
@@ -6,6 +7,7 @@
 #include <pfaff/app/terminal.hpp>
 #include <pfaff/bench/derivation/derivation.hpp>
 #include <pfaff/bench/runner/settings.hpp>
+#include <pfaff/core/emit/emitter.hpp>
 #include <pfaff/core/errors/errors.hpp>
 #include <pfaff/core/system.hpp>
 
@@ -41,6 +43,25 @@ std::string methods_in_words() {
   return text;
 }
 
+// What --emit may say: counts, or a language.
+std::vector<std::string> forms() {
+  std::vector<std::string> names{"counts"};
+  for (const Emitter& emitter : emitters()) names.emplace_back(emitter.name);
+  return names;
+}
+std::string forms_in_words() {
+  std::string text;
+  for (const std::string& name : forms()) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+// Prints the equations in a language.
+int print_text(const Equations& equations, const std::string& language) {
+  for (const Emitter& emitter : emitters())
+    if (emitter.name == language) std::cout << emitter.write(equations);
+  return 0;
+}
+
 int print_counts(const Equations& equations, double seconds, bool as_json) {
   const nlohmann::json counts{{"schema", 1},
                               {"system", equations.system},
@@ -67,13 +88,18 @@ int run(const Options& options, bool as_json) {
   Assignments settings = parse_settings(options.set);
   const std::optional<FrictionForm> friction = take_friction_form(settings);
   const SystemPlugin& system = systems().get(options.system, "system");
-  if (options.emit != "counts") throw InputError(unknown_name("--emit", options.emit, {"counts"}));
+  const std::vector<std::string> known = forms();
+  if (std::find(known.begin(), known.end(), options.emit) == known.end())
+    throw InputError(unknown_name("--emit", options.emit, known));
+  if (as_json && options.emit != "counts")
+    throw InputError("--json is for --emit counts; expected " + options.emit + " without it");
   const SplitSettings split = split_settings(system, nullptr, nullptr, settings);
   if (!split.initial.empty()) throw InputError("--set initial: equations do not depend on a state");
   const std::shared_ptr<const Model> model = system.make(split.system);
   const auto begin = std::chrono::steady_clock::now();
   const Equations equations = derive(*model, options.method, friction);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+  if (options.emit != "counts") return print_text(equations, options.emit);
   return print_counts(equations, seconds.count(), as_json);
 }
 
@@ -86,7 +112,7 @@ void add_derive(CLI::App& app, Common& common, Action& action) {
   sub->add_option("--method", options->method, "How they are derived: " + methods_in_words())
       ->type_name("NAME")
       ->required();
-  sub->add_option("--emit", options->emit, "What is printed: counts")->type_name("NAME");
+  sub->add_option("--emit", options->emit, "What is printed: " + forms_in_words())->type_name("NAME");
   sub->add_option("--set", options->set, "A parameter of the system (beads=12) or friction-form=NAME")
       ->type_name("KEY=VALUE")
       ->expected(1)

@@ -23,7 +23,7 @@ double tree_operations(const Tape& tape) {
     // A cosine reads what its sine reads.
     const Instruction& i = tape.code[group_start(tape.code, k)];
     size[k] = computes(i) ? 1 : 0;
-    visit_operands(i, tape.solves, [&](int slot) { size[k] += size[static_cast<std::size_t>(slot)]; });
+    operands(i, tape.solves, [&](int slot) { size[k] += size[static_cast<std::size_t>(slot)]; });
   }
   double sum = 0;
   for (const int slot : tape.outputs) sum += size[static_cast<std::size_t>(slot)];

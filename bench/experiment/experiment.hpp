@@ -51,7 +51,7 @@ struct Experiment {
   std::vector<ExperimentCase> cases;
   std::vector<ExperimentClaim> claims;
   bool quick = false;
-  bool compile = false;  // the formulas of every system, as `compile = yes` in a run
+  bool compile = false;  // as `compile = yes` of every run
 };
 
 /// Names of the experiments that are installed with the program.

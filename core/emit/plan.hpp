@@ -50,7 +50,7 @@ namespace pfaff::emit {
 
 template <class Visit>
 void visit_parts(const Tape& tape, const Plan& plan, int slot, Visit&& visit) {
-  visit_operands(tape.code[static_cast<std::size_t>(slot)], tape.solves, [&](int part) {
+  operands(tape.code[static_cast<std::size_t>(slot)], tape.solves, [&](int part) {
     if (plan.named(part) || is_atom(tape.code[static_cast<std::size_t>(part)])) {
       visit(part);
     } else {

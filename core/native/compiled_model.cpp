@@ -5,7 +5,7 @@
 
 #include <pfaff/core/emit/cpp_function.hpp>
 #include <pfaff/core/emit/names.hpp>
-#include <pfaff/core/native/compiler.hpp>
+#include <pfaff/core/native/native_series.hpp>
 
 namespace pfaff {
 
@@ -25,8 +25,8 @@ constexpr int most_columns = 64;
 
 bool is_jacobian(Formula f) { return f == Formula::field_jacobian || f == Formula::chart_field_jacobian; }
 
-bool to_be_compiled(const Model& model, Formula formula) {
-  if (model.compiled(formula) != nullptr || model.program(formula) != nullptr) return false;
+bool to_be_compiled(const Model& model, Formula formula, bool anew) {
+  if ((model.compiled(formula) != nullptr && !anew) || model.program(formula) != nullptr) return false;
   if (formula == Formula::chart_field && model.canonical() && !model.given(Formula::chart))
     return false;  // it is the field itself
   if (is_jacobian(formula) && (model.dimension() > most_columns || model.program(Formula::field) != nullptr))
@@ -55,29 +55,46 @@ std::string function_text(const Tape& tape, const std::string& symbol, const Cpp
   return cpp_function(tape, plan, language, interface, text_name.slots);
 }
 
-// What a compiled model needs besides the author's object.
-struct Owner {
-  std::shared_ptr<const void> system;
-  std::shared_ptr<const native::Library> library;
+// The text of a model. Compiled series are called with an object of their own in the place of the author's.
+// Where there are some, every formula is therefore compiled from its tape (`anew`), the author's too.
+struct NativeText {
+  std::string text;
+  native::SeriesText series;
 };
-}  // namespace
 
-std::string native_text(const Model& model) {
+NativeText text_of(const Model& model) {
+  NativeText result;
+  if (model.content().has(Facet::darboux_chart) && model.chart_field_series() == nullptr &&
+      model.program(Formula::chart_field) == nullptr && model.program(Formula::field) == nullptr)
+    result.series = native::series_text(*model.tape(Formula::chart_field));
+  const bool anew = !result.series.text.empty();
   const Cpp language("");
   std::string functions, solver;
   for (const Formula formula : candidates) {
-    if (!to_be_compiled(model, formula)) continue;
+    if (!to_be_compiled(model, formula, anew)) continue;
     const Tape& tape = *model.tape(formula);
     if (solver.empty()) solver = cpp_solver(tape);
     functions += function_text(tape, symbol_of(formula), language) + "\n";
   }
-  if (functions.empty()) return {};
-  return "extern \"C\" {\ndouble sqrt(double) noexcept;\ndouble exp(double) noexcept;\ndouble log(double) "
-         "noexcept;\n"
-         "double sin(double) noexcept;\ndouble cos(double) noexcept;\ndouble pow(double, double) "
-         "noexcept;\n}\n\n" +
-         solver + functions;
+  if (functions.empty() && !anew) return result;
+  result.text =
+      "extern \"C\" {\ndouble sqrt(double) noexcept;\ndouble exp(double) noexcept;\ndouble log(double) "
+      "noexcept;\n"
+      "double sin(double) noexcept;\ndouble cos(double) noexcept;\ndouble pow(double, double) "
+      "noexcept;\n}\n\n" +
+      solver + functions + result.series.text;
+  return result;
 }
+
+// What a compiled model keeps: the author's object, the code, and what its series are called with.
+struct Owner {
+  std::shared_ptr<const void> system;
+  std::shared_ptr<const native::Library> library;
+  std::unique_ptr<const native::NativeSeries> series;
+};
+}  // namespace
+
+std::string native_text(const Model& model) { return text_of(model).text; }
 
 std::shared_ptr<const Model> compiled(const std::shared_ptr<const Model>& model) {
   if (native::compiler_version().empty()) {
@@ -86,15 +103,23 @@ std::shared_ptr<const Model> compiled(const std::shared_ptr<const Model>& model)
                    [] { std::cerr << "pfaff: there is no C++ compiler here; formulas are interpreted\n"; });
     return model;
   }
-  const std::string text = native_text(*model);
-  if (text.empty()) return model;
+  const NativeText text = text_of(*model);
+  if (text.text.empty()) return model;
   ModelSource source = model->source();
-  const auto owner = std::make_shared<const Owner>(
-      Owner{source.system, native::library_of(text, "system " + model->name())});
+  auto owner = std::make_shared<Owner>();
+  owner->system = source.system;
+  owner->library = native::library_of(text.text, "system " + model->name());
+  const void* object = source.system.get();
+  if (!text.series.text.empty()) {
+    owner->series = std::make_unique<const native::NativeSeries>(owner->library, text.series);
+    source.compiled = {};
+    source.chart_field_series = &owner->series->series();
+    object = owner->series.get();
+  }
   for (const Formula formula : candidates)
     if (void* address = owner->library->symbol(symbol_of(formula)))
       source.compiled[index(formula)] = reinterpret_cast<CompiledFormula>(address);
-  source.system = std::shared_ptr<const void>(owner, owner->system.get());
+  source.system = std::shared_ptr<const void>(std::move(owner), object);
   return std::make_shared<const Model>(std::move(source));
 }
 

@@ -141,8 +141,7 @@ class Adjoints {
       } else if (start != k) {
         active_[k] = active_[start];
       } else {
-        visit_operands(i, tape.solves,
-                       [&](int slot) { active_[k] |= active_[static_cast<std::size_t>(slot)]; });
+        operands(i, tape.solves, [&](int slot) { active_[k] |= active_[static_cast<std::size_t>(slot)]; });
       }
     }
   }
@@ -288,7 +287,7 @@ std::vector<SparseGradient> sparse_gradients(const Tape& tape, const Recorded& t
     for (std::size_t next = 0; next < cone.size(); ++next) {
       const std::size_t k = cone[next];
       if (tape.code[k].operation == Operation::solve_next) reach(group_start(tape.code, k));
-      visit_operands(tape.code[k], tape.solves, [&](int slot) { reach(static_cast<std::size_t>(slot)); });
+      operands(tape.code[k], tape.solves, [&](int slot) { reach(static_cast<std::size_t>(slot)); });
     }
     std::sort(cone.begin(), cone.end());
     adjoints.seed(tape.outputs[r], Recorded(1));

@@ -1,17 +1,16 @@
-// What the instructions of a tape read.
+// Which slots an instruction of a tape reads.
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include <pfaff/core/tape/tape.hpp>
 
 namespace pfaff {
 
-/// Calls visit(slot) for every slot that an instruction reads, as often as it reads it. The slots of a linear
-/// system are read by the first instruction of its group.
+/// Calls visit(slot) for every slot that an instruction reads. The slots of a linear system are read by the
+/// first instruction of its group.
 template <class Visit>
-void visit_operands(const Instruction& i, const std::vector<LinearSystem>& solves, Visit&& visit) {
+void operands(const Instruction& i, const std::vector<LinearSystem>& solves, Visit&& visit) {
   switch (i.operation) {
     case Operation::constant:
     case Operation::time:

@@ -61,7 +61,7 @@ Tape Recorder::finish(std::span<const Recorded> outputs) {
     if (needed[k] == 0) continue;
     const std::size_t start = group_start(code_, k);
     for (std::size_t g = start; g < n && group_start(code_, g) == start; ++g) needed[g] = 1;
-    visit_operands(code_[start], solves_, [&](int slot) { needed[static_cast<std::size_t>(slot)] = 1; });
+    operands(code_[start], solves_, [&](int slot) { needed[static_cast<std::size_t>(slot)] = 1; });
   }
 
   // Dependence: 0 constants, 1 time, 2 state.
@@ -71,8 +71,8 @@ Tape Recorder::finish(std::span<const Recorded> outputs) {
     if (code_[k].operation == Operation::input) level[k] = 2;
     const std::size_t start = group_start(code_, k);
     if (start != k) level[k] = level[start];
-    visit_operands(code_[k], solves_,
-                   [&](int slot) { level[k] = std::max(level[k], level[static_cast<std::size_t>(slot)]); });
+    operands(code_[k], solves_,
+             [&](int slot) { level[k] = std::max(level[k], level[static_cast<std::size_t>(slot)]); });
     // A function of constants alone that could not be folded is evaluated with the time part.
     if (code_[k].operation != Operation::constant) level[k] = std::max(level[k], 1);
   }

@@ -94,6 +94,7 @@ std::string random_configuration(Choices& choices) {
     text << "step = " << quoted(positive_number(choices)) << '\n';
     if (choices.once_in(4)) text << "every = " << 1 + choices.below(3) << '\n';
   }
+  if (choices.once_in(8)) text << "compile = \"no\"\n";  // a compiler for each input would take minutes
   if (choices.once_in(8)) text << "allow_inconsistent = " << quoted(choices.one_of({"yes", "no"})) << '\n';
   if (choices.once_in(2)) text << "initial = " << list_of_numbers(choices, dimension_of(system)) << '\n';
   text << "\n[set]\n";
