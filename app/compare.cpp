@@ -5,13 +5,14 @@
 #include <pfaff/app/command.hpp>
 #include <pfaff/app/terminal.hpp>
 #include <pfaff/bench/experiment/experiment.hpp>
+#include <pfaff/bench/experiment/results.hpp>
 
 namespace pfaff::app {
 
 namespace {
 
 int compare(const std::vector<std::string>& names, bool quick, bool force, const std::string& out,
-            bool json) {
+            const PaperFigures& paper, bool json) {
   nlohmann::json j{{"schema", 1}, {"experiments", nlohmann::json::array()}};
   bool failed = false;
   for (const std::string& name : names) {
@@ -30,6 +31,8 @@ int compare(const std::vector<std::string>& names, bool quick, bool force, const
           },
           force);
     }
+    std::filesystem::path figures;
+    if (!paper.kinds.empty()) figures = make_paper_figures(directory, paper);
     failed = failed || outcome.failed == outcome.runs || !outcome.failed_claims.empty();
     j["experiments"].push_back({{"name", experiment.name},
                                 {"directory", directory.string()},
@@ -37,13 +40,15 @@ int compare(const std::vector<std::string>& names, bool quick, bool force, const
                                 {"resumed", outcome.resumed},
                                 {"failed", outcome.failed},
                                 {"report", outcome.report.string()}});
+    if (!figures.empty()) j["experiments"].back()["figures"] = figures.string();
     if (!outcome.findings.empty()) j["experiments"].back()["findings"] = outcome.findings;
     if (!json)
       std::cout << printable(experiment.title) << '\n'
                 << printable(outcome.table) << '\n'
                 << outcome.runs << (outcome.runs == 1 ? " run (" : " runs (") << outcome.resumed
                 << " resumed, " << outcome.failed << " ended early)\nresults  "
-                << (directory / "results.csv").string() << "\nreport   " << outcome.report.string() << '\n';
+                << (directory / "results.csv").string() << "\nreport   " << outcome.report.string() << '\n'
+                << (figures.empty() ? "" : "figures  " + figures.string() + "\n");
     if (!outcome.failed_claims.empty())
       std::cerr << printable("pfaff: " + experiment.name +
                              ": a finding does not hold: " + outcome.failed_claims)
@@ -69,10 +74,18 @@ void add_compare(CLI::App& app, Common& common, Action& action) {
   sub->add_flag("--force", *force, "Run anew what was made from other files or builds");
   sub->add_option("--out", *out, "Where results go (default pfaff-out/NAME), or resume from")
       ->type_name("DIR");
+  auto paper = std::make_shared<PaperFigures>();
+  paper->width = "85mm";
+  sub->add_option("--figures", paper->kinds, "Figures and tables for papers too: some of pdf, svg, pgf, png")
+      ->type_name("KIND,...");
+  sub->add_option("--width", paper->width, "Width of the figures for papers (default 85mm)")
+      ->type_name("LENGTH");
+  sub->add_option("--style", paper->style, "A style file of matplotlib's for the figures for papers")
+      ->type_name("FILE");
   sub->callback([=, &common, &action] {
     action = [=, &common] {
       if (*all == !names->empty()) throw InputError("compare: expected the name of an experiment, or --all");
-      return compare(*all ? experiment_names() : *names, *quick, *force, *out, common.json);
+      return compare(*all ? experiment_names() : *names, *quick, *force, *out, *paper, common.json);
     };
   });
 }

@@ -118,9 +118,10 @@ def keepers(verdict):
     if not lose:
         return f"all methods keep {structure}"
     who, whose = collective(keep, lose), collective(lose, keep)
+    only = "" if few(keep, who) and len(keep) >= len(lose) else "only "
     shorter = len(plain_text(whose)) < len(plain_text(who)) and not few(lose, whose)
     out = f"all but {whose} keep {structure}" if shorter else (
-        f"{'only ' if 2 * len(keep) < len(keep) + len(lose) or not few(keep, who) else ''}{who} {'keeps' if len(keep) == 1 else 'keep'} {structure}")
+        f"{only}{who} {'keeps' if len(keep) == 1 else 'keep'} {structure}")
     cheap = sorted((r for r in keep if verdict.target and r.times[verdict.target][0] > 0),
                    key=lambda r: r.times[verdict.target][0])
     if not cheap:
