@@ -137,8 +137,7 @@ def surface(verdict):
     if verdict.structured:
         return ""
     for level in verdict.experiment.residuals:
-        sized = sorted(((r.run.drift(level, "max"), r) for r in verdict.rows
-                        if r.run and not math.isnan(r.run.drift(level, "max"))), key=lambda s: s[0])
+        sized = sorted(((x, r) for r in verdict.rows if not math.isnan(x := verdict.residual(r, level))), key=lambda s: s[0])
         if len(sized) > 1 and sized[0][0] < sized[-1][0]:
             (near, first), (far, last) = sized[0], sized[-1]
             return (f"{name(first)} stays closest to the constraints, {size(near)}, and {name(last)} leaves them by most, "

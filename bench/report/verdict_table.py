@@ -74,7 +74,7 @@ def all_columns(verdict):
         columns.append(column(raised(text(head)), "", lambda r: drift_cell(verdict, r), level))
     for level_name in verdict.experiment.residuals:
         columns.append(column(text(level_name.replace("hidden-", "hidden ")), "r more",
-                              lambda r, n=level_name: level_cell(r, n), level))
+                              lambda r, n=level_name: level_cell(verdict, r, n), level))
     if verdict.comparable and verdict.relative:
         columns.append(column("error", "r", lambda r: error_cell(verdict, r), level))
     for target in asked:
@@ -121,10 +121,10 @@ def at_which(verdict, row):
     return f"the run nearest to equal cost: {at}"
 
 
-def level_cell(row, name):
-    if row.run is None or math.isnan(row.run.drift(name, "max")):
+def level_cell(verdict, row, name):
+    top = verdict.residual(row, name)
+    if math.isnan(top):
         return "na", None, "–"
-    top = row.run.drift(name, "max")
     return "r", math.log10(max(top, 1e-40)), size(top), row.run.drift_class(name)
 
 
