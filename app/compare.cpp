@@ -5,22 +5,30 @@
 #include <pfaff/app/command.hpp>
 #include <pfaff/app/terminal.hpp>
 #include <pfaff/bench/experiment/experiment.hpp>
+#include <pfaff/bench/experiment/results.hpp>
 
 namespace pfaff::app {
 
 namespace {
 
-int compare(const std::vector<std::string>& names, bool quick, bool force, bool compile,
-            const std::string& out, bool json) {
+struct Options {
+  std::vector<std::string> names;
+  bool all = false, quick = false, force = false, compile = false;
+  std::string out;
+  PaperFigures paper;
+};
+
+int compare(const Options& options, bool json) {
+  const std::vector<std::string> names = options.all ? experiment_names() : options.names;
   nlohmann::json j{{"schema", 1}, {"experiments", nlohmann::json::array()}};
   bool failed = false;
   for (const std::string& name : names) {
-    Experiment experiment = read_experiment(name, quick);
-    experiment.compile = experiment.compile || compile;
-    std::filesystem::path directory = out;
-    if (out.empty())
-      directory = std::filesystem::path("pfaff-out") / (experiment.name + (quick ? "-quick" : ""));
-    if (!out.empty() && names.size() > 1) directory /= experiment.name;
+    Experiment experiment = read_experiment(name, options.quick);
+    experiment.compile = experiment.compile || options.compile;
+    std::filesystem::path directory = options.out;
+    if (options.out.empty())
+      directory = std::filesystem::path("pfaff-out") / (experiment.name + (options.quick ? "-quick" : ""));
+    if (!options.out.empty() && names.size() > 1) directory /= experiment.name;
     ExperimentOutcome outcome;
     {
       ProgressLine line;
@@ -29,8 +37,10 @@ int compare(const std::vector<std::string>& names, bool quick, bool force, bool 
           [&](const std::string& what, std::size_t done, std::size_t all) {
             line.show(what, all == 0 ? 1.0 : static_cast<double>(done) / static_cast<double>(all));
           },
-          force);
+          options.force);
     }
+    std::filesystem::path figures;
+    if (!options.paper.kinds.empty()) figures = make_paper_figures(directory, options.paper);
     failed = failed || outcome.failed == outcome.runs || !outcome.failed_claims.empty();
     j["experiments"].push_back({{"name", experiment.name},
                                 {"directory", directory.string()},
@@ -38,13 +48,15 @@ int compare(const std::vector<std::string>& names, bool quick, bool force, bool 
                                 {"resumed", outcome.resumed},
                                 {"failed", outcome.failed},
                                 {"report", outcome.report.string()}});
+    if (!figures.empty()) j["experiments"].back()["figures"] = figures.string();
     if (!outcome.findings.empty()) j["experiments"].back()["findings"] = outcome.findings;
     if (!json)
       std::cout << printable(experiment.title) << '\n'
                 << printable(outcome.table) << '\n'
                 << outcome.runs << (outcome.runs == 1 ? " run (" : " runs (") << outcome.resumed
                 << " resumed, " << outcome.failed << " ended early)\nresults  "
-                << (directory / "results.csv").string() << "\nreport   " << outcome.report.string() << '\n';
+                << (directory / "results.csv").string() << "\nreport   " << outcome.report.string() << '\n'
+                << (figures.empty() ? "" : "figures  " + figures.string() + "\n");
     if (!outcome.failed_claims.empty())
       std::cerr << printable("pfaff: " + experiment.name +
                              ": a finding does not hold: " + outcome.failed_claims)
@@ -58,24 +70,29 @@ int compare(const std::vector<std::string>& names, bool quick, bool force, bool 
 
 void add_compare(CLI::App& app, Common& common, Action& action) {
   CLI::App* sub = subcommand(app, common, "compare", "Run an experiment: table, CSV, figures, report");
-  auto names = std::make_shared<std::vector<std::string>>();
-  auto quick = std::make_shared<bool>(false);
-  auto force = std::make_shared<bool>(false);
-  auto compile = std::make_shared<bool>(false);
-  auto all = std::make_shared<bool>(false);
-  auto out = std::make_shared<std::string>();
-  sub->add_option("experiment", *names, "Name of one that ships (pfaff list experiments), or a TOML file")
+  auto options = std::make_shared<Options>();
+  sub->add_option("experiment", options->names,
+                  "Name of one that ships (pfaff list experiments), or a TOML file")
       ->type_name("NAME|FILE");
-  sub->add_flag("--all", *all, "Every experiment that ships");
-  sub->add_flag("--quick", *quick, "Shorter horizons and fewer steps, to look at");
-  sub->add_flag("--force", *force, "Run anew what was made from other files or builds");
-  sub->add_flag("--compile", *compile, "Compile the systems' formulas with the C++ compiler of this machine");
-  sub->add_option("--out", *out, "Where results go (default pfaff-out/NAME), or resume from")
+  sub->add_flag("--all", options->all, "Every experiment that ships");
+  sub->add_flag("--quick", options->quick, "Shorter horizons and fewer steps, to look at");
+  sub->add_flag("--force", options->force, "Run anew what was made from other files or builds");
+  sub->add_flag("--compile", options->compile,
+                "Compile the systems' formulas with the C++ compiler of this machine");
+  sub->add_option("--out", options->out, "Where results go (default pfaff-out/NAME), or resume from")
       ->type_name("DIR");
+  sub->add_option("--figures", options->paper.kinds,
+                  "Figures and tables for papers too: some of pdf, svg, pgf, png")
+      ->type_name("KIND,...");
+  sub->add_option("--width", options->paper.width, "Width of the figures for papers (default 85mm)")
+      ->type_name("LENGTH");
+  sub->add_option("--style", options->paper.style, "A style file of matplotlib's for the figures for papers")
+      ->type_name("FILE");
   sub->callback([=, &common, &action] {
     action = [=, &common] {
-      if (*all == !names->empty()) throw InputError("compare: expected the name of an experiment, or --all");
-      return compare(*all ? experiment_names() : *names, *quick, *force, *compile, *out, common.json);
+      if (options->all == !options->names.empty())
+        throw InputError("compare: expected the name of an experiment, or --all");
+      return compare(*options, common.json);
     };
   });
 }

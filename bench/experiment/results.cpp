@@ -113,7 +113,9 @@ std::string results_csv(const std::vector<ExperimentRun>& runs,
   return text.str();
 }
 
-fs::path make_report(const fs::path& directory) {
+namespace {
+// The report scripts, run with these arguments. RunError begins with `what` when they fail.
+void run_scripts(const std::vector<std::string>& arguments, const std::string& what) {
   const fs::path script = data_directory() / "report" / "report.py";
   // matplotlib is installed as a package of the operating system and is seen by its own Python only, so that
   // /usr/bin/python3 goes before any other.
@@ -124,8 +126,9 @@ fs::path make_report(const fs::path& directory) {
     for (const char c : path) text += c == '\'' ? "'\\''" : std::string(1, c);
     return text + "'";
   };
-  const std::string command =
-      python + " " + shell_quoted(script.string()) + " " + shell_quoted(directory.string()) + " 2>&1";
+  std::string command = python + " " + shell_quoted(script.string());
+  for (const std::string& argument : arguments) command += " " + shell_quoted(argument);
+  command += " 2>&1";
   FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) throw RunError("cannot start " + python + " for the report");
   std::string output;
@@ -135,10 +138,21 @@ fs::path make_report(const fs::path& directory) {
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
     while (!output.empty() && output.back() == '\n') output.pop_back();
     const std::size_t newline = output.rfind('\n');
-    throw RunError("the report could not be made (results.csv and cost.csv are complete): " +
-                   (newline == std::string::npos ? output : output.substr(newline + 1)));
+    throw RunError(what + ": " + (newline == std::string::npos ? output : output.substr(newline + 1)));
   }
+}
+}  // namespace
+
+fs::path make_report(const fs::path& directory) {
+  run_scripts({directory.string()}, "the report could not be made (results.csv and cost.csv are complete)");
   return directory / "report.html";
+}
+
+fs::path make_paper_figures(const fs::path& directory, const PaperFigures& wanted) {
+  std::vector<std::string> arguments{directory.string(), "--figures", wanted.kinds, "--width", wanted.width};
+  if (!wanted.style.empty()) arguments.insert(arguments.end(), {"--style", wanted.style});
+  run_scripts(arguments, "the figures for papers could not be made");
+  return directory / "figures" / "paper";
 }
 
 }  // namespace pfaff

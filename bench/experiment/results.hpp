@@ -27,4 +27,15 @@ std::string results_table(const std::filesystem::path& directory, const Experime
 /// RunError with the message of the scripts when they fail.
 std::filesystem::path make_report(const std::filesystem::path& directory);
 
+/// Figures for papers, as the report scripts take them.
+struct PaperFigures {
+  std::string kinds;  // of pdf, svg, pgf and png some, with commas between them
+  std::string width = "85mm";
+  std::string style;  // a style file of matplotlib's; empty for the one that ships
+};
+
+/// Runs the report scripts, which draw figures and write tables for papers, and returns the directory of
+/// these. RunError with the message of the scripts when they fail.
+std::filesystem::path make_paper_figures(const std::filesystem::path& directory, const PaperFigures& wanted);
+
 }  // namespace pfaff

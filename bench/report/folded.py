@@ -1,7 +1,6 @@
 """What lies behind the verdicts, folded at the end of the page: the experiment, numbers in words, every run, commands and
 provenance."""
 import re
-import shlex
 
 import tables
 from figures import heading
@@ -57,25 +56,10 @@ def powers(escaped):
 def commands(experiment):
     head = experiment.head
     again = f"pfaff compare {head['name']}" + (" --quick" if head.get("quick") else "")
-    one = next((r for r in experiment.runs if not r.failed), None)
+    slug = next((r.slug for r in experiment.runs if r.slug), "")
     out = f"<p>The experiment again:</p><pre>{text(again)}</pre>"
-    return out + (f"<p>One run of it again:</p><pre>{text(run_command(experiment, one))}</pre>" if one else "")
-
-
-def run_command(experiment, run):
-    """`pfaff run` with the settings of a run."""
-    case = next(c for c in experiment.cases if c["name"] == run.case)
-    method = next(m for m in experiment.methods if m["label"] == run.method)
-    words = ["pfaff", "run", "--system", case.get("system") or "", "--integrator", run.cells.get("integrator") or ""]
-    if method.get("formulation"):
-        words += ["--formulation", method["formulation"]]
-    words += ["--tolerance", run.tolerance] if run.tolerance else ["--step", run.cells["step"]]
-    words += ["--time", run.cells["time"]]
-    words += [w for key, value in (case.get("parameters") or {}).items() for w in ("--set", f"system.{key}={value}")]
-    words += [w for key, value in (method.get("parameters") or {}).items() if value != ""
-              for w in ("--set", f"{'' if key.startswith('formulation.') else 'integrator.'}{key}={value}")]
-    words += ["--precision", "quad"] if case["precision"] == "quad" else []
-    return shlex.join(map(str, [*words, "--out", run.slug]))
+    return out + (f"<p>One run of it again, from its settings beside this page; the tables name the runs:</p><pre>"
+                  f"{text(f'pfaff run --config runs/{slug}/config.toml --out {slug}')}</pre>" if slug else "")
 
 
 def provenance(experiment):

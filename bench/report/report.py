@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Figures and report of an experiment:  python3 report.py EXPERIMENT_DIR [--figures pdf,svg,pgf,png [--width 85mm] [--style FILE]]
+"""Figures and report of an experiment:  python3 report.py EXPERIMENT_DIR
+and figures for papers:  python3 report.py EXPERIMENT_DIR --figures pdf,svg,pgf,png [--width 85mm] [--style FILE]
 
 Reads experiment.json, results.csv, cost.csv (if timings were measured) and runs/*/series.csv with summary.json, as
 `pfaff compare` leaves them. Writes figures/<kind>_<case>.{svg,png} and report.html beside them, the same bytes for the same
 data. With --figures it writes figures and tables for papers instead, into figures/paper/: of that width, with text as text,
-captions beside them, drawn in matplotlib's style of the file (paper.mplstyle beside this script is the one taken). Needs matplotlib and nothing else. Exit status: 0 fine, 2 wrong usage or
-input, with one line on stderr.
+captions beside them, drawn in matplotlib's style of the file (paper.mplstyle beside this script is the one taken). Needs
+matplotlib and nothing else; pgf needs LaTeX. Exit status: 0 fine, 2 wrong usage or input, with one line on stderr.
 """
 import os
 import sys

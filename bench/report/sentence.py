@@ -1,7 +1,8 @@
 """What a case shows, in one sentence and two lines below it, all of it HTML and computed from the verdict.
 
 1. Who is cheapest at the target, whether it keeps the structure, and if not, whether the conserved quantity drifts away.
-2. Where the cheapest does not keep the structure: who does, and the cheapest of them.
+2. Where the cheapest does not keep the structure: who does, and the cheapest of them. Where no structure was measured: who
+   stays closest to the constraints.
 3. The experiment's subject, which is the family of the method it lists first, against the Gauss method of equal order,
    the cheaper one first, whoever that is.
 A claim that the data do not make is not printed.
@@ -12,7 +13,7 @@ from experiment import DIRECTIONS
 from families import family_of
 from figures import heading
 from findings import ROUND_OFF
-from wording import counted, listed, plain_text, power, text, two_digits
+from wording import counted, listed, plain_text, power, size, text, two_digits
 
 
 def name(row):
@@ -33,7 +34,7 @@ def target_text(target):
 
 def finding(verdict):
     """The sentence, without a full stop at its end only where there is nothing to say at all."""
-    said = [cheapest(verdict), keepers(verdict), subject(verdict)]
+    said = [cheapest(verdict), keepers(verdict) or surface(verdict), subject(verdict)]
     said = [s for s in said if s]
     if not said:
         said = [trends(verdict)]
@@ -118,9 +119,10 @@ def keepers(verdict):
     if not lose:
         return f"all methods keep {structure}"
     who, whose = collective(keep, lose), collective(lose, keep)
+    only = "" if few(keep, who) and len(keep) >= len(lose) else "only "
     shorter = len(plain_text(whose)) < len(plain_text(who)) and not few(lose, whose)
     out = f"all but {whose} keep {structure}" if shorter else (
-        f"{'only ' if 2 * len(keep) < len(keep) + len(lose) or not few(keep, who) else ''}{who} {'keeps' if len(keep) == 1 else 'keep'} {structure}")
+        f"{only}{who} {'keeps' if len(keep) == 1 else 'keep'} {structure}")
     cheap = sorted((r for r in keep if verdict.target and r.times[verdict.target][0] > 0),
                    key=lambda r: r.times[verdict.target][0])
     if not cheap:
@@ -128,6 +130,19 @@ def keepers(verdict):
     if len(keep) == 1:
         return out + f", for {spent(verdict, cheap[0], verdict.target)}"
     return out + f", cheapest of them {name(cheap[0])}, {spent(verdict, cheap[0], verdict.target)}"
+
+
+def surface(verdict):
+    """Where no structure was measured: who stays closest to the constraints, and who leaves them most."""
+    if verdict.structured:
+        return ""
+    for level in verdict.experiment.residuals:
+        sized = sorted(((x, r) for r in verdict.rows if not math.isnan(x := verdict.residual(r, level))), key=lambda s: s[0])
+        if len(sized) > 1 and sized[0][0] < sized[-1][0]:
+            (near, first), (far, last) = sized[0], sized[-1]
+            return (f"{name(first)} stays closest to the constraints, {size(near)}, and {name(last)} leaves them by most, "
+                    f"{size(far)}")
+    return ""
 
 
 def subject(verdict):

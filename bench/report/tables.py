@@ -111,7 +111,7 @@ def results(experiment, case):
                (f"Largest {word}" + (f"<br>of {text(with_unit(name, unit))}" if name else ""), "number"),
                (f"Class of {word}", ""), (f"Slope [interval]<br>in {text(slope_unit(unit, time_unit))}", ""),
                ("Structure<br>residual", "number"), ("Time per step<br>(range)", "number"), ("Time of run", "number"),
-               ("Work per step", "")]
+               ("Work per step", ""), ("Run", "")]
     bodies = {}
     for r in experiment.runs_of(case):
         status = text(r.status) + (f": {text(r.message)}" if r.failed and r.message else "")
@@ -119,7 +119,7 @@ def results(experiment, case):
             text(r.method), size_text(r), ("✗ " if r.failed else "") + status, number(r.number("error_max")),
             number(r.number("error_final")), number(r.drift(name, "max")) if name else "–",
             drift_class(experiment, r, name), slope(r, name), number(r.number("structure_residual")), per_step(r),
-            duration(r.total_ns), work(r)]))
+            duration(r.total_ns), work(r), text(r.slug)]))
     about = ["Errors are relative to the norm of the reference solution."] if case.get("reference_solution") else []
     if expected in DIRECTIONS:
         about.append(f"{text(name)} is expected to {DIRECTIONS[expected][0]}: its change is not an error.")

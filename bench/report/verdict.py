@@ -105,6 +105,13 @@ class Verdict:
                 largest_setback(self.experiment, r, self.invariant, self.expected) if self.expected in DIRECTIONS else
                 r.drift(self.invariant, "max") for r in members)
 
+    def residual(self, row, level):
+        """The largest residual of a level of constraints at equal cost, of an ensemble the median over its seeds; nan where
+        there is none."""
+        members = [r for r in self.experiment.ensemble_of(row.run) if not r.failed] if row.run else []
+        sizes = [x for r in members if not math.isnan(x := r.drift(level, "max"))]
+        return statistics.median(sizes) if sizes else math.nan
+
     def loses(self, row):
         """Whether the conserved quantity drifts away at equal cost."""
         classes = self.experiment.drift_classes

@@ -73,11 +73,13 @@ def all_columns(verdict):
         head = f"{moves[1]} of {verdict.invariant}" if moves else f"drift of {with_unit(verdict.invariant, unit)}"
         columns.append(column(raised(text(head)), "", lambda r: drift_cell(verdict, r), level))
     for level_name in verdict.experiment.residuals:
-        columns.append(column(text(level_name.replace("hidden-", "hidden ")), "r more", lambda r, n=level_name: level_cell(r, n), level))
+        columns.append(column(text(level_name.replace("hidden-", "hidden ")), "r more",
+                              lambda r, n=level_name: level_cell(verdict, r, n), level))
     if verdict.comparable and verdict.relative:
         columns.append(column("error", "r", lambda r: error_cell(verdict, r), level))
     for target in asked:
-        columns.append(column(f'<span class="short">{spent} to </span>{power(round(math.log10(target)))}', "r lead" if target == lead else "r more",
+        head = f'<span class="short">{spent} to </span>{power(round(math.log10(target)))}'
+        columns.append(column(head, "r lead" if target == lead else "r more",
                               lambda r, t=target: time_cell(verdict, r, t), f"{spent} to reach {what}",
                               sorted=target == lead))
     columns += [column("claim", "r more", claim_cell, "order"),
@@ -119,10 +121,10 @@ def at_which(verdict, row):
     return f"the run nearest to equal cost: {at}"
 
 
-def level_cell(row, name):
-    if row.run is None or math.isnan(row.run.drift(name, "max")):
+def level_cell(verdict, row, name):
+    top = verdict.residual(row, name)
+    if math.isnan(top):
         return "na", None, "–"
-    top = row.run.drift(name, "max")
     return "r", math.log10(max(top, 1e-40)), size(top), row.run.drift_class(name)
 
 
@@ -185,7 +187,8 @@ def caption(verdict):
                      "× is the ratio to the best, ≤ says that the coarsest run is better already, – that no run reaches it.")
     if verdict.level > 0:
         level = verdict.cost_text(verdict.level) + ("" if verdict.work == "time" else f" {verdict.work}")
-        parts.append(f"At equal cost, {level}: the error is interpolated between runs, drift and residual are of the nearest run.")
+        parts.append(f"At equal cost, {level}: the error is interpolated between runs, drift and residual are of the nearest "
+                     "run.")
     if verdict.structured:
         parts.append("Filled marks keep the structure at every step, open ones do not.")
     if verdict.case.get("seeds"):

@@ -1,0 +1,119 @@
+"""bench/report: figures and tables for papers, and the labels of figures."""
+import contextlib
+import io
+import re
+import shutil
+import subprocess
+import unittest
+import xml.etree.ElementTree
+
+from synthetic import Fresh, reading, report, synthetic
+
+import labels  # noqa: E402
+import verdict  # noqa: E402
+import verdict_latex  # noqa: E402
+import work_precision  # noqa: E402
+
+
+def paper(folder, *options):
+    """(exit status, stderr) of report.py with options."""
+    with contextlib.redirect_stderr(io.StringIO()) as stderr:
+        status = report.main([str(folder), *options])
+    return status, stderr.getvalue()
+
+
+class Papers(Fresh):
+    def test_files_have_the_width_and_text_stays_text(self):
+        synthetic(self.folder)
+        status, told = paper(self.folder, "--figures", "pdf,svg", "--width", "85mm")
+        self.assertEqual(status, 0, told)
+        made = self.folder / "figures" / "paper"
+        self.assertEqual({p.suffix for p in made.iterdir()}, {".pdf", ".svg", ".txt", ".tex"})
+        root = xml.etree.ElementTree.parse(made / "work_precision_osc.svg").getroot()
+        self.assertTrue(root.get("width").endswith("pt"))
+        self.assertAlmostEqual(float(root.get("width")[:-2]), 85 * 72 / 25.4, delta=0.01)
+        words = "".join(root.itertext())
+        self.assertIn("time of the run", words)
+        self.assertNotIn("Oscillator", words.replace(root.find("{*}desc").text, ""))  # no title inside
+        content = (made / "drift_osc.pdf").read_bytes()
+        self.assertIn(b"/FontFile2", content)  # TrueType, which can be searched and edited, and not Type 3
+        self.assertNotIn(b"/Type3", content)
+        told = (made / "work_precision_osc.txt").read_text()
+        for said in ("Pareto front", "Holds for Oscillator to t = 40 s", "GCC 12, -O3; pfaff compare synthetic"):
+            self.assertIn(said, told)
+        self.assertFalse((self.folder / "report.html").exists())
+
+    def test_a_table_says_what_the_page_says(self):
+        synthetic(self.folder)
+        shown = reading.Experiment(self.folder)
+        tex = verdict_latex.latex_table(verdict.Verdict(shown, shown.cases[0]))
+        rows = [line for line in tex.splitlines() if line.endswith(r"\\")]
+        self.assertEqual(len({line.count("&") for line in rows}), 1)
+        self.assertEqual(len(rows), 4)
+        self.assertIn(r"rk & $h^{5.0}$ & drifting $2\cdot 10^{-6}$", tex)
+        self.assertIn("mid & kept & near", tex)
+        self.assertEqual(verdict_latex.escaped("a_b & 50 %"), r"a\_b \& 50 \%")
+
+    def test_what_is_wrong_is_said(self):
+        synthetic(self.folder)
+        for options, said in ((("--figures", "gif"), "--figures: expected some of pdf, svg, pgf, png, got 'gif'"),
+                              (("--figures", "pdf", "--width", "85"), "--width: expected a width between 50mm and 350mm"),
+                              (("--figures", "pdf", "--width", "3mm"), "--width"), (("--width", "85mm"), "--figures names"),
+                              (("--figures",), "--figures: expected a value"), (("--other", "x"), "expected one argument"),
+                              (("--figures", "pdf", "--style", "/nowhere/x"), "/nowhere/x")):
+            status, told = paper(self.folder, *options)
+            self.assertEqual((status, told.count("\n")), (2, 1), told)
+            self.assertIn(said, told)
+
+    @unittest.skipUnless(shutil.which("pdflatex"), "LaTeX is not installed")
+    def test_latex_takes_them(self):
+        synthetic(self.folder)
+        self.assertEqual(paper(self.folder, "--figures", "pdf,pgf")[0], 0)
+        made = self.folder / "figures" / "paper"
+        (made / "paper.tex").write_text("\n".join([
+            r"\documentclass{article}\usepackage{booktabs,graphicx,pgf}\begin{document}",
+            r"\includegraphics{work_precision_osc.pdf}\input{work_precision_osc.pgf}\input{drift_osc.pgf}",
+            r"\input{structure_osc.pgf}\input{verdict_osc.tex}\end{document}"]))
+        done = subprocess.run(["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "paper.tex"], cwd=made,
+                              capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stdout[-800:])
+        self.assertFalse(re.search(r"^!", done.stdout, flags=re.M))
+
+
+class Labels(Fresh):
+    def test_no_two_labels_share_a_place(self):
+        shown = reading.Experiment(synthetic(self.folder, extra_methods=9))
+        lines = [[(10 * k, 200 - 12 * k - 3 * n) for k in range(1, 9)] for n in range(6)]
+        some = [labels.Label(f"method {n}", line, 60, 12) for n, line in enumerate(lines)]
+        placed = labels.place(some, (0, 0, 300, 300), lines)
+        self.assertEqual(len(placed), 6)
+        for k, one in enumerate(placed):
+            self.assertTrue(labels.within(one.box, (0, 0, 300, 300)))
+            self.assertFalse(any(labels.overlap(one.box, other.box) for other in placed[:k]))
+        canvas = work_precision.drawings(verdict.Verdict(shown, shown.cases[0]))[0].draw(True)
+        canvas.png()
+        self.assertEqual(len(canvas.titles), 12)  # a line for each method, with its runs in the title
+
+    def test_a_label_that_may_be_left_out_is_left_out(self):
+        """A frame that a thick web of foreign lines fills: only what is needed finds a place."""
+        web = [[(0, y), (100, y)] for y in range(0, 60, 4)]
+        own = [(50, 30)]
+        self.assertEqual(labels.place([labels.Label("x", own, 40, 12, needed=False)], (0, 0, 100, 60), web + [own]), [])
+        self.assertEqual(len(labels.place([labels.Label("x", own, 40, 12)], (0, 0, 100, 60), web + [own])), 1)
+        self.assertEqual(len(labels.place([labels.Label("x", own, 40, 12, needed=False)], (0, 0, 100, 60), [own])), 1)
+
+    def test_pushed_apart(self):
+        out = labels.pushed_apart([5, 5, 5, 40], 10, 0, 60)
+        ordered = sorted(out)
+        self.assertTrue(all(b - a >= 10 - 1e-4 for a, b in zip(ordered, ordered[1:])), out)
+        self.assertAlmostEqual(out[3], 40, delta=5)
+
+    def test_eight_lines_have_colour(self):
+        shown = reading.Experiment(synthetic(self.folder, extra_methods=12))
+        said = verdict.Verdict(shown, shown.cases[0])
+        self.assertEqual(len(said.named()), 8)
+        self.assertEqual(said.named()[0], said.best(said.target)[0].label)
+
+
+if __name__ == "__main__":
+    unittest.main()
