@@ -22,8 +22,8 @@ std::string drawn(const Parameter& parameter, std::mt19937_64& random) {
       return std::to_string(static_cast<long>(parameter.minimum) + static_cast<long>(std::min(above, range)));
     }
     case Parameter::Kind::real: {
-      const Real low(parameter.minimum), high(parameter.maximum);
-      return to_string(low + Real::fraction(static_cast<std::int64_t>(below(9)), 8) * (high - low));
+      const double share = static_cast<double>(below(9)) / 8;
+      return to_string(Quad(parameter.minimum + share * (parameter.maximum - parameter.minimum)), 17);
     }
     case Parameter::Kind::choice:
       return one_of(parameter.choices);

@@ -36,6 +36,8 @@ class Sums {
     add(factor * x);
     scale_ += abs(factor) * bound;
   }
+  // The sum is known up to the rounding of something of this size.
+  void allow(Quad size) { scale_ += abs(size); }
   // Ends the current sum and keeps in `worst` the largest ratio |sum| / scale of all sums so far.
   void end(double& worst) {
     const double ratio = sum_ == Quad(0) ? 0 : static_cast<double>(abs(sum_) / scale_);
@@ -110,6 +112,7 @@ DenseMotion::DenseMotion(const Model& model) {
 }
 
 void DenseMotion::place(Quad t, const std::vector<Quad>& z) {
+  state_ = z;
   if (holonomic_ != nullptr) {
     holonomic_->place(t, z);
   } else if (velocities_ != nullptr) {
@@ -167,13 +170,15 @@ DenseMotion::Rates DenseMotion::rates_of_velocities(const std::vector<Quad>& fie
   Sums sums;
   const DenseVelocityConstraints& c = *velocities_;
   const std::size_t n = c.degrees();
-  // psi' = {psi, H} + psi_t + psi_q (q' - v) + P (p' + H_q).
+  // psi' = psi_t + psi_q q' + P p', where psi_t is what is left of the rate along the free field.
   for (std::size_t i = 0; i < c.count(); ++i) {
-    sums.add(c.rates[i]);
+    Quad moving = c.rates[i];
     for (std::size_t a = 0; a < n; ++a) {
-      sums.add(c.by_position(i, a), field[a] - c.velocities[a], bounds[a]);
-      sums.add(c.by_momentum(i, a), field[n + a] - c.forces[a], bounds[n + a]);
+      moving -= c.by_position(i, a) * c.velocities[a] + c.by_momentum(i, a) * c.forces[a];
+      sums.add(c.by_position(i, a), field[a], bounds[a]);
+      sums.add(c.by_momentum(i, a), field[n + a], bounds[n + a]);
     }
+    sums.add(moving);
     sums.end(rates.velocities);
     sums.add(c.offsets[i]);
     for (std::size_t a = 0; a < n; ++a) sums.add(c.rows(i, a), field[a], bounds[a]);
@@ -203,15 +208,25 @@ DenseMotion::Rates DenseMotion::rates(const std::vector<Quad>& field, const std:
   const DenseConstraints& c = *holonomic_;
   const std::size_t n = c.degrees();
   for (std::size_t i = 0; i < c.count(); ++i) {
-    // phi~ and h are these rates along the free field.
-    sums.add(c.hidden[i]);
-    for (std::size_t a = 0; a < n; ++a) sums.add(c.by_position(i, a), field[a] - c.velocities[a], bounds[a]);
-    sums.end(rates.constraints);
-    sums.add(c.hidden_rates[i]);
+    // phi~ and h are these rates along the free field. What is left of them without it is phi_t and phi~_t.
+    Quad moving = c.hidden[i], hidden_moving = c.hidden_rates[i];
     for (std::size_t a = 0; a < n; ++a) {
-      sums.add(c.hidden_by_position(i, a), field[a] - c.velocities[a], bounds[a]);
-      sums.add(c.by_momentum(i, a), field[n + a] - c.forces[a], bounds[n + a]);
+      moving -= c.by_position(i, a) * c.velocities[a];
+      sums.add(c.by_position(i, a), field[a], bounds[a]);
     }
+    sums.add(moving);
+    // phi' = phi~ where positions move with their velocities, and phi~ is zero up to the rounding of a state.
+    for (std::size_t a = 0; a < n; ++a) {
+      sums.allow(c.hidden_by_position(i, a) * state_[a]);
+      sums.allow(c.by_momentum(i, a) * state_[n + a]);
+    }
+    sums.end(rates.constraints);
+    for (std::size_t a = 0; a < n; ++a) {
+      hidden_moving -= c.hidden_by_position(i, a) * c.velocities[a] + c.by_momentum(i, a) * c.forces[a];
+      sums.add(c.hidden_by_position(i, a), field[a], bounds[a]);
+      sums.add(c.by_momentum(i, a), field[n + a], bounds[n + a]);
+    }
+    sums.add(hidden_moving);
     sums.end(rates.hidden);
   }
   const std::vector<Quad> gradient = energy_gradient();

@@ -58,6 +58,7 @@ class DenseMotion {
   [[nodiscard]] Rates rates_of_velocities(const std::vector<Quad>& field,
                                           const std::vector<Quad>& bounds) const;
 
+  std::vector<Quad> state_;
   std::unique_ptr<DenseConstraints> holonomic_;
   std::unique_ptr<DenseVelocityConstraints> velocities_;
   std::unique_ptr<PhaseSpace> phase_space_;

@@ -8,6 +8,7 @@
 
 #include <pfaff/bench/measure/constraints.hpp>
 #include <pfaff/bench/verification/dense_motion.hpp>
+#include <pfaff/bench/verification/residuals.hpp>
 #include <pfaff/core/facets/problem.hpp>
 #include <pfaff/core/numbers/with_rounding.hpp>
 #include <pfaff/core/tape/replay.hpp>
@@ -31,11 +32,6 @@ bool homogeneous(const Model& model) {
 
 template <class T>
 constexpr const char* precision = std::is_same_v<T, Quad> ? "quad" : "double";
-
-// A right-hand side and the dense definition that it is compared with solve their systems in different ways,
-// and each is off by its own rounding, which the bound of one of them estimates for both.
-template <class T>
-constexpr double tolerance = 64 * static_cast<double>(unit_roundoff<T>());
 
 // The worst values over all points, each relative to a bound of the rounding that goes into it, in units of
 // round-off. The bounds come from the recorded formula of the right-hand side.
@@ -169,7 +165,7 @@ class FormulationChecker {
       c.precision = precision<T>;
       c.parameters = parameters_;
       c.measured = measured;
-      c.tolerance = tolerance<T>;
+      c.tolerance = residual_tolerance<T>();
       c.in_scope = in_scope;
       c.control = control;
       if (!on.anywhere) c.reason = "no state near the initial one could be moved onto the constraints";

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <pfaff/bench/measure/chosen_steps.hpp>
 #include <pfaff/bench/runner/record.hpp>
 #include <pfaff/bench/verification/check.hpp>
 #include <pfaff/core/integrator.hpp>
@@ -211,6 +212,28 @@ struct Adaptive : Classical {
   }
 };
 
+// Runs with a tolerance by the registered extrapolation; in quad, with the fault, to 1e-10 whatever the
+// tolerance.
+template <bool careless>
+struct AdaptiveInQuad : Classical {
+  template <HasVectorField P>
+  requires std::is_same_v<Scalar<P>, Value<Scalar<P>>> Status advance_to(const P& p, Scalar<P>& t,
+                                                                         const Scalar<P>& end,
+                                                                         const Scalar<P>& tolerance,
+                                                                         State<P>& z, Work<P>& /*w*/)
+  const {
+    using T = Scalar<P>;
+    const auto method = integrators().get("extrapolation", "integrator").make({});
+    const auto stepper = method->stepper(p.model(), T());
+    std::vector<T> state(z.begin(), z.end());
+    const T allowed = careless ? std::max(tolerance, T(1e-10)) : tolerance;
+    const Status status = stepper->advance_to(t, end, allowed, state);
+    std::copy(state.begin(), state.end(), z.begin());
+    p.counters().steps += stepper->counters().steps;
+    return status;
+  }
+};
+
 TEST(JudgedSteps, RunsWithAToleranceEndWhereTheyShouldWithTheErrorTheyShould) {
   static const Method<Adaptive<Fault::none>> none{described("adaptive", 4)};
   static const Method<Adaptive<Fault::skips>> skips{described("adaptive-skips", 4)};
@@ -224,6 +247,27 @@ TEST(JudgedSteps, RunsWithAToleranceEndWhereTheyShouldWithTheErrorTheyShould) {
        std::initializer_list<const MethodPlugin*>{&skips, &stops, &beyond, &careless, &idle})
     EXPECT_EQ(bad(*plugin, "harmonic-oscillator"), both) << plugin->name();
   EXPECT_EQ(bad(integrators().get("odeint-dopri5", ""), "harmonic-oscillator"), Names{});
+}
+
+// The same methods in the scalar of the run: their faults are found in quad too.
+TEST(JudgedSteps, RunsWithAToleranceAreJudgedInQuad) {
+  static const Method<AdaptiveInQuad<false>> good_one{described("adaptive-in-quad", 8)};
+  static const Method<AdaptiveInQuad<true>> careless{described("adaptive-careless-in-quad", 8)};
+  const auto model = systems().get("harmonic-oscillator", "system").make({});
+  const auto judged_in = [&](const MethodPlugin& plugin) {
+    std::vector<std::string> precisions;
+    for (const Check& check : check_method(*plugin.make({}), {}, "harmonic-oscillator", model))
+      if (check.claim == "tolerance")
+        precisions.push_back(check.precision + (check.result == CheckResult::pass ? "" : " fails"));
+    return precisions;
+  };
+  EXPECT_EQ(judged_in(good_one), (Names{"double", "quad"}));
+  EXPECT_EQ(judged_in(careless), (Names{"double", "quad fails"}));
+  EXPECT_EQ(judged_in(integrators().get("extrapolation", "")), (Names{"double", "quad"}));
+  EXPECT_EQ(judged_in(integrators().get("odeint-dopri5", "")), Names{"double"});
+  EXPECT_TRUE(adaptive_in_quad(*integrators().get("extrapolation", "").make({}), model));
+  EXPECT_FALSE(adaptive_in_quad(*integrators().get("odeint-bulirsch-stoer", "").make({}), model));
+  EXPECT_FALSE(adaptive_in_quad(*integrators().get("rk4", "").make({}), model));
 }
 
 TEST(JudgedSteps, ACoefficientThatIsWrongByABillionthIsFound) {

@@ -73,6 +73,18 @@ TEST(Nonsense, AToleranceBelowRoundOff) {
   }
   s.tolerance = "2.3e-16";
   EXPECT_EQ(complaint(s), "");
+  // In quad round-off is smaller, where the method knows quad.
+  s.precision = Precision::quad;
+  expect_said(complaint(s), {"odeint-dopri5", "double only", "--precision double"});
+  s.integrator = "odeint-bulirsch-stoer";
+  expect_said(complaint(s), {"odeint-bulirsch-stoer chooses its steps in double only", "--precision double"});
+  s.integrator = "extrapolation";
+  s.tolerance = "1e-30";
+  EXPECT_EQ(complaint(s), "");
+  s.tolerance = "1e-34";
+  expect_said(complaint(s), {"--tolerance: 1e-34", "below round-off", "1.93e-34"});
+  s.precision = Precision::double_precision;
+  expect_said(complaint(s), {"below round-off", "or --precision quad"});
 }
 
 TEST(Nonsense, MoreStepsThanTheBudget) {
