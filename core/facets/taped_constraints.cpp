@@ -27,14 +27,9 @@ HolonomicTapes record_holonomic(const Model& model) {
   });
   const Tape& hidden = *tapes.hidden;
 
-  // The entries of B, P and S. The tape of a whole placement begins with the same.
   const auto linear = [&](const Recorded& t, const Numbers& z, const Numbers& slopes_of_hidden,
                           Numbers& out) {
-    const Numbers b = jacobian(phi, t, positions(z));
-    const RecordedMatrix by_position{b, count, n, n, 0}, by_momentum{slopes_of_hidden, count, n, 2 * n, n};
-    tapes.by_position = record_sparse(by_position, out);
-    tapes.by_momentum = record_sparse(by_momentum, out);
-    tapes.pattern = record_gram(by_position, by_momentum, {}, out);
+    record_linear(jacobian(phi, t, positions(z)), slopes_of_hidden, tapes, out);
   };
   tapes.linear = record_list(inputs, [&](const Recorded& t, const Numbers& z, Numbers& out) {
     linear(t, z, jacobian(hidden, t, z), out);
@@ -43,9 +38,7 @@ HolonomicTapes record_holonomic(const Model& model) {
   tapes.place = record_list(inputs, [&](const Recorded& t, const Numbers& z, Numbers& out) {
     const Numbers slopes_of_hidden = jacobian(hidden, t, z);
     linear(t, z, slopes_of_hidden, out);
-    const Numbers slopes = evaluate(gradient, t, z);
-    Numbers flow(slopes.begin() + static_cast<std::ptrdiff_t>(n), slopes.end());
-    for (std::size_t k = 0; k < n; ++k) flow.push_back(-slopes[k]);
+    const Numbers flow = flow_of(gradient, t, z);
     append(out, flow);
     append(out, evaluate(phi, t, positions(z)));
     append(out, evaluate(hidden, t, z));
