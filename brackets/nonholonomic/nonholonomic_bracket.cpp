@@ -115,7 +115,7 @@ struct NonholonomicBracket::Projection {
     return orthogonal(ContravariantTensor<S>(inverse_metric), covectors_in_rows(rows), bracket.names_);
   }
   template <class S>
-  [[nodiscard]] MomentumProjection<S> at(const std::vector<S>& q) const {
+  [[nodiscard]] MomentumProjector<S> at(const std::vector<S>& q) const {
     const std::size_t n = bracket.degrees_, m = bracket.names_.size();
     const std::vector<S> out = replayed(bracket.linear_, S(t), q);
     const std::span<const S> all(out);

@@ -18,7 +18,7 @@ namespace pfaff {
 /// A projection of momenta at one place: pbar = P^T p + shift. The shift is zero where the constraints are
 /// linear in the momenta.
 template <class T>
-struct MomentumProjection {
+struct MomentumProjector {
   VectorOperator<T> admissible;
   Covector<T> shift;
 
@@ -28,7 +28,7 @@ struct MomentumProjection {
 };
 
 /// Pibar (2n x 2n) at positions z and constrained momenta p. The projection F has
-///   template <class S> MomentumProjection<S> at(const std::vector<S>& z) const,
+///   template <class S> MomentumProjector<S> at(const std::vector<S>& z) const,
 /// which is differentiated by dual numbers.
 template <class T, class F>
 Matrix<T> pseudo_poisson_tensor(const F& projection, const std::vector<T>& z, const Covector<T>& p) {

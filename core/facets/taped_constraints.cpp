@@ -59,11 +59,8 @@ HolonomicTapes record_holonomic(const HolonomicFormulas& formulas) {
   // The entries of B, P and S. The tape of a whole placement begins with the same.
   const auto linear = [&](const Recorded& t, const Numbers& z,
                           const std::vector<SparseGradient>& slopes_of_hidden, Numbers& out) {
-    const SparseRecorded by_position = columns_of(sparse_gradients(phi, t, position(z), n), 0, n),
-                         by_momentum = columns_of(slopes_of_hidden, n, n);
-    tapes.by_position = record_sparse(by_position, out);
-    tapes.by_momentum = record_sparse(by_momentum, out);
-    tapes.pattern = record_gram(by_position, by_momentum, {}, out);
+    record_linear(columns_of(sparse_gradients(phi, t, position(z), n), 0, n),
+                  columns_of(slopes_of_hidden, n, n), tapes, out);
   };
   tapes.linear = record_list(inputs, [&](const Recorded& t, const Numbers& z, Numbers& out) {
     linear(t, z, sparse_gradients(hidden, t, z, 2 * n), out);
@@ -72,9 +69,7 @@ HolonomicTapes record_holonomic(const HolonomicFormulas& formulas) {
   tapes.place = record_list(inputs, [&](const Recorded& t, const Numbers& z, Numbers& out) {
     const std::vector<SparseGradient> slopes_of_hidden = sparse_gradients(hidden, t, z, 2 * n);
     linear(t, z, slopes_of_hidden, out);
-    const Numbers slopes = evaluate(gradient, t, z);
-    Numbers flow(slopes.begin() + static_cast<std::ptrdiff_t>(n), slopes.end());
-    for (std::size_t k = 0; k < n; ++k) flow.push_back(-slopes[k]);
+    Numbers flow = flow_of(gradient, t, z);
     append(out, flow);
     append(out, evaluate(phi, t, position(z)));
     append(out, evaluate(hidden, t, z));

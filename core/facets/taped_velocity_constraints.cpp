@@ -12,8 +12,8 @@ VelocityTapes record_velocity(const Model& model) {
   VelocityTapes tapes;
   tapes.gradient = model.tape(Formula::hamiltonian_gradient);
   const std::size_t n = tapes.degrees = static_cast<std::size_t>(a->inputs),
-                    holonomic = phi == nullptr ? 0 : phi->outputs.size(),
-                    count = tapes.count = holonomic + b->outputs.size();
+                    holonomic = phi == nullptr ? 0 : phi->outputs.size();
+  tapes.count = holonomic + b->outputs.size();
   const int inputs = static_cast<int>(2 * n);
   const auto positions = [&](const Numbers& z) { return std::span<const Recorded>(z).first(n); };
 
@@ -35,20 +35,15 @@ VelocityTapes record_velocity(const Model& model) {
   });
   const Tape& psi = *tapes.values;
 
-  // The entries of A, P and S. The tape of a whole placement begins with the same.
   const auto linear = [&](const Recorded& t, const Numbers& z, Numbers& out) {
-    const Numbers all = rows(t, z), slopes_of_psi = jacobian(psi, t, z);
-    const RecordedMatrix matrix{all, count, n, n, 0}, by_momentum{slopes_of_psi, count, n, 2 * n, n};
-    tapes.rows = record_sparse(matrix, out);
-    tapes.by_momentum = record_sparse(by_momentum, out);
-    tapes.pattern = record_gram(matrix, by_momentum, {}, out);
+    const Numbers every = rows(t, z), slopes = jacobian(psi, t, z);
+    record_linear(RecordedMatrix{every, tapes.count, n, n, 0}.sparse(),
+                  RecordedMatrix{slopes, tapes.count, n, 2 * n, n}.sparse(), tapes, out);
   };
   tapes.linear = record_list(inputs, linear);
   tapes.place = record_list(inputs, [&](const Recorded& t, const Numbers& z, Numbers& out) {
     linear(t, z, out);
-    const Numbers slopes = evaluate(*tapes.gradient, t, z);
-    Numbers flow(slopes.begin() + static_cast<std::ptrdiff_t>(n), slopes.end());
-    for (std::size_t k = 0; k < n; ++k) flow.push_back(-slopes[k]);
+    const Numbers flow = flow_of(*tapes.gradient, t, z);
     append(out, flow);
     append(out, evaluate(psi, t, z));
     append(out, directional_derivative(psi, t, Recorded(1), z, flow));

@@ -42,6 +42,18 @@ Value<T> relative_size(const Dual<T, N>& delta, const Dual<T, N>& reference, con
   return size;
 }
 
+/// How the corrections of an iteration become smaller, and so what the last two foretell of the next one.
+enum class Corrections {
+  /// By about the same ratio each time: one forecast that the next correction is lost in rounding is enough.
+  even,
+  /// By ratios that vary: a small one may be followed by one that is a thousand times larger. Two forecasts
+  /// in turn are needed.
+  uneven,
+  /// By stalling and contracting in turns, as where one unknown lags an iteration behind another: no forecast
+  /// ends the iteration.
+  in_turns
+};
+
 /// Watches the corrections of one iteration.
 template <class T>
 class Convergence {
@@ -49,10 +61,7 @@ class Convergence {
   using Number = Value<T>;
 
   Convergence() = default;
-  /// `in_turns` is for iterations in which one unknown lags an iteration behind another. Corrections then
-  /// stall and contract in turns, so that the last two do not foretell the next one and no such forecast ends
-  /// the iteration.
-  explicit Convergence(bool in_turns) : in_turns_(in_turns) {}
+  explicit Convergence(Corrections corrections) : corrections_(corrections) {}
 
   /// Call before the corrections of an iteration are added.
   void begin_iteration() {
@@ -81,8 +90,11 @@ class Convergence {
       const Number ratio = size_ / previous_;
       if (iterations_ == 2 && previous_ > Number(1024) * u) contraction_ = ratio;
       // The next correction would be ratio * size.
-      if (!in_turns_ && ratio < Number(0.5) && ratio * size_ <= u / Number(64))
+      const bool foretold = ratio < Number(0.5) && ratio * size_ <= u / Number(64);
+      if (foretold &&
+          (corrections_ == Corrections::even || (corrections_ == Corrections::uneven && foretold_)))
         return stop(Status::converged);
+      foretold_ = foretold;
       if (!(size_ < previous_)) {
         // Round-off noise of a converged iteration, amplified by the sums it passes through.
         if (size_ <= Number(256) * u || (++stalls_ >= 3 && size_ <= Number(65536) * u))
@@ -107,7 +119,8 @@ class Convergence {
   }
   Number size_{0}, previous_{0}, contraction_{0};
   int iterations_ = 0, stalls_ = 0;
-  bool finite_ = true, in_turns_ = false;
+  bool finite_ = true, foretold_ = false;
+  Corrections corrections_ = Corrections::even;
   Status status_ = Status::not_converged;
 };
 

@@ -87,4 +87,27 @@ LobattoCoefficients lobatto_coefficients(int stages) {
   return l;
 }
 
+std::vector<Quad> velocity_multipliers(const LobattoCoefficients& pair) {
+  const auto s = static_cast<std::size_t>(pair.stages);
+  std::vector<Quad> means((s - 1) * s), result((s - 1) * s);
+  for (std::size_t i = 0; i < s; ++i) {
+    Quad weight = pair.weights[i];
+    for (std::size_t k = 0; k + 1 < s; ++k, weight *= pair.nodes[i]) means[k * s + i] = weight;
+  }
+  LU<Quad> product(s - 1);
+  for (std::size_t k = 0; k + 1 < s; ++k)
+    for (std::size_t j = 0; j + 1 < s; ++j) {
+      product(k, j) = Quad(0);
+      for (std::size_t i = 0; i < s; ++i) product(k, j) += means[k * s + i] * pair.momenta[i * s + j];
+    }
+  product.factor();
+  std::vector<Quad> right(s - 1), column(s - 1);
+  for (std::size_t i = 0; i < s; ++i) {
+    for (std::size_t k = 0; k + 1 < s; ++k) right[k] = means[k * s + i];
+    product.solve(right.data(), column.data());
+    for (std::size_t j = 0; j + 1 < s; ++j) result[j * s + i] = column[j];
+  }
+  return result;
+}
+
 }  // namespace pfaff

@@ -23,4 +23,10 @@ struct LobattoCoefficients {
 /// Nodes by Newton's method on the derivative of a Legendre polynomial. `stages` >= 2.
 LobattoCoefficients lobatto_coefficients(int stages);
 
+/// G = (W A^)^-1 W, (s - 1) x s and row-major, where A^ are the first s - 1 columns of IIIB and W_ki = b_i
+/// c_i^(k - 1) for k = 1 ... s - 1. Of stages whose momenta satisfy W psi(Q, P) = 0 up to a residual psi, G
+/// psi is what corrects the multipliers, but for the factor 1/h and the matrix S. With the conditions D(s) of
+/// IIIB, (W A^)_kj = b_j (1 - c_j^k)/k.
+std::vector<Quad> velocity_multipliers(const LobattoCoefficients& pair);
+
 }  // namespace pfaff

@@ -20,10 +20,8 @@
 
 #include <pfaff/core/facets/problem.hpp>
 #include <pfaff/core/registry/parameter.hpp>
-#include <pfaff/core/solve/summation.hpp>
 #include <pfaff/integrators/constrained/constraint_solves.hpp>
-#include <pfaff/integrators/constrained/lobatto_coefficients.hpp>
-#include <pfaff/integrators/support/difference_predictor.hpp>
+#include <pfaff/integrators/constrained/lobatto_stages.hpp>
 
 namespace pfaff {
 
@@ -55,115 +53,38 @@ struct LobattoSpark {
   }
 
   template <class P>
-  struct Work {
+  struct Work : LobattoStages<Scalar<P>> {
     using T = Scalar<P>;
-    std::vector<T> b, c, a, a_hat, to_multipliers;
+    std::vector<T> to_multipliers;
     // The constraints, placed at each stage, because every iteration needs the B(Q_i) of all stages. The
     // first are placed at q0.
     std::vector<std::unique_ptr<PositionConstraints<T>>> at;
-    // [stage][component]: Q, P, H_p, the force with its reactions; [stage][constraint]: L, solutions.
-    std::vector<T> position, momentum, velocity, force, multiplier, solution;
-    std::vector<T> carry, impulse, move, end;
-    DifferencePredictor<T, dynamic, dynamic> predictor;  // of velocities, forces, multipliers
+    std::vector<T> solution;  // [stage][constraint]
     MomentumProjection<T> onto_hidden;
-    T last_h{0};
 
     Work(const LobattoSpark& method, const P& p)
-        : b(converted(method.tableau.weights)),
-          c(converted(method.tableau.nodes)),
-          a(converted(method.tableau.positions)),
-          a_hat(converted(method.tableau.momenta)),
-          to_multipliers(converted(method.tableau.multipliers)),
-          position(s() * p.size() / 2),
-          momentum(position.size()),
-          velocity(position.size()),
-          force(position.size()),
-          multiplier((s() - 1) * p.holonomic().count()),
-          solution(multiplier.size()),
-          carry(p.size()),
-          impulse(n()),
-          move(n()),
-          end(n()),
-          predictor(velocity.size() + force.size() + multiplier.size(),
-                    static_cast<std::size_t>(difference_levels<T>)),
+        : LobattoStages<T>(method.tableau, p.size() / 2, p.holonomic().count()),
+          to_multipliers(this->converted(method.tableau.multipliers)),
+          solution(this->multiplier.size()),
           onto_hidden(p.holonomic()) {
-      for (std::size_t i = 0; i < s(); ++i) at.push_back(p.model()->template holonomic_constraints<T>());
-    }
-
-    [[nodiscard]] std::size_t s() const { return b.size(); }
-    [[nodiscard]] std::size_t n() const { return carry.size() / 2; }
-    [[nodiscard]] std::size_t count() const { return multiplier.size() / (s() - 1); }
-    Out<T> stage(std::vector<T>& all, std::size_t i) const { return Out<T>(all).subspan(i * n(), n()); }
-    Out<T> constraint(std::vector<T>& all, std::size_t i) const {
-      return Out<T>(all).subspan(i * count(), count());
-    }
-    /// The k-th of the numbers that are predicted.
-    T& predicted(std::size_t k) {
-      if (k < velocity.size()) return velocity[k];
-      k -= velocity.size();
-      return k < force.size() ? force[k] : multiplier[k - force.size()];
-    }
-    /// Forgets the past, round-off included: the next step depends on its state alone.
-    void restart() {
-      predictor.forget();
-      for (T& x : carry) x = T(0);
-    }
-
-   private:
-    static std::vector<T> converted(const std::vector<Quad>& numbers) {
-      std::vector<T> list;
-      for (const Quad& x : numbers) list.push_back(T(Real(x)));
-      return list;
+      for (std::size_t i = 0; i < this->s(); ++i)
+        at.push_back(p.model()->template holonomic_constraints<T>());
     }
   };
 
   template <HasHolonomic P>
   Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
-    const std::size_t n = w.n();
     Status status = solve_stages(p, t, h, z, w);
     if (status == Status::converged) status = end_momentum(p, t, h, z, w);
     if (status != Status::converged) {
       w.predictor.forget();
       return status;
     }
-    w.predictor.remember([&w](std::size_t k) { return w.predicted(k); });
-    w.last_h = h;
-    for (std::size_t k = 0; k < n; ++k) {
-      add_to(z[k], w.carry[k], w.move[k], compensated);
-      add_to(z[n + k], w.carry[n + k], w.impulse[k], compensated);
-    }
+    w.take(h, z, compensated);
     return Status::converged;
   }
 
  private:
-  // sum_j weights_j rates_j, component k, of the first `stages` stages
-  template <class W, class T>
-  static T sum(const W& w, const T* weights, const std::vector<T>& rates, std::size_t stages, std::size_t k) {
-    T total = weights[0] * rates[k];
-    for (std::size_t j = 1; j < stages; ++j) total = total + weights[j] * rates[j * w.n() + k];
-    return total;
-  }
-
-  // The slopes to start the iteration from: extrapolated ones where past steps are known, else those at the
-  // start of the step.
-  template <class P>
-  static void predict(const P& p, const Scalar<P>& t, const Scalar<P>& h, const State<P>& z, Work<P>& w) {
-    using T = Scalar<P>;
-    const std::size_t n = w.n();
-    const In<T> q(z.data(), n), momentum(z.data() + n, n);
-    const std::size_t all = w.velocity.size() + w.force.size() + w.multiplier.size();
-    if (value_of(h) != value_of(w.last_h)) w.predictor.forget();
-    for (std::size_t k = 0; k < all; ++k) w.predicted(k) = w.predictor.expected(k);
-    if (w.predictor.knows()) return;
-    w.at[0]->velocity(t, q, momentum, w.stage(w.velocity, 0));
-    w.at[0]->force(t, q, momentum, w.stage(w.force, 0));
-    ++p.counters().fields;
-    for (std::size_t k = n; k < w.velocity.size(); ++k) {
-      w.velocity[k] = w.velocity[k - n];
-      w.force[k] = w.force[k - n];
-    }
-  }
-
   // Finds the stages Q and P, and in `move` the change from q0 to q1.
   template <class P>
   static Status solve_stages(const P& p, const Scalar<P>& t, const Scalar<P>& h, const State<P>& z,
@@ -174,7 +95,7 @@ struct LobattoSpark {
     if (const Status status = w.at[0]->linearise(t, In<T>(z.data(), n), In<T>(z.data() + n, n));
         status != Status::converged)
       return status;
-    predict(p, t, h, z, w);
+    w.predict(p, *w.at[0], t, h, z);
     for (std::size_t k = 0; k < n; ++k) w.position[k] = z[k] + w.carry[k];
     Convergence<T> convergence;
     bool first = true;
@@ -182,20 +103,18 @@ struct LobattoSpark {
       Largest<T> moved, positions;
       // P_i, into which L_s and the force of the last stage do not enter.
       for (std::size_t i = 0; i < s; ++i)
-        for (std::size_t k = 0; k < n; ++k)
-          w.momentum[i * n + k] =
-              z[n + k] + (h * sum(w, w.a_hat.data() + i * s, w.force, s - 1, k) + w.carry[n + k]);
+        for (std::size_t k = 0; k < n; ++k) w.momentum[i * n + k] = w.momentum_of(h, z, i, k);
       if (first)
         for (std::size_t i = 1; i < s; ++i)
           for (std::size_t k = 0; k < n; ++k)
-            w.position[i * n + k] = z[k] + (h * sum(w, w.a.data() + i * s, w.velocity, s, k) + w.carry[k]);
+            w.position[i * n + k] = z[k] + (w.displacement(h, i, k) + w.carry[k]);
       for (std::size_t i = 0; i < s; ++i)
         w.at[0]->velocity(t + w.c[i] * h, w.stage(w.position, i), w.stage(w.momentum, i),
                           w.stage(w.velocity, i));
       // Q_i, moved onto phi = 0 with the multipliers that do so.
       for (std::size_t i = 1; i < s; ++i) {
         for (std::size_t k = 0; k < n; ++k) {
-          w.move[k] = h * sum(w, w.a.data() + i * s, w.velocity, s, k);
+          w.move[k] = w.displacement(h, i, k);
           w.end[k] = z[k] + (w.move[k] + w.carry[k]);
         }
         const Out<T> solution = w.constraint(w.solution, i - 1);
@@ -261,7 +180,7 @@ struct LobattoSpark {
       return status;
     ++p.counters().fields;
     last.force(t + h, q, w.stage(w.momentum, s - 1), w.stage(w.force, s - 1));
-    for (std::size_t k = 0; k < n; ++k) w.impulse[k] = h * sum(w, w.b.data(), w.force, s, k);
+    for (std::size_t k = 0; k < n; ++k) w.impulse[k] = h * w.sum(w.b.data(), w.force, s, k);
     return w.onto_hidden(last, t + h, q, p0, In<T>(w.carry).subspan(n), w.impulse, w.end, false);
   }
 };

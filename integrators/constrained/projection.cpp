@@ -7,8 +7,8 @@
 namespace {
 using namespace pfaff;
 
-struct ProjectedRungeKutta4 : Projected<RungeKutta4> {};
-struct ProjectedGauss : SymmetricallyProjected<Gauss> {
+struct ProjectedRungeKutta4 : Projected<RungeKutta4, SurfaceShift> {};
+struct ProjectedGauss : SymmetricallyProjected<Gauss, SurfaceShift> {
   /// Every iteration solves for all stages, which is slow: a quick check takes one order only.
   static std::vector<Assignments> instances(bool full) {
     if (!full) return {{{"stages", "2"}}};

@@ -100,11 +100,7 @@ struct KernelDiscreteGradient {
       formulas.middle(middle_time, w.end.data(), w.slopes.data());
       rates(w.length * h, T(0), w, w.change);
     }
-    Convergence<T> convergence;
-    // Corrections shrink unevenly: a small ratio may be followed by one that is a thousand times larger. So
-    // two rounds in turn have to say that the next correction is lost in rounding, unless the first round
-    // does.
-    bool settled_before = false, finished = false;
+    Convergence<T> convergence(Corrections::uneven);
     do {
       ++p.counters().fields;
       for (std::size_t k = 0; k < size; ++k) {
@@ -120,16 +116,12 @@ struct KernelDiscreteGradient {
       judge(convergence, z, w);
       std::swap(w.change, w.next);
       ++p.counters().iterations;
-      const bool stopped = convergence.finished(100, w.contraction.ratio());
-      const bool settled_now = settled_before || (stopped && convergence.status() == Status::converged);
-      if (stopped && !settled_now) {
-        // Iterates that overflow come from a step that is too large, and are reported as not converged, too.
-        w.forget();
-        return Status::not_converged;
-      }
-      finished = settled_now && (settled_before || convergence.iterations() == 1);
-      settled_before = settled_now;
-    } while (!finished);
+    } while (!convergence.finished(100, w.contraction.ratio()));
+    if (convergence.status() != Status::converged) {
+      // Iterates that overflow come from a step that is too large, and are reported as not converged, too.
+      w.forget();
+      return Status::not_converged;
+    }
     w.contraction.remember_slowest(convergence.contraction());
     w.predictor.remember([&](std::size_t k) { return w.change[k] / h; });
     w.last_h = h;

@@ -114,7 +114,7 @@ struct MultiplierDiscreteGradient {
     const T energy = w.energy_at(middle_time, w.end);
     for (std::size_t k = 0; k < size; ++k) w.middle[k] = w.end[k] + w.change[k] / T(2);
     w.weighted(middle_time, w.middle.data(), w.slopes.data());
-    Convergence<T> convergence;
+    Convergence<T> convergence(Corrections::uneven);
     Status status = Status::converged;
     do {
       status = improve(p, t, h, energy, z, w);

@@ -7,8 +7,8 @@
 namespace {
 using namespace pfaff;
 
-struct VelocityProjectedRungeKutta4 : VelocityProjected<RungeKutta4> {};
-struct VelocityProjectedGauss : SymmetricallyVelocityProjected<Gauss> {
+struct VelocityProjectedRungeKutta4 : Projected<RungeKutta4, VelocityShift> {};
+struct VelocityProjectedGauss : SymmetricallyProjected<Gauss, VelocityShift> {
   /// Every iteration solves for all stages, which is slow: a quick check takes one order only.
   static std::vector<Assignments> instances(bool full) {
     if (!full) return {{{"stages", "2"}}};

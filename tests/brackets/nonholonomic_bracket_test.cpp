@@ -53,7 +53,7 @@ TEST(NonholonomicBracket, FlowIsDAlembertsMotion) {
 struct Oblique {
   Sleigh sleigh;
   template <class S>
-  [[nodiscard]] MomentumProjection<S> at(const std::vector<S>& q) const {
+  [[nodiscard]] MomentumProjector<S> at(const std::vector<S>& q) const {
     std::vector<S> rows(3);
     sleigh.velocity_constraints(S(0), In<S>(q), Out<S>(rows));
     return {oblique(std::vector{Covector<S>(rows)}).admissible(), Covector<S>(3)};

@@ -12,9 +12,10 @@ namespace {
 using namespace pfaff;
 
 // Feeds the corrections of one component of size 1; returns the status and how many were taken.
-template <class Corrections>
-std::pair<Status, int> watch(const Corrections& correction, int limit = 60) {
-  Convergence<double> c;
+template <class Sizes>
+std::pair<Status, int> watch(const Sizes& correction, int limit = 60,
+                             Corrections corrections = Corrections::even) {
+  Convergence<double> c(corrections);
   do {
     c.begin_iteration();
     c.add(correction(c.iterations()), 1.0, 1.0);
@@ -32,6 +33,23 @@ TEST(Convergence, StopsAtRoundOffAndNotBefore) {
   EXPECT_EQ(steps, 5);  // 1e-15, the next one 1e-18
   // A quadratic iteration is, too.
   EXPECT_EQ(watch([](int k) { return std::pow(0.1, std::pow(2, k)); }).second, 4);
+}
+
+// Corrections that shrink by 1e-2 and 1e-9 in turns, as a forecast by the last ratio alone does not expect.
+TEST(Convergence, TakesTwoForecastsOfCorrectionsThatShrinkUnevenly) {
+  const auto uneven = [](int k) { return std::pow(1e-2, (k + 1) / 2) * std::pow(1e-9, k / 2); };
+  // 1e-2, 1e-11, 1e-13: after the second one 1e-20 is expected and 1e-13 comes.
+  EXPECT_EQ(watch(uneven), (std::pair{Status::converged, 2}));
+  const auto two = watch(uneven, 60, Corrections::uneven);
+  EXPECT_EQ(two.first, Status::converged);
+  EXPECT_EQ(two.second, 4);  // 1e-13, of which 1e-15 is expected, then 1e-22
+  // Even ones are iterated once more than they have to be, and slow ones are not affected.
+  const auto even = [](int k) { return std::pow(1e-3, k); };
+  EXPECT_EQ(watch(even, 60, Corrections::uneven).second, watch(even).second + 1);
+  const auto slow = [](int k) { return std::ldexp(1.0, -k); };
+  EXPECT_EQ(watch(slow, 60, Corrections::uneven), watch(slow));
+  // Where no forecast counts, corrections have to be lost in rounding themselves.
+  EXPECT_EQ(watch(even, 60, Corrections::in_turns).second, 6);
 }
 
 // Where the contraction is known from before, one correction may do, and must not where it would not.

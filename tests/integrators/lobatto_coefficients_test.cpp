@@ -100,5 +100,44 @@ TEST(LobattoCoefficients, MultipliersInvertTheProduct) {
   }
 }
 
+// G A^ = 1; the rows of G are those of W combined, weights times polynomials of degree s - 2; and W A^ has
+// its closed form.
+TEST(LobattoCoefficients, MultipliersOfVelocityConstraintsFulfilTheirConditions) {
+  for (int stages = 2; stages <= 4; ++stages) {
+    const LobattoCoefficients l = lobatto_coefficients(stages);
+    const auto s = static_cast<std::size_t>(stages);
+    const std::vector<Quad> g = velocity_multipliers(l);
+    Quad largest(0);
+    for (const Quad& x : g) largest = std::max(largest, Quad(abs(x)));
+    const double bound = round_off * static_cast<double>(largest);
+    for (std::size_t j = 0; j + 1 < s; ++j) {
+      for (std::size_t m = 0; m + 1 < s; ++m) {
+        Quad sum(0);
+        for (std::size_t i = 0; i < s; ++i) sum += g[j * s + i] * l.momenta[i * s + m];
+        EXPECT_LE(gap(sum, Quad(j == m ? 1 : 0)), bound) << stages;
+      }
+      // The divided difference of order s - 1 of g_ji/b_i over all nodes.
+      Quad difference(0), size(0);
+      for (std::size_t i = 0; i < s; ++i) {
+        Quad product(1);
+        for (std::size_t k = 0; k < s; ++k)
+          if (k != i) product *= l.nodes[i] - l.nodes[k];
+        const Quad term = g[j * s + i] / (l.weights[i] * product);
+        difference += term;
+        size = std::max(size, Quad(abs(term)));
+      }
+      EXPECT_LE(gap(difference, Quad(0)), round_off * static_cast<double>(size)) << stages;
+    }
+    for (int k = 1; k < stages; ++k)
+      for (std::size_t j = 0; j + 1 < s; ++j) {
+        Quad sum(0);
+        for (std::size_t i = 0; i < s; ++i)
+          sum += l.weights[i] * power(l.nodes[i], k - 1) * l.momenta[i * s + j];
+        EXPECT_LE(gap(sum, l.weights[j] * (Quad(1) - power(l.nodes[j], k)) / Quad(k)), round_off) << stages;
+      }
+  }
+  EXPECT_LE(gap(velocity_multipliers(lobatto_coefficients(2))[1], Quad(1)), round_off);  // (1, 1)
+}
+
 }  // namespace
 }  // namespace pfaff

@@ -49,6 +49,24 @@ TEST(NonholonomicGolden, GeometricNonholonomicIntegrator) {
   expect_projected<double>("gni", "gni state (q,p-)");
   expect_projected<Quad>("gni", "gni state (q,p-)");
 }
+template <class T>
+void expect_lobatto_pairs() {
+  const auto models = golden_models();
+  const auto cases = nlohmann::json::parse(std::ifstream(PFAFF_GOLDEN "/spark_lobatto.json")).at("cases");
+  ASSERT_EQ(cases.size(), models.size());
+  for (std::size_t k = 0; k < cases.size(); ++k)
+    for (const char* stages : {"2", "3", "4"})
+      for (std::size_t i = 0; i < 2; ++i) {
+        const auto z = run(*method("spark-lobatto", {{"stages", stages}}), models[k],
+                           T(Real::fraction(1, 10)), i == 0 ? 1 : 10, initial<T>(*models[k]));
+        EXPECT_LE(distance(z, numbers<T>(cases[k]["stages"][stages][lengths[i]])), bound<T>)
+            << models[k]->name() << ' ' << stages << ' ' << lengths[i];
+      }
+}
+TEST(NonholonomicGolden, LobattoPairs) {
+  expect_lobatto_pairs<double>();
+  expect_lobatto_pairs<Quad>();
+}
 TEST(NonholonomicGolden, TheTwoAreNotTheSame) {  // control
   const auto model = golden_models().front();
   const auto start = initial<Quad>(*model);

@@ -13,7 +13,7 @@ using namespace nonholonomic;
 using ::testing::HasSubstr;
 
 const std::vector<const char*> staggered{"gni", "nonholonomic-leap-frog"},
-    one_step{"dla", "mclachlan-perlmutter", "nonholonomic-discrete-gradient"},
+    one_step{"dla", "mclachlan-perlmutter", "nonholonomic-discrete-gradient", "spark-lobatto"},
     all{"dla", "gni", "nonholonomic-leap-frog", "mclachlan-perlmutter", "nonholonomic-discrete-gradient"};
 
 // The slope of the errors at T = 1 from reference flows of 36 digits, between `steps` steps and twice as
@@ -37,6 +37,13 @@ TEST(Nonholonomic, MethodsHaveOrderTwo) {
     }
   for (std::size_t k = 0; k < 4; ++k)
     EXPECT_NEAR(slope(*method("nonholonomic-discrete-gradient", {{"form", "multipliers"}}), k, 64), 2, 0.05);
+}
+TEST(Nonholonomic, LobattoPairsHaveOrderTwoLessThanTwiceTheirStages) {
+  for (const int stages : {2, 3, 4})
+    for (std::size_t k = 0; k < 4; ++k)
+      EXPECT_NEAR(slope(*method("spark-lobatto", {{"stages", std::to_string(stages)}}), k, 16),
+                  2 * stages - 2, 0.1)
+          << stages << ' ' << k;
 }
 TEST(Nonholonomic, CompositionsReachHigherOrders) {
   EXPECT_NEAR(slope(*composed("dla", "suzuki", "4"), 0, 16), 4, 0.1);
@@ -63,7 +70,8 @@ constexpr double round_off = std::is_same_v<T, Quad> ? 1e-31 : 2e-14;
 template <class T>
 void constraints_hold() {
   for (const auto& model : golden_models())
-    for (const char* name : {"dla", "gni", "nonholonomic-leap-frog", "nonholonomic-discrete-gradient"}) {
+    for (const char* name :
+         {"dla", "gni", "nonholonomic-leap-frog", "nonholonomic-discrete-gradient", "spark-lobatto"}) {
       const auto m = method(name);
       if (!m->refuses(*model).empty()) continue;
       EXPECT_LE(slip(*model, T(0), run(*m, model, T(Real::fraction(1, 20)), 40, initial<T>(*model))),
@@ -150,7 +158,7 @@ TEST(Nonholonomic, StaggeredStepsAreSymmetricWithTheReactionTheyCarry) {
 TEST(Nonholonomic, MomentaOfAllowedSymmetriesAreKept) {
   const auto edge = golden_models()[1];
   const auto start = initial<Quad>(*edge);
-  for (const char* name : {"dla", "gni", "nonholonomic-leap-frog", "mclachlan-perlmutter"})
+  for (const char* name : {"dla", "gni", "nonholonomic-leap-frog", "mclachlan-perlmutter", "spark-lobatto"})
     EXPECT_LE(static_cast<double>(abs(run(*method(name), edge, Quad(0.125), 40, start)[5] - start[5])), 1e-32)
         << name;
   const auto other = method("nonholonomic-discrete-gradient", {{"form", "multipliers"}});
@@ -212,6 +220,13 @@ TEST(Nonholonomic, MovingConstraintsAreFollowed) {
   }
   const auto eighth = run(*composed("dla", "kahan-li", "8"), model, Quad(1) / Quad(32), 32, start);
   EXPECT_LE(distance(eighth, flow), 1e-12);
+  const auto lobatto = [&](std::int64_t count) {
+    const auto z =
+        run(*method("spark-lobatto"), model, Quad(1) / Quad(static_cast<double>(count)), count, start);
+    EXPECT_LE(slip(*model, Quad(1), z), 1e-32);
+    return distance(z, flow);
+  };
+  EXPECT_NEAR(std::log2(lobatto(16) / lobatto(32)), 4, 0.1);
 }
 
 TEST(Nonholonomic, PairingsThatMakeNoSenseAreRefused) {
@@ -221,15 +236,16 @@ TEST(Nonholonomic, PairingsThatMakeNoSenseAreRefused) {
   for (const char* name : {"nonholonomic-leap-frog", "mclachlan-perlmutter"})
     EXPECT_THAT(method(name)->refuses(*models[3]), HasSubstr(": take dla or gni")) << name;
   const auto pendulum = systems().get("pendulum", "system").make({});
-  for (const char* name : all)
-    EXPECT_THAT(method(name)->refuses(*pendulum), HasSubstr("needs velocity-constraints")) << name;
+  for (const auto& names : {all, {"spark-lobatto"}})
+    for (const char* name : names)
+      EXPECT_THAT(method(name)->refuses(*pendulum), HasSubstr("needs velocity-constraints")) << name;
   for (const Claim claim : {Claim::symplectic, Claim::k_symplectic, Claim::poisson, Claim::volume})
     EXPECT_FALSE(in_scope(claim, *models[0])) << to_string(claim);
 }
 
 TEST(Nonholonomic, StepsThatAreTooLargeAreReported) {
   const auto model = golden_models()[0];
-  for (const char* name : {"dla", "gni", "nonholonomic-discrete-gradient"}) {
+  for (const char* name : {"dla", "gni", "nonholonomic-discrete-gradient", "spark-lobatto"}) {
     const auto stepper = method(name)->stepper(model, double());
     auto z = initial<double>(*model);
     const auto before = z;

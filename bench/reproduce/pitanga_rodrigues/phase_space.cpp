@@ -106,7 +106,7 @@ void blocks(Rows& rows, const EnginePoint& contact, const EnginePoint& sleigh) {
 // The field of projectors of (6), for the contact form.
 struct Slanted {
   template <class S>
-  [[nodiscard]] MomentumProjection<S> at(const std::vector<S>& z) const {
+  [[nodiscard]] MomentumProjector<S> at(const std::vector<S>& z) const {
     return {oblique(one_forms_of(Matrix<S>(1, std::vector<S>{-z[1], S(0)}))).admissible(), Covector<S>(3)};
   }
 };

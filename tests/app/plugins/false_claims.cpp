@@ -66,7 +66,7 @@ const Method<SinglyDiagonal> singly_diagonal{{.name = "false-singly-diagonal",
 
 // A symmetric projection is symplectic where the constraints are linear, since it then moves along constant
 // directions; elsewhere it is not.
-struct ProjectedMidpoint : SymmetricallyProjected<ImplicitMidpoint> {};
+struct ProjectedMidpoint : SymmetricallyProjected<ImplicitMidpoint, SurfaceShift> {};
 const Method<ProjectedMidpoint> projected{{.name = "false-projection",
                                            .title = "symplectic where constraints are linear",
                                            .reference = "",

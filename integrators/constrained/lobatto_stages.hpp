@@ -1,0 +1,118 @@
+// The stages of a step of a Lobatto IIIA-IIIB pair with reactions of constraints, R_j the reaction in stage
+// j:
+//
+//   Q_i = q0 + h sum_j a_ij H_p(Q_j, P_j),   P_i = p0 + h sum_j a^_ij (-H_q(Q_j, P_j) - R_j)
+//
+// The last column of IIIB is zero: neither the force nor the reaction of the last stage enters into any P_i.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <pfaff/core/facets/problem.hpp>
+#include <pfaff/core/solve/summation.hpp>
+#include <pfaff/integrators/constrained/lobatto_coefficients.hpp>
+#include <pfaff/integrators/support/difference_predictor.hpp>
+
+namespace pfaff {
+
+/// What methods with these stages work on, and what they remember of past steps.
+template <class T>
+struct LobattoStages {
+  std::vector<T> b, c, a, a_hat;
+  // [stage][component]: Q, P, H_p, the force with its reactions; [stage][constraint]: the multipliers of all
+  // stages but the last.
+  std::vector<T> position, momentum, velocity, force, multiplier;
+  std::vector<T> carry;                                // what the sums of q and p have rounded off
+  std::vector<T> move, impulse, end;                   // of q and of p over the step, and a state at its end
+  DifferencePredictor<T, dynamic, dynamic> predictor;  // of velocities, forces, multipliers
+  T last_h{0};
+
+  LobattoStages(const LobattoCoefficients& tableau, std::size_t degrees, std::size_t constraints)
+      : b(converted(tableau.weights)),
+        c(converted(tableau.nodes)),
+        a(converted(tableau.positions)),
+        a_hat(converted(tableau.momenta)),
+        position(b.size() * degrees),
+        momentum(position.size()),
+        velocity(position.size()),
+        force(position.size()),
+        multiplier((b.size() - 1) * constraints),
+        carry(2 * degrees),
+        move(degrees),
+        impulse(degrees),
+        end(degrees),
+        predictor(velocity.size() + force.size() + multiplier.size(),
+                  static_cast<std::size_t>(difference_levels<T>)) {}
+
+  [[nodiscard]] std::size_t s() const { return b.size(); }
+  [[nodiscard]] std::size_t n() const { return move.size(); }
+  [[nodiscard]] std::size_t count() const { return multiplier.size() / (s() - 1); }
+  Out<T> stage(std::vector<T>& all, std::size_t i) const { return Out<T>(all).subspan(i * n(), n()); }
+  Out<T> constraint(std::vector<T>& all, std::size_t i) const {
+    return Out<T>(all).subspan(i * count(), count());
+  }
+  /// sum_j weights_j rates_j of the first `stages` stages, component k.
+  T sum(const T* weights, const std::vector<T>& rates, std::size_t stages, std::size_t k) const {
+    T total = weights[0] * rates[k];
+    for (std::size_t j = 1; j < stages; ++j) total = total + weights[j] * rates[j * n() + k];
+    return total;
+  }
+  /// h sum_j a_ij H_p(Q_j, P_j), component k.
+  T displacement(const T& h, std::size_t i, std::size_t k) const {
+    return h * sum(a.data() + i * s(), velocity, s(), k);
+  }
+  /// P_i of a step from the state z, component k.
+  T momentum_of(const T& h, const auto& z, std::size_t i, std::size_t k) const {
+    return z[n() + k] + (h * sum(a_hat.data() + i * s(), force, s() - 1, k) + carry[n() + k]);
+  }
+
+  /// Fills velocities, forces and multipliers of all stages with those to start an iteration from:
+  /// extrapolated ones where past steps are known, else those at the start of the step.
+  template <class P, class Constraints>
+  void predict(const P& p, Constraints& constraints, const T& t, const T& h, const State<P>& z) {
+    const std::size_t all = velocity.size() + force.size() + multiplier.size();
+    if (value_of(h) != value_of(last_h)) predictor.forget();
+    for (std::size_t k = 0; k < all; ++k) predicted(k) = predictor.expected(k);
+    if (predictor.knows()) return;
+    const In<T> q(z.data(), n()), p0(z.data() + n(), n());
+    constraints.velocity(t, q, p0, stage(velocity, 0));
+    constraints.force(t, q, p0, stage(force, 0));
+    ++p.counters().fields;
+    for (std::size_t k = n(); k < velocity.size(); ++k) {
+      velocity[k] = velocity[k - n()];
+      force[k] = force[k - n()];
+    }
+  }
+  /// The step of size h whose stages these are is taken: `move` and `impulse` are added to the state.
+  void take(const T& h, auto& z, bool compensated) {
+    predictor.remember([this](std::size_t k) { return predicted(k); });
+    last_h = h;
+    for (std::size_t k = 0; k < n(); ++k) {
+      add_to(z[k], carry[k], move[k], compensated);
+      add_to(z[n() + k], carry[n() + k], impulse[k], compensated);
+    }
+  }
+  /// Forgets the past, round-off included: the next step depends on its state alone.
+  void restart() {
+    predictor.forget();
+    for (T& x : carry) x = T(0);
+  }
+
+  /// Coefficients in the scalar of the method.
+  static std::vector<T> converted(const std::vector<Quad>& numbers) {
+    std::vector<T> list;
+    for (const Quad& x : numbers) list.push_back(T(Real(x)));
+    return list;
+  }
+
+ private:
+  // The k-th of the numbers that are predicted.
+  T& predicted(std::size_t k) {
+    if (k < velocity.size()) return velocity[k];
+    k -= velocity.size();
+    return k < force.size() ? force[k] : multiplier[k - force.size()];
+  }
+};
+
+}  // namespace pfaff
