@@ -84,7 +84,7 @@ class EmittedText : public ::testing::Test {
   std::pair<int, std::string> read_back() {
     const std::string python = std::ifstream("/usr/bin/python3").good() ? "/usr/bin/python3" : "python3";
     const std::string said = directory_ / "said";
-    const int status = std::system((python + " '" PFAFF_GOLDEN "/../core/check_emitted.py' '" +
+    const int status = std::system((python + " -B '" PFAFF_GOLDEN "/../core/check_emitted.py' '" +
                                     directory_.path().string() + "' >'" + said + "' 2>&1")
                                        .c_str());
     std::ifstream in(said);
