@@ -40,6 +40,8 @@ TEST_P(DerivedExactly, EqualsTheDefinition) {
     const std::vector<Rational> dirac = rods.dirac(friction), multipliers = rods.multipliers(friction);
     for (const char* method : {"ldl", "recursion", "recursion-literal", "bivector", "minors"}) {
       if (method == std::string("minors") && !GetParam().chain) continue;
+      // Its fractions grow long; three rods are enough to see what it does.
+      if (method == std::string("bivector") && model->dimension() > 24) continue;
       const Equations equations = derive(*model, method, form(FrictionForm::metriplectic));
       EXPECT_TRUE(rates_of(equations, Rational(0), z) == dirac)
           << method << (friction ? " with friction" : "");
