@@ -20,9 +20,7 @@ const Assignments chain_settings(const std::string& beads) {
   return {{"beads", beads}, {"epsilon", "0"}, {"charge", "0"}, {"gravity", "9.81"}, {"seed", "0"}};
 }
 const std::vector<Case>& cases() {
-  static const std::vector<Case> list{{"chain_3", "chain-molecule", chain_settings("4"), true, false},
-                                      {"chain_12", "chain-molecule", chain_settings("13"), true, false},
-                                      {"humanoid", "humanoid", {}, false, true}};
+  static const std::vector<Case> list{{"chain_3", "chain-molecule", chain_settings("4"), true, false}};
   return list;
 }
 

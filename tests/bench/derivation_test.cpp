@@ -101,7 +101,8 @@ TEST_P(DerivedEquations, HaveTheFrictionOfTheFormulations) {
     EXPECT_LT(relative_distance(rates_of(derive(*model, method), Quad(0), z), metriplectic), 1e-29) << method;
   EXPECT_LT(relative_distance(rates_of(derive(*model, "ldl", FrictionForm::stokes), Quad(0), z), stokes),
             1e-29);
-  EXPECT_GT(relative_distance(metriplectic, stokes), 1e-6);  // the control: the two forms differ
+  // The control: the two forms differ, but where the coefficients are proportional to the masses.
+  if (GetParam().system == "humanoid") EXPECT_GT(relative_distance(metriplectic, stokes), 1e-6);
 }
 
 INSTANTIATE_TEST_SUITE_P(
