@@ -102,7 +102,9 @@ TEST_P(DerivedEquations, HaveTheFrictionOfTheFormulations) {
   EXPECT_LT(relative_distance(rates_of(derive(*model, "ldl", FrictionForm::stokes), Quad(0), z), stokes),
             1e-29);
   // The control: the two forms differ, but where the coefficients are proportional to the masses.
-  if (GetParam().system == "humanoid") EXPECT_GT(relative_distance(metriplectic, stokes), 1e-6);
+  if (GetParam().system == "humanoid") {
+    EXPECT_GT(relative_distance(metriplectic, stokes), 1e-6);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(
