@@ -34,7 +34,7 @@ TEST(Derive, RefusesWhatDoesNotFit) {
     EXPECT_EQ(outcome.out, "");
     EXPECT_NE(outcome.err.find(why), std::string::npos) << outcome.err;
   };
-  refused({"derive", "humanoid", "--method", "ldd"}, "did you mean 'ldl'?");
+  refused({"derive", "humanoid", "--method", "minor"}, "did you mean 'minors'?");
   refused({"derive", "humanoid", "--method", "minors"}, "methods that fit: ldl");
   refused({"derive", "humanoid", "--method", "ldl", "--emit", "count"}, "'counts'");
   refused({"derive", "humanoid", "--method", "ldl", "--set", "friction-form=stoke"},

@@ -101,7 +101,10 @@ TEST_P(DerivedEquations, HaveTheFrictionOfTheFormulations) {
     EXPECT_LT(relative_distance(rates_of(derive(*model, method), Quad(0), z), metriplectic), 1e-29) << method;
   EXPECT_LT(relative_distance(rates_of(derive(*model, "ldl", FrictionForm::stokes), Quad(0), z), stokes),
             1e-29);
-  EXPECT_GT(relative_distance(metriplectic, stokes), 1e-6);  // the control: the two forms differ
+  // The control: the two forms differ, but where the coefficients are proportional to the masses.
+  if (GetParam().system == "humanoid") {
+    EXPECT_GT(relative_distance(metriplectic, stokes), 1e-6);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -162,8 +165,8 @@ Tape bracket_tape(bool flawed) {
     for (std::size_t a = 0; a < n; ++a) tensor[a * n + b] = column[a];
   }
   if (flawed) {
-    tensor[1] = -tensor[1];
-    tensor[n] = -tensor[n];
+    tensor[n / 2] = -tensor[n / 2];  // {q_0, p_0}
+    tensor[n / 2 * n] = -tensor[n / 2 * n];
   }
   return simplified(recorder.finish(tensor));
 }
@@ -262,7 +265,7 @@ TEST(Derivation, SaysWhichMethodsFit) {
   EXPECT_THAT(message("sleigh", "ldl"), HasSubstr("methods that fit: nonholonomic"));
   EXPECT_THAT(message("kepler", "nonholonomic"), HasSubstr("velocity constraints"));
   EXPECT_THAT(message("shaken-pendulum", "recursion"), HasSubstr("do not depend on time"));
-  EXPECT_THAT(message("kepler", "lld"), HasSubstr("did you mean 'ldl'"));
+  EXPECT_THAT(message("kepler", "minor"), HasSubstr("did you mean 'minors'"));
 }
 
 // A particle in space with two constraints that are one, though no expression says so.
@@ -285,7 +288,11 @@ struct Twice {
 };
 
 TEST(Derivation, NamesARedundantConstraint) {
-  const SystemDescriptor descriptor{.name = "twice", .title = "twice", .reference = "none"};
+  const SystemDescriptor descriptor{
+      .name = "twice",
+      .title = "twice",
+      .reference = "none",
+      .coordinates = {{"x", "m"}, {"y", "m"}, {"z", "m"}, {"px", "1"}, {"py", "1"}, {"pz", "1"}}};
   Twice system;
   const auto redundant = make_model(descriptor, system);
   EXPECT_THAT(message_of([&] { (void)derive(*redundant, "ldl"); }),
