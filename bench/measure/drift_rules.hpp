@@ -30,7 +30,8 @@
 //     f >= 2, halves of the run share >= 80 % of the range     bounded *
 //     n < 96, or 85 % of the steps of one sign, or a curve     undetermined
 //     first half covers < 10 % of the range                    undetermined     an event
-//     R >= S - 5                                               random-walk      else undetermined
+//     R < S - 5, means turn 5 times, halves share >= 70 %      bounded *
+//     R >= S - 2                                               random-walk      else undetermined
 // * undetermined if the first half of the run covers less than half of the range: bursts, events.
 // Every class that grows as a power excludes no growth: its slope's interval, or that of its exponent for a
 // growing spread, does not contain 0; if it does, the class is undetermined.
