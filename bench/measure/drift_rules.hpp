@@ -20,9 +20,9 @@
 //     0 < f < 2, jump < 5 times the oscillation                undetermined     too few periods
 //     a trend beats noise by more than 4:
 //         jump < 1 % of rest, 1/f of it for f < 8              bounded
-//         line, or power .75 ... 1.3                           linear           not a curve with rest > 12 %
-//         of jump power > 1.3                                          polynomial       not at its search's
-//         end exponential, rate <= 16 a run                        exponential      not at its search's end
+//         line, or power .75 ... 1.3                           linear           no curve, rest > 12 % of jump
+//         power > 1.3                                          polynomial       not at its search's end
+//         exponential, rate <= 16 a run                        exponential      not at its search's end
 //     range of means < 10 % of the range of e                  bounded *
 //     means move < 15 % in the second half                     bounded          levels off; n >= 96
 //     a trend of power < .75                                   undetermined     sublinear
