@@ -1,7 +1,6 @@
 // This is the only list of the classes. Runs write their names (summary.json, results.csv), experiments write
 // the list itself (experiment.json, `drift_classes`), from which the report reads it, and a test compares
-// docs/drift-and-cost.md with it. drift.hpp says what makes the classifier choose a class; round-off and
-// biased-round-off are listed here but the classifier does not assign them yet.
+// docs/drift-and-cost.md with it. drift_rules.hpp says what makes the classifier choose a class.
 #pragma once
 
 #include <string_view>

@@ -13,6 +13,7 @@
 #include <pfaff/bench/measure/history.hpp>
 #include <pfaff/bench/measure/setback.hpp>
 #include <pfaff/bench/measure/structure.hpp>
+#include <pfaff/bench/measure/term_magnitudes.hpp>
 #include <pfaff/bench/runner/record.hpp>
 #include <pfaff/core/numbers/with_rounding.hpp>
 #include <pfaff/core/tape/replay.hpp>
@@ -36,8 +37,8 @@ class WatchedError {
     last_ = error;
     return true;
   }
-  [[nodiscard]] Drift result() const {
-    Drift drift = drift_.result();
+  [[nodiscard]] Drift result(const RoundOff& round_off) const {
+    Drift drift = drift_.result(round_off);
     if (drift.non_finite == 0) return drift;
     drift.maximum = largest_;
     drift.final_value = last_;
@@ -60,10 +61,12 @@ class Observer {
         record_(record),
         problem_(run.model),
         constraints_(*run.model),
-        values_(run.model->invariants().size()) {
+        values_(run.model->invariants().size()),
+        in_double_(static_cast<std::size_t>(run.model->dimension())) {
     if (run.settings.structure_residuals && StructureResidual<T>::applies(*run.model) && !run.adaptive() &&
         run.model->dimension() <= most_differentiated_in_runs && !remembers(run))
       residual_.emplace(*run.method, run.model);
+    if (!values_.empty()) magnitudes_.emplace(run.model->tape(Formula::invariants));
     drift_.resize(values_.size());
     record.scales.assign(values_.size(), 0);
     if (!values_.empty()) terms_.emplace(run.model->tape(Formula::invariants));
@@ -98,9 +101,12 @@ class Observer {
 
   /// Puts into the record what follows from all that was observed.
   void finish() {
-    for (const WatchedError& d : drift_) record_.drift.push_back(d.result());
+    const double unit = std::is_same_v<T, Quad> ? 0x1p-113 : 0x1p-53;
+    if (magnitudes_) record_.scales = magnitudes_->largest();
+    for (std::size_t i = 0; i < drift_.size(); ++i)
+      record_.drift.push_back(drift_[i].result({unit, record_.scales[i], record_.completed}));
     for (const Setback<T>& s : setbacks_) record_.setback.push_back(s.largest());
-    for (const WatchedError& d : constraint_drift_) record_.constraints.push_back(d.result());
+    for (const WatchedError& d : constraint_drift_) record_.constraints.push_back(d.result({}));
     std::vector<double> times, values;
     for (const Sample& sample : record_.samples)
       times.push_back(static_cast<double>(sample.t - run_.t0.quad()));
@@ -127,6 +133,10 @@ class Observer {
                   {residuals_.begin(), residuals_.end()},
                   {},
                   {}};
+    if (magnitudes_) {
+      for (std::size_t k = 0; k < z.size(); ++k) in_double_[k] = static_cast<double>(z[k]);
+      magnitudes_->add(static_cast<double>(t), in_double_);
+    }
     std::string not_finite;
     if (reference_ != nullptr) {
       const Quad error = relative_error(sample);
@@ -184,7 +194,9 @@ class Observer {
   std::optional<StructureResidual<T>> residual_;
   std::optional<Replay<WithRounding<T>>> terms_;  // of the invariants
   ConstraintResiduals<T> constraints_;
+  std::optional<TermMagnitudes> magnitudes_;
   std::vector<T> values_, initial_, residuals_;
+  std::vector<double> in_double_;  // the state
   std::vector<Setback<T>> setbacks_;
   std::vector<WatchedError> drift_, constraint_drift_;
 };

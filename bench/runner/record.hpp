@@ -36,7 +36,8 @@ struct RunRecord {
   std::vector<Sample> samples;
   std::vector<Drift>
       drift;  // of every invariant, in the model's order; meaningful for those expected to be conserved
-  std::vector<Drift> constraints;             // of the residuals, in the order of constraint_residual_names
+  std::vector<double> scales;      // of the invariants: the largest sums of the magnitudes of their terms
+  std::vector<Drift> constraints;  // of the residuals, in the order of constraint_residual_names
   std::vector<std::optional<Growth>> growth;  // of the same residuals
   /// Of every invariant, the largest over the samples: by how much it may change, in units of round-off,
   /// where every coordinate of the state and every operation of its formula is rounded by one. It is the size

@@ -18,6 +18,13 @@ std::string header(const std::string& name, const std::string& unit) {
 nlohmann::json optional(const std::optional<double>& x) {
   return x ? nlohmann::json(*x) : nlohmann::json(nullptr);
 }
+// The value of an estimate, and its interval; null where there is none.
+nlohmann::json value_of(const std::optional<windows::Estimate>& x) {
+  return x ? nlohmann::json(x->value) : nlohmann::json(nullptr);
+}
+nlohmann::json interval_of(const std::optional<windows::Estimate>& x) {
+  return x ? nlohmann::json{x->low, x->high} : nlohmann::json(nullptr);
+}
 std::string setback_key(const SetbackWords& words) { return "largest_" + std::string(words.move); }
 }  // namespace
 
@@ -109,9 +116,13 @@ nlohmann::json summary(const ResolvedRun& run, const RunRecord& record) {
       entry["slope"] = d.slope;
       entry["slope_interval"] = {d.slope_low, d.slope_high};
       entry["oscillation"] = d.oscillation_amplitude;
-      entry["exponent"] = optional(d.growth_exponent);
-      entry["rate"] = optional(d.growth_rate);
+      entry["exponent"] = value_of(d.exponent);
+      entry["exponent_interval"] = interval_of(d.exponent);
+      entry["rate"] = value_of(d.rate);
+      entry["rate_interval"] = interval_of(d.rate);
       entry["class"] = to_string(d.drift_class);
+      entry["evidence"] = d.evidence;
+      entry["scale"] = record.scales[i];
       entry["samples"] = d.samples;
       entry["scale"] = record.scales[i];
     } else if (const auto words = setback_words(invariant.behaviour)) {
@@ -132,9 +143,10 @@ nlohmann::json summary(const ResolvedRun& run, const RunRecord& record) {
            {"slope", d.slope},
            {"slope_interval", {d.slope_low, d.slope_high}},
            {"oscillation", d.oscillation_amplitude},
-           {"exponent", optional(d.growth_exponent)},
-           {"rate", optional(d.growth_rate)},
+           {"exponent", value_of(d.exponent)},
+           {"rate", value_of(d.rate)},
            {"class", to_string(d.drift_class)},
+           {"evidence", d.evidence},
            {"growth", growth ? nlohmann::json(growth->exponent) : nlohmann::json(nullptr)},
            {"growth_rate", growth ? nlohmann::json(growth->rate) : nlohmann::json(nullptr)}});
     }

@@ -1,0 +1,32 @@
+// term_magnitudes: the scale of a quantity for questions of round-off: the sum of the magnitudes of its
+// terms, carried along its tape beside its value. An energy that is the small difference of a kinetic and a
+// potential energy is rounded as coarsely as these are, however near to zero it is.
+//
+// With x the value of a slot and M its magnitude:
+//     M(a +- b) = M(a) + M(b),    M(a b) = max(M(a)|b|, |a| M(b)),    M(a/b) = max(M(a)/|b|, |a| M(b)/b^2),
+// M = |x| for everything else: states, time, constants, and functions such as sines, whose values are terms.
+#pragma once
+
+#include <vector>
+
+#include <pfaff/core/tape/replay.hpp>
+
+namespace pfaff {
+
+/// The largest magnitudes that the outputs of a tape have had so far.
+class TermMagnitudes {
+ public:
+  explicit TermMagnitudes(std::shared_ptr<const Tape> tape);
+
+  /// Takes a state. What is not finite is left out.
+  void add(double t, const std::vector<double>& z);
+
+  /// For every output.
+  [[nodiscard]] const std::vector<double>& largest() const { return largest_; }
+
+ private:
+  Replay<double> replay_;
+  std::vector<double> outputs_, magnitudes_, largest_;
+};
+
+}  // namespace pfaff

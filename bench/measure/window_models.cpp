@@ -1,0 +1,193 @@
+#include <pfaff/bench/measure/window_models.hpp>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include <pfaff/bench/measure/windows.hpp>
+
+namespace pfaff::windows {
+
+namespace {
+
+using Vector = std::vector<double>;
+
+/// Points of the fine grid in half a window.
+constexpr std::size_t points_in_half = 16;
+
+/// A square matrix, or one of window responses, row by row.
+struct Matrix {
+  std::size_t rows, columns;
+  Vector entries = Vector(rows * columns);
+  double& operator()(std::size_t i, std::size_t j) { return entries[i * columns + j]; }
+  double operator()(std::size_t i, std::size_t j) const { return entries[i * columns + j]; }
+};
+
+/// The windows' weights on the fine grid; each row adds up to 1.
+Matrix filter(std::size_t windows) {
+  Matrix f{windows, points_in_half * (windows + 1)};
+  for (std::size_t j = 0; j < windows; ++j) {
+    double sum = 0;
+    for (std::size_t g = 0; g < f.columns; ++g)
+      sum += f(j, g) =
+          hann((double(g) + 0.5) / double(f.columns), double(j + 1) / double(windows + 1), windows);
+    for (std::size_t g = 0; g < f.columns; ++g) f(j, g) /= sum;
+  }
+  return f;
+}
+
+/// Responses to the values whose running sum is filtered by `f`.
+Matrix of_running_sum(const Matrix& f) {
+  Matrix r = f;
+  for (std::size_t j = 0; j < r.rows; ++j)
+    for (std::size_t g = r.columns - 1; g-- > 0;) r(j, g) += r(j, g + 1);
+  return r;
+}
+
+/// Responses to the values whose differences are filtered by `f`.
+Matrix of_differences(const Matrix& f) {
+  Matrix r = f;
+  for (std::size_t j = 0; j < r.rows; ++j)
+    for (std::size_t g = 0; g + 1 < r.columns; ++g) r(j, g) = f(j, g) - f(j, g + 1);
+  return r;
+}
+
+/// R R', scaled so that its trace without mean and line is the number of windows.
+Matrix covariance(const Matrix& r) {
+  const std::size_t n = r.rows;
+  Matrix c{n, n};
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j)
+      for (std::size_t g = 0; g < r.columns; ++g) c(i, j) += r(i, g) * r(j, g);
+  double trace = 0, of_mean = 0, of_line = 0, norm = 0;
+  const auto centred = [n](std::size_t i) { return double(i) - double(n - 1) / 2; };
+  for (std::size_t i = 0; i < n; ++i) {
+    trace += c(i, i);
+    norm += centred(i) * centred(i);
+    for (std::size_t j = 0; j < n; ++j) {
+      of_mean += c(i, j) / double(n);
+      of_line += centred(i) * c(i, j) * centred(j);
+    }
+  }
+  const double scale = double(n) / (trace - of_mean - of_line / norm);
+  for (double& x : c.entries) x *= scale;
+  return c;
+}
+
+Matrix mixed(double share, const Matrix& a, const Matrix& b) {
+  Matrix c = a;
+  for (std::size_t k = 0; k < c.entries.size(); ++k) c.entries[k] += share * (b.entries[k] - a.entries[k]);
+  return c;
+}
+
+/// The inverse of Cholesky's factor of c, and the logarithm of the determinant of c.
+Vector whitener_of(const Matrix& c, double& log_determinant) {
+  const std::size_t n = c.rows;
+  Matrix l{n, n}, inverse{n, n};
+  log_determinant = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      double sum = c(i, j);
+      for (std::size_t k = 0; k < j; ++k) sum -= l(i, k) * l(j, k);
+      l(i, j) = i == j ? std::sqrt(sum) : sum / l(j, j);
+    }
+    log_determinant += 2 * std::log(l(i, i));
+  }
+  for (std::size_t j = 0; j < n; ++j)
+    for (std::size_t i = j; i < n; ++i) {
+      double sum = i == j ? 1 : 0;
+      for (std::size_t k = j; k < i; ++k) sum -= l(i, k) * inverse(k, j);
+      inverse(i, j) = sum / l(i, i);
+    }
+  return inverse.entries;
+}
+
+Vector times(const Vector& lower, const Vector& x) {
+  const std::size_t n = x.size();
+  Vector y(n);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j <= i; ++j) y[i] += lower[i * n + j] * x[j];
+  return y;
+}
+
+double dot(const double* a, const double* b, std::size_t n) {
+  double sum = 0;
+  for (std::size_t i = 0; i < n; ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+/// The models' raw columns: every shape, cosine and sine, filtered.
+std::vector<Vector> raw_columns(const WindowModels& models, const Matrix& f) {
+  std::vector<Vector> columns;
+  const auto append = [&](const std::function<double(double)>& value) {
+    Vector column(f.rows);
+    for (std::size_t j = 0; j < f.rows; ++j)
+      for (std::size_t g = 0; g < f.columns; ++g)
+        column[j] += f(j, g) * value((double(g) + 0.5) / double(f.columns));
+    columns.push_back(std::move(column));
+  };
+  for (const Shape& shape : models.shapes) append(shape);
+  for (const double frequency : models.frequencies) {
+    append([=](double s) { return std::cos(2 * std::numbers::pi * frequency * s); });
+    append([=](double s) { return std::sin(2 * std::numbers::pi * frequency * s); });
+  }
+  return columns;
+}
+
+Covariance seen_through(Noise noise, const Matrix& c, const std::vector<Vector>& raw) {
+  const std::size_t n = c.rows;
+  Covariance result{noise, 0, {}, {}, 0, {}, {}, {}};
+  result.whitener = whitener_of(c, result.log_determinant);
+  result.constant = times(result.whitener, Vector(n, 1.0));
+  result.constant_norm = std::sqrt(dot(result.constant.data(), result.constant.data(), n));
+  for (double& x : result.constant) x /= result.constant_norm;
+  for (const Vector& column : raw) {
+    Vector x = times(result.whitener, column);
+    const double mean = dot(x.data(), result.constant.data(), n);
+    for (std::size_t i = 0; i < n; ++i) x[i] -= mean * result.constant[i];
+    const double norm = std::sqrt(dot(x.data(), x.data(), n));
+    for (double& value : x) result.columns.push_back(value / norm);
+    result.norms.push_back(norm);
+  }
+  for (std::size_t a = 0; a < raw.size(); ++a)
+    for (std::size_t b = 0; b < raw.size(); ++b)
+      result.products.push_back(dot(&result.columns[a * n], &result.columns[b * n], n));
+  return result;
+}
+
+WindowModels make_models(std::size_t windows) {
+  WindowModels models{windows, {}, {}, {}};
+  models.shapes.push_back({Shape::Kind::line, 1});
+  for (std::size_t k = 0; k < power_count; ++k)
+    models.shapes.push_back({Shape::Kind::power, std::pow(power_ratio, double(k) - 8)});
+  for (std::size_t k = 0; k < exponential_count; ++k)
+    models.shapes.push_back({Shape::Kind::exponential, 2 * std::pow(exponential_ratio, double(k))});
+  const double fastest = windows == few_windows ? 6 : 12;
+  for (double frequency = 1; frequency <= fastest; frequency += 0.25) models.frequencies.push_back(frequency);
+
+  const Matrix f = filter(windows), summed = of_running_sum(f);
+  const Matrix white = covariance(f), blue = covariance(of_differences(f)), walk = covariance(summed),
+               smooth = covariance(of_running_sum(summed));
+  const std::vector<Vector> raw = raw_columns(models, f);
+  const auto add = [&](Noise noise, const Matrix& c) {
+    models.covariances.push_back(seen_through(noise, c, raw));
+  };
+  for (const double share : {0.0, 0.8, 0.96}) add(Noise::white, mixed(share, white, blue));
+  for (int k = 0; k < 10; ++k) add(Noise::walk, mixed(0.02 * std::pow(50.0, double(k) / 9), white, walk));
+  for (const double share : {0.5, 0.8, 0.95, 0.99, 1.0}) add(Noise::smooth, mixed(share, white, smooth));
+  return models;
+}
+
+}  // namespace
+
+double Shape::operator()(double s) const {
+  return kind == Kind::exponential ? std::exp(parameter * (s - 1))
+                                   : (kind == Kind::line ? s : std::pow(s, parameter));
+}
+
+const WindowModels& window_models(std::size_t windows) {
+  static const WindowModels few = make_models(few_windows), many = make_models(many_windows);
+  return windows == few_windows ? few : many;
+}
+
+}  // namespace pfaff::windows
