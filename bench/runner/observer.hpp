@@ -15,8 +15,6 @@
 #include <pfaff/bench/measure/structure.hpp>
 #include <pfaff/bench/measure/term_magnitudes.hpp>
 #include <pfaff/bench/runner/record.hpp>
-#include <pfaff/core/numbers/with_rounding.hpp>
-#include <pfaff/core/tape/replay.hpp>
 
 namespace pfaff {
 
@@ -68,8 +66,6 @@ class Observer {
       residual_.emplace(*run.method, run.model);
     if (!values_.empty()) magnitudes_.emplace(run.model->tape(Formula::invariants));
     drift_.resize(values_.size());
-    record.scales.assign(values_.size(), 0);
-    if (!values_.empty()) terms_.emplace(run.model->tape(Formula::invariants));
     constraint_drift_.resize(constraint_residual_names(*run.model).size());
     for (const Invariant& invariant : run.model->invariants()) setbacks_.emplace_back(invariant.behaviour);
   }
@@ -158,20 +154,8 @@ class Observer {
         ++record_.structure_failures;
       }
     }
-    measure_scales(t, z);
     record_.samples.push_back(std::move(sample));
     return not_finite;
-  }
-  // Scales are measured at samples alone, since bounds of rounding take several times as long as values.
-  void measure_scales(const T& t, const std::vector<T>& z) {
-    if (!terms_) return;
-    std::vector<WithRounding<T>> state, out(values_.size());
-    for (const T& x : z) state.emplace_back(x, T(abs(x)));
-    (*terms_)(WithRounding<T>(t), state.data(), out.data());
-    for (std::size_t i = 0; i < out.size(); ++i) {
-      const auto size = static_cast<double>(out[i].error);
-      if (std::isfinite(size)) record_.scales[i] = std::max(record_.scales[i], size);
-    }
   }
   static void worst(std::optional<double>& slot, double value) {
     if (!slot || value > *slot) slot = value;
@@ -192,7 +176,6 @@ class Observer {
   RunRecord& record_;
   Problem<T> problem_;
   std::optional<StructureResidual<T>> residual_;
-  std::optional<Replay<WithRounding<T>>> terms_;  // of the invariants
   ConstraintResiduals<T> constraints_;
   std::optional<TermMagnitudes> magnitudes_;
   std::vector<T> values_, initial_, residuals_;

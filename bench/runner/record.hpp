@@ -39,11 +39,6 @@ struct RunRecord {
   std::vector<double> scales;      // of the invariants: the largest sums of the magnitudes of their terms
   std::vector<Drift> constraints;  // of the residuals, in the order of constraint_residual_names
   std::vector<std::optional<Growth>> growth;  // of the same residuals
-  /// Of every invariant, the largest over the samples: by how much it may change, in units of round-off,
-  /// where every coordinate of the state and every operation of its formula is rounded by one. It is the size
-  /// of the invariant's terms, which is what drift is to be compared with where these cancel and the
-  /// invariant is near zero.
-  std::vector<double> scales;
   std::vector<double> setback;  // the largest move of each invariant against its expected direction
   std::optional<double> error_max, error_final, structure_residual;
   int structure_failures =

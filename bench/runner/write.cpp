@@ -124,7 +124,6 @@ nlohmann::json summary(const ResolvedRun& run, const RunRecord& record) {
       entry["evidence"] = d.evidence;
       entry["scale"] = record.scales[i];
       entry["samples"] = d.samples;
-      entry["scale"] = record.scales[i];
     } else if (const auto words = setback_words(invariant.behaviour)) {
       entry[setback_key(*words)] = record.setback[i];
     }
