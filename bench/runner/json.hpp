@@ -1,5 +1,5 @@
-// JSON for reports and records: nlohmann's library, whose classes are compiled once, in json.cpp. Without this
-// every file that reads or writes JSON compiles them again, which took a quarter of its time.
+// JSON for reports and records: nlohmann's library, whose classes are compiled once, in json.cpp. Without
+// this every file that reads or writes JSON compiles them again, which took a quarter of its time.
 #pragma once
 
 #include <string>
