@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <pfaff/bench/falsification/many_steps.hpp>
+#include <pfaff/bench/measure/history.hpp>
 #include <pfaff/bench/verification/claim_checks.hpp>
 
 namespace pfaff {
@@ -20,12 +21,23 @@ const ClaimCheck& check_of(Claim claim) {
   return *std::find_if(rows.begin(), rows.end(), [&](const ClaimCheck& row) { return row.claim == claim; });
 }
 
+// A single step of a method that remembers is judged as verification judges it, after steps that forget how
+// the method was started: the claim is about the method's own step. Over many steps in a row the start
+// counts.
+bool warms_up(const MethodInstance& method, const JudgedStep& at, const Real& h) {
+  if (at.count > 1) return false;
+  std::vector<Quad> z;
+  for (const Real& x : at.state) z.push_back(x.quad());
+  return keeps_history(method, at.model, at.time.quad(), h.quad(), z);
+}
+
 // The residual of at.count steps of the length h in a row. This is the only place where a claim is measured.
 template <class T>
 double residual_of(const MethodInstance& method, Claim claim, const JudgedStep& at, const Real& h) {
   const ManySteps many(method, at.count);
   const MethodInstance& stepped = at.count == 1 ? method : many;
-  MeasuredStep<T> step(stepped, at.model, at.state, at.time, Real(at.count) * h);
+  MeasuredStep<T> step(stepped, at.model, at.state, at.time, Real(at.count) * h,
+                       warms_up(method, at, h) ? steps_of_warm_up : 0);
   if constexpr (std::is_same_v<T, Quad>) {
     return check_of(claim).in_quad(step);
   } else {

@@ -28,6 +28,9 @@ constexpr const char* precision_name() {
 /// The residual of a step that does not converge: not-a-number, with which no check passes.
 inline constexpr double no_step = std::numeric_limits<double>::quiet_NaN();
 
+/// As many steps forget the start of a method that remembers its past, which is not of the method's own kind.
+inline constexpr int steps_of_warm_up = 8;
+
 /// A step of size h from `start` at time t, in the scalar T. What is asked of it is computed when it is first
 /// asked for, and kept. With a warm-up, the stepper takes so many steps of the same size before the one that
 /// is measured, and keeps its history.
