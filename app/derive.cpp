@@ -10,6 +10,7 @@
 #include <pfaff/core/emit/emitter.hpp>
 #include <pfaff/core/errors/errors.hpp>
 #include <pfaff/core/system.hpp>
+#include <pfaff/systems/text/text_system.hpp>
 
 namespace pfaff::app {
 
@@ -36,10 +37,15 @@ std::optional<FrictionForm> take_friction_form(Assignments& settings) {
   return form;
 }
 
+// In lines of which each fits beside the names of the options.
 std::string methods_in_words() {
   std::string text;
-  for (const DerivationMethod& method : derivation_methods())
-    text += (text.empty() ? "" : ", ") + method.name;
+  std::size_t length = 0;
+  for (const DerivationMethod& method : derivation_methods()) {
+    if (length > 0) text += length + method.name.size() > 60 ? ",\n" : ", ";
+    length = length + method.name.size() > 60 ? method.name.size() : length + method.name.size() + 2;
+    text += method.name;
+  }
   return text;
 }
 
@@ -87,7 +93,7 @@ int print_counts(const Equations& equations, double seconds, bool as_json) {
 int run(const Options& options, bool as_json) {
   Assignments settings = parse_settings(options.set);
   const std::optional<FrictionForm> friction = take_friction_form(settings);
-  const SystemPlugin& system = systems().get(options.system, "system");
+  const SystemPlugin& system = system_named(options.system);
   const std::vector<std::string> known = forms();
   if (std::find(known.begin(), known.end(), options.emit) == known.end())
     throw InputError(unknown_name("--emit", options.emit, known));
@@ -108,8 +114,10 @@ int run(const Options& options, bool as_json) {
 void add_derive(CLI::App& app, Common& common, Action& action) {
   CLI::App* sub = subcommand(app, common, "derive", "Equations of motion of a system, derived symbolically");
   auto options = std::make_shared<Options>();
-  sub->add_option("system", options->system, "Name of the system")->type_name("SYSTEM")->required();
-  sub->add_option("--method", options->method, "How they are derived: " + methods_in_words())
+  sub->add_option("system", options->system, "Name of the system, or the file of one written as text")
+      ->type_name("NAME|FILE")
+      ->required();
+  sub->add_option("--method", options->method, "How they are derived, one of\n" + methods_in_words())
       ->type_name("NAME")
       ->required();
   sub->add_option("--emit", options->emit, "What is printed: " + forms_in_words())->type_name("NAME");

@@ -307,8 +307,8 @@ int cite(const std::vector<std::string>& names, bool json) {
 void add_describe(CLI::App& app, Common& common, Action& action) {
   CLI::App* sub = subcommand(app, common, "describe", "Everything about a plug-in or an experiment");
   auto name = std::make_shared<std::string>();
-  sub->add_option("name", *name, "Its name, as in pfaff list, or the file of a table of coefficients (.toml)")
-      ->type_name("NAME")
+  sub->add_option("name", *name, "Its name, as in pfaff list, or the file of one written as text")
+      ->type_name("NAME|FILE")
       ->required();
   sub->callback([name, &common, &action] {
     action = [name, &common] {

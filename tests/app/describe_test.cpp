@@ -272,8 +272,8 @@ TEST(Help, EveryCommand) {
   expect_narrow(help);
   EXPECT_NE(help.find("Exit status: 0 fine"), std::string::npos);
   EXPECT_TRUE(help.ends_with('\n'));
-  for (const std::string command :
-       {"list", "describe", "cite", "run", "compare", "reproduce", "verify", "falsify"}) {
+  for (const std::string command : {"list", "describe", "cite", "run", "compare", "reproduce", "verify",
+                                    "falsify", "evaluate", "derive"}) {
     EXPECT_NE(help.find("\n  " + command + " "), std::string::npos) << command;
     const std::string text = printed({command, "--help"});
     expect_narrow(text);
