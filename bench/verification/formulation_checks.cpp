@@ -37,10 +37,16 @@ constexpr const char* precision = std::is_same_v<T, Quad> ? "quad" : "double";
 // round-off. The bounds come from the recorded formula of the right-hand side.
 struct Measured {
   double definition = 0, constraints = 0, hidden = 0, velocities = 0, energy = 0, inadmissible = 0;
-  bool defined = false, anywhere = false;
+  bool canonical = false, defined = false, anywhere = false;
 
   static void note(double& worst, double value) {
     worst = std::isnan(value) || std::isnan(worst) ? NAN : std::max(worst, value);
+  }
+  // The largest, and not-a-number where one is.
+  static double worst_of(std::initializer_list<double> values) {
+    double worst = 0;
+    for (const double value : values) note(worst, value);
+    return worst;
   }
   void at(const DenseMotion& motion, const std::vector<Quad>& field, const std::vector<Quad>& bounds,
           const std::vector<Quad>& expected) {
@@ -53,17 +59,16 @@ struct Measured {
     note(energy, rates.energy);
     defined = !expected.empty();
     if (!defined) return;
-    // Reactions mix what is of one unit: the rates of positions, and those of momenta.
-    const std::size_t half = field.size() / 2;
-    for (std::size_t first : {std::size_t{0}, half}) {
-      Quad difference(0), bound(0);
-      for (std::size_t k = first; k < first + half; ++k) {
-        // The largest of two, in an order by which not-a-number stays.
-        const Quad d = abs(field[k] - expected[k]);
-        difference = d <= difference ? difference : d;
-        bound = std::max(bound, bounds[k]);
+    // Reactions mix what is of one unit: of canonical coordinates the rates of positions and those of
+    // momenta.
+    const std::size_t parts = canonical ? 2 : 1, size = field.size() / parts;
+    for (std::size_t part = 0; part < parts; ++part) {
+      Quad bound(0);
+      for (std::size_t k = part * size; k < (part + 1) * size; ++k) bound = std::max(bound, bounds[k]);
+      for (std::size_t k = part * size; k < (part + 1) * size; ++k) {
+        const Quad difference = abs(field[k] - expected[k]);
+        note(definition, difference == Quad(0) ? 0 : static_cast<double>(difference / bound));
       }
-      note(definition, difference == Quad(0) ? 0 : static_cast<double>(difference / bound));
     }
   }
 };
@@ -107,6 +112,7 @@ class FormulationChecker {
   template <class T>
   void measure() {
     Measured on, off, reversed_on, reversed_off;
+    for (Measured* m : {&on, &off, &reversed_on, &reversed_off}) m->canonical = model_->canonical();
     std::mt19937_64 random(20044);
     std::uniform_real_distribution<double> offset(-0.05, 0.05);
     const Evaluator<T> field = make_evaluator<T>(formulated_, Formula::field);
@@ -180,13 +186,13 @@ class FormulationChecker {
       check("field is its definition", "off the surface", defined_everywhere(), off.definition);
     }
     check("tangent", "on the surface", claims(FormulationClaim::tangent),
-          std::max({on.constraints, on.hidden, on.velocities}));
+          Measured::worst_of({on.constraints, on.hidden, on.velocities}));
     if (hidden)
       check("keeps hidden-constraints", "off the surface", claims(FormulationClaim::hidden_constraints),
             off.hidden);
     if (model_->nonholonomic()) return judge_velocities(check, on, off);
     check("keeps constraints", "off the surface", claims(FormulationClaim::constraints),
-          std::max(off.constraints, off.hidden));
+          Measured::worst_of({off.constraints, off.hidden}));
     if (energy_in_scope_)
       check("keeps energy", "off the surface", claims(FormulationClaim::energy), off.energy, tilted_field);
   }

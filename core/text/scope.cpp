@@ -89,6 +89,8 @@ void Scope::append_node(const Expression& of, std::size_t number, std::vector<Re
   if (node.kind == Kind::name && !index && node.name != "t") {
     const Entry& named = entry(of, number);
     if (named.state == Entry::State::elements) {
+      operations_left_ -= static_cast<long>(named.elements.size());
+      if (operations_left_ < 0) fail(of, number, "the formula has too many operations");
       values.insert(values.end(), named.elements.begin(), named.elements.end());
       return;
     }

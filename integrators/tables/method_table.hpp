@@ -46,7 +46,7 @@ std::unique_ptr<const MethodTable> read_method_table(const std::string& path);
 /// True for the name of a file that a table of coefficients is expected in, where names of other things may
 /// stand too: it ends in ".toml", and what the file holds is not known to be something else, TOML without a
 /// key `kind`.
-bool names_method_table(const std::string& text);
+bool names_method_table(const std::string& path);
 
 /// The registered method of that name or, where it ends in ".toml", the method of that file, which is read
 /// and registered the first time. InputError for an unknown name, a file that is refused, and one whose name

@@ -38,8 +38,8 @@ void require_label(const Member& member) {
     refuse(member.place, 0, "the name '" + member.key + "': expected letters, digits, - and _");
 }
 
-// One expression, a list, a list of rows, or a table in which each result has a name.
-TextFormula read_formula(const Item& value, const std::string& key) {
+// One expression, a list or a list of rows; of constraints also a table in which each has a name.
+TextFormula read_formula(const Item& value, const std::string& key, bool named = false) {
   TextFormula formula{.results = {}, .place = value.source};
   formula.place.text.clear();
   if (value.kind == Kind::list) {
@@ -49,6 +49,7 @@ TextFormula read_formula(const Item& value, const std::string& key) {
       formula.results.insert(formula.results.end(), row.begin(), row.end());
     }
   } else if (value.kind == Kind::table) {
+    if (!named) refuse(value, key + ": expected expressions in their order, without names");
     for (const Member& member : value.members) {
       require_label(member);
       formula.names.push_back(member.key);
@@ -151,7 +152,9 @@ TextDeclaration read_declaration(const Document& document) {
   if (const Item* value = root.find("damping")) d.damping = read_formula(*value, "damping");
   for (const Formula formula : written) {
     const std::string key(to_string(formula));
-    if (const Item* value = root.find(key)) d.formulas[index(formula)] = read_formula(*value, key);
+    if (const Item* value = root.find(key))
+      d.formulas[index(formula)] =
+          read_formula(*value, key, formula == Formula::holonomic || formula == Formula::constraints);
   }
   if (const Item* value = root.find("alpha")) d.formulas[index(Formula::alpha)] = read_alpha(*value);
   if (const Item* value = root.find("bracket")) d.bracket = read_bracket(*value, "bracket");

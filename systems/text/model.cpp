@@ -162,6 +162,11 @@ class Builder {
       refuse(bracket.place, 0,
              what + ": it has dimension " + std::to_string(made.dimension) + "; expected " +
                  std::to_string(n_) + ", the number of coordinates");
+    constexpr int most = 2000;  // coordinates; the tensor is recorded entry by entry
+    if (made.dimension > most)
+      refuse(bracket.place, 0,
+             what + ": expected at most " + std::to_string(most) +
+                 " coordinates beside a bracket by name, got " + std::to_string(made.dimension));
     const int n = made.dimension;
     source_.given[index(formula)] = std::make_shared<const Tape>(
         record(n, n * n, [&](const Recorded& t, In<Recorded> z, Out<Recorded> out) {

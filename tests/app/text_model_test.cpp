@@ -45,6 +45,30 @@ TEST(TextModel, IsTakenWhereNamesAreTaken) {
   EXPECT_EQ(compared.status, 0) << compared.err;
 }
 
+TEST(TextModel, EveryExampleIsDescribed) {
+  std::size_t models = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(PFAFF_GOLDEN "/../../examples/models")) {
+    if (entry.path().extension() != ".toml") continue;
+    const Outcome described = run_pfaff({"describe", entry.path().string(), "--json"});
+    EXPECT_EQ(described.status, 0) << described.err;
+    ++models;
+  }
+  EXPECT_GE(models, 10U);
+}
+
+// Results of formulas stand in the order of the coordinates; names that are not looked at would be believed.
+TEST(TextModel, OnlyConstraintsHaveNames) {
+  const TemporaryDirectory files;
+  for (const char* text :
+       {"field = { p = \"-q\", q = \"p\" }\n", "field = [\"p\", \"-q\"]\ninitial = { p = 0.5, q = 1 }\n"}) {
+    write(files / "named.toml", "coordinates = [\"q\", \"p\"]\n" + std::string(text));
+    const Outcome refused = run_pfaff({"describe", files / "named.toml"});
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_NE(refused.err.find("expected expressions in their order, without names"), std::string::npos)
+        << refused.err;
+  }
+}
+
 TEST(TextModel, AnErrorShowsItsPlace) {
   const TemporaryDirectory files;
   write(files / "bad.toml",
