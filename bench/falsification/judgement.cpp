@@ -21,23 +21,14 @@ const ClaimCheck& check_of(Claim claim) {
   return *std::find_if(rows.begin(), rows.end(), [&](const ClaimCheck& row) { return row.claim == claim; });
 }
 
-// A single step of a method that remembers is judged as verification judges it, after steps that forget how
-// the method was started: the claim is about the method's own step. Over many steps in a row the start
-// counts.
-bool warms_up(const MethodInstance& method, const JudgedStep& at, const Real& h) {
-  if (at.count > 1) return false;
-  std::vector<Quad> z;
-  for (const Real& x : at.state) z.push_back(x.quad());
-  return keeps_history(method, at.model, at.time.quad(), h.quad(), z);
-}
-
-// The residual of at.count steps of the length h in a row. This is the only place where a claim is measured.
+// The residual of at.count steps of the length h in a row, after as many steps as the warm-up has. This is
+// the only place where a claim is measured.
 template <class T>
-double residual_of(const MethodInstance& method, Claim claim, const JudgedStep& at, const Real& h) {
+double residual_of(const MethodInstance& method, Claim claim, const JudgedStep& at, int warm_up,
+                   const Real& h) {
   const ManySteps many(method, at.count);
   const MethodInstance& stepped = at.count == 1 ? method : many;
-  MeasuredStep<T> step(stepped, at.model, at.state, at.time, Real(at.count) * h,
-                       warms_up(method, at, h) ? steps_of_warm_up : 0);
+  MeasuredStep<T> step(stepped, at.model, at.state, at.time, Real(at.count) * h, warm_up);
   if constexpr (std::is_same_v<T, Quad>) {
     return check_of(claim).in_quad(step);
   } else {
@@ -69,16 +60,24 @@ bool power_of_step(Judgement& judgement, const Measure& measure, Real h, double 
   return false;
 }
 
+bool remembers(const MethodInstance& method, const JudgedStep& at) {
+  std::vector<Quad> z;
+  for (const Real& x : at.state) z.push_back(x.quad());
+  return keeps_history(method, at.model, at.time.quad(), at.step.quad(), z);
+}
+
 }  // namespace
 
 double falsifying_residual(const MethodInstance& method) {
   return method.descriptor().double_coefficients ? 1e-8 : 1e-20;
 }
 
-Judgement judge(const MethodInstance& method, Claim claim, const JudgedStep& at) {
+namespace {
+Judgement judged(const MethodInstance& method, Claim claim, const JudgedStep& at, int warm_up) {
   const bool doubles = method.descriptor().double_coefficients;
   const auto measure = [&](const Real& h) {
-    return doubles ? residual_of<double>(method, claim, at, h) : residual_of<Quad>(method, claim, at, h);
+    return doubles ? residual_of<double>(method, claim, at, warm_up, h)
+                   : residual_of<Quad>(method, claim, at, warm_up, h);
   };
   Judgement judgement;
   judgement.residuals = {measure(at.step)};
@@ -87,12 +86,13 @@ Judgement judge(const MethodInstance& method, Claim claim, const JudgedStep& at)
     judgement.reason = "the step did not converge";
     return judgement;
   }
-  judgement.in_double = doubles ? residual : residual_of<double>(method, claim, at, at.step);
+  judgement.in_double = doubles ? residual : residual_of<double>(method, claim, at, warm_up, at.step);
   if (!(residual > falsifying_residual(method))) {
     judgement.reason = "the residual is that of rounding";
     return judgement;
   }
-  const double in_other = doubles ? residual_of<Quad>(method, claim, at, at.step) : judgement.in_double;
+  const double in_other =
+      doubles ? residual_of<Quad>(method, claim, at, warm_up, at.step) : judgement.in_double;
   const bool same = same_in_both(in_other, residual);
   if (one_sided(claim) || residual > seen_in_double) {
     if (!same) {
@@ -108,6 +108,16 @@ Judgement judge(const MethodInstance& method, Claim claim, const JudgedStep& at)
                                  : power_of_step(judgement, measure, at.step, 1e-30, 4, 0.25));
   if (!judgement.falsified) judgement.reason = "the residual is no power of the step size";
   return judgement;
+}
+}  // namespace
+
+// A claim is about a method's own step. That of a method which remembers its past comes after steps that
+// forget how it was started; as verification does, a single step is therefore judged there too. Over many
+// steps the start counts.
+Judgement judge(const MethodInstance& method, Claim claim, const JudgedStep& at) {
+  Judgement cold = judged(method, claim, at, 0);
+  if (!cold.falsified || at.count > 1 || !remembers(method, at)) return cold;
+  return judged(method, claim, at, steps_of_warm_up);
 }
 
 }  // namespace pfaff
