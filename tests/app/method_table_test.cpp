@@ -58,6 +58,18 @@ TEST(MethodTable, IsLoadedAsAPluginAndListed) {
             0);
 }
 
+// A table may be based on a method of a shared object, wherever that one is given.
+TEST(MethodTable, IsReadAfterAllSharedObjects) {
+  const TemporaryDirectory files;
+  const Arguments command{"list", "--plugin", files / "none.toml"};
+  expect_complaint(run_pfaff(command + Arguments{"--plugin", files / "missing.so"}), 2, {"missing.so"},
+                   "a shared object behind the table");
+  setenv("PFAFF_PLUGIN_PATH", (files / "nowhere").c_str(), 1);
+  expect_complaint(run_pfaff(command), 2, {"PFAFF_PLUGIN_PATH", "nowhere"}, "a directory of shared objects");
+  unsetenv("PFAFF_PLUGIN_PATH");
+  expect_complaint(run_pfaff(command), 2, {"none.toml"}, "the table alone");
+}
+
 TEST(MethodTable, ItsClaimsAreVerifiedAndFalsified) {
   const Outcome verified = run_pfaff({"verify", shipped + "ruth-3.toml", "--json"});
   EXPECT_EQ(verified.status, 0) << verified.err;
