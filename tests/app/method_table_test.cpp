@@ -93,6 +93,18 @@ TEST(MethodTable, IsComparedInExperiments) {
   EXPECT_NE(text_of(files / "out/results.csv").find("pefrl.toml"), std::string::npos);
 }
 
+TEST(MethodTable, OfAnExperimentIsFoundBesideItsFile) {
+  const TemporaryDirectory files;
+  fs::create_directories(files.path() / "tables");
+  write(files / "tables/table.toml", verlet("0.5, 0.5"));
+  write(files / "experiment.toml",
+        "schema = 1\ntitle = \"a table\"\n[[method]]\nlabel = \"table\"\nintegrator = \"tables/table.toml\"\n"
+        "[[case]]\nname = \"pendulum\"\nsystem = \"pendulum\"\ntime = 1\nsteps = [0.1]\n");
+  const Outcome outcome =
+      run_pfaff({"compare", files / "experiment.toml", "--quick", "--out", files / "out"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+}
+
 TEST(MethodTable, AFileThatIsWrongIsRefusedInOneLine) {
   const TemporaryDirectory files;
   write(files / "table.toml", verlet("0.5, 0.500000001"));
