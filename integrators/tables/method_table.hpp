@@ -49,8 +49,8 @@ std::unique_ptr<const MethodTable> read_method_table(const std::string& path);
 bool names_method_table(const std::string& text);
 
 /// The registered method of that name or, where it ends in ".toml", the method of that file, which is read
-/// and registered the first time. InputError for an unknown name, a file that is refused, and one whose name
-/// is taken.
+/// and registered the first time. InputError for an unknown name, a file that is refused, one whose name is
+/// taken, and one that has changed since it was registered. Calls of several threads wait for each other.
 const MethodPlugin& integrator_named(const std::string& text);
 
 // What the kinds of tables share, used by their readers.
