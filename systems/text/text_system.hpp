@@ -11,7 +11,8 @@
 
 namespace pfaff {
 
-/// A system read from a file. It is not registered, and found by the path of its file.
+/// A system read from a file, with the brackets that it names. It is not registered, and found by the path of
+/// its file. Models are made of what was read then.
 class TextSystem final : public SystemPlugin {
  public:
   /// Reads a file. InputError, with the place in it, for whatever is wrong there, evaluated with the values
