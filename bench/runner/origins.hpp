@@ -27,8 +27,9 @@ Assignments files_of(const std::vector<Parameter>& parameters, const Assignments
 /// Adds a file with the hash of its contents.
 void add_file(Origins& origins, const std::string& path, const std::string& hash);
 
-/// Adds the files that the plug-in reads with these values and the shared objects that it and the plug-ins
-/// among its values come from. Objects of Pfaff itself are libraries and not added.
+/// Adds the files that the plug-in reads with these values and the shared objects that it, the plug-ins among
+/// its values and those that a table of coefficients names come from. Objects of Pfaff itself are libraries
+/// and not added.
 void add_origins(const Plugin& plugin, const Assignments& values, Origins& origins);
 
 /// The libraries that compute every run: Pfaff's own, libm and libquadmath.

@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <pfaff/core/integrator.hpp>
@@ -25,6 +26,8 @@ class MethodTable : public MethodPlugin {
   [[nodiscard]] const std::string& contents() const { return contents_; }
   /// The conditions that were checked; `kind` is empty where there are none.
   [[nodiscard]] const OrderTheory& theory() const { return theory_; }
+  /// The registered methods that the table names, with their settings.
+  [[nodiscard]] virtual std::vector<std::pair<const Plugin*, Assignments>> rests_on() const { return {}; }
 
  protected:
   MethodTable(MethodDescriptor descriptor, std::vector<Parameter> parameters, const std::type_info& type,

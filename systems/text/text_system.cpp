@@ -54,6 +54,15 @@ std::shared_ptr<const Model> TextSystem::make(const Assignments& assignments) co
 
 std::vector<Assignments> TextSystem::instances(bool /*full*/) const { return {{}}; }
 
+std::vector<std::pair<const Plugin*, Assignments>> TextSystem::rests_on() const {
+  std::vector<std::pair<const Plugin*, Assignments>> named;
+  for (const auto* bracket : {&declaration_.bracket, &declaration_.symmetric_bracket})
+    if (*bracket && (*bracket)->chosen.plugin != nullptr &&
+        dynamic_cast<const TextBracket*>((*bracket)->chosen.plugin) == nullptr)
+      named.emplace_back((*bracket)->chosen.plugin, (*bracket)->chosen.settings);
+  return named;
+}
+
 const SystemPlugin& system_named(const std::string& name) {
   if (!text::is_text_file(name)) return systems().get(name, "system");
   static std::mutex mutex;

@@ -27,6 +27,8 @@ class TextSystem final : public SystemPlugin {
   [[nodiscard]] std::vector<Assignments> instances(bool full) const override;
   /// The files that it was made of, absolute paths, and what they contained.
   [[nodiscard]] const std::vector<std::pair<std::string, std::string>>& files() const { return files_; }
+  /// The registered brackets that it names, with their settings.
+  [[nodiscard]] std::vector<std::pair<const Plugin*, Assignments>> rests_on() const;
 
  private:
   TextSystem(SystemDescriptor descriptor, std::vector<Parameter> parameters,
