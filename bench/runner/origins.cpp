@@ -11,6 +11,7 @@
 #include <pfaff/core/bracket.hpp>
 #include <pfaff/core/formulation.hpp>
 #include <pfaff/core/integrator.hpp>
+#include <pfaff/core/native/compiler.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/integrators/tables/method_table.hpp>
 
@@ -90,6 +91,8 @@ Assignments files_of(const std::vector<Parameter>& parameters, const Assignments
 void add_file(Origins& origins, const std::string& path, const std::string& hash) {
   add(origins.files, path, hash);
 }
+
+void add_compiler(Origins& origins) { add(origins.libraries, "native", native::compiler_identity()); }
 
 void add_origins(const Plugin& plugin, const Assignments& values, Origins& origins) {
   for (const auto& [path, hash] : files_of(plugin.parameters(), values)) add(origins.files, path, hash);

@@ -238,6 +238,8 @@ void note_origins(ResolvedRun& run, const SystemPlugin& system, const MethodPlug
     add_origins(formulations().get(run.settings.formulation, "formulation"),
                 run.model->source().formulation_parameters, run.origins);
   run.origins.libraries = libraries();
+  if (run.settings.compile && run.settings.precision == Precision::double_precision)
+    add_compiler(run.origins);
 }
 
 // Refuses times and steps of which nothing is left in the scalar T of the run: a step or a duration that
