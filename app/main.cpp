@@ -24,7 +24,9 @@ CLI::App* subcommand(CLI::App& app, Common& common, const std::string& name, con
   CLI::App* sub = app.add_subcommand(name, what);
   sub->group("Commands");
   sub->add_flag("--json", common.json, "Print JSON instead of text");
-  sub->add_option("--plugin", common.plugins, "Load a plug-in's shared object; may be repeated")
+  sub->add_option("--plugin", common.plugins,
+                  "Load a plug-in's shared object, or a table of coefficients (.toml), which is read "
+                  "after all shared objects; may be repeated")
       ->type_name("FILE")
       ->expected(1)
       ->allow_extra_args(false)
@@ -45,15 +47,11 @@ Assignments parse_settings(const std::vector<std::string>& texts) {
 
 namespace {
 
-// Loads the files given by --plugin, shared objects and tables of coefficients, then every shared object in
-// the directories of PFAFF_PLUGIN_PATH.
+// Loads the shared objects given by --plugin, then every one in the directories of PFAFF_PLUGIN_PATH, and
+// last the tables of coefficients given by --plugin, because a table may be based on a method of any of them.
 void load_plugins(const Common& common) {
   for (const std::string& file : common.plugins)
-    if (file.ends_with(".toml")) {
-      (void)integrator_named(file);
-    } else {
-      load_plugin(file);
-    }
+    if (!file.ends_with(".toml")) load_plugin(file);
   const char* path = std::getenv("PFAFF_PLUGIN_PATH");
   std::stringstream directories(path != nullptr ? path : "");
   for (std::string directory; std::getline(directories, directory, ':');) {
@@ -68,6 +66,8 @@ void load_plugins(const Common& common) {
   }
   if (const auto twice = registered_twice(); !twice.empty())
     throw InputError("registered twice: " + twice.front());
+  for (const std::string& file : common.plugins)
+    if (file.ends_with(".toml")) (void)integrator_named(file);
 }
 
 // Says what is wrong in one line on stderr.

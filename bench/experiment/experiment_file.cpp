@@ -121,6 +121,8 @@ Experiment read_experiment(const std::string& name_or_path, bool quick) {
     ExperimentMethod method;
     method.label = m.required("label");
     method.integrator = m.required("integrator");
+    if (text::is_text_file(method.integrator))
+      method.integrator = text::beside(method.integrator, path.string());
     method.formulation = m.text("formulation", "");
     method.set = m.assignments("set");
     method.tolerances = m.one_or_more("tolerance");

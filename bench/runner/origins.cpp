@@ -11,6 +11,7 @@
 #include <pfaff/core/bracket.hpp>
 #include <pfaff/core/formulation.hpp>
 #include <pfaff/core/integrator.hpp>
+#include <pfaff/core/native/compiler.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/integrators/tables/method_table.hpp>
 
@@ -91,10 +92,13 @@ void add_file(Origins& origins, const std::string& path, const std::string& hash
   add(origins.files, path, hash);
 }
 
+void add_compiler(Origins& origins) { add(origins.libraries, "native", native::compiler_identity()); }
+
 void add_origins(const Plugin& plugin, const Assignments& values, Origins& origins) {
   for (const auto& [path, hash] : files_of(plugin.parameters(), values)) add(origins.files, path, hash);
   if (const auto* table = dynamic_cast<const MethodTable*>(&plugin)) {
     add(origins.files, table->path(), sha1_of(table->contents()));
+    for (const auto& [base, settings] : table->rests_on()) add_origins(*base, settings, origins);
   } else if (const LoadedObject object = object_holding(&plugin); !is_own(object)) {
     add(origins.plugins, object.path, object.build);
   }

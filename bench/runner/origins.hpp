@@ -13,7 +13,9 @@ namespace pfaff {
 struct Origins {
   Assignments files;    // absolute paths of model files, and the SHA-1 of their contents
   Assignments plugins;  // absolute paths of plug-ins' shared objects, and their builds (LoadedObject::build)
-  Assignments libraries;  // file names of Pfaff's and of mathematical libraries, and their builds
+  // File names of Pfaff's and of mathematical libraries, and their builds; of a run whose formulas are
+  // compiled also "native", and which compiler makes the code.
+  Assignments libraries;
 };
 
 /// `assignments` with the paths of files, relative ones to the working directory, made absolute. InputError
@@ -27,8 +29,12 @@ Assignments files_of(const std::vector<Parameter>& parameters, const Assignments
 /// Adds a file with the hash of its contents.
 void add_file(Origins& origins, const std::string& path, const std::string& hash);
 
-/// Adds the files that the plug-in reads with these values and the shared objects that it and the plug-ins
-/// among its values come from. Objects of Pfaff itself are libraries and not added.
+/// Adds the compiler that makes code of formulas, or that there is none.
+void add_compiler(Origins& origins);
+
+/// Adds the files that the plug-in reads with these values and the shared objects that it, the plug-ins among
+/// its values and those that a table of coefficients names come from. Objects of Pfaff itself are libraries
+/// and not added.
 void add_origins(const Plugin& plugin, const Assignments& values, Origins& origins);
 
 /// The libraries that compute every run: Pfaff's own, libm and libquadmath.

@@ -225,6 +225,7 @@ void note_origins(ResolvedRun& run, const SystemPlugin& system, const MethodPlug
   // A text model is made when its file is read and belongs to no shared object.
   if (const auto* text = dynamic_cast<const TextSystem*>(&system)) {
     for (const auto& [path, contents] : text->files()) add_file(run.origins, path, sha1_of(contents));
+    for (const auto& [plugin, values] : text->rests_on()) add_origins(*plugin, values, run.origins);
   } else {
     add_origins(system, run.model->parameters(), run.origins);
   }
@@ -237,6 +238,8 @@ void note_origins(ResolvedRun& run, const SystemPlugin& system, const MethodPlug
     add_origins(formulations().get(run.settings.formulation, "formulation"),
                 run.model->source().formulation_parameters, run.origins);
   run.origins.libraries = libraries();
+  if (run.settings.compile && run.settings.precision == Precision::double_precision)
+    add_compiler(run.origins);
 }
 
 // Refuses times and steps of which nothing is left in the scalar T of the run: a step or a duration that

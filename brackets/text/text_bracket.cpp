@@ -138,10 +138,14 @@ const BracketPlugin& bracket_named(const std::string& name) {
               .first->second;
 }
 
-BracketInstance bracket_instance(const std::string& text, const std::string& of) {
-  if (is_text_file(text)) return bracket_named(beside(text, of)).make({});
+ChosenBracket chosen_bracket(const std::string& text, const std::string& of) {
+  if (is_text_file(text)) {
+    const BracketPlugin& plugin = bracket_named(beside(text, of));
+    return {&plugin, {}, plugin.make({})};
+  }
   const PluginValue value = parse_plugin_value(text, "bracket");
-  return brackets().get(value.name, "bracket").make(value.settings);
+  const BracketPlugin& plugin = brackets().get(value.name, "bracket");
+  return {&plugin, value.settings, plugin.make(value.settings)};
 }
 
 }  // namespace pfaff

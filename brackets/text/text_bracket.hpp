@@ -22,6 +22,8 @@ class TextBracket final : public BracketPlugin {
   /// Reads a file. InputError, with the place in it, for whatever is wrong there.
   static std::unique_ptr<const TextBracket> read(const std::string& path);
   [[nodiscard]] BracketInstance make(const Assignments& assignments) const override;
+  /// The path of the file, as it was read.
+  [[nodiscard]] const std::string& path() const { return declaration_.path; }
   /// What the file contained.
   [[nodiscard]] const std::string& contents() const { return declaration_.contents; }
 
@@ -48,8 +50,15 @@ bool is_text_bracket(const std::string& path);
 /// program ends. InputError where there is none, and for whatever is wrong in a file.
 const BracketPlugin& bracket_named(const std::string& name);
 
-/// A bracket by the text NAME, NAME(key=value, ...) or FILE.toml, from the folder of the file `of` that names
-/// it.
-BracketInstance bracket_instance(const std::string& text, const std::string& of);
+/// A bracket that a text has chosen, with its settings, and what they make of it.
+struct ChosenBracket {
+  const BracketPlugin* plugin = nullptr;
+  Assignments settings{};
+  BracketInstance instance{};
+};
+
+/// The bracket of the text NAME, NAME(key=value, ...) or FILE.toml, from the folder of the file `of` that
+/// names it.
+ChosenBracket chosen_bracket(const std::string& text, const std::string& of);
 
 }  // namespace pfaff

@@ -45,6 +45,14 @@ std::vector<std::string> compiler() {
   return words;
 }
 
+// The compiler's words and the flags, each after a space.
+std::string command_line() {
+  std::string line;
+  for (const std::string& word : compiler()) line += " " + word;
+  for (const char* flag : flags) line += std::string(" ") + flag;
+  return line;
+}
+
 // Starts a program with its output in `output`, a file, and waits for it; the exit status, or -1 where it
 // cannot be started or dies.
 int run(const std::vector<std::string>& words, const std::string& output) {
@@ -141,12 +149,14 @@ const std::string& compiler_version() {
   return version;
 }
 
+std::string compiler_identity() {
+  if (compiler_version().empty()) return "interpreted: no compiler";
+  return compiler_version() + ":" + command_line();
+}
+
 std::shared_ptr<const Library> library_of(const std::string& code, const std::string& what) {
   const std::vector<std::string> words = compiler();
-  std::string text = "//";
-  for (const std::string& word : words) text += " " + word;
-  for (const char* flag : flags) text += std::string(" ") + flag;
-  text += "\n// " + compiler_version() + "\n" + code;
+  const std::string text = "//" + command_line() + "\n// " + compiler_version() + "\n" + code;
 
   const fs::path directory = cache();
   const std::string name = name_of(text);

@@ -29,6 +29,10 @@ class Library {
 /// $CXX, in which words are separated by spaces, or c++.
 const std::string& compiler_version();
 
+/// Which code is made of formulas here: the compiler's version, its words and the flags, in one line, or
+/// "interpreted: no compiler".
+std::string compiler_identity();
+
 /// The library of a text in C++17, compiled or found in the cache. RunError, naming `what` and the file with
 /// the compiler's messages, where it does not compile, and where the cache cannot be used.
 std::shared_ptr<const Library> library_of(const std::string& text, const std::string& what);

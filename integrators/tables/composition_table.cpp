@@ -75,6 +75,9 @@ class CompositionTable final : public MethodTable {
     return std::make_unique<ComposedInstance>(*this, base->composed(weights()), palindrome_);
   }
   [[nodiscard]] std::vector<Assignments> instances(bool /*full*/) const override { return {{}}; }
+  [[nodiscard]] std::vector<std::pair<const Plugin*, Assignments>> rests_on() const override {
+    return {{&integrators().get(base_.name, "integrator"), base_.settings}};
+  }
 
  private:
   [[nodiscard]] const std::vector<Quad>& weights() const { return theory().coefficients; }

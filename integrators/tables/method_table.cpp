@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <mutex>
 
 #include <pfaff/core/text/document.hpp>
 
@@ -113,8 +114,15 @@ bool names_method_table(const std::string& path) {
 const MethodPlugin& integrator_named(const std::string& text) {
   if (!text.ends_with(".toml")) return integrators().get(text, "integrator");
   const std::string path = std::filesystem::absolute(text).lexically_normal().string();
-  for (const auto& table : tables())
-    if (table->path() == path) return *table;
+  static std::mutex mutex;
+  const std::lock_guard lock(mutex);
+  for (const auto& table : tables()) {
+    if (table->path() != path) continue;
+    if (TableDocument(path).contents() != table->contents())
+      throw InputError(path + ": changed since it was read as '" + table->name() +
+                       "'; expected a file that stays as it is");
+    return *table;
+  }
   auto table = read_method_table(path);
   if (const MethodPlugin* taken = integrators().find(table->name()))
     throw InputError(path + ": key 'name': '" + table->name() + "' is registered in " + taken->file() +

@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <pfaff/core/integrator.hpp>
@@ -25,6 +26,8 @@ class MethodTable : public MethodPlugin {
   [[nodiscard]] const std::string& contents() const { return contents_; }
   /// The conditions that were checked; `kind` is empty where there are none.
   [[nodiscard]] const OrderTheory& theory() const { return theory_; }
+  /// The registered methods that the table names, with their settings.
+  [[nodiscard]] virtual std::vector<std::pair<const Plugin*, Assignments>> rests_on() const { return {}; }
 
  protected:
   MethodTable(MethodDescriptor descriptor, std::vector<Parameter> parameters, const std::type_info& type,
@@ -49,8 +52,8 @@ std::unique_ptr<const MethodTable> read_method_table(const std::string& path);
 bool names_method_table(const std::string& path);
 
 /// The registered method of that name or, where it ends in ".toml", the method of that file, which is read
-/// and registered the first time. InputError for an unknown name, a file that is refused, and one whose name
-/// is taken.
+/// and registered the first time. InputError for an unknown name, a file that is refused, one whose name is
+/// taken, and one that has changed since it was registered. Calls of several threads wait for each other.
 const MethodPlugin& integrator_named(const std::string& text);
 
 // What the kinds of tables share, used by their readers.

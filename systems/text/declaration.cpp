@@ -61,11 +61,19 @@ TextFormula read_formula(const Item& value, const std::string& key, bool named =
   return formula;
 }
 
-GivenBracket read_bracket(const Item& value, const std::string& key) {
-  if (value.kind == Kind::text) return {value.source.text, {}, value.source};
+GivenBracket read_bracket(const Item& value, const std::string& key, const std::string& path) {
+  if (value.kind == Kind::text) {
+    try {
+      return {chosen_bracket(value.source.text, path), {}, value.source};
+    } catch (const TextError&) {
+      throw;
+    } catch (const InputError& error) {
+      refuse(value, key + ": " + error.what());
+    }
+  }
   if (value.kind != Kind::list)
     refuse(value, key + ": expected the name of a bracket, a file or rows of expressions");
-  return {"", read_formula(value, key).results, value.source};
+  return {{}, read_formula(value, key).results, value.source};
 }
 
 Behaviour read_behaviour(const Item& value) {
@@ -157,9 +165,9 @@ TextDeclaration read_declaration(const Document& document) {
           read_formula(*value, key, formula == Formula::holonomic || formula == Formula::constraints);
   }
   if (const Item* value = root.find("alpha")) d.formulas[index(Formula::alpha)] = read_alpha(*value);
-  if (const Item* value = root.find("bracket")) d.bracket = read_bracket(*value, "bracket");
+  if (const Item* value = root.find("bracket")) d.bracket = read_bracket(*value, "bracket", d.path);
   if (const Item* value = root.find("symmetric_bracket"))
-    d.symmetric_bracket = read_bracket(*value, "symmetric_bracket");
+    d.symmetric_bracket = read_bracket(*value, "symmetric_bracket", d.path);
   if (const Item* value = root.find("velocity_constraints"))
     d.velocity_constraints = read_velocity_constraints(*value);
   if (const Item* value = root.find("invariants")) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <pfaff/brackets/text/text_bracket.hpp>
 #include <pfaff/core/facets/model.hpp>
 #include <pfaff/core/text/vocabulary.hpp>
 
@@ -27,9 +28,9 @@ struct TextFormula {
   Source place;  // of its value
 };
 
-/// A bracket as the name of a plug-in with its settings or of a file, or as the rows of its tensor.
+/// A bracket as the one that a name or a file has chosen, or as the rows of its tensor.
 struct GivenBracket {
-  std::string plugin;
+  ChosenBracket chosen{};
   std::vector<Expression> rows{};
   Source place;
 };
@@ -65,7 +66,8 @@ struct TextDeclaration {
   }
 };
 
-/// Reads what a document says. TextError where it is no text model.
+/// Reads what a document says, and the brackets that it names. TextError where it is no text model, and for a
+/// bracket that does not exist.
 TextDeclaration read_declaration(const Document& document);
 
 /// Refuses formulas that do not belong together, and a model without any motion, at the place of one of them.

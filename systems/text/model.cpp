@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include <pfaff/brackets/text/text_bracket.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/systems/text/arguments.hpp>
 #include <pfaff/systems/text/legendre.hpp>
@@ -144,20 +143,12 @@ class Builder {
   // The tensor of a bracket, column by column from the sharp map of a plug-in, or as its rows are written.
   void take_bracket(const GivenBracket& bracket, Formula formula) {
     const std::string what = formula == Formula::poisson_tensor ? "bracket" : "symmetric_bracket";
-    if (bracket.plugin.empty()) {
+    if (bracket.chosen.plugin == nullptr) {
       source_.given[index(formula)] =
           recorded(bracket.rows, Arguments::state, "rows of " + what, n_ * n_, bracket.place);
       return;
     }
-    const BracketInstance made = [&] {
-      try {
-        return bracket_instance(bracket.plugin, d_.path);
-      } catch (const TextError&) {
-        throw;
-      } catch (const InputError& error) {
-        refuse(bracket.place, 0, what + ": " + error.what());
-      }
-    }();
+    const BracketInstance& made = bracket.chosen.instance;
     if (static_cast<std::size_t>(made.dimension) != n_)
       refuse(bracket.place, 0,
              what + ": it has dimension " + std::to_string(made.dimension) + "; expected " +

@@ -29,10 +29,8 @@ std::unique_ptr<const TextSystem> TextSystem::read(const std::string& path) {
   const ModelSource source = text::model_source(declaration, text::default_values(declaration.parameters));
   std::vector<std::pair<std::string, std::string>> files{{absolute(path), document.contents}};
   for (const auto& bracket : {declaration.bracket, declaration.symmetric_bracket})
-    if (bracket && text::is_text_file(bracket->plugin)) {
-      const std::string file = text::beside(bracket->plugin, path);
-      files.emplace_back(absolute(file), text::read_document(file).contents);
-    }
+    if (const auto* of_file = bracket ? dynamic_cast<const TextBracket*>(bracket->chosen.plugin) : nullptr)
+      files.emplace_back(absolute(of_file->path()), of_file->contents());
   SystemDescriptor descriptor{.name = declaration.name,
                               .title = declaration.title,
                               .reference = declaration.reference,
@@ -55,6 +53,15 @@ std::shared_ptr<const Model> TextSystem::make(const Assignments& assignments) co
 }
 
 std::vector<Assignments> TextSystem::instances(bool /*full*/) const { return {{}}; }
+
+std::vector<std::pair<const Plugin*, Assignments>> TextSystem::rests_on() const {
+  std::vector<std::pair<const Plugin*, Assignments>> named;
+  for (const auto* bracket : {&declaration_.bracket, &declaration_.symmetric_bracket})
+    if (*bracket && (*bracket)->chosen.plugin != nullptr &&
+        dynamic_cast<const TextBracket*>((*bracket)->chosen.plugin) == nullptr)
+      named.emplace_back((*bracket)->chosen.plugin, (*bracket)->chosen.settings);
+  return named;
+}
 
 const SystemPlugin& system_named(const std::string& name) {
   if (!text::is_text_file(name)) return systems().get(name, "system");

@@ -11,7 +11,8 @@
 
 namespace pfaff {
 
-/// A system read from a file. It is not registered, and found by the path of its file.
+/// A system read from a file, with the brackets that it names. It is not registered, and found by the path of
+/// its file. Models are made of what was read then.
 class TextSystem final : public SystemPlugin {
  public:
   /// Reads a file. InputError, with the place in it, for whatever is wrong there, evaluated with the values
@@ -26,6 +27,8 @@ class TextSystem final : public SystemPlugin {
   [[nodiscard]] std::vector<Assignments> instances(bool full) const override;
   /// The files that it was made of, absolute paths, and what they contained.
   [[nodiscard]] const std::vector<std::pair<std::string, std::string>>& files() const { return files_; }
+  /// The registered brackets that it names, with their settings.
+  [[nodiscard]] std::vector<std::pair<const Plugin*, Assignments>> rests_on() const;
 
  private:
   TextSystem(SystemDescriptor descriptor, std::vector<Parameter> parameters,

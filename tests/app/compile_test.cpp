@@ -68,6 +68,23 @@ TEST_F(Compile, TheConfigurationSaysSoAndRepeatsIt) {
   EXPECT_NE(other.err.find("another run"), std::string::npos) << other.err;
 }
 
+TEST_F(Compile, AnotherCompilerMakesAnotherRun) {
+  const Arguments compiled = run("run") + Arguments{"--compile"};
+  ASSERT_EQ(run_pfaff(compiled).status, 0);
+  EXPECT_NE(text_of(files() / "run/config.toml").find("-ffp-contract=off"), std::string::npos);
+  setenv("CXX", "c++ -O1", 1);
+  const Outcome other = run_pfaff(compiled);
+  EXPECT_EQ(other.status, 2);
+  EXPECT_NE(other.err.find("native is another build"), std::string::npos) << other.err;
+  setenv("CXX", "no-such-compiler", 1);
+  const Outcome none = run_pfaff(compiled);
+  EXPECT_EQ(none.status, 2);
+  EXPECT_NE(none.err.find("native is another build"), std::string::npos) << none.err;
+  EXPECT_EQ(run_pfaff(compiled + Arguments{"--force"}).status, 0);
+  EXPECT_NE(text_of(files() / "run/config.toml").find("interpreted: no compiler"), std::string::npos);
+  unsetenv("CXX");
+}
+
 TEST_F(Compile, WithoutACompilerFormulasAreInterpretedWhichIsSaidOnce) {
   setenv("CXX", "no-such-compiler", 1);
   const Outcome outcome = run_pfaff(run("-") + Arguments{"--compile"});

@@ -108,6 +108,38 @@ TEST(Identity, ARebuiltPluginIsNoticed) {
   EXPECT_EQ(text_of(files / "run/series.csv"), before);
 }
 
+// What a text model or a table of coefficients names is a part of the run as what a parameter names is.
+TEST(Identity, ARebuiltPluginThatAFileNamesIsNoticed) {
+  const TemporaryDirectory files;
+  write(files / "model.toml",
+        "coordinates = [\"q\", \"p\"]\ninitial = [1, 0]\nhamiltonian = \"p^2/2 + q^2/2\"\n"
+        "bracket = \"test-stiff\"\n");
+  write(files / "table.toml",
+        "name = \"twice\"\nkind = \"composition\"\norder = 2\nbase = \"test-verlet\"\n"
+        "weights = [\"1/2\", \"1/2\"]\n");
+  const auto build = [&](const std::string& stiffness) {
+    fs::copy_file(fs::path(PFAFF_TEST_PLUGINS) / ("spring-" + stiffness + ".so"), files.path() / "spring.so",
+                  fs::copy_options::overwrite_existing);
+  };
+  const Arguments plugin{"--plugin", files / "spring.so"};
+  const Arguments model{"--system", files / "model.toml", "--integrator", "rk4"};
+  const Arguments table{"--system", "pendulum", "--integrator", files / "table.toml"};
+  for (const Arguments& named : {model, table}) {
+    build("1");
+    const Arguments run = run_to(files / "run", named + plugin);
+    const Outcome first = run_pfaff(run);
+    ASSERT_EQ(first.status, 0) << first.err;
+    // From the configuration alone, which says where the plug-in is.
+    const Arguments again{"run", "--out", files / "new", "--config", files / "run/config.toml"};
+    EXPECT_EQ(run_pfaff(again).status, 0) << joined(named);
+    EXPECT_EQ(run_pfaff(run).status, 0) << joined(named);
+    build("2");
+    expect_complaint(run_pfaff(run), 2, {"spring.so is another build", "--force"}, joined(named));
+    fs::remove_all(files.path() / "run");
+    fs::remove_all(files.path() / "new");
+  }
+}
+
 TEST(Identity, ConfigRepeatsARunFromAnywhere) {
   const TemporaryDirectory files;
   const std::string name = "a \"chain\" \\ of\ttwo.toml";

@@ -58,6 +58,18 @@ TEST(MethodTable, IsLoadedAsAPluginAndListed) {
             0);
 }
 
+// A table may be based on a method of a shared object, wherever that one is given.
+TEST(MethodTable, IsReadAfterAllSharedObjects) {
+  const TemporaryDirectory files;
+  const Arguments command{"list", "--plugin", files / "none.toml"};
+  expect_complaint(run_pfaff(command + Arguments{"--plugin", files / "missing.so"}), 2, {"missing.so"},
+                   "a shared object behind the table");
+  setenv("PFAFF_PLUGIN_PATH", (files / "nowhere").c_str(), 1);
+  expect_complaint(run_pfaff(command), 2, {"PFAFF_PLUGIN_PATH", "nowhere"}, "a directory of shared objects");
+  unsetenv("PFAFF_PLUGIN_PATH");
+  expect_complaint(run_pfaff(command), 2, {"none.toml"}, "the table alone");
+}
+
 TEST(MethodTable, ItsClaimsAreVerifiedAndFalsified) {
   const Outcome verified = run_pfaff({"verify", shipped + "ruth-3.toml", "--json"});
   EXPECT_EQ(verified.status, 0) << verified.err;
@@ -79,6 +91,18 @@ TEST(MethodTable, IsComparedInExperiments) {
       run_pfaff({"compare", files / "experiment.toml", "--quick", "--out", files / "out"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NE(text_of(files / "out/results.csv").find("pefrl.toml"), std::string::npos);
+}
+
+TEST(MethodTable, OfAnExperimentIsFoundBesideItsFile) {
+  const TemporaryDirectory files;
+  fs::create_directories(files.path() / "tables");
+  write(files / "tables/table.toml", verlet("0.5, 0.5"));
+  write(files / "experiment.toml",
+        "schema = 1\ntitle = \"a table\"\n[[method]]\nlabel = \"table\"\nintegrator = \"tables/table.toml\"\n"
+        "[[case]]\nname = \"pendulum\"\nsystem = \"pendulum\"\ntime = 1\nsteps = [0.1]\n");
+  const Outcome outcome =
+      run_pfaff({"compare", files / "experiment.toml", "--quick", "--out", files / "out"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
 }
 
 TEST(MethodTable, AFileThatIsWrongIsRefusedInOneLine) {

@@ -303,6 +303,21 @@ TEST(MethodTables, AreRegisteredUnderTheirNamesWhenTheyAreNamed) {
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("'verlet' is registered in"), std::string::npos) << error.what();
   }
+  const std::string own =
+      "name = \"own-verlet\"\nkind = \"splitting\"\norder = 2\ndrift = [0.5, 0.5]\nkick = [1]\n";
+  std::ofstream(files / "own.toml") << own;
+  const MethodPlugin& before = integrator_named(files / "own.toml");
+  std::ofstream(files / "own.toml") << "# other bytes\n" << own;
+  try {
+    (void)integrator_named(files / "own.toml");
+    ADD_FAILURE() << "a file that has changed was taken for the one before";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("own.toml: changed since it was read as 'own-verlet'; expected"),
+              std::string::npos)
+        << error.what();
+  }
+  std::ofstream(files / "own.toml") << own;
+  EXPECT_EQ(&integrator_named(files / "own.toml"), &before);
   std::ofstream(files / "model.toml") << "name = \"model\"\nfield = [\"z1\"]\n";
   EXPECT_FALSE(names_method_table(files / "model.toml"));
 }

@@ -194,4 +194,30 @@ TEST(TextModels, TheContentsOfTheFilesBelongToARun) {
   const ResolvedRun changed = resolve(settings);
   EXPECT_EQ(differences(first.origins, changed.origins).size(), 1U);
 }
+
+TEST(TextModels, AreMadeOfTheBracketThatWasRead) {
+  const pfaff::testing::TemporaryDirectory directory;
+  const fs::path file = directory.path() / "model.toml", bracket = directory.path() / "scaled.toml";
+  const auto write = [&](const std::string& scale) {
+    std::ofstream(bracket) << "coordinates = [\"q\", \"p\"]\nsymmetry = \"skew\"\njacobi = true\n"
+                              "tensor = [[\"0\", \"" +
+                                  scale + "\"], [\"-" + scale + "\", \"0\"]]\n";
+  };
+  std::ofstream(file) << "coordinates = [\"q\", \"p\"]\ninitial = [1, 0]\nbracket = \"scaled.toml\"\n"
+                         "hamiltonian = \"p^2/2 + q^2/2\"\n";
+  const auto force = [](const SystemPlugin& system) {
+    const Problem<double> problem(system.make({}));
+    std::vector<double> z{1, 0}, rate(2);
+    problem.field(0, z, rate);
+    return rate[1];
+  };
+  write("2");
+  const SystemPlugin& before = system_named(file.string());
+  EXPECT_EQ(force(before), -2);
+  write("3");
+  EXPECT_EQ(force(before), -2);
+  EXPECT_EQ(force(system_named(file.string())), -3);
+  fs::remove(bracket);
+  EXPECT_EQ(force(before), -2);
+}
 }  // namespace
