@@ -7,11 +7,15 @@ namespace pfaff {
 
 namespace {
 
-// The condition with the largest residual; null where there are none.
+// The condition with the largest residual, one that is no number before all others; null where there are
+// none.
 const OrderCondition* worst_of(const std::vector<OrderCondition>& conditions) {
   const OrderCondition* worst = nullptr;
-  for (const OrderCondition& condition : conditions)
-    if (worst == nullptr || !(relative_residual(condition) <= relative_residual(*worst))) worst = &condition;
+  for (const OrderCondition& condition : conditions) {
+    const Quad residual = relative_residual(condition);
+    const bool no_number = !(residual == residual);
+    if (worst == nullptr || no_number || residual > relative_residual(*worst)) worst = &condition;
+  }
   return worst;
 }
 

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include <pfaff/bench/verification/check.hpp>
 #include <pfaff/integrators/order_conditions/order_condition.hpp>
@@ -57,6 +59,22 @@ TEST(CoefficientChecks, ACoefficientThatIsWrongBy1e9Fails) {
             std::string::npos)
       << checks.front().reason;
   EXPECT_TRUE(check_coefficients(integrators().get("shake", ""), {}).empty());
+}
+
+TEST(CoefficientChecks, AResidualThatIsNoNumberFailsWhateverFollowsIt) {
+  const KnownOrderTheory broken{"lincs", [](const Assignments& /*parameters*/) {
+                                  return OrderTheory{
+                                      "words", 1, {Quad(1)}, [](const std::vector<Quad>& /*weights*/) {
+                                        return std::vector<OrderCondition>{
+                                            {"the first", 1, Quad(0)},
+                                            {"the second", 1, Quad(std::numeric_limits<double>::quiet_NaN())},
+                                            {"the third", 1, Quad(0)}};
+                                      }};
+                                }};
+  const Check check = check_coefficients(integrators().get("lincs", ""), {}).at(0);
+  EXPECT_EQ(check.result, CheckResult::fail);
+  EXPECT_TRUE(std::isnan(check.measured));
+  EXPECT_EQ(check.reason.find("the second"), 0U) << check.reason;
 }
 
 }  // namespace
