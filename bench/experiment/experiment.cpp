@@ -14,6 +14,7 @@
 #include <pfaff/bench/runner/directory_lock.hpp>
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/bench/runner/run_directory.hpp>
+#include <pfaff/core/text/source.hpp>
 
 namespace pfaff {
 
@@ -146,6 +147,7 @@ ResolvedRun resolved(const Experiment& experiment, const ExperimentRun& run) {
   settings.structure_residuals = c.structure && run.seed == 0;
   settings.of_case = c.name;
   settings.of_method = m.label;
+  const std::string where = experiment.name + ", case " + c.name + ", method " + m.label + ": ";
   try {
     ResolvedRun result = resolve(settings);
     // An ensemble keeps many runs, and so fewer samples of each.
@@ -153,8 +155,10 @@ ResolvedRun resolved(const Experiment& experiment, const ExperimentRun& run) {
     if (run.seed > 0 && !result.adaptive())
       result.every = std::max<std::int64_t>(1, (result.steps + ensemble_samples - 1) / ensemble_samples);
     return result;
+  } catch (const text::TextError& error) {
+    throw text::TextError(where + error.what(), error.excerpt());
   } catch (const InputError& error) {
-    throw InputError(experiment.name + ", case " + c.name + ", method " + m.label + ": " + error.what());
+    throw InputError(where + error.what());
   }
 }
 

@@ -91,12 +91,12 @@ std::string results_csv(const std::vector<ExperimentRun>& runs,
     const ExperimentRun& run = runs[k];
     const nlohmann::json& s = summaries[k];
     const double steps = std::max(1.0, s["counts"]["steps"].get<double>());
-    text << csv_quoted(run.which->name) << ',' << run.which->system << ',' << csv_quoted(run.method->label)
-         << ',' << run.method->integrator << ',' << csv_quoted(parameters_of(run)) << ','
-         << csv_quoted(run.step) << ',' << to_string(run.resolved.time) << ',' << s["completed"] << ','
-         << s["precision"].get<std::string>() << ',' << s["status"].get<std::string>() << ','
-         << csv_quoted(s["message"]) << ',' << cell(s["error_max"]) << ',' << cell(s["error_final"]) << ','
-         << cell(s["structure_residual"]);
+    text << csv_quoted(run.which->name) << ',' << csv_quoted(run.which->system) << ','
+         << csv_quoted(run.method->label) << ',' << csv_quoted(run.method->integrator) << ','
+         << csv_quoted(parameters_of(run)) << ',' << csv_quoted(run.step) << ','
+         << to_string(run.resolved.time) << ',' << s["completed"] << ',' << s["precision"].get<std::string>()
+         << ',' << s["status"].get<std::string>() << ',' << csv_quoted(s["message"]) << ','
+         << cell(s["error_max"]) << ',' << cell(s["error_final"]) << ',' << cell(s["structure_residual"]);
     for (const char* count : {"right_hand_sides", "jacobians", "iterations", "factorisations"})
       text << ',' << as_text(s["counts"][count].get<double>() / steps, "%.6g");
     for (const std::string& name : invariants) text << drift_cells(entry(s, "invariants", name));

@@ -80,7 +80,8 @@ std::vector<Check> check_changed_coefficient(const MethodPlugin& plugin, const A
                                              const SystemPlugin& system);
 /// The order conditions of the method's own coefficients, by trees, Lie words or whatever theory is known for
 /// it (integrators/order_conditions), with a control for each coefficient: the same conditions with 1e-9
-/// added to it, of which one must be violated. Empty where no theory is known.
+/// added to it and taken from another one, so that the condition of order 1 holds; one of order 2 or more
+/// must be violated. Empty where no theory is known.
 std::vector<Check> check_coefficients(const MethodPlugin& plugin, const Assignments& parameters);
 /// Checks the structure, chart, overrides, invariants and exact solution of a system with these parameters.
 std::vector<Check> check_system(const SystemPlugin& system, const Assignments& parameters = {});

@@ -17,10 +17,10 @@ struct Member;
 struct Item {
   enum class Kind { text, number, truth, list, table, other };
   Kind kind = Kind::other;
-  Source source{};                // of texts, numbers and truths ("true"); of others the place alone
-  bool whole = false;             // of numbers: written as an integer
-  std::vector<Item> items{};      // of lists
-  std::vector<Member> members{};  // of tables, in the order of writing
+  Source source{};              // of texts, numbers and truths ("true"); of others the place alone
+  bool whole = false;           // of numbers: written as an integer
+  std::vector<Item> items;      // of lists
+  std::vector<Member> members;  // of tables, in the order of writing
 };
 /// A key of a table, and its value.
 struct Member {

@@ -27,7 +27,7 @@ const Method<LeapFrog> registered{
 const KnownOrderTheory conditions{
     "leap-frog", [](const Assignments& /*parameters*/) {
       const auto lengths = pfaff::LeapFrog().lengths;
-      return OrderTheory{
+      OrderTheory theory{
           "multistep", 2, {lengths.begin(), lengths.end()}, [](const std::vector<Quad>& numbers) {
             const Quad &half = numbers[0], &leap = numbers[1];
             auto list =
@@ -39,5 +39,7 @@ const KnownOrderTheory conditions{
             }
             return list;
           }};
+      theory.sums = {OrderTheory::in_no_sum, 0};
+      return theory;
     }};
 }  // namespace

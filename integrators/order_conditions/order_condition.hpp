@@ -53,6 +53,11 @@ struct OrderTheory {
   std::vector<Quad> coefficients;
   std::function<std::vector<OrderCondition>(const std::vector<Quad>& coefficients)> conditions;
   Quad precision = precision_of_quad_coefficients;
+  /// For each coefficient the number of the sum in a condition of order 1 that it is a term of, such as the
+  /// sum of all drifts, or in_no_sum. Where the list is empty there is one sum of all.
+  std::vector<int> sums{};
+  int next_order = 2;  // the lowest order above 1 that has conditions
+  static constexpr int in_no_sum = -1;
 };
 
 /// Says what the theory of a registered method is; a static object beside the registration of the method.

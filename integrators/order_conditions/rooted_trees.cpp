@@ -77,6 +77,37 @@ std::vector<OrderCondition> tree_conditions(const RungeKuttaTableau<Quad>& table
   return conditions;
 }
 
+OrderTheory tree_theory(const RungeKuttaTableau<Quad>& tableau, int order, bool is_explicit) {
+  const std::size_t s = tableau.stages();
+  const std::vector<Quad> weights = elementary_weights(tableau, order);
+  const Quad amount(1e-9), least_change(1e-13);
+  std::vector<std::size_t> entries;  // of a, that are coefficients
+  for (std::size_t i = 0; i < s; ++i)
+    for (std::size_t j = 0; j < (is_explicit ? i : s); ++j) {
+      RungeKuttaTableau<Quad> other = tableau;
+      other.a[i * s + j] += amount;
+      const std::vector<Quad> changed = elementary_weights(other, order);
+      Quad change(0);
+      for (std::size_t k = 0; k < weights.size(); ++k)
+        change = std::max(change, abs(changed[k] - weights[k]));
+      if (change > least_change) entries.push_back(i * s + j);
+    }
+  OrderTheory theory{"trees", order, tableau.b, {}};
+  theory.sums.assign(s, 0);
+  for (const std::size_t entry : entries) {
+    theory.coefficients.push_back(tableau.a[entry]);
+    theory.sums.push_back(OrderTheory::in_no_sum);
+  }
+  theory.conditions = [tableau, entries, order](const std::vector<Quad>& numbers) {
+    RungeKuttaTableau<Quad> other = tableau;
+    const auto end_of_b = numbers.begin() + static_cast<std::ptrdiff_t>(other.stages());
+    std::copy(numbers.begin(), end_of_b, other.b.begin());
+    for (std::size_t k = 0; k < entries.size(); ++k) other.a[entries[k]] = numbers[other.stages() + k];
+    return tree_conditions(other, order);
+  };
+  return theory;
+}
+
 std::vector<OrderCondition> symplecticity_conditions(const RungeKuttaTableau<Quad>& tableau) {
   const std::size_t s = tableau.stages();
   const auto& [a, b] = tableau;

@@ -64,6 +64,11 @@ std::vector<T> elementary_weights(const RungeKuttaTableau<T>& tableau, int order
 /// The conditions of every tree of up to `order` nodes; `order` is at most largest_tree.
 std::vector<OrderCondition> tree_conditions(const RungeKuttaTableau<Quad>& tableau, int order);
 
+/// The theory up to `order` of a method of which b and the entries of a can be chosen: its coefficients are b
+/// and then those entries of a, row by row, that enter a condition to first order. The others are left out,
+/// as these conditions do not determine them. In an explicit method a is strictly lower triangular.
+OrderTheory tree_theory(const RungeKuttaTableau<Quad>& tableau, int order, bool is_explicit);
+
 /// The conditions b_i a_ij + b_j a_ji = b_i b_j, i <= j, by which the method keeps quadratic invariants and
 /// constant symplectic structures (hairer-lubich-wanner2006, theorems IV.2.2 and VI.4.3). Their `order` is 0.
 std::vector<OrderCondition> symplecticity_conditions(const RungeKuttaTableau<Quad>& tableau);

@@ -29,11 +29,8 @@ RungeKuttaTableau<Quad> tableau_of(const std::vector<Quad>& numbers) {
   return tableau;
 }
 
-const KnownOrderTheory conditions{
-    "rk4", [](const Assignments& /*parameters*/) {
-      const auto numbers = RungeKutta4().tableau;
-      return OrderTheory{"trees", 4, {numbers.begin(), numbers.end()}, [](const std::vector<Quad>& others) {
-                           return tree_conditions(tableau_of(others), 4);
-                         }};
-    }};
+const KnownOrderTheory conditions{"rk4", [](const Assignments& /*parameters*/) {
+                                    const auto numbers = RungeKutta4().tableau;
+                                    return tree_theory(tableau_of({numbers.begin(), numbers.end()}), 4, true);
+                                  }};
 }  // namespace

@@ -30,13 +30,10 @@ const Method<ImplicitMidpoint> midpoint{
      .order = 2,
      .preserves = {Claim::symmetric, Claim::reversible, Claim::symplectic, Claim::quadratic_invariants}}};
 
-// The weights b are the coefficients that may change; a stays that of Gauss. Trees are listed up to order 10.
+// Trees are listed up to order 10.
 OrderTheory gauss_theory(int stages) {
   const GaussCoefficients g = gauss_coefficients(stages);
-  const int order = std::min(2 * stages, largest_tree);
-  return {"trees", order, g.weights, [a = g.matrix, order](const std::vector<Quad>& weights) {
-            return tree_conditions({a, weights}, order);
-          }};
+  return tree_theory({g.matrix, g.weights}, std::min(2 * stages, largest_tree), false);
 }
 const KnownOrderTheory gauss_conditions{"gauss", [](const Assignments& parameters) {
                                           Gauss method;

@@ -34,15 +34,17 @@ const Method<SymplecticEuler> symplectic_euler{
 
 template <Part First, std::size_t N>
 OrderTheory theory_of(const Splitting<First, N>& method, int order) {
-  return {"words",
-          order,
-          {method.coefficient.begin(), method.coefficient.end()},
-          [order](const std::vector<Quad>& lengths) {
-            std::vector<PartialFlow> flows;
-            for (std::size_t k = 0; k < lengths.size(); ++k)
-              flows.push_back({(k + (First == Part::kick ? 1 : 0)) % 2, lengths[k]});
-            return splitting_conditions(flows, order);
-          }};
+  OrderTheory theory{"words",
+                     order,
+                     {method.coefficient.begin(), method.coefficient.end()},
+                     [order](const std::vector<Quad>& lengths) {
+                       std::vector<PartialFlow> flows;
+                       for (std::size_t k = 0; k < lengths.size(); ++k)
+                         flows.push_back({(k + (First == Part::kick ? 1 : 0)) % 2, lengths[k]});
+                       return splitting_conditions(flows, order);
+                     }};
+  for (std::size_t k = 0; k < N; ++k) theory.sums.push_back(static_cast<int>(k % 2));
+  return theory;
 }
 const KnownOrderTheory verlet_conditions{
     "verlet", [](const Assignments& /*parameters*/) { return theory_of(pfaff::Verlet(), 2); }};

@@ -122,6 +122,7 @@ std::unique_ptr<const MethodTable> read_composition_table(TableDocument& documen
   theory.conditions = [order](const std::vector<Quad>& others) {
     return composition_conditions(others, order);
   };
+  theory.next_order = 3;
   return std::make_unique<CompositionTable>(head.descriptor, document, std::move(theory), base);
 }
 

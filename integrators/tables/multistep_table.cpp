@@ -192,6 +192,8 @@ std::unique_ptr<const MethodTable> read_multistep_table(TableDocument& document,
   theory.conditions = [order](const std::vector<Quad>& numbers) {
     return multistep_conditions(polynomials_of(numbers), order);
   };
+  // The condition of order 1 is that the sum of r_j is the sum of sigma_j.
+  for (std::size_t k = 0; k < theory.coefficients.size(); ++k) theory.sums.push_back(k + 1 < length ? 0 : 1);
   return std::make_unique<TableOf<MultistepTable>>(head.descriptor, document, std::move(theory),
                                                    std::move(made));
 }

@@ -112,14 +112,6 @@ bool is_explicit(const RungeKuttaTableau<Quad>& tableau) {
   return true;
 }
 
-OrderTheory theory_of(const RungeKuttaTableau<Quad>& tableau, const TableHead& head) {
-  OrderTheory theory{"trees", head.descriptor.order, tableau.b, {}, head.precision};
-  theory.conditions = [a = tableau.a, order = theory.order](const std::vector<Quad>& b) {
-    return tree_conditions({a, b}, order);
-  };
-  return theory;
-}
-
 // What the numbers keep, and for a claim what speaks against it.
 std::vector<Claim> claims_of(TableDocument& document, const RungeKuttaTableau<Quad>& tableau,
                              const Quad& precision) {
@@ -156,7 +148,8 @@ std::unique_ptr<const MethodTable> read_runge_kutta_table(TableDocument& documen
   head.descriptor.preserves = claims_of(document, tableau, head.precision);
   document.finish();
   require_order(document, head, tree_conditions(tableau, std::min(order + 1, largest_tree)));
-  OrderTheory theory = theory_of(tableau, head);
+  OrderTheory theory = tree_theory(tableau, order, is_explicit(tableau));
+  theory.precision = head.precision;
   if (is_explicit(tableau)) {
     ExplicitTable method;
     method.tableau = std::move(tableau);

@@ -165,6 +165,7 @@ std::unique_ptr<const MethodTable> read_splitting_table(TableDocument& document,
   }
   method.quadratic_kinetic = step.parts == Parts::quadratic_kinetic;
   OrderTheory theory{"words", order, method.lengths, {}, head.precision};
+  for (const std::size_t part : method.parts) theory.sums.push_back(static_cast<int>(part));
   theory.conditions = [parts = method.parts, order, known = step.parts](const std::vector<Quad>& lengths) {
     std::vector<PartialFlow> flows;
     for (std::size_t k = 0; k < parts.size(); ++k) flows.push_back({parts[k], lengths[k]});

@@ -67,13 +67,13 @@ void TextNames::define_state(Scope& scope, const std::vector<Recorded>& values,
   }
 }
 
-// The coordinates from `first` on, as many as there are values; the others are known and not to be read.
+// The coordinates from `first` on, as many as there are values; the others are known and not to be read,
+// which an error explains by what the formula is a function `of`, besides the time.
 void TextNames::define_half(Scope& scope, std::size_t first, const std::vector<Recorded>& values,
-                            const std::string& what) const {
+                            const std::string& what, const std::string& of) const {
   for (const Block& block : blocks_) {
     if (block.first < first || block.first + block.count > first + values.size()) {
-      scope.withhold(block.name, "is no argument of " + what + ", a function of " +
-                                     (first == 0 ? "positions" : "momenta") + " and time");
+      scope.withhold(block.name, "is no argument of " + what + ", a function of " + of + " and time");
       continue;
     }
     const auto begin = values.begin() + static_cast<std::ptrdiff_t>(block.first - first);
@@ -101,13 +101,13 @@ Scope TextNames::scope(Arguments arguments, const std::string& what, const Recor
       define_state(scope, inputs);
       break;
     case Arguments::positions:
-      define_half(scope, 0, inputs, what);
+      define_half(scope, 0, inputs, what, "positions");
       break;
     case Arguments::momenta:
-      define_half(scope, dimension() / 2, inputs, what);
+      define_half(scope, dimension() / 2, inputs, what, "momenta");
       break;
     case Arguments::velocities:
-      define_half(scope, 0, {inputs.begin(), inputs.begin() + n / 2}, what);
+      define_half(scope, 0, {inputs.begin(), inputs.begin() + n / 2}, what, "positions, velocities");
       define_list(scope, velocities_, "v", {inputs.begin() + n / 2, inputs.end()});
       break;
     case Arguments::chart:

@@ -45,7 +45,7 @@ class TextNames {
   };
   void define_state(Scope& scope, const std::vector<Recorded>& values, const std::string& prefix = {}) const;
   void define_half(Scope& scope, std::size_t first, const std::vector<Recorded>& values,
-                   const std::string& what) const;
+                   const std::string& what, const std::string& of) const;
   static void define_list(Scope& scope, const std::vector<std::string>& names, const std::string& otherwise,
                           const std::vector<Recorded>& values);
 

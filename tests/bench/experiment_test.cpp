@@ -10,6 +10,7 @@
 #include <pfaff/bench/experiment/results.hpp>
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/core/bracket.hpp>
+#include <pfaff/core/text/source.hpp>
 
 namespace {
 
@@ -90,6 +91,23 @@ TEST_F(Experiments, ClaimsAreThoseInScopeOfEachSystem) {
        {"preserves", {"symmetric", "reversible", "symplectic", "quadratic-invariants"}}}};
   EXPECT_EQ(j["methods"][0]["systems"], gauss);
   EXPECT_EQ(j["methods"][1]["systems"][0]["preserves"], nlohmann::json{"none"});
+}
+
+TEST_F(Experiments, ErrorsOfTextModelsKeepTheirExcerpt) {
+  const std::string model = (directory / "model.toml").string();
+  write_file(model, "coordinates = [\"q\", \"p\"]\nkinetic = \"p^2/2\"\npotential = \"mass*q\"\n");
+  try {
+    (void)expand(
+        read("[[method]]\nlabel = \"RK4\"\nintegrator = \"rk4\"\n"
+             "[[case]]\nname = \"spring\"\nsystem = \"" +
+             model + "\"\ntime = 1\ninitial = [1, 0]\nsteps = [0.5]\n"));
+    FAIL() << "accepted";
+  } catch (const text::TextError& error) {
+    EXPECT_NE(std::string(error.what()).find("case spring, method RK4: "), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("model.toml:3:14: unknown name 'mass'"), std::string::npos)
+        << error.what();
+    EXPECT_EQ(error.excerpt(), "  mass*q\n  ^");
+  }
 }
 
 TEST_F(Experiments, TimingsAreKeptAsTheyCome) {

@@ -68,6 +68,9 @@ TEST(TextModelRefusals, Formulas) {
                  "model.toml:3:22: 'p' is no argument of potential, a function of positions and time");
   expect_refused(two + "kinetic = \"q^2/2\"\npotential = \"q^2/2\"\n",
                  "model.toml:2:12: 'q' is no argument of kinetic, a function of momenta and time");
+  expect_refused(
+      two + "lagrangian = \"v[1]^2/2 + p\"\n",
+      "model.toml:2:26: 'p' is no argument of lagrangian, a function of positions, velocities and time");
   expect_refused(two + "field = [\"p\"]\n", "model.toml:2:9: field: expected 2 expressions, got 1");
   expect_refused(two + "field = [\"p\", \"-sin(r)\"]\n", "model.toml:2:21: unknown name 'r'");
   expect_refused(two + "field = [\"p\", \"-x\"]\n[let]\nx = \"y\"\ny = \"2*x\"\n",
