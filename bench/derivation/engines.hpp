@@ -46,6 +46,10 @@ class ConstraintsByMinors final : public TapedConstraints<T> {
         product[row(i)] = product[row(i)] + inverse_(i, j) * r[row(j)];
     std::copy(product.begin(), product.end(), x.begin());
   }
+  void solve(In<T> r1, Out<T> x1, In<T> r2, Out<T> x2) const override {
+    solve(r1, x1);
+    solve(r2, x2);
+  }
 
  private:
   // The constraint that is the k-th along the path.

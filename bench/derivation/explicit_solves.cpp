@@ -17,7 +17,7 @@ class Witnessed {
   Witnessed() = default;
   Witnessed(int value) : node_(value), value_(value) {}  // NOLINT(google-explicit-constructor)
   explicit Witnessed(const Real& value) : node_(value), value_(value.quad()) {}
-  Witnessed(Recorded node, Quad value) : node_(std::move(node)), value_(value) {}
+  Witnessed(const Recorded& node, Quad value) : node_(node), value_(value) {}
 
   [[nodiscard]] const Recorded& node() const { return node_; }
   [[nodiscard]] Quad value() const { return value_; }

@@ -19,7 +19,7 @@ class Scaled {
   Scaled() = default;
   Scaled(int value) : Scaled(Recorded(value)) {}  // NOLINT(google-explicit-constructor)
   explicit Scaled(const Real& value) : Scaled(Recorded(value)) {}
-  explicit Scaled(Recorded core) : core_(std::move(core)) {}
+  explicit Scaled(const Recorded& core) : core_(core) {}
 
   /// The number as one node.
   [[nodiscard]] Recorded whole() const;
@@ -38,7 +38,7 @@ class Scaled {
   friend Scaled select(const Scaled& condition, const Scaled& positive, const Scaled& otherwise);
 
  private:
-  Scaled(const Real& scale, Recorded core) : scale_(scale), core_(std::move(core)) {}
+  Scaled(const Real& scale, const Recorded& core) : scale_(scale), core_(core) {}
   // The factors of a constant are a part of it; a constant has the scale 1.
   static Scaled of(const Real& scale, const Recorded& core);
   [[nodiscard]] bool is_constant() const { return core_.is_constant(); }

@@ -35,7 +35,7 @@ Phrase Cpp::choice(const Phrase& condition, const Phrase& positive, const Phrase
   return {"(" + condition.text + " > 0.0 ? " + positive.text + " : " + otherwise.text + ")", Strength::atom};
 }
 
-bool cut_into_parts(const Tape& tape) { return tape.code.size() > 2U * cpp_part_size; }
+bool cut_into_parts(const Tape& tape) { return tape.code.size() / 2 > cpp_part_size; }
 
 Plan cpp_plan(const Tape& tape, const Cpp& language) {
   PlanRules rules = language.rules();

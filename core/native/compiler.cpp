@@ -90,7 +90,7 @@ fs::path cache() {
   }
   std::error_code ignored;
   fs::create_directories(parent, ignored);
-  const fs::path directory = parent / "pfaff-native";
+  fs::path directory = parent / "pfaff-native";
   if (mkdir(directory.c_str(), 0700) != 0 && errno != EEXIST)
     throw RunError("cannot make the directory '" + directory.string() + "': " + std::strerror(errno));
   struct stat status {};

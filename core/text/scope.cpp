@@ -212,8 +212,9 @@ Recorded Scope::function(const Expression& of, std::size_t number) {
 
 Recorded Scope::named(const Expression& of, std::size_t number) {
   const std::string& name = of.node(number).name;
-  for (auto i = indices_.rbegin(); i != indices_.rend(); ++i)
-    if (i->name == name) return i->value;
+  const auto index =
+      std::find_if(indices_.rbegin(), indices_.rend(), [&](const Index& i) { return i.name == name; });
+  if (index != indices_.rend()) return index->value;
   const Entry& found = entry(of, number);
   if (found.state == Entry::State::elements)
     fail(of, number,
