@@ -91,8 +91,7 @@ class CompositionTable final : public MethodTable {
 
 // The base, which has to be symmetric, of order 2, and to say how it is composed.
 PluginValue read_base(TableDocument& document) {
-  const PluginValue base =
-      parse_plugin_value(document.required_text("base"), document.path() + ": key 'base'");
+  PluginValue base = parse_plugin_value(document.required_text("base"), document.path() + ": key 'base'");
   const MethodPlugin& plugin = integrators().get(base.name, "integrator");
   const auto instance = plugin.make(base.settings);
   if (!contains(plugin.descriptor().preserves, Claim::symmetric) || plugin.descriptor().order != 2 ||
@@ -108,7 +107,7 @@ PluginValue read_base(TableDocument& document) {
 namespace pfaff {
 
 std::unique_ptr<const MethodTable> read_composition_table(TableDocument& document, TableHead head) {
-  const PluginValue base = read_base(document);
+  PluginValue base = read_base(document);
   const std::vector<Quad> weights = document.numbers("weights");
   const int order = head.descriptor.order;
   if (order > largest_degree)
@@ -123,7 +122,7 @@ std::unique_ptr<const MethodTable> read_composition_table(TableDocument& documen
     return composition_conditions(others, order);
   };
   theory.next_order = 3;
-  return std::make_unique<CompositionTable>(head.descriptor, document, std::move(theory), base);
+  return std::make_unique<CompositionTable>(head.descriptor, document, std::move(theory), std::move(base));
 }
 
 }  // namespace pfaff
