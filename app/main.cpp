@@ -25,8 +25,7 @@ CLI::App* subcommand(CLI::App& app, Common& common, const std::string& name, con
   sub->group("Commands");
   sub->add_flag("--json", common.json, "Print JSON instead of text");
   sub->add_option("--plugin", common.plugins,
-                  "Load a plug-in's shared object, or a table of coefficients (.toml), which is read "
-                  "after all shared objects; may be repeated")
+                  "Load a plug-in's shared object or a table (.toml); may be repeated")
       ->type_name("FILE")
       ->expected(1)
       ->allow_extra_args(false)

@@ -284,8 +284,8 @@ std::vector<SparseGradient> sparse_gradients(const Tape& tape, const Recorded& t
       cone.push_back(slot);
     };
     reach(static_cast<std::size_t>(tape.outputs[r]));
-    for (std::size_t next = 0; next < cone.size();
-         ++next) {  // NOLINT(modernize-loop-convert): the cone grows
+    // NOLINTNEXTLINE(modernize-loop-convert): the cone grows
+    for (std::size_t next = 0; next < cone.size(); ++next) {
       const std::size_t k = cone[next];
       if (tape.code[k].operation == Operation::solve_next) reach(group_start(tape.code, k));
       operands(tape.code[k], tape.solves, [&](int slot) { reach(static_cast<std::size_t>(slot)); });

@@ -276,7 +276,8 @@ TEST(MethodTables, ThoseOfNystroemRefuseOtherKineticEnergies) {
                                     .reference = "none",
                                     .coordinates = {{"q", "m"}, {"p", "m/s"}},
                                     .initial = {1, 1}};
-  const auto nystroem = read_method_table(shipped + "blanes-moan-srkn6.toml")->make({});
+  const auto table = read_method_table(shipped + "blanes-moan-srkn6.toml");
+  const auto nystroem = table->make({});
   Relativistic system;
   EXPECT_NE(nystroem->refuses(*make_model(descriptor, system)).find("quadratic in the momenta only"),
             std::string::npos);
