@@ -1,8 +1,8 @@
 // Compositions of symmetric methods of order 2 as one plug-in: a scheme, which is a family of weights, over a
 // base, and the short names of those that are met most. Families: yoshida1990 (few stages, large errors),
 // suzuki1990 (many stages, smaller ones), kahan-li1997 (the best known of orders 6 and 8).
-#include <pfaff/core/integrator.hpp>
 #include <pfaff/core/method_alias.hpp>
+#include <pfaff/integrators/composition/composed_instance.hpp>
 #include <pfaff/integrators/composition/composition_weights.hpp>
 #include <pfaff/integrators/order_conditions/word_conditions.hpp>
 
@@ -83,52 +83,6 @@ struct Composing {
   }
 };
 
-// The base's own composition under the name and with the parameters of this plug-in.
-class CompositionInstance final : public MakerOf<CompositionInstance, MethodInstance> {
- public:
-  CompositionInstance(const MethodPlugin& plugin, Composing settings,
-                      std::unique_ptr<MethodInstance> composed)
-      : plugin_(plugin), settings_(std::move(settings)), composed_(std::move(composed)) {}
-
-  [[nodiscard]] const MethodDescriptor& descriptor() const override { return plugin_.descriptor(); }
-  [[nodiscard]] Assignments parameters() const override { return resolved(plugin_.parameters(), &settings_); }
-  [[nodiscard]] FacetSet needs() const override { return composed_->needs(); }
-  [[nodiscard]] int order(const Model& /*model*/) const override { return std::stoi(settings_.order); }
-  [[nodiscard]] bool order_is_lower_bound() const override { return composed_->order_is_lower_bound(); }
-  [[nodiscard]] bool order_is_exact() const override { return composed_->order_is_exact(); }
-  /// What the base keeps in steps of either sign. Claims on entropy are left out: a sub-step back in time
-  /// lets it fall.
-  [[nodiscard]] std::vector<Claim> preserves(const Model& model) const override {
-    std::vector<Claim> kept = composed_->preserves(model);
-    std::erase(kept, Claim::entropy);
-    return kept;
-  }
-  [[nodiscard]] std::string called() const override { return plugin_.name() + " of " + settings_.base.name; }
-  [[nodiscard]] std::string objection(const Model& model) const override {
-    return composed_->objection(model);
-  }
-  [[nodiscard]] bool adaptive() const override { return false; }
-  [[nodiscard]] std::size_t coefficient_count() const override { return composed_->coefficient_count(); }
-  [[nodiscard]] std::unique_ptr<MethodInstance> with_changed_coefficient(std::size_t index,
-                                                                         Quad amount) const override {
-    return std::make_unique<CompositionInstance>(plugin_, settings_,
-                                                 composed_->with_changed_coefficient(index, amount));
-  }
-  /// Null, because the weights are made for bases of order 2 and a composition is of a higher order.
-  [[nodiscard]] std::unique_ptr<MethodInstance> composed(std::vector<Quad> /*weights*/) const override {
-    return nullptr;
-  }
-  template <class T>
-  [[nodiscard]] StepperPointer<T> made(std::shared_ptr<const Model> model) const {
-    return composed_->stepper(std::move(model), T());
-  }
-
- private:
-  const MethodPlugin& plugin_;
-  Composing settings_;
-  std::unique_ptr<MethodInstance> composed_;
-};
-
 const Scheme& scheme_of(const Composing& settings) {
   return *std::find_if(schemes().begin(), schemes().end(),
                        [&](const Scheme& s) { return s.name == settings.scheme; });
@@ -162,8 +116,13 @@ class CompositionPlugin final : public MethodPlugin {
     Composing settings = settings_of(*this, assignments);
     const auto base = made_base(settings.base);
     settings.base.settings = base->parameters();
-    auto composed = base->composed(scheme_of(settings).weights(std::stoi(settings.order)));
-    return std::make_unique<CompositionInstance>(*this, std::move(settings), std::move(composed));
+    const int order = std::stoi(settings.order);
+    return std::make_unique<ComposedInstance>(
+        ComposedStatement{.plugin = this,
+                          .parameters = resolved(parameters(), &settings),
+                          .called = name() + " of " + settings.base.name,
+                          .order = order},
+        base->composed(scheme_of(settings).weights(order)));
   }
 
   [[nodiscard]] std::vector<Assignments> instances(bool full) const override {

@@ -3,6 +3,7 @@
 // parameters where they are wanted, "verlet(compensated=no)".
 #include <algorithm>
 
+#include <pfaff/integrators/composition/composed_instance.hpp>
 #include <pfaff/integrators/order_conditions/word_conditions.hpp>
 #include <pfaff/integrators/tables/method_table.hpp>
 
@@ -12,54 +13,6 @@ using namespace pfaff;
 bool contains(const std::vector<Claim>& claims, Claim claim) {
   return std::find(claims.begin(), claims.end(), claim) != claims.end();
 }
-
-// The base's own composition, under the name and with the order of the table.
-class ComposedInstance final : public MakerOf<ComposedInstance, MethodInstance> {
- public:
-  ComposedInstance(const MethodPlugin& plugin, std::unique_ptr<MethodInstance> composed, bool palindrome)
-      : plugin_(plugin), composed_(std::move(composed)), palindrome_(palindrome) {}
-
-  [[nodiscard]] const MethodDescriptor& descriptor() const override { return plugin_.descriptor(); }
-  [[nodiscard]] Assignments parameters() const override { return {}; }
-  [[nodiscard]] FacetSet needs() const override { return composed_->needs(); }
-  [[nodiscard]] int order(const Model& /*model*/) const override { return plugin_.descriptor().order; }
-  [[nodiscard]] bool order_is_lower_bound() const override { return composed_->order_is_lower_bound(); }
-  [[nodiscard]] bool order_is_exact() const override { return composed_->order_is_exact(); }
-  /// What the base keeps in steps of either sign; symmetry only where the weights are symmetric. Claims on
-  /// entropy are left out: a sub-step back in time lets it fall.
-  [[nodiscard]] std::vector<Claim> preserves(const Model& model) const override {
-    std::vector<Claim> kept = composed_->preserves(model);
-    std::erase(kept, Claim::entropy);
-    if (!palindrome_) {
-      std::erase(kept, Claim::symmetric);
-      std::erase(kept, Claim::reversible);
-    }
-    return kept;
-  }
-  [[nodiscard]] std::string objection(const Model& model) const override {
-    return composed_->objection(model);
-  }
-  [[nodiscard]] bool adaptive() const override { return false; }
-  [[nodiscard]] std::size_t coefficient_count() const override { return composed_->coefficient_count(); }
-  [[nodiscard]] std::unique_ptr<MethodInstance> with_changed_coefficient(std::size_t index,
-                                                                         Quad amount) const override {
-    return std::make_unique<ComposedInstance>(plugin_, composed_->with_changed_coefficient(index, amount),
-                                              palindrome_);
-  }
-  /// Null: the weights of further compositions are made for bases of order 2.
-  [[nodiscard]] std::unique_ptr<MethodInstance> composed(std::vector<Quad> /*weights*/) const override {
-    return nullptr;
-  }
-  template <class T>
-  [[nodiscard]] StepperPointer<T> made(std::shared_ptr<const Model> model) const {
-    return composed_->stepper(std::move(model), T());
-  }
-
- private:
-  const MethodPlugin& plugin_;
-  std::unique_ptr<MethodInstance> composed_;
-  bool palindrome_;
-};
 
 class CompositionTable final : public MethodTable {
  public:
@@ -72,7 +25,12 @@ class CompositionTable final : public MethodTable {
   [[nodiscard]] std::unique_ptr<MethodInstance> make(const Assignments& assignments) const override {
     assign_all(parameters(), nullptr, assignments, "integrator " + name());
     auto base = integrators().get(base_.name, "integrator").make(base_.settings);
-    return std::make_unique<ComposedInstance>(*this, base->composed(weights()), palindrome_);
+    return std::make_unique<ComposedInstance>(ComposedStatement{.plugin = this,
+                                                                .parameters = {},
+                                                                .called = name(),
+                                                                .order = descriptor().order,
+                                                                .palindrome = palindrome_},
+                                              base->composed(weights()));
   }
   [[nodiscard]] std::vector<Assignments> instances(bool /*full*/) const override { return {{}}; }
   [[nodiscard]] std::vector<std::pair<const Plugin*, Assignments>> rests_on() const override {
