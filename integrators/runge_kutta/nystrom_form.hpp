@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <pfaff/core/facets/problem.hpp>
+#include <pfaff/core/solve/summation.hpp>
 #include <pfaff/core/tape/linear.hpp>
 #include <pfaff/integrators/runge_kutta/collocation_coefficients.hpp>
 #include <pfaff/integrators/runge_kutta/stage_iteration.hpp>

@@ -18,7 +18,7 @@
 #include <pfaff/core/linear/lu.hpp>
 #include <pfaff/core/linear/vector.hpp>
 #include <pfaff/core/solve/newton.hpp>
-#include <pfaff/core/solve/summation.hpp>
+#include <pfaff/core/solve/sum_of_two.hpp>
 #include <pfaff/integrators/runge_kutta/stage_convergence.hpp>
 
 namespace pfaff {

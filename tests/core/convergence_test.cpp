@@ -6,6 +6,7 @@
 #include <limits>
 
 #include <pfaff/core/solve/convergence.hpp>
+#include <pfaff/core/solve/sum_of_two.hpp>
 #include <pfaff/core/solve/summation.hpp>
 
 namespace {
