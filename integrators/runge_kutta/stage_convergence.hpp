@@ -68,8 +68,8 @@ class StageConvergence {
     if (!(moved <= last_[part].stages)) last_[part].stages = moved;
     if (!(changed <= last_[part].rates)) last_[part].rates = changed;
   }
-  /// True when the iteration should stop; status() then says how. It is not_converged where corrections have
-  /// become smaller so slowly, or not at all, that another iteration should take over.
+  /// True when the iteration should stop; status() then says how. It is not_converged where changes become
+  /// larger, or smaller so slowly, that another iteration should take over.
   bool finished() {
     bool converged = !in_turns_ || iterations_ > 1, still = true, slow = false;
     for (std::size_t k = 0; k < parts; ++k) {
@@ -78,10 +78,11 @@ class StageConvergence {
       converged = converged && now.rates * now.rates <= goal_ * now.stages &&
                   (!in_turns_ || now.rates * before.rates <= goal_ * before.stages);
       still = still && at_round_off(now.rates, before.rates);
-      slow = slow || now.rates > Number(0.36) * before.rates;
+      const bool diverges = iterations_ >= 4 && now.rates > Number(0.25);
+      slow = slow || diverges || (iterations_ >= 10 && now.rates > Number(0.36) * before.rates);
     }
     if (converged || (iterations_ > 3 && still)) return stop(Status::converged);
-    if (iterations_ >= 60 || (iterations_ >= 10 && slow)) return stop(Status::not_converged);
+    if (iterations_ >= 60 || slow) return stop(Status::not_converged);
     return false;
   }
   [[nodiscard]] Status status() const { return status_; }
@@ -91,14 +92,14 @@ class StageConvergence {
     Number stages{0}, rates{0};  // squares
   };
   static constexpr Number u = unit_roundoff<T>();
+  // Squares of 2^20 units: the most that rounding makes of changes.
+  static constexpr Number noise = u * u * Number(1 << 20) * Number(1 << 20);
 
   // Changes that shrink no more, because they are round-off amplified by the sums it passes through.
   bool at_round_off(const Number& now, const Number& before) {
     if (now <= Number(16) * u * u && Number(4) * now >= before) return true;
     if (now < before) return false;
-    const Number unit = u * u * Number(1 << 28);  // 2^14 units
-    if (now <= unit) return true;
-    return ++stalls_ >= 3 && now <= Number(4096) * unit;
+    return now <= noise / Number(4096) || (++stalls_ >= 3 && now <= noise);
   }
   bool stop(Status status) {
     status_ = status;

@@ -71,6 +71,7 @@ class StageIteration {
         next_(line_),
         moved_(components),
         small_(components),
+        measures_(components),
         in_turns_(in_turns),
         newton_(newton ? stages * components : 0) {
     for (std::size_t i = 0; i < stages; ++i)
@@ -117,7 +118,7 @@ class StageIteration {
   /// Solves for the rates. evaluate() calls set_rate for every stage and component. All components are judged
   /// together where `together`.
   template <class Evaluate>
-  Status solve(const Evaluate& evaluate, bool together, auto& iterations) {
+  Status solve(const Evaluate& evaluate, bool together, auto&& iterations) {
     combine<false>(known_ ? start_ : matrix_);
     evaluate();
     rate_ = next_;
@@ -138,7 +139,7 @@ class StageIteration {
   /// row-major. Corrections of component k are measured by size(k).
   template <class Evaluate, class Size>
   [[gnu::noinline]] Status solve_by_newton(const Evaluate& evaluate, const std::vector<T>& slopes,
-                                           const T* scale, const Size& size, auto& iterations) {
+                                           const T* scale, const Size& size, auto&& iterations) {
     const std::size_t s = stages(), m = components();
     Newton& w = newton_;
     for (std::size_t row = 0; row < s * m; ++row)
@@ -240,10 +241,15 @@ class StageIteration {
     }
   }
 
+  // What the change of a component is judged by: squares, part by part.
+  struct Measure {
+    std::array<Number, Squares<T>::parts> stages{}, rates{}, sizes{};
+  };
+
   // Takes the rates that have been evaluated, and measures how far they have moved.
   void compare(StageConvergence<T>& convergence, bool together) {
-    constexpr std::size_t parts = StageConvergence<T>::parts;
-    std::array<Number, parts> all_stages{}, all_rates{}, all_sizes{};
+    constexpr std::size_t parts = Squares<T>::parts;
+    std::array<Measure, 2> group;
     for (std::size_t k = 0; k < components(); ++k) {
       Squares<Lane> changed, size;
       for (std::size_t b = 0; b < blocks(); ++b) {
@@ -253,21 +259,35 @@ class StageIteration {
         size.add(next);
         rate = next;
       }
+      Measure& measure = measures_[k];
+      Measure& all = group[group_of(k)];
       for (std::size_t part = 0; part < parts; ++part) {
-        const Number stages = moved_[k].part(part), rates = changed.part(part);
-        const Number sizes = size.part(part) + small_[k].part(part);
-        if (together) {
-          all_stages[part] = all_stages[part] + stages;
-          all_rates[part] = all_rates[part] + rates;
-          all_sizes[part] = all_sizes[part] + sizes;
-        } else {
-          convergence.add(part, stages, rates, sizes);
-        }
+        measure.stages[part] = moved_[k].part(part);
+        measure.rates[part] = changed.part(part);
+        measure.sizes[part] = size.part(part) + small_[k].part(part);
+        all.stages[part] = all.stages[part] + measure.stages[part];
+        all.rates[part] = all.rates[part] + measure.rates[part];
+        all.sizes[part] = all.sizes[part] + measure.sizes[part];
       }
     }
-    if (together)
-      for (std::size_t part = 0; part < parts; ++part)
-        convergence.add(part, all_stages[part], all_rates[part], all_sizes[part]);
+    for (std::size_t part = 0; part < parts; ++part) {
+      if (together)
+        convergence.add(part, group[0].stages[part] + group[1].stages[part],
+                        group[0].rates[part] + group[1].rates[part],
+                        group[0].sizes[part] + group[1].sizes[part]);
+      for (std::size_t k = 0; k < components() && !together; ++k) {
+        const Measure& one = measures_[k];
+        convergence.add(part, one.stages[part], one.rates[part],
+                        one.sizes[part] + group[group_of(k)].sizes[part] * negligible);
+      }
+    }
+  }
+  // Components of a group are measured against each other: what is 2^-26 times as large as they are together,
+  // such as the front of a wave that enters a chain, need not be known to its own last digit. Positions and
+  // momenta of a chart may be forty decades apart, and are two groups.
+  static constexpr Number negligible{0x1p-52};
+  [[nodiscard]] std::size_t group_of(std::size_t k) const {
+    return in_turns_ && 2 * k >= components() ? 1 : 0;
   }
 
   std::size_t stages_, components_;
@@ -275,6 +295,7 @@ class StageIteration {
   Table line_, stage_, rate_, next_;
   Vector<Squares<Lane>, Components> moved_;
   Vector<Squares<T>, Components> small_;
+  Vector<Measure, Components> measures_;
   bool in_turns_, known_ = false;
   Newton newton_;
 };
