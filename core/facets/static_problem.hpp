@@ -97,6 +97,14 @@ class StaticProblem {
   /// dT/dp.
   void velocity(const T& t, In<T> p, Out<T> v) const requires separable { velocity_of<T>(t, p, v); }
 
+  /// The tape of the velocity.
+  [[nodiscard]] std::shared_ptr<const Tape> velocity_tape() const requires separable {
+    return std::make_shared<const Tape>(
+        record(half, half, [&](const Recorded& t, std::span<const Recorded> p, std::span<Recorded> v) {
+          velocity_of<Recorded>(t, p, v);
+        }));
+  }
+
   /// The rate nu in p' = -V_q - nu p.
   [[nodiscard]] T damping() const requires conformal { return T(Real(system_.damping())); }
   /// -dV/dq, friction left out.

@@ -1,8 +1,8 @@
 // Compensated summation: state updates whose rounding errors do not accumulate step by step.
 //
 // Each addition keeps the part that was rounded off and returns it to the next increment (Kahan), so that n
-// updates lose about one unit in the last place instead of n; an integrator's error then follows Brouwer's
-// law: its round-off is that of its increments alone.
+// updates lose about one unit in the last place instead of n: what is left is the round-off of the
+// increments, and it grows as the square root of time (Brouwer's law) only where it has no bias.
 #pragma once
 
 #include <pfaff/core/numbers/functions.hpp>

@@ -9,12 +9,17 @@
 // the error constant close to that of Gauss collocation in the chart.
 //
 // The step solves w = y + P psi(w), with Y the field in the chart. A first w is predicted from past steps and
-// corrected with one factorisation of I - tau P Y_y or, for many degrees of freedom, without derivatives. The
-// structure holds only as accurately as this equation is solved. The iteration therefore goes on to round-off
-// in every component by itself, because a chart such as (r, e^{nu t} p) mixes numbers forty decades apart.
+// corrected with one factorisation of I - tau P Y_y or, for many degrees of freedom, without derivatives.
+// From the second correction on these matrices are improved by what the corrections have shown
+// (secant_updates.hpp), which halves the evaluations of psi in long steps. In the midpoint form the new state
+// is y + psi(w) at the last w that was evaluated, and what its correction changes of psi; doubling w - y
+// would keep the rounding of that difference, which has a bias. The structure holds only as accurately as
+// this equation is solved. The iteration therefore goes on to round-off in every component by itself, because
+// a chart such as (r, e^{nu t} p) mixes numbers forty decades apart.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -26,6 +31,7 @@
 #include <pfaff/integrators/support/continuation.hpp>
 #include <pfaff/integrators/support/difference_predictor.hpp>
 #include <pfaff/integrators/support/remembered_contraction.hpp>
+#include <pfaff/integrators/support/secant_updates.hpp>
 
 namespace pfaff {
 
@@ -134,7 +140,9 @@ struct GeneratingFunction {
     GradientEvaluator<T> gradient;
     std::vector<T> y, carry, d, w, psi, residual, correction, moved, rate, start, jacobian;
     DifferencePredictor<T, dynamic, dynamic> past;  // of d
+    SecantUpdates<T> secants;
     LU<Value<T>> matrix;
+    std::array<Value<T>, 2> largest{};  // of the positions and of the momenta in the chart
     Continuation<P> continuation;
     RememberedContraction<Value<T>> contraction;  // of the corrections: the slowest since the start
 
@@ -155,6 +163,7 @@ struct GeneratingFunction {
           start(n),
           jacobian(factors() ? n * n : 0),
           past(n, history_length),
+          secants(n),
           matrix(factors() ? n : 0),
           continuation(p) {
       p.prepare(Formula::chart_field);
@@ -164,6 +173,17 @@ struct GeneratingFunction {
     }
 
     [[nodiscard]] bool factors() const { return n <= largest_matrix; }
+    // What corrections of component k are measured by: the component, or 2^-26 of the largest position or
+    // momentum, so that the front of a wave that enters a chain need not be known to its own last digit.
+    [[nodiscard]] T reference(std::size_t k) const {
+      const Value<T> least = largest[2 * k < n ? 0 : 1] * Value<T>(0x1p-26);
+      return abs(value_of(y[k])) < least ? T(least) : y[k];
+    }
+    void measure() {
+      largest = {};
+      for (std::size_t k = 0; k < n; ++k)
+        largest[2 * k < n ? 0 : 1] = std::max(largest[2 * k < n ? 0 : 1], Value<T>(abs(value_of(y[k]))));
+    }
     // w = y + d, with what the sums so far have rounded off.
     void place() {
       for (std::size_t k = 0; k < n; ++k) w[k] = y[k] + (d[k] + carry[k]);
@@ -180,6 +200,7 @@ struct GeneratingFunction {
     predict(p, t, h, z, w);
     if (const Status status = factor(p, t, h, w); status != Status::converged) return w.fail(status);
     w.gradient.set_step(t, h);
+    w.secants.forget();
     Convergence<T> convergence;
     do {
       w.gradient(w.w.data(), w.psi.data());
@@ -187,10 +208,11 @@ struct GeneratingFunction {
       p.counters().fields += static_cast<std::int64_t>(w.gradient.evaluations());
       for (std::size_t k = 0; k < w.n; ++k) w.residual[k] = w.share.row(k, w.psi.data()) - w.d[k];
       correct(p, t, h, w);
+      if (w.factors()) w.secants.improve(w.correction, w.y, w.psi);
       convergence.begin_iteration();
       for (std::size_t k = 0; k < w.n; ++k) {
         w.d[k] = w.d[k] + w.correction[k];
-        convergence.add(w.correction[k], w.y[k], w.psi[k]);
+        convergence.add(w.correction[k], w.reference(k), w.psi[k]);
       }
       w.place();
     } while (!convergence.finished(50, w.contraction.ratio()));
@@ -198,8 +220,10 @@ struct GeneratingFunction {
     w.contraction.remember_slowest(convergence.contraction());
 
     if (!w.midpoint) w.gradient(w.w.data(), w.psi.data());
-    for (std::size_t k = 0; k < w.n; ++k)
-      add_to(w.y[k], w.carry[k], w.midpoint ? w.d[k] + w.d[k] : w.psi[k], compensated);
+    for (std::size_t k = 0; k < w.n; ++k) {
+      const T rest = w.correction[k] - w.residual[k];
+      add_to(w.y[k], w.carry[k], w.midpoint ? w.psi[k] + (rest + rest) : w.psi[k], compensated);
+    }
     w.past.remember([&w](std::size_t k) { return w.d[k]; });
     p.chart_inverse(t + h, w.y, z);
     w.continuation.remember(t + h, h, z);
@@ -224,6 +248,7 @@ struct GeneratingFunction {
       p.chart_field(t + h / T(2), w.w, w.rate);
       for (std::size_t k = 0; k < w.n; ++k) w.d[k] = h * w.share.row(k, w.rate.data());
     }
+    w.measure();
     w.place();
   }
 
@@ -268,8 +293,8 @@ struct GeneratingFunction {
       Value<T> change(0), size(0);
       for (std::size_t k = 0; k < w.n; ++k) {
         const T next = w.residual[k] + h * w.share.row(k, w.moved.data());
-        change = std::max(change, relative_size(T(next - w.correction[k]), w.y[k], w.psi[k]));
-        size = std::max(size, relative_size(next, w.y[k], w.psi[k]));
+        change = std::max(change, relative_size(T(next - w.correction[k]), w.reference(k), w.psi[k]));
+        size = std::max(size, relative_size(next, w.reference(k), w.psi[k]));
         w.correction[k] = next;
       }
       // Enough where the correction is more accurate than the next evaluation of psi can tell, or where it no

@@ -6,11 +6,15 @@
 // II.1.3, IV.2.1, VI.4.2). Not K-symplectic for z- or t-dependent K in the variables z. The implicit midpoint
 // rule is the "Euler centre" scheme of su-qin (107).
 //
-// Stages are iterated to round-off. A fixed-point iteration starts from the collocation polynomial of the
-// step before, extrapolated into this step. Where it contracts slowly, simplified Newton iteration takes
-// over. The update is compensated.
+// Where the energy is T(p) + V(q, t) with T quadratic, the same steps are made in Nystroem's form, with half
+// the unknowns and half the iterations (nystrom_form.hpp). Otherwise the rates h b_j X are iterated as they
+// are. Either way they are known to round-off and belong to the stages that they make
+// (stage_iteration.hpp), coefficients keep symplecticity to the last bit (collocation_coefficients.hpp), and
+// updates are compensated, sums over the stages included: what rounding does to conserved quantities then has
+// no trend.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -18,11 +22,7 @@
 
 #include <pfaff/core/facets/problem.hpp>
 #include <pfaff/core/registry/parameter.hpp>
-#include <pfaff/core/solve/newton.hpp>
-#include <pfaff/core/solve/summation.hpp>
-#include <pfaff/integrators/runge_kutta/gauss_coefficients.hpp>
-#include <pfaff/integrators/support/difference_predictor.hpp>
-#include <pfaff/integrators/support/largest.hpp>
+#include <pfaff/integrators/runge_kutta/nystrom_form.hpp>
 
 namespace pfaff {
 
@@ -43,129 +43,104 @@ struct Collocation {
   template <class P>
   struct Work {
     using T = Scalar<P>;
-    static constexpr int product(int a, int b) { return a == dynamic || b == dynamic ? dynamic : a * b; }
-    using AllStages = Vector<T, product(Stages, P::extent)>;  // [stage][component]
-    // The polynomial through s stages predicts as much as s - 1 differences, so that fewer are needed to
-    // reach round-off.
-    static constexpr int levels(int stages) { return std::max(difference_levels<T> + 1 - stages, 1); }
+    using Number = Value<T>;
+    using Iteration = StageIteration<T, P::extent, Stages>;
 
-    Vector<T, Stages> b, c;
-    State<P> point, carry;
-    Vector<T, product(Stages, Stages)> a, extrapolation;
-    AllStages stage, rate, extrapolated;
-    // What extrapolation of the collocation polynomial missed in past steps of size last_h.
-    DifferencePredictor<T, product(Stages, P::extent), Stages == dynamic ? dynamic : levels(Stages)> missed;
-    bool history = false;
+    // The form of second order, where it can be used. With one stage it would gain nothing.
+    struct None {
+      void restart() {}
+    };
+    template <class Q, bool Separable>
+    struct SecondOrder {
+      using type = None;
+    };
+    template <class Q>
+    struct SecondOrder<Q, true> {
+      using type = NystromForm<Q, Stages>;
+    };
+    static constexpr bool separable = HasSeparable<P> && Stages != 1;
+
+    State<P> point, rate, carry;
+    std::vector<T> jacobian;
+    Vector<T, Stages> node, weight, scale;
+    bool of_second_order = false;
+    Iteration iteration;
+    typename Iteration::Row counted;
+    std::optional<typename SecondOrder<P, separable>::type> second_order;
     T last_h{0};
-    // For Newton's iteration.
-    std::vector<T> reference, residual, correction, jacobian;
-    LU<Value<T>> matrix;
 
     Work(const Collocation& method, const P& problem)
-        : b(static_cast<std::size_t>(method.tableau.stages)),
-          c(b.size()),
-          point(problem.make_state()),
-          carry(problem.make_state()),
-          a(s() * s()),
-          extrapolation(s() * s()),
-          stage(s() * n()),
-          rate(s() * n()),
-          extrapolated(s() * n()),
-          missed(s() * n(), static_cast<std::size_t>(levels(method.tableau.stages))),
-          reference(s() * n()),
-          residual(s() * n()),
-          correction(s() * n()),
-          jacobian(n() * n()),
-          matrix(s() * n()) {
-      const GaussCoefficients& g = method.tableau;
-      for (std::size_t i = 0; i < s(); ++i) {
-        b[i] = T(Real(g.weights[i]));
-        c[i] = T(Real(g.nodes[i]));
-        for (std::size_t j = 0; j < s(); ++j) {
-          a[i * s() + j] = T(Real(g.matrix[i * s() + j]));
-          extrapolation[i * s() + j] = T(Real(lagrange(g.nodes, j, Quad(1) + g.nodes[i])));
-        }
-      }
-      if constexpr (HasFieldJacobian<P>) problem.prepare(Formula::field_jacobian);
-    }
+        : Work(CollocationCoefficients<Number>(method.tableau), problem, velocity_of(problem)) {}
 
-    [[nodiscard]] std::size_t s() const { return b.size(); }
-    [[nodiscard]] std::size_t n() const { return point.size(); }
-
-    // rate_i = X(z + stage_i)
-    void evaluate(const P& p, const T& t, const T& h, const State<P>& z) {
-      for (std::size_t i = 0; i < s(); ++i) {
-        for (std::size_t k = 0; k < n(); ++k) point[k] = z[k] + (stage[i * n() + k] + carry[k]);
-        p.field(t + c[i] * h, point, Out<T>(rate.data() + i * n(), n()));
-      }
-    }
-    // The rates to begin with: the collocation polynomial of the step before, extrapolated into this step,
-    // and what this extrapolation is expected to miss.
-    void predict() {
-      for (std::size_t i = 0; i < s(); ++i)
-        for (std::size_t k = 0; k < n(); ++k)
-          extrapolated[i * n() + k] = sum(extrapolation.data() + i * s(), k);
-      for (std::size_t k = 0; k < rate.size(); ++k) rate[k] = extrapolated[k] + missed.expected(k);
-    }
-    void forget() {
-      missed.forget();
-      history = false;
-    }
     /// Forgets the past, round-off included: the next step depends on its state alone.
     void restart() {
-      forget();
+      iteration.forget();
       for (T& x : carry) x = T(0);
+      if (second_order) second_order->restart();
     }
-    void remember(const T& h) {
-      if (history) missed.remember([this](std::size_t k) { return rate[k] - extrapolated[k]; });
-      history = true;
-      last_h = h;
+
+   private:
+    // The tape of a linear velocity; null where there is none.
+    static std::shared_ptr<const Tape> velocity_of(const P& problem) {
+      if constexpr (separable)
+        if (auto tape = separable_velocity(problem); tape != nullptr && linear(*tape)) return tape;
+      return nullptr;
     }
-    // sum_j weights_j rate_j, component k
-    [[nodiscard]] T sum(const T* weights, std::size_t k) const {
-      T total = weights[0] * rate[k];
-      for (std::size_t j = 1; j < s(); ++j) total = total + weights[j] * rate[j * n() + k];
-      return total;
-    }
-    // h sum_j a_ij rate_j, component k
-    [[nodiscard]] T combined(std::size_t i, std::size_t k, const T& h) const {
-      return h * sum(a.data() + i * s(), k);
+    Work(const CollocationCoefficients<Number>& c, const P& problem, std::shared_ptr<const Tape> velocity)
+        : point(problem.make_state()),
+          rate(problem.make_state()),
+          carry(problem.make_state()),
+          node(c.stages),
+          weight(c.stages),
+          scale(c.stages),
+          of_second_order(velocity != nullptr),
+          iteration(of_second_order ? 0 : problem.size(), c.stages, c.mu, c.mu_start, true,
+                    HasFieldJacobian<P> && !of_second_order),
+          counted(iteration.row_of(c.counted)) {
+      for (std::size_t i = 0; i < c.stages; ++i) {
+        node[i] = T(c.nodes[i]);
+        weight[i] = T(c.scale[i]);
+      }
+      if (of_second_order) {
+        if constexpr (separable) second_order.emplace(c, problem, *velocity);
+      } else if constexpr (HasFieldJacobian<P>) {
+        problem.prepare(Formula::field_jacobian);
+        jacobian.resize(point.size() * point.size());
+      }
     }
   };
 
   template <HasVectorField P>
   Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
     using T = Scalar<P>;
-    predict(p, t, h, z, w);
-    Convergence<T> convergence;
-    bool slow = false, stagnant = false;
-    do {
-      w.evaluate(p, t, h, z);
-      convergence.begin_iteration();
-      if (on_constraints(p)) {
-        stagnant = advance_together<P>(z, h, w, convergence);
-      } else {
-        for (std::size_t i = 0; i < w.s(); ++i)
-          for (std::size_t k = 0; k < w.n(); ++k) {
-            T& stage = w.stage[i * w.n() + k];
-            const T next = w.combined(i, k, h);
-            convergence.add(next - stage, z[k], next);
-            stage = next;
-          }
+    if constexpr (Work<P>::separable)
+      if (w.of_second_order) return w.second_order->step(p, t, h, z, compensated);
+    begin(p, t, h, z, w);
+    const auto evaluate = [&] {
+      for (std::size_t i = 0; i < w.iteration.stages(); ++i) {
+        for (std::size_t k = 0; k < z.size(); ++k) w.point[k] = z[k] + w.iteration.stage(i, k);
+        p.field(t + w.node[i] * h, w.point, w.rate);
+        for (std::size_t k = 0; k < z.size(); ++k) w.iteration.set_rate(i, k, w.scale[i] * w.rate[k]);
       }
-      ++p.counters().iterations;
-      slow = HasFieldJacobian<P> && convergence.iterations() >= 10 && !stagnant &&
-             convergence.ratio() > Value<T>(0.6);
-    } while (!slow && !convergence.finished(60));
-    Status status = convergence.status();
+    };
+    Status status = w.iteration.solve(evaluate, on_constraints(p), p.counters().iterations);
     if constexpr (HasFieldJacobian<P>)
-      if (slow || status == Status::not_converged) status = solve_by_newton(p, t, h, z, w);
+      if (status == Status::not_converged) {
+        p.field_jacobian(t + h / T(2), z, w.jacobian);
+        ++p.counters().factorisations;
+        status = w.iteration.solve_by_newton(
+            evaluate, w.jacobian, w.scale.data(), [&z](std::size_t k) { return z[k]; },
+            p.counters().iterations);
+      }
     if (status != Status::converged) {
-      w.forget();
+      w.iteration.forget();
       return status;
     }
-    w.remember(h);
-    for (std::size_t k = 0; k < w.n(); ++k) add_to(z[k], w.carry[k], h * w.sum(w.b.data(), k), compensated);
+    for (std::size_t k = 0; k < z.size(); ++k) {
+      T change, lost;
+      w.iteration.total(w.counted, k, change, lost);
+      add_sum(z[k], w.carry[k], change, lost, compensated);
+    }
     return Status::converged;
   }
 
@@ -177,71 +152,26 @@ struct Collocation {
     if constexpr (HasHolonomic<P> || HasVelocityConstraints<P>) return p.model()->restricted();
     return false;
   }
-  // True where the corrections are only round-off. They contract no further, which is no reason for Newton's
-  // iteration.
-  template <class P>
-  [[gnu::noinline]] static bool advance_together(const State<P>& z, const Scalar<P>& h, Work<P>& w,
-                                                 Convergence<Scalar<P>>& convergence) {
-    using T = Scalar<P>;
-    Largest<T> correction, reference;
-    for (std::size_t i = 0; i < w.s(); ++i)
-      for (std::size_t k = 0; k < w.n(); ++k) {
-        T& stage = w.stage[i * w.n() + k];
-        const T next = w.combined(i, k, h);
-        correction.add(next - stage);
-        reference.add(z[k] + next);
-        stage = next;
-      }
-    const T moved = correction.get(), size = reference.get();
-    convergence.add(moved, size, size);
-    return relative_size(moved, size, size) <= Value<T>(65536) * unit_roundoff<T>();
-  }
 
-  // First stages, from what is remembered; at the start, and after a change of step, from the present slope.
+  // What the stages of a step start from. Where nothing is remembered, and after a change of step, the first
+  // rates are all the present one.
   template <class P>
-  void predict(const P& p, const Scalar<P>& t, const Scalar<P>& h, const State<P>& z, Work<P>& w) const {
-    const std::size_t n = w.n();
-    if (w.history && value_of(h) == value_of(w.last_h)) {
-      w.predict();
-    } else {
-      w.forget();
-      p.field(t, z, Out<Scalar<P>>(w.rate.data(), n));
-      for (std::size_t k = n; k < w.rate.size(); ++k) w.rate[k] = w.rate[k - n];
+  static void begin(const P& p, const Scalar<P>& t, const Scalar<P>& h, const State<P>& z, Work<P>& w) {
+    using T = Scalar<P>;
+    using Lane = typename Work<P>::Iteration::Lane;
+    for (std::size_t i = 0; i < w.iteration.stages(); ++i) w.scale[i] = h * w.weight[i];
+    if (value_of(h) != value_of(w.last_h)) w.iteration.forget();
+    w.last_h = h;
+    if (!w.iteration.known()) {
+      p.field(t, z, w.rate);
+      for (std::size_t k = 0; k < z.size(); ++k) w.iteration.begin_with(k, w.scale.data(), w.rate[k]);
     }
-    for (std::size_t i = 0; i < w.s(); ++i)
-      for (std::size_t k = 0; k < n; ++k) w.stage[i * n + k] = w.combined(i, k, h);
-  }
-
-  template <HasFieldJacobian P>
-  [[gnu::noinline]] Status solve_by_newton(const P& p, const Scalar<P>& t, const Scalar<P>& h,
-                                           const State<P>& z, Work<P>& w) const {
-    using T = Scalar<P>;
-    const std::size_t n = w.n(), s = w.s();
-    p.field_jacobian(t + h / T(2), z, w.jacobian);
-    for (std::size_t row = 0; row < n * s; ++row)
-      for (std::size_t column = 0; column < n * s; ++column) {
-        const T coupling = h * w.a[row / n * s + column / n] * w.jacobian[row % n * n + column % n];
-        w.matrix(row, column) = (row == column ? Value<T>(1) : Value<T>(0)) - value_of(coupling);
-      }
-    ++p.counters().factorisations;
-    if (!w.matrix.factor()) return Status::singular;
-    for (std::size_t i = 0; i < s; ++i)
-      for (std::size_t k = 0; k < n; ++k) {
-        w.reference[i * n + k] = z[k];
-        w.stage[i * n + k] = T(0);
-      }
-    int iterations = 0;
-    const Status status = newton<T>(
-        w.matrix,
-        [&](std::span<T> /*stages*/, std::span<T> residual) {
-          w.evaluate(p, t, h, z);
-          for (std::size_t i = 0; i < s; ++i)
-            for (std::size_t k = 0; k < n; ++k)
-              residual[i * n + k] = w.stage[i * n + k] - w.combined(i, k, h);
-        },
-        w.stage, w.reference, w.residual, w.correction, 100, iterations);
-    p.counters().iterations += iterations;
-    return status;
+    for (std::size_t k = 0; k < z.size(); ++k) {
+      for (std::size_t b = 0; b < w.iteration.blocks(); ++b) w.iteration.line(k, b) = Lane(w.carry[k]);
+      // Rates far smaller than what they are added to need not be known to their own last digit.
+      w.iteration.small(k) = {};
+      w.iteration.small(k).add(z[k] / T(4096));
+    }
   }
 };
 

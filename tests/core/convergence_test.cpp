@@ -6,6 +6,7 @@
 #include <limits>
 
 #include <pfaff/core/solve/convergence.hpp>
+#include <pfaff/core/solve/sum_of_two.hpp>
 #include <pfaff/core/solve/summation.hpp>
 
 namespace {
@@ -162,6 +163,34 @@ TEST(Summation, WorksForSignsDualsAndQuads) {
   EXPECT_LE(static_cast<double>(abs(Quad(sum.value) - value)), 2.3e-16);
   EXPECT_LE(static_cast<double>(abs(Quad(sum.derivative[0]) - slope)), 1e3 * 1.2e-16);
   EXPECT_LE(static_cast<double>(abs(fine - value)), 1e-30);
+}
+
+// In quad the sum of two doubles of like size is exact.
+TEST(Summation, TheSumOfTwoLosesNothing) {
+  for (const double a : {1.0, 1e-3, -1e10, 0.1})
+    for (const double b : {0.1, 1e10, -1.0 / 3, 1e-9}) {
+      double sum = 0, lost = 0;
+      two_sum(a, b, sum, lost);
+      EXPECT_EQ(sum, a + b);
+      EXPECT_EQ(Quad(sum) + Quad(lost), Quad(a) + Quad(b)) << a << ' ' << b;
+    }
+}
+
+// A million increments 0.1 + 1e-18, of which the second part is below the round-off of the first.
+TEST(Summation, KeepsWhatTheIncrementHasLost) {
+  constexpr int n = 1'000'000;
+  double with = 0, carry = 0, without = 0, other = 0, plain = 0, unused = 0;
+  for (int k = 0; k < n; ++k) {
+    add_sum(with, carry, 0.1, 1e-18, true);
+    add_to(without, other, 0.1, true);
+    add_sum(plain, unused, 0.1, 1e-18, false);
+  }
+  const Quad exact = Quad(n) * (Quad(0.1) + Quad(1e-18));
+  // What each step rounds off of the carry, whose own round-off is 1e-28 where sums are below 1e5.
+  EXPECT_LE(static_cast<double>(abs(Quad(with) + Quad(carry) - exact)), 1e-20);
+  EXPECT_GT(static_cast<double>(abs(Quad(without) + Quad(other) - exact)), 5e-13);  // controls
+  EXPECT_GT(static_cast<double>(abs(Quad(plain) - exact)), 1e-9);
+  EXPECT_EQ(unused, 0);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <pfaff/core/tape/derivatives.hpp>
+#include <pfaff/core/tape/linear.hpp>
 
 #include "random_formula.hpp"
 
@@ -159,6 +160,38 @@ TEST(Recording, KnowsWhatDependsOnTimeAndState) {
   EXPECT_TRUE(tape_of([](auto& t, auto&, auto&) { return exp(t) + 2; }).state_independent());
   EXPECT_TRUE(tape_of([](auto&, auto&, auto&) { return Recorded(3); }).state_independent());
   EXPECT_FALSE(tape_of([](auto& t, auto& x, auto&) { return exp(t) + x; }).state_independent());
+}
+
+TEST(Recording, KnowsWhatIsLinear) {
+  const auto is_linear = [](const auto& f) { return linear(tape_of(f)); };
+  EXPECT_TRUE(is_linear([](auto&, auto& x, auto& y) { return -(3 * x - y / 7) * pow(Recorded(2), 0.3_r); }));
+  EXPECT_TRUE(is_linear([](auto&, auto& x, auto& y) {
+    return solve(std::vector<Recorded>{2, 1, 1, 3}, std::vector<Recorded>{x, y - x})[1];
+  }));
+  EXPECT_FALSE(is_linear([](auto&, auto& x, auto&) { return x + 1; }));
+  EXPECT_FALSE(is_linear([](auto&, auto& x, auto& y) { return x * y; }));
+  EXPECT_FALSE(is_linear([](auto&, auto& x, auto&) { return 1 / x; }));
+  EXPECT_FALSE(is_linear([](auto&, auto& x, auto& y) { return x * x / y; }));
+  EXPECT_FALSE(is_linear([](auto& t, auto& x, auto&) { return t * x; }));
+  EXPECT_FALSE(is_linear([](auto&, auto& x, auto& y) { return x + sin(y); }));
+  EXPECT_FALSE(is_linear([](auto&, auto& x, auto& y) { return select(x, x, y); }));
+  EXPECT_FALSE(is_linear([](auto&, auto& x, auto& y) {
+    return solve(std::vector<Recorded>{2, 1, y, 3}, std::vector<Recorded>{x, x})[0];
+  }));
+  EXPECT_FALSE(is_linear([](auto&, auto&, auto&) { return Recorded(3); }));
+}
+
+TEST(Recording, KnowsTheIdentity) {
+  const auto pair = [](int first, int second, int count) {
+    return record(count, 2, [&](const Recorded&, Arguments z, Results out) {
+      out[0] = z[static_cast<std::size_t>(first)];
+      out[1] = z[static_cast<std::size_t>(second)];
+    });
+  };
+  EXPECT_TRUE(identity(pair(0, 1, 2)));
+  EXPECT_FALSE(identity(pair(1, 0, 2)));
+  EXPECT_FALSE(identity(pair(0, 1, 3)));
+  EXPECT_FALSE(identity(tape_of([](auto&, auto& x, auto&) { return 2 * x; })));
 }
 
 TEST(Recording, SmallPowersAreProductsAndRoots) {

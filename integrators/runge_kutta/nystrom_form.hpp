@@ -1,0 +1,195 @@
+// Collocation of q' = M^-1 p, p' = f(q, t) as equations of second order, in Nystroem's form: with w = h p,
+//   S_i = c_i w + sum_j nu_ij L_j,  L_j = h^2 b_j f(q + M^-1 S_j, t + c_j h),
+//   q' = q + M^-1 (w + sum_j beta_j L_j),   w' = w + sum_j L_j.
+//
+// These are the steps of the Runge-Kutta method that the coefficients come from, with half the unknowns, and
+// an iteration that contracts like h^2 instead of h. The kinetic energy has to be quadratic, which is seen on
+// the tape of the velocity. Between steps the method goes on from w with its compensation and history; p is
+// only computed from it. No product with h may be rounded in a step: rounding h p anew in every step would
+// give the momenta, and with them the energy, an error with a bias. Where somebody has changed the state
+// since the last step, w is computed from p and the past forgotten.
+#pragma once
+
+#include <vector>
+
+#include <pfaff/core/facets/problem.hpp>
+#include <pfaff/core/solve/summation.hpp>
+#include <pfaff/core/tape/linear.hpp>
+#include <pfaff/integrators/runge_kutta/collocation_coefficients.hpp>
+#include <pfaff/integrators/runge_kutta/stage_iteration.hpp>
+#include <pfaff/integrators/support/continuation.hpp>
+
+namespace pfaff {
+
+/// The tape of the velocity dT/dp; null where the problem's energy is not separable.
+template <class P>
+std::shared_ptr<const Tape> separable_velocity(const P& p) {
+  if constexpr (requires { p.velocity_tape(); }) {
+    return p.velocity_tape();
+  } else if constexpr (HasSeparable<P> && requires { p.model(); }) {
+    if (p.model()->facets().has(Facet::separable)) return p.model()->tape(Formula::velocity);
+  }
+  return nullptr;
+}
+
+/// What a Nystroem step on a problem of type P keeps and works with.
+template <HasSeparable P, int Stages>
+class NystromForm {
+  static constexpr int half = P::extent == dynamic ? dynamic : P::extent / 2;
+
+ public:
+  using T = Scalar<P>;
+  using Number = Value<T>;
+
+  /// `velocity` is the tape of the velocity, which is linear.
+  NystromForm(const CollocationCoefficients<Number>& c, const P& p, const Tape& velocity)
+      : unit_mass_(identity(velocity)),
+        degrees_(p.size() / 2),
+        iteration_(degrees_, c.stages, c.nu, c.nu_start, false, HasFieldJacobian<P>),
+        nodes_(iteration_.row_of(c.nodes)),
+        beta_(iteration_.row_of(c.beta)),
+        counted_(iteration_.row_of(c.counted)),
+        node_(c.stages),
+        weight_(c.stages),
+        scale_(c.stages),
+        time_(c.stages),
+        momentum_(degrees_),
+        momentum_carry_(degrees_),
+        position_carry_(degrees_),
+        path_(degrees_),
+        point_(degrees_),
+        force_(degrees_),
+        continuation_(p) {
+    for (std::size_t i = 0; i < c.stages; ++i) {
+      node_[i] = T(c.nodes[i]);
+      weight_[i] = T(c.scale[i]);
+    }
+    p.prepare(Formula::force);
+    if (!unit_mass_) p.prepare(Formula::velocity);
+    if constexpr (HasFieldJacobian<P>) {
+      p.prepare(Formula::field_jacobian);
+      jacobian_.resize(4 * degrees_ * degrees_);
+      slopes_.resize(degrees_ * degrees_);
+    }
+  }
+
+  void restart() { continuation_.forget(); }
+
+  Status step(const P& p, const T& t, const T& h, State<P>& z, bool compensated) {
+    begin(p, t, h, z);
+    const auto evaluate = [&] { evaluate_rates(p, z); };
+    Status status = iteration_.solve(evaluate, false, p.counters().iterations);
+    if constexpr (HasFieldJacobian<P>)
+      if (status == Status::not_converged) status = correct_by_newton(p, t, h, z, evaluate);
+    if (status != Status::converged) {
+      continuation_.forget();
+      return status;
+    }
+    update(p, h, z, compensated);
+    continuation_.remember(t + h, h, z);
+    return Status::converged;
+  }
+
+ private:
+  using Iteration = StageIteration<T, half, Stages>;
+
+  [[nodiscard]] std::size_t degrees() const {
+    return half == dynamic ? degrees_ : static_cast<std::size_t>(half);
+  }
+
+  void begin(const P& p, const T& t, const T& h, const State<P>& z) {
+    const std::size_t m = degrees();
+    for (std::size_t i = 0; i < iteration_.stages(); ++i) {
+      scale_[i] = h * h * weight_[i];
+      time_[i] = t + node_[i] * h;
+    }
+    if (!continuation_.holds(t, h, z)) {
+      for (std::size_t k = 0; k < m; ++k) {
+        momentum_[k] = h * z[m + k];
+        momentum_carry_[k] = position_carry_[k] = T(0);
+      }
+      iteration_.forget();
+    }
+    if (!iteration_.known()) {
+      p.force(t, In<T>(z.data(), m), Out<T>(force_.data(), m));
+      for (std::size_t k = 0; k < m; ++k) iteration_.begin_with(k, scale_.data(), force_[k]);
+    }
+    using Lane = typename Iteration::Lane;
+    for (std::size_t k = 0; k < m; ++k) {
+      const Lane fast(momentum_[k]), slow(momentum_carry_[k]), still(unit_mass_ ? position_carry_[k] : T(0));
+      for (std::size_t b = 0; b < iteration_.blocks(); ++b)
+        iteration_.line(k, b) = nodes_[b] * fast + (nodes_[b] * slow + still);
+      // Rates far smaller than what they are added to need not be known to their own last digit.
+      Squares<T> small;
+      small.add(momentum_[k] / T(64));
+      if (unit_mass_) small.add(z[k] / T(4096));
+      iteration_.small(k) = small;
+    }
+  }
+
+  void evaluate_rates(const P& p, const State<P>& z) {
+    const std::size_t m = degrees();
+    const Out<T> point(point_.data(), m), force(force_.data(), m), path(path_.data(), m);
+    for (std::size_t i = 0; i < iteration_.stages(); ++i) {
+      if (unit_mass_) {
+        for (std::size_t k = 0; k < m; ++k) point_[k] = z[k] + iteration_.stage(i, k);
+      } else {
+        for (std::size_t k = 0; k < m; ++k) force_[k] = iteration_.stage(i, k);
+        p.velocity(time_[i], force, path);
+        for (std::size_t k = 0; k < m; ++k) point_[k] = z[k] + (path_[k] + position_carry_[k]);
+      }
+      p.force(time_[i], point, force);
+      for (std::size_t k = 0; k < m; ++k) iteration_.set_rate(i, k, scale_[i] * force_[k]);
+    }
+  }
+
+  template <class Evaluate>
+  [[gnu::noinline]] Status correct_by_newton(const P& p, const T& t, const T& h, const State<P>& z,
+                                             const Evaluate& evaluate) {
+    const std::size_t m = degrees(), n = 2 * m;
+    p.field_jacobian(t + h / T(2), z, Out<T>(jacobian_.data(), n * n));
+    for (std::size_t i = 0; i < m; ++i)
+      for (std::size_t j = 0; j < m; ++j) {
+        T sum(0);  // of f_q M^-1
+        for (std::size_t k = 0; k < m; ++k) sum = sum + jacobian_[(m + i) * n + k] * jacobian_[k * n + m + j];
+        slopes_[i * m + j] = sum;
+      }
+    ++p.counters().factorisations;
+    return iteration_.solve_by_newton(
+        evaluate, slopes_, scale_.data(), [&](std::size_t k) { return unit_mass_ ? z[k] : momentum_[k]; },
+        p.counters().iterations);
+  }
+
+  void update(const P& p, const T& h, State<P>& z, bool compensated) {
+    const std::size_t m = degrees();
+    for (std::size_t k = 0; k < m; ++k) {
+      T kick, kick_lost, path, path_lost, whole, lost;
+      iteration_.total(beta_, k, path, path_lost);
+      two_sum(momentum_[k], path, whole, lost);
+      lost = lost + (path_lost + momentum_carry_[k]);
+      if (unit_mass_) {
+        add_sum(z[k], position_carry_[k], whole, lost, compensated);
+      } else {
+        path_[k] = whole + lost;
+      }
+      iteration_.total(counted_, k, kick, kick_lost);
+      add_sum(momentum_[k], momentum_carry_[k], kick, kick_lost, compensated);
+      z[m + k] = momentum_[k] / h;
+    }
+    if (unit_mass_) return;
+    p.velocity(time_[0], In<T>(path_.data(), m), Out<T>(force_.data(), m));
+    for (std::size_t k = 0; k < m; ++k) add_to(z[k], position_carry_[k], force_[k], compensated);
+  }
+
+  bool unit_mass_;
+  std::size_t degrees_;
+  Iteration iteration_;
+  typename Iteration::Row nodes_, beta_, counted_;
+  Vector<T, Stages> node_, weight_, scale_, time_;
+  Vector<T, half> momentum_, momentum_carry_, position_carry_;  // w = h p and what sums have rounded off
+  Vector<T, half> path_, point_, force_;
+  std::vector<T> jacobian_, slopes_;
+  Continuation<P> continuation_;
+};
+
+}  // namespace pfaff

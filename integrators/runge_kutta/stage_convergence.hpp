@@ -1,0 +1,115 @@
+// When the stages of a collocation step are known to round-off, told from this step alone.
+//
+// The stages are iterated by S := line + m L, L := rates(S). With the last changes dS of the stages and dL of
+// the scaled rates, |dL| / |dS| is the contraction of the iteration and |dL| the size of the next change of
+// S, so that |dL|^2 / |dS| is what the next change of L would be. The iteration ends where that is a
+// thousandth of a unit of round-off of L: what the error left in L adds up to over a long run is then lost in
+// what rounding adds up to. L belongs to the last stages, not to those before. Each component is measured
+// against its own rates and, where those vanish, against a small part of what they are added to.
+#pragma once
+
+#include <array>
+#include <limits>
+
+#include <pfaff/core/errors/status.hpp>
+#include <pfaff/core/numbers/dual.hpp>
+#include <pfaff/core/numbers/pack.hpp>
+
+namespace pfaff {
+
+/// The sum of the squares of numbers; of duals, that of their values and that of all their derivatives.
+template <class T>
+struct Squares {
+  static constexpr std::size_t parts = 1;
+  T sum{0};
+  void add(const T& x) { sum = sum + x * x; }
+  [[nodiscard]] T part(std::size_t /*index*/) const { return sum; }
+};
+template <int W>
+struct Squares<Pack<W>> {
+  Pack<W> sum;
+  void add(const Pack<W>& x) { sum = sum + x * x; }
+  [[nodiscard]] double part(std::size_t /*index*/) const { return sum.sum(); }
+};
+template <class T, int N>
+struct Squares<Dual<T, N>> {
+  static constexpr std::size_t parts = 2;
+  T value{0}, derivative{0};
+  void add(const Dual<T, N>& x) {
+    value = value + x.value * x.value;
+    for (const T& slope : x.derivative) derivative = derivative + slope * slope;
+  }
+  [[nodiscard]] T part(std::size_t index) const { return index == 0 ? value : derivative; }
+};
+
+/// Watches one iteration.
+template <class T>
+class StageConvergence {
+ public:
+  using Number = Value<T>;
+  static constexpr std::size_t parts = Squares<T>::parts;
+
+  /// Where the rates of all components change in turns, as those of positions and momenta do, the contraction
+  /// is known from two iterations only.
+  explicit StageConvergence(bool in_turns)
+      : in_turns_(in_turns), goal_(u * u * (in_turns ? Number(1e-2) : Number(1e-6))) {}
+
+  void begin_iteration() {
+    previous_ = last_;
+    last_ = {};
+    ++iterations_;
+  }
+  /// One component, or several that are judged together: the squares of the changes of the stages and of the
+  /// scaled rates, and the square of what they are measured against.
+  void add(std::size_t part, const Number& stages, const Number& rates, const Number& size) {
+    const Number scale = size + Number(std::numeric_limits<double>::min());
+    const Number moved = stages / scale, changed = rates / scale;
+    // Comparisons that let NaN through.
+    if (!(moved <= last_[part].stages)) last_[part].stages = moved;
+    if (!(changed <= last_[part].rates)) last_[part].rates = changed;
+  }
+  /// True when the iteration should stop; status() then says how. It is not_converged where changes become
+  /// larger, or smaller so slowly, that another iteration should take over.
+  bool finished() {
+    bool converged = !in_turns_ || iterations_ > 1, still = true, slow = false;
+    for (std::size_t k = 0; k < parts; ++k) {
+      const Change &now = last_[k], &before = previous_[k];
+      if (!isfinite(now.rates) || !isfinite(now.stages)) return stop(Status::non_finite);
+      converged = converged && now.rates * now.rates <= goal_ * now.stages &&
+                  (!in_turns_ || now.rates * before.rates <= goal_ * before.stages);
+      still = still && at_round_off(now.rates, before.rates);
+      const bool diverges = iterations_ >= 4 && now.rates > Number(0.25);
+      slow = slow || diverges || (iterations_ >= 10 && now.rates > Number(0.36) * before.rates);
+    }
+    if (converged || (iterations_ > 3 && still)) return stop(Status::converged);
+    if (iterations_ >= 60 || slow) return stop(Status::not_converged);
+    return false;
+  }
+  [[nodiscard]] Status status() const { return status_; }
+
+ private:
+  struct Change {
+    Number stages{0}, rates{0};  // squares
+  };
+  static constexpr Number u = unit_roundoff<T>();
+  // Squares of 2^20 units: the most that rounding makes of changes.
+  static constexpr Number noise = u * u * Number(1 << 20) * Number(1 << 20);
+
+  // Changes that shrink no more, because they are round-off amplified by the sums it passes through.
+  bool at_round_off(const Number& now, const Number& before) {
+    if (now <= Number(16) * u * u && Number(4) * now >= before) return true;
+    if (now < before) return false;
+    return now <= noise / Number(4096) || (++stalls_ >= 3 && now <= noise);
+  }
+  bool stop(Status status) {
+    status_ = status;
+    return true;
+  }
+  std::array<Change, parts> last_{}, previous_{};
+  int iterations_ = 0, stalls_ = 0;
+  bool in_turns_;
+  Number goal_;
+  Status status_ = Status::not_converged;
+};
+
+}  // namespace pfaff

@@ -1,0 +1,88 @@
+// Secants: what the corrections of a simplified Newton iteration tell about the matrix that they were made
+// with.
+//
+// Two corrections and the residuals between them say what the true Jacobian does in one direction. Broyden's
+// method changes the matrix B_0 of the iteration so that it does the same (kelley1995, 7.3). With z = B_0^-1
+// r and the corrections s_0, ..., s_k so far the next one is
+//     z := z + s_{j+1} (s_j^T z) / (s_j^T s_j),  j = 0, ..., k - 1,      s_{k+1} = z / (1 - s_k^T z / s_k^T
+//     s_k).
+// Corrections then become smaller faster than by a fixed ratio. Components are weighed by their size, so that
+// the units of a chart do not matter. Derivatives are corrected by the same matrices as values.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include <pfaff/core/numbers/dual.hpp>
+
+namespace pfaff {
+
+template <class T>
+class SecantUpdates {
+ public:
+  using Number = Value<T>;
+  /// Corrections beyond this many are not kept; an iteration that long gains nothing from them.
+  static constexpr std::size_t most = 12;
+
+  explicit SecantUpdates(std::size_t size)
+      : size_(size), weight_(size), steps_(most * size), squares_(most) {}
+
+  /// At the beginning of an iteration with another matrix.
+  void forget() { count_ = 0; }
+  /// correction := what the matrices so far make of a correction by the first one. Components are measured by
+  /// the larger of two references.
+  void improve(std::vector<T>& correction, const std::vector<T>& reference, const std::vector<T>& change) {
+    if (count_ == 0) return keep(correction, Number(1));
+    if (count_ == 1) weigh(reference, change);
+    for (std::size_t j = 0; j + 1 < count_; ++j) add(correction, along(j, correction), j + 1);
+    if (count_ == most) return;
+    const T last = along(count_ - 1, correction);
+    const Number rest = Number(1) - value_of(last);
+    if (!(abs(rest) > Number(1e-3))) {  // residuals that hardly differ say nothing
+      forget();
+      return keep(correction, Number(1));
+    }
+    keep(correction, Number(1) / rest);
+    squares_[count_ - 1] = square(count_ - 1);
+    add(correction, last, count_ - 1);
+  }
+
+ private:
+  // s_j^T x / s_j^T s_j
+  [[nodiscard]] T along(std::size_t j, const std::vector<T>& x) const {
+    T sum(0);
+    for (std::size_t k = 0; k < size_; ++k)
+      sum = sum + T(weight_[k] * weight_[k] * steps_[j * size_ + k]) * x[k];
+    return sum * T(squares_[j]);
+  }
+  // x += factor s_j
+  void add(std::vector<T>& x, const T& factor, std::size_t j) const {
+    for (std::size_t k = 0; k < size_; ++k) x[k] = x[k] + factor * T(steps_[j * size_ + k]);
+  }
+  void keep(const std::vector<T>& x, const Number& factor) {
+    for (std::size_t k = 0; k < size_; ++k) steps_[count_ * size_ + k] = factor * value_of(x[k]);
+    ++count_;
+  }
+  // 1 / s_j^T s_j
+  [[nodiscard]] Number square(std::size_t j) const {
+    Number sum(0);
+    for (std::size_t k = 0; k < size_; ++k) {
+      const Number step = weight_[k] * steps_[j * size_ + k];
+      sum = sum + step * step;
+    }
+    return sum > Number(0) ? Number(1) / sum : Number(0);
+  }
+  void weigh(const std::vector<T>& reference, const std::vector<T>& change) {
+    for (std::size_t k = 0; k < size_; ++k) {
+      const Number scale = std::max(abs(value_of(reference[k])), abs(value_of(change[k])));
+      weight_[k] = scale > Number(0) ? Number(1) / scale : Number(1);
+    }
+    squares_[0] = square(0);
+  }
+
+  std::size_t size_, count_ = 0;
+  std::vector<Number> weight_, steps_, squares_;
+};
+
+}  // namespace pfaff

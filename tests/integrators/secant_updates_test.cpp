@@ -1,0 +1,83 @@
+// Secants: corrections of an iteration with a fixed matrix, improved by what earlier ones have shown.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include <pfaff/integrators/support/secant_updates.hpp>
+
+namespace {
+using namespace pfaff;
+using D = Dual<double, 1>;
+
+// x = g(x) with a contraction that turns and bends, x measured in other units. The residual is the correction
+// of the plain iteration.
+template <class T>
+std::vector<T> residual(const std::vector<T>& x, const T& parameter, double unit) {
+  const T a = x[0], b = x[1] / T(unit);
+  return {parameter + T(0.3) * a - T(0.2) * b + T(0.05) * a * b - a,
+          (T(1) + T(0.25) * a + T(0.1) * b * b - b) * T(unit)};
+}
+
+// The solution, and the number of corrections until the last is below 1e-15.
+template <class T>
+struct Solution {
+  std::vector<T> x;
+  int corrections = 0;
+};
+template <class T>
+Solution<T> solved(const T& parameter, bool secants, double unit = 1) {
+  SecantUpdates<T> updates(2);
+  Solution<T> s{{T(0.8), T(1.2 * unit)}, 0};
+  const std::vector<T> scale{T(1), T(unit)};
+  for (double size = 1; size > 1e-15 && s.corrections < 100; ++s.corrections) {
+    std::vector<T> correction = residual(s.x, parameter, unit);
+    if (secants) updates.improve(correction, scale, scale);
+    size = 0;
+    for (std::size_t k = 0; k < 2; ++k) {
+      s.x[k] = s.x[k] + correction[k];
+      size = std::max(size, std::abs(value_of(correction[k])) / value_of(scale[k]));
+    }
+  }
+  return s;
+}
+
+TEST(SecantUpdates, MakeCorrectionsSmallerFasterThanAFixedRatio) {
+  const auto with = solved(1.0, true), plain = solved(1.0, false);
+  for (std::size_t k = 0; k < 2; ++k) EXPECT_NEAR(with.x[k], plain.x[k], 1e-14);
+  EXPECT_GE(plain.corrections, 25);  // the control: a ratio of about 0.3
+  EXPECT_LE(with.corrections, 10);
+}
+
+TEST(SecantUpdates, DoNotDependOnUnits) {
+  const auto one = solved(1.0, true), other = solved(1.0, true, 0x1p100);
+  EXPECT_EQ(one.corrections, other.corrections);
+  EXPECT_EQ(one.x[0], other.x[0]);
+  EXPECT_EQ(one.x[1], other.x[1] / 0x1p100);
+}
+
+TEST(SecantUpdates, CorrectDerivativesWithTheSameMatrices) {
+  const auto x = solved(D::variable(1.0, 0), true).x;
+  const double h = 1e-6;  // its square and round-off over it are what the difference quotient misses
+  const auto above = solved(1.0 + h, true).x, below = solved(1.0 - h, true).x;
+  for (std::size_t k = 0; k < 2; ++k)
+    EXPECT_NEAR(x[k].derivative[0], (above[k] - below[k]) / (2 * h), 1e-8) << k;
+}
+
+TEST(SecantUpdates, StartAnewOnceForgotten) {
+  SecantUpdates<double> used(2), fresh(2);
+  const std::vector<double> scale{1, 1};
+  for (const double x : {1.0, 0.5, 0.1}) {
+    std::vector<double> correction{x, x * x};
+    used.improve(correction, scale, scale);
+  }
+  used.forget();
+  for (const double x : {0.3, 0.2}) {
+    std::vector<double> a{x, 1 - x}, b = a;
+    used.improve(a, scale, scale);
+    fresh.improve(b, scale, scale);
+    EXPECT_EQ(a, b);
+  }
+}
+
+}  // namespace
