@@ -4,50 +4,27 @@
 
 namespace pfaff {
 
-TaylorExpansion::TaylorExpansion(const Model& model)
-    : n_(static_cast<std::size_t>(model.dimension())),
-      series_(model.tape(Formula::field), order, 1),
-      coefficients_(n_ * (order + 1)),
-      level_(n_) {}
+ReferenceExpansion::ReferenceExpansion(const Model& model)
+    : TaylorExpansion(model.tape(Formula::field), 28) {}
 
-void TaylorExpansion::expand(Quad t, const Quad* z) {
-  const Quad one(1);
-  series_.set_time(&t, &one);
-  std::copy(z, z + n_, coefficients_.begin());
-  for (std::size_t l = 0; l < order; ++l) {
-    series_.set_input(l, coefficients_.data() + l * n_);
-    series_.advance(l);
-    for (std::size_t k = 0; k < n_; ++k)
-      coefficients_[(l + 1) * n_ + k] = *series_.output(k, l) / Quad(static_cast<int>(l + 1));
-  }
-}
-
-Quad TaylorExpansion::safe_step() const {
+Quad ReferenceExpansion::safe_step() const {
   // The radius of convergence is estimated from the last two degrees. A step of e^-2.9 of it leaves terms of
   // degree 28 at e^(-2.9 * 28) = 5e-36 of the first term.
-  const auto size = [&](std::size_t degree) {
-    Quad largest(0);
-    for (std::size_t k = 0; k < n_; ++k) largest = std::max(largest, abs(coefficients_[degree * n_ + k]));
-    return largest;
-  };
-  const Quad scale = std::max(size(0), Quad(1e-30));
+  const Quad scale = std::max(largest(0), Quad(1e-30));
   Quad step(1e300);
-  for (const std::size_t degree : {order - 1, order}) {
-    const Quad ratio = size(static_cast<std::size_t>(degree)) / scale;
+  for (const std::size_t degree : {order() - 1, order()}) {
+    const Quad ratio = largest(degree) / scale;
     if (ratio > Quad(0)) step = std::min(step, exp(-log(ratio) / Quad(static_cast<int>(degree))));
   }
   return std::min(step * exp(Quad(-2.9)), Quad(1));
 }
 
-void TaylorExpansion::evaluate(Quad s, Quad* z) const {
-  for (std::size_t k = 0; k < n_; ++k) {
-    z[k] = coefficients_[order * n_ + k];
-    for (std::size_t l = order; l-- > 0;) z[k] = z[k] * s + coefficients_[l * n_ + k];
-  }
+void ReferenceExpansion::evaluate(Quad s, Quad* z) const {
+  for (std::size_t k = 0; k < size(); ++k) z[k] = coefficients()[k] + increment(s, k);
 }
 
 void taylor_flow(const Model& model, Quad t, Quad elapsed, std::vector<Quad>& z) {
-  TaylorExpansion expansion(model);
+  ReferenceExpansion expansion(model);
   const Quad sign(elapsed < Quad(0) ? -1 : 1);
   Quad left = abs(elapsed);
   while (left > Quad(0)) {
@@ -66,7 +43,7 @@ ReferenceSolution::ReferenceSolution(std::shared_ptr<const Model> model, Quad t0
     problem_ = std::make_shared<const Problem<Quad>>(model_);
     return;
   }
-  TaylorExpansion expansion(*model_);
+  ReferenceExpansion expansion(*model_);
   std::vector<Quad> z = initial_;
   for (Quad t = t0; t <= t0 + duration;) {
     expansion.expand(t, z.data());

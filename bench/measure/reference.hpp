@@ -7,30 +7,19 @@
 #include <vector>
 
 #include <pfaff/core/facets/problem.hpp>
-#include <pfaff/core/tape/series.hpp>
+#include <pfaff/core/tape/taylor_expansion.hpp>
 
 namespace pfaff {
 
-/// One Taylor step of order 28 of a model's vector field in quad, with a step size for which the last terms
-/// are below round-off.
-class TaylorExpansion {
+/// The expansion in quad of the solutions of a model, of order 28, with a step for which the last terms are
+/// below round-off.
+class ReferenceExpansion : public TaylorExpansion<Quad> {
  public:
-  explicit TaylorExpansion(const Model& model);
-
-  /// Expands the solution through z at time t. `coefficients()[degree * n + k]` are then its Taylor
-  /// coefficients.
-  void expand(Quad t, const Quad* z);
-  [[nodiscard]] const std::vector<Quad>& coefficients() const { return coefficients_; }
+  explicit ReferenceExpansion(const Model& model);
   /// The largest step, at most 1, for which the truncated series is accurate to round-off.
   [[nodiscard]] Quad safe_step() const;
   /// Writes to `z` the value of the Taylor polynomial at time `s` after the point of expansion.
   void evaluate(Quad s, Quad* z) const;
-
- private:
-  static constexpr int order = 28;
-  std::size_t n_;
-  SeriesReplay<Quad> series_;
-  std::vector<Quad> coefficients_, level_;
 };
 
 /// Moves `z` from time `t` along the flow of a model over `elapsed`, which may be negative, by Taylor steps

@@ -23,7 +23,7 @@ PROJECTED = {"dla": 1.2, "gni": 1.2, "nonholonomic-leap-frog": None, "mclachlan-
              "nonholonomic-discrete-gradient": 3.0, "velocity-projected-rk4": None, "odeint-dopri5": None}
 CHAIN = [8, 16, 32, 64, 128]
 RODS = [16, 64, 256, 1024]
-METHODS = ["verlet-plain", "verlet", "rk4-plain", "rk4", "implicit-midpoint", "gauss-4", "gauss-8",
+METHODS = ["verlet-merged", "verlet-plain", "verlet", "rk4-plain", "rk4", "implicit-midpoint", "gauss-4", "gauss-8",
            "gauss-12", "generating-function-4", "generating-function-8", "generating-function-12"]
 STRUCTURES = {"tridiagonal": [4, 8, 16, 64, 256, 1024], "cyclic": [4, 8, 16, 64, 256, 1024],
               "tree": [12, 16, 64, 256, 1024], "sparse": [16, 64, 256, 1024], "dense": [16, 64]}
@@ -57,6 +57,8 @@ def targets(times):
         for method in ["verlet-plain", "verlet"]:
             rows.append((f"{system} {method}: static / by hand", (system, method, "static"),
                          (system, method, "by-hand"), 1.10))
+        rows.append((f"{system} verlet-plain: static / by hand with merged drifts",
+                     (system, "verlet-plain", "static"), (system, "verlet-merged", "by-hand"), None))
     for method in METHODS:
         limit = 2.0 if method in ("verlet-plain", "verlet", "implicit-midpoint") else None
         rows.append((f"kepler {method}: registered / static", ("kepler", method, "registered"),

@@ -1,6 +1,6 @@
 // The loops that someone would write for a hanging chain of rods and nothing else: right-hand sides of the
-// full Dirac form (nguyen-turski (4.2)) and of Lagrange multipliers (nguyen-turski (A.5)), and a step of
-// RATTLE. Gravity acts and there is no friction. Times are in nanoseconds per rod.
+// full Dirac form (nguyen-turski (4.2)) and of Lagrange multipliers (nguyen-turski (A.5)). Gravity acts and
+// there is no friction. Times are in nanoseconds per rod.
 //
 // S is tridiagonal. For a single chain its elimination runs from both ends at once, with the left half of the
 // chain in one lane of a pack and the right half, mirrored, in the other, so that each division serves both

@@ -82,7 +82,7 @@ constexpr double ordinary_rates = 32, ordinary_rate = 8;
 Quad own_time(const Model& motion, const Real& t, const std::vector<Real>& z) {
   const std::size_t n = z.size();
   if (n > most_expanded) return Quad(1);
-  TaylorExpansion expansion(motion);
+  ReferenceExpansion expansion(motion);
   const std::vector<double> scales = coordinate_scales(z);
   std::vector<Quad> at;
   for (const Real& x : z) at.push_back(x.quad());

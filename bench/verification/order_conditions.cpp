@@ -38,7 +38,7 @@ void interpolate(const std::vector<Quad>& x, std::vector<Quad>& f) {
 
 // The coefficients of the error in powers of h/r, relative to the scales of the step:
 // errors[component][degree]. Empty where a step did not converge.
-std::vector<std::vector<Quad>> error_series(MethodOnModel& on, const TaylorExpansion& solution,
+std::vector<std::vector<Quad>> error_series(MethodOnModel& on, const ReferenceExpansion& solution,
                                             const std::vector<Quad>& start, const Quad& radius) {
   MeasuredStep<Quad>& step = on.step<Quad>();
   std::vector<Quad> x, exact(start.size());
@@ -76,7 +76,7 @@ std::optional<Check> check_order_conditions(MethodOnModel& on) {
   if (method.needs_constraints() || on.history() || on.double_coefficients() ||
       start.size() > most_coordinates || on.model()->restricted() || order <= 0)
     return std::nullopt;
-  TaylorExpansion solution(*motion_of(on.model()));
+  ReferenceExpansion solution(*motion_of(on.model()));
   solution.expand(generic_time.quad(), start.data());
   Check check = on.check("order conditions", "every system", "quad");
   check.tolerance = tolerance_of_conditions;

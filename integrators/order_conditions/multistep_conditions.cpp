@@ -51,6 +51,41 @@ std::vector<OrderCondition> multistep_conditions(const MultistepPolynomials& met
   return conditions;
 }
 
+std::vector<OrderCondition> second_order_multistep_conditions(const MultistepPolynomials& method, int order) {
+  const auto steps = static_cast<int>(method.rho.size()) - 1;
+  std::vector<OrderCondition> conditions;
+  for (int q = 0; q <= order + 1; ++q) {
+    Quad sum(0), size(0);
+    for (int j = 0; j <= steps; ++j) {
+      const auto place = static_cast<std::size_t>(j);
+      const Quad ratio = Quad(j) / Quad(steps);
+      Quad before(1);  // (j/k)^(q-2)
+      for (int n = 2; n < q; ++n) before *= ratio;
+      const Quad power = q == 0 ? Quad(1) : q == 1 ? ratio : before * ratio * ratio;
+      const Quad value = power * method.rho[place],
+                 curvature =
+                     q < 2 ? Quad(0) : Quad(q * (q - 1)) * before * method.sigma[place] / Quad(steps * steps);
+      sum += value - curvature;
+      size += abs(value) + abs(curvature);
+    }
+    const std::string power = std::to_string(q);
+    conditions.push_back({q == 0   ? "the sum of rho_j = 0"
+                          : q == 1 ? "the sum of j rho_j = 0"
+                          : q == 2 ? "the sum of j^2 rho_j - 2 sigma_j = 0"
+                                   : "the sum of j^" + power + " rho_j - " + std::to_string(q * (q - 1)) +
+                                         " j^" + std::to_string(q - 2) + " sigma_j = 0",
+                          std::max(q - 1, 1), sum, std::max(Quad(1), size)});
+  }
+  return conditions;
+}
+
+std::vector<Quad> without_root_one(const std::vector<Quad>& rho) {
+  std::vector<Quad> quotient(rho.size() - 1);
+  Quad sum(0);
+  for (std::size_t j = quotient.size(); j-- > 0;) quotient[j] = sum += rho[j + 1];
+  return quotient;
+}
+
 std::vector<ComplexQuad> polynomial_roots(const std::vector<Quad>& coefficients) {
   if (coefficients.size() > 1 && coefficients.front() == Quad(0)) {
     // A root at 0 is known exactly, and several of them would slow the iteration down.

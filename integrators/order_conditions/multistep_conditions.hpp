@@ -23,6 +23,14 @@ struct MultistepPolynomials {
 /// The conditions up to `order`, divided by k^q so that all are of the same size.
 std::vector<OrderCondition> multistep_conditions(const MultistepPolynomials& method, int order);
 
+/// The conditions up to `order` of a method for second order equations, sum_j rho_j q_{n+j} = h^2 sum_j
+/// sigma_j a_{n+j} (hairer-norsett-wanner1993 III.10): sum_j (j^q rho_j - q (q-1) j^(q-2) sigma_j) = 0 for q
+/// = 0, ..., order + 1, divided by k^q.
+std::vector<OrderCondition> second_order_multistep_conditions(const MultistepPolynomials& method, int order);
+
+/// rho(x) / (x - 1), where 1 is a root of rho.
+std::vector<Quad> without_root_one(const std::vector<Quad>& rho);
+
 /// A complex number in quad.
 struct ComplexQuad {
   Quad real{0}, imaginary{0};

@@ -16,10 +16,13 @@ struct Kind {
 };
 
 const std::vector<Kind>& kinds() {
-  static const std::vector<Kind> list{
-      {"runge-kutta", read_runge_kutta_table}, {"splitting", read_splitting_table},
-      {"rkn-splitting", read_splitting_table}, {"processed", read_splitting_table},
-      {"composition", read_composition_table}, {"multistep", read_multistep_table}};
+  static const std::vector<Kind> list{{"runge-kutta", read_runge_kutta_table},
+                                      {"splitting", read_splitting_table},
+                                      {"rkn-splitting", read_splitting_table},
+                                      {"processed", read_splitting_table},
+                                      {"composition", read_composition_table},
+                                      {"multistep", read_multistep_table},
+                                      {"second-order-multistep", read_second_order_multistep_table}};
   return list;
 }
 

@@ -82,6 +82,7 @@ std::unique_ptr<const MethodTable> read_runge_kutta_table(TableDocument& documen
 std::unique_ptr<const MethodTable> read_splitting_table(TableDocument& document, TableHead head);
 std::unique_ptr<const MethodTable> read_composition_table(TableDocument& document, TableHead head);
 std::unique_ptr<const MethodTable> read_multistep_table(TableDocument& document, TableHead head);
+std::unique_ptr<const MethodTable> read_second_order_multistep_table(TableDocument& document, TableHead head);
 
 /// A table whose method is a struct M, filled when the file was read.
 template <class M>

@@ -141,14 +141,6 @@ struct MultistepTable {
   }
 };
 
-// r with rho(x) = (x - 1) r(x).
-std::vector<Quad> reduced(const std::vector<Quad>& rho) {
-  std::vector<Quad> r(rho.size() - 1);
-  Quad sum(0);
-  for (std::size_t j = r.size(); j-- > 0;) r[j] = sum += rho[j + 1];
-  return r;
-}
-
 MultistepPolynomials polynomials_of(const std::vector<Quad>& numbers) {
   const std::size_t k = numbers.size() / 2;
   MultistepPolynomials method{std::vector<Quad>(k + 1),
@@ -185,7 +177,7 @@ std::unique_ptr<const MethodTable> read_multistep_table(TableDocument& document,
 
   MultistepTable made;
   made.steps = length - 1;
-  made.numbers = reduced(method.rho);
+  made.numbers = without_root_one(method.rho);  // r with rho(x) = (x - 1) r(x)
   made.numbers.insert(made.numbers.end(), method.sigma.begin(), method.sigma.end());
   made.starter.tableau = gauss_coefficients((order + 1) / 2);
   OrderTheory theory{"multistep", order, made.numbers, {}, head.precision};

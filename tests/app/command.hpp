@@ -81,7 +81,8 @@ class Program {
         const rlimit limit{*circumstances.memory, *circumstances.memory};
         if (setrlimit(RLIMIT_AS, &limit) != 0) _exit(126);
       }
-      std::signal(SIGPIPE, SIG_DFL);
+      // Tests that run in the background of a script inherit interrupts that are ignored.
+      for (const int signal : {SIGINT, SIGPIPE}) std::signal(signal, SIG_DFL);
       alarm(300);  // what never ends is a failure
       int out = out_[1];
       if (!circumstances.standard_output.empty())

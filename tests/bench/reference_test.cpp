@@ -100,7 +100,7 @@ TEST(Reference, SolutionByTaylorSeriesIsTheFlowAtEveryTime) {
 
 TEST(Reference, CoefficientsAreDerivativesOverFactorials) {
   const auto model = model_of("harmonic-oscillator");  // q' = p, p' = -q
-  TaylorExpansion expansion(*model);
+  ReferenceExpansion expansion(*model);
   const std::vector<Quad> z{Quad(3), Quad(5)};
   expansion.expand(Quad(0), z.data());
   const auto& c = expansion.coefficients();

@@ -1,0 +1,256 @@
+// Tables of the kind "second-order-multistep": the polynomials `rho` and `sigma`, lowest coefficient first,
+// of a linear multistep method for q'' = a(q, t),
+//
+//   sum_j rho_j q_{n+j} = h^2 sum_j sigma_j a(q_{n+j}, t_{n+j}),   j = 0, ..., k,   sigma_k = 0
+//
+// (hairer-norsett-wanner1993 III.10), on energies quadratic in p with a constant mass matrix, M a = f. Where
+// both polynomials are symmetric and the roots of rho other than the double 1 are simple and on the unit
+// circle, energies stay bounded over long times except at steps where resonances of the parasitic roots
+// spoil that (quinlan-tremaine1990, hairer-lubich-wanner2006 XV).
+//
+// With rho = (x - 1)^2 r(x) the method is a recursion for the increments e_n = P_{n+1} - P_n of the mean
+// momenta P_n of a step, M (q_{n+1} - q_n) / h:
+//
+//   sum_j r_j e_{n+j} = h sum_j sigma_j f_{n+j},   P_{n+1} = P_n + e_n,   q_{n+1} = q_n + h M^{-1} P_n,
+//
+// so that momenta and positions are sums of increments, which are compensated, and no rounding is divided by
+// h^2. The momenta that a step returns do not enter the recursion: they are the mean momentum and an integral
+// of the forces along the polynomial through the last k of them,
+//
+//   p_n = P_{n-1} + h sum_j c_j f_{n-j},   c_j = int_{-1}^0 (1 + s) l_j(s) ds.
+//
+// Forces are evaluated once a step. As long as there are fewer than k in a row, steps are those of Gauss
+// collocation of at least the same order. The increments that start the recursion are, like the momenta,
+// integrals of forces, e_n = h int_{-1}^1 (1 - |s|) f(t_{n+1} + s h) ds.
+#include <algorithm>
+
+#include <pfaff/core/facets/quadratic_energy.hpp>
+#include <pfaff/core/numbers/gauss_legendre.hpp>
+#include <pfaff/integrators/order_conditions/multistep_conditions.hpp>
+#include <pfaff/integrators/runge_kutta/gauss.hpp>
+#include <pfaff/integrators/support/continuation.hpp>
+#include <pfaff/integrators/tables/method_table.hpp>
+
+namespace {
+using namespace pfaff;
+
+// Integrates weight(s) times each of the Lagrange polynomials of the places 0, ..., count - 1 from `begin` to
+// begin + 1, exactly up to rounding, and adds the results to `sums`.
+template <class Weight>
+void add_integrals(std::vector<Quad>& sums, int begin, Weight weight) {
+  const int count = static_cast<int>(sums.size());
+  for (const QuadratureNode& node : gauss_legendre(count / 2 + 2)) {
+    const Quad at = Quad(begin) + node.place.quad();
+    for (int j = 0; j < count; ++j) {
+      Quad polynomial(1);
+      for (int i = 0; i < count; ++i)
+        if (i != j) polynomial *= (at - Quad(i)) / Quad(j - i);
+      sums[static_cast<std::size_t>(j)] += node.weight.quad() * weight(node.place.quad()) * polynomial;
+    }
+  }
+}
+// Weights of the forces of k states in a row, oldest first, in the newest momentum less the mean one before.
+std::vector<Quad> momentum_weights(std::size_t k) {
+  std::vector<Quad> sums(k, Quad(0));
+  add_integrals(sums, static_cast<int>(k) - 2, [](const Quad& s) { return s; });
+  return sums;
+}
+// The same in the increment between the mean momenta before and after state `middle`.
+std::vector<Quad> increment_weights(std::size_t k, std::size_t middle) {
+  std::vector<Quad> sums(k, Quad(0));
+  add_integrals(sums, static_cast<int>(middle) - 1, [](const Quad& s) { return s; });
+  add_integrals(sums, static_cast<int>(middle), [](const Quad& s) { return Quad(1) - s; });
+  return sums;
+}
+
+struct SecondOrderMultistepTable {
+  static constexpr bool fixed_sizes = false;
+  std::size_t steps = 2;      // k
+  std::vector<Quad> numbers;  // r_0, ..., r_{k-2}, sigma_0, ..., sigma_{k-1}
+  Collocation<> starter;
+  bool compensated = true;
+
+  static std::vector<Parameter> parameters() {
+    return {parameter(&SecondOrderMultistepTable::compensated, "compensated", "compensated summation")};
+  }
+  std::span<Quad> coefficients() { return numbers; }
+  [[nodiscard]] std::string refuses(const Model& model) const {
+    return quadratic_in_momenta(model)
+               ? ""
+               : "steps accelerations and needs a kinetic energy that is quadratic in "
+                 "the momenta";
+  }
+
+  template <class P>
+  struct Work {
+    using T = Scalar<P>;
+    std::vector<T> r, sigma;  // divided by r_{k-2}, so that the newest increment has the factor 1
+    std::vector<T> momentum;  // the weights c_j, oldest first
+    std::vector<std::vector<T>> starting_increments;
+    std::vector<T> forces, increments;  // of the last k states and k - 2 pairs of steps, newest last
+    std::vector<T> mean, velocity, carry_position, carry_momentum;
+    std::size_t known = 0;  // forces in a row
+    Continuation<P> continuation;
+    pfaff::Work<Collocation<>, P> starting;
+
+    Work(const SecondOrderMultistepTable& method, const P& p) : continuation(p), starting(method.starter, p) {
+      const std::size_t k = method.steps, half = p.size() / 2;
+      const T leading = T(Real(method.numbers[k - 2]));
+      for (std::size_t j = 0; j + 1 < k; ++j) r.push_back(T(Real(method.numbers[j])) / leading);
+      for (std::size_t j = 0; j < k; ++j) sigma.push_back(T(Real(method.numbers[k - 1 + j])) / leading);
+      momentum = converted(momentum_weights(k));
+      for (std::size_t j = 0; j + 2 < k; ++j)
+        starting_increments.push_back(converted(increment_weights(k, j + 1)));
+      forces.assign(k * half, T(0));
+      increments.assign((k - 2) * half, T(0));
+      for (std::vector<T>* row : {&mean, &velocity, &carry_position, &carry_momentum})
+        row->assign(half, T(0));
+    }
+    static std::vector<T> converted(const std::vector<Quad>& numbers) {
+      std::vector<T> list;
+      for (const Quad& x : numbers) list.push_back(T(Real(x)));
+      return list;
+    }
+    // Moves a row of states by one, so that there is room for a new one at its end.
+    static void move(std::vector<T>& row, std::size_t half) {
+      if (row.size() > half)
+        std::copy(row.begin() + static_cast<std::ptrdiff_t>(half), row.end(), row.begin());
+    }
+    // The sum of the forces with these weights, in component c.
+    [[nodiscard]] T weighted(const std::vector<T>& weights, std::size_t half, std::size_t c) const {
+      T sum(0);
+      for (std::size_t j = 0; j < weights.size(); ++j) sum = sum + weights[j] * forces[j * half + c];
+      return sum;
+    }
+  };
+
+  template <HasSeparable P>
+  requires HasVectorField<P> Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z,
+                                         Work<P>& w)
+  const {
+    const std::size_t half = z.size() / 2;
+    if (!w.continuation.holds(t, h, z)) {
+      w.known = 0;
+      w.starting.restart();
+      add_force(p, t, z, w);
+    }
+    if (w.known < steps) {
+      const Status status = starter.step(p, t, h, z, w.starting);
+      if (status != Status::converged) {
+        w.continuation.forget();
+        return status;
+      }
+      add_force(p, t + h, z, w);
+      if (w.known == steps) begin(h, z, w);
+    } else {
+      recur(p, h, z, w);
+      add_force(p, t + h, z, w);
+      for (std::size_t c = 0; c < half; ++c)
+        z[half + c] = w.mean[c] + (w.carry_momentum[c] + h * w.weighted(w.momentum, half, c));
+    }
+    w.continuation.remember(t + h, h, z);
+    return Status::converged;
+  }
+
+ private:
+  // The force at state z, which is the newest one from here on.
+  template <class P>
+  void add_force(const P& p, const Scalar<P>& t, const State<P>& z, Work<P>& w) const {
+    const std::size_t half = z.size() / 2;
+    Work<P>::move(w.forces, half);
+    p.force(t, In<Scalar<P>>(z.data(), half), Out<Scalar<P>>(w.forces.data() + (steps - 1) * half, half));
+    w.known = std::min(w.known + 1, steps);
+  }
+
+  // Mean momentum and increments of the first k states.
+  template <class P>
+  void begin(const Scalar<P>& h, const State<P>& z, Work<P>& w) const {
+    using T = Scalar<P>;
+    const std::size_t half = z.size() / 2;
+    for (std::size_t c = 0; c < half; ++c) {
+      w.mean[c] = z[half + c] - h * w.weighted(w.momentum, half, c);
+      w.carry_position[c] = w.carry_momentum[c] = T(0);
+      for (std::size_t j = 0; j + 2 < steps; ++j)
+        w.increments[j * half + c] = h * w.weighted(w.starting_increments[j], half, c);
+    }
+  }
+
+  // The next mean momentum, and the positions it leads to.
+  template <class P>
+  void recur(const P& p, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
+    using T = Scalar<P>;
+    const std::size_t half = z.size() / 2;
+    for (std::size_t c = 0; c < half; ++c) {
+      T old(0);
+      for (std::size_t j = 0; j + 2 < steps; ++j) old = old + w.r[j] * w.increments[j * half + c];
+      const T increment = h * w.weighted(w.sigma, half, c) - old;
+      if (steps > 2) {
+        for (std::size_t j = 0; j + 3 < steps; ++j)
+          w.increments[j * half + c] = w.increments[(j + 1) * half + c];
+        w.increments[(steps - 3) * half + c] = increment;
+      }
+      add_to(w.mean[c], w.carry_momentum[c], increment, compensated);
+    }
+    p.velocity(T(0), w.mean, w.velocity);
+    for (std::size_t c = 0; c < half; ++c) add_to(z[c], w.carry_position[c], h * w.velocity[c], compensated);
+  }
+};
+
+MultistepPolynomials polynomials_of(const std::vector<Quad>& numbers) {
+  const std::size_t k = (numbers.size() + 1) / 2;
+  MultistepPolynomials method{std::vector<Quad>(k + 1, Quad(0)),
+                              {numbers.begin() + static_cast<std::ptrdiff_t>(k) - 1, numbers.end()}};
+  method.sigma.emplace_back(0);
+  for (std::size_t j = 0; j + 1 < k; ++j) {
+    method.rho[j] += numbers[j];
+    method.rho[j + 1] -= Quad(2) * numbers[j];
+    method.rho[j + 2] += numbers[j];
+  }
+  return method;
+}
+
+}  // namespace
+
+namespace pfaff {
+
+std::unique_ptr<const MethodTable> read_second_order_multistep_table(TableDocument& document,
+                                                                     TableHead head) {
+  const MultistepPolynomials method{document.numbers("rho"), document.numbers("sigma")};
+  constexpr std::size_t most_steps = 24;
+  const std::size_t length = method.rho.size();
+  if (length < 3 || length > most_steps + 1)
+    document.refuse("rho", "expected 3 to 25 numbers, got " + std::to_string(length));
+  if (method.sigma.size() != length)
+    document.refuse("sigma", "expected " + std::to_string(length) + " numbers, as many as rho has, got " +
+                                 std::to_string(method.sigma.size()));
+  if (method.rho.back() == Quad(0)) document.refuse("rho", "the last number is 0; expected another");
+  if (method.sigma.back() != Quad(0))
+    document.refuse("sigma", "the last number is not 0; expected an explicit method");
+  head.descriptor.preserves = kept_claims(document, {}, [](Claim /*claim*/) {
+    return "a multistep method is a map of several states, of which no claim speaks";
+  });
+  document.finish();
+  const int order = head.descriptor.order;
+  require_order(document, head, second_order_multistep_conditions(method, order + 1));
+  const std::vector<Quad> r = without_root_one(without_root_one(method.rho));
+  if (r.size() > 1)
+    if (const std::string reason = instability({r, {}}); !reason.empty())
+      document.refuse("rho", "is not zero-stable: without its double root 1, " + reason);
+
+  SecondOrderMultistepTable made;
+  made.steps = length - 1;
+  made.numbers = r;
+  made.numbers.insert(made.numbers.end(), method.sigma.begin(), method.sigma.end() - 1);
+  made.starter.tableau = gauss_coefficients((order + 1) / 2);
+  OrderTheory theory{"second-order multistep", order, made.numbers, {}, head.precision};
+  theory.conditions = [order](const std::vector<Quad>& numbers) {
+    return second_order_multistep_conditions(polynomials_of(numbers), order);
+  };
+  // The first condition that does not hold by itself is that the sum of r_j is the sum of sigma_j.
+  for (std::size_t k = 0; k < theory.coefficients.size(); ++k)
+    theory.sums.push_back(k + 1 < made.steps ? 0 : 1);
+  return std::make_unique<TableOf<SecondOrderMultistepTable>>(head.descriptor, document, std::move(theory),
+                                                              std::move(made));
+}
+
+}  // namespace pfaff
