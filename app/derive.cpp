@@ -5,7 +5,7 @@
 
 #include <pfaff/app/command.hpp>
 #include <pfaff/app/terminal.hpp>
-#include <pfaff/bench/derivation/derivation.hpp>
+#include <pfaff/bench/derivation/named_parameters.hpp>
 #include <pfaff/bench/runner/settings.hpp>
 #include <pfaff/core/emit/emitter.hpp>
 #include <pfaff/core/errors/errors.hpp>
@@ -35,6 +35,23 @@ std::optional<FrictionForm> take_friction_form(Assignments& settings) {
     return true;
   });
   return form;
+}
+
+// The degree of a generating function among the settings, which is taken out of them.
+int take_order(Assignments& settings, const std::string& method) {
+  int degree = 4;
+  if (method != "generating-function") return degree;
+  std::erase_if(settings, [&](const auto& setting) {
+    if (setting.first != "order") return false;
+    const std::optional<Real> order = Real::parse(setting.second);
+    if (!order || !order->is_fraction() || order->denominator() != 1 || order->numerator() < 1 ||
+        order->numerator() > largest_degree)
+      throw InputError("order: expected a whole number in 1 .. " + std::to_string(largest_degree) +
+                       ", got '" + setting.second + "'");
+    degree = static_cast<int>(order->numerator());
+    return true;
+  });
+  return degree;
 }
 
 // In lines of which each fits beside the names of the options.
@@ -93,6 +110,7 @@ int print_counts(const Equations& equations, double seconds, bool as_json) {
 int run(const Options& options, bool as_json) {
   Assignments settings = parse_settings(options.set);
   const std::optional<FrictionForm> friction = take_friction_form(settings);
+  const int degree = take_order(settings, options.method);
   const SystemPlugin& system = system_named(options.system);
   const std::vector<std::string> known = forms();
   if (std::find(known.begin(), known.end(), options.emit) == known.end())
@@ -101,9 +119,10 @@ int run(const Options& options, bool as_json) {
     throw InputError("--json is for --emit counts; expected " + options.emit + " without it");
   const SplitSettings split = split_settings(system, nullptr, nullptr, settings);
   if (!split.initial.empty()) throw InputError("--set initial: equations do not depend on a state");
-  const std::shared_ptr<const Model> model = system.make(split.system);
   const auto begin = std::chrono::steady_clock::now();
-  const Equations equations = derive(*model, options.method, friction);
+  const Equations equations = with_named_parameters(system, split.system, [&](const Model& model) {
+    return derive(model, options.method, friction, degree);
+  });
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
   if (options.emit != "counts") return print_text(equations, options.emit);
   return print_counts(equations, seconds.count(), as_json);
@@ -121,7 +140,7 @@ void add_derive(CLI::App& app, Common& common, Action& action) {
       ->type_name("NAME")
       ->required();
   sub->add_option("--emit", options->emit, "What is printed: " + forms_in_words())->type_name("NAME");
-  sub->add_option("--set", options->set, "A parameter of the system (beads=12) or friction-form=NAME")
+  sub->add_option("--set", options->set, "A parameter of the system (beads=12), friction-form=NAME, or\norder=K of generating-function")
       ->type_name("KEY=VALUE")
       ->expected(1)
       ->take_all();

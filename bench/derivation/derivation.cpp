@@ -6,6 +6,7 @@
 
 #include <pfaff/bench/derivation/engines.hpp>
 #include <pfaff/bench/derivation/explicit_solves.hpp>
+#include <pfaff/bench/derivation/generating_coefficients.hpp>
 #include <pfaff/bench/derivation/redundancy.hpp>
 #include <pfaff/bench/derivation/scaled.hpp>
 #include <pfaff/bench/derivation/symbolic_formulas.hpp>
@@ -38,7 +39,7 @@ void by_solver(HolonomicConstraints<Recorded>& constraints, const Recorded& t, I
 struct Row {
   DerivationMethod method;
   FrictionForm friction;
-  Engine engine;           // empty for the two methods without holonomic constraints
+  Engine engine;           // empty for the methods without holonomic constraints
   bool recursion = false;  // eliminates constraint by constraint
 };
 const std::vector<Row>& rows() {
@@ -67,7 +68,8 @@ const std::vector<Row>& rows() {
        metriplectic,
        by_formulation<HamiltonianReactions<Recorded>>},
       {{"nonholonomic", "projected equations of velocity constraints"}, none, {}},
-      {{"birkhoffian", "K^-1 (grad B + F_t), the structure solved for the rates"}, none, {}}};
+      {{"birkhoffian", "K^-1 (grad B + F_t), the structure solved for the rates"}, none, {}},
+      {{"generating-function", "the field in a chart, and coefficients of its generating function"}, none, {}}};
   return list;
 }
 const Row& row_of(const std::string& method) {
@@ -96,6 +98,11 @@ std::string misfit(const Model& model, const Row& row) {
     return who + "a structure K(z, t) and no constraints; " + model.name() + " offers " +
            to_string(model.facets());
   }
+  if (method == "generating-function") {
+    if (has_chart_hamiltonian(model)) return {};
+    return who + "a Hamiltonian in Darboux coordinates and no constraints; " + model.name() + " offers " +
+           to_string(model.facets());
+  }
   if (!model.holonomic())
     return who + "holonomic constraints; " + model.name() + " offers " + to_string(model.facets());
   if (method == "minors" && !chain(model))
@@ -103,26 +110,6 @@ std::string misfit(const Model& model, const Row& row) {
   if (row.recursion && !model.tape(Formula::holonomic)->autonomous())
     return who + "constraints that do not depend on time; those of " + model.name() + " do";
   return {};
-}
-
-/// Keeps of the parameters, the inputs after the coordinates, those that the tape reads.
-void keep_used(Equations& equations) {
-  const int coordinates = static_cast<int>(equations.coordinates.size());
-  std::set<int> used;
-  for (const Instruction& i : equations.tape.code)
-    if (i.operation == Operation::input && i.a >= coordinates) used.insert(i.a);
-  std::vector<Symbol> names;
-  std::vector<Real> values;
-  for (const int input : used) {
-    names.push_back(equations.parameters[static_cast<std::size_t>(input - coordinates)]);
-    values.push_back(equations.parameter_values[static_cast<std::size_t>(input - coordinates)]);
-  }
-  for (Instruction& i : equations.tape.code)
-    if (i.operation == Operation::input && i.a >= coordinates)
-      i.a = coordinates + static_cast<int>(std::distance(used.begin(), used.find(i.a)));
-  equations.tape.inputs = coordinates + static_cast<int>(used.size());
-  equations.parameters = std::move(names);
-  equations.parameter_values = std::move(values);
 }
 
 void derive_holonomic(const Model& model, const Row& row, FrictionForm form, Equations& equations) {
@@ -158,11 +145,32 @@ const std::vector<DerivationMethod>& derivation_methods() {
   return methods;
 }
 
+Equations keep_used(Equations equations) {
+  const int coordinates = static_cast<int>(equations.coordinates.size());
+  std::set<int> used;
+  for (const Instruction& i : equations.tape.code)
+    if (i.operation == Operation::input && i.a >= coordinates) used.insert(i.a);
+  std::vector<Symbol> names;
+  std::vector<Real> values;
+  for (const int input : used) {
+    names.push_back(equations.parameters[static_cast<std::size_t>(input - coordinates)]);
+    values.push_back(equations.parameter_values[static_cast<std::size_t>(input - coordinates)]);
+  }
+  for (Instruction& i : equations.tape.code)
+    if (i.operation == Operation::input && i.a >= coordinates)
+      i.a = coordinates + static_cast<int>(std::distance(used.begin(), used.find(i.a)));
+  equations.tape.inputs = coordinates + static_cast<int>(used.size());
+  equations.parameters = std::move(names);
+  equations.parameter_values = std::move(values);
+  return equations;
+}
+
 std::string derivation_misfit(const Model& model, const std::string& method) {
   return misfit(model, row_of(method));
 }
 
-Equations derive(const Model& model, const std::string& method, std::optional<FrictionForm> friction) {
+Equations derive(const Model& model, const std::string& method, std::optional<FrictionForm> friction,
+                 int degree) {
   const Row& row = row_of(method);
   if (const std::string reason = misfit(model, row); !reason.empty()) {
     std::string others;
@@ -184,13 +192,14 @@ Equations derive(const Model& model, const std::string& method, std::optional<Fr
     const std::shared_ptr<const Model> borrowed(std::shared_ptr<const Model>(), &model);
     const auto motion = formulations().get("nonholonomic", "formulation").apply(borrowed, {});
     equations.tape = *motion->tape(Formula::field);
+  } else if (method == "generating-function") {
+    expand_generating_function(model, degree, equations);
   } else {
     equations.tape =
         *(model.given(Formula::field) ? model.derived(Formula::field) : model.tape(Formula::field));
   }
   equations.tape = simplified(explicit_solves(equations.tape, "system " + model.name()));
-  keep_used(equations);
-  return equations;
+  return keep_used(std::move(equations));
 }
 
 }  // namespace pfaff

@@ -22,10 +22,18 @@ const std::vector<DerivationMethod>& derivation_methods();
 /// Why a method does not fit a model; empty where it does. InputError for an unknown name.
 std::string derivation_misfit(const Model& model, const std::string& method);
 
+/// The largest degree of a generating function that is derived.
+inline constexpr int largest_degree = 12;
+
 /// The equations of a model. Friction takes the form that is asked for or, without, the method's own: that of
-/// the formulation whose equations they are. InputError for an unknown method, one that does not fit (with
-/// those that do) and constraints that are dependent whatever the state.
-Equations derive(const Model& model, const std::string& method, std::optional<FrictionForm> friction = {});
+/// the formulation whose equations they are. `degree` is that of method generating-function. InputError for
+/// an unknown method, one that does not fit (with those that do) and constraints that are dependent whatever
+/// the state.
+Equations derive(const Model& model, const std::string& method, std::optional<FrictionForm> friction = {},
+                 int degree = 4);
+
+/// The equations without parameters that no equation has.
+Equations keep_used(Equations equations);
 
 /// The operations of a tape: its instructions but constants, inputs and the time.
 std::size_t operations(const Tape& tape);
