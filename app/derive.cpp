@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <chrono>
 #include <iostream>
+#include <sstream>
 
 #include <pfaff/app/command.hpp>
 #include <pfaff/app/terminal.hpp>
@@ -52,6 +53,19 @@ int take_order(Assignments& settings, const std::string& method) {
     return true;
   });
   return degree;
+}
+
+// The order of elimination among the settings, which is taken out of them.
+std::vector<std::string> take_elimination(Assignments& settings) {
+  std::vector<std::string> names;
+  std::erase_if(settings, [&](const auto& setting) {
+    if (setting.first != "elimination") return false;
+    std::istringstream list(setting.second);
+    names.clear();
+    for (std::string name; std::getline(list, name, ',');) names.push_back(name);
+    return true;
+  });
+  return names;
 }
 
 // In lines of which each fits beside the names of the options.
@@ -109,8 +123,8 @@ int print_counts(const Equations& equations, double seconds, bool as_json) {
 
 int run(const Options& options, bool as_json) {
   Assignments settings = parse_settings(options.set);
-  const std::optional<FrictionForm> friction = take_friction_form(settings);
-  const int degree = take_order(settings, options.method);
+  const DerivationOptions chosen{take_friction_form(settings), take_order(settings, options.method),
+                                 take_elimination(settings)};
   const SystemPlugin& system = system_named(options.system);
   const std::vector<std::string> known = forms();
   if (std::find(known.begin(), known.end(), options.emit) == known.end())
@@ -120,9 +134,8 @@ int run(const Options& options, bool as_json) {
   const SplitSettings split = split_settings(system, nullptr, nullptr, settings);
   if (!split.initial.empty()) throw InputError("--set initial: equations do not depend on a state");
   const auto begin = std::chrono::steady_clock::now();
-  const Equations equations = with_named_parameters(system, split.system, [&](const Model& model) {
-    return derive(model, options.method, friction, degree);
-  });
+  const Equations equations = with_named_parameters(
+      system, split.system, [&](const Model& model) { return derive(model, options.method, chosen); });
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
   if (options.emit != "counts") return print_text(equations, options.emit);
   return print_counts(equations, seconds.count(), as_json);
@@ -140,7 +153,7 @@ void add_derive(CLI::App& app, Common& common, Action& action) {
       ->type_name("NAME")
       ->required();
   sub->add_option("--emit", options->emit, "What is printed: " + forms_in_words())->type_name("NAME");
-  sub->add_option("--set", options->set, "A parameter of the system (beads=12), friction-form=NAME, or\norder=K of generating-function")
+  sub->add_option("--set", options->set, "A parameter of the system (beads=12), friction-form=NAME,\norder=K of generating-function, or elimination=NAME,NAME,...\nof the constraints in the recursions")
       ->type_name("KEY=VALUE")
       ->expected(1)
       ->take_all();

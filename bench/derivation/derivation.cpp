@@ -4,6 +4,7 @@
 #include <functional>
 #include <set>
 
+#include <pfaff/bench/derivation/elimination_order.hpp>
 #include <pfaff/bench/derivation/engines.hpp>
 #include <pfaff/bench/derivation/explicit_solves.hpp>
 #include <pfaff/bench/derivation/generating_coefficients.hpp>
@@ -20,20 +21,21 @@ namespace {
 
 using Numbers = std::vector<Recorded>;
 /// The rates of (q, p) of recorded constraints, by one method.
-using Engine = std::function<void(HolonomicConstraints<Recorded>&, const Recorded& t, In<Recorded> z,
-                                  Out<Recorded> rates, FrictionForm form)>;
+using Engine =
+    std::function<void(HolonomicConstraints<Recorded>&, const Recorded& t, In<Recorded> z,
+                       Out<Recorded> rates, FrictionForm form, const std::vector<std::size_t>& order)>;
 
 template <class Rates>
 void by_formulation(HolonomicConstraints<Recorded>& constraints, const Recorded& t, In<Recorded> z,
-                    Out<Recorded> rates, FrictionForm form) {
+                    Out<Recorded> rates, FrictionForm form, const std::vector<std::size_t>& /*order*/) {
   const std::size_t n = constraints.degrees();
   (void)Rates(form, constraints)(constraints, t, z.first(n), z.subspan(n), rates.first(n), rates.subspan(n));
 }
 template <class Solver>
 void by_solver(HolonomicConstraints<Recorded>& constraints, const Recorded& t, In<Recorded> z,
-               Out<Recorded> rates, FrictionForm /*form*/) {
+               Out<Recorded> rates, FrictionForm /*form*/, const std::vector<std::size_t>& order) {
   const std::size_t n = constraints.degrees();
-  (void)BracketRates<Solver, Recorded>(constraints)(t, z.first(n), z.subspan(n), rates);
+  (void)BracketRates<Solver, Recorded>(constraints, order)(t, z.first(n), z.subspan(n), rates);
 }
 
 struct Row {
@@ -112,10 +114,12 @@ std::string misfit(const Model& model, const Row& row) {
   return {};
 }
 
-void derive_holonomic(const Model& model, const Row& row, FrictionForm form, Equations& equations) {
+void derive_holonomic(const Model& model, const Row& row, FrictionForm form,
+                      const std::vector<std::string>& elimination, Equations& equations) {
   const SymbolicFormulas source = symbolic_formulas(model, form != FrictionForm::none);
   const auto tapes = std::make_shared<const HolonomicTapes>(record_holonomic(source.formulas));
   refuse_redundant(tapes, source, model, row.recursion);
+  const std::vector<std::size_t> order = elimination_order(tapes, source, model, elimination);
   equations.parameters = source.parameters;
   equations.parameter_values = source.values;
   const std::size_t n = 2 * source.formulas.degrees;
@@ -124,7 +128,7 @@ void derive_holonomic(const Model& model, const Row& row, FrictionForm form, Equ
   const Numbers parameters(inputs.begin() + static_cast<std::ptrdiff_t>(n), inputs.end());
   Numbers rates(n);
   const auto record_with = [&](auto&& constraints) {
-    row.engine(constraints, recorder.time(), In<Recorded>(inputs).first(n), rates, form);
+    row.engine(constraints, recorder.time(), In<Recorded>(inputs).first(n), rates, form, order);
   };
   if (row.method.name == "minors") {
     record_with(ConstraintsByMinors<Recorded>(tapes, parameters));
@@ -169,8 +173,11 @@ std::string derivation_misfit(const Model& model, const std::string& method) {
   return misfit(model, row_of(method));
 }
 
-Equations derive(const Model& model, const std::string& method, std::optional<FrictionForm> friction,
-                 int degree) {
+Equations derive(const Model& model, const std::string& method, FrictionForm friction) {
+  return derive(model, method, DerivationOptions{.friction = friction});
+}
+
+Equations derive(const Model& model, const std::string& method, const DerivationOptions& options) {
   const Row& row = row_of(method);
   if (const std::string reason = misfit(model, row); !reason.empty()) {
     std::string others;
@@ -178,7 +185,10 @@ Equations derive(const Model& model, const std::string& method, std::optional<Fr
       if (misfit(model, other).empty()) others += (others.empty() ? "" : ", ") + other.method.name;
     throw InputError(reason + "; methods that fit: " + (others.empty() ? "none" : others));
   }
-  const FrictionForm form = friction.value_or(row.friction);
+  const FrictionForm form = options.friction.value_or(row.friction);
+  if (!row.recursion && !options.elimination.empty())
+    throw InputError("method " + method + " has no order of elimination; those that have one: recursion, " +
+                     "recursion-literal, bivector");
   if (row.recursion && form == FrictionForm::stokes)
     throw InputError("method " + method + " has no friction-form stokes; expected metriplectic or none");
   Equations equations;
@@ -186,14 +196,14 @@ Equations derive(const Model& model, const std::string& method, std::optional<Fr
   equations.method = method;
   for (const Coordinate& c : model.coordinates()) equations.coordinates.push_back({c.name, c.unit});
   if (row.engine) {
-    derive_holonomic(model, row, form, equations);
+    derive_holonomic(model, row, form, options.elimination, equations);
   } else if (method == "nonholonomic") {
     // The motion shares the formulas of the model, which outlives it.
     const std::shared_ptr<const Model> borrowed(std::shared_ptr<const Model>(), &model);
     const auto motion = formulations().get("nonholonomic", "formulation").apply(borrowed, {});
     equations.tape = *motion->tape(Formula::field);
   } else if (method == "generating-function") {
-    expand_generating_function(model, degree, equations);
+    expand_generating_function(model, options.degree, equations);
   } else {
     equations.tape =
         *(model.given(Formula::field) ? model.derived(Formula::field) : model.tape(Formula::field));

@@ -41,7 +41,7 @@ class Studies : public ::testing::Test {
                                           "reference = [\"nguyen-turski\"]\nsystem = \"n-pendulum\"\n"
                                           "parameter = \"bobs\"\n" + text);
     try {
-      const Experiment experiment = read_experiment((directory_ / "study.toml").string(), true);
+      const Experiment experiment = read_experiment(directory_ / "study.toml", true);
       (void)run_experiment(experiment, directory_.path() / "out", nullptr);
     } catch (const InputError& error) {
       return error.what();
@@ -71,7 +71,7 @@ TEST(Experiment, OfAnUnknownKindIsRefused) {
   write_file(directory / "study.toml",
              "schema = 1\nkind = \"derivations\"\ntitle = \"A test\"\nreference = []\n");
   try {
-    (void)read_experiment((directory / "study.toml"), false);
+    (void)read_experiment(directory / "study.toml", false);
     FAIL() << "it was read";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("did you mean 'derivation'"));

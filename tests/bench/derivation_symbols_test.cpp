@@ -24,7 +24,7 @@ using ::testing::HasSubstr;
 Equations named(const SystemPlugin& system, const Assignments& settings, const std::string& method,
                 int degree = 4) {
   return with_named_parameters(
-      system, settings, [&](const Model& model) { return derive(model, method, {}, degree); });
+      system, settings, [&](const Model& model) { return derive(model, method, DerivationOptions{.degree = degree}); });
 }
 std::vector<std::string> symbols(const Equations& equations) {
   std::vector<std::string> names;
@@ -39,7 +39,7 @@ std::vector<Quad> somewhere(const Model& model) {
 double difference(const std::vector<Quad>& a, const std::vector<Quad>& b) {
   double worst = 0;
   for (std::size_t k = 0; k < a.size(); ++k)
-    worst = std::max(worst, static_cast<double>(abs(a[k] - b[k]) / max(Quad(1), abs(b[k]))));
+    worst = std::max(worst, static_cast<double>(abs(a[k] - b[k]) / std::max(Quad(1), abs(b[k]))));
   return worst;
 }
 
@@ -78,7 +78,7 @@ TEST(NamedParameters, OtherValuesGiveTheirEquations) {
 TEST(NamedParameters, OfTextModelsStayNumbersWhereTheyAreAdded) {
   const TemporaryDirectory directory;
   const std::string path = directory / "sums.toml";
-  std::ofstream(path) << R"(name = "sums"
+  std::ofstream(path) << R"toml(name = "sums"
 title = "A quartic oscillator"
 reference = "none"
 parameters = { a = { value = 2 }, b = { value = 3 }, c = { value = "1/2" }, d = { value = 5 }, none = { value = 0 } }
@@ -86,7 +86,7 @@ coordinates = ["q", "p"]
 initial = [1, 0]
 kinetic = "p^2/(2*d)"
 potential = "(a + b)*q^2/2 + c*d^2*q^4/4 + none*q"
-)";
+)toml";
   const SystemPlugin& system = system_named(path);
   Equations equations = named(system, {}, "birkhoffian");
   EXPECT_THAT(symbols(equations), ElementsAre("c", "d"));
@@ -100,7 +100,7 @@ potential = "(a + b)*q^2/2 + c*d^2*q^4/4 + none*q"
 TEST(GeneratingCoefficients, AreClosedFormsOfTheOscillator) {
   const SystemPlugin& system = systems().get("harmonic-oscillator", "system");
   const auto model = system.make({});
-  const Equations equations = derive(*model, "generating-function", {}, 5);
+  const Equations equations = derive(*model, "generating-function", DerivationOptions{.degree = 5});
   EXPECT_THAT(equations.further_outputs, ElementsAre("phi1", "phi2", "phi3", "phi4", "phi5"));
   const std::vector<Quad> z{Quad(0.5), Quad(-0.75)};
   const Quad square = z[0] * z[0] + z[1] * z[1];
@@ -118,7 +118,7 @@ TEST(GeneratingCoefficients, AreThoseOfTheLiteralExpansion) {
     const auto model = systems().get(name, "system").make({});
     const auto terms = expand_scalar(scalar_evolution(*model->tape(energy)), model->dimension(), degree);
     const std::vector<Quad> z = somewhere(*model);
-    const auto found = rates_of(derive(*model, "generating-function", {}, degree), Quad(0.7), z);
+    const auto found = rates_of(derive(*model, "generating-function", DerivationOptions{.degree = degree}), Quad(0.7), z);
     double changed = 0;
     for (int k = 1; k <= degree; ++k) {
       std::vector<Quad> expected(1), earlier(1);
@@ -138,7 +138,8 @@ TEST(GeneratingCoefficients, AreThoseOfTheLiteralExpansion) {
 TEST(GeneratingCoefficients, RefuseWhatHasNone) {
   const auto message = [](const char* system, int degree) -> std::string {
     try {
-      (void)derive(*systems().get(system, "system").make({}), "generating-function", {}, degree);
+      (void)derive(*systems().get(system, "system").make({}), "generating-function",
+                   DerivationOptions{.degree = degree});
     } catch (const InputError& error) {
       return error.what();
     }
