@@ -135,31 +135,42 @@ struct Fit {
   FittedSlope slope;
 };
 
+// The growth of value(derivation) with K by a power law or by an exponential; without points where there are
+// too few.
+template <class Value>
+Fit fit_of(const DerivationStudy& study, const std::vector<Derived>& all, const std::string& method,
+           const std::string& quantity, bool power, Value&& value) {
+  Fit fit{method, quantity, power ? "power" : "exponential", HUGE_VAL, 0, {}};
+  std::vector<double> x, y;
+  for (const Derived& d : all) {
+    const auto rods = static_cast<double>(d.rods);
+    if (d.method != method || rods < study.fit_from || !std::isfinite(value(d))) continue;
+    fit.from = std::min(fit.from, rods);
+    fit.to = std::max(fit.to, rods);
+    x.push_back(power ? std::log(rods) : rods);
+    y.push_back(std::log(value(d)));
+  }
+  fit.slope = fitted_slope(x, y);
+  return fit;
+}
+
 std::vector<Fit> fits_of(const DerivationStudy& study, const std::vector<Derived>& all) {
   std::vector<Fit> fits;
-  const auto add = [&](const DerivationSweep& sweep, const char* quantity, bool power, auto&& value) {
-    Fit fit{sweep.method, quantity, power ? "power" : "exponential", HUGE_VAL, 0, {}};
-    std::vector<double> x, y;
-    for (const Derived& d : all) {
-      const auto rods = static_cast<double>(d.rods);
-      if (d.method != sweep.method || rods < study.fit_from || !std::isfinite(value(d))) continue;
-      fit.from = std::min(fit.from, rods);
-      fit.to = std::max(fit.to, rods);
-      x.push_back(power ? std::log(rods) : rods);
-      y.push_back(std::log(value(d)));
-    }
-    fit.slope = fitted_slope(x, y);
-    if (fit.slope.points > 0) fits.push_back(fit);
-  };
   for (const DerivationSweep& sweep : study.sweeps) {
-    add(sweep, "operations", true, [](const Derived& d) { return static_cast<double>(d.operations); });
-    add(sweep, "seconds", true, [](const Derived& d) { return d.seconds; });
-    add(sweep, "tree", false, [](const Derived& d) { return d.tree; });
+    const auto add = [&](const std::string& quantity, auto&& value, bool also_exponential) {
+      const Fit power = fit_of(study, all, sweep.method, quantity, true, value);
+      const Fit exponential = fit_of(study, all, sweep.method, quantity, false, value);
+      const bool better = also_exponential && exponential.slope.residual < power.slope.residual;
+      if (power.slope.points > 0) fits.push_back(better ? exponential : power);
+    };
+    add("operations", [](const Derived& d) { return static_cast<double>(d.operations); }, false);
+    add("seconds", [](const Derived& d) { return d.seconds; }, false);
+    add("tree", [](const Derived& d) { return d.tree; }, true);
   }
   return fits;
 }
 
-const Fit* fit_of(const std::vector<Fit>& fits, const std::string& method, const std::string& quantity) {
+const Fit* found_fit(const std::vector<Fit>& fits, const std::string& method, const std::string& quantity) {
   const auto found = std::find_if(fits.begin(), fits.end(), [&](const Fit& fit) {
     return fit.method == method && fit.quantity == quantity;
   });
@@ -205,24 +216,25 @@ std::string table_of(const DerivationStudy& study, const std::vector<Derived>& a
     for (const Derived& d : all)
       if (d.method == sweep.method) last = &d;
     if (last == nullptr) continue;
-    const auto growth = [&](const char* quantity, const char* format) -> std::string {
-      const Fit* fit = fit_of(fits, sweep.method, quantity);
+    const auto growth = [&](const char* quantity) -> std::string {
+      const Fit* fit = found_fit(fits, sweep.method, quantity);
       if (fit == nullptr) return "-";
       std::array<char, 60> cell{};
-      (void)std::snprintf(cell.data(), cell.size(), format, fit->slope.slope,
+      (void)std::snprintf(cell.data(), cell.size(),
+                          fit->law == "power" ? "K^(%.2f+-%.2f)" : "e^(%.3f+-%.3f K)", fit->slope.slope,
                           (fit->slope.high - fit->slope.low) / 2);
       return cell.data();
     };
     put(sweep.method.c_str(), std::to_string(last->rods).c_str(), std::to_string(last->operations).c_str(),
-        as_text(last->seconds, "%.2g").c_str(), growth("operations", "K^(%.2f+-%.2f)").c_str(),
-        growth("seconds", "K^(%.2f+-%.2f)").c_str(), growth("tree", "e^(%.3f+-%.3f K)").c_str());
+        as_text(last->seconds, "%.2g").c_str(), growth("operations").c_str(), growth("seconds").c_str(),
+        growth("tree").c_str());
   }
   return text.str();
 }
 
 void judge(const DerivationStudy& study, const std::vector<Fit>& fits, ExperimentOutcome& outcome) {
   for (const DerivationSweep& sweep : study.sweeps) {
-    const Fit* fit = fit_of(fits, sweep.method, "operations");
+    const Fit* fit = found_fit(fits, sweep.method, "operations");
     if (sweep.exponent_below == 0 || fit == nullptr) continue;
     const bool holds = fit->slope.slope < sweep.exponent_below;
     outcome.findings.push_back({{"method", sweep.method},
@@ -265,7 +277,7 @@ FittedSlope fitted_slope(const std::vector<double>& x, const std::vector<double>
   const std::size_t n = x.size();
   if (n < 3) return fit;
   const auto count = static_cast<double>(n);
-  double mean_x = 0, mean_y = 0, xx = 0, xy = 0, rest = 0;
+  double mean_x = 0, mean_y = 0, xx = 0, xy = 0;
   for (std::size_t k = 0; k < n; ++k) {
     mean_x += x[k] / count;
     mean_y += y[k] / count;
@@ -279,10 +291,10 @@ FittedSlope fitted_slope(const std::vector<double>& x, const std::vector<double>
   fit.slope = xy / xx;
   for (std::size_t k = 0; k < n; ++k) {
     const double left = y[k] - mean_y - fit.slope * (x[k] - mean_x);
-    rest += left * left;
+    fit.residual += left * left;
   }
   const boost::math::students_t distribution(count - 2);
-  const double reach = boost::math::quantile(distribution, 0.975) * std::sqrt(rest / (count - 2) / xx);
+  const double reach = boost::math::quantile(distribution, 0.975) * std::sqrt(fit.residual / (count - 2) / xx);
   fit.low = fit.slope - reach;
   fit.high = fit.slope + reach;
   return fit;

@@ -1,10 +1,11 @@
 // Experiments of the kind `derivation`: how large the equations of a system become and how long it takes to
 // derive them, method by method, against the number K of its constraints.
 //
-//   operations ~ K^a, seconds ~ K^b;   written out without sharing, tree operations ~ e^(c K)
+//   operations ~ K^a, seconds ~ K^b;   written out without sharing, tree operations ~ e^(c K) or K^c
 //
 // a, b and c are slopes of least squares over logarithms, each with its interval of 95 % by Student's
-// distribution, from K = `fit_from` on. The times are processor time, and the least of a few repetitions.
+// distribution, from K = `fit_from` on. Of trees the law is taken that leaves the smaller residual. The times
+// are processor time, and the least of a few repetitions.
 #pragma once
 
 #include <filesystem>
@@ -59,6 +60,7 @@ ExperimentOutcome run_derivation_study(
 struct FittedSlope {
   std::size_t points = 0;
   double slope = 0, low = 0, high = 0;
+  double residual = 0;  // the sum of squares that is left
 };
 
 /// The slope of y over x; needs three points or more, at two places or more.

@@ -13,6 +13,7 @@ from wording import listed
 from work_precision import NARROW, WIDE, paper
 
 TALLEST_TREE = 1e30  # larger ones leave the frame: nobody writes them out
+RAISED = str.maketrans("0123456789.-", "⁰¹²³⁴⁵⁶⁷⁸⁹·⁻")
 TITLES = {"operations": "operations of all equations", "seconds": "processor time of the derivation [s]",
           "tree": "operations of all equations, written out"}
 
@@ -32,8 +33,9 @@ def drawing(study, quantity):
                     + (f" Dashed: the times that are published for one pair of equations, {listed(map(formula, study.published))}."
                        if study.published else ""),
          "tree": "The same equations with every expression written out wherever it is used. The axis of K is linear: an "
-                 "exponential is a straight line. Dashed: the terms of the determinant of a tridiagonal matrix of K rows, "
-                 "multiplied out, which grow by the logarithm of the golden ratio, 0.481, for each row."}[quantity],
+                 "exponential is a straight line. Each method is labelled with the law, power or exponential, that fits it "
+                 "better. Dashed: the terms of the determinant of a tridiagonal matrix of K rows, multiplied out, which grow by the "
+                 "logarithm of the golden ratio, 0.481, for each row."}[quantity],
         f"Exponents are fitted from K = {begin:.0f} on." if fitted else "")
     return Drawing("growth", {"name": quantity}, titles[quantity], caption,
                    lambda wide: draw(study, quantity, WIDE if wide else NARROW), "",
@@ -53,7 +55,9 @@ def name_of(method, quantity):
     fit = method.fits.get(quantity)
     if fit is None:
         return method.name
-    return f"{method.name}  " + (f"K^{fit.exponent:.2f}" if fit.law == "power" else f"exp({fit.exponent:.2f} K)")
+    if fit.law == "exponential":
+        return f"{method.name}  exp({fit.exponent:.2f} K)"
+    return f"{method.name}  K" + f"{fit.exponent:.2f}".translate(RAISED)
 
 
 def draw(study, quantity, look):

@@ -124,7 +124,7 @@ TEST_F(Native, FieldsOfFormulationsAreCompiled) {
     EXPECT_LE(worst, 1e-12 * largest);  // another order of operations, magnified by the condition of S
   }
   // The control: of a large system nothing is compiled, and its field loops as before.
-  const auto chain = systems().get("n-pendulum", "system").make({{"bobs", "200"}});
+  const auto chain = systems().get("n-pendulum", "system").make({{"bobs", "101"}, {"dimension", "2"}});
   const auto motion = formulations().get("dirac", "formulation").apply(chain, {});
   EXPECT_EQ(compiled(motion)->compiled(Formula::field), motion->compiled(Formula::field));
 }
