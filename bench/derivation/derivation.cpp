@@ -71,7 +71,9 @@ const std::vector<Row>& rows() {
        by_formulation<HamiltonianReactions<Recorded>>},
       {{"nonholonomic", "projected equations of velocity constraints"}, none, {}},
       {{"birkhoffian", "K^-1 (grad B + F_t), the structure solved for the rates"}, none, {}},
-      {{"generating-function", "the field in a chart, and coefficients of its generating function"}, none, {}}};
+      {{"generating-function", "the field in a chart, and coefficients of its generating function"},
+       none,
+       {}}};
   return list;
 }
 const Row& row_of(const std::string& method) {

@@ -48,8 +48,7 @@ std::vector<std::size_t> elimination_order(const std::shared_ptr<const Holonomic
   const std::vector<std::string> known = model.constraint_names();
   for (const std::string& name : names) {
     const auto found = std::find(known.begin(), known.end(), name);
-    if (found == known.end())
-      throw InputError("elimination: " + unknown_name("constraint", name, known));
+    if (found == known.end()) throw InputError("elimination: " + unknown_name("constraint", name, known));
     const auto place = static_cast<std::size_t>(found - known.begin());
     if (std::find(order.begin(), order.end(), place) != order.end())
       throw InputError("elimination: constraint " + name + " stands there twice");
@@ -61,9 +60,9 @@ std::vector<std::size_t> elimination_order(const std::shared_ptr<const Holonomic
   const PlainRecursion<double> recursion =
       plain_recursion(brackets_at_a_point(tapes, source), Symmetry::skew, order);
   if (!recursion.works)
-    throw InputError("system " + model.name() + ": elimination: " +
-                     describe(recursion, Symmetry::skew, order, known) + "; an order that works: " +
-                     joined(known));
+    throw InputError("system " + model.name() +
+                     ": elimination: " + describe(recursion, Symmetry::skew, order, known) +
+                     "; an order that works: " + joined(known));
   return order;
 }
 

@@ -22,8 +22,7 @@ class RecordedSeries {
   RecordedSeries() = default;
   RecordedSeries(int value) : c_{Recorded(value)} {}  // NOLINT(google-explicit-constructor)
   explicit RecordedSeries(const Real& value) : c_{Recorded(value)} {}
-  RecordedSeries(Numbers coefficients, std::size_t degree)
-      : c_(std::move(coefficients)), degree_(degree) {}
+  RecordedSeries(Numbers coefficients, std::size_t degree) : c_(std::move(coefficients)), degree_(degree) {}
 
   /// The coefficient of tau^k.
   [[nodiscard]] Recorded operator[](std::size_t k) const { return k < c_.size() ? c_[k] : Recorded(0); }
@@ -60,8 +59,7 @@ class RecordedSeries {
     });
   }
   friend RecordedSeries exp(const RecordedSeries& a) {
-    return made(a, a,
-                [&](std::size_t l, const Numbers& e) { return l == 0 ? exp(a[0]) : along(a, e, l); });
+    return made(a, a, [&](std::size_t l, const Numbers& e) { return l == 0 ? exp(a[0]) : along(a, e, l); });
   }
   friend RecordedSeries log(const RecordedSeries& a) {
     return made(a, a, [&](std::size_t l, const Numbers& g) {
@@ -78,8 +76,8 @@ class RecordedSeries {
       if (l == 0) return pow(a[0], y);
       Recorded sum(0);
       for (std::size_t i = 1; i <= l; ++i) {
-        const Real factor = (y * Real(static_cast<int>(i)) - Real(static_cast<int>(l - i))) /
-                            Real(static_cast<int>(l));
+        const Real factor =
+            (y * Real(static_cast<int>(i)) - Real(static_cast<int>(l - i))) / Real(static_cast<int>(l));
         sum = sum + Recorded(factor) * a[i] * p[l - i];
       }
       return sum / a[0];
@@ -185,9 +183,8 @@ void expand_generating_function(const Model& model, int degree, Equations& equat
     throw InputError("method generating-function: order: expected 1 .. " + std::to_string(largest_degree) +
                      ", got " + std::to_string(degree));
   const bool own = !model.given(Formula::chart);
-  const auto hamiltonian = std::make_shared<const Tape>(
-      explicit_solves(*model.tape(own ? Formula::hamiltonian : Formula::chart_hamiltonian),
-                      "system " + model.name()));
+  const auto hamiltonian = std::make_shared<const Tape>(explicit_solves(
+      *model.tape(own ? Formula::hamiltonian : Formula::chart_hamiltonian), "system " + model.name()));
   if (!own) {
     equations.coordinates.clear();
     for (int k = 1; k <= model.dimension(); ++k)
@@ -198,14 +195,14 @@ void expand_generating_function(const Model& model, int degree, Equations& equat
     terms.push_back(next_coefficient(hamiltonian, terms));
     equations.further_outputs.push_back("phi" + std::to_string(k));
   }
-  equations.tape =
-      record(hamiltonian->inputs, hamiltonian->inputs + degree,
-             [&](const Recorded& t0, In<Recorded> w, Out<Recorded> out) {
-               const Numbers slope = turned(gradient(*hamiltonian, t0, w, Numbers{Recorded(-1)}));
-               std::copy(slope.begin(), slope.end(), out.begin());
-               for (std::size_t k = 0; k < terms.size(); ++k)
-                 out[w.size() + k] = evaluate(terms[k], t0, w)[0];
-             });
+  equations.tape = record(hamiltonian->inputs, hamiltonian->inputs + degree,
+                          [&](const Recorded& t0, In<Recorded> w, Out<Recorded> out) {
+                            const Numbers slope =
+                                turned(gradient(*hamiltonian, t0, w, Numbers{Recorded(-1)}));
+                            std::copy(slope.begin(), slope.end(), out.begin());
+                            for (std::size_t k = 0; k < terms.size(); ++k)
+                              out[w.size() + k] = evaluate(terms[k], t0, w)[0];
+                          });
 }
 
 }  // namespace pfaff

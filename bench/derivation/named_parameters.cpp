@@ -38,12 +38,12 @@ std::optional<std::pair<std::int64_t, Real>> sample_near(const Parameter& parame
   if (std::abs(shift) > 30) return std::nullopt;
   const double scaled = std::ldexp(size, shift);  // in 128 .. 256
   for (int step = 0; step < 200; ++step) {
-    const std::int64_t prime = static_cast<std::int64_t>(scaled) + (step % 2 == 0 ? step / 2 : -(step + 1) / 2);
-    if (prime < least / 2 || !is_prime(prime) ||
-        std::find(taken.begin(), taken.end(), prime) != taken.end())
+    const std::int64_t prime =
+        static_cast<std::int64_t>(scaled) + (step % 2 == 0 ? step / 2 : -(step + 1) / 2);
+    if (prime < least / 2 || !is_prime(prime) || std::find(taken.begin(), taken.end(), prime) != taken.end())
       continue;
-    const Real magnitude = shift < 0 ? Real::fraction(prime << -shift, 1)
-                                     : Real::fraction(prime, std::int64_t{1} << shift);
+    const Real magnitude =
+        shift < 0 ? Real::fraction(prime << -shift, 1) : Real::fraction(prime, std::int64_t{1} << shift);
     const Real sample = value < Real(0) ? -magnitude : magnitude;
     if (sample.value() < parameter.minimum || sample.value() > parameter.maximum) continue;
     taken.push_back(prime);

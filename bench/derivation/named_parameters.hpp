@@ -1,8 +1,8 @@
 // Parameters of a system as symbols of its derived equations.
 //
 // The formulas of a system are recorded with numbers for its parameters. What the equations look like with
-// symbols in their place is found from the equations that other values give: where the parameters a, b, .. are
-// numbers with prime factors that nothing else has, a constant r a^j b^k .. of the equations shows its
+// symbols in their place is found from the equations that other values give: where the parameters a, b, ..
+// are numbers with prime factors that nothing else has, a constant r a^j b^k .. of the equations shows its
 // exponents, and what is left must be the same rational r for other primes. A parameter stays a number where
 // it enters a constant in another way, such as a sum or a root, decides on the form of the equations, such as
 // a count, or is 0, which takes terms out of them.

@@ -116,7 +116,7 @@ Scaled cos(const Scaled& a) { return Scaled(cos((a.scale_.negative ? -a : a).who
 Scaled pow(const Scaled& a, const Real& y) { return Scaled(pow(a.whole(), y)); }
 Scaled select(const Scaled& condition, const Scaled& positive, const Scaled& otherwise) {
   // A positive factor of the condition decides nothing.
-  const Recorded sign = condition.is_constant()      ? condition.core_
+  const Recorded sign = condition.is_constant()     ? condition.core_
                         : condition.scale_.negative ? -condition.core_
                                                     : condition.core_;
   return Scaled(select(sign, positive.whole(), otherwise.whole()));

@@ -37,9 +37,11 @@ TEST(FittedSlope, HasStudentsInterval) {
 class Studies : public ::testing::Test {
  protected:
   std::string message_of(const std::string& text) {
-    write_file(directory_ / "study.toml", "schema = 1\nkind = \"derivation\"\ntitle = \"A test\"\n"
-                                          "reference = [\"nguyen-turski\"]\nsystem = \"n-pendulum\"\n"
-                                          "parameter = \"bobs\"\n" + text);
+    write_file(directory_ / "study.toml",
+               "schema = 1\nkind = \"derivation\"\ntitle = \"A test\"\n"
+               "reference = [\"nguyen-turski\"]\nsystem = \"n-pendulum\"\n"
+               "parameter = \"bobs\"\n" +
+                   text);
     try {
       const Experiment experiment = read_experiment(directory_ / "study.toml", true);
       (void)run_experiment(experiment, directory_.path() / "out", nullptr);

@@ -23,8 +23,9 @@ using ::testing::HasSubstr;
 
 Equations named(const SystemPlugin& system, const Assignments& settings, const std::string& method,
                 int degree = 4) {
-  return with_named_parameters(
-      system, settings, [&](const Model& model) { return derive(model, method, DerivationOptions{.degree = degree}); });
+  return with_named_parameters(system, settings, [&](const Model& model) {
+    return derive(model, method, DerivationOptions{.degree = degree});
+  });
 }
 std::vector<std::string> symbols(const Equations& equations) {
   std::vector<std::string> names;
@@ -104,9 +105,8 @@ TEST(GeneratingCoefficients, AreClosedFormsOfTheOscillator) {
   EXPECT_THAT(equations.further_outputs, ElementsAre("phi1", "phi2", "phi3", "phi4", "phi5"));
   const std::vector<Quad> z{Quad(0.5), Quad(-0.75)};
   const Quad square = z[0] * z[0] + z[1] * z[1];
-  EXPECT_LT(difference(rates_of(equations, Quad(0), z),
-                       {z[1], -z[0], -square / Quad(2), Quad(0), -square / Quad(24), Quad(0),
-                        -square / Quad(240)}),
+  EXPECT_LT(difference(rates_of(equations, Quad(0), z), {z[1], -z[0], -square / Quad(2), Quad(0),
+                                                         -square / Quad(24), Quad(0), -square / Quad(240)}),
             1e-33);
 }
 
@@ -118,13 +118,15 @@ TEST(GeneratingCoefficients, AreThoseOfTheLiteralExpansion) {
     const auto model = systems().get(name, "system").make({});
     const auto terms = expand_scalar(scalar_evolution(*model->tape(energy)), model->dimension(), degree);
     const std::vector<Quad> z = somewhere(*model);
-    const auto found = rates_of(derive(*model, "generating-function", DerivationOptions{.degree = degree}), Quad(0.7), z);
+    const auto found =
+        rates_of(derive(*model, "generating-function", DerivationOptions{.degree = degree}), Quad(0.7), z);
     double changed = 0;
     for (int k = 1; k <= degree; ++k) {
       std::vector<Quad> expected(1), earlier(1);
       Replay<Quad> replay(std::make_shared<const Tape>(terms[static_cast<std::size_t>(k)]));
       replay(Quad(0.7), z.data(), expected.data());
-      EXPECT_LT(difference({found[z.size() + static_cast<std::size_t>(k) - 1]}, expected), 1e-30) << name << k;
+      EXPECT_LT(difference({found[z.size() + static_cast<std::size_t>(k) - 1]}, expected), 1e-30)
+          << name << k;
       replay(Quad(0.2), z.data(), earlier.data());
       changed = std::max(changed, difference(earlier, expected));
     }

@@ -326,10 +326,14 @@ TEST(Derivation, TakesAnOrderOfEliminationAndSaysWhereItBreaksDown) {
   const std::string refused = message_of([&] { (void)in_order({0, 2, 4, 1, 3, 5}); });
   EXPECT_THAT(refused, HasSubstr(names[0]));
   EXPECT_THAT(refused, HasSubstr("an order that works: " + names[0] + "," + names[1] + "," + names[2]));
-  EXPECT_THAT(message_of([&] { (void)in_order({0, 1, 2, 3}); }), HasSubstr("expected all 6 constraints, got 4"));
+  EXPECT_THAT(message_of([&] {
+                (void)in_order({0, 1, 2, 3});
+              }),
+              HasSubstr("expected all 6 constraints, got 4"));
   EXPECT_THAT(message_of([&] { (void)in_order({0, 1, 2, 3, 4, 4}); }), HasSubstr("stands there twice"));
-  EXPECT_THAT(message_of([&] { (void)derive(*model, "recursion", DerivationOptions{.elimination = {"ph"}}); }),
-              HasSubstr("unknown constraint 'ph'"));
+  EXPECT_THAT(
+      message_of([&] { (void)derive(*model, "recursion", DerivationOptions{.elimination = {"ph"}}); }),
+      HasSubstr("unknown constraint 'ph'"));
   EXPECT_THAT(message_of([&] { (void)derive(*model, "ldl", DerivationOptions{.elimination = {"phi"}}); }),
               HasSubstr("has no order of elimination"));
 }
