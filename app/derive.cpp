@@ -1,11 +1,13 @@
 // pfaff derive: equations of motion of a system as text and code, and how many operations they take.
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <iostream>
+#include <sstream>
 
 #include <pfaff/app/command.hpp>
 #include <pfaff/app/terminal.hpp>
-#include <pfaff/bench/derivation/derivation.hpp>
+#include <pfaff/bench/derivation/named_parameters.hpp>
 #include <pfaff/bench/runner/settings.hpp>
 #include <pfaff/core/emit/emitter.hpp>
 #include <pfaff/core/errors/errors.hpp>
@@ -35,6 +37,36 @@ std::optional<FrictionForm> take_friction_form(Assignments& settings) {
     return true;
   });
   return form;
+}
+
+// The degree of a generating function among the settings, which is taken out of them.
+int take_order(Assignments& settings, const std::string& method) {
+  int degree = 4;
+  if (method != "generating-function") return degree;
+  std::erase_if(settings, [&](const auto& setting) {
+    if (setting.first != "order") return false;
+    const std::optional<Real> order = Real::parse(setting.second);
+    if (!order || !order->is_fraction() || order->denominator() != 1 || order->numerator() < 1 ||
+        order->numerator() > largest_degree)
+      throw InputError("order: expected a whole number in 1 .. " + std::to_string(largest_degree) +
+                       ", got '" + setting.second + "'");
+    degree = static_cast<int>(order->numerator());
+    return true;
+  });
+  return degree;
+}
+
+// The order of elimination among the settings, which is taken out of them.
+std::vector<std::string> take_elimination(Assignments& settings) {
+  std::vector<std::string> names;
+  std::erase_if(settings, [&](const auto& setting) {
+    if (setting.first != "elimination") return false;
+    std::istringstream list(setting.second);
+    names.clear();
+    for (std::string name; std::getline(list, name, ',');) names.push_back(name);
+    return true;
+  });
+  return names;
 }
 
 // In lines of which each fits beside the names of the options.
@@ -92,7 +124,8 @@ int print_counts(const Equations& equations, double seconds, bool as_json) {
 
 int run(const Options& options, bool as_json) {
   Assignments settings = parse_settings(options.set);
-  const std::optional<FrictionForm> friction = take_friction_form(settings);
+  const DerivationOptions chosen{take_friction_form(settings), take_order(settings, options.method),
+                                 take_elimination(settings)};
   const SystemPlugin& system = system_named(options.system);
   const std::vector<std::string> known = forms();
   if (std::find(known.begin(), known.end(), options.emit) == known.end())
@@ -101,12 +134,16 @@ int run(const Options& options, bool as_json) {
     throw InputError("--json is for --emit counts; expected " + options.emit + " without it");
   const SplitSettings split = split_settings(system, nullptr, nullptr, settings);
   if (!split.initial.empty()) throw InputError("--set initial: equations do not depend on a state");
-  const std::shared_ptr<const Model> model = system.make(split.system);
-  const auto begin = std::chrono::steady_clock::now();
-  const Equations equations = derive(*model, options.method, friction);
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+  double seconds = HUGE_VAL;  // of one derivation; finding out which parameters are symbols takes several
+  const Equations equations = with_named_parameters(system, split.system, [&](const Model& model) {
+    const auto begin = std::chrono::steady_clock::now();
+    Equations made = derive(model, options.method, chosen);
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+    seconds = std::min(seconds, taken.count());
+    return made;
+  });
   if (options.emit != "counts") return print_text(equations, options.emit);
-  return print_counts(equations, seconds.count(), as_json);
+  return print_counts(equations, seconds, as_json);
 }
 
 }  // namespace
@@ -121,7 +158,9 @@ void add_derive(CLI::App& app, Common& common, Action& action) {
       ->type_name("NAME")
       ->required();
   sub->add_option("--emit", options->emit, "What is printed: " + forms_in_words())->type_name("NAME");
-  sub->add_option("--set", options->set, "A parameter of the system (beads=12) or friction-form=NAME")
+  sub->add_option("--set", options->set,
+                  "A parameter of the system (beads=12), friction-form=NAME,\norder=K of "
+                  "generating-function, or elimination=NAME,NAME,...\nof the constraints in the recursions")
       ->type_name("KEY=VALUE")
       ->expected(1)
       ->take_all();

@@ -198,6 +198,9 @@ nlohmann::json describe_experiment(const std::string& name) {
   for (const ExperimentMethod& m : e.methods) j["methods"].push_back(m.label);
   for (const ExperimentCase& c : e.cases)
     j["cases"].push_back({{"name", c.name}, {"title", c.title}, {"steps", c.steps}});
+  if (!e.derivation) return j;
+  j["runs"] = e.derivation->size();
+  for (const DerivationSweep& sweep : e.derivation->sweeps) j["methods"].push_back(sweep.method);
   return j;
 }
 

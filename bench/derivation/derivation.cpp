@@ -4,8 +4,10 @@
 #include <functional>
 #include <set>
 
+#include <pfaff/bench/derivation/elimination_order.hpp>
 #include <pfaff/bench/derivation/engines.hpp>
 #include <pfaff/bench/derivation/explicit_solves.hpp>
+#include <pfaff/bench/derivation/generating_coefficients.hpp>
 #include <pfaff/bench/derivation/redundancy.hpp>
 #include <pfaff/bench/derivation/scaled.hpp>
 #include <pfaff/bench/derivation/symbolic_formulas.hpp>
@@ -19,26 +21,27 @@ namespace {
 
 using Numbers = std::vector<Recorded>;
 /// The rates of (q, p) of recorded constraints, by one method.
-using Engine = std::function<void(HolonomicConstraints<Recorded>&, const Recorded& t, In<Recorded> z,
-                                  Out<Recorded> rates, FrictionForm form)>;
+using Engine =
+    std::function<void(HolonomicConstraints<Recorded>&, const Recorded& t, In<Recorded> z,
+                       Out<Recorded> rates, FrictionForm form, const std::vector<std::size_t>& order)>;
 
 template <class Rates>
 void by_formulation(HolonomicConstraints<Recorded>& constraints, const Recorded& t, In<Recorded> z,
-                    Out<Recorded> rates, FrictionForm form) {
+                    Out<Recorded> rates, FrictionForm form, const std::vector<std::size_t>& /*order*/) {
   const std::size_t n = constraints.degrees();
   (void)Rates(form, constraints)(constraints, t, z.first(n), z.subspan(n), rates.first(n), rates.subspan(n));
 }
 template <class Solver>
 void by_solver(HolonomicConstraints<Recorded>& constraints, const Recorded& t, In<Recorded> z,
-               Out<Recorded> rates, FrictionForm /*form*/) {
+               Out<Recorded> rates, FrictionForm /*form*/, const std::vector<std::size_t>& order) {
   const std::size_t n = constraints.degrees();
-  (void)BracketRates<Solver, Recorded>(constraints)(t, z.first(n), z.subspan(n), rates);
+  (void)BracketRates<Solver, Recorded>(constraints, order)(t, z.first(n), z.subspan(n), rates);
 }
 
 struct Row {
   DerivationMethod method;
   FrictionForm friction;
-  Engine engine;           // empty for the two methods without holonomic constraints
+  Engine engine;           // empty for the methods without holonomic constraints
   bool recursion = false;  // eliminates constraint by constraint
 };
 const std::vector<Row>& rows() {
@@ -67,7 +70,10 @@ const std::vector<Row>& rows() {
        metriplectic,
        by_formulation<HamiltonianReactions<Recorded>>},
       {{"nonholonomic", "projected equations of velocity constraints"}, none, {}},
-      {{"birkhoffian", "K^-1 (grad B + F_t), the structure solved for the rates"}, none, {}}};
+      {{"birkhoffian", "K^-1 (grad B + F_t), the structure solved for the rates"}, none, {}},
+      {{"generating-function", "the field in a chart, and coefficients of its generating function"},
+       none,
+       {}}};
   return list;
 }
 const Row& row_of(const std::string& method) {
@@ -96,6 +102,11 @@ std::string misfit(const Model& model, const Row& row) {
     return who + "a structure K(z, t) and no constraints; " + model.name() + " offers " +
            to_string(model.facets());
   }
+  if (method == "generating-function") {
+    if (has_chart_hamiltonian(model)) return {};
+    return who + "a Hamiltonian in Darboux coordinates and no constraints; " + model.name() + " offers " +
+           to_string(model.facets());
+  }
   if (!model.holonomic())
     return who + "holonomic constraints; " + model.name() + " offers " + to_string(model.facets());
   if (method == "minors" && !chain(model))
@@ -105,30 +116,12 @@ std::string misfit(const Model& model, const Row& row) {
   return {};
 }
 
-/// Keeps of the parameters, the inputs after the coordinates, those that the tape reads.
-void keep_used(Equations& equations) {
-  const int coordinates = static_cast<int>(equations.coordinates.size());
-  std::set<int> used;
-  for (const Instruction& i : equations.tape.code)
-    if (i.operation == Operation::input && i.a >= coordinates) used.insert(i.a);
-  std::vector<Symbol> names;
-  std::vector<Real> values;
-  for (const int input : used) {
-    names.push_back(equations.parameters[static_cast<std::size_t>(input - coordinates)]);
-    values.push_back(equations.parameter_values[static_cast<std::size_t>(input - coordinates)]);
-  }
-  for (Instruction& i : equations.tape.code)
-    if (i.operation == Operation::input && i.a >= coordinates)
-      i.a = coordinates + static_cast<int>(std::distance(used.begin(), used.find(i.a)));
-  equations.tape.inputs = coordinates + static_cast<int>(used.size());
-  equations.parameters = std::move(names);
-  equations.parameter_values = std::move(values);
-}
-
-void derive_holonomic(const Model& model, const Row& row, FrictionForm form, Equations& equations) {
+void derive_holonomic(const Model& model, const Row& row, FrictionForm form,
+                      const std::vector<std::string>& elimination, Equations& equations) {
   const SymbolicFormulas source = symbolic_formulas(model, form != FrictionForm::none);
   const auto tapes = std::make_shared<const HolonomicTapes>(record_holonomic(source.formulas));
   refuse_redundant(tapes, source, model, row.recursion);
+  const std::vector<std::size_t> order = elimination_order(tapes, source, model, elimination);
   equations.parameters = source.parameters;
   equations.parameter_values = source.values;
   const std::size_t n = 2 * source.formulas.degrees;
@@ -137,7 +130,7 @@ void derive_holonomic(const Model& model, const Row& row, FrictionForm form, Equ
   const Numbers parameters(inputs.begin() + static_cast<std::ptrdiff_t>(n), inputs.end());
   Numbers rates(n);
   const auto record_with = [&](auto&& constraints) {
-    row.engine(constraints, recorder.time(), In<Recorded>(inputs).first(n), rates, form);
+    row.engine(constraints, recorder.time(), In<Recorded>(inputs).first(n), rates, form, order);
   };
   if (row.method.name == "minors") {
     record_with(ConstraintsByMinors<Recorded>(tapes, parameters));
@@ -158,11 +151,35 @@ const std::vector<DerivationMethod>& derivation_methods() {
   return methods;
 }
 
+Equations keep_used(Equations equations) {
+  const int coordinates = static_cast<int>(equations.coordinates.size());
+  std::set<int> used;
+  for (const Instruction& i : equations.tape.code)
+    if (i.operation == Operation::input && i.a >= coordinates) used.insert(i.a);
+  std::vector<Symbol> names;
+  std::vector<Real> values;
+  for (const int input : used) {
+    names.push_back(equations.parameters[static_cast<std::size_t>(input - coordinates)]);
+    values.push_back(equations.parameter_values[static_cast<std::size_t>(input - coordinates)]);
+  }
+  for (Instruction& i : equations.tape.code)
+    if (i.operation == Operation::input && i.a >= coordinates)
+      i.a = coordinates + static_cast<int>(std::distance(used.begin(), used.find(i.a)));
+  equations.tape.inputs = coordinates + static_cast<int>(used.size());
+  equations.parameters = std::move(names);
+  equations.parameter_values = std::move(values);
+  return equations;
+}
+
 std::string derivation_misfit(const Model& model, const std::string& method) {
   return misfit(model, row_of(method));
 }
 
-Equations derive(const Model& model, const std::string& method, std::optional<FrictionForm> friction) {
+Equations derive(const Model& model, const std::string& method, FrictionForm friction) {
+  return derive(model, method, DerivationOptions{.friction = friction});
+}
+
+Equations derive(const Model& model, const std::string& method, const DerivationOptions& options) {
   const Row& row = row_of(method);
   if (const std::string reason = misfit(model, row); !reason.empty()) {
     std::string others;
@@ -170,7 +187,10 @@ Equations derive(const Model& model, const std::string& method, std::optional<Fr
       if (misfit(model, other).empty()) others += (others.empty() ? "" : ", ") + other.method.name;
     throw InputError(reason + "; methods that fit: " + (others.empty() ? "none" : others));
   }
-  const FrictionForm form = friction.value_or(row.friction);
+  const FrictionForm form = options.friction.value_or(row.friction);
+  if (!row.recursion && !options.elimination.empty())
+    throw InputError("method " + method + " has no order of elimination; those that have one: recursion, " +
+                     "recursion-literal, bivector");
   if (row.recursion && form == FrictionForm::stokes)
     throw InputError("method " + method + " has no friction-form stokes; expected metriplectic or none");
   Equations equations;
@@ -178,19 +198,20 @@ Equations derive(const Model& model, const std::string& method, std::optional<Fr
   equations.method = method;
   for (const Coordinate& c : model.coordinates()) equations.coordinates.push_back({c.name, c.unit});
   if (row.engine) {
-    derive_holonomic(model, row, form, equations);
+    derive_holonomic(model, row, form, options.elimination, equations);
   } else if (method == "nonholonomic") {
     // The motion shares the formulas of the model, which outlives it.
     const std::shared_ptr<const Model> borrowed(std::shared_ptr<const Model>(), &model);
     const auto motion = formulations().get("nonholonomic", "formulation").apply(borrowed, {});
     equations.tape = *motion->tape(Formula::field);
+  } else if (method == "generating-function") {
+    expand_generating_function(model, options.degree, equations);
   } else {
     equations.tape =
         *(model.given(Formula::field) ? model.derived(Formula::field) : model.tape(Formula::field));
   }
   equations.tape = simplified(explicit_solves(equations.tape, "system " + model.name()));
-  keep_used(equations);
-  return equations;
+  return keep_used(std::move(equations));
 }
 
 }  // namespace pfaff

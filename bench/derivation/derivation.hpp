@@ -22,10 +22,26 @@ const std::vector<DerivationMethod>& derivation_methods();
 /// Why a method does not fit a model; empty where it does. InputError for an unknown name.
 std::string derivation_misfit(const Model& model, const std::string& method);
 
-/// The equations of a model. Friction takes the form that is asked for or, without, the method's own: that of
-/// the formulation whose equations they are. InputError for an unknown method, one that does not fit (with
-/// those that do) and constraints that are dependent whatever the state.
-Equations derive(const Model& model, const std::string& method, std::optional<FrictionForm> friction = {});
+/// The largest degree of a generating function that is derived.
+inline constexpr int largest_degree = 12;
+
+/// What may be chosen beside the method.
+struct DerivationOptions {
+  std::optional<FrictionForm> friction{};  // without, the method's own: that of the formulation it derives
+  int degree = 4;                          // of method generating-function
+  /// Of the methods that eliminate constraint by constraint: the order, by the names that
+  /// Model::constraint_names() gives; empty for phi_1, phi~_1, phi_2, phi~_2, ...
+  std::vector<std::string> elimination{};
+};
+
+/// The equations of a model. InputError for an unknown method, one that does not fit (with those that do),
+/// constraints that are dependent whatever the state, and an order of elimination that breaks down (with one
+/// that works).
+Equations derive(const Model& model, const std::string& method, const DerivationOptions& options = {});
+Equations derive(const Model& model, const std::string& method, FrictionForm friction);
+
+/// The equations without parameters that no equation has.
+Equations keep_used(Equations equations);
 
 /// The operations of a tape: its instructions but constants, inputs and the time.
 std::size_t operations(const Tape& tape);

@@ -6,6 +6,7 @@
 // the solvers of brackets/dirac/. Symbols are those of core/facets/holonomic.hpp.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include <pfaff/brackets/canonical.hpp>
@@ -112,12 +113,14 @@ class BracketData {
 
 /// The motion of holonomic constraints by a solver of the Dirac bracket: {z, H}_D - <z, H>_D with the
 /// canonical bracket and, where the constraints have friction, the symmetric one with the coefficients
-/// lambda. The order of the constraints is phi_1, phi~_1, phi_2, phi~_2, ...; those of positions are Casimirs
-/// of the symmetric bracket. Constraints that depend on time have no place here.
+/// lambda. The order of the constraints is phi_1, phi~_1, phi_2, phi~_2, ... or the one that is given, as
+/// places in this list; those of positions are Casimirs of the symmetric bracket. Constraints that depend on
+/// time have no place here.
 template <class Solver, class T>
 class BracketRates {
  public:
-  explicit BracketRates(HolonomicConstraints<T>& constraints) : constraints_(constraints) {}
+  explicit BracketRates(HolonomicConstraints<T>& constraints, std::vector<std::size_t> order = {})
+      : constraints_(constraints), order_(std::move(order)) {}
 
   Status operator()(const T& t, In<T> q, In<T> p, Out<T> rate) {
     const Status status = place(t, q, p);
@@ -160,8 +163,16 @@ class BracketRates {
       all_.insert(all_.end(), velocity.begin(), velocity.end());
       hidden_.insert(hidden_.end(), velocity.begin(), velocity.end());
     }
+    if (!order_.empty()) {
+      const std::vector<T> plain = std::move(all_);
+      all_.clear();
+      for (const std::size_t i : order_)
+        for (std::size_t a = 0; a < 2 * n; ++a) all_.push_back(plain[i * 2 * n + a]);
+    }
     return status;
   }
+  /// The gradients on (q, p) at the state last placed, in their order.
+  [[nodiscard]] const std::vector<T>& gradients() const { return all_; }
   /// vector = the Dirac bracket's vector of a covector on (q, p), at the state last placed.
   Status sharp(In<T> covector, Out<T> vector) const {
     return apply(
@@ -190,6 +201,7 @@ class BracketRates {
   }
 
   HolonomicConstraints<T>& constraints_;
+  std::vector<std::size_t> order_;
   std::vector<T> all_, hidden_;  // dphi_1, dphi~_1, dphi_2, ..., and dphi~_1, dphi~_2, ...
 };
 

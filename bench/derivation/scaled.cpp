@@ -2,19 +2,25 @@
 
 #include <bit>
 #include <cstdint>
+#include <cstdlib>
+#include <optional>
 
 namespace pfaff {
 
 namespace {
 
-// True for +-2^k with a small k, which every scalar holds exactly and whose products stay small fractions.
-bool is_factor(const Real& x) {
-  if (!x.is_fraction() || x.numerator() == 0) return false;
+// Beyond this a factor stays in the tape, as a number that every scalar holds exactly.
+constexpr int largest_power = 20;
+
+// The number as a factor, where it is one: +-2^k with a small k.
+std::optional<PowerOfTwo> factor_of(const Real& x) {
+  if (!x.is_fraction() || x.numerator() == 0) return std::nullopt;
   const auto magnitude = static_cast<std::uint64_t>(x.numerator() < 0 ? -x.numerator() : x.numerator());
   const auto denominator = static_cast<std::uint64_t>(x.denominator());
-  constexpr std::uint64_t largest = std::uint64_t{1} << 20;
-  return std::has_single_bit(magnitude) && std::has_single_bit(denominator) && magnitude <= largest &&
-         denominator <= largest;
+  if (!std::has_single_bit(magnitude) || !std::has_single_bit(denominator)) return std::nullopt;
+  const int power = std::countr_zero(magnitude) - std::countr_zero(denominator);
+  if (std::abs(power) > largest_power) return std::nullopt;
+  return PowerOfTwo{power, x.numerator() < 0};
 }
 bool negative(const Real& x) { return x < Real(0); }
 bool same(const Recorded& a, const Recorded& b) {
@@ -23,14 +29,21 @@ bool same(const Recorded& a, const Recorded& b) {
 
 }  // namespace
 
-Recorded Scaled::whole() const {
-  if (scale_.is(1)) return core_;
-  return scale_.is(-1) ? -core_ : Recorded(scale_) * core_;
+Real PowerOfTwo::value() const {
+  const std::int64_t magnitude = std::int64_t{1} << std::abs(power);
+  const std::int64_t sign = negative ? -1 : 1;
+  return power < 0 ? Real::fraction(sign, magnitude) : Real::fraction(sign * magnitude, 1);
 }
 
-Scaled Scaled::of(const Real& scale, const Recorded& core) {
-  if (core.is_constant()) return Scaled(Recorded(scale * core.constant()));
-  return is_factor(scale) ? Scaled(scale, core) : Scaled(Recorded(scale) * core);
+Recorded Scaled::whole() const {
+  if (scale_.is_one()) return core_;
+  return scale_.power == 0 ? -core_ : Recorded(scale_.value()) * core_;
+}
+
+Scaled Scaled::of(PowerOfTwo scale, const Recorded& core) {
+  if (core.is_constant()) return Scaled(Recorded(scale.value() * core.constant()));
+  return std::abs(scale.power) <= largest_power ? Scaled(scale, core)
+                                                : Scaled(Recorded(scale.value()) * core);
 }
 
 Scaled operator-(const Scaled& a) {
@@ -45,56 +58,51 @@ Scaled operator*(const Scaled& a, const Scaled& b) {
   if (a.is_constant()) {
     const Real& c = a.core_.constant();
     if (c.is(0)) return Scaled(0);
-    if (is_factor(c)) return Scaled::of(c * b.scale_, b.core_);
+    if (const auto factor = factor_of(c)) return Scaled::of(*factor * b.scale_, b.core_);
     // The sign of a constant goes with the factors.
     return negative(c) ? Scaled::of(-b.scale_, Recorded(-c) * b.core_)
                        : Scaled::of(b.scale_, Recorded(c) * b.core_);
   }
-  const Real scale = a.scale_ * b.scale_;
   const bool inverse = a.inverse_of_ == b.core_.slot() || b.inverse_of_ == a.core_.slot();
-  return Scaled::of(scale, inverse ? Recorded(1) : a.core_ * b.core_);
+  return Scaled::of(a.scale_ * b.scale_, inverse ? Recorded(1) : a.core_ * b.core_);
 }
 
 Scaled operator/(const Scaled& a, const Scaled& b) {
   if (a.is_constant() && b.is_constant()) return Scaled(a.core_ / b.core_);
   if (b.is_constant()) {
     const Real& c = b.core_.constant();
-    if (is_factor(c)) return Scaled::of(a.scale_ / c, a.core_);
+    if (const auto factor = factor_of(c)) return Scaled::of(a.scale_ / *factor, a.core_);
     return negative(c) ? Scaled::of(-a.scale_, a.core_ / Recorded(-c))
                        : Scaled::of(a.scale_, a.core_ / b.core_);
   }
   if (a.is_constant()) {
     const Real& c = a.core_.constant();
     if (c.is(0)) return Scaled(0);
-    if (is_factor(c)) {
-      Scaled inverse = Scaled::of(c / b.scale_, Recorded(1) / b.core_);
+    if (const auto factor = factor_of(c)) {
+      Scaled inverse = Scaled::of(*factor / b.scale_, Recorded(1) / b.core_);
       inverse.inverse_of_ = b.core_.slot();
       return inverse;
     }
-    return negative(c) ? Scaled::of(Real(-1) / b.scale_, Recorded(-c) / b.core_)
-                       : Scaled::of(Real(1) / b.scale_, a.core_ / b.core_);
+    return negative(c) ? Scaled::of(PowerOfTwo{0, true} / b.scale_, Recorded(-c) / b.core_)
+                       : Scaled::of(PowerOfTwo{} / b.scale_, a.core_ / b.core_);
   }
-  const Real scale = a.scale_ / b.scale_;
-  return Scaled::of(scale, same(a.core_, b.core_) ? Recorded(1) : a.core_ / b.core_);
+  return Scaled::of(a.scale_ / b.scale_, same(a.core_, b.core_) ? Recorded(1) : a.core_ / b.core_);
 }
 
 Scaled operator+(const Scaled& a, const Scaled& b) {
   if (a.is_constant() && b.is_constant()) return Scaled(a.core_ + b.core_);
   if (a.core_.is(0)) return b;
   if (b.core_.is(0)) return a;
-  if (same(a.core_, b.core_)) {
-    const Real sum = a.scale_ + b.scale_;
-    return sum.is(0) ? Scaled(0) : Scaled::of(sum, a.core_);
-  }
+  if (same(a.core_, b.core_)) return Scaled(a.scale_.value() + b.scale_.value()) * Scaled(a.core_);
   // The operand of the smaller slot leads, so that a + b and b + a are one node; constants come last.
   if (a.is_constant() || (!b.is_constant() && b.core_.slot() < a.core_.slot())) return b + a;
   if (b.is_constant()) {
-    const Real c = b.core_.constant() / a.scale_;
+    const Real c = b.core_.constant() / a.scale_.value();
     return Scaled::of(a.scale_, negative(c) ? a.core_ - Recorded(-c) : a.core_ + Recorded(c));
   }
-  const Real ratio = b.scale_ / a.scale_;
-  const Recorded other = Scaled::of(negative(ratio) ? -ratio : ratio, b.core_).whole();
-  return Scaled::of(a.scale_, negative(ratio) ? a.core_ - other : a.core_ + other);
+  const PowerOfTwo ratio = b.scale_ / a.scale_;
+  const Recorded other = Scaled::of({ratio.power, false}, b.core_).whole();
+  return Scaled::of(a.scale_, ratio.negative ? a.core_ - other : a.core_ + other);
 }
 Scaled operator-(const Scaled& a, const Scaled& b) { return a + (-b); }
 
@@ -102,15 +110,15 @@ Scaled sqrt(const Scaled& a) { return Scaled(sqrt(a.whole())); }
 Scaled exp(const Scaled& a) { return Scaled(exp(a.whole())); }
 Scaled log(const Scaled& a) { return Scaled(log(a.whole())); }
 Scaled sin(const Scaled& a) {
-  return negative(a.scale_) ? -Scaled(sin((-a).whole())) : Scaled(sin(a.whole()));
+  return a.scale_.negative ? -Scaled(sin((-a).whole())) : Scaled(sin(a.whole()));
 }
-Scaled cos(const Scaled& a) { return Scaled(cos((negative(a.scale_) ? -a : a).whole())); }
+Scaled cos(const Scaled& a) { return Scaled(cos((a.scale_.negative ? -a : a).whole())); }
 Scaled pow(const Scaled& a, const Real& y) { return Scaled(pow(a.whole(), y)); }
 Scaled select(const Scaled& condition, const Scaled& positive, const Scaled& otherwise) {
   // A positive factor of the condition decides nothing.
-  const Recorded sign = condition.is_constant()      ? condition.core_
-                        : negative(condition.scale_) ? -condition.core_
-                                                     : condition.core_;
+  const Recorded sign = condition.is_constant()     ? condition.core_
+                        : condition.scale_.negative ? -condition.core_
+                                                    : condition.core_;
   return Scaled(select(sign, positive.whole(), otherwise.whole()));
 }
 

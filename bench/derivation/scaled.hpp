@@ -14,6 +14,23 @@
 
 namespace pfaff {
 
+/// +-2^power.
+struct PowerOfTwo {
+  int power = 0;
+  bool negative = false;
+
+  [[nodiscard]] bool is_one() const { return power == 0 && !negative; }
+  /// The number itself; |power| <= 62.
+  [[nodiscard]] Real value() const;
+  friend PowerOfTwo operator-(PowerOfTwo a) { return {a.power, !a.negative}; }
+  friend PowerOfTwo operator*(PowerOfTwo a, PowerOfTwo b) {
+    return {a.power + b.power, a.negative != b.negative};
+  }
+  friend PowerOfTwo operator/(PowerOfTwo a, PowerOfTwo b) {
+    return {a.power - b.power, a.negative != b.negative};
+  }
+};
+
 class Scaled {
  public:
   Scaled() = default;
@@ -38,12 +55,12 @@ class Scaled {
   friend Scaled select(const Scaled& condition, const Scaled& positive, const Scaled& otherwise);
 
  private:
-  Scaled(const Real& scale, const Recorded& core) : scale_(scale), core_(core) {}
+  Scaled(PowerOfTwo scale, const Recorded& core) : scale_(scale), core_(core) {}
   // The factors of a constant are a part of it; a constant has the scale 1.
-  static Scaled of(const Real& scale, const Recorded& core);
+  static Scaled of(PowerOfTwo scale, const Recorded& core);
   [[nodiscard]] bool is_constant() const { return core_.is_constant(); }
 
-  Real scale_ = 1;
+  PowerOfTwo scale_;
   Recorded core_;
   int inverse_of_ = -1;  // the slot y where the core is 1/y
 };

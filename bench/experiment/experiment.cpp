@@ -277,6 +277,7 @@ void remove_outdated(const fs::path& directory, const std::vector<ExperimentRun>
 
 ExperimentOutcome run_experiment(const Experiment& experiment, const fs::path& directory,
                                  const ExperimentProgress& progress, bool force) {
+  if (experiment.derivation) return run_derivation_study(experiment, directory, progress, force);
   const std::vector<ExperimentRun> runs = expand(experiment);
   const std::string described = description(experiment, runs).dump(1) + "\n";
   std::error_code error;

@@ -4,11 +4,13 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <pfaff/bench/runner/json.hpp>
 
+#include <pfaff/bench/experiment/derivation_study.hpp>
 #include <pfaff/bench/runner/record.hpp>
 
 namespace pfaff {
@@ -50,6 +52,7 @@ struct Experiment {
   std::vector<ExperimentMethod> methods;
   std::vector<ExperimentCase> cases;
   std::vector<ExperimentClaim> claims;
+  std::optional<DerivationStudy> derivation;  // in the place of methods, cases and claims
   bool quick = false;
   bool compile = false;  // as `compile = yes` of every run
 };

@@ -112,6 +112,15 @@ Experiment read_experiment(const std::string& name_or_path, bool quick) {
   experiment.description = keys.text("description", "");
   experiment.reference = keys.list("reference");
   experiment.notes = keys.list("notes");
+  const std::vector<std::string> kinds{"runs", "derivation"};
+  const std::string kind = keys.text("kind", kinds.front());
+  if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end())
+    throw InputError(where + ": " + unknown_name("kind", kind, kinds));
+  if (kind == "derivation") {
+    experiment.derivation = read_derivation_study(keys, where, quick);
+    keys.finish();
+    return experiment;
+  }
   experiment.compile = keys.read("compile", "no", [](const std::string& text) {
     if (text != "yes" && text != "no") throw InputError(unknown_name("answer", text, {"no", "yes"}));
     return text == "yes";

@@ -104,6 +104,9 @@ def targets(times):
                              (f"chain-{axes}d-{count}", formulation, "by-hand"), limit))
                 rows.append((f"ring of {count} rods in {axes}-d, {formulation}: ring / chain",
                              (f"ring-{axes}d-{count}", formulation, "registered"), chain, None))
+        for axes in (2, 3):
+            rows.append((f"chain of 16 rods in {axes}-d, {formulation}: compiled / by hand",
+                         (f"chain-{axes}d-16", formulation, "compiled"), (f"chain-{axes}d-16", formulation, "by-hand"), 1.2))
         rows.append((f"humanoid, {formulation}: humanoid / chain of 16 rods", ("humanoid", formulation, "registered"),
                      ("chain-3d-16", formulation, "registered"), None))
     return [row for row in rows if row[1] in times and row[2] in times]

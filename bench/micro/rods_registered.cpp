@@ -1,5 +1,5 @@
 // Right-hand sides of rods as the programs of Pfaff compute them, with system and formulation found by name
-// and one indirect call, and steps of RATTLE.
+// and one indirect call, for small ones also compiled as by --compile, and steps of RATTLE.
 #include <cstdint>
 #include <memory>
 #include <stdexcept>
@@ -7,6 +7,7 @@
 #include <pfaff/core/facets/problem.hpp>
 #include <pfaff/core/formulation.hpp>
 #include <pfaff/core/integrator.hpp>
+#include <pfaff/core/native/compiled_model.hpp>
 #include <pfaff/core/system.hpp>
 
 #include "rods.hpp"
@@ -15,19 +16,28 @@ namespace {
 using namespace pfaff;
 using namespace pfaff::micro;
 
-void add_field(const std::string& shape, const std::string& what, const std::string& system,
-               const Assignments& parameters, const std::string& formulation) {
-  const auto raw = systems().get(system, "system").make(parameters);
-  const auto model = formulations().get(formulation, "formulation").apply(raw, {});
+void add_evaluations(const std::string& shape, const std::string& what, const std::string& path,
+                     const std::shared_ptr<const Model>& model) {
   std::vector<double> state;
   for (const Real& x : model->initial()) state.push_back(x.value());
-  add_rods(shape, what, "registered", static_cast<double>(raw->source().constraint_names.size()),
+  add_rods(shape, what, path, static_cast<double>(model->source().constraint_names.size()),
            [evaluator = make_evaluator<double>(model, Formula::field), state,
             rate = std::vector<double>(state.size())]() mutable {
              benchmark::DoNotOptimize(state.data());
              evaluator.call(evaluator.context, 0.0, state.data(), rate.data());
              benchmark::ClobberMemory();
            });
+}
+
+void add_field(const std::string& shape, const std::string& what, const std::string& system,
+               const Assignments& parameters, const std::string& formulation) {
+  const auto model = formulations()
+                         .get(formulation, "formulation")
+                         .apply(systems().get(system, "system").make(parameters), {});
+  add_evaluations(shape, what, "registered", model);
+  constexpr std::size_t most = 16;  // rods
+  if (model->source().constraint_names.size() <= most)
+    add_evaluations(shape, what, "compiled", compiled(model));
 }
 
 // A hundred steps of h = 1e-3 s in each call. The runs start from a horizontal pendulum whose rods turn at

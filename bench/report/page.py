@@ -32,19 +32,23 @@ SECTIONS = (("work", "Work and precision", ("work_precision", "work_precision_ev
 
 def page(experiment, verdicts, drawn):
     """The page; `drawn` maps a case's name to its [(drawing, wide svg, narrow svg)]."""
-    head, here = experiment.head, pathlib.Path(__file__).parent
-    script = (here / "page.js").read_text(encoding="utf-8")
-    digest = base64.b64encode(hashlib.sha256(script.encode("utf-8")).digest()).decode("ascii")
-    policy = f"default-src 'none'; style-src 'unsafe-inline'; img-src data:; script-src 'sha256-{digest}'"
     body = [opening(experiment, verdicts, drawn), "<main>"]
     body += [section(experiment, v, drawn[v.case["name"]], first=k == 0) for k, v in enumerate(verdicts)]
     body += ["</main>", folded.footer(experiment, verdicts, drawn, lambda d: figure([d], ""))]
+    return document(experiment.head["title"], plain_text(finding(verdicts[0])), body)
+
+
+def document(title, description, body):
+    """The whole file around the parts of its body."""
+    here = pathlib.Path(__file__).parent
+    script = (here / "page.js").read_text(encoding="utf-8")
+    digest = base64.b64encode(hashlib.sha256(script.encode("utf-8")).digest()).decode("ascii")
+    policy = f"default-src 'none'; style-src 'unsafe-inline'; img-src data:; script-src 'sha256-{digest}'"
     return "\n".join([
         "<!DOCTYPE html>", '<html lang="en">', "<head>", '<meta charset="utf-8">',
         f'<meta http-equiv="Content-Security-Policy" content="{policy}">',
         '<meta name="viewport" content="width=device-width, initial-scale=1">',
-        f'<meta name="description" content="{text(plain_text(finding(verdicts[0])))}">',
-        f"<title>{text(head['title'])}</title>",
+        f'<meta name="description" content="{text(description)}">', f"<title>{text(title)}</title>",
         f"<style>\n{colours()}{(here / 'page.css').read_text(encoding='utf-8')}</style>", "</head>", "<body>",
         *filter(None, body), f"<script>{script}</script>", "</body>", "</html>", ""])
 

@@ -43,25 +43,33 @@ def width_of(text):
 
 def papers(experiment, verdicts, kinds, width, style, write):
     """Write everything; returns the directory."""
-    if "pgf" in kinds and not any(shutil.which(tex) for tex in ("xelatex", "pdflatex", "lualatex")):
-        raise InputError("--figures: pgf needs LaTeX, with which it measures text, and none is installed")
-    settings = matplotlib.rc_params_from_file(str(style or STYLE), use_default_template=False)
     target = experiment.folder / "figures" / "paper"
-    target.mkdir(parents=True, exist_ok=True)
-    with matplotlib.rc_context(settings):
+    with settings(kinds, style, target):
         for verdict in verdicts:
             for drawing in drawn(verdict):
                 if not drawing.paper:
                     continue
-                for kind in kinds:
-                    # LaTeX sets the text of a pgf figure in the fonts of the document, which it calls by family.
-                    with matplotlib.rc_context({"font.family": "sans-serif"} if kind == "pgf" else {}):
-                        canvas = drawing.paper(width)
-                        canvas.printed = True
-                        write(target / f"{drawing.name}.{kind}", as_file(canvas, drawing.name, kind))
-                write(target / f"{drawing.name}.txt", caption(experiment, verdict, drawing))
+                figure(drawing, kinds, width, target, write)
+                write(target / f"{drawing.name}.txt", caption(experiment.head, drawing, plain_text(holds(verdict))))
             write(target / f"verdict_{slug(verdict.case)}.tex", latex_table(verdict))
     return target
+
+
+def settings(kinds, style, target):
+    """The style as a context, in which figures for papers are drawn into the directory, which is made."""
+    if "pgf" in kinds and not any(shutil.which(tex) for tex in ("xelatex", "pdflatex", "lualatex")):
+        raise InputError("--figures: pgf needs LaTeX, with which it measures text, and none is installed")
+    target.mkdir(parents=True, exist_ok=True)
+    return matplotlib.rc_context(matplotlib.rc_params_from_file(str(style or STYLE), use_default_template=False))
+
+
+def figure(drawing, kinds, width, target, write):
+    for kind in kinds:
+        # LaTeX sets the text of a pgf figure in the fonts of the document, which it calls by family.
+        with matplotlib.rc_context({"font.family": "sans-serif"} if kind == "pgf" else {}):
+            canvas = drawing.paper(width)
+            canvas.printed = True
+            write(target / f"{drawing.name}.{kind}", as_file(canvas, drawing.name, kind))
 
 
 def as_file(canvas, name, kind):
@@ -70,10 +78,10 @@ def as_file(canvas, name, kind):
     return canvas.save(kind)
 
 
-def caption(experiment, verdict, drawing):
+def caption(head, drawing, held):
     """What the figure shows, for what it holds, and by which program and command it is made again."""
-    head, versions = experiment.head, experiment.head.get("versions") or {}
+    versions = head.get("versions") or {}
     built = ", ".join(str(versions[k]).strip() for k in ("compiler", "flags") if versions.get(k))
     again = f"pfaff compare {head['name']}" + (" --quick" if head.get("quick") else "")
-    return "\n".join([f"{drawing.title}. {drawing.caption}", plain_text(holds(verdict)),
+    return "\n".join([f"{drawing.title}. {drawing.caption}", held,
                       f"Pfaff {versions.get('pfaff', '')}".rstrip() + (f", {built}" if built else "") + f"; {again}", ""])

@@ -11,6 +11,7 @@ matplotlib and nothing else; pgf needs LaTeX. Exit status: 0 fine, 2 wrong usage
 import os
 import sys
 
+import derivation
 from experiment import Experiment
 from files import InputError
 
@@ -26,6 +27,9 @@ def write(path, content):
 
 
 def report(folder):
+    if derivation.is_one(folder):
+        import derivation_page
+        return derivation_page.report(derivation.Study(folder), write)
     experiment = Experiment(folder)
     import page  # after the input has been read: importing matplotlib takes a second
     from drawn import drawn
@@ -46,10 +50,13 @@ def report(folder):
 
 
 def paper(folder, options):
-    experiment = Experiment(folder)
+    experiment = None if derivation.is_one(folder) else Experiment(folder)
     import papers
     from verdict import Verdict
     kinds, width = papers.kinds_of(options["--figures"]), papers.width_of(options.get("--width", "85mm"))
+    if experiment is None:
+        import derivation_page
+        return derivation_page.papers(derivation.Study(folder), kinds, width, options.get("--style"), write)
     verdicts = [Verdict(experiment, case) for case in experiment.cases]
     return papers.papers(experiment, verdicts, kinds, width, options.get("--style"), write)
 

@@ -19,18 +19,28 @@ constexpr std::array candidates{
     Formula::hamiltonian, Formula::hamiltonian_gradient, Formula::structure,   Formula::poisson_tensor,
     Formula::invariants};
 
-// Longer tapes are left to be replayed; so are Jacobians of many variables, which are full of zeros.
-constexpr std::size_t longest_tape = 200000;
-constexpr int most_columns = 64;
+// Longer tapes are left to be replayed; so are matrices of many variables, which are full of zeros. Programs
+// of larger systems loop faster than a text as long as the system runs.
+constexpr std::size_t longest_tape = 200000, longest_program = 20000;
+constexpr int most_columns = 64, most_in_program = 400;
 
 bool is_jacobian(Formula f) { return f == Formula::field_jacobian || f == Formula::chart_field_jacobian; }
 
+// The field that a formulation makes of a small system.
+bool is_formulated(const Model& model, Formula formula) {
+  return formula == Formula::field && model.program(formula) != nullptr &&
+         !model.source().formulation.empty() && model.dimension() <= most_in_program;
+}
+
+bool is_tensor(Formula f) { return f == Formula::structure || f == Formula::poisson_tensor; }
+
 bool to_be_compiled(const Model& model, Formula formula, bool anew) {
+  if (is_formulated(model, formula)) return model.tape(formula)->code.size() <= longest_program;
   if ((model.compiled(formula) != nullptr && !anew) || model.program(formula) != nullptr) return false;
   if (formula == Formula::chart_field && model.canonical() && !model.given(Formula::chart))
     return false;  // it is the field itself
-  if (is_jacobian(formula) && (model.dimension() > most_columns || model.program(Formula::field) != nullptr))
-    return false;
+  if ((is_jacobian(formula) || is_tensor(formula)) && model.dimension() > most_columns) return false;
+  if (is_jacobian(formula) && model.program(Formula::field) != nullptr) return false;
   if (!model.given(formula) && derivation_of(formula, model) == nullptr) return false;
   return model.tape(formula)->code.size() <= longest_tape;
 }

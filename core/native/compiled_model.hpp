@@ -14,9 +14,9 @@ namespace pfaff {
 
 /// The model with compiled formulas: field, force, velocity, chart and what follows from them by
 /// differentiation, energies, structures and invariants, as far as it has them and they are not compiled
-/// already, and the series of the field in the chart. Formulas of constraints are left as they are. Where the
-/// machine has no compiler this is the model itself, which is said once on stderr. RunError where the
-/// compiler fails.
+/// already, the series of the field in the chart, and the field that a formulation makes of constraints, for
+/// systems of up to 400 coordinates. Constraints themselves are left as they are. Where the machine has no
+/// compiler this is the model itself, which is said once on stderr. RunError where the compiler fails.
 std::shared_ptr<const Model> compiled(const std::shared_ptr<const Model>& model);
 
 /// The C++ text of what `compiled` compiles; empty where there is nothing.

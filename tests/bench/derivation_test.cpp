@@ -308,6 +308,36 @@ TEST(Derivation, RefusesStokesFrictionInTheRecursion) {
               HasSubstr("no friction-form stokes"));
 }
 
+// Any order in which every pivot is there gives the same equations; the positions first give none.
+TEST(Derivation, TakesAnOrderOfEliminationAndSaysWhereItBreaksDown) {
+  const auto model = model_of("n-pendulum", {{"bobs", "3"}});
+  const std::vector<std::string> names = model->constraint_names();
+  ASSERT_EQ(names.size(), 6U);
+  const auto in_order = [&](const std::vector<std::size_t>& order) {
+    DerivationOptions options;
+    for (const std::size_t k : order) options.elimination.push_back(names[k]);
+    return derive(*model, "recursion", options);
+  };
+  const std::vector<Quad> z = state_of(*model, 0.1, 4);
+  const auto expected = rates_of(derive(*model, "recursion"), Quad(0), z);
+  for (const std::vector<std::size_t>& order :
+       {std::vector<std::size_t>{4, 5, 2, 3, 0, 1}, std::vector<std::size_t>{1, 0, 3, 2, 5, 4}})
+    EXPECT_LT(relative_distance(rates_of(in_order(order), Quad(0), z), expected), 1e-31);
+  const std::string refused = message_of([&] { (void)in_order({0, 2, 4, 1, 3, 5}); });
+  EXPECT_THAT(refused, HasSubstr(names[0]));
+  EXPECT_THAT(refused, HasSubstr("an order that works: " + names[0] + "," + names[1] + "," + names[2]));
+  EXPECT_THAT(message_of([&] {
+                (void)in_order({0, 1, 2, 3});
+              }),
+              HasSubstr("expected all 6 constraints, got 4"));
+  EXPECT_THAT(message_of([&] { (void)in_order({0, 1, 2, 3, 4, 4}); }), HasSubstr("stands there twice"));
+  EXPECT_THAT(
+      message_of([&] { (void)derive(*model, "recursion", DerivationOptions{.elimination = {"ph"}}); }),
+      HasSubstr("unknown constraint 'ph'"));
+  EXPECT_THAT(message_of([&] { (void)derive(*model, "ldl", DerivationOptions{.elimination = {"phi"}}); }),
+              HasSubstr("has no order of elimination"));
+}
+
 // What the scaled numbers take out of expressions, each in as many operations as are left.
 TEST(Scaled, TakesFactorsOut) {
   const auto count = [](auto&& formula) {

@@ -9,6 +9,7 @@
 #include <random>
 
 #include <pfaff/core/facets/problem.hpp>
+#include <pfaff/core/formulation.hpp>
 #include <pfaff/core/native/compiled_model.hpp>
 #include <pfaff/core/native/compiler.hpp>
 #include <pfaff/core/system.hpp>
@@ -98,6 +99,38 @@ TEST_F(Native, WhatAnAuthorCompiledStays) {
   ASSERT_NE(model->compiled(Formula::field_jacobian), nullptr);
   EXPECT_EQ(model->system(), written->system()) << "the author's code is called with the author's object";
   EXPECT_LE(difference(*model, Formula::force), 2e-15);
+}
+
+// The field of a formulation loops over structured factors where it is not compiled.
+TEST_F(Native, FieldsOfFormulationsAreCompiled) {
+  for (const auto& [system, formulation] :
+       {std::pair{"n-pendulum", "dirac"}, {"spherical-pendulum", "lmm"}, {"sleigh", "nonholonomic"}}) {
+    SCOPED_TRACE(system);
+    const auto motion = formulations().get(formulation, "formulation").apply(model_of(system), {});
+    const auto model = compiled(motion);
+    ASSERT_NE(model->compiled(Formula::field), nullptr);
+    std::vector<double> z, expected(motion->initial().size()), found(expected);
+    for (std::size_t k = 0; k < motion->initial().size(); ++k)
+      z.push_back(motion->initial()[k].value() + 0.01 * static_cast<double>(k % 3));
+    Problem<double>(motion).field(0, z, expected);
+    Problem<double>(model).field(0, z, found);
+    double largest = 0, worst = 0;
+    for (std::size_t k = 0; k < z.size(); ++k) {
+      largest = std::max(largest, std::abs(expected[k]));
+      worst = std::max(worst, std::abs(found[k] - expected[k]));
+    }
+    EXPECT_GT(largest, 0);
+    EXPECT_LE(worst, 1e-12 * largest);  // another order of operations, magnified by the condition of S
+  }
+}
+
+TEST_F(Native, FieldsOfFormulationsOfLargeSystemsLoop) {
+  const auto text = [](const char* bobs) {
+    const auto chain = systems().get("n-pendulum", "system").make({{"bobs", bobs}, {"dimension", "2"}});
+    return native_text(*formulations().get("dirac", "formulation").apply(chain, {}));
+  };
+  EXPECT_NE(text("2").find("pfaff_field("), std::string::npos);
+  EXPECT_EQ(text("101").find("pfaff_field("), std::string::npos);
 }
 
 TEST_F(Native, ACompiledModelOutlivesTheOneItWasMadeOf) {
