@@ -22,13 +22,16 @@ std::shared_ptr<const SymmetricPattern> record_gram(const RecordedMatrix& x, con
                                                     std::vector<Recorded>& out) {
   std::vector<std::pair<std::size_t, std::size_t>> places;
   std::vector<Recorded> diagonal, couplings;
-  for (std::size_t i = 0; i < x.rows; ++i)
+  for (std::size_t i = 0; i < x.rows; ++i) {
+    std::vector<std::size_t> entries;  // of row i, few where there are many rows
+    for (std::size_t a = 0; a < x.columns; ++a)
+      if (!structurally_zero(x(i, a))) entries.push_back(a);
     for (std::size_t j = i; j < x.rows; ++j) {
       Recorded sum(0);
-      for (std::size_t a = 0; a < x.columns; ++a) {
+      for (const std::size_t a : entries) {
         const Recorded& left = x(i, a);
         const Recorded& right = y(j, a);
-        if (structurally_zero(left) || structurally_zero(right)) continue;
+        if (structurally_zero(right)) continue;
         sum = sum + (weight.empty() ? left * right : left * weight[a] * right);
       }
       if (i == j) {
@@ -38,6 +41,7 @@ std::shared_ptr<const SymmetricPattern> record_gram(const RecordedMatrix& x, con
         couplings.push_back(sum);
       }
     }
+  }
   append(out, diagonal);
   append(out, couplings);
   return std::make_shared<const SymmetricPattern>(x.rows, std::move(places));
