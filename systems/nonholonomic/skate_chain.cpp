@@ -36,7 +36,7 @@ struct SkateChain : BeadRodSystem<SkateChain> {
   // Momenta that the rods alone would keep are not kept: the skate pushes.
   static std::vector<Invariant> invariant_list() { return {conserved("energy", "J")}; }
 
-  // Rods in directions (3, -4)/5 and (4, -3)/5 by turns, which turn at 1/2 and -3/10 rad/s by turns; that at
+  // Rods in directions (3, -4)/5 and (4, -3)/5 by turns, which turn at 2 and -6/5 rad/s by turns; that at
   // the skate turns as the skate lets it.
   [[nodiscard]] BeadRodDescription describe() const {
     BeadRodDescription d;
@@ -50,7 +50,7 @@ struct SkateChain : BeadRodSystem<SkateChain> {
     for (std::size_t k = 0; k < count; ++k) {
       d.rods.push_back({k, k == 0 ? count : k - 1, length});
       const Real c = Real::fraction(k % 2 == 0 ? 3 : 4, 5), s = Real::fraction(k % 2 == 0 ? -4 : -3, 5);
-      Real speed = length * (k % 2 == 0 ? Real::fraction(1, 2) : Real::fraction(-3, 10));  // along (-s, c)
+      Real speed = length * (k % 2 == 0 ? Real(2) : Real::fraction(-6, 5));  // along (-s, c)
       if (k == skated(count)) speed = s * u - c * v;
       x = x + length * c;
       y = y + length * s;
