@@ -20,7 +20,6 @@
 #include <vector>
 
 #include <pfaff/core/facets/problem.hpp>
-#include <pfaff/core/solve/convergence.hpp>
 #include <pfaff/core/solve/summation.hpp>
 #include <pfaff/core/tape/replay.hpp>
 #include <pfaff/integrators/nonholonomic/kernel_coordinates.hpp>
@@ -28,6 +27,7 @@
 #include <pfaff/integrators/support/difference_predictor.hpp>
 #include <pfaff/integrators/support/largest.hpp>
 #include <pfaff/integrators/support/remembered_contraction.hpp>
+#include <pfaff/integrators/support/settling_convergence.hpp>
 
 namespace pfaff {
 
@@ -50,7 +50,7 @@ struct KernelDiscreteGradient {
     std::vector<T> pi, carry;  // of the state, and what the sums of q and pi have rounded off
     // D and what replaces it, z0 + D/2 and z0 + D, and the results of `middle`
     std::vector<T> change, next, middle, end, slopes;
-    DifferencePredictor<T, dynamic, dynamic> predictor;  // of D/h
+    DifferencePredictor<T, dynamic, difference_levels<T> + 2> predictor;  // of D/h
     RememberedContraction<Value<T>> contraction;
     Continuation<P> continuation;
     T last_h{0}, length;
@@ -100,7 +100,7 @@ struct KernelDiscreteGradient {
       formulas.middle(middle_time, w.end.data(), w.slopes.data());
       rates(w.length * h, T(0), w, w.change);
     }
-    Convergence<T> convergence(Corrections::uneven);
+    SettlingConvergence<T> convergence(Corrections::uneven);
     do {
       ++p.counters().fields;
       for (std::size_t k = 0; k < size; ++k) {
@@ -116,7 +116,7 @@ struct KernelDiscreteGradient {
       judge(convergence, z, w);
       std::swap(w.change, w.next);
       ++p.counters().iterations;
-    } while (!convergence.finished(100, w.contraction.ratio()));
+    } while (!convergence.finished(100, w.contraction));
     if (convergence.status() != Status::converged) {
       // Iterates that overflow come from a step that is too large, and are reported as not converged, too.
       w.forget();
@@ -200,7 +200,7 @@ struct KernelDiscreteGradient {
   // Positions and momenta are judged each by their own largest component. Derivatives of either may be zero
   // but for round-off, and are judged together.
   template <class T, class Z, class W>
-  static void judge(Convergence<T>& convergence, const Z& z, const W& w) {
+  static void judge(SettlingConvergence<T>& convergence, const Z& z, const W& w) {
     Largest<T> moved, kicked, positions, momenta, all;
     for (std::size_t k = 0; k < w.n + w.r; ++k) {
       const T begin = at_start(z, w, k);
@@ -212,8 +212,8 @@ struct KernelDiscreteGradient {
     }
     const T of_positions = scale_of(positions.get(), all.get()),
             of_momenta = scale_of(momenta.get(), all.get());
-    convergence.add(moved.get(), of_positions, of_positions);
-    convergence.add(kicked.get(), of_momenta, of_momenta);
+    convergence.add(moved.get(), of_positions);
+    convergence.add(kicked.get(), of_momenta);
   }
   template <class T>
   static T scale_of(const T& own, const T& /*all*/) {

@@ -31,7 +31,6 @@
 #include <vector>
 
 #include <pfaff/core/facets/problem.hpp>
-#include <pfaff/core/solve/convergence.hpp>
 #include <pfaff/core/solve/summation.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/replay.hpp>
@@ -39,6 +38,7 @@
 #include <pfaff/integrators/support/difference_predictor.hpp>
 #include <pfaff/integrators/support/largest.hpp>
 #include <pfaff/integrators/support/remembered_contraction.hpp>
+#include <pfaff/integrators/support/settling_convergence.hpp>
 
 namespace pfaff {
 
@@ -76,7 +76,7 @@ struct MultiplierDiscreteGradient {
     // D, what corrects it, z0 + D/2 followed by x, z0 + D, and the gradient of x.psi: (q, p)
     std::vector<T> change, next, middle, end, slopes;
     std::vector<T> y, residual, reaction;
-    DifferencePredictor<T, dynamic, dynamic> predictor;  // of D/h, x, y
+    DifferencePredictor<T, dynamic, difference_levels<T>> predictor;  // of D/h, x, y
     RememberedContraction<Value<T>> contraction;
     T last_h{0}, length;
 
@@ -114,7 +114,7 @@ struct MultiplierDiscreteGradient {
     const T energy = w.energy_at(middle_time, w.end);
     for (std::size_t k = 0; k < size; ++k) w.middle[k] = w.end[k] + w.change[k] / T(2);
     w.weighted(middle_time, w.middle.data(), w.slopes.data());
-    Convergence<T> convergence(Corrections::uneven);
+    SettlingConvergence<T> convergence(Corrections::uneven);
     Status status = Status::converged;
     do {
       status = improve(p, t, h, energy, z, w);
@@ -127,11 +127,11 @@ struct MultiplierDiscreteGradient {
           reference.add(z[k]);
           reference.add(w.next[k]);
         }
-        convergence.add(correction.get(), reference.get(), reference.get());
+        convergence.add(correction.get(), reference.get());
       }
       std::swap(w.change, w.next);
       ++p.counters().iterations;
-    } while (!convergence.finished(100, w.contraction.ratio()));
+    } while (!convergence.finished(100, w.contraction));
     w.contraction.remember_slowest(convergence.contraction());
     // Iterates that overflow come from a step that is too large, and are reported as not converged, too.
     if (status == Status::converged && convergence.status() != Status::converged)
