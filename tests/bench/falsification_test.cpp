@@ -7,7 +7,9 @@
 
 #include <pfaff/bench/falsification/drawn_parameters.hpp>
 #include <pfaff/bench/falsification/falsify.hpp>
+#include <pfaff/bench/falsification/judgement.hpp>
 #include <pfaff/bench/falsification/many_steps.hpp>
+#include <pfaff/bench/verification/measured_step.hpp>
 #include <pfaff/bench/verification/random_checks.hpp>
 #include <pfaff/core/system.hpp>
 
@@ -144,6 +146,26 @@ TEST(Falsify, ParasiticOscillationShowsInSeveralSteps) {
   const Judgement single = judge(*instance, Claim::symmetric, one);
   EXPECT_FALSE(single.falsified);
   EXPECT_LE(single.residuals.front(), 1e-31);
+}
+
+// GNI carries a reaction from its second step on, with which steps back undo steps; without it they do not.
+// The state is one at which two steps and two fresh ones back were once taken for a counterexample.
+TEST(Falsify, WhatAMethodCarriesGoesBackWithTheState) {
+  const auto particle = systems().get("contact-particle", "system").make({});
+  JudgedStep two{.model = particle, .state = particle->initial(), .step = 1, .count = 2};
+  for (const char* name : {"gni", "nonholonomic-leap-frog"}) {
+    const auto instance = method(name).make({});
+    const Judgement judgement = judge(*instance, Claim::symmetric, two);
+    EXPECT_FALSE(judgement.falsified) << name;
+    EXPECT_LE(judgement.residuals.front(), 1e-31) << name;
+    const ManySteps many(*instance, 2);
+    MeasuredStep<Quad> fresh(many, particle, particle->initial(), 0, 2);
+    const auto there = fresh.end();
+    ASSERT_TRUE(there) << name;
+    const auto back = fresh.after(Quad(2), Quad(-2), *there);
+    ASSERT_TRUE(back) << name;
+    EXPECT_GT(static_cast<double>(fresh.distance(*back, fresh.start())), 1e-6) << name;  // control
+  }
 }
 
 // Several steps as one: of a method of one step they are that method's, and they keep what it keeps.
