@@ -21,14 +21,20 @@ const ClaimCheck& check_of(Claim claim) {
   return *std::find_if(rows.begin(), rows.end(), [&](const ClaimCheck& row) { return row.claim == claim; });
 }
 
+// What comes before the steps that are judged, and what goes with them.
+struct Past {
+  int warm_up = 0;       // steps
+  bool carried = false;  // claims about two steps take the second with what the method remembers of the first
+};
+
 // The residual of at.count steps of the length h in a row, after as many steps as the warm-up has. This is
 // the only place where a claim is measured.
 template <class T>
-double residual_of(const MethodInstance& method, Claim claim, const JudgedStep& at, int warm_up,
+double residual_of(const MethodInstance& method, Claim claim, const JudgedStep& at, const Past& past,
                    const Real& h) {
   const ManySteps many(method, at.count);
   const MethodInstance& stepped = at.count == 1 ? method : many;
-  MeasuredStep<T> step(stepped, at.model, at.state, at.time, Real(at.count) * h, warm_up);
+  MeasuredStep<T> step(stepped, at.model, at.state, at.time, Real(at.count) * h, past.warm_up, past.carried);
   if constexpr (std::is_same_v<T, Quad>) {
     return check_of(claim).in_quad(step);
   } else {
@@ -73,11 +79,11 @@ double falsifying_residual(const MethodInstance& method) {
 }
 
 namespace {
-Judgement judged(const MethodInstance& method, Claim claim, const JudgedStep& at, int warm_up) {
+Judgement judged(const MethodInstance& method, Claim claim, const JudgedStep& at, const Past& past) {
   const bool doubles = method.descriptor().double_coefficients;
   const auto measure = [&](const Real& h) {
-    return doubles ? residual_of<double>(method, claim, at, warm_up, h)
-                   : residual_of<Quad>(method, claim, at, warm_up, h);
+    return doubles ? residual_of<double>(method, claim, at, past, h)
+                   : residual_of<Quad>(method, claim, at, past, h);
   };
   Judgement judgement;
   judgement.residuals = {measure(at.step)};
@@ -86,13 +92,12 @@ Judgement judged(const MethodInstance& method, Claim claim, const JudgedStep& at
     judgement.reason = "the step did not converge";
     return judgement;
   }
-  judgement.in_double = doubles ? residual : residual_of<double>(method, claim, at, warm_up, at.step);
+  judgement.in_double = doubles ? residual : residual_of<double>(method, claim, at, past, at.step);
   if (!(residual > falsifying_residual(method))) {
     judgement.reason = "the residual is that of rounding";
     return judgement;
   }
-  const double in_other =
-      doubles ? residual_of<Quad>(method, claim, at, warm_up, at.step) : judgement.in_double;
+  const double in_other = doubles ? residual_of<Quad>(method, claim, at, past, at.step) : judgement.in_double;
   const bool same = same_in_both(in_other, residual);
   if (one_sided(claim) || residual > seen_in_double) {
     if (!same) {
@@ -113,11 +118,11 @@ Judgement judged(const MethodInstance& method, Claim claim, const JudgedStep& at
 
 // A claim is about a method's own step. That of a method which remembers its past comes after steps that
 // forget how it was started; as verification does, a single step is therefore judged there too. Over many
-// steps the start counts.
+// steps the start counts, but what the method carries from step to step goes back with the state.
 Judgement judge(const MethodInstance& method, Claim claim, const JudgedStep& at) {
-  Judgement cold = judged(method, claim, at, 0);
-  if (!cold.falsified || at.count > 1 || !remembers(method, at)) return cold;
-  return judged(method, claim, at, steps_of_warm_up);
+  Judgement cold = judged(method, claim, at, {});
+  if (!cold.falsified || !remembers(method, at)) return cold;
+  return judged(method, claim, at, {.warm_up = at.count > 1 ? 0 : steps_of_warm_up, .carried = true});
 }
 
 }  // namespace pfaff

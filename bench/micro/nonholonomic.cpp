@@ -1,10 +1,12 @@
 // Steps of the methods for velocity constraints on the registered path, beside Runge-Kutta steps of the
 // formulation `nonholonomic`, whose field makes the same projections.
+#include <pfaff/core/facets/problem.hpp>
 #include <pfaff/core/formulation.hpp>
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
 
 #include "cases.hpp"
+#include "rods.hpp"
 
 namespace pfaff::micro {
 
@@ -61,6 +63,23 @@ void add_methods() {
   }
 }
 
-[[maybe_unused]] const bool added =
-    (add_methods<Sleigh>(), add_methods<ContactOscillator>(), add_methods<QuarticNonholonomic>(), true);
+// Right-hand sides of a chain of rods with a skate; times are divided by the number of constraints.
+void add_chains() {
+  for (const int count : chain_sizes) {
+    const auto chain = systems().get("skate-chain", "system").make({{"beads", std::to_string(count)}});
+    const auto motion = formulations().get("nonholonomic", "formulation").apply(chain, {});
+    std::vector<double> state;
+    for (const Real& x : motion->initial()) state.push_back(x.value());
+    add_rods("skate-chain-" + std::to_string(count), "nonholonomic", "registered", count + 1.0,
+             [evaluator = make_evaluator<double>(motion, Formula::field), state,
+              rate = std::vector<double>(state.size())]() mutable {
+               benchmark::DoNotOptimize(state.data());
+               evaluator.call(evaluator.context, 0.0, state.data(), rate.data());
+               benchmark::ClobberMemory();
+             });
+  }
+}
+
+[[maybe_unused]] const bool added = (add_methods<Sleigh>(), add_methods<ContactOscillator>(),
+                                     add_methods<QuarticNonholonomic>(), add_chains(), true);
 }  // namespace

@@ -86,6 +86,10 @@ def targets(times):
         for method, limit in PROJECTED.items():
             rows.append((f"{system}: {method} / RK4", (system, method, "registered"), (system, "rk4", "registered"),
                          limit))
+    for count in RODS:
+        rows.append((f"chain of {count} rods with a skate / without: a constraint",
+                     (f"skate-chain-{count}", "nonholonomic", "registered"),
+                     (f"chain-2d-{count}", "lmm", "registered"), 2.0))
     work = "factor-and-solve"
     for rows_of_matrix in STRUCTURES["tridiagonal"]:
         name = f"tridiagonal-{rows_of_matrix}"

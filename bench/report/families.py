@@ -32,7 +32,8 @@ FAMILIES = (
            "#f0dd9c", "v"),
     Family("other", "other methods", (), "#443b47", "#b8a693", "h"))
 
-DASHES = ("-", (0, (5, 1.8)), (0, (1.4, 1.4)), (0, (6, 1.6, 1.4, 1.6)))
+DASHES = ("-", (0, (5, 1.8)), (0, (1.4, 1.4)), (0, (6, 1.6, 1.4, 1.6)),
+          (0, (10, 3)), (0, (3, 1.2, 1, 1.2, 1, 1.2)))
 
 # The marks in a box from 0 to 12, as SVG has them.
 SHAPES = {"o": '<circle cx="6" cy="6" r="4.4"/>', "s": '<rect x="2" y="2" width="8" height="8"/>',

@@ -1,6 +1,7 @@
 """The motion: tracks of the runs in the plane of two coordinates, as far as a case names them in `motion`.
 
-Both axes have the same scale where the coordinates have the same unit, so that a circle is a circle. A method's track is
+Both axes have the same scale where the coordinates have the same unit, so that a circle is a circle, unless the tracks
+are so much longer than wide that nothing would be seen of their shape. A method's track is
 that of its run at the step most methods share; an ensemble shows its first seed. The start is marked.
 """
 import math
@@ -9,6 +10,7 @@ from figures import Drawing, heading, sentences, step_text, styled, with_unit
 from canvas import plain
 from sheet import Sheet
 
+LONG = 6  # times as long as wide
 FRAME = 4  # a track that leaves the middle one by this many of its widths leaves the frame
 
 
@@ -44,9 +46,11 @@ def limits(tracks):
 
 def drawn(experiment, case, tracks):
     units = [experiment.series(tracks[0][0], name).unit for name in case["motion"]]
-    target, equal = experiment.common_step(case), units[0] == units[1]
+    target = experiment.common_step(case)
     title = f"{heading(case)}: {case['motion'][1]} against {case['motion'][0]}"
     frame = limits(tracks)
+    sizes = sorted(high - low for low, high in frame)
+    equal = units[0] == units[1] and sizes[1] <= LONG * sizes[0]
     outside = any(min(t[k]) < low or max(t[k]) > high for t in tracks for k, (low, high) in zip((1, 2), frame))
 
     def draw(wide):
@@ -68,5 +72,6 @@ def drawn(experiment, case, tracks):
 
     return Drawing("motion", case, title, sentences(
         f"Tracks of the motion, {step_text(target, case)}. Methods that are accurate lie on top of each other.",
-        "Both axes have the same scale." if equal else "", "Shown is the first seed." if case.get("seeds") else "",
+        "Both axes have the same scale." if equal else
+        "The axes have different scales." if units[0] == units[1] else "", "Shown is the first seed." if case.get("seeds") else "",
         "Some tracks leave the frame." if outside else ""), draw)

@@ -8,13 +8,15 @@ namespace pfaff {
 
 template <class T>
 MeasuredStep<T>::MeasuredStep(const MethodInstance& method, std::shared_ptr<const Model> model,
-                              const std::vector<Real>& start, const Real& t, const Real& h, int warm_up)
+                              const std::vector<Real>& start, const Real& t, const Real& h, int warm_up,
+                              bool carried)
     : method_(method),
       model_(std::move(model)),
       begin_(t),
       t_(T(t) + T(warm_up) * T(h)),
       h_(h),
-      warm_up_(warm_up) {
+      warm_up_(warm_up),
+      carried_(carried || warm_up > 0) {
   for (const Real& x : start) begin_state_.push_back(T(x));
   start_ = begin_state_;
 }

@@ -33,12 +33,14 @@ inline constexpr int steps_of_warm_up = 8;
 
 /// A step of size h from `start` at time t, in the scalar T. What is asked of it is computed when it is first
 /// asked for, and kept. With a warm-up, the stepper takes so many steps of the same size before the one that
-/// is measured, and keeps its history.
+/// is measured, and keeps its history. Claims about two steps take the second with the history of the first
+/// after a warm-up, or where it is said that history is `carried`.
 template <class T>
 class MeasuredStep {
  public:
   MeasuredStep(const MethodInstance& method, std::shared_ptr<const Model> model,
-               const std::vector<Real>& start, const Real& t, const Real& h, int warm_up = 0);
+               const std::vector<Real>& start, const Real& t, const Real& h, int warm_up = 0,
+               bool carried = false);
 
   [[nodiscard]] const MethodInstance& method() const { return method_; }
   [[nodiscard]] const std::shared_ptr<const Model>& model() const { return model_; }
@@ -72,6 +74,8 @@ class MeasuredStep {
   T distance(const std::vector<T>& a, const std::vector<T>& b);
   /// The number of steps taken before the one that is measured.
   [[nodiscard]] int warm_up() const { return warm_up_; }
+  /// True where a step that follows is taken with the history of this one (then).
+  [[nodiscard]] bool carried() const { return carried_; }
   /// The stepper that takes the steps.
   Stepper<T>& stepper() {
     if (stepper_ == nullptr) stepper_ = method_.stepper(model_, T());
@@ -83,6 +87,7 @@ class MeasuredStep {
   std::shared_ptr<const Model> model_;
   T begin_, t_, h_;  // the time before the warm-up, that of the measured step, and its size
   int warm_up_;
+  bool carried_;
   std::vector<T> begin_state_, start_;  // before the warm-up and after it
   std::unique_ptr<Stepper<T>> stepper_;
   bool taken_ = false;

@@ -47,53 +47,6 @@ struct TwoMovingBlades : TwoBlades {
   }
 };
 
-struct SkatedChain {
-  int beads = 3;
-  static constexpr int velocity_constraint_count = 1;
-  static std::vector<Parameter> parameters() { return {}; }
-  [[nodiscard]] int dimension() const { return 4 * beads; }
-  [[nodiscard]] int constraint_count() const { return beads; }
-  template <class T>
-  T kinetic(const T& /*t*/, In<T> p) const {
-    T sum(0);
-    for (const T& x : p) sum = sum + x * x;
-    return sum / 2;
-  }
-  template <class T>
-  T potential(const T& /*t*/, In<T> q) const {
-    T sum(0);
-    for (std::size_t k = 1; k < q.size(); k += 2) sum = sum + q[k];
-    return sum;
-  }
-  // The difference of bead k and the one before it, in direction x; the origin is before the first.
-  template <class T>
-  static T along(In<T> q, std::size_t k, std::size_t x) {
-    return k == 0 ? q[x] : T(q[2 * k + x] - q[2 * k - 2 + x]);
-  }
-  template <class T>
-  void holonomic(const T& /*t*/, In<T> q, Out<T> phi) const {
-    for (std::size_t k = 0; k < phi.size(); ++k)
-      phi[k] = (along<T>(q, k, 0) * along<T>(q, k, 0) + along<T>(q, k, 1) * along<T>(q, k, 1) - 1) / 2;
-  }
-  template <class T>
-  void velocity_constraints(const T& /*t*/, In<T> q, Out<T> rows) const {
-    const std::size_t middle = q.size() / 4;
-    rows[2 * middle] = -along<T>(q, middle, 1);
-    rows[2 * middle + 1] = along<T>(q, middle, 0);
-  }
-  // Rods in directions (3, -4)/5 and (4, -3)/5 by turns, at rest.
-  template <class T>
-  void initial(Out<T> z) const {
-    T x(0), y(0);
-    for (std::size_t k = 0; k < static_cast<std::size_t>(beads); ++k) {
-      x = x + T(Real::fraction(k % 2 == 0 ? 3 : 4, 5));
-      y = y - T(Real::fraction(k % 2 == 0 ? 4 : 3, 5));
-      z[2 * k] = x;
-      z[2 * k + 1] = y;
-    }
-  }
-};
-
 SystemDescriptor named(const char* name) {
   const auto part = [](std::int64_t n) { return Real::fraction(n, 10); };
   return {.name = name,
@@ -109,14 +62,6 @@ std::shared_ptr<const Model> two_blades(bool moving) {
                 : make_model(named("two blades"), TwoBlades{});
 }
 
-std::shared_ptr<const Model> skated_chain(int beads) {
-  SkatedChain chain;
-  chain.beads = beads;
-  return make_model(SystemDescriptor{.name = "skated chain", .title = "", .reference = ""}, chain);
-}
-
-std::vector<std::shared_ptr<const Model>> skated_models() {
-  return {two_blades(false), two_blades(true), skated_chain(3)};
-}
+std::vector<std::shared_ptr<const Model>> skated_models() { return {two_blades(false), two_blades(true)}; }
 
 }  // namespace pfaff

@@ -13,11 +13,6 @@ namespace pfaff {
 /// terms in H. `moving` adds a holonomic constraint, offsets b, and a dependence on time of all of them.
 std::shared_ptr<const Model> two_blades(bool moving);
 
-/// A chain of `beads` beads of unit mass in the plane, hung from the origin by rods of unit length, with a
-/// blade under the bead in the middle that points along the rod before it: a holonomic constraint for each
-/// rod, and one of velocities.
-std::shared_ptr<const Model> skated_chain(int beads);
-
 /// All of them, of small dimensions.
 std::vector<std::shared_ptr<const Model>> skated_models();
 

@@ -17,9 +17,8 @@ double distance_from_start(MeasuredStep<T>& step, const std::optional<std::vecto
 template <class T>
 double symmetry_residual(MeasuredStep<T>& step) {
   if (!step.end()) return no_step;
-  return distance_from_start(step, step.warm_up() > 0
-                                       ? step.then(-step.h(), *step.end())
-                                       : step.after(step.t() + step.h(), -step.h(), *step.end()));
+  return distance_from_start(step, step.carried() ? step.then(-step.h(), *step.end())
+                                                  : step.after(step.t() + step.h(), -step.h(), *step.end()));
 }
 
 // The claim speaks of autonomous systems only, so that both steps may be taken at the same time t.
@@ -32,8 +31,8 @@ double reversibility_residual(MeasuredStep<T>& step) {
     return out;
   };
   if (!step.end()) return no_step;
-  const auto back = step.warm_up() > 0 ? step.then(step.h(), reversed(*step.end()))
-                                       : step.after(step.t(), step.h(), reversed(*step.end()));
+  const auto back = step.carried() ? step.then(step.h(), reversed(*step.end()))
+                                   : step.after(step.t(), step.h(), reversed(*step.end()));
   if (!back) return no_step;
   return distance_from_start(step, std::optional(reversed(*back)));
 }

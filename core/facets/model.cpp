@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include <pfaff/core/facets/joined_velocity_constraints.hpp>
 #include <pfaff/core/facets/taped_constraints.hpp>
 #include <pfaff/core/facets/taped_velocity_constraints.hpp>
 #include <pfaff/core/tape/replay.hpp>
@@ -117,6 +118,8 @@ const VelocityFactory& Model::velocity_factory() const {
   if (!content_.has(Facet::velocity_constraints))
     throw std::logic_error("system " + name() + " has no velocity constraints");
   const std::lock_guard lock(mutex_);
+  if (velocity_ == nullptr && source_.holonomic != nullptr)
+    velocity_ = std::make_shared<const JoinedVelocityFactory>(source_.holonomic, record_joined(*this));
   if (velocity_ == nullptr) velocity_ = std::make_shared<const TapedVelocityFactory>(record_velocity(*this));
   return *velocity_;
 }

@@ -62,11 +62,13 @@ const Method<GeometricNonholonomicIntegrator> registered{
      .reference = "ferraro-iglesias-martin-de-diego2008",
      .description =
          "A variational step at its middle between reflections of the momentum by the velocity constraints, "
-         "of "
-         "order 2, for any energy H(q, p, t). Take it to compare with `dla`: it solves for no multipliers, "
-         "and "
-         "is symmetric and reversible too. It remembers the reaction of the last step, so that it cannot be "
-         "composed, and starts without one.",
+         "of order 2, for any energy H(q, p, t). Take it to compare with `dla`: it solves for no "
+         "multipliers, "
+         "and is symmetric and reversible too. It remembers the reaction of the last step, so that it cannot "
+         "be "
+         "composed, and starts without one. Where motion is attracted, as that of `sleigh` is, this reaction "
+         "grows exponentially, and the method is of no use after the time at which it is as large as "
+         "momenta.",
      .order = 2,
      .preserves = {Claim::symmetric, Claim::reversible, Claim::velocity_constraints,
                    Claim::nonholonomic_momentum}}};

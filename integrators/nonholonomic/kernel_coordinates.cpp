@@ -1,8 +1,11 @@
 #include <pfaff/integrators/nonholonomic/kernel_coordinates.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include <pfaff/core/tape/derivatives.hpp>
+#include <pfaff/core/tape/replay.hpp>
 #include <pfaff/integrators/constrained/constraint_solves.hpp>
 
 namespace pfaff {
@@ -13,7 +16,9 @@ using Numbers = std::vector<Recorded>;
 using Places = std::vector<std::size_t>;  // coordinates
 
 // Determinants are expanded by rows, which grows as the factorial of their size.
-constexpr std::size_t most_constraints = 3, most_degrees = 16, most_choices = 8;
+constexpr std::size_t most_constraints = 3, most_degrees = 16;
+// Of the determinant that is divided by, in units of the largest one at the initial state.
+constexpr double smallest_determinant = 0.125;
 
 Recorded determinant(const Numbers& a, std::size_t n, const Places& columns, std::size_t row = 0) {
   if (columns.empty()) return Recorded(1);
@@ -41,6 +46,12 @@ void choose(const Places& places, std::size_t size, std::size_t from, Places& ch
   }
 }
 
+std::vector<double> initial_positions(const Model& model) {
+  std::vector<double> q(static_cast<std::size_t>(model.dimension()) / 2);
+  for (std::size_t k = 0; k < q.size() && k < model.initial().size(); ++k) q[k] = model.initial()[k].value();
+  return q;
+}
+
 // Records the coordinates of one model.
 class Recording {
  public:
@@ -56,27 +67,40 @@ class Recording {
   [[nodiscard]] std::size_t degrees() const { return n_; }
   [[nodiscard]] std::size_t rank() const { return n_ - count_; }
   [[nodiscard]] const Places& coupled() const { return coupled_; }
-  [[nodiscard]] std::vector<Places> choices() const {
+  // D, where one serves everywhere.
+  [[nodiscard]] std::optional<Places> dependent(const Model& model) const {
     std::vector<Places> all;
     Places chosen;
     choose(coupled_, count_, 0, chosen, all);
-    if (coupled_.size() == count_ + 1) all.resize(1);
-    return all;
+    if (coupled_.size() == count_ + 1) return all.front();
+    const Tape tape = record(static_cast<int>(n_), static_cast<int>(all.size()),
+                             [&](const Recorded& t, In<Recorded> q, Out<Recorded> out) {
+                               const Numbers a = evaluate(*rows_, t, q);
+                               for (std::size_t k = 0; k < all.size(); ++k)
+                                 out[k] = determinant(a, n_, all[k]);
+                             });
+    std::vector<double> values(all.size());
+    Replay<double>(std::make_shared<const Tape>(tape))(0.0, initial_positions(model).data(), values.data());
+    double largest = 0, best = 0;
+    std::optional<Places> found;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const double size = std::abs(values[k]);
+      largest = std::max(largest, size);
+      const bool constant =
+          tape.code[static_cast<std::size_t>(tape.outputs[k])].operation == Operation::constant;
+      if (!constant || size <= best) continue;
+      best = size;
+      found = all[k];
+    }
+    return best >= smallest_determinant * largest ? found : std::nullopt;
   }
 
-  [[nodiscard]] std::shared_ptr<const Tape> determinants(const std::vector<Places>& choices) const {
-    return std::make_shared<const Tape>(record(static_cast<int>(n_), static_cast<int>(choices.size()),
-                                               [&](const Recorded& t, In<Recorded> q, Out<Recorded> out) {
-                                                 const Numbers a = evaluate(*rows_, t, q);
-                                                 for (std::size_t k = 0; k < choices.size(); ++k)
-                                                   out[k] = determinant(a, n_, choices[k]);
-                                               }));
-  }
-
-  [[nodiscard]] KernelTapes tapes(const Places& dependent) const {
+  [[nodiscard]] KernelCoordinates coordinates(const Places& dependent) const {
     const auto shared = [](Tape tape) { return std::make_shared<const Tape>(std::move(tape)); };
     const int n = static_cast<int>(n_), r = static_cast<int>(rank());
-    KernelTapes made;
+    KernelCoordinates made;
+    made.degrees = n_;
+    made.rank = rank();
     const Tape basis = record(n, n * r, [&](const Recorded& t, In<Recorded> q, Out<Recorded> out) {
       const Numbers x = basis_at(t, q, dependent);
       std::copy(x.begin(), x.end(), out.begin());
@@ -164,7 +188,7 @@ class Recording {
   }
 
   // Some p^ with X^T p^ = pi. Where there is one vector of C, it is that along the vector; otherwise it is
-  // zero at D, and divided by the determinant, which the choice of D keeps from zero.
+  // zero at D, and divided by the determinant, which is a constant then.
   [[nodiscard]] Numbers lifted(const Numbers& x, In<Recorded> pi, const Places& dependent) const {
     const std::size_t r = rank(), of_coupled = coupled_.size() - count_;
     Numbers p(n_);
@@ -215,26 +239,19 @@ std::string no_kernel_coordinates(const Model& model) {
     return "needs constraints of velocities alone; " + model.name() + " has holonomic ones beside them";
   const Recording recording(model);
   const std::size_t count = recording.degrees() - recording.rank();
-  if (count > most_constraints || recording.degrees() > most_degrees || recording.coupled().size() < count ||
-      recording.choices().size() > most_choices)
+  if (count > most_constraints || recording.degrees() > most_degrees || recording.coupled().size() < count)
     return "needs a basis of ker A made of minors, which is for few constraints; " + model.name() +
            " has too many";
-  std::vector<double> q(recording.degrees());
-  for (std::size_t k = 0; k < q.size() && k < model.initial().size(); ++k) q[k] = model.initial()[k].value();
-  if (!velocity_is_linear<double>(*model.velocity_constraints<double>(), 0.0, q))
+  if (!recording.dependent(model))
+    return "needs one basis of ker A that serves everywhere; the minors of " + model.name() + " make none";
+  if (!velocity_is_linear<double>(*model.velocity_constraints<double>(), 0.0, initial_positions(model)))
     return "needs an energy that is quadratic in p; that of " + model.name() + " is not";
   return {};
 }
 
 std::shared_ptr<const KernelCoordinates> kernel_coordinates(const Model& model) {
   const Recording recording(model);
-  KernelCoordinates made;
-  made.degrees = recording.degrees();
-  made.rank = recording.rank();
-  const auto choices = recording.choices();
-  for (const Places& dependent : choices) made.choices.push_back(recording.tapes(dependent));
-  made.determinants = recording.determinants(choices);
-  return std::make_shared<const KernelCoordinates>(std::move(made));
+  return std::make_shared<const KernelCoordinates>(recording.coordinates(recording.dependent(model).value()));
 }
 
 }  // namespace pfaff

@@ -9,25 +9,28 @@
 // Since Gam is skew, H_d(z1) = H_d(z0) exactly where H does not depend on time; A(q1) v1 = 0 holds because p1
 // is made of (q1, pi1). Order 2, symmetric, and reversible where the reversal is orthogonal. Where |D| is so
 // small that the quotient is only round-off, grad H_d(zm) alone is used; the energy changes by less than
-// round-off then. D is iterated to round-off from what is extrapolated from past steps. The update of (q, pi)
-// is compensated.
+// round-off then. With the mean value of grad H_d along D in place of g (mean_value.hpp) the energy is kept
+// as exactly as the mean value is taken. D is iterated to round-off from what is extrapolated from past
+// steps. The update of (q, pi) is compensated.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include <pfaff/core/facets/problem.hpp>
-#include <pfaff/core/solve/convergence.hpp>
 #include <pfaff/core/solve/summation.hpp>
 #include <pfaff/core/tape/replay.hpp>
 #include <pfaff/integrators/nonholonomic/kernel_coordinates.hpp>
+#include <pfaff/integrators/nonholonomic/mean_value.hpp>
 #include <pfaff/integrators/support/continuation.hpp>
 #include <pfaff/integrators/support/difference_predictor.hpp>
 #include <pfaff/integrators/support/largest.hpp>
 #include <pfaff/integrators/support/remembered_contraction.hpp>
+#include <pfaff/integrators/support/settling_convergence.hpp>
 
 namespace pfaff {
 
@@ -35,22 +38,20 @@ namespace pfaff {
 struct KernelDiscreteGradient {
   bool compensated = true;
   Quad length{1};  // of D, in units of the step
+  int nodes = 0;   // of the mean value of grad H_d; 0 for the g of the opening comment
 
   template <class P>
   struct Work {
     using T = Scalar<P>;
-    struct Formulas {
-      Replay<T> energy, middle, momentum, reduced;
-    };
     std::size_t n, r;
-    std::vector<Formulas> choices;
-    Replay<T> determinants;
-    std::vector<T> values;  // of the determinants
-    std::size_t chosen = 0;
-    std::vector<T> pi, carry;  // of the state, and what the sums of q and pi have rounded off
+    Replay<T> energy, at_middle, momentum, reduced;
+    std::optional<Replay<T>> gradient;  // of the energy, where mean values are taken
+    std::vector<T> pi, carry;           // of the state, and what the sums of q and pi have rounded off
     // D and what replaces it, z0 + D/2 and z0 + D, and the results of `middle`
     std::vector<T> change, next, middle, end, slopes;
-    DifferencePredictor<T, dynamic, dynamic> predictor;  // of D/h
+    MeanValue<T> mean;
+    std::vector<T> point, value;                                          // on the way along D
+    DifferencePredictor<T, dynamic, difference_levels<T> + 2> predictor;  // of D/h
     RememberedContraction<Value<T>> contraction;
     Continuation<P> continuation;
     T last_h{0}, length;
@@ -68,8 +69,10 @@ struct KernelDiscreteGradient {
     Work(const KernelDiscreteGradient& method, const P& p, const KernelCoordinates& coordinates)
         : n(coordinates.degrees),
           r(coordinates.rank),
-          determinants(coordinates.determinants),
-          values(coordinates.choices.size()),
+          energy(coordinates.energy),
+          at_middle(coordinates.middle),
+          momentum(coordinates.momentum),
+          reduced(coordinates.reduced),
           pi(r),
           carry(n + r),
           change(n + r),
@@ -77,12 +80,13 @@ struct KernelDiscreteGradient {
           middle(n + r),
           end(n + r),
           slopes(n + r + n * r + r * r),
+          mean(method.nodes),
+          point(n + r),
+          value(n + r),
           predictor(n + r, static_cast<std::size_t>(difference_levels<T>) + 2),
           continuation(p),
           length(Real(method.length)) {
-      for (const KernelTapes& tapes : coordinates.choices)
-        choices.push_back({Replay<T>(tapes.energy), Replay<T>(tapes.middle), Replay<T>(tapes.momentum),
-                           Replay<T>(tapes.reduced)});
+      if (method.nodes > 0) gradient.emplace(gradient_tape(*coordinates.energy));
     }
   };
 
@@ -92,15 +96,14 @@ struct KernelDiscreteGradient {
     const std::size_t size = w.n + w.r;
     const T middle_time = t + h / T(2);
     start(t, h, z, w);
-    auto& formulas = w.choices[w.chosen];
     for (std::size_t k = 0; k < size; ++k) w.end[k] = at_start(z, w, k);
     T energy(0);
-    formulas.energy(middle_time, w.end.data(), &energy);
+    if (!w.gradient) w.energy(middle_time, w.end.data(), &energy);
     if (!w.predictor.knows()) {
-      formulas.middle(middle_time, w.end.data(), w.slopes.data());
+      w.at_middle(middle_time, w.end.data(), w.slopes.data());
       rates(w.length * h, T(0), w, w.change);
     }
-    Convergence<T> convergence(Corrections::uneven);
+    SettlingConvergence<T> convergence(Corrections::uneven);
     do {
       ++p.counters().fields;
       for (std::size_t k = 0; k < size; ++k) {
@@ -108,15 +111,23 @@ struct KernelDiscreteGradient {
         w.middle[k] = begin + w.change[k] / T(2);
         w.end[k] = begin + w.change[k];
       }
-      formulas.middle(middle_time, w.middle.data(), w.slopes.data());
-      T end_energy(0);
-      formulas.energy(middle_time, w.end.data(), &end_energy);
-      rates(w.length * h, secant(end_energy - energy, z, w), w, w.next);
+      w.at_middle(middle_time, w.middle.data(), w.slopes.data());
+      T s(0);
+      if (!w.gradient) {
+        T end_energy(0);
+        w.energy(middle_time, w.end.data(), &end_energy);
+        s = secant(end_energy - energy, z, w);
+      } else {
+        w.mean([&](std::size_t k) { return at_start(z, w, k); }, w.change, w.point, w.value,
+               Out<T>(w.slopes).first(size),
+               [&](const T* at, T* slopes) { (*w.gradient)(middle_time, at, slopes); });
+      }
+      rates(w.length * h, s, w, w.next);
       convergence.begin_iteration();
       judge(convergence, z, w);
       std::swap(w.change, w.next);
       ++p.counters().iterations;
-    } while (!convergence.finished(100, w.contraction.ratio()));
+    } while (!convergence.finished(100, w.contraction));
     if (convergence.status() != Status::converged) {
       // Iterates that overflow come from a step that is too large, and are reported as not converged, too.
       w.forget();
@@ -128,7 +139,7 @@ struct KernelDiscreteGradient {
     for (std::size_t k = 0; k < w.n; ++k) add_to(z[k], w.carry[k], w.change[k], compensated);
     for (std::size_t a = 0; a < w.r; ++a) add_to(w.pi[a], w.carry[w.n + a], w.change[w.n + a], compensated);
     for (std::size_t k = 0; k < size; ++k) w.end[k] = k < w.n ? z[k] : w.pi[k - w.n];
-    formulas.momentum(t + h, w.end.data(), z.data() + w.n);
+    w.momentum(t + h, w.end.data(), z.data() + w.n);
     w.continuation.remember(t + h, h, z);
     return Status::converged;
   }
@@ -140,22 +151,13 @@ struct KernelDiscreteGradient {
     return (k < w.n ? z[k] : w.pi[k - w.n]) + w.carry[k];
   }
 
-  // Chooses the basis at q0, and makes pi0 where the state or the basis is another one than before. Fills D.
+  // Makes pi0 where the state is another one than after the last step. Fills D.
   template <class P>
   static void start(const Scalar<P>& t, const Scalar<P>& h, const State<P>& z, Work<P>& w) {
     using T = Scalar<P>;
-    std::size_t chosen = 0;
-    if (w.choices.size() > 1) {
-      w.determinants(t, z.data(), w.values.data());
-      Value<T> largest(0);
-      for (const T& x : w.values) largest = std::max(largest, Value<T>(abs(value_of(x))));
-      while (chosen + 1 < w.values.size() && !(Value<T>(2) * abs(value_of(w.values[chosen])) >= largest))
-        ++chosen;
-    }
-    if (chosen != w.chosen || value_of(h) != value_of(w.last_h)) w.predictor.forget();
-    if (chosen != w.chosen || !w.continuation.holds_at(t, h, z)) {
-      w.chosen = chosen;
-      w.choices[chosen].reduced(t, z.data(), w.pi.data());
+    if (value_of(h) != value_of(w.last_h)) w.predictor.forget();
+    if (!w.continuation.holds_at(t, h, z)) {
+      w.reduced(t, z.data(), w.pi.data());
       for (T& x : w.carry) x = T(0);
     }
     for (std::size_t k = 0; k < w.change.size(); ++k) w.change[k] = h * w.predictor.expected(k);
@@ -200,7 +202,7 @@ struct KernelDiscreteGradient {
   // Positions and momenta are judged each by their own largest component. Derivatives of either may be zero
   // but for round-off, and are judged together.
   template <class T, class Z, class W>
-  static void judge(Convergence<T>& convergence, const Z& z, const W& w) {
+  static void judge(SettlingConvergence<T>& convergence, const Z& z, const W& w) {
     Largest<T> moved, kicked, positions, momenta, all;
     for (std::size_t k = 0; k < w.n + w.r; ++k) {
       const T begin = at_start(z, w, k);
@@ -212,8 +214,8 @@ struct KernelDiscreteGradient {
     }
     const T of_positions = scale_of(positions.get(), all.get()),
             of_momenta = scale_of(momenta.get(), all.get());
-    convergence.add(moved.get(), of_positions, of_positions);
-    convergence.add(kicked.get(), of_momenta, of_momenta);
+    convergence.add(moved.get(), of_positions);
+    convergence.add(kicked.get(), of_momenta);
   }
   template <class T>
   static T scale_of(const T& own, const T& /*all*/) {

@@ -15,11 +15,11 @@
 #include <vector>
 
 #include <pfaff/core/facets/problem.hpp>
-#include <pfaff/core/solve/convergence.hpp>
 #include <pfaff/integrators/nonholonomic/energy_slopes.hpp>
 #include <pfaff/integrators/support/difference_predictor.hpp>
 #include <pfaff/integrators/support/largest.hpp>
 #include <pfaff/integrators/support/remembered_contraction.hpp>
+#include <pfaff/integrators/support/settling_convergence.hpp>
 
 namespace pfaff {
 
@@ -53,7 +53,7 @@ class MiddlePoint {
                In<T> q_carry, In<T> p0, In<T> p_change) {
     predict(p, c, t, h, half, q0, q_carry, p0, p_change);
     const T middle = t + half;
-    Convergence<T> convergence;
+    SettlingConvergence<T> convergence;
     do {
       Largest<T> moved, positions, kicked, momenta;
       ++p.counters().fields;
@@ -79,10 +79,10 @@ class MiddlePoint {
         momenta.add(p0[k]);
       }
       convergence.begin_iteration();
-      convergence.add(moved.get(), positions.get(), positions.get());
-      convergence.add(kicked.get(), momenta.get(), momenta.get());
+      convergence.add(moved.get(), positions.get());
+      convergence.add(kicked.get(), momenta.get());
       ++p.counters().iterations;
-    } while (!convergence.finished(100, contraction_.ratio()));
+    } while (!convergence.finished(100, contraction_));
     contraction_.remember_slowest(convergence.contraction());
     // Iterates that overflow come from a step that is too large, and are reported as not converged, too.
     return convergence.status() == Status::converged ? Status::converged : Status::not_converged;
@@ -151,7 +151,7 @@ class MiddlePoint {
   EnergySlopes<T> slopes_;
   std::vector<T> velocity_, force_, reaction_, position_, momentum_, kick_, correction_, multiplier_,
       residual_;
-  DifferencePredictor<T, dynamic, dynamic> predictor_;
+  DifferencePredictor<T, dynamic, difference_levels<T> + 2> predictor_;
   RememberedContraction<Value<T>> contraction_;
   T last_h_{0};
 };

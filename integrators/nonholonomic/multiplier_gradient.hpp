@@ -19,6 +19,9 @@
 // basis of it; here none is chosen, and the result depends on none. Of their method this is another member of
 // order 2 with the same properties.
 //
+// With mean values along D (mean_value.hpp) in place of f_bar both hold as exactly as the mean values are
+// taken.
+//
 // Order 2, symmetric, and reversible where the reversal is orthogonal. Where |D| is so small that the
 // quotient is only round-off, grad H(zm) alone is used; the energy changes by less than round-off then. All
 // unknowns are iterated to round-off from what is extrapolated from past steps, the multipliers by Newton's
@@ -31,14 +34,15 @@
 #include <vector>
 
 #include <pfaff/core/facets/problem.hpp>
-#include <pfaff/core/solve/convergence.hpp>
 #include <pfaff/core/solve/summation.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/replay.hpp>
 #include <pfaff/integrators/nonholonomic/energy_slopes.hpp>
+#include <pfaff/integrators/nonholonomic/mean_value.hpp>
 #include <pfaff/integrators/support/difference_predictor.hpp>
 #include <pfaff/integrators/support/largest.hpp>
 #include <pfaff/integrators/support/remembered_contraction.hpp>
+#include <pfaff/integrators/support/settling_convergence.hpp>
 
 namespace pfaff {
 
@@ -65,6 +69,7 @@ inline std::shared_ptr<const Tape> weighted_constraint_gradient(const Model& mod
 struct MultiplierDiscreteGradient {
   bool compensated = true;
   Quad length{1};  // of D, in units of the step
+  int nodes = 0;   // of mean values along D; 0 for the f_bar of the opening comment
 
   template <class P>
   struct Work {
@@ -76,7 +81,10 @@ struct MultiplierDiscreteGradient {
     // D, what corrects it, z0 + D/2 followed by x, z0 + D, and the gradient of x.psi: (q, p)
     std::vector<T> change, next, middle, end, slopes;
     std::vector<T> y, residual, reaction;
-    DifferencePredictor<T, dynamic, dynamic> predictor;  // of D/h, x, y
+    MeanValue<T> mean;
+    // A point along D followed by x, the slopes there, and the mean of those of H: (H_p, -H_q)
+    std::vector<T> point, along, energy_mean;
+    DifferencePredictor<T, dynamic, difference_levels<T>> predictor;  // of D/h, x, y
     RememberedContraction<Value<T>> contraction;
     T last_h{0}, length;
 
@@ -93,6 +101,10 @@ struct MultiplierDiscreteGradient {
           y(p.nonholonomic().count()),
           residual(y.size()),
           reaction(n()),
+          mean(method.nodes),
+          point(middle.size()),
+          along(p.size()),
+          energy_mean(p.size()),
           predictor(p.size() + 2 * y.size(), static_cast<std::size_t>(difference_levels<T>)),
           length(Real(method.length)) {}
     [[nodiscard]] std::size_t n() const { return carry.size() / 2; }
@@ -113,8 +125,8 @@ struct MultiplierDiscreteGradient {
     for (std::size_t k = 0; k < size; ++k) w.end[k] = z[k] + w.carry[k];
     const T energy = w.energy_at(middle_time, w.end);
     for (std::size_t k = 0; k < size; ++k) w.middle[k] = w.end[k] + w.change[k] / T(2);
-    w.weighted(middle_time, w.middle.data(), w.slopes.data());
-    Convergence<T> convergence(Corrections::uneven);
+    weigh(middle_time, z, w);
+    SettlingConvergence<T> convergence(Corrections::uneven);
     Status status = Status::converged;
     do {
       status = improve(p, t, h, energy, z, w);
@@ -127,11 +139,11 @@ struct MultiplierDiscreteGradient {
           reference.add(z[k]);
           reference.add(w.next[k]);
         }
-        convergence.add(correction.get(), reference.get(), reference.get());
+        convergence.add(correction.get(), reference.get());
       }
       std::swap(w.change, w.next);
       ++p.counters().iterations;
-    } while (!convergence.finished(100, w.contraction.ratio()));
+    } while (!convergence.finished(100, w.contraction));
     w.contraction.remember_slowest(convergence.contraction());
     // Iterates that overflow come from a step that is too large, and are reported as not converged, too.
     if (status == Status::converged && convergence.status() != Status::converged)
@@ -192,14 +204,24 @@ struct MultiplierDiscreteGradient {
     if (const Status status = c.place(time, In<T>(w.middle.data(), n), In<T>(w.middle.data() + n, n));
         status != Status::converged)
       return status;
-    const T s = secant(c, w.energy_at(time, w.end) - energy, z, w), reach = w.length * h,
-            per_step = T(1) / reach;
-    for (std::size_t j = 0; j < w.y.size(); ++j) w.residual[j] = w.x(j);
-    c.by_momentum_transpose(w.residual, Out<T>(w.end.data(), n));
+    const T reach = w.length * h, per_step = T(1) / reach;
     c.apply_transpose(w.y, w.reaction);
-    for (std::size_t k = 0; k < n; ++k) {
-      w.next[k] = reach * (c.velocities()[k] + (s * w.change[n + k] - w.end[k]));
-      w.next[n + k] = reach * ((c.forces()[k] - w.reaction[k]) + (w.slopes[k] - s * w.change[k]));
+    if (w.mean.places.empty()) {
+      const T s = secant(c, w.energy_at(time, w.end) - energy, z, w);
+      for (std::size_t j = 0; j < w.y.size(); ++j) w.residual[j] = w.x(j);
+      c.by_momentum_transpose(w.residual, Out<T>(w.end.data(), n));
+      for (std::size_t k = 0; k < n; ++k) {
+        w.next[k] = reach * (c.velocities()[k] + (s * w.change[n + k] - w.end[k]));
+        w.next[n + k] = reach * ((c.forces()[k] - w.reaction[k]) + (w.slopes[k] - s * w.change[k]));
+      }
+    } else {
+      average(z, w, w.energy_mean, [&](const T* at, T* slopes) {
+        w.energy_slopes(time, In<T>(at, n), In<T>(at + n, n), Out<T>(slopes, n), Out<T>(slopes + n, n));
+      });
+      for (std::size_t k = 0; k < n; ++k) {
+        w.next[k] = reach * (w.energy_mean[k] - w.slopes[n + k]);
+        w.next[n + k] = reach * ((w.energy_mean[n + k] - w.reaction[k]) + w.slopes[k]);
+      }
     }
     if (w.energy_slopes.separable()) follow(c, time, reach, z, w);
     // x, by which A(qm) (q1 - q0) + h b(qm) = 0, where b = psi - A v.
@@ -212,7 +234,7 @@ struct MultiplierDiscreteGradient {
     for (std::size_t k = 0; k < n; ++k) w.next[k] = w.next[k] - reach * w.reaction[k];
     // The same x in the momenta.
     for (std::size_t k = 0; k < n; ++k) w.next[n + k] = w.next[n + k] - reach * w.slopes[k];
-    w.weighted(time, w.middle.data(), w.slopes.data());
+    weigh(time, z, w);
     for (std::size_t k = 0; k < n; ++k) w.next[n + k] = w.next[n + k] + reach * w.slopes[k];
     // y, by which psi(z1) = 0.
     for (std::size_t k = 0; k < size; ++k) w.end[k] = z[k] + (w.next[k] + w.carry[k]);
@@ -222,6 +244,22 @@ struct MultiplierDiscreteGradient {
     for (std::size_t j = 0; j < w.y.size(); ++j) w.y[j] = w.y[j] + per_step * w.residual[j];
     for (std::size_t k = 0; k < n; ++k) w.next[n + k] = w.next[n + k] - w.reaction[k];
     return Status::converged;
+  }
+
+  // The mean of f along D.
+  template <class P, class T = Scalar<P>, class F>
+  static void average(const State<P>& z, Work<P>& w, std::vector<T>& mean, const F& f) {
+    w.mean([&](std::size_t k) { return z[k] + w.carry[k]; }, w.change, w.point, w.along, mean, f);
+  }
+  // Fills `slopes` with the gradient of x.psi, at the middle or as a mean.
+  template <class P, class T = Scalar<P>>
+  static void weigh(const T& time, const State<P>& z, Work<P>& w) {
+    if (w.mean.places.empty()) {
+      w.weighted(time, w.middle.data(), w.slopes.data());
+      return;
+    }
+    for (std::size_t j = 0; j < w.y.size(); ++j) w.point[w.carry.size() + j] = w.x(j);
+    average(z, w, w.slopes, [&](const T* at, T* slopes) { w.weighted(time, at, slopes); });
   }
 
   // Moves the positions of `next` with the velocity at the new middle of its momenta. Where H = T(p) + V(q,

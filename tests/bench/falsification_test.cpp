@@ -7,7 +7,9 @@
 
 #include <pfaff/bench/falsification/drawn_parameters.hpp>
 #include <pfaff/bench/falsification/falsify.hpp>
+#include <pfaff/bench/falsification/judgement.hpp>
 #include <pfaff/bench/falsification/many_steps.hpp>
+#include <pfaff/bench/verification/measured_step.hpp>
 #include <pfaff/bench/verification/random_checks.hpp>
 #include <pfaff/core/system.hpp>
 
@@ -144,6 +146,26 @@ TEST(Falsify, ParasiticOscillationShowsInSeveralSteps) {
   const Judgement single = judge(*instance, Claim::symmetric, one);
   EXPECT_FALSE(single.falsified);
   EXPECT_LE(single.residuals.front(), 1e-31);
+}
+
+// GNI carries a reaction from its second step on, with which steps back undo steps; without it they do not,
+// and were once taken for a counterexample.
+TEST(Falsify, WhatAMethodCarriesGoesBackWithTheState) {
+  const auto particle = systems().get("contact-particle", "system").make({});
+  for (const char* name : {"gni", "nonholonomic-leap-frog"}) {
+    const auto instance = method(name).make({});
+    const JudgedStep two{.model = particle, .state = particle->initial(), .count = 2};
+    EXPECT_FALSE(judge(*instance, Claim::symmetric, two).falsified) << name;
+    const ManySteps many(*instance, 2);
+    const Real length = Real::fraction(1, 5);
+    MeasuredStep<Quad> step(many, particle, particle->initial(), 0, length, 0, true);
+    const auto there = step.end();
+    ASSERT_TRUE(there) << name;
+    const auto back = step.then(-step.h(), *there), fresh = step.after(step.h(), -step.h(), *there);
+    ASSERT_TRUE(back && fresh) << name;
+    EXPECT_LE(static_cast<double>(step.distance(*back, step.start())), 1e-31) << name;
+    EXPECT_GT(static_cast<double>(step.distance(*fresh, step.start())), 1e-9) << name;  // control
+  }
 }
 
 // Several steps as one: of a method of one step they are that method's, and they keep what it keeps.

@@ -2,10 +2,14 @@
 // structure, and clearly above it for others.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include <pfaff/bench/measure/structure.hpp>
 #include <pfaff/bench/runner/motion.hpp>
+#include <pfaff/bench/verification/check.hpp>
+#include <pfaff/bench/verification/method_on_model.hpp>
+#include <pfaff/core/integrator.hpp>
 
 namespace {
 
@@ -90,6 +94,52 @@ TEST(Structure, CongruenceByHand) {
   EXPECT_EQ(congruence_residual<double>({2, 0, 0, 1}, k, k), 0.5);  // M^T K M = 2 K: |2 - 1| / 2
   EXPECT_EQ(congruence_residual<double>({1, 0, 0, 1}, {0, -3, 3, 0}, k), 2.0 / 3);
   EXPECT_TRUE(std::isnan(congruence_residual<double>({NAN, 0, 0, 1}, k, k)));
+}
+
+// The explicit Euler method, whose derivatives are off by a part in 10^20.
+struct WronglyDifferentiated {
+  template <class P>
+  struct Work {
+    State<P> slope;
+    Work(const WronglyDifferentiated& /*method*/, const P& p) : slope(p.make_state()) {}
+  };
+  template <class T>
+  static T spoilt(const T& x) {
+    return x;
+  }
+  template <class T, int N>
+  static Dual<T, N> spoilt(Dual<T, N> x) {
+    for (T& d : x.derivative) d = d * (T(1) + T(1e-20));
+    return x;
+  }
+  template <HasVectorField P>
+  Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
+    p.field(t, z, w.slope);
+    for (std::size_t k = 0; k < z.size(); ++k) z[k] = spoilt(z[k] + h * w.slope[k]);
+    return Status::converged;
+  }
+};
+
+// On a chain with a skate the field amplifies rounding by some hundred, and with it the displacements.
+TEST(Structure, JacobiansAreThoseOfTheStep) {
+  static const Method<WronglyDifferentiated> wrong{{.name = "wrongly-differentiated",
+                                                    .title = "",
+                                                    .reference = "",
+                                                    .order = 1,
+                                                    .preserves = {Claim::none}}};
+  const auto jacobian = [](const std::vector<Check>& checks) {
+    return *std::find_if(checks.begin(), checks.end(),
+                         [](const Check& c) { return c.claim == "step-jacobian"; });
+  };
+  const auto of_wrong = jacobian(check_method(wrong, {}, systems().get("pendulum", "system")));
+  EXPECT_EQ(of_wrong.result, CheckResult::fail);
+  EXPECT_NEAR(of_wrong.measured, 1e-20, 1e-22);
+  const auto chain = model_of("skate-chain");
+  for (const char* name : {"dla", "nonholonomic-discrete-gradient"}) {
+    const auto method = method_of(name);
+    MethodOnModel on(*method, {}, "skate-chain", chain);
+    EXPECT_LE(check_step_jacobian(on).measured, 1e-25) << name;
+  }
 }
 
 }  // namespace

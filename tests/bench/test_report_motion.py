@@ -66,6 +66,14 @@ class Tracks(Fresh):
         self.assertNotIn("same scale", drawing.caption)
         self.assertEqual(drawing.draw(False).axes[0].get_aspect(), "auto")
 
+    def test_long_tracks_have_scales_of_their_own(self):
+        shown = reading.Experiment(circles(self.folder))
+        tracks = [(run, x, [20 * a for a in y]) for run, x, y in
+                  ((r, *motion.track(shown, shown.cases[0], r)) for r in shown.at_common_step(shown.cases[0]))]
+        drawing = motion.drawn(shown, shown.cases[0], tracks)
+        self.assertIn("different scales", drawing.caption)
+        self.assertEqual(drawing.draw(False).axes[0].get_aspect(), "auto")
+
     def test_report_draws_the_motion_and_is_the_same_again(self):
         folder = circles(self.folder)
         self.assertEqual(run(folder)[0], 0)

@@ -6,6 +6,7 @@
 
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/linear.hpp>
+#include <pfaff/core/tape/polynomial_degree.hpp>
 
 #include "random_formula.hpp"
 
@@ -247,6 +248,31 @@ TEST(Recording, SystemsOfConstantsAreSolvedAsFractions) {
   }
   for (const Recorded& singular : solve(constants({1, 2, 2, 4}), constants({1, 1})))
     EXPECT_TRUE(isnan(singular.constant().quad()));
+}
+
+TEST(PolynomialDegree, IsBoundedByTheOperations) {
+  const auto degree = [](const auto& f) { return polynomial_degree(tape_of(f)); };
+  EXPECT_EQ(degree([](auto& t, auto&, auto&) { return sin(t) / (1 + t * t); }), 0);
+  EXPECT_EQ(degree([](auto& t, auto& x, auto& y) { return x * x * y / exp(t) - 3 * y / 7; }), 3);
+  EXPECT_EQ(degree([](auto&, auto& x, auto& y) { return pow(x + y * y, Real(3)) + x; }), 6);
+  EXPECT_EQ(degree([](auto& t, auto& x, auto& y) { return select(t, x * t, x * y); }), std::nullopt);
+  EXPECT_EQ(degree([](auto&, auto& x, auto& y) { return x + sin(y); }), std::nullopt);
+  EXPECT_EQ(degree([](auto&, auto& x, auto& y) { return x / (1 + y * y); }), std::nullopt);
+  EXPECT_EQ(degree([](auto&, auto& x, auto& y) { return x * sqrt(y); }), std::nullopt);
+  EXPECT_EQ(degree([](auto&, auto& x, auto&) { return pow(x, Real::fraction(5, 2)); }), std::nullopt);
+}
+// The solution of a linear system is linear in its right-hand side, and rational in its matrix.
+TEST(PolynomialDegree, OfSolutions) {
+  const auto degree = [](bool constant) {
+    return polynomial_degree(record(2, 2, [&](const Recorded& t, Arguments z, Results out) {
+      const std::vector<Recorded> matrix{2 + t, Recorded(1), Recorded(1), constant ? 3 * t : z[0]};
+      const auto x = solve(matrix, std::vector<Recorded>{z[0] * z[1], z[1]});
+      out[0] = x[0];
+      out[1] = x[1];
+    }));
+  };
+  EXPECT_EQ(degree(true), 2);
+  EXPECT_EQ(degree(false), std::nullopt);
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 
 #include <pfaff/bench/verification/skated_models.hpp>
 #include <pfaff/core/facets/conformance/constraint_matchers.hpp>
+#include <pfaff/core/facets/joined_velocity_constraints.hpp>
+#include <pfaff/core/facets/taped_constraints.hpp>
 #include <pfaff/core/facets/taped_velocity_constraints.hpp>
 
 #include "velocity_systems.hpp"
@@ -123,20 +125,46 @@ TEST(VelocityConformance, EveryWrongOperationIsFound) {
   }
 }
 
-// A chain of rods with a blade: S couples neighbours, and the blade to the two rods at its bead, which leaves
-// a structure without fill. A placement then takes work in proportion to the length of the chain.
-TEST(VelocityConformance, AChainWithABladeIsLinearInItsLength) {
-  const auto work = [](int beads) {
-    const VelocityTapes tapes = record_velocity(*skated_chain(beads));
+// A chain of rods with a skate: S couples neighbours, and the skate to the two rods at its bead, which leaves
+// a structure without fill. The evaluator that joins the skate to the rods of the system reports the same,
+// and its own tape does not grow with the chain.
+TEST(VelocityConformance, AChainWithASkateIsLinearInItsLength) {
+  const auto chain = [](int beads) {
+    return systems().get("skate-chain", "system").make({{"beads", std::to_string(beads)}});
+  };
+  const auto work = [&](int beads) {
+    const auto model = chain(beads);
+    const VelocityTapes tapes = record_velocity(*model);
     const auto size = static_cast<std::size_t>(beads);
     EXPECT_EQ(tapes.count, size + 1);
     EXPECT_EQ(tapes.pattern->couplings().size(), size + 1);
     EXPECT_EQ(tapes.pattern->structure(), MatrixStructure::tree);
     EXPECT_EQ(tapes.pattern->fill(), 0U);
+    EXPECT_EQ(model->velocity_constraints<double>()->pattern().couplings(), tapes.pattern->couplings());
     return tapes.place->code.size();
   };
   const std::size_t short_one = work(10), middle = work(20), long_one = work(30);
   EXPECT_EQ(long_one - middle, middle - short_one);
+  const auto joined = [&](int beads) {
+    const JoinedTapes tapes = record_joined(*chain(beads));
+    return tapes.place->outputs.size() + tapes.values->outputs.size();
+  };
+  EXPECT_EQ(joined(10), joined(30));
+}
+
+// With two skates, a mass matrix that depends on positions and constraints that move, joined by the same
+// rules to holonomic constraints from tapes: against the evaluator that has all of them on one tape.
+TEST(VelocityConformance, JoinedEvaluatorsKeepEveryIdentity) {
+  const auto model = two_blades(true);
+  const auto tapes = std::make_shared<const HolonomicTapes>(record_holonomic(*model));
+  const auto joined = std::make_shared<const JoinedTapes>(record_joined(*model));
+  const auto evaluator = [&]<class T>(std::type_identity<T>) {
+    return JoinedVelocityConstraints<T>(std::make_unique<TapedConstraints<T>>(tapes), joined);
+  };
+  auto in_double = evaluator(std::type_identity<double>());
+  auto in_quad = evaluator(std::type_identity<Quad>());
+  EXPECT_THAT(&in_double, KeepsConstraintIdentities(model, ConstraintSamples{}));
+  EXPECT_THAT(&in_quad, KeepsConstraintIdentities(model, ConstraintSamples{}));
 }
 
 }  // namespace

@@ -1,11 +1,17 @@
 // The contraction of the iteration, which methods remember from step to step: that of the last step, or the
-// slowest so far.
+// slowest so far. And iterations that end by it.
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <vector>
+
 #include <pfaff/integrators/support/remembered_contraction.hpp>
+#include <pfaff/integrators/support/settling_convergence.hpp>
 
 namespace {
 using pfaff::RememberedContraction;
+using pfaff::SettlingConvergence;
+using pfaff::Status;
 
 TEST(RememberedContraction, IsOneUntilMeasuredAndOnceForgotten) {
   RememberedContraction<double> contraction;
@@ -39,5 +45,44 @@ TEST(RememberedContraction, TheSlowestOnlyGrows) {
   EXPECT_EQ(contraction.ratio(), 2);
   contraction.remember_slowest(0.5);
   EXPECT_EQ(contraction.ratio(), 0.5) << "a ratio that did not contract gives way to the next";
+}
+
+// Feeds corrections of a component of size 1 until the iteration ends: how many it has taken, and how it
+// ended.
+struct Ending {
+  int taken;
+  Status status;
+};
+Ending ended(const std::vector<double>& corrections, double remembered) {
+  RememberedContraction<double> contraction;
+  contraction.remember_slowest(remembered);
+  SettlingConvergence<double> convergence;
+  int taken = 0;
+  for (const double correction : corrections) {
+    convergence.begin_iteration();
+    convergence.add(correction, 1.0);
+    ++taken;
+    if (convergence.finished(100, contraction)) break;
+  }
+  return {taken, convergence.status()};
+}
+
+// 5e-15 is what a good prediction is off by, and the corrections after it are round-off.
+TEST(SettlingConvergence, EndsWhereTheSecondCorrectionIsRoundOff) {
+  const Ending known = ended({5e-15, 1.5e-16, 1e-16, 1e-17}, 1e-3);
+  EXPECT_EQ(known.taken, 2);
+  EXPECT_EQ(known.status, Status::converged);
+  // Controls: without a contraction that is known, or with one that leaves more, it goes on.
+  EXPECT_GT(ended({5e-15, 1.5e-16, 1e-16, 1e-17}, 0).taken, 2);
+  EXPECT_GT(ended({5e-15, 1.5e-16, 1e-16, 1e-17}, 0.25).taken, 2);
+}
+// A correction that is more than round-off shows that the iteration contracts more slowly than remembered.
+TEST(SettlingConvergence, DoesNotTrustWhatIsRememberedBeyondRoundOff) {
+  EXPECT_EQ(ended({1e-6, 1e-8, 1e-10, 1e-12}, 1e-12).taken, 4);
+}
+TEST(SettlingConvergence, ReportsHowIterationsFail) {
+  EXPECT_EQ(ended({1e-3, std::numeric_limits<double>::quiet_NaN(), 0}, 1e-3).status, Status::non_finite);
+  EXPECT_EQ(ended({1e-3, std::numeric_limits<double>::quiet_NaN(), 0}, 1e-3).taken, 2);
+  EXPECT_EQ(ended(std::vector<double>(120, 1e-3), 1e-3).status, Status::not_converged);
 }
 }  // namespace
