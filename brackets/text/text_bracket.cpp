@@ -1,8 +1,6 @@
 #include <pfaff/brackets/text/text_bracket.hpp>
 
 #include <filesystem>
-#include <map>
-#include <mutex>
 
 namespace pfaff {
 
@@ -35,8 +33,7 @@ std::unique_ptr<const TextBracket> TextBracket::read(const std::string& path) {
   const Document document = read_document(path);
   Table root(document.root, "a text bracket");
   Declaration d;
-  d.path = path;
-  d.contents = document.contents;
+  d.files = {{absolute_path(path), document.contents}};
   BracketDescriptor descriptor;
   descriptor.name = root.text("name", std::filesystem::path(path).stem().string());
   if (!is_kebab_case(descriptor.name))
@@ -129,13 +126,8 @@ bool is_text_bracket(const std::string& path) {
 
 const BracketPlugin& bracket_named(const std::string& name) {
   if (!is_text_file(name)) return brackets().get(name, "bracket");
-  static std::mutex mutex;
-  static std::map<std::pair<std::string, std::string>, std::unique_ptr<const TextBracket>> read;
-  std::unique_ptr<const TextBracket> bracket = TextBracket::read(name);
-  const std::lock_guard lock(mutex);
-  return *read.try_emplace({std::filesystem::absolute(name).string(), bracket->contents()},
-                           std::move(bracket))
-              .first->second;
+  static PluginFiles<TextBracket> files;
+  return files.get(name, TextBracket::read);
 }
 
 ChosenBracket chosen_bracket(const std::string& text, const std::string& of) {

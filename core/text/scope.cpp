@@ -71,8 +71,6 @@ void Scope::fail(const Expression& of, std::size_t node, const std::string& mess
   refuse(of.source(), of.node(node).offset, message);
 }
 
-Recorded Scope::evaluate(const Expression& expression) { return value(expression, expression.root()); }
-
 void Scope::append(const Expression& expression, std::vector<Recorded>& values) {
   append_node(expression, expression.root(), values);
 }
@@ -141,6 +139,8 @@ Recorded Scope::value(const Expression& of, std::size_t number) {
     }
     case Kind::function:
       return function(of, number);
+    case Kind::call:
+      return meaning_(number);
     case Kind::range:
       break;
   }
