@@ -127,8 +127,10 @@ Document read_document(const std::string& path) {
   } catch (const toml::parse_error& error) {
     const auto& at = error.source().begin;
     const std::size_t begin = lines.offset(at.line, 1);
-    refuse({lines.rest(at.line, 1), path, at.line, 1}, lines.offset(at.line, at.column) - begin,
-           std::string(error.description()));
+    std::string description(error.description());
+    if (description.find("could not determine value type") != std::string::npos)
+      description += "; expected a number, or an expression in quotation marks";
+    refuse({lines.rest(at.line, 1), path, at.line, 1}, lines.offset(at.line, at.column) - begin, description);
   }
   return document;
 }

@@ -218,8 +218,9 @@ Recorded Scope::named(const Expression& of, std::size_t number) {
   const Entry& found = entry(of, number);
   if (found.state == Entry::State::elements)
     fail(of, number,
-         "'" + name + "' stands for " + std::to_string(found.elements.size()) +
-             " numbers; expected one of them, " + name + "[index]");
+         "'" + name + "' is a list of " + std::to_string(found.elements.size()) +
+             (found.elements.size() == 1 ? " number" : " numbers") + "; expected one of them, " + name +
+             "[index]");
   return found.value;
 }
 

@@ -81,7 +81,7 @@ TEST(TextModelRefusals, Formulas) {
   expect_refused(spring + "initial = [\"q\", 1]\n",
                  "model.toml:4:13: 'q' is a coordinate; initial is made of parameters alone");
   expect_refused("coordinates = [\"q\"]\nkinetic = \"1\"\npotential = \"q\"\n",
-                 "model.toml:1:17: there are 1 coordinates; expected an even number");
+                 "model.toml:1:17: there is 1 coordinate; expected an even number");
   expect_refused("coordinates = { q = \"n\" }\nfield = [\"1\"]\nparameters = { n = 0.5 }\n",
                  "model.toml:1:22: expected a whole number, got 0.5");
   expect_refused(two + "hamiltonian = \"q\"\nbracket = \"canonicl\"\n",
