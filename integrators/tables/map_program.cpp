@@ -163,6 +163,8 @@ class Translation {
     if (node.kind == Node::Kind::range) --ranges_;
     if (node.kind != Node::Kind::call) return;
     if (ranges_ > 0) fail(of, number, "'" + node.name + "' is not called inside a sum");
+    constexpr std::size_t most_registers = 2000;
+    if (program_.registers.size() > most_registers) fail(of, number, "the map has too many operations");
     const auto* const called =
         std::find_if(map_functions.begin(), map_functions.end(),
                      [&](const MapFunction& f) { return f.function.name == node.name; });
@@ -170,10 +172,12 @@ class Translation {
     const std::array expected{MapExtent::one, called->extent};
     for (std::size_t k = 0; k < expected.size(); ++k) {
       const MapExtent given = extent_of(of, node.operands[k]);
-      if (given != expected[k])
+      if (given != expected[k]) {
+        (void)evaluation(Kind::assign, of, node.operands[k]);  // which complains about unknown names
         fail(
             of, node.operands[k],
             node.name + ": expected " + (k == 0 ? "the time" : words(expected[k])) + ", got " + words(given));
+      }
       operation.reads.push_back(register_of(of, node.operands[k], given));
     }
     program_.registers.push_back({{}, called->extent});

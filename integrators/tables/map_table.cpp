@@ -29,8 +29,8 @@ struct TextMap {
     if (system.empty()) return "";
     if (model.name() != system) return "is a map of the system " + system + " alone";
     const auto named = [](const Coordinate& c, const std::string& name) { return c.name == name; };
-    if (!std::equal(model.coordinates().begin(), model.coordinates().end(), coordinates.begin(),
-                    coordinates.end(), named))
+    if (!coordinates.empty() && !std::equal(model.coordinates().begin(), model.coordinates().end(),
+                                            coordinates.begin(), coordinates.end(), named))
       return "has other coordinates than " + system;
     for (const std::string& name : system_parameters)
       if (parameter_of(model, name) == nullptr)

@@ -178,24 +178,25 @@ TEST(MethodMaps, BadOnesAreRefusedAtTheirPlace) {
   expect_refused("\"2 z = z\"", "map.toml:4:10: expected one name before '='");
   expect_refused("\" = z\"", "map.toml:4:10: expected one name before '='");
   expect_refused("\"z = z + h*feld(t, z)\"", "map.toml:4:20: unknown function 'feld'; did you mean 'field'?");
-  expect_refused("\"z = z + h*field(t, x)\"", "map.toml:4:29: field: expected the state, got one number");
+  expect_refused("\"z = z + h*field(t, x)\"", "map.toml:4:29: unknown name 'x'");
+  expect_refused("\"z = z + h*field(t, h)\"", "map.toml:4:29: field: expected the state, got one number");
   expect_refused("\"z = z + h*field(z, z)\"", "map.toml:4:26: field: expected the time, got the state");
   expect_refused("\"z = z + h*field(z)\"", "map.toml:4:25: field: expected 2 arguments, got 1");
   expect_refused("\"z = z + hh*field(t, z)\"", "map.toml:4:18: unknown name 'hh'; did you mean 'h'?");
   expect_refused("\"slope = field(t, z)\"", "map.toml:4:8: step: expected an assignment to the state");
   expect_refused("\"k = field(t, z)\", \"k = 2*k\", \"z = z + h*k\"",
-                 "map.toml:4:30: 'k' has a value already");
+                 "map.toml:4:29: 'k' has a value already");
   expect_refused("\"t = 1\", \"z = z + h*field(t, z)\"", "map.toml:4:10: 't' has a value already");
   expect_refused("\"z = z[1]\"", "map.toml:4:14: a map is written for every component at once");
   expect_refused("\"z = z + sum(i, 1, 2, h*field(t, z))\"",
                  "map.toml:4:33: 'field' is not called inside a sum");
-  expect_refused("\"z = z + sum(i, 1, 2, z)\"", "map.toml:4:32: sum: expected a number for every index");
+  expect_refused("\"z = z + sum(i, 1, 2, z)\"", "map.toml:4:31: sum: expected a number for every index");
   expect_refused("\"q = q + h*field(t, p)\"", "map.toml:4:20: unknown function 'field'");
   expect_refused("\"p = p + h*force(t, q + z)\"", "map.toml:4:33: unknown name 'z'");
   expect_refused("\"z = z/0\"", "map.toml:4:16: division by what is always zero");
   expect_refused("1", "map.toml:4:9: step: expected a text");
   expect_refused("", "map.toml:4:8: step: expected an assignment to the state");
-  expect_refused("\"z = z + h*field(t, z)\"", "map.toml:4:14: key 'preserves': unknown claim 'symplctic'",
+  expect_refused("\"z = z + h*field(t, z)\"", "map.toml:4:13: key 'preserves': unknown claim 'symplctic'",
                  "order = 1\npreserves = [\"symplctic\"]");
   const std::string euler = "\"z = z + h*field(t, z)\"";
   expect_refused(euler, "map.toml:4:15: key 'coordinates': is written beside 'system'",
