@@ -105,6 +105,10 @@ BracketInstance TextBracket::made(const std::vector<Real>& values) const {
     refuse(d.tensor_place, 0,
            "tensor: expected " + std::to_string(n) + " rows of " + std::to_string(n) + ", got " +
                std::to_string(tensor.size()) + " expressions");
+  std::vector<Expression> definitions;  // those that nothing reads may be wrong too
+  for (const TextDefinition& definition : d.definitions)
+    definitions.emplace_back(Source{definition.name, d.files.front().first});
+  (void)evaluated(definitions, recorder.time(), x);
   std::vector<Recorded> vector(n, Recorded(0));
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j) vector[i] = vector[i] + tensor[i * n + j] * x[n + j];

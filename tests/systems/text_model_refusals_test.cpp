@@ -94,6 +94,29 @@ TEST(TextModelRefusals, Formulas) {
                  "model.toml:4:35: row of psi1: expected 1 expression, got 2");
 }
 
+TEST(TextModelRefusals, BracketsAreReadToTheirEnd) {
+  const auto refused = [](const std::string& text) {
+    const pfaff::testing::TemporaryDirectory directory;
+    const std::string file = (directory.path() / "bracket.toml").string();
+    std::ofstream(file) << text;
+    try {
+      (void)bracket_named(file);
+    } catch (const InputError& error) {
+      const std::string what = error.what();
+      return what.substr(what.find("bracket.toml"));
+    }
+    return std::string("accepted");
+  };
+  const std::string rest = "tensor = [[\"0\", \"1\"], [\"-1\", \"0\"]]\nsymmetry = \"skew\"\n";
+  EXPECT_EQ(refused(two + rest), "accepted");
+  EXPECT_EQ(refused(two + rest + "let = { unread = \"1 + mist\" }\n")
+                .find("bracket.toml:4:23: unknown name 'mist'"),
+            0U);
+  EXPECT_EQ(refused(two + "tensor = [[\"0\", \"1\"]]\nsymmetry = \"skew\"\n")
+                .find("bracket.toml:2:10: tensor: expected 2 rows of 2, got 2 expressions"),
+            0U);
+}
+
 TEST(TextModelRefusals, LagrangiansThatCannotBeSolved) {
   const std::string four = "coordinates = [\"x\", \"y\", \"p\", \"k\"]\n";
   expect_refused(four + "lagrangian = \"(v[1] + v[2])^2/2 - x^2\"\n",
