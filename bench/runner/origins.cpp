@@ -97,7 +97,7 @@ void add_compiler(Origins& origins) { add(origins.libraries, "native", native::c
 void add_origins(const Plugin& plugin, const Assignments& values, Origins& origins) {
   for (const auto& [path, hash] : files_of(plugin.parameters(), values)) add(origins.files, path, hash);
   if (const auto* table = dynamic_cast<const MethodTable*>(&plugin)) {
-    add(origins.files, table->path(), sha1_of(table->contents()));
+    for (const auto& [path, contents] : table->files()) add(origins.files, path, sha1_of(contents));
     for (const auto& [base, settings] : table->rests_on()) add_origins(*base, settings, origins);
   } else if (const LoadedObject object = object_holding(&plugin); !is_own(object)) {
     add(origins.plugins, object.path, object.build);

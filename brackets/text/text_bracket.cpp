@@ -1,8 +1,6 @@
 #include <pfaff/brackets/text/text_bracket.hpp>
 
 #include <filesystem>
-#include <map>
-#include <mutex>
 
 namespace pfaff {
 
@@ -35,8 +33,7 @@ std::unique_ptr<const TextBracket> TextBracket::read(const std::string& path) {
   const Document document = read_document(path);
   Table root(document.root, "a text bracket");
   Declaration d;
-  d.path = path;
-  d.contents = document.contents;
+  d.files = {{absolute_path(path), document.contents}};
   BracketDescriptor descriptor;
   descriptor.name = root.text("name", std::filesystem::path(path).stem().string());
   if (!is_kebab_case(descriptor.name))
@@ -108,6 +105,10 @@ BracketInstance TextBracket::made(const std::vector<Real>& values) const {
     refuse(d.tensor_place, 0,
            "tensor: expected " + std::to_string(n) + " rows of " + std::to_string(n) + ", got " +
                std::to_string(tensor.size()) + " expressions");
+  std::vector<Expression> definitions;  // those that nothing reads may be wrong too
+  for (const TextDefinition& definition : d.definitions)
+    definitions.emplace_back(Source{definition.name, d.files.front().first});
+  (void)evaluated(definitions, recorder.time(), x);
   std::vector<Recorded> vector(n, Recorded(0));
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j) vector[i] = vector[i] + tensor[i * n + j] * x[n + j];
@@ -129,13 +130,8 @@ bool is_text_bracket(const std::string& path) {
 
 const BracketPlugin& bracket_named(const std::string& name) {
   if (!is_text_file(name)) return brackets().get(name, "bracket");
-  static std::mutex mutex;
-  static std::map<std::pair<std::string, std::string>, std::unique_ptr<const TextBracket>> read;
-  std::unique_ptr<const TextBracket> bracket = TextBracket::read(name);
-  const std::lock_guard lock(mutex);
-  return *read.try_emplace({std::filesystem::absolute(name).string(), bracket->contents()},
-                           std::move(bracket))
-              .first->second;
+  static PluginFiles<TextBracket> files;
+  return files.get(name, TextBracket::read);
 }
 
 ChosenBracket chosen_bracket(const std::string& text, const std::string& of) {

@@ -12,6 +12,7 @@
 #include <memory>
 
 #include <pfaff/core/bracket.hpp>
+#include <pfaff/core/text/plugin_files.hpp>
 #include <pfaff/core/text/vocabulary.hpp>
 
 namespace pfaff {
@@ -22,14 +23,12 @@ class TextBracket final : public BracketPlugin {
   /// Reads a file. InputError, with the place in it, for whatever is wrong there.
   static std::unique_ptr<const TextBracket> read(const std::string& path);
   [[nodiscard]] BracketInstance make(const Assignments& assignments) const override;
-  /// The path of the file, as it was read.
-  [[nodiscard]] const std::string& path() const { return declaration_.path; }
-  /// What the file contained.
-  [[nodiscard]] const std::string& contents() const { return declaration_.contents; }
+  /// The absolute path of the file, and what it contained.
+  [[nodiscard]] const text::FileContents& files() const { return declaration_.files; }
 
  private:
   struct Declaration {
-    std::string path, contents;
+    text::FileContents files;
     std::vector<text::TextParameter> parameters;
     std::vector<text::TextCoordinate> coordinates;
     std::vector<text::TextDefinition> definitions;

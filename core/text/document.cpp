@@ -7,22 +7,49 @@
 
 #include <toml++/toml.h>
 
-#include <pfaff/core/registry/source_text.hpp>
-
 namespace pfaff::text {
 
 namespace {
 using Kind = Item::Kind;
 
+// The lines of a file. Columns count characters, from 1.
+class Lines {
+ public:
+  explicit Lines(const std::string& contents) : contents_(contents) {
+    begins_.push_back(0);
+    for (std::size_t k = 0; k < contents.size(); ++k)
+      if (contents[k] == '\n') begins_.push_back(k + 1);
+  }
+  // Where a place is in the contents, in bytes.
+  [[nodiscard]] std::size_t offset(std::size_t line, std::size_t column) const {
+    std::size_t at = line <= begins_.size() && line > 0 ? begins_[line - 1] : contents_.size();
+    for (std::size_t k = 1; k < column && at < contents_.size(); ++k) {
+      ++at;
+      while (at < contents_.size() && (static_cast<unsigned char>(contents_[at]) & 0xC0U) == 0x80U) ++at;
+    }
+    return std::min(at, contents_.size());
+  }
+  // The contents from a place on.
+  [[nodiscard]] std::string_view from(std::size_t line, std::size_t column) const {
+    return std::string_view(contents_).substr(offset(line, column));
+  }
+  // The same, to the end of the line.
+  [[nodiscard]] std::string rest(std::size_t line, std::size_t column) const {
+    const std::string_view text = from(line, column);
+    return std::string(text.substr(0, text.find_first_of("\r\n")));
+  }
+
+ private:
+  const std::string& contents_;
+  std::vector<std::size_t> begins_;
+};
+
 // Makes values of toml++'s nodes. The place of a text is that of its first character, behind the quotation
 // marks; of texts with escapes, the columns behind these are those of the text that they make.
 class Reader {
  public:
-  Reader(std::string path, const std::string& contents) : path_(std::move(path)), contents_(contents) {
-    line_begins_.push_back(0);
-    for (std::size_t k = 0; k < contents.size(); ++k)
-      if (contents[k] == '\n') line_begins_.push_back(k + 1);
-  }
+  Reader(std::string path, const std::string& contents, const Lines& lines)
+      : path_(std::move(path)), contents_(contents), lines_(lines) {}
 
   [[nodiscard]] Item value(const toml::node& node, int depth = 0) const {
     const toml::source_region& region = node.source();
@@ -30,6 +57,7 @@ class Reader {
     result.source = {{}, path_, region.begin.line, region.begin.column};
     constexpr int deepest = 64;
     if (depth > deepest) refuse(result, "lists and tables are too deep inside one another");
+    if (depth > 0) result.source.text = lines_.rest(region.begin.line, region.begin.column);
     if (const auto* table = node.as_table()) {
       result.kind = Kind::table;
       for (const auto& [key, item] : *table)
@@ -50,7 +78,7 @@ class Reader {
       result.source.text = std::to_string(integer->get());
     } else if (node.is_floating_point()) {
       result.kind = Kind::number;
-      result.source.text = source_text(contents_, region.begin.line, region.begin.column, region.end.column);
+      result.source.text = digits(region);
     } else if (const auto* truth = node.as_boolean()) {
       result.kind = Kind::truth;
       result.source.text = truth->get() ? "true" : "false";
@@ -59,20 +87,18 @@ class Reader {
   }
 
  private:
+  // What is written for a number; underscores only separate its digits.
+  [[nodiscard]] std::string digits(const toml::source_region& region) const {
+    const std::size_t begin = lines_.offset(region.begin.line, region.begin.column);
+    std::string text = contents_.substr(begin, lines_.offset(region.end.line, region.end.column) - begin);
+    std::erase(text, '_');
+    return text;
+  }
   [[nodiscard]] Source key_place(const toml::key& key) const {
     return {std::string(key.str()), path_, key.source().begin.line, key.source().begin.column};
   }
-  // The contents from a place on. Columns count characters.
-  [[nodiscard]] std::string_view from(std::size_t line, std::size_t column) const {
-    std::size_t at = line <= line_begins_.size() && line > 0 ? line_begins_[line - 1] : contents_.size();
-    for (std::size_t k = 1; k < column && at < contents_.size(); ++k) {
-      ++at;
-      while (at < contents_.size() && (static_cast<unsigned char>(contents_[at]) & 0xC0U) == 0x80U) ++at;
-    }
-    return std::string_view(contents_).substr(std::min(at, contents_.size()));
-  }
   void skip_quotation_marks(Source& source) const {
-    const std::string_view written = from(source.line, source.column);
+    const std::string_view written = lines_.from(source.line, source.column);
     const bool several = written.starts_with("\"\"\"") || written.starts_with("'''");
     source.column += several ? 3 : 1;
     // A line break behind the opening marks is no part of the text.
@@ -84,7 +110,7 @@ class Reader {
 
   std::string path_;
   const std::string& contents_;
-  std::vector<std::size_t> line_begins_;
+  const Lines& lines_;
 };
 }  // namespace
 
@@ -94,15 +120,17 @@ Document read_document(const std::string& path) {
   std::ostringstream buffer;
   buffer << file.rdbuf();
   Document document{path, buffer.str(), {}};
+  const Lines lines(document.contents);
   try {
     const toml::table root = toml::parse(document.contents, path);
-    document.root = Reader(path, document.contents).value(root);
+    document.root = Reader(path, document.contents, lines).value(root);
   } catch (const toml::parse_error& error) {
     const auto& at = error.source().begin;
-    std::string description(error.description());  // quotes what it saw, line breaks included
-    std::replace(description.begin(), description.end(), '\n', ' ');
-    throw InputError(path + ":" + std::to_string(at.line) + ":" + std::to_string(at.column) + ": " +
-                     description);
+    const std::size_t begin = lines.offset(at.line, 1);
+    std::string description(error.description());
+    if (description.find("could not determine value type") != std::string::npos)
+      description += "; expected a number, or an expression in quotation marks";
+    refuse({lines.rest(at.line, 1), path, at.line, 1}, lines.offset(at.line, at.column) - begin, description);
   }
   return document;
 }

@@ -11,7 +11,9 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <pfaff/core/numbers/real.hpp>
@@ -30,6 +32,7 @@ struct Node {
     product,   // operands, each multiplied or divided by, from left to right
     power,     // operand ^ operand
     function,  // name(operands)
+    call,      // name(operands) of a function that the scope gives a meaning
     range      // name is "sum" or "vector", variable is the index: first, last, body
   };
   Kind kind = Kind::number;
@@ -40,11 +43,18 @@ struct Node {
   std::vector<bool> inverted{};  // of sums and products: subtracted, divided by
 };
 
+/// A function, and how many arguments it has.
+struct Function {
+  std::string_view name;
+  std::size_t arguments;
+};
+
 /// A parsed expression, cheap to copy.
 class Expression {
  public:
-  /// Parses a text. TextError where it is none.
-  explicit Expression(Source source);
+  /// Parses a text. TextError where it is none. `more` are functions beside those above, which a scope is
+  /// told the meaning of (Scope::give_meaning).
+  explicit Expression(Source source, std::span<const Function> more = {});
 
   [[nodiscard]] const Source& source() const { return tree_->source; }
   [[nodiscard]] const Node& node(std::size_t number) const { return tree_->nodes[number]; }

@@ -54,6 +54,8 @@ Token Lexer::next() {
     ++at_;
   } else if (std::string_view("<>=!?&|").find(c) != std::string_view::npos) {
     refuse(source_, begin, "values are not compared in a formula; expected + - * / ^, a number or a name");
+  } else if (static_cast<unsigned char>(c) >= 0x80U) {
+    refuse(source_, begin, "expected names of the letters a to z, A to Z, digits and _");
   } else {
     refuse(source_, begin, "expected a number, a name, a parenthesis or one of + - * / ^");
   }

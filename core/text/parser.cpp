@@ -11,25 +11,21 @@ namespace pfaff::text {
 namespace {
 using Kind = Node::Kind;
 
-struct Function {
-  std::string_view name;
-  std::size_t arguments;
-};
 constexpr std::array functions{Function{"sqrt", 1}, Function{"exp", 1}, Function{"log", 1},
                                Function{"sin", 1},  Function{"cos", 1}, Function{"tan", 1},
                                Function{"pow", 2}};
 
-const Function* function_named(std::string_view name) {
-  const auto* const found =
-      std::find_if(functions.begin(), functions.end(), [&](const Function& f) { return f.name == name; });
-  return found == functions.end() ? nullptr : found;
+const Function* function_named(std::string_view name, std::span<const Function> list) {
+  const auto found =
+      std::find_if(list.begin(), list.end(), [&](const Function& f) { return f.name == name; });
+  return found == list.end() ? nullptr : &*found;
 }
 bool is_range(std::string_view name) { return name == "sum" || name == "vector"; }
 }  // namespace
 
 class Parser {
  public:
-  explicit Parser(Source source) {
+  Parser(Source source, std::span<const Function> more) : more_(more) {
     tree_.source = std::move(source);
     Lexer lexer(tree_.source);
     for (;;) {
@@ -129,20 +125,24 @@ class Parser {
   }
 
   std::size_t named(const Token& token) {
-    Node node{.kind = Kind::name, .offset = token.offset};
+    Node node{.offset = token.offset};
     node.name = word(token);
-    const Function* function = function_named(token.text);
+    const Function* function = function_named(token.text, functions);
+    node.kind = function != nullptr ? Kind::function : Kind::call;
+    if (function == nullptr) function = function_named(token.text, more_);
     if (is("(")) {
       if (is_range(token.text)) return range(std::move(node));
       if (function == nullptr) {
         std::vector<std::string> known{"sum", "vector"};
         for (const Function& f : functions) known.emplace_back(f.name);
+        for (const Function& f : more_) known.emplace_back(f.name);
         fail(token, unknown_name("function", node.name, known));
       }
       return call(std::move(node), *function);
     }
     if (function != nullptr || is_range(token.text))
       fail(here(), "expected '(' behind the function '" + node.name + "'");
+    node.kind = Kind::name;
     if (is("[")) {
       take();
       node.kind = Kind::element;
@@ -152,7 +152,6 @@ class Parser {
     return add(std::move(node));
   }
   std::size_t call(Node node, const Function& function) {
-    node.kind = Kind::function;
     const Token open = take();
     node.operands.push_back(sum());
     while (is(",")) {
@@ -201,14 +200,15 @@ class Parser {
     Parser& parser_;
   };
 
+  std::span<const Function> more_;
   Expression::Tree tree_;
   std::vector<Token> tokens_;
   std::size_t at_ = 0;
   int depth_ = 0;
 };
 
-Expression::Expression(Source source)
-    : tree_(std::make_shared<const Tree>(Parser(std::move(source)).parse())) {}
+Expression::Expression(Source source, std::span<const Function> more)
+    : tree_(std::make_shared<const Tree>(Parser(std::move(source), more).parse())) {}
 
 bool Expression::is_vector() const {
   const Node& top = node(root());

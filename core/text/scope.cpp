@@ -71,8 +71,6 @@ void Scope::fail(const Expression& of, std::size_t node, const std::string& mess
   refuse(of.source(), of.node(node).offset, message);
 }
 
-Recorded Scope::evaluate(const Expression& expression) { return value(expression, expression.root()); }
-
 void Scope::append(const Expression& expression, std::vector<Recorded>& values) {
   append_node(expression, expression.root(), values);
 }
@@ -141,6 +139,8 @@ Recorded Scope::value(const Expression& of, std::size_t number) {
     }
     case Kind::function:
       return function(of, number);
+    case Kind::call:
+      return meaning_(number);
     case Kind::range:
       break;
   }
@@ -218,8 +218,9 @@ Recorded Scope::named(const Expression& of, std::size_t number) {
   const Entry& found = entry(of, number);
   if (found.state == Entry::State::elements)
     fail(of, number,
-         "'" + name + "' stands for " + std::to_string(found.elements.size()) +
-             " numbers; expected one of them, " + name + "[index]");
+         "'" + name + "' is a list of " + std::to_string(found.elements.size()) +
+             (found.elements.size() == 1 ? " number" : " numbers") + "; expected one of them, " + name +
+             "[index]");
   return found.value;
 }
 

@@ -6,8 +6,10 @@
 // that has thrown an error is of no further use.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <pfaff/core/tape/recorder.hpp>
@@ -29,10 +31,17 @@ class Scope {
   /// A name that is known and may not be read here; whoever does is told the reason.
   void withhold(const std::string& name, const std::string& reason);
 
+  /// The meaning of the functions that expressions were parsed with beside those that all have: the value of
+  /// a node that calls one of them.
+  using Meaning = std::function<Recorded(std::size_t node)>;
+  void give_meaning(Meaning meaning) { meaning_ = std::move(meaning); }
+
   /// The value of an expression. TextError, with the place, for names that are unknown (the nearest one is
   /// named) or withheld, definitions that contain themselves, indices out of range, divisions by what is zero
   /// whatever the values are, and constants that are not finite.
-  Recorded evaluate(const Expression& expression);
+  Recorded evaluate(const Expression& expression) { return value(expression, expression.root()); }
+  /// The value of one of its nodes.
+  Recorded value(const Expression& of, std::size_t node);
   /// The same for an item of a list, where vector(...) and the bare name of several numbers stand for all of
   /// them: appends the values to `values`.
   void append(const Expression& expression, std::vector<Recorded>& values);
@@ -62,7 +71,6 @@ class Scope {
   class Call;
 
   [[noreturn]] static void fail(const Expression& of, std::size_t node, const std::string& message);
-  Recorded value(const Expression& of, std::size_t node);
   Recorded sum(const Expression& of, const Node& node);
   Recorded product(const Expression& of, const Node& node);
   Recorded power(const Expression& of, std::size_t node, const Recorded& base, const Recorded& exponent);
@@ -78,6 +86,7 @@ class Scope {
   const Entry& entry(const Expression& of, std::size_t node);
 
   std::map<std::string, Entry, std::less<>> entries_;
+  Meaning meaning_;
   std::vector<Index> indices_;  // of the sums that are being evaluated, inner ones last
   std::string reading_;         // the chain of definitions that are being evaluated, for messages
   int depth_ = 0;

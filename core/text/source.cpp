@@ -38,7 +38,7 @@ void refuse(const Source& source, std::size_t offset, const std::string& message
   const std::string caret(characters(text.substr(first, offset - first)), ' ');
   throw TextError(source.file + ":" + std::to_string(source.line + lines) + ":" + std::to_string(column) +
                       ": " + shown(message),
-                  "  " + shown(text.substr(first, last - first)) + "\n  " + caret + "^");
+                  text.empty() ? "" : "  " + shown(text.substr(first, last - first)) + "\n  " + caret + "^");
 }
 
 }  // namespace pfaff::text

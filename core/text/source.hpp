@@ -17,7 +17,7 @@ struct Source {
 };
 
 /// An error at a place of a text. what() is one line, "FILE:LINE:COLUMN: what; expected what"; excerpt() is
-/// the line of the text and, under it, a line with a caret under the place.
+/// the line of the text and, under it, a line with a caret under the place; empty where the text is.
 class TextError : public InputError {
  public:
   TextError(const std::string& message, std::string excerpt)

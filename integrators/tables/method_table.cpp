@@ -1,10 +1,6 @@
 #include <pfaff/integrators/tables/method_table.hpp>
 
 #include <algorithm>
-#include <filesystem>
-#include <mutex>
-
-#include <pfaff/core/text/document.hpp>
 
 namespace pfaff {
 
@@ -22,7 +18,8 @@ const std::vector<Kind>& kinds() {
                                       {"processed", read_splitting_table},
                                       {"composition", read_composition_table},
                                       {"multistep", read_multistep_table},
-                                      {"second-order-multistep", read_second_order_multistep_table}};
+                                      {"second-order-multistep", read_second_order_multistep_table},
+                                      {"map", read_map_table}};
   return list;
 }
 
@@ -33,11 +30,14 @@ TableHead read_head(TableDocument& document, const std::string& kind) {
   if (!is_kebab_case(d.name))
     document.refuse("name", "expected kebab-case, such as 'damped-pendulum', got '" + d.name + "'");
   d.order = document.required_whole_number("order");
-  d.title = document.text("title", kind + " table of order " + std::to_string(d.order));
+  const bool map = kind == "map";
+  d.title = document.text("title", kind + (map ? "" : " table") + " of order " + std::to_string(d.order));
   d.reference = document.text("reference", "");
-  d.description = document.text("description", "A table of coefficients of the kind " + kind +
-                                                   ", read from a file. Its order conditions were checked "
-                                                   "when it was read.");
+  d.description = document.text(
+      "description", map ? "A map written as text, read from a file. Its order and what it keeps are what "
+                           "the file says; pfaff verify measures both."
+                         : "A table of coefficients of the kind " + kind +
+                               ", read from a file. Its order conditions were checked when it was read.");
   const std::string precision = document.text("precision", "quad");
   if (precision != "quad" && precision != "double")
     document.refuse("precision", unknown_name("precision", precision, {"quad", "double"}));
@@ -46,11 +46,22 @@ TableHead read_head(TableDocument& document, const std::string& kind) {
   return head;
 }
 
-// What was read from files, by their absolute paths. A table lives as long as the program, like every
-// registered method.
-std::vector<std::unique_ptr<const MethodTable>>& tables() {
-  static std::vector<std::unique_ptr<const MethodTable>> list;
-  return list;
+// The method of a file, registered. It lives as long as the program, like every registered method.
+std::unique_ptr<const MethodTable> registered(const std::string& path) {
+  auto table = read_method_table(path);
+  if (const MethodPlugin* taken = integrators().find(table->name())) {
+    const auto* of_file = dynamic_cast<const MethodTable*>(taken);
+    if (of_file != nullptr && of_file->path() == table->path())
+      throw InputError(table->path() + ": changed since it was read as '" + table->name() +
+                       "'; expected a file that stays as it is");
+    throw InputError(table->path() + ": key 'name': '" + table->name() + "' is registered in " +
+                     (of_file != nullptr ? of_file->path() : taken->file()) + "; expected another name");
+  }
+  if (!table->theory().kind.empty())
+    KnownOrderTheory(table->name(),
+                     [t = table.get()](const Assignments& /*parameters*/) { return t->theory(); });
+  integrators().add(table.get());
+  return table;
 }
 
 }  // namespace
@@ -94,7 +105,7 @@ std::vector<Claim> kept_claims(TableDocument& document, std::vector<Claim> kept,
 }
 
 std::unique_ptr<const MethodTable> read_method_table(const std::string& path) {
-  TableDocument document(std::filesystem::absolute(path).lexically_normal().string());
+  TableDocument document(text::absolute_path(path));
   const std::string kind = document.required_text("kind");
   std::vector<std::string> names;
   for (const Kind& k : kinds()) {
@@ -105,7 +116,7 @@ std::unique_ptr<const MethodTable> read_method_table(const std::string& path) {
 }
 
 bool names_method_table(const std::string& path) {
-  if (!path.ends_with(".toml")) return false;
+  if (!text::is_text_file(path)) return false;
   try {
     const std::vector<text::Member> keys = text::read_document(path).root.members;
     return std::any_of(keys.begin(), keys.end(), [](const text::Member& m) { return m.key == "kind"; });
@@ -114,28 +125,10 @@ bool names_method_table(const std::string& path) {
   }
 }
 
-const MethodPlugin& integrator_named(const std::string& text) {
-  if (!text.ends_with(".toml")) return integrators().get(text, "integrator");
-  const std::string path = std::filesystem::absolute(text).lexically_normal().string();
-  static std::mutex mutex;
-  const std::lock_guard lock(mutex);
-  for (const auto& table : tables()) {
-    if (table->path() != path) continue;
-    if (TableDocument(path).contents() != table->contents())
-      throw InputError(path + ": changed since it was read as '" + table->name() +
-                       "'; expected a file that stays as it is");
-    return *table;
-  }
-  auto table = read_method_table(path);
-  if (const MethodPlugin* taken = integrators().find(table->name()))
-    throw InputError(path + ": key 'name': '" + table->name() + "' is registered in " + taken->file() +
-                     "; expected another name");
-  if (!table->theory().kind.empty())
-    KnownOrderTheory(table->name(),
-                     [t = table.get()](const Assignments& /*parameters*/) { return t->theory(); });
-  integrators().add(table.get());
-  tables().push_back(std::move(table));
-  return *tables().back();
+const MethodPlugin& integrator_named(const std::string& name) {
+  if (!text::is_text_file(name)) return integrators().get(name, "integrator");
+  static text::PluginFiles<MethodTable> files;
+  return files.get(name, registered);
 }
 
 }  // namespace pfaff

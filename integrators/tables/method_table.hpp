@@ -1,8 +1,9 @@
-// Methods that are tables of coefficients in files: what `--integrator FILE.toml` names.
+// Methods that are tables of coefficients, or maps written as text, in files: what `--integrator FILE.toml`
+// names.
 //
-// A file is read once. Its order conditions are checked while it is read, what it keeps is computed from its
-// numbers, and the method is registered under the name that the file gives it, so that it is run, verified
-// and compared like one of the tree.
+// A file is read once. The order conditions of a table are checked while it is read, what it keeps is
+// computed from its numbers, and the method is registered under the name that the file gives it, so that it
+// is run, verified and compared like one of the tree.
 #pragma once
 
 #include <memory>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include <pfaff/core/integrator.hpp>
+#include <pfaff/core/text/plugin_files.hpp>
 #include <pfaff/integrators/order_conditions/order_condition.hpp>
 #include <pfaff/integrators/tables/table_document.hpp>
 
@@ -20,10 +22,10 @@ namespace pfaff {
 /// A method made of a file.
 class MethodTable : public MethodPlugin {
  public:
+  /// The file and what stood in it when it was read.
+  [[nodiscard]] const text::FileContents& files() const { return files_; }
   /// The absolute path of the file.
-  [[nodiscard]] const std::string& path() const { return path_; }
-  /// What stood in the file when it was read.
-  [[nodiscard]] const std::string& contents() const { return contents_; }
+  [[nodiscard]] const std::string& path() const { return files_.front().first; }
   /// The conditions that were checked; `kind` is empty where there are none.
   [[nodiscard]] const OrderTheory& theory() const { return theory_; }
   /// The registered methods that the table names, with their settings.
@@ -33,12 +35,11 @@ class MethodTable : public MethodPlugin {
   MethodTable(MethodDescriptor descriptor, std::vector<Parameter> parameters, const std::type_info& type,
               const TableDocument& document, OrderTheory theory)
       : MethodPlugin(std::move(descriptor), std::move(parameters), type, std::source_location::current()),
-        path_(document.path()),
-        contents_(document.contents()),
+        files_{{document.path(), document.contents()}},
         theory_(std::move(theory)) {}
 
  private:
-  std::string path_, contents_;
+  text::FileContents files_;
   OrderTheory theory_;
 };
 
@@ -54,7 +55,7 @@ bool names_method_table(const std::string& path);
 /// The registered method of that name or, where it ends in ".toml", the method of that file, which is read
 /// and registered the first time. InputError for an unknown name, a file that is refused, one whose name is
 /// taken, and one that has changed since it was registered. Calls of several threads wait for each other.
-const MethodPlugin& integrator_named(const std::string& text);
+const MethodPlugin& integrator_named(const std::string& name);
 
 // What the kinds of tables share, used by their readers.
 
@@ -83,6 +84,7 @@ std::unique_ptr<const MethodTable> read_splitting_table(TableDocument& document,
 std::unique_ptr<const MethodTable> read_composition_table(TableDocument& document, TableHead head);
 std::unique_ptr<const MethodTable> read_multistep_table(TableDocument& document, TableHead head);
 std::unique_ptr<const MethodTable> read_second_order_multistep_table(TableDocument& document, TableHead head);
+std::unique_ptr<const MethodTable> read_map_table(TableDocument& document, TableHead head);
 
 /// A table whose method is a struct M, filled when the file was read.
 template <class M>

@@ -41,7 +41,6 @@ void require_label(const Member& member) {
 // One expression, a list or a list of rows; of constraints also a table in which each has a name.
 TextFormula read_formula(const Item& value, const std::string& key, bool named = false) {
   TextFormula formula{.results = {}, .place = value.source};
-  formula.place.text.clear();
   if (value.kind == Kind::list) {
     for (const Item& item : value.items) {
       const auto row = item.kind == Kind::list ? expressions_of(item, key)

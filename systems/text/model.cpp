@@ -63,8 +63,8 @@ class Builder {
   void require_pairs() const {
     if (n_ % 2 == 0) return;
     refuse(d_.coordinates.front().place, 0,
-           "there are " + std::to_string(n_) +
-               " coordinates; expected an even number, first all positions and then their momenta");
+           (n_ == 1 ? "there is 1 coordinate" : "there are " + std::to_string(n_) + " coordinates") +
+               std::string("; expected an even number, first all positions and then their momenta"));
   }
 
   // The tape of expressions. `expected` is how many results there must be, 0 where any number will do.

@@ -1,23 +1,13 @@
 #include <pfaff/systems/text/text_system.hpp>
 
-#include <filesystem>
-#include <map>
-#include <mutex>
-
 #include <pfaff/systems/text/model.hpp>
 
 namespace pfaff {
 
-namespace {
 using text::TextDeclaration;
 
-std::string absolute(const std::string& path) {
-  return std::filesystem::absolute(path).lexically_normal().string();
-}
-}  // namespace
-
 TextSystem::TextSystem(SystemDescriptor descriptor, std::vector<Parameter> parameters,
-                       TextDeclaration declaration, std::vector<std::pair<std::string, std::string>> files)
+                       TextDeclaration declaration, text::FileContents files)
     : SystemPlugin(std::move(descriptor), std::move(parameters), typeid(TextSystem),
                    std::source_location::current()),
       declaration_(std::move(declaration)),
@@ -27,10 +17,10 @@ std::unique_ptr<const TextSystem> TextSystem::read(const std::string& path) {
   const text::Document document = text::read_document(path);
   TextDeclaration declaration = text::read_declaration(document);
   const ModelSource source = text::model_source(declaration, text::default_values(declaration.parameters));
-  std::vector<std::pair<std::string, std::string>> files{{absolute(path), document.contents}};
+  text::FileContents files{{text::absolute_path(path), document.contents}};
   for (const auto& bracket : {declaration.bracket, declaration.symmetric_bracket})
     if (const auto* of_file = bracket ? dynamic_cast<const TextBracket*>(bracket->chosen.plugin) : nullptr)
-      files.emplace_back(absolute(of_file->path()), of_file->contents());
+      files.push_back(of_file->files().front());
   SystemDescriptor descriptor{.name = declaration.name,
                               .title = declaration.title,
                               .reference = declaration.reference,
@@ -65,11 +55,8 @@ std::vector<std::pair<const Plugin*, Assignments>> TextSystem::rests_on() const 
 
 const SystemPlugin& system_named(const std::string& name) {
   if (!text::is_text_file(name)) return systems().get(name, "system");
-  static std::mutex mutex;
-  static std::map<std::vector<std::pair<std::string, std::string>>, std::unique_ptr<const TextSystem>> read;
-  std::unique_ptr<const TextSystem> system = TextSystem::read(name);
-  const std::lock_guard lock(mutex);
-  return *read.try_emplace(system->files(), std::move(system)).first->second;
+  static text::PluginFiles<TextSystem> files;
+  return files.get(name, TextSystem::read);
 }
 
 }  // namespace pfaff

@@ -25,17 +25,17 @@ class TextSystem final : public SystemPlugin {
   }
   [[nodiscard]] std::shared_ptr<const Model> make(const Assignments& assignments) const override;
   [[nodiscard]] std::vector<Assignments> instances(bool full) const override;
-  /// The files that it was made of, absolute paths, and what they contained.
-  [[nodiscard]] const std::vector<std::pair<std::string, std::string>>& files() const { return files_; }
+  /// The files that it was made of.
+  [[nodiscard]] const text::FileContents& files() const { return files_; }
   /// The registered brackets that it names, with their settings.
   [[nodiscard]] std::vector<std::pair<const Plugin*, Assignments>> rests_on() const;
 
  private:
   TextSystem(SystemDescriptor descriptor, std::vector<Parameter> parameters,
-             text::TextDeclaration declaration, std::vector<std::pair<std::string, std::string>> files);
+             text::TextDeclaration declaration, text::FileContents files);
 
   text::TextDeclaration declaration_;
-  std::vector<std::pair<std::string, std::string>> files_;
+  text::FileContents files_;
 };
 
 /// The system of that name or, for the path of a file, the one that is read from it. A file is read once for

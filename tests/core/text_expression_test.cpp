@@ -149,7 +149,7 @@ TEST(TextExpression, MeaninglessValuesAreRefused) {
   expect_error("q[3]", ":14: index 3 of 'q' is out of range; expected 1 .. 2", scope);
   expect_error("q[0]", "index 0 of 'q' is out of range", scope);
   expect_error("q[1/2]", "expected a whole number as index, got 0.5", scope);
-  expect_error("q + 1", "'q' stands for 2 numbers; expected one of them, q[index]", scope);
+  expect_error("q + 1", "'q' is a list of 2 numbers; expected one of them, q[index]", scope);
   expect_error("mass[1]", "'mass' is one number", scope);
   expect_error("sum(mass, 1, 2, 1)", "is the name of something else", scope);
   expect_error("sum(i, 1, 2, sum(i, 1, 2, i))", "is the name of something else", scope);

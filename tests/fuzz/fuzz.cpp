@@ -9,9 +9,9 @@
 //   pfaff_fuzz faults COUNT SEED                        the control: every fault planted among random inputs
 //   is found
 //
-// LANGUAGE is state, configuration, experiment, model or text; the ends are refused, parsed and resolved. The
-// exit status is 0 where nothing is wrong and 1 where a fault was found, which is printed with its input;
-// what ends the process by a signal leaves its input in the file that is named first.
+// LANGUAGE is state, configuration, experiment, model, text, bracket or table; the ends are refused, parsed
+// and resolved. The exit status is 0 where nothing is wrong and 1 where a fault was found, which is printed
+// with its input; what ends the process by a signal leaves its input in the file that is named first.
 #include <unistd.h>
 
 #include <array>
@@ -32,7 +32,7 @@ using namespace pfaff::fuzz;
 using pfaff::testing::TemporaryDirectory;
 namespace fs = std::filesystem;
 
-constexpr std::array<const char*, 5> languages{"state", "configuration", "experiment", "model", "text"};
+constexpr std::array languages{"state", "configuration", "experiment", "model", "text", "bracket", "table"};
 constexpr std::array<const char*, 3> ends{"refused", "parsed", "resolved"};
 
 Language language_named(const std::string& name) {

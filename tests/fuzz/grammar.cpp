@@ -279,6 +279,12 @@ Input random_input(Language language, Choices& choices) {
     case Language::text:
       input = {"text.toml", random_text_model(choices)};
       break;
+    case Language::bracket:
+      input = {"bracket.toml", random_text_bracket(choices)};
+      break;
+    case Language::table:
+      input = {"table.toml", random_table(choices)};
+      break;
   }
   while (choices.once_in(4)) input.text = made_odd(input.text, choices);
   return input;

@@ -1,5 +1,5 @@
 // Random inputs in the languages that the program reads: states, configurations, experiments, models of beads
-// and rods, systems and brackets written as text.
+// and rods, systems and brackets written as text, methods as tables of coefficients and as maps.
 //
 // Inputs are written by the grammar of their language with the names, parameters and ranges of the plug-ins
 // that are registered, so that most of them pass the parser and reach what comes behind it. Then, now and
@@ -34,7 +34,7 @@ class Choices {
   std::mt19937_64 generator_;
 };
 
-enum class Language { state, configuration, experiment, model, text };
+enum class Language { state, configuration, experiment, model, text, bracket, table };
 
 /// An input and the name of the file that it would stand in, whose extension may matter.
 struct Input {
@@ -60,5 +60,9 @@ std::string made_odd(std::string text, Choices& choices);
 std::string random_model_toml(Choices& choices);
 std::string random_model_json(Choices& choices);
 std::string random_text_model(Choices& choices);
+std::string random_text_bracket(Choices& choices);
+std::string random_table(Choices& choices);
+/// An expression that reads this name mostly.
+std::string random_expression(Choices& choices, const std::string& name);
 
 }  // namespace pfaff::fuzz

@@ -6,6 +6,8 @@
 #include <pfaff/bench/experiment/experiment.hpp>
 #include <pfaff/bench/runner/config_file.hpp>
 #include <pfaff/bench/runner/record.hpp>
+#include <pfaff/core/tape/replay.hpp>
+#include <pfaff/integrators/tables/method_table.hpp>
 #include <pfaff/systems/text/text_system.hpp>
 
 namespace pfaff::fuzz {
@@ -73,10 +75,6 @@ Reached read_and_resolve_model(const std::string& file) {
 }
 // A system is made and, where it moves, evaluated once.
 Reached read_and_resolve_text(const std::string& file) {
-  if (is_text_bracket(file)) {
-    const auto bracket = TextBracket::read(file);
-    return then([&] { (void)bracket->make({}); });
-  }
   const auto system = TextSystem::read(file);
   return then([&] {
     const auto model = system->make({});
@@ -84,6 +82,30 @@ Reached read_and_resolve_text(const std::string& file) {
     const auto field = make_evaluator<double>(model, Formula::field);
     std::vector<double> z(static_cast<std::size_t>(model->dimension()), 0.5), rate(z.size());
     field.call(field.context, 0.25, z.data(), rate.data());
+  });
+}
+// A bracket is made again and evaluated once.
+Reached read_and_resolve_bracket(const std::string& file) {
+  const auto bracket = TextBracket::read(file);
+  return then([&] {
+    const BracketInstance made = bracket->make({});
+    std::vector<double> z(2 * static_cast<std::size_t>(made.dimension), 0.5), vector(z.size());
+    Replay<double>(made.sharp)(0.25, z.data(), vector.data());
+  });
+}
+// A method takes two steps of systems that it fits. That its order conditions hold is asked when the file is
+// read by all but the parser.
+Reached read_and_resolve_table(const std::string& file) {
+  { const TableDocument parsed(file); }
+  return then([&] {
+    const auto method = read_method_table(file)->make({});
+    for (const char* name : {"pendulum", "damped-pendulum"}) {
+      const auto model = systems().get(name, "system").make({});
+      if (!method->refuses(*model).empty()) continue;
+      std::vector<double> z{0.5, 0.25};
+      std::int64_t completed = 0;
+      (void)method->stepper(model, 0.0)->advance(0, 0, 0.1, 2, z, completed);
+    }
   });
 }
 }  // namespace
@@ -101,6 +123,10 @@ Reached read_and_resolve(Language language, const std::filesystem::path& file) {
         return read_and_resolve_model(file.string());
       case Language::text:
         return read_and_resolve_text(file.string());
+      case Language::bracket:
+        return read_and_resolve_bracket(file.string());
+      case Language::table:
+        return read_and_resolve_table(file.string());
     }
   } catch (const InputError& error) {
     require_one_line(error);

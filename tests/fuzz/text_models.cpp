@@ -5,85 +5,9 @@
 namespace pfaff::fuzz {
 
 namespace {
-class TextModel {
+class Expressions {
  public:
-  explicit TextModel(Choices& choices) : choices_(choices), several_(choices.once_in(3)) {}
-
-  std::string text() {
-    add("coordinates", several_ ? "{ q = \"n\", p = \"n\" }" : "[\"q\", \"p\"]");
-    if (choices_.once_in(2))
-      add("initial", several_ ? "[\"vector(i, 1, 2*n, 1/(i + 1))\"]" : "[0.5, \"1/3\"]");
-    add("parameters", "{ a = { value = 2, range = [0, 10], unit = \"1/s\" }, n = " +
-                          std::to_string(1 + choices_.below(4)) + " }");
-    if (choices_.once_in(2))
-      add("let", "{ r = " + quoted(expression("a")) + ", s = " + quoted("r + " + expression("t")) + " }");
-    add_motion();
-    if (choices_.once_in(3)) add("invariants", "{ H = { of = " + quoted(both()) + ", quadratic = true } }");
-    if (choices_.once_in(4)) add("reversal", list(q(), "-" + p()));
-    if (choices_.once_in(5))
-      add("holonomic",
-          choices_.once_in(2) ? "[" + quoted(positions()) + "]" : "{ rod = " + quoted(positions()) + " }");
-    if (choices_.once_in(6)) add("velocity_constraints", "[{ row = [" + quoted(positions()) + "], b = 1 }]");
-    return text_;
-  }
-
- private:
-  void add(const std::string& key, const std::string& value) { text_ += key + " = " + value + '\n'; }
-  static std::string quoted(const std::string& expression) { return '"' + expression + '"'; }
-  [[nodiscard]] static std::string list(const std::string& first, const std::string& second) {
-    return "[" + quoted(first) + ", " + quoted(second) + "]";
-  }
-  [[nodiscard]] std::string q() const { return several_ ? "q[1]" : "q"; }
-  [[nodiscard]] std::string p() const { return several_ ? "p[n]" : "p"; }
-  std::string positions() { return expression(q()); }
-  std::string momenta() { return p() + "^2/2 + " + expression(p()); }
-  std::string both() { return expression(q()) + " + " + expression(p()); }
-
-  void add_motion() {
-    switch (choices_.below(7)) {
-      case 0:
-        add("kinetic", quoted(momenta()));
-        add("potential", quoted(positions()));
-        if (choices_.once_in(3)) add("damping", quoted("a/2"));
-        return;
-      case 1:
-        add("hamiltonian", quoted(both()));
-        if (choices_.once_in(2))
-          add("bracket", choices_.one_of({"\"canonical(degrees=1)\"", "[[\"0\", \"q\"], [\"-q\", \"0\"]]",
-                                          "\"lie-poisson\""}));
-        if (choices_.once_in(3)) {
-          add("symmetric_bracket", "[[\"0\", \"0\"], [\"0\", \"a\"]]");
-          if (choices_.once_in(2)) add("entropy", quoted(both()));
-        }
-        return;
-      case 2:
-        add("field", list(both(), both()));
-        return;
-      case 3:
-        add("birkhoffian", quoted(both()));
-        add("one_form", list(p() + "*" + both(), "-" + q()));
-        if (choices_.once_in(2)) {
-          add("chart", list(q(), "exp(a*t)*" + p()));
-          add("chart_inverse", list("y[1]", "exp(-a*t)*y[2]"));
-        }
-        return;
-      case 4:
-        add("structure", "[[\"0\", \"-1\"], [\"1\", \"0\"]]");
-        add("covector", list(both(), both()));
-        return;
-      case 5:
-        add("lagrangian", quoted(choices_.one_of({"v[1]^2/2*(2 + ", "v[1]^4 + (", "v[1] + (",
-                                                  "sum(k, 1, n, v[k]^2)/2 + ("}) +
-                                 positions() + ")"));
-        return;
-      default:
-        add("tensor", "[[\"0\", \"q\"], [\"-q\", \"0\"]]");
-        add("symmetry", choices_.one_of({"\"skew\"", "\"symmetric\""}));
-        if (choices_.once_in(2)) add("jacobi", "true");
-        return;
-    }
-  }
-
+  explicit Expressions(Choices& choices) : choices_(choices) {}
   // An expression that reads one name mostly.
   std::string expression(const std::string& name) {
     if (++depth_ > 6 || choices_.once_in(3)) {
@@ -133,13 +57,132 @@ class TextModel {
     return result;
   }
 
+ private:
+  Choices& choices_;
+  int depth_ = 0;
+};
+
+std::string quoted(const std::string& expression) { return '"' + expression + '"'; }
+std::string list(const std::string& first, const std::string& second) {
+  return "[" + quoted(first) + ", " + quoted(second) + "]";
+}
+
+class TextModel {
+ public:
+  explicit TextModel(Choices& choices) : choices_(choices), several_(choices.once_in(3)) {}
+
+  std::string text() {
+    add("coordinates", several_ ? "{ q = \"n\", p = \"n\" }" : "[\"q\", \"p\"]");
+    if (choices_.once_in(2))
+      add("initial", several_ ? "[\"vector(i, 1, 2*n, 1/(i + 1))\"]" : "[0.5, \"1/3\"]");
+    add("parameters", "{ a = { value = 2, range = [0, 10], unit = \"1/s\" }, n = " +
+                          std::to_string(1 + choices_.below(4)) + " }");
+    if (choices_.once_in(2))
+      add("let", "{ r = " + quoted(expression("a")) + ", s = " + quoted("r + " + expression("t")) + " }");
+    add_motion();
+    if (choices_.once_in(3)) add("invariants", "{ H = { of = " + quoted(both()) + ", quadratic = true } }");
+    if (choices_.once_in(4)) add("reversal", list(q(), "-" + p()));
+    if (choices_.once_in(5))
+      add("holonomic",
+          choices_.once_in(2) ? "[" + quoted(positions()) + "]" : "{ rod = " + quoted(positions()) + " }");
+    if (choices_.once_in(6)) add("velocity_constraints", "[{ row = [" + quoted(positions()) + "], b = 1 }]");
+    if (choices_.once_in(12)) add("friction", "[" + quoted(both() + "^2") + "]");
+    if (choices_.once_in(12)) add("exact_solution", list(q() + " + " + p() + "*elapsed", p() + " - t0"));
+    if (choices_.once_in(12)) add("constraints", list(q(), p()));
+    if (choices_.once_in(12))
+      add("alpha",
+          "{ w_hat = " + list("new_q - old_q", "new_p") + ", w = " + list("old_q", "new_p*t0") + " }");
+    return text_;
+  }
+
+ private:
+  void add(const std::string& key, const std::string& value) { text_ += key + " = " + value + '\n'; }
+  std::string expression(const std::string& name) { return random_expression(choices_, name); }
+  [[nodiscard]] std::string q() const { return several_ ? "q[1]" : "q"; }
+  [[nodiscard]] std::string p() const { return several_ ? "p[n]" : "p"; }
+  std::string positions() { return expression(q()); }
+  std::string momenta() { return p() + "^2/2 + " + expression(p()); }
+  std::string both() { return expression(q()) + " + " + expression(p()); }
+
+  void add_motion() {
+    switch (choices_.below(7)) {
+      case 0:
+        add("kinetic", quoted(momenta()));
+        add("potential", quoted(positions()));
+        if (choices_.once_in(3)) add("damping", quoted("a/2"));
+        return;
+      case 1:
+        add("hamiltonian", quoted(both()));
+        if (choices_.once_in(2))
+          add("bracket", choices_.one_of({"\"canonical(degrees=1)\"", "[[\"0\", \"q\"], [\"-q\", \"0\"]]",
+                                          "\"lie-poisson\""}));
+        if (choices_.once_in(3)) {
+          add("symmetric_bracket", "[[\"0\", \"0\"], [\"0\", \"a\"]]");
+          if (choices_.once_in(2)) add("entropy", quoted(both()));
+        }
+        return;
+      case 2:
+        add("field", list(both(), both()));
+        return;
+      case 3:
+        add("birkhoffian", quoted(both()));
+        add("one_form", list(p() + "*" + both(), "-" + q()));
+        if (choices_.once_in(2)) {
+          add("chart", list(q(), "exp(a*t)*" + p()));
+          add("chart_inverse", list("y[1]", "exp(-a*t)*y[2]"));
+        }
+        return;
+      case 4:
+        add("structure", "[[\"0\", \"-1\"], [\"1\", \"0\"]]");
+        add("covector", list(both(), both()));
+        return;
+      case 5:
+        add("lagrangian", quoted(choices_.one_of({"v[1]^2/2*(2 + ", "v[1]^4 + (", "v[1] + (",
+                                                  "sum(k, 1, n, v[k]^2)/2 + ("}) +
+                                 positions() + ")"));
+        return;
+      default:
+        add("hamiltonian", quoted(both()));
+        add("constraints", choices_.once_in(2) ? list(positions(), momenta()) : "[" + quoted(both()) + "]");
+        return;
+    }
+  }
+
   Choices& choices_;
   bool several_;
-  int depth_ = 0;
   std::string text_;
 };
 }  // namespace
 
+std::string random_expression(Choices& choices, const std::string& name) {
+  return Expressions(choices).expression(name);
+}
+
 std::string random_text_model(Choices& choices) { return TextModel(choices).text(); }
+
+std::string random_text_bracket(Choices& choices) {
+  const bool several = choices.once_in(3);
+  const std::string x = several ? "z[1]" : "x", y = several ? "z[n]" : "y";
+  std::string text =
+      several ? "coordinates = { z = \"n\" }\n" : "coordinates = [\"x\", { name = \"y\", unit = \"m\" }]\n";
+  text += "parameters = { a = { value = 2, range = [0, 10] }, n = " + std::to_string(1 + choices.below(3)) +
+          " }\n";
+  if (choices.once_in(2))
+    text += "let = { r = " + quoted(random_expression(choices, x)) + ", s = \"2*r\" }\n";
+  const std::string entry = choices.once_in(3) ? "r" : random_expression(choices, choices.once_in(2) ? x : y);
+  const std::string symmetry = choices.one_of({"skew", "skew", "symmetric", "none"});
+  if (several && choices.once_in(2)) {
+    text += "tensor = [[\"vector(i, 1, n^2, " + entry + ")\"]]\n";
+  } else {
+    const std::string other = symmetry == "skew" ? "-(" + entry + ")" : entry;
+    text += "tensor = [" + list("0", entry) + ", " + list(other, symmetry == "skew" ? "0" : "a") + "]\n";
+  }
+  text += "symmetry = \"" + symmetry + "\"\n";
+  if (choices.once_in(2)) text += std::string("jacobi = ") + choices.one_of({"true", "false", "1"}) + '\n';
+  if (choices.once_in(4)) text += "semimetric = true\n";
+  if (choices.once_in(3)) text += "casimirs = [" + quoted(random_expression(choices, x)) + "]\n";
+  if (choices.once_in(5)) text += "title = \"A bracket\"\nreference = \"none\"\nname = \"a-bracket\"\n";
+  return text;
+}
 
 }  // namespace pfaff::fuzz

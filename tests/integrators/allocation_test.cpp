@@ -5,6 +5,7 @@
 #include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
+#include <pfaff/integrators/tables/method_table.hpp>
 
 #include <pfaff/tests/integrators/nonholonomic_samples.hpp>
 
@@ -66,6 +67,17 @@ void no_method_allocates_on_velocity_constraints() {
 TEST(Allocation, NoStepAllocatesOnVelocityConstraints) {
   no_method_allocates_on_velocity_constraints<double>();
   no_method_allocates_on_velocity_constraints<Quad>();
+}
+
+TEST(Allocation, NeitherDoMapsWrittenAsText) {
+  for (const auto& [name, system] : {std::pair("verlet-map", "henon-heiles"), std::pair("heun-3", "kepler"),
+                                     std::pair("damped-pendulum-map", "damped-pendulum")}) {
+    const auto map =
+        read_method_table(std::string(PFAFF_GOLDEN) + "/../../examples/tables/" + name + ".toml");
+    const auto model = systems().get(system, "system").make({});
+    const auto stepper = map->make({})->stepper(model, 0.0);
+    EXPECT_EQ(allocations_of_steps(*stepper, *model, 0.01, 9), 0) << name;
+  }
 }
 
 TEST(Allocation, NeitherDoesNewtonsIteration) {

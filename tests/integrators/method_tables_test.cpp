@@ -79,11 +79,13 @@ TEST(MethodTables, EveryOneThatIsShippedIsRead) {
     const auto table = read_method_table(entry.path().string());
     EXPECT_EQ(table->name(), entry.path().stem().string());
     EXPECT_FALSE(table->descriptor().reference.empty()) << table->name();
-    EXPECT_EQ(table->theory().order, table->descriptor().order);
+    if (!table->theory().kind.empty()) {  // which maps have none of
+      EXPECT_EQ(table->theory().order, table->descriptor().order);
+    }
     EXPECT_FALSE(table->descriptor().double_coefficients) << table->name();
     ++count;
   }
-  EXPECT_GE(count, 15);
+  EXPECT_GE(count, 18);
 }
 
 TEST(MethodTables, WhatTheyKeepIsComputed) {
@@ -137,7 +139,7 @@ TEST(MethodTables, AWrongCoefficientIsRefusedWithItsConditionAndResidual) {
   EXPECT_EQ(refusal(verlet_with("0.5, \"1/2\"")), "accepted: table");
   expect_refused(
       verlet_with("0.5, 0.500000001"),
-      {":3: key 'order': 2, but the Lie word drift = 1, a condition of order 1, is off by 1.00e-09",
+      {":3:9: key 'order': 2, but the Lie word drift = 1, a condition of order 1, is off by 1.00e-09",
        "expected at most"});
   expect_refused(verlet_with("0.5, 0.500000000000000000001"),
                  {"is off by 1.00e-21", "numbers of 36 digits", "precision = \"double\""});

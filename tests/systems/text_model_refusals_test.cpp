@@ -81,7 +81,7 @@ TEST(TextModelRefusals, Formulas) {
   expect_refused(spring + "initial = [\"q\", 1]\n",
                  "model.toml:4:13: 'q' is a coordinate; initial is made of parameters alone");
   expect_refused("coordinates = [\"q\"]\nkinetic = \"1\"\npotential = \"q\"\n",
-                 "model.toml:1:17: there are 1 coordinates; expected an even number");
+                 "model.toml:1:17: there is 1 coordinate; expected an even number");
   expect_refused("coordinates = { q = \"n\" }\nfield = [\"1\"]\nparameters = { n = 0.5 }\n",
                  "model.toml:1:22: expected a whole number, got 0.5");
   expect_refused(two + "hamiltonian = \"q\"\nbracket = \"canonicl\"\n",
@@ -92,6 +92,29 @@ TEST(TextModelRefusals, Formulas) {
                  "model.toml:3:11: rows of bracket: expected 4 expressions, got 3");
   expect_refused(spring + "velocity_constraints = [{ row = [\"1\", \"q\"] }]\n",
                  "model.toml:4:35: row of psi1: expected 1 expression, got 2");
+}
+
+TEST(TextModelRefusals, BracketsAreReadToTheirEnd) {
+  const auto refused = [](const std::string& text) {
+    const pfaff::testing::TemporaryDirectory directory;
+    const std::string file = (directory.path() / "bracket.toml").string();
+    std::ofstream(file) << text;
+    try {
+      (void)bracket_named(file);
+    } catch (const InputError& error) {
+      const std::string what = error.what();
+      return what.substr(what.find("bracket.toml"));
+    }
+    return std::string("accepted");
+  };
+  const std::string rest = "tensor = [[\"0\", \"1\"], [\"-1\", \"0\"]]\nsymmetry = \"skew\"\n";
+  EXPECT_EQ(refused(two + rest), "accepted");
+  EXPECT_EQ(refused(two + rest + "let = { unread = \"1 + mist\" }\n")
+                .find("bracket.toml:4:23: unknown name 'mist'"),
+            0U);
+  EXPECT_EQ(refused(two + "tensor = [[\"0\", \"1\"]]\nsymmetry = \"skew\"\n")
+                .find("bracket.toml:2:10: tensor: expected 2 rows of 2, got 2 expressions"),
+            0U);
 }
 
 TEST(TextModelRefusals, LagrangiansThatCannotBeSolved) {
