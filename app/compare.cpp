@@ -9,6 +9,7 @@
 #include <pfaff/bench/experiment/experiment.hpp>
 #include <pfaff/bench/experiment/results.hpp>
 #include <pfaff/bench/experiment/stage_text.hpp>
+#include <pfaff/bench/experiment/team.hpp>
 #include <pfaff/bench/runner/interruption.hpp>
 
 namespace pfaff::app {
@@ -43,6 +44,7 @@ std::string left_out_text(const std::vector<LeftOut>& left_out) {
 }
 
 int compare(const Options& options, bool json) {
+  const std::unique_ptr<Team> team = launched_team();
   const std::vector<std::string> names = options.all ? experiment_names() : options.names;
   nlohmann::json j{{"schema", 1}, {"experiments", nlohmann::json::array()}};
   bool failed = false;
@@ -67,8 +69,9 @@ int compare(const Options& options, bool json) {
                 text.at(stage, passed.count()),
                 stage.all == 0 ? 1.0 : static_cast<double>(stage.done) / static_cast<double>(stage.all));
           },
-          {.force = options.force, .stop = &Interruption::stop()});
+          {.force = options.force, .stop = &Interruption::stop(), .team = team.get()});
     }
+    if (team != nullptr && !team->leads()) continue;
     if (outcome.interrupted)
       throw RunError("interrupted: " + std::to_string(outcome.resumed) + " of " +
                      std::to_string(outcome.runs) + " runs are in " + directory.string() +

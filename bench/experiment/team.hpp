@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <vector>
 
 namespace pfaff {
@@ -26,6 +27,11 @@ class Team {
   virtual void share(std::size_t count, const std::function<bool(std::size_t)>& make,
                      const std::function<void(std::size_t)>& done) = 0;
 };
+
+/// The team that a launcher of MPI has started, of which this process is one; null where none has. The
+/// processes of a team that do not lead are silent from then on. InputError where Pfaff was built without
+/// MPI.
+std::unique_ptr<Team> launched_team();
 
 /// This process alone.
 class ThisProcess final : public Team {
