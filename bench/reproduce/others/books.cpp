@@ -107,8 +107,8 @@ void nonholonomic(Rows& rows) {
 // The saddle at q = (0, 1), above whose energy orbits escape.
 void galaxy(Rows& rows) {
   const auto model = systems().get("henon-heiles", "system").make({});
-  const auto energy = make_evaluator<Quad>(*model, Formula::invariants);
-  const auto force = make_evaluator<Quad>(*model, Formula::force);
+  const auto energy = make_evaluator<Quad>(model, Formula::invariants);
+  const auto force = make_evaluator<Quad>(model, Formula::force);
   const std::array<Quad, 4> saddle{Quad(0), Quad(1), Quad(0), Quad(0)};
   std::array<Quad, 2> pull{};
   Quad value(0);

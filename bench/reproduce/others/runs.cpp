@@ -48,7 +48,7 @@ void follow(const ResolvedRun& run, const std::function<void(const std::vector<T
 
 template <class T>
 EnergyError energy_error(const ResolvedRun& run) {
-  const auto invariants = make_evaluator<T>(*run.model, Formula::invariants);
+  const auto invariants = make_evaluator<T>(run.model, Formula::invariants);
   std::vector<T> values(run.model->invariants().size());
   EnergyError error;
   bool first = true;
