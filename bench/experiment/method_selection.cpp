@@ -57,9 +57,10 @@ MethodSelection read_selection(Keys& keys, const std::string& where) {
   MethodSelection selection;
   if (!keys.has_table("methods")) {
     if (keys.words("methods") != std::vector<std::string>{"all"})
-      keys.refuse("methods",
-                  "expected \"all\", or a table such as { keeps = \"symplectic\", order = \">= 4\" }; and "
-                  "without this key at least one [[method]]");
+      keys.refuse(
+          "methods",
+          "expected at least one [[method]], or methods = \"all\", or a table such as methods = { keeps = "
+          "\"symplectic\", order = \">= 4\" }");
     return selection;
   }
   Keys table(*keys.table("methods"), where + " methods");

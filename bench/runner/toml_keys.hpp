@@ -137,8 +137,8 @@ class Keys {
  private:
   // Where a key stands, for messages: "FILE [[case]], line 7".
   [[nodiscard]] std::string place(std::string_view key) const {
-    const toml::node* node = table_.get(key);
-    const auto line = node == nullptr ? 0 : node->source().begin.line;
+    const auto entry = table_.find(key);
+    const auto line = entry == table_.end() ? 0 : entry->first.source().begin.line;
     return where_ + (line == 0 ? "" : ", line " + std::to_string(line));
   }
   const toml::node* find(std::string_view key) {

@@ -121,7 +121,7 @@ TEST(BadExperiment, SelectionsOfMethods) {
   const auto with = [&](const std::string& line, const Arguments& fragments) {
     refused(schema, schema + line + "\n", fragments);
   };
-  with("methods = \"al\"", {"test.toml, line 2", "'methods'", "expected \"all\""});
+  with("methods = \"al\"", {"test.toml, line 2", "'methods'", "or methods = \"all\""});
   with("methods = { keeps = \"symplektic\" }",
        {"test.toml methods, line 2", "'keeps'", "unknown claim", "did you mean 'symplectic'?"});
   with("methods = { keep = \"symplectic\" }", {"line 2", "unknown key 'keep'", "did you mean 'keeps'?"});

@@ -50,9 +50,9 @@ if launch 2 "$pfaff" compare wrong.toml --out wrong >/dev/null 2>refused; then f
 [ "$(grep -c "^pfaff: .*unknown integrator 'rk5'" refused)" = 1 ] || fail "expected one message, got: $(cat refused)"
 
 # A process is killed once some runs are there: the launcher ends the others, and the same command resumes.
-launch 2 "$pfaff" compare test.toml --out killed >/dev/null 2>&1 &
+mpirun --allow-run-as-root --oversubscribe -n 2 "$pfaff" compare test.toml --out killed >/dev/null 2>&1 &
 launcher=$!
-until [ "$(ls killed/runs 2>/dev/null | grep -vc part)" -ge 3 ]; do sleep 0.05; done
+until [ "$(find killed/runs -name summary.json -not -path '*.part/*' 2>/dev/null | wc -l)" -ge 3 ]; do sleep 0.05; done
 kill -9 "$(pgrep -P "$launcher" | tail -n 1)"
 if wait "$launcher"; then fail "a killed process went unnoticed"; fi
 [ ! -e killed/results.csv ] || fail "the kill came too late"

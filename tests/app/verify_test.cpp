@@ -232,8 +232,7 @@ TEST(Reproduce, OtherWorks) {
 
 // What there is, without computing it; wide values in full, in a block of lines.
 TEST(Reproduce, ListAndWideValues) {
-  const auto j = passed({"reproduce", "--list"});
-  EXPECT_EQ(j["papers"].size(), 4U);
+  EXPECT_EQ(json_of(run_pfaff({"reproduce", "--list", "--json"}).out)["papers"].size(), 4U);
   const Outcome list = run_pfaff({"reproduce", "others", "--list"});
   EXPECT_EQ(list.status, 0) << list.err;
   for (const char* shown : {"enright-pryce1987 D5", "number", "rows", "pending: "})

@@ -30,6 +30,10 @@ ResolvedRun resolved(const Asked& asked);
 /// The state at the end by the system's exact solution or by Taylor series in quad.
 Numbers solution_at_end(const ResolvedRun& run);
 
+/// The state at the end, in double, by a method that chooses its steps. RunError where it fails.
+Numbers state_at_end(const std::string& system, const std::string& integrator, const std::string& tolerance,
+                     const std::string& time);
+
 /// Calls each(z) with the state before the first step and after every step, in the scalar T. RunError where a
 /// step fails.
 template <class T>

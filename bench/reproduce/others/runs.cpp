@@ -30,6 +30,24 @@ Numbers solution_at_end(const ResolvedRun& run) {
   return reference_of(run)->at(run.t0.quad() + run.time.quad());
 }
 
+Numbers state_at_end(const std::string& system, const std::string& integrator, const std::string& tolerance,
+                     const std::string& time) {
+  RunSettings settings;
+  settings.system = system;
+  settings.integrator = integrator;
+  settings.tolerance = tolerance;
+  settings.time = time;
+  const ResolvedRun run = resolve(settings);
+  std::vector<double> z;
+  for (const Real& x : run.initial) z.push_back(x.value());
+  double t = 0;
+  const auto stepper = run.method->stepper(run.model, double());
+  const Status status = stepper->advance_to(t, run.time.value(), run.tolerance.value(), z);
+  if (status != Status::converged)
+    throw RunError(integrator + " on " + run.model->name() + ": " + std::string(to_string(status)));
+  return {z.begin(), z.end()};
+}
+
 template <class T>
 void follow(const ResolvedRun& run, const std::function<void(const std::vector<T>&)>& each) {
   std::vector<T> z;
