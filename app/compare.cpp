@@ -1,11 +1,16 @@
 // pfaff compare: runs an experiment from its TOML file, shows its table, and writes results.csv, cost.csv,
 // figures and report.html.
+#include <chrono>
 #include <iostream>
+#include <map>
 
 #include <pfaff/app/command.hpp>
 #include <pfaff/app/terminal.hpp>
 #include <pfaff/bench/experiment/experiment.hpp>
 #include <pfaff/bench/experiment/results.hpp>
+#include <pfaff/bench/experiment/stage_text.hpp>
+#include <pfaff/bench/experiment/team.hpp>
+#include <pfaff/bench/runner/interruption.hpp>
 
 namespace pfaff::app {
 
@@ -18,7 +23,28 @@ struct Options {
   PaperFigures paper;
 };
 
+// What the selection of methods left out, a paragraph for each case: the methods behind each reason.
+std::string left_out_text(const std::vector<LeftOut>& left_out) {
+  std::map<std::string, std::map<std::string, std::string>> by_case;
+  for (const LeftOut& one : left_out) {
+    // "verlet needs separable; x offers ..." is the reason of every method that needs the same.
+    std::string reason = one.reason.substr(0, one.reason.find(';'));
+    if (const auto at = reason.find(" needs "); at != std::string::npos) reason = reason.substr(at + 1);
+    std::string& methods = by_case[one.of_case][reason];
+    methods += (methods.empty() ? "" : ", ") + one.method;
+  }
+  std::string text;
+  for (const auto& [name, reasons] : by_case) {
+    std::string line = "left out of " + name + ": ";
+    for (const auto& [reason, methods] : reasons)
+      line += (line.ends_with(": ") ? "" : "; ") + methods + " (" + reason + ")";
+    text += paragraph(line);
+  }
+  return text;
+}
+
 int compare(const Options& options, bool json) {
+  const std::unique_ptr<Team> team = launched_team();
   const std::vector<std::string> names = options.all ? experiment_names() : options.names;
   nlohmann::json j{{"schema", 1}, {"experiments", nlohmann::json::array()}};
   bool failed = false;
@@ -31,14 +57,25 @@ int compare(const Options& options, bool json) {
     if (!options.out.empty() && names.size() > 1) directory /= experiment.name;
     ExperimentOutcome outcome;
     {
+      const Interruption interruption;
       ProgressLine line;
+      StageText text;
+      const auto begin = std::chrono::steady_clock::now();
       outcome = run_experiment(
           experiment, directory,
-          [&](const std::string& what, std::size_t done, std::size_t all) {
-            line.show(what, all == 0 ? 1.0 : static_cast<double>(done) / static_cast<double>(all));
+          [&](const ExperimentStage& stage) {
+            const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
+            line.show(
+                text.at(stage, passed.count()),
+                stage.all == 0 ? 1.0 : static_cast<double>(stage.done) / static_cast<double>(stage.all));
           },
-          options.force);
+          {.force = options.force, .stop = &Interruption::stop(), .team = team.get()});
     }
+    if (team != nullptr && !team->leads()) continue;
+    if (outcome.interrupted)
+      throw RunError("interrupted: " + std::to_string(outcome.resumed) + " of " +
+                     std::to_string(outcome.runs) + " runs are in " + directory.string() +
+                     "; the same command resumes");
     std::filesystem::path figures;
     if (!options.paper.kinds.empty()) figures = make_paper_figures(directory, options.paper);
     failed = failed || outcome.failed == outcome.runs || !outcome.failed_claims.empty();
@@ -50,13 +87,17 @@ int compare(const Options& options, bool json) {
                                 {"report", outcome.report.string()}});
     if (!figures.empty()) j["experiments"].back()["figures"] = figures.string();
     if (!outcome.findings.empty()) j["experiments"].back()["findings"] = outcome.findings;
+    for (const LeftOut& one : outcome.left_out)
+      j["experiments"].back()["left_out"].push_back(
+          {{"case", one.of_case}, {"method", one.method}, {"reason", one.reason}});
     if (!json)
       std::cout << printable(experiment.title) << '\n'
                 << printable(outcome.table) << '\n'
                 << outcome.runs << (outcome.runs == 1 ? " run (" : " runs (") << outcome.resumed
                 << " resumed, " << outcome.failed << " ended early)\nresults  "
                 << (directory / "results.csv").string() << "\nreport   " << outcome.report.string() << '\n'
-                << (figures.empty() ? "" : "figures  " + figures.string() + "\n");
+                << (figures.empty() ? "" : "figures  " + figures.string() + "\n")
+                << left_out_text(outcome.left_out);
     if (!outcome.failed_claims.empty())
       std::cerr << printable("pfaff: " + experiment.name +
                              ": a finding does not hold: " + outcome.failed_claims)

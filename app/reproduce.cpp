@@ -15,17 +15,24 @@ namespace {
 
 struct Options {
   std::string paper, section;
-  bool coverage = false;
+  bool coverage = false, list = false;
   [[nodiscard]] std::vector<std::string> chosen() const {
     return paper.empty() ? papers() : std::vector<std::string>{paper};
   }
 };
 
+// A row whose texts do not fit beside each other.
+std::string block(const ReproducedRow& row, const std::string& difference) {
+  return paragraph(row.id) + table({{"  printed", row.printed},
+                                    {"  ours", row.ours},
+                                    {"  difference", difference},
+                                    {"  status", row.status}});
+}
+
 void print_rows(const std::string& paper, const std::vector<ReproducedRow>& rows) {
+  constexpr std::size_t widest_id = 34, widest_value = 20;
   std::vector<std::vector<std::string>> lines{{"published", "printed", "ours", "difference", "status"}};
-  const auto shortened = [](const std::string& text) {
-    return text.size() > 20 ? text.substr(0, 18) + ".." : text;
-  };
+  std::string blocks;
   const auto count = [&](const char* status) {
     return std::to_string(
         std::count_if(rows.begin(), rows.end(), [&](const ReproducedRow& r) { return r.status == status; }));
@@ -33,11 +40,13 @@ void print_rows(const std::string& paper, const std::vector<ReproducedRow>& rows
   for (const ReproducedRow& r : rows) {
     std::array<char, 32> difference{};
     std::snprintf(difference.data(), difference.size(), "%.1e", r.difference);
-    std::string id = r.id;
-    if (id.size() > 34) id = id.substr(0, 32) + "..";
-    lines.push_back({id, shortened(r.printed), shortened(r.ours), difference.data(), r.status});
+    if (r.id.size() > widest_id || r.printed.size() > widest_value || r.ours.size() > widest_value) {
+      blocks += block(r, difference.data());
+    } else {
+      lines.push_back({r.id, r.printed, r.ours, difference.data(), r.status});
+    }
   }
-  std::cout << paper << '\n' << table(lines);
+  std::cout << paper << '\n' << (lines.size() > 1 ? table(lines) : std::string()) << blocks;
   std::vector<std::vector<std::string>> notes;
   for (const ReproducedRow& r : rows)
     if (!r.erratum.empty()) notes.push_back({r.status, r.id + ": " + r.erratum});
@@ -45,6 +54,37 @@ void print_rows(const std::string& paper, const std::vector<ReproducedRow>& rows
             << rows.size() << " rows: " << count("reproduced") << " reproduced, " << count("improved")
             << " improved, " << count("erratum") << " errata, " << count("qualitative") << " qualitative"
             << (ok(rows) ? "" : ", the rest FAILED") << '\n';
+}
+
+// What can be reproduced, without doing it: of every paper the number of its items, or every item of one.
+void print_list(const Options& options) {
+  std::vector<std::vector<std::string>> lines;
+  if (options.paper.empty()) {
+    lines.push_back({"paper", "items", "with rows"});
+    for (const std::string& paper : papers()) {
+      const std::vector<PaperItem>& items = items_of(paper);
+      const auto rows = std::count_if(items.begin(), items.end(),
+                                      [](const PaperItem& item) { return item.cover == Cover::rows; });
+      lines.push_back({paper, std::to_string(items.size()), std::to_string(rows)});
+    }
+  } else {
+    lines.push_back({options.paper, "kind", "dealt with by"});
+    for (const PaperItem& item : items_of(options.paper))
+      lines.push_back({item.name, to_string(item.kind),
+                       to_string(item.cover) + (item.note.empty() ? "" : ": " + item.note)});
+  }
+  std::cout << table(lines);
+}
+nlohmann::json list_json(const Options& options) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const std::string& paper : options.chosen()) {
+    nlohmann::json items = nlohmann::json::array();
+    for (const PaperItem& item : items_of(paper))
+      items.push_back(
+          {{"item", item.name}, {"kind", to_string(item.kind)}, {"cover", to_string(item.cover)}});
+    list.push_back({{"paper", paper}, {"items", items}});
+  }
+  return {{"schema", 1}, {"papers", list}};
 }
 
 // A cell of at most `limit` characters.
@@ -94,6 +134,16 @@ int run(const Options& options, bool json) {
                      ": expected a paper before it, because sections are a paper's");
   if (options.coverage && !options.section.empty())
     throw InputError("--section and --coverage exclude each other: the coverage is that of a whole paper");
+  if (options.list) {
+    if (options.coverage || !options.section.empty())
+      throw InputError("--list: expected neither --coverage nor --section beside it");
+    if (json) {
+      std::cout << json_text(list_json(options));
+    } else {
+      print_list(options);
+    }
+    return 0;
+  }
   bool good = true;
   nlohmann::json all = nlohmann::json::array();
   for (const std::string& paper : options.chosen()) {
@@ -128,6 +178,7 @@ void add_reproduce(CLI::App& app, Common& common, Action& action) {
   for (const std::string& name : papers()) known += (known.empty() ? "" : ", ") + name;
   sub->add_option("paper", options->paper, known + "; all of them without")->type_name("PAPER");
   sub->add_option("--section", options->section, "One section only")->type_name("SECTION");
+  sub->add_flag("--list", options->list, "What can be reproduced, without doing it");
   sub->add_flag("--coverage", options->coverage,
                 "Which items of a paper have rows, and why others have none");
   sub->callback([=, &common, &action] { action = [=, &common] { return run(*options, common.json); }; });

@@ -11,6 +11,8 @@ install(DIRECTORY bench/measure bench/runner bench/experiment bench/evaluation b
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pfaff/bench FILES_MATCHING PATTERN "*.hpp")
 install(DIRECTORY bench/report bench/experiments DESTINATION ${CMAKE_INSTALL_DATADIR}/pfaff
         PATTERN "__pycache__" EXCLUDE)
+# Models and tables that rows of `pfaff reproduce others` run.
+install(DIRECTORY examples/models examples/tables DESTINATION ${CMAKE_INSTALL_DATADIR}/pfaff/examples)
 install(FILES references.bib DESTINATION ${CMAKE_INSTALL_DATADIR}/pfaff)
 install(EXPORT PfaffTargets NAMESPACE Pfaff:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Pfaff)
 configure_package_config_file(cmake/PfaffConfig.cmake.in ${PROJECT_BINARY_DIR}/PfaffConfig.cmake

@@ -1,6 +1,9 @@
 // Timing of runs. What has been timed is kept in cost.csv from one call to the next.
 #include <pfaff/bench/experiment/costs.hpp>
 
+#include <unistd.h>
+
+#include <array>
 #include <cstdlib>
 #include <sstream>
 
@@ -23,14 +26,25 @@ std::string key_of(const ExperimentRun& run, bool tolerances) {
   return csv_quoted(run.which->name) + "," + csv_quoted(run.method->label) + "," + csv_quoted(run.step) +
          (tolerances ? "," + csv_quoted(run.tolerance) : "");
 }
+std::string header(bool tolerances) {
+  return std::string("case,method,step,") + (tolerances ? "tolerance," : "") +
+         "ns_per_step,ns_per_step_min,ns_per_step_max,repetitions,seconds,host";
+}
 std::string costs_csv(const std::vector<ExperimentRun>& runs, const Costs& costs) {
   const bool tolerances = any_tolerance(runs);
-  std::string text = std::string("case,method,step,") + (tolerances ? "tolerance," : "") +
-                     "ns_per_step,ns_per_step_min,ns_per_step_max,repetitions,seconds\n";
+  std::string text = header(tolerances) + "\n";
   for (const ExperimentRun& run : runs)
     if (const auto row = costs.find(key_of(run, tolerances)); run.seed <= 1 && row != costs.end())
       text += row->second.text + "\n";
   return text;
+}
+}  // namespace
+
+namespace {
+// The name of this machine; empty where it has none.
+std::string host() {
+  std::array<char, 256> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 ? std::string(name.data()) : std::string();
 }
 }  // namespace
 
@@ -42,6 +56,7 @@ Costs read_costs(const fs::path& path, const std::vector<ExperimentRun>& runs) {
   std::istringstream stream(read_file(path));
   std::string line;
   std::getline(stream, line);
+  if (line != header(tolerances)) return costs;  // of a version with other columns
   while (std::getline(stream, line))
     for (const ExperimentRun& run : runs)
       if (const std::string key = key_of(run, tolerances); line.starts_with(key + ","))
@@ -67,24 +82,27 @@ void keep_costs(const fs::path& directory, const std::vector<ExperimentRun>& run
   write_file(path, costs_csv(runs, costs));
 }
 
-void write_costs(const fs::path& directory, const Experiment& experiment,
-                 const std::vector<ExperimentRun>& runs, const ExperimentProgress& progress) {
+bool write_costs(const fs::path& directory, const Experiment& experiment,
+                 const std::vector<ExperimentRun>& runs, const ExperimentProgress& progress,
+                 const std::atomic<bool>* stop) {
   const fs::path path = directory / "cost.csv";
   const bool tolerances = any_tolerance(runs);
   Costs costs = read_costs(path, runs);
   std::size_t done = 0;
   for (const ExperimentRun& run : runs) {
+    if (stop != nullptr && *stop) return false;
     if (progress)
-      progress("timing " + run.which->name + ", " + run.method->label + ", " +
-                   (run.tolerance.empty() ? "h = " + run.step : "tolerance " + run.tolerance),
-               done, runs.size());
+      progress({2,
+                "timing " + run.which->name + ", " + run.method->label + ", " +
+                    (run.tolerance.empty() ? "h = " + run.step : "tolerance " + run.tolerance),
+                done, runs.size()});
     ++done;
     const std::string key = key_of(run, tolerances);
     if (run.seed > 1 || costs.contains(key)) continue;
     const StepTime time = time_steps(run.resolved, experiment.quick ? 0.05 : 0.3);
     costs[key].text = key + "," + as_text(time.median, "%.6g") + "," + as_text(time.minimum, "%.6g") + "," +
                       as_text(time.maximum, "%.6g") + "," + std::to_string(time.repetitions) + "," +
-                      as_text(time.seconds, "%.4g");
+                      as_text(time.seconds, "%.4g") + "," + csv_quoted(host());
     write_file(
         path,
         costs_csv(runs, costs));  // after each run, so that no timing is lost when the program is killed
@@ -92,6 +110,7 @@ void write_costs(const fs::path& directory, const Experiment& experiment,
   write_file(
       path,
       costs_csv(runs, costs));  // also without new timings: rows of runs no longer asked for are dropped
+  return true;
 }
 
 }  // namespace pfaff

@@ -32,9 +32,12 @@ std::optional<double> cost_of(const ExperimentRun& run, const Costs& costs,
 void keep_costs(const std::filesystem::path& directory, const std::vector<ExperimentRun>& runs,
                 const std::function<bool(const ExperimentRun&)>& keeps);
 
-/// Times every run that cost.csv does not hold yet, one after another, and writes cost.csv. The runs of an
-/// ensemble differ only in their seed, so that only the first of them is timed.
-void write_costs(const std::filesystem::path& directory, const Experiment& experiment,
-                 const std::vector<ExperimentRun>& runs, const ExperimentProgress& progress);
+/// Times every run that cost.csv does not hold yet, one after another, and writes cost.csv, with the name of
+/// the machine at the end of each row. The runs of an ensemble differ only in their seed, so that only the
+/// first of them is timed. False where `stop`, which may be null, became true before all were timed; rows
+/// that are written by then are kept.
+bool write_costs(const std::filesystem::path& directory, const Experiment& experiment,
+                 const std::vector<ExperimentRun>& runs, const ExperimentProgress& progress,
+                 const std::atomic<bool>* stop = nullptr);
 
 }  // namespace pfaff

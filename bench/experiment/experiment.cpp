@@ -1,7 +1,5 @@
 #include <pfaff/bench/experiment/experiment.hpp>
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <map>
 #include <mutex>
@@ -11,10 +9,10 @@
 #include <pfaff/bench/experiment/costs.hpp>
 #include <pfaff/bench/experiment/experiment_findings.hpp>
 #include <pfaff/bench/experiment/results.hpp>
+#include <pfaff/bench/experiment/team.hpp>
 #include <pfaff/bench/runner/directory_lock.hpp>
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/bench/runner/run_directory.hpp>
-#include <pfaff/core/text/source.hpp>
 
 namespace pfaff {
 
@@ -23,22 +21,8 @@ namespace fs = std::filesystem;
 namespace {
 constexpr const char* experiment_file = "experiment.json";
 
-std::string slug_of(const std::string& text) {
-  std::string slug;
-  for (const char c : text) {
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '.';
-    if (plain) {
-      slug += c;
-    } else if (c >= 'A' && c <= 'Z') {
-      slug += static_cast<char>(c - 'A' + 'a');
-    } else if (!slug.empty() && slug.back() != '-') {
-      slug += '-';
-    }
-  }
-  return slug;
-}
-
-nlohmann::json description(const Experiment& experiment, const std::vector<ExperimentRun>& runs) {
+nlohmann::json description(const Experiment& experiment, const std::vector<ExperimentRun>& runs,
+                           const std::vector<LeftOut>& left_out) {
   nlohmann::json j{{"schema", 1},
                    {"name", experiment.name},
                    {"title", experiment.title},
@@ -48,6 +32,8 @@ nlohmann::json description(const Experiment& experiment, const std::vector<Exper
                    {"quick", experiment.quick},
                    {"versions", versions()}};
   if (experiment.compile) j["compile"] = true;
+  for (const LeftOut& one : left_out)
+    j["left_out"].push_back({{"case", one.of_case}, {"method", one.method}, {"reason", one.reason}});
   for (const DriftClassEntry& entry : drift_classes())
     j["drift_classes"].push_back({{"name", entry.name},
                                   {"meaning", entry.meaning},
@@ -121,60 +107,6 @@ void leave(const fs::path& directory, const ResolvedRun& run, const RunRecord& r
   rename_directory(unfinished, directory);
 }
 
-std::string in_words(const ExperimentRun& run) {
-  return "case " + run.which->name + ", method " + run.method->label +
-         (run.tolerance.empty() ? ", step " + run.step : ", tolerance " + run.tolerance);
-}
-
-ResolvedRun resolved(const Experiment& experiment, const ExperimentRun& run) {
-  const ExperimentCase& c = *run.which;
-  const ExperimentMethod& m = *run.method;
-  RunSettings settings;
-  settings.system = c.system;
-  settings.integrator = m.integrator;
-  settings.formulation = m.formulation;
-  for (const auto& [key, value] : c.set) settings.set.emplace_back("system." + key, value);
-  if (run.seed > 0) settings.set.emplace_back("system.seed", std::to_string(run.seed));
-  for (const auto& [key, value] : m.set)
-    settings.set.emplace_back(key.starts_with("formulation.") ? key : "integrator." + key, value);
-  settings.initial = c.initial;
-  settings.compile = experiment.compile;
-  settings.step = run.step;
-  settings.tolerance = run.tolerance;
-  settings.time = c.time;
-  settings.precision = c.precision;
-  settings.reference = c.reference ? ErrorsAgainst::solution : ErrorsAgainst::none;
-  settings.structure_residuals = c.structure && run.seed == 0;
-  settings.of_case = c.name;
-  settings.of_method = m.label;
-  const std::string where = experiment.name + ", case " + c.name + ", method " + m.label + ": ";
-  try {
-    ResolvedRun result = resolve(settings);
-    // An ensemble keeps many runs, and so fewer samples of each.
-    constexpr std::int64_t ensemble_samples = 200;
-    if (run.seed > 0 && !result.adaptive())
-      result.every = std::max<std::int64_t>(1, (result.steps + ensemble_samples - 1) / ensemble_samples);
-    return result;
-  } catch (const text::TextError& error) {
-    throw text::TextError(where + error.what(), error.excerpt());
-  } catch (const InputError& error) {
-    throw InputError(where + error.what());
-  }
-}
-
-void check_names(const Experiment& experiment, const ExperimentCase& c, const ExperimentRun& run) {
-  std::vector<std::string> names, coordinates;
-  for (const Invariant& i : run.resolved.model->invariants()) names.push_back(i.name);
-  if (!c.conserved.empty() && std::find(names.begin(), names.end(), c.conserved) == names.end())
-    throw InputError(experiment.name + ", case " + c.name + ": " +
-                     unknown_name("invariant", c.conserved, names));
-  for (const Coordinate& x : run.resolved.model->coordinates()) coordinates.push_back(x.name);
-  for (const std::string& name : c.motion)
-    if (std::find(coordinates.begin(), coordinates.end(), name) == coordinates.end())
-      throw InputError(experiment.name + ", case " + c.name + ": " +
-                       unknown_name("coordinate", name, coordinates));
-}
-
 // The key of the reference solution that a run is compared with. All runs of a case share one solution, or
 // all runs of one seed where the case has seeds. A formulation that makes an energy of its own makes another
 // motion, which has a solution of its own.
@@ -183,38 +115,7 @@ ProblemKey problem_of(const ExperimentRun& run) {
   const Model& model = *run.resolved.model;
   return {run.which, run.seed, model.restricted() ? std::string() : model.source().formulation};
 }
-}  // namespace
 
-std::vector<ExperimentRun> expand(const Experiment& experiment) {
-  std::vector<ExperimentRun> runs;
-  for (const ExperimentCase& c : experiment.cases) {
-    for (const ExperimentMethod& m : experiment.methods) {
-      if (!takes(c, m)) continue;
-      const bool adaptive = !m.tolerances.empty();
-      for (const std::string& size : adaptive ? m.tolerances : c.steps)
-        for (int seed = c.seeds > 0 ? 1 : 0; seed <= c.seeds; ++seed) {
-          ExperimentRun run{&c, &m, adaptive ? "" : size, adaptive ? size : "", seed, {}, {}};
-          run.slug = slug_of(c.name + "-" + m.label + (adaptive ? "-tol" : "-h") + size +
-                             (seed > 0 ? "-seed" + std::to_string(seed) : ""));
-          run.resolved = resolved(experiment, run);
-          runs.push_back(std::move(run));
-        }
-    }
-    check_names(experiment, c, runs.back());
-  }
-  // The slug names the directory of a run; two runs with the same slug would overwrite each other.
-  std::map<std::string, const ExperimentRun*> kept;
-  for (const ExperimentRun& run : runs) {
-    const auto [other, fresh] = kept.emplace(run.slug, &run);
-    if (!fresh)
-      throw InputError(experiment.name + ": " + in_words(*other->second) + " and " + in_words(run) +
-                       " would share the directory runs/" + run.slug + "; expected different names");
-  }
-  check_claims(experiment, runs);
-  return runs;
-}
-
-namespace {
 // Refuses a directory that holds another experiment than the one described.
 void check_identity(const fs::path& directory, const nlohmann::json& mine) {
   const fs::path identity = directory / experiment_file;
@@ -235,14 +136,14 @@ void check_identity(const fs::path& directory, const nlohmann::json& mine) {
                      "' holds runs of a version with other drift classes; expected a new directory");
 }
 
-// The runs that `directory` does not hold. Refuses outdated runs unless they may be made anew.
-std::vector<const ExperimentRun*> runs_to_make(const fs::path& directory,
-                                               const std::vector<ExperimentRun>& runs, bool force) {
-  std::vector<const ExperimentRun*> open;
+// The indices of the runs that `directory` does not hold. Refuses outdated runs unless they may be made anew.
+std::vector<std::size_t> runs_to_make(const fs::path& directory, const std::vector<ExperimentRun>& runs,
+                                      bool force) {
+  std::vector<std::size_t> open;
   std::vector<std::string> changed;
-  for (const ExperimentRun& run : runs) {
-    const KeptRun kept = kept_run(directory / "runs" / run.slug, run.resolved);
-    if (!kept.current()) open.push_back(&run);
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    const KeptRun kept = kept_run(directory / "runs" / runs[k].slug, runs[k].resolved);
+    if (!kept.current()) open.push_back(k);
     if (!kept.outdated()) continue;
     for (const std::string& phrase : kept.changed)
       if (std::find(changed.begin(), changed.end(), phrase) == changed.end()) changed.push_back(phrase);
@@ -273,41 +174,95 @@ void remove_outdated(const fs::path& directory, const std::vector<ExperimentRun>
   for (const char* name : {"results.csv", "ensembles.csv", "findings.csv", "report.html"})
     fs::remove(directory / name, error);
 }
+
+// The solutions that runs are compared with, made when they are first asked for.
+class References {
+ public:
+  const ReferenceSolution* of(const ExperimentRun& run) {
+    if (!run.which->reference) return nullptr;
+    const std::lock_guard lock(mutex_);
+    auto& slot = solutions_[problem_of(run)];
+    if (slot == nullptr) slot = reference_of(run.resolved);
+    return slot.get();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<ProblemKey, std::unique_ptr<ReferenceSolution>> solutions_;
+};
+
+// What the leading process does before runs are made: it takes the directory and finds what is missing.
+struct Preparation {
+  std::unique_ptr<DirectoryLock> held;
+  std::vector<std::size_t> open;  // indices of the runs that are missing
+
+  void prepare(const Experiment& experiment, const fs::path& directory,
+               const std::vector<ExperimentRun>& runs, const std::vector<LeftOut>& left_out, bool force) {
+    const std::string described = description(experiment, runs, left_out).dump(1) + "\n";
+    std::error_code error;
+    if (!fs::exists(directory / experiment_file, error)) make_output_directory(directory, {experiment_file});
+    held = std::make_unique<DirectoryLock>(directory, "pfaff compare");
+    check_identity(directory, nlohmann::json::parse(described));
+    open = runs_to_make(directory, runs, force);
+    if (!open.empty()) remove_outdated(directory, runs);
+    write_file(directory / experiment_file, described);
+    fs::create_directories(directory / "runs", error);
+    if (error) throw InputError("output directory '" + directory.string() + "' cannot be written to");
+  }
+};
 }  // namespace
 
 ExperimentOutcome run_experiment(const Experiment& experiment, const fs::path& directory,
-                                 const ExperimentProgress& progress, bool force) {
-  if (experiment.derivation) return run_derivation_study(experiment, directory, progress, force);
-  const std::vector<ExperimentRun> runs = expand(experiment);
-  const std::string described = description(experiment, runs).dump(1) + "\n";
-  std::error_code error;
-  if (!fs::exists(directory / experiment_file, error)) make_output_directory(directory, {experiment_file});
-  const DirectoryLock held(directory, "pfaff compare");
-  check_identity(directory, nlohmann::json::parse(described));
-  const std::vector<const ExperimentRun*> open = runs_to_make(directory, runs, force);
-  if (!open.empty()) remove_outdated(directory, runs);
-  write_file(directory / experiment_file, described);
-  fs::create_directories(directory / "runs", error);
-  if (error) throw InputError("output directory '" + directory.string() + "' cannot be written to");
-
+                                 const ExperimentProgress& progress, const ExperimentOptions& options) {
+  if (experiment.derivation)
+    return run_derivation_study(
+        experiment, directory,
+        [&](const std::string& what, std::size_t done, std::size_t all) {
+          if (progress) progress({1, what, done, all});
+        },
+        options.force);
   ExperimentOutcome outcome;
+  const std::vector<ExperimentRun> runs = expand(experiment, &outcome.left_out);
+  ThisProcess alone;
+  Team& team = options.team == nullptr ? alone : *options.team;
+  Preparation ready;
+  const std::vector<std::size_t> open = team.agreed([&] {
+    ready.prepare(experiment, directory, runs, outcome.left_out, options.force);
+    return ready.open;
+  });
   outcome.runs = runs.size();
   outcome.resumed = runs.size() - open.size();
-  std::map<ProblemKey, std::unique_ptr<ReferenceSolution>> references;
-  for (const ExperimentRun* run : open)
-    if (auto& slot = references[problem_of(*run)]; slot == nullptr && run->which->reference) {
-      if (progress) progress("reference solution of " + run->which->name, outcome.resumed, runs.size());
-      slot = reference_of(run->resolved);
+
+  const auto report = [&](int phase, const std::string& what, std::size_t done) {
+    if (progress) progress({phase, what, done, runs.size()});
+  };
+  const auto stopped = [&] { return options.stop != nullptr && *options.stop; };
+  References references;
+  if (!team.several())  // all cores then share one solution; processes make their own when they need it
+    for (const std::size_t k : open) {
+      if (stopped()) break;
+      report(1, "reference solution of " + runs[k].which->name, outcome.resumed);
+      (void)references.of(runs[k]);
     }
-  std::mutex mutex;
   std::size_t done = outcome.resumed;
-  oneapi::tbb::parallel_for(std::size_t{0}, open.size(), [&](std::size_t k) {
-    const ExperimentRun& run = *open[k];
-    const RunRecord record = execute(run.resolved, references.at(problem_of(run)).get());
-    leave(directory / "runs" / run.slug, run.resolved, record);
-    const std::lock_guard lock(mutex);
-    if (progress) progress(in_words(run), ++done, runs.size());
-  });
+  team.share(
+      open.size(),
+      [&](std::size_t k) {
+        const ExperimentRun& run = runs[open[k]];
+        if (stopped()) return false;
+        const RunRecord record = execute(run.resolved, references.of(run), {}, options.stop);
+        if (!record.interrupted) leave(directory / "runs" / run.slug, run.resolved, record);
+        return !record.interrupted;
+      },
+      [&](std::size_t k) { report(1, in_words(runs[open[k]]), ++done); });
+  outcome.interrupted = done < runs.size();
+  if (!team.leads()) return outcome;
+  if (!outcome.interrupted)
+    outcome.interrupted = !write_costs(directory, experiment, runs, progress, options.stop);
+  if (outcome.interrupted) {
+    outcome.resumed = done;
+    return outcome;
+  }
 
   const std::vector<nlohmann::json> summaries = read_summaries(directory, runs);
   for (const nlohmann::json& s : summaries)
@@ -318,9 +273,8 @@ ExperimentOutcome run_experiment(const Experiment& experiment, const fs::path& d
   write_or_remove(directory / "findings.csv", findings.empty() ? "" : findings_csv(findings));
   for (const Finding& finding : findings) outcome.findings.push_back(to_json(finding));
   outcome.failed_claims = failed_claims(findings);
-  write_costs(directory, experiment, runs, progress);
   outcome.table = results_table(directory, experiment, runs, summaries) + findings_table(findings);
-  if (progress) progress("figures and report", runs.size(), runs.size());
+  report(ExperimentStage::phases, "figures and report", 0);
   outcome.report = make_report(directory);
   return outcome;
 }

@@ -2,6 +2,7 @@
 // run in parallel, and resumed after an interruption.
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -11,13 +12,16 @@
 #include <pfaff/bench/runner/json.hpp>
 
 #include <pfaff/bench/experiment/derivation_study.hpp>
+#include <pfaff/bench/experiment/parameter_grid.hpp>
 #include <pfaff/bench/runner/record.hpp>
 
 namespace pfaff {
 
 struct ExperimentMethod {
   std::string label, integrator, formulation;
-  Assignments set;  // parameters of the integrator, or of the formulation as formulation.KEY
+  std::string of_grid;    // the label of the table that it is a point of, where it is one of several
+  bool selected = false;  // taken from the registry, and left out of cases that it does not fit
+  Assignments set;        // parameters of the integrator, or of the formulation as formulation.KEY
   std::vector<std::string>
       tolerances;  // of a method that chooses its steps; such a method ignores the case's steps
 };
@@ -46,10 +50,20 @@ struct ExperimentClaim {
   std::size_t at_least = 0;      // pairs of runs in which it must hold; 0: in every pair
 };
 
+/// Which of the registered methods an experiment takes beside those that it names. Claims and orders are
+/// those on the system of each case.
+struct MethodSelection {
+  std::vector<Claim> keeps;                         // all of them
+  std::vector<Facet> needs;                         // all of them, among what a method cannot do without
+  std::vector<std::pair<std::string, int>> orders;  // "=", ">=", "<=", ">" or "<", and than what; all of them
+  AssignmentLists set;                              // values for the methods that have such a parameter
+};
+
 struct Experiment {
   std::string name, title, description;
   std::vector<std::string> reference, notes;
   std::vector<ExperimentMethod> methods;
+  std::optional<MethodSelection> selection;
   std::vector<ExperimentCase> cases;
   std::vector<ExperimentClaim> claims;
   std::optional<DerivationStudy> derivation;  // in the place of methods, cases and claims
@@ -57,12 +71,17 @@ struct Experiment {
   bool compile = false;  // as `compile = yes` of every run
 };
 
+/// A registered method that a selection leaves out of a case, and why.
+struct LeftOut {
+  std::string of_case, method, reason;
+};
+
 /// Names of the experiments that are installed with the program.
 std::vector<std::string> experiment_names();
 
 /// Reads an experiment, given the name of an installed one or the path of a TOML file. With `quick` the
-/// [quick] table of each case overrides its settings. InputError for unknown keys (with the nearest known
-/// one) and wrong types.
+/// tables [quick] and [case.quick] override titles and settings. InputError for unknown keys (with the
+/// nearest known one) and wrong types. docs/experiments.md says what a file may hold.
 Experiment read_experiment(const std::string& name_or_path, bool quick);
 
 /// True where the case is run with the method.
@@ -78,9 +97,12 @@ struct ExperimentRun {
   ResolvedRun resolved;
 };
 
+/// The run as progress and messages call it: "case weak-damping, method RK4, step 0.1".
+std::string in_words(const ExperimentRun& run);
+
 /// All runs of an experiment. Every one is resolved and checked here, so that mistakes are found before any
-/// work starts.
-std::vector<ExperimentRun> expand(const Experiment& experiment);
+/// work starts. `left_out`, where it is not null, gets what the selection of methods leaves out.
+std::vector<ExperimentRun> expand(const Experiment& experiment, std::vector<LeftOut>* left_out = nullptr);
 
 struct ExperimentOutcome {
   std::size_t runs = 0, resumed = 0, failed = 0;
@@ -88,16 +110,34 @@ struct ExperimentOutcome {
   std::string table;                                  // what the terminal shows, at most 100 columns
   nlohmann::json findings = nlohmann::json::array();  // of the experiment's claims, see findings_of
   std::string failed_claims;                          // one line; empty where every claim holds
+  std::vector<LeftOut> left_out;
+  bool interrupted = false;  // it was asked to stop; `resumed` counts the runs that are there
 };
 
-/// Called with what is being done, the number of runs done, and the number of runs in all.
-using ExperimentProgress = std::function<void(const std::string& what, std::size_t done, std::size_t all)>;
+/// What an experiment is at: one of its phases (runs, timings, report), and how much of that is done.
+struct ExperimentStage {
+  static constexpr int phases = 3;
+  int phase = 1;
+  std::string what;
+  std::size_t done = 0, all = 0;
+};
+using ExperimentProgress = std::function<void(const ExperimentStage& stage)>;
 
-/// Runs what `directory` does not hold yet, then writes results.csv, cost.csv (each run timed alone, one
-/// after another), figures and report.html. Runs that are damaged or were made with other settings are made
-/// anew. InputError where another process works in the directory, where it holds another experiment, and,
-/// unless `force` says to make them anew, where it holds runs made from other files or builds.
+class Team;
+
+/// How an experiment is run.
+struct ExperimentOptions {
+  bool force = false;                       // make runs anew that were made from other files or builds
+  const std::atomic<bool>* stop = nullptr;  // where it becomes true, the experiment ends; what is whole stays
+  Team* team = nullptr;  // the processes that make the runs (team.hpp); null for this one alone
+};
+
+/// Runs what `directory` does not hold yet, alone or with a team, then writes results.csv, cost.csv (each run
+/// timed alone, one after another), figures and report.html. Runs that are damaged or were made with other
+/// settings are made anew. InputError where another process works in the directory, where it holds another
+/// experiment, and, unless the options say to make them anew, where it holds runs made from other files or
+/// builds.
 ExperimentOutcome run_experiment(const Experiment& experiment, const std::filesystem::path& directory,
-                                 const ExperimentProgress& progress, bool force = false);
+                                 const ExperimentProgress& progress, const ExperimentOptions& options = {});
 
 }  // namespace pfaff

@@ -1,7 +1,9 @@
 // Reading experiments from TOML.
 #include <cmath>
+#include <deque>
 
 #include <pfaff/bench/experiment/experiment.hpp>
+#include <pfaff/bench/experiment/method_selection.hpp>
 #include <pfaff/bench/runner/toml_keys.hpp>
 #include <pfaff/core/text/vocabulary.hpp>
 
@@ -35,9 +37,14 @@ double positive(const std::string& text, const std::string& where, const std::st
   return number->value();
 }
 
-void check_label(const Experiment& experiment, const std::string& label, const std::string& where) {
+// Labels are those of methods and, where a method is a point of a grid, of the grid.
+void check_label(const Experiment& experiment, const std::string& label, const std::string& where,
+                 bool of_grids = true) {
   std::vector<std::string> labels;
-  for (const ExperimentMethod& m : experiment.methods) labels.push_back(m.label);
+  for (const ExperimentMethod& m : experiment.methods) {
+    labels.push_back(m.label);
+    if (of_grids && !m.of_grid.empty()) labels.push_back(m.of_grid);
+  }
   if (std::find(labels.begin(), labels.end(), label) == labels.end())
     throw InputError(where + ": " + unknown_name("method", label, labels));
 }
@@ -71,16 +78,165 @@ ExperimentClaim read_claim(const toml::table& table, const Experiment& experimen
     throw InputError(where + ": " + unknown_name("relation", claim.relation, {"exceeds", "stays-below"}));
   if (claim.second.empty() == bound.empty())
     throw InputError(where + ": expected one of the keys 'than' (a method) and 'bound' (a number)");
-  check_label(experiment, claim.first, where);
-  if (!claim.second.empty()) check_label(experiment, claim.second, where);
+  check_label(experiment, claim.first, where, false);
+  if (!claim.second.empty()) check_label(experiment, claim.second, where, false);
   if (!bound.empty()) claim.bound = positive(bound, where, "bound");
   return claim;
+}
+
+// A file of an experiment: the one that is asked for, or one that it includes.
+struct Part {
+  fs::path path;
+  toml::table root;
+  [[nodiscard]] std::string name() const { return path.filename().string(); }
+};
+
+// The file and what it includes, in the order in which their tables are read: included ones first, each once.
+// `open` are the files that are being read, of which none may include itself.
+void read_parts(const fs::path& path, std::deque<Part>& parts, std::vector<fs::path>& open) {
+  const fs::path whole = fs::weakly_canonical(path);
+  const auto same = [&](const Part& part) { return fs::weakly_canonical(part.path) == whole; };
+  if (std::any_of(parts.begin(), parts.end(), same)) return;
+  open.push_back(whole);
+  Part part{path, parse_toml(path)};
+  Keys keys(part.root, part.name());
+  for (const std::string& file : keys.one_or_more("include")) {
+    const fs::path included = path.parent_path() / file;
+    std::error_code error;
+    if (included.extension() != ".toml" || !fs::is_regular_file(included, error))
+      keys.refuse("include",
+                  "expected a TOML file, from the folder of " + part.name() + ", got '" + file + "'");
+    if (std::find(open.begin(), open.end(), fs::weakly_canonical(included)) != open.end())
+      keys.refuse("include", "'" + file + "' includes itself");
+    read_parts(included, parts, open);
+  }
+  open.pop_back();
+  parts.push_back(std::move(part));
+}
+
+// Adds the methods of a table [[method]]: one for each point of the grid of its parameters.
+void read_method(const toml::table& table, const Part& part, Experiment& experiment) {
+  Keys m(table, part.name() + " [[method]]");
+  ExperimentMethod method;
+  method.label = m.required("label");
+  method.integrator = m.required("integrator");
+  if (text::is_text_file(method.integrator))
+    method.integrator = text::beside(method.integrator, part.path.string());
+  method.formulation = m.text("formulation", "");
+  method.tolerances = m.one_or_more("tolerance");
+  const std::vector<GridPoint> points = points_of(m.assignment_lists("set"));
+  m.finish();
+  for (const GridPoint& point : points) {
+    ExperimentMethod& one = experiment.methods.emplace_back(method);
+    one.set = point.values;
+    if (point.varying.empty()) continue;
+    one.of_grid = method.label;
+    one.label += ", " + point.varying;
+  }
+}
+
+// Adds the cases of a table [[case]] likewise.
+void read_case(const toml::table& table, const Part& part, Experiment& experiment) {
+  Keys c(table, part.name() + " [[case]]");
+  ExperimentCase one;
+  one.name = c.required("name");
+  const std::string where = part.name() + " [[case]] " + one.name;
+  one.title = c.text("title", one.name);
+  one.system = c.required("system");
+  if (text::is_text_file(one.system)) one.system = text::beside(one.system, part.path.string());
+  one.time = c.required("time");
+  const std::vector<GridPoint> points = points_of(c.assignment_lists("set"));
+  one.initial = c.list_of_some("initial");
+  one.steps = c.list("steps");
+  one.conserved = c.text("conserved", "");
+  one.motion = c.list("motion");
+  if (!one.motion.empty() && one.motion.size() != 2)
+    throw InputError(where + ": key 'motion': expected two coordinates, got " +
+                     std::to_string(one.motion.size()));
+  one.precision = c.read("precision", "double", parse_precision);
+  one.methods = c.list("methods");
+  one.seeds = static_cast<int>(whole(c.text("seeds", "0"), 0, 10000, where, "seeds"));
+  one.reference = wanted(c, "reference", "solution", where);
+  one.structure = wanted(c, "structure", "residual", where);
+  if (const toml::table* less = c.table("quick")) {
+    Keys q(*less, part.name() + " [case.quick]");
+    const std::string title = q.text("title", one.title), time = q.text("time", one.time);
+    const auto steps = q.list("steps", one.steps);
+    const auto seeds =
+        static_cast<int>(whole(q.text("seeds", std::to_string(one.seeds)), one.seeds > 0 ? 1 : 0,
+                               std::max(one.seeds, 0), part.name() + " [case.quick]", "seeds"));
+    q.finish();
+    if (experiment.quick) {
+      one.title = title;
+      one.time = time;
+      one.steps = steps;
+      one.seeds = seeds;
+    }
+  }
+  c.finish();
+  for (const std::string& label : one.methods) check_label(experiment, label, where);
+  const bool fixed =
+      std::any_of(experiment.methods.begin(), experiment.methods.end(),
+                  [&](const ExperimentMethod& m) { return m.tolerances.empty() && takes(one, m); });
+  if (fixed && one.steps.empty()) throw InputError(where + ": key 'steps' is missing");
+  for (const GridPoint& point : points) {
+    ExperimentCase& next = experiment.cases.emplace_back(one);
+    next.set = point.values;
+    if (point.varying.empty()) continue;
+    next.name += ", " + point.varying;
+    next.title += ", " + point.varying;
+  }
+}
+
+// What a file says of itself and of the experiment; what an included one says of itself is read and left.
+void read_head(Keys& keys, const Part& part, bool included, Experiment& experiment) {
+  if (const std::string schema = keys.required("schema"); schema != "1")
+    throw InputError(part.name() + ": key 'schema': expected 1, got " + schema);
+  (void)keys.one_or_more("include");
+  const auto add = [](std::vector<std::string>& list, const std::vector<std::string>& more) {
+    for (const std::string& text : more)
+      if (std::find(list.begin(), list.end(), text) == list.end()) list.push_back(text);
+  };
+  add(experiment.reference, keys.list("reference"));
+  add(experiment.notes, keys.list("notes"));
+  std::string title = included ? keys.text("title", "") : keys.required("title");
+  std::string description = keys.text("description", "");
+  const bool compile = keys.read("compile", "no", [](const std::string& text) {
+    if (text != "yes" && text != "no") throw InputError(unknown_name("answer", text, {"no", "yes"}));
+    return text == "yes";
+  });
+  if (const toml::table* less = keys.table("quick")) {
+    Keys q(*less, part.name() + " [quick]");
+    const std::string quick_title = q.text("title", title),
+                      quick_description = q.text("description", description);
+    q.finish();
+    if (experiment.quick) title = quick_title, description = quick_description;
+  }
+  if (included) return;
+  experiment.title = title;
+  experiment.description = description;
+  experiment.compile = compile;
+}
+
+// The selection of methods, which one file at most may have, and the methods that it may take.
+void read_methods_by_selection(const std::deque<Part>& parts, std::deque<Keys>& keys,
+                               Experiment& experiment) {
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    if (parts[k].root.get("methods") == nullptr) continue;
+    if (experiment.selection)
+      keys[k].refuse("methods", "expected one selection, and an included file has another");
+    experiment.selection = read_selection(keys[k], parts[k].name());
+    for (ExperimentMethod& method : selected_methods(*experiment.selection))
+      experiment.methods.push_back(std::move(method));
+  }
 }
 }  // namespace
 
 bool takes(const ExperimentCase& one, const ExperimentMethod& method) {
   return one.methods.empty() ||
-         std::find(one.methods.begin(), one.methods.end(), method.label) != one.methods.end();
+         std::any_of(one.methods.begin(), one.methods.end(), [&](const std::string& label) {
+           return label == method.label || (label == method.of_grid && !label.empty());
+         });
 }
 
 std::vector<std::string> experiment_names() {
@@ -100,93 +256,40 @@ Experiment read_experiment(const std::string& name_or_path, bool quick) {
     if (!fs::exists(path, error))
       throw InputError(unknown_name("experiment", name_or_path, experiment_names()));
   }
-  const toml::table root = parse_toml(path);
+  std::deque<Part> parts;
+  std::vector<fs::path> open;
+  read_parts(path, parts, open);
   const std::string where = path.filename().string();
   Experiment experiment;
   experiment.name = path.stem().string();
   experiment.quick = quick;
-  Keys keys(root, where);
-  if (const std::string schema = keys.required("schema"); schema != "1")
-    throw InputError(where + ": key 'schema': expected 1, got " + schema);
-  experiment.title = keys.required("title");
-  experiment.description = keys.text("description", "");
-  experiment.reference = keys.list("reference");
-  experiment.notes = keys.list("notes");
+  std::deque<Keys> keys;
+  for (const Part& part : parts) {
+    keys.emplace_back(part.root, part.name());
+    read_head(keys.back(), part, &part != &parts.back(), experiment);
+  }
   const std::vector<std::string> kinds{"runs", "derivation"};
-  const std::string kind = keys.text("kind", kinds.front());
+  const std::string kind = keys.back().text("kind", kinds.front());
   if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end())
     throw InputError(where + ": " + unknown_name("kind", kind, kinds));
   if (kind == "derivation") {
-    experiment.derivation = read_derivation_study(keys, where, quick);
-    keys.finish();
+    experiment.derivation = read_derivation_study(keys.back(), where, quick);
+    for (const Keys& of_part : keys) of_part.finish();
     return experiment;
   }
-  experiment.compile = keys.read("compile", "no", [](const std::string& text) {
-    if (text != "yes" && text != "no") throw InputError(unknown_name("answer", text, {"no", "yes"}));
-    return text == "yes";
-  });
-  for (const toml::table* table : keys.tables("method")) {
-    Keys m(*table, where + " [[method]]");
-    ExperimentMethod method;
-    method.label = m.required("label");
-    method.integrator = m.required("integrator");
-    if (text::is_text_file(method.integrator))
-      method.integrator = text::beside(method.integrator, path.string());
-    method.formulation = m.text("formulation", "");
-    method.set = m.assignments("set");
-    method.tolerances = m.one_or_more("tolerance");
-    m.finish();
-    experiment.methods.push_back(std::move(method));
-  }
-  for (const toml::table* table : keys.tables("case")) {
-    Keys c(*table, where + " [[case]]");
-    ExperimentCase one;
-    one.name = c.required("name");
-    one.title = c.text("title", one.name);
-    one.system = c.required("system");
-    if (text::is_text_file(one.system)) one.system = text::beside(one.system, path.string());
-    one.time = c.required("time");
-    one.set = c.assignments("set");
-    one.initial = c.list_of_some("initial");
-    one.steps = c.list("steps");
-    one.conserved = c.text("conserved", "");
-    one.motion = c.list("motion");
-    if (!one.motion.empty() && one.motion.size() != 2)
-      throw InputError(where + " [[case]] " + one.name + ": key 'motion': expected two coordinates, got " +
-                       std::to_string(one.motion.size()));
-    one.precision = c.read("precision", "double", parse_precision);
-    one.methods = c.list("methods");
-    one.seeds =
-        static_cast<int>(whole(c.text("seeds", "0"), 0, 10000, where + " [[case]] " + one.name, "seeds"));
-    one.reference = wanted(c, "reference", "solution", where + " [[case]] " + one.name);
-    one.structure = wanted(c, "structure", "residual", where + " [[case]] " + one.name);
-    if (const toml::table* less = c.table("quick")) {
-      Keys q(*less, where + " [case.quick]");
-      const std::string time = q.text("time", one.time);
-      const auto steps = q.list("steps", one.steps);
-      const auto seeds =
-          static_cast<int>(whole(q.text("seeds", std::to_string(one.seeds)), one.seeds > 0 ? 1 : 0,
-                                 std::max(one.seeds, 0), where + " [case.quick]", "seeds"));
-      q.finish();
-      if (quick) {
-        one.time = time;
-        one.steps = steps;
-        one.seeds = seeds;
-      }
-    }
-    c.finish();
-    for (const std::string& label : one.methods)
-      check_label(experiment, label, where + " [[case]] " + one.name);
-    const bool fixed =
-        std::any_of(experiment.methods.begin(), experiment.methods.end(),
-                    [&](const ExperimentMethod& m) { return m.tolerances.empty() && takes(one, m); });
-    if (fixed && one.steps.empty())
-      throw InputError(where + " [[case]] " + one.name + ": key 'steps' is missing");
-    experiment.cases.push_back(std::move(one));
-  }
-  for (const toml::table* table : keys.tables("finding", false))
-    experiment.claims.push_back(read_claim(*table, experiment, where));
-  keys.finish();
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    for (const toml::table* table : keys[k].tables("method", false))
+      read_method(*table, parts[k], experiment);
+  read_methods_by_selection(parts, keys, experiment);
+  if (experiment.methods.empty())
+    throw InputError(where + ": expected at least one [[method]], or the key 'methods'");
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    for (const toml::table* table : keys[k].tables("case", false)) read_case(*table, parts[k], experiment);
+  if (experiment.cases.empty()) throw InputError(where + ": expected at least one [[case]]");
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    for (const toml::table* table : keys[k].tables("finding", false))
+      experiment.claims.push_back(read_claim(*table, experiment, parts[k].name()));
+  for (const Keys& of_part : keys) of_part.finish();
   return experiment;
 }
 

@@ -12,9 +12,9 @@ struct Paper {
   const char* name;
   std::vector<ReproducedRow> (*rows)();
 };
-constexpr std::array all_papers{Paper{"su-qin", reproduce_su_qin},
-                                Paper{"nguyen-turski", reproduce_nguyen_turski},
-                                Paper{"pitanga-rodrigues", reproduce_pitanga_rodrigues}};
+constexpr std::array all_papers{
+    Paper{"su-qin", reproduce_su_qin}, Paper{"nguyen-turski", reproduce_nguyen_turski},
+    Paper{"pitanga-rodrigues", reproduce_pitanga_rodrigues}, Paper{"others", reproduce_others}};
 }  // namespace
 
 std::vector<std::string> papers() {

@@ -41,5 +41,7 @@ std::vector<ReproducedRow> reproduce_su_qin();
 std::vector<ReproducedRow> reproduce_nguyen_turski();
 /// Pitanga & Rodrigues (pitanga_rodrigues/): sections "projectors", "transverse", "sleigh" and "contact".
 std::vector<ReproducedRow> reproduce_pitanga_rodrigues();
+/// Published numbers of other works (others/): sections "solutions", "methods" and "books".
+std::vector<ReproducedRow> reproduce_others();
 
 }  // namespace pfaff

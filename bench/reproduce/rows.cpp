@@ -1,5 +1,7 @@
 #include <pfaff/bench/reproduce/rows.hpp>
 
+#include <pfaff/core/errors/errors.hpp>
+
 namespace pfaff {
 
 std::string shown(const Numbers& x) {
@@ -33,6 +35,17 @@ void Rows::reproduced(const std::string& equation, const std::string& what, cons
                       const Numbers& ours) {
   add(equation, what, {shown(printed), shown(ours)},
       {Evidence::Kind::value, printed, {}, ours, {}, at_round_off}, "");
+}
+void Rows::published(const std::string& equation, const std::string& what,
+                     const std::vector<std::string>& printed, const Numbers& ours, double tolerance) {
+  Texts texts;
+  Numbers numbers;
+  for (const std::string& digits : printed) {
+    texts.printed += (texts.printed.empty() ? "" : " ") + digits;
+    if (!parse(digits, numbers.emplace_back())) throw RunError("'" + digits + "' is no number");
+  }
+  for (const Quad& x : ours) texts.ours += (texts.ours.empty() ? "" : " ") + to_string(x, 17);
+  add(equation, what, texts, {Evidence::Kind::value, numbers, {}, ours, {}, tolerance}, "");
 }
 void Rows::order(const std::string& equation, const std::string& what, double printed, double measured,
                  double tolerance) {

@@ -29,6 +29,9 @@ class Rows {
   /// Printed and ours agree to round-off.
   void reproduced(const std::string& equation, const std::string& what, const Numbers& printed,
                   const Numbers& ours);
+  /// Digits that are printed, shown as they are, and ours with as many: they agree to the tolerance.
+  void published(const std::string& equation, const std::string& what,
+                 const std::vector<std::string>& printed, const Numbers& ours, double tolerance);
   /// An order of convergence agrees with the printed one to a tolerance of its own, or is higher by one.
   void order(const std::string& equation, const std::string& what, double printed, double measured,
              double tolerance);

@@ -36,11 +36,28 @@ class Keys {
     try {
       return read(given);
     } catch (const InputError& error) {
-      const toml::node* node = table_.get(key);
-      const auto line = node == nullptr ? 0 : node->source().begin.line;
-      throw InputError(where_ + (line == 0 ? "" : ", line " + std::to_string(line)) + ": key '" +
-                       std::string(key) + "': " + error.what());
+      refuse(key, error.what());
     }
+  }
+  /// Throws InputError about the value of a key, with its line.
+  [[noreturn]] void refuse(std::string_view key, const std::string& what) const {
+    throw InputError(place(key) + ": key '" + std::string(key) + "': " + what);
+  }
+  /// The texts of a key that holds a text or a list of texts; none where it holds anything else.
+  std::vector<std::string> words(std::string_view key) {
+    const toml::node* node = find(key);
+    std::vector<std::string> texts;
+    if (node == nullptr) return texts;
+    if (const auto* text = node->as_string()) texts.push_back(text->get());
+    if (const toml::array* list = node->as_array())
+      for (const toml::node& item : *list)
+        if (const auto* text = item.as_string()) texts.push_back(text->get());
+    return texts;
+  }
+  /// True where the key is there and holds a table.
+  [[nodiscard]] bool has_table(std::string_view key) const {
+    const toml::node* node = table_.get(key);
+    return node != nullptr && node->is_table();
   }
   std::string required(std::string_view key) {
     if (table_.get(key) == nullptr) throw InputError(where_ + ": key '" + std::string(key) + "' is missing");
@@ -76,6 +93,23 @@ class Keys {
       result.emplace_back(name.str(), scalar(value, name.str()));
     return result;
   }
+  /// A table of which each value is a single one or a list of some.
+  std::vector<std::pair<std::string, std::vector<std::string>>> assignment_lists(std::string_view key) {
+    const toml::table* values = table(key);
+    std::vector<std::pair<std::string, std::vector<std::string>>> result;
+    if (values == nullptr) return result;
+    for (const auto& [name, value] : *values) {
+      if (const toml::array* list = value.as_array()) {
+        std::vector<std::string>& items = result.emplace_back(name.str(), std::vector<std::string>()).second;
+        for (const toml::node& item : *list) items.push_back(scalar(item, name.str()));
+        if (items.empty())
+          refuse(key, "'" + std::string(name.str()) + "': expected a value at least, got an empty list");
+      } else {
+        result.push_back({std::string(name.str()), {scalar(value, name.str())}});
+      }
+    }
+    return result;
+  }
   const toml::table* table(std::string_view key) {
     const toml::node* node = find(key);
     if (node != nullptr && !node->is_table())
@@ -96,11 +130,17 @@ class Keys {
     for (const auto& [key, value] : table_) {
       const std::string name(key.str());
       if (std::find(asked_.begin(), asked_.end(), name) == asked_.end())
-        throw InputError(where_ + ": " + unknown_name("key", name, asked_));
+        throw InputError(place(name) + ": " + unknown_name("key", name, asked_));
     }
   }
 
  private:
+  // Where a key stands, for messages: "FILE [[case]], line 7".
+  [[nodiscard]] std::string place(std::string_view key) const {
+    const auto entry = table_.find(key);
+    const auto line = entry == table_.end() ? 0 : entry->first.source().begin.line;
+    return where_ + (line == 0 ? "" : ", line " + std::to_string(line));
+  }
   const toml::node* find(std::string_view key) {
     asked_.emplace_back(key);
     return table_.get(key);

@@ -116,6 +116,31 @@ TEST(BadExperiment, Findings) {
   refused("", with("stays-below", "below"), {"unknown relation 'below'"});
 }
 
+TEST(BadExperiment, SelectionsOfMethods) {
+  const std::string schema = "schema = 1\n";
+  const auto with = [&](const std::string& line, const Arguments& fragments) {
+    refused(schema, schema + line + "\n", fragments);
+  };
+  with("methods = \"al\"", {"test.toml, line 2", "'methods'", "or methods = \"all\""});
+  with("methods = { keeps = \"symplektic\" }",
+       {"test.toml methods, line 2", "'keeps'", "unknown claim", "did you mean 'symplectic'?"});
+  with("methods = { keep = \"symplectic\" }", {"line 2", "unknown key 'keep'", "did you mean 'keeps'?"});
+  with("methods = { needs = [\"seperable\"] }", {"line 2", "unknown facet", "did you mean 'separable'?"});
+  with("methods = { order = \"~ 4\" }", {"line 2", "'order'", "expected an order such as 4", "'~ 4'"});
+  with("methods = { order = 4.5 }", {"line 2", "'order'", "'4.5'"});
+  with("methods = { set = { stage = 3 } }", {"line 2", "'set'", "'stage'", "did you mean 'stages'?"});
+  with("methods = { set = { stages = [] } }", {"line 2", "'stages'", "empty list"});
+  refused("[[method]]\nlabel = \"RK4\"\nintegrator = \"rk4\"\n", "methods = { keeps = \"symplectic\" }\n",
+          {"case short", "none of the methods selected fits"});
+}
+
+TEST(BadExperiment, Includes) {
+  refused("schema = 1\n", "schema = 1\ninclude = \"missing.toml\"\n",
+          {"test.toml, line 2", "'include'", "expected a TOML file", "'missing.toml'"});
+  refused("schema = 1\n", "schema = 1\ninclude = \"test.toml\"\n", {"line 2", "'test.toml' includes itself"});
+  refused("", "[case.quick]\ntitles = 1\n", {"[case.quick], line 12", "did you mean 'title'?"});
+}
+
 // Runs are kept by name: two that would share one directory are refused, not mixed.
 TEST(BadExperiment, RunsWithTheSameName) {
   const std::string second = "[[method]]\nlabel = \"rk4\"\nintegrator = \"gauss\"\n";

@@ -216,7 +216,34 @@ TEST(Reproduce, AllPapersTogether) {
     EXPECT_FALSE(paper["rows"].empty());
     papers.push_back(paper["paper"]);
   }
-  EXPECT_EQ(papers, (std::vector<std::string>{"su-qin", "nguyen-turski", "pitanga-rodrigues"}));
+  EXPECT_EQ(papers, (std::vector<std::string>{"su-qin", "nguyen-turski", "pitanga-rodrigues", "others"}));
+}
+
+// Published numbers of other works: at least twelve, each with the key of its source, which has an entry.
+TEST(Reproduce, OtherWorks) {
+  const auto j = passed({"reproduce", "others"});
+  EXPECT_GE(j["rows"].size(), 12U);
+  for (const auto& row : j["rows"]) {
+    const std::string equation = row["equation"];
+    const Outcome cited = run_pfaff({"cite", equation.substr(0, equation.find(' '))});
+    EXPECT_EQ(cited.status, 0) << cited.err;
+  }
+}
+
+// What there is, without computing it; wide values in full, in a block of lines.
+TEST(Reproduce, ListAndWideValues) {
+  EXPECT_EQ(json_of(run_pfaff({"reproduce", "--list", "--json"}).out)["papers"].size(), 4U);
+  const Outcome list = run_pfaff({"reproduce", "others", "--list"});
+  EXPECT_EQ(list.status, 0) << list.err;
+  for (const char* shown : {"enright-pryce1987 D5", "number", "rows", "pending: "})
+    EXPECT_NE(list.out.find(shown), std::string::npos) << shown;
+  const Outcome rows = run_pfaff({"reproduce", "others", "--section", "solutions"});
+  EXPECT_EQ(rows.status, 0) << rows.err;
+  for (const char* shown : {"enright-pryce1987 D5 Kepler, e = 0.9, at t = 20\n", "  printed ",
+                            "-1.295266250987574 0.4003938963792321 -0.6775390924707566"})
+    EXPECT_NE(rows.out.find(shown), std::string::npos) << shown << '\n' << rows.out;
+  expect_refused({"reproduce", "--list", "--coverage"},
+                 {"--list", "expected neither --coverage nor --section"});
 }
 
 TEST(Reproduce, Coverage) {

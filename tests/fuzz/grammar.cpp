@@ -118,6 +118,13 @@ std::string random_experiment(Choices& choices) {
   if (choices.once_in(3)) text << "description = \"\"\"\nLines.\n\"\"\"\n";
   if (choices.once_in(2)) text << "reference = [\"su-qin\"]\n";
   if (choices.once_in(4)) text << "notes = [\"one\", \"two\"]\n";
+  if (choices.once_in(8))
+    text << "methods = "
+         << choices.one_of({R"("all")", R"({ keeps = "symplectic" })",
+                            R"({ needs = "separable", order = ">= 4" })",
+                            R"({ order = [">= 2", "< 5"], set = { stages = [1, 2] } })"})
+         << '\n';
+  if (choices.once_in(8)) text << "[quick]\ntitle = \"A quick test\"\n";
   std::vector<std::string> labels;
   for (std::size_t k = 0, count = 1 + choices.below(2); k < count; ++k) {
     const std::string method = choices.one_of(some_methods());

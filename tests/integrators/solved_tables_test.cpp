@@ -9,6 +9,7 @@
 #include <array>
 
 #include <pfaff/core/linear/lu.hpp>
+#include <pfaff/integrators/composition/composition_weights.hpp>
 #include <pfaff/integrators/order_conditions/word_conditions.hpp>
 #include <pfaff/integrators/tables/table_document.hpp>
 
@@ -129,6 +130,37 @@ std::vector<Quad> solved(const Published& method) {
       for (std::size_t k = 0; k < n; ++k) numbers[k] -= slopes[c * n + k] * multiplier[c];
   }
   return numbers;
+}
+
+// Sofroniou and Spaletta's composition of order 10: the published digits, and the table's weights, which must
+// fulfil the sixteen conditions of symmetric compositions and stay within what was rounded off in print.
+TEST(SolvedTables, CompositionOfOrderTen) {
+  constexpr std::array printed{
+      "0.07879572252168641926390768",  "0.31309610341510852776481247",  "0.02791838323507806610952027",
+      "-0.22959284159390709415121340", "0.13096206107716486317465686",  "-0.26973340565451071434460973",
+      "0.07497334315589143566613711",  "0.11199342399981020488957508",  "0.36613344954622675119314812",
+      "-0.39910563013603589787862981", "0.10308739852747107731580277",  "0.41143087395589023782070412",
+      "-0.00486636058313526176219566", "-0.39203335370863990644808194", "0.05194250296244964703718290",
+      "0.05066509075992449633587434",  "0.04967437063972987905456880",  "0.04931773575959453791768001"};
+  TableDocument document(std::string(PFAFF_GOLDEN) + "/../../examples/tables/sofroniou-spaletta-10.toml");
+  std::vector<Quad> weights = document.numbers("weights");
+  ASSERT_EQ(weights.size(), 35U);
+  for (std::size_t k = 0; k < weights.size(); ++k) {
+    Quad digits;
+    ASSERT_TRUE(parse(printed[std::min(k, 34 - k)], digits));
+    EXPECT_LT(abs(weights[k] - digits), Quad(1e-26)) << k;
+  }
+  const auto worst = [&] {
+    Quad largest(0);
+    for (const Word& word : order_condition_words(10))
+      largest = std::max(
+          largest, abs(word_coefficient(weights, word) - Quad(word.size() == 1 && word[0] == 1 ? 1 : 0)));
+    return largest;
+  };
+  EXPECT_EQ(order_condition_words(10).size(), 16U);
+  EXPECT_LT(worst(), Quad(1e-32));  // sums of 35 numbers of at most 0.4
+  weights[3] += Quad(1e-28);
+  EXPECT_GT(worst(), Quad(1e-29));
 }
 
 TEST(SolvedTables, HoldWhatTheOrderConditionsGive) {

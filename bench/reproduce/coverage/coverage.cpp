@@ -27,9 +27,9 @@ struct PaperItems {
   const char* paper;
   const std::vector<PaperItem>& (*items)();
 };
-constexpr std::array all_items{PaperItems{"su-qin", su_qin_items},
-                               PaperItems{"nguyen-turski", nguyen_turski_items},
-                               PaperItems{"pitanga-rodrigues", pitanga_rodrigues_items}};
+constexpr std::array all_items{
+    PaperItems{"su-qin", su_qin_items}, PaperItems{"nguyen-turski", nguyen_turski_items},
+    PaperItems{"pitanga-rodrigues", pitanga_rodrigues_items}, PaperItems{"others", others_items}};
 
 std::vector<std::string> split(const std::string& text, const std::string& at) {
   std::vector<std::string> parts;

@@ -50,6 +50,7 @@ const std::vector<PaperItem>& items_of(const std::string& paper);
 const std::vector<PaperItem>& su_qin_items();
 const std::vector<PaperItem>& nguyen_turski_items();
 const std::vector<PaperItem>& pitanga_rodrigues_items();
+const std::vector<PaperItem>& others_items();
 
 /// An item with the rows that name it, by their ids.
 struct CoveredItem {

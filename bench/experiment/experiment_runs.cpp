@@ -1,0 +1,145 @@
+// The runs that an experiment consists of: every case with every method that takes it, each step or tolerance
+// and each seed.
+#include <algorithm>
+#include <map>
+
+#include <pfaff/bench/experiment/experiment.hpp>
+#include <pfaff/bench/experiment/experiment_findings.hpp>
+#include <pfaff/bench/experiment/method_selection.hpp>
+#include <pfaff/core/text/source.hpp>
+#include <pfaff/systems/text/text_system.hpp>
+
+namespace pfaff {
+
+namespace {
+std::string slug_of(const std::string& text) {
+  std::string slug;
+  for (const char c : text) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '.';
+    if (plain) {
+      slug += c;
+    } else if (c >= 'A' && c <= 'Z') {
+      slug += static_cast<char>(c - 'A' + 'a');
+    } else if (!slug.empty() && slug.back() != '-') {
+      slug += '-';
+    }
+  }
+  return slug;
+}
+
+ResolvedRun resolved(const Experiment& experiment, const ExperimentRun& run) {
+  const ExperimentCase& c = *run.which;
+  const ExperimentMethod& m = *run.method;
+  RunSettings settings;
+  settings.system = c.system;
+  settings.integrator = m.integrator;
+  settings.formulation = m.formulation;
+  for (const auto& [key, value] : c.set) settings.set.emplace_back("system." + key, value);
+  if (run.seed > 0) settings.set.emplace_back("system.seed", std::to_string(run.seed));
+  for (const auto& [key, value] : m.set)
+    settings.set.emplace_back(key.starts_with("formulation.") ? key : "integrator." + key, value);
+  settings.initial = c.initial;
+  settings.compile = experiment.compile;
+  settings.step = run.step;
+  settings.tolerance = run.tolerance;
+  settings.time = c.time;
+  settings.precision = c.precision;
+  settings.reference = c.reference ? ErrorsAgainst::solution : ErrorsAgainst::none;
+  settings.structure_residuals = c.structure && run.seed == 0;
+  settings.of_case = c.name;
+  settings.of_method = m.label;
+  const std::string where = experiment.name + ", case " + c.name + ", method " + m.label + ": ";
+  try {
+    ResolvedRun result = resolve(settings);
+    // An ensemble keeps many runs, and so fewer samples of each.
+    constexpr std::int64_t ensemble_samples = 200;
+    if (run.seed > 0 && !result.adaptive())
+      result.every = std::max<std::int64_t>(1, (result.steps + ensemble_samples - 1) / ensemble_samples);
+    return result;
+  } catch (const text::TextError& error) {
+    throw text::TextError(where + error.what(), error.excerpt());
+  } catch (const InputError& error) {
+    throw InputError(where + error.what());
+  }
+}
+
+void check_names(const Experiment& experiment, const ExperimentCase& c, const ExperimentRun& run) {
+  std::vector<std::string> names, coordinates;
+  for (const Invariant& i : run.resolved.model->invariants()) names.push_back(i.name);
+  if (!c.conserved.empty() && std::find(names.begin(), names.end(), c.conserved) == names.end())
+    throw InputError(experiment.name + ", case " + c.name + ": " +
+                     unknown_name("invariant", c.conserved, names));
+  for (const Coordinate& x : run.resolved.model->coordinates()) coordinates.push_back(x.name);
+  for (const std::string& name : c.motion)
+    if (std::find(coordinates.begin(), coordinates.end(), name) == coordinates.end())
+      throw InputError(experiment.name + ", case " + c.name + ": " +
+                       unknown_name("coordinate", name, coordinates));
+}
+
+// The system of a case, before a formulation is applied.
+std::shared_ptr<const Model> system_of(const Experiment& experiment, const ExperimentCase& c) {
+  try {
+    return system_named(c.system).make(c.set);
+  } catch (const InputError& error) {
+    throw InputError(experiment.name + ", case " + c.name + ": " + error.what());
+  }
+}
+
+// The methods that the case is run with. What a selection leaves out is added to `left_out`.
+std::vector<const ExperimentMethod*> methods_of(const Experiment& experiment, const ExperimentCase& c,
+                                                std::vector<LeftOut>& left_out) {
+  std::vector<const ExperimentMethod*> methods;
+  const std::shared_ptr<const Model> system = experiment.selection ? system_of(experiment, c) : nullptr;
+  for (const ExperimentMethod& m : experiment.methods) {
+    if (!takes(c, m)) continue;
+    const std::string reason =
+        m.selected ? reason_to_leave_out(*experiment.selection, m, c, system) : std::string();
+    if (reason.empty()) {
+      methods.push_back(&m);
+    } else {
+      left_out.push_back({c.name, m.label, reason});
+    }
+  }
+  if (methods.empty())
+    throw InputError(experiment.name + ", case " + c.name + ": none of the methods selected fits; " +
+                     left_out.back().method + " " + left_out.back().reason);
+  return methods;
+}
+}  // namespace
+
+std::string in_words(const ExperimentRun& run) {
+  return "case " + run.which->name + ", method " + run.method->label +
+         (run.tolerance.empty() ? ", step " + run.step : ", tolerance " + run.tolerance);
+}
+
+std::vector<ExperimentRun> expand(const Experiment& experiment, std::vector<LeftOut>* left_out) {
+  std::vector<ExperimentRun> runs;
+  std::vector<LeftOut> out;
+  for (const ExperimentCase& c : experiment.cases) {
+    for (const ExperimentMethod* m : methods_of(experiment, c, out)) {
+      const bool adaptive = !m->tolerances.empty();
+      for (const std::string& size : adaptive ? m->tolerances : c.steps)
+        for (int seed = c.seeds > 0 ? 1 : 0; seed <= c.seeds; ++seed) {
+          ExperimentRun run{&c, m, adaptive ? "" : size, adaptive ? size : "", seed, {}, {}};
+          run.slug = slug_of(c.name + "-" + m->label + (adaptive ? "-tol" : "-h") + size +
+                             (seed > 0 ? "-seed" + std::to_string(seed) : ""));
+          run.resolved = resolved(experiment, run);
+          runs.push_back(std::move(run));
+        }
+    }
+    check_names(experiment, c, runs.back());
+  }
+  if (left_out != nullptr) *left_out = std::move(out);
+  // The slug names the directory of a run; two runs with the same slug would overwrite each other.
+  std::map<std::string, const ExperimentRun*> kept;
+  for (const ExperimentRun& run : runs) {
+    const auto [other, fresh] = kept.emplace(run.slug, &run);
+    if (!fresh)
+      throw InputError(experiment.name + ": " + in_words(*other->second) + " and " + in_words(run) +
+                       " would share the directory runs/" + run.slug + "; expected different names");
+  }
+  check_claims(experiment, runs);
+  return runs;
+}
+
+}  // namespace pfaff

@@ -1,0 +1,89 @@
+#include <algorithm>
+#include <filesystem>
+
+#include <pfaff/bench/reproduce/others/rows.hpp>
+#include <pfaff/bench/runner/files.hpp>
+#include <pfaff/bench/runner/record.hpp>
+#include <pfaff/core/facets/problem.hpp>
+
+namespace pfaff::others {
+
+std::string example(const std::string& name) {
+  std::filesystem::path folder = data_directory() / "examples";
+  std::error_code error;
+  if (!std::filesystem::exists(folder, error)) folder = data_directory().parent_path() / "examples";
+  return (folder / name).string();
+}
+
+ResolvedRun resolved(const Asked& asked) {
+  RunSettings settings;
+  settings.system = asked.system;
+  settings.integrator = asked.integrator;
+  settings.set = asked.set;
+  settings.step = asked.step;
+  settings.time = asked.time;
+  settings.initial = asked.initial;
+  return resolve(settings);
+}
+
+Numbers solution_at_end(const ResolvedRun& run) {
+  return reference_of(run)->at(run.t0.quad() + run.time.quad());
+}
+
+Numbers state_at_end(const std::string& system, const std::string& integrator, const std::string& tolerance,
+                     const std::string& time) {
+  RunSettings settings;
+  settings.system = system;
+  settings.integrator = integrator;
+  settings.tolerance = tolerance;
+  settings.time = time;
+  const ResolvedRun run = resolve(settings);
+  std::vector<double> z;
+  for (const Real& x : run.initial) z.push_back(x.value());
+  double t = 0;
+  const auto stepper = run.method->stepper(run.model, double());
+  const Status status = stepper->advance_to(t, run.time.value(), run.tolerance.value(), z);
+  if (status != Status::converged)
+    throw RunError(integrator + " on " + run.model->name() + ": " + std::string(to_string(status)));
+  return {z.begin(), z.end()};
+}
+
+template <class T>
+void follow(const ResolvedRun& run, const std::function<void(const std::vector<T>&)>& each) {
+  std::vector<T> z;
+  for (const Real& x : run.initial) z.push_back(T(x));
+  const StepperPointer<T> stepper = run.method->stepper(run.model, T());
+  each(z);
+  for (std::int64_t step = 0; step < run.steps; ++step) {
+    std::int64_t completed = 0;
+    const Status status = stepper->advance(T(run.t0), step, T(run.step), 1, z, completed);
+    if (status != Status::converged)
+      throw RunError(run.method->called() + " on " + run.model->name() + ": " +
+                     std::string(to_string(status)));
+    each(z);
+  }
+}
+
+template <class T>
+EnergyError energy_error(const ResolvedRun& run) {
+  const auto invariants = make_evaluator<T>(run.model, Formula::invariants);
+  std::vector<T> values(run.model->invariants().size());
+  EnergyError error;
+  bool first = true;
+  T start(0);
+  follow<T>(run, [&](const std::vector<T>& z) {
+    invariants.call(invariants.context, T(0), z.data(), values.data());
+    if (first) start = values.front();
+    first = false;
+    error.last = Quad(values.front() - start);
+    error.largest = std::max(error.largest, std::abs(static_cast<double>(error.last)));
+  });
+  return error;
+}
+
+template void follow<double>(const ResolvedRun&, const std::function<void(const std::vector<double>&)>&);
+template void follow<Quad>(const ResolvedRun&, const std::function<void(const std::vector<Quad>&)>&);
+template EnergyError energy_error<double>(const ResolvedRun&);
+template EnergyError energy_error<Quad>(const ResolvedRun&);
+
+}  // namespace pfaff::others
