@@ -38,4 +38,11 @@ struct PaperFigures {
 /// these. RunError with the message of the scripts when they fail.
 std::filesystem::path make_paper_figures(const std::filesystem::path& directory, const PaperFigures& wanted);
 
+/// Where the figures of a run stand in its directory.
+constexpr const char* run_figures_directory = "plot";
+
+/// Runs the scripts that draw one run, which make plot/ in its directory, and returns the path of the page
+/// there. RunError with the message of the scripts when they fail.
+std::filesystem::path make_run_figures(const std::filesystem::path& directory);
+
 }  // namespace pfaff

@@ -3,6 +3,7 @@ import constraints
 import drift_at_cost
 import ensembles
 import motion
+import moving
 import structure
 import work_precision
 from figures import drift_at_equal_step
@@ -13,5 +14,5 @@ def drawn(verdict):
     experiment, case = verdict.experiment, verdict.case
     equal_step = None if case.get("seeds") else drift_at_equal_step(experiment, case)
     return (work_precision.drawings(verdict) + drift_at_cost.drawings(verdict) + structure.drawings(verdict)
-            + motion.drawings(experiment, case) + constraints.drawings(experiment, case) + ensembles.drawings(experiment, case)
-            + ([equal_step] if equal_step else []))
+            + (motion.drawings(experiment, case) or moving.drawings(verdict)) + constraints.drawings(experiment, case)
+            + ensembles.drawings(experiment, case) + ([equal_step] if equal_step else []))

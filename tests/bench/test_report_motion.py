@@ -7,6 +7,8 @@ from synthetic import CLASSES, COLUMNS, Fresh, load, reading, run, save
 
 import ensembles  # noqa: E402
 import motion  # noqa: E402
+import moving  # noqa: E402
+import verdict  # noqa: E402
 
 SEEDS = 4
 
@@ -74,10 +76,13 @@ class Tracks(Fresh):
         self.assertEqual(run(folder)[0], 0)
         self.assertEqual((folder / "figures" / "motion_ball.svg").read_bytes(), first)
 
-    def test_no_motion_no_figure(self):
-        folder = circles(self.folder, motion_of=())
-        self.assertEqual(run(folder)[0], 0)
-        self.assertFalse((folder / "figures" / "motion_ball.svg").exists())
+    def test_a_case_that_names_no_coordinates_has_a_portrait_of_each_method(self):
+        shown = reading.Experiment(circles(self.folder, motion_of=()))
+        drawing, = moving.drawings(verdict.Verdict(shown, shown.cases[0]))
+        self.assertEqual(drawing.title, "Ball <b>: y against x")
+        self.assertEqual(len(drawing.draw(True).axes), 3)
+        self.assertIn("The track of lost leaves the frame.", drawing.caption)
+        self.assertEqual(drawing.draw(False).axes[0].get_aspect(), 1)
 
     def test_wrong_names_are_refused(self):
         for names, told in ((["x"], "two coordinates"), (["x", "w"], "column 'w' is missing")):
