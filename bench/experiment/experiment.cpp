@@ -9,6 +9,7 @@
 
 #include <pfaff/bench/experiment/citations.hpp>
 #include <pfaff/bench/experiment/costs.hpp>
+#include <pfaff/bench/experiment/equal_cost.hpp>
 #include <pfaff/bench/experiment/experiment_findings.hpp>
 #include <pfaff/bench/experiment/results.hpp>
 #include <pfaff/bench/runner/directory_lock.hpp>
@@ -111,16 +112,6 @@ nlohmann::json description(const Experiment& experiment, const std::vector<Exper
   return j;
 }
 
-void leave(const fs::path& directory, const ResolvedRun& run, const RunRecord& record) {
-  const fs::path unfinished = directory.string() + ".part";
-  std::error_code error;
-  fs::remove_all(unfinished, error);
-  fs::create_directories(unfinished, error);
-  (void)write_run(unfinished, run, record);
-  fs::remove_all(directory, error);
-  rename_directory(unfinished, directory);
-}
-
 std::string in_words(const ExperimentRun& run) {
   return "case " + run.which->name + ", method " + run.method->label +
          (run.tolerance.empty() ? ", step " + run.step : ", tolerance " + run.tolerance);
@@ -174,16 +165,31 @@ void check_names(const Experiment& experiment, const ExperimentCase& c, const Ex
       throw InputError(experiment.name + ", case " + c.name + ": " +
                        unknown_name("coordinate", name, coordinates));
 }
+}  // namespace
 
-// The key of the reference solution that a run is compared with. All runs of a case share one solution, or
-// all runs of one seed where the case has seeds. A formulation that makes an energy of its own makes another
-// motion, which has a solution of its own.
-using ProblemKey = std::tuple<const ExperimentCase*, int, std::string>;
+void leave(const fs::path& directory, const ResolvedRun& run, const RunRecord& record) {
+  const fs::path unfinished = directory.string() + ".part";
+  std::error_code error;
+  fs::remove_all(unfinished, error);
+  fs::create_directories(unfinished, error);
+  (void)write_run(unfinished, run, record);
+  fs::remove_all(directory, error);
+  rename_directory(unfinished, directory);
+}
+
 ProblemKey problem_of(const ExperimentRun& run) {
   const Model& model = *run.resolved.model;
   return {run.which, run.seed, model.restricted() ? std::string() : model.source().formulation};
 }
-}  // namespace
+
+ExperimentRun at_size(const Experiment& experiment, const ExperimentRun& like, const std::string& size,
+                      const std::string& called) {
+  ExperimentRun run{like.which, like.method, {}, {}, like.seed, {}, {}};
+  (like.tolerance.empty() ? run.step : run.tolerance) = size;
+  run.slug = slug_of(like.which->name + "-" + like.method->label + "-" + called);
+  run.resolved = resolved(experiment, run);
+  return run;
+}
 
 std::vector<ExperimentRun> expand(const Experiment& experiment) {
   std::vector<ExperimentRun> runs;
@@ -270,7 +276,7 @@ void remove_outdated(const fs::path& directory, const std::vector<ExperimentRun>
     return kept_run(directory / "runs" / run.slug, run.resolved).same();
   });
   std::error_code error;
-  for (const char* name : {"results.csv", "ensembles.csv", "findings.csv", "report.html"})
+  for (const char* name : {"results.csv", "equal_cost.csv", "ensembles.csv", "findings.csv", "report.html"})
     fs::remove(directory / name, error);
 }
 }  // namespace
@@ -292,7 +298,7 @@ ExperimentOutcome run_experiment(const Experiment& experiment, const fs::path& d
   ExperimentOutcome outcome;
   outcome.runs = runs.size();
   outcome.resumed = runs.size() - open.size();
-  std::map<ProblemKey, std::unique_ptr<ReferenceSolution>> references;
+  References references;
   for (const ExperimentRun* run : open)
     if (auto& slot = references[problem_of(*run)]; slot == nullptr && run->which->reference) {
       if (progress) progress("reference solution of " + run->which->name, outcome.resumed, runs.size());
@@ -318,6 +324,7 @@ ExperimentOutcome run_experiment(const Experiment& experiment, const fs::path& d
   for (const Finding& finding : findings) outcome.findings.push_back(to_json(finding));
   outcome.failed_claims = failed_claims(findings);
   write_costs(directory, experiment, runs, progress);
+  write_equal_cost(directory, experiment, runs, summaries, references, progress);
   outcome.table = results_table(directory, experiment, runs, summaries) + findings_table(findings);
   if (progress) progress("figures and report", runs.size(), runs.size());
   outcome.report = make_report(directory);

@@ -1,4 +1,5 @@
 """All figures of a case, in the order of the page."""
+import bands
 import constraints
 import drift_at_cost
 import ensembles
@@ -15,4 +16,4 @@ def drawn(verdict):
     equal_step = None if case.get("seeds") else drift_at_equal_step(experiment, case)
     return (work_precision.drawings(verdict) + drift_at_cost.drawings(verdict) + structure.drawings(verdict)
             + (motion.drawings(experiment, case) or moving.drawings(verdict)) + constraints.drawings(experiment, case)
-            + ensembles.drawings(experiment, case) + ([equal_step] if equal_step else []))
+            + bands.drawings(verdict) + ensembles.drawings(experiment, case) + ([equal_step] if equal_step else []))

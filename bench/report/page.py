@@ -27,7 +27,7 @@ LIGHT = {"paper": PAPER, "ink": INK, "mid": MID, "rule": RULE, "grey": GREY, "ba
 SECTIONS = (("work", "Work and precision", ("work_precision", "work_precision_evaluations")),
             ("drift", "Drift at equal cost", ("drift",)), ("structure", "Structure", ("structure",)),
             ("motion", "Motion", ("motion", "section")), ("constraints", "Constraints", ("constraints",)),
-            ("spread", "Spread over the seeds", ("ensemble",)))
+            ("spread", "Spread over the seeds", ("bands", "ensemble")))
 
 
 def page(experiment, verdicts, drawn):

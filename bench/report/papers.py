@@ -1,7 +1,8 @@
 """Figures and tables for papers: `report.py DIRECTORY --figures pdf,svg,pgf --width 85mm`.
 
 Writes, into figures/paper/, every figure of a case that is made for print, without a title and with text as text; beside
-each a caption in a text file; and for each case its verdict as a LaTeX table (booktabs). What matplotlib draws with can be
+each a caption in a text file; for each case its verdict as a LaTeX table (booktabs); and the works that the experiment names as
+BibTeX. What matplotlib draws with can be
 changed in a style file of matplotlib's (`--style FILE`), beginning with paper.mplstyle beside this script.
 """
 import pathlib
@@ -10,6 +11,7 @@ import shutil
 
 import matplotlib
 
+from bibliography import bibtex
 from drawn import drawn
 from figures import slug
 from files import InputError
@@ -61,6 +63,7 @@ def papers(experiment, verdicts, kinds, width, style, write):
                         write(target / f"{drawing.name}.{kind}", as_file(canvas, drawing.name, kind))
                 write(target / f"{drawing.name}.txt", caption(experiment, verdict, drawing))
             write(target / f"verdict_{slug(verdict.case)}.tex", latex_table(verdict))
+    write(target / "references.bib", bibtex(experiment.head))
     return target
 
 
@@ -75,5 +78,8 @@ def caption(experiment, verdict, drawing):
     head, versions = experiment.head, experiment.head.get("versions") or {}
     built = ", ".join(str(versions[k]).strip() for k in ("compiler", "flags") if versions.get(k))
     again = f"pfaff compare {head['name']}" + (" --quick" if head.get("quick") else "")
+    machine = experiment.machine
+    measured = ", ".join(machine[k] for k in ("cpu", "system", "date") if machine.get(k))
     return "\n".join([f"{drawing.title}. {drawing.caption}", plain_text(holds(verdict)),
-                      f"Pfaff {versions.get('pfaff', '')}".rstrip() + (f", {built}" if built else "") + f"; {again}", ""])
+                      f"Pfaff {versions.get('pfaff', '')}".rstrip() + (f", {built}" if built else "") + f"; {again}"
+                      + (f". Timed on {measured}" if measured else ""), ""])

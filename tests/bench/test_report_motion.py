@@ -5,6 +5,7 @@ import unittest
 
 from synthetic import CLASSES, COLUMNS, Fresh, load, reading, run, save
 
+import bands  # noqa: E402
 import ensembles  # noqa: E402
 import motion  # noqa: E402
 import moving  # noqa: E402
@@ -132,6 +133,17 @@ class Spreads(Fresh):
             self.assertEqual(len(times), 200)  # without the start
             self.assertAlmostEqual(values[-1] / (1e-9 * rms * 100**power), 1, places=5)
             self.assertAlmostEqual(ensembles.exponent(times, values), power, places=3)
+
+    def test_bands_hold_the_seeds(self):
+        shown = reading.Experiment(walks(self.folder))
+        drawing, = bands.drawings(verdict.Verdict(shown, shown.cases[0]))
+        canvas = drawing.draw(True)
+        walk = canvas.axes[[a.get_title(loc="left") for a in canvas.axes].index("walk")]
+        most, median = (line.get_ydata() for line in walk.lines[:2])
+        self.assertAlmostEqual(most[-1] / (SEEDS * 1e-9 * 10), 1, places=5)  # the last seed's at t = 100
+        self.assertAlmostEqual(median[-1] / (2.5e-9 * 10), 1, places=5)  # halfway between the second and the third
+        self.assertEqual([bands.quantile([4, 1, 3, 2], part) for part in (0, 0.5, 1)], [1, 2.5, 4])
+        self.assertAlmostEqual(bands.quantile([1, 2, 3, 4], 0.1), 1.3)
 
     def test_power_needs_positive_values(self):
         self.assertTrue(math.isnan(ensembles.exponent([1, 2, 3, 4], [0, 0, 0, 0])))
