@@ -20,6 +20,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double target = 1e-6;
+constexpr const char* made_in = "equal-cost";
 
 // The least cost of the error `target`, straight between neighbouring runs in logarithms; infinite if never.
 double cost_of_target(const PricedRuns& runs) {
@@ -85,8 +86,7 @@ std::vector<Chosen> chosen_runs(const Experiment& experiment, const ExperimentCa
     if (size > 0)
       chosen.push_back(
           {level, at_size(experiment, *first[m],
-                          first[m]->tolerance.empty() ? step_text(*first[m], size) : as_text(size, "%.6g"),
-                          "equal-cost")});
+                          first[m]->tolerance.empty() ? step_text(*first[m], size) : as_text(size, "%.6g"))});
   }
   return chosen;
 }
@@ -147,23 +147,24 @@ void write_equal_cost(const fs::path& directory, const Experiment& experiment,
   std::vector<ExperimentRun> all;
   for (const Chosen& c : chosen) all.push_back(c.run);
   for (const ExperimentRun& run : all)
-    if (!kept_run(directory / "runs" / run.slug, run.resolved).current()) open.push_back(&run);
+    if (!kept_run(directory / made_in / run.slug, run.resolved).current()) open.push_back(&run);
   for (const ExperimentRun* run : open)
     if (auto& slot = references[problem_of(*run)]; slot == nullptr && run->which->reference)
       slot = reference_of(run->resolved);
+  std::error_code error;
+  fs::create_directories(directory / made_in, error);
   if (progress && !open.empty()) progress("runs at equal cost", 0, open.size());
   oneapi::tbb::parallel_for(std::size_t{0}, open.size(), [&](std::size_t k) {
     const ExperimentRun& run = *open[k];
-    leave(directory / "runs" / run.slug, run.resolved,
+    leave(directory / made_in / run.slug, run.resolved,
           execute(run.resolved, references.at(problem_of(run)).get()));
   });
   const fs::path path = directory / "equal_cost.csv";
   if (all.empty()) {
-    std::error_code error;
     fs::remove(path, error);
     return;
   }
-  std::istringstream lines(results_csv(all, read_summaries(directory, all)));
+  std::istringstream lines(results_csv(all, read_summaries(directory, all, made_in)));
   std::string text, line;
   std::getline(lines, line);
   text = "level_ns," + line + "\n";

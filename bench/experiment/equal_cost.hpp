@@ -35,9 +35,9 @@ double size_at_cost(const PricedRuns& runs, double level);
 using References = std::map<ProblemKey, std::unique_ptr<ReferenceSolution>>;
 
 /// Chooses, from the timings of cost.csv, a level for each case without seeds and the step of each method
-/// there, makes the runs that `directory` does not hold, under runs/, and writes equal_cost.csv:
-/// results.csv's columns, after the level in nanoseconds. `references` are those that were made before; what
-/// lacks is added.
+/// there, makes the runs that `directory` does not hold, under equal-cost/, and writes equal_cost.csv: the
+/// columns of results.csv after the level in nanoseconds. Both follow from timings and differ from machine to
+/// machine. `references` are those that were made before; what lacks is added.
 void write_equal_cost(const std::filesystem::path& directory, const Experiment& experiment,
                       const std::vector<ExperimentRun>& runs, const std::vector<nlohmann::json>& summaries,
                       References& references, const ExperimentProgress& progress);

@@ -182,11 +182,10 @@ ProblemKey problem_of(const ExperimentRun& run) {
   return {run.which, run.seed, model.restricted() ? std::string() : model.source().formulation};
 }
 
-ExperimentRun at_size(const Experiment& experiment, const ExperimentRun& like, const std::string& size,
-                      const std::string& called) {
+ExperimentRun at_size(const Experiment& experiment, const ExperimentRun& like, const std::string& size) {
   ExperimentRun run{like.which, like.method, {}, {}, like.seed, {}, {}};
   (like.tolerance.empty() ? run.step : run.tolerance) = size;
-  run.slug = slug_of(like.which->name + "-" + like.method->label + "-" + called);
+  run.slug = slug_of(like.which->name + "-" + like.method->label);
   run.resolved = resolved(experiment, run);
   return run;
 }

@@ -80,10 +80,8 @@ struct ExperimentRun {
 /// work starts.
 std::vector<ExperimentRun> expand(const Experiment& experiment);
 
-/// A run like another one, at another step or tolerance; its directory is named after case, method and
-/// `called`.
-ExperimentRun at_size(const Experiment& experiment, const ExperimentRun& like, const std::string& size,
-                      const std::string& called);
+/// A run like another one, at another step or tolerance; its slug names case and method alone.
+ExperimentRun at_size(const Experiment& experiment, const ExperimentRun& like, const std::string& size);
 
 /// What the reference solution of a run depends on. All runs of a case share one solution, or all runs of one
 /// seed where the case has seeds. A formulation that makes an energy of its own makes another motion, which

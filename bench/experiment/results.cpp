@@ -45,11 +45,11 @@ const nlohmann::json* entry(const nlohmann::json& summary, const char* list, con
 }
 }  // namespace
 
-std::vector<nlohmann::json> read_summaries(const fs::path& directory,
-                                           const std::vector<ExperimentRun>& runs) {
+std::vector<nlohmann::json> read_summaries(const fs::path& directory, const std::vector<ExperimentRun>& runs,
+                                           const std::string& folder) {
   std::vector<nlohmann::json> summaries;
   for (const ExperimentRun& run : runs)
-    summaries.push_back(nlohmann::json::parse(read_file(directory / "runs" / run.slug / "summary.json")));
+    summaries.push_back(nlohmann::json::parse(read_file(directory / folder / run.slug / "summary.json")));
   return summaries;
 }
 

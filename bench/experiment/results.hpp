@@ -11,7 +11,8 @@ namespace pfaff {
 
 /// The summaries of all runs, in order.
 std::vector<nlohmann::json> read_summaries(const std::filesystem::path& directory,
-                                           const std::vector<ExperimentRun>& runs);
+                                           const std::vector<ExperimentRun>& runs,
+                                           const std::string& folder = "runs");
 
 /// The text of results.csv, one row per run. It has deterministic columns only, so that the same experiment
 /// gives the same file; timings are in cost.csv.

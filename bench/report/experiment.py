@@ -46,7 +46,13 @@ class Cost:
 class Run:
     cells: dict
     where: str  # "results.csv, line 7"
+    folder: str = "runs"  # that of its directory
     cost: Cost | None = None
+
+    @property
+    def path(self):
+        """Its directory, from that of the experiment."""
+        return f"{self.folder}/{self.slug}"
 
     def __post_init__(self):
         self.case, self.method, self.slug = (self.cells[k] for k in ("case", "method", "run"))
@@ -210,7 +216,7 @@ class Experiment:
         """{case: (level in ns, {method: run at that cost})} of the runs that were made at equal cost."""
         equal = {}
         for where, cells in self._read_rows("equal_cost.csv", ("level_ns", *RUN_COLUMNS)):
-            level, run = parse(cells["level_ns"], f"{where}, column level_ns"), Run(cells, where)
+            level, run = parse(cells["level_ns"], f"{where}, column level_ns"), Run(cells, where, "equal-cost")
             if not level > 0 or equal.setdefault(run.case, (level, {}))[0] != level:
                 raise InputError(f"{where}, column level_ns: expected one positive number for a case")
             for name in self.invariants:
@@ -267,9 +273,9 @@ class Experiment:
     def series(self, run, invariant):
         """The run's series with one invariant (or None), or None where the run left no series. The residuals of
         constraints are None too where the run's motion has none, as vakonomic motion among others."""
-        key = (run.slug, invariant)
+        key = (run.path, invariant)
         if key not in self._series:
-            path = self.folder / "runs" / run.slug / "series.csv"
+            path = self.folder / run.path / "series.csv"
             found = bool(run.slug) and path.exists()
             self._series[key] = (read_series(path, invariant, run.cells["precision"], invariant in self.residuals)
                                  if found else None)

@@ -28,7 +28,7 @@ def recorded(verdict):
     out = []
     for row in sorted(verdict.rows, key=lambda r: r.curve.adaptive):  # whose samples lie far apart come last
         run = runs.get(row.label) if row.label in verdict.named(PANELS) else None
-        folder = experiment.folder / "runs" / run.slug if run and run.slug else None
+        folder = experiment.folder / run.path if run and run.slug else None
         if folder and (folder / "series.csv").exists() and (folder / "summary.json").exists():
             recording = read_recording(folder)
             if len(recording.times) > 2:

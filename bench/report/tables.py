@@ -134,7 +134,7 @@ def files(run):
     """The name of a run, with links to its files."""
     if not run.slug:
         return "–"
-    links = " ".join(f'<a href="runs/{text(run.slug)}/{name}">{what}</a>' for what, name in (
+    links = " ".join(f'<a href="{text(run.path)}/{name}">{what}</a>' for what, name in (
         ("settings", "config.toml"), ("samples", "series.csv"), ("summary", "summary.json")))
     return f"{text(run.slug)}<br><small>{links}</small>"
 
