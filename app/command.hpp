@@ -27,6 +27,7 @@ void add_cite(CLI::App& app, Common& common, Action& action);
 void add_run(CLI::App& app, Common& common, Action& action);
 void add_evaluate(CLI::App& app, Common& common, Action& action);
 void add_compare(CLI::App& app, Common& common, Action& action);
+void add_plot(CLI::App& app, Common& common, Action& action);
 void add_reproduce(CLI::App& app, Common& common, Action& action);
 void add_verify(CLI::App& app, Common& common, Action& action);
 void add_falsify(CLI::App& app, Common& common, Action& action);

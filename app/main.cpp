@@ -167,6 +167,7 @@ int run(int argc, char** argv) {
   add_run(app, common, action);
   add_evaluate(app, common, action);
   add_compare(app, common, action);
+  add_plot(app, common, action);
   add_reproduce(app, common, action);
   add_verify(app, common, action);
   add_falsify(app, common, action);

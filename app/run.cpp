@@ -4,6 +4,7 @@
 #include <pfaff/app/command.hpp>
 #include <pfaff/app/state_file.hpp>
 #include <pfaff/app/terminal.hpp>
+#include <pfaff/bench/experiment/results.hpp>
 #include <pfaff/bench/runner/config_file.hpp>
 #include <pfaff/bench/runner/directory_lock.hpp>
 #include <pfaff/bench/runner/files.hpp>
@@ -132,7 +133,9 @@ int run(const Options& options, bool json) {
     return finish(summary(resolved, record), "");
   }
   const std::filesystem::path directory = options.out;
-  make_output_directory(directory, run_file_names());
+  std::vector<std::string> ours = run_file_names();
+  ours.emplace_back(run_figures_directory);
+  make_output_directory(directory, ours);
   const DirectoryLock lock(directory, "pfaff run");
   const KeptRun kept = kept_run(directory, resolved);
   const std::string where = "output directory '" + options.out + "' holds ";

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include <pfaff/bench/experiment/cells.hpp>
+#include <pfaff/bench/experiment/machine.hpp>
 #include <pfaff/bench/runner/files.hpp>
 
 namespace pfaff {
@@ -38,6 +39,12 @@ std::string costs_csv(const std::vector<ExperimentRun>& runs, const Costs& costs
       text += row->second.text + "\n";
   return text;
 }
+// A row of cost.csv whose numbers begin at `begin`.
+CostRow row_of(const std::string& line, std::size_t begin) {
+  char* end = nullptr;
+  const double median = std::strtod(line.c_str() + begin, &end);
+  return {line, median, *end == ',' ? std::strtod(end + 1, nullptr) : median};
+}
 }  // namespace
 
 namespace {
@@ -60,14 +67,15 @@ Costs read_costs(const fs::path& path, const std::vector<ExperimentRun>& runs) {
   while (std::getline(stream, line))
     for (const ExperimentRun& run : runs)
       if (const std::string key = key_of(run, tolerances); line.starts_with(key + ","))
-        costs[key] = {line, std::atof(line.c_str() + key.size() + 1)};
+        costs[key] = row_of(line, key.size() + 1);
   return costs;
 }
 
 std::optional<double> cost_of(const ExperimentRun& run, const Costs& costs,
-                              const std::vector<ExperimentRun>& runs) {
+                              const std::vector<ExperimentRun>& runs, Repetition which) {
   const auto row = costs.find(key_of(run, any_tolerance(runs)));
-  return row == costs.end() ? std::nullopt : std::optional(row->second.median);
+  if (row == costs.end()) return std::nullopt;
+  return which == Repetition::median ? row->second.median : row->second.fastest;
 }
 
 void keep_costs(const fs::path& directory, const std::vector<ExperimentRun>& runs,
@@ -89,6 +97,8 @@ bool write_costs(const fs::path& directory, const Experiment& experiment,
   const bool tolerances = any_tolerance(runs);
   Costs costs = read_costs(path, runs);
   std::size_t done = 0;
+  bool timed = false;
+  const double before = load();
   for (const ExperimentRun& run : runs) {
     if (stop != nullptr && *stop) return false;
     if (progress)
@@ -99,6 +109,7 @@ bool write_costs(const fs::path& directory, const Experiment& experiment,
     ++done;
     const std::string key = key_of(run, tolerances);
     if (run.seed > 1 || costs.contains(key)) continue;
+    timed = true;
     const StepTime time = time_steps(run.resolved, experiment.quick ? 0.05 : 0.3);
     costs[key].text = key + "," + as_text(time.median, "%.6g") + "," + as_text(time.minimum, "%.6g") + "," +
                       as_text(time.maximum, "%.6g") + "," + std::to_string(time.repetitions) + "," +
@@ -110,6 +121,7 @@ bool write_costs(const fs::path& directory, const Experiment& experiment,
   write_file(
       path,
       costs_csv(runs, costs));  // also without new timings: rows of runs no longer asked for are dropped
+  if (timed) write_file(path.parent_path() / "machine.json", machine(before, load()).dump(1) + "\n");
   return true;
 }
 

@@ -13,10 +13,10 @@
 
 namespace pfaff {
 
-/// A row of cost.csv as text, and the median in it in nanoseconds per step.
+/// A row of cost.csv as text, and nanoseconds per step in it: of the median and of the fastest repetition.
 struct CostRow {
   std::string text;
-  double median = 0;
+  double median = 0, fastest = 0;
 };
 /// Rows of cost.csv by their first cells: case, method, and step or tolerance.
 using Costs = std::map<std::string, CostRow>;
@@ -24,9 +24,12 @@ using Costs = std::map<std::string, CostRow>;
 /// The rows of cost.csv that belong to `runs`; none where the file does not exist.
 Costs read_costs(const std::filesystem::path& path, const std::vector<ExperimentRun>& runs);
 
+/// Which of the repetitions of a timing is meant.
+enum class Repetition { median, fastest };
+
 /// Nanoseconds per step of `run`; nothing where it has not been timed. `runs` are all runs of the experiment.
 std::optional<double> cost_of(const ExperimentRun& run, const Costs& costs,
-                              const std::vector<ExperimentRun>& runs);
+                              const std::vector<ExperimentRun>& runs, Repetition which = Repetition::median);
 
 /// Removes from cost.csv, where there is one, the rows of runs for which `keeps` is false.
 void keep_costs(const std::filesystem::path& directory, const std::vector<ExperimentRun>& runs,

@@ -7,7 +7,9 @@
 
 #include <pfaff/bench/experiment/citations.hpp>
 #include <pfaff/bench/experiment/costs.hpp>
+#include <pfaff/bench/experiment/equal_cost.hpp>
 #include <pfaff/bench/experiment/experiment_findings.hpp>
+#include <pfaff/bench/experiment/references.hpp>
 #include <pfaff/bench/experiment/results.hpp>
 #include <pfaff/bench/experiment/team.hpp>
 #include <pfaff/bench/runner/directory_lock.hpp>
@@ -97,25 +99,6 @@ nlohmann::json description(const Experiment& experiment, const std::vector<Exper
   return j;
 }
 
-void leave(const fs::path& directory, const ResolvedRun& run, const RunRecord& record) {
-  const fs::path unfinished = directory.string() + ".part";
-  std::error_code error;
-  fs::remove_all(unfinished, error);
-  fs::create_directories(unfinished, error);
-  (void)write_run(unfinished, run, record);
-  fs::remove_all(directory, error);
-  rename_directory(unfinished, directory);
-}
-
-// The key of the reference solution that a run is compared with. All runs of a case share one solution, or
-// all runs of one seed where the case has seeds. A formulation that makes an energy of its own makes another
-// motion, which has a solution of its own.
-using ProblemKey = std::tuple<const ExperimentCase*, int, std::string>;
-ProblemKey problem_of(const ExperimentRun& run) {
-  const Model& model = *run.resolved.model;
-  return {run.which, run.seed, model.restricted() ? std::string() : model.source().formulation};
-}
-
 // Refuses a directory that holds another experiment than the one described.
 void check_identity(const fs::path& directory, const nlohmann::json& mine) {
   const fs::path identity = directory / experiment_file;
@@ -171,25 +154,9 @@ void remove_outdated(const fs::path& directory, const std::vector<ExperimentRun>
     return kept_run(directory / "runs" / run.slug, run.resolved).same();
   });
   std::error_code error;
-  for (const char* name : {"results.csv", "ensembles.csv", "findings.csv", "report.html"})
+  for (const char* name : {"results.csv", "equal_cost.csv", "ensembles.csv", "findings.csv", "report.html"})
     fs::remove(directory / name, error);
 }
-
-// The solutions that runs are compared with, made when they are first asked for.
-class References {
- public:
-  const ReferenceSolution* of(const ExperimentRun& run) {
-    if (!run.which->reference) return nullptr;
-    const std::lock_guard lock(mutex_);
-    auto& slot = solutions_[problem_of(run)];
-    if (slot == nullptr) slot = reference_of(run.resolved);
-    return slot.get();
-  }
-
- private:
-  std::mutex mutex_;
-  std::map<ProblemKey, std::unique_ptr<ReferenceSolution>> solutions_;
-};
 
 // What the leading process does before runs are made: it takes the directory and finds what is missing.
 struct Preparation {
@@ -211,6 +178,21 @@ struct Preparation {
   }
 };
 }  // namespace
+
+void leave(const fs::path& directory, const ResolvedRun& run, const RunRecord& record) {
+  const fs::path unfinished = directory.string() + ".part";
+  std::error_code error;
+  fs::remove_all(unfinished, error);
+  fs::create_directories(unfinished, error);
+  (void)write_run(unfinished, run, record);
+  fs::remove_all(directory, error);
+  rename_directory(unfinished, directory);
+}
+
+ProblemKey problem_of(const ExperimentRun& run) {
+  const Model& model = *run.resolved.model;
+  return {run.which, run.seed, model.restricted() ? std::string() : model.source().formulation};
+}
 
 ExperimentOutcome run_experiment(const Experiment& experiment, const fs::path& directory,
                                  const ExperimentProgress& progress, const ExperimentOptions& options) {
@@ -273,6 +255,11 @@ ExperimentOutcome run_experiment(const Experiment& experiment, const fs::path& d
   write_or_remove(directory / "findings.csv", findings.empty() ? "" : findings_csv(findings));
   for (const Finding& finding : findings) outcome.findings.push_back(to_json(finding));
   outcome.failed_claims = failed_claims(findings);
+  if (!write_equal_cost(directory, experiment, runs, summaries, references, progress, options.stop)) {
+    outcome.interrupted = true;
+    outcome.resumed = done;
+    return outcome;
+  }
   outcome.table = results_table(directory, experiment, runs, summaries) + findings_table(findings);
   report(ExperimentStage::phases, "figures and report", 0);
   outcome.report = make_report(directory);

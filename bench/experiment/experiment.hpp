@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <pfaff/bench/runner/json.hpp>
@@ -103,6 +104,18 @@ std::string in_words(const ExperimentRun& run);
 /// All runs of an experiment. Every one is resolved and checked here, so that mistakes are found before any
 /// work starts. `left_out`, where it is not null, gets what the selection of methods leaves out.
 std::vector<ExperimentRun> expand(const Experiment& experiment, std::vector<LeftOut>* left_out = nullptr);
+
+/// A run like another one, at another step or tolerance; its slug names case and method alone.
+ExperimentRun at_size(const Experiment& experiment, const ExperimentRun& like, const std::string& size);
+
+/// What the reference solution of a run depends on. All runs of a case share one solution, or all runs of one
+/// seed where the case has seeds. A formulation that makes an energy of its own makes another motion, which
+/// has a solution of its own.
+using ProblemKey = std::tuple<const ExperimentCase*, int, std::string>;
+ProblemKey problem_of(const ExperimentRun& run);
+
+/// Writes a run's directory under another name and renames it, so that it is whole wherever it exists.
+void leave(const std::filesystem::path& directory, const ResolvedRun& run, const RunRecord& record);
 
 struct ExperimentOutcome {
   std::size_t runs = 0, resumed = 0, failed = 0;

@@ -112,6 +112,14 @@ std::string in_words(const ExperimentRun& run) {
          (run.tolerance.empty() ? ", step " + run.step : ", tolerance " + run.tolerance);
 }
 
+ExperimentRun at_size(const Experiment& experiment, const ExperimentRun& like, const std::string& size) {
+  ExperimentRun run{like.which, like.method, {}, {}, like.seed, {}, {}};
+  (like.tolerance.empty() ? run.step : run.tolerance) = size;
+  run.slug = slug_of(like.which->name + "-" + like.method->label);
+  run.resolved = resolved(experiment, run);
+  return run;
+}
+
 std::vector<ExperimentRun> expand(const Experiment& experiment, std::vector<LeftOut>* left_out) {
   std::vector<ExperimentRun> runs;
   std::vector<LeftOut> out;

@@ -45,11 +45,11 @@ const nlohmann::json* entry(const nlohmann::json& summary, const char* list, con
 }
 }  // namespace
 
-std::vector<nlohmann::json> read_summaries(const fs::path& directory,
-                                           const std::vector<ExperimentRun>& runs) {
+std::vector<nlohmann::json> read_summaries(const fs::path& directory, const std::vector<ExperimentRun>& runs,
+                                           const std::string& folder) {
   std::vector<nlohmann::json> summaries;
   for (const ExperimentRun& run : runs)
-    summaries.push_back(nlohmann::json::parse(read_file(directory / "runs" / run.slug / "summary.json")));
+    summaries.push_back(nlohmann::json::parse(read_file(directory / folder / run.slug / "summary.json")));
   return summaries;
 }
 
@@ -114,9 +114,9 @@ std::string results_csv(const std::vector<ExperimentRun>& runs,
 }
 
 namespace {
-// The report scripts, run with these arguments. RunError begins with `what` when they fail.
-void run_scripts(const std::vector<std::string>& arguments, const std::string& what) {
-  const fs::path script = data_directory() / "report" / "report.py";
+// A report script, run with these arguments. RunError begins with `what` when it fails.
+void run_script(const std::string& name, const std::vector<std::string>& arguments, const std::string& what) {
+  const fs::path script = data_directory() / "report" / name;
   // matplotlib is installed as a package of the operating system and is seen by its own Python only, so that
   // /usr/bin/python3 goes before any other.
   std::error_code error;
@@ -144,15 +144,21 @@ void run_scripts(const std::vector<std::string>& arguments, const std::string& w
 }  // namespace
 
 fs::path make_report(const fs::path& directory) {
-  run_scripts({directory.string()}, "the report could not be made (results.csv and cost.csv are complete)");
+  run_script("report.py", {directory.string()},
+             "the report could not be made (results.csv and cost.csv are complete)");
   return directory / "report.html";
 }
 
 fs::path make_paper_figures(const fs::path& directory, const PaperFigures& wanted) {
   std::vector<std::string> arguments{directory.string(), "--figures", wanted.kinds, "--width", wanted.width};
   if (!wanted.style.empty()) arguments.insert(arguments.end(), {"--style", wanted.style});
-  run_scripts(arguments, "the figures for papers could not be made");
+  run_script("report.py", arguments, "the figures for papers could not be made");
   return directory / "figures" / "paper";
+}
+
+fs::path make_run_figures(const fs::path& directory) {
+  run_script("plot.py", {directory.string()}, "the figures of the run could not be made");
+  return directory / run_figures_directory / "plot.html";
 }
 
 }  // namespace pfaff

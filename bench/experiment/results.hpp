@@ -11,7 +11,8 @@ namespace pfaff {
 
 /// The summaries of all runs, in order.
 std::vector<nlohmann::json> read_summaries(const std::filesystem::path& directory,
-                                           const std::vector<ExperimentRun>& runs);
+                                           const std::vector<ExperimentRun>& runs,
+                                           const std::string& folder = "runs");
 
 /// The text of results.csv, one row per run. It has deterministic columns only, so that the same experiment
 /// gives the same file; timings are in cost.csv.
@@ -37,5 +38,12 @@ struct PaperFigures {
 /// Runs the report scripts, which draw figures and write tables for papers, and returns the directory of
 /// these. RunError with the message of the scripts when they fail.
 std::filesystem::path make_paper_figures(const std::filesystem::path& directory, const PaperFigures& wanted);
+
+/// Where the figures of a run stand in its directory.
+constexpr const char* run_figures_directory = "plot";
+
+/// Runs the scripts that draw one run, which make plot/ in its directory, and returns the path of the page
+/// there. RunError with the message of the scripts when they fail.
+std::filesystem::path make_run_figures(const std::filesystem::path& directory);
 
 }  // namespace pfaff

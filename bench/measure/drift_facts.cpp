@@ -81,7 +81,7 @@ void maxima_of(const Series& series, Facts& facts) {
 }
 
 void ranges_of(const Series& series, const std::vector<double>& means, Facts& facts) {
-  Range all, first, second, of_means, late_means;
+  Range all, first, second, of_means, late_means, settled_means;
   for (std::size_t i = 0; i < series.blocks.size(); ++i) {
     const Block& block = series.blocks[i];
     all.add(block.minimum, block.maximum);
@@ -90,6 +90,7 @@ void ranges_of(const Series& series, const std::vector<double>& means, Facts& fa
   for (std::size_t j = 0; j < means.size(); ++j) {
     of_means.add(means[j], means[j]);
     if (2 * j + 1 >= means.size()) late_means.add(means[j], means[j]);
+    if (4 * j + 3 >= means.size()) settled_means.add(means[j], means[j]);
   }
   facts.range = all.size();
   facts.first_half = first.size() / all.size();
@@ -97,6 +98,7 @@ void ranges_of(const Series& series, const std::vector<double>& means, Facts& fa
       Range{std::max(first.low, second.low), std::min(first.high, second.high)}.size() / all.size();
   facts.range_of_means = of_means.size();
   facts.late_range_of_means = late_means.size();
+  facts.settled_range_of_means = settled_means.size();
 }
 
 /// The best trend and what it has to beat, with handicaps: a line is likelier than a power, and an

@@ -22,7 +22,8 @@ struct Facts {
   double oscillation = 0;              // half the range of e beside the line
   double slowest = 0;                  // f, 0 for none
   double range = 0, range_of_means = 0,
-         late_range_of_means = 0;     // of e; of all means; of those of the second half
+         late_range_of_means = 0,     // of e; of all means; of those of the second half
+      settled_range_of_means = 0;     // of those after the first quarter
   double first_half = 0, shared = 0;  // shares of the range of e: of the first half; what both halves have
   std::size_t turns = 0,
               turns_of_means = 0;  // by more than 2 % of the range; of the means, by 20 % of theirs

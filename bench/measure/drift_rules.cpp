@@ -101,7 +101,7 @@ std::optional<Verdict> accepted_trend(const Facts& facts) {
   const Shape::Kind kind = facts.shapes[facts.shape].kind;
   const std::string moves = told("moves by %.2g = %.2g x oscillation; log evidence %.2g", facts.jump,
                                  facts.jump / facts.rest, facts.evidence());
-  const bool bent = facts.curve && facts.rest > (kind == Shape::Kind::line ? 0.12 : 0.03) * facts.jump;
+  const bool bent = facts.curve && facts.rest > (kind == Shape::Kind::line ? 0.06 : 0.03) * facts.jump;
   if (kind == Shape::Kind::exponential) {
     Parameter rate = parameter_of(facts, kind);
     if (rate.estimate.value > 16 && !facts.maxima.steady) return {};
@@ -123,6 +123,14 @@ std::optional<Verdict> accepted_trend(const Facts& facts) {
   return of_power(power.estimate, moves);
 }
 
+/// Whether what moves at first stays where it is: means move little in the second half, or little enough
+/// after the first quarter too, which an arc of a slow oscillation does not.
+bool settles(const Facts& facts) {
+  return facts.late_range_of_means < 0.15 * facts.range_of_means ||
+         (facts.late_range_of_means < 0.22 * facts.range_of_means &&
+          facts.settled_range_of_means < 0.35 * facts.range_of_means);
+}
+
 Verdict decide(const Facts& facts) {
   if (facts.maxima.grows && !(facts.curve && facts.maxima.scatter >= 0.25))
     return of_rate(rate_of_maxima(facts),
@@ -131,7 +139,7 @@ Verdict decide(const Facts& facts) {
   if (auto verdict = growing_spread(facts)) return *verdict;
   if (facts.samples >= few_samples && facts.late_range_of_means < 0.1 * facts.range_of_means)
     return bounded("levels off");
-  if (facts.slowest > 0 && facts.slowest < 2 && facts.jump < 5 * facts.oscillation)
+  if (facts.slowest > 0 && facts.slowest < 2 && facts.jump < 50 * facts.oscillation)
     return undetermined(told("only %.3g periods of a slow oscillation", facts.slowest));
   const bool straight =
       facts.shape == 0 && facts.jump > 20 * facts.rest && facts.trend > std::max(facts.white, facts.walk) + 4;
@@ -140,8 +148,7 @@ Verdict decide(const Facts& facts) {
   if (facts.range_of_means < 0.1 * facts.range)
     return bounded_throughout(
         facts, told("means wander by %.2g %% of the range", 100 * facts.range_of_means / facts.range));
-  if (facts.samples >= few_samples && facts.late_range_of_means < 0.15 * facts.range_of_means)
-    return bounded("levels off");
+  if (facts.samples >= few_samples && settles(facts)) return bounded("levels off");
   if (facts.accepted() && facts.shapes[facts.shape].kind == Shape::Kind::power &&
       facts.shapes[facts.shape].parameter < 0.75)
     return undetermined(told("sublinear: like t^%.2g", facts.shapes[facts.shape].parameter));

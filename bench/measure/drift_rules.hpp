@@ -17,14 +17,15 @@
 //     maxima of twentieths of the run grow exponentially       exponential
 //     the spread grows threefold and exceeds jump/4            exponential, linear, polynomial, by its fit
 //     means move < 10 % in the second half                     bounded          levels off; n >= 96
-//     0 < f < 2, jump < 5 times the oscillation                undetermined     too few periods
+//     0 < f < 2, jump < 20 times the oscillation               undetermined     too few periods
 //     a trend beats noise by more than 4:
 //         jump < 1 % of rest, 1/f of it for f < 8              bounded
-//         line, or power .75 ... 1.3                           linear           no curve, rest > 12 % of jump
+//         line, or power .75 ... 1.3                           linear           no curve, rest > 8 % of jump
 //         power > 1.3                                          polynomial       not at its search's end
 //         exponential, rate <= 16 a run                        exponential      not at its search's end
 //     range of means < 10 % of the range of e                  bounded *
 //     means move < 15 % in the second half                     bounded          levels off; n >= 96
+//     ... or < 22 %, and < 35 % after the first quarter        bounded          levels off; n >= 96
 //     a trend of power < .75                                   undetermined     sublinear
 //     W > max(R, S - 5) - 6                                    bounded *
 //     f >= 2, halves of the run share >= 80 % of the range     bounded *

@@ -42,6 +42,12 @@ def panel_curves(experiment, case, name, runs):
 
 def stretches(shown):
     """(times, medians over the members of the largest value in each stretch of time)."""
+    times, largest = maxima(shown)
+    return times, [statistics.median(values) for values in largest]
+
+
+def maxima(shown):
+    """(times, [the largest value of each member in the stretch of time that ends there])."""
     begin = max(min((t for t in times if t > 0), default=math.inf) for times, _ in shown)
     end = max(times[-1] for times, _ in shown)
     if not begin < end:
@@ -59,7 +65,7 @@ def stretches(shown):
         largest = [max(m) for m in members if m]
         if 2 * len(largest) > len(shown):
             out_t.append(edge)
-            out_v.append(statistics.median(largest))
+            out_v.append(largest)
     return out_t, out_v
 
 

@@ -25,7 +25,7 @@ def papers(study, kinds, width, style, write):
     with paper_figures.settings(kinds, style, target):
         for drawing in drawings(study):
             paper_figures.figure(drawing, kinds, width, target, write)
-            write(target / f"{drawing.name}.txt", paper_figures.caption(study.head, drawing, plain_text(finding(study))))
+            write(target / f"{drawing.name}.txt", paper_figures.caption(study.head, drawing, plain_text(finding(study)), {}))
     return target
 
 

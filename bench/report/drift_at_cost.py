@@ -1,6 +1,6 @@
 """Drift at equal cost: small multiples by family on shared axes.
 
-Each method is drawn in the run that is nearest to the level of the verdict. A curve joins the largest deviations in short
+Each method is drawn in its run at the level of the verdict, or the nearest to it. A curve joins the largest deviations in short
 stretches of time; those of other families stand behind in the lightest grey. Dashed: a fitted trend, |slope| t, of methods
 whose class of drift is sized by a slope. Dotted: 2 u sqrt(n) after n steps, what round-off alone adds up to.
 
@@ -92,7 +92,7 @@ def drawing(verdict, found, told):
     case = verdict.case
     u = UNIT_ROUND_OFF[case["precision"]]
     axis = ErrorAxis([v for *_, v in found], u)
-    level = f"Each method in the run whose cost is nearest to {verdict.cost_text(verdict.level)}." if verdict.level > 0 else ""
+    level = verdict.which_runs()
     what = "" if verdict.expected in DIRECTIONS else (
         "Flat is bounded, slope ½ on logarithmic axes is the growth of round-off, slope 1 a loss in proportion to time. Dashed: "
         "the fitted trend; dotted: 2u√n, what n steps of round-off add up to.")

@@ -88,4 +88,4 @@ def drawn(experiment, case, curves):
 
     return Drawing("ensemble", case, title, sentences(
         f"Root mean square over the seeds that finished, {step_text(target, case)}. Independent errors without a bias "
-        "grow as t^0.5, errors with a bias as t^1.", *axis.remarks()), draw)
+        "grow as t^0.5, errors with a bias as t^1.", *axis.remarks()), draw, "Root mean square")

@@ -46,7 +46,13 @@ class Cost:
 class Run:
     cells: dict
     where: str  # "results.csv, line 7"
+    folder: str = "runs"  # that of its directory
     cost: Cost | None = None
+
+    @property
+    def path(self):
+        """Its directory, from that of the experiment."""
+        return f"{self.folder}/{self.slug}"
 
     def __post_init__(self):
         self.case, self.method, self.slug = (self.cells[k] for k in ("case", "method", "run"))
@@ -149,6 +155,8 @@ class Experiment:
         self.runs, self.invariants = self._read_runs()
         self.residuals = [n for n in self.invariants if f"{n}:growth" in self.runs[0].cells]
         self.timed = self._read_costs()
+        self.machine = self._read_machine()
+        self.equal = self._read_equal()
         self.spreads = self._read_rows("ensembles.csv", SPREAD_COLUMNS)
         self.claims = self._read_rows("findings.csv", CLAIM_COLUMNS)
         self._series, self._summaries = {}, {}
@@ -196,6 +204,25 @@ class Experiment:
         for run in self.runs:
             run.cost = costs.get((run.case, run.method, run.size))
         return any(run.cost for run in self.runs)
+
+    def _read_machine(self):
+        """What machine.json says of the machine that measured the timings; empty where nothing was timed."""
+        path = self.folder / "machine.json"
+        found = read_json(path) if path.exists() else {}
+        allow(found, "machine.json", cpu=str, system=str, host=str, date=str, load=list)
+        return found
+
+    def _read_equal(self):
+        """{case: (level in ns, {method: run at that cost})} of the runs that were made at equal cost."""
+        equal = {}
+        for where, cells in self._read_rows("equal_cost.csv", ("level_ns", *RUN_COLUMNS)):
+            level, run = parse(cells["level_ns"], f"{where}, column level_ns"), Run(cells, where, "equal-cost")
+            if not level > 0 or equal.setdefault(run.case, (level, {}))[0] != level:
+                raise InputError(f"{where}, column level_ns: expected one positive number for a case")
+            for name in self.invariants:
+                drift_classes.check(run.drift_class(name), self.drift_classes, f"{where}, column {name}:class")
+            equal[run.case][1][run.method] = run
+        return equal
 
     def _read_rows(self, name, columns):
         """[(where, cells)] of a file that only some experiments have."""
@@ -246,9 +273,9 @@ class Experiment:
     def series(self, run, invariant):
         """The run's series with one invariant (or None), or None where the run left no series. The residuals of
         constraints are None too where the run's motion has none, as vakonomic motion among others."""
-        key = (run.slug, invariant)
+        key = (run.path, invariant)
         if key not in self._series:
-            path = self.folder / "runs" / run.slug / "series.csv"
+            path = self.folder / run.path / "series.csv"
             found = bool(run.slug) and path.exists()
             self._series[key] = (read_series(path, invariant, run.cells["precision"], invariant in self.residuals)
                                  if found else None)

@@ -1,11 +1,16 @@
 """What lies behind the verdicts, folded at the end of the page: the experiment, numbers in words, every run, commands and
 provenance."""
+import itertools
 import re
 
 import tables
+from bibliography import entries, link
+from curves import CONTENDED
 from figures import heading
 from findings import findings
 from wording import counted, text
+
+DATA = ("experiment.json", "results.csv", "cost.csv", "equal_cost.csv", "ensembles.csv", "findings.csv", "machine.json")
 
 
 def footer(experiment, verdicts, drawn, picture):
@@ -58,16 +63,51 @@ def commands(experiment):
     again = f"pfaff compare {head['name']}" + (" --quick" if head.get("quick") else "")
     slug = next((r.slug for r in experiment.runs if r.slug), "")
     out = f"<p>The experiment again:</p><pre>{text(again)}</pre>"
-    return out + (f"<p>One run of it again, from its settings beside this page; the tables name the runs:</p><pre>"
-                  f"{text(f'pfaff run --config runs/{slug}/config.toml --out {slug}')}</pre>" if slug else "")
+    if not slug:
+        return out
+    one = f"pfaff run --config runs/{slug}/config.toml --out {slug}\npfaff plot runs/{slug}"
+    return out + ("<p>One run of it again, from its settings beside this page, and its pictures. In the tables each run links to "
+                  f"its settings and its samples:</p><pre>{text(one)}</pre>")
 
 
 def provenance(experiment):
     head = experiment.head
     rows = [(k, v) for k, v in (head.get("versions") or {}).items() if v not in (None, "")]
-    rows.append(("data", "experiment.json, results.csv, cost.csv and runs/ beside this page; figures/ holds the figures as SVG "
-                 "and PNG"))
-    return "<dl>" + "\n".join(f"<dt>{text(k)}</dt><dd>{text(v)}</dd>" for k, v in rows) + "</dl>"
+    machine = experiment.machine
+    rows += [(said, machine[key]) for key, said in (("cpu", "processor"), ("system", "system"), ("host", "machine"),
+                                                    ("date", "timed")) if machine.get(key)]
+    if machine.get("load"):
+        rows.append(("load", f"{' and '.join(f'{x:.2f}' for x in machine['load'])} processes before and after the timings, on "
+                     f"{machine.get('processors')} processors"))
+    spread = spreads_of_timings(experiment)
+    if spread:
+        rows.append(("spread of timings", spread))
+    files = [name for name in DATA if (experiment.folder / name).exists()]
+    links = ", ".join(f'<a href="{name}">{name}</a>' for name in files)
+    return ("<dl>" + "\n".join(f"<dt>{text(k)}</dt><dd>{text(v)}</dd>" for k, v in rows)
+            + f"<dt>data</dt><dd>beside this page: {links}; runs/ with a directory for each run</dd>"
+            + f"<dt>figures</dt><dd>{figures_list(experiment)}</dd></dl>")
+
+
+def figures_list(experiment):
+    """The figures beside the page, as SVG and, where they stand still, PNG."""
+    folder = experiment.folder / "figures"
+    shown = []
+    for path in sorted(folder.glob("*.svg")):
+        png = path.with_suffix(".png")
+        shown.append(f'<a href="figures/{text(path.name)}">{text(path.name)}</a>'
+                     + (f' (<a href="figures/{text(png.name)}">PNG</a>)' if png.exists() else ""))
+    return ", ".join(shown)
+
+
+def spreads_of_timings(experiment):
+    """How far the repetitions of timings lie apart, in a sentence; empty where nothing was timed."""
+    ratios = sorted(r.cost.ns / r.cost.low for r in experiment.runs if r.cost and r.cost.low > 0)
+    if not ratios:
+        return ""
+    disturbed = sum(r > CONTENDED for r in ratios)
+    return (f"the median repetition took {ratios[len(ratios) // 2]:.2f} times as long as the fastest, in the worst of "
+            f"{len(ratios)} timings {ratios[-1]:.2f} times; {disturbed} above {CONTENDED}")
 
 
 def notes(head):
@@ -80,4 +120,11 @@ def citations(head):
     if not lines and not keys:
         return ""
     return ("<p><strong>Please cite</strong>" + (f" ({text(', '.join(keys))})" if keys else "") + "</p>\n<ul>"
-            + "\n".join(f"<li>{text(line)}</li>" for line in lines) + "</ul>")
+            + "\n".join(f"<li>{cited(key, line)}</li>" for key, line in itertools.zip_longest(keys, lines, fillvalue=""))
+            + "</ul>")
+
+
+def cited(key, line):
+    """A work, with a link where it has a DOI."""
+    address = link(entries([key]).get(key))
+    return f'{text(line)} <a href="{text(address)}">{text(address.removeprefix("https://"))}</a>' if address else text(line)

@@ -34,3 +34,14 @@ for (const table of document.querySelectorAll("table.verdict")) {
     head.addEventListener("keydown", event => { if (event.key === "Enter") sort(); });
   }
 }
+// Animations stand still for readers who asked for less motion; a click, Enter or a blank stops one or lets it go on.
+for (const svg of document.querySelectorAll("svg.moving")) {
+  if (matchMedia("(prefers-reduced-motion: reduce)").matches) svg.pauseAnimations();
+  const change = () => svg.animationsPaused() ? svg.unpauseAnimations() : svg.pauseAnimations();
+  svg.addEventListener("click", change);
+  svg.addEventListener("keydown", event => {
+    if (event.key !== "Enter" && event.key !== " ") return;
+    event.preventDefault();
+    change();
+  });
+}

@@ -26,8 +26,8 @@ LIGHT = {"paper": PAPER, "ink": INK, "mid": MID, "rule": RULE, "grey": GREY, "ba
 
 SECTIONS = (("work", "Work and precision", ("work_precision", "work_precision_evaluations")),
             ("drift", "Drift at equal cost", ("drift",)), ("structure", "Structure", ("structure",)),
-            ("motion", "Motion", ("motion",)), ("constraints", "Constraints", ("constraints",)),
-            ("spread", "Spread over the seeds", ("ensemble",)))
+            ("motion", "Motion", ("motion", "section")), ("constraints", "Constraints", ("constraints",)),
+            ("spread", "Spread over the seeds", ("bands", "ensemble")))
 
 
 def page(experiment, verdicts, drawn):
@@ -39,7 +39,7 @@ def page(experiment, verdicts, drawn):
 
 
 def document(title, description, body):
-    """The whole file around the parts of its body."""
+    """The page around its parts, with style sheet and script, and leave to run that script alone."""
     here = pathlib.Path(__file__).parent
     script = (here / "page.js").read_text(encoding="utf-8")
     digest = base64.b64encode(hashlib.sha256(script.encode("utf-8")).digest()).decode("ascii")
@@ -48,7 +48,8 @@ def document(title, description, body):
         "<!DOCTYPE html>", '<html lang="en">', "<head>", '<meta charset="utf-8">',
         f'<meta http-equiv="Content-Security-Policy" content="{policy}">',
         '<meta name="viewport" content="width=device-width, initial-scale=1">',
-        f'<meta name="description" content="{text(description)}">', f"<title>{text(title)}</title>",
+        f'<meta name="description" content="{text(description)}">',
+        f"<title>{text(title)}</title>",
         f"<style>\n{colours()}{(here / 'page.css').read_text(encoding='utf-8')}</style>", "</head>", "<body>",
         *filter(None, body), f"<script>{script}</script>", "</body>", "</html>", ""])
 
@@ -100,6 +101,8 @@ def section(experiment, verdict, drawn, first):
             shown = figure(some, f"{key}-{name}")
             cheapest = cheapest_table(verdict) if key == "work" else ""
             out.append(f'<div class="grid">{shown}<div>{cheapest}</div></div>' if cheapest else shown)
+        if key == "motion":
+            out += [animation(d, svg) for d, svg, _ in drawn if d.kind == "animation"]
     absent = missing(verdict, {d.kind for d, *_ in drawn})
     if absent:
         out.append(f'<p class="where">{text(absent)}</p>')
@@ -115,6 +118,10 @@ def figure(some, name):
                    f'<label for="{name}-{k}">{text(d.tab)}</label>' for k, (d, *_) in enumerate(some))
     panes = "".join(f'<div class="pane p{k}">{pictures(d, wide, narrow)}</div>' for k, (d, wide, narrow) in enumerate(some))
     return f'<figure class="tabs">{tabs}{panes}\n<figcaption>{text(some[0][0].caption)}</figcaption></figure>'
+
+
+def animation(drawing, svg):
+    return f"<details><summary>Animation</summary><figure>{svg}<figcaption>{text(drawing.caption)}</figcaption></figure></details>"
 
 
 def pictures(drawing, wide, narrow):

@@ -1,7 +1,8 @@
 """Figures and tables for papers: `report.py DIRECTORY --figures pdf,svg,pgf --width 85mm`.
 
 Writes, into figures/paper/, every figure of a case that is made for print, without a title and with text as text; beside
-each a caption in a text file; and for each case its verdict as a LaTeX table (booktabs). What matplotlib draws with can be
+each a caption in a text file; for each case its verdict as a LaTeX table (booktabs); and the works that the experiment names as
+BibTeX. What matplotlib draws with can be
 changed in a style file of matplotlib's (`--style FILE`), beginning with paper.mplstyle beside this script.
 """
 import pathlib
@@ -10,6 +11,7 @@ import shutil
 
 import matplotlib
 
+from bibliography import bibtex
 from drawn import drawn
 from figures import slug
 from files import InputError
@@ -50,8 +52,9 @@ def papers(experiment, verdicts, kinds, width, style, write):
                 if not drawing.paper:
                     continue
                 figure(drawing, kinds, width, target, write)
-                write(target / f"{drawing.name}.txt", caption(experiment.head, drawing, plain_text(holds(verdict))))
+                write(target / f"{drawing.name}.txt", caption(experiment.head, drawing, plain_text(holds(verdict)), experiment.machine))
             write(target / f"verdict_{slug(verdict.case)}.tex", latex_table(verdict))
+    write(target / "references.bib", bibtex(experiment.head))
     return target
 
 
@@ -78,10 +81,13 @@ def as_file(canvas, name, kind):
     return canvas.save(kind)
 
 
-def caption(head, drawing, held):
+def caption(head, drawing, held, machine):
     """What the figure shows, for what it holds, and by which program and command it is made again."""
     versions = head.get("versions") or {}
     built = ", ".join(str(versions[k]).strip() for k in ("compiler", "flags") if versions.get(k))
     again = f"pfaff compare {head['name']}" + (" --quick" if head.get("quick") else "")
-    return "\n".join([f"{drawing.title}. {drawing.caption}", held,
-                      f"Pfaff {versions.get('pfaff', '')}".rstrip() + (f", {built}" if built else "") + f"; {again}", ""])
+    measured = ", ".join(machine[k] for k in ("cpu", "system", "date") if machine.get(k))
+    return "
+".join([f"{drawing.title}. {drawing.caption}", held,
+                      f"Pfaff {versions.get('pfaff', '')}".rstrip() + (f", {built}" if built else "") + f"; {again}"
+                      + (f". Timed on {measured}" if measured else ""), ""])

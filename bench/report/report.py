@@ -43,6 +43,9 @@ def report(folder):
             sheet = drawing.draw(True)
             alone = sheet.svg(f"{drawing.name}-wide", coloured=True)
             write(target / f"{drawing.name}.svg", f'<?xml version="1.0" encoding="utf-8"?>\n{alone}')
+            if drawing.kind == "animation":  # scales by itself, and has no picture that stands still
+                shown.append((drawing, sheet.svg(f"{drawing.name}-moving"), ""))
+                continue
             write(target / f"{drawing.name}.png", sheet.png())
             shown.append((drawing, sheet.svg(f"{drawing.name}-wide"), drawing.draw(False).svg(f"{drawing.name}-narrow")))
     write(experiment.folder / "report.html", page.page(experiment, verdicts, pictures))

@@ -9,10 +9,12 @@ A claim that the data do not make is not printed.
 """
 import math
 
+from curves import GROWN
 from experiment import DIRECTIONS
 from families import family_of
 from figures import heading
 from findings import ROUND_OFF
+from verdict import TIE
 from wording import counted, listed, plain_text, power, size, text, two_digits
 
 
@@ -59,14 +61,32 @@ def cheapest(verdict):
     who = names(best) if len(best) <= 3 else f"{names(best[:2])} and {len(best) - 2} others"
     out = (f"at {what} {target_text(verdict.target)} {who} {'is' if len(best) == 1 else 'are'} cheapest, "
            f"{spent(verdict, best[0], verdict.target)}")
-    lead = best[0]
-    if lead.curve.kept:
+    if best[0].curve.kept:
         return out + along_with(verdict)
-    near = run_near(lead, verdict.target)
+    named = best if len(best) <= 3 else best[:2]
+    losing = [(r, kind) for r in named if (kind := losing_class(verdict, r))]
+    kinds = dict.fromkeys(kind for _, kind in losing)
+    if not losing:
+        return out
+    which = ("" if len(best) == 1 else "both " if len(losing) == len(best) == 2 else "all " if len(losing) == len(best)
+             else names(r for r, _ in losing) + " ")
+    return out + (f", but {which}{'lets' if len(losing) == 1 else 'let'} {quantity(verdict)} drift "
+                  f"({listed(text(k) for k in kinds)})")
+
+
+def quantity(verdict):
+    """The conserved quantity with its article; one that is called by a letter has none."""
+    name = text(verdict.invariant)
+    return f"<i>{name}</i>" if len(name) == 1 else f"the {name}"
+
+
+def losing_class(verdict, row):
+    """The class of drift of the row's run that is nearest to the target where the quantity drifts away in it, by more than
+    round-off adds up to; otherwise nothing."""
+    near = run_near(row, verdict.target)
     kind = near.drift_class(verdict.invariant) if near and verdict.invariant else ""
-    if kind and verdict.expected not in DIRECTIONS and verdict.experiment.drift_classes[kind].grows:
-        out += f", but {'lets' if len(best) == 1 else 'the first lets'} the {text(verdict.invariant)} drift ({text(kind)})"
-    return out
+    grows = kind and verdict.expected not in DIRECTIONS and verdict.experiment.drift_classes[kind].grows
+    return kind if grows and near.drift(verdict.invariant, "max") > GROWN * verdict.unit else ""
 
 
 def run_near(row, target):
@@ -123,13 +143,26 @@ def keepers(verdict):
     shorter = len(plain_text(whose)) < len(plain_text(who)) and not few(lose, whose)
     out = f"all but {whose} keep {structure}" if shorter else (
         f"{only}{who} {'keeps' if len(keep) == 1 else 'keep'} {structure}")
-    cheap = sorted((r for r in keep if verdict.target and r.times[verdict.target][0] > 0),
-                   key=lambda r: r.times[verdict.target][0])
+    cheap = cheapest_keeper(verdict)
     if not cheap:
         return out
-    if len(keep) == 1:
-        return out + f", for {spent(verdict, cheap[0], verdict.target)}"
-    return out + f", cheapest of them {name(cheap[0])}, {spent(verdict, cheap[0], verdict.target)}"
+    cost = spent(verdict, cheap, verdict.target) + times_as_much(verdict, cheap)
+    return out + (f", for {cost}" if len(keep) == 1 else f", cheapest of them {name(cheap)}, {cost}")
+
+
+def cheapest_keeper(verdict):
+    """The row that is cheapest at the target among those that keep the structure, or None."""
+    reached = [r for r in kept_split(verdict)[0] if verdict.target and r.times[verdict.target][0] > 0]
+    return min(reached, key=lambda r: r.times[verdict.target][0], default=None)
+
+
+def times_as_much(verdict, row):
+    """How many times what the cheapest costs a row costs at the target; empty where bounds alone are known of it."""
+    cost, at_most = row.times[verdict.target]
+    least, bound = verdict.best(verdict.target)[0].times[verdict.target]
+    if at_most or cost / least < TIE:
+        return ""
+    return f" ({'at least ' if bound else ''}{two_digits(cost / least)}×)"
 
 
 def surface(verdict):
@@ -166,6 +199,8 @@ def subject(verdict):
     which = ", which keeps it" if dear.curve.kept and cheap.curve.kept is False else ""
     if ratio < 1.1:
         return "" if cheap in best and dear in best else f"{times[0]} and {times[1]} cost the same"
+    if cheap is best[0] and dear is cheapest_keeper(verdict) and not cheap.curve.kept:
+        return ""  # its cost was told where it was said to keep the structure
     if cheap is best[0]:
         return f"{name(dear)} costs {least}{two_digits(ratio)} times as much ({spent(verdict, dear, verdict.target)}){which}"
     return f"{times[0]} is {least}{two_digits(ratio)}× cheaper than {times[1]}{which}"
@@ -177,8 +212,18 @@ def trends(verdict):
     for row in verdict.rows:
         if verdict.loses(row):
             losing.setdefault(row.drift_class, []).append(row)
-    return "; ".join(f"{names(rows) if len(rows) <= 6 else f'{len(rows)} methods'} {'lets' if len(rows) == 1 else 'let'} the "
-                     f"{text(verdict.invariant)} drift ({text(kind)})" for kind, rows in losing.items())
+    return "; ".join(f"{some(rows)} {'lets' if len(rows) == 1 else 'let'} {quantity(verdict)} drift ({text(kind)}"
+                     f"{by_round_off(verdict, rows)})" for kind, rows in losing.items())
+
+
+def some(rows):
+    return names(rows) if len(rows) <= 6 else f"{len(rows)} methods"
+
+
+def by_round_off(verdict, rows):
+    """How large drifts are that are no more than what round-off adds up to."""
+    largest = max(r.drift for r in rows)
+    return f", {size(largest)} at most" if largest <= GROWN * verdict.unit else ""
 
 
 def drifting(verdict):
@@ -188,7 +233,9 @@ def drifting(verdict):
     if verdict.expected in DIRECTIONS:
         verb, move = DIRECTIONS[verdict.expected]
         wrong = [r for r in verdict.rows if r.drift > ROUND_OFF * verdict.unit]
-        return (f"The {text(verdict.invariant)} is expected to {verb}; " + (
+        begin = "" if verdict.comparable else "No error is known here, so that no method is called cheapest. "
+        what = quantity(verdict)
+        return (f"{begin}{what[0].upper()}{what[1:]} is expected to {verb}; " + (
             f"{names(wrong)} {'lets' if len(wrong) == 1 else 'let'} it {move} at equal cost." if wrong
             else f"no method lets it {move} by more than round-off."))
     if not any(r.drift_class for r in verdict.rows):
@@ -196,9 +243,9 @@ def drifting(verdict):
     out = trends(verdict)
     begin = f"At equal cost, {with_work(verdict, verdict.level)}, " if verdict.level > 0 else ""
     quiet = [r for r in verdict.rows if r.curve.kept is False and r.drift_class and not verdict.loses(r)]
-    said = [begin + (out or f"no method lets the {text(verdict.invariant)} drift away") + "."]
+    said = [begin + (out or f"no method lets {quantity(verdict)} drift away") + "."]
     if quiet:
-        said.append(f"{names(quiet)} {'does' if len(quiet) == 1 else 'do'} not keep the structure but "
+        said.append(f"{some(quiet)} {'does' if len(quiet) == 1 else 'do'} not keep the structure but "
                     f"{'shows' if len(quiet) == 1 else 'show'} no trend.")
     return " ".join(said)
 

@@ -54,8 +54,7 @@ def drawings(verdict):
         "Residual of the structure that the exact flow keeps, of one step from states of the run, over the size of the terms "
         "it is the difference of. A residual that falls with the step is accuracy, not structure.",
         f"The band ends at {ROUND_OFF} units of round-off, where a method that keeps the structure begins at its coarsest step.",
-        f"Along the run: each method in the run whose cost is nearest to {verdict.cost_text(verdict.level)}."
-        if along and verdict.level > 0 else "", *axis.remarks())
+        f"Along the run, at equal cost: {verdict.which_runs()}" if along and verdict.level > 0 else "", *axis.remarks())
     return [Drawing("structure", verdict.case, f"{heading(verdict.case)}: structure of one step", caption,
                     lambda wide: draw(verdict, judged, along, axis, WIDE if wide else NARROW), "",
                     lambda width: draw(verdict, judged, along, axis, paper(width)))]

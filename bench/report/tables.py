@@ -111,15 +111,16 @@ def results(experiment, case):
                (f"Largest {word}" + (f"<br>of {text(with_unit(name, unit))}" if name else ""), "number"),
                (f"Class of {word}", ""), (f"Slope [interval]<br>in {text(slope_unit(unit, time_unit))}", ""),
                ("Structure<br>residual", "number"), ("Time per step<br>(range)", "number"), ("Time of run", "number"),
-               ("Work per step", ""), ("Run", "")]
+               ("Work per step", ""), ("Run", "wrap")]
     bodies = {}
-    for r in experiment.runs_of(case):
+    equal = experiment.equal.get(case["name"], (math.nan, {}))[1]
+    for r in experiment.runs_of(case) + list(equal.values()):
         status = text(r.status) + (f": {text(r.message)}" if r.failed and r.message else "")
         bodies.setdefault(r.method, []).append(("failed" if r.failed else "", [
-            text(r.method), size_text(r), ("✗ " if r.failed else "") + status, number(r.number("error_max")),
+            text(r.method), size_text(r) + ("<br><small>equal cost</small>" if r in equal.values() else ""), ("✗ " if r.failed else "") + status, number(r.number("error_max")),
             number(r.number("error_final")), number(r.drift(name, "max")) if name else "–",
             drift_class(experiment, r, name), slope(r, name), number(r.number("structure_residual")), per_step(r),
-            duration(r.total_ns), work(r), text(r.slug)]))
+            duration(r.total_ns), work(r), files(r)]))
     about = ["Errors are relative to the norm of the reference solution."] if case.get("reference_solution") else []
     if expected in DIRECTIONS:
         about.append(f"{text(name)} is expected to {DIRECTIONS[expected][0]}: its change is not an error.")
@@ -127,6 +128,15 @@ def results(experiment, case):
     if not any(r.cost for r in experiment.runs_of(case)):
         about.append("Timings were not measured.")
     return table(f"<strong>Results: {text(heading(case))}.</strong> {' '.join(about)}", columns, list(bodies.values()))
+
+
+def files(run):
+    """The name of a run, with links to its files."""
+    if not run.slug:
+        return "–"
+    links = " ".join(f'<a href="{text(run.path)}/{name}">{what}</a>' for what, name in (
+        ("settings", "config.toml"), ("samples", "series.csv"), ("summary", "summary.json")))
+    return f"{text(run.slug)}<br><small>{links}</small>"
 
 
 def spreads(experiment, case):

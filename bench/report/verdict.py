@@ -2,14 +2,15 @@
 them in words.
 
 level    the cost at which methods are compared: of 1, 2, 5 times a power of ten the one that most methods' runs span; of
-         several the nearest to the best cost at the target.
+         several the nearest to the best cost at the target. The program chooses it where it made runs at that cost; their
+         errors and drifts are then those of the table, and nothing is interpolated.
 target   the error that the sentence speaks of: 1e-6, or where nobody reaches it the smallest power of ten that two do.
 """
 import dataclasses
 import math
 import statistics
 
-from curves import Curve, curves, front
+from curves import ZERO, Curve, curves, front
 from experiment import DIRECTIONS, UNIT_ROUND_OFF, Run
 from figures import precision_measure
 from findings import largest_setback
@@ -51,7 +52,7 @@ class Verdict:
         self.unit = UNIT_ROUND_OFF[case["precision"]]
         self.rows = [Row(c, times={t: c.time_to(t, self.relative) for t in self._asked()}) for c in self.curves]
         self.target = self._target()
-        self.level = self._level()
+        self.level, self.made = (experiment.equal.get(case["name"]) if self.work == "time" else None) or (self._level(), {})
         for row in self.rows:
             self._at_level(row)
         lead = LEAD if self.target is None else self.target
@@ -95,6 +96,11 @@ class Verdict:
         found = row.curve.at_cost(self.level) if self.level > 0 else None
         if found:
             row.run, row.error, row.off = found
+            made = self.made.get(row.label)
+            if made and not made.failed:
+                measured = (precision_measure(self.experiment, self.case) or (lambda run: math.nan))(made)
+                row.run, row.off = made, False
+                row.error = measured if math.isnan(measured) else max(ZERO * self.unit, measured)
         elif points:  # nothing is known of costs: the run at the step that most methods share
             step = self.experiment.common_step(self.case)
             row.run = min(points, key=lambda p: abs(math.log(p.run.step / step))).run
@@ -111,6 +117,14 @@ class Verdict:
         members = [r for r in self.experiment.ensemble_of(row.run) if not r.failed] if row.run else []
         sizes = [x for r in members if not math.isnan(x := r.drift(level, "max"))]
         return statistics.median(sizes) if sizes else math.nan
+
+    def which_runs(self):
+        """In which runs methods are shown at equal cost, in a sentence; empty where costs are not known."""
+        if not self.level > 0:
+            return ""
+        cost = self.cost_text(self.level)
+        return (f"Each method was run at the step at which it takes {cost}, as far as it can." if self.made else
+                f"Each method in the run whose cost is nearest to {cost}.")
 
     def loses(self, row):
         """Whether the conserved quantity drifts away at equal cost."""

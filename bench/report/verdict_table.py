@@ -118,7 +118,7 @@ def drift_cell(verdict, row):
 
 def at_which(verdict, row):
     at = f"tolerance {row.run.tolerance}" if row.run.tolerance else step_text(row.run.step, verdict.case)
-    return f"the run nearest to equal cost: {at}"
+    return f"{'the run at equal cost' if row.label in verdict.made else 'the run nearest to equal cost'}: {at}"
 
 
 def level_cell(verdict, row, name):
@@ -187,8 +187,9 @@ def caption(verdict):
                      "× is the ratio to the best, ≤ says that the coarsest run is better already, – that no run reaches it.")
     if verdict.level > 0:
         level = verdict.cost_text(verdict.level) + ("" if verdict.work == "time" else f" {verdict.work}")
-        parts.append(f"At equal cost, {level}: the error is interpolated between runs, drift and residual are of the nearest "
-                     "run.")
+        parts.append(f"At equal cost, {level}: " + (
+            "each method was run at the step that costs this; a star marks one that cannot, by its nearest run."
+            if verdict.made else "the error is interpolated between runs, drift and residual are of the nearest run."))
     if verdict.structured:
         parts.append("Filled marks keep the structure at every step, open ones do not.")
     if verdict.case.get("seeds"):

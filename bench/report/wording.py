@@ -85,7 +85,10 @@ def raised(markup):
 
 
 def listed(items):
+    """One, two and three; between semicolons where there are commas in an item."""
     items = list(items)
+    if len(items) > 2 and any("," in x for x in items):
+        return "; ".join(items[:-1]) + " and " + items[-1]
     return items[0] if len(items) == 1 else ", ".join(items[:-1]) + " and " + items[-1] if items else "none"
 
 

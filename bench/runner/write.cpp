@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include <pfaff/bench/measure/constraints.hpp>
+#include <pfaff/bench/measure/links.hpp>
 #include <pfaff/bench/measure/setback.hpp>
 #include <pfaff/bench/runner/record.hpp>
 
@@ -24,6 +25,15 @@ nlohmann::json value_of(const std::optional<windows::Estimate>& x) {
 }
 nlohmann::json interval_of(const std::optional<windows::Estimate>& x) {
   return x ? nlohmann::json{x->low, x->high} : nlohmann::json(nullptr);
+}
+// What the constraints join, for pictures: an end is the number of a point, or the coordinates of a place.
+nlohmann::json links_in(const ResolvedRun& run) {
+  std::vector<double> state;
+  for (const Real& x : run.initial) state.push_back(x.value());
+  nlohmann::json links = nlohmann::json::array();
+  for (const Link& link : links_of(*run.model, run.t0.value(), state))
+    links.push_back({link.from, link.to ? nlohmann::json(*link.to) : nlohmann::json(link.place)});
+  return links;
 }
 std::string setback_key(const SetbackWords& words) { return "largest_" + std::string(words.move); }
 }  // namespace
@@ -150,6 +160,7 @@ nlohmann::json summary(const ResolvedRun& run, const RunRecord& record) {
            {"growth_rate", growth ? nlohmann::json(growth->rate) : nlohmann::json(nullptr)}});
     }
   }
+  if (nlohmann::json links = links_in(run); !links.empty()) j["links"] = std::move(links);
   j["error_max"] = optional(record.error_max);
   j["error_final"] = optional(record.error_final);
   j["structure_residual"] = optional(record.structure_residual);

@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include <pfaff/bench/measure/constraints.hpp>
+#include <pfaff/bench/measure/links.hpp>
 #include <pfaff/bench/runner/settings.hpp>
 
 namespace {
@@ -102,4 +104,36 @@ TEST(InitialStates, OfSystemsWithoutConstraintsAreNotProjected) {
   settings.project_initial = true;
   EXPECT_THROW((void)resolve(settings), InputError);
 }
+// The links of a model as texts, "1-0" of two points and "0@0,0" of a point and a place.
+std::vector<std::string> links_as_text(const std::string& system, const Assignments& set) {
+  const auto model = systems().get(system, "system").make(set);
+  std::vector<double> state;
+  for (const Real& x : model->initial()) state.push_back(x.value());
+  std::vector<std::string> texts;
+  for (const Link& link : links_of(*model, 0, state)) {
+    std::string text = std::to_string(link.from);
+    if (link.to) {
+      text += "-" + std::to_string(*link.to);
+    } else {
+      for (std::size_t k = 0; k < link.place.size(); ++k)
+        text += (k == 0 ? "@" : ",") + std::to_string(std::lround(1e9 * link.place[k]));
+    }
+    texts.push_back(text);
+  }
+  std::sort(texts.begin(), texts.end());
+  return texts;
+}
+
+// A pendulum hangs from the origin, a ring is closed, and a human figure is a tree. What is no set of points
+// on rods has no links: a particle on a surface, and a system without constraints.
+TEST(Links, AreTheRodsOfPoints) {
+  using Texts = std::vector<std::string>;
+  EXPECT_EQ(links_as_text("n-pendulum", {{"bobs", "3"}, {"dimension", "2"}}), (Texts{"0-1", "0@0,0", "1-2"}));
+  EXPECT_EQ(links_as_text("n-pendulum", {{"bobs", "2"}, {"dimension", "3"}}), (Texts{"0-1", "0@0,0,0"}));
+  EXPECT_EQ(links_as_text("ring", {{"beads", "4"}, {"dimension", "2"}}), (Texts{"0-1", "0-3", "1-2", "2-3"}));
+  EXPECT_EQ(links_as_text("humanoid", {}).size(), 12U);
+  EXPECT_EQ(links_as_text("torus-particle", {}), Texts{});
+  EXPECT_EQ(links_as_text("kepler", {}), Texts{});
+}
+
 }  // namespace

@@ -85,7 +85,8 @@ def write_run(folder, case, label, h, size, end):
         rows.append([repr(k * h), 0, repr(energy), 0, "", size if k % 3 == 0 else ""])
     save(folder / "series.csv", rows)
     (folder / "summary.json").write_text(json.dumps({"schema": 1, "invariants": [
-        {"name": "energy", "unit": "J", "expected": "decreasing" if damped else "conserved"}]}))
+        {"name": "energy", "unit": "J", "expected": "decreasing" if damped else "conserved"},
+        {"name": "momentum", "unit": "N s", "expected": "conserved"}]}))
 
 
 def save(path, rows):

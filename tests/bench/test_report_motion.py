@@ -5,8 +5,11 @@ import unittest
 
 from synthetic import CLASSES, COLUMNS, Fresh, load, reading, run, save
 
+import bands  # noqa: E402
 import ensembles  # noqa: E402
 import motion  # noqa: E402
+import moving  # noqa: E402
+import verdict  # noqa: E402
 
 SEEDS = 4
 
@@ -82,10 +85,13 @@ class Tracks(Fresh):
         self.assertEqual(run(folder)[0], 0)
         self.assertEqual((folder / "figures" / "motion_ball.svg").read_bytes(), first)
 
-    def test_no_motion_no_figure(self):
-        folder = circles(self.folder, motion_of=())
-        self.assertEqual(run(folder)[0], 0)
-        self.assertFalse((folder / "figures" / "motion_ball.svg").exists())
+    def test_a_case_that_names_no_coordinates_has_a_portrait_of_each_method(self):
+        shown = reading.Experiment(circles(self.folder, motion_of=()))
+        drawing, = moving.drawings(verdict.Verdict(shown, shown.cases[0]))
+        self.assertEqual(drawing.title, "Ball <b>: y against x")
+        self.assertEqual(len(drawing.draw(True).axes), 3)
+        self.assertIn("The track of lost leaves the frame.", drawing.caption)
+        self.assertEqual(drawing.draw(False).axes[0].get_aspect(), 1)
 
     def test_wrong_names_are_refused(self):
         for names, told in ((["x"], "two coordinates"), (["x", "w"], "column 'w' is missing")):
@@ -135,6 +141,17 @@ class Spreads(Fresh):
             self.assertEqual(len(times), 200)  # without the start
             self.assertAlmostEqual(values[-1] / (1e-9 * rms * 100**power), 1, places=5)
             self.assertAlmostEqual(ensembles.exponent(times, values), power, places=3)
+
+    def test_bands_hold_the_seeds(self):
+        shown = reading.Experiment(walks(self.folder))
+        drawing, = bands.drawings(verdict.Verdict(shown, shown.cases[0]))
+        canvas = drawing.draw(True)
+        walk = canvas.axes[[a.get_title(loc="left") for a in canvas.axes].index("walk")]
+        most, median = (line.get_ydata() for line in walk.lines[:2])
+        self.assertAlmostEqual(most[-1] / (SEEDS * 1e-9 * 10), 1, places=5)  # the last seed's at t = 100
+        self.assertAlmostEqual(median[-1] / (2.5e-9 * 10), 1, places=5)  # halfway between the second and the third
+        self.assertEqual([bands.quantile([4, 1, 3, 2], part) for part in (0, 0.5, 1)], [1, 2.5, 4])
+        self.assertAlmostEqual(bands.quantile([1, 2, 3, 4], 0.1), 1.3)
 
     def test_power_needs_positive_values(self):
         self.assertTrue(math.isnan(ensembles.exponent([1, 2, 3, 4], [0, 0, 0, 0])))

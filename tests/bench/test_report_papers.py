@@ -28,7 +28,7 @@ class Papers(Fresh):
         status, told = paper(self.folder, "--figures", "pdf,svg", "--width", "85mm")
         self.assertEqual(status, 0, told)
         made = self.folder / "figures" / "paper"
-        self.assertEqual({p.suffix for p in made.iterdir()}, {".pdf", ".svg", ".txt", ".tex"})
+        self.assertEqual({p.suffix for p in made.iterdir()}, {".pdf", ".svg", ".txt", ".tex", ".bib"})
         root = xml.etree.ElementTree.parse(made / "work_precision_osc.svg").getroot()
         self.assertTrue(root.get("width").endswith("pt"))
         self.assertAlmostEqual(float(root.get("width")[:-2]), 85 * 72 / 25.4, delta=0.01)

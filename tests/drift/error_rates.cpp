@@ -1,6 +1,7 @@
 // Prints how often the drift classifier is right on synthetic series of each kind, as the table of
 // docs/drift-and-cost.md:
-//     error_rates [SERIES OF EACH KIND [FEWEST SAMPLES MOST SAMPLES]]
+//     error_rates [SERIES OF EACH KIND [FEWEST SAMPLES MOST SAMPLES [FIRST SEED]]]
+// The thresholds were chosen on seeds from 100 000 on; from 0 and from 1 000 000 on nothing was chosen.
 #include <cstdio>
 #include <cstdlib>
 #include <map>
@@ -17,7 +18,6 @@ using namespace pfaff;
 
 struct Row {
   std::map<std::string_view, int> classes;
-  std::map<std::string, int> evidence;
   int slopes = 0, slopes_held = 0, parameters = 0, parameters_held = 0;
 };
 
@@ -38,6 +38,7 @@ int main(int count, char** arguments) {
   const int series = count > 1 ? std::atoi(arguments[1]) : 2000;
   const std::size_t fewest = count > 3 ? std::size_t(std::atoi(arguments[2])) : 100;
   const std::size_t most = count > 3 ? std::size_t(std::atoi(arguments[3])) : 2000;
+  const int first = count > 4 ? std::atoi(arguments[4]) : 0;
   std::vector<std::string_view> columns;
   for (const DriftClassEntry& entry : drift_classes())
     if (entry.drift_class != DriftClass::exact && entry.drift_class != DriftClass::biased_round_off)
@@ -49,15 +50,12 @@ int main(int count, char** arguments) {
   std::printf("\n");
   for (std::size_t kind = 0; kind < testing::series_kinds.size(); ++kind) {
     Row row;
-    for (int seed = 0; seed < series; ++seed) {
+    for (int seed = first; seed < first + series; ++seed) {
       const testing::SyntheticSeries s = testing::make_series(kind, std::uint64_t(seed), fewest, most);
       DriftAccumulator accumulator;
       for (std::size_t k = 0; k < s.errors.size(); ++k) accumulator.add(s.times[k], s.errors[k]);
       const Drift drift = accumulator.result({s.unit, s.scale, std::int64_t(s.errors.size()) - 1});
       ++row.classes[to_string(drift.drift_class)];
-      if (count > 4 && to_string(drift.drift_class) != testing::series_kinds[kind].expected)
-        std::printf("    %d n %zu: %s: %s\n", seed, s.errors.size(),
-                    std::string(to_string(drift.drift_class)).c_str(), drift.evidence.c_str());
       if (s.slope) {
         ++row.slopes;
         row.slopes_held += drift.slope_low <= *s.slope && *s.slope <= drift.slope_high;

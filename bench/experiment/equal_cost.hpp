@@ -1,0 +1,42 @@
+// Runs at equal cost: every method of a case at a step (or tolerance) at which its run takes the same time.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <vector>
+
+#include <pfaff/bench/experiment/references.hpp>
+
+namespace pfaff {
+
+/// A run as the choice of steps sees it.
+struct PricedRun {
+  double size = 0;   // its step or tolerance
+  double cost = 0;   // ns
+  double error = 0;  // not a number where there is none
+};
+/// The runs of a method, from the coarsest to the finest.
+using PricedRuns = std::vector<PricedRun>;
+
+/// Charges no run more than a finer one: a timing that says so was disturbed.
+void settle(PricedRuns& runs);
+
+/// The cost at which methods are compared: of 1, 2, 5 times a power of ten the one that the runs of most
+/// methods span; of several the nearest to the least cost at which a method reaches the error 1e-6, or to the
+/// middle of all costs where none does. 0 where there is none that two methods span.
+double cost_level(const std::vector<PricedRuns>& methods);
+
+/// The step or tolerance at which a method costs `level`, straight between its runs in logarithms; 0 where
+/// its runs do not span that.
+double size_at_cost(const PricedRuns& runs, double level);
+
+/// Chooses, from the timings of cost.csv, a level for each case without seeds and the step of each method
+/// there, makes the runs that `directory` does not hold, under equal-cost/, and writes equal_cost.csv: the
+/// columns of results.csv after the level in nanoseconds. Both follow from timings and differ from machine to
+/// machine. False where `stop` became true before everything was there; what is whole stays.
+bool write_equal_cost(const std::filesystem::path& directory, const Experiment& experiment,
+                      const std::vector<ExperimentRun>& runs, const std::vector<nlohmann::json>& summaries,
+                      References& references, const ExperimentProgress& progress,
+                      const std::atomic<bool>* stop);
+
+}  // namespace pfaff

@@ -1,0 +1,57 @@
+#include <pfaff/bench/experiment/machine.hpp>
+
+#include <array>
+#include <cstdlib>
+#include <ctime>
+#include <fstream>
+#include <string>
+#include <thread>
+
+#include <sys/utsname.h>
+
+namespace pfaff {
+
+namespace {
+// What stands behind `key` and a separator in the first line of a file that begins with it, quotes left out.
+std::string value_in(const char* path, const std::string& key, char separator) {
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line);) {
+    const std::size_t at = line.find(separator);
+    if (!line.starts_with(key) || at == std::string::npos) continue;
+    const std::size_t begin = line.find_first_not_of(" \t\"", at + 1);
+    const std::size_t end = line.find_last_not_of(" \t\"");
+    return begin == std::string::npos ? std::string() : line.substr(begin, end - begin + 1);
+  }
+  return {};
+}
+
+std::string date() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  std::array<char, 32> text{};
+  gmtime_r(&now, &parts);
+  return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%d %H:%M UTC", &parts)};
+}
+}  // namespace
+
+double load() {
+  std::array<double, 1> mean{};
+  return getloadavg(mean.data(), 1) == 1 ? mean[0] : -1;
+}
+
+nlohmann::json machine(double load_before, double load_after) {
+  utsname names{};
+  const bool named = uname(&names) == 0;
+  std::string system = value_in("/etc/os-release", "PRETTY_NAME", '=');
+  if (named)
+    system +=
+        (system.empty() ? "" : ", ") + std::string(names.sysname) + " " + names.release + " " + names.machine;
+  return {{"cpu", value_in("/proc/cpuinfo", "model name", ':')},
+          {"processors", std::thread::hardware_concurrency()},
+          {"system", system},
+          {"host", named ? names.nodename : ""},
+          {"date", date()},
+          {"load", {load_before, load_after}}};
+}
+
+}  // namespace pfaff

@@ -1,0 +1,15 @@
+// On which machine timings were taken.
+#pragma once
+
+#include <pfaff/bench/runner/json.hpp>
+
+namespace pfaff {
+
+/// The processes that were ready to run, as a mean over the last minute; negative where it is not known.
+double load();
+
+/// Processor, number of processors, operating system, host and date (UTC), and the loads before and after the
+/// timings, as machine.json has them.
+nlohmann::json machine(double load_before, double load_after);
+
+}  // namespace pfaff

@@ -1,0 +1,90 @@
+"""The motion of a case, as far as its system says what can be seen of it (recording.py): frames and an animation of points
+of the cheapest method; otherwise a portrait of each method, and a section where there is one.
+"""
+from experiment import step_key
+from figures import Drawing, heading, sentences, step_text
+from frames import Animation, Figure, duration, strip
+from portraits import panels, remarks
+from recording import read_recording
+
+PANELS = 8
+
+
+def drawings(verdict):
+    """The drawings of a case that names no coordinates in `motion`."""
+    shown = recorded(verdict)
+    if not shown:
+        return []
+    if shown[0][1].points():
+        return of_points(verdict.case, *shown[0])
+    names = shown[0][1].plane()
+    return of_planes(verdict, shown, names) if names else []
+
+
+def recorded(verdict):
+    """[(row, recording)] of the methods that get colour, in the order of the verdict, at the step that most share."""
+    experiment, case = verdict.experiment, verdict.case
+    runs = {r.method: r for r in experiment.at_common_step(case) if not r.failed}
+    out = []
+    for row in sorted(verdict.rows, key=lambda r: r.curve.adaptive):  # whose samples lie far apart come last
+        run = runs.get(row.label) if row.label in verdict.named(PANELS) else None
+        folder = experiment.folder / run.path if run and run.slug else None
+        if folder and (folder / "series.csv").exists() and (folder / "summary.json").exists():
+            recording = read_recording(folder)
+            if len(recording.times) > 2:
+                out.append((row, recording))
+                if recording.points():
+                    break  # one method is shown
+    return out
+
+
+def at_which(case, recording):
+    tolerance = recording.summary.get("tolerance")
+    return f"tolerance {tolerance}" if tolerance else step_text(float(recording.summary.get("step") or "nan"), case)
+
+
+def of_points(case, row, recording):
+    figure = Figure(recording)
+    if len(figure.times) < 2:
+        return []
+    family, unit = row.curve.family, case.get("time_unit") or ""
+    told = sentences(
+        f"{row.label}, {at_which(case, recording)}, from the start.",
+        "Lines join points that a constraint holds apart." if figure.links else "",
+        "Grey is the way of the last point.", "Seen obliquely: y points backwards." if figure.depth else "")
+    seconds, pace = duration(figure, unit)
+    title = f"{heading(case)}: the motion"
+    said = f"{heading(case)}, {row.label}, {pace}"
+    return [Drawing("motion", case, title, told, lambda wide: described(strip(figure, family.light, unit, wide), said)),
+            Drawing("animation", case, said, f"{row.label}, {pace}; a click stops it.",
+                    lambda _: Animation(figure, family.light, family.key, said, seconds))]
+
+
+def of_planes(verdict, shown, names):
+    case, first = verdict.case, shown[0][1]
+    tracks = [(row.label, row.curve.family.light, *recording.track(names)) for row, recording in shown]
+    tracks = [t for t in tracks if len(t[2]) > 1]
+    if not tracks:
+        return []
+    units = [first.units[name] for name in names]
+    steps = {step_key(float(r.summary["step"])) for _, r in shown if r.summary.get("step")}
+    at = (f"Runs at {step_text(verdict.experiment.common_step(case), case)}, the largest step at which most methods finish, "
+          "where they differ most." if len(steps) == 1 else "Runs at the step that most methods share or the nearest to it.")
+    seed = "Shown is the first seed." if case.get("seeds") else ""
+    title = f"{heading(case)}: {names[1]} against {names[0]}"
+    out = [Drawing("motion", case, title, sentences(at, remarks(tracks, units), seed),
+                   lambda wide: described(panels(tracks, names, units, wide), title), "Portrait")]
+    cuts = [(row.label, row.curve.family.light, *zip(*cut)) for row, recording in shown if (cut := recording.section())]
+    if 2 * len(cuts) > len(tracks):
+        q1, q2, _, p2 = first.state
+        axes, scales = (q2, p2), (first.units[q2], first.units[p2])
+        named = f"{heading(case)}: section at {q1} = 0, passed upwards"
+        out.append(Drawing("section", case, named, sentences(
+            f"Each point is a passage of {q1} = 0 upwards. A smooth curve is regular motion, a cloud is chaos, or a method that "
+            "lets the energy drift.", at), lambda wide: described(panels(cuts, axes, scales, wide, start=False), named), "Section"))
+    return out
+
+
+def described(canvas, said):
+    canvas.description = said
+    return canvas

@@ -1,0 +1,74 @@
+"""Tracks of a motion side by side, a panel for each method: portrait in the plane of two coordinates, or section.
+
+All panels have the same axes. A track whose samples lie far apart is drawn as points, because lines between them would be
+chords of a curve that nobody sees.
+"""
+import math
+
+from canvas import INK, Canvas, plain
+from figures import sentences, with_unit
+from recording import coarse
+
+FRAME = 1.5  # a track that leaves the middle one by this many of its widths leaves the frame
+SHOWN = 4000  # points of a track at most
+
+
+def limits(tracks):
+    """[(low, high)] of both axes: of all tracks but those that run away from the others."""
+    found = []
+    for k in (0, 1):
+        spans = sorted((min(t[k]), max(t[k])) for t in tracks)
+        low, high = spans[len(spans) // 2]
+        size = FRAME * ((high - low) or 1)
+        kept = [s for s in spans if s[0] >= low - size and s[1] <= high + size]
+        found.append((min(s[0] for s in kept), max(s[1] for s in kept)))
+    return found
+
+
+def panels(tracks, names, units, wide, start=True):
+    """The tracks [(label, colour, xs, ys)] on a Canvas, each in a panel with the same axes; sections have no start."""
+    frame = limits([t[2:] for t in tracks])
+    equal = units[0] == units[1]
+    pads = [0.06 * ((high - low) or 1) for low, high in frame]
+    spans = [high - low + 2 * pad for (low, high), pad in zip(frame, pads)]
+    width, font = (1120, 12.5) if wide else (368, 11)
+    left, top, right, below, between = (72 if wide else 56), 24, 10, 46, 14
+    columns = min(len(tracks), 4 if wide else 2)
+    each = min(340 if wide else 300, (width - left - right - between * (columns - 1)) / columns)
+    tall = min(1.25 * each, max(0.45 * each, each * spans[1] / spans[0])) if equal else 0.8 * each
+    rows = math.ceil(len(tracks) / columns)
+    canvas = Canvas(left + columns * each + between * (columns - 1) + right, rows * (top + tall) + below, font)
+    for k, (label, colour, x, y) in enumerate(tracks):
+        row, column = divmod(k, columns)
+        axes = canvas.panel(left + column * (each + between), top + row * (top + tall), each, tall)
+        axes.grid(False)
+        step = max(1, len(x) // SHOWN)
+        style = ({"linestyle": "none", "marker": ".", "markersize": 2.2, "markeredgewidth": 0} if not start or coarse(x, y)
+                 else {"linewidth": 0.9})
+        canvas.line(axes, x[::step], y[::step], label, color=colour, **style)
+        if start:
+            axes.plot(x[:1], y[:1], marker="x", color=INK, markersize=6, markeredgewidth=1.4, zorder=5)
+        axes.set_title(plain(label), fontsize=0.95 * font, color=colour, loc="left", pad=4)
+        if equal:
+            axes.set_aspect("equal", adjustable="datalim")
+        axes.set_xlim(frame[0][0] - pads[0], frame[0][1] + pads[0])
+        axes.set_ylim(frame[1][0] - pads[1], frame[1][1] + pads[1])
+        axes.locator_params(nbins=4)
+        last = k + columns >= len(tracks)
+        canvas.labels(axes, with_unit(names[0], units[0]) if last else "", with_unit(names[1], units[1]) if column == 0 else "")
+        if not last:
+            axes.tick_params(labelbottom=False)
+        if column:
+            axes.tick_params(labelleft=False)
+    return canvas
+
+
+def remarks(tracks, units):
+    """What a reader must know of tracks in panels, in sentences."""
+    frame = limits([t[2:] for t in tracks])
+    outside = [label for label, _, x, y in tracks
+               if any(min(v) < low or max(v) > high for v, (low, high) in zip((x, y), frame))]
+    return sentences("Axes are the same in all panels." if len(tracks) > 1 else "",
+                     "Both axes have the same scale." if units[0] == units[1] else "", "A cross marks the start.",
+                     "Points are samples that lie too far apart to be joined." if any(coarse(x, y) for *_, x, y in tracks)
+                     else "", f"The track of {', '.join(outside)} leaves the frame." if outside else "")

@@ -1,0 +1,136 @@
+"""The figures of one run: its motion, and against time the coordinates and everything that was measured.
+
+Of a conserved quantity I its change |I(t) - I(0)| is drawn, of other quantities the value; residuals of constraints, errors
+and the structure residual as they are.
+"""
+import math
+
+from canvas import INK, MID, Canvas
+from experiment import DIRECTIONS, UNIT_ROUND_OFF, read_series
+from families import FAMILIES, family_of
+from figures import Drawing, sentences, with_unit
+from frames import Animation, Figure, duration, strip
+from labels import pushed_apart
+from portraits import panels, remarks
+from scales import ErrorAxis, envelope, time_axis
+
+COORDINATES = 6  # of systems with more coordinates the coordinates are not drawn against time
+
+
+def title(recording):
+    return ", ".join(x for x in (recording.system, recording.method, recording.summary.get("formulation") or "") if x)
+
+
+def about(recording):
+    summary, unit = recording.summary, "" if recording.time_unit == "1" else f" {recording.time_unit}"
+    size = (f"tolerance {summary['tolerance']}" if summary.get("tolerance") else
+            f"step {float(summary['step']):.6g}{unit}" if summary.get("step") else "")
+    parameters = ", ".join(f"{k.partition('.')[2] or k} = {v}" for k, v in (summary.get("parameters") or {}).items())
+    status = summary.get("status") or ""
+    ended = f"ended early: {summary.get('message') or status}" if status not in ("", "converged") else ""
+    return "; ".join(x for x in (size, f"to t = {recording.times[-1]:.6g}{unit}", f"{summary.get('precision') or ''} precision",
+                                 parameters, ended) if x.strip()) + "."
+
+
+def drawings(recording):
+    return [*motion(recording), *quantities(recording)]
+
+
+def drawing(kind, what, caption, draw):
+    return Drawing(kind, {"name": kind}, what, caption, draw)
+
+
+def motion(recording):
+    family, unit = family_of(recording.summary.get("integrator") or ""), recording.time_unit
+    if recording.points():
+        figure = Figure(recording)
+        if len(figure.times) < 2:
+            return []
+        seconds, pace = duration(figure, unit)
+        return [drawing("motion", "The motion", sentences(
+            "Lines join points that a constraint holds apart." if figure.links else "", "Grey is the way of the last point.",
+            "Seen obliquely: y points backwards." if figure.depth else ""),
+            lambda wide: strip(figure, family.light, unit, wide)),
+            drawing("animation", "Animation", f"{pace[0].upper()}{pace[1:]}; a click stops it.",
+                    lambda _: Animation(figure, family.light, family.key, title(recording), seconds))]
+    names = recording.plane()
+    if names is None:
+        return []
+    label, units = recording.method, [recording.units[n] for n in names]
+    tracks = [(label, family.light, *recording.track(names))]
+    out = [drawing("motion", f"{names[1]} against {names[0]}", remarks(tracks, units),
+                   lambda wide: panels(tracks, names, units, wide))]
+    cut = recording.section()
+    if cut:
+        q1, q2, _, p2 = recording.state
+        cuts, scales = [(label, family.light, *zip(*cut))], (recording.units[q2], recording.units[p2])
+        out.append(drawing("section", f"Section at {q1} = 0", f"Each point is one of {len(cut)} passages of {q1} = 0 upwards.",
+                           lambda wide: panels(cuts, (q2, p2), scales, wide, start=False)))
+    return out
+
+
+def quantities(recording):
+    """One drawing of small panels, each with its lines [(label, times, values)] and whether its axis is logarithmic."""
+    shown, precision = [], recording.summary.get("precision") or "double"
+    if not recording.points() and len(recording.state) <= COORDINATES:
+        for unit in dict.fromkeys(recording.units[n] for n in recording.state):
+            names = [n for n in recording.state if recording.units[n] == unit]
+            shown.append((with_unit("coordinates", unit), [(n, recording.times, recording.columns[n]) for n in names], False))
+    for entry in recording.summary.get("invariants") or []:
+        name, unit = entry["name"], entry.get("unit") or ""
+        if entry.get("expected") == "conserved":
+            series = read_series(recording.folder / "series.csv", name, precision)
+            what = f"{name}: |I(t) − I(0)|" + (f", {entry['class']}" if entry.get("class") else "")
+            shown.append((with_unit(what, unit), [("", *envelope(series.time, [abs(x) for x in series.change]))], True))
+        else:
+            expected = entry.get("expected")
+            told = f", expected to {DIRECTIONS[expected][0]}" if expected in DIRECTIONS else ""
+            shown.append((with_unit(name + told, unit), [("", recording.times, recording.columns[name])], False))
+    measured = [e["name"] for e in recording.summary.get("constraints") or []] + ["error", "structure_residual"]
+    for name in measured:
+        if any(not math.isnan(v) for v in recording.columns.get(name, ())):
+            what = name.replace("_", " ").replace("hidden-", "hidden ")
+            shown.append((what, [("", *envelope(recording.times, [abs(v) for v in recording.columns[name]], linear=True))],
+                          True))
+    shown = [(what, lines, log) for what, lines, log in shown if any(t for _, t, _ in lines)]
+    if not shown:
+        return []
+    unit = UNIT_ROUND_OFF.get(precision, UNIT_ROUND_OFF["double"])
+    colour = family_of(recording.summary.get("integrator") or "").light
+    zeros = sorted({r for _, lines, log in shown if log
+                    for r in ErrorAxis([v for *_, v in lines], unit).remarks()})
+    return [drawing("quantities", "Against time", sentences(
+        "Grey: unit round-off." if any(log for *_, log in shown) else "",
+        "Lines join the largest values in short stretches of time." if any(log for *_, log in shown) else "", *zeros),
+        lambda wide: small_panels(shown, with_unit("t", recording.time_unit), unit, colour, wide))]
+
+
+def small_panels(shown, time_label, unit, colour, wide):
+    width, font = (1120, 12.5) if wide else (368, 11)
+    columns = min(len(shown), 3 if wide else 1)
+    left, top, between, right, below, tall = 66, 26, 76, 30, 46, 190
+    each = min(420, (width - left - right - between * (columns - 1)) / columns)
+    rows = math.ceil(len(shown) / columns)
+    canvas = Canvas(left + columns * each + between * (columns - 1) + right, rows * (top + tall + below), font)
+    for k, (what, lines, log) in enumerate(shown):
+        row, column = divmod(k, columns)
+        axes = canvas.panel(left + column * (each + between), top + row * (top + tall + below), each, tall)
+        axes.set_title(what.replace("$", r"\$"), fontsize=font, color=INK, loc="left", pad=5)
+        axis = ErrorAxis([v for *_, v in lines], unit) if log else None
+        ends = []
+        for n, (label, times, values) in enumerate(lines):
+            colour_of = colour if len(lines) == 1 else FAMILIES[n % len(FAMILIES)].light
+            placed = axis.place(values) if axis else values
+            canvas.line(axes, times, placed, label or what, color=colour_of, linewidth=1.3)
+            ends.append((label, placed[-1], colour_of))
+        if axis:
+            axes.axhline(unit, color=MID, linewidth=0.8, linestyle=(0, (4, 2)))
+            axis.apply(axes)
+        time_axis(axes, min(t[0] for _, t, _ in lines) if log else 0, max(t[-1] for _, t, _ in lines))
+        canvas.labels(axes, time_label, "")
+        box = axes.get_window_extent(canvas.renderer)
+        named = [e for e in ends if e[0] and math.isfinite(e[1])]
+        heights = [axes.transData.transform((1, y))[1] - font / 2 for _, y, _ in named]
+        for (label, _, shade), y in zip(named, pushed_apart(heights, 1.1 * font, box.y0, box.y1)):
+            canvas.write(axes, box.x1 + 5, y, label, 0.92, color=shade, ha="left", va="bottom")
+    return canvas

@@ -1,0 +1,152 @@
+"""bench/report: what is seen of one run, and the page that pfaff plot makes."""
+import contextlib
+import io
+import json
+import math
+import pathlib
+import re
+import unittest
+import xml.etree.ElementTree
+
+from synthetic import Balance, Fresh, save
+
+import frames  # noqa: E402
+import plot  # noqa: E402
+import recording  # noqa: E402
+
+
+def run_directory(folder, columns, rows, **summary):
+    folder.mkdir(parents=True, exist_ok=True)
+    save(folder / "series.csv", [columns] + [[repr(x) for x in row] for row in rows])
+    (folder / "summary.json").write_text(json.dumps({
+        "schema": 1, "system": "s", "integrator": "rk4", "step": "0.1", "precision": "double", "status": "converged",
+        "invariants": [{"name": "energy", "unit": "J", "expected": "conserved", "class": "bounded"}]} | summary))
+    return folder
+
+
+def pendulum(folder, samples=200):
+    """Two bobs on rods of length 1 that turn at different rates about the origin and about each other."""
+    columns = ["t [s]", "x0 [m]", "y0 [m]", "x1 [m]", "y1 [m]", "px0 [kg m/s]", "py0 [kg m/s]", "px1 [kg m/s]",
+               "py1 [kg m/s]", "energy [J]", "constraint [1]"]
+    rows = []
+    for k in range(samples):
+        t = 0.05 * k
+        a, b = (math.sin(t), -math.cos(t)), (math.sin(3 * t), -math.cos(3 * t))
+        rows.append([t, *a, a[0] + b[0], a[1] + b[1], 0.0, 0.0, 0.0, 0.0, 1 + 1e-6 * math.sin(t), 1e-16])
+    return run_directory(folder, columns, rows, links=[[0, [0.0, 0.0]], [1, 0]], constraints=[{"name": "constraint"}])
+
+
+def oscillators(folder, samples=4000, step=0.05, slow=1.0):
+    """Two oscillators, q1 = sin t and q2 = cos(w t) with w = sqrt 2: passages of q1 = 0 are at t = 2 pi k."""
+    w = math.sqrt(2) * slow
+    rows = [[t, math.sin(t), math.cos(w * t), math.cos(t), -w * math.sin(w * t), 1.5]
+            for t in (0.03 + step * k for k in range(samples))]
+    return run_directory(folder, ["t [s]", "q1 [m]", "q2 [m]", "p1 [kg m/s]", "p2 [kg m/s]", "energy [J]"], rows)
+
+
+class Recordings(Fresh):
+    def test_points_are_found_by_their_names(self):
+        run = recording.read_recording(pendulum(self.folder))
+        self.assertEqual(run.points(), [["x0", "y0"], ["x1", "y1"]])
+        self.assertEqual(run.links, [(0, [0.0, 0.0]), (1, 0)])
+        self.assertEqual(run.state[-1], "py1")
+
+    def test_a_section_is_where_the_first_coordinate_rises_through_zero(self):
+        run = recording.read_recording(oscillators(self.folder))
+        self.assertEqual(run.points(), [])
+        self.assertEqual(run.plane(), ("q1", "q2"))
+        found, w = run.section(), math.sqrt(2)
+        self.assertEqual(len(found), 31)
+        for k, (q2, p2) in enumerate(found, 1):  # cubics through samples 0.05 apart are right to 0.05^4
+            self.assertAlmostEqual(q2, math.cos(w * 2 * math.pi * k), delta=1e-5)
+            self.assertAlmostEqual(p2, -w * math.sin(w * 2 * math.pi * k), delta=2e-5)
+
+    def test_too_few_passages_and_samples_too_far_apart_make_no_section(self):
+        self.assertEqual(recording.read_recording(oscillators(self.folder / "few", samples=900)).section(), [])
+        self.assertEqual(recording.read_recording(oscillators(self.folder / "far", step=1.6)).section(), [])
+
+    def test_samples_that_lie_far_apart_are_no_curve(self):
+        def circle(step):
+            return [math.cos(step * k) for k in range(50)], [math.sin(step * k) for k in range(50)]
+        self.assertFalse(recording.coarse(*circle(0.1)))
+        self.assertTrue(recording.coarse(*circle(1.0)))
+
+
+class Frames(Fresh):
+    def test_the_first_stretch_is_shown(self):
+        figure = frames.Figure(recording.read_recording(pendulum(self.folder)))
+        self.assertLess(figure.times[-1], 9.95)  # the whole run is longer
+        self.assertGreaterEqual(len(figure.times), frames.LEAST)
+        for k in range(len(figure.times)):
+            for pair in figure.links:
+                self.assertAlmostEqual(math.dist(*figure.ends(pair, k)), 1, places=12)
+
+    def test_an_animation_holds_its_frames(self):
+        figure = frames.Figure(recording.read_recording(pendulum(self.folder)))
+        svg = frames.Animation(figure, "#123456", "gauss", "a & b", 3.0).svg("moving")
+        root = xml.etree.ElementTree.fromstring(svg)
+        rods, dots = (path for path in root.findall(".//{*}animate"))
+        self.assertEqual(rods.get("dur"), "3s")
+        times = [float(t) for t in rods.get("keyTimes").split(";")]
+        self.assertEqual((times[0], times[-1]), (0, 1))
+        self.assertEqual(times, sorted(times))
+        for animate, each in ((rods, 2), (dots, 2)):
+            values = animate.get("values").split(";")
+            self.assertEqual(len(values), len(times))
+            self.assertEqual({v.count("M") for v in values}, {each})
+        self.assertIn("var(--gauss)", svg)
+        self.assertNotIn("var(", frames.Animation(figure, "#123456", "gauss", "", 3.0).svg("moving", coloured=True))
+
+    def test_how_fast_an_animation_is(self):
+        figure = frames.Figure(recording.read_recording(pendulum(self.folder)))
+        whole = figure.times[-1]
+        self.assertEqual(frames.duration(figure, "s"), (whole, "in true time"))
+        figure.times = [10 * t for t in figure.times]
+        self.assertIn("faster than the motion", frames.duration(figure, "s")[1])
+
+
+def plotted(folder):
+    """(exit status, stderr) of plot.py in this process."""
+    with contextlib.redirect_stderr(io.StringIO()) as stderr:
+        status = plot.main([str(folder)])
+    return status, stderr.getvalue()
+
+
+class Pages(Fresh):
+    def test_a_run_of_points(self):
+        status, told = plotted(pendulum(self.folder))
+        self.assertEqual(status, 0, told)
+        made = self.folder / "plot"
+        self.assertEqual({p.name for p in made.iterdir()}, {"animation.svg", "motion.png", "motion.svg", "plot.html",
+                                                            "quantities.png", "quantities.svg"})
+        page = Balance()
+        page.feed((made / "plot.html").read_text())
+        self.assertEqual(len(set(page.ids)), len(page.ids))
+        self.assertFalse([link for link in page.links if not link.startswith("#")])  # nothing is fetched
+        words = " ".join(page.words)
+        for said in ("The motion", "Animation", "Against time", "energy: |I(t) − I(0)|, bounded [J]", "constraint", "t = 0 s"):
+            self.assertIn(said, words)
+        first = (made / "motion.svg").read_bytes()
+        self.assertEqual(plotted(self.folder)[0], 0)
+        self.assertEqual((made / "motion.svg").read_bytes(), first)
+
+    def test_a_run_of_two_oscillators_has_a_portrait_and_a_section(self):
+        self.assertEqual(plotted(oscillators(self.folder))[0], 0)
+        page = (self.folder / "plot" / "plot.html").read_text()
+        self.assertIn("q2 against q1", page)
+        self.assertIn("Each point is one of 31 passages of q1 = 0 upwards.", page)
+
+    def test_what_is_no_run_is_refused(self):
+        for folder, said in ((self.folder / "nowhere", "expected the directory of a run"),
+                             (run_directory(self.folder / "short", ["t [s]", "q [m]"], [[0.0, 1.0]], invariants=[]),
+                              "expected a run of two samples or more, got 1"),
+                             (run_directory(self.folder / "bad", ["q [m]"], [[0.0], [1.0]]), "'t [unit]'")):
+            status, told = plotted(folder)
+            self.assertEqual((status, told.count("\n")), (2, 1), told)
+            self.assertIn(said, told)
+            self.assertTrue(re.match("plot.py: ", told))
+        self.assertFalse((pathlib.Path(self.folder) / "nowhere").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
