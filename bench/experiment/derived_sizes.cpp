@@ -90,7 +90,7 @@ std::vector<Fit> fits_of(const DerivationStudy& study, const std::vector<Derived
   return fits;
 }
 
-void write_derivation_tables(const fs::path& directory, const std::vector<Derived>& all,
+void write_derivation_tables(const std::filesystem::path& directory, const std::vector<Derived>& all,
                              const std::vector<Fit>& fits) {
   std::string results = "method,size,constraints,equations,operations,nodes,tree_operations\n";
   std::string costs = "method,size,constraints,seconds\n";
