@@ -80,6 +80,7 @@ def draw(study, quantity, look):
     if quantity == "tree":
         lines.append(("terms of |S|  exp(0.48 K)", MID, "normal", [(k, v) for k, v in enumerate(fibonacci(int(largest)), 1)
                                                                   if low <= v <= high]))
+    lines = [line for line in lines if line[-1]]  # those of which a part is in the frame
     for text, _, _, curve in lines:
         canvas.line(axes, *zip(*curve), text, color=MID, linewidth=1.1, linestyle=(0, (6, 2.5)), zorder=2)
     for method in study.methods:
