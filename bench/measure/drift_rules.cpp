@@ -101,7 +101,7 @@ std::optional<Verdict> accepted_trend(const Facts& facts) {
   const Shape::Kind kind = facts.shapes[facts.shape].kind;
   const std::string moves = told("moves by %.2g = %.2g x oscillation; log evidence %.2g", facts.jump,
                                  facts.jump / facts.rest, facts.evidence());
-  const bool bent = facts.curve && facts.rest > (kind == Shape::Kind::line ? 0.12 : 0.025) * facts.jump;
+  const bool bent = facts.curve && facts.rest > (kind == Shape::Kind::line ? 0.12 : 0.03) * facts.jump;
   if (kind == Shape::Kind::exponential) {
     Parameter rate = parameter_of(facts, kind);
     if (rate.estimate.value > 16 && !facts.maxima.steady) return {};
