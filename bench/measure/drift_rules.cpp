@@ -101,7 +101,7 @@ std::optional<Verdict> accepted_trend(const Facts& facts) {
   const Shape::Kind kind = facts.shapes[facts.shape].kind;
   const std::string moves = told("moves by %.2g = %.2g x oscillation; log evidence %.2g", facts.jump,
                                  facts.jump / facts.rest, facts.evidence());
-  const bool bent = facts.curve && facts.rest > (kind == Shape::Kind::line ? 0.06 : 0.03) * facts.jump;
+  const bool bent = facts.curve && facts.rest > (kind == Shape::Kind::line ? 0.12 : 0.03) * facts.jump;
   if (kind == Shape::Kind::exponential) {
     Parameter rate = parameter_of(facts, kind);
     if (rate.estimate.value > 16 && !facts.maxima.steady) return {};
@@ -232,7 +232,8 @@ Verdict judge(const Observed& observed) {
     const Observed before = until_half_is_lost(observed);
     std::string evidence = told("loses %.0f %% of the quantity; ", 100 * lost);
     if (before.series.samples >= fewest_samples && before.series.blocks.size() >= fewest_samples) {
-      const Facts early = facts_of(before);
+      Facts early = facts_of(before);
+      early.slowest = 0;  // what is used up stays away: its curve is no arc of an oscillation
       const Verdict first = early.means ? decide(early) : undetermined("");
       if (is_trend(first.drift_class)) {
         verdict.drift_class = first.drift_class;

@@ -17,10 +17,10 @@
 //     maxima of twentieths of the run grow exponentially       exponential
 //     the spread grows threefold and exceeds jump/4            exponential, linear, polynomial, by its fit
 //     means move < 10 % in the second half                     bounded          levels off; n >= 96
-//     0 < f < 2, jump < 20 times the oscillation               undetermined     too few periods
+//     0 < f < 2, jump < 50 times the oscillation               undetermined     too few periods
 //     a trend beats noise by more than 4:
 //         jump < 1 % of rest, 1/f of it for f < 8              bounded
-//         line, or power .75 ... 1.3                           linear           no curve, rest > 8 % of jump
+//         line, or power .75 ... 1.3                           linear           no curve, rest > 12 % of jump
 //         power > 1.3                                          polynomial       not at its search's end
 //         exponential, rate <= 16 a run                        exponential      not at its search's end
 //     range of means < 10 % of the range of e                  bounded *

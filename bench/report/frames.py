@@ -9,6 +9,7 @@ less motion, and on a click.
 import math
 
 from canvas import GREY, INK, MID, PAPER, RULE, Canvas, plain
+from portraits import widened
 from wording import number, text
 
 TRAVELS = 5.0  # sizes of the figure that the points travel in what is shown
@@ -81,6 +82,7 @@ def strip(figure, colour, time_unit, wide):
     x, y, w, h = figure.box()
     each = width / columns - 10
     tall = min(1.6 * each, max(0.4 * each, each * h / w))
+    x, w, y, h = *widened(x, w, h * each / tall), *widened(y, h, w * tall / each)  # equal scales fill the frame
     rows = math.ceil(count / columns)
     canvas = Canvas(width, rows * (tall + 26) + 26, font)
     last = len(figure.places[0]) - 1
@@ -88,7 +90,6 @@ def strip(figure, colour, time_unit, wide):
         row, column = divmod(n, columns)
         axes = canvas.panel(5 + column * (each + 10), 24 + row * (tall + 26), each, tall)
         axes.set(xlim=(x, x + w), ylim=(y, y + h), xticks=[], yticks=[])
-        axes.set_aspect("equal", adjustable="datalim")
         axes.grid(False)
         for spine in axes.spines.values():
             spine.set_visible(False)
@@ -109,7 +110,6 @@ def strip(figure, colour, time_unit, wide):
 
 def ruler(canvas, axes, unit):
     """A scale below the first frame: of 1, 2, 5 times a power of ten the one next to a third of the frame's width."""
-    axes.apply_aspect()
     (x0, x1), box = axes.get_xlim(), axes.get_window_extent(canvas.renderer)
     third = (x1 - x0) / 3
     long = max((m * 10.0**math.floor(math.log10(third)) for m in (1, 2, 5)), key=lambda v: -abs(math.log(v / third)))

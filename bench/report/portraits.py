@@ -25,6 +25,11 @@ def limits(tracks):
     return found
 
 
+def widened(begin, size, least):
+    """(begin, size) of an interval of at least that size, with the same middle."""
+    return (begin, size) if size >= least else (begin - (least - size) / 2, least)
+
+
 def panels(tracks, names, units, wide, start=True):
     """The tracks [(label, colour, xs, ys)] on a Canvas, each in a panel with the same axes; sections have no start."""
     frame = limits([t[2:] for t in tracks])
@@ -36,6 +41,10 @@ def panels(tracks, names, units, wide, start=True):
     columns = min(len(tracks), 4 if wide else 2)
     each = min(340 if wide else 300, (width - left - right - between * (columns - 1)) / columns)
     tall = min(1.25 * each, max(0.45 * each, each * spans[1] / spans[0])) if equal else 0.8 * each
+    low = [bounds[0] - pad for bounds, pad in zip(frame, pads)]
+    if equal:  # the frame is filled, so that a circle is a circle
+        (low[0], spans[0]), (low[1], spans[1]) = (widened(low[0], spans[0], spans[1] * each / tall),
+                                                  widened(low[1], spans[1], spans[0] * tall / each))
     rows = math.ceil(len(tracks) / columns)
     canvas = Canvas(left + columns * each + between * (columns - 1) + right, rows * (top + tall) + below, font)
     for k, (label, colour, x, y) in enumerate(tracks):
@@ -49,10 +58,8 @@ def panels(tracks, names, units, wide, start=True):
         if start:
             axes.plot(x[:1], y[:1], marker="x", color=INK, markersize=6, markeredgewidth=1.4, zorder=5)
         axes.set_title(plain(label), fontsize=0.95 * font, color=colour, loc="left", pad=4)
-        if equal:
-            axes.set_aspect("equal", adjustable="datalim")
-        axes.set_xlim(frame[0][0] - pads[0], frame[0][1] + pads[0])
-        axes.set_ylim(frame[1][0] - pads[1], frame[1][1] + pads[1])
+        axes.set_xlim(low[0], low[0] + spans[0])
+        axes.set_ylim(low[1], low[1] + spans[1])
         axes.locator_params(nbins=4)
         last = k + columns >= len(tracks)
         canvas.labels(axes, with_unit(names[0], units[0]) if last else "", with_unit(names[1], units[1]) if column == 0 else "")
