@@ -165,7 +165,7 @@ Table::Table(const Item& value, std::string what) : value_(value), what_(std::mo
 }
 
 const Item* Table::find(std::string_view key) {
-  asked_.emplace_back(key);
+  if (std::find(asked_.begin(), asked_.end(), key) == asked_.end()) asked_.emplace_back(key);
   const auto found = std::find_if(value_.members.begin(), value_.members.end(),
                                   [&](const Member& member) { return member.key == key; });
   return found == value_.members.end() ? nullptr : &found->value;

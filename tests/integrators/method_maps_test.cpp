@@ -66,14 +66,16 @@ std::shared_ptr<const Model> model_of(const std::string& name) {
 }
 
 TEST(MethodMaps, StepLikeTheSameMethodInCpp) {
-  const auto verlet = read_method_table(shipped + "verlet-map.toml")->make({});
+  const auto verlet_table = read_method_table(shipped + "verlet-map.toml");
+  const auto verlet = verlet_table->make({});
   const auto in_cpp = integrators().get("verlet", "integrator").make({});
   for (const char* system : {"pendulum", "henon-heiles"}) {
     const auto model = model_of(system);
     EXPECT_LT(difference(after<double>(*verlet, model, 20), after<double>(*in_cpp, model, 20)), 1e-14);
     EXPECT_LT(difference(after<Quad>(*verlet, model, 20), after<Quad>(*in_cpp, model, 20)), 1e-32);
   }
-  const auto heun = read_method_table(shipped + "heun-3.toml")->make({});
+  const auto heun_table = read_method_table(shipped + "heun-3.toml");
+  const auto heun = heun_table->make({});
   const auto table = map_of(
       "name = \"heun\"\nkind = \"runge-kutta\"\norder = 3\na = [[], [\"1/3\"], [0, \"2/3\"]]\n"
       "b = [\"1/4\", 0, \"3/4\"]\n");
@@ -87,7 +89,8 @@ TEST(MethodMaps, StepLikeTheSameMethodInCpp) {
 }
 
 TEST(MethodMaps, OfOneSystemReadItsCoordinatesAndParameters) {
-  const auto map = read_method_table(shipped + "damped-pendulum-map.toml")->make({});
+  const auto table = read_method_table(shipped + "damped-pendulum-map.toml");
+  const auto map = table->make({});
   const auto model = systems().get("damped-pendulum", "system").make({{"nu", "0.7"}});
   Quad r = model->initial()[0].quad(), p = model->initial()[1].quad();
   const Quad h = Quad(1) / Quad(20), decay = exp(-Quad(7) / Quad(10) * h / Quad(2));
