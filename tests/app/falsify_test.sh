@@ -44,14 +44,20 @@ falsified() {
 }
 
 keeper=gauss falsified rk4-not-symplectic rk4 --claim symplectic
+falsified false-two-step-not-symmetric false-two-step --plugin "$plugins/false-claims.so"
+keeper=rattle falsified rk4-not-constrained-symplectic rk4 --claim constrained-symplectic
+# A round takes ten seconds with the sanitizers, and the others run the same code on other claims; the search for each
+# claim runs with them in a test of its own.
+if [[ -n $sanitizers ]]; then
+  echo "falsify: as expected"
+  exit
+fi
 keeper=gauss falsified rk4-not-quadratic-invariants rk4 --claim quadratic-invariants
 keeper=gauss-darboux falsified rk4-not-k-symplectic rk4 --claim K-symplectic
-keeper=rattle falsified rk4-not-constrained-symplectic rk4 --claim constrained-symplectic
 falsified rk4-not-casimirs rk4 --claim casimirs
 falsified rk4-not-entropy rk4 --claim entropy
 falsified rk4-not-conformal rk4 --claim conformal
 falsified false-singly-diagonal-not-symplectic false-singly-diagonal --plugin "$plugins/false-claims.so"
-falsified false-two-step-not-symmetric false-two-step --plugin "$plugins/false-claims.so"
 falsified false-averaged-not-energy false-averaged --plugin "$plugins/false-claims.so"
 # With its default parameters the method keeps the claim, and the search there takes the whole budget.
 budget=5 falsified false-with-parameters-not-symplectic false-with-parameters --plugin "$plugins/false-claims.so"

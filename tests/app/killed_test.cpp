@@ -26,8 +26,9 @@ Arguments spring_to(const std::string& out, const std::string& time = "100") {
           "--step", "0.01",  "--time", time,       "--json",      "--plugin",     plugin};
 }
 
-// 200 kills, evenly spread from the start of the program to its end. Every fifth of them is followed by a
-// whole run; after the others the next kill falls on what the one before has left.
+// 200 kills, evenly spread from the start of the program to its end; 40 with the sanitizers, where each run
+// takes five times as long. Every fifth of them is followed by a whole run; after the others the next kill
+// falls on what the one before has left.
 TEST(KilledRun, LeavesADirectoryThatIsTakenUp) {
   const TemporaryDirectory files;
   const Arguments run = spring_to(files / "run");
@@ -57,10 +58,15 @@ TEST(KilledRun, LeavesADirectoryThatIsTakenUp) {
     fs::remove_all(files.path() / "whole");
     run_whole(spring_to(files / "whole"));
   }
-  constexpr int kills = 200, in_a_row = 5;
+#ifdef __SANITIZE_ADDRESS__
+  constexpr int kills = 40;
+#else
+  constexpr int kills = 200;
+#endif
+  constexpr int in_a_row = 5;
   int before_the_end = 0, with_files = 0;
   for (int kill = 0; kill < kills; ++kill) {
-    // Moments in an order that mixes early and late ones: 77 and 200 have no common divisor.
+    // Moments in an order that mixes early and late ones: 77 has no common divisor with either number.
     const auto moment = duration() * ((kill * 77) % kills) / kills;
     bool ended = false;
     {
