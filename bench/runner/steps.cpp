@@ -1,0 +1,106 @@
+#include <pfaff/bench/runner/steps.hpp>
+
+#include <cmath>
+#include <limits>
+
+#include <pfaff/bench/measure/chosen_steps.hpp>
+
+namespace pfaff {
+
+Real finite_number(const std::string& text, const std::string& what) {
+  const auto value = Real::parse(text);
+  if (!value || !std::isfinite(value->value()))
+    throw InputError(what + ": expected a finite decimal number or a/b, got '" + text + "'");
+  return *value;
+}
+
+namespace {
+// Refuses times and steps of which nothing is left in the scalar T of the run: a step or a duration that
+// rounds to zero, and one that is lost when it is added to a time of the run (t + h = t).
+template <class T>
+void check_times(const ResolvedRun& run, const std::string& step_text, const std::string& option) {
+  const T t0(run.t0), end = t0 + T(run.time), step(run.adaptive() ? run.time : run.step);
+  const T latest = std::max(abs(t0), abs(end));
+  const std::string in = " in " + std::string(to_string(run.settings.precision)) + " precision";
+  const std::string expected = std::is_same_v<T, Quad> ? "" : ", or --precision quad";
+  if (!(step > T(0)))
+    throw InputError(option + ": " + step_text + " rounds to 0" + in + "; expected a larger number" +
+                     expected);
+  if (!(latest + step > latest))
+    throw InputError(option + ": " + step_text + " vanishes beside the time " + to_string(Quad(latest), 6) +
+                     in + " (t + h = t); expected a larger number" + expected);
+}
+
+// Refuses a tolerance that no step can meet in the scalar T of the run.
+template <class T>
+void check_tolerance(const ResolvedRun& run) {
+  constexpr T round_off = std::numeric_limits<T>::epsilon();
+  if (T(run.tolerance) < round_off)
+    throw InputError("--tolerance: " + run.settings.tolerance + " is below round-off, which is " +
+                     to_string(Quad(round_off), 3) + "; expected at least that" +
+                     (adaptive_in_quad(*run.method, run.model) && !std::is_same_v<T, Quad>
+                          ? ", or --precision quad"
+                          : ""));
+}
+
+// For a run that chooses its steps: fills in its tolerance.
+void resolve_tolerance(ResolvedRun& run) {
+  const RunSettings& settings = run.settings;
+  if (!settings.step.empty()) throw InputError("--step and --tolerance exclude each other");
+  run.tolerance = finite_number(settings.tolerance, "--tolerance");
+  if (!(run.tolerance > Real(0)) || run.tolerance > Real(1))
+    throw InputError("--tolerance: expected a number in (0, 1], got '" + settings.tolerance + "'");
+  if (settings.every > 0)
+    throw InputError(
+        "--every counts steps of one length; with --tolerance samples are evenly spaced in time");
+  if (!run.method->adaptive())
+    throw InputError(run.method->called() +
+                     " takes fixed steps only; expected --step instead of --tolerance");
+  if (settings.precision == Precision::quad && !adaptive_in_quad(*run.method, run.model))
+    throw InputError(run.method->called() + " chooses its steps in double only; expected --precision double");
+  if (settings.precision == Precision::quad) {
+    check_tolerance<Quad>(run);
+    check_times<Quad>(run, settings.time, "--time");
+  } else {
+    check_tolerance<double>(run);
+    check_times<double>(run, settings.time, "--time");
+  }
+}
+
+// For a run with steps of one length: fills in the step, how many there are and after how many to sample.
+void resolve_fixed_steps(ResolvedRun& run) {
+  const RunSettings& settings = run.settings;
+  if (settings.step.empty())
+    throw InputError("--step is missing (or --tolerance for methods that choose their steps)");
+  run.step = finite_number(settings.step, "--step");
+  if (!(run.step > Real(0))) throw InputError("--step: expected a number > 0, got '" + settings.step + "'");
+  if (run.step > run.time)
+    throw InputError("--step: expected at most the duration " + settings.time + ", got '" + settings.step +
+                     "'");
+  if (settings.precision == Precision::quad) {
+    check_times<Quad>(run, settings.step, "--step");
+  } else {
+    check_times<double>(run, settings.step, "--step");
+  }
+  const double ratio = (run.time / run.step).value();
+  if (!(ratio <= static_cast<double>(settings.step_budget)))
+    throw InputError("--step: " + settings.step + " is too small for a duration of " + settings.time +
+                     ": that takes " + to_string(Quad(ratio), 3) + " steps; expected at most " +
+                     std::to_string(settings.step_budget) + " (--max-steps)");
+  // A run has a whole number of steps; a duration that is not a multiple of the step is shortened to one.
+  const double nearest = std::round(ratio);
+  run.steps =
+      static_cast<std::int64_t>(std::abs(ratio - nearest) < 1e-9 * nearest ? nearest : std::floor(ratio));
+  run.every = settings.every > 0 ? settings.every : std::max<std::int64_t>(1, (run.steps + 999) / 1000);
+}
+}  // namespace
+
+void resolve_steps(ResolvedRun& run) {
+  if (run.adaptive()) {
+    resolve_tolerance(run);
+  } else {
+    resolve_fixed_steps(run);
+  }
+}
+
+}  // namespace pfaff

@@ -1,0 +1,18 @@
+// The times, steps and tolerance of a run, as they are asked for in text.
+#pragma once
+
+#include <string>
+
+#include <pfaff/bench/runner/settings.hpp>
+
+namespace pfaff {
+
+// The finite decimal number or fraction that a text is. Throws InputError, which says `what` the text is.
+Real finite_number(const std::string& text, const std::string& what);
+
+// Fills in the step or the tolerance of a run, the number of its steps and how many of them lie between
+// samples, from its settings and its times `t0` and `time`. Refuses (InputError) what does not fit the method
+// or what nothing is left of in the precision of the run.
+void resolve_steps(ResolvedRun& run);
+
+}  // namespace pfaff
