@@ -14,7 +14,7 @@ function(pfaff_target target)
                                            # GCC collects garbage from 128 megabytes on, again and again, which is
                                            # a seventh of the time of most tests; no source needs more than 1.2
                                            # gigabytes when it begins at one.
-                                           "$<$<CXX_COMPILER_ID:GNU>:SHELL:--param ggc-min-heapsize=1000000>")
+                                           $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=1000000>)
   # The build ID names the build in the identity of a run (bench/runner/origins.hpp).
   target_link_options(${target} PRIVATE -Wl,--build-id)
   if(PFAFF_WERROR)
