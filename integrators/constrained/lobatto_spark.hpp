@@ -76,12 +76,7 @@ struct LobattoSpark {
   Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
     Status status = solve_stages(p, t, h, z, w);
     if (status == Status::converged) status = end_momentum(p, t, h, z, w);
-    if (status != Status::converged) {
-      w.predictor.forget();
-      return status;
-    }
-    w.take(h, z, compensated);
-    return Status::converged;
+    return w.take(status, h, z, compensated);
   }
 
  private:
@@ -91,11 +86,7 @@ struct LobattoSpark {
                              Work<P>& w) {
     using T = Scalar<P>;
     const std::size_t n = w.n(), s = w.s();
-    ++p.counters().factorisations;
-    if (const Status status = w.at[0]->linearise(t, In<T>(z.data(), n), In<T>(z.data() + n, n));
-        status != Status::converged)
-      return status;
-    w.predict(p, *w.at[0], t, h, z);
+    if (const Status status = w.begin(p, *w.at[0], t, h, z); status != Status::converged) return status;
     for (std::size_t k = 0; k < n; ++k) w.position[k] = z[k] + w.carry[k];
     Convergence<T> convergence;
     bool first = true;
@@ -173,15 +164,9 @@ struct LobattoSpark {
     using T = Scalar<P>;
     const std::size_t n = w.n(), s = w.s();
     PositionConstraints<T>& last = *w.at[s - 1];
-    const In<T> q = w.stage(w.position, s - 1), p0(z.data() + n, n);
-    ++p.counters().factorisations;
-    if (const Status status = last.linearise(t + h, q, w.stage(w.momentum, s - 1));
-        status != Status::converged)
-      return status;
-    ++p.counters().fields;
-    last.force(t + h, q, w.stage(w.momentum, s - 1), w.stage(w.force, s - 1));
-    for (std::size_t k = 0; k < n; ++k) w.impulse[k] = h * w.sum(w.b.data(), w.force, s, k);
-    return w.onto_hidden(last, t + h, q, p0, In<T>(w.carry).subspan(n), w.impulse, w.end, false);
+    if (const Status status = w.push_to_end(p, last, t, h); status != Status::converged) return status;
+    return w.onto_hidden(last, t + h, w.stage(w.position, s - 1), In<T>(z.data() + n, n),
+                         In<T>(w.carry).subspan(n), w.impulse, w.end, false);
   }
 };
 

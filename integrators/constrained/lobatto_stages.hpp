@@ -67,31 +67,42 @@ struct LobattoStages {
     return z[n() + k] + (h * sum(a_hat.data() + i * s(), force, s() - 1, k) + carry[n() + k]);
   }
 
-  /// Fills velocities, forces and multipliers of all stages with those to start an iteration from:
-  /// extrapolated ones where past steps are known, else those at the start of the step.
+  /// Begins a step of size h from z: places the constraints there and fills in what an iteration starts from.
   template <class P, class Constraints>
-  void predict(const P& p, Constraints& constraints, const T& t, const T& h, const State<P>& z) {
-    const std::size_t all = velocity.size() + force.size() + multiplier.size();
-    if (value_of(h) != value_of(last_h)) predictor.forget();
-    for (std::size_t k = 0; k < all; ++k) predicted(k) = predictor.expected(k);
-    if (predictor.knows()) return;
-    const In<T> q(z.data(), n()), p0(z.data() + n(), n());
-    constraints.velocity(t, q, p0, stage(velocity, 0));
-    constraints.force(t, q, p0, stage(force, 0));
-    ++p.counters().fields;
-    for (std::size_t k = n(); k < velocity.size(); ++k) {
-      velocity[k] = velocity[k - n()];
-      force[k] = force[k - n()];
-    }
+  Status begin(const P& p, Constraints& constraints, const T& t, const T& h, const State<P>& z) {
+    ++p.counters().factorisations;
+    const Status status = constraints.linearise(t, In<T>(z.data(), n()), In<T>(z.data() + n(), n()));
+    if (status == Status::converged) predict(p, constraints, t, h, z);
+    return status;
   }
-  /// The step of size h whose stages these are is taken: `move` and `impulse` are added to the state.
-  void take(const T& h, auto& z, bool compensated) {
+  /// Places the constraints at the end of the step, in Q_s, and fills `impulse` with the change of the
+  /// momenta without the reaction there, h sum_j b_j (-H_q(Q_j, P_j) - R_j) with R_s = 0.
+  template <class P, class Constraints>
+  Status push_to_end(const P& p, Constraints& constraints, const T& t, const T& h) {
+    const In<T> q = stage(position, s() - 1), p_s = stage(momentum, s() - 1);
+    ++p.counters().factorisations;
+    if (const Status status = constraints.linearise(t + h, q, p_s); status != Status::converged)
+      return status;
+    ++p.counters().fields;
+    constraints.force(t + h, q, p_s, stage(force, s() - 1));
+    for (std::size_t k = 0; k < n(); ++k) impulse[k] = h * sum(b.data(), force, s(), k);
+    return Status::converged;
+  }
+  /// Ends the step of size h whose stages these are, with the status that finding them has had: where they
+  /// were found `move` and `impulse` are added to the state, else past steps are forgotten. Returns the
+  /// status.
+  Status take(Status status, const T& h, auto& z, bool compensated) {
+    if (status != Status::converged) {
+      predictor.forget();
+      return status;
+    }
     predictor.remember([this](std::size_t k) { return predicted(k); });
     last_h = h;
     for (std::size_t k = 0; k < n(); ++k) {
       add_to(z[k], carry[k], move[k], compensated);
       add_to(z[n() + k], carry[n() + k], impulse[k], compensated);
     }
+    return status;
   }
   /// Forgets the past, round-off included: the next step depends on its state alone.
   void restart() {
@@ -107,6 +118,23 @@ struct LobattoStages {
   }
 
  private:
+  // Fills velocities, forces and multipliers of all stages with those to start an iteration from:
+  // extrapolated ones where past steps are known, else those at the start of the step.
+  template <class P, class Constraints>
+  void predict(const P& p, Constraints& constraints, const T& t, const T& h, const State<P>& z) {
+    const std::size_t all = velocity.size() + force.size() + multiplier.size();
+    if (value_of(h) != value_of(last_h)) predictor.forget();
+    for (std::size_t k = 0; k < all; ++k) predicted(k) = predictor.expected(k);
+    if (predictor.knows()) return;
+    const In<T> q(z.data(), n()), p0(z.data() + n(), n());
+    constraints.velocity(t, q, p0, stage(velocity, 0));
+    constraints.force(t, q, p0, stage(force, 0));
+    ++p.counters().fields;
+    for (std::size_t k = n(); k < velocity.size(); ++k) {
+      velocity[k] = velocity[k - n()];
+      force[k] = force[k - n()];
+    }
+  }
   // The k-th of the numbers that are predicted.
   T& predicted(std::size_t k) {
     if (k < velocity.size()) return velocity[k];

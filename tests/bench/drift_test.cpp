@@ -1,61 +1,12 @@
 // The drift estimator on series whose drift is known. Seeds are fixed; drift.hpp says how often it is right
 // over many seeds.
-#include <gtest/gtest.h>
-
 #include <algorithm>
-#include <cmath>
 #include <complex>
-#include <cstdint>
-#include <functional>
-#include <limits>
-#include <numbers>
-#include <random>
-#include <vector>
 
-#include <pfaff/bench/measure/drift.hpp>
+#include "drift_series.hpp"
 
 namespace {
-
-using pfaff::Drift;
-using pfaff::DriftAccumulator;
-using pfaff::DriftClass;
-using pfaff::to_string;
-
-constexpr double pi = std::numbers::pi;
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-Drift measure(const std::vector<double>& errors, double step = 1) {
-  DriftAccumulator drift;
-  for (std::size_t k = 0; k < errors.size(); ++k) drift.add(step * double(k), errors[k]);
-  return drift.result();
-}
-
-/// errors of the function at 0, 1, ... samples - 1
-Drift measure(std::size_t samples, const std::function<double(double)>& error) {
-  DriftAccumulator drift;
-  for (std::size_t k = 0; k < samples; ++k) drift.add(double(k), error(double(k)));
-  return drift.result();
-}
-
-struct Noise {
-  std::mt19937_64 generator;
-  std::normal_distribution<double> normal{};
-  double operator()() { return normal(generator); }
-};
-
-/// x_(k+1) = phi x_k + noise; from its stationary distribution, a random walk (phi = 1) from zero.
-std::vector<double> autoregression(std::uint64_t seed, std::size_t samples, double phi, double slope = 0) {
-  Noise noise{std::mt19937_64(seed)};
-  double x = phi < 1 ? noise() / std::sqrt(1 - phi * phi) : 0;
-  std::vector<double> errors(samples);
-  for (std::size_t k = 0; k < samples; ++k) {
-    errors[k] = x + slope * double(k);
-    x = phi * x + noise();
-  }
-  return errors;
-}
-
-bool covers(const Drift& drift, double x) { return drift.slope_low <= x && x <= drift.slope_high; }
+using namespace pfaff::testing::drift;
 
 /// Least squares with independent residuals: the textbook interval, wrong here. Unit step.
 struct Naive {
@@ -73,8 +24,6 @@ Naive naive(const std::vector<double>& e) {
     residual += std::pow(e[k] - mean - xy / xx * (double(k) - middle), 2);
   return {xy / xx, 1.96 * std::sqrt(residual / (n - 2) / xx), std::sqrt(residual / n)};
 }
-
-#define EXPECT_CLASS(drift, name) EXPECT_EQ(to_string((drift).drift_class), name)
 
 TEST(Drift, FastOscillationIsBounded) {
   for (double period : {7.3, 20.0, 20.3, 64.0, 400.0}) {
@@ -273,87 +222,6 @@ TEST(Drift, UnitsAndDirectionOfTimeDoNotMatter) {
   EXPECT_NEAR(scaled.slope * -0x1p70, plain.slope, 1e-12);
   EXPECT_NEAR(scaled.slope_low * -0x1p70, plain.slope_high, 1e-9);
   EXPECT_EQ(scaled.slope_low, measure(errors, -0x1p10).slope_low);  // deterministic
-}
-
-/// The class of a series whose quantity has the scale 1 in double, a step for each sample.
-Drift measure_scaled(std::size_t samples, const std::function<double(double)>& error, double scale = 1) {
-  DriftAccumulator drift;
-  for (std::size_t k = 0; k < samples; ++k) drift.add(double(k), error(double(k)));
-  return drift.result({0x1p-53, scale, std::int64_t(samples) - 1});
-}
-
-// What the classes before these rules got wrong.
-TEST(Drift, RoundOffIsNoTrend) {
-  // A slope of 6e-18 with values of round-off; an exponential was seen in it.
-  Noise noise{std::mt19937_64(4)};
-  const auto tiny = [&](double t) { return 6e-18 * t / 10 + 1e-16 * std::round(noise()); };
-  EXPECT_CLASS(measure_scaled(2000, tiny), "round-off");
-  // The same size is no round-off of a quantity that is a thousand times smaller.
-  EXPECT_NE(to_string(measure_scaled(2000, tiny, 1e-3).drift_class), "round-off");
-  // Few levels, next to each other.
-  EXPECT_CLASS(measure_scaled(
-                   201, [](double t) { return 0x1p-53 * 2 * std::floor(t / 8) * 10; }, 10),
-               "round-off");
-  // Roundings to one side, .05 units a step: gone in quad, whose unit is smaller.
-  const auto biased = [&](double t) { return 0.05 * 0x1p-53 * t + 0x1p-53 * noise(); };
-  const Drift found = measure_scaled(100000, biased);
-  EXPECT_CLASS(found, "biased-round-off");
-  EXPECT_NE(found.evidence.find("u|I| a step"), std::string::npos) << found.evidence;
-  EXPECT_CLASS(measure(100000, biased), "linear");  // control: without a scale nothing is round-off
-}
-
-TEST(Drift, ATrendBelowAPerCentOfTheOscillationIsBounded) {
-  const auto swing = [](double share) {
-    return measure(5000,
-                   [=](double t) { return 1.3e-9 * (1 - std::cos(t / 3)) + share * 1.3e-9 * t / 5000; });
-  };
-  EXPECT_CLASS(swing(3e-5), "bounded");  // 4e-14 under 1.3e-9
-  EXPECT_CLASS(swing(0.005), "bounded");
-  EXPECT_CLASS(swing(0.05), "linear");
-}
-
-TEST(Drift, OneSwingIsUndetermined) {
-  for (const double periods : {0.4, 0.5, 0.6, 0.8, 1.0}) {
-    const Drift drift =
-        measure(400, [=](double t) { return 1e-4 * (1 - std::cos(2 * pi * periods * t / 400)); });
-    EXPECT_CLASS(drift, "undetermined") << periods << ' ' << drift.evidence;
-  }
-}
-
-TEST(Drift, LosingEverythingIsSaid) {
-  // An energy 1 that friction of the method takes away: the error levels off at -1.
-  const Drift lost = measure_scaled(2000, [](double t) { return std::expm1(-t / 400); });
-  EXPECT_CLASS(lost, "linear");
-  EXPECT_NE(lost.evidence.find("loses"), std::string::npos) << lost.evidence;
-  // Control: a shift that levels off within the quantity is bounded.
-  EXPECT_CLASS(measure_scaled(2000, [](double t) { return -0.1 * -std::expm1(-t / 100); }), "bounded");
-}
-
-TEST(Drift, BlowingUpIsNoWalk) {
-  const Drift finite = measure_scaled(500, [](double t) { return 1e-3 * std::exp(std::exp(t / 90)); });
-  EXPECT_CLASS(finite, "exponential") << finite.evidence;
-  const Drift beyond =
-      measure_scaled(500, [](double t) { return t < 480 ? 1e-3 * std::exp(t / 8) : infinity; });
-  EXPECT_CLASS(beyond, "exponential") << beyond.evidence;
-  EXPECT_EQ(beyond.non_finite_time, 480.0);
-}
-
-TEST(Drift, EveryGrowingClassExcludesNoGrowth) {
-  for (std::uint64_t seed = 0; seed < 200; ++seed) {
-    const Drift drift = measure(autoregression(seed, 400, 0.9, 2e-3));
-    const auto name = to_string(drift.drift_class);
-    EXPECT_FALSE(name == "linear" && covers(drift, 0)) << seed;
-    EXPECT_FALSE(name == "polynomial" && !(drift.exponent.value().low > 0)) << seed;
-    EXPECT_FALSE(name == "exponential" && !(drift.rate.value().low > 0)) << seed;
-  }
-}
-
-TEST(Drift, EvidenceIsOneLineWithoutACommaAndAlwaysThere) {
-  for (std::uint64_t seed = 0; seed < 30; ++seed) {
-    const Drift drift = measure(autoregression(seed, 300, seed % 2 == 0 ? 1 : 0.5, seed % 3 == 0 ? 0.1 : 0));
-    EXPECT_FALSE(drift.evidence.empty());
-    EXPECT_EQ(drift.evidence.find_first_of(",\n"), std::string::npos) << drift.evidence;
-  }
 }
 
 }  // namespace
