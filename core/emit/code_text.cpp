@@ -4,7 +4,7 @@ namespace pfaff::emit {
 
 std::vector<Assignment> assignments_of(const Tape& tape, const Plan& plan, const Language& language,
                                        const std::vector<std::string>& names, SolveText solve) {
-  const Expressions expressions(tape, plan, language, names);
+  const Expressions expressions(tape, language, names);
   std::vector<Assignment> all;
   for (const int slot : plan.statements()) {
     const Instruction& i = tape.code[static_cast<std::size_t>(slot)];
@@ -24,9 +24,9 @@ std::vector<Assignment> assignments_of(const Tape& tape, const Plan& plan, const
   return all;
 }
 
-std::vector<std::string> outputs_of(const Tape& tape, const Plan& plan, const Language& language,
+std::vector<std::string> outputs_of(const Tape& tape, const Language& language,
                                     const std::vector<std::string>& names) {
-  const Expressions expressions(tape, plan, language, names);
+  const Expressions expressions(tape, language, names);
   std::vector<std::string> all;
   for (const int slot : tape.outputs) all.push_back(expressions.value(slot).text);
   return all;

@@ -25,7 +25,7 @@ std::vector<Assignment> assignments_of(const Tape& tape, const Plan& plan, const
                                        const std::vector<std::string>& names, SolveText solve);
 
 /// The values of all outputs.
-std::vector<std::string> outputs_of(const Tape& tape, const Plan& plan, const Language& language,
+std::vector<std::string> outputs_of(const Tape& tape, const Language& language,
                                     const std::vector<std::string>& names);
 
 /// Texts with a separator between them.

@@ -119,7 +119,7 @@ class FunctionWriter {
         plan_(plan),
         interface_(interface),
         names_(std::move(names)),
-        expressions_(tape, plan, language, names_) {}
+        expressions_(tape, language, names_) {}
 
   std::string whole() {
     std::string body = inputs(plan_.statements(), tape_.outputs);

@@ -84,7 +84,7 @@ std::string write_julia(const Equations& equations) {
           unpacked(inputs.subspan(equations.coordinates.size()), "parameters");
   for (const Assignment& a : assignments_of(tape, plan, language, text_name.slots, &solve))
     text += "    " + joined(a.names, ", ") + (a.list ? ", = " : " = ") + a.value + "\n";
-  const std::vector<std::string> values = outputs_of(tape, plan, language, text_name.slots);
+  const std::vector<std::string> values = outputs_of(tape, language, text_name.slots);
   for (std::size_t k = 0; k < values.size(); ++k)
     text += "    rates[" + std::to_string(k + 1) + "] = " + values[k] + "\n";
   return text + "    return rates\nend\n";

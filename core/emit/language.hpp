@@ -47,9 +47,8 @@ class Language {
 /// constants.
 class Expressions {
  public:
-  Expressions(const Tape& tape, const Plan& plan, const Language& language,
-              const std::vector<std::string>& names)
-      : tape_(tape), plan_(plan), language_(language), names_(names) {}
+  Expressions(const Tape& tape, const Language& language, const std::vector<std::string>& names)
+      : tape_(tape), language_(language), names_(names) {}
 
   /// The value of a slot where it is used: its name, or what is written for it.
   [[nodiscard]] Phrase value(int slot) const;
@@ -60,7 +59,6 @@ class Expressions {
 
  private:
   const Tape& tape_;
-  const Plan& plan_;
   const Language& language_;
   const std::vector<std::string>& names_;
 };

@@ -136,7 +136,7 @@ std::string write_latex(const Equations& equations) {
     lines.push_back((a.list ? column(a.names) : a.names.front()) + " &= " + a.value);
   if (!lines.empty()) text += "\\subsection*{Intermediate quantities}\n" + aligned(lines);
   lines.clear();
-  const std::vector<std::string> values = outputs_of(tape, plan, language, symbols.slots);
+  const std::vector<std::string> values = outputs_of(tape, language, symbols.slots);
   for (std::size_t k = 0; k < values.size(); ++k)
     lines.push_back((k < n ? symbols.inputs[k].dotted()
                            : "\\text{" + latex_words(equations.further_outputs[k - n]) + "}") +

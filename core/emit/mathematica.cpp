@@ -92,7 +92,7 @@ std::string write_mathematica(const Equations& equations) {
     lines.push_back("    " + left + " = " + a.value + ";\n");
   }
   text += "  Module[{" + joined(locals, ", ") + "},\n" + joined(lines, "");
-  return text + "    {" + joined(outputs_of(tape, plan, language, text_name.slots), ",\n     ") + "}]\n";
+  return text + "    {" + joined(outputs_of(tape, language, text_name.slots), ",\n     ") + "}]\n";
 }
 
 }  // namespace pfaff

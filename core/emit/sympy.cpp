@@ -95,7 +95,7 @@ std::string write_sympy(const Equations& equations) {
   for (const Assignment& a : assignments_of(tape, plan, language, text_name.slots, &solve))
     text += "    " + joined(a.names, ", ") + (a.list ? ", = " : " = ") + a.value + "\n";
   text += "    return [\n";
-  for (const std::string& value : outputs_of(tape, plan, language, text_name.slots))
+  for (const std::string& value : outputs_of(tape, language, text_name.slots))
     text += "        sympify(" + value + "),\n";
   return text + "    ]\n";
 }
