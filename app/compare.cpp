@@ -18,7 +18,7 @@ struct Options {
   PaperFigures paper;
 };
 
-int compare(const Options& options, bool json) {
+int compare(const Options& options, const Common& common) {
   const std::vector<std::string> names = options.all ? experiment_names() : options.names;
   nlohmann::json j{{"schema", 1}, {"experiments", nlohmann::json::array()}};
   bool failed = false;
@@ -31,7 +31,7 @@ int compare(const Options& options, bool json) {
     if (!options.out.empty() && names.size() > 1) directory /= experiment.name;
     ExperimentOutcome outcome;
     {
-      ProgressLine line;
+      ProgressLine line(common.quiet);
       outcome = run_experiment(
           experiment, directory,
           [&](const std::string& what, std::size_t done, std::size_t all) {
@@ -50,8 +50,8 @@ int compare(const Options& options, bool json) {
                                 {"report", outcome.report.string()}});
     if (!figures.empty()) j["experiments"].back()["figures"] = figures.string();
     if (!outcome.findings.empty()) j["experiments"].back()["findings"] = outcome.findings;
-    if (!json)
-      std::cout << printable(experiment.title) << '\n'
+    if (!common.json && !common.quiet)
+      std::cout << paragraph(experiment.title) << '\n'
                 << printable(outcome.table) << '\n'
                 << outcome.runs << (outcome.runs == 1 ? " run (" : " runs (") << outcome.resumed
                 << " resumed, " << outcome.failed << " ended early)\nresults  "
@@ -62,7 +62,7 @@ int compare(const Options& options, bool json) {
                              ": a finding does not hold: " + outcome.failed_claims)
                 << '\n';
   }
-  if (json) std::cout << json_text(j);
+  if (common.json) std::cout << json_text(j);
   return failed ? 1 : 0;
 }
 
@@ -70,10 +70,11 @@ int compare(const Options& options, bool json) {
 
 void add_compare(CLI::App& app, Common& common, Action& action) {
   CLI::App* sub = subcommand(app, common, "compare", "Run an experiment: table, CSV, figures, report");
+  add_quiet(*sub, common);
   auto options = std::make_shared<Options>();
   sub->add_option("experiment", options->names,
                   "Name of one that ships (pfaff list experiments), or a TOML file")
-      ->type_name("NAME|FILE");
+      ->type_name("EXPERIMENT|FILE");
   sub->add_flag("--all", options->all, "Every experiment that ships");
   sub->add_flag("--quick", options->quick, "Shorter horizons and fewer steps, to look at");
   sub->add_flag("--force", options->force, "Run anew what was made from other files or builds");
@@ -92,7 +93,7 @@ void add_compare(CLI::App& app, Common& common, Action& action) {
     action = [=, &common] {
       if (options->all == !options->names.empty())
         throw InputError("compare: expected the name of an experiment, or --all");
-      return compare(*options, common.json);
+      return compare(*options, common);
     };
   });
 }

@@ -11,6 +11,9 @@ install(DIRECTORY bench/measure bench/runner bench/experiment bench/evaluation b
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pfaff/bench FILES_MATCHING PATTERN "*.hpp")
 install(DIRECTORY bench/report bench/experiments DESTINATION ${CMAKE_INSTALL_DATADIR}/pfaff
         PATTERN "__pycache__" EXCLUDE)
+install(FILES ${pfaff_written}/pfaff.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+install(FILES ${pfaff_written}/pfaff DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+install(FILES ${pfaff_written}/_pfaff DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
 install(FILES references.bib DESTINATION ${CMAKE_INSTALL_DATADIR}/pfaff)
 install(EXPORT PfaffTargets NAMESPACE Pfaff:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Pfaff)
 configure_package_config_file(cmake/PfaffConfig.cmake.in ${PROJECT_BINARY_DIR}/PfaffConfig.cmake

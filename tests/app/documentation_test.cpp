@@ -93,6 +93,23 @@ TEST(Documentation, ThePageOfPlugInsIsWhatTheProgramPrints) {
     EXPECT_NE(outcome.out.find(name), std::string::npos) << name;
 }
 
+TEST(Documentation, ThePageOfMethodsIsWhatTheProgramPrints) {
+  const auto outcome = pfaff::testing::run_pfaff({"list", "integrators", "--markdown"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, contents("docs/methods.md"))
+      << "expected docs/methods.md to be the output of: pfaff list integrators --markdown";
+  // A row by hand: Stoermer-Verlet is of order 2, symplectic, symmetric and reversible.
+  EXPECT_NE(outcome.out.find("| method | order | symplectic | symmetric | reversible |"), std::string::npos);
+  EXPECT_NE(outcome.out.find("| `verlet` | 2 | 2 | 2 | 2 |"), std::string::npos);
+}
+
+TEST(Documentation, CodeOfProgramsIsCompiled) {  // by app/out_of_tree, which runs it too
+  const std::string compiled = contents("examples/program/tour.cpp");
+  const auto shown = blocks(contents("docs/cpp.md"));
+  ASSERT_EQ(shown.size(), 5U);
+  for (const std::string& block : shown) EXPECT_NE(compiled.find(block), std::string::npos) << block;
+}
+
 TEST(Documentation, TheTableOfFacetsIsThatOfTheProgram) {
   const auto outcome = pfaff::testing::run_pfaff({"list", "facets", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
