@@ -51,8 +51,7 @@ int compare(const Options& options, const Common& common) {
     if (!figures.empty()) j["experiments"].back()["figures"] = figures.string();
     if (!outcome.findings.empty()) j["experiments"].back()["findings"] = outcome.findings;
     if (!common.json && !common.quiet)
-      std::cout << paragraph(experiment.title) << '\n'
-                << printable(outcome.table) << '\n'
+      std::cout << paragraph(experiment.title) << printable(outcome.table) << '\n'
                 << outcome.runs << (outcome.runs == 1 ? " run (" : " runs (") << outcome.resumed
                 << " resumed, " << outcome.failed << " ended early)\nresults  "
                 << (directory / "results.csv").string() << "\nreport   " << outcome.report.string() << '\n'

@@ -110,7 +110,7 @@ std::string bash_completion(const CLI::App& app) {
       script << "        " << joined(names, "|") << ")"
              << reply_in_bash(values_of(app, option->get_type_name())) << " ;;\n";
     }
-    script << "        *)\n          words='" << joined(all, " ") << "'\n";
+    script << "        *)\n          [[ $cur == -* ]] && words='" << joined(all, " ") << "'\n";
     const auto positionals = positionals_of(*command);
     if (!positionals.empty()) {
       // Which argument without a name this is.

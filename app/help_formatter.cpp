@@ -11,10 +11,10 @@ namespace {
 // A name beside what it means; the name has a line of its own where it is too long for its column.
 std::string entry(const std::string& name, const std::string& meaning) {
   const std::size_t columns = terminal_columns(), left = std::min<std::size_t>(30, columns / 3);
-  std::string text = "  " + name;
-  if (meaning.empty()) return text + '\n';
-  bool beside = text.size() + 2 <= left;
-  if (!beside) text += '\n';
+  std::string text = facts({{"  " + name}}, columns);
+  if (meaning.empty()) return text;
+  bool beside = text.size() + 1 <= left;
+  if (beside) text.pop_back();
   std::istringstream lines(paragraph(meaning, columns - left));
   for (std::string line; std::getline(lines, line); beside = false)
     text += std::string(beside ? left - text.size() : left, ' ') + line + '\n';
@@ -30,6 +30,10 @@ std::string HelpFormatter::make_option(const CLI::Option* option, bool is_positi
 
 std::string HelpFormatter::make_subcommand(const CLI::App* sub) const {
   return entry(sub->get_name(), sub->get_description());
+}
+
+std::string HelpFormatter::make_description(const CLI::App* app) const {
+  return paragraph(app->get_description());
 }
 
 std::string HelpFormatter::make_footer(const CLI::App* app) const {

@@ -11,6 +11,7 @@ class HelpFormatter final : public CLI::Formatter {
   HelpFormatter();
   [[nodiscard]] std::string make_option(const CLI::Option* option, bool is_positional) const override;
   [[nodiscard]] std::string make_subcommand(const CLI::App* sub) const override;
+  [[nodiscard]] std::string make_description(const CLI::App* app) const override;
   [[nodiscard]] std::string make_footer(const CLI::App* app) const override;
 };
 

@@ -33,7 +33,7 @@ class SurveyedSystems {
   std::vector<Surveyed> systems_;
 };
 
-/// Numbers as in "4" or "2, 4, 6".
+/// Numbers as in "4", "2, 4, 6" or "1 to 12, 14".
 std::string in_words(const std::set<int>& numbers);
 
 /// The family of a plug-in: the folder of its source in the room of its kind, such as "runge-kutta"; empty

@@ -71,7 +71,7 @@ ResolvedRun resolved_run(const Options& options) {
 std::string of_the_last_step(const ResolvedRun& run) {
   if (run.adaptive()) return {};
   const Quad end = run.step.quad() * Quad(static_cast<double>(run.steps)), time = run.time.quad();
-  if (fabs(end - time) < Quad(1e-9) * time) return {};
+  if (abs(end - time) < Quad(1e-9) * time) return {};
   return "the run lasts " + to_string(end, 12) + ", not " + to_string(run.time) + ": " +
          std::to_string(run.steps) + (run.steps == 1 ? " step" : " whole steps") + " of " +
          to_string(run.step) + ", and none is shortened";

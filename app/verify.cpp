@@ -109,10 +109,11 @@ int run(const VerificationSettings& settings, const Common& common) {
   } else if (!common.quiet || !ok) {
     print(checks);
     std::cout << '\n'
-              << totals["pass"] << " pass, " << totals["fail"] << " fail, " << totals["measured"]
-              << " measured outside their scope, "
-              << (totals["skipped"] > 0 ? std::to_string(totals["skipped"]) + " skipped, " : "")
-              << totals["rejected"] << " controls rejected: " << (ok ? "ok" : "NOT OK") << '\n';
+              << paragraph(
+                     std::to_string(totals["pass"]) + " pass, " + std::to_string(totals["fail"]) + " fail, " +
+                     std::to_string(totals["measured"]) + " measured outside their scope, " +
+                     (totals["skipped"] > 0 ? std::to_string(totals["skipped"]) + " skipped, " : "") +
+                     std::to_string(totals["rejected"]) + " controls rejected: " + (ok ? "ok" : "NOT OK"));
   }
   return ok ? 0 : 1;
 }

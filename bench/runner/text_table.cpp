@@ -137,20 +137,26 @@ std::string without_blanks_at_the_end(std::string line) {
   return line + '\n';
 }
 
-std::string laid_out(const TableRows& rows, const std::vector<std::size_t>& widths, const Breaks& breaks) {
-  std::string text;
+// The rows with their texts wrapped at these widths, in columns as wide as the lines that this gives.
+std::string laid_out(const TableRows& rows, const std::vector<std::size_t>& limits, const Breaks& breaks) {
+  std::vector<TableRows> cells;  // of each row the lines of each cell
+  std::vector<std::size_t> widths(limits.size(), 0);
   for (const auto& row : rows) {
-    TableRows cells;
-    std::size_t height = 1;
+    cells.emplace_back();
     for (std::size_t c = 0; c < row.size(); ++c) {
-      cells.push_back(breaks.lines(row[c], widths[c]));
-      height = std::max(height, cells.back().size());
+      cells.back().push_back(breaks.lines(row[c], limits[c]));
+      for (const std::string& line : cells.back().back()) widths[c] = std::max(widths[c], width(line));
     }
+  }
+  std::string text;
+  for (const TableRows& row : cells) {
+    std::size_t height = 1;
+    for (const auto& lines : row) height = std::max(height, lines.size());
     for (std::size_t k = 0; k < height; ++k) {
       std::string line;
-      for (std::size_t c = 0; c < cells.size(); ++c) {
-        const std::string part = k < cells[c].size() ? cells[c][k] : "";
-        line += part + std::string(widths[c] + gap - std::min(width(part), widths[c] + gap - 1), ' ');
+      for (std::size_t c = 0; c < row.size(); ++c) {
+        const std::string part = k < row[c].size() ? row[c][k] : "";
+        line += part + std::string(widths[c] + gap - width(part), ' ');
       }
       text += without_blanks_at_the_end(line);
     }
