@@ -252,8 +252,9 @@ std::string facts(const TableRows& raw, std::size_t columns) {
       if (!row.empty()) text += laid_out({row}, {columns}, breaks);
     return text;
   }
-  widths[0] = std::min(widths[0], columns / 2 - gap);
-  widths[1] = columns - widths[0] - gap;
+  const std::size_t longest = largest(rows, [&](const std::string& cell) { return breaks.least(cell); })[0];
+  widths[0] = std::max(std::min(widths[0], columns / 2 - gap), longest);
+  widths[1] = columns - std::min(widths[0] + gap, columns / 2 + columns / 4);
   return laid_out(rows, widths, breaks);
 }
 

@@ -183,8 +183,8 @@ TEST(Terminal, ListsShowFamiliesOrdersAndWhatIsKept) {
   std::istringstream names(run_pfaff({"list", "systems", "--names"}).out);
   std::set<std::string> one_a_line, listed;
   for (std::string name; std::getline(names, name);) one_a_line.insert(name);
-  for (const auto& entry : json_of(run_pfaff({"list", "systems", "--json"}).out)["systems"])
-    listed.insert(entry["name"]);
+  const auto systems = json_of(run_pfaff({"list", "systems", "--json"}).out);
+  for (const auto& entry : systems["systems"]) listed.insert(entry["name"]);
   EXPECT_EQ(one_a_line, listed);
 }
 
@@ -195,7 +195,8 @@ TEST(Terminal, ASystemsDescriptionSaysWhatMethodsKeep) {
   for (const auto& name : described["integrators"]) fitting.insert(name);
   EXPECT_EQ(names, fitting);
   // The same of the method's own description.
-  for (const auto& system : json_of(run_pfaff({"describe", "verlet", "--json"}).out)["systems"])
+  const auto verlet = json_of(run_pfaff({"describe", "verlet", "--json"}).out);
+  for (const auto& system : verlet["systems"])
     if (system["name"] == "kepler")
       for (const auto& method : described["methods"])
         if (method["name"] == "verlet") {
