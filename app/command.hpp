@@ -13,7 +13,7 @@ namespace pfaff::app {
 
 /// Options that every command takes.
 struct Common {
-  bool json = false;
+  bool json = false, quiet = false;
   std::vector<std::string> plugins;
 };
 
@@ -32,9 +32,16 @@ void add_reproduce(CLI::App& app, Common& common, Action& action);
 void add_verify(CLI::App& app, Common& common, Action& action);
 void add_falsify(CLI::App& app, Common& common, Action& action);
 void add_derive(CLI::App& app, Common& common, Action& action);
+void add_help(CLI::App& app, Common& common, Action& action);
+void add_completion(CLI::App& app, Common& common, Action& action);
 
-/// A subcommand with the common options.
+/// A subcommand with the common options. What an option takes is declared by its type_name, which help, the
+/// manual page and completion read: words in small letters between '|' are values as they stand, SYSTEM,
+/// INTEGRATOR, FORMULATION, EXPERIMENT and NAME are names that `pfaff list` knows, FILE and DIR paths.
 CLI::App* subcommand(CLI::App& app, Common& common, const std::string& name, const std::string& what);
+
+/// The option --quiet, for commands that show progress and summaries.
+void add_quiet(CLI::App& sub, Common& common);
 
 /// The settings in texts "key=value". InputError for a text without '='.
 Assignments parse_settings(const std::vector<std::string>& texts);

@@ -43,7 +43,7 @@ std::string left_out_text(const std::vector<LeftOut>& left_out) {
   return text;
 }
 
-int compare(const Options& options, bool json) {
+int compare(const Options& options, const Common& common) {
   const std::unique_ptr<Team> team = launched_team();
   const std::vector<std::string> names = options.all ? experiment_names() : options.names;
   nlohmann::json j{{"schema", 1}, {"experiments", nlohmann::json::array()}};
@@ -58,7 +58,7 @@ int compare(const Options& options, bool json) {
     ExperimentOutcome outcome;
     {
       const Interruption interruption;
-      ProgressLine line;
+      ProgressLine line(common.quiet);
       StageText text;
       const auto begin = std::chrono::steady_clock::now();
       outcome = run_experiment(
@@ -90,9 +90,8 @@ int compare(const Options& options, bool json) {
     for (const LeftOut& one : outcome.left_out)
       j["experiments"].back()["left_out"].push_back(
           {{"case", one.of_case}, {"method", one.method}, {"reason", one.reason}});
-    if (!json)
-      std::cout << printable(experiment.title) << '\n'
-                << printable(outcome.table) << '\n'
+    if (!common.json && !common.quiet)
+      std::cout << paragraph(experiment.title) << printable(outcome.table) << '\n'
                 << outcome.runs << (outcome.runs == 1 ? " run (" : " runs (") << outcome.resumed
                 << " resumed, " << outcome.failed << " ended early)\nresults  "
                 << (directory / "results.csv").string() << "\nreport   " << outcome.report.string() << '\n'
@@ -103,7 +102,7 @@ int compare(const Options& options, bool json) {
                              ": a finding does not hold: " + outcome.failed_claims)
                 << '\n';
   }
-  if (json) std::cout << json_text(j);
+  if (common.json) std::cout << json_text(j);
   return failed ? 1 : 0;
 }
 
@@ -111,10 +110,11 @@ int compare(const Options& options, bool json) {
 
 void add_compare(CLI::App& app, Common& common, Action& action) {
   CLI::App* sub = subcommand(app, common, "compare", "Run an experiment: table, CSV, figures, report");
+  add_quiet(*sub, common);
   auto options = std::make_shared<Options>();
   sub->add_option("experiment", options->names,
                   "Name of one that ships (pfaff list experiments), or a TOML file")
-      ->type_name("NAME|FILE");
+      ->type_name("EXPERIMENT|FILE");
   sub->add_flag("--all", options->all, "Every experiment that ships");
   sub->add_flag("--quick", options->quick, "Shorter horizons and fewer steps, to look at");
   sub->add_flag("--force", options->force, "Run anew what was made from other files or builds");
@@ -133,7 +133,7 @@ void add_compare(CLI::App& app, Common& common, Action& action) {
     action = [=, &common] {
       if (options->all == !options->names.empty())
         throw InputError("compare: expected the name of an experiment, or --all");
-      return compare(*options, common.json);
+      return compare(*options, common);
     };
   });
 }

@@ -152,7 +152,7 @@ void add_derive(CLI::App& app, Common& common, Action& action) {
   CLI::App* sub = subcommand(app, common, "derive", "Equations of motion of a system, derived symbolically");
   auto options = std::make_shared<Options>();
   sub->add_option("system", options->system, "Name of the system, or the file of one written as text")
-      ->type_name("NAME|FILE")
+      ->type_name("SYSTEM|FILE")
       ->required();
   sub->add_option("--method", options->method, "How they are derived, one of\n" + methods_in_words())
       ->type_name("NAME")

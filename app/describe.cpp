@@ -1,5 +1,6 @@
 // pfaff describe NAME and pfaff cite NAME: show everything known about a plug-in or an experiment, and its
 // references.
+#include <algorithm>
 #include <iostream>
 #include <pfaff/bench/runner/json.hpp>
 
@@ -81,6 +82,36 @@ nlohmann::json formulas_of(const Model& model) {
   return list;
 }
 
+nlohmann::json claims_on(const MethodInstance& method, const Model& model) {
+  nlohmann::json claims = nlohmann::json::array();
+  for (const Claim claim : claims_in_scope(method.preserves(model), model))
+    claims.push_back(to_string(claim));
+  return claims;
+}
+
+// The integrators that fit a system, with order and what they keep there: those that step on the system
+// itself, and those for which a formulation makes a motion of it.
+void add_methods(nlohmann::json& j, const std::shared_ptr<const Model>& model) {
+  std::shared_ptr<const Model> motion;
+  j["integrators"] = j["methods"] = nlohmann::json::array();
+  if (model->restricted() && !j["formulations"].empty()) {
+    motion = motion_of(model);
+    j["integrators_of_formulations"] = nlohmann::json::array();
+  }
+  for (const MethodPlugin* method : integrators().all()) {
+    const auto instance = method->make({});
+    const bool itself = instance->refuses(*model).empty();
+    if (!itself && (motion == nullptr || !instance->refuses(*motion).empty())) continue;
+    const Model& on = itself ? *model : *motion;
+    j[itself ? "integrators" : "integrators_of_formulations"].push_back(method->name());
+    j["methods"].push_back(
+        {{"name", method->name()}, {"order", instance->order(on)}, {"preserves", claims_on(*instance, on)}});
+    if (motion != nullptr)
+      j["methods"].back()["formulation"] =
+          itself ? nlohmann::json(nullptr) : nlohmann::json(motion->source().formulation);
+  }
+}
+
 nlohmann::json describe_system(const SystemPlugin& plugin) {
   const auto model = plugin.make({});
   nlohmann::json j{{"kind", "system"},
@@ -103,21 +134,11 @@ nlohmann::json describe_system(const SystemPlugin& plugin) {
   j["invariants"] = nlohmann::json::array();
   for (const Invariant& i : model->invariants())
     j["invariants"].push_back({{"name", i.name}, {"unit", i.unit}, {"expected", to_string(i.behaviour)}});
-  j["integrators"] = nlohmann::json::array();
-  for (const MethodPlugin* method : integrators().all())
-    if (method->make({})->refuses(*model).empty()) j["integrators"].push_back(method->name());
   if (model->restricted()) {
     j["constraints"] = model->constraint_names();
     j["formulations"] = formulations_of(model);
   }
-  if (model->restricted() && !j["formulations"].empty()) {
-    const auto motion = motion_of(model);
-    j["integrators_of_formulations"] = nlohmann::json::array();
-    for (const MethodPlugin* method : integrators().all())
-      if (const auto instance = method->make({});
-          !instance->refuses(*model).empty() && instance->refuses(*motion).empty())
-        j["integrators_of_formulations"].push_back(method->name());
-  }
+  add_methods(j, model);
   return j;
 }
 
@@ -149,11 +170,9 @@ nlohmann::json describe_method(const MethodPlugin& plugin) {
   for (const SystemPlugin* system : systems().all()) {
     const auto whole = system->make({}), model = motion_for(*method, whole);
     if (!method->refuses(*model).empty()) continue;
-    nlohmann::json claims = nlohmann::json::array();
-    for (const Claim claim : claims_in_scope(method->preserves(*model), *model))
-      claims.push_back(to_string(claim));
-    j["systems"].push_back(
-        {{"name", system->name()}, {"order", method->order(*model)}, {"preserves", claims}});
+    j["systems"].push_back({{"name", system->name()},
+                            {"order", method->order(*model)},
+                            {"preserves", claims_on(*method, *model)}});
     if (model != whole) j["systems"].back()["formulation"] = model->source().formulation;
   }
   return j;
@@ -249,17 +268,17 @@ std::string unit_of(const nlohmann::json& value) {
 // Prints a description: scalars as "key  value", the description as a paragraph, lists of objects as indented
 // tables, lists of names joined to one line.
 void print(const nlohmann::json& j) {
-  std::vector<std::vector<std::string>> scalars;
+  TableRows scalars;
   for (const char* first : {"name", "kind", "title", "reference"})
     if (j.contains(first)) scalars.push_back({first, text_of(j[first])});
   for (const auto& [key, value] : j.items()) {
     if (key == "name" || key == "kind" || key == "title" || key == "reference" || key == "description" ||
-        key == "schema")
+        key == "schema" || (key.starts_with("integrators") && j.contains("methods")))
       continue;
     if (!value.is_array()) scalars.push_back({key, key == "time_unit" ? unit_of(value) : text_of(value)});
     if (value.is_array() && !value.empty() && value[0].is_string()) scalars.push_back({key, text_of(value)});
   }
-  std::cout << table(scalars);
+  std::cout << facts(scalars);
   if (const std::string text = j.value("description", ""); !text.empty())
     std::cout << '\n' << paragraph(text);
   for (const auto& [key, value] : j.items()) {
@@ -267,15 +286,19 @@ void print(const nlohmann::json& j) {
     std::cout << '\n' << key << '\n';
     std::vector<std::vector<std::string>> rows(1);
     std::vector<std::string> columns;  // in order of importance to the reader
-    for (const char* column : {"name", "initial", "default", "range", "order", "expected", "origin", "unit",
-                               "title", "steps", "preserves", "meaning"})
-      if (value[0].contains(column) && !(column == std::string("unit") && value[0].contains("range")))
-        columns.emplace_back(column);
+    const auto has = [&rows_of = value](const char* column) {
+      return std::any_of(rows_of.begin(), rows_of.end(),
+                         [&](const auto& row) { return row.contains(column); });
+    };
+    for (const char* column : {"name", "initial", "default", "range", "order", "formulation", "expected",
+                               "origin", "unit", "title", "steps", "preserves", "meaning"})
+      if (has(column) && !(column == std::string("unit") && has("range"))) columns.emplace_back(column);
     for (const std::string& column : columns) rows[0].push_back(rows[0].empty() ? "  " + column : column);
     for (const auto& item : value) {
       std::vector<std::string> row;
       for (const std::string& column : columns) {
-        const std::string cell = column == "unit" ? unit_of(item[column]) : text_of(item[column]);
+        const nlohmann::json of_item = item.value(column, nlohmann::json());
+        const std::string cell = column == "unit" ? unit_of(of_item) : text_of(of_item);
         row.push_back(row.empty() ? "  " + cell : cell);
       }
       rows.push_back(row);

@@ -51,13 +51,13 @@ EvaluationSettings settings_of(const Options& options) {
 void add_evaluate(CLI::App& app, Common& common, Action& action) {
   CLI::App* sub = subcommand(app, common, "evaluate", "A system at one state: its field, energy, structure");
   auto options = std::make_shared<Options>();
-  sub->add_option("--system", options->settings.system,
-                  "Name of the system, or the file of one written as text")
-      ->type_name("NAME|FILE.toml");
+  sub->add_option("system,--system", options->settings.system,
+                  "The system: its name, or the file of one written as text")
+      ->type_name("SYSTEM|FILE");
   sub->add_option("--formulation", options->settings.formulation,
                   "Motion of a system with constraints (without: " + dirac_formulation().name() + " or " +
                       nonholonomic_formulation().name() + ")")
-      ->type_name("NAME");
+      ->type_name("FORMULATION");
   sub->add_option("--set", options->set, "A parameter (nu=0.3) or the state, initial=a,b,...")
       ->type_name("KEY=VALUE")
       ->expected(1)
@@ -65,7 +65,7 @@ void add_evaluate(CLI::App& app, Common& common, Action& action) {
   sub->add_option("--state", options->state, "JSON file with the state: t, and z or q and p")
       ->type_name("FILE");
   sub->add_option("--time", options->time, "The time, 0 without")->type_name("t");
-  sub->add_option("--precision", options->precision, "double (default) or quad")->type_name("NAME");
+  sub->add_option("--precision", options->precision, "The numbers; double without")->type_name("double|quad");
   sub->add_flag("--compile", options->settings.compile,
                 "Compile the system's formulas with the C++ compiler of this machine");
   sub->add_option("--centre", options->centre, "F and B from K and D about this point: a,b,...")

@@ -10,7 +10,7 @@ namespace pfaff::app {
 
 namespace {
 using nlohmann::json;
-using Rows = std::vector<std::vector<std::string>>;
+using Rows = TableRows;
 
 std::string text_of(const json& value) {
   if (value.is_null()) return "-";
@@ -158,17 +158,17 @@ std::string evaluation_text(const json& j) {
   std::string parameters;
   for (const auto& [key, value] : j["parameters"].items())
     parameters += (parameters.empty() ? "" : ", ") + key + "=" + value.get<std::string>();
-  Rows facts{{"system", j["system"]}};
-  if (constrained) facts.push_back({"formulation", j["formulation"]});
-  if (!parameters.empty()) facts.push_back({"parameters", parameters});
-  facts.push_back({"t", text_of(j["t"])});
-  facts.push_back({"status", j["status"]});
-  if (j.contains("reason")) facts.push_back({"reason", j["reason"]});
+  Rows known{{"system", j["system"]}};
+  if (constrained) known.push_back({"formulation", j["formulation"]});
+  if (!parameters.empty()) known.push_back({"parameters", parameters});
+  known.push_back({"t", text_of(j["t"])});
+  known.push_back({"status", j["status"]});
+  if (j.contains("reason")) known.push_back({"reason", j["reason"]});
   for (const auto& [key, label] : {std::pair{"energy", "energy"}, std::pair{"energy_rate", "energy rate"}})
-    if (!j[key].is_null()) facts.push_back({label, text_of(j[key])});
-  if (structured) add_structure_facts(j, facts);
-  if (constrained) add_constraint_facts(j, facts);
-  if (j.contains("nonholonomic") && !j["nonholonomic"].is_null()) add_bracket_facts(j["nonholonomic"], facts);
+    if (!j[key].is_null()) known.push_back({label, text_of(j[key])});
+  if (structured) add_structure_facts(j, known);
+  if (constrained) add_constraint_facts(j, known);
+  if (j.contains("nonholonomic") && !j["nonholonomic"].is_null()) add_bracket_facts(j["nonholonomic"], known);
   const bool forced = j.contains("constraint_forces") && !j["constraint_forces"].is_null();
   Rows rows{{"coordinate", "state", "rhs"}};
   if (structured)
@@ -182,7 +182,7 @@ std::string evaluation_text(const json& j) {
       rows.back().push_back(k < names.size() / 2 ? ""
                                                  : text_of(j["constraint_forces"][k - names.size() / 2]));
   }
-  std::string text = table(facts) + '\n' + table(rows);
+  std::string text = facts(known) + '\n' + table(rows);
   if (structured) text += matrix_text("K", j["K"], names, false);
   if (constrained) text += constraint_tables(j);
   return text;

@@ -7,7 +7,7 @@
 
 namespace pfaff::app {
 
-/// The result of evaluation() as tables of at most 100 columns, with six digits; --json gives every digit.
+/// The result of evaluation() as tables, with six digits; --json gives every digit.
 std::string evaluation_text(const nlohmann::json& j);
 
 }  // namespace pfaff::app

@@ -144,7 +144,7 @@ int search(const Options& options, const Common& common) {
   settings.budget = options.budget.value_or(options.all ? budget_of_all : settings.budget);
   std::vector<FalsificationResult> results;
   {
-    ProgressLine line;
+    ProgressLine line(common.quiet);
     results = falsify(std::move(tests), settings,
                       [&](const std::string& what, double fraction) { line.show(what, fraction); });
   }
@@ -161,7 +161,7 @@ int search(const Options& options, const Common& common) {
   if (common.json) {
     std::cout << json_text(
         {{"schema", 1}, {"ok", falsified == 0}, {"seed", settings.seed}, {"results", list}});
-  } else {
+  } else if (!common.quiet) {
     print(results, common);
     std::cout << (results.empty() ? "" : "\n") << results.size() << " claims on " << systems
               << " random systems, seed " << settings.seed << ": " << falsified << " falsified\n";
@@ -193,6 +193,7 @@ int show(const Options& options, const Common& common) {
                             {"reason", judgement.reason}});
     return judgement.falsified ? 1 : 0;
   }
+  if (common.quiet) return judgement.falsified ? 1 : 0;
   std::cout << paragraph(std::string(claim_row(claim).meaning));
   for (std::size_t k = 0; k < judgement.residuals.size(); ++k)
     std::cout << "residual of " << options.steps << (options.steps == 1 ? " step, h" : " steps, h")
@@ -209,10 +210,11 @@ int show(const Options& options, const Common& common) {
 
 void add_falsify(CLI::App& app, Common& common, Action& action) {
   CLI::App* sub = subcommand(app, common, "falsify", "Search for the smallest system on which a claim fails");
+  add_quiet(*sub, common);
   auto options = std::make_shared<Options>();
   sub->add_option("method", options->method,
                   "Name of the integrator, or the file of a table of coefficients (.toml)")
-      ->type_name("METHOD");
+      ->type_name("INTEGRATOR|FILE");
   sub->add_flag("--all", options->all, "Every claim of every integrator");
   sub->add_option("--claim", options->claim, "One claim, made or not; all that are made without")
       ->type_name("NAME");
@@ -231,7 +233,7 @@ void add_falsify(CLI::App& app, Common& common, Action& action) {
       ->type_name("DIR")
       ->check(CLI::ExistingDirectory);
   sub->add_option("--system", options->system, "Judge the claim on this system, from its initial state")
-      ->type_name("NAME");
+      ->type_name("SYSTEM|FILE");
   sub->add_option("--step", options->step, "With --system: the step, 1/10 without")->type_name("h");
   sub->add_option("--steps", options->steps, "With --system: how many steps in a row, 1 without")
       ->type_name("N")

@@ -1,10 +1,13 @@
-// pfaff list: shows all plug-ins by kind, and for each facet which plug-ins offer and need it. In Markdown
-// the list is the page docs/plugins.md.
+// pfaff list: shows all plug-ins by kind and family, and for each facet which plug-ins offer and need it. In
+// Markdown the list is the page docs/plugins.md, that of integrators with what they keep docs/methods.md.
+#include <algorithm>
 #include <iostream>
 #include <map>
 #include <pfaff/bench/runner/json.hpp>
+#include <set>
 
 #include <pfaff/app/command.hpp>
+#include <pfaff/app/method_survey.hpp>
 #include <pfaff/app/terminal.hpp>
 #include <pfaff/bench/experiment/experiment.hpp>
 #include <pfaff/core/bracket.hpp>
@@ -15,24 +18,49 @@
 namespace pfaff::app {
 
 namespace {
-using Rows = std::vector<std::pair<std::string, std::string>>;  // name, title
+const std::vector<std::string> kinds{"systems", "integrators", "brackets", "formulations", "experiments"};
 
+// The plug-ins of a kind with title and family, in the order of families.
 template <class P>
-Rows rows_of(const Registry<P>& registry) {
-  Rows rows;
-  for (const P* plugin : registry.all()) rows.emplace_back(plugin->name(), plugin->descriptor().title);
-  return rows;
+nlohmann::json entries_of(const Registry<P>& registry, const std::string& room) {
+  std::vector<nlohmann::json> entries;
+  for (const P* plugin : registry.all())
+    entries.push_back({{"name", plugin->name()},
+                       {"title", plugin->descriptor().title},
+                       {"family", family_of(*plugin, room)}});
+  std::stable_sort(entries.begin(), entries.end(), [](const auto& one, const auto& other) {
+    return one["family"].template get<std::string>() < other["family"].template get<std::string>();
+  });
+  return entries;
 }
 
-Rows rows_of_kind(const std::string& kind) {
-  if (kind == "systems") return rows_of(systems());
-  if (kind == "integrators") return rows_of(integrators());
-  if (kind == "brackets") return rows_of(brackets());
-  if (kind == "formulations") return rows_of(formulations());
-  Rows rows;
+nlohmann::json entries_of_kind(const std::string& kind) {
+  if (kind == "systems") return entries_of(systems(), kind);
+  if (kind == "brackets") return entries_of(brackets(), kind);
+  if (kind == "formulations") return entries_of(formulations(), kind);
+  if (kind == "integrators") {
+    nlohmann::json entries = entries_of(integrators(), kind);
+    const SurveyedSystems known;
+    for (auto& entry : entries) {
+      const MethodSurvey survey = known.of(*integrators().find(entry["name"].get<std::string>()), {{}});
+      entry["orders"] = survey.orders;
+      entry["preserves"] = nlohmann::json::array();
+      for (const auto& [claim, orders] : survey.kept) entry["preserves"].push_back(to_string(claim));
+    }
+    return entries;
+  }
+  nlohmann::json entries = nlohmann::json::array();
   for (const std::string& name : experiment_names())
-    rows.emplace_back(name, read_experiment(name, false).title);
-  return rows;
+    entries.push_back({{"name", name}, {"title", read_experiment(name, false).title}});
+  return entries;
+}
+
+std::vector<std::string> names_of_kind(const std::string& kind) {
+  if (kind == "systems") return systems().names();
+  if (kind == "integrators") return integrators().names();
+  if (kind == "brackets") return brackets().names();
+  if (kind == "formulations") return formulations().names();
+  return experiment_names();
 }
 
 // The names of the plug-ins of a kind for which holds(plugin) is true.
@@ -81,14 +109,14 @@ int list_facets(bool json) {
     std::cout << json_text({{"schema", 1}, {"facets", facets}});
     return 0;
   }
-  std::vector<std::vector<std::string>> lines;
+  TableRows lines;
   for (const auto& facet : facets) {
     lines.push_back({"  " + facet["name"].get<std::string>(), facet["meaning"].get<std::string>()});
     lines.push_back({"    formulas", joined(facet["formulas"])});
     lines.push_back({"    offered by", joined(facet["offered_by"])});
     lines.push_back({"    needed by", joined(facet["needed_by"])});
   }
-  std::cout << "facets\n" << table(lines);
+  std::cout << "facets\n" << facts(lines);
   return 0;
 }
 
@@ -117,7 +145,7 @@ void print_markdown(const std::string& heading, const Registry<P>& registry) {
   }
 }
 
-int list_markdown() {
+int plugins_in_markdown() {
   std::cout
       << "# Plug-ins\n\nWhat is registered, kind by kind. This page is what `pfaff list --markdown` prints: "
          "write descriptors, not\nthis page. `pfaff describe NAME` says more, `pfaff cite NAME` gives the "
@@ -129,25 +157,102 @@ int list_markdown() {
   return 0;
 }
 
-int list(const std::string& kind, bool json) {
-  if (kind == "facets") return list_facets(json);
-  const std::vector<std::string> kinds{"systems", "integrators", "brackets", "formulations", "experiments"};
-  if (!kind.empty() && std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) {
-    std::vector<std::string> names = kinds;
-    names.emplace_back("facets");
-    throw InputError(unknown_name("kind", kind, names));
+// The matrix of methods and what they keep: the orders with which each claim is made on the systems of its
+// scope, over the parameters that verification runs through.
+int methods_in_markdown() {
+  std::cout
+      << "# Methods, what they keep, and their order\n\nThe orders with which a method claims to keep what "
+         "the column says, on the systems of which the claim speaks. Orders are\nthose of the parameters "
+         "that "
+         "`pfaff verify --full` runs through; many methods have higher ones. A method without an\norder in a "
+         "column claims nothing there, which is no proof that it keeps nothing. What the columns mean stands "
+         "below.\nThis page is what `pfaff list integrators --markdown` prints.\n";
+  const SurveyedSystems known;
+  std::map<std::string, MethodSurvey> surveys;
+  std::map<std::string, std::set<Claim>> columns;  // of each family those that one of its methods claims
+  for (const MethodPlugin* method : integrators().all()) {
+    const MethodSurvey& survey = surveys[method->name()] = known.of(*method, method->instances(true));
+    for (const auto& kept : survey.kept) columns[family_of(*method, "integrators")].insert(kept.first);
   }
-  nlohmann::json j{{"schema", 1}};
-  for (const std::string& k : kinds) {
-    if (!kind.empty() && k != kind) continue;
-    const Rows rows = rows_of_kind(k);
-    j[k] = nlohmann::json::array();
-    std::vector<std::vector<std::string>> lines;
-    for (const auto& [name, title] : rows) {
-      j[k].push_back({{"name", name}, {"title", title}});
-      lines.push_back({"  " + name, title});
+  std::string family = "-";
+  for (const auto& entry : entries_of(integrators(), "integrators")) {
+    if (entry["family"] != family) {
+      family = entry["family"];
+      std::cout << "\n## " << family << "\n\n| method | order |";
+      for (const Claim claim : columns[family]) std::cout << ' ' << to_string(claim) << " |";
+      std::cout << "\n|---|---|";
+      for (std::size_t k = 0; k < columns[family].size(); ++k) std::cout << "---|";
+      std::cout << '\n';
     }
-    if (!json) std::cout << k << '\n' << table(lines);
+    const auto name = entry["name"].get<std::string>();
+    const MethodSurvey& survey = surveys[name];
+    std::cout << "| `" << name << "` | " << in_words(survey.orders)
+              << (survey.adaptive ? ", chooses its steps" : "") << " |";
+    for (const Claim claim : columns[family]) {
+      const auto kept = survey.kept.find(claim);
+      std::cout << ' ' << (kept == survey.kept.end() ? "" : in_words(kept->second) + " ") << '|';
+    }
+    std::cout << '\n';
+  }
+  std::cout
+      << "\n## What the columns mean\n\n| claim | meaning | systems of which it speaks |\n|---|---|---|\n";
+  for (const ClaimRow& row : claim_table)
+    if (!row.foreseen)
+      std::cout << "| " << row.name << " | " << cell(std::string(row.meaning)) << " | "
+                << cell(std::string(row.scope)) << " |\n";
+  return 0;
+}
+
+// A kind as text: its plug-ins under the names of their families.
+void print(const std::string& kind, const nlohmann::json& entries) {
+  const bool methods = kind == "integrators";
+  TableRows rows;
+  if (methods) rows.push_back({kind, "order", "keeps", ""});
+  std::string family;
+  for (const auto& entry : entries) {
+    if (entry.value("family", "") != family) {
+      family = entry["family"];
+      rows.push_back({" " + family});
+    }
+    rows.push_back({"  " + entry["name"].get<std::string>()});
+    if (methods) {
+      const auto orders = entry["orders"].get<std::set<int>>();
+      rows.back().push_back(orders.empty() ? "-" : in_words(orders));
+      rows.back().push_back(joined(entry["preserves"]));
+    }
+    rows.back().push_back(entry["title"]);
+  }
+  std::cout << (methods ? table(rows) : kind + '\n' + facts(rows));
+}
+
+struct Options {
+  std::string kind;
+  bool markdown = false, names = false;
+};
+
+int list(const Options& options, bool json) {
+  const std::string& kind = options.kind;
+  std::vector<std::string> known = kinds;
+  known.emplace_back("facets");
+  if (!kind.empty() && std::find(known.begin(), known.end(), kind) == known.end())
+    throw InputError(unknown_name("kind", kind, known));
+  if (options.markdown) {
+    if (kind.empty()) return plugins_in_markdown();
+    if (kind == "integrators") return methods_in_markdown();
+    throw InputError("--markdown: expected no kind, or integrators, got '" + kind + "'");
+  }
+  if (options.names && kind == "facets")
+    throw InputError("--names: expected a kind of plug-ins or experiments, got 'facets'");
+  if (kind == "facets") return list_facets(json);
+  nlohmann::json j{{"schema", 1}};
+  for (const std::string& one : kinds) {
+    if (!kind.empty() && one != kind) continue;
+    if (options.names) {
+      for (const std::string& name : names_of_kind(one)) std::cout << printable(name) << '\n';
+      continue;
+    }
+    j[one] = entries_of_kind(one);
+    if (!json) print(one, j[one]);
   }
   if (json) std::cout << json_text(j);
   return 0;
@@ -157,17 +262,15 @@ int list(const std::string& kind, bool json) {
 void add_list(CLI::App& app, Common& common, Action& action) {
   CLI::App* sub =
       subcommand(app, common, "list", "List systems, integrators, brackets, formulations and experiments");
-  auto kind = std::make_shared<std::string>();
-  auto markdown = std::make_shared<bool>(false);
-  auto* const of_kind =
-      sub->add_option("kind", *kind, "systems, integrators, brackets, formulations, experiments, facets")
-          ->type_name("KIND");
-  sub->add_flag("--markdown", *markdown, "All plug-ins as a page of Markdown")
-      ->excludes(of_kind)
-      ->excludes("--json");
-  sub->callback([=, &common, &action] {
-    action = [=, &common] { return *markdown ? list_markdown() : list(*kind, common.json); };
-  });
+  auto options = std::make_shared<Options>();
+  sub->add_option("kind", options->kind, "What is listed; all kinds without, but for facets")
+      ->type_name("systems|integrators|brackets|formulations|experiments|facets");
+  sub->add_flag("--names", options->names, "The names alone, one a line")->excludes("--json");
+  sub->add_flag("--markdown", options->markdown,
+                "All plug-ins as a page of Markdown, or integrators and what they keep")
+      ->excludes("--json")
+      ->excludes("--names");
+  sub->callback([=, &common, &action] { action = [=, &common] { return list(*options, common.json); }; });
 }
 
 }  // namespace pfaff::app

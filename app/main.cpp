@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include <pfaff/app/command.hpp>
+#include <pfaff/app/help_formatter.hpp>
 #include <pfaff/app/terminal.hpp>
 #include <pfaff/core/bracket.hpp>
 #include <pfaff/core/integrator.hpp>
@@ -31,6 +32,11 @@ CLI::App* subcommand(CLI::App& app, Common& common, const std::string& name, con
       ->allow_extra_args(false)
       ->take_all();
   return sub;
+}
+
+void add_quiet(CLI::App& sub, Common& common) {
+  sub.add_flag("--quiet", common.quiet, "No progress and no summary: errors and the exit status say it")
+      ->excludes("--json");
 }
 
 Assignments parse_settings(const std::vector<std::string>& texts) {
@@ -156,7 +162,7 @@ int run(int argc, char** argv) {
   // the signal would end the program silently.
   std::signal(SIGPIPE, SIG_IGN);
   CLI::App app{"Pfaff: structure-preserving integration, what drifts and what it costs", "pfaff"};
-  app.get_formatter()->label("SUBCOMMAND", "COMMAND");
+  app.formatter(std::make_shared<HelpFormatter>());
   app.set_version_flag("--version", std::string("pfaff ") + PFAFF_VERSION_TEXT);
   app.require_subcommand(1);
   Common common;
@@ -172,9 +178,11 @@ int run(int argc, char** argv) {
   add_verify(app, common, action);
   add_falsify(app, common, action);
   add_derive(app, common, action);
+  add_help(app, common, action);
+  add_completion(app, common, action);
   app.footer(
-      "pfaff COMMAND --help shows the options of a command.\n"
-      "Exit status: 0 fine, 1 a check failed or a run ended early, 2 wrong usage or input.\n");
+      "pfaff help COMMAND shows the options of a command.\n"
+      "Exit status: 0 fine, 1 a check failed or a run ended early, 2 wrong usage or input.");
   if (const std::string missing = missing_value(app, argc, argv); !missing.empty()) {
     complain(missing);
     return 2;

@@ -128,7 +128,7 @@ void print_json(const Options& options, const nlohmann::json& papers, bool good)
   std::cout << json_text(all);
 }
 
-int run(const Options& options, bool json) {
+int run(const Options& options, const Common& common) {
   if (options.paper.empty() && !options.section.empty())
     throw InputError("--section " + options.section +
                      ": expected a paper before it, because sections are a paper's");
@@ -150,22 +150,22 @@ int run(const Options& options, bool json) {
     if (options.coverage) {
       const Coverage coverage = coverage_of(paper);
       good = good && coverage.faults.empty();
-      if (json) {
+      if (common.json) {
         all.push_back(to_json(coverage));
-      } else {
+      } else if (!common.quiet || !coverage.faults.empty()) {
         print_coverage(coverage);
       }
       continue;
     }
     const auto rows = reproduce(paper, options.section);
     good = good && ok(rows);
-    if (json) {
+    if (common.json) {
       all.push_back(to_json(paper, rows));
-    } else {
+    } else if (!common.quiet || !ok(rows)) {
       print_rows(paper, rows);
     }
   }
-  if (json) print_json(options, all, good);
+  if (common.json) print_json(options, all, good);
   return good ? 0 : 1;
 }
 }  // namespace
@@ -173,6 +173,7 @@ int run(const Options& options, bool json) {
 void add_reproduce(CLI::App& app, Common& common, Action& action) {
   CLI::App* sub = subcommand(app, common, "reproduce",
                              "Published values beside ours: reproduced, erratum or qualitative");
+  add_quiet(*sub, common);
   auto options = std::make_shared<Options>();
   std::string known;
   for (const std::string& name : papers()) known += (known.empty() ? "" : ", ") + name;
@@ -181,7 +182,7 @@ void add_reproduce(CLI::App& app, Common& common, Action& action) {
   sub->add_flag("--list", options->list, "What can be reproduced, without doing it");
   sub->add_flag("--coverage", options->coverage,
                 "Which items of a paper have rows, and why others have none");
-  sub->callback([=, &common, &action] { action = [=, &common] { return run(*options, common.json); }; });
+  sub->callback([=, &common, &action] { action = [=, &common] { return run(*options, common); }; });
 }
 
 }  // namespace pfaff::app

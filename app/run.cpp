@@ -68,6 +68,16 @@ ResolvedRun resolved_run(const Options& options) {
   return run;
 }
 
+// What becomes of a duration that is no multiple of the step; empty where it is one.
+std::string of_the_last_step(const ResolvedRun& run) {
+  if (run.adaptive()) return {};
+  const Quad end = run.step.quad() * Quad(static_cast<double>(run.steps)), time = run.time.quad();
+  if (abs(end - time) < Quad(1e-9) * time) return {};
+  return "the run lasts " + to_string(end, 12) + ", not " + to_string(run.time) + ": " +
+         std::to_string(run.steps) + (run.steps == 1 ? " step" : " whole steps") + " of " +
+         to_string(run.step) + ", and none is shortened";
+}
+
 // A summary for the terminal.
 std::string summary_table(const nlohmann::json& j, const std::string& written, const std::string& out) {
   const auto number = [&](const nlohmann::json& x) {
@@ -99,7 +109,7 @@ std::string summary_table(const nlohmann::json& j, const std::string& written, c
     rows.push_back(
         {"initial", "moved onto the constraints, relative change " + number(j["projected_initial"])});
   rows.push_back({written, out + "/{config.toml, series.csv, summary.json}"});
-  return table(rows);
+  return facts(rows);
 }
 
 // Prints what a run left, made now or before, and gives the exit status.
@@ -111,10 +121,10 @@ int finish(const nlohmann::json& j, const std::string& text) {
   return 1;
 }
 
-RunRecord executed(const ResolvedRun& resolved) {
+RunRecord executed(const ResolvedRun& resolved, bool quiet) {
   const Interruption interruption;
   const auto reference = reference_asked_for(resolved);
-  ProgressLine line;
+  ProgressLine line(quiet);
   return execute(
       resolved, reference.get(),
       [&](double fraction) {
@@ -123,10 +133,12 @@ RunRecord executed(const ResolvedRun& resolved) {
       &Interruption::stop());
 }
 
-int run(const Options& options, bool json) {
+int run(const Options& options, const Common& common) {
   const ResolvedRun resolved = resolved_run(options);
+  if (const std::string end = of_the_last_step(resolved); !end.empty() && !common.quiet)
+    std::cerr << "pfaff: " << end << '\n';
   if (options.out == "-") {
-    const RunRecord record = executed(resolved);
+    const RunRecord record = executed(resolved, common.quiet);
     const std::string series = series_csv(resolved, record);
     std::cout << series << std::flush;
     if (!std::cout) throw RunError("cannot write to standard output");
@@ -145,29 +157,34 @@ int run(const Options& options, bool json) {
   if (kept.outdated() && !options.force)
     throw InputError(where + "this run, but " + in_one_line(kept.changed) +
                      "; expected a new directory, or --force to run it anew");
-  const nlohmann::json j = kept.current() ? kept.summary : write_run(directory, resolved, executed(resolved));
-  return finish(j, json ? json_text(j) : summary_table(j, kept.current() ? "kept" : "written", options.out));
+  const nlohmann::json j =
+      kept.current() ? kept.summary : write_run(directory, resolved, executed(resolved, common.quiet));
+  if (common.quiet) return finish(j, "");
+  return finish(
+      j, common.json ? json_text(j) : summary_table(j, kept.current() ? "kept" : "written", options.out));
 }
 
 }  // namespace
 
 void add_run(CLI::App& app, Common& common, Action& action) {
   CLI::App* sub = subcommand(app, common, "run", "Integrate one system with one method");
+  add_quiet(*sub, common);
   auto options = std::make_shared<Options>();
   RunSettings& s = options->settings;
-  sub->add_option("--system", s.system, "Name of the system, or the file of one written as text")
-      ->type_name("NAME|FILE.toml");
+  sub->add_option("system,--system", s.system, "The system: its name, or the file of one written as text")
+      ->type_name("SYSTEM|FILE");
+  sub->add_option("integrator,--integrator", s.integrator,
+                  "The integrator: its name, or the file of a table of coefficients")
+      ->type_name("INTEGRATOR|FILE");
   sub->add_option("--formulation", s.formulation,
                   "Motion of a system with constraints (without: " + dirac_formulation().name() + " or " +
                       nonholonomic_formulation().name() + ")")
-      ->type_name("NAME");
-  sub->add_option("--integrator", s.integrator,
-                  "Name of the integrator, or the file of a table of coefficients (.toml)")
-      ->type_name("NAME");
+      ->type_name("FORMULATION");
   sub->add_option("--step", s.step, "Step h > 0")->type_name("h");
   sub->add_option("--tolerance", s.tolerance, "Instead of --step, for methods that choose their steps")
       ->type_name("e");
-  sub->add_option("--time", s.time, "Duration of the run, of which whole steps are taken")->type_name("T");
+  sub->add_option("--time", s.time, "Duration of the run; the last whole step ends within it")
+      ->type_name("T");
   sub->add_option("--every", options->every, "Sample every k-th step (default: about a thousand samples)")
       ->type_name("k");
   sub->add_option("--set", options->set, "A parameter (nu=0.3, integrator.order=4) or initial=a,b,...")
@@ -176,10 +193,10 @@ void add_run(CLI::App& app, Common& common, Action& action) {
       ->take_all();
   sub->add_option("--state", options->state, "JSON file with the initial state: t, and z or q and p")
       ->type_name("FILE");
-  sub->add_option("--precision", options->precision, "double (default) or quad")->type_name("NAME");
+  sub->add_option("--precision", options->precision, "The numbers; double without")->type_name("double|quad");
   sub->add_option("--reference", options->reference,
-                  "Errors against: exact (default), solution (exact or 30-digit), none")
-      ->type_name("NAME");
+                  "What errors are against: an exact solution (default), that or a 30-digit one, nothing")
+      ->type_name("exact|solution|none");
   sub->add_option("--max-steps", options->max_steps, "Steps that a run may take (default 1e12)")
       ->type_name("N");
   sub->add_flag("--compile", s.compile,
@@ -192,7 +209,7 @@ void add_run(CLI::App& app, Common& common, Action& action) {
   sub->add_option("--out", options->out, "New directory for the run, or - for its series on standard output")
       ->type_name("DIR|-");
   sub->callback(
-      [options, &common, &action] { action = [options, &common] { return run(*options, common.json); }; });
+      [options, &common, &action] { action = [options, &common] { return run(*options, common); }; });
 }
 
 }  // namespace pfaff::app

@@ -30,7 +30,7 @@ void print(const std::vector<Check>& checks) {
   std::map<std::array<std::string, 3>, Count> counts;
   std::vector<std::array<std::string, 3>> order;
   std::vector<std::vector<std::string>> controls{{"control", "system", "measured", "claimed", "result"}};
-  std::vector<std::vector<std::string>> failures;
+  std::vector<std::vector<std::string>> failures{{"  plug-in", "claim", "system", "precision", "found"}};
   for (const Check& c : checks) {
     if (!good(c))
       failures.push_back({"  " + called(c.plugin, c.parameters), c.claim, c.system, c.precision,
@@ -66,8 +66,10 @@ void print(const std::vector<Check>& checks) {
   }
   std::cout
       << table(rows)
-      << "(outside: the claim is not made there or is out of its scope, so that it is measured and not\n"
-         "judged; worst: the largest value, failures included, and of order the claimed less the measured)\n";
+      << paragraph(
+             "(outside: the claim is not made there or is out of its scope, so that it is measured and not "
+             "judged; worst: the largest value, failures included, and of order the claimed less the "
+             "measured)");
   if (controls.size() > 1) {
     std::cout << "\ncontrols, false claims that must be rejected\n";
     // The terminal shows at most two controls of each plug-in, which is enough to read, and every control
@@ -82,13 +84,13 @@ void print(const std::vector<Check>& checks) {
     }
     std::cout << table(some) << rejected << " of " << controls.size() - 1 << " controls rejected\n";
   }
-  if (!failures.empty()) std::cout << "\nfailed\n" << table(failures);
+  if (failures.size() > 1) std::cout << "\nfailed\n" << table(failures);
 }
 
-int run(const VerificationSettings& settings, bool json) {
+int run(const VerificationSettings& settings, const Common& common) {
   std::vector<Check> checks;
   {
-    ProgressLine line;
+    ProgressLine line(common.quiet);
     checks = verify(settings, [&](const std::string& what, std::size_t done, std::size_t all) {
       line.show(what, static_cast<double>(done) / static_cast<double>(all));
     });
@@ -100,17 +102,18 @@ int run(const VerificationSettings& settings, bool json) {
     ++totals[std::string(to_string(c.result))];
     ok = ok && good(c);
   }
-  if (json) {
+  if (common.json) {
     nlohmann::json list = nlohmann::json::array();
     for (const Check& c : checks) list.push_back(to_json(c));
     std::cout << json_text({{"schema", 1}, {"ok", ok}, {"counts", totals}, {"checks", list}});
-  } else {
+  } else if (!common.quiet || !ok) {
     print(checks);
     std::cout << '\n'
-              << totals["pass"] << " pass, " << totals["fail"] << " fail, " << totals["measured"]
-              << " measured outside their scope, "
-              << (totals["skipped"] > 0 ? std::to_string(totals["skipped"]) + " skipped, " : "")
-              << totals["rejected"] << " controls rejected: " << (ok ? "ok" : "NOT OK") << '\n';
+              << paragraph(
+                     std::to_string(totals["pass"]) + " pass, " + std::to_string(totals["fail"]) + " fail, " +
+                     std::to_string(totals["measured"]) + " measured outside their scope, " +
+                     (totals["skipped"] > 0 ? std::to_string(totals["skipped"]) + " skipped, " : "") +
+                     std::to_string(totals["rejected"]) + " controls rejected: " + (ok ? "ok" : "NOT OK"));
   }
   return ok ? 0 : 1;
 }
@@ -119,6 +122,7 @@ int run(const VerificationSettings& settings, bool json) {
 
 void add_verify(CLI::App& app, Common& common, Action& action) {
   CLI::App* sub = subcommand(app, common, "verify", "Test the claims of plug-ins, in double and quad");
+  add_quiet(*sub, common);
   auto settings = std::make_shared<VerificationSettings>();
   auto set = std::make_shared<std::vector<std::string>>();
   sub->add_option("name", settings->names, "Plug-ins, kinds of them (systems ...), or controls; all without")
@@ -131,7 +135,7 @@ void add_verify(CLI::App& app, Common& common, Action& action) {
   sub->callback([=, &common, &action] {
     action = [=, &common] {
       settings->set = parse_settings(*set);
-      return run(*settings, common.json);
+      return run(*settings, common);
     };
   });
 }

@@ -13,6 +13,9 @@ install(DIRECTORY bench/report bench/experiments DESTINATION ${CMAKE_INSTALL_DAT
         PATTERN "__pycache__" EXCLUDE)
 # Models and tables that rows of `pfaff reproduce others` run.
 install(DIRECTORY examples/models examples/tables DESTINATION ${CMAKE_INSTALL_DATADIR}/pfaff/examples)
+install(FILES ${pfaff_written}/pfaff.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+install(FILES ${pfaff_written}/pfaff DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+install(FILES ${pfaff_written}/_pfaff DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
 install(FILES references.bib DESTINATION ${CMAKE_INSTALL_DATADIR}/pfaff)
 install(EXPORT PfaffTargets NAMESPACE Pfaff:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Pfaff)
 configure_package_config_file(cmake/PfaffConfig.cmake.in ${PROJECT_BINARY_DIR}/PfaffConfig.cmake

@@ -32,6 +32,8 @@ needed=(
   "libclang-dev header:clang-c/Index.h"
   "llvm-dev program:llvm-config"
   "shellcheck program:shellcheck"
+  "groff-base program:groff"
+  "python3-markdown module:markdown"
 )
 
 # Can it be seen at all, however it came here?

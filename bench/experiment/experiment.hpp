@@ -120,7 +120,7 @@ void leave(const std::filesystem::path& directory, const ResolvedRun& run, const
 struct ExperimentOutcome {
   std::size_t runs = 0, resumed = 0, failed = 0;
   std::filesystem::path report;
-  std::string table;                                  // what the terminal shows, at most 100 columns
+  std::string table;                                  // what the terminal shows
   nlohmann::json findings = nlohmann::json::array();  // of the experiment's claims, see findings_of
   std::string failed_claims;                          // one line; empty where every claim holds
   std::vector<LeftOut> left_out;

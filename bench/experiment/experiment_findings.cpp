@@ -7,6 +7,7 @@
 #include <pfaff/bench/experiment/cells.hpp>
 #include <pfaff/bench/measure/constraints.hpp>
 #include <pfaff/bench/measure/setback.hpp>
+#include <pfaff/bench/runner/text_table.hpp>
 
 namespace pfaff {
 
@@ -197,17 +198,12 @@ std::string findings_csv(const std::vector<Finding>& findings) {
 
 std::string findings_table(const std::vector<Finding>& findings) {
   if (findings.empty()) return {};
-  std::string text = "\nfindings\n";
-  for (const Finding& f : findings) {
-    std::string words = (f.holds() ? "  holds  " : "  FAILS  ") + in_words(f);
-    const std::string numbers = "median ratio " + as_text(f.ratio_median, "%.2g") +
-                                (f.needed == f.pairs ? "" : ", expected in " + std::to_string(f.needed));
-    // The numbers go to a line of their own where words and numbers do not fit on one line.
-    const std::size_t room = 100;
-    words += words.size() + numbers.size() + 4 <= room ? "  (" : "\n         (";
-    text += words + numbers + ")\n";
-  }
-  return text;
+  TableRows rows;
+  for (const Finding& f : findings)
+    rows.push_back({f.holds() ? "  holds" : "  FAILS",
+                    in_words(f) + " (median ratio " + as_text(f.ratio_median, "%.2g") +
+                        (f.needed == f.pairs ? "" : ", expected in " + std::to_string(f.needed)) + ")"});
+  return "\nfindings\n" + facts(rows);
 }
 
 nlohmann::json to_json(const Finding& f) {

@@ -55,7 +55,7 @@ std::vector<Finding> findings_of(const Experiment& experiment, const std::vector
 /// A finding as a phrase, such as "constraint:max of lmm exceeds dirac's in 31 of 32 runs".
 std::string in_words(const Finding& finding);
 std::string findings_csv(const std::vector<Finding>& findings);
-/// Lines for the terminal, at most 100 columns; empty without findings.
+/// Lines for the terminal, empty without findings.
 std::string findings_table(const std::vector<Finding>& findings);
 nlohmann::json to_json(const Finding& finding);
 /// One line on the claims that do not hold; empty where all of them do.

@@ -1,15 +1,15 @@
-// The terminal's table of an experiment, at most 100 columns.
+// The terminal's table of an experiment.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <sstream>
 
 #include <pfaff/bench/experiment/cells.hpp>
 #include <pfaff/bench/experiment/costs.hpp>
 #include <pfaff/bench/experiment/experiment_findings.hpp>
 #include <pfaff/bench/experiment/results.hpp>
 #include <pfaff/bench/measure/constraints.hpp>
+#include <pfaff/bench/runner/text_table.hpp>
 
 namespace pfaff {
 
@@ -40,7 +40,7 @@ bool below_round_off(const nlohmann::json& invariant, const nlohmann::json& summ
 }
 
 // The runs of one case, their summaries, and what their steps cost.
-struct Rows {
+struct Runs {
   const ExperimentCase& which;
   const std::vector<ExperimentRun>& runs;
   const std::vector<nlohmann::json>& summaries;
@@ -54,88 +54,81 @@ struct Rows {
     const auto nanoseconds = cost_of(run, costs, runs);
     return nanoseconds ? as_text(*nanoseconds, "%.0f") : "-";
   }
-  void failure(std::ostream& text, const ExperimentRun& run, const nlohmann::json& s) const {
-    text << formatted("%-16.16s %6s  %s: %.60s\n", run.method->label.c_str(), size_of(run).c_str(),
-                      s["status"].get<std::string>().c_str(), s["message"].get<std::string>().c_str());
-  }
 
-  void free_motion(std::ostream& text);
-  void constrained_motion(std::ostream& text);
-  void ensemble(std::ostream& text) const;
+  [[nodiscard]] std::vector<std::string> drift(const nlohmann::json& summary);
+  [[nodiscard]] std::string motion(bool restricted);
+  [[nodiscard]] std::string ensemble() const;
 };
 
-void Rows::free_motion(std::ostream& text) {
-  const std::string drift = which.conserved.empty() ? "drift" : "drift of " + which.conserved;
-  text << formatted("%-23s %19s  %-34s %9s %9s\n", "", "error", drift.c_str(), "structure", "cost");
-  text << formatted("%-16s %6s %9s %9s  %-9s %-10s %-13s %9s %9s\n", "method", "h", "max", "final", "max",
-                    "slope", "class", "residual", "ns/step");
-  for (std::size_t k = 0; k < runs.size(); ++k) {
-    if (runs[k].which != &which) continue;
-    const nlohmann::json& s = summaries[k];
-    if (s["status"] != "converged") {
-      failure(text, runs[k], s);
-      continue;
+// What became of the invariant that is shown: size, slope and class, with a mark at a trend below round-off.
+std::vector<std::string> Runs::drift(const nlohmann::json& summary) {
+  for (const nlohmann::json& i : summary["invariants"]) {
+    if (i["name"] != which.conserved) continue;
+    if (i.contains("max")) {
+      const bool mark = below_round_off(i, summary);
+      marked = marked || mark;
+      return {scientific(i["max"]), as_text(i["slope"].get<double>(), "%+.1e"),
+              i["class"].get<std::string>() + (mark ? "*" : "")};
     }
-    std::string shown = "-";
-    for (const nlohmann::json& i : s["invariants"])
-      if (i["name"] == which.conserved && i.contains("max")) {
-        const bool mark = below_round_off(i, s);
-        marked = marked || mark;
-        shown = scientific(i["max"]) + "   " + as_text(i["slope"].get<double>(), "%+.1e") + "   " +
-                i["class"].get<std::string>() + (mark ? "*" : "");
-      } else if (const auto setback = setback_in(i); i["name"] == which.conserved && setback) {
-        shown = setback->size == 0.0 ? "never " + setback->move + "s"
-                                     : "largest " + setback->move + " " + scientific(setback->size);
-      }
-    text << formatted("%-16.16s %6s %9s %9s  %-34s %9s %9s\n", runs[k].method->label.c_str(),
-                      size_of(runs[k]).c_str(), scientific(s["error_max"]).c_str(),
-                      scientific(s["error_final"]).c_str(), shown.c_str(),
-                      scientific(s["structure_residual"]).c_str(), cost(runs[k]).c_str());
+    if (const auto setback = setback_in(i))
+      return {setback->size == 0.0 ? "0" : scientific(setback->size), "-",
+              setback->size == 0.0 ? "never " + setback->move + "s" : "largest " + setback->move};
   }
+  return {"-", "-", "-"};
 }
 
 // The residual of a level of constraints, and the exponent of time with which it grows; dashes where the
 // motion of a run has no such level.
-std::string residual(const nlohmann::json& summary, std::size_t level) {
-  if (!summary.contains("constraints") || summary["constraints"].size() <= level)
-    return formatted("%8s %5s", "-", "-");
+std::vector<std::string> residual(const nlohmann::json& summary, std::size_t level) {
+  if (!summary.contains("constraints") || summary["constraints"].size() <= level) return {"-", "-"};
   const nlohmann::json& c = summary["constraints"][level];
-  return formatted("%8s %5s", scientific(c["max"]).c_str(),
-                   c["growth"].is_null() ? "-" : as_text(c["growth"].get<double>(), "%.1f").c_str());
+  return {scientific(c["max"]), c["growth"].is_null() ? "-" : as_text(c["growth"].get<double>(), "%.1f")};
 }
 
-void Rows::constrained_motion(std::ostream& text) {
-  const std::string drift = which.conserved.empty() ? "drift" : "drift of " + which.conserved;
-  text << formatted("%-25s %8s %-21.21s %14s %14s %9s\n", "", "error", drift.c_str(), "constraints",
-                    "hidden ones", "cost");
-  text << formatted("%-16s %8s %8s %8s %-12s %8s %5s %8s %5s %9s\n", "method", "h", "max", "max", "class",
-                    "max", "~t^", "max", "~t^", "ns/step");
+// A row for each run. `restricted` where systems have constraints: then the residuals of these take the place
+// of slope and structure. Why runs ended early stands below.
+std::string Runs::motion(bool restricted) {
+  TableRows rows{{"method", "h", "error"}};
+  const auto add = [&](std::vector<std::string>& row, const std::vector<std::string>& cells) {
+    row.insert(row.end(), cells.begin(), cells.end());
+  };
+  add(rows[0], restricted ? std::vector<std::string>{"drift", "class", "constraints", "~t^", "hidden", "~t^"}
+                          : std::vector<std::string>{"final", "drift", "slope", "class", "structure"});
+  rows[0].emplace_back("ns/step");
+  std::string failures;
   for (std::size_t k = 0; k < runs.size(); ++k) {
     if (runs[k].which != &which) continue;
     const nlohmann::json& s = summaries[k];
+    rows.push_back({runs[k].method->label, size_of(runs[k])});
+    std::vector<std::string>& row = rows.back();
     if (s["status"] != "converged") {
-      failure(text, runs[k], s);
+      const std::string status = s["status"];
+      add(row, restricted ? std::vector<std::string>{"-", "-", status, "-", "-", "-", "-", "-"}
+                          : std::vector<std::string>{"-", "-", "-", "-", status, "-", "-"});
+      failures += paragraph(runs[k].method->label + " at h = " + size_of(runs[k]) +
+                            " ended early: " + s["message"].get<std::string>());
       continue;
     }
-    std::string largest = "-", kind = "-";
-    for (const nlohmann::json& i : s["invariants"])
-      if (i["name"] == which.conserved && i.contains("max")) {
-        const bool mark = below_round_off(i, s);
-        marked = marked || mark;
-        largest = scientific(i["max"]);
-        kind = i["class"].get<std::string>() + (mark ? "*" : "");
-      } else if (const auto setback = setback_in(i); i["name"] == which.conserved && setback) {
-        largest = scientific(setback->size);
-        kind = "largest " + setback->move;
-      }
-    text << formatted("%-16.16s %8s %8s %8s %-12s %s %s %9s\n", runs[k].method->label.c_str(),
-                      size_of(runs[k]).c_str(), scientific(s["error_max"]).c_str(), largest.c_str(),
-                      kind.c_str(), residual(s, 0).c_str(), residual(s, 1).c_str(), cost(runs[k]).c_str());
+    const std::vector<std::string> found = drift(s);
+    add(row, {scientific(s["error_max"])});
+    if (restricted) {
+      add(row, {found[0], found[2]});
+      add(row, residual(s, 0));
+      add(row, residual(s, 1));
+    } else {
+      add(row, {scientific(s["error_final"])});
+      add(row, found);
+      add(row, {scientific(s["structure_residual"])});
+    }
+    add(row, {cost(runs[k])});
   }
+  return table(rows, restricted ? std::vector<std::string>{"~t^", "hidden"}
+                                : std::vector<std::string>{"final", "slope", "structure"}) +
+         failures;
 }
 
-// Medians and ranges over the seeds, a column of 22 characters for each measure.
-void Rows::ensemble(std::ostream& text) const {
+// Medians and ranges over the seeds, a column for each measure.
+std::string Runs::ensemble() const {
   std::vector<std::string> measures, heads, levels;
   for (const ExperimentRun& run : runs)
     if (run.which == &which && run.resolved.model->restricted())
@@ -152,38 +145,33 @@ void Rows::ensemble(std::ostream& text) const {
     heads.push_back(level);
   }
   measures.resize(std::min<std::size_t>(measures.size(), 3));
-  text << formatted("%-14s %6s", "method", "h");
-  for (std::size_t k = 0; k < measures.size(); ++k) text << formatted(" %-22.22s", heads[k].c_str());
-  text << formatted(" %8s\n", "ns/step");
+  heads.resize(measures.size());
+  TableRows rows{{"method", "h"}}, growing{{"method", "h"}};
+  rows[0].insert(rows[0].end(), heads.begin(), heads.end());
+  rows[0].emplace_back("ns/step");
+  growing[0].insert(growing[0].end(), levels.begin(), levels.end());
   std::size_t lost = 0;
-  std::ostringstream growing;
   for (const ExperimentRun& run : runs) {
     if (run.which != &which || run.seed != 1) continue;
-    text << formatted("%-14.14s %6s", run.method->label.c_str(), size_of(run).c_str());
+    rows.push_back({run.method->label, size_of(run)});
+    growing.push_back(rows.back());
     for (const std::string& measure : measures) {
       const Spread s = spread_over_seeds(run, measure, runs, summaries);
       lost += &measure == &measures.front() ? s.runs - s.finished : 0;
-      text << formatted(
-          " %-22s", s.measured == 0 ? "-" : formatted("%.1e (%.0e..%.0e)", s.median, s.low, s.high).c_str());
+      rows.back().push_back(s.measured == 0 ? "-" : formatted("%.1e (%.0e..%.0e)", s.median, s.low, s.high));
     }
-    text << formatted(" %8s\n", cost(run).c_str());
+    rows.back().push_back(cost(run));
     for (const std::string& level : levels) {
       const Spread s = spread_over_seeds(run, level + ":growth", runs, summaries);
-      if (&level == &levels.front())
-        growing << formatted("%-14.14s %6s", run.method->label.c_str(), size_of(run).c_str());
-      growing << formatted(
-          "  %-22s", s.measured == 0 ? "-" : formatted("%.2f (%.2f..%.2f)", s.median, s.low, s.high).c_str());
-      if (&level == &levels.back()) growing << '\n';
+      growing.back().push_back(s.measured == 0 ? "-"
+                                               : formatted("%.2f (%.2f..%.2f)", s.median, s.low, s.high));
     }
   }
-  text << "median and range over " << which.seeds << " seeds";
-  if (lost > 0) text << "; " << lost << " runs ended early";
-  text << '\n';
-  if (levels.empty()) return;
-  text << "\ngrowth of the largest residual so far, as a power of time\n"
-       << formatted("%-14s %6s", "method", "h");
-  for (const std::string& level : levels) text << formatted("  %-22s", level.c_str());
-  text << '\n' << growing.str();
+  std::string text = table(rows) + "median and range over " + std::to_string(which.seeds) + " seeds" +
+                     (lost > 0 ? "; " + std::to_string(lost) + " runs ended early" : "") + '\n';
+  if (!levels.empty())
+    text += '\n' + paragraph("growth of the largest residual so far, as a power of time") + table(growing);
+  return text;
 }
 }  // namespace
 
@@ -191,31 +179,25 @@ std::string results_table(const fs::path& directory, const Experiment& experimen
                           const std::vector<ExperimentRun>& runs,
                           const std::vector<nlohmann::json>& summaries) {
   const Costs costs = read_costs(directory / "cost.csv", runs);
-  std::ostringstream text;
+  std::string text;
   bool marked = false;
   for (const ExperimentCase& c : experiment.cases) {
-    Rows rows{c, runs, summaries, costs};
+    Runs of_case{c, runs, summaries, costs};
     const auto run =
         std::find_if(runs.begin(), runs.end(), [&](const ExperimentRun& r) { return r.which == &c; });
     const bool restricted = std::any_of(runs.begin(), runs.end(), [&](const ExperimentRun& r) {
       return r.which == &c && r.resolved.model->restricted();
     });
-    text << '\n'
-         << c.title << "  (" << c.system << ", T = " << to_string(run->resolved.time)
-         << (c.seeds > 0 ? ", " + std::to_string(c.seeds) + " seeds" : "") << ")\n";
-    if (c.seeds > 0) {
-      rows.ensemble(text);
-    } else if (restricted) {
-      rows.constrained_motion(text);
-    } else {
-      rows.free_motion(text);
-    }
-    marked = marked || rows.marked;
+    text += '\n' + paragraph(c.title + " (" + c.system + ", T = " + to_string(run->resolved.time) +
+                             (c.seeds > 0 ? ", " + std::to_string(c.seeds) + " seeds" : "") + ")" +
+                             (c.seeds > 0 || c.conserved.empty() ? "" : ", drift of " + c.conserved));
+    text += c.seeds > 0 ? of_case.ensemble() : of_case.motion(restricted);
+    marked = marked || of_case.marked;
   }
-  if (marked) text << "\n* slower than one unit of round-off a step\n";
+  if (marked) text += "\n* slower than one unit of round-off a step\n";
   if (std::any_of(runs.begin(), runs.end(), [](const ExperimentRun& r) { return !r.tolerance.empty(); }))
-    text << "\n~ tolerance of a method that chooses its steps\n";
-  return text.str();
+    text += "\n~ tolerance of a method that chooses its steps\n";
+  return text;
 }
 
 }  // namespace pfaff

@@ -46,6 +46,29 @@ std::string words_of_current_exception() {
   }
 }
 
+namespace {
+// The length of the longest text that stands in both.
+std::size_t shared_length(std::string_view a, std::string_view b) {
+  std::size_t longest = 0;
+  std::vector<std::size_t> ending(b.size() + 1);
+  for (const char one : a)
+    for (std::size_t j = b.size(); j-- > 0;) {
+      ending[j + 1] = one == b[j] ? ending[j] + 1 : 0;
+      longest = std::max(longest, ending[j + 1]);
+    }
+  return longest;
+}
+
+// The three candidates that share the longest text with the name.
+std::vector<std::string> most_alike(std::string_view name, std::vector<std::string> candidates) {
+  std::stable_sort(candidates.begin(), candidates.end(), [&](const std::string& a, const std::string& b) {
+    return shared_length(name, a) > shared_length(name, b);
+  });
+  candidates.resize(3);
+  return candidates;
+}
+}  // namespace
+
 std::string nearest(std::string_view name, const std::vector<std::string>& candidates) {
   std::string best;
   // Half of the name may be wrong, of short ones one letter: 'h' is not near 'nu'.
@@ -68,8 +91,12 @@ std::string unknown_name(std::string_view kind, std::string_view name,
   if (const std::string near = nearest(name, candidates); !near.empty())
     return text + "; did you mean '" + near + "'?";
   if (candidates.empty()) return text + "; there is none to choose from";
-  text += "; expected one of: ";
-  for (std::size_t k = 0; k < candidates.size(); ++k) text += (k == 0 ? "" : ", ") + candidates[k];
+  constexpr std::size_t most_listed = 16;
+  const bool few = candidates.size() <= most_listed;
+  text +=
+      few ? "; expected one of: " : "; expected one of " + std::to_string(candidates.size()) + ", such as ";
+  const std::vector<std::string> named = few ? candidates : most_alike(name, candidates);
+  for (std::size_t k = 0; k < named.size(); ++k) text += (k == 0 ? "" : ", ") + named[k];
   return text;
 }
 

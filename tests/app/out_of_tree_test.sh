@@ -33,6 +33,13 @@ awk '$1 == "verlet" { verlet = $2 } $1 == "rk4" { rk4 = $2 }
      END { exit !(verlet > 0 && verlet < 0.1 && rk4 > 3 * verlet) }' "$scratch/out" ||
   fail "energy: $(<"$scratch/out")"
 
+# The pieces of docs/cpp.md: cos 1, the energy -7/64, {x, y} = -z at z = 0.3, a pendulum's acceleration along its circle.
+(cd "$scratch" && program/tour >out)
+awk '$1 == "energy" { good += $2 > 0 && $2 < 1e-6 } $1 == "odeint" { good += $2 == 0.540302 }
+     $1 == "well" { good += $2 > -0.10940 && $2 < -0.10935 } $1 == "bracket" { good += $2 == -0.3 }
+     $1 == "rods" { good += $2 == 0 && $4 == -4.7088 && $5 == -3.5316 } END { exit good != 5 }' "$scratch/out" ||
+  fail "tour: $(<"$scratch/out")"
+
 plugin="$scratch/plugin/duffing.so"
 # grep reads to the end: with -q it would end at its first finding, and the program complains of a closed pipe.
 "$pfaff" list systems --plugin "$plugin" | grep '^ *duffing ' >/dev/null || fail "duffing is not listed"

@@ -99,6 +99,13 @@ TEST_F(Classified, TheTerminalKnowsEveryClassToo) {
   const std::string table = results_table(directory, experiment, runs, summaries);
   for (const DriftClassEntry& entry : drift_classes())
     EXPECT_NE(table.find(" " + std::string(entry.name)), std::string::npos) << entry.name;
+  // In narrow terminals too, where the longest class has its mark beside it.
+  for (const std::size_t columns : {80U, 60U}) {
+    setenv("COLUMNS", std::to_string(columns).c_str(), 1);
+    std::istringstream lines(results_table(directory, experiment, runs, summaries));
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), columns) << line;
+  }
+  unsetenv("COLUMNS");
   classify(0, "random_walk");
   EXPECT_THROW((void)results_table(directory, experiment, runs, summaries), RunError);
 }
