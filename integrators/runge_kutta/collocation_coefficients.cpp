@@ -61,20 +61,12 @@ CollocationCoefficients<Number>::CollocationCoefficients(const GaussCoefficients
       exact_beta[j] += b[i] * a[i * s + j] / d[j];
       start[i * s + j] = d[i] * lagrange(c, j, Quad(1) + c[i]) / d[j];
     }
-  const auto product = [&](const std::vector<Quad>& left) {
-    std::vector<Quad> result(s * s);
-    for (std::size_t i = 0; i < s; ++i)
-      for (std::size_t j = 0; j < s; ++j)
-        for (std::size_t k = 0; k < s; ++k) result[i * s + j] += left[i * s + k] * start[k * s + j];
-    return rounded<Number>(result);
-  };
   nodes = rounded<Number>(c);
   scale = rounded<Number>(d);
   mu = rounded<Number>(exact_mu);
   nu = rounded<Number>(exact_nu);
   beta = rounded<Number>(exact_beta);
-  mu_start = product(exact_mu);
-  nu_start = product(exact_nu);
+  extrapolation = rounded<Number>(start);
 
   // What holds in exact arithmetic, and whether the numbers are of the size that the grids are made for.
   const Number half = Number(1) / Number(2), quarter = half / Number(2);

@@ -22,13 +22,11 @@ namespace pfaff {
 template <class Number>
 struct CollocationCoefficients {
   std::size_t stages;
-  std::vector<Number> nodes;    // c
-  std::vector<Number> scale;    // b_j, or 1 where b_j = 0
-  std::vector<Number> counted;  // 1, or 0 where b_j = 0: what the update takes of L_j
-  // Row-major. `start` makes the first stages of a step of the scaled rates of the step before, by the
-  // polynomial through them.
-  std::vector<Number> mu, mu_start;
-  std::vector<Number> nu, nu_start, beta;
+  std::vector<Number> nodes;          // c
+  std::vector<Number> scale;          // b_j, or 1 where b_j = 0
+  std::vector<Number> counted;        // 1, or 0 where b_j = 0: what the update takes of L_j
+  std::vector<Number> mu, nu, beta;   // matrices row-major
+  std::vector<Number> extrapolation;  // of L to the step after, by the polynomial through the rates
 
   explicit CollocationCoefficients(const GaussCoefficients& tableau);
 };

@@ -94,7 +94,7 @@ struct Collocation {
           weight(c.stages),
           scale(c.stages),
           of_second_order(velocity != nullptr),
-          iteration(of_second_order ? 0 : problem.size(), c.stages, c.mu, c.mu_start, true,
+          iteration(of_second_order ? 0 : problem.size(), c.stages, c.mu, c.extrapolation, true,
                     HasFieldJacobian<P> && !of_second_order),
           counted(iteration.row_of(c.counted)) {
       for (std::size_t i = 0; i < c.stages; ++i) {

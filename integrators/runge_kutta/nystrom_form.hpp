@@ -45,7 +45,7 @@ class NystromForm {
   NystromForm(const CollocationCoefficients<Number>& c, const P& p, const Tape& velocity)
       : unit_mass_(identity(velocity)),
         degrees_(p.size() / 2),
-        iteration_(degrees_, c.stages, c.nu, c.nu_start, false, HasFieldJacobian<P>),
+        iteration_(degrees_, c.stages, c.nu, c.extrapolation, false, HasFieldJacobian<P>),
         nodes_(iteration_.row_of(c.nodes)),
         beta_(iteration_.row_of(c.beta)),
         counted_(iteration_.row_of(c.counted)),
@@ -120,7 +120,7 @@ class NystromForm {
       for (std::size_t b = 0; b < iteration_.blocks(); ++b)
         iteration_.line(k, b) = nodes_[b] * fast + (nodes_[b] * slow + still);
       // Rates far smaller than what they are added to need not be known to their own last digit.
-      Squares<T> small;
+      Sizes<T> small;
       small.add(momentum_[k] / T(64));
       if (unit_mass_) small.add(z[k] / T(4096));
       iteration_.small(k) = small;

@@ -17,27 +17,28 @@
 
 namespace pfaff {
 
-/// The sum of the squares of numbers; of duals, that of their values and that of all their derivatives.
+/// The sum of the absolute values of numbers; of duals, that of their values and that of all their
+/// derivatives.
 template <class T>
-struct Squares {
+struct Sizes {
   static constexpr std::size_t parts = 1;
   T sum{0};
-  void add(const T& x) { sum = sum + x * x; }
+  void add(const T& x) { sum = sum + abs(x); }
   [[nodiscard]] T part(std::size_t /*index*/) const { return sum; }
 };
 template <int W>
-struct Squares<Pack<W>> {
+struct Sizes<Pack<W>> {
   Pack<W> sum;
-  void add(const Pack<W>& x) { sum = sum + x * x; }
+  void add(const Pack<W>& x) { sum = sum + select(x, x, -x); }
   [[nodiscard]] double part(std::size_t /*index*/) const { return sum.sum(); }
 };
 template <class T, int N>
-struct Squares<Dual<T, N>> {
+struct Sizes<Dual<T, N>> {
   static constexpr std::size_t parts = 2;
   T value{0}, derivative{0};
   void add(const Dual<T, N>& x) {
-    value = value + x.value * x.value;
-    for (const T& slope : x.derivative) derivative = derivative + slope * slope;
+    value = value + abs(x.value);
+    for (const T& slope : x.derivative) derivative = derivative + abs(slope);
   }
   [[nodiscard]] T part(std::size_t index) const { return index == 0 ? value : derivative; }
 };
@@ -47,20 +48,20 @@ template <class T>
 class StageConvergence {
  public:
   using Number = Value<T>;
-  static constexpr std::size_t parts = Squares<T>::parts;
+  static constexpr std::size_t parts = Sizes<T>::parts;
 
   /// Where the rates of all components change in turns, as those of positions and momenta do, the contraction
   /// is known from two iterations only.
   explicit StageConvergence(bool in_turns)
-      : in_turns_(in_turns), goal_(u * u * (in_turns ? Number(1e-2) : Number(1e-6))) {}
+      : in_turns_(in_turns), goal_(u * (in_turns ? Number(1e-1) : Number(1e-3))) {}
 
   void begin_iteration() {
     previous_ = last_;
     last_ = {};
     ++iterations_;
   }
-  /// One component, or several that are judged together: the squares of the changes of the stages and of the
-  /// scaled rates, and the square of what they are measured against.
+  /// One component, or several that are judged together: the sizes of the changes of the stages and of the
+  /// scaled rates, and what they are measured against.
   void add(std::size_t part, const Number& stages, const Number& rates, const Number& size) {
     const Number scale = size + Number(std::numeric_limits<double>::min());
     const Number moved = stages / scale, changed = rates / scale;
@@ -78,8 +79,8 @@ class StageConvergence {
       converged = converged && now.rates * now.rates <= goal_ * now.stages &&
                   (!in_turns_ || now.rates * before.rates <= goal_ * before.stages);
       still = still && at_round_off(now.rates, before.rates);
-      const bool diverges = iterations_ >= 4 && now.rates > Number(0.25);
-      slow = slow || diverges || (iterations_ >= 10 && now.rates > Number(0.36) * before.rates);
+      const bool diverges = iterations_ >= 4 && now.rates > Number(0.5);
+      slow = slow || diverges || (iterations_ >= 10 && now.rates > Number(0.6) * before.rates);
     }
     if (converged || (iterations_ > 3 && still)) return stop(Status::converged);
     if (iterations_ >= 60 || slow) return stop(Status::not_converged);
@@ -89,17 +90,17 @@ class StageConvergence {
 
  private:
   struct Change {
-    Number stages{0}, rates{0};  // squares
+    Number stages{0}, rates{0};
   };
   static constexpr Number u = unit_roundoff<T>();
-  // Squares of 2^20 units: the most that rounding makes of changes.
-  static constexpr Number noise = u * u * Number(1 << 20) * Number(1 << 20);
+  // The most that rounding makes of changes.
+  static constexpr Number noise = u * Number(1 << 20);
 
   // Changes that shrink no more, because they are round-off amplified by the sums it passes through.
   bool at_round_off(const Number& now, const Number& before) {
-    if (now <= Number(16) * u * u && Number(4) * now >= before) return true;
+    if (now <= Number(4) * u && Number(2) * now >= before) return true;
     if (now < before) return false;
-    return now <= noise / Number(4096) || (++stalls_ >= 3 && now <= noise);
+    return now <= noise / Number(64) || (++stalls_ >= 3 && now <= noise);
   }
   bool stop(Status status) {
     status_ = status;

@@ -10,6 +10,7 @@
 // one iteration earlier makes conserved quantities drift.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -20,6 +21,7 @@
 #include <pfaff/core/solve/newton.hpp>
 #include <pfaff/core/solve/sum_of_two.hpp>
 #include <pfaff/integrators/runge_kutta/stage_convergence.hpp>
+#include <pfaff/integrators/support/difference_predictor.hpp>
 
 namespace pfaff {
 
@@ -57,27 +59,30 @@ class StageIteration {
   using Lane = typename Lanes::type;
   using Row = Vector<Lane, blocks_known>;  // a number for every stage
 
-  /// The matrix m and the one that makes the first stages of the last rates, row-major. `in_turns`: see
+  /// The matrix m and the one that extrapolates the rates of the last step, row-major. `in_turns`: see
   /// StageConvergence. `newton`: whether to make room for solve_by_newton.
   StageIteration(std::size_t components, std::size_t stages, const std::vector<Number>& matrix,
-                 const std::vector<Number>& start, bool in_turns, bool newton)
+                 const std::vector<Number>& extrapolation, bool in_turns, bool newton)
       : stages_(stages),
         components_(components),
         matrix_(stages * blocks()),
-        start_(stages * blocks()),
+        extrapolation_(stages * blocks()),
         line_(components * blocks()),
         stage_(line_),
         rate_(line_),
         next_(line_),
+        expected_(line_),
         moved_(components),
         small_(components),
         measures_(components),
+        levels_(static_cast<std::size_t>(std::max(difference_levels<T> + 1 - static_cast<int>(stages), 0))),
+        missed_(stages * components, levels_),
         in_turns_(in_turns),
         newton_(newton ? stages * components : 0) {
     for (std::size_t i = 0; i < stages; ++i)
       for (std::size_t j = 0; j < stages; ++j) {
         Lanes::set(matrix_[j * blocks() + i / width], i % width, T(matrix[i * stages + j]));
-        Lanes::set(start_[j * blocks() + i / width], i % width, T(start[i * stages + j]));
+        Lanes::set(extrapolation_[j * blocks() + i / width], i % width, T(extrapolation[i * stages + j]));
       }
   }
 
@@ -96,14 +101,17 @@ class StageIteration {
     return row;
   }
 
-  /// What a step sets before it solves: the lines of component k, block by block, and the square of a size
-  /// that its rates are measured against where they vanish.
+  /// What a step sets before it solves: the lines of component k, block by block, and a size that its
+  /// rates are measured against where they vanish.
   Lane& line(std::size_t k, std::size_t block) { return line_[k * blocks() + block]; }
-  Squares<T>& small(std::size_t k) { return small_[k]; }
+  Sizes<T>& small(std::size_t k) { return small_[k]; }
 
   /// Are the rates of the last step known?
   [[nodiscard]] bool known() const { return known_; }
-  void forget() { known_ = false; }
+  void forget() {
+    known_ = false;
+    missed_.forget();
+  }
   /// The rates of component k to begin with where they are not: scale_i x at stage i.
   void begin_with(std::size_t k, const T* scale, const T& x) {
     for (std::size_t i = 0; i < stages(); ++i) Lanes::set(at(rate_, i, k), i % width, scale[i] * x);
@@ -119,7 +127,9 @@ class StageIteration {
   /// together where `together`.
   template <class Evaluate>
   Status solve(const Evaluate& evaluate, bool together, auto&& iterations) {
-    combine<false>(known_ ? start_ : matrix_);
+    const bool extrapolated = known_;
+    if (extrapolated) extrapolate();
+    combine<false>(matrix_);
     evaluate();
     rate_ = next_;
     known_ = false;
@@ -132,6 +142,8 @@ class StageIteration {
       ++iterations;
     } while (!convergence.finished());
     known_ = convergence.status() == Status::converged;
+    if (extrapolated && known_ && levels_ > 0)
+      missed_.remember([this](std::size_t k) { return rate_number(rate_, k) - rate_number(expected_, k); });
     return convergence.status();
   }
 
@@ -214,11 +226,34 @@ class StageIteration {
     return table[k * blocks() + i / width];
   }
 
+  // The rates that the polynomial through the last ones has in this step, and, where few stages make a
+  // polynomial of low degree, what it is expected to miss.
+  void extrapolate() {
+    for (std::size_t k = 0; k < components(); ++k)
+      for (std::size_t b = 0; b < blocks(); ++b) {
+        Lane sum(0);
+        for (std::size_t j = 0; j < stages(); ++j)
+          sum = sum + extrapolation_[j * blocks() + b] * Lane(Lanes::get(at(rate_, j, k), j % width));
+        expected_[k * blocks() + b] = sum;
+      }
+    rate_ = expected_;
+    if (levels_ == 0) return;
+    for (std::size_t k = 0; k < components() * stages(); ++k) {
+      Lane& lanes = at(rate_, k % stages(), k / stages());
+      const std::size_t lane = k % stages() % width;
+      Lanes::set(lanes, lane, Lanes::get(lanes, lane) + missed_.expected(k));
+    }
+  }
+  // Number k of all rates, the stages of a component in a row.
+  [[nodiscard]] T rate_number(const Table& table, std::size_t k) const {
+    return Lanes::get(at(table, k % stages(), k / stages()), k % stages() % width);
+  }
+
   // The stages that the rates make, and how far they have moved.
   template <bool Measured>
   void combine(const Matrix& matrix) {
     for (std::size_t k = 0; k < components(); ++k) {
-      Squares<Lane> moved;
+      Sizes<Lane> moved;
       std::size_t block = 0;
       for (; block + 1 < blocks(); block += 2) combine_blocks<2, Measured>(matrix, k, block, moved);
       if (block < blocks()) combine_blocks<1, Measured>(matrix, k, block, moved);
@@ -226,7 +261,7 @@ class StageIteration {
     }
   }
   template <std::size_t Count, bool Measured>
-  void combine_blocks(const Matrix& matrix, std::size_t k, std::size_t block, Squares<Lane>& moved) {
+  void combine_blocks(const Matrix& matrix, std::size_t k, std::size_t block, Sizes<Lane>& moved) {
     std::array<Lane, Count> sum;
     for (std::size_t b = 0; b < Count; ++b) sum[b] = Lane(0);
     for (std::size_t j = 0; j < stages(); ++j) {
@@ -241,17 +276,17 @@ class StageIteration {
     }
   }
 
-  // What the change of a component is judged by: squares, part by part.
+  // What the change of a component is judged by, part by part.
   struct Measure {
-    std::array<Number, Squares<T>::parts> stages{}, rates{}, sizes{};
+    std::array<Number, Sizes<T>::parts> stages{}, rates{}, sizes{};
   };
 
   // Takes the rates that have been evaluated, and measures how far they have moved.
   void compare(StageConvergence<T>& convergence, bool together) {
-    constexpr std::size_t parts = Squares<T>::parts;
+    constexpr std::size_t parts = Sizes<T>::parts;
     std::array<Measure, 2> group;
     for (std::size_t k = 0; k < components(); ++k) {
-      Squares<Lane> changed, size;
+      Sizes<Lane> changed, size;
       for (std::size_t b = 0; b < blocks(); ++b) {
         const Lane& next = next_[k * blocks() + b];
         Lane& rate = rate_[k * blocks() + b];
@@ -285,17 +320,20 @@ class StageIteration {
   // Components of a group are measured against each other: what is 2^-26 times as large as they are together,
   // such as the front of a wave that enters a chain, need not be known to its own last digit. Positions and
   // momenta of a chart may be forty decades apart, and are two groups.
-  static constexpr Number negligible{0x1p-52};
+  static constexpr Number negligible{0x1p-26};
   [[nodiscard]] std::size_t group_of(std::size_t k) const {
     return in_turns_ && 2 * k >= components() ? 1 : 0;
   }
 
   std::size_t stages_, components_;
-  Matrix matrix_, start_;
-  Table line_, stage_, rate_, next_;
-  Vector<Squares<Lane>, Components> moved_;
-  Vector<Squares<T>, Components> small_;
+  Matrix matrix_, extrapolation_;
+  Table line_, stage_, rate_, next_, expected_;
+  Vector<Sizes<Lane>, Components> moved_;
+  Vector<Sizes<T>, Components> small_;
   Vector<Measure, Components> measures_;
+  // A polynomial through s stages predicts as much as s - 1 differences from step to step.
+  std::size_t levels_;
+  DifferencePredictor<T, dynamic, dynamic> missed_;
   bool in_turns_, known_ = false;
   Newton newton_;
 };
