@@ -137,7 +137,7 @@ TEST(Describe, ASystemAndTheExperimentOfItsName) {
   EXPECT_EQ(j["also"][0]["name"], "damped-oscillator");
   EXPECT_EQ(j["also"][0]["cases"][0]["name"], "weak-damping");
   const std::string text = printed({"describe", "damped-oscillator"});
-  const std::size_t system = text.find("kind         system\n"),
+  const std::size_t system = text.find("kind        system\n"),
                     experiment = text.find("kind       experiment\n");
   EXPECT_LT(system, experiment);
   EXPECT_NE(experiment, std::string::npos) << text;
