@@ -18,8 +18,8 @@ std::vector<nlohmann::json> read_summaries(const std::filesystem::path& director
 /// gives the same file; timings are in cost.csv.
 std::string results_csv(const std::vector<ExperimentRun>& runs, const std::vector<nlohmann::json>& summaries);
 
-/// The table for the terminal, with error, drift, structure residual or constraints, and cost of every run, as
-/// wide as the terminal allows.
+/// The table for the terminal, with error, drift, structure residual or constraints, and cost of every run,
+/// as wide as the terminal allows.
 std::string results_table(const std::filesystem::path& directory, const Experiment& experiment,
                           const std::vector<ExperimentRun>& runs,
                           const std::vector<nlohmann::json>& summaries);

@@ -56,6 +56,7 @@ class StageConvergence {
       : in_turns_(in_turns), goal_(u * (in_turns ? Number(1e-1) : Number(1e-3))) {}
 
   void begin_iteration() {
+    older_ = previous_;
     previous_ = last_;
     last_ = {};
     ++iterations_;
@@ -78,7 +79,7 @@ class StageConvergence {
       if (!isfinite(now.rates) || !isfinite(now.stages)) return stop(Status::non_finite);
       converged = converged && now.rates * now.rates <= goal_ * now.stages &&
                   (!in_turns_ || now.rates * before.rates <= goal_ * before.stages);
-      still = still && at_round_off(now.rates, before.rates);
+      still = still && at_round_off(now.rates, before.rates, older_[k].rates);
       const bool diverges = iterations_ >= 4 && now.rates > Number(0.5);
       slow = slow || diverges || (iterations_ >= 10 && now.rates > Number(0.6) * before.rates);
     }
@@ -97,16 +98,16 @@ class StageConvergence {
   static constexpr Number noise = u * Number(1 << 20);
 
   // Changes that shrink no more, because they are round-off amplified by the sums it passes through.
-  bool at_round_off(const Number& now, const Number& before) {
+  bool at_round_off(const Number& now, const Number& before, const Number& older) {
     if (now <= Number(4) * u && Number(2) * now >= before) return true;
-    if (now < before) return false;
+    if (now < before || (in_turns_ && now < older)) return false;  // in turns, every other one may stall
     return now <= noise / Number(64) || (++stalls_ >= 3 && now <= noise);
   }
   bool stop(Status status) {
     status_ = status;
     return true;
   }
-  std::array<Change, parts> last_{}, previous_{};
+  std::array<Change, parts> last_{}, previous_{}, older_{};
   int iterations_ = 0, stalls_ = 0;
   bool in_turns_;
   Number goal_;
