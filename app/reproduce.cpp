@@ -137,7 +137,7 @@ int run(const Options& options, const Common& common) {
   if (options.list) {
     if (options.coverage || !options.section.empty())
       throw InputError("--list: expected neither --coverage nor --section beside it");
-    if (json) {
+    if (common.json) {
       std::cout << json_text(list_json(options));
     } else {
       print_list(options);
