@@ -87,7 +87,6 @@ def caption(head, drawing, held, machine):
     built = ", ".join(str(versions[k]).strip() for k in ("compiler", "flags") if versions.get(k))
     again = f"pfaff compare {head['name']}" + (" --quick" if head.get("quick") else "")
     measured = ", ".join(machine[k] for k in ("cpu", "system", "date") if machine.get(k))
-    return "
-".join([f"{drawing.title}. {drawing.caption}", held,
+    return "\n".join([f"{drawing.title}. {drawing.caption}", held,
                       f"Pfaff {versions.get('pfaff', '')}".rstrip() + (f", {built}" if built else "") + f"; {again}"
                       + (f". Timed on {measured}" if measured else ""), ""])

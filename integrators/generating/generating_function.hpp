@@ -142,6 +142,7 @@ struct GeneratingFunction {
     DifferencePredictor<T, dynamic, dynamic> past;  // of d
     SecantUpdates<T> secants;
     LU<Value<T>> matrix;
+    std::vector<Value<T>> predicted;    // of d
     std::array<Value<T>, 2> largest{};  // of the positions and of the momenta in the chart
     Continuation<P> continuation;
     RememberedContraction<Value<T>> contraction;  // of the corrections: the slowest since the start
@@ -165,6 +166,7 @@ struct GeneratingFunction {
           past(n, history_length),
           secants(n),
           matrix(factors() ? n : 0),
+          predicted(n),
           continuation(p) {
       p.prepare(Formula::chart_field);
       if (factors()) p.prepare(Formula::chart_field_jacobian);
@@ -183,6 +185,18 @@ struct GeneratingFunction {
       largest = {};
       for (std::size_t k = 0; k < n; ++k)
         largest[2 * k < n ? 0 : 1] = std::max(largest[2 * k < n ? 0 : 1], Value<T>(abs(value_of(y[k]))));
+    }
+    // True where positions or momenta ended four times as far from the prediction as they and their predicted
+    // change are large. At steps that are too long the equation has solutions far away, which a secant can
+    // hit and which are not the motion.
+    [[nodiscard]] bool on_another_branch() const {
+      std::array<Value<T>, 2> gone{}, expected = largest;
+      for (std::size_t k = 0; k < n; ++k) {
+        const std::size_t kind = 2 * k < n ? 0 : 1;
+        gone[kind] = std::max(gone[kind], Value<T>(abs(value_of(d[k]) - predicted[k])));
+        expected[kind] = std::max(expected[kind], Value<T>(abs(predicted[k])));
+      }
+      return gone[0] > Value<T>(4) * expected[0] || gone[1] > Value<T>(4) * expected[1];
     }
     // w = y + d, with what the sums so far have rounded off.
     void place() {
@@ -217,6 +231,7 @@ struct GeneratingFunction {
       w.place();
     } while (!convergence.finished(50, w.contraction.ratio()));
     if (convergence.status() != Status::converged) return w.fail(convergence.status());
+    if (w.on_another_branch()) return w.fail(Status::not_converged);
     w.contraction.remember_slowest(convergence.contraction());
 
     if (!w.midpoint) w.gradient(w.w.data(), w.psi.data());
@@ -248,6 +263,7 @@ struct GeneratingFunction {
       p.chart_field(t + h / T(2), w.w, w.rate);
       for (std::size_t k = 0; k < w.n; ++k) w.d[k] = h * w.share.row(k, w.rate.data());
     }
+    for (std::size_t k = 0; k < w.n; ++k) w.predicted[k] = value_of(w.d[k]);
     w.measure();
     w.place();
   }

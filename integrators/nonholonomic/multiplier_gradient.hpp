@@ -74,7 +74,7 @@ struct MultiplierDiscreteGradient {
   template <class P>
   struct Work {
     using T = Scalar<P>;
-    Evaluator<T> energy;
+    Replay<T> energy;  // the tape, since compiled energies of many bodies may allocate
     EnergySlopes<T> energy_slopes;
     Replay<T> weighted;    // the gradient of x.psi
     std::vector<T> carry;  // what the sums of q and p have rounded off
@@ -89,7 +89,7 @@ struct MultiplierDiscreteGradient {
     T last_h{0}, length;
 
     Work(const MultiplierDiscreteGradient& method, const P& p)
-        : energy(make_evaluator<T>(p.model(), Formula::hamiltonian)),
+        : energy(p.model()->tape(Formula::hamiltonian)),
           energy_slopes(p.model()),
           weighted(weighted_constraint_gradient(*p.model())),
           carry(p.size()),
@@ -109,9 +109,9 @@ struct MultiplierDiscreteGradient {
           length(Real(method.length)) {}
     [[nodiscard]] std::size_t n() const { return carry.size() / 2; }
     [[nodiscard]] T& x(std::size_t j) { return middle[carry.size() + j]; }
-    [[nodiscard]] T energy_at(const T& t, const std::vector<T>& z) const {
+    [[nodiscard]] T energy_at(const T& t, const std::vector<T>& z) {
       T value(0);
-      energy.call(energy.context, t, z.data(), &value);
+      energy(t, z.data(), &value);
       return value;
     }
   };

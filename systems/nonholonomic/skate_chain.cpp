@@ -6,8 +6,8 @@
 //
 // Holonomic constraints and one of velocities act together. Each bead that follows the skate adds a rod and
 // two coordinates, so that N - 1 degrees of freedom are left. S couples neighbouring rods, and the skate with
-// the two rods at its bead. Right-hand sides take O(N): the rods are those of all bead-rod systems, to which
-// the skate is joined (core/facets/joined_velocity_constraints.hpp).
+// the rod after its bead; it is perpendicular to the one before. Right-hand sides take O(N): the rods are
+// those of all bead-rod systems, to which the skate is joined (core/facets/joined_velocity_constraints.hpp).
 //
 // The constraints are independent everywhere. Methods that keep velocity constraints keep the rods at the
 // level of velocities alone; their lengths are off by the error of the method.

@@ -105,15 +105,21 @@ TEST(MethodTable, OfAnExperimentIsFoundBesideItsFile) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
 }
 
-TEST(MethodTable, AFileThatIsWrongIsRefusedInOneLine) {
+// One line, and below it the value with a caret under its wrong part.
+TEST(MethodTable, AFileThatIsWrongIsRefusedWithItsPlace) {
   const TemporaryDirectory files;
   write(files / "table.toml", verlet("0.5, 0.500000001"));
   for (const Arguments& command :
        {run_to("-", files / "table.toml"), Arguments{"describe", files / "table.toml"},
         Arguments{"verify", files / "table.toml"}, Arguments{"falsify", files / "table.toml"},
-        Arguments{"list", "--plugin", files / "table.toml"}})
-    expect_complaint(run_pfaff(command), 2, {"table.toml:3", "the Lie word drift = 1", "is off by 1.00e-09"},
+        Arguments{"list", "--plugin", files / "table.toml"}}) {
+    Outcome outcome = run_pfaff(command);
+    const std::size_t line = outcome.err.find('\n') + 1;
+    EXPECT_EQ(outcome.err.substr(line), "  2\n  ^\n") << joined(command);
+    outcome.err.resize(line);
+    expect_complaint(outcome, 2, {"table.toml:3", "the Lie word drift = 1", "is off by 1.00e-09"},
                      joined(command));
+  }
   expect_complaint(run_pfaff(run_to("-", files / "none.toml")), 2, {"cannot read", "none.toml"},
                    "a file that is not there");
 }

@@ -125,9 +125,10 @@ TEST(VelocityConformance, EveryWrongOperationIsFound) {
   }
 }
 
-// A chain of rods with a skate: S couples neighbours, and the skate to the two rods at its bead, which leaves
-// a structure without fill. The evaluator that joins the skate to the rods of the system reports the same,
-// and its own tape does not grow with the chain.
+// A chain of rods with a skate: S couples neighbours, and its tape the skate to the two rods at its bead,
+// which leaves a structure without fill. The evaluator that joins the skate to the rods of the system leaves
+// out the rod that the skate points along, for which the entry is zero everywhere, and its own tape does not
+// grow with the chain.
 TEST(VelocityConformance, AChainWithASkateIsLinearInItsLength) {
   const auto chain = [](int beads) {
     return systems().get("skate-chain", "system").make({{"beads", std::to_string(beads)}});
@@ -140,7 +141,10 @@ TEST(VelocityConformance, AChainWithASkateIsLinearInItsLength) {
     EXPECT_EQ(tapes.pattern->couplings().size(), size + 1);
     EXPECT_EQ(tapes.pattern->structure(), MatrixStructure::tree);
     EXPECT_EQ(tapes.pattern->fill(), 0U);
-    EXPECT_EQ(model->velocity_constraints<double>()->pattern().couplings(), tapes.pattern->couplings());
+    auto expected = tapes.pattern->couplings();
+    std::erase(expected, SymmetricPattern::Coupling(size / 2, size));
+    EXPECT_EQ(expected.size(), size);
+    EXPECT_EQ(model->velocity_constraints<double>()->pattern().couplings(), expected);
     return tapes.place->code.size();
   };
   const std::size_t short_one = work(10), middle = work(20), long_one = work(30);

@@ -26,6 +26,7 @@ TEST(Claims, EveryMethodHasAnOrderAndAStructureClaimOrNone) {
 TEST(Claims, EveryMethodOfOursHasAChangedCoefficientControl) {
   for (const MethodPlugin* plugin : integrators().all()) {
     if (plugin->descriptor().double_coefficients) continue;
+    if (plugin->name() == "taylor") continue;  // no numbers define it: its coefficients are the solution's
     EXPECT_GT(plugin->make({})->coefficient_count(), 0U) << plugin->name();
   }
 }

@@ -117,6 +117,10 @@ TEST(NonholonomicGolden, TheFormulationIsTheMotionByMultipliers) {
   for (const SystemPlugin* plugin : systems().all()) {
     const auto model = plugin->make({});
     if (!model->nonholonomic()) continue;
+    // The equations that this compares with are those of constraints of velocities alone.
+    if (model->tape(Formula::constraints)->outputs.size() >
+        model->tape(Formula::velocity_offsets)->outputs.size())
+      continue;
     SCOPED_TRACE(plugin->name());
     const auto field = std::make_shared<const Tape>(multiplier_field(*model));
     const auto motion = motion_of(model);
