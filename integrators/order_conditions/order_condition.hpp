@@ -1,9 +1,9 @@
 // Order conditions: equations between the coefficients of a method that hold exactly where it has its order.
 //
 // A family of methods has a theory of its own, rooted trees for Runge-Kutta methods (rooted_trees.hpp), words
-// for compositions of flows (word_conditions.hpp), powers for multistep methods (multistep.hpp). Each of them
-// gives a list of conditions with their residuals, and what is here asks of every list: which order does it
-// show, and which condition is violated first?
+// for compositions of flows (word_conditions.hpp), powers for multistep methods (multistep_conditions.hpp).
+// Each of them gives a list of conditions with their residuals, and what is here asks of every list: which
+// order does it show, and which condition is violated first?
 #pragma once
 
 #include <functional>
@@ -48,7 +48,7 @@ int order_shown(const std::vector<OrderCondition>& conditions, const Quad& preci
 /// The theory of a registered method: its coefficients, with the parameters given, and the conditions of
 /// other coefficients in their place.
 struct OrderTheory {
-  std::string kind;  // "trees", "words" or "multistep"
+  std::string kind;  // "trees", "words", "multistep" or "second-order multistep"
   int order = 0;     // up to which it lists conditions: the method's, or the largest that the theory reaches
   std::vector<Quad> coefficients;
   std::function<std::vector<OrderCondition>(const std::vector<Quad>& coefficients)> conditions;

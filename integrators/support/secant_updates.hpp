@@ -2,10 +2,12 @@
 // with.
 //
 // Two corrections and the residuals between them say what the true Jacobian does in one direction. Broyden's
-// method changes the matrix B_0 of the iteration so that it does the same (kelley1995, 7.3). With z = B_0^-1
-// r and the corrections s_0, ..., s_k so far the next one is
-//     z := z + s_{j+1} (s_j^T z) / (s_j^T s_j),  j = 0, ..., k - 1,      s_{k+1} = z / (1 - s_k^T z / s_k^T
-//     s_k).
+// method changes the matrix B_0 of the iteration so that it does the same (kelley1995, 7.3). With
+// z = B_0^-1 r and the corrections s_0, ..., s_k so far the next one is
+//
+//     z := z + s_{j+1} (s_j^T z) / (s_j^T s_j),   j = 0, ..., k - 1,
+//     s_{k+1} = z / (1 - s_k^T z / s_k^T s_k).
+//
 // Corrections then become smaller faster than by a fixed ratio. Components are weighed by their size, so that
 // the units of a chart do not matter. Derivatives are corrected by the same matrices as values.
 #pragma once

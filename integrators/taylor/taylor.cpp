@@ -6,10 +6,12 @@
 //
 // With a tolerance e the order is chosen first, p = ceil(-ln(e) / 2 + 1), and then, at every step, the step
 // (jorba-zou2005, 3.2). The radius of convergence is seen from the last two coefficients, rho_m =
-// (size / |z_m|)^{1/m} for m = p - 1 and p, with size = max(1, |z_0|). The step h = min(rho_{p-1}, rho_p)
-// e^{-2
-// - 0.7/(p-1)} is the one at which the work per unit of time is least for that order, and the terms left out
-// are about e times the size. No step is ever rejected. Where the solution runs into a singularity the steps
+// (size / |z_m|)^{1/m} for m = p - 1 and p, with size = max(1, |z_0|). The step
+//
+//   h = min(rho_{p-1}, rho_p) e^{-2 - 0.7/(p-1)}
+//
+// is the one at which the work per unit of time is least for that order, and the terms left out are about e
+// times the size. No step is ever rejected. Where the solution runs into a singularity the steps
 // shrink until they no longer move the time, and the status says so. No structure is kept.
 #include <algorithm>
 #include <cmath>
