@@ -42,14 +42,10 @@ class TaylorExpansion {
   [[nodiscard]] std::size_t order() const { return order_; }
   /// coefficients()[degree * n + k]: that of s^degree in component k, s the time since the expansion.
   [[nodiscard]] const std::vector<T>& coefficients() const { return coefficients_; }
-  /// The largest coefficient of a degree, in absolute value; NaN where one is.
+  /// The largest coefficient of a degree, in absolute value.
   [[nodiscard]] T largest(std::size_t degree) const {
     T most(0);
-    for (std::size_t k = 0; k < n_; ++k) {
-      const T size = abs(coefficients_[degree * n_ + k]);
-      if (isnan(size)) return size;  // which the maximum would drop
-      most = std::max(most, size);
-    }
+    for (std::size_t k = 0; k < n_; ++k) most = std::max(most, abs(coefficients_[degree * n_ + k]));
     return most;
   }
   /// Component k of z(s) - z(0).
