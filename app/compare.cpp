@@ -3,6 +3,7 @@
 #include <chrono>
 #include <iostream>
 #include <map>
+#include <optional>
 
 #include <pfaff/app/command.hpp>
 #include <pfaff/app/terminal.hpp>
@@ -57,7 +58,9 @@ int compare(const Options& options, const Common& common) {
     if (!options.out.empty() && names.size() > 1) directory /= experiment.name;
     ExperimentOutcome outcome;
     {
-      const Interruption interruption;
+      // Studies of derivations do not look whether they should stop: a signal ends them as usual.
+      std::optional<Interruption> interruption;
+      if (!experiment.derivation) interruption.emplace();
       ProgressLine line(common.quiet);
       StageText text;
       const auto begin = std::chrono::steady_clock::now();

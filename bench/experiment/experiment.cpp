@@ -196,13 +196,15 @@ ProblemKey problem_of(const ExperimentRun& run) {
 
 ExperimentOutcome run_experiment(const Experiment& experiment, const fs::path& directory,
                                  const ExperimentProgress& progress, const ExperimentOptions& options) {
-  if (experiment.derivation)
+  if (experiment.derivation) {
+    if (options.team != nullptr && !options.team->leads()) return {};  // one process makes all of it
     return run_derivation_study(
         experiment, directory,
         [&](const std::string& what, std::size_t done, std::size_t all) {
           if (progress) progress({1, what, done, all});
         },
         options.force);
+  }
   ExperimentOutcome outcome;
   const std::vector<ExperimentRun> runs = expand(experiment, &outcome.left_out);
   ThisProcess alone;

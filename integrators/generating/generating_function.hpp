@@ -177,9 +177,10 @@ struct GeneratingFunction {
     [[nodiscard]] bool factors() const { return n <= largest_matrix; }
     // What corrections of component k are measured by: the component, or 2^-26 of the largest position or
     // momentum, so that the front of a wave that enters a chain need not be known to its own last digit.
+    // Derivatives are measured by those of the component.
     [[nodiscard]] T reference(std::size_t k) const {
       const Value<T> least = largest[2 * k < n ? 0 : 1] * Value<T>(0x1p-26);
-      return abs(value_of(y[k])) < least ? T(least) : y[k];
+      return abs(value_of(y[k])) < least ? T(least) + (y[k] - T(value_of(y[k]))) : y[k];
     }
     void measure() {
       largest = {};

@@ -155,7 +155,10 @@ struct KernelDiscreteGradient {
   template <class P>
   static void start(const Scalar<P>& t, const Scalar<P>& h, const State<P>& z, Work<P>& w) {
     using T = Scalar<P>;
-    if (value_of(h) != value_of(w.last_h)) w.predictor.forget();
+    if (value_of(h) != value_of(w.last_h)) {
+      w.predictor.forget();
+      w.contraction.forget();  // longer steps contract more slowly
+    }
     if (!w.continuation.holds_at(t, h, z)) {
       w.reduced(t, z.data(), w.pi.data());
       for (T& x : w.carry) x = T(0);

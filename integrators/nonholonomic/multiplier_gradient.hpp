@@ -166,7 +166,10 @@ struct MultiplierDiscreteGradient {
   static Status predict(const P& p, const Scalar<P>& t, const Scalar<P>& h, const State<P>& z, Work<P>& w) {
     using T = Scalar<P>;
     const std::size_t n = w.n(), size = 2 * n;
-    if (value_of(h) != value_of(w.last_h)) w.predictor.forget();
+    if (value_of(h) != value_of(w.last_h)) {
+      w.predictor.forget();
+      w.contraction.forget();  // longer steps contract more slowly
+    }
     for (std::size_t k = 0; k < size; ++k) w.change[k] = h * w.predictor.expected(k);
     for (std::size_t j = 0; j < w.y.size(); ++j) {
       w.x(j) = w.predictor.expected(size + j);

@@ -66,17 +66,17 @@ class StageConvergence {
   void add(std::size_t part, const Number& stages, const Number& rates, const Number& size) {
     const Number scale = size + Number(std::numeric_limits<double>::min());
     const Number moved = stages / scale, changed = rates / scale;
-    // Comparisons that let NaN through.
-    if (!(moved <= last_[part].stages)) last_[part].stages = moved;
-    if (!(changed <= last_[part].rates)) last_[part].rates = changed;
+    finite_ = finite_ && isfinite(moved) && isfinite(changed);
+    if (moved > last_[part].stages) last_[part].stages = moved;
+    if (changed > last_[part].rates) last_[part].rates = changed;
   }
   /// True when the iteration should stop; status() then says how. It is not_converged where changes become
   /// larger, or smaller so slowly, that another iteration should take over.
   bool finished() {
+    if (!finite_) return stop(Status::non_finite);
     bool converged = !in_turns_ || iterations_ > 1, still = true, slow = false;
     for (std::size_t k = 0; k < parts; ++k) {
       const Change &now = last_[k], &before = previous_[k];
-      if (!isfinite(now.rates) || !isfinite(now.stages)) return stop(Status::non_finite);
       converged = converged && now.rates * now.rates <= goal_ * now.stages &&
                   (!in_turns_ || now.rates * before.rates <= goal_ * before.stages);
       still = still && at_round_off(now.rates, before.rates, older_[k].rates);
@@ -109,7 +109,7 @@ class StageConvergence {
   }
   std::array<Change, parts> last_{}, previous_{}, older_{};
   int iterations_ = 0, stalls_ = 0;
-  bool in_turns_;
+  bool in_turns_, finite_ = true;
   Number goal_;
   Status status_ = Status::not_converged;
 };

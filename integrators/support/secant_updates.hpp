@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include <pfaff/core/numbers/dual.hpp>
@@ -55,7 +56,7 @@ class SecantUpdates {
   [[nodiscard]] T along(std::size_t j, const std::vector<T>& x) const {
     T sum(0);
     for (std::size_t k = 0; k < size_; ++k)
-      sum = sum + T(weight_[k] * weight_[k] * steps_[j * size_ + k]) * x[k];
+      sum = sum + T(weight_[k] * steps_[j * size_ + k]) * (T(weight_[k]) * x[k]);  // weights squared overflow
     return sum * T(squares_[j]);
   }
   // x += factor s_j
@@ -78,7 +79,7 @@ class SecantUpdates {
   void weigh(const std::vector<T>& reference, const std::vector<T>& change) {
     for (std::size_t k = 0; k < size_; ++k) {
       const Number scale = std::max(abs(value_of(reference[k])), abs(value_of(change[k])));
-      weight_[k] = scale > Number(0) ? Number(1) / scale : Number(1);
+      weight_[k] = scale > Number(std::numeric_limits<double>::min()) ? Number(1) / scale : Number(1);
     }
     squares_[0] = square(0);
   }

@@ -107,13 +107,14 @@ struct Taylor {
   // they vanish, since the solution then is a polynomial of a lower degree.
   template <class T>
   static double step_of(const TaylorExpansion<T>& expansion) {
+    for (const T& x : expansion.coefficients())  // since the largest of a degree says nothing of NaN
+      if (!isfinite(x)) return 0;
     const std::size_t p = expansion.order();
     const double size = std::max(1.0, static_cast<double>(expansion.largest(0)));
     double radius = std::numeric_limits<double>::max();
     for (const std::size_t degree : {p - 1, p}) {
       // In logarithms, since the coefficients of a fast motion in quad are beyond the range of doubles.
       const T last = expansion.largest(degree);
-      if (!isfinite(last)) return 0;
       if (last > T(0))
         radius = std::min(radius, std::exp((std::log(size) - static_cast<double>(log(last))) /
                                            static_cast<double>(degree)));

@@ -2,9 +2,13 @@
 // the steps of the form of first order in half the iterations.
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <utility>
+
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/integrators/runge_kutta/collocation_coefficients.hpp>
+#include <pfaff/integrators/runge_kutta/stage_convergence.hpp>
 
 namespace pfaff {
 namespace {
@@ -152,6 +156,25 @@ TEST(Collocation, NewtonTakesOverWhereStepsAreLong) {
   EXPECT_EQ(second.counters.factorisations, 20);
   // Momenta are 200 times the positions, and errors of the stages are multiplied by h omega.
   for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(second.z[k], first.z[k], k < 2 ? 1e-12 : 2e-10) << k;
+}
+
+// A component that is no number ends the iteration whichever others are judged after it.
+TEST(StageConvergence, LosesNoNaN) {
+  const double nan = std::numeric_limits<double>::quiet_NaN(), small = 1e-20;
+  for (const bool in_turns : {false, true})
+    for (const auto& [first, second] : {std::pair(nan, small), std::pair(small, nan)}) {
+      StageConvergence<double> convergence(in_turns);
+      convergence.begin_iteration();
+      convergence.add(0, first, first, 1);
+      convergence.add(0, second, second, 1);
+      EXPECT_TRUE(convergence.finished());
+      EXPECT_EQ(convergence.status(), Status::non_finite);
+    }
+  StageConvergence<double> control(false);
+  control.begin_iteration();
+  for (int k = 0; k < 2; ++k) control.add(0, small, small, 1);
+  EXPECT_TRUE(control.finished());
+  EXPECT_EQ(control.status(), Status::converged);
 }
 
 TEST(Collocation, AStateChangedFromOutsideStartsAfresh) {

@@ -50,10 +50,13 @@ TEST(SecantUpdates, MakeCorrectionsSmallerFasterThanAFixedRatio) {
 }
 
 TEST(SecantUpdates, DoNotDependOnUnits) {
-  const auto one = solved(1.0, true), other = solved(1.0, true, 0x1p100);
-  EXPECT_EQ(one.corrections, other.corrections);
-  EXPECT_EQ(one.x[0], other.x[0]);
-  EXPECT_EQ(one.x[1], other.x[1] / 0x1p100);
+  const auto one = solved(1.0, true);
+  for (const double unit : {0x1p100, 0x1p-600}) {  // the square of 1 / unit is no number in double
+    const auto other = solved(1.0, true, unit);
+    EXPECT_EQ(one.corrections, other.corrections);
+    EXPECT_EQ(one.x[0], other.x[0]);
+    EXPECT_EQ(one.x[1], other.x[1] / unit);
+  }
 }
 
 TEST(SecantUpdates, CorrectDerivativesWithTheSameMatrices) {

@@ -32,6 +32,14 @@ struct Falling {  // a polynomial of time of degree two
     rate[1] = T(-1);
   }
 };
+struct Draining {  // z0' = sqrt(z1), which is no number once z1 is negative; z1 is a polynomial of time
+  static constexpr int dimension = 2;
+  template <class T>
+  void field(const T& /*t*/, In<T> z, Out<T> rate) const {
+    rate[0] = sqrt(z[1]);
+    rate[1] = T(-1);
+  }
+};
 template <class S>
 std::shared_ptr<const Model> model_of(S system, std::vector<Real> initial = {1}) {
   return make_model({.name = "sample", .title = "", .reference = "", .initial = std::move(initial)}, system);
@@ -104,6 +112,15 @@ TEST(Taylor, PolynomialsTakeOneStep) {
   EXPECT_EQ(falling->advance_to(t, 1000.0, 1e-12, z), Status::converged);
   EXPECT_EQ(falling->counters().steps, 1);
   EXPECT_DOUBLE_EQ(z[0], -500000.0);
+}
+
+// A component that is no number stops the run where it is, although the others allow any step.
+TEST(Taylor, LosesNoNaN) {
+  const auto draining = stepper<double>(model_of(Draining{}, {0, 1}));
+  std::vector<double> z{0, -1};
+  double t = 0;
+  EXPECT_EQ(draining->advance_to(t, 1.0, 1e-8, z), Status::non_finite);
+  EXPECT_EQ(t, 0.0);
 }
 
 // A tolerance below round-off, and steps that get lost in the time, end with a status.
