@@ -61,7 +61,8 @@ class Study:
             if not all(isinstance(published.get(k), (int, float)) and published[k] > 0 for k in ("factor", "rate")):
                 raise InputError("experiment.json, published: expected numbers > 0 as 'factor' and 'rate'")
         self.published = self.head["published"]
-        self.machine = {}  # its timings are processor time of derivations, for which no machine.json is written
+        # Nothing is run, and its timings are processor time of derivations, for which no machine.json is written.
+        self.runs, self.machine = (), {}
         self.methods = [Method(m["name"], m.get("title", "")) for m in self.head["methods"]]
         self._read()
         self.methods = [m for m in self.methods if m.points]
