@@ -16,7 +16,8 @@ std::shared_ptr<const SymmetricPattern> pattern_of(const Model& model, const Joi
   std::vector<double> z(2 * n), placed(tapes.place->outputs.size()), row(n), column(tapes.holonomic);
   for (std::size_t k = 0; k < z.size(); ++k) {
     const double turn = 0.6180339887498949 * static_cast<double>(k + 1);
-    z[k] = static_cast<double>(k / 2) + turn - static_cast<double>(static_cast<std::size_t>(turn));
+    const std::size_t point = k / 2;
+    z[k] = static_cast<double>(point) + turn - static_cast<double>(static_cast<std::size_t>(turn));
   }
   Replay<double> place(tapes.place);
   place(0.5, z.data(), placed.data());
