@@ -216,7 +216,9 @@ struct GeneratingFunction {
     if (const Status status = factor(p, t, h, w); status != Status::converged) return w.fail(status);
     w.gradient.set_step(t, h);
     w.secants.forget();
-    Convergence<T> convergence;
+    // Secants make the ratios of corrections vary. The midpoint form corrects psi by what is left of the last
+    // one, and needs no second forecast.
+    Convergence<T> convergence(w.factors() && !w.midpoint ? Corrections::uneven : Corrections::even);
     do {
       w.gradient(w.w.data(), w.psi.data());
       ++p.counters().iterations;
