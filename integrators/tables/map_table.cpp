@@ -47,13 +47,13 @@ struct TextMap {
     std::vector<Replay<T>> replays;            // of the operations with a tape, in their order
 
     Work(const TextMap& map, const P& p) : carry(p.size(), T(0)) {
-      const MapProgram& program = *map.program;
+      const MapProgram& steps = *map.program;
       std::size_t size = 0, in_state = 0, most_inputs = 0;
-      for (std::size_t k = 0; k < program.registers.size(); ++k) {
-        const MapExtent extent = program.registers[k].extent;
+      for (std::size_t k = 0; k < steps.registers.size(); ++k) {
+        const MapExtent extent = steps.registers[k].extent;
         const std::size_t length =
             extent == MapExtent::one ? 1 : p.size() / (extent == MapExtent::half ? 2 : 1);
-        std::size_t& begin = program.is_state(k) ? in_state : size;
+        std::size_t& begin = steps.is_state(k) ? in_state : size;
         begins.push_back(begin);
         lengths.push_back(length);
         begin += length;
@@ -64,7 +64,7 @@ struct TextMap {
       for (const Real& x : map.settings) values[constant++] = T(x);
       for (const std::string& name : map.system_parameters)
         values[constant++] = T(*Real::parse(*parameter_of(*p.model(), name)));
-      for (const MapOperation& operation : program.operations) {
+      for (const MapOperation& operation : steps.operations) {
         if (operation.tape == nullptr) continue;
         replays.emplace_back(operation.tape);
         most_inputs = std::max(most_inputs, operation.reads.size());
@@ -105,14 +105,14 @@ struct TextMap {
           const std::size_t read = operation.reads[k];
           w.inputs[k] = at(read)[w.lengths[read] == 1 ? 0 : i];
         }
-        T value;
+        T value(0);
         (*replay)(t, w.inputs.data(), &value);
-        T& carry = w.carry[state ? w.begins[operation.target] + i : 0];
+        T& rest = w.carry[state ? w.begins[operation.target] + i : 0];
         if (operation.kind == MapOperation::Kind::add) {
-          add_to(target[i], carry, value, true);
+          add_to(target[i], rest, value, true);
         } else {
           target[i] = value;
-          if (state) carry = T(0);
+          if (state) rest = T(0);
         }
       }
       ++replay;
