@@ -28,7 +28,7 @@ Matrix<double> brackets_at_a_point(const std::shared_ptr<const HolonomicTapes>& 
   BracketRates<RecursiveVectorsDirac, double> bracket(constraints);
   (void)bracket.place(0, In<double>(z).first(n), In<double>(z).subspan(n));
   const std::vector<double>& gradients = bracket.gradients();
-  const std::size_t count = gradients.size() / (2 * n);
+  const std::size_t count = n > 0 ? gradients.size() / (2 * n) : 0;
   Matrix<double> w(count, count);
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t j = 0; j < count; ++j) {

@@ -28,7 +28,7 @@ DerivationSweep read_sweep(const toml::table& table, const std::string& where, b
   if (std::find(names.begin(), names.end(), sweep.method) == names.end())
     throw InputError(where + " [[derive]]: " + unknown_name("method", sweep.method, names));
   sweep.sizes = keys.list_of_some("sizes");
-  if (keys.text("exponent_below", "") != "") sweep.exponent_below = positive(keys, "exponent_below", "");
+  if (!keys.text("exponent_below", "").empty()) sweep.exponent_below = positive(keys, "exponent_below", "");
   if (const toml::table* less = keys.table("quick")) {
     Keys fewer(*less, where + " [derive.quick]");
     const std::vector<std::string> sizes = fewer.list_of_some("sizes");
