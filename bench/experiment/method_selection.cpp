@@ -120,7 +120,7 @@ std::string reason_to_leave_out(const MethodSelection& selection, const Experime
     return error.what();
   }
   const std::shared_ptr<const Model> model = motion_for(*instance, system);
-  if (const std::string reason = instance->refuses(*model); !reason.empty()) return reason;
+  if (std::string reason = instance->refuses(*model); !reason.empty()) return reason;
   if (of.precision == Precision::quad && instance->descriptor().double_coefficients)
     return "has coefficients in double only";
   std::vector<std::string> missing;
