@@ -2,7 +2,8 @@
 """Reads the first screen of every experiment's report as a stranger would:  every_sentence.py REPORTS EXPERIMENTS
 
 It must name the method that is cheapest at an error, with what it costs, or say that no error is known; say who stays closest
-to the constraints where no method is called cheapest; and say of a conserved quantity which methods let it drift, if any.
+to the constraints where no method is called cheapest; and say of a conserved quantity which methods let it drift, if any. Of derived
+equations it must say of a method how many operations they take and how that grows.
 REPORTS holds a directory for each file of EXPERIMENTS, as `pfaff compare --all --out REPORTS` leaves them.
 """
 import html
@@ -18,10 +19,21 @@ def plain(markup):
     return html.unescape(re.sub(r"<[^>]*>", "", re.sub(r"<sup>(.*?)</sup>", r"^\1", markup)))
 
 
+def faults_of_derivations(page, head):
+    said = re.search(r'<p class="find">(.*?)</p>', page, flags=re.S)
+    names = "|".join(re.escape(m["name"]) for m in head["methods"])
+    if not said or not re.match(rf"By ({names}) the \d+ equations .*? take \d+ operations, .*? and grow like [Ke]\^",
+                                plain(said[1])):
+        yield f"does not say how equations grow: {plain(said[1]) if said else 'no sentence'}"
+
+
 def faults(folder):
     """What a reader misses in the sentences of a report."""
     page = (folder / "report.html").read_text(encoding="utf-8")
     head = json.loads((folder / "experiment.json").read_text(encoding="utf-8"))
+    if head.get("kind") == "derivation":
+        yield from faults_of_derivations(page, head)
+        return
     labels = {m["label"] for m in head["methods"]}
     finds = re.findall(r'<p class="(?:find|casefind)">(.*?)</p>\s*(?:<p class="notice">.*?</p>\s*)?<p class="where">(.*?)</p>',
                        page, flags=re.S)
