@@ -28,11 +28,11 @@ Matrix<double> brackets_at_a_point(const std::shared_ptr<const HolonomicTapes>& 
   BracketRates<RecursiveVectorsDirac, double> bracket(constraints);
   (void)bracket.place(0, In<double>(z).first(n), In<double>(z).subspan(n));
   const std::vector<double>& gradients = bracket.gradients();
-  const std::size_t count = n > 0 ? gradients.size() / (2 * n) : 0;
+  const std::size_t width = 2 * n, count = width > 0 ? gradients.size() / width : 0;
   Matrix<double> w(count, count);
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t j = 0; j < count; ++j) {
-      const double *a = gradients.data() + i * 2 * n, *b = gradients.data() + j * 2 * n;
+      const double *a = gradients.data() + i * width, *b = gradients.data() + j * width;
       for (std::size_t k = 0; k < n; ++k) w(i, j) += a[k] * b[n + k] - a[n + k] * b[k];
     }
   return w;
