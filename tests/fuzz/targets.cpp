@@ -98,7 +98,8 @@ Reached read_and_resolve_bracket(const std::string& file) {
 Reached read_and_resolve_table(const std::string& file) {
   { const TableDocument parsed(file); }
   return then([&] {
-    const auto method = read_method_table(file)->make({});
+    const auto table = read_method_table(file);  // outlives its method
+    const auto method = table->make({});
     for (const char* name : {"pendulum", "damped-pendulum"}) {
       const auto model = systems().get(name, "system").make({});
       if (!method->refuses(*model).empty()) continue;

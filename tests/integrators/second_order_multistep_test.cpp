@@ -155,7 +155,8 @@ struct Relativistic {
 TEST(SecondOrderMultistep, OtherKineticEnergiesAreRefused) {
   const auto model =
       make_model({.name = "sample", .title = "", .reference = "", .initial = {1, 1}}, Relativistic{});
-  const auto method = read_method_table(shipped + "quinlan-tremaine-8.toml")->make({});
+  const auto table = read_method_table(shipped + "quinlan-tremaine-8.toml");  // outlives its method
+  const auto method = table->make({});
   EXPECT_NE(method->refuses(*model).find("quadratic in the momenta"), std::string::npos);
   EXPECT_EQ(method->refuses(*systems().get("kepler", "system").make({})), "");
 }
