@@ -182,3 +182,15 @@ def precision_measure(experiment, case):
     if invariant and experiment.expectation(case, invariant)[0] == "conserved":
         return lambda r: r.drift(invariant, "max")
     return None
+
+
+def limits(tracks, frame):
+    """[(low, high)] of both axes: of all tracks (x, y) but those that leave the middle one by `frame` of its widths."""
+    found = []
+    for k in (0, 1):
+        spans = sorted((min(t[k]), max(t[k])) for t in tracks)
+        low, high = spans[len(spans) // 2]
+        size = frame * ((high - low) or 1)
+        kept = [s for s in spans if s[0] >= low - size and s[1] <= high + size]
+        found.append((min(s[0] for s in kept), max(s[1] for s in kept)))
+    return found

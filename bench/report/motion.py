@@ -6,7 +6,7 @@ that of its run at the step most methods share; an ensemble shows its first seed
 """
 import math
 
-from figures import Drawing, heading, sentences, step_text, styled, with_unit
+from figures import Drawing, heading, limits, sentences, step_text, styled, with_unit
 from canvas import plain
 from sheet import Sheet
 
@@ -32,23 +32,11 @@ def track(experiment, case, run):
     return [p[0] for p in pairs], [p[1] for p in pairs]
 
 
-def limits(tracks):
-    """[(low, high)] of both axes: of all tracks but those that run away from the others."""
-    found = []
-    for k in (1, 2):
-        spans = sorted((min(t[k]), max(t[k])) for t in tracks)
-        low, high = spans[len(spans) // 2]
-        size = FRAME * ((high - low) or 1)
-        kept = [s for s in spans if s[0] >= low - size and s[1] <= high + size]
-        found.append((min(s[0] for s in kept), max(s[1] for s in kept)))
-    return found
-
-
 def drawn(experiment, case, tracks):
     units = [experiment.series(tracks[0][0], name).unit for name in case["motion"]]
     target = experiment.common_step(case)
     title = f"{heading(case)}: {case['motion'][1]} against {case['motion'][0]}"
-    frame = limits(tracks)
+    frame = limits([t[1:] for t in tracks], FRAME)
     sizes = sorted(high - low for low, high in frame)
     equal = units[0] == units[1] and sizes[1] <= LONG * sizes[0]
     outside = any(min(t[k]) < low or max(t[k]) > high for t in tracks for k, (low, high) in zip((1, 2), frame))

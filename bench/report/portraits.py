@@ -6,23 +6,11 @@ chords of a curve that nobody sees.
 import math
 
 from canvas import INK, Canvas, plain
-from figures import sentences, with_unit
+from figures import limits, sentences, with_unit
 from recording import coarse
 
 FRAME = 1.5  # a track that leaves the middle one by this many of its widths leaves the frame
 SHOWN = 4000  # points of a track at most
-
-
-def limits(tracks):
-    """[(low, high)] of both axes: of all tracks but those that run away from the others."""
-    found = []
-    for k in (0, 1):
-        spans = sorted((min(t[k]), max(t[k])) for t in tracks)
-        low, high = spans[len(spans) // 2]
-        size = FRAME * ((high - low) or 1)
-        kept = [s for s in spans if s[0] >= low - size and s[1] <= high + size]
-        found.append((min(s[0] for s in kept), max(s[1] for s in kept)))
-    return found
 
 
 def widened(begin, size, least):
@@ -32,7 +20,7 @@ def widened(begin, size, least):
 
 def panels(tracks, names, units, wide, start=True):
     """The tracks [(label, colour, xs, ys)] on a Canvas, each in a panel with the same axes; sections have no start."""
-    frame = limits([t[2:] for t in tracks])
+    frame = limits([t[2:] for t in tracks], FRAME)
     equal = units[0] == units[1]
     pads = [0.06 * ((high - low) or 1) for low, high in frame]
     spans = [high - low + 2 * pad for (low, high), pad in zip(frame, pads)]
@@ -72,7 +60,7 @@ def panels(tracks, names, units, wide, start=True):
 
 def remarks(tracks, units):
     """What a reader must know of tracks in panels, in sentences."""
-    frame = limits([t[2:] for t in tracks])
+    frame = limits([t[2:] for t in tracks], FRAME)
     outside = [label for label, _, x, y in tracks
                if any(min(v) < low or max(v) > high for v, (low, high) in zip((x, y), frame))]
     return sentences("Axes are the same in all panels." if len(tracks) > 1 else "",
