@@ -1,9 +1,6 @@
 // Timing of runs. What has been timed is kept in cost.csv from one call to the next.
 #include <pfaff/bench/experiment/costs.hpp>
 
-#include <unistd.h>
-
-#include <array>
 #include <cstdlib>
 #include <sstream>
 
@@ -44,14 +41,6 @@ CostRow row_of(const std::string& line, std::size_t begin) {
   char* end = nullptr;
   const double median = std::strtod(line.c_str() + begin, &end);
   return {line, median, *end == ',' ? std::strtod(end + 1, nullptr) : median};
-}
-}  // namespace
-
-namespace {
-// The name of this machine; empty where it has none.
-std::string host() {
-  std::array<char, 256> name{};
-  return gethostname(name.data(), name.size() - 1) == 0 ? std::string(name.data()) : std::string();
 }
 }  // namespace
 
@@ -113,7 +102,7 @@ bool write_costs(const fs::path& directory, const Experiment& experiment,
     const StepTime time = time_steps(run.resolved, experiment.quick ? 0.05 : 0.3);
     costs[key].text = key + "," + as_text(time.median, "%.6g") + "," + as_text(time.minimum, "%.6g") + "," +
                       as_text(time.maximum, "%.6g") + "," + std::to_string(time.repetitions) + "," +
-                      as_text(time.seconds, "%.4g") + "," + csv_quoted(host());
+                      as_text(time.seconds, "%.4g") + "," + csv_quoted(host_name());
     write_file(
         path,
         costs_csv(runs, costs));  // after each run, so that no timing is lost when the program is killed

@@ -1,9 +1,6 @@
 #include <pfaff/bench/experiment/experiment.hpp>
 
 #include <algorithm>
-#include <map>
-#include <mutex>
-#include <tuple>
 
 #include <pfaff/bench/experiment/citations.hpp>
 #include <pfaff/bench/experiment/costs.hpp>

@@ -39,6 +39,11 @@ double load() {
   return getloadavg(mean.data(), 1) == 1 ? mean[0] : -1;
 }
 
+std::string host_name() {
+  utsname names{};
+  return uname(&names) == 0 ? names.nodename : "";
+}
+
 nlohmann::json machine(double load_before, double load_after) {
   utsname names{};
   const bool named = uname(&names) == 0;
@@ -49,7 +54,7 @@ nlohmann::json machine(double load_before, double load_after) {
   return {{"cpu", value_in("/proc/cpuinfo", "model name", ':')},
           {"processors", std::thread::hardware_concurrency()},
           {"system", system},
-          {"host", named ? names.nodename : ""},
+          {"host", host_name()},
           {"date", date()},
           {"load", {load_before, load_after}}};
 }

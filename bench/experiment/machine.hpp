@@ -1,12 +1,17 @@
 // On which machine timings were taken.
 #pragma once
 
+#include <string>
+
 #include <pfaff/bench/runner/json.hpp>
 
 namespace pfaff {
 
 /// The processes that were ready to run, as a mean over the last minute; negative where it is not known.
 double load();
+
+/// The name of this machine; empty where it has none.
+std::string host_name();
 
 /// Processor, number of processors, operating system, host and date (UTC), and the loads before and after the
 /// timings, as machine.json has them.
