@@ -12,10 +12,10 @@
 #include <algorithm>
 
 #include <pfaff/core/solve/convergence.hpp>
-#include <pfaff/integrators/order_conditions/multistep_conditions.hpp>
 #include <pfaff/integrators/runge_kutta/gauss.hpp>
 #include <pfaff/integrators/support/continuation.hpp>
-#include <pfaff/integrators/tables/method_table.hpp>
+#include <pfaff/integrators/tables/multistep_document.hpp>
+#include <pfaff/integrators/tables/multistep_history.hpp>
 
 namespace {
 using namespace pfaff;
@@ -35,16 +35,18 @@ struct MultistepTable {
   template <class P>
   struct Work {
     using T = Scalar<P>;
-    std::vector<T> r, sigma;           // divided by r_{k-1}, so that the newest increment has the factor 1
-    std::vector<T> increments, rates;  // of the last k - 1 and k states, [state][component], newest last
-    std::vector<T> increment, rate;    // of the step that is made
+    std::vector<T> r, sigma;  // divided by r_{k-1}, so that the newest increment has the factor 1
+    MultistepHistory<T> increments, rates;  // of the last k - 1 and k states
+    std::vector<T> increment, rate;         // of the step that is made
     State<P> before, point, carry;
     std::size_t known = 0;  // states in a row, of which the rates are kept
     Continuation<P> continuation;
     pfaff::Work<Collocation<>, P> starting;
 
     Work(const MultistepTable& method, const P& p)
-        : before(p.make_state()),
+        : increments(method.steps - 1, p.size()),
+          rates(method.steps, p.size()),
+          before(p.make_state()),
           point(p.make_state()),
           carry(p.make_state()),
           continuation(p),
@@ -53,14 +55,8 @@ struct MultistepTable {
       const T leading = T(Real(method.numbers[k - 1]));
       for (std::size_t j = 0; j < k; ++j) r.push_back(T(Real(method.numbers[j])) / leading);
       for (std::size_t j = 0; j <= k; ++j) sigma.push_back(T(Real(method.numbers[k + j])) / leading);
-      increments.assign((k - 1) * n, T(0));
-      rates.assign(k * n, T(0));
       increment.assign(n, T(0));
       rate.assign(n, T(0));
-    }
-    // Moves a row of states by one, so that there is room for a new one at its end.
-    static void move(std::vector<T>& row, std::size_t n) {
-      if (row.size() > n) std::copy(row.begin() + static_cast<std::ptrdiff_t>(n), row.end(), row.begin());
     }
   };
 
@@ -73,8 +69,7 @@ struct MultistepTable {
       w.starting.restart();
       for (T& x : w.carry) x = T(0);
     }
-    Work<P>::move(w.rates, n);
-    p.field(t, z, Out<T>(w.rates.data() + (steps - 1) * n, n));
+    p.field(t, z, w.rates.next());
     w.known = std::min(w.known + 1, steps);
     for (std::size_t k = 0; k < n; ++k) w.before[k] = z[k];
     const Status status = w.known < steps ? starter.step(p, t, h, z, w.starting) : recur(p, t, h, z, w);
@@ -84,11 +79,7 @@ struct MultistepTable {
     }
     if (w.known < steps)
       for (std::size_t k = 0; k < n; ++k) w.increment[k] = z[k] - w.before[k];
-    if (steps > 1) {
-      Work<P>::move(w.increments, n);
-      std::copy(w.increment.begin(), w.increment.end(),
-                w.increments.begin() + static_cast<std::ptrdiff_t>((steps - 2) * n));
-    }
+    if (!w.increments.empty()) std::copy(w.increment.begin(), w.increment.end(), w.increments.next().begin());
     w.continuation.remember(t + h, h, z);
     return Status::converged;
   }
@@ -96,14 +87,9 @@ struct MultistepTable {
  private:
   template <class P>
   Status recur(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
-    using T = Scalar<P>;
     const std::size_t n = z.size();
-    for (std::size_t k = 0; k < n; ++k) {
-      T sum(0), old(0);
-      for (std::size_t j = 0; j < steps; ++j) sum = sum + w.sigma[j] * w.rates[j * n + k];
-      for (std::size_t j = 0; j + 1 < steps; ++j) old = old + w.r[j] * w.increments[j * n + k];
-      w.increment[k] = h * sum - old;
-    }
+    for (std::size_t k = 0; k < n; ++k)
+      w.increment[k] = h * w.rates.weighted(w.sigma, k) - w.increments.weighted(w.r, k);
     if (!structurally_explicit())
       if (const Status status = solve(p, t, h, z, w); status != Status::converged) return status;
     for (std::size_t k = 0; k < n; ++k) add_to(z[k], w.carry[k], w.increment[k], compensated);
@@ -119,8 +105,8 @@ struct MultistepTable {
     const std::size_t n = z.size();
     const T factor = h * w.sigma[steps];
     // The newest rate predicts the one that is sought.
-    const T* newest = w.rates.data() + (steps - 1) * n;
-    std::copy(newest, newest + n, w.rate.begin());
+    const Out<T> newest = w.rates.newest();
+    std::copy(newest.begin(), newest.end(), w.rate.begin());
     for (std::size_t k = 0; k < n; ++k) w.increment[k] = w.increment[k] + factor * w.rate[k];
     Convergence<T> convergence;
     do {
@@ -157,18 +143,7 @@ MultistepPolynomials polynomials_of(const std::vector<Quad>& numbers) {
 namespace pfaff {
 
 std::unique_ptr<const MethodTable> read_multistep_table(TableDocument& document, TableHead head) {
-  const MultistepPolynomials method{document.numbers("rho"), document.numbers("sigma")};
-  constexpr std::size_t most_steps = 24;
-  const std::size_t length = method.rho.size();
-  if (length < 2 || length > most_steps + 1)
-    document.refuse("rho", "expected 2 to 25 numbers, got " + std::to_string(length));
-  if (method.sigma.size() != length)
-    document.refuse("sigma", "expected " + std::to_string(length) + " numbers, as many as rho has, got " +
-                                 std::to_string(method.sigma.size()));
-  if (method.rho.back() == Quad(0)) document.refuse("rho", "the last number is 0; expected another");
-  head.descriptor.preserves = kept_claims(document, {}, [](Claim /*claim*/) {
-    return "a multistep method is a map of several states, of which no claim speaks";
-  });
+  const MultistepPolynomials method = read_multistep_polynomials(document, head, 2);
   document.finish();
   const int order = head.descriptor.order;
   require_order(document, head, multistep_conditions(method, order + 1));
@@ -176,16 +151,14 @@ std::unique_ptr<const MethodTable> read_multistep_table(TableDocument& document,
     document.refuse("rho", "is not zero-stable: " + reason);
 
   MultistepTable made;
-  made.steps = length - 1;
+  made.steps = method.rho.size() - 1;
   made.numbers = without_root_one(method.rho);  // r with rho(x) = (x - 1) r(x)
   made.numbers.insert(made.numbers.end(), method.sigma.begin(), method.sigma.end());
   made.starter.tableau = gauss_coefficients((order + 1) / 2);
-  OrderTheory theory{"multistep", order, made.numbers, {}, head.precision};
+  OrderTheory theory = multistep_theory("multistep", head, made.numbers, made.steps);
   theory.conditions = [order](const std::vector<Quad>& numbers) {
     return multistep_conditions(polynomials_of(numbers), order);
   };
-  // The condition of order 1 is that the sum of r_j is the sum of sigma_j.
-  for (std::size_t k = 0; k < theory.coefficients.size(); ++k) theory.sums.push_back(k + 1 < length ? 0 : 1);
   return std::make_unique<TableOf<MultistepTable>>(head.descriptor, document, std::move(theory),
                                                    std::move(made));
 }

@@ -26,10 +26,10 @@
 
 #include <pfaff/core/facets/quadratic_energy.hpp>
 #include <pfaff/core/numbers/gauss_legendre.hpp>
-#include <pfaff/integrators/order_conditions/multistep_conditions.hpp>
 #include <pfaff/integrators/runge_kutta/gauss.hpp>
 #include <pfaff/integrators/support/continuation.hpp>
-#include <pfaff/integrators/tables/method_table.hpp>
+#include <pfaff/integrators/tables/multistep_document.hpp>
+#include <pfaff/integrators/tables/multistep_history.hpp>
 
 namespace {
 using namespace pfaff;
@@ -87,13 +87,17 @@ struct SecondOrderMultistepTable {
     std::vector<T> r, sigma;  // divided by r_{k-2}, so that the newest increment has the factor 1
     std::vector<T> momentum;  // the weights c_j, oldest first
     std::vector<std::vector<T>> starting_increments;
-    std::vector<T> forces, increments;  // of the last k states and k - 2 pairs of steps, newest last
-    std::vector<T> mean, velocity, carry_position, carry_momentum;
+    MultistepHistory<T> forces, increments;  // of the last k states and k - 2 pairs of steps
+    std::vector<T> increment, mean, velocity, carry_position, carry_momentum;
     std::size_t known = 0;  // forces in a row
     Continuation<P> continuation;
     pfaff::Work<Collocation<>, P> starting;
 
-    Work(const SecondOrderMultistepTable& method, const P& p) : continuation(p), starting(method.starter, p) {
+    Work(const SecondOrderMultistepTable& method, const P& p)
+        : forces(method.steps, p.size() / 2),
+          increments(method.steps - 2, p.size() / 2),
+          continuation(p),
+          starting(method.starter, p) {
       const std::size_t k = method.steps, half = p.size() / 2;
       const T leading = T(Real(method.numbers[k - 2]));
       for (std::size_t j = 0; j + 1 < k; ++j) r.push_back(T(Real(method.numbers[j])) / leading);
@@ -101,26 +105,13 @@ struct SecondOrderMultistepTable {
       momentum = converted(momentum_weights(k));
       for (std::size_t j = 0; j + 2 < k; ++j)
         starting_increments.push_back(converted(increment_weights(k, j + 1)));
-      forces.assign(k * half, T(0));
-      increments.assign((k - 2) * half, T(0));
-      for (std::vector<T>* row : {&mean, &velocity, &carry_position, &carry_momentum})
+      for (std::vector<T>* row : {&increment, &mean, &velocity, &carry_position, &carry_momentum})
         row->assign(half, T(0));
     }
     static std::vector<T> converted(const std::vector<Quad>& numbers) {
       std::vector<T> list;
       for (const Quad& x : numbers) list.push_back(T(Real(x)));
       return list;
-    }
-    // Moves a row of states by one, so that there is room for a new one at its end.
-    static void move(std::vector<T>& row, std::size_t half) {
-      if (row.size() > half)
-        std::copy(row.begin() + static_cast<std::ptrdiff_t>(half), row.end(), row.begin());
-    }
-    // The sum of the forces with these weights, in component c.
-    [[nodiscard]] T weighted(const std::vector<T>& weights, std::size_t half, std::size_t c) const {
-      T sum(0);
-      for (std::size_t j = 0; j < weights.size(); ++j) sum = sum + weights[j] * forces[j * half + c];
-      return sum;
     }
   };
 
@@ -146,7 +137,7 @@ struct SecondOrderMultistepTable {
       recur(p, h, z, w);
       add_force(p, t + h, z, w);
       for (std::size_t c = 0; c < half; ++c)
-        z[half + c] = w.mean[c] + (w.carry_momentum[c] + h * w.weighted(w.momentum, half, c));
+        z[half + c] = w.mean[c] + (w.carry_momentum[c] + h * w.forces.weighted(w.momentum, c));
     }
     w.continuation.remember(t + h, h, z);
     return Status::converged;
@@ -157,8 +148,7 @@ struct SecondOrderMultistepTable {
   template <class P>
   void add_force(const P& p, const Scalar<P>& t, const State<P>& z, Work<P>& w) const {
     const std::size_t half = z.size() / 2;
-    Work<P>::move(w.forces, half);
-    p.force(t, In<Scalar<P>>(z.data(), half), Out<Scalar<P>>(w.forces.data() + (steps - 1) * half, half));
+    p.force(t, In<Scalar<P>>(z.data(), half), w.forces.next());
     w.known = std::min(w.known + 1, steps);
   }
 
@@ -168,10 +158,10 @@ struct SecondOrderMultistepTable {
     using T = Scalar<P>;
     const std::size_t half = z.size() / 2;
     for (std::size_t c = 0; c < half; ++c) {
-      w.mean[c] = z[half + c] - h * w.weighted(w.momentum, half, c);
+      w.mean[c] = z[half + c] - h * w.forces.weighted(w.momentum, c);
       w.carry_position[c] = w.carry_momentum[c] = T(0);
       for (std::size_t j = 0; j + 2 < steps; ++j)
-        w.increments[j * half + c] = h * w.weighted(w.starting_increments[j], half, c);
+        w.increments[j][c] = h * w.forces.weighted(w.starting_increments[j], c);
     }
   }
 
@@ -180,17 +170,11 @@ struct SecondOrderMultistepTable {
   void recur(const P& p, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
     using T = Scalar<P>;
     const std::size_t half = z.size() / 2;
-    for (std::size_t c = 0; c < half; ++c) {
-      T old(0);
-      for (std::size_t j = 0; j + 2 < steps; ++j) old = old + w.r[j] * w.increments[j * half + c];
-      const T increment = h * w.weighted(w.sigma, half, c) - old;
-      if (steps > 2) {
-        for (std::size_t j = 0; j + 3 < steps; ++j)
-          w.increments[j * half + c] = w.increments[(j + 1) * half + c];
-        w.increments[(steps - 3) * half + c] = increment;
-      }
-      add_to(w.mean[c], w.carry_momentum[c], increment, compensated);
-    }
+    for (std::size_t c = 0; c < half; ++c)
+      w.increment[c] = h * w.forces.weighted(w.sigma, c) - w.increments.weighted(w.r, c);
+    if (!w.increments.empty()) std::copy(w.increment.begin(), w.increment.end(), w.increments.next().begin());
+    for (std::size_t c = 0; c < half; ++c)
+      add_to(w.mean[c], w.carry_momentum[c], w.increment[c], compensated);
     p.velocity(T(0), w.mean, w.velocity);
     for (std::size_t c = 0; c < half; ++c) add_to(z[c], w.carry_position[c], h * w.velocity[c], compensated);
   }
@@ -215,20 +199,9 @@ namespace pfaff {
 
 std::unique_ptr<const MethodTable> read_second_order_multistep_table(TableDocument& document,
                                                                      TableHead head) {
-  const MultistepPolynomials method{document.numbers("rho"), document.numbers("sigma")};
-  constexpr std::size_t most_steps = 24;
-  const std::size_t length = method.rho.size();
-  if (length < 3 || length > most_steps + 1)
-    document.refuse("rho", "expected 3 to 25 numbers, got " + std::to_string(length));
-  if (method.sigma.size() != length)
-    document.refuse("sigma", "expected " + std::to_string(length) + " numbers, as many as rho has, got " +
-                                 std::to_string(method.sigma.size()));
-  if (method.rho.back() == Quad(0)) document.refuse("rho", "the last number is 0; expected another");
+  const MultistepPolynomials method = read_multistep_polynomials(document, head, 3);
   if (method.sigma.back() != Quad(0))
     document.refuse("sigma", "the last number is not 0; expected an explicit method");
-  head.descriptor.preserves = kept_claims(document, {}, [](Claim /*claim*/) {
-    return "a multistep method is a map of several states, of which no claim speaks";
-  });
   document.finish();
   const int order = head.descriptor.order;
   require_order(document, head, second_order_multistep_conditions(method, order + 1));
@@ -238,17 +211,14 @@ std::unique_ptr<const MethodTable> read_second_order_multistep_table(TableDocume
       document.refuse("rho", "is not zero-stable: without its double root 1, " + reason);
 
   SecondOrderMultistepTable made;
-  made.steps = length - 1;
+  made.steps = method.rho.size() - 1;
   made.numbers = r;
   made.numbers.insert(made.numbers.end(), method.sigma.begin(), method.sigma.end() - 1);
   made.starter.tableau = gauss_coefficients((order + 1) / 2);
-  OrderTheory theory{"second-order multistep", order, made.numbers, {}, head.precision};
+  OrderTheory theory = multistep_theory("second-order multistep", head, made.numbers, r.size());
   theory.conditions = [order](const std::vector<Quad>& numbers) {
     return second_order_multistep_conditions(polynomials_of(numbers), order);
   };
-  // The first condition that does not hold by itself is that the sum of r_j is the sum of sigma_j.
-  for (std::size_t k = 0; k < theory.coefficients.size(); ++k)
-    theory.sums.push_back(k + 1 < made.steps ? 0 : 1);
   return std::make_unique<TableOf<SecondOrderMultistepTable>>(head.descriptor, document, std::move(theory),
                                                               std::move(made));
 }
