@@ -1,0 +1,228 @@
+#include <pfaff/app/description.hpp>
+
+#include <algorithm>
+
+#include <pfaff/app/terminal.hpp>
+#include <pfaff/bench/experiment/experiment.hpp>
+#include <pfaff/bench/runner/motion.hpp>
+#include <pfaff/core/bracket.hpp>
+#include <pfaff/core/facets/derivations/derivation.hpp>
+#include <pfaff/core/formulation.hpp>
+#include <pfaff/integrators/tables/method_table.hpp>
+#include <pfaff/systems/text/text_system.hpp>
+
+namespace pfaff::app {
+
+namespace {
+
+nlohmann::json parameters_of(const Plugin& plugin, const Assignments& defaults) {
+  nlohmann::json list = nlohmann::json::array();
+  for (std::size_t k = 0; k < plugin.parameters().size(); ++k) {
+    const Parameter& p = plugin.parameters()[k];
+    list.push_back({{"name", p.name},
+                    {"default", defaults[k].second},
+                    {"range", range_of(p)},
+                    {"unit", p.unit},
+                    {"meaning", p.meaning}});
+  }
+  return list;
+}
+
+// The formulations that fit a system with constraints.
+nlohmann::json formulations_of(const std::shared_ptr<const Model>& model) {
+  nlohmann::json names = nlohmann::json::array();
+  for (const FormulationPlugin* formulation : formulations().all())
+    if (formulation->refuses(*model).empty()) names.push_back(formulation->name());
+  return names;
+}
+
+// The formulas that make what a model offers, and all that its author wrote: for each whether it is written,
+// and if not, what it is derived from.
+nlohmann::json formulas_of(const Model& model) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const FormulaRow& row : formula_table) {
+    nlohmann::json j{{"name", row.name}};
+    if (model.given(row.formula)) {
+      j["origin"] = "written, " + std::string(row.written);
+    } else {
+      const Derivation* way = derivation_of(row.formula, model);
+      if (way == nullptr ||
+          !(model.facets().meets(row.traits.offered_by) || model.facets().meets(row.traits.part_of)))
+        continue;
+      std::string from;
+      for (const Formula f : way->from)
+        if (f != Formula::count) from += (from.empty() ? " from " : ", ") + std::string(to_string(f));
+      j["origin"] = "derived" + from;
+    }
+    list.push_back(j);
+  }
+  return list;
+}
+
+nlohmann::json claims_on(const MethodInstance& method, const Model& model) {
+  nlohmann::json claims = nlohmann::json::array();
+  for (const Claim claim : claims_in_scope(method.preserves(model), model))
+    claims.push_back(to_string(claim));
+  return claims;
+}
+
+// The integrators that fit a system, with order and what they keep there: those that step on the system
+// itself, and those for which a formulation makes a motion of it.
+void add_methods(nlohmann::json& j, const std::shared_ptr<const Model>& model) {
+  std::shared_ptr<const Model> motion;
+  j["integrators"] = j["methods"] = nlohmann::json::array();
+  if (model->restricted() && !j["formulations"].empty()) {
+    motion = motion_of(model);
+    j["integrators_of_formulations"] = nlohmann::json::array();
+  }
+  for (const MethodPlugin* method : integrators().all()) {
+    const auto instance = method->make({});
+    const bool itself = instance->refuses(*model).empty();
+    if (!itself && (motion == nullptr || !instance->refuses(*motion).empty())) continue;
+    const Model& on = itself ? *model : *motion;
+    j[itself ? "integrators" : "integrators_of_formulations"].push_back(method->name());
+    j["methods"].push_back(
+        {{"name", method->name()}, {"order", instance->order(on)}, {"preserves", claims_on(*instance, on)}});
+    if (motion != nullptr)
+      j["methods"].back()["formulation"] =
+          itself ? nlohmann::json(nullptr) : nlohmann::json(motion->source().formulation);
+  }
+}
+
+nlohmann::json describe_system(const SystemPlugin& plugin) {
+  const auto model = plugin.make({});
+  nlohmann::json j{{"kind", "system"},
+                   {"name", plugin.name()},
+                   {"title", plugin.descriptor().title},
+                   {"reference", plugin.descriptor().reference},
+                   {"description", plugin.descriptor().description},
+                   {"dimension", model->dimension()},
+                   {"time_unit", model->time_unit()},
+                   {"facets", to_string(model->facets())},
+                   {"autonomous", model->autonomous()},
+                   {"parameters", parameters_of(plugin, model->parameters())},
+                   {"formulas", formulas_of(*model)}};
+  for (std::size_t k = 0; k < model->coordinates().size(); ++k)
+    j["coordinates"].push_back(
+        {{"name", model->coordinates()[k].name},
+         {"unit", model->coordinates()[k].unit},
+         {"initial", k < model->initial().size() ? nlohmann::json(to_string(model->initial()[k]))
+                                                 : nlohmann::json(nullptr)}});
+  j["invariants"] = nlohmann::json::array();
+  for (const Invariant& i : model->invariants())
+    j["invariants"].push_back({{"name", i.name}, {"unit", i.unit}, {"expected", to_string(i.behaviour)}});
+  if (model->restricted()) {
+    j["constraints"] = model->constraint_names();
+    j["formulations"] = formulations_of(model);
+  }
+  add_methods(j, model);
+  return j;
+}
+
+nlohmann::json describe_method(const MethodPlugin& plugin) {
+  const auto method = plugin.make({});
+  nlohmann::json j{{"kind", "integrator"},
+                   {"name", plugin.name()},
+                   {"title", plugin.descriptor().title},
+                   {"reference", plugin.descriptor().reference},
+                   {"description", plugin.descriptor().description},
+                   {"needs", to_string(method->needs())},
+                   {"adaptive", method->adaptive()},
+                   {"parameters", parameters_of(plugin, method->parameters())}};
+  if (const auto* table = dynamic_cast<const MethodTable*>(&plugin)) j["file"] = table->path();
+  if (const auto theory = order_theory(plugin.name(), {})) {
+    const auto conditions = theory->conditions(theory->coefficients);
+    Quad worst(0);
+    for (const OrderCondition& condition : conditions) worst = std::max(worst, relative_residual(condition));
+    j["order_conditions"] = std::to_string(conditions.size()) + " by " + theory->kind + " up to order " +
+                            std::to_string(theory->order) + ", fulfilled to " + to_scientific(worst, 2);
+  }
+  // A plug-in that is built on another fits other systems with another one.
+  for (const Parameter& p : plugin.parameters()) {
+    if (p.kind != Parameter::Kind::plugin) continue;
+    for (const auto& [key, value] : method->parameters())
+      if (key == p.name) j["systems_shown_for"] = key + "=" + value;
+  }
+  j["systems"] = nlohmann::json::array();
+  for (const SystemPlugin* system : systems().all()) {
+    const auto whole = system->make({}), model = motion_for(*method, whole);
+    if (!method->refuses(*model).empty()) continue;
+    j["systems"].push_back({{"name", system->name()},
+                            {"order", method->order(*model)},
+                            {"preserves", claims_on(*method, *model)}});
+    if (model != whole) j["systems"].back()["formulation"] = model->source().formulation;
+  }
+  return j;
+}
+
+nlohmann::json describe_bracket(const BracketPlugin& plugin) {
+  const BracketInstance bracket = plugin.make({});
+  return {{"kind", "bracket"},
+          {"name", plugin.name()},
+          {"title", plugin.descriptor().title},
+          {"reference", plugin.descriptor().reference},
+          {"description", plugin.descriptor().description},
+          {"dimension", bracket.dimension},
+          {"symmetry", to_string(plugin.descriptor().symmetry)},
+          {"jacobi", plugin.descriptor().jacobi},
+          {"parameters", parameters_of(plugin, bracket.parameters)}};
+}
+
+nlohmann::json describe_formulation(const FormulationPlugin& plugin) {
+  nlohmann::json j{{"kind", "formulation"},
+                   {"name", plugin.name()},
+                   {"title", plugin.descriptor().title},
+                   {"reference", plugin.descriptor().reference},
+                   {"description", plugin.descriptor().description},
+                   {"parameters", parameters_of(plugin, plugin.resolve({}))}};
+  const FormulationStatement statement = plugin.states({});
+  j["reactions"] = to_string(statement.reactions);
+  j["friction"] = to_string(statement.friction);
+  j["keeps"] = nlohmann::json::array();
+  for (const FormulationClaim claim : statement.keeps) j["keeps"].push_back(to_string(claim));
+  j["systems"] = nlohmann::json::array();
+  for (const SystemPlugin* system : systems().all())
+    if (system->constrained() && plugin.refuses(*system->make({})).empty())
+      j["systems"].push_back({{"name", system->name()}, {"title", system->descriptor().title}});
+  return j;
+}
+
+nlohmann::json describe_experiment(const std::string& name) {
+  const Experiment e = read_experiment(name, false);
+  nlohmann::json j{{"kind", "experiment"},         {"name", e.name},           {"title", e.title},
+                   {"description", e.description}, {"reference", e.reference}, {"runs", expand(e).size()}};
+  for (const ExperimentMethod& m : e.methods) j["methods"].push_back(m.label);
+  for (const ExperimentCase& c : e.cases)
+    j["cases"].push_back({{"name", c.name}, {"title", c.title}, {"steps", c.steps}});
+  if (!e.derivation) return j;
+  j["runs"] = e.derivation->size();
+  for (const DerivationSweep& sweep : e.derivation->sweeps) j["methods"].push_back(sweep.method);
+  return j;
+}
+
+}  // namespace
+
+std::vector<nlohmann::json> describe(const std::string& name, const std::vector<std::string>& also_known) {
+  if (names_method_table(name)) return {describe_method(integrator_named(name))};
+  std::vector<nlohmann::json> found;
+  if (text::is_text_file(name))
+    return {is_text_bracket(name) ? describe_bracket(bracket_named(name))
+                                  : describe_system(system_named(name))};
+  if (const auto* system = systems().find(name)) found.push_back(describe_system(*system));
+  if (const auto* method = integrators().find(name)) found.push_back(describe_method(*method));
+  if (const auto* bracket = brackets().find(name)) found.push_back(describe_bracket(*bracket));
+  if (const auto* formulation = formulations().find(name))
+    found.push_back(describe_formulation(*formulation));
+  const std::vector<std::string> experiments = experiment_names();
+  if (std::find(experiments.begin(), experiments.end(), name) != experiments.end())
+    found.push_back(describe_experiment(name));
+  if (!found.empty()) return found;
+  std::vector<std::string> names;
+  for (const auto& more : {systems().names(), integrators().names_and_aliases(), brackets().names(),
+                           formulations().names(), experiments, also_known})
+    for (const std::string& one : more)
+      if (std::find(names.begin(), names.end(), one) == names.end()) names.push_back(one);
+  throw InputError(unknown_name("name", name, names));
+}
+
+}  // namespace pfaff::app
