@@ -57,23 +57,19 @@ std::vector<ClaimUnderTest> tests_of(const Options& options) {
   return tests;
 }
 
-// Where headers are, beside the program: in the tree that it was built in, or where it is installed.
-std::string include_directory() {
-  std::error_code error;
-  const fs::path program = program_path();
-  for (const fs::path& place : {program.parent_path(), program.parent_path().parent_path()})
-    if (fs::exists(place / "include/pfaff/core/system.hpp", error)) return (place / "include").string();
-  throw RunError("the headers of Pfaff are not beside the program " + program.string());
+// The command that judges the claim on a counterexample.
+std::string command_of(const FalsificationResult& result, const Common& common) {
+  std::string command = "pfaff falsify " + showing_arguments(result.test, *result.counterexample);
+  for (const std::string& plugin : common.plugins) command += " --plugin " + shell_word(plugin);
+  return command;
 }
 
-// The commands that compile a counterexample's source and judge the claim on it.
-std::vector<std::string> commands_of(const FalsificationResult& result, const Common& common) {
-  const std::string name = named_system(result.test, *result.counterexample).name;
-  std::string show = "pfaff falsify " + showing_arguments(result.test, *result.counterexample);
-  for (const std::string& plugin : common.plugins) show += " --plugin " + shell_word(plugin);
-  return {"c++ -std=c++20 -O1 -fPIC -shared -ffp-contract=off -Wno-psabi -I " +
-              shell_word(include_directory()) + " " + name + ".cpp -o " + name + ".so",
-          show + " --plugin ./" + name + ".so"};
+std::string model_of(const FalsificationResult& result, const Common& common) {
+  return model_text_of(result.test, *result.counterexample, command_of(result, common));
+}
+
+std::string file_of(const FalsificationResult& result) {
+  return named_system(result.test, *result.counterexample).name + ".toml";
 }
 
 nlohmann::json to_json(const FalsificationResult& result, const Common& common) {
@@ -90,7 +86,6 @@ nlohmann::json to_json(const FalsificationResult& result, const Common& common) 
                    {"counterexample", nullptr}};
   if (!result.counterexample) return j;
   const Counterexample& found = *result.counterexample;
-  const auto commands = commands_of(result, common);
   j["counterexample"] = {{"system", named_system(result.test, found).name},
                          {"kind", to_string(found.recipe.kind)},
                          {"dimension", found.recipe.dimension},
@@ -100,8 +95,8 @@ nlohmann::json to_json(const FalsificationResult& result, const Common& common) 
                          {"residuals", found.judgement.residuals},
                          {"residual_in_double", found.judgement.in_double},
                          {"exponent", found.judgement.exponent},
-                         {"source", source_of(result.test, found, commands)},
-                         {"commands", commands}};
+                         {"model", model_of(result, common)},
+                         {"command", command_of(result, common)}};
   return j;
 }
 
@@ -127,13 +122,8 @@ void print(const std::vector<FalsificationResult>& results, const Common& common
               << scientific(found.judgement.residuals.front()) << " at h = " << to_string(found.at.step)
               << ": " << named_system(result.test, found).name << '\n';
   }
-  for (const FalsificationResult& result : results) {
-    if (!result.counterexample) continue;
-    const auto commands = commands_of(result, common);
-    std::cout << '\n'
-              << named_system(result.test, *result.counterexample).name << ".cpp:\n\n"
-              << source_of(result.test, *result.counterexample, commands);
-  }
+  for (const FalsificationResult& result : results)
+    if (result.counterexample) std::cout << '\n' << file_of(result) << ":\n\n" << model_of(result, common);
 }
 
 int search(const Options& options, const Common& common) {
@@ -155,8 +145,7 @@ int search(const Options& options, const Common& common) {
     systems += static_cast<std::size_t>(result.tried);
     if (common.json) list.push_back(to_json(result, common));
     if (result.counterexample && !options.out.empty())
-      write_file(fs::path(options.out) / (named_system(result.test, *result.counterexample).name + ".cpp"),
-                 source_of(result.test, *result.counterexample, commands_of(result, common)));
+      write_file(fs::path(options.out) / file_of(result), model_of(result, common));
   }
   if (common.json) {
     std::cout << json_text(
@@ -229,7 +218,7 @@ void add_falsify(CLI::App& app, Common& common, Action& action) {
   sub->add_option("--systems", options->systems, "At most so many random systems for each claim")
       ->type_name("N")
       ->check(CLI::PositiveNumber);
-  sub->add_option("--out", options->out, "Directory for the sources of plug-ins, besides printing them")
+  sub->add_option("--out", options->out, "Directory for the models of counterexamples, besides printing them")
       ->type_name("DIR")
       ->check(CLI::ExistingDirectory);
   sub->add_option("--system", options->system, "Judge the claim on this system, from its initial state")

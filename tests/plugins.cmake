@@ -75,7 +75,7 @@ add_test(NAME core/refused COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/core/refused_test
 add_test(NAME app/references COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/app/references_test.sh ${PROJECT_SOURCE_DIR})
 add_test(NAME app/plugins COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/app/plugins_test.sh $<TARGET_FILE:pfaff_app> ${pfaff_plugins})
 add_test(NAME app/falsify COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/app/falsify_test.sh $<TARGET_FILE:pfaff_app> ${pfaff_plugins}
-                                  "${PFAFF_SANITIZE}" "${PFAFF_MARCH}")
+                                  "${PFAFF_SANITIZE}")
 set_tests_properties(app/falsify PROPERTIES TIMEOUT 600)
 if(PFAFF_MPI)
   add_test(NAME app/mpi COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/app/mpi_test.sh $<TARGET_FILE:pfaff_app>)

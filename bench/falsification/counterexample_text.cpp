@@ -1,4 +1,4 @@
-// Counterexamples as text: the plug-in and the command that shows it.
+// Counterexamples as text: the model and the command that shows it.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -47,14 +47,14 @@ std::string showing_arguments(const ClaimUnderTest& test, const Counterexample& 
   const JudgedStep& at = counterexample.at;
   std::string text = test.method->descriptor().name + settings_text(test) + " --claim " +
                      std::string(to_string(test.claim)) + " --system " +
-                     named_system(test, counterexample).name + " --step " + to_string(at.step);
+                     named_system(test, counterexample).name + ".toml --step " + to_string(at.step);
   if (at.count > 1) text += " --steps " + std::to_string(at.count);
   if (!at.time.is(0)) text += " --at " + to_string(at.time);
   return text;
 }
 
-std::string source_of(const ClaimUnderTest& test, const Counterexample& counterexample,
-                      const std::vector<std::string>& commands) {
+std::string model_text_of(const ClaimUnderTest& test, const Counterexample& counterexample,
+                          const std::string& command) {
   const Judgement& judgement = counterexample.judgement;
   std::vector<std::string> comment{"A system on which the integrator " + test.method->descriptor().name +
                                        " does not keep the claim " + std::string(to_string(test.claim)) + ":",
@@ -71,11 +71,11 @@ std::string source_of(const ClaimUnderTest& test, const Counterexample& countere
   } else {
     comment.back() += ".";
   }
-  if (!commands.empty()) {
+  if (!command.empty()) {
     comment.emplace_back();
-    for (const std::string& command : commands) comment.push_back("  " + command);
+    comment.push_back("  " + command);
   }
-  return plugin_source(named_system(test, counterexample), comment);
+  return text_model(named_system(test, counterexample), comment);
 }
 
 }  // namespace pfaff

@@ -67,16 +67,15 @@ Counterexample shrink(const ClaimUnderTest& test, Counterexample counterexample)
 /// The counterexample's system, named after the method and the claim: rk4-not-symplectic.
 PolynomialSystem named_system(const ClaimUnderTest& test, const Counterexample& counterexample);
 
-/// The command, beginning with the name of the method, that judges the claim on a registered system of that
-/// name: "METHOD --claim C --system NAME --step h ...".
+/// The command, beginning with the name of the method, that judges the claim on the counterexample's text
+/// model in the working directory: "METHOD --claim C --system NAME.toml --step h ...".
 std::string showing_arguments(const ClaimUnderTest& test, const Counterexample& counterexample);
 
 /// The text as one word of a command, quoted where the shell would read anything else in it.
 std::string shell_word(const std::string& text);
 
-/// The counterexample as the source of a plug-in, with the commands that compile and show it in its opening
-/// comment.
-std::string source_of(const ClaimUnderTest& test, const Counterexample& counterexample,
-                      const std::vector<std::string>& commands);
+/// The counterexample as a text model, with the command that shows it in its opening comment.
+std::string model_text_of(const ClaimUnderTest& test, const Counterexample& counterexample,
+                          const std::string& command);
 
 }  // namespace pfaff

@@ -1,5 +1,5 @@
 // A system whose formulas are polynomials, of its variables and of functions of single ones: the model that
-// methods run on, and the same system as the source of a plug-in.
+// methods run on, and the same system as a text model.
 #pragma once
 
 #include <array>
@@ -50,8 +50,8 @@ std::shared_ptr<const Model> model_of(const PolynomialSystem& system);
 /// a reversal. Its constraints at time 0 are those it had.
 PolynomialSystem with_moving_constraints(PolynomialSystem system, std::uint64_t seed);
 
-/// The system as a C++ source that compiles into a plug-in. `comment` is its opening comment, line by
-/// line without "//"; its lines are not broken.
-std::string plugin_source(const PolynomialSystem& system, const std::vector<std::string>& comment);
+/// The system as the TOML file of a text model (docs/text-models.md). `comment` is its opening comment, line
+/// by line without "#"; its lines are not broken.
+std::string text_model(const PolynomialSystem& system, const std::vector<std::string>& comment);
 
 }  // namespace pfaff

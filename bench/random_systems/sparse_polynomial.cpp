@@ -98,36 +98,30 @@ Real SparsePolynomial::exactly(const Real& t, const std::vector<Real>& z) const 
   return (*this)(t, In<Real>(z));
 }
 
-std::string cpp_constant(const Real& value) {
-  std::string text = to_string(value);
-  if (value.is_fraction() && value.denominator() == 1) return text;
-  if (text.find('/') != std::string::npos)
-    return "Real::fraction(" + std::to_string(value.numerator()) + ", " +
-           std::to_string(value.denominator()) + ")";
-  return text + "_r";
-}
-
 std::string SparsePolynomial::text(const std::function<std::string(std::size_t index)>& name) const {
   std::string text;
   for (const auto& [powers, c] : terms_) {
     const bool negative = c < Real(0);
     const Real size = negative ? -c : c;
-    // A fraction of small integers is written as a factor before and a divisor behind the product.
-    const bool small = size.is_fraction() && size.numerator() < 1000000000 && size.denominator() < 1000000000;
-    const std::string factor = small ? std::to_string(size.numerator()) : cpp_constant(size);
+    // A fraction is written as a factor before and a divisor behind the product.
+    const std::string number = to_string(size);
+    const std::size_t bar = number.find('/');
     std::string product;
     for (std::size_t k = 0; k < powers.size(); ++k)
-      for (int power = 0; power < powers[k]; ++power) product += (product.empty() ? "" : " * ") + name(k);
+      if (powers[k] > 0)
+        product +=
+            (product.empty() ? "" : "*") + name(k) + (powers[k] > 1 ? "^" + std::to_string(powers[k]) : "");
+    const std::string factor = number.substr(0, bar);
     if (product.empty()) {
-      product = "T(" + factor + ")";
+      product = factor;
     } else if (factor != "1") {
-      product.insert(0, factor + " * ");
+      product.insert(0, factor + "*");
     }
-    if (small && size.denominator() != 1) product += " / " + std::to_string(size.denominator());
+    if (bar != std::string::npos) product += number.substr(bar);
     text += text.empty() ? (negative ? "-" : "") : (negative ? " - " : " + ");
     text += product;
   }
-  return text.empty() ? "T(0)" : text;
+  return text.empty() ? "0" : text;
 }
 
 }  // namespace pfaff

@@ -66,7 +66,7 @@ class SparsePolynomial {
     return sum;
   }
 
-  /// The polynomial as a C++ expression of T, with the variables called as `name` says; "T(0)" for 0.
+  /// The polynomial as an expression of a text model, with the variables called as `name` says.
   /// `name(variables())` is the time.
   [[nodiscard]] std::string text(const std::function<std::string(std::size_t index)>& name) const;
 
@@ -77,8 +77,5 @@ class SparsePolynomial {
 
 /// Several in the same variables or not, such as the components of a field.
 using Polynomials = std::vector<SparsePolynomial>;
-
-/// A constant as C++ source writes it: 2, 0.3_r or Real::fraction(1, 3).
-std::string cpp_constant(const Real& value);
 
 }  // namespace pfaff

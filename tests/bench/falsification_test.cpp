@@ -208,8 +208,8 @@ TEST(Falsify, ResultsDoNotDependOnTheBudget) {
   const FalsificationResult shorter = result_of("rk4", Claim::volume, 200, 1),
                             longer = result_of("rk4", Claim::volume, 300, 60);
   ASSERT_TRUE(shorter.counterexample && longer.counterexample);
-  EXPECT_EQ(source_of(shorter.test, *shorter.counterexample, {}),
-            source_of(longer.test, *longer.counterexample, {}));
+  EXPECT_EQ(model_text_of(shorter.test, *shorter.counterexample, {}),
+            model_text_of(longer.test, *longer.counterexample, {}));
 }
 
 // Shrinking ends where nothing simpler fails: every simpler recipe of what is found keeps the claim.
