@@ -180,11 +180,19 @@ class Mutations(unittest.TestCase):
         self.assertIn("results of something else", error)
 
     def test_checks_that_fail_without_a_fault_stop_the_run(self):
-        (self.root / "engine.txt").write_text(ENGINE.replace("limit = 3", "limit = 4"))
+        (self.root / "engine.txt").write_text(ENGINE.replace("factor = 2", "factor = 1"))
         self.commit()
         status, _, error = self.plant(entry("a", "sign = +", "sign = -"))
         self.assertEqual(status, 2)
-        self.assertIn("without a fault these do not pass: bench_tests (failed)", error)
+        self.assertIn("without a fault core_tests Factor.* does not pass (failed)", error)
+
+    def test_a_whole_program_that_fails_without_a_fault_kills_nothing(self):
+        (self.root / "engine.txt").write_text(ENGINE.replace("limit = 3", "limit = 4"))
+        self.commit()
+        status, _, error = self.plant(entry("a", "sign = +", "sign = -") + entry("b", "unseen = 4", "unseen = 5"))
+        self.assertEqual(status, 2)
+        self.assertIn("without a fault bench_tests * does not pass (failed)", error)
+        self.assertEqual(list(self.rows()), ["mutation", "a"])
 
     def test_a_filter_without_tests_stops_the_run(self):
         self.commit()
@@ -196,7 +204,7 @@ class Mutations(unittest.TestCase):
         self.commit()
         status, _, error = self.plant(entry("a", "sign = +", "sign = -", verify="wait"), "--limit", "0.2")
         self.assertEqual(status, 2)
-        self.assertIn("pfaff verify (late)", error)
+        self.assertIn("without a fault verify wait does not pass (late)", error)
 
 
 if __name__ == "__main__":
