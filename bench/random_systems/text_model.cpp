@@ -71,7 +71,7 @@ std::string text_of(Function function, const std::string& x) {
 }
 
 // In quotes; what is longer than a line is broken at spaces.
-std::string quoted(const std::string& expression) {
+std::string in_quotes(const std::string& expression) {
   constexpr std::size_t most = 100;
   if (expression.size() <= most) return '"' + expression + '"';
   std::string text = "\"\"\"\n    ";
@@ -159,7 +159,7 @@ class Writer {
       if (formula == Formula::chart_inverse && !s_.chart_divisors.empty() &&
           s_.chart_divisors[k].degree() > 0)
         text = "(" + text + ")/(" + s_.chart_divisors[k].text(name) + ")";
-      texts.push_back(quoted(text));
+      texts.push_back(in_quotes(text));
     }
     return texts;
   }
