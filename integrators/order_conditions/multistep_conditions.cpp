@@ -24,59 +24,54 @@ std::string text_of(const ComplexQuad& z) {
   return to_string(z.real, 6) + (negative ? " - " : " + ") + to_string(abs(z.imaginary), 6) + "i";
 }
 
-}  // namespace
-
-std::vector<OrderCondition> multistep_conditions(const MultistepPolynomials& method, int order) {
+// Condition number q of methods that reach derivative `derivative`, in powers of j/k,
+//
+//   sum_j (j^q rho_j - q (q - 1) ... j^(q - derivative) sigma_j) = 0,
+//
+// where the second term is missing for q < derivative.
+OrderCondition condition(const MultistepPolynomials& method, int q, int derivative) {
   const auto steps = static_cast<int>(method.rho.size()) - 1;
-  std::vector<OrderCondition> conditions;
-  for (int q = 0; q <= order; ++q) {
-    Quad sum(0), size(0);
-    for (int j = 0; j <= steps; ++j) {
-      const auto place = static_cast<std::size_t>(j);
-      Quad before(1);  // (j/k)^(q-1)
-      for (int n = 1; n < q; ++n) before *= Quad(j) / Quad(steps);
-      const Quad power = q == 0 ? Quad(1) : before * Quad(j) / Quad(steps);
-      const Quad value = power * method.rho[place],
-                 slope = q == 0 ? Quad(0) : Quad(q) * before * method.sigma[place] / Quad(steps);
-      sum += value - slope;
-      size += abs(value) + abs(slope);
-    }
-    const std::string power = std::to_string(q);
-    conditions.push_back({q == 0   ? "the sum of rho_j = 0"
-                          : q == 1 ? "the sum of j rho_j - sigma_j = 0"
-                                   : "the sum of j^" + power + " rho_j - " + power + " j^" +
-                                         std::to_string(q - 1) + " sigma_j = 0",
-                          std::max(q, 1), sum, std::max(Quad(1), size)});
+  int factor = q < derivative ? 0 : 1, scale = 1;
+  for (int n = 0; n < derivative; ++n) {
+    if (factor != 0) factor *= q - n;
+    scale *= steps;
   }
+  Quad sum(0), size(0);
+  for (int j = 0; j <= steps; ++j) {
+    const auto place = static_cast<std::size_t>(j);
+    const Quad ratio = Quad(j) / Quad(steps);
+    Quad lower(1), power(1);  // (j/k)^(q - derivative) and (j/k)^q
+    for (int n = derivative; n < q; ++n) lower *= ratio;
+    for (int n = 0; n < q; ++n) power *= ratio;
+    const Quad value = power * method.rho[place],
+               slope = Quad(factor) * lower * method.sigma[place] / Quad(scale);
+    sum += value - slope;
+    size += abs(value) + abs(slope);
+  }
+  const auto of_j = [](int exponent) {
+    return exponent == 0 ? std::string() : exponent == 1 ? "j " : "j^" + std::to_string(exponent) + " ";
+  };
+  std::string text = "the sum of " + of_j(q) + "rho_j";
+  if (factor != 0)
+    text += " - " + (factor == 1 ? "" : std::to_string(factor) + " ") + of_j(q - derivative) + "sigma_j";
+  return {text + " = 0", std::max(q + 1 - derivative, 1), sum, std::max(Quad(1), size)};
+}
+
+// Up to `order` of methods that reach derivative `derivative`.
+std::vector<OrderCondition> conditions_to(const MultistepPolynomials& method, int order, int derivative) {
+  std::vector<OrderCondition> conditions;
+  for (int q = 0; q <= order + derivative - 1; ++q) conditions.push_back(condition(method, q, derivative));
   return conditions;
 }
 
+}  // namespace
+
+std::vector<OrderCondition> multistep_conditions(const MultistepPolynomials& method, int order) {
+  return conditions_to(method, order, 1);
+}
+
 std::vector<OrderCondition> second_order_multistep_conditions(const MultistepPolynomials& method, int order) {
-  const auto steps = static_cast<int>(method.rho.size()) - 1;
-  std::vector<OrderCondition> conditions;
-  for (int q = 0; q <= order + 1; ++q) {
-    Quad sum(0), size(0);
-    for (int j = 0; j <= steps; ++j) {
-      const auto place = static_cast<std::size_t>(j);
-      const Quad ratio = Quad(j) / Quad(steps);
-      Quad before(1);  // (j/k)^(q-2)
-      for (int n = 2; n < q; ++n) before *= ratio;
-      const Quad power = q == 0 ? Quad(1) : q == 1 ? ratio : before * ratio * ratio;
-      const Quad value = power * method.rho[place],
-                 curvature =
-                     q < 2 ? Quad(0) : Quad(q * (q - 1)) * before * method.sigma[place] / Quad(steps * steps);
-      sum += value - curvature;
-      size += abs(value) + abs(curvature);
-    }
-    const std::string power = std::to_string(q);
-    conditions.push_back({q == 0   ? "the sum of rho_j = 0"
-                          : q == 1 ? "the sum of j rho_j = 0"
-                          : q == 2 ? "the sum of j^2 rho_j - 2 sigma_j = 0"
-                                   : "the sum of j^" + power + " rho_j - " + std::to_string(q * (q - 1)) +
-                                         " j^" + std::to_string(q - 2) + " sigma_j = 0",
-                          std::max(q - 1, 1), sum, std::max(Quad(1), size)});
-  }
-  return conditions;
+  return conditions_to(method, order, 2);
 }
 
 std::vector<Quad> without_root_one(const std::vector<Quad>& rho) {
