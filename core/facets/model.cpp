@@ -72,10 +72,6 @@ Model::Model(ModelSource source) : source_(std::move(source)) {
     keep({Facet::holonomic, Facet::constraints, Facet::invariants, Facet::exact_solution});
   if (content_.has(Facet::velocity_constraints))
     keep({Facet::velocity_constraints, Facet::invariants, Facet::exact_solution});
-  // Nor does what the collector has compiled of force and velocity, which is the field of the energy alone.
-  if (content_.has(Facet::separable) && !facets_.has(Facet::separable) && given(Formula::force) &&
-      given(Formula::velocity))
-    source_.compiled[index(Formula::field)] = nullptr;
   if (!source_.formulation.empty()) facets_ = facets_.with(Facet::vector_field);
 }
 
