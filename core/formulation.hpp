@@ -22,9 +22,9 @@
 //   keeps()                   instead of the descriptor's list, where what is kept depends on parameters
 //   friction()                the form that the system's friction takes (FrictionForm); without this member
 //                             friction is left out
-//   refuses(model)            why it does not fit a model that has the constraints it needs, as a whole
-//   message;
-//                             empty where it fits
+//   refuses(model)            why it does not fit a model that has the constraints it needs. A whole
+//                             message, where that of a method is a predicate; empty where the
+//                             formulation fits
 //   static instances(full)    the parameters that verification runs through
 // What a formulation says of itself, its reactions, what it keeps and its form of friction, is tested on
 // every system that it fits (bench/verification/formulation_checks.cpp).

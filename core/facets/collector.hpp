@@ -92,7 +92,9 @@ class Collector {
         const std::size_t half = z.size() / 2;
         out[0] = self.kinetic(t, z.subspan(half)) + self.potential(t, z.first(half));
       });
-    if constexpr (energies && !damped && writes<S, force> && writes<S, velocity>)
+    // The field of the energy alone, which is not the motion where a second bracket takes part.
+    if constexpr (energies && !damped && !writes<S, symmetric_tensor> && writes<S, force> &&
+                  writes<S, velocity>)
       compile(field, [](const void* object, const double& t, const double* z, double* o) {
         const S& self = *static_cast<const S*>(object);
         const auto m = static_cast<std::size_t>(dimension_of(self) / 2);

@@ -13,7 +13,8 @@
 // system is the identity.
 //
 // Limits: S::dimension has to be a constant, and only what dual numbers give cheaply is derived. Birkhoffian
-// systems and those with a bracket of their own therefore have a field here only where their author wrote it.
+// systems and those with a bracket of their own, a symmetric one among them, therefore have a field here only
+// where their author wrote it. Systems with constraints have none, because a formulation makes their motion.
 #pragma once
 
 #include <algorithm>
@@ -60,13 +61,17 @@ class StaticProblem {
   using Scalar = T;
   static constexpr int extent = S::dimension;
   using State = Vector<T, extent>;
+  static constexpr bool constrained = detail::counts_constraints<S> || detail::counts_velocity_constraints<S>;
+  // Where constraints or a second bracket take part, the energy alone does not make the motion.
+  static constexpr bool alone = !constrained && !detail::writes<S, Formula::symmetric_tensor>;
   static constexpr bool energies =
       detail::writes<S, Formula::kinetic, T> && detail::writes<S, Formula::potential, T>;
-  static constexpr bool conformal = energies && detail::WritesDamping<S>;
-  static constexpr bool separable = energies && !conformal;
-  static constexpr bool canonical = separable || (detail::writes<S, Formula::hamiltonian, T> &&
+  static constexpr bool conformal = alone && energies && detail::WritesDamping<S>;
+  static constexpr bool separable = alone && energies && !conformal;
+  static constexpr bool canonical = separable || (alone && detail::writes<S, Formula::hamiltonian, T> &&
                                                   !detail::writes<S, Formula::poisson_tensor>);
-  static constexpr bool has_field = canonical || conformal || detail::writes<S, Formula::field, T>;
+  static constexpr bool has_field =
+      canonical || conformal || (!constrained && detail::writes<S, Formula::field, T>);
 
   explicit StaticProblem(S system = {}) : system_(std::move(system)) {}
 

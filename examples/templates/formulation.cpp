@@ -6,7 +6,8 @@
 //
 // Copy to formulations/<name>.cpp. `field` is all there is to write, and `Work` where it needs numbers of its
 // own. What the descriptor says, along which vectors the reactions point and what is kept where, is tested on
-// every system with constraints. Friction as in the others: derive from WithFriction
+// every system with constraints; its values are listed in core/formulation_statement.hpp (FormulationClaim)
+// and core/facets/holonomic.hpp (Reactions). Friction as in the others: derive from WithFriction
 // (formulations/friction.hpp).
 #include <pfaff/core/formulation.hpp>
 

@@ -34,7 +34,15 @@ struct TwoStage {  // parameters only: the object is shared between runs and nev
   };
 
   // z at t becomes z at t + h, for every scalar: double, quad, and duals over both. An implicit method
-  // returns the status of its solver (core/solve/newton.hpp).
+  // iterates to the round-off of its scalar, never a fixed number of times, and returns how that ended:
+  //   Convergence<Scalar<P>> convergence(Corrections::uneven);      // core/solve/convergence.hpp
+  //   do {
+  //     convergence.begin_iteration();
+  //     ...                                                          // corrects w.next[k]
+  //     convergence.add(correction, z[k], w.next[k]);                // of each component
+  //   } while (!convergence.finished(100));
+  //   return convergence.status();
+  // With a Jacobian: core/solve/newton.hpp.
   template <HasVectorField P>
   Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
     p.field(t, z, w.first);
