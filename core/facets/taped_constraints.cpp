@@ -56,31 +56,29 @@ HolonomicTapes record_holonomic(const HolonomicFormulas& formulas) {
   });
   const Tape& hidden = *tapes.hidden;
 
-  // The entries of B, P and S. The tape of a whole placement begins with the same.
-  const auto linear = [&](const Recorded& t, const Numbers& z,
-                          const std::vector<SparseGradient>& slopes_of_hidden, Numbers& out) {
-    record_linear(columns_of(sparse_gradients(phi, t, position(z), n), 0, n),
-                  columns_of(slopes_of_hidden, n, n), tapes, out);
-  };
-  tapes.linear = record_list(inputs, [&](const Recorded& t, const Numbers& z, Numbers& out) {
-    linear(t, z, sparse_gradients(hidden, t, z, 2 * n), out);
-  });
   tapes.friction = formulas.friction != nullptr;
-  tapes.place = record_list(inputs, [&](const Recorded& t, const Numbers& z, Numbers& out) {
-    const std::vector<SparseGradient> slopes_of_hidden = sparse_gradients(hidden, t, z, 2 * n);
-    linear(t, z, slopes_of_hidden, out);
-    Numbers flow = flow_of(gradient, t, z);
-    append(out, flow);
-    append(out, evaluate(phi, t, position(z)));
-    append(out, evaluate(hidden, t, z));
-    flow.resize(2 * n + tapes.parameters);
-    append(out, directional_derivative(hidden, t, Recorded(1), z, flow));
-    tapes.hidden_by_position = record_sparse(columns_of(slopes_of_hidden, 0, n), out);
-    const Numbers lambda = tapes.friction ? evaluate(*formulas.friction, t, z) : Numbers(n);
-    append(out, lambda);
-    const SparseRecorded by_momentum = columns_of(slopes_of_hidden, n, n);
-    tapes.friction_pattern = record_gram(by_momentum, by_momentum, lambda, out);
-  });
+
+  // The tape of a whole placement begins with the entries of B, P and S, and is recorded on from there.
+  Recorder recorder(inputs);
+  const Recorded t = recorder.time();
+  const Numbers z = recorder.inputs();
+  Numbers out;
+  const std::vector<SparseGradient> slopes_of_hidden = sparse_gradients(hidden, t, z, 2 * n);
+  const SparseRecorded by_momentum = columns_of(slopes_of_hidden, n, n);
+  record_linear(columns_of(sparse_gradients(phi, t, position(z), n), 0, n), by_momentum, tapes, out);
+  tapes.linear = std::make_shared<const Tape>(recorder.finish(out));
+
+  Numbers flow = flow_of(gradient, t, z);
+  append(out, flow);
+  append(out, evaluate(phi, t, position(z)));
+  append(out, evaluate(hidden, t, z));
+  flow.resize(2 * n + tapes.parameters);
+  append(out, directional_derivative(hidden, t, Recorded(1), z, flow));
+  tapes.hidden_by_position = record_sparse(columns_of(slopes_of_hidden, 0, n), out);
+  const Numbers lambda = tapes.friction ? evaluate(*formulas.friction, t, z) : Numbers(n);
+  append(out, lambda);
+  tapes.friction_pattern = record_gram(by_momentum, by_momentum, lambda, out);
+  tapes.place = std::make_shared<const Tape>(recorder.finish(out));
   return tapes;
 }
 

@@ -132,7 +132,10 @@ class Adjoints {
  public:
   /// `x` are the values of the slots.
   Adjoints(const Tape& tape, const std::vector<Recorded>& x, std::size_t variables)
-      : tape_(tape), x_(x), adjoint_(x.size()), guards_(x.size()), active_(x.size(), 0) {
+      : tape_(tape), x_(x), adjoint_(x.size()), active_(x.size(), 0) {
+    if (std::any_of(tape.code.begin(), tape.code.end(),
+                    [](const Instruction& i) { return i.operation == Operation::select; }))
+      guards_.resize(x.size());
     for (std::size_t k = static_cast<std::size_t>(tape.state_begin); k < x.size(); ++k) {
       const Instruction& i = tape.code[k];
       const std::size_t start = group_start(tape.code, k);
@@ -147,10 +150,10 @@ class Adjoints {
   }
 
   [[nodiscard]] bool active(std::size_t k) const { return active_[k] != 0; }
-  void seed(int slot, const Recorded& weight) { add_within(Guard::always(), slot, weight); }
+  void seed(int slot, const Recorded& weight) { add_within(always_, slot, weight); }
   void clear(std::size_t k) {
     adjoint_[k] = Recorded();
-    guards_[k] = Guard();
+    if (!guards_.empty()) guards_[k] = Guard();
   }
 
   /// Hands the adjoint of slot k on to the operands, or to result(input, adjoint) where it is an input. Slots
@@ -162,9 +165,9 @@ class Adjoints {
     const auto at = [&](int slot) -> const Recorded& { return x_[static_cast<std::size_t>(slot)]; };
     // `pass` hands an adjoint on as it is. `add` is for an adjoint times a derivative, which may be NaN in a
     // branch that is not taken and is therefore guarded.
-    const auto pass = [&](int slot, const Recorded& value) { add_within(guards_[k], slot, value); };
+    const auto pass = [&](int slot, const Recorded& value) { add_within(guard(k), slot, value); };
     const auto add = [&](int slot, const Recorded& value) {
-      if (active(static_cast<std::size_t>(slot))) add_within(guards_[k], slot, guards_[k](value));
+      if (active(static_cast<std::size_t>(slot))) add_within(guard(k), slot, guard(k)(value));
     };
     if (i.operation == Operation::solve) {
       // A x = b: b_bar = A^-T x_bar, A_bar = -b_bar x^T.
@@ -174,7 +177,7 @@ class Adjoints {
       bool zero = true;
       for (std::size_t r = 0; r < n; ++r) {
         bar[r] = adjoint_[k + r];
-        if (!structurally_zero(bar[r])) guards_[k].join(guards_[k + r]);
+        if (!guards_.empty() && !structurally_zero(bar[r])) guards_[k].join(guards_[k + r]);
         zero = zero && structurally_zero(bar[r]);
         for (std::size_t c = 0; c < n; ++c) transposed[c * n + r] = at(system.matrix[r * n + c]);
       }
@@ -231,8 +234,8 @@ class Adjoints {
         break;
       }
       case Operation::select:
-        add_within(guards_[k].within(at(i.a), true), i.b, select(at(i.a), w, Recorded(0)));
-        add_within(guards_[k].within(at(i.a), false), i.c, select(at(i.a), Recorded(0), w));
+        add_within(guard(k).within(at(i.a), true), i.b, select(at(i.a), w, Recorded(0)));
+        add_within(guard(k).within(at(i.a), false), i.c, select(at(i.a), Recorded(0), w));
         break;
       default:
         break;
@@ -240,17 +243,19 @@ class Adjoints {
   }
 
  private:
+  [[nodiscard]] const Guard& guard(std::size_t k) const { return guards_.empty() ? always_ : guards_[k]; }
   void add_within(const Guard& guard, int slot, const Recorded& value) {
     const auto k = static_cast<std::size_t>(slot);
     if (structurally_zero(value) || !active(k)) return;
     adjoint_[k] = adjoint_[k] + value;
-    guards_[k].join(guard);
+    if (!guards_.empty()) guards_[k].join(guard);
   }
 
   const Tape& tape_;
   const std::vector<Recorded>& x_;
   std::vector<Recorded> adjoint_;
-  std::vector<Guard> guards_;
+  std::vector<Guard> guards_;  // none where the tape has no select
+  Guard always_ = Guard::always();
   std::vector<char> active_;
 };
 }  // namespace

@@ -27,15 +27,15 @@ Recorded operator-(const Recorded& a) {
   return unary(Operation::negate, a);
 }
 Recorded operator+(const Recorded& a, const Recorded& b) {
-  if (a.is_constant() && b.is_constant()) return Recorded(a.constant() + b.constant());
   if (a.is(0)) return b;
   if (b.is(0)) return a;
+  if (a.is_constant() && b.is_constant()) return Recorded(a.constant() + b.constant());
   return binary(Operation::add, a, b);
 }
 Recorded operator-(const Recorded& a, const Recorded& b) {
-  if (a.is_constant() && b.is_constant()) return Recorded(a.constant() - b.constant());
-  if (a.is(0)) return -b;
   if (b.is(0)) return a;
+  if (a.is(0)) return -b;
+  if (a.is_constant() && b.is_constant()) return Recorded(a.constant() - b.constant());
   if (a.recorder() == b.recorder() && a.slot() == b.slot()) return Recorded(0);
   return binary(Operation::subtract, a, b);
 }
@@ -158,6 +158,11 @@ std::vector<Recorded> solve(std::span<const Recorded> matrix, std::span<const Re
 }
 
 Recorder::Recorder(int inputs) : inputs_(inputs) {
+  // Room for what the formulas of many variables record, some tens of instructions for each: while the table
+  // grows it is sorted anew again and again, which took half of the time that recording a long chain takes.
+  constexpr std::size_t instructions_for_each = 32;
+  known_.reserve(instructions_for_each * static_cast<std::size_t>(inputs));
+  code_.reserve(instructions_for_each * static_cast<std::size_t>(inputs));
   time_slot_ = append({Operation::time, 0, 0, 0}).slot();
   for (int k = 0; k < inputs; ++k) append({Operation::input, k, 0, 0});
 }

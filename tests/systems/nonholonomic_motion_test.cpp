@@ -158,4 +158,22 @@ TEST(NonholonomicMotion, ReversedVelocitiesAndMirrorsDoNotReverseTheGyroscopicCo
   }
 }
 
+TEST(NonholonomicMotion, StatesOfTheQuarticSystemHaveTheEnergyThatIsAskedFor) {
+  for (const char* energy : {"3", "0.25", "100", "0"})
+    for (const char* seed : {"1", "2", "31"}) {
+      const auto model = named("quartic-nonholonomic", {{"n", "4"}, {"seed", seed}, {"energy", energy}});
+      Numbers z;
+      for (const Real& x : model->initial()) z.push_back(x.quad());
+      const Quad asked = Real::parse(energy)->quad(),
+                 found = values(model->tape(Formula::hamiltonian), z).front();
+      const double off = static_cast<double>(abs(found - asked) / (asked + Quad(1)));
+      if (asked == Quad(0)) {
+        EXPECT_GT(off, 0.1) << "as drawn";  // control
+      } else {
+        EXPECT_LE(off, 1e-32) << energy << ' ' << seed;
+      }
+      EXPECT_LE(size_of(values(model->tape(Formula::constraints), z)), 1e-30);
+    }
+}
+
 }  // namespace

@@ -1,0 +1,93 @@
+"""bench/micro/ratios.py: a ratio that exceeds its target fails, whatever else was measured."""
+import contextlib
+import importlib.util
+import io
+import json
+import pathlib
+import tempfile
+import unittest
+
+SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "bench" / "micro" / "ratios.py"
+specification = importlib.util.spec_from_file_location("ratios", SCRIPT)
+ratios = importlib.util.module_from_spec(specification)
+specification.loader.exec_module(ratios)
+
+LIMITED = [row for row in ratios.targets() if row[3] is not None]
+
+
+class Ratios(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.file = pathlib.Path(folder.name) / "times.json"
+        self.times = {"/".join(key): 1.0 for row in LIMITED for key in row[1:3]}  # no target is below 1
+
+    def check(self):
+        self.file.write_text(json.dumps(self.times), encoding="utf-8")
+        return self.run_with("--times", str(self.file))
+
+    def run_with(self, *arguments):
+        told, complained = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(told), contextlib.redirect_stderr(complained):
+            try:
+                status = ratios.main(arguments)
+            except SystemExit as end:
+                status = end.code
+        return status, told.getvalue(), complained.getvalue()
+
+    def line(self, told, row):
+        return next(text for text in told.splitlines() if text.startswith(row[0] + " "))
+
+    def test_measurements_within_their_targets_pass(self):
+        status, told, complained = self.check()
+        self.assertEqual((status, complained), (0, ""))
+        self.assertNotIn("missed", told)
+
+    def test_one_false_measurement_fails_whichever_it_is(self):
+        for row in (LIMITED[0], LIMITED[len(LIMITED) // 2], LIMITED[-1]):
+            self.setUp()
+            self.times["/".join(row[1])] = 1.26 * row[3]
+            status, told, complained = self.check()
+            self.assertEqual(status, 1, row[0])
+            self.assertIn("exceeded by 26 %", self.line(told, row))
+            self.assertIn("1 of the ratios exceed their targets by more than 25 %", complained)
+
+    def test_a_ratio_between_the_target_and_the_bound_is_marked_and_passes(self):
+        row = LIMITED[-1]
+        self.times["/".join(row[1])] = 1.24 * row[3]
+        status, told, _ = self.check()
+        self.assertEqual(status, 0)
+        self.assertTrue(self.line(told, row).endswith("missed"))
+
+    def test_a_target_without_a_measurement_fails(self):
+        row = LIMITED[0]
+        del self.times["/".join(row[1])]
+        status, told, _ = self.check()
+        self.assertEqual(status, 1)
+        self.assertTrue(self.line(told, row).endswith("not measured"))
+
+    def test_times_a_rod_decide_nothing(self):
+        self.times["chain-3d-64/rattle/registered"] = 1000.0
+        status, told, _ = self.check()
+        self.assertEqual(status, 0)
+        self.assertIn("exceeded by 2400 %", told)
+
+    def test_what_google_benchmark_prints_is_read(self):
+        runs = [{"run_type": "iteration", "run_name": "kepler/verlet/static", "ns_per_step": time} for time in (3.0, 2.0)]
+        runs += [{"run_type": "aggregate", "run_name": "kepler/verlet/static_mean", "ns_per_step": 1.0},
+                 {"run_type": "iteration", "run_name": "tree-12/solve/library", "ns_per_row": 5.0}]
+        self.assertEqual(ratios.fastest(json.dumps({"benchmarks": runs})),
+                         {("kepler", "verlet", "static"): 2.0, ("tree-12", "solve", "library"): 5.0})
+
+    def test_wrong_usage(self):
+        self.assertEqual(self.run_with()[0], 2)
+        self.assertEqual(self.run_with("program", "--times", "file")[0], 2)
+        status, _, complained = self.run_with("--times", str(self.file.with_name("none.json")))
+        self.assertEqual(status, 2)
+        self.assertIn("none.json", complained)
+        self.file.write_text("no times", encoding="utf-8")
+        self.assertEqual(self.run_with("--times", str(self.file))[0], 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
