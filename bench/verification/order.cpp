@@ -105,18 +105,18 @@ MeasuredOrder measure_order(const MethodInstance& method, const std::shared_ptr<
   const Errors errors(method, model);
   const Quad time = errors.time();
   // Below the floor, round-off is more than a hundredth of the error. It is that of quad, or, where the
-  // coefficients are doubles, that of the coefficients: an error of the field, which is multiplied by the time
-  // over which the field is followed, so that it falls with the step.
-  const auto floor_after = [&, doubles = method.descriptor().double_coefficients, rate = errors.rate()](
-                               const Quad& elapsed) {
+  // coefficients are doubles, that of the coefficients: an error of the field, which is multiplied by the
+  // time over which the field is followed, so that it falls with the step.
+  const auto floor_after = [&, doubles = method.descriptor().double_coefficients,
+                            rate = errors.rate()](const Quad& elapsed) {
     return doubles ? std::max(Quad(1e-32), Quad(1e-15) * rate * elapsed) : Quad(1e-32);
   };
   if (method.needs_constraints() || history)
     return settle([&](int k) { return errors.after(interval * time, std::int64_t{1} << k); }, 10,
                   [&](int) { return Quad(100) * floor_after(interval * time); });
   const auto step = [&](int k) { return time / Quad(std::ldexp(1.0, k + 1)); };
-  MeasuredOrder order =
-      settle([&](int k) { return errors.after(step(k), 1); }, 40, [&](int k) { return floor_after(step(k)); });
+  MeasuredOrder order = settle([&](int k) { return errors.after(step(k), 1); }, 40,
+                               [&](int k) { return floor_after(step(k)); });
   order.slope -= 1;
   return order;
 }

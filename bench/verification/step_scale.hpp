@@ -25,8 +25,8 @@ std::vector<double> coordinate_scales(const Model& motion, const Real& t, const 
 bool is_short(const Model& motion);
 
 /// The time in which the motion from z at t changes by about its own size, as a power of two and from the
-/// Taylor series of the motion; rates between 1/32 and 32 are taken as one, so that steps are the same for all
-/// ordinary systems. One where the motion is not is_short.
+/// Taylor series of the motion; rates between 1/32 and 32 are taken as one, so that steps are the same for
+/// all ordinary systems. One where the motion is not is_short.
 Quad own_time(const Model& motion, const Real& t, const std::vector<Real>& z);
 
 /// For each coordinate the size of the numbers that a step of size h from `start` at time t to `end` is made
