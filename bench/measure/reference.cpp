@@ -10,13 +10,16 @@ ReferenceExpansion::ReferenceExpansion(const Model& model)
 Quad ReferenceExpansion::safe_step() const {
   // The radius of convergence is estimated from the last two degrees. A step of e^-2.9 of it leaves terms of
   // degree 28 at e^(-2.9 * 28) = 5e-36 of the first term.
-  const Quad scale = std::max(largest(0), Quad(1e-30));
-  Quad step(1e300);
+  // Where these are zero the series says nothing of the time scale, and the step is at most 1.
+  const Quad scale = largest(0) > Quad(0) ? largest(0) : Quad(1e-30);
+  Quad step(-1);
   for (const std::size_t degree : {order() - 1, order()}) {
     const Quad ratio = largest(degree) / scale;
-    if (ratio > Quad(0)) step = std::min(step, exp(-log(ratio) / Quad(static_cast<int>(degree))));
+    if (!(ratio > Quad(0))) continue;
+    const Quad radius = exp(-log(ratio) / Quad(static_cast<int>(degree)));
+    step = step < Quad(0) ? radius : std::min(step, radius);
   }
-  return std::min(step * exp(Quad(-2.9)), Quad(1));
+  return step < Quad(0) ? Quad(1) : step * exp(Quad(-2.9));
 }
 
 void ReferenceExpansion::evaluate(Quad s, Quad* z) const {

@@ -16,7 +16,8 @@ namespace pfaff {
 class ReferenceExpansion : public TaylorExpansion<Quad> {
  public:
   explicit ReferenceExpansion(const Model& model);
-  /// The largest step, at most 1, for which the truncated series is accurate to round-off.
+  /// The largest step for which the truncated series is accurate to round-off, whatever the unit of time; 1
+  /// where the last terms are zero.
   [[nodiscard]] Quad safe_step() const;
   /// Writes to `z` the value of the Taylor polynomial at time `s` after the point of expansion.
   void evaluate(Quad s, Quad* z) const;

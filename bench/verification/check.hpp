@@ -44,11 +44,6 @@ nlohmann::json to_json(const Check& check);
 /// InputError when the model has no initial state, or when no such point was found.
 std::vector<Real> generic_state(const Model& model);
 inline const Real generic_time = Real::fraction(37, 100);
-/// The time in which the motion from z at t changes by about its own size, as a power of two and from the
-/// Taylor series of the motion; times within a factor of eight of one are taken as one, so that steps are the
-/// same for all ordinary systems. One where the motion has too many coordinates for its series.
-Quad own_time(const Model& motion, const Real& t, const std::vector<Real>& z);
-
 /// The order of a method, measured from its errors in quad against Taylor series. The error of a single step
 /// is measured while the step is halved; the slope is log2 of the ratio of successive errors, minus one.
 /// Halving ends when, of four slopes or more, the last two differ by less than 0.01 and the two before by

@@ -83,9 +83,9 @@ inline const Real check_step = Real::fraction(1, 20);
 Check check_order(MethodOnModel& on, bool conditions_judge);
 // order_conditions.cpp
 /// The coefficients of h^0, ..., h^p in the error of one step, p being the order but at most 8; they vanish
-/// for a method of that order. The largest one, relative to the scales of the step. nullopt where they say
-/// nothing: on systems with constraints, of methods that need constraints, that remember earlier steps or
-/// whose coefficients are doubles, and beyond 16 coordinates.
+/// for a method of that order, or are at the round-off of its coefficients where these are doubles. The
+/// largest one, relative to the scales of the step. nullopt where they say nothing: on systems with
+/// constraints, of methods that need constraints or that remember earlier steps, and beyond 16 coordinates.
 std::optional<Check> check_order_conditions(MethodOnModel& on);
 
 // adaptive_checks.cpp

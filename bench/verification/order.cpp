@@ -1,4 +1,5 @@
 // Measures the orders of methods.
+#include <algorithm>
 #include <cmath>
 
 #include <pfaff/bench/measure/reference.hpp>
@@ -9,45 +10,69 @@ namespace pfaff {
 
 namespace {
 
-// The error after time `elapsed`, taken in so many equal steps, relative to the norm of the exact state;
-// negative when a step fails. `motion` is the vector field whose exact solution is compared with.
-Quad error_after(const MethodInstance& method, const std::shared_ptr<const Model>& model, const Model& motion,
-                 Quad elapsed, std::int64_t steps) {
-  const auto stepper = method.stepper(model, Quad());
-  std::vector<Quad> z;
-  for (const Real& x : generic_state(*model)) z.push_back(x.quad());
-  std::vector<Quad> exact = z;
-  std::int64_t completed = 0;
-  const Quad h = elapsed / Quad(static_cast<double>(steps));
-  if (stepper->advance(generic_time.quad(), 0, h, steps, z, completed) != Status::converged) return Quad(-1);
-  taylor_flow(motion, generic_time.quad(), elapsed, exact);
-  Quad distance(0), norm(0);
-  for (std::size_t k = 0; k < z.size(); ++k) {
-    const Quad d = z[k] - exact[k];
-    distance += d * d;
-    norm += exact[k] * exact[k];
+// The errors of a method from the generic state of a model, in units of the scales of its coordinates.
+class Errors {
+ public:
+  Errors(const MethodInstance& method, const std::shared_ptr<const Model>& model)
+      : method_(method), model_(model), motion_(motion_of(model)) {
+    const std::vector<Real> start = generic_state(*model);
+    for (const Real& x : start) start_.push_back(x.quad());
+    for (const double scale : coordinate_scales(start)) scales_.emplace_back(scale);
+    time_ = own_time(*motion_, generic_time, start);
   }
-  return sqrt(distance / norm);
-}
 
-// own_time of the motion at the generic state.
-Quad unit_of_time(const Model& motion, const Model& model) {
-  return own_time(motion, generic_time, generic_state(model));
-}
+  /// own_time of the motion.
+  [[nodiscard]] Quad time() const { return time_; }
+
+  /// The error after time `elapsed`, taken in so many equal steps, relative to the norm of the exact state;
+  /// negative when a step fails.
+  [[nodiscard]] Quad after(Quad elapsed, std::int64_t steps) const {
+    const auto stepper = method_.stepper(model_, Quad());
+    std::vector<Quad> z = start_, exact = start_;
+    std::int64_t completed = 0;
+    const Quad h = elapsed / Quad(static_cast<double>(steps));
+    if (stepper->advance(generic_time.quad(), 0, h, steps, z, completed) != Status::converged)
+      return Quad(-1);
+    taylor_flow(*motion_, generic_time.quad(), elapsed, exact);
+    std::vector<Quad> difference(z.size());
+    for (std::size_t k = 0; k < z.size(); ++k) difference[k] = z[k] - exact[k];
+    return norm(difference) / norm(exact);
+  }
+
+  /// The rate at which the state changes at the start, relative to its norm.
+  [[nodiscard]] Quad rate() const {
+    TaylorExpansion<Quad> expansion(motion_->tape(Formula::field), 1);
+    expansion.expand(generic_time.quad(), start_.data());
+    const auto first = expansion.coefficients().begin() + static_cast<std::ptrdiff_t>(start_.size());
+    return norm(std::vector<Quad>(first, expansion.coefficients().end())) / norm(start_);
+  }
+
+ private:
+  [[nodiscard]] Quad norm(const std::vector<Quad>& z) const {
+    Quad sum(0);
+    for (std::size_t k = 0; k < z.size(); ++k) sum += z[k] / scales_[k] * (z[k] / scales_[k]);
+    return sqrt(sum);
+  }
+
+  const MethodInstance& method_;
+  std::shared_ptr<const Model> model_, motion_;
+  std::vector<Quad> start_, scales_;
+  Quad time_;
+};
 
 double logarithm2(Quad x) { return std::log2(static_cast<double>(x)); }
 
 // The slope at which the errors of successive halvings settle. error_of(k) is the error after k halvings,
-// negative where the step failed; errors below `floor` are round-off and not used.
-template <class Error>
-MeasuredOrder settle(Error&& error_of, int halvings, const Quad& floor) {
+// negative where the step failed; errors below floor_of(k) are round-off and not used.
+template <class Error, class Floor>
+MeasuredOrder settle(Error&& error_of, int halvings, Floor&& floor_of) {
   MeasuredOrder result;
   std::vector<double> slopes;
   Quad last_error(-1);
   for (int halving = 0; halving < halvings; ++halving) {
     const Quad error = error_of(halving);
     if (error < Quad(0)) continue;  // too large a step for the implicit solve
-    if (error < floor) break;
+    if (error < floor_of(halving)) break;
     if (last_error > Quad(0)) slopes.push_back(logarithm2(last_error / error));
     last_error = error;
     const std::size_t n = slopes.size();
@@ -73,63 +98,40 @@ MeasuredOrder settle(Error&& error_of, int halvings, const Quad& floor) {
 
 const Quad interval = Quad(1) / Quad(8);
 
-constexpr std::size_t most_expanded = 16;
-// Rates between 1/ordinary_rates and ordinary_rates are taken as one; others are brought to the ordinary one.
-constexpr double ordinary_rates = 32, ordinary_rate = 8;
-
 }  // namespace
-
-Quad own_time(const Model& motion, const Real& t, const std::vector<Real>& z) {
-  const std::size_t n = z.size();
-  if (n > most_expanded) return Quad(1);
-  ReferenceExpansion expansion(motion);
-  const std::vector<double> scales = coordinate_scales(z);
-  std::vector<Quad> at;
-  for (const Real& x : z) at.push_back(x.quad());
-  expansion.expand(t.quad(), at.data());
-  // The size of a term of high degree tells the rate whatever the sizes of single coordinates are.
-  double rate = 0;
-  for (std::size_t degree = 6; degree <= 10; ++degree)
-    for (std::size_t k = 0; k < n; ++k) {
-      const double size = std::abs(static_cast<double>(expansion.coefficients()[degree * n + k])) / scales[k];
-      rate = std::max(rate, std::pow(size, 1 / static_cast<double>(degree)));
-    }
-  if (!(rate > 0) || !std::isfinite(rate) || (rate <= ordinary_rates && rate >= 1 / ordinary_rates))
-    return Quad(1);
-  const double nearest = rate > 1 ? ordinary_rate : 1 / ordinary_rate;
-  return Quad(std::exp2(-std::round(std::log2(rate / nearest))));
-}
 
 MeasuredOrder measure_order(const MethodInstance& method, const std::shared_ptr<const Model>& model,
                             bool history) {
+  const Errors errors(method, model);
+  const Quad time = errors.time();
   // Below the floor, round-off is more than a hundredth of the error. It is that of quad, or, where the
-  // coefficients are doubles, that of the coefficients.
-  const Quad floor(method.descriptor().double_coefficients ? 1e-16 : 1e-32);
-  const auto motion = motion_of(model);
-  const Quad time = unit_of_time(*motion, *model);
+  // coefficients are doubles, that of the coefficients: an error of the field, which is multiplied by the
+  // time over which the field is followed, so that it falls with the step.
+  const auto floor_after = [&, doubles = method.descriptor().double_coefficients,
+                            rate = errors.rate()](const Quad& elapsed) {
+    return doubles ? std::max(Quad(1e-32), Quad(1e-15) * rate * elapsed) : Quad(1e-32);
+  };
   if (method.needs_constraints() || history)
-    return settle(
-        [&](int k) { return error_after(method, model, *motion, interval * time, std::int64_t{1} << k); }, 10,
-        Quad(100) * floor);
-  MeasuredOrder order = settle(
-      [&](int k) { return error_after(method, model, *motion, time / Quad(std::ldexp(1.0, k + 1)), 1); }, 40,
-      floor);
+    return settle([&](int k) { return errors.after(interval * time, std::int64_t{1} << k); }, 10,
+                  [&](int) { return Quad(100) * floor_after(interval * time); });
+  const auto step = [&](int k) { return time / Quad(std::ldexp(1.0, k + 1)); };
+  MeasuredOrder order = settle([&](int k) { return errors.after(step(k), 1); }, 40,
+                               [&](int k) { return floor_after(step(k)); });
   order.slope -= 1;
   return order;
 }
 
 double order_at_small_steps(const MethodInstance& method, const std::shared_ptr<const Model>& model) {
-  const auto motion = motion_of(model);
-  const Quad time = unit_of_time(*motion, *model);
+  const Errors errors(method, model);
+  const Quad time = errors.time();
   if (method.needs_constraints() &&
       method.order(*model) <= 2)  // at this h a change of 1e-6 exceeds the error h^2
-    return logarithm2(error_after(method, model, *motion, interval * time, 512) /
-                      error_after(method, model, *motion, interval * time, 1024));
+    return logarithm2(errors.after(interval * time, 512) / errors.after(interval * time, 1024));
   // The slope at the smallest steps whose errors are above round-off is the result.
   double slope = 100;
   Quad h = Quad(1e-2) * time, last(-1);
   for (int k = 0; k < 9; ++k, h = h / Quad(10)) {
-    const Quad error = error_after(method, model, *motion, h, 1);
+    const Quad error = errors.after(h, 1);
     if (error < Quad(1e-32)) break;
     if (last > Quad(0)) slope = logarithm2(last / error) / std::log2(10.0) - 1;
     last = error;

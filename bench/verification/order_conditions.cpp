@@ -23,6 +23,11 @@ constexpr double nothing_left_out = 1e-23;
 // coefficients of Chebyshev polynomials, up to 1e9 for the orders here. A coefficient of a method that is
 // wrong by 1e-9 leaves 1e-9 (1/16)^k, 2e-19 at k = 8.
 constexpr double tolerance_of_conditions = 1e-22;
+// Coefficients of the method that are doubles leave as much in the conditions as in a step. So large a
+// tolerance could pass a method of lower order on a slow motion; the conditions are therefore judged only
+// where the first error that the order allows, of degree p + 1, is so many times larger. One of degree p,
+// which falls with the step by one power less, would then be seen.
+constexpr double seen_above_tolerance = 1e2;
 constexpr int most_conditions = 8;
 constexpr std::size_t most_coordinates = 16;
 
@@ -73,13 +78,14 @@ std::optional<Check> check_order_conditions(MethodOnModel& on) {
   const int order = method.order(*on.model());
   std::vector<Quad> start;
   for (const Real& x : generic_state(*on.model())) start.push_back(x.quad());
-  if (method.needs_constraints() || on.history() || on.double_coefficients() ||
-      start.size() > most_coordinates || on.model()->restricted() || order <= 0)
+  if (method.needs_constraints() || on.history() || start.size() > most_coordinates ||
+      on.model()->restricted() || order <= 0)
     return std::nullopt;
+  const bool doubles = on.double_coefficients();
   ReferenceExpansion solution(*motion_of(on.model()));
   solution.expand(generic_time.quad(), start.data());
-  Check check = on.check("order conditions", "every system", "quad");
-  check.tolerance = tolerance_of_conditions;
+  Check check = on.check("order conditions", "every system", doubles ? "double" : "quad");
+  check.tolerance = doubles ? tolerance<double>() : tolerance_of_conditions;
   Quad radius = largest_radius * (on.step_size() / check_step).quad();
   for (int k = 0; k < most_radii; ++k, radius = radius / Quad(4)) {
     const auto errors = error_series(on, solution, start, radius);
@@ -87,6 +93,12 @@ std::optional<Check> check_order_conditions(MethodOnModel& on) {
         !(largest_of(errors, interpolation_points - points_left_out, interpolation_points - 1).first <=
           Quad(nothing_left_out)))
       continue;
+    const int next = std::min(order + 1, interpolation_points - 1);
+    if (doubles && !(largest_of(errors, next, next).first >= Quad(seen_above_tolerance * check.tolerance))) {
+      check.in_scope = false;
+      check.reason = "the error of a step is too near the round-off of the coefficients";
+      return check;
+    }
     const auto [size, degree] = largest_of(errors, 0, std::min(order, most_conditions));
     check.measured = static_cast<double>(size);
     check.result = check.measured <= check.tolerance ? CheckResult::pass : CheckResult::fail;

@@ -1,4 +1,8 @@
-// The sizes against which residuals of steps are judged: what one step rounds off in each coordinate.
+// The units that a system has by nature: the sizes of its coordinates, the time in which it changes, and the
+// sizes against which residuals of steps are judged, what one step rounds off in each coordinate.
+//
+// Whoever writes a system chooses its units. States near which claims are measured, steps and tolerances are
+// made from these sizes, so that the same system in other units is judged in the same way.
 #pragma once
 
 #include <vector>
@@ -11,14 +15,26 @@ namespace pfaff {
 /// each coordinate there, or that of the largest one for coordinates that are zero. Sizes within a factor of
 /// 64 of one are taken as one, so that offsets and steps of ordinary systems are the same for all of them.
 std::vector<double> coordinate_scales(const std::vector<Real>& centre);
+/// The same at a state z at time t, with better sizes for coordinates that are zero: what the motion from
+/// there makes of each in its own time, by the Taylor series. A coordinate that stays zero, and every one
+/// where the motion has no series that is_short, has the size that it has above.
+std::vector<double> coordinate_scales(const Model& motion, const Real& t, const std::vector<Real>& z);
+
+/// True where the field of a motion is a formula so short that series and bounds of rounding errors of it are
+/// computed at each step: up to 16 coordinates, or at most 8192 operations.
+bool is_short(const Model& motion);
+
+/// The time in which the motion from z at t changes by about its own size, as a power of two and from the
+/// Taylor series of the motion; rates between 1/32 and 32 are taken as one, so that steps are the same for
+/// all ordinary systems. One where the motion is not is_short.
+Quad own_time(const Model& motion, const Real& t, const std::vector<Real>& z);
 
 /// For each coordinate the size of the numbers that a step of size h from `start` at time t to `end` is made
 /// of, in the unit of the coordinate: those of the two states and h times the rounding errors of the field,
 /// counted in units of round-off. A correct step is off by a small multiple of the unit round-off times these
 /// sizes, whatever the units and the conditioning of the field. `motion` is the model whose field it is;
-/// where it has
-/// more than 16 coordinates (most_replayed), the states alone are counted, and every coordinate counts as
-/// much as the largest.
+/// where it is not is_short, the states alone are counted, and every coordinate counts as much as the
+/// largest.
 template <class T>
 std::vector<T> step_scales(const Model& motion, const T& t, const T& h, const std::vector<T>& start,
                            const std::vector<T>& end);

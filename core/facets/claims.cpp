@@ -4,10 +4,15 @@
 #include <random>
 
 #include <pfaff/core/errors/errors.hpp>
+#include <pfaff/core/facets/complete_tables.hpp>
 #include <pfaff/core/facets/linear_reversal.hpp>
 #include <pfaff/core/tape/replay.hpp>
 
 namespace pfaff {
+
+template struct CompleteFacets<facet_table>;
+template struct CompleteFormulas<formula_table>;
+template struct CompleteClaims<claim_table>;
 
 bool momentum_map(const Model& model, std::size_t invariant) {
   const Invariant& i = model.invariants()[invariant];

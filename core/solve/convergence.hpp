@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 
 #include <pfaff/core/errors/status.hpp>
 #include <pfaff/core/numbers/dual.hpp>
@@ -89,8 +90,10 @@ class Convergence {
     if (iterations_ >= 2) {
       const Number ratio = size_ / previous_;
       if (iterations_ == 2 && previous_ > Number(1024) * u) contraction_ = ratio;
-      // The next correction would be ratio * size.
-      const bool foretold = ratio < Number(0.5) && ratio * size_ <= u / Number(64);
+      // The next correction would be ratio * size. The first correction of a component that was zero is
+      // infinitely large in units of it, and the ratio to such a one is zero, which foretells nothing.
+      const bool foretold = previous_ < std::numeric_limits<Number>::infinity() && ratio < Number(0.5) &&
+                            ratio * size_ <= u / Number(64);
       if (foretold &&
           (corrections_ == Corrections::even || (corrections_ == Corrections::uneven && foretold_)))
         return stop(Status::converged);

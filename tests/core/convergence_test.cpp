@@ -130,6 +130,25 @@ TEST(Convergence, KnowsItsContraction) {
   EXPECT_NEAR(c.ratio(), 0.1, 1e-15);
 }
 
+// Two components that contract by 0.1 each, of which the second is zero until the third iteration: its first
+// correction is infinitely large in units of it, and says nothing about the next one.
+TEST(Convergence, GoesOnAfterTheFirstCorrectionOfAComponentThatWasZero) {
+  Convergence<double> convergence;
+  double correction = 0.1, second = 0;
+  int iterations = 0;
+  do {
+    ++iterations;
+    const bool arrives = iterations == 3;
+    convergence.begin_iteration();
+    convergence.add(correction, 1, 1);
+    convergence.add(arrives ? 1e-3 : second, 0, iterations > 3 ? 1e-3 : 0);
+    second = arrives ? 1e-4 : second / 10;
+    correction /= 10;
+  } while (!convergence.finished(50));
+  EXPECT_EQ(convergence.status(), Status::converged);
+  EXPECT_GT(iterations, 12);  // corrections reach round-off, and do not end at the fourth
+}
+
 // Ten million additions of 0.1. The exact sum of the doubles is n * 0.1 in quad.
 TEST(Summation, KeepsWhatItRoundsOff) {
   constexpr int n = 10'000'000;
