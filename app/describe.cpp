@@ -212,7 +212,8 @@ nlohmann::json describe_formulation(const FormulationPlugin& plugin) {
 }
 
 nlohmann::json describe_experiment(const std::string& name) {
-  const Experiment e = read_experiment(name, false);
+  Experiment e = read_experiment(name, false);
+  std::erase(e.description, '$');  // which stand around equations
   nlohmann::json j{{"kind", "experiment"},
                    {"name", e.name},
                    {"title", e.title},
