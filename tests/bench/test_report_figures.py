@@ -4,6 +4,7 @@ import unittest
 
 from synthetic import Fresh, U, figures, reading, save, scales, synthetic
 
+import canvas  # noqa: E402
 import verdict  # noqa: E402
 import work_precision  # noqa: E402
 
@@ -45,6 +46,27 @@ class Sheets(Fresh):
         sheet = figures.drift_at_equal_step(shown, shown.cases[0]).draw(True)
         self.assertIn("run ended early", sheet.levels)
         self.assertIn("bad at step 0.4 s", work_precision.drawings(verdict.Verdict(shown, shown.cases[0]))[0].caption)
+
+
+class Steps(unittest.TestCase):
+    def labels(self, width, steps):
+        """The boxes of the labels at an axis of steps, in pixels, from left to right."""
+        drawing = canvas.Canvas(width + 60, 200, 11)
+        axes = drawing.panel(30, 10, width, 150)
+        scales.step_axis(axes, steps, lambda label: drawing.measure(label, 0.92)[0])
+        return [t.get_window_extent(drawing.renderer) for t in axes.get_xticklabels()]
+
+    def test_labels_of_steps_do_not_touch(self):
+        steps = [5.0 / n for n in (1, 1.6, 2.5, 4, 6.4, 16, 40, 100, 640, 4000, 16000)]
+        for width in (110, 300, 600):
+            boxes = self.labels(width, steps)
+            for one, next_one in zip(boxes, boxes[1:]):
+                self.assertGreater(next_one.x0 - one.x1, 4)
+        self.assertGreater(len(self.labels(600, steps)), len(self.labels(110, steps)))
+
+    def test_few_steps_are_all_labelled(self):
+        self.assertEqual(len(self.labels(300, [0.4, 0.2, 0.1])), 3)
+        self.assertEqual(len(self.labels(300, [0.4])), 1)
 
 
 class Numbers(Fresh):
