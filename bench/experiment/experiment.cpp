@@ -4,6 +4,7 @@
 
 #include <pfaff/bench/experiment/automatic_steps.hpp>
 #include <pfaff/bench/experiment/citations.hpp>
+#include <pfaff/bench/experiment/contraction.hpp>
 #include <pfaff/bench/experiment/costs.hpp>
 #include <pfaff/bench/experiment/equal_cost.hpp>
 #include <pfaff/bench/experiment/experiment_findings.hpp>
@@ -156,7 +157,8 @@ void remove_outdated(const fs::path& directory, const std::vector<ExperimentRun>
     return kept_run(directory / "runs" / run.slug, run.resolved).same();
   });
   std::error_code error;
-  for (const char* name : {"results.csv", "equal_cost.csv", "ensembles.csv", "findings.csv", "report.html"})
+  for (const char* name :
+       {"results.csv", "equal_cost.csv", "ensembles.csv", "contraction.csv", "findings.csv", "report.html"})
     fs::remove(directory / name, error);
 }
 
@@ -300,6 +302,7 @@ ExperimentOutcome run_experiment(const Experiment& asked, const fs::path& direct
     if (s["status"] != "converged") ++outcome.failed;
   write_file(directory / "results.csv", results_csv(runs, summaries));
   write_or_remove(directory / "ensembles.csv", ensembles_csv(runs, summaries));
+  write_or_remove(directory / "contraction.csv", contraction_csv(runs, summaries));
   const std::vector<Finding> findings = findings_of(experiment, runs, summaries);
   write_or_remove(directory / "findings.csv", findings.empty() ? "" : findings_csv(findings));
   for (const Finding& finding : findings) outcome.findings.push_back(to_json(finding));

@@ -136,7 +136,7 @@ class Reader:
         if len({len(cells) for cells in rows}) != 1:
             raise NotRead("]")
         table = "".join(f"<mtr>{''.join(f'<mtd>{cell}</mtd>' for cell in cells)}</mtr>" for cells in rows)
-        return f"<mrow><mo>[</mo><mtable>{table}</mtable><mo>]</mo></mrow>"
+        return f'<mtable class="matrix">{table}</mtable>'
 
 
 def mathml(source):
