@@ -15,6 +15,7 @@ from labels import pushed_apart
 from scales import ErrorAxis, time_axis
 
 PANELS = 8
+FRAME = 1.5  # images that leave the middle method's by this many of their width leave the frame
 
 
 @dataclasses.dataclass
@@ -79,7 +80,7 @@ def draw(verdict, shown, axis, title, wide):
     down = rows * (top + tall) + below
     canvas = Canvas(width, down + top + low_tall + below, font)
     canvas.description = title
-    frame = limits([(xs, ys) for _, one in shown for _, xs, ys in one.images], 1.5)
+    frame = limits([tuple(sum((image[k] for image in one.images), []) for k in (1, 2)) for _, one in shown], FRAME)
     for k, (row, one) in enumerate(shown):
         line, column = divmod(k, columns)
         axes = canvas.panel(left + column * (each + between), top + line * (top + tall), each, tall)

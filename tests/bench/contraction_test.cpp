@@ -2,9 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <sstream>
 
 #include <pfaff/bench/experiment/contraction.hpp>
-#include <pfaff/bench/runner/settings.hpp>
+#include <pfaff/bench/runner/files.hpp>
+
+#include "../temporary_directory.hpp"
 
 namespace {
 using namespace pfaff;
@@ -53,5 +56,44 @@ TEST(Contraction, OfANonlinearSystemIsSeenAsWell) {
   const auto lost = carry_disc(run_of("damped-pendulum", "implicit-midpoint", strongly), 60);
   EXPECT_NEAR(kept.back().area / kept.back().law, 1, 5e-3);
   EXPECT_GT(std::abs(lost.back().area / lost.back().law - 1), 2e-2);
+}
+
+const char* const experiment = R"(schema = 1
+title = "A test"
+[[method]]
+label = "RK4, one"
+integrator = "rk4"
+[[case]]
+name = "damped"
+system = "damped-oscillator"
+time = 4
+steps = [0.1, 0.4, 0.2]
+[[case]]
+name = "kept"
+system = "harmonic-oscillator"
+time = 4
+steps = [0.4]
+)";
+
+TEST(Contraction, IsThatOfTheLargestStepThatEndsWell) {
+  const pfaff::testing::TemporaryDirectory files;
+  write_file(files / "test.toml", experiment);
+  const Experiment of = read_experiment(files / "test.toml", false);
+  const auto runs = expand(of);
+  std::vector<nlohmann::json> summaries(runs.size(), {{"status", "converged"}});
+  const auto rows_with = [&](const std::string& begin) {
+    std::istringstream lines(contraction_csv(runs, summaries));
+    std::size_t count = 0;
+    for (std::string line; std::getline(lines, line);) count += line.starts_with(begin) ? 1 : 0;
+    return count;
+  };
+  EXPECT_EQ(rows_with("case,method,step,t,area,law,outline"), 1U);
+  EXPECT_EQ(rows_with("damped,\"RK4, one\",0.4,"), 11U);  // the start and ten steps
+  EXPECT_EQ(rows_with(""), 12U);
+  summaries[1]["status"] = "non_finite";
+  EXPECT_EQ(rows_with("damped,\"RK4, one\",0.4,"), 0U);
+  EXPECT_EQ(rows_with("damped,\"RK4, one\",0.2,"), 21U);
+  for (nlohmann::json& summary : summaries) summary["status"] = "non_finite";
+  EXPECT_EQ(contraction_csv(runs, summaries), "");
 }
 }  // namespace

@@ -49,6 +49,11 @@ class Contraction(Fresh):
             canvas = drawing.draw(wide)
             self.assertEqual(sorted(a.get_title(loc="left") for a in canvas.axes), ["", "mid: 1", "rk: 1.1"])
             deviations = canvas.axes[-1]
+            for panel in canvas.axes[:-1]:  # which hold every image
+                for line in panel.lines:
+                    for values, (low, high) in zip(line.get_data(), (panel.get_xlim(), panel.get_ylim())):
+                        self.assertLess(low, min(values))
+                        self.assertGreater(high, max(values))
             self.assertGreaterEqual(deviations.get_ylim()[1], 0.1)
             boxes = [t.get_window_extent(canvas.renderer) for t in deviations.texts]
             self.assertEqual(len(boxes), 2)
