@@ -54,7 +54,8 @@ def carried(experiment, case):
 def drawings(verdict):
     case, found = verdict.case, carried(verdict.experiment, verdict.case)
     named = verdict.named(PANELS)
-    shown = [(row, found[row.label]) for row in verdict.rows if row.label in named and len(found.get(row.label, Carried(0)).times) > 1]
+    shown = [(row, found[row.label]) for row in verdict.rows
+             if row.label in named and row.label in found and len(found[row.label].times) > 1]
     if not shown:
         return []
     axis = ErrorAxis([one.deviations[1:] for _, one in shown], UNIT_ROUND_OFF[case["precision"]])
@@ -65,8 +66,8 @@ def drawings(verdict):
         f"A disc of states around the start, carried along by each method, {at}, at six times. Positions and momenta are "
         "divided by the square root of the exact contraction, so that the images of all times have one area where a method "
         "contracts as the system does; beside the name stands the last area over the exact one.",
-        "Below, how far that ratio is from 1. A straight-sided figure of 96 points stands for the disc: of a nonlinear system its "
-        "sides bend, and ratios say nothing below about one in a thousand.", *axis.remarks())
+        "Below, how far that ratio is from 1; dashed is unit round-off. A straight-sided figure of 96 points stands for the disc: of "
+        "a nonlinear system its sides bend, and ratios say nothing below about one in a thousand.", *axis.remarks())
     return [Drawing("contraction", case, title, told, lambda wide: draw(verdict, shown, axis, title, wide))]
 
 

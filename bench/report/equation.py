@@ -16,8 +16,8 @@ import re
 from xml.sax.saxutils import escape
 
 GREEK = dict(zip("alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi pi rho sigma tau upsilon phi chi psi "
-                 "omega".split(), "αβγδεζηθικλμνξπρστυφχψω")) | dict(zip("Gamma Delta Theta Lambda Xi Pi Sigma Phi Psi Omega".split(),
-                                                                     "ΓΔΘΛΞΠΣΦΨΩ"))
+                 "omega".split(), "αβγδεζηθικλμνξπρστυφχψω"))
+GREEK |= dict(zip("Gamma Delta Theta Lambda Xi Pi Sigma Phi Psi Omega".split(), "ΓΔΘΛΞΠΣΦΨΩ"))
 FUNCTIONS = ("sin", "cos", "tan", "exp", "log", "sinh", "cosh", "det", "grad")
 SIGNS = {"-": "−", "*": "⋅", "<=": "≤", ">=": "≥"}
 TOKEN = re.compile(r"\s*([0-9]+(?:\.[0-9]+)?|[A-Za-z]+|<=|>=|'+|[-+*/=<>,()\[\]{}|^_])")
