@@ -69,6 +69,18 @@ class Steps(unittest.TestCase):
         self.assertEqual(len(self.labels(300, [0.4])), 1)
 
 
+class Times(unittest.TestCase):
+    def test_no_label_of_a_time_leaves_the_figure(self):
+        for end in (1e8, 1.3e8):  # the last tick at the edge of the panel, and inside
+            drawing, axes = work_precision.NARROW.canvas()
+            axes.set(xscale="log", yscale="log", xlim=(1e5, end), ylim=(1e-9, 1))
+            work_precision.ticks(drawing, axes, "time", work_precision.NARROW)
+            labels = axes.get_xticklabels()
+            self.assertEqual(labels[-1].get_text(), "100 ms")
+            self.assertLessEqual(labels[-1].get_window_extent(drawing.renderer).x1, drawing.width)
+            self.assertEqual([label.get_horizontalalignment() for label in labels[:-1]], ["center"] * (len(labels) - 1))
+
+
 class Numbers(Fresh):
     def test_quad_difference_keeps_its_digits(self):
         path = self.folder / "series.csv"
