@@ -75,6 +75,8 @@ int compare(const Options& options, const Common& common) {
           {.force = options.force, .stop = &Interruption::stop(), .team = team.get()});
     }
     if (team != nullptr && !team->leads()) continue;
+    if (outcome.interrupted && outcome.runs == 0)
+      throw RunError("interrupted while steps were chosen; the same command chooses them again");
     if (outcome.interrupted)
       throw RunError("interrupted: " + std::to_string(outcome.resumed) + " of " +
                      std::to_string(outcome.runs) + " runs are in " + directory.string() +

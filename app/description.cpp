@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <pfaff/app/terminal.hpp>
+#include <pfaff/bench/experiment/automatic_steps.hpp>
 #include <pfaff/bench/experiment/experiment.hpp>
 #include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/core/bracket.hpp>
@@ -188,12 +189,20 @@ nlohmann::json describe_formulation(const FormulationPlugin& plugin) {
 }
 
 nlohmann::json describe_experiment(const std::string& name) {
-  const Experiment e = read_experiment(name, false);
-  nlohmann::json j{{"kind", "experiment"},         {"name", e.name},           {"title", e.title},
-                   {"description", e.description}, {"reference", e.reference}, {"runs", expand(e).size()}};
+  Experiment e = read_experiment(name, false);
+  std::erase(e.description, '$');  // which stand around equations
+  nlohmann::json j{{"kind", "experiment"},
+                   {"name", e.name},
+                   {"title", e.title},
+                   {"description", e.description},
+                   {"reference", e.reference}};
+  const std::vector<ExperimentRun> runs = expand(e);
+  if (runs_with_automatic_steps(runs).empty()) j["runs"] = runs.size();  // else it is not known yet
   for (const ExperimentMethod& m : e.methods) j["methods"].push_back(m.label);
   for (const ExperimentCase& c : e.cases)
-    j["cases"].push_back({{"name", c.name}, {"title", c.title}, {"steps", c.steps}});
+    j["cases"].push_back({{"name", c.name},
+                          {"title", c.title},
+                          {"steps", c.automatic ? nlohmann::json("auto") : nlohmann::json(c.steps)}});
   if (!e.derivation) return j;
   j["runs"] = e.derivation->size();
   for (const DerivationSweep& sweep : e.derivation->sweeps) j["methods"].push_back(sweep.method);

@@ -5,11 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <set>
 #include <sstream>
 
 #include <pfaff/bench/experiment/cells.hpp>
 #include <pfaff/bench/experiment/costs.hpp>
 #include <pfaff/bench/experiment/results.hpp>
+#include <pfaff/bench/runner/checksum.hpp>
+#include <pfaff/bench/runner/config_file.hpp>
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/bench/runner/run_directory.hpp>
 
@@ -136,6 +140,18 @@ double size_at_cost(const PricedRuns& runs, double level) {
   return 0;
 }
 
+void tell_apart(std::vector<ExperimentRun>& runs) {
+  std::vector<std::string> settings;
+  std::map<std::string, std::set<std::string>> sharing;
+  for (const ExperimentRun& run : runs) {
+    settings.push_back(settings_text(run.resolved));
+    sharing[run.slug].insert(settings.back());
+  }
+  constexpr std::size_t digits = 10;
+  for (std::size_t k = 0; k < runs.size(); ++k)
+    if (sharing.at(runs[k].slug).size() > 1) runs[k].slug += "-" + sha1_of(settings[k]).substr(0, digits);
+}
+
 bool write_equal_cost(const fs::path& directory, const Experiment& experiment,
                       const std::vector<ExperimentRun>& runs, const std::vector<nlohmann::json>& summaries,
                       References& references, const ExperimentProgress& progress,
@@ -147,8 +163,11 @@ bool write_equal_cost(const fs::path& directory, const Experiment& experiment,
   std::vector<const ExperimentRun*> open;
   std::vector<ExperimentRun> all;
   for (const Chosen& c : chosen) all.push_back(c.run);
+  tell_apart(all);
+  std::set<std::string> seen;
   for (const ExperimentRun& run : all)
-    if (!kept_run(directory / made_in / run.slug, run.resolved).current()) open.push_back(&run);
+    if (seen.insert(run.slug).second && !kept_run(directory / made_in / run.slug, run.resolved).current())
+      open.push_back(&run);
   std::error_code error;
   fs::create_directories(directory / made_in, error);
   if (progress && !open.empty()) progress({2, "runs at equal cost", 0, open.size()});

@@ -30,6 +30,12 @@ double cost_level(const std::vector<PricedRuns>& methods);
 /// its runs do not span that.
 double size_at_cost(const PricedRuns& runs, double level);
 
+/// Gives runs directories of their own. Names of cases and methods that differ in other signs than letters
+/// and digits make one name of a directory; each of the runs that would share one gets the beginning of a
+/// checksum of its settings behind it. Only what is the same run, as of two cases that differ in their lists
+/// of steps alone, has one directory.
+void tell_apart(std::vector<ExperimentRun>& runs);
+
 /// Chooses, from the timings of cost.csv, a level for each case without seeds and the step of each method
 /// there, makes the runs that `directory` does not hold, under equal-cost/, and writes equal_cost.csv: the
 /// columns of results.csv after the level in nanoseconds. Both follow from timings and differ from machine to

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include <pfaff/bench/experiment/automatic_steps.hpp>
 #include <pfaff/bench/experiment/citations.hpp>
+#include <pfaff/bench/experiment/contraction.hpp>
 #include <pfaff/bench/experiment/costs.hpp>
 #include <pfaff/bench/experiment/equal_cost.hpp>
 #include <pfaff/bench/experiment/experiment_findings.hpp>
@@ -63,6 +65,10 @@ nlohmann::json description(const Experiment& experiment, const std::vector<Exper
                                                  : exact      ? "exact"
                                                               : "30-digit"}});
     if (c.seeds > 0) j["cases"].back()["seeds"] = c.seeds;
+    if (c.automatic) {
+      j["cases"].back()["steps"] = "auto";
+      j["cases"].back()["evaluations"] = c.evaluations.value_or(default_evaluations);
+    }
   }
   for (const ExperimentMethod& m : experiment.methods) {
     const auto run =
@@ -151,29 +157,68 @@ void remove_outdated(const fs::path& directory, const std::vector<ExperimentRun>
     return kept_run(directory / "runs" / run.slug, run.resolved).same();
   });
   std::error_code error;
-  for (const char* name : {"results.csv", "equal_cost.csv", "ensembles.csv", "findings.csv", "report.html"})
+  for (const char* name :
+       {"results.csv", "equal_cost.csv", "ensembles.csv", "contraction.csv", "findings.csv", "report.html"})
     fs::remove(directory / name, error);
 }
 
 // What the leading process does before runs are made: it takes the directory and finds what is missing.
 struct Preparation {
   std::unique_ptr<DirectoryLock> held;
-  std::vector<std::size_t> open;  // indices of the runs that are missing
+  std::string described;
 
-  void prepare(const Experiment& experiment, const fs::path& directory,
-               const std::vector<ExperimentRun>& runs, const std::vector<LeftOut>& left_out, bool force) {
-    const std::string described = description(experiment, runs, left_out).dump(1) + "\n";
+  void take(const Experiment& experiment, const fs::path& directory, const std::vector<ExperimentRun>& runs,
+            const std::vector<LeftOut>& left_out) {
+    described = description(experiment, runs, left_out).dump(1) + "\n";
     std::error_code error;
     if (!fs::exists(directory / experiment_file, error)) make_output_directory(directory, {experiment_file});
     held = std::make_unique<DirectoryLock>(directory, "pfaff compare");
     check_identity(directory, nlohmann::json::parse(described));
-    open = runs_to_make(directory, runs, force);
+  }
+
+  // The indices of the runs that are missing.
+  std::vector<std::size_t> find(const fs::path& directory, const std::vector<ExperimentRun>& runs,
+                                bool force) const {
+    std::vector<std::size_t> open = runs_to_make(directory, runs, force);
     if (!open.empty()) remove_outdated(directory, runs);
     write_file(directory / experiment_file, described);
+    std::error_code error;
     fs::create_directories(directory / "runs", error);
     if (error) throw InputError("output directory '" + directory.string() + "' cannot be written to");
+    return open;
   }
 };
+
+// Chooses the steps that an experiment leaves to the program and expands it anew. The leading process
+// chooses, and all processes take what it has chosen. False where `stop` became true before that.
+bool choose_steps(Experiment& experiment, std::vector<ExperimentRun>& runs, References& references,
+                  Team& team, const ExperimentProgress& progress, const std::atomic<bool>* stop) {
+  const std::vector<const ExperimentRun*> pairs = runs_with_automatic_steps(runs);
+  if (pairs.empty()) return true;
+  // A list for all pairs: how many steps there are of each, and their numbers.
+  const std::vector<std::size_t> list = team.agreed([&] {
+    if (progress) progress({1, "choosing steps", 0, pairs.size()});
+    std::vector<std::size_t> flat;
+    const auto counts = automatic_step_counts(experiment, pairs, references, stop);
+    if (!counts) return flat;
+    for (const std::vector<std::int64_t>& of_pair : *counts) {
+      flat.push_back(of_pair.size());
+      flat.insert(flat.end(), of_pair.begin(), of_pair.end());
+    }
+    return flat;
+  });
+  if (list.empty()) return false;
+  auto next = list.begin();
+  for (const ExperimentRun* run : pairs) {
+    const auto one = std::find_if(experiment.cases.begin(), experiment.cases.end(),
+                                  [&](const ExperimentCase& c) { return &c == run->which; });
+    std::vector<std::string>& steps = one->chosen[run->method->label];
+    for (std::size_t left = *next++; left > 0; --left)
+      steps.push_back(step_of_count(*run, static_cast<std::int64_t>(*next++)));
+  }
+  runs = expand(experiment);
+  return true;
+}
 }  // namespace
 
 void leave(const fs::path& directory, const ResolvedRun& run, const RunRecord& record) {
@@ -191,8 +236,9 @@ ProblemKey problem_of(const ExperimentRun& run) {
   return {run.which, run.seed, model.restricted() ? std::string() : model.source().formulation};
 }
 
-ExperimentOutcome run_experiment(const Experiment& experiment, const fs::path& directory,
+ExperimentOutcome run_experiment(const Experiment& asked, const fs::path& directory,
                                  const ExperimentProgress& progress, const ExperimentOptions& options) {
+  Experiment experiment = asked;  // with the steps that are chosen
   if (experiment.derivation) {
     if (options.team != nullptr && !options.team->leads()) return {};  // one process makes all of it
     return run_derivation_study(
@@ -203,14 +249,21 @@ ExperimentOutcome run_experiment(const Experiment& experiment, const fs::path& d
         options.force);
   }
   ExperimentOutcome outcome;
-  const std::vector<ExperimentRun> runs = expand(experiment, &outcome.left_out);
+  std::vector<ExperimentRun> runs = expand(experiment, &outcome.left_out);
   ThisProcess alone;
   Team& team = options.team == nullptr ? alone : *options.team;
   Preparation ready;
-  const std::vector<std::size_t> open = team.agreed([&] {
-    ready.prepare(experiment, directory, runs, outcome.left_out, options.force);
-    return ready.open;
+  (void)team.agreed([&] {
+    ready.take(experiment, directory, runs, outcome.left_out);
+    return std::vector<std::size_t>();
   });
+  References references;
+  if (!choose_steps(experiment, runs, references, team, progress, options.stop)) {
+    outcome.interrupted = true;
+    return outcome;
+  }
+  const std::vector<std::size_t> open =
+      team.agreed([&] { return ready.find(directory, runs, options.force); });
   outcome.runs = runs.size();
   outcome.resumed = runs.size() - open.size();
 
@@ -218,7 +271,6 @@ ExperimentOutcome run_experiment(const Experiment& experiment, const fs::path& d
     if (progress) progress({phase, what, done, runs.size()});
   };
   const auto stopped = [&] { return options.stop != nullptr && *options.stop; };
-  References references;
   if (!team.several())  // all cores then share one solution; processes make their own when they need it
     for (const std::size_t k : open) {
       if (stopped()) break;
@@ -250,6 +302,7 @@ ExperimentOutcome run_experiment(const Experiment& experiment, const fs::path& d
     if (s["status"] != "converged") ++outcome.failed;
   write_file(directory / "results.csv", results_csv(runs, summaries));
   write_or_remove(directory / "ensembles.csv", ensembles_csv(runs, summaries));
+  write_or_remove(directory / "contraction.csv", contraction_csv(runs, summaries));
   const std::vector<Finding> findings = findings_of(experiment, runs, summaries);
   write_or_remove(directory / "findings.csv", findings.empty() ? "" : findings_csv(findings));
   for (const Finding& finding : findings) outcome.findings.push_back(to_json(finding));

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -31,7 +32,10 @@ struct ExperimentCase {
   std::string name, title, system, time;
   Assignments set;
   std::vector<std::string> initial, steps;
-  std::string conserved;            // the invariant whose drift is shown
+  bool automatic = false;  // the steps are chosen for each method (automatic_steps.hpp), and `steps` is empty
+  std::optional<double> evaluations;  // that a run at a chosen step may take; default_evaluations without it
+  std::map<std::string, std::vector<std::string>> chosen;  // steps by the label of the method, once chosen
+  std::string conserved;                                   // the invariant whose drift is shown
   std::vector<std::string> motion;  // two coordinates, whose tracks in their plane are drawn; or none
   Precision precision = Precision::double_precision;
   std::vector<std::string> methods;  // labels; empty: all
@@ -102,7 +106,8 @@ struct ExperimentRun {
 std::string in_words(const ExperimentRun& run);
 
 /// All runs of an experiment. Every one is resolved and checked here, so that mistakes are found before any
-/// work starts. `left_out`, where it is not null, gets what the selection of methods leaves out.
+/// work starts. Where steps are still to be chosen, one run of a single step stands for them. `left_out`,
+/// where it is not null, gets what the selection of methods leaves out.
 std::vector<ExperimentRun> expand(const Experiment& experiment, std::vector<LeftOut>* left_out = nullptr);
 
 /// A run like another one, at another step or tolerance; its slug names case and method alone.

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <deque>
 
+#include <pfaff/bench/experiment/case_steps.hpp>
 #include <pfaff/bench/experiment/experiment.hpp>
 #include <pfaff/bench/experiment/method_selection.hpp>
 #include <pfaff/bench/runner/toml_keys.hpp>
@@ -71,7 +72,15 @@ ExperimentClaim read_claim(const toml::table& table, const Experiment& experimen
   f.finish();
   claim.at_least = static_cast<std::size_t>(whole(at_least, 0, 1000000, where, "at_least"));
   std::vector<std::string> cases;
-  for (const ExperimentCase& c : experiment.cases) cases.push_back(c.name);
+  for (const ExperimentCase& c : experiment.cases) {
+    cases.push_back(c.name);
+    if (c.name == claim.of && c.automatic &&
+        (!claim.second.empty() || !claim.step.empty() || claim.at_least > 0))
+      throw InputError(
+          where + ": case " + c.name +
+          " chooses steps for each method by itself; expected a 'bound' for all of them, without "
+          "'than', 'step' and 'at_least'");
+  }
   if (std::find(cases.begin(), cases.end(), claim.of) == cases.end())
     throw InputError(where + ": " + unknown_name("case", claim.of, cases));
   if (claim.relation != "exceeds" && claim.relation != "stays-below")
@@ -147,7 +156,7 @@ void read_case(const toml::table& table, const Part& part, Experiment& experimen
   one.time = c.required("time");
   const std::vector<GridPoint> points = points_of(c.assignment_lists("set"));
   one.initial = c.list_of_some("initial");
-  one.steps = c.list("steps");
+  read_steps(c, one);
   one.conserved = c.text("conserved", "");
   one.motion = c.list("motion");
   if (!one.motion.empty() && one.motion.size() != 2)
@@ -160,25 +169,21 @@ void read_case(const toml::table& table, const Part& part, Experiment& experimen
   one.structure = wanted(c, "structure", "residual", where);
   if (const toml::table* less = c.table("quick")) {
     Keys q(*less, part.name() + " [case.quick]");
-    const std::string title = q.text("title", one.title), time = q.text("time", one.time);
-    const auto steps = q.list("steps", one.steps);
-    const auto seeds =
-        static_cast<int>(whole(q.text("seeds", std::to_string(one.seeds)), one.seeds > 0 ? 1 : 0,
-                               std::max(one.seeds, 0), part.name() + " [case.quick]", "seeds"));
+    ExperimentCase quick = one;
+    quick.title = q.text("title", one.title);
+    quick.time = q.text("time", one.time);
+    read_steps(q, quick);
+    quick.seeds = static_cast<int>(whole(q.text("seeds", std::to_string(one.seeds)), one.seeds > 0 ? 1 : 0,
+                                         std::max(one.seeds, 0), part.name() + " [case.quick]", "seeds"));
     q.finish();
-    if (experiment.quick) {
-      one.title = title;
-      one.time = time;
-      one.steps = steps;
-      one.seeds = seeds;
-    }
+    if (experiment.quick) one = quick;
   }
   c.finish();
   for (const std::string& label : one.methods) check_label(experiment, label, where);
   const bool fixed =
       std::any_of(experiment.methods.begin(), experiment.methods.end(),
                   [&](const ExperimentMethod& m) { return m.tolerances.empty() && takes(one, m); });
-  if (fixed && one.steps.empty()) throw InputError(where + ": key 'steps' is missing");
+  if (fixed) check_steps(one, where);
   for (const GridPoint& point : points) {
     ExperimentCase& next = experiment.cases.emplace_back(one);
     next.set = point.values;

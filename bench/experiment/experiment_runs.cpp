@@ -63,6 +63,15 @@ ResolvedRun resolved(const Experiment& experiment, const ExperimentRun& run) {
   }
 }
 
+// The steps or tolerances of a method in a case. Where steps are still to be chosen, the whole time, one
+// step, stands for them.
+std::vector<std::string> sizes_of(const ExperimentCase& c, const ExperimentMethod& m) {
+  if (!m.tolerances.empty()) return m.tolerances;
+  if (!c.automatic) return c.steps;
+  const auto chosen = c.chosen.find(m.label);
+  return chosen == c.chosen.end() ? std::vector<std::string>{c.time} : chosen->second;
+}
+
 void check_names(const Experiment& experiment, const ExperimentCase& c, const ExperimentRun& run) {
   std::vector<std::string> names, coordinates;
   for (const Invariant& i : run.resolved.model->invariants()) names.push_back(i.name);
@@ -126,7 +135,7 @@ std::vector<ExperimentRun> expand(const Experiment& experiment, std::vector<Left
   for (const ExperimentCase& c : experiment.cases) {
     for (const ExperimentMethod* m : methods_of(experiment, c, out)) {
       const bool adaptive = !m->tolerances.empty();
-      for (const std::string& size : adaptive ? m->tolerances : c.steps)
+      for (const std::string& size : sizes_of(c, *m))
         for (int seed = c.seeds > 0 ? 1 : 0; seed <= c.seeds; ++seed) {
           ExperimentRun run{&c, m, adaptive ? "" : size, adaptive ? size : "", seed, {}, {}};
           run.slug = slug_of(c.name + "-" + m->label + (adaptive ? "-tol" : "-h") + size +

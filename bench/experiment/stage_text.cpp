@@ -13,8 +13,9 @@ std::string about(double seconds) {
 }  // namespace
 
 std::string StageText::at(const ExperimentStage& stage, double seconds) {
-  if (stage.phase != phase_) {
+  if (stage.phase != phase_ || stage.all != all_) {
     phase_ = stage.phase;
+    all_ = stage.all;
     begun_with_ = stage.done;
     begin_ = seconds;
   }

@@ -10,7 +10,7 @@ namespace pfaff {
 
 /// Stages as text, with their phase and an estimate of the time that is left in it: "1/3, about 2 min left:
 /// case a, method b, step 0.1". The estimate takes what is left at the pace of what the phase has done so
-/// far.
+/// far, and begins anew where other things than before are counted.
 class StageText {
  public:
   /// The text at a time in seconds since any fixed instant.
@@ -18,7 +18,8 @@ class StageText {
 
  private:
   int phase_ = 0;
-  std::size_t begun_with_ = 0;  // what was done when the phase began
+  std::size_t all_ = 0;         // of how much
+  std::size_t begun_with_ = 0;  // what was done when counting began
   double begin_ = 0;
 };
 

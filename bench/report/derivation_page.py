@@ -2,6 +2,7 @@
 import folded
 import papers as paper_figures
 from derivation_figures import drawings, family_of
+from equation import prose
 from families import mark
 from page import document, figure
 from wording import counted, number, plain_text, text
@@ -58,7 +59,7 @@ def body(study, pictures):
     for drawing, wide, narrow in pictures:
         out += [f'<h3 id="{drawing.name}">{text(drawing.title)}</h3>', figure([(drawing, wide, narrow)], drawing.name)]
     out += ["</main>", '<footer id="runs">', "<h2>Derivations, commands, provenance</h2>",
-            folded.folds("About the experiment", f'<p>{text(head["description"])}</p>' if head.get("description") else ""),
+            folded.folds("About the experiment", f'<p>{prose(head["description"])}</p>' if head.get("description") else ""),
             folded.folds("Every derivation", every_derivation(study)),
             folded.folds("Commands", commands(study)), folded.folds("Provenance", folded.provenance(study)),
             folded.folds("Notes and sources", folded.notes(head) + folded.citations(head)), "</footer>"]

@@ -22,6 +22,7 @@ RUN_COLUMNS = ("case", "method", "step", "time", "steps", "precision", "status",
 COST_COLUMNS = ("case", "method", "step", "ns_per_step", "ns_per_step_min", "ns_per_step_max")
 SPREAD_COLUMNS = ("case", "method", "step", "tolerance", "runs", "finished", "measure", "measured", "median", "low",
                   "high")
+CONTRACTION_COLUMNS = ("case", "method", "step", "t", "area", "law", "outline")
 CLAIM_COLUMNS = ("case", "measure", "method", "relation", "factor", "than", "bound", "step", "runs", "holding", "needed",
                  "holds", "ratio_median")
 MEASURES = ("max", "rms", "final", "slope", "slope_low", "slope_high", "oscillation", "exponent", "class")
@@ -158,6 +159,7 @@ class Experiment:
         self.machine = self._read_machine()
         self.equal = self._read_equal()
         self.spreads = self._read_rows("ensembles.csv", SPREAD_COLUMNS)
+        self.contraction = self._read_rows("contraction.csv", CONTRACTION_COLUMNS)
         self.claims = self._read_rows("findings.csv", CLAIM_COLUMNS)
         self._series, self._summaries = {}, {}
 

@@ -6,12 +6,13 @@ import re
 import tables
 from bibliography import entries, link
 from curves import CONTENDED
+from equation import prose
 from figures import heading
 from findings import findings
 from wording import counted, text
 
-DATA = ("experiment.json", "results.csv", "cost.csv", "fits.csv", "equal_cost.csv", "ensembles.csv", "findings.csv",
-        "machine.json")
+DATA = ("experiment.json", "results.csv", "cost.csv", "fits.csv", "equal_cost.csv", "ensembles.csv", "contraction.csv",
+        "findings.csv", "machine.json")
 
 
 def footer(experiment, verdicts, drawn, picture):
@@ -41,7 +42,7 @@ def folds(summary, content):
 def about(experiment):
     head, runs = experiment.head, experiment.runs
     failed, used = sum(r.failed for r in runs), len({r.method for r in runs})
-    return ((f'<p class="lead">{text(head["description"])}</p>' if head.get("description") else "")
+    return ((f'<p class="lead">{prose(head["description"])}</p>' if head.get("description") else "")
             + f"<p>{counted(len(experiment.cases), 'case')}, {counted(used, 'method')}, {counted(len(runs), 'run')}"
             + (f", of which <strong>{failed} failed</strong>" if failed else ", all finished") + ". "
             + ("Timings come from a separate serial pass." if experiment.timed else "Timings were not measured.") + "</p>"
@@ -113,7 +114,7 @@ def spreads_of_timings(experiment):
 
 def notes(head):
     lines = head.get("notes") or []
-    return "<ul>" + "\n".join(f"<li>{text(n)}</li>" for n in lines) + "</ul>" if lines else ""
+    return "<ul>" + "\n".join(f"<li>{prose(n)}</li>" for n in lines) + "</ul>" if lines else ""
 
 
 def citations(head):

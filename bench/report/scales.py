@@ -7,6 +7,7 @@ import bisect
 import math
 
 EXPLOSION = 1e4  # values above this times max(1, the smallest of the lines' maxima) leave the frame
+TICK_GAP = 9  # pixels between the labels of neighbouring ticks
 
 
 def positive(values):
@@ -71,18 +72,22 @@ def log_ticks(axes, powers):
     axes.set_xticks([], minor=True)
 
 
-def step_axis(axes, steps):
-    """A logarithmic x axis that labels the steps themselves, as many as have room."""
+def step_axis(axes, steps, width_of):
+    """A logarithmic x axis that labels the steps themselves, as many as have room; `width_of` a label, in pixels."""
     steps = sorted(set(steps))
     span = math.log(steps[-1] / steps[0]) or 1.0
-    labelled = []
+    around = 0.06  # of the span, on either side
+    pixels = axes.get_window_extent().width / (1 + 2 * around)
+    labelled, free_from = [], -math.inf
     for h in steps:
-        if not labelled or math.log(h / labelled[-1]) / span >= 0.14:
+        at, half = pixels * math.log(h / steps[0]) / span, width_of(f"{h:.3g}") / 2
+        if at - half >= free_from:
             labelled.append(h)
+            free_from = at + half + TICK_GAP
     axes.set_xscale("log")
     axes.set_xticks(labelled, [f"{h:.3g}" for h in labelled])
     axes.set_xticks([], minor=True)
-    axes.set_xlim(steps[0] * math.exp(-0.06 * span), steps[-1] * math.exp(0.06 * span))
+    axes.set_xlim(steps[0] * math.exp(-around * span), steps[-1] * math.exp(around * span))
 
 
 def envelope(times, values, linear=False):

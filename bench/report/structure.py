@@ -99,7 +99,7 @@ def draw(verdict, judged, along, axis, look):
             ends.append((r, placed[-1]))
         axis.apply(axes)
         if panel == "step":
-            step_axis(axes, [h for r in judged for h, _ in r.curve.residuals])
+            step_axis(axes, [h for r in judged for h, _ in r.curve.residuals], lambda label: canvas.measure(label, 0.92)[0])
             axes.invert_xaxis()
         else:
             time_axis(axes, 0, max(x[-1] for _, x, _ in lines))

@@ -108,7 +108,7 @@ def draw(verdict, work, some, named, look):
                 axes.plot([p.cost, p.slowest], [e, e], color=shown["color"], linewidth=0.7 * look.scale, zorder=2)
     words = {"time": "time of the run", "right-hand sides": "right-hand sides of the run", "steps": "steps of the run"}
     canvas.labels(axes, words[work], "largest relative error" if verdict.relative else f"largest drift of {verdict.invariant}")
-    ticks(axes, work, look.width, look.font)
+    ticks(canvas, axes, work, look)
     annotate(canvas, axes, verdict, some, named, look, (low, high))
     return canvas
 
@@ -135,7 +135,7 @@ def frame(verdict, axes, some, named):
     return low, high
 
 
-def ticks(axes, work, width, font):
+def ticks(canvas, axes, work, look):
     low, high = axes.get_ylim()
     powers = [k for k in range(math.ceil(math.log10(low)), math.floor(math.log10(high)) + 1)]
     stride = 3 if len(powers) > 7 else 2 if len(powers) > 5 else 1
@@ -144,7 +144,7 @@ def ticks(axes, work, width, font):
     axes.set_yticks([], minor=True)
     low, high = axes.get_xlim()
     decades = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
-    room = width / (7.6 * font)
+    room = look.width / (7.6 * look.font)
     for steps in ((1, 2, 5), (1, 3), (1,)):
         at = [m * 10.0**k for k in decades for m in steps if low <= m * 10.0**k <= high]
         if len(at) <= room:
@@ -153,6 +153,9 @@ def ticks(axes, work, width, font):
         at = at[::math.ceil(len(at) / room)]
     axes.set_xticks(at, [tick_time(x) if work == "time" else short_count(x) for x in at])
     axes.set_xticks([], minor=True)
+    for label in axes.get_xticklabels():  # the last one may stand at the edge of the figure
+        if label.get_window_extent(canvas.renderer).x1 > canvas.width:
+            label.set_horizontalalignment("right")
 
 
 def annotate(canvas, axes, verdict, some, named, look, limits):

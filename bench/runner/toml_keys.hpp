@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -42,6 +43,12 @@ class Keys {
   /// Throws InputError about the value of a key, with its line.
   [[noreturn]] void refuse(std::string_view key, const std::string& what) const {
     throw InputError(place(key) + ": key '" + std::string(key) + "': " + what);
+  }
+  /// The text of a key that holds a text; nothing where it is missing or holds anything else.
+  std::optional<std::string> text_alone(std::string_view key) {
+    const toml::node* node = find(key);
+    const auto* text = node == nullptr ? nullptr : node->as_string();
+    return text == nullptr ? std::nullopt : std::optional(text->get());
   }
   /// The texts of a key that holds a text or a list of texts; none where it holds anything else.
   std::vector<std::string> words(std::string_view key) {

@@ -77,6 +77,21 @@ TEST(BadExperiment, NumbersOutOfRange) {
   refused("", "initial = []\n", {"[[case]]", "'initial'", "empty list"});
 }
 
+TEST(BadExperiment, AutomaticSteps) {
+  const std::string list = "steps = [\"0.5\"]", automatic = "steps = \"auto\"";
+  refused(list, "steps = \"aut\"", {"[[case]], line 10", "'steps'", "expected a list", "\"auto\"", "'aut'"});
+  refused(list, automatic + "\nreference = \"none\"", {"[[case]] short", "chooses by the distance"});
+  refused(list, automatic + "\nevaluations = 20",
+          {"[[case]], line 11", "'evaluations'", "100 .. 1e12", "'20'"});
+  refused(list, automatic + "\nevaluations = \"many\"", {"'evaluations'", "'many'"});
+  refused("", "evaluations = 1000\n", {"[[case]] short", "'evaluations'", "expected steps = \"auto\""});
+  refused(list, automatic + "\nset = { mu = 1 }", {"case short", "unknown parameter 'mu'"});
+  const std::string finding =
+      "[[finding]]\ncase = \"short\"\nmeasure = \"error_max\"\nmethod = \"RK4\"\nrelation = "
+      "\"stays-below\"\nbound = 1.0\n";
+  refused(list, automatic + "\n" + finding + "step = 0.1", {"[[finding]]", "case short", "without 'than'"});
+}
+
 TEST(BadExperiment, SyntaxErrorsNameTheLine) {
   refused("label = \"RK4\"", "label = RK4\"", {"test.toml:4:"});
   refused("", "initial = [1, 0\n", {"test.toml:11:"});

@@ -307,6 +307,14 @@ TEST(StageText, CountsPhasesAndEstimatesWhatIsLeft) {
   EXPECT_EQ(text.at({3, "f", 25, 25}, 2e5), "3/3: f");
 }
 
+// Runs that are there already when counting begins say nothing about the pace.
+TEST(StageText, EstimatesAnewWhereOtherThingsAreCounted) {
+  StageText text;
+  EXPECT_EQ(text.at({1, "choosing", 0, 4}, 100), "1/3: choosing");
+  EXPECT_EQ(text.at({1, "a", 20, 30}, 110), "1/3: a");
+  EXPECT_EQ(text.at({1, "b", 22, 30}, 120), "1/3, about 40 s left: b");
+}
+
 TEST_F(Experiments, AnInterruptedOneIsResumed) {
   const Experiment experiment = read(two_systems);
   std::atomic<bool> stop = false;

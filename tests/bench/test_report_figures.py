@@ -4,6 +4,7 @@ import unittest
 
 from synthetic import Fresh, U, figures, reading, save, scales, synthetic
 
+import canvas  # noqa: E402
 import verdict  # noqa: E402
 import work_precision  # noqa: E402
 
@@ -45,6 +46,39 @@ class Sheets(Fresh):
         sheet = figures.drift_at_equal_step(shown, shown.cases[0]).draw(True)
         self.assertIn("run ended early", sheet.levels)
         self.assertIn("bad at step 0.4 s", work_precision.drawings(verdict.Verdict(shown, shown.cases[0]))[0].caption)
+
+
+class Steps(unittest.TestCase):
+    def labels(self, width, steps):
+        """The boxes of the labels at an axis of steps, in pixels, from left to right."""
+        drawing = canvas.Canvas(width + 60, 200, 11)
+        axes = drawing.panel(30, 10, width, 150)
+        scales.step_axis(axes, steps, lambda label: drawing.measure(label, 0.92)[0])
+        return [t.get_window_extent(drawing.renderer) for t in axes.get_xticklabels()]
+
+    def test_labels_of_steps_do_not_touch(self):
+        steps = [5.0 / n for n in (1, 1.6, 2.5, 4, 6.4, 16, 40, 100, 640, 4000, 16000)]
+        for width in (110, 300, 600):
+            boxes = self.labels(width, steps)
+            for one, next_one in zip(boxes, boxes[1:]):
+                self.assertGreater(next_one.x0 - one.x1, 4)
+        self.assertGreater(len(self.labels(600, steps)), len(self.labels(110, steps)))
+
+    def test_few_steps_are_all_labelled(self):
+        self.assertEqual(len(self.labels(300, [0.4, 0.2, 0.1])), 3)
+        self.assertEqual(len(self.labels(300, [0.4])), 1)
+
+
+class Times(unittest.TestCase):
+    def test_no_label_of_a_time_leaves_the_figure(self):
+        for end in (1e8, 1.3e8):  # the last tick at the edge of the panel, and inside
+            drawing, axes = work_precision.NARROW.canvas()
+            axes.set(xscale="log", yscale="log", xlim=(1e5, end), ylim=(1e-9, 1))
+            work_precision.ticks(drawing, axes, "time", work_precision.NARROW)
+            labels = axes.get_xticklabels()
+            self.assertEqual(labels[-1].get_text(), "100 ms")
+            self.assertLessEqual(labels[-1].get_window_extent(drawing.renderer).x1, drawing.width)
+            self.assertEqual([label.get_horizontalalignment() for label in labels[:-1]], ["center"] * (len(labels) - 1))
 
 
 class Numbers(Fresh):

@@ -139,8 +139,13 @@ std::string random_experiment(Choices& choices) {
     const std::string system = choices.one_of(small_systems());
     names.push_back("case " + std::to_string(k));
     text << "\n[[case]]\nname = " << quoted(names.back()) << "\nsystem = " << quoted(system)
-         << "\ntime = " << quoted(duration(choices)) << "\nsteps = [" << quoted(positive_number(choices))
-         << "]\n";
+         << "\ntime = " << quoted(duration(choices)) << "\nsteps = ";
+    if (choices.once_in(6)) {
+      text << "\"auto\"\n";
+      if (choices.once_in(2)) text << "evaluations = " << positive_number(choices) << '\n';
+    } else {
+      text << '[' << quoted(positive_number(choices)) << "]\n";
+    }
     if (choices.once_in(2))
       text << "set = " << inline_table(random_settings(choices, "system", system, "")) << '\n';
     if (choices.once_in(3)) text << "initial = " << list_of_numbers(choices, dimension_of(system)) << '\n';

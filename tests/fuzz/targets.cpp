@@ -41,7 +41,9 @@ std::size_t runs_of(const Experiment& experiment) {
   std::size_t runs = 0;
   for (const ExperimentCase& c : experiment.cases)
     for (const ExperimentMethod& m : experiment.methods)
-      runs += (m.tolerances.empty() ? c.steps.size() : m.tolerances.size()) *
+      runs += (!m.tolerances.empty() ? m.tolerances.size()
+               : c.automatic         ? 1
+                                     : c.steps.size()) *
               static_cast<std::size_t>(c.seeds + 1);
   return runs;
 }

@@ -1,0 +1,47 @@
+#include <pfaff/bench/experiment/case_steps.hpp>
+
+#include <pfaff/core/numbers/real.hpp>
+
+namespace pfaff {
+
+namespace {
+constexpr const char* automatic = "auto";
+constexpr double fewest_evaluations = 100, most_evaluations = 1e12;
+
+double evaluations_in(const std::string& text) {
+  const auto number = Real::parse(text);
+  if (!number || !(number->value() >= fewest_evaluations) || !(number->value() <= most_evaluations))
+    throw InputError("expected a number in 100 .. 1e12, got '" + text + "'");
+  return number->value();
+}
+}  // namespace
+
+void read_steps(Keys& keys, ExperimentCase& one) {
+  if (const auto text = keys.text_alone("steps")) {
+    if (*text != automatic)
+      keys.refuse("steps", "expected a list of steps, or \"auto\", got '" + *text + "'");
+    one.automatic = true;
+    one.steps.clear();
+  } else {
+    one.steps = keys.list("steps", one.steps);
+    if (one.automatic && !one.steps.empty()) {  // a list with --quick in the place of automatic steps
+      one.automatic = false;
+      one.evaluations.reset();
+    }
+  }
+  if (const std::string text = keys.text("evaluations", ""); !text.empty())
+    one.evaluations = keys.read("evaluations", text, evaluations_in);
+}
+
+void check_steps(const ExperimentCase& one, const std::string& where) {
+  if (!one.automatic && one.steps.empty()) throw InputError(where + ": key 'steps' is missing");
+  if (!one.automatic && one.evaluations)
+    throw InputError(where + ": key 'evaluations': expected steps = \"auto\" beside it");
+  if (one.automatic && !one.reference)
+    throw InputError(
+        where +
+        ": steps = \"auto\" chooses by the distance from a solution; expected a list of steps, or "
+        "no reference = \"none\"");
+}
+
+}  // namespace pfaff

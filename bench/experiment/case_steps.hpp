@@ -1,0 +1,19 @@
+// The keys of a case of an experiment that say at which steps it is run.
+#pragma once
+
+#include <string>
+
+#include <pfaff/bench/experiment/experiment.hpp>
+#include <pfaff/bench/runner/toml_keys.hpp>
+
+namespace pfaff {
+
+/// Reads `steps`, a list or "auto", and `evaluations` where they are there; what is not keeps its value.
+/// InputError for anything else.
+void read_steps(Keys& keys, ExperimentCase& one);
+
+/// Refuses a case that has no steps, evaluations without automatic steps, and automatic steps without a
+/// solution, by whose distance they are chosen. `where` begins the message.
+void check_steps(const ExperimentCase& one, const std::string& where);
+
+}  // namespace pfaff

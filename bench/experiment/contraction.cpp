@@ -1,0 +1,118 @@
+#include <pfaff/bench/experiment/contraction.hpp>
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <pfaff/bench/experiment/cells.hpp>
+
+namespace pfaff {
+
+namespace {
+constexpr int corners = 96, samples = 120;
+constexpr std::size_t outlines = 6;
+constexpr double radius = 0.25;  // over the size of the initial state
+constexpr double folds = 3;      // the law is followed to e^{-folds}
+
+double area_of(const std::vector<double>& x, const std::vector<double>& y) {
+  double twice = 0;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    const std::size_t next = (k + 1) % x.size();
+    twice += x[k] * y[next] - x[next] * y[k];
+  }
+  return twice / 2;
+}
+}  // namespace
+
+bool contracts(const ResolvedRun& run) {
+  const Model& model = *run.model;
+  return !run.adaptive() && model.dimension() == 2 && model.facets().has(Facet::conformal) &&
+         model.damping() > Real(0);
+}
+
+std::vector<CarriedDisc> carry_disc(const ResolvedRun& run, int looks) {
+  const double h = run.step.value(), nu = run.model->damping().value(), t0 = run.t0.value();
+  const auto steps =
+      static_cast<std::int64_t>(std::clamp(std::floor(folds / nu / h), 1.0, static_cast<double>(run.steps)));
+  const double q = run.initial[0].value(), p = run.initial[1].value();
+  const double size = std::hypot(q, p), r = radius * (size > 0 ? size : 1);
+  std::vector<std::vector<double>> points;
+  std::vector<StepperPointer<double>> steppers;  // of each point, with the history that a method may need
+  for (int k = 0; k < corners; ++k) {
+    const double angle = 2 * std::numbers::pi * k / corners;
+    points.push_back({q + r * std::cos(angle), p + r * std::sin(angle)});
+    steppers.push_back(run.method->stepper(run.model, double()));
+  }
+  std::vector<CarriedDisc> discs;
+  double first_area = 1;
+  const auto look = [&](std::int64_t step) {
+    CarriedDisc disc;
+    disc.t = static_cast<double>(step) * h;
+    for (const std::vector<double>& z : points) {
+      disc.first.push_back(z[0]);
+      disc.second.push_back(z[1]);
+    }
+    disc.law = std::exp(-nu * disc.t);
+    disc.area = area_of(disc.first, disc.second) / first_area;
+    if (std::isfinite(disc.area)) discs.push_back(std::move(disc));
+  };
+  look(0);
+  first_area = std::exchange(discs.front().area, 1);
+  std::int64_t done = 0;
+  for (int k = 1; k <= looks; ++k) {
+    const std::int64_t until = steps * k / looks;
+    if (until == done) continue;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      std::int64_t completed = 0;
+      if (steppers[i]->advance(t0, done, h, until - done, points[i], completed) != Status::converged)
+        return discs;
+    }
+    done = until;
+    look(done);
+  }
+  return discs;
+}
+
+std::string contraction_csv(const std::vector<ExperimentRun>& runs,
+                            const std::vector<nlohmann::json>& summaries) {
+  std::vector<const ExperimentRun*> largest;  // of each case and method, the run at the largest step
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    const ExperimentRun& run = runs[k];
+    if (run.seed > 0 || summaries[k]["status"] != "converged" || !contracts(run.resolved)) continue;
+    const auto same = std::find_if(largest.begin(), largest.end(), [&](const ExperimentRun* other) {
+      return other->which == run.which && other->method == run.method;
+    });
+    if (same == largest.end()) {
+      largest.push_back(&run);
+    } else if ((*same)->resolved.step < run.resolved.step) {
+      *same = &run;
+    }
+  }
+  if (largest.empty()) return {};
+  std::vector<std::string> rows(largest.size());
+  oneapi::tbb::parallel_for(std::size_t{0}, largest.size(), [&](std::size_t m) {
+    const ExperimentRun& run = *largest[m];
+    const std::vector<CarriedDisc> discs = carry_disc(run.resolved, samples);
+    const std::size_t last = discs.size() - 1;
+    for (std::size_t k = 0; k <= last; ++k) {
+      std::string outline;
+      bool shown = false;
+      for (std::size_t j = 0; j < outlines; ++j) shown = shown || k == j * last / (outlines - 1);
+      for (std::size_t i = 0; shown && i < discs[k].first.size(); ++i)
+        outline += (outline.empty() ? "" : ";") + as_text(discs[k].first[i], "%.6g") + " " +
+                   as_text(discs[k].second[i], "%.6g");
+      rows[m] += csv_quoted(run.which->name) + "," + csv_quoted(run.method->label) + "," +
+                 csv_quoted(run.step) + "," + as_text(discs[k].t, "%.12g") + "," +
+                 as_text(discs[k].area, "%.17g") + "," + as_text(discs[k].law, "%.17g") + "," + outline +
+                 "\n";
+    }
+  });
+  std::string text = "case,method,step,t,area,law,outline\n";
+  for (const std::string& row : rows) text += row;
+  return text;
+}
+
+}  // namespace pfaff
