@@ -35,11 +35,7 @@ double residual_of(const MethodInstance& method, Claim claim, const JudgedStep& 
   const ManySteps many(method, at.count);
   const MethodInstance& stepped = at.count == 1 ? method : many;
   MeasuredStep<T> step(stepped, at.model, at.state, at.time, Real(at.count) * h, past.warm_up, past.carried);
-  if constexpr (std::is_same_v<T, Quad>) {
-    return check_of(claim).in_quad(step);
-  } else {
-    return check_of(claim).in_double(step);
-  }
+  return pfaff::residual_of(check_of(claim), step);
 }
 
 bool one_sided(Claim claim) { return claim == Claim::entropy; }
@@ -79,6 +75,23 @@ double falsifying_residual(const MethodInstance& method) {
 }
 
 namespace {
+// A claim about rounding is judged in double alone, at the step that shows most of it: the measure has
+// repeated what fails with other starts.
+Judgement judged_by_rounding(const MethodInstance& method, Claim claim, const JudgedStep& at) {
+  Judgement judgement;
+  JudgedStep single = at;
+  single.count = 1;
+  judgement.in_double = residual_of<double>(method, claim, single, {}, at.step);
+  judgement.residuals = {judgement.in_double};
+  judgement.falsified = judgement.in_double > largest_allowed<double>(check_of(claim));
+  if (std::isnan(judgement.in_double)) {
+    judgement.reason = "a step did not converge, or truncation hides what rounding does";
+  } else if (!judgement.falsified) {
+    judgement.reason = "the rounding is a random walk";
+  }
+  return judgement;
+}
+
 Judgement judged(const MethodInstance& method, Claim claim, const JudgedStep& at, const Past& past) {
   const bool doubles = method.descriptor().double_coefficients;
   const auto measure = [&](const Real& h) {
@@ -120,6 +133,7 @@ Judgement judged(const MethodInstance& method, Claim claim, const JudgedStep& at
 // forget how it was started; as verification does, a single step is therefore judged there too. Over many
 // steps the start counts, but what the method carries from step to step goes back with the state.
 Judgement judge(const MethodInstance& method, Claim claim, const JudgedStep& at) {
+  if (check_of(claim).of_rounding) return judged_by_rounding(method, claim, at);
   Judgement cold = judged(method, claim, at, {});
   if (!cold.falsified || !remembers(method, at)) return cold;
   return judged(method, claim, at, {.warm_up = at.count > 1 ? 0 : steps_of_warm_up, .carried = true});

@@ -23,7 +23,8 @@ struct JudgedStep {
 /// A residual falsifies a claim when it is larger than falsifying_residual() and is no rounding: it falls as
 /// a power of the step size while the step is halved, and is the same number in double and in quad where
 /// double can see it. A claim of which only one sign fails, that the entropy does not fall, has residuals
-/// that vanish at small steps; of these the second is asked alone.
+/// that vanish at small steps; of these the second is asked alone. A claim about rounding is judged in double
+/// by many runs near the state, with steps of the measure's choosing.
 struct Judgement {
   bool falsified = false;
   std::vector<double> residuals;  // with steps h, h/2, ... in the precision judged; not-a-number: no step

@@ -65,7 +65,7 @@ std::vector<Check> check_on_random_systems(const MethodPlugin& plugin, const Ass
   for (const SystemKind kind : chosen) {
     const PolynomialSystem system = system_of(random_recipe(kind, seed, size));
     const auto model = motion_for(*method, model_of(system));
-    for (Check& check : check_method(*method, parameters, system.name, model))
+    for (Check& check : check_method(*method, parameters, system.name, model, false))
       checks.push_back(std::move(check));
   }
   return checks;
