@@ -72,11 +72,9 @@ double order_at_small_steps(const MethodInstance& method, const std::shared_ptr<
 /// Checks of one method with given parameters on one system, in double and quad.
 std::vector<Check> check_method(const MethodPlugin& plugin, const Assignments& parameters,
                                 const SystemPlugin& system);
-/// The same for a method and a model that fit each other, listed under the name `system`. Without `long_runs`
-/// claims that take them are left out.
+/// The same for a method and a model that fit each other, listed under the name `system`.
 std::vector<Check> check_method(const MethodInstance& method, const Assignments& parameters,
-                                const std::string& system, const std::shared_ptr<const Model>& model,
-                                bool long_runs = true);
+                                const std::string& system, const std::shared_ptr<const Model>& model);
 /// The method with one coefficient changed by 1e-6 must lose its order or its structure.
 std::vector<Check> check_changed_coefficient(const MethodPlugin& plugin, const Assignments& parameters,
                                              const SystemPlugin& system);

@@ -10,6 +10,7 @@
 #include <span>
 #include <string_view>
 
+#include <pfaff/bench/verification/check.hpp>
 #include <pfaff/bench/verification/measured_step.hpp>
 
 namespace pfaff {
@@ -58,6 +59,10 @@ template <class T>
 double largest_allowed(const ClaimCheck& row) {
   return row.of_rounding ? 1 : tolerance<T>();
 }
+
+/// check_method without the claims that take long runs.
+std::vector<Check> check_in_short_runs(const MethodInstance& method, const Assignments& parameters,
+                                       const std::string& system, const std::shared_ptr<const Model>& model);
 
 /// One row for each claim that is measured at all (not only foreseen), in the order of the list of claims.
 std::span<const ClaimCheck> claim_checks();

@@ -56,9 +56,10 @@ void check_claims(std::vector<Check>& checks, MethodOnModel& on, bool long_runs)
 
 }  // namespace
 
-std::vector<Check> check_method(const MethodInstance& method, const Assignments& parameters,
-                                const std::string& system, const std::shared_ptr<const Model>& model,
-                                bool long_runs) {
+namespace {
+std::vector<Check> checks_of(const MethodInstance& method, const Assignments& parameters,
+                             const std::string& system, const std::shared_ptr<const Model>& model,
+                             bool long_runs) {
   MethodOnModel on(method, parameters, system, model);
   std::vector<Check> checks{check_steps(on)};
   if (!on.steps()) return checks;
@@ -75,6 +76,17 @@ std::vector<Check> check_method(const MethodInstance& method, const Assignments&
   }
   check_claims<double>(checks, on, long_runs);
   return checks;
+}
+}  // namespace
+
+std::vector<Check> check_method(const MethodInstance& method, const Assignments& parameters,
+                                const std::string& system, const std::shared_ptr<const Model>& model) {
+  return checks_of(method, parameters, system, model, true);
+}
+
+std::vector<Check> check_in_short_runs(const MethodInstance& method, const Assignments& parameters,
+                                       const std::string& system, const std::shared_ptr<const Model>& model) {
+  return checks_of(method, parameters, system, model, false);
 }
 
 std::vector<Check> check_method(const MethodPlugin& plugin, const Assignments& parameters,

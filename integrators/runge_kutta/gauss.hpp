@@ -191,9 +191,6 @@ struct Gauss : Collocation<> {
   }
   void validate() { tableau = gauss_coefficients(stages); }
   [[nodiscard]] int order(const Model& /*model*/) const { return 2 * stages; }
-  /// True where rounding errors of conserved quantities do a random walk: with compensation, and with stages
-  /// enough for truncation to stay below them at steps that anyone would take.
-  [[nodiscard]] bool without_bias() const { return compensated && stages >= 6; }
 };
 
 /// Gauss collocation with one stage.

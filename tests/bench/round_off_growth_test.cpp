@@ -3,7 +3,9 @@
 // trend whose sign depends on the start.
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <random>
 
 #include <pfaff/bench/verification/check.hpp>
@@ -24,9 +26,8 @@ struct KickedRotation {
     Quad q = 0, p = 0;
     double sign = 0;
     bool begun = false;
-    std::mt19937_64 random{1};
+    std::mt19937_64 random;
     Work(const KickedRotation& /*method*/, const P& /*problem*/) {}
-    void restart() { begun = false; }
   };
   template <HasVectorField P>
   Status step(const P& /*p*/, const Scalar<P>& /*t*/, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
@@ -36,6 +37,7 @@ struct KickedRotation {
         w.q = Quad(z[0]);
         w.p = Quad(z[1]);
         w.sign = std::fmod(std::abs(z[0]) * 1e6, 2) < 1 ? -1 : 1;
+        w.random.seed(std::bit_cast<std::uint64_t>(z[0]));  // each run has kicks of its own
         w.begun = true;
       }
       std::uniform_real_distribution<double> uniform(-1, 1);
