@@ -34,8 +34,11 @@ struct Judgement {
 };
 
 /// The residual above which a claim is false, relative to the sizes of its terms: 1e-20, measured in quad, or
-/// 1e-8, measured in double, for methods whose coefficients are doubles.
-double falsifying_residual(const MethodInstance& method);
+/// 1e-8, measured in double, for methods whose coefficients are doubles. For claims about rounding it is 1,
+/// in units of what is allowed.
+double falsifying_residual(const MethodInstance& method, Claim claim);
+/// True for claims about rounding, which are judged by long runs and not by the steps that are given.
+bool judged_by_long_runs(Claim claim);
 
 /// Judges one claim. The model has to fit the method and be in the scope of the claim.
 Judgement judge(const MethodInstance& method, Claim claim, const JudgedStep& at);

@@ -117,10 +117,11 @@ constexpr bool complete() {
   }
   return k == checks.size();
 }
-static_assert(complete(),
-              "every claim of core/facets/claim_rows.hpp that is not foreseen needs a row here, in the same "
-              "order, with its measure in both precisions, or in double where it is about rounding, and a false "
-              "claim of it as a control");
+static_assert(
+    complete(),
+    "every claim of core/facets/claim_rows.hpp that is not foreseen needs a row here, in the same "
+    "order, with its measure in both precisions, or in double where it is about rounding, and a false "
+    "claim of it as a control");
 
 }  // namespace
 

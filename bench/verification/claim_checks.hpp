@@ -23,7 +23,7 @@ struct FalseClaim {
   // false.
   std::string_view key = {}, value = {};
   std::string_view method_key = {}, method_value = {};  // the same of the method
-  std::shared_ptr<const Model> (*model)() = nullptr;  // not null where no registered system is in the scope
+  std::shared_ptr<const Model> (*model)() = nullptr;    // not null where no registered system is in the scope
 };
 
 /// How one claim is measured.

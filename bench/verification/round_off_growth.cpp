@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include <pfaff/bench/verification/step_scale.hpp>
@@ -13,16 +14,16 @@ namespace pfaff {
 namespace {
 
 constexpr auto blocks = static_cast<std::size_t>(round_off_blocks);
-// The exponent is that of changes over so many blocks and more.
-constexpr std::size_t shortest_lag = 4;
+// The exponent is that of changes over so many blocks; there are few independent ones over longer times.
+constexpr std::size_t shortest_lag = 4, longest_lag = 32;
 // Steps that each run begins with, steps in a row over which e is averaged, and steps in quad that show the
 // truncation.
 constexpr int first_steps = 16, averaged_steps = 16, truncation_steps = 256, tried_steps = 6;
 // The part of the walk that truncation may amount to.
 constexpr double out_of_sight = 0.05;
 
-// The energy and the invariants of a model: their values, and what one unit of round-off of all that a step
-// adds to the state is in them.
+// The energy and the invariants of a model: their values, and what a rounding of all that a step adds to the
+// state is in them.
 class Quantities {
  public:
   explicit Quantities(const Model& model) : size_(static_cast<std::size_t>(model.dimension())) {
@@ -49,7 +50,7 @@ class Quantities {
     }
     return values;
   }
-  // u sum_k |dI/dz_k| |after_k - before_k| for each quantity I.
+  // u / sqrt 3 sum_k |dI/dz_k| |after_k - before_k| for each quantity I.
   std::vector<double> roundings(double t, const std::vector<double>& before,
                                 const std::vector<double>& after) {
     std::vector<double> list, slope;
@@ -59,7 +60,7 @@ class Quantities {
       for (std::size_t i = 0; i < slope.size(); i += size_) {
         double sum = 0;
         for (std::size_t k = 0; k < size_; ++k) sum += std::abs(slope[i + k] * (after[k] - before[k]));
-        list.push_back(sum * unit_roundoff<double>());
+        list.push_back(sum * unit_roundoff<double>() / std::numbers::sqrt3);
       }
     }
     return list;
@@ -126,7 +127,7 @@ struct Samples {
 double growth_exponent(const Samples& samples) {
   const double bounded = std::max(2 * samples.change(1) - samples.change(2), 0.0);
   double weights = 0, x_sum = 0, y_sum = 0, xx = 0, xy = 0;
-  for (std::size_t lag = shortest_lag; lag < blocks; lag *= 2) {
+  for (std::size_t lag = shortest_lag; lag <= longest_lag; lag *= 2) {
     const double weight = 1 / static_cast<double>(lag), x = std::log(static_cast<double>(lag));
     const double y = std::log(samples.change(lag) - bounded) / 2;
     weights += weight;
@@ -151,8 +152,8 @@ RoundOffGrowth growth_of(const std::string& quantity, const Samples& samples, st
   const double mean = sum / runs, variance = (square - runs * mean * mean) / (runs - 1);
   growth.significance = mean / std::sqrt(variance / runs);
   growth.exponent = growth_exponent(samples);
-  growth.size = growth.rms / std::sqrt(static_cast<double>(steps) * samples.rounding /
-                                       static_cast<double>(samples.looks));
+  growth.size = growth.rms /
+                std::sqrt(static_cast<double>(steps) * samples.rounding / static_cast<double>(samples.looks));
   return growth;
 }
 

@@ -6,14 +6,14 @@
 // independent and have no bias, e does a random walk: its mean over the ensemble is zero within its own
 // uncertainty, and its rms grows as n^(1/2). A bias that is the same in all runs shows in the mean. One whose
 // sign depends on the start shows in the exponent, which a trend in each run raises to 1. States are rounded
-// to double when they are looked at, whatever the method carries on; that noise does not grow, and is averaged
-// over some steps in a row. What is left of it, and of other parts of e that are bounded, is taken off before
-// the exponent is fitted.
+// to double when they are looked at, whatever the method carries on; that noise does not grow, and is
+// averaged over some steps in a row. What is left of it, and of other parts of e that are bounded, is taken
+// off before the exponent is fitted.
 //
 // The size of the walk is compared with that of a method which rounds no more than what a step adds to the
-// state, every component by one unit of round-off u: after n steps, u (n mean_steps (sum_k |dI/dz_k| |z'_k -
-// z_k|)^2)^(1/2). A method that rounds the whole state in each step walks further than that, by |z| over |z'
-// - z|.
+// state, every component once, with an error between -u and u of which all sizes are as likely: after n
+// steps, u (n/3 mean_steps (sum_k |dI/dz_k| |z'_k - z_k|)^2)^(1/2). A method that rounds the whole state in
+// each step walks further than that, by |z| over |z' - z|.
 //
 // Truncation must not be seen. The step is the longest one at which the energy's change over some steps in
 // quad stays far below the walk. Where the method claims nothing that rules a trend of the energy out, and of
@@ -32,7 +32,7 @@ namespace pfaff {
 /// The ensemble. Each run takes `steps` steps after its first ones, a multiple of round_off_blocks.
 struct RoundOffEnsemble {
   std::uint64_t seed = 1;
-  int starts = 16;
+  int starts = 24;
   std::int64_t steps = 16384;
   double spread = 0.05;  // of the starts, in each coordinate and in units of its scale
 };

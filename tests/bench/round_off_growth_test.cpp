@@ -75,7 +75,7 @@ RoundOffGrowth growth_with(const Kicks& made) {
   const auto model = systems().get("harmonic-oscillator", "system").make({});
   const std::vector<Real> centre{1, Real::fraction(1, 2)};
   const auto growth =
-      round_off_growth(*method, model, centre, 0, {Real::fraction(1, 10), {0}}, {.steps = 8192});
+      round_off_growth(*method, model, centre, 0, {Real::fraction(2, 5), {0}}, {.steps = 8192});
   EXPECT_TRUE(growth.has_value());
   return growth->front();
 }
