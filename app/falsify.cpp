@@ -184,12 +184,12 @@ int show(const Options& options, const Common& common) {
   }
   if (common.quiet) return judgement.falsified ? 1 : 0;
   std::cout << paragraph(std::string(claim_row(claim).meaning));
-  for (std::size_t k = 0; k < judgement.residuals.size(); ++k)
+  for (std::size_t k = 0; k < judgement.residuals.size() && !judged_by_long_runs(claim); ++k)
     std::cout << "residual of " << options.steps << (options.steps == 1 ? " step, h" : " steps, h")
               << (k == 0 ? "" : "/" + std::to_string(1U << k)) << ": " << scientific(judgement.residuals[k])
               << '\n';
   std::cout << "residual in double: " << scientific(judgement.in_double) << '\n'
-            << (judgement.falsified ? "FALSIFIED: above " + scientific(falsifying_residual(*method))
+            << (judgement.falsified ? "FALSIFIED: above " + scientific(falsifying_residual(*method, claim))
                                     : "not falsified: " + judgement.reason)
             << '\n';
   return judgement.falsified ? 1 : 0;

@@ -56,12 +56,16 @@ std::string showing_arguments(const ClaimUnderTest& test, const Counterexample& 
 std::string model_text_of(const ClaimUnderTest& test, const Counterexample& counterexample,
                           const std::string& command) {
   const Judgement& judgement = counterexample.judgement;
-  std::vector<std::string> comment{"A system on which the integrator " + test.method->descriptor().name +
-                                       " does not keep the claim " + std::string(to_string(test.claim)) + ":",
-                                   std::string(claim_row(test.claim).meaning),
-                                   "The residual from the initial state is " +
-                                       number(judgement.residuals.front()) +
-                                       " with h = " + to_string(counterexample.at.step)};
+  std::vector<std::string> comment{
+      "A system on which the integrator " + test.method->descriptor().name + " does not keep the claim " +
+          std::string(to_string(test.claim)) + ":",
+      std::string(claim_row(test.claim).meaning),
+      "The residual from the initial state is " + number(judgement.residuals.front())};
+  if (judged_by_long_runs(test.claim)) {
+    comment.back() += ", in units of what is allowed, in long runs of many starts near it";
+  } else {
+    comment.back() += " with h = " + to_string(counterexample.at.step);
+  }
   if (counterexample.at.count > 1)
     comment.back() += " in " + std::to_string(counterexample.at.count) + " steps in a row";
   const std::size_t count = judgement.residuals.size();

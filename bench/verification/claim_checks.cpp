@@ -14,6 +14,8 @@ bool restricted_with_momentum(const Model& model) {
   return model.restricted() && in_scope(Claim::momentum_maps, model);
 }
 
+bool nowhere(const Model& /*model*/) { return false; }
+
 constexpr FalseClaim rk4_on(std::string_view system) { return {.method = "rk4", .system = system}; }
 
 constexpr std::array checks{
@@ -92,22 +94,34 @@ constexpr std::array checks{
     ClaimCheck{.claim = Claim::nonholonomic_momentum,
                .in_double = nonholonomic_momentum_residual<double>,
                .in_quad = nonholonomic_momentum_residual<Quad>,
-               .control = {.method = "rk4", .system = "bead in a bowl", .model = &bead_in_a_bowl}}};
+               .control = {.method = "rk4", .system = "bead in a bowl", .model = &bead_in_a_bowl}},
+    // The plain update, which rounds the whole state in every step.
+    ClaimCheck{.claim = Claim::unbiased_round_off,
+               .in_double = round_off_residual,
+               .control = {.method = "gauss",
+                           .system = "harmonic-oscillator",
+                           .method_key = "compensated",
+                           .method_value = "no"},
+               .of_rounding = true,
+               .shown_on = &nowhere}};
 
 constexpr bool complete() {
   std::size_t k = 0;
   for (const ClaimRow& row : claim_table) {
     if (row.foreseen) continue;
     if (k == checks.size() || checks[k].claim != row.claim || checks[k].control.method.empty() ||
-        checks[k].control.system.empty())
+        checks[k].control.system.empty() || checks[k].in_double == nullptr ||
+        (checks[k].in_quad == nullptr) != checks[k].of_rounding)
       return false;
     ++k;
   }
   return k == checks.size();
 }
-static_assert(complete(),
-              "every claim of core/facets/claim_rows.hpp that is not foreseen needs a row here, in the same "
-              "order, with its measure in both precisions and a false claim of it as a control");
+static_assert(
+    complete(),
+    "every claim of core/facets/claim_rows.hpp that is not foreseen needs a row here, in the same "
+    "order, with its measure in both precisions, or in double where it is about rounding, and a false "
+    "claim of it as a control");
 
 }  // namespace
 

@@ -10,6 +10,7 @@
 #include <span>
 #include <string_view>
 
+#include <pfaff/bench/verification/check.hpp>
 #include <pfaff/bench/verification/measured_step.hpp>
 
 namespace pfaff {
@@ -21,15 +22,20 @@ struct FalseClaim {
   // A parameter of the registered system and its value, where the default does not show that the claim is
   // false.
   std::string_view key = {}, value = {};
-  std::shared_ptr<const Model> (*model)() = nullptr;  // not null where no registered system is in the scope
+  std::string_view method_key = {}, method_value = {};  // the same of the method
+  std::shared_ptr<const Model> (*model)() = nullptr;    // not null where no registered system is in the scope
 };
 
-/// How one claim is measured. The measures are references so that a row without one does not compile.
+/// How one claim is measured.
 struct ClaimCheck {
   Claim claim;
-  double (&in_double)(MeasuredStep<double>& step);
-  double (&in_quad)(MeasuredStep<Quad>& step);
+  double (*in_double)(MeasuredStep<double>& step) = nullptr;
+  double (*in_quad)(MeasuredStep<Quad>& step) = nullptr;
   FalseClaim control;
+  /// True where the claim is about the rounding of double itself, so that there is no measure in quad. It
+  /// takes long runs: it is measured only of methods that make the claim, and not on random systems, most of
+  /// which the motion leaves. Its residual is in units of what is allowed.
+  bool of_rounding = false;
   /// True where the measure needs the Jacobian of the step; such measures are skipped for systems with many
   /// coordinates, where they cost too much.
   bool from_jacobian = false;
@@ -37,6 +43,26 @@ struct ClaimCheck {
   /// null for every system in the scope of the claim.
   bool (*shown_on)(const Model& model) = nullptr;
 };
+
+/// The measure of one claim in the scalar T; not-a-number where a step does not converge, and where there is
+/// no measure in T.
+template <class T>
+double residual_of(const ClaimCheck& row, MeasuredStep<T>& step) {
+  if constexpr (std::is_same_v<T, Quad>) {
+    return row.in_quad != nullptr ? row.in_quad(step) : no_step;
+  } else {
+    return row.in_double(step);
+  }
+}
+/// The largest residual of the claim with which it holds.
+template <class T>
+double largest_allowed(const ClaimCheck& row) {
+  return row.of_rounding ? 1 : tolerance<T>();
+}
+
+/// check_method without the claims that take long runs.
+std::vector<Check> check_in_short_runs(const MethodInstance& method, const Assignments& parameters,
+                                       const std::string& system, const std::shared_ptr<const Model>& model);
 
 /// One row for each claim that is measured at all (not only foreseen), in the order of the list of claims.
 std::span<const ClaimCheck> claim_checks();
@@ -86,6 +112,13 @@ double casimirs_residual(MeasuredStep<T>& step);
 /// The largest fall of S in one of forty steps.
 template <class T>
 double entropy_residual(MeasuredStep<T>& step);
+
+// round_off_claim.cpp
+
+/// By how much the growth of round-off exceeds a random walk (excess_over_random_walk), from states near the
+/// start of the step. Where the claim seems to fail it has to fail for a second ensemble, too: the smaller of
+/// the two is the residual. Not-a-number also where truncation is in sight at every step that is tried.
+double round_off_residual(MeasuredStep<double>& step);
 
 // surface_claims.cpp: what is left of equations at the end of the step
 

@@ -1,5 +1,7 @@
 // All checks of one method on one system: its order, what every step has to satisfy, and each claim of the
 // method.
+#include <cmath>
+
 #include <pfaff/bench/runner/settings.hpp>
 #include <pfaff/bench/verification/claim_checks.hpp>
 #include <pfaff/bench/verification/method_on_model.hpp>
@@ -22,11 +24,13 @@ void exempt_from_quad(std::vector<Check>& checks, const MethodOnModel& on) {
 }
 
 // Measures the claims of the method, but those that need a Jacobian where there is none; claims that it does
-// not make are measured where their rows say so, and not judged.
+// not make are measured where their rows say so, and not judged. Claims about rounding are measured in double
+// alone, and only where long runs are.
 template <class T>
-void check_claims(std::vector<Check>& checks, MethodOnModel& on) {
+void check_claims(std::vector<Check>& checks, MethodOnModel& on, bool long_runs) {
   for (const ClaimCheck& row : claim_checks()) {
     if (row.from_jacobian && !on.differentiable()) continue;
+    if (row.of_rounding && (std::is_same_v<T, Quad> || !long_runs)) continue;
     const Model& model = *on.model();
     const bool shown = row.shown_on == nullptr ? in_scope(row.claim, model) : row.shown_on(model);
     if (!shown && !on.claims(row.claim)) continue;
@@ -41,22 +45,21 @@ void check_claims(std::vector<Check>& checks, MethodOnModel& on) {
       checks.push_back(std::move(check));
       continue;
     }
-    double value = 0;
-    if constexpr (std::is_same_v<T, Quad>) {
-      value = row.in_quad(on.step<T>());
-    } else {
-      value = row.in_double(on.step<T>());
-    }
-    checks.push_back(on.residual(std::string(claim.name), std::string(claim.scope), on.claims(row.claim),
-                                 precision_name<T>(), value,
-                                 tolerance<T>() * (row.from_jacobian ? on.growth_of_round_off() : 1)));
+    const double value = residual_of(row, on.step<T>());
+    checks.push_back(on.residual(
+        std::string(claim.name), std::string(claim.scope), on.claims(row.claim), precision_name<T>(), value,
+        largest_allowed<T>(row) * (row.from_jacobian ? on.growth_of_round_off() : 1)));
+    if (row.of_rounding && std::isnan(value))
+      checks.back().reason = "a step did not converge, or truncation hides what rounding does";
   }
 }
 
 }  // namespace
 
-std::vector<Check> check_method(const MethodInstance& method, const Assignments& parameters,
-                                const std::string& system, const std::shared_ptr<const Model>& model) {
+namespace {
+std::vector<Check> checks_of(const MethodInstance& method, const Assignments& parameters,
+                             const std::string& system, const std::shared_ptr<const Model>& model,
+                             bool long_runs) {
   MethodOnModel on(method, parameters, system, model);
   std::vector<Check> checks{check_steps(on)};
   if (!on.steps()) return checks;
@@ -69,10 +72,21 @@ std::vector<Check> check_method(const MethodInstance& method, const Assignments&
   } else {
     checks.push_back(check_precisions(on));
     if (on.differentiable() && !on.history()) checks.push_back(check_step_jacobian(on));
-    check_claims<Quad>(checks, on);
+    check_claims<Quad>(checks, on, long_runs);
   }
-  check_claims<double>(checks, on);
+  check_claims<double>(checks, on, long_runs);
   return checks;
+}
+}  // namespace
+
+std::vector<Check> check_method(const MethodInstance& method, const Assignments& parameters,
+                                const std::string& system, const std::shared_ptr<const Model>& model) {
+  return checks_of(method, parameters, system, model, true);
+}
+
+std::vector<Check> check_in_short_runs(const MethodInstance& method, const Assignments& parameters,
+                                       const std::string& system, const std::shared_ptr<const Model>& model) {
+  return checks_of(method, parameters, system, model, false);
 }
 
 std::vector<Check> check_method(const MethodPlugin& plugin, const Assignments& parameters,

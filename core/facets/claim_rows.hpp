@@ -76,10 +76,9 @@ PFAFF_CLAIM(nonholonomic_momentum, "nonholonomic-momentum", allowed_momentum_map
             .scope = "velocity constraints that allow the direction of a conserved momentum map")
 
 // Rounding.
-PFAFF_CLAIM(unbiased_round_off, "unbiased-round-off", conserved_invariants,
-            .meaning = "Rounding errors of conserved quantities add up without a trend, as a random walk does.",
-            .scope = "conserved invariants",
-            .foreseen = true)
+PFAFF_CLAIM(unbiased_round_off, "unbiased-round-off", canonical_energy,
+            .meaning = "Rounding errors of conserved quantities add up without a trend, as a random walk of roundings of what each step adds.",
+            .scope = "autonomous canonical systems")
 
 #undef PFAFF_CLAIM
 // clang-format on

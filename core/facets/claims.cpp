@@ -118,10 +118,6 @@ bool divergence_free(const Model& model) {
 
 bool conserved(const Invariant& invariant) { return invariant.behaviour == Behaviour::conserved; }
 
-bool conserved_invariants(const Model& model) {
-  return std::any_of(model.invariants().begin(), model.invariants().end(), conserved);
-}
-
 // What a motion with velocity constraints conserves it conserves on their surface, which methods that keep
 // quadratic forms may leave within a step.
 bool quadratic_invariants(const Model& model) {
@@ -153,6 +149,8 @@ bool conserved_energy(const Model& model) {
   return (model.facets().has(Facet::hamiltonian) || workless_constraints(model)) &&
          model.tape(Formula::hamiltonian)->autonomous();
 }
+
+bool canonical_energy(const Model& model) { return canonical_structure(model) && conserved_energy(model); }
 
 bool entropy_of_two_brackets(const Model& model) {
   return model.facets().has(Facet::metriplectic) && model.given(Formula::entropy);
