@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <cstring>
+#include <initializer_list>
 
 namespace {
 
@@ -17,7 +18,6 @@ namespace {
   const char* lacking = nullptr;
 #define PFAFF_REQUIRE(set) \
   if (PFAFF_NEEDS_##set && !__builtin_cpu_supports(#set)) lacking = #set
-  PFAFF_REQUIRE(sse4_2);
   PFAFF_REQUIRE(popcnt);
   PFAFF_REQUIRE(lzcnt);
   PFAFF_REQUIRE(bmi);
