@@ -20,9 +20,7 @@ function(pfaff_target target)
   if(PFAFF_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
-  if(PFAFF_MARCH)
-    target_compile_options(${target} PRIVATE -march=${PFAFF_MARCH})
-  endif()
+  target_compile_options(${target} PRIVATE ${pfaff_march_option})
   if(PFAFF_SANITIZE)
     # What is left out takes half of the time in which sources compile and finds what is found otherwise: following a
     # null pointer, loading a pack from where it is not aligned and calling through a pointer to no object stop the
