@@ -32,6 +32,7 @@ void add_reproduce(CLI::App& app, Common& common, Action& action);
 void add_verify(CLI::App& app, Common& common, Action& action);
 void add_falsify(CLI::App& app, Common& common, Action& action);
 void add_derive(CLI::App& app, Common& common, Action& action);
+void add_tune(CLI::App& app, Common& common, Action& action);
 void add_help(CLI::App& app, Common& common, Action& action);
 void add_completion(CLI::App& app, Common& common, Action& action);
 

@@ -178,6 +178,7 @@ int run(int argc, char** argv) {
   add_verify(app, common, action);
   add_falsify(app, common, action);
   add_derive(app, common, action);
+  add_tune(app, common, action);
   add_help(app, common, action);
   add_completion(app, common, action);
   app.footer(

@@ -1,0 +1,143 @@
+// pfaff tune: a splitting whose shadow terms are small on one system, as a table of coefficients.
+#include <filesystem>
+#include <iostream>
+#include <optional>
+
+#include <pfaff/app/command.hpp>
+#include <pfaff/app/terminal.hpp>
+#include <pfaff/bench/runner/files.hpp>
+#include <pfaff/bench/tuning/tuned_splitting.hpp>
+#include <pfaff/bench/verification/check.hpp>
+#include <pfaff/integrators/tables/method_table.hpp>
+#include <pfaff/systems/text/text_system.hpp>
+
+namespace pfaff::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string system, name, out;
+  std::vector<std::string> set, beside;
+  double step = 0;
+  TuningSettings tuning;
+};
+
+// The shadow terms of a registered splitting or one of a file, on the system.
+double error_of(const std::string& method, const SplittingLogarithm& logarithm, const ShadowTerms& terms) {
+  const auto theory = order_theory(integrator_named(method).name(), {});
+  if (!theory || theory->kind != "words" || theory->sums.size() != theory->coefficients.size())
+    throw InputError("--beside " + method + ": expected a splitting by its table of coefficients");
+  std::vector<PartialFlow> flows;
+  for (std::size_t k = 0; k < theory->coefficients.size(); ++k)
+    flows.push_back({static_cast<std::size_t>(theory->sums[k]), theory->coefficients[k]});
+  return terms.of(logarithm.of(flows).brackets);
+}
+
+// Whether `pfaff verify` finds nothing wrong with the method of that file.
+bool verified(const std::string& file, const Common& common) {
+  ProgressLine line(common.quiet);
+  bool ok = true;
+  VerificationSettings settings;
+  settings.names = {file};
+  for (const Check& check : verify(settings, [&](const std::string&what, std::size_t done, std::size_t all) {
+         line.show(what, static_cast<double>(done) / static_cast<double>(all));
+       }))
+    ok = ok && good(check);
+  return ok;
+}
+
+int tune(const Options& options, const Common& common) {
+  check(options.tuning);
+  if (!(options.step > 0))
+    throw InputError("--step: expected the step that the method is tuned for, above 0");
+  const std::string name = options.name.empty() ? "tuned-splitting" : options.name;
+  if (!is_kebab_case(name))
+    throw InputError("--name '" + name + "': expected kebab-case, such as 'tuned-pendulum'");
+  if (!options.out.empty() && fs::path(options.out).extension() != ".toml")
+    throw InputError("--out '" + options.out + "': expected a file that ends in .toml");
+  const SystemPlugin& system = system_named(options.system);
+  const auto model = system.make(parse_settings(options.set));
+  constexpr int states = 200;
+  const SplittingLogarithm logarithm(options.tuning.order);
+  const ShadowTerms terms(*model, logarithm, options.step, states_along_the_motion(model, states));
+  std::vector<std::pair<std::string, double>> others;
+  for (const std::string& method : options.beside)
+    others.emplace_back(method, error_of(method, logarithm, terms));
+
+  TunedSplitting tuned;
+  {
+    ProgressLine line(common.quiet);
+    tuned = tuned_splitting(logarithm, terms, options.tuning,
+                            [&](double fraction) { line.show("starts of the search", fraction); });
+  }
+  const std::string table_text = splitting_table(tuned, name, options.tuning.order, system.name());
+  std::optional<bool> ok;
+  if (!options.out.empty()) {
+    write_file(options.out, table_text);
+    ok = verified(options.out, common);
+  }
+  if (common.json) {
+    nlohmann::json beside = nlohmann::json::array();
+    for (const auto& [method, error] : others)
+      beside.push_back({{"method", method}, {"shadow_error", error}});
+    std::cout << json_text({{"schema", 1},
+                            {"ok", ok.value_or(true)},
+                            {"system", system.name()},
+                            {"order", options.tuning.order},
+                            {"stages", options.tuning.stages},
+                            {"step", options.step},
+                            {"shadow_error", tuned.error},
+                            {"beside", beside},
+                            {"verified", ok ? nlohmann::json(*ok) : nlohmann::json(nullptr)},
+                            {"table", table_text}});
+  } else if (!common.quiet) {
+    std::cout << table_text << '\n';
+    TableRows rows{{"splitting", "shadow terms"}, {name, scientific(tuned.error)}};
+    for (const auto& [method, error] : others) rows.push_back({method, scientific(error)});
+    std::cout << table(rows)
+              << paragraph(
+                     "(shadow terms: the size of the two leading orders of what the splitting adds to the "
+                     "motion, relative to it, at this step along the motion)");
+    if (ok)
+      std::cout << options.out << (*ok ? ": verified\n" : ": NOT OK, see pfaff verify " + options.out + "\n");
+  }
+  return ok.value_or(true) ? 0 : 1;
+}
+
+}  // namespace
+
+void add_tune(CLI::App& app, Common& common, Action& action) {
+  CLI::App* sub =
+      subcommand(app, common, "tune", "A splitting made for one system, as a table of coefficients");
+  add_quiet(*sub, common);
+  auto options = std::make_shared<Options>();
+  sub->add_option("system", options->system, "The system: its name, or the file of one written as text")
+      ->type_name("SYSTEM|FILE")
+      ->required();
+  sub->add_option("--step", options->step, "The step that the method is tuned for")
+      ->type_name("h")
+      ->required();
+  sub->add_option("--order", options->tuning.order, "2, 4 or 6; 4 without")->type_name("p");
+  sub->add_option("--stages", options->tuning.stages, "Forces a step, 6 without")->type_name("s");
+  sub->add_option("--set", options->set, "A parameter of the system (omega=2)")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->take_all();
+  sub->add_option("--beside", options->beside, "Other splittings, whose shadow terms are shown too")
+      ->type_name("INTEGRATOR|FILE")
+      ->expected(1)
+      ->take_all();
+  sub->add_option("--seed", options->tuning.seed, "Of the starts of the search, 1 without")->type_name("N");
+  sub->add_option("--starts", options->tuning.starts, "How many starts, 60 without")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
+  sub->add_option("--name", options->name, "Of the method, tuned-splitting without")->type_name("WORD");
+  sub->add_option("--out", options->out, "Write the table into this file (.toml) and verify it")
+      ->type_name("FILE");
+  sub->callback(
+      [options, &common, &action] { action = [options, &common] { return tune(*options, common); }; });
+}
+
+}  // namespace pfaff::app

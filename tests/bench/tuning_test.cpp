@@ -1,0 +1,150 @@
+// Tuned splittings: their logarithms and shadow terms against other mathematics, and what they gain.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include <pfaff/bench/tuning/tuned_splitting.hpp>
+#include <pfaff/core/facets/problem.hpp>
+#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/system.hpp>
+#include <pfaff/core/tape/replay.hpp>
+
+namespace pfaff {
+namespace {
+
+std::shared_ptr<const Model> system(const std::string& name) {
+  return systems().get(name, "system").make({});
+}
+
+std::vector<PartialFlow> strang() { return {{0, Quad(1) / Quad(2)}, {1, Quad(1)}, {0, Quad(1) / Quad(2)}}; }
+// Yoshida's triple jump over it.
+std::vector<PartialFlow> triple_jump() {
+  const Quad root = pow(Quad(2), Real::fraction(1, 3)), outer = Quad(1) / (Quad(2) - root),
+             inner = Quad(1) - Quad(2) * outer;
+  return {{0, outer / Quad(2)},
+          {1, outer},
+          {0, (outer + inner) / Quad(2)},
+          {1, inner},
+          {0, (outer + inner) / Quad(2)},
+          {1, outer},
+          {0, outer / Quad(2)}};
+}
+
+// One step of a splitting, by formulas of the model.
+std::vector<Quad> step(const Model& model, const std::vector<PartialFlow>& flows, Quad h,
+                       std::vector<Quad> z) {
+  Replay<Quad> velocity(model.tape(Formula::velocity)), force(model.tape(Formula::force));
+  const std::size_t half = z.size() / 2;
+  std::vector<Quad> slope(half);
+  for (const PartialFlow& flow : flows) {
+    const std::size_t moved = flow.part == 0 ? 0 : half;
+    (flow.part == 0 ? velocity : force)(Quad(0), z.data() + (half - moved), slope.data());
+    for (std::size_t i = 0; i < half; ++i) z[moved + i] += flow.length * h * slope[i];
+  }
+  return z;
+}
+
+// The logarithm of Strang's splitting is A + B - [A, [A, B]]/24 + [[A, B], B]/12 + ... in this order of the
+// flows, and the words A A B and A B B are Lyndon's.
+TEST(Tuning, LogarithmOfStrangsSplitting) {
+  const SplittingLogarithm logarithm(2);
+  const auto found = logarithm.of(strang());
+  for (const double x : found.conditions) EXPECT_EQ(x, 0);
+  ASSERT_EQ(found.brackets.size(), 2U + 6U);
+  EXPECT_NEAR(found.brackets[0], -1.0 / 24, 1e-16);
+  EXPECT_NEAR(std::abs(found.brackets[1]), 1.0 / 12, 1e-16);
+}
+
+// On the oscillator with H = (q^2 + p^2)/2 a step of Strang's splitting that begins with a drift is the flow
+// of the shadow energy (c p^2 + q^2/c) a/(2 h) with cos a = 1 - h^2/2 and c = sqrt(1 - h^2/4). Its field
+// differs from that of H by c a/h - 1 in q' and a/(c h) - 1 in p'.
+TEST(Tuning, ShadowTermsOfTheOscillatorAreKnown) {
+  const auto model = system("harmonic-oscillator");
+  const SplittingLogarithm logarithm(2);
+  const double h = 0.2;
+  // Positions and momenta are of one size on these states, so that all count alike.
+  const ShadowTerms terms(*model, logarithm, h, {{1, 0}, {0, 1}, {-1, 0}, {0, -1}});
+  const double angle = std::acos(1 - h * h / 2), c = std::sqrt(1 - h * h / 4);
+  const double exact = std::hypot(c * angle / h - 1, angle / (c * h) - 1) / std::sqrt(2.0);
+  std::vector<double> brackets = logarithm.of(strang()).brackets;
+  // What is left out is of order h^6, with a factor below 1/50.
+  const double left_out = std::pow(h, 6) / 50;
+  EXPECT_NEAR(terms.of(brackets), exact, left_out);
+  // The control: without the brackets of degree 5 the difference is larger.
+  std::fill(brackets.begin() + 2, brackets.end(), 0);
+  EXPECT_GT(std::abs(terms.of(brackets) - exact), left_out);
+}
+
+// The error of one step from a state is h times the shadow's field there, to leading order; the norm is that
+// of the form at a single state.
+TEST(Tuning, ShadowTermsAreTheErrorOfAStep) {
+  for (const char* name : {"henon-heiles", "pendulum", "quadrupole-boson"}) {
+    const auto model = system(name);
+    std::vector<Quad> z;
+    std::vector<double> state;
+    for (const Real& x : model->initial()) {
+      z.push_back(x.quad() + Quad(0.05));
+      state.push_back(static_cast<double>(z.back()));
+    }
+    const SplittingLogarithm logarithm(4);
+    const double h = 1.0 / 64;
+    const ShadowTerms terms(*model, logarithm, h, {state});
+    const double form = terms.of(logarithm.of(triple_jump()).brackets);
+    // A step of the flow, by so many small ones that their error is nothing beside it.
+    std::vector<Quad> exact = z;
+    constexpr int parts = 64;
+    for (int k = 0; k < parts; ++k) exact = step(*model, triple_jump(), Quad(h) / Quad(parts), exact);
+    const std::vector<Quad> one = step(*model, triple_jump(), Quad(h), z);
+    std::vector<double> rate(z.size());
+    Problem<double>(model).field(0, state, rate);
+    double error = 0, own = 0, positions = 0, momenta = 0;
+    const std::size_t half = z.size() / 2;
+    for (std::size_t i = 0; i < z.size(); ++i) (i < half ? positions : momenta) += state[i] * state[i];
+    for (std::size_t i = 0; i < z.size(); ++i) {
+      const double weight = i < half ? 1 / positions : 1 / momenta;
+      const auto off = static_cast<double>(one[i] - exact[i]) / h;
+      error += weight * off * off;
+      own += weight * rate[i] * rate[i];
+    }
+    // To leading order in h: the step's error and its field differ by a term of order h.
+    EXPECT_NEAR(std::sqrt(error / own) / form, 1, 0.1) << name;
+  }
+}
+
+TEST(Tuning, ConditionsHoldToRoundOffOfQuadAndTermsAreSmaller) {
+  const auto model = system("henon-heiles");
+  const SplittingLogarithm logarithm(4);
+  const ShadowTerms terms(*model, logarithm, 0.6, states_along_the_motion(model, 50));
+  const TunedSplitting tuned = tuned_splitting(logarithm, terms, {.order = 4, .stages = 5, .starts = 8});
+  EXPECT_EQ(tuned.flows.size(), 11U);
+  EXPECT_EQ(first_violated(splitting_conditions(tuned.flows, 4), 4, precision_of_quad_coefficients), nullptr);
+  EXPECT_NE(first_violated(splitting_conditions(tuned.flows, 5), 5, precision_of_quad_coefficients), nullptr);
+  for (std::size_t k = 0; k < tuned.flows.size(); ++k)
+    EXPECT_EQ(tuned.flows[k].length, tuned.flows[tuned.flows.size() - 1 - k].length);
+  EXPECT_EQ(tuned.error, terms.of(logarithm.of(tuned.flows).brackets));
+  // Suzuki's five steps of Strang's splitting have as many forces.
+  const Quad outer = Quad(1) / (Quad(4) - pow(Quad(4), Real::fraction(1, 3))),
+             inner = Quad(1) - Quad(4) * outer;
+  std::vector<PartialFlow> suzuki;
+  for (const Quad& part : {outer, outer, inner, outer, outer})
+    suzuki.insert(suzuki.end(), {{0, part / Quad(2)}, {1, part}, {0, part / Quad(2)}});
+  EXPECT_LT(tuned.error, terms.of(logarithm.of(suzuki).brackets) / 10);
+  // The same seed gives the same splitting.
+  EXPECT_EQ(tuned_splitting(logarithm, terms, {.order = 4, .stages = 5, .starts = 8}).flows[0].length,
+            tuned.flows[0].length);
+}
+
+TEST(Tuning, Refusals) {
+  EXPECT_EQ(free_coefficients(4, 4), 1);
+  EXPECT_EQ(free_coefficients(4, 3), 0);
+  EXPECT_EQ(free_coefficients(6, 10), 1);
+  EXPECT_NO_THROW(check({.order = 4, .stages = 4}));
+  EXPECT_THROW(check({.order = 4, .stages = 3}), InputError);
+  EXPECT_THROW(check({.order = 3, .stages = 6}), InputError);
+  EXPECT_THROW(check({.order = 8, .stages = 40}), InputError);
+  for (const char* name : {"free-rigid-body", "spherical-pendulum"})
+    EXPECT_THROW((void)states_along_the_motion(system(name), 3), InputError) << name;
+}
+
+}  // namespace
+}  // namespace pfaff
