@@ -116,8 +116,9 @@ double entropy_residual(MeasuredStep<T>& step);
 // round_off_claim.cpp
 
 /// By how much the growth of round-off exceeds a random walk (excess_over_random_walk), from states near the
-/// start of the step. Where the claim seems to fail it has to fail for a second ensemble, too: the smaller of
-/// the two is the residual. Not-a-number also where truncation is in sight at every step that is tried.
+/// start of the step, or near the system's initial state where a run from there goes off. Where the claim
+/// seems to fail it has to fail for a second ensemble, too: the smaller of the two is the residual.
+/// Not-a-number also where truncation is in sight at every step that is tried.
 double round_off_residual(MeasuredStep<double>& step);
 
 // surface_claims.cpp: what is left of equations at the end of the step
