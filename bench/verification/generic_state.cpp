@@ -1,6 +1,7 @@
 // The state at which claims are measured.
 #include <pfaff/bench/measure/constraints.hpp>
 #include <pfaff/bench/verification/check.hpp>
+#include <pfaff/bench/verification/step_scale.hpp>
 
 namespace pfaff {
 
@@ -10,12 +11,14 @@ std::vector<Real> generic_state(const Model& model) {
                      " initial values, near which its claims are measured; expected " +
                      std::to_string(model.dimension()));
   std::vector<Real> z = model.initial();
+  const std::vector<double> scales = coordinate_scales(z, model.coordinates());
   for (std::size_t k = 0; k < z.size(); ++k) {
     const auto i = static_cast<std::int64_t>(k);
     // Offsets that grow with the index would tear systems of many bodies apart, so with constraints they
     // repeat.
     const std::int64_t amount = model.restricted() ? i % 5 : i;
-    z[k] = z[k] + Real::fraction(i % 2 == 0 ? 7 + 2 * amount : -5 - 3 * amount, 101);
+    const Real offset = Real::fraction(i % 2 == 0 ? 7 + 2 * amount : -5 - 3 * amount, 101);
+    z[k] = z[k] + offset * Real(Quad(scales[k]));
   }
   if (model.restricted()) {
     std::vector<Quad> moved;

@@ -83,7 +83,7 @@ Quad own_time(const Model& motion, const Real& t, const std::vector<Real>& z) {
   const std::size_t n = z.size();
   if (n > most_expanded) return Quad(1);
   ReferenceExpansion expansion(motion);
-  const std::vector<double> scales = coordinate_scales(z);
+  const std::vector<double> scales = coordinate_scales(z, motion.coordinates());
   std::vector<Quad> at;
   for (const Real& x : z) at.push_back(x.quad());
   expansion.expand(t.quad(), at.data());

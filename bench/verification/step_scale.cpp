@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <pfaff/core/numbers/with_rounding.hpp>
 #include <pfaff/core/tape/replay.hpp>
@@ -15,12 +16,23 @@ constexpr std::size_t most_replayed = 16;
 constexpr double ordinary = 64;
 }  // namespace
 
-std::vector<double> coordinate_scales(const std::vector<Real>& centre) {
+std::vector<double> coordinate_scales(const std::vector<Real>& centre,
+                                      const std::vector<Coordinate>& coordinates) {
+  const auto unit = [&](std::size_t k) {
+    return k < coordinates.size() ? coordinates[k].unit : std::string();
+  };
   double largest = 0;
-  for (const Real& x : centre) largest = std::max(largest, std::abs(x.value()));
+  std::map<std::string, double> largest_in;
+  for (std::size_t k = 0; k < centre.size(); ++k) {
+    const double size = std::abs(centre[k].value());
+    largest = std::max(largest, size);
+    largest_in[unit(k)] = std::max(largest_in[unit(k)], size);
+  }
   std::vector<double> scales;
-  for (const Real& x : centre) {
-    const double size = x.value() == 0 ? largest : std::abs(x.value());
+  for (std::size_t k = 0; k < centre.size(); ++k) {
+    double size = std::abs(centre[k].value());
+    if (size == 0) size = largest_in[unit(k)];
+    if (size == 0) size = largest;
     const bool is_ordinary = size == 0 || (size >= 1 / ordinary && size <= ordinary);
     scales.push_back(is_ordinary ? 1 : std::exp2(std::round(std::log2(size))));
   }

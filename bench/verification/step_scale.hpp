@@ -8,9 +8,11 @@
 namespace pfaff {
 
 /// How far the coordinates of a system are from one, at a state near `centre`, as powers of two: the size of
-/// each coordinate there, or that of the largest one for coordinates that are zero. Sizes within a factor of
-/// 64 of one are taken as one, so that offsets and steps of ordinary systems are the same for all of them.
-std::vector<double> coordinate_scales(const std::vector<Real>& centre);
+/// each coordinate there. For coordinates that are zero it is the size of the largest one in the same unit,
+/// or where that is zero too, or no units are given, of the largest of all. Sizes within a factor of 64 of
+/// one are taken as one, so that offsets and steps of ordinary systems are the same for all of them.
+std::vector<double> coordinate_scales(const std::vector<Real>& centre,
+                                      const std::vector<Coordinate>& coordinates = {});
 
 /// For each coordinate the size of the numbers that a step of size h from `start` at time t to `end` is made
 /// of, in the unit of the coordinate: those of the two states and h times the rounding errors of the field,
