@@ -73,7 +73,8 @@ MeasuredOrder settle(Error&& error_of, int halvings, const Quad& floor) {
 
 const Quad interval = Quad(1) / Quad(8);
 
-constexpr std::size_t most_expanded = 16;
+// Fields of formulations are long; other series of this many coordinates are cheap.
+constexpr std::size_t most_expanded = 64, most_expanded_in_formulations = 16;
 // Rates between 1/ordinary_rates and ordinary_rates are taken as one; others are brought to the ordinary one.
 constexpr double ordinary_rates = 32, ordinary_rate = 8;
 
@@ -81,7 +82,8 @@ constexpr double ordinary_rates = 32, ordinary_rate = 8;
 
 Quad own_time(const Model& motion, const Real& t, const std::vector<Real>& z) {
   const std::size_t n = z.size();
-  if (n > most_expanded) return Quad(1);
+  if (n > (motion.source().formulation.empty() ? most_expanded : most_expanded_in_formulations))
+    return Quad(1);
   ReferenceExpansion expansion(motion);
   const std::vector<double> scales = coordinate_scales(z, motion.coordinates());
   std::vector<Quad> at;
