@@ -9,8 +9,18 @@ install(DIRECTORY core brackets formulations systems integrators DESTINATION ${C
 install(DIRECTORY bench/measure bench/runner bench/experiment bench/evaluation bench/verification
                   bench/reproduce
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pfaff/bench FILES_MATCHING PATTERN "*.hpp")
-install(DIRECTORY bench/report bench/experiments DESTINATION ${CMAKE_INSTALL_DATADIR}/pfaff
+install(DIRECTORY bench/report DESTINATION ${CMAKE_INSTALL_DATADIR}/pfaff
         PATTERN "__pycache__" EXCLUDE)
+# Experiments name tables and models by their paths in the source tree; installed, the examples stand beside them.
+file(GLOB experiments CONFIGURE_DEPENDS bench/experiments/*.toml)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${experiments})
+foreach(experiment ${experiments})
+  file(READ ${experiment} text)
+  string(REPLACE "../../examples/" "../examples/" text "${text}")
+  get_filename_component(name ${experiment} NAME)
+  file(WRITE ${PROJECT_BINARY_DIR}/installed/experiments/${name} "${text}")
+endforeach()
+install(DIRECTORY ${PROJECT_BINARY_DIR}/installed/experiments DESTINATION ${CMAKE_INSTALL_DATADIR}/pfaff)
 # Models and tables that rows of `pfaff reproduce others` run.
 install(DIRECTORY examples/models examples/tables DESTINATION ${CMAKE_INSTALL_DATADIR}/pfaff/examples)
 install(FILES ${pfaff_written}/pfaff.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)

@@ -62,8 +62,8 @@ double MethodOnModel::growth_of_round_off() const {
 
 bool MethodOnModel::differentiable() const {
   const bool formulated = method_.needs().has(Facet::vector_field);
-  return !model_->restricted() ||
-         model_->dimension() <= (formulated ? most_differentiated_in_formulations : most_differentiated);
+  return model_->dimension() <=
+         (model_->restricted() && formulated ? most_differentiated_in_formulations : most_differentiated);
 }
 
 Check MethodOnModel::check(const std::string& claim, const std::string& scope, const char* precision) const {

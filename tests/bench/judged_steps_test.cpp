@@ -76,6 +76,19 @@ TEST(JudgedSteps, AMethodThatNeverStepsFails) {
   EXPECT_EQ(bad(stuck, "pendulum"), Names{"steps"});
 }
 
+// Momenta of planets are 1e-11 of their positions; a step that does not converge there is shown and not
+// judged. With positions and momenta of one size it is.
+TEST(JudgedSteps, AStepOnCoordinatesOfVeryDifferentSizesNeedNotConverge) {
+  static const Method<Stuck> stuck{described("stuck-far-apart", 2, {Claim::none})};
+  const auto checks = check_method(stuck, {}, systems().get("outer-solar-system", "system"));
+  ASSERT_EQ(checks.size(), 1U);
+  EXPECT_EQ(checks[0].result, CheckResult::skipped);
+  EXPECT_TRUE(good(checks[0]));
+  EXPECT_NE(checks[0].reason.find("sizes of coordinates differ by 2^"), std::string::npos)
+      << checks[0].reason;
+  EXPECT_EQ(bad(stuck, "n-body"), Names{"steps"});
+}
+
 // The backward differentiation formula of two steps, z_2 = 4/3 z_1 - 1/3 z_0 + beta h f(z_2), with implicit
 // midpoint steps for the starting values. Both equations are solved by iteration.
 template <int numerator, int denominator>
