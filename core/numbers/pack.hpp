@@ -2,8 +2,8 @@
 // scalar that formulas can be evaluated with. Functions are those of the standard library, lane by lane.
 //
 // For code that does the same to several nodes at once. Registers of 16 bytes belong to every machine of this
-// architecture; those of 32 and of 64 bytes are used where the build allows them. Results do not depend on it: every
-// lane is computed by itself, and sums go from lane to lane. The lanes of a pack that a caller has
+// architecture; those of 32 and of 64 bytes are used where the build allows them. Results do not depend on
+// it: every lane is computed by itself, and sums go from lane to lane. The lanes of a pack that a caller has
 // no use for should hold copies of one that it has, never rubbish: arithmetic on rubbish can be very slow.
 #pragma once
 
