@@ -10,7 +10,7 @@ namespace pfaff {
 namespace {
 // Checks that need Jacobians or Taylor series in quad are made only up to these dimensions, because their
 // cost grows fast; smaller systems show the same.
-constexpr int most_differentiated = 16, most_differentiated_in_formulations = 8;
+constexpr int most_differentiated = 32, most_differentiated_in_formulations = 8;
 constexpr int most_halvings = 12;
 
 std::vector<Claim> claims_of(const MethodInstance& method, const Model& model) {

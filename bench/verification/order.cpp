@@ -24,8 +24,8 @@ class Errors {
   /// own_time of the motion.
   [[nodiscard]] Quad time() const { return time_; }
 
-  /// The error after time `elapsed`, taken in so many equal steps, relative to the norm of the exact state;
-  /// negative when a step fails.
+  /// The error after time `elapsed`, taken in so many equal steps, relative to the norm of the start, which
+  /// does not depend on the step as that of the end does; negative when a step fails.
   [[nodiscard]] Quad after(Quad elapsed, std::int64_t steps) const {
     const auto stepper = method_.stepper(model_, Quad());
     std::vector<Quad> z = start_, exact = start_;
@@ -36,7 +36,7 @@ class Errors {
     taylor_flow(*motion_, generic_time.quad(), elapsed, exact);
     std::vector<Quad> difference(z.size());
     for (std::size_t k = 0; k < z.size(); ++k) difference[k] = z[k] - exact[k];
-    return norm(difference) / norm(exact);
+    return norm(difference) / norm(start_);
   }
 
   /// The rate at which the state changes at the start, relative to its norm.

@@ -112,7 +112,7 @@ class Gravitation {
                                      const std::string& momentum, const std::string& angular) {
     std::vector<Invariant> list{conserved("energy", energy)};
     for (std::size_t x = 0; x < dimensions; ++x)
-      list.push_back(conserved_quadratic("momentum-" + std::string(1, "xyz"[x]), momentum));
+      list.push_back(conserved("momentum-" + std::string(1, "xyz"[x]), momentum));
     for (std::size_t axis = dimensions == 2 ? 2 : 0; axis < 3; ++axis)
       list.push_back(conserved_quadratic("angular-momentum-" + std::string(1, "xyz"[axis]), angular));
     return list;

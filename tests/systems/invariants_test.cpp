@@ -149,8 +149,10 @@ TEST(Invariants, MarkedQuadraticAreQuadraticForms) {
         ++quadratic;
         EXPECT_LE(worst, Quad(1e-31)) << name;
       } else if (model->invariants()[i].behaviour == Behaviour::conserved) {
-        ++others;  // the controls: a conserved one that is not marked fails the same test
-        EXPECT_GT(worst, Quad(1e-6)) << name << " is quadratic: mark it";
+        // The controls: a conserved one that is not marked fails the same test, by far more than round-off.
+        // The potential energy of light planets is 1e-8 and less.
+        ++others;
+        EXPECT_GT(worst, Quad(1e-12)) << name << " is quadratic: mark it";
       }
     }
   }

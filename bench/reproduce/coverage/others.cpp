@@ -18,6 +18,7 @@ const std::vector<PaperItem>& others_items() {
       {"rackauckas-nie2017 quadrupole boson", ItemKind::number},
       {"hairer-lubich-wanner2006 I.2.3", ItemKind::statement},
       {"hairer-lubich-wanner2006 I.2.4", ItemKind::statement},
+      {"quinlan-tremaine1990", ItemKind::statement},
       {"feng-qin2010 15.6", ItemKind::number},
       {"feng-qin2010 15.6 lower nu", ItemKind::number, Cover::pending,
        "scheme (5.8) is said to be behind the midpoint rule below nu = 1.33 too; the largest, mean and final "
