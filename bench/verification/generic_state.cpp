@@ -11,8 +11,7 @@ std::vector<Real> generic_state(const Model& model) {
                      " initial values, near which its claims are measured; expected " +
                      std::to_string(model.dimension()));
   std::vector<Real> z = model.initial();
-  const std::vector<double> scales =
-      model.moves() ? coordinate_scales(model, generic_time, z) : coordinate_scales(z);
+  const std::vector<double> scales = coordinate_scales(model);
   for (std::size_t k = 0; k < z.size(); ++k) {
     const auto i = static_cast<std::int64_t>(k);
     // Offsets that grow with the index would tear systems of many bodies apart, so they repeat with

@@ -25,12 +25,15 @@ void exempt_from_quad(std::vector<Check>& checks, const MethodOnModel& on) {
 
 // Measures the claims of the method, but those that need a Jacobian where there is none; claims that it does
 // not make are measured where their rows say so, and not judged. Claims about rounding are measured in double
-// alone, and only where long runs are.
+// alone, and only where long runs are; ensembles of them take too long on systems of many coordinates.
 template <class T>
 void check_claims(std::vector<Check>& checks, MethodOnModel& on, bool long_runs) {
   for (const ClaimCheck& row : claim_checks()) {
     if (row.from_jacobian && !on.differentiable()) continue;
-    if (row.of_rounding && (std::is_same_v<T, Quad> || !long_runs)) continue;
+    constexpr int most_in_long_runs = 16;
+    if (row.of_rounding &&
+        (std::is_same_v<T, Quad> || !long_runs || on.model()->dimension() > most_in_long_runs))
+      continue;
     const Model& model = *on.model();
     const bool shown = row.shown_on == nullptr ? in_scope(row.claim, model) : row.shown_on(model);
     if (!shown && !on.claims(row.claim)) continue;

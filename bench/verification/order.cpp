@@ -17,7 +17,7 @@ class Errors {
       : method_(method), model_(model), motion_(motion_of(model)) {
     const std::vector<Real> start = generic_state(*model);
     for (const Real& x : start) start_.push_back(x.quad());
-    for (const double scale : coordinate_scales(start)) scales_.emplace_back(scale);
+    for (const double scale : coordinate_scales(*model)) scales_.emplace_back(scale);
     time_ = own_time(*motion_, generic_time, start);
   }
 

@@ -16,8 +16,7 @@ namespace {
 constexpr double most_differing_sizes = 0x1p20;
 
 double differing_sizes(const Model& model) {
-  const std::vector<double> scales = model.moves() ? coordinate_scales(model, generic_time, model.initial())
-                                                   : coordinate_scales(model.initial());
+  const std::vector<double> scales = coordinate_scales(model);
   const auto [smallest, largest] = std::minmax_element(scales.begin(), scales.end());
   return *largest / *smallest;
 }

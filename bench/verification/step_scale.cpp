@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <pfaff/bench/verification/check.hpp>
 #include <pfaff/core/numbers/with_rounding.hpp>
 #include <pfaff/core/tape/replay.hpp>
 #include <pfaff/core/tape/taylor_expansion.hpp>
@@ -80,6 +81,11 @@ std::vector<double> coordinate_scales(const Model& motion, const Real& t, const 
     if (size > Quad(0) && isfinite(size)) scales[k] = as_scale(static_cast<double>(size));
   }
   return scales;
+}
+
+std::vector<double> coordinate_scales(const Model& model) {
+  return model.moves() ? coordinate_scales(model, generic_time, model.initial())
+                       : coordinate_scales(model.initial());
 }
 
 Quad own_time(const Model& motion, const Real& t, const std::vector<Real>& z) {

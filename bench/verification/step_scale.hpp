@@ -20,6 +20,9 @@ std::vector<double> coordinate_scales(const std::vector<Real>& centre);
 /// where the motion has no series that is_short, has the size that it has above.
 std::vector<double> coordinate_scales(const Model& motion, const Real& t, const std::vector<Real>& z);
 
+/// Those at the initial state of a model, by its motion where it has one.
+std::vector<double> coordinate_scales(const Model& model);
+
 /// True where the field of a motion is a formula so short that series and bounds of rounding errors of it are
 /// computed at each step: up to 16 coordinates, or at most 8192 operations.
 bool is_short(const Model& motion);

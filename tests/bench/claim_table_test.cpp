@@ -23,6 +23,14 @@ std::shared_ptr<const Model> model_of(std::string_view name, const Assignments& 
   return systems().get(name, "system").make(parameters);
 }
 
+// A claim about rounding is measured in double alone, every other one in quad too.
+TEST(ClaimTable, EveryClaimHasItsMeasures) {
+  for (const ClaimCheck& check : claim_checks()) {
+    EXPECT_NE(check.in_double, nullptr) << to_string(check.claim);
+    EXPECT_EQ(check.in_quad == nullptr, check.of_rounding) << to_string(check.claim);
+  }
+}
+
 std::vector<Claim> all_claims() {
   std::vector<Claim> claims;
   for (const ClaimRow& row : claim_table)
