@@ -26,7 +26,7 @@ function(pfaff_check_machine source)
     set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS -march=x86-64)
   endif()
   set(needs "")
-  foreach(set IN ITEMS popcnt lzcnt bmi bmi2 avx avx2 fma avx512f avx512cd avx512bw avx512dq avx512vl avx512ifma
+  foreach(set IN ITEMS popcnt bmi bmi2 avx avx2 fma avx512f avx512cd avx512bw avx512dq avx512vl avx512ifma
                        avx512vbmi avx512vbmi2 avx512vnni avx512bitalg avx512vpopcntdq)
     string(TOUPPER ${set} macro)
     if(macros MATCHES "#define __${macro}__ ")

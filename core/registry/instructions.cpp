@@ -19,7 +19,6 @@ namespace {
 #define PFAFF_REQUIRE(set) \
   if (PFAFF_NEEDS_##set && !__builtin_cpu_supports(#set)) lacking = #set
   PFAFF_REQUIRE(popcnt);
-  PFAFF_REQUIRE(lzcnt);
   PFAFF_REQUIRE(bmi);
   PFAFF_REQUIRE(bmi2);
   PFAFF_REQUIRE(avx);
