@@ -66,9 +66,8 @@ TEST(Documentation, LimitsOfVerificationAreThoseOfTheCode) {
   };
   const std::string of_methods = "bench/verification/method_on_model.cpp",
                     page = one_line("docs/verification.md");
-  EXPECT_NE(
-      page.find("constraints and more than " + number(of_methods, "most_differentiated") + " coordinates"),
-      std::string::npos);
+  EXPECT_NE(page.find("systems of more than " + number(of_methods, "most_differentiated") + " coordinates"),
+            std::string::npos);
   EXPECT_NE(page.find("or more than " + number(of_methods, "most_differentiated_in_formulations") +
                       " where the method runs in a formulation"),
             std::string::npos);
