@@ -30,7 +30,7 @@ template <class T>
 void check_claims(std::vector<Check>& checks, MethodOnModel& on, bool long_runs) {
   for (const ClaimCheck& row : claim_checks()) {
     if (row.from_jacobian && !on.differentiable()) continue;
-    constexpr int most_in_long_runs = 16;
+    constexpr int most_in_long_runs = 8;
     if (row.of_rounding &&
         (std::is_same_v<T, Quad> || !long_runs || on.model()->dimension() > most_in_long_runs))
       continue;

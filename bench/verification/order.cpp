@@ -17,7 +17,9 @@ class Errors {
       : method_(method), model_(model), motion_(motion_of(model)) {
     const std::vector<Real> start = generic_state(*model);
     for (const Real& x : start) start_.push_back(x.quad());
-    for (const double scale : coordinate_scales(*model)) scales_.emplace_back(scale);
+    // A coordinate may be small by chance at one of two states.
+    const std::vector<double> here = coordinate_scales(start), initially = coordinate_scales(*model);
+    for (std::size_t k = 0; k < here.size(); ++k) scales_.emplace_back(std::max(here[k], initially[k]));
     time_ = own_time(*motion_, generic_time, start);
   }
 
