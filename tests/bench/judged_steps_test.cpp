@@ -7,8 +7,9 @@
 
 #include <pfaff/bench/measure/chosen_steps.hpp>
 #include <pfaff/bench/runner/record.hpp>
-#include <pfaff/bench/verification/check.hpp>
 #include <pfaff/core/integrator.hpp>
+
+#include "judged.hpp"
 
 namespace {
 using namespace pfaff;
@@ -21,19 +22,13 @@ MethodDescriptor described(std::string name, int order, std::vector<Claim> prese
           .preserves = std::move(preserves)};
 }
 
-// The claims that are not as they should be, each once.
-std::vector<std::string> bad(const std::vector<Check>& checks) {
-  std::vector<std::string> names;
-  for (const Check& check : checks)
-    if (!check.control && !good(check) && std::find(names.begin(), names.end(), check.claim) == names.end())
-      names.push_back(check.claim);
-  std::sort(names.begin(), names.end());
-  return names;
-}
-std::vector<std::string> bad(const MethodPlugin& method, const char* system) {
+using pfaff::testing::bad;
+using pfaff::testing::Names;
+using Classical = pfaff::testing::Classical<false>;
+
+Names bad(const MethodPlugin& method, const char* system) {
   return bad(check_method(method, {}, systems().get(system, "system")));
 }
-using Names = std::vector<std::string>;
 
 // The explicit Euler method, which gives up on steps longer than a bound.
 struct BoundedEuler {
@@ -116,30 +111,6 @@ struct Differentiation {
     w.before = z;
     z = w.end;
     w.started = true;
-    return Status::converged;
-  }
-};
-
-// The classical Runge-Kutta method.
-struct Classical {
-  template <class P>
-  struct Work {
-    State<P> slope, stage, sum;
-    Work(const Classical& /*method*/, const P& p)
-        : slope(p.make_state()), stage(p.make_state()), sum(p.make_state()) {}
-  };
-  template <HasVectorField P>
-  Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
-    using T = Scalar<P>;
-    p.field(t, z, w.slope);
-    w.sum = w.slope;
-    for (int k = 1; k < 4; ++k) {
-      const T part = k == 3 ? h : h / T(2);
-      for (std::size_t i = 0; i < z.size(); ++i) w.stage[i] = z[i] + part * w.slope[i];
-      p.field(t + part, w.stage, w.slope);
-      for (std::size_t i = 0; i < z.size(); ++i) w.sum[i] = w.sum[i] + (k == 3 ? w.slope[i] : 2 * w.slope[i]);
-    }
-    for (std::size_t i = 0; i < z.size(); ++i) z[i] = z[i] + h * w.sum[i] / T(6);
     return Status::converged;
   }
 };

@@ -5,21 +5,12 @@
 #include <algorithm>
 #include <array>
 
-#include <pfaff/bench/verification/check.hpp>
+#include "judged.hpp"
 
 namespace {
 using namespace pfaff;
-using Names = std::vector<std::string>;
-
-// The claims that are not as they should be, each once.
-Names bad(const std::vector<Check>& checks) {
-  Names names;
-  for (const Check& check : checks)
-    if (!check.control && !good(check) && std::find(names.begin(), names.end(), check.claim) == names.end())
-      names.push_back(check.claim);
-  std::sort(names.begin(), names.end());
-  return names;
-}
+using pfaff::testing::bad;
+using pfaff::testing::Names;
 
 // An oscillator with one number called an invariant.
 enum class Claimed { tiny_product, constant, tiny_energy, quartic };

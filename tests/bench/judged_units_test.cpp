@@ -7,22 +7,15 @@
 #include <array>
 #include <cmath>
 
-#include <pfaff/bench/verification/check.hpp>
 #include <pfaff/bench/verification/step_scale.hpp>
+
+#include "judged.hpp"
 
 namespace {
 using namespace pfaff;
-using Names = std::vector<std::string>;
-
-// The claims that are not as they should be, each once.
-Names bad(const std::vector<Check>& checks) {
-  Names names;
-  for (const Check& check : checks)
-    if (!check.control && !good(check) && std::find(names.begin(), names.end(), check.claim) == names.end())
-      names.push_back(check.claim);
-  std::sort(names.begin(), names.end());
-  return names;
-}
+using pfaff::testing::bad;
+using pfaff::testing::Classical;
+using pfaff::testing::Names;
 
 // A sun and planets in a plane, in metres, seconds and kilograms: lengths of 1e11, times of 1e7, masses of
 // 1e21 to 1e30, momenta of 1e25 to 1e31. The sun rests in the origin at the start. The state is (x, y) and
@@ -110,33 +103,6 @@ TEST(JudgedUnits, StatesAreMovedByPartsOfTheirOwnSize) {
   EXPECT_GT(time, 1e6);
   EXPECT_LT(time, 1e9);
 }
-
-// The classical Runge-Kutta method, with coefficients in the scalar of the step or in double, as those of
-// libraries are.
-template <bool doubles>
-struct Classical {
-  template <class P>
-  struct Work {
-    State<P> slope, stage, sum;
-    Work(const Classical& /*method*/, const P& p)
-        : slope(p.make_state()), stage(p.make_state()), sum(p.make_state()) {}
-  };
-  template <HasVectorField P>
-  Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
-    using T = Scalar<P>;
-    const T outer = doubles ? T(1.0 / 6) : T(1) / T(6), inner = doubles ? T(1.0 / 3) : T(1) / T(3);
-    p.field(t, z, w.slope);
-    for (std::size_t i = 0; i < z.size(); ++i) w.sum[i] = outer * w.slope[i];
-    for (int k = 1; k < 4; ++k) {
-      const T part = k == 3 ? h : h / T(2);
-      for (std::size_t i = 0; i < z.size(); ++i) w.stage[i] = z[i] + part * w.slope[i];
-      p.field(t + part, w.stage, w.slope);
-      for (std::size_t i = 0; i < z.size(); ++i) w.sum[i] = w.sum[i] + (k == 3 ? outer : inner) * w.slope[i];
-    }
-    for (std::size_t i = 0; i < z.size(); ++i) z[i] = z[i] + h * w.sum[i];
-    return Status::converged;
-  }
-};
 
 MethodDescriptor called_of_order(const char* name, int order, bool doubles,
                                  std::vector<Claim> preserves = {Claim::none}) {
