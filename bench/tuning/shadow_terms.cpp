@@ -31,33 +31,24 @@ class Brackets {
     for (const std::size_t part : {0U, 1U}) {
       const SharedTape energy = model.tape(part == 0 ? Formula::kinetic : Formula::potential);
       const std::size_t first = part == 0 ? n_ / 2 : 0;
-      made_[{part}] = std::make_shared<const Tape>(
+      made_[words.extended(0, part)] = std::make_shared<const Tape>(
           record(static_cast<int>(n_), 1, [&](const Recorded& t, In<Recorded> z, Out<Recorded> out) {
             out[0] = evaluate(*energy, t, z.subspan(first, n_ / 2)).front();
           }));
     }
   }
-  // That of a Lyndon word: of its beginning and its longest proper ending that is a Lyndon word.
-  SharedTape of(const std::vector<std::size_t>& word) {
+  // That of a Lyndon word.
+  SharedTape of(std::size_t word) {
     if (const auto found = made_.find(word); found != made_.end()) return found->second;
-    std::size_t middle = 1;
-    while (!is_lyndon({word.begin() + static_cast<std::ptrdiff_t>(middle), word.end()})) ++middle;
-    const auto cut = word.begin() + static_cast<std::ptrdiff_t>(middle);
-    const SharedTape beginning = of({word.begin(), cut}), ending = of({cut, word.end()});
-    return made_[word] = poisson_bracket(*beginning, *ending, n_);
+    const auto [beginning, ending] = words_.factors(word);
+    const SharedTape before = of(beginning), after = of(ending);
+    return made_[word] = poisson_bracket(*before, *after, n_);
   }
 
  private:
-  [[nodiscard]] bool is_lyndon(const std::vector<std::size_t>& word) const {
-    const std::size_t number = words_.find(word);
-    for (const std::size_t lyndon : words_.lyndon(static_cast<int>(word.size())))
-      if (lyndon == number) return true;
-    return false;
-  }
-
   const Words& words_;
   std::size_t n_;
-  std::map<std::vector<std::size_t>, SharedTape> made_;
+  std::map<std::size_t, SharedTape> made_;
 };
 
 // The gradient of one function, and so its vector field up to the order and the signs of its components.
@@ -96,11 +87,12 @@ ShadowTerms::ShadowTerms(const Model& model, const SplittingLogarithm& logarithm
   std::vector<Replay<double>> fields;
   std::vector<double> factors;  // h^(d - 1)
   for (const std::size_t word : logarithm.lyndon()) {
-    fields.emplace_back(gradient_tape(*brackets.of(words.spelt(word)), n));
+    fields.emplace_back(gradient_tape(*brackets.of(word), n));
     factors.push_back(std::pow(step, words.degree(word) - 1));
   }
   size_ = fields.size();
-  Replay<double> kinetic(gradient_tape(*brackets.of({0}), n)), potential(gradient_tape(*brackets.of({1}), n));
+  Replay<double> kinetic(gradient_tape(*brackets.of(words.extended(0, 0)), n)),
+      potential(gradient_tape(*brackets.of(words.extended(0, 1)), n));
 
   double positions = 0, momenta = 0;
   for (const auto& z : states)

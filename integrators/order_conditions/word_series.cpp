@@ -51,18 +51,22 @@ std::vector<std::size_t> Words::lyndon(int degree) const {
   return list;
 }
 
+std::pair<std::size_t, std::size_t> Words::factors(std::size_t lyndon_word) const {
+  const Letters letters = spelt(lyndon_word);
+  auto middle = letters.begin() + 1;
+  while (!is_lyndon(Letters(middle, letters.end()))) ++middle;
+  return {find(Letters(letters.begin(), middle)), find(Letters(middle, letters.end()))};
+}
+
 template <class T>
 WordSeries<T> bracketing(const Words& words, std::size_t lyndon_word) {
-  const Letters letters = words.spelt(lyndon_word);
-  if (letters.size() == 1) {
+  if (words.beginning(lyndon_word) == 0) {
     WordSeries<T> letter(words);
     letter[lyndon_word] = T(1);
     return letter;
   }
-  auto middle = letters.begin() + 1;
-  while (!is_lyndon(Letters(middle, letters.end()))) ++middle;
-  return commutator(bracketing<T>(words, words.find(Letters(letters.begin(), middle))),
-                    bracketing<T>(words, words.find(Letters(middle, letters.end()))));
+  const auto [beginning, ending] = words.factors(lyndon_word);
+  return commutator(bracketing<T>(words, beginning), bracketing<T>(words, ending));
 }
 
 template WordSeries<Quad> bracketing(const Words& words, std::size_t lyndon_word);

@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pfaff {
@@ -39,6 +40,9 @@ class Words {
   [[nodiscard]] std::size_t find(const std::vector<std::size_t>& letters) const;
   /// The Lyndon words of a degree, with the letters in the order of their numbers.
   [[nodiscard]] std::vector<std::size_t> lyndon(int degree) const;
+  /// The factors of a Lyndon word of two letters or more: its longest proper ending that is a Lyndon word,
+  /// and what stands before it, which is one too.
+  [[nodiscard]] std::pair<std::size_t, std::size_t> factors(std::size_t lyndon_word) const;
 
  private:
   struct Entry {
