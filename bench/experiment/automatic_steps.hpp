@@ -35,11 +35,10 @@ using StepTrials = std::function<StepTrial(std::int64_t count, std::int64_t take
 /// Chooses the numbers N of steps, in rising order, from 5 to 8 of them. The first is where errors over the
 /// whole time have come below 0.1 for good, that is on its rung and on the next. The last is where the error
 /// has come within a factor of ten of the smallest, which is round-off, or where a run would take more than
-/// `evaluations`. Trials at the
-/// fine end take a quarter of the time: truncation and round-off both grow with time, and the step at which
-/// they meet hardly depends on it. Where no error is below 0.1 the five finest rungs that the evaluations
-/// allow are taken, and where the first rung is round-off already five from there. Empty where the
-/// evaluations do not suffice for two rungs.
+/// `evaluations`. Trials at the fine end take a quarter of the time: truncation and round-off both grow with
+/// time, and the step at which they meet hardly depends on it. Where no error is below 0.1 the five finest
+/// rungs that the evaluations allow are taken, and where the first rung is round-off already five from there.
+/// Empty where the evaluations do not suffice for two rungs.
 std::vector<std::int64_t> step_counts(const StepTrials& trial, double evaluations);
 
 /// The pairs of a case with automatic steps and a method of it that takes fixed steps, as runs at a step that
