@@ -39,11 +39,14 @@ bool good(const Check& check);
 
 nlohmann::json to_json(const Check& check);
 
-/// A state of a system at which claims are measured, for use with `generic_time`: the initial state, moved
+/// A state of a system at which claims are measured, for use with `generic_time_of`: the initial state, moved
 /// off any symmetry that could hide an error, and moved back onto the constraints where there are any.
 /// InputError when the model has no initial state, or when no such point was found.
 std::vector<Real> generic_state(const Model& model);
-inline const Real generic_time = Real::fraction(37, 100);
+/// The time at which claims are measured: 0.37 in units of the time in which the motion from the initial
+/// state changes by its own size (own_time), so that whoever writes a driving force chooses its unit of time
+/// freely. In plain units of time for a model that moves by a formulation only.
+Real generic_time_of(const Model& model);
 /// The order of a method, measured from its errors in quad against Taylor series. The error of a single step
 /// is measured while the step is halved; the slope is log2 of the ratio of successive errors, minus one.
 /// Halving ends when, of four slopes or more, the last two differ by less than 0.01 and the two before by

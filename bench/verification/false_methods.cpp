@@ -52,7 +52,7 @@ Check check_false_claim(const ClaimCheck& row) {
     check.result = CheckResult::pass;
     return check;
   }
-  MeasuredStep<T> step(*method, model, generic_state(*model), generic_time, control_step);
+  MeasuredStep<T> step(*method, model, generic_state(*model), generic_time_of(*model), control_step);
   check.measured = residual_of(row, step);
   decide(check);
   return check;

@@ -5,6 +5,11 @@
 
 namespace pfaff {
 
+Real generic_time_of(const Model& model) {
+  const Real fraction = Real::fraction(37, 100);
+  return model.moves() ? fraction * Real(own_time(model, Real(0), model.initial())) : fraction;
+}
+
 std::vector<Real> generic_state(const Model& model) {
   if (model.initial().size() != static_cast<std::size_t>(model.dimension()))
     throw InputError("system " + model.name() + " has " + std::to_string(model.initial().size()) +
@@ -23,7 +28,7 @@ std::vector<Real> generic_state(const Model& model) {
   if (model.restricted()) {
     std::vector<Quad> moved;
     for (const Real& x : z) moved.push_back(x.quad());
-    const auto projection = project_onto_constraints(model, generic_time.quad(), moved);
+    const auto projection = project_onto_constraints(model, generic_time_of(model).quad(), moved);
     if (projection.status != Status::converged)
       throw InputError("system " + model.name() +
                        ": no state on its constraints was found near its initial state (" +

@@ -31,16 +31,17 @@ MethodOnModel::MethodOnModel(const MethodInstance& method, const Assignments& pa
       system_(system),
       model_(model),
       claims_(claims_of(method, *model)),
-      start_(generic_state(*model)) {
-  Real h = check_step * Real(own_time(*motion_of(model), generic_time, start_));
+      start_(generic_state(*model)),
+      time_(generic_time_of(*model)) {
+  Real h = check_step * Real(own_time(*motion_of(model), time_, start_));
   std::vector<Quad> z;
   for (const Real& x : start_) z.push_back(x.quad());
   for (int halving = 0; halving <= most_halvings; ++halving, h = h * Real::fraction(1, 2)) {
     step_size_ = h;
-    history_ = keeps_history(method, model, generic_time.quad(), h.quad(), z);
+    history_ = keeps_history(method, model, time_.quad(), h.quad(), z);
     const int warm_up = history_ ? steps_of_warm_up : 0;
-    in_double_ = std::make_unique<MeasuredStep<double>>(method, model, start_, generic_time, h, warm_up);
-    in_quad_ = std::make_unique<MeasuredStep<Quad>>(method, model, start_, generic_time, h, warm_up);
+    in_double_ = std::make_unique<MeasuredStep<double>>(method, model, start_, time_, h, warm_up);
+    in_quad_ = std::make_unique<MeasuredStep<Quad>>(method, model, start_, time_, h, warm_up);
     failure_ = in_double_->status();
     if (failure_ == Status::converged) failure_ = in_quad_->status();
     // The derivative of a step takes more iterations than the step, and is judged as well.

@@ -28,6 +28,8 @@ class MethodOnModel {
   [[nodiscard]] bool double_coefficients() const { return method_.descriptor().double_coefficients; }
   /// True where the model is small enough for Jacobians and Taylor series in quad.
   [[nodiscard]] bool differentiable() const;
+  /// The time at which claims are measured, generic_time_of the model.
+  [[nodiscard]] const Real& time() const { return time_; }
   /// True where the method remembers earlier steps. Its claims are then measured on a step that has others
   /// before it, and nothing is measured on the Jacobian of a step, which says nothing about the map of
   /// several states that such a method is.
@@ -66,6 +68,7 @@ class MethodOnModel {
   std::shared_ptr<const Model> model_;
   std::vector<Claim> claims_;
   std::vector<Real> start_;
+  Real time_;
   Real step_size_;
   bool history_ = false;
   Status failure_ = Status::converged;

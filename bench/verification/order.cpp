@@ -20,7 +20,8 @@ class Errors {
     // A coordinate may be small by chance at one of two states.
     const std::vector<double> here = coordinate_scales(start), initially = coordinate_scales(*model);
     for (std::size_t k = 0; k < here.size(); ++k) scales_.emplace_back(std::max(here[k], initially[k]));
-    time_ = own_time(*motion_, generic_time, start);
+    begin_ = generic_time_of(*model);
+    time_ = own_time(*motion_, begin_, start);
   }
 
   /// own_time of the motion.
@@ -33,9 +34,8 @@ class Errors {
     std::vector<Quad> z = start_, exact = start_;
     std::int64_t completed = 0;
     const Quad h = elapsed / Quad(static_cast<double>(steps));
-    if (stepper->advance(generic_time.quad(), 0, h, steps, z, completed) != Status::converged)
-      return Quad(-1);
-    taylor_flow(*motion_, generic_time.quad(), elapsed, exact);
+    if (stepper->advance(begin_.quad(), 0, h, steps, z, completed) != Status::converged) return Quad(-1);
+    taylor_flow(*motion_, begin_.quad(), elapsed, exact);
     std::vector<Quad> difference(z.size());
     for (std::size_t k = 0; k < z.size(); ++k) difference[k] = z[k] - exact[k];
     return norm(difference) / norm(start_);
@@ -44,7 +44,7 @@ class Errors {
   /// The rate at which the state changes at the start, relative to its norm.
   [[nodiscard]] Quad rate() const {
     TaylorExpansion<Quad> expansion(motion_->tape(Formula::field), 1);
-    expansion.expand(generic_time.quad(), start_.data());
+    expansion.expand(begin_.quad(), start_.data());
     const auto first = expansion.coefficients().begin() + static_cast<std::ptrdiff_t>(start_.size());
     return norm(std::vector<Quad>(first, expansion.coefficients().end())) / norm(start_);
   }
@@ -59,6 +59,7 @@ class Errors {
   const MethodInstance& method_;
   std::shared_ptr<const Model> model_, motion_;
   std::vector<Quad> start_, scales_;
+  Real begin_;
   Quad time_;
 };
 

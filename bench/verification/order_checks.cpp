@@ -87,7 +87,7 @@ std::vector<Check> check_changed_coefficient(const MethodPlugin& plugin, const A
       std::vector<Quad> z;
       for (const Real& x : generic_state(*model)) z.push_back(x.quad());
       StructureResidual<Quad> residual(*changed, model);
-      const Quad value = residual(generic_time.quad(), check_step.quad(), z);
+      const Quad value = residual(generic_time_of(*model).quad(), check_step.quad(), z);
       check.claim = "structure with coefficient " + std::to_string(k) + " changed by 1e-6";
       check.measured = static_cast<double>(value);
       check.expected = 0;

@@ -52,7 +52,7 @@ std::vector<std::vector<Quad>> error_series(MethodOnModel& on, const ReferenceEx
   std::vector<std::vector<Quad>> errors(start.size(), std::vector<Quad>(x.size()));
   for (std::size_t j = 0; j < x.size(); ++j) {
     const Quad h = x[j] * radius;
-    const auto end = step.after(generic_time.quad(), h, start);
+    const auto end = step.after(on.time().quad(), h, start);
     if (!end) return {};
     solution.evaluate(h, exact.data());
     for (std::size_t k = 0; k < start.size(); ++k) errors[k][j] = ((*end)[k] - exact[k]) / step.scales()[k];
@@ -83,7 +83,7 @@ std::optional<Check> check_order_conditions(MethodOnModel& on) {
     return std::nullopt;
   const bool doubles = on.double_coefficients();
   ReferenceExpansion solution(*motion_of(on.model()));
-  solution.expand(generic_time.quad(), start.data());
+  solution.expand(on.time().quad(), start.data());
   Check check = on.check("order conditions", "every system", doubles ? "double" : "quad");
   check.tolerance = doubles ? tolerance<double>() : tolerance_of_conditions;
   Quad radius = largest_radius * (on.step_size() / check_step).quad();

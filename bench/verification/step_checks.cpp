@@ -43,7 +43,7 @@ Check check_precisions(MethodOnModel& on) {
   const auto as_double = [](const Real& x) { return Real(Quad(x.value())); };
   std::vector<Real> start;
   for (const Real& x : generic_state(*on.model())) start.push_back(as_double(x));
-  MeasuredStep<Quad> exact(on.method(), on.model(), start, as_double(generic_time), as_double(on.step_size()),
+  MeasuredStep<Quad> exact(on.method(), on.model(), start, as_double(on.time()), as_double(on.step_size()),
                            on.step<double>().warm_up());
   const auto& end = on.step<double>().end();
   double difference = no_step;

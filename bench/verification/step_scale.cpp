@@ -84,7 +84,7 @@ std::vector<double> coordinate_scales(const Model& motion, const Real& t, const 
 }
 
 std::vector<double> coordinate_scales(const Model& model) {
-  return model.moves() ? coordinate_scales(model, generic_time, model.initial())
+  return model.moves() ? coordinate_scales(model, generic_time_of(model), model.initial())
                        : coordinate_scales(model.initial());
 }
 

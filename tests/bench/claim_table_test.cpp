@@ -183,7 +183,7 @@ TEST(ClaimTable, PlainUpdatesAreNotARandomWalkOfIncrements) {
   const auto model = model_of("harmonic-oscillator");
   const auto residual = [&](const char* compensated) {
     const auto gauss = integrators().get("gauss", "").make({{"compensated", compensated}});
-    MeasuredStep<double> step(*gauss, model, generic_state(*model), generic_time, check_step);
+    MeasuredStep<double> step(*gauss, model, generic_state(*model), generic_time_of(*model), check_step);
     return round_off_residual(step);
   };
   EXPECT_LE(residual("yes"), 1);
