@@ -103,7 +103,6 @@ class MethodInstance : public Maker<StepperPointer, StepScalars, std::shared_ptr
   /// True where the claimed order is exact on every system, the autonomous ones included.
   [[nodiscard]] virtual bool order_is_exact() const = 0;
   /// What the method claims, on this model or on others (claims_in_scope says what speaks of this one).
-  /// InputError where one of these claims has no check yet.
   [[nodiscard]] virtual std::vector<Claim> preserves(const Model& model) const = 0;
   /// The method as messages call it.
   [[nodiscard]] virtual std::string called() const { return descriptor().name; }
@@ -222,9 +221,7 @@ namespace detail {
 template <class M>
 class Instance final : public MakerOf<Instance<M>, MethodInstance> {
  public:
-  Instance(const MethodPlugin& plugin, M method) : plugin_(plugin), method_(std::move(method)) {
-    require_claimable(plugin.descriptor().preserves, plugin.name());
-  }
+  Instance(const MethodPlugin& plugin, M method) : plugin_(plugin), method_(std::move(method)) {}
 
   [[nodiscard]] const MethodDescriptor& descriptor() const override { return plugin_.descriptor(); }
   [[nodiscard]] Assignments parameters() const override { return resolved(plugin_.parameters(), &method_); }
@@ -246,9 +243,7 @@ class Instance final : public MakerOf<Instance<M>, MethodInstance> {
   }
   [[nodiscard]] std::vector<Claim> preserves(const Model& model) const override {
     if constexpr (requires { method_.preserves(model); }) {
-      std::vector<Claim> claims = method_.preserves(model);
-      require_claimable(claims, plugin_.name());
-      return claims;
+      return method_.preserves(model);
     } else {
       return plugin_.descriptor().preserves;
     }

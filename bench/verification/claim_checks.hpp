@@ -64,7 +64,7 @@ double largest_allowed(const ClaimCheck& row) {
 std::vector<Check> check_in_short_runs(const MethodInstance& method, const Assignments& parameters,
                                        const std::string& system, const std::shared_ptr<const Model>& model);
 
-/// One row for each claim that is measured at all (not only foreseen), in the order of the list of claims.
+/// One row for each claim, in the order of the list of claims.
 std::span<const ClaimCheck> claim_checks();
 
 // structure_claims.cpp: from the Jacobian of the step

@@ -50,7 +50,6 @@ std::vector<Check> check_on_random_systems(const MethodPlugin& plugin, const Ass
   const auto method = plugin.make(parameters);
   std::set<SystemKind> chosen;
   for (const ClaimRow& row : claim_table) {
-    if (row.foreseen) continue;
     std::vector<SystemKind> kinds;
     for (const SystemKind kind : system_kinds) {
       // Registered systems have functions that are no polynomials; the random ones add what these lack.

@@ -7,9 +7,6 @@
 // with the predicates of core/facets/claims.cpp. A claim is tested on the systems that its scope speaks of;
 // of other systems nothing is claimed, whatever the method says of itself. Notation: z -> z' is a step of
 // size h from time t to t', M its Jacobian, J the canonical structure, K the system's own.
-//
-// A row with `.foreseen = true` has its name and its scope, but no check yet: a method that claims it is
-// refused.
 
 // clang-format off
 #ifndef PFAFF_CLAIM

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <random>
 
-#include <pfaff/core/errors/errors.hpp>
 #include <pfaff/core/facets/complete_tables.hpp>
 #include <pfaff/core/facets/linear_reversal.hpp>
 #include <pfaff/core/tape/replay.hpp>
@@ -176,17 +175,6 @@ std::vector<Claim> claims_in_scope(const std::vector<Claim>& claims, const Model
     if (in_scope(claim, model)) meant.push_back(claim);
   if (meant.empty()) meant.push_back(Claim::none);
   return meant;
-}
-
-void require_claimable(const std::vector<Claim>& claims, const std::string& method) {
-  for (const ClaimRow& row : claim_table) {
-    if (!row.foreseen || std::find(claims.begin(), claims.end(), row.claim) == claims.end()) continue;
-    std::string claimable;
-    for (const ClaimRow& other : claim_table)
-      if (!other.foreseen) claimable += (claimable.empty() ? "" : ", ") + std::string(other.name);
-    throw InputError("integrator " + method + " claims " + std::string(row.name) +
-                     ", which has no check yet; expected none or some of " + claimable);
-  }
 }
 
 }  // namespace pfaff

@@ -24,17 +24,15 @@ struct ClaimRow {
   std::string_view name;     // kebab-case
   std::string_view meaning;  // a sentence
   std::string_view scope;    // the systems it speaks of, in words
-  bool foreseen = false;     // named, but without a check: no method may claim it yet
 };
 
 namespace detail {
 // The part of a row that follows its predicate.
 struct ClaimTexts {
   std::string_view meaning, scope;
-  bool foreseen = false;
 };
 constexpr ClaimRow claim_row_of(Claim claim, std::string_view name, ClaimTexts texts) {
-  return {claim, name, texts.meaning, texts.scope, texts.foreseen};
+  return {claim, name, texts.meaning, texts.scope};
 }
 }  // namespace detail
 
@@ -66,8 +64,5 @@ bool momentum_map(const Model& model, std::size_t invariant);
 /// True where the system has velocity constraints and the invariant is a momentum map along directions that
 /// they allow, A(q, t) (D q + d) = 0.
 bool allowed_momentum_map(const Model& model, std::size_t invariant);
-
-/// InputError, naming the method, where one of its claims is foreseen and has no check yet.
-void require_claimable(const std::vector<Claim>& claims, const std::string& method);
 
 }  // namespace pfaff

@@ -248,7 +248,6 @@ std::unique_ptr<const MethodTable> read_map_table(TableDocument& document, Table
     for (const ClaimRow& row : claim_table) every.push_back(row.claim);
     head.descriptor.preserves = kept_claims(document, every, [](Claim /*claim*/) { return ""; });
   }
-  require_claimable(head.descriptor.preserves, head.descriptor.name);
   document.finish();
   if (state == MapState::canonical)
     return std::make_unique<MapTable<SeparableMap>>(head.descriptor, document, settings,

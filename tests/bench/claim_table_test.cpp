@@ -17,7 +17,6 @@ namespace pfaff {
 namespace {
 
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 std::shared_ptr<const Model> model_of(std::string_view name, const Assignments& parameters = {}) {
   return systems().get(name, "system").make(parameters);
@@ -33,8 +32,7 @@ TEST(ClaimTable, EveryClaimHasItsMeasures) {
 
 std::vector<Claim> all_claims() {
   std::vector<Claim> claims;
-  for (const ClaimRow& row : claim_table)
-    if (!row.foreseen) claims.push_back(row.claim);
+  for (const ClaimRow& row : claim_table) claims.push_back(row.claim);
   return claims;
 }
 
@@ -232,31 +230,6 @@ TEST(ClaimTable, EntropyMayGrow) {
     EXPECT_EQ(check.result, CheckResult::pass) << check.precision << ' ' << check.measured;
 }
 
-template <class F>
-std::string refusal_of(F&& f) {
-  try {
-    f();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return {};
-}
-
-TEST(ClaimTable, ForeseenOnesAreRefused) {
-  for (const ClaimRow& row : claim_table) {
-    const Local<Runge> plugin(
-        {.name = "promising", .title = "", .reference = "", .order = 2, .preserves = {row.claim}});
-    const std::string refusal = refusal_of([&] { (void)plugin.make(); });
-    if (!row.foreseen) {
-      EXPECT_EQ(refusal, "") << row.name;
-      continue;
-    }
-    EXPECT_THAT(refusal, HasSubstr("integrator promising claims " + std::string(row.name) +
-                                   ", which has no check yet; expected none or some of symplectic, "));
-    EXPECT_THAT(refusal, Not(HasSubstr("\n")));
-  }
-}
-
 TEST(ClaimTable, OrdersThatAreNotPositiveFail) {
   for (const int order : {0, -1, 2, 3}) {
     const Local<Runge> plugin(
@@ -281,7 +254,7 @@ TEST(ClaimTable, TheDocumentationListsEachClaim) {
   std::string table = "| claim | meaning | speaks of |\n|---|---|---|\n";
   for (const ClaimRow& row : claim_table)
     table += "| `" + std::string(row.name) + "` | " + std::string(row.meaning) + " | " +
-             std::string(row.scope) + (row.foreseen ? "; foreseen, not to be claimed yet" : "") + " |\n";
+             std::string(row.scope) + " |\n";
   EXPECT_NE(page.find("\n\n" + table + "\n"), std::string::npos)
       << "docs/verification.md: expected the list of claims as\n"
       << table;
