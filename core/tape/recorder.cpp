@@ -187,17 +187,17 @@ int Recorder::slot_of(const Recorded& x) {
 }
 
 Recorded Recorder::append(const Instruction& instruction) {
-  const auto [where, added] = known_.try_emplace(instruction, static_cast<int>(code_.size()));
-  if (added) code_.push_back(instruction);
-  return {this, where->second};
+  if (const int known = known_.find(instruction, code_); known != InstructionIndex::none)
+    return {this, known};
+  const int added = static_cast<int>(code_.size());
+  code_.push_back(instruction);
+  known_.add(added, code_);
+  return {this, added};
 }
 
 Recorded Recorder::append_sine(int argument, bool cosine) {
-  const auto known = known_.find({Operation::sine, argument, 0, 0});
-  int slot = 0;
-  if (known != known_.end()) {
-    slot = known->second;
-  } else {
+  int slot = known_.find({Operation::sine, argument, 0, 0}, code_);
+  if (slot == InstructionIndex::none) {
     slot = append({Operation::sine, argument, 0, 0}).slot();
     append({Operation::cosine, argument, 0, 0});
   }

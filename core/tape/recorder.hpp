@@ -7,10 +7,10 @@
 #include <concepts>
 #include <cstddef>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include <pfaff/core/numbers/functions.hpp>
+#include <pfaff/core/tape/instruction_index.hpp>
 #include <pfaff/core/tape/tape.hpp>
 
 namespace pfaff {
@@ -89,19 +89,12 @@ class Recorder {
   Tape finish(std::span<const Recorded> outputs);
 
  private:
-  struct Hash {
-    std::size_t operator()(const Instruction& i) const {
-      std::size_t h = static_cast<std::size_t>(i.operation);
-      for (const int k : {i.a, i.b, i.c}) h = h * 1000003U + static_cast<std::size_t>(k);
-      return h;
-    }
-  };
   int inputs_;
   int time_slot_ = 0;
   std::vector<Instruction> code_;
   std::vector<Real> constants_;
   std::vector<LinearSystem> solves_;
-  std::unordered_map<Instruction, int, Hash> known_;
+  InstructionIndex known_;
 };
 
 /// Records formula(t, z, outputs) with `inputs` state variables and `outputs` results.
