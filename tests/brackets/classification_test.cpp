@@ -2,6 +2,8 @@
 // and where plain orders break down and why.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include <pfaff/brackets/dirac/classification.hpp>
 #include <pfaff/core/errors/errors.hpp>
 
@@ -248,6 +250,30 @@ TYPED_TEST(Classes, RedundantConstraintsAreNamed) {
             "pivots: {phi1, phi2} = 1\n"
             "phi4 is first class: phi4 has vanishing brackets with every constraint\n"
             "phi3 is redundant: the gradient of phi3 - 2 phi1 + 3 phi2 vanishes");
+}
+
+// Gradients that differ by e = 2^-27 in directions of their own are nearly parallel, so that one pass of
+// orthogonalisation leaves the differences at angles that are off by the unit round-off over e. A row along
+// the differences that is as long as the others, and depends on them exactly, then keeps a rest of that size.
+TEST(Classification, NearlyParallelRowsAreMadeOrthogonalToRoundOff) {
+  const double e = std::ldexp(1.0, -27), u = std::ldexp(1.0, -53);
+  Matrix<double> rows(4, 4);
+  for (std::size_t k = 0; k < 3; ++k) {
+    rows(k, 0) = 1;
+    rows(k, k + 1) = e;
+  }
+  rows(3, 1) = rows(3, 2) = 1;  // (first + second - 2 third)/e
+  rows(3, 3) = -2;
+  const auto found = independent_rows(rows, 64 * u);
+  EXPECT_EQ(found.independent, (Indices{0, 1, 2}));
+  ASSERT_EQ(found.dependent, Indices{3});
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_NEAR(found.combinations[0][k] * e, k < 2 ? -1 : 2, u / e)
+        << k;  // the condition of the rows is 1/e
+  // Control: what is off by more than round-off is independent.
+  rows(3, 3) = -2 + 1e-12;
+  rows(3, 0) = 1e-12;
+  EXPECT_EQ(independent_rows(rows, 64 * u).independent, (Indices{0, 1, 2, 3}));
 }
 
 TEST(Classification, FirstClassCombinationsAreNamed) {

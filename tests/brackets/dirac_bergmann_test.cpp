@@ -233,6 +233,20 @@ TEST(DiracBergmann, RedundantPrimaryConstraintsAreNamed) {
       << describe(result);
 }
 
+// The constraint p1 is kept in time if p1 + e p2 vanishes. What the second adds is a thousand units of
+// round-off, which is no rounding error of a gradient with exact entries, and then one unit, which may be.
+TEST(DiracBergmann, NearlyParallelConditionsAreConstraints) {
+  for (const int digits : {42, 52}) {
+    const Real e = Real::fraction(1, std::int64_t{1} << digits);
+    const auto system = constrained(
+        4, {"first"}, [e](Arguments z) { return z[0] * (z[2] + Recorded(e) * z[3]); },
+        [](const Recorded& /*t*/, Arguments z, Results out) { out[0] = z[2]; });
+    const auto result = dirac_bergmann<double>(system, 0.0, std::vector<double>{1, 2, 0, 0});
+    ASSERT_EQ(result.closure, ConstraintClosure::closed);
+    EXPECT_EQ(result.constraints.size(), digits == 42 ? 2U : 1U);
+  }
+}
+
 // q = t: p = 1 follows, as the explicit time derivative says.
 TEST(DiracBergmann, ConstraintsThatDependOnTime) {
   const auto system = constrained(

@@ -88,6 +88,16 @@ TEST(Degeneracy, KernelInTheCoordinates) {
   EXPECT_GT(near.condition, 1e8);
 }
 
+// dz1 ^ dz3 + (1 + e) dz2 ^ dz4 + dz1 ^ dz4 + dz2 ^ dz3: entries of one size, so that no choice of units
+// helps, and a smallest singular value of e/2.
+TEST(Degeneracy, IsJudgedByRoundOff) {
+  const auto near = [](double e) {
+    return degeneracy(matrix<double>(4, {0, 0, 1, 1, 0, 0, 1, 1 + e, -1, -1, 0, 0, -1, -1 - e, 0, 0}));
+  };
+  EXPECT_TRUE(near(0x1p-46).regular);
+  EXPECT_FALSE(near(0x1p-51).regular);
+}
+
 TEST(Degeneracy, WhatIsNotFiniteIsNotRegular) {
   const auto broken = degeneracy(matrix<double>(2, {0, -NAN, 1, 0}));
   EXPECT_FALSE(broken.regular);
