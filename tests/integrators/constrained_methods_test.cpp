@@ -151,11 +151,10 @@ TEST(ConstrainedMethods, ShakeHasThePositionsOfRattle) {
 TEST(ConstrainedMethods, LincsComesNearerWithEveryPowerAndCorrection) {
   const auto on = model("n-pendulum", {{"bobs", "3"}});
   double last = 1;
-  for (const char* expansion : {"1", "4", "16"}) {
-    const auto result =
-        run<double>(*method("lincs", {{"expansion", expansion}, {"iterations", "3"}}), on, 0.001, 50);
-    const double residual = largest_residual<double>(*on, 0.05, result.z);
-    EXPECT_LT(residual, last / 3) << expansion;
+  for (const int expansion : {0, 1, 4, 16}) {
+    const auto lincs = method("lincs", {{"expansion", std::to_string(expansion)}, {"iterations", "3"}});
+    const double residual = largest_residual<double>(*on, 0.05, run<double>(*lincs, on, 0.001, 50).z);
+    EXPECT_LT(residual, last / (expansion == 1 ? 1.5 : 3)) << expansion;  // one power more, or several
     last = residual;
   }
   const auto exact =

@@ -132,6 +132,15 @@ TYPED_TEST(LagrangianTransformationTest, WrongOnesAreNamed) {
          1, "block (");
 }
 
+// A damping rate that is off by fifty times the tolerance, which is a hundred units of round-off.
+TYPED_TEST(LagrangianTransformationTest, SmallMistakesAreNoRoundOff) {
+  const Quad off = Quad(6400) * Quad(unit_roundoff<TypeParam>());
+  const DampedAlpha nearly{.nu = Real(Quad(3) / Quad(10) + off)};
+  const auto check = check_lagrangian(recorded(nearly), damped_structure(), points<TypeParam>());
+  EXPECT_FALSE(check.holds);
+  EXPECT_LE(check.residual, 4 * static_cast<double>(off));
+}
+
 TYPED_TEST(LagrangianTransformationTest, BadPointsAreNotSilent) {
   auto bad = points<TypeParam>();
   bad[1].new_z[0] = TypeParam(-1);  // its logarithm is not a number

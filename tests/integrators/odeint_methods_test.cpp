@@ -1,0 +1,27 @@
+// Boost.Odeint's steppers as registered methods.
+#include <gtest/gtest.h>
+
+#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/system.hpp>
+
+namespace {
+using namespace pfaff;
+
+// dopri5 keeps the last slope of a step for the next one, which is another where the state has been changed
+// in between.
+TEST(OdeintMethods, AStepDependsOnItsOwnStateAlone) {
+  const auto model = systems().get("henon-heiles", "system").make({});
+  for (const char* name : {"odeint-rk4", "odeint-dopri5", "odeint-mclachlan"}) {
+    const auto method = integrators().get(name, "integrator").make({});
+    const auto used = method->stepper(model, double()), fresh = method->stepper(model, double());
+    std::vector<double> z{0.1, -0.2, 0.3, 0.05};
+    std::int64_t completed = 0;
+    ASSERT_EQ(used->advance(0, 0, 0.1, 3, z, completed), Status::converged) << name;
+    const std::vector<double> elsewhere{-0.3, 0.1, 0.2, 0.4};
+    std::vector<double> after_others = elsewhere, alone = elsewhere;
+    ASSERT_EQ(used->advance(0, 3, 0.1, 1, after_others, completed), Status::converged) << name;
+    ASSERT_EQ(fresh->advance(0, 3, 0.1, 1, alone, completed), Status::converged) << name;
+    EXPECT_EQ(after_others, alone) << name;
+  }
+}
+}  // namespace
