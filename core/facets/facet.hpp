@@ -18,8 +18,8 @@ enum class Facet : unsigned {
   count
 };
 
-/// A facet's name in the program's output, what it says of a system, and the member of an author's struct that
-/// belongs to it and is no formula, where there is one.
+/// A facet's name in the program's output, what it says of a system, and the member of an author's struct
+/// that belongs to it and is no formula, where there is one.
 struct FacetRow {
   std::string_view name, meaning, operation{};
 };

@@ -1,5 +1,5 @@
 // The flow of Kepler's problem, q'' = -mu q/|q|^3, from any state for any time, in universal variables
-// (battin1999 section 4.5; danby1992 section 6.9). Ellipses, parabolas and hyperbolas are one case.
+// (battin1999 section 4.5). Ellipses, parabolas and hyperbolas are one case.
 //
 // With ds = dt/r, beta = 2 mu/r0 - v0^2, eta = q0.v0 and the functions G_k(s) = s^k c_k(beta s^2) of Stumpff,
 // c_k(x) = 1/k! - x/(k + 2)! + x^2/(k + 4)! - ..., time and distance are
@@ -11,18 +11,18 @@
 //   f - 1 = -mu G_2/r0,   g = r0 G_1 + eta G_2,   f' = -mu G_1/(r0 r),   g' - 1 = -mu G_2/r.
 //
 // Three choices keep rounding errors from adding up in the energy. What is computed is the change of the
-// state, from f - 1 and g' - 1, so that a short flow is wrong by round-off of the change and not of the state.
-// g is made of G_1 and G_2, and not as h - mu G_3: an s that is not quite the solution then gives a state that
-// is early or late on the right orbit. And nothing is divided by beta where it is small: there the G_k are
-// series, and so are short flows of every orbit.
+// state, from f - 1 and g' - 1, so that a short flow is wrong by round-off of the change and not of the
+// state. g is made of G_1 and G_2, and not as h - mu G_3: an s that is not quite the solution then gives a
+// state that is early or late on the right orbit. And nothing is divided by beta where it is small: there the
+// G_k are series, and so are short flows of every orbit.
 //
 // The equation for s has one root, since dh/ds = r > 0. Laguerre's method of degree 5 finds it (conway1986),
 // inside a bracket that halves where a step would leave it, so that it converges from any state and time. Of
 // ellipses whole periods are taken off the time first. The last digits are Newton's, in the scalar itself,
 // which for a dual number gives the derivative of the root.
 //
-// Limits: the phase after many periods is as good as the period, which is wrong by some round-off in each; and
-// close to a collision as good as 1/r.
+// Limits: the phase after many periods is as good as the period, which is wrong by some round-off in each;
+// and close to a collision as good as 1/r.
 #pragma once
 
 #include <array>
@@ -88,24 +88,27 @@ UniversalFunctions<T> universal_functions(const T& beta, const T& s) {
 
 namespace detail {
 
-/// The root s > 0 of r0 G_1 + eta G_2 + mu G_3 = h for h > 0, to round-off; `status` says where it was not
-/// found.
+/// The root s > 0 of r0 G_1 + eta G_2 + mu G_3 = h for h > 0, to round-off, and in `g` the functions there;
+/// `status` says where it was not found.
 template <class V>
 V universal_anomaly(const V& r0, const V& eta, const V& zeta, const V& mu, const V& beta, const V& h,
-                    const V& largest, Status& status) {
+                    const V& largest, UniversalFunctions<V>& g, Status& status) {
   constexpr int most_iterations = 200;  // bisection alone takes 113 for a quad
   const V unit = unit_roundoff<V>();
   V low(0), high = largest;  // not bounded where `largest` is zero
   bool bounded = largest > V(0);
   V s = h / r0;
-  // To the second order in h, where that is between half and twice as large.
-  if (const V bent = s * (V(1) - eta * s / (V(2) * r0)); bent > s / V(2) && bent < V(2) * s) s = bent;
+  // To the third order in h where that is near the first.
+  const V bend0 = eta * s / (V(2) * r0), turn = zeta * s * s / (V(6) * r0);
+  if (abs(bend0) + abs(turn) < V(0.25))
+    s = s * (V(1) - bend0 + (V(2) * bend0 * bend0 - turn) + V(5) * bend0 * (turn - bend0 * bend0));
   if (bounded && !(s < high)) s = high / V(2);
   // Of hyperbolas time grows as the exponential of this.
-  if (const V angle = beta < V(0) ? V(sqrt(-beta) * s) : V(0); angle > V(1)) s = s * (V(1) + log(angle)) / angle;
+  if (const V angle = beta < V(0) ? V(sqrt(-beta) * s) : V(0); angle > V(1))
+    s = s * (V(1) + log(angle)) / angle;
   V last = std::numeric_limits<V>::infinity();
   for (int k = 0; k < most_iterations; ++k) {
-    const UniversalFunctions<V> g = universal_functions(beta, s);
+    g = universal_functions(beta, s);
     const V a = r0 * g.g1, b = eta * g.g2, c = mu * g.g3;
     const V value = a + b + c - h, r = r0 + eta * g.g1 + zeta * g.g2,
             bend = eta * (V(1) - beta * g.g2) + zeta * g.g1;
@@ -119,13 +122,13 @@ V universal_anomaly(const V& r0, const V& eta, const V& zeta, const V& mu, const
     if (abs(value) <= V(2) * unit * (a + abs(b) + abs(c) + h + abs(r) * s)) return s;
     (value > V(0) ? high : low) = s;
     bounded = bounded || value > V(0);
-    const V newton = value / r, step = V(5) * newton / (V(1) + sqrt(abs(V(16) - V(20) * newton * (bend / r))));
+    const V newton = value / r,
+            step = V(5) * newton / (V(1) + sqrt(abs(V(16) - V(20) * newton * (bend / r))));
     // What moves s by its last digits only, and no less than before, moves it for ever.
     if (abs(step) <= V(16) * unit * s && !(abs(step) < last)) return s;
     last = abs(step);
     V next = s - step;
-    if (!(next > low) || (bounded && !(next < high)))
-      next = bounded ? (low + high) / V(2) : V(2) * s;
+    if (!(next > low) || (bounded && !(next < high))) next = bounded ? (low + high) / V(2) : V(2) * s;
     if (next == s) return s;
     s = next;
   }
@@ -135,9 +138,10 @@ V universal_anomaly(const V& r0, const V& eta, const V& zeta, const V& mu, const
 
 }  // namespace detail
 
-/// The flow of q'' = -mu q/|q|^3, mu >= 0, for the time h of either sign, in as many dimensions as q has: dq and
-/// dv are the changes of q and v. The status is `not_converged` where the root was not found or the time is
-/// more periods than a double counts, and `non_finite` where the state has no orbit or ends in a collision.
+/// The flow of q'' = -mu q/|q|^3, mu >= 0, for the time h of either sign, in as many dimensions as q has: dq
+/// and dv are the changes of q and v. The status is `not_converged` where the root was not found or the time
+/// is more periods than a double counts, and `non_finite` where the state has no orbit or ends in a
+/// collision.
 template <class T>
 Status kepler_change(const T& mu, const T& h, std::span<const T> q, std::span<const T> v, std::span<T> dq,
                      std::span<T> dv) {
@@ -157,27 +161,36 @@ Status kepler_change(const T& mu, const T& h, std::span<const T> q, std::span<co
   V largest(0);
   if (curve > V(0)) {
     const T root = sqrt(beta), period = T(V(2) * pi) * mu / (beta * root);
-    if (abs(value_of(h)) > value_of(period) / V(2))
-      time = h - T(V(std::nearbyint(static_cast<double>(value_of(h) / value_of(period))))) * period;
-    // So many turns that a double does not count them leave no phase.
-    if (!(abs(value_of(time)) < value_of(period))) return Status::not_converged;
+    if (abs(value_of(h)) > value_of(period) / V(2)) {
+      const double turns = std::nearbyint(static_cast<double>(value_of(h) / value_of(period)));
+      // More turns than a double counts leave no phase.
+      if (!(std::abs(turns) < 0x1p52)) return Status::not_converged;
+      time = h - T(V(turns)) * period;
+    }
     largest = V(2) * pi / value_of(root);
   }
   T s = time / r0;  // to the first order, which is enough for the derivatives at time 0
-  if (value_of(time) != V(0)) {
+  UniversalFunctions<T> u;
+  if (value_of(time) == V(0)) {
+    u = universal_functions(beta, s);
+  } else {
     // A flow backwards is one forwards with the velocity turned.
     const V turned = value_of(time) < V(0) ? V(-1) : V(1);
     Status status = Status::converged;
-    const V root = detail::universal_anomaly<V>(value_of(r0), turned * value_of(eta), value_of(zeta),
-                                                value_of(mu), curve, turned * value_of(time), largest, status);
+    UniversalFunctions<V> found;
+    const V root =
+        detail::universal_anomaly<V>(value_of(r0), turned * value_of(eta), value_of(zeta), value_of(mu),
+                                     curve, turned * value_of(time), largest, found, status);
     if (status != Status::converged) return status;
-    s = T(turned * root);
-    if constexpr (!std::is_same_v<T, V>) {
-      const UniversalFunctions<T> g = universal_functions(beta, s);
-      s = s + (time - (r0 * g.g1 + eta * g.g2 + mu * g.g3)) / (r0 + eta * g.g1 + zeta * g.g2);
+    if constexpr (std::is_same_v<T, V>) {
+      u = {turned * found.g1, found.g2, turned * found.g3};
+    } else {
+      s = T(turned * root);
+      u = universal_functions(beta, s);
+      s = s + (time - (r0 * u.g1 + eta * u.g2 + mu * u.g3)) / (r0 + eta * u.g1 + zeta * u.g2);
+      u = universal_functions(beta, s);
     }
   }
-  const UniversalFunctions<T> u = universal_functions(beta, s);
   const T f = -(mu * u.g2 / r0), pull = mu * u.g3;
   T g = r0 * u.g1 + eta * u.g2;
   // Fast bodies that come in and go out again in one flow: the two terms cancel, and the orbit is nearly

@@ -137,9 +137,9 @@ std::vector<OrderCondition> near_integrable_conditions(const std::vector<Partial
       if (degree > orders[std::min(std::max<std::size_t>(perturbed, 1), orders.size()) - 1]) continue;
       Quad residual = log[word];
       if (degree == 1) residual -= Quad(1);
-      conditions.push_back({"the Lie word " + name_of(words, word, {"A", "B"}) +
-                                (degree == 1 ? " = 1" : " = 0"),
-                            degree, residual, std::max(Quad(1), sizes[word])});
+      conditions.push_back(
+          {"the Lie word " + name_of(words, word, {"A", "B"}) + (degree == 1 ? " = 1" : " = 0"), degree,
+           residual, std::max(Quad(1), sizes[word])});
     }
   return conditions;
 }

@@ -1,10 +1,10 @@
-// Splittings of systems whose field is a sum of parts that are solved exactly: a step is a sequence of flows of
-// the parts, for lengths in units of the step.
+// Splittings of systems whose field is a sum of parts that are solved exactly: a step is a sequence of flows
+// of the parts, for lengths in units of the step.
 //
 // Of two parts, A and the perturbation B, the lengths are those of a scheme (near_integrable_schemes.hpp). Of
-// more parts there is the scheme strang: half steps of all parts but the perturbation in their order, a step of
-// the perturbation, and the half steps in the opposite order. Each flow keeps the structure of the system, and
-// so does a step; for planets strang is the map of wisdom-holman1991.
+// more parts there is the scheme strang: half steps of all parts but the perturbation in their order, a step
+// of the perturbation, and the half steps in the opposite order. Each flow keeps the structure of the system,
+// and so does a step; for planets strang is the map of wisdom-holman1991.
 #include <algorithm>
 
 #include <pfaff/core/integrator.hpp>
@@ -109,8 +109,8 @@ struct ExactFlowSplitting {
   template <class P>
   Status flow(const P& p, std::size_t part, const Scalar<P>& length, State<P>& z, Work<P>& w) const {
     using T = Scalar<P>;
-    const Status status = p.part_flow(part, length, In<T>(z.data(), z.size()),
-                                      Out<T>(w.change.data(), w.change.size()));
+    const Status status =
+        p.part_flow(part, length, In<T>(z.data(), z.size()), Out<T>(w.change.data(), w.change.size()));
     if (status != Status::converged) return status;
     for (std::size_t i = 0; i < z.size(); ++i) add_to(z[i], w.carry[i], w.change[i], compensated);
     return status;
@@ -121,7 +121,7 @@ const Method<ExactFlowSplitting> splitting{
     {.name = "exact-flow-splitting",
      .title = "splittings into parts that are solved exactly: Wisdom-Holman, (8, 2), (8, 4), (10, 6, 4), "
               "correctors",
-     .reference = "wisdom-holman1991; wisdom-holman-touma1996; mclachlan1995; laskar-robutel2001; "
+     .reference = "wisdom-holman1991; wisdom-holman-touma1996; mclachlan1995small; laskar-robutel2001; "
                   "blanes-casas-farres-laskar-makazaga-murua2013",
      .description =
          "Exact flows of the parts of a system in turn: explicit and symplectic. Take it where one part is "

@@ -24,12 +24,13 @@ struct NBody : Gravitation<NBody> {
   Real attraction = 1, length = 0, central = 1;
   static std::vector<Parameter> parameters() {
     using S = NBody;
-    return {parameter(&S::count, "bodies", "", 2, 10000, "number of bodies"),
-            parameter(&S::axes, "dimension", "", 2, 3, "of space"),
-            parameter(&S::attraction, "gravitation", "", 0, 1e6, "constant of gravitation"),
-            parameter(&S::length, "softening", "", 0, 1e3, "length that is added to distances by squares"),
-            parameter(&S::central, "central", "", 1, 1e12, "mass of the first body, in that of each other one"),
-            parameter(&S::seed, "seed", "", 0, 1000000000, "of the state at the start; 0: a turning circle")};
+    return {
+        parameter(&S::count, "bodies", "", 2, 10000, "number of bodies"),
+        parameter(&S::axes, "dimension", "", 2, 3, "of space"),
+        parameter(&S::attraction, "gravitation", "", 0, 1e6, "constant of gravitation"),
+        parameter(&S::length, "softening", "", 0, 1e3, "length that is added to distances by squares"),
+        parameter(&S::central, "central", "", 1, 1e12, "mass of the first body, in that of each other one"),
+        parameter(&S::seed, "seed", "", 0, 1000000000, "of the state at the start; 0: a turning circle")};
   }
   static std::vector<Assignments> instances(bool full) {
     const Assignments cloud{{"bodies", "7"}, {"dimension", "3"}, {"softening", "0.1"}, {"seed", "1"}};
@@ -110,7 +111,8 @@ struct NBody : Gravitation<NBody> {
     std::vector<Real> z(2 * half);
     Real radius = 1;
     for (std::size_t i = 1; i < n; ++i, radius = radius + Real::fraction(1, 2)) {
-      const Real angle = Real(static_cast<int>(2 * i)), inner = (central + Real(static_cast<int>(i))) / whole();
+      const Real angle = Real(static_cast<int>(2 * i)),
+                 inner = (central + Real(static_cast<int>(i))) / whole();
       const Real speed = sqrt(attraction * inner / radius);
       z[i] = radius * cos(angle);
       z[n + i] = radius * sin(angle);
@@ -129,7 +131,8 @@ const System<NBody> registered{
      .reference = "aarseth1963",
      .description =
          "Any number of bodies of total mass one under their attraction, in a plane or in space, with "
-         "softened distances where wanted: all equal, or about a heavier first one (central). Take it to see how methods and costs grow with the number of "
+         "softened distances where wanted: all equal, or about a heavier first one (central). Take it to see "
+         "how methods and costs grow with the number of "
          "bodies: an evaluation takes n (n - 1)/2 square roots. Without softening, "
          "random starts lead to close encounters, which steps of one size do not resolve.",
      .time_unit = ""}};

@@ -1,10 +1,10 @@
 // The splitting H = A + B of n bodies that attract each other into Kepler orbits about the bodies before them
 // and an interaction (wisdom-holman1991; rein-tamayo2015), each solved exactly.
 //
-// Of body i let R_i and P_i be the centre of mass and the momentum of the bodies 0, ..., i, and M_i their mass.
-// Jacobi's coordinates, which are canonical, are those of body i relative to the bodies before it,
-// r_i = q_i - R_(i-1), with the velocity v_i = p_i/m_i - P_(i-1)/M_(i-1), and those of the centre of mass of
-// all. In them the kinetic energy has no products of different bodies, and
+// Of body i let R_i and P_i be the centre of mass and the momentum of the bodies 0, ..., i, and M_i their
+// mass. Jacobi's coordinates, which are canonical, are those of body i relative to the bodies before it, r_i
+// = q_i - R_(i-1), with the velocity v_i = p_i/m_i - P_(i-1)/M_(i-1), and those of the centre of mass of all.
+// In them the kinetic energy has no products of different bodies, and
 //
 //   A = |P|^2/(2 M) + sum_(i > 0) [m_i' |v_i|^2/2 - G m_i M_(i-1)/|r_i|],   m_i' = m_i M_(i-1)/M_i
 //
@@ -22,7 +22,7 @@
 //
 //   r_i/|r_i|^3 - r/|r|^3 = (d - F r_i)/|r|^3,   F = 1 - (1 + w)^(-3/2),
 //
-// in which nothing is subtracted that is alike (battin1999 section 8.4 (Encke's method)).
+// in which nothing is subtracted that is alike (battin1999).
 #pragma once
 
 #include <array>
@@ -38,8 +38,8 @@ namespace pfaff {
 namespace planetary {
 inline constexpr std::size_t kepler = 0, interaction = 1;
 
-/// The flow of the Kepler part: writes the change of all positions and momenta, which stand by direction as in
-/// Gravitation. `mass(i)` is the mass of body i, `constant` that of gravitation.
+/// The flow of the Kepler part: writes the change of all positions and momenta, which stand by direction as
+/// in Gravitation. `mass(i)` is the mass of body i, `constant` that of gravitation.
 template <class T, class Mass>
 Status kepler_part(const Mass& mass, const T& constant, std::size_t n, std::size_t d, const T& h, In<T> z,
                    Out<T> change) {
@@ -58,9 +58,9 @@ Status kepler_part(const Mass& mass, const T& constant, std::size_t n, std::size
       r[x] = z[x * n + i] - centre[x];
       v[x] = z[half + x * n + i] / own - total[x] / inner;
     }
-    const Status status =
-        kepler_change<T>(T(constant * outer), h, std::span<const T>(r.data(), d),
-                         std::span<const T>(v.data(), d), std::span<T>(dr.data(), d), std::span<T>(dv.data(), d));
+    const Status status = kepler_change<T>(T(constant * outer), h, std::span<const T>(r.data(), d),
+                                           std::span<const T>(v.data(), d), std::span<T>(dr.data(), d),
+                                           std::span<T>(dv.data(), d));
     if (status != Status::converged) return status;
     const T share = own / outer, reduced = own * inner / outer;
     for (std::size_t x = 0; x < d; ++x) {
@@ -98,8 +98,8 @@ Status kepler_part(const Mass& mass, const T& constant, std::size_t n, std::size
 
 /// The flow of the interaction: no change of positions, and h times the force -dB/dq of momenta.
 template <class T, class Mass>
-Status interaction_part(const Mass& mass, const T& constant, std::size_t n, std::size_t d, const T& h, In<T> z,
-                        Out<T> change) {
+Status interaction_part(const Mass& mass, const T& constant, std::size_t n, std::size_t d, const T& h,
+                        In<T> z, Out<T> change) {
   const std::size_t half = n * d;
   for (std::size_t k = 0; k < 2 * half; ++k) change[k] = T(0);
   const T scale = h * constant;
@@ -125,8 +125,7 @@ Status interaction_part(const Mass& mass, const T& constant, std::size_t n, std:
     const T near_cube = T(1) / (square * sqrt(square)), far_cube = T(1) / (far * sqrt(far));
     for (std::size_t x = 0; x < d; ++x) {
       const T difference = (way[x] - shrunk * jacobi[x]) * near_cube, pull = jacobi[x] * far_cube;
-      change[half + x * n + i] =
-          change[half + x * n + i] + strength * (mass(0) * difference + others * pull);
+      change[half + x * n + i] = change[half + x * n + i] + strength * (mass(0) * difference + others * pull);
       change[half + x * n] = change[half + x * n] - strength * mass(0) * difference;
       for (std::size_t j = 1; j < i; ++j)
         change[half + x * n + j] = change[half + x * n + j] - strength * mass(j) * pull;
