@@ -112,6 +112,10 @@ nlohmann::json describe_system(const SystemPlugin& plugin) {
   j["invariants"] = nlohmann::json::array();
   for (const Invariant& i : model->invariants())
     j["invariants"].push_back({{"name", i.name}, {"unit", i.unit}, {"expected", to_string(i.behaviour)}});
+  if (!model->part_names().empty()) {
+    j["parts"] = model->part_names();
+    if (const auto small = model->small_part()) j["small_part"] = model->part_names()[*small];
+  }
   if (model->restricted()) {
     j["constraints"] = model->constraint_names();
     j["formulations"] = formulations_of(model);

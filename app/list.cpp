@@ -86,6 +86,8 @@ nlohmann::json facet_list() {
     for (const FormulaRow& row : formula_table)
       if (row.traits.offered_by.has(facet) || row.traits.part_of.has(facet))
         j["formulas"].push_back({{"name", row.name}, {"written", row.written}});
+    if (const std::string_view operation = facet_table[k].operation; !operation.empty())
+      j["formulas"].push_back({{"name", operation}, {"written", operation}});
     j["offered_by"] =
         names_where(systems(), [&](const SystemPlugin& s) { return offered[s.name()].has(facet); });
     j["needed_by"] =

@@ -94,6 +94,10 @@ std::vector<Check> check_metriplectic(const std::string& name, const Model& mode
 /// the field round, d rho X = -X o rho.
 std::vector<Check> check_reversal(const std::string& name, const Model& motion,
                                   const std::vector<Real>& centre);
+/// Checks of a system with parts that are solved exactly, at a state: the flow of each part is a group and
+/// keeps the structure of the system, and the derivatives of the flows at time zero add up to its field.
+std::vector<Check> check_flows(const std::string& name, const std::shared_ptr<const Model>& model,
+                               const std::vector<Real>& centre);
 /// Symmetry and Jacobi identity of a bracket with these parameters.
 std::vector<Check> check_bracket(const BracketPlugin& plugin, const Assignments& parameters);
 /// The parameters that a bracket is verified with: the defaults, and each choice it offers.
@@ -111,6 +115,8 @@ std::vector<Check> check_false_constraints();
 std::vector<Check> check_false_metriplectic();
 /// Controls: reversals that are wrong by 1e-6 and so no involution, or that do not turn the field round.
 std::vector<Check> check_false_reversals();
+/// Controls: flows that are no group, do not add up to the field, or do not keep the structure, by 1e-6.
+std::vector<Check> check_false_flows();
 /// Controls: a method with a false claim of every kind, and the scheme su-qin (105) as printed, which has a
 /// misprint.
 std::vector<Check> check_false_methods();

@@ -175,6 +175,8 @@ std::vector<Check> check_system(const SystemPlugin& plugin, const Assignments& p
   if (model->facets().has(Facet::exact_solution)) exact_solution(checks, plugin, *motion, centre, onto);
   if (model->given(Formula::reversal))
     for (Check& check : check_reversal(plugin.name(), *motion, centre)) checks.push_back(std::move(check));
+  if (model->facets().has(Facet::exact_flows))
+    for (Check& check : check_flows(plugin.name(), model, centre)) checks.push_back(std::move(check));
   for (Check& check : checks) check.parameters = parameters;
   return checks;
 }

@@ -51,10 +51,10 @@ struct Job {
 constexpr int most_formulated = 8;
 
 // The system on which the controls of a method run. It has to be nonlinear and to fit: the damped pendulum
-// for chart methods, the pendulum for other motions, and for methods that need constraints the contact
-// oscillator where these are of velocities, else the spherical pendulum.
+// for chart methods, the pendulum for other motions, henon-heiles for exact flows of parts, and for methods
+// that need constraints the contact oscillator where these are of velocities, else the spherical pendulum.
 std::string controlled_on(const MethodInstance& method) {
-  for (const char* name : {"damped-pendulum", "pendulum"})
+  for (const char* name : {"damped-pendulum", "pendulum", "henon-heiles"})
     if (method.refuses(*systems().get(name, "").make({})).empty()) return name;
   return method.needs().has(Facet::velocity_constraints) ? "contact-oscillator" : "spherical-pendulum";
 }
@@ -156,6 +156,7 @@ class Jobs {
       jobs_.push_back({"false constraints", check_false_constraints});
       jobs_.push_back({"false metriplectic systems", check_false_metriplectic});
       jobs_.push_back({"false reversals", check_false_reversals});
+      jobs_.push_back({"false flows", check_false_flows});
     }
     if (wanted("integrators") || wanted("controls")) jobs_.push_back({"false methods", check_false_methods});
   }

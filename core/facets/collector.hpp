@@ -9,6 +9,7 @@
 #include <memory>
 
 #include <pfaff/core/facets/compiled_series.hpp>
+#include <pfaff/core/facets/exact_flows.hpp>
 #include <pfaff/core/facets/model.hpp>
 #include <pfaff/core/facets/system_formulas.hpp>
 
@@ -103,6 +104,12 @@ class Collector {
       });
     if constexpr (WritesConstraintEvaluator<S>)
       source_.holonomic = std::make_shared<const HolonomicFactoryOf<S>>(system_);
+    // A part count of zero means that with these parameters there are no parts to be solved exactly.
+    if constexpr (WritesPartFlow<S>)
+      if (sizes_.parts > 0) {
+        source_.flows = std::make_shared<const ExactFlowsFactoryOf<S>>(system_);
+        if constexpr (WritesSmallPart<S>) source_.small_part = S::small_part;
+      }
     if (source_.canonical && !writes<S, chart>) compile_identity_chart();
     if constexpr (CompilesChartField<S>)
       if (writes<S, chart_field> || !writes<S, chart>) compile_chart_field();

@@ -51,11 +51,13 @@ constexpr bool serve_facets(const Rows& rows) {
       return false;
   return true;
 }
-// A facet without a formula could neither be offered nor asked for.
+// A facet with neither a formula nor an operation could neither be offered nor asked for.
 template <class Rows>
 constexpr bool serve_every_facet(const Rows& rows) {
   unsigned served = 0;
   for (const FormulaRow& row : rows) served |= row.traits.offered_by.bits | row.traits.part_of.bits;
+  for (std::size_t k = 0; k < facet_table.size(); ++k)
+    if (!facet_table[k].operation.empty()) served |= 1U << k;
   return served == FacetSet::all().bits;
 }
 }  // namespace detail

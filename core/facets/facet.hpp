@@ -18,13 +18,14 @@ enum class Facet : unsigned {
   count
 };
 
-/// A facet's name in the program's output, and what it says of a system.
+/// A facet's name in the program's output, what it says of a system, and the member of an author's struct
+/// that belongs to it and is no formula, where there is one.
 struct FacetRow {
-  std::string_view name, meaning;
+  std::string_view name, meaning, operation{};
 };
 
 inline constexpr std::array<FacetRow, static_cast<std::size_t>(Facet::count)> facet_table{{
-#define PFAFF_FACET(name, text, meaning) {text, meaning},
+#define PFAFF_FACET(name, ...) {__VA_ARGS__},
 #include <pfaff/core/facets/formula_rows.hpp>
 }};
 

@@ -6,7 +6,9 @@
 // (system_formulas.hpp), how it is recorded (collector.hpp), the members of a problem (problem.hpp), the
 // names of constraints (model.hpp).
 //
-//   PFAFF_FACET(name, "text", "meaning")
+//   PFAFF_FACET(name, "text", "meaning", "operation")
+//       the operation, where there is one, is a member of the author's struct that belongs to the facet and is
+//       no formula, because it iterates or may fail
 //   PFAFF_COUNT(name, member, names, "letter")
 //       a number that sizes are made of, the author's constant or member function `member`; what is counted
 //       is called by the author's `names()`, or by the letter and a number
@@ -62,9 +64,11 @@ PFAFF_FACET(velocity_constraints, "velocity-constraints", "canonical, with const
 PFAFF_FACET(metriplectic, "metriplectic", "an energy with two brackets, Poisson's and a symmetric one; an entropy or none")
 PFAFF_FACET(invariants, "invariants", "named quantities with their expected behaviour")
 PFAFF_FACET(exact_solution, "exact-solution", "the flow in closed form")
+PFAFF_FACET(exact_flows, "exact-flows", "X is a sum of parts X_k(z), each of which is solved exactly", "part_flow")
 
 PFAFF_COUNT(constraints, constraint_count, constraint_names, "phi")
 PFAFF_COUNT(velocity_constraints, velocity_constraint_count, velocity_constraint_names, "psi")
+PFAFF_COUNT(parts, part_count, part_names, "part-")
 
 // The vector field X and dX_i / dz_j, row-major.
 PFAFF_MAP(field, z, n, rate, n, .compiled = true, .offered_by = facets(Facet::vector_field), .counts = Counts::field)

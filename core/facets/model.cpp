@@ -42,6 +42,7 @@ FacetSet Model::content_of_formulas() const {
     offer(Facet::velocity_constraints);
   if (!source_.invariants.empty()) offer(Facet::invariants);
   if (has(Formula::exact_solution)) offer(Facet::exact_solution);
+  if (source_.flows != nullptr) offer(Facet::exact_flows);
   return content;
 }
 
@@ -122,6 +123,11 @@ const VelocityFactory& Model::velocity_factory() const {
     velocity_ = std::make_shared<const JoinedVelocityFactory>(source_.holonomic, record_joined(*this));
   if (velocity_ == nullptr) velocity_ = std::make_shared<const TapedVelocityFactory>(record_velocity(*this));
   return *velocity_;
+}
+
+const ExactFlowsFactory& Model::flows_factory() const {
+  if (source_.flows == nullptr) throw std::logic_error("system " + name() + " has no parts with exact flows");
+  return *source_.flows;
 }
 
 PivotPairs Model::pivots_of_structure() const {

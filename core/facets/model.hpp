@@ -19,6 +19,7 @@
 #include <vector>
 
 #include <pfaff/core/facets/evaluator.hpp>
+#include <pfaff/core/facets/exact_flows.hpp>
 #include <pfaff/core/facets/facet.hpp>
 #include <pfaff/core/facets/holonomic.hpp>
 #include <pfaff/core/facets/velocity_constraints.hpp>
@@ -89,6 +90,8 @@ struct ModelSource {
   const CompiledSeries* chart_field_series = nullptr;
   std::array<std::shared_ptr<const FormulaProgram>, formula_count> programs;   // instead of given
   std::shared_ptr<const HolonomicFactory> holonomic;                           // null: from the tapes
+  std::shared_ptr<const ExactFlowsFactory> flows;                              // null: no parts
+  std::optional<std::size_t> small_part;                                       // a perturbation of the others
 #define PFAFF_COUNT(name, member, names, ...) std::vector<std::string> names;  // in the author's order
 #include <pfaff/core/facets/formula_rows.hpp>
   std::optional<bool> autonomous;  // said beforehand where the tapes are too long to be searched for the time
@@ -159,6 +162,16 @@ class Model {
   [[nodiscard]] VelocityPointer<T> velocity_constraints() const {
     return velocity_factory().make_for(std::type_identity<T>());
   }
+  /// The parts of the field that are solved exactly, by their names; empty where there are none.
+  [[nodiscard]] const std::vector<std::string>& part_names() const { return source_.part_names; }
+  /// The part that is a small perturbation of the others, counted from zero; nullopt where its author names
+  /// none.
+  [[nodiscard]] std::optional<std::size_t> small_part() const { return source_.small_part; }
+  /// The flows of the parts for one scalar; std::logic_error where there are none.
+  template <class T>
+  [[nodiscard]] ExactFlowsPointer<T> exact_flows() const {
+    return flows_factory().make_for(std::type_identity<T>());
+  }
   /// True when the canonical bracket on (q, p) is the system's own.
   [[nodiscard]] bool canonical() const { return source_.canonical; }
 
@@ -204,6 +217,7 @@ class Model {
   [[nodiscard]] FacetSet content_of_formulas() const;
   [[nodiscard]] const HolonomicFactory& holonomic_factory() const;
   [[nodiscard]] const VelocityFactory& velocity_factory() const;
+  [[nodiscard]] const ExactFlowsFactory& flows_factory() const;
 
   ModelSource source_;
   FacetSet content_, facets_;

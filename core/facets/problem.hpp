@@ -108,6 +108,25 @@ class Problem {
       velocity_ = model_->velocity_constraints<T>();
     return *velocity_;
   }
+  /// The parts of the field, and the one to be treated as the perturbation: the small part where the author
+  /// names one, else the last.
+  [[nodiscard]] std::size_t parts() const requires(Facets.has(Facet::exact_flows)) {
+    return model_->part_names().size();
+  }
+  [[nodiscard]] std::size_t perturbation() const requires(Facets.has(Facet::exact_flows)) {
+    return model_->small_part().value_or(parts() - 1);
+  }
+  /// change = phi_h(z) - z for the flow of a part (exact_flows.hpp). That of the perturbation counts as a
+  /// right-hand side.
+  Status part_flow(std::size_t part, const T& h, In<T> z, Out<T> change) const
+      requires(Facets.has(Facet::exact_flows)) {
+    if (flows_ == nullptr) [[unlikely]] {
+      flows_ = model_->template exact_flows<T>();
+      counted_ = perturbation();
+    }
+    if (part == counted_) ++counters_.fields;
+    return flows_->change(part, h, z, change);
+  }
   /// State after `elapsed` from z0 at t0: initial = (z0, t0), n + 1 numbers.
   void exact_solution(const T& elapsed, In<T> initial, Out<T> z) const
       requires(Facets.has(Facet::exact_solution)) {
@@ -145,6 +164,8 @@ class Problem {
   mutable std::array<Evaluator<T>, formula_count> evaluators_;
   mutable std::shared_ptr<HolonomicConstraints<T>> holonomic_;
   mutable std::shared_ptr<VelocityConstraints<T>> velocity_;
+  mutable std::shared_ptr<ExactFlows<T>> flows_;
+  mutable std::size_t counted_ = 0;  // the part whose flow counts as a right-hand side
   mutable Counters counters_;
 };
 
@@ -192,6 +213,13 @@ concept HasVelocityConstraints = requires(const P& p, const Scalar<P>& t, State<
   p.velocity_constraints(t, z, z);
   p.velocity_offsets(t, z, z);
   p.nonholonomic();
+};
+
+template <class P>
+concept HasExactFlows = requires(const P& p, const Scalar<P>& h, State<P>& z) {
+  p.parts();
+  p.perturbation();
+  { p.part_flow(std::size_t{0}, h, z, z) } -> std::same_as<Status>;
 };
 
 template <class P>

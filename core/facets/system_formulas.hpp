@@ -25,6 +25,9 @@ constexpr void check_formulas() {
   static_assert(WritesConstraintEvaluator<S> || !NamedConstraintEvaluator::named<S>,
                 "constraint_evaluator: expected template <class T> "
                 "std::unique_ptr<HolonomicConstraints<T>> constraint_evaluator() const");
+  static_assert(WritesPartFlow<S> || !NamedPartFlow::named<S>,
+                "part_flow: expected template <class T> Status part_flow(std::size_t part, const T& h, In<T> "
+                "z, Out<T> change) const");
   static_assert(WritesInitial<S> || !NamedInitial::named<S>,
                 "initial: expected template <class T> void initial(Out<T> z) const");
 
@@ -85,6 +88,11 @@ constexpr void check_formulas() {
                 "bracket, which are missing");
   static_assert(!(names<S, velocity_constraints> && names<S, constraints>),
                 "velocity_constraints stand beside holonomic constraints, or alone: expected no constraints");
+  static_assert(NamedPartFlow::named<S> == counts_parts<S>,
+                "part_count (a static constexpr int or a member function) and part_flow belong together: one "
+                "of them is missing");
+  static_assert(NamedPartFlow::named<S> || !WritesSmallPart<S>,
+                "small_part is written beside part_flow, which is missing");
   static_assert(
       separable || names<S, hamiltonian> || !names<S, symmetric_tensor>,
       "symmetric_bracket is written beside kinetic and potential, or hamiltonian, which are missing");

@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include <pfaff/core/errors/status.hpp>
 #include <pfaff/core/facets/facet.hpp>
 #include <pfaff/core/numbers/functions.hpp>
 #include <pfaff/core/registry/member_names.hpp>
@@ -65,6 +66,9 @@ struct NamedDamping {
 };
 struct NamedConstraintEvaluator {
   PFAFF_LOOK_UP(constraint_evaluator)
+};
+struct NamedPartFlow {
+  PFAFF_LOOK_UP(part_flow)
 };
 struct NamedInitial {
   PFAFF_LOOK_UP(initial)
@@ -224,6 +228,15 @@ concept WritesDamping = requires(const S& s) {
 template <class S>
 concept WritesConstraintEvaluator = requires(const S& s) {
   s.template constraint_evaluator<Recorded>();
+};
+template <class S>
+concept WritesPartFlow = requires(const S& s, std::size_t part, const double& h, In<double> z,
+                                  Out<double> change) {
+  { s.part_flow(part, h, z, change) } -> std::same_as<Status>;
+};
+template <class S>
+concept WritesSmallPart = requires {
+  { S::small_part } -> std::convertible_to<std::size_t>;
 };
 template <class S>
 concept WritesInitial = requires(const S& s, Out<Recorded> o) {

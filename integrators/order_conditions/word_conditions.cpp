@@ -124,6 +124,26 @@ std::vector<OrderCondition> splitting_conditions(const std::vector<PartialFlow>&
   return conditions;
 }
 
+std::vector<OrderCondition> near_integrable_conditions(const std::vector<PartialFlow>& flows,
+                                                       const std::vector<int>& orders) {
+  const int largest = orders.front();
+  const Words words({1, 1}, largest);
+  const Series sizes = product_of(words, flows, true), log = logarithm(product_of(words, flows));
+  std::vector<OrderCondition> conditions;
+  for (int degree = 1; degree <= largest; ++degree)
+    for (const std::size_t word : words.lyndon(degree)) {
+      const std::vector<std::size_t> letters = words.spelt(word);
+      const auto perturbed = static_cast<std::size_t>(std::count(letters.begin(), letters.end(), kick));
+      if (degree > orders[std::min(std::max<std::size_t>(perturbed, 1), orders.size()) - 1]) continue;
+      Quad residual = log[word];
+      if (degree == 1) residual -= Quad(1);
+      conditions.push_back(
+          {"the Lie word " + name_of(words, word, {"A", "B"}) + (degree == 1 ? " = 1" : " = 0"), degree,
+           residual, std::max(Quad(1), sizes[word])});
+    }
+  return conditions;
+}
+
 std::vector<OrderCondition> composition_conditions(const std::vector<Quad>& weights, int order) {
   std::vector<int> degrees;
   std::vector<std::string> letters;

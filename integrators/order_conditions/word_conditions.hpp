@@ -42,6 +42,13 @@ inline constexpr int largest_degree = 12;
 std::vector<OrderCondition> splitting_conditions(const std::vector<PartialFlow>& flows, int order,
                                                  Parts parts = Parts::general);
 
+/// The conditions of generalised order of a splitting for H = A + eps B (near_integrable_schemes.hpp): those
+/// of the words with k letters B up to the degree orders[k - 1], of words with more than orders.size()
+/// letters B up to the last of them, and of the word A. No entry may be larger than largest_degree or than
+/// the one before.
+std::vector<OrderCondition> near_integrable_conditions(const std::vector<PartialFlow>& flows,
+                                                       const std::vector<int>& orders);
+
 /// The conditions of the composition of a symmetric base of order 2 with these weights.
 std::vector<OrderCondition> composition_conditions(const std::vector<Quad>& weights, int order);
 

@@ -7,7 +7,10 @@
 // bodies, every mass and every state is here: energies, forces, velocities and the invariants energy,
 // momentum and angular momentum.
 //
-// Forces go through the pairs once, n (n - 1)/2 square roots and divisions, and allocate nothing.
+// Forces go through the pairs once, n (n - 1)/2 square roots and divisions, and allocate nothing. Points are
+// also split into Kepler orbits and their interaction (planetary_splitting.hpp), with any masses; the
+// interaction is small where the first body is much heavier than the others. Softened pulls have no such
+// splitting.
 #pragma once
 
 #include <array>
@@ -15,6 +18,7 @@
 #include <vector>
 
 #include <pfaff/core/facets/model.hpp>
+#include <pfaff/systems/canonical/planetary_splitting.hpp>
 #include <pfaff/systems/canonical/reversed_momenta.hpp>
 
 namespace pfaff {
@@ -73,6 +77,20 @@ class Gravitation {
     const std::size_t n = count();
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t x = 0; x < directions(); ++x) v[x * n + i] = p[x * n + i] / mass<T>(i);
+  }
+  static constexpr std::size_t small_part = planetary::interaction;
+  [[nodiscard]] int part_count() const { return self().softening().is(0) ? 2 : 0; }
+  [[nodiscard]] std::vector<std::string> part_names() const {
+    if (part_count() == 0) return {};
+    return {"Kepler orbits", "interaction"};
+  }
+  template <class T>
+  Status part_flow(std::size_t part, const T& h, In<T> z, Out<T> change) const {
+    const auto of_body = [this](std::size_t body) { return mass<T>(body); };
+    const T constant(self().constant());
+    return part == planetary::kepler
+               ? planetary::kepler_part<T>(of_body, constant, count(), directions(), h, z, change)
+               : planetary::interaction_part<T>(of_body, constant, count(), directions(), h, z, change);
   }
   template <class T>
   void reversal(const T& /*t*/, In<T> z, Out<T> reversed) const {

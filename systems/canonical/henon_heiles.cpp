@@ -29,6 +29,27 @@ struct HenonHeiles {
     v[0] = p[0];
     v[1] = p[1];
   }
+  // Two oscillators, which turn in their phase planes, and the cubic potential, which pushes.
+  static constexpr int part_count = 2;
+  static constexpr std::size_t small_part = 1;
+  static std::vector<std::string> part_names() { return {"oscillators", "cubic potential"}; }
+  template <class T>
+  Status part_flow(std::size_t part, const T& h, In<T> z, Out<T> change) const {
+    if (part == small_part) {
+      change[0] = change[1] = T(0);
+      change[2] = -(h * lambda * (2 * z[0] * z[1]));
+      change[3] = -(h * lambda * (z[0] * z[0] - z[1] * z[1]));
+      return Status::converged;
+    }
+    T sine, cosine;
+    sine_cosine(T(h / 2), sine, cosine);
+    const T turned = 2 * sine * cosine, less = -(2 * sine * sine);  // sin h and cos h - 1
+    for (std::size_t k = 0; k < 2; ++k) {
+      change[k] = less * z[k] + turned * z[2 + k];
+      change[2 + k] = less * z[2 + k] - turned * z[k];
+    }
+    return Status::converged;
+  }
   template <class T>
   void reversal(const T& /*t*/, In<T> z, Out<T> reversed) const {
     reverse_momenta<T>(z, reversed);

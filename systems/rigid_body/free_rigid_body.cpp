@@ -32,6 +32,20 @@ struct FreeRigidBody {
     rate[1] = z[2] * w1 - z[0] * w3;
     rate[2] = z[0] * w2 - z[1] * w1;
   }
+  // H = sum H_a with H_a = z_a^2/(2 I_a), which turns the other two components by the angle h z_a/I_a.
+  static constexpr int part_count = 3;
+  static std::vector<std::string> part_names() { return {"turn about 1", "turn about 2", "turn about 3"}; }
+  template <class T>
+  Status part_flow(std::size_t part, const T& h, In<T> z, Out<T> change) const {
+    const std::size_t b = (part + 1) % 3, d = (part + 2) % 3;
+    T sine, cosine;
+    sine_cosine(T(h * z[part] / (2 * T(part == 0 ? i1 : part == 1 ? i2 : i3))), sine, cosine);
+    const T turned = 2 * sine * cosine, less = -(2 * sine * sine);
+    change[part] = T(0);
+    change[b] = less * z[b] + turned * z[d];
+    change[d] = less * z[d] - turned * z[b];
+    return Status::converged;
+  }
   // The field is quadratic: turned round, the body goes the same way backwards.
   template <class T>
   void reversal(const T& /*t*/, In<T> z, Out<T> reversed) const {

@@ -1,0 +1,188 @@
+// The claims of a system that is split into parts that are solved exactly. A map phi_h that is a group,
+// phi_s o phi_t = phi_(s+t), is the flow of its derivative at h = 0, so that with the sum of these
+// derivatives, which has to be the field of the system, everything is said; and each flow has to keep the
+// structure.
+//
+// Flows iterate, so that they are measured as numbers, with the derivatives of dual numbers.
+#include <cmath>
+#include <stdexcept>
+
+#include <pfaff/bench/measure/structure.hpp>
+#include <pfaff/bench/verification/measured_step.hpp>
+#include <pfaff/bench/verification/residuals.hpp>
+
+namespace pfaff {
+
+namespace {
+
+// The flows of a model near one state, for one scalar.
+template <class T>
+class MeasuredFlows {
+ public:
+  MeasuredFlows(std::shared_ptr<const Model> model, const std::vector<Real>& centre)
+      : model_(std::move(model)),
+        flows_(model_->exact_flows<T>()),
+        dual_(model_->exact_flows<StepDual<T>>()),
+        // A quarter of the time in which the motion changes, as far as flows of one step go.
+        time_(T(Real(own_time(*model_, generic_time, centre))) / T(4)) {
+    for (const Real& x : centre) start_.push_back(T(x));
+    for (const double x : coordinate_scales(*model_, generic_time, centre)) scales_.push_back(T(x));
+  }
+
+  // phi_s o phi_t - phi_(s+t) for times of either sign, t = -s among them, in units of the sizes of the
+  // coordinates; not-a-number where a flow fails.
+  double off_group(std::size_t part) {
+    double worst = 0;
+    for (const auto& [first, second] : {std::pair{3, 5}, {7, -4}, {6, -6}, {-2, -7}}) {
+      const T s = T(first) * time_ / T(8), t = T(second) * time_ / T(8);
+      std::vector<T> there = start_, at_once = start_;
+      if (!flow(part, s, there) || !flow(part, t, there) || !flow(part, s + t, at_once)) return no_step;
+      for (std::size_t k = 0; k < start_.size(); ++k)
+        worst = std::max(worst, static_cast<double>(T(abs(there[k] - at_once[k])) / scales_[k]));
+    }
+    return worst;
+  }
+  // The sum of the derivatives at h = 0 less the field, times the time, in the same units.
+  double off_field() {
+    using D = StepDual<T>;
+    const std::size_t n = start_.size();
+    std::vector<T> sum(n), field(n);
+    std::vector<D> z(start_.begin(), start_.end()), change(n);
+    for (std::size_t part = 0; part < model_->part_names().size(); ++part) {
+      if (dual_->change(part, D::variable(T(0), 0), In<D>(z), Out<D>(change)) != Status::converged)
+        return no_step;
+      for (std::size_t k = 0; k < n; ++k) sum[k] = sum[k] + change[k].derivative[0];
+    }
+    Problem<T>(model_).field(T(generic_time), In<T>(start_), Out<T>(field));
+    double worst = 0;
+    for (std::size_t k = 0; k < n; ++k)
+      worst = std::max(worst, static_cast<double>(T(abs(sum[k] - field[k])) * time_ / scales_[k]));
+    return worst;
+  }
+  // How far the Jacobian of the flow is from keeping the structure of the system.
+  double off_structure(std::size_t part) {
+    using D = StepDual<T>;
+    const std::size_t n = start_.size();
+    StepJacobian<T> step;
+    step.z = start_;
+    step.jacobian.resize(n * n);
+    std::vector<D> change(n);
+    for (std::size_t first = 0; first < n; first += step_directions) {
+      const std::size_t count = std::min<std::size_t>(step_directions, n - first);
+      std::vector<D> z(start_.begin(), start_.end());
+      for (std::size_t k = 0; k < count; ++k) z[first + k].derivative[k] = T(1);
+      if (dual_->change(part, D(time_), In<D>(z), Out<D>(change)) != Status::converged) return no_step;
+      for (std::size_t i = 0; i < n; ++i) {
+        step.z[i] = start_[i] + change[i].value;
+        for (std::size_t k = 0; k < count; ++k)
+          step.jacobian[i * n + first + k] = z[i].derivative[k] + change[i].derivative[k];
+      }
+    }
+    return static_cast<double>(KeptStructure<T>(model_)(step, T(generic_time), time_, start_, scales_));
+  }
+
+ private:
+  bool flow(std::size_t part, const T& h, std::vector<T>& z) {
+    std::vector<T> change(z.size());
+    if (flows_->change(part, h, In<T>(z), Out<T>(change)) != Status::converged) return false;
+    for (std::size_t k = 0; k < z.size(); ++k) z[k] = z[k] + change[k];
+    return true;
+  }
+
+  std::shared_ptr<const Model> model_;
+  ExactFlowsPointer<T> flows_;
+  ExactFlowsPointer<StepDual<T>> dual_;
+  T time_;
+  std::vector<T> start_, scales_;
+};
+
+template <class T>
+void check_in(std::vector<Check>& checks, const std::string& name, const std::shared_ptr<const Model>& model,
+              const std::vector<Real>& centre) {
+  MeasuredFlows<T> flows(model, centre);
+  const auto add = [&](const std::string& claim, double measured) {
+    checks.push_back(named(name, claim, name, precision_name<T>(), measured, tolerance<T>()));
+    checks.back().scope = "a generic state";
+    if (std::isnan(measured)) checks.back().reason = "a flow was not found";
+  };
+  const std::vector<std::string>& parts = model->part_names();
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    add("flows of the " + parts[k] + " are a group", flows.off_group(k));
+    if (KeptStructure<T>::applies(*model))
+      add("flows of the " + parts[k] + " keep the structure", flows.off_structure(k));
+  }
+  add("flows of the parts add up to the field", flows.off_field());
+}
+
+}  // namespace
+
+std::vector<Check> check_flows(const std::string& name, const std::shared_ptr<const Model>& model,
+                               const std::vector<Real>& centre) {
+  std::vector<Check> checks;
+  check_in<double>(checks, name, model, centre);
+  check_in<Quad>(checks, name, model, centre);
+  return checks;
+}
+
+namespace {
+
+// A pendulum split into drift and kick, with a drift that is wrong in one of these ways.
+enum class Fault { bent, stretched, slowed };
+struct FaultyDrift {
+  static constexpr int dimension = 2, part_count = 2;
+  Fault fault;
+  static std::vector<std::string> part_names() { return {"drift", "kick"}; }
+  template <class T>
+  T kinetic(const T& /*t*/, In<T> p) const {
+    return p[0] * p[0] / 2;
+  }
+  template <class T>
+  T potential(const T& /*t*/, In<T> q) const {
+    return -cos(q[0]);
+  }
+  template <class T>
+  Status part_flow(std::size_t part, const T& h, In<T> z, Out<T> change) const {
+    const T millionth(Real::fraction(1, 1000000));
+    change[0] = change[1] = T(0);
+    if (part == 1) {
+      change[1] = -(h * sin(z[0]));
+    } else if (fault == Fault::slowed) {  // the flow of q' = p, p' = -1e-6 p
+      const T decay = exp(-(millionth * h)) - T(1);
+      change[0] = -(decay * z[1] / millionth);
+      change[1] = decay * z[1];
+    } else {
+      change[0] = z[1] * (fault == Fault::bent ? T(h + millionth * h * h) : T(h + millionth * h));
+    }
+    return Status::converged;
+  }
+};
+
+}  // namespace
+
+std::vector<Check> check_false_flows() {
+  std::vector<Check> controls;
+  const auto control = [&](const char* what, Fault fault, const std::string& claim) {
+    const auto model = make_model(
+        SystemDescriptor{
+            .name = "faulty-drift", .title = "", .reference = "", .initial = {Real(1), Real::fraction(1, 2)}},
+        FaultyDrift{fault});
+    const std::size_t before = controls.size();
+    for (Check check : check_flows("faulty-drift", model, model->initial())) {
+      if (check.claim != claim) continue;
+      check.plugin = what;
+      check.system.clear();
+      check.scope = "control";
+      check.control = true;
+      check.result = check.result == CheckResult::fail ? CheckResult::rejected : CheckResult::pass;
+      controls.push_back(check);
+    }
+    if (controls.size() == before)
+      throw std::logic_error(std::string(what) + ": no claim is called " + claim);
+  };
+  control("a drift for the time h + 1e-6 h^2", Fault::bent, "flows of the drift are a group");
+  control("a drift stretched by 1e-6", Fault::stretched, "flows of the parts add up to the field");
+  control("a drift with friction of 1e-6", Fault::slowed, "flows of the drift keep the structure");
+  return controls;
+}
+
+}  // namespace pfaff

@@ -1,0 +1,156 @@
+// The splitting H = A + B of n bodies that attract each other into Kepler orbits about the bodies before them
+// and an interaction (wisdom-holman1991; rein-tamayo2015), each solved exactly.
+//
+// Of body i let R_i and P_i be the centre of mass and the momentum of the bodies 0, ..., i, and M_i their
+// mass. Jacobi's coordinates, which are canonical, are those of body i relative to the bodies before it, r_i
+// = q_i - R_(i-1), with the velocity v_i = p_i/m_i - P_(i-1)/M_(i-1), and those of the centre of mass of all.
+// In them the kinetic energy has no products of different bodies, and
+//
+//   A = |P|^2/(2 M) + sum_(i > 0) [m_i' |v_i|^2/2 - G m_i M_(i-1)/|r_i|],   m_i' = m_i M_(i-1)/M_i
+//
+// is n - 1 Kepler problems of strength G M_i and a uniform motion. B = H - A depends on positions alone,
+//
+//   B = -G sum_(0 < j < i) m_i m_j/|q_i - q_j| - sum_i [G m_i m_0/|q_i - q_0| - G m_i M_(i-1)/|r_i|],
+//
+// and where the first body is much heavier than the others it is small: its flow adds to the momenta. Both
+// flows are written for the positions and momenta of the bodies themselves, so that energy, momentum and
+// angular momentum are the system's own. A holds the same total momentum and angular momentum as H, and so
+// does B.
+//
+// In B the pulls of the first body and of Kepler's problem nearly cancel. They are subtracted by Encke's
+// method: with r = q_i - q_0, r_i = r + d and w = d.(d + 2 r)/|r|^2,
+//
+//   r_i/|r_i|^3 - r/|r|^3 = (d - F r_i)/|r|^3,   F = 1 - (1 + w)^(-3/2),
+//
+// in which nothing is subtracted that is alike (battin1999).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <pfaff/core/numbers/kepler_flow.hpp>
+
+namespace pfaff {
+
+namespace planetary {
+inline constexpr std::size_t kepler = 0, interaction = 1;
+
+/// The flow of the Kepler part: writes the change of all positions and momenta, which stand by direction as
+/// in Gravitation. `mass(i)` is the mass of body i, `constant` that of gravitation.
+template <class T, class Mass>
+Status kepler_part(const Mass& mass, const T& constant, std::size_t n, std::size_t d, const T& h, In<T> z,
+                   Out<T> change) {
+  const std::size_t half = n * d;
+  std::array<T, 3> centre{}, total{};  // R_(i-1) and P_(i-1)
+  T inner = mass(0);                   // M_(i-1)
+  for (std::size_t x = 0; x < d; ++x) {
+    centre[x] = z[x * n];
+    total[x] = z[half + x * n];
+  }
+  // Outwards: the change of Jacobi's coordinates of each body, left where its own change will stand.
+  for (std::size_t i = 1; i < n; ++i) {
+    const T own = mass(i), outer = inner + own;
+    std::array<T, 3> r{}, v{}, dr{}, dv{};
+    for (std::size_t x = 0; x < d; ++x) {
+      r[x] = z[x * n + i] - centre[x];
+      v[x] = z[half + x * n + i] / own - total[x] / inner;
+    }
+    const Status status = kepler_change<T>(T(constant * outer), h, std::span<const T>(r.data(), d),
+                                           std::span<const T>(v.data(), d), std::span<T>(dr.data(), d),
+                                           std::span<T>(dv.data(), d));
+    if (status != Status::converged) return status;
+    const T share = own / outer, reduced = own * inner / outer;
+    for (std::size_t x = 0; x < d; ++x) {
+      change[x * n + i] = dr[x];
+      change[half + x * n + i] = reduced * dv[x];
+      centre[x] = centre[x] + share * r[x];
+      total[x] = total[x] + z[half + x * n + i];
+    }
+    inner = outer;
+  }
+  // Inwards: the changes of R_i and P_i, and from them those of body i.
+  std::array<T, 3> moved{}, pushed{};
+  for (std::size_t x = 0; x < d; ++x) {
+    moved[x] = h * total[x] / inner;
+    pushed[x] = T(0);
+  }
+  for (std::size_t i = n; i-- > 1;) {
+    const T outer = inner, own = mass(i), share = own / outer;
+    inner = inner - own;
+    const T rest = inner / outer;
+    for (std::size_t x = 0; x < d; ++x) {
+      const T dr = change[x * n + i], dp = change[half + x * n + i];
+      change[x * n + i] = moved[x] + rest * dr;
+      moved[x] = moved[x] - share * dr;
+      change[half + x * n + i] = dp + share * pushed[x];
+      pushed[x] = rest * pushed[x] - dp;
+    }
+  }
+  for (std::size_t x = 0; x < d; ++x) {
+    change[x * n] = moved[x];
+    change[half + x * n] = pushed[x];
+  }
+  return Status::converged;
+}
+
+/// The flow of the interaction: no change of positions, and h times the force -dB/dq of momenta.
+template <class T, class Mass>
+Status interaction_part(const Mass& mass, const T& constant, std::size_t n, std::size_t d, const T& h,
+                        In<T> z, Out<T> change) {
+  const std::size_t half = n * d;
+  for (std::size_t k = 0; k < 2 * half; ++k) change[k] = T(0);
+  const T scale = h * constant;
+  // By m_j each, sum_(0 < j <= i) m_j (q_j - q_0): what the centre of mass R_i is away from body 0.
+  std::array<T, 3> moment{};
+  for (std::size_t x = 0; x < d; ++x) moment[x] = mass(1) * (z[x * n + 1] - z[x * n]);
+  T others = mass(1);  // m_1 + ... + m_(i-1)
+  for (std::size_t i = 2; i < n; ++i) {
+    const T own = mass(i), inner = mass(0) + others, strength = scale * own;
+    // The first body against Kepler's problem.
+    std::array<T, 3> r{}, jacobi{}, way{};
+    T square(0), far(0), mixed(0);
+    for (std::size_t x = 0; x < d; ++x) {
+      r[x] = z[x * n + i] - z[x * n];
+      way[x] = -(moment[x] / inner);
+      jacobi[x] = r[x] + way[x];
+      square = square + r[x] * r[x];
+      far = far + jacobi[x] * jacobi[x];
+      mixed = mixed + way[x] * (way[x] + T(2) * r[x]);
+    }
+    const T w = mixed / square, ratio = T(1) + w, cube = ratio * sqrt(ratio);
+    const T shrunk = w * (T(3) + w * (T(3) + w)) / (cube * (T(1) + cube));
+    const T near_cube = T(1) / (square * sqrt(square)), far_cube = T(1) / (far * sqrt(far));
+    for (std::size_t x = 0; x < d; ++x) {
+      const T difference = (way[x] - shrunk * jacobi[x]) * near_cube, pull = jacobi[x] * far_cube;
+      change[half + x * n + i] = change[half + x * n + i] + strength * (mass(0) * difference + others * pull);
+      change[half + x * n] = change[half + x * n] - strength * mass(0) * difference;
+      for (std::size_t j = 1; j < i; ++j)
+        change[half + x * n + j] = change[half + x * n + j] - strength * mass(j) * pull;
+    }
+    // The others among each other.
+    for (std::size_t j = 1; j < i; ++j) {
+      std::array<T, 3> apart{};
+      T distance(0);
+      for (std::size_t x = 0; x < d; ++x) {
+        apart[x] = z[x * n + j] - z[x * n + i];
+        distance = distance + apart[x] * apart[x];
+      }
+      const T attraction = strength * mass(j) / (distance * sqrt(distance));
+      for (std::size_t x = 0; x < d; ++x) {
+        change[half + x * n + i] = change[half + x * n + i] + attraction * apart[x];
+        change[half + x * n + j] = change[half + x * n + j] - attraction * apart[x];
+      }
+    }
+    for (std::size_t x = 0; x < d; ++x) moment[x] = moment[x] + own * r[x];
+    others = others + own;
+  }
+  for (std::size_t k = half; k < 2 * half; ++k)
+    if (!isfinite(value_of(change[k]))) return Status::non_finite;
+  return Status::converged;
+}
+}  // namespace planetary
+
+}  // namespace pfaff

@@ -1,0 +1,169 @@
+// The splitting of planets into Kepler orbits and their interaction, against the two energies written with
+// Jacobi's coordinates as they are defined, each from sums over all bodies before it.
+#include <gtest/gtest.h>
+
+#include <pfaff/core/facets/problem.hpp>
+#include <pfaff/core/numbers/dual.hpp>
+#include <pfaff/core/system.hpp>
+
+namespace {
+using namespace pfaff;
+
+constexpr std::size_t n = 6, half = 18;
+
+std::shared_ptr<const Model> planets() { return systems().get("outer-solar-system", "system").make({}); }
+
+// The masses and the constant from the model's parameters.
+template <class T>
+std::vector<T> masses(const Model& model) {
+  std::vector<T> list;
+  for (const char* name : {"sun", "jupiter", "saturn", "uranus", "neptune", "pluto"})
+    for (const auto& [key, value] : model.parameters())
+      if (key == name) list.push_back(T(*Real::parse(value)));
+  return list;
+}
+const Real constant = 2.95912208286e-4_r;
+
+// r_i = q_i - (m_0 q_0 + ... + m_(i-1) q_(i-1))/M_(i-1), and velocities likewise.
+template <class T>
+std::array<T, 3> relative(const std::vector<T>& m, const std::vector<T>& z, std::size_t i, bool velocity) {
+  std::array<T, 3> result;
+  for (std::size_t x = 0; x < 3; ++x) {
+    T sum(0), mass(0);
+    for (std::size_t j = 0; j < i; ++j) {
+      sum = sum + (velocity ? z[half + x * n + j] : T(m[j] * z[x * n + j]));
+      mass = mass + m[j];
+    }
+    result[x] = (velocity ? T(z[half + x * n + i] / m[i]) : z[x * n + i]) - sum / mass;
+  }
+  return result;
+}
+template <class T>
+T square(const std::array<T, 3>& v) {
+  return v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+}
+
+template <class T>
+T kepler_energy(const std::vector<T>& m, const std::vector<T>& z) {
+  T sum(0), inner = m[0];
+  std::array<T, 3> total{z[half], z[half + n], z[half + 2 * n]};
+  for (std::size_t i = 1; i < n; ++i) {
+    sum = sum + m[i] * inner / (inner + m[i]) * square(relative(m, z, i, true)) / 2;
+    sum = sum - T(constant) * m[i] * inner / sqrt(square(relative(m, z, i, false)));
+    inner = inner + m[i];
+    for (std::size_t x = 0; x < 3; ++x) total[x] = total[x] + z[half + x * n + i];
+  }
+  return sum + square(total) / (2 * inner);
+}
+template <class T>
+T interaction_energy(const std::vector<T>& m, const std::vector<T>& z) {
+  T sum(0), inner = m[0];
+  for (std::size_t i = 1; i < n; ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      std::array<T, 3> way{z[i] - z[j], z[n + i] - z[n + j], z[2 * n + i] - z[2 * n + j]};
+      sum = sum - T(constant) * m[i] * m[j] / sqrt(square(way));
+    }
+    sum = sum + T(constant) * m[i] * inner / sqrt(square(relative(m, z, i, false)));
+    inner = inner + m[i];
+  }
+  return sum;
+}
+
+std::vector<Quad> start_of(const Model& model) {
+  std::vector<Quad> z;
+  for (const Real& x : model.initial()) z.push_back(x.quad());
+  return z;
+}
+
+TEST(PlanetarySplitting, TheEnergiesAddUp) {
+  const auto model = planets();
+  const auto z = start_of(*model);
+  const auto m = masses<Quad>(*model);
+  std::vector<Quad> values(model->invariants().size());
+  Problem<Quad>(model).invariants(Quad(0), z, values);
+  const Quad a = kepler_energy(m, z), b = interaction_energy(m, z);
+  EXPECT_LT(abs(a + b - values[0]), Quad(1e-36));  // energies of 3e-8
+  EXPECT_LT(abs(b), Quad(2e-3) * abs(a));          // and the interaction is small
+}
+
+// The flow of the first part is that of A where it moves along the Hamiltonian field of A and keeps A; here
+// for a long flow, over many periods of Jupiter. The group and the sum with the second part are verified of
+// every system.
+TEST(PlanetarySplitting, KeplerOrbitsKeepTheirEnergyAndAllMomenta) {
+  const auto model = planets();
+  const auto start = start_of(*model);
+  const auto m = masses<Quad>(*model);
+  const auto flows = model->exact_flows<Quad>();
+  for (const int days : {10, -700, 100000}) {
+    auto z = start;
+    std::vector<Quad> change(36), before(8), after(8);
+    ASSERT_EQ(flows->change(0, Quad(days), z, change), Status::converged);
+    for (std::size_t k = 0; k < z.size(); ++k) z[k] += change[k];
+    EXPECT_LT(abs(kepler_energy(m, z) - kepler_energy(m, start)), Quad(1e-38)) << days;
+    ASSERT_EQ(model->invariants().size(), 7U);
+    Problem<Quad>(model).invariants(Quad(0), start, before);
+    Problem<Quad>(model).invariants(Quad(0), z, after);
+    for (std::size_t k = 1; k < 7; ++k) EXPECT_LT(abs(after[k] - before[k]), Quad(1e-35)) << days << " " << k;
+    EXPECT_GT(abs(after[0] - before[0]), Quad(1e-14)) << days;  // the energy of the system is not A
+  }
+}
+
+// The Kepler flow's field is J grad A, from dual numbers of A as it is defined above; the kick is -grad B.
+TEST(PlanetarySplitting, FlowsBeginAlongTheGradientsOfTheirEnergies) {
+  using D = Dual<Quad, 4>;
+  const auto model = planets();
+  auto start = start_of(*model);
+  for (std::size_t k = 0; k < start.size(); ++k)
+    start[k] *= Quad(1) + Quad(static_cast<int>(k % 5)) / Quad(40);
+  const auto m = masses<D>(*model);
+  const auto flows = model->exact_flows<D>();
+  std::vector<D> z(start.begin(), start.end()), change(36);
+  for (std::size_t part = 0; part < 2; ++part) {
+    ASSERT_EQ(flows->change(part, D::variable(Quad(0), 0), z, change), Status::converged);
+    for (std::size_t k = 0; k < 36; ++k) {
+      std::vector<D> moved = z;
+      moved[k] = D::variable(start[k], 0);
+      const Quad slope = (part == 0 ? kepler_energy(m, moved) : interaction_energy(m, moved)).derivative[0];
+      const Quad found = k < half ? -change[half + k].derivative[0] : change[k - half].derivative[0];
+      // The definition of B subtracts pulls that agree to three digits, and sums over bodies a thousand times
+      // as heavy.
+      EXPECT_LT(abs(found - slope), Quad(1e-29) * abs(slope) + Quad(1e-40)) << part << " " << k;
+    }
+  }
+}
+
+// In double the kicks are as good as their own size: nothing is lost in the difference of the Sun's pull and
+// that of Kepler's problem, which agree to three digits and for Pluto to more.
+TEST(PlanetarySplitting, KicksLoseNoDigits) {
+  const auto model = planets();
+  const auto exact = start_of(*model);
+  std::vector<double> z, change(36);
+  std::vector<Quad> same, exact_change(36);
+  for (const Quad& x : exact) {
+    z.push_back(static_cast<double>(x));
+    same.emplace_back(z.back());
+  }
+  ASSERT_EQ(model->exact_flows<double>()->change(1, 100.0, z, change), Status::converged);
+  ASSERT_EQ(model->exact_flows<Quad>()->change(1, Quad(100), same, exact_change), Status::converged);
+  for (std::size_t i = 1; i < n; ++i) {  // each planet's kick as a vector
+    double off = 0, size = 0;
+    for (std::size_t x = 0; x < 3; ++x) {
+      const std::size_t k = half + x * n + i;
+      off = std::max(off, std::abs(change[k] - static_cast<double>(exact_change[k])));
+      size = std::max(size, std::abs(change[k]));
+    }
+    EXPECT_LT(off, 3e-15 * size) << i;
+  }
+  // The pull of the Sun itself has a hundred times as large a rounding error, which the difference of two
+  // would keep.
+  double pull = 0, kick = 0;
+  std::vector<double> force(half);
+  Problem<double>(model).force(0, std::span<const double>(z.data(), half), force);
+  for (std::size_t x = 0; x < 3; ++x) {
+    pull = std::max(pull, std::abs(100 * force[x * n + 4]));
+    kick = std::max(kick, std::abs(change[half + x * n + 4]));
+  }
+  EXPECT_GT(pull, 100 * kick);
+}
+
+}  // namespace
