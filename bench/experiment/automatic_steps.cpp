@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <pfaff/bench/experiment/cells.hpp>
+#include <pfaff/bench/experiment/error_measure.hpp>
 #include <pfaff/bench/runner/steps.hpp>
 
 namespace pfaff {
@@ -156,10 +157,11 @@ std::optional<std::vector<std::vector<std::int64_t>>> automatic_step_counts(
       run.step = finite_number(step_of_count(like, count), "--step");
       run.steps = taken;
       run.every = (taken + 63) / 64;
-      const RunRecord record = execute(run, references.of(like), {}, stop);
+      const ReferenceSolution* solution = like.which->error.empty() ? references.of(like) : nullptr;
+      const RunRecord record = execute(run, solution, {}, stop);
       const bool whole = record.status == Status::converged && !record.interrupted;
       return StepTrial{static_cast<double>(record.counters.fields + record.counters.jacobians),
-                       whole ? record.error_max.value_or(infinity) : infinity};
+                       whole ? error_of(*like.which, run, record) : infinity};
     };
     const double evaluations = like.which->evaluations.value_or(default_evaluations);
     counts[k] = step_counts(trial, evaluations);

@@ -37,11 +37,11 @@ void check_steps(const ExperimentCase& one, const std::string& where) {
   if (!one.automatic && one.steps.empty()) throw InputError(where + ": key 'steps' is missing");
   if (!one.automatic && one.evaluations)
     throw InputError(where + ": key 'evaluations': expected steps = \"auto\" beside it");
-  if (one.automatic && !one.reference)
+  if (one.automatic && !one.reference && one.error.empty())
     throw InputError(
         where +
-        ": steps = \"auto\" chooses by the distance from a solution; expected a list of steps, or "
-        "no reference = \"none\"");
+        ": steps = \"auto\" chooses by the distance from a solution or by the error of a conserved quantity; "
+        "expected a list of steps, error = \"NAME\", or no reference = \"none\"");
 }
 
 }  // namespace pfaff

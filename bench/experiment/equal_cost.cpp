@@ -11,6 +11,7 @@
 
 #include <pfaff/bench/experiment/cells.hpp>
 #include <pfaff/bench/experiment/costs.hpp>
+#include <pfaff/bench/experiment/error_measure.hpp>
 #include <pfaff/bench/experiment/results.hpp>
 #include <pfaff/bench/runner/checksum.hpp>
 #include <pfaff/bench/runner/config_file.hpp>
@@ -38,16 +39,6 @@ double cost_of_target(const PricedRuns& runs) {
     least = std::min(least, std::pow(coarse.cost, 1 - part) * std::pow(fine.cost, part));
   }
   return least;
-}
-
-// The error that the report compares methods by: against the solution, or the drift of the conserved
-// quantity.
-double error_of(const nlohmann::json& summary, const std::string& conserved) {
-  if (summary["error_max"].is_number()) return summary["error_max"].get<double>();
-  for (const nlohmann::json& invariant : summary["invariants"])
-    if (invariant["name"] == conserved && invariant.contains("max") && invariant["max"].is_number())
-      return invariant["max"].get<double>();
-  return std::numeric_limits<double>::quiet_NaN();
 }
 
 double size_of(const ExperimentRun& run) {
@@ -80,7 +71,7 @@ std::vector<Chosen> chosen_runs(const Experiment& experiment, const ExperimentCa
       priced.emplace_back();
     }
     priced.back().push_back(
-        {size_of(run), *ns * summaries[k]["completed"].get<double>(), error_of(summaries[k], one.conserved)});
+        {size_of(run), *ns * summaries[k]["completed"].get<double>(), error_of(one, summaries[k])});
   }
   for (PricedRuns& method : priced) settle(method);
   std::vector<Chosen> chosen;

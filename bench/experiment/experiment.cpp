@@ -64,6 +64,7 @@ nlohmann::json description(const Experiment& experiment, const std::vector<Exper
                           {"reference_solution", !c.reference ? "none"
                                                  : exact      ? "exact"
                                                               : "30-digit"}});
+    if (!c.error.empty()) j["cases"].back()["error"] = c.error;
     if (c.seeds > 0) j["cases"].back()["seeds"] = c.seeds;
     if (c.automatic) {
       j["cases"].back()["steps"] = "auto";

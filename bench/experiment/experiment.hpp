@@ -36,6 +36,7 @@ struct ExperimentCase {
   std::optional<double> evaluations;  // that a run at a chosen step may take; default_evaluations without it
   std::map<std::string, std::vector<std::string>> chosen;  // steps by the label of the method, once chosen
   std::string conserved;                                   // the invariant whose drift is shown
+  std::string error;  // the invariant whose relative drift is the error of a run (error_measure.hpp); or none
   std::vector<std::string> motion;  // two coordinates, whose tracks in their plane are drawn; or none
   Precision precision = Precision::double_precision;
   std::vector<std::string> methods;  // labels; empty: all

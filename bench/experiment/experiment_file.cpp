@@ -158,6 +158,7 @@ void read_case(const toml::table& table, const Part& part, Experiment& experimen
   one.initial = c.list_of_some("initial");
   read_steps(c, one);
   one.conserved = c.text("conserved", "");
+  const std::string error = c.text("error", "");
   one.motion = c.list("motion");
   if (!one.motion.empty() && one.motion.size() != 2)
     throw InputError(where + ": key 'motion': expected two coordinates, got " +
@@ -167,6 +168,12 @@ void read_case(const toml::table& table, const Part& part, Experiment& experimen
   one.seeds = static_cast<int>(whole(c.text("seeds", "0"), 0, 10000, where, "seeds"));
   one.reference = wanted(c, "reference", "solution", where);
   one.structure = wanted(c, "structure", "residual", where);
+  if (error == "solution" && !one.reference)
+    throw InputError(
+        where +
+        ": key 'error': expected the name of a conserved quantity beside reference = \"none\", got '" +
+        error + "'");
+  if (error != "solution") one.error = error;
   if (const toml::table* less = c.table("quick")) {
     Keys q(*less, part.name() + " [case.quick]");
     ExperimentCase quick = one;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include <pfaff/bench/experiment/error_measure.hpp>
 #include <pfaff/bench/experiment/experiment.hpp>
 #include <pfaff/bench/experiment/experiment_findings.hpp>
 #include <pfaff/bench/experiment/method_selection.hpp>
@@ -85,6 +86,20 @@ void check_names(const Experiment& experiment, const ExperimentCase& c, const Ex
                        unknown_name("coordinate", name, coordinates));
 }
 
+// Motions of the formulations that make an energy of their own have invariants of their own, so that every
+// run is looked at.
+void check_error(const Experiment& experiment, const ExperimentRun& run) {
+  const std::string where =
+      experiment.name + ", case " + run.which->name + ", method " + run.method->label + ": ";
+  std::string reason;
+  try {
+    reason = error_refused(*run.which, run.resolved);
+  } catch (const InputError& error) {
+    reason = error.what();
+  }
+  if (!reason.empty()) throw InputError(where + "key 'error': " + reason);
+}
+
 // The system of a case, before a formulation is applied.
 std::shared_ptr<const Model> system_of(const Experiment& experiment, const ExperimentCase& c) {
   try {
@@ -141,6 +156,7 @@ std::vector<ExperimentRun> expand(const Experiment& experiment, std::vector<Left
           run.slug = slug_of(c.name + "-" + m->label + (adaptive ? "-tol" : "-h") + size +
                              (seed > 0 ? "-seed" + std::to_string(seed) : ""));
           run.resolved = resolved(experiment, run);
+          check_error(experiment, run);
           runs.push_back(std::move(run));
         }
     }

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <sstream>
 
 #include <sys/wait.h>
 
 #include <pfaff/bench/experiment/cells.hpp>
+#include <pfaff/bench/experiment/error_measure.hpp>
 #include <pfaff/bench/runner/files.hpp>
 
 namespace pfaff {
@@ -37,6 +39,7 @@ std::string drift_cells(const nlohmann::json* found) {
   for (const char* m : {"oscillation", "exponent", "class"}) text += "," + (found ? cell((*found)[m]) : "");
   return text;
 }
+std::string measured(double number) { return std::isfinite(number) ? as_text(number, "%.17g") : ""; }
 const nlohmann::json* entry(const nlohmann::json& summary, const char* list, const std::string& name) {
   if (!summary.contains(list)) return nullptr;
   for (const nlohmann::json& e : summary[list])
@@ -70,6 +73,8 @@ std::string results_csv(const std::vector<ExperimentRun>& runs,
   const bool tolerances =
       std::any_of(runs.begin(), runs.end(), [](const ExperimentRun& r) { return !r.tolerance.empty(); });
   const bool seeds = std::any_of(runs.begin(), runs.end(), [](const ExperimentRun& r) { return r.seed > 0; });
+  const bool by_quantity =
+      std::any_of(runs.begin(), runs.end(), [](const ExperimentRun& r) { return !r.which->error.empty(); });
   const bool formulated = std::any_of(runs.begin(), runs.end(), [](const ExperimentRun& r) {
     return !r.resolved.settings.formulation.empty();
   });
@@ -85,8 +90,8 @@ std::string results_csv(const std::vector<ExperimentRun>& runs,
         text << ',' << name << ':' << m;
       if (names == &residuals) text << ',' << name << ":growth," << name << ":growth_rate";
     }
-  text << (tolerances ? ",tolerance" : "") << (seeds ? ",seed" : "") << (formulated ? ",formulation" : "")
-       << ",run\n";
+  text << (by_quantity ? ",relative_drift_max" : "") << (tolerances ? ",tolerance" : "")
+       << (seeds ? ",seed" : "") << (formulated ? ",formulation" : "") << ",run\n";
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const ExperimentRun& run = runs[k];
     const nlohmann::json& s = summaries[k];
@@ -105,6 +110,7 @@ std::string results_csv(const std::vector<ExperimentRun>& runs,
       text << drift_cells(found);
       for (const char* m : {"growth", "growth_rate"}) text << ',' << (found ? cell((*found)[m]) : "");
     }
+    if (by_quantity) text << ',' << (run.which->error.empty() ? "" : measured(error_of(*run.which, s)));
     if (tolerances) text << ',' << run.tolerance;
     if (seeds) text << ',' << (run.seed > 0 ? std::to_string(run.seed) : "");
     if (formulated) text << ',' << run.resolved.settings.formulation;

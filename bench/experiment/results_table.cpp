@@ -6,6 +6,7 @@
 
 #include <pfaff/bench/experiment/cells.hpp>
 #include <pfaff/bench/experiment/costs.hpp>
+#include <pfaff/bench/experiment/error_measure.hpp>
 #include <pfaff/bench/experiment/experiment_findings.hpp>
 #include <pfaff/bench/experiment/results.hpp>
 #include <pfaff/bench/measure/constraints.hpp>
@@ -110,13 +111,13 @@ std::string Runs::motion(bool restricted) {
       continue;
     }
     const std::vector<std::string> found = drift(s);
-    add(row, {scientific(s["error_max"])});
+    add(row, {which.error.empty() ? scientific(s["error_max"]) : as_text(error_of(which, s), "%.1e")});
     if (restricted) {
       add(row, {found[0], found[2]});
       add(row, residual(s, 0));
       add(row, residual(s, 1));
     } else {
-      add(row, {scientific(s["error_final"])});
+      add(row, {which.error.empty() ? scientific(s["error_final"]) : "-"});
       add(row, found);
       add(row, {scientific(s["structure_residual"])});
     }
@@ -190,7 +191,8 @@ std::string results_table(const fs::path& directory, const Experiment& experimen
     });
     text += '\n' + paragraph(c.title + " (" + c.system + ", T = " + to_string(run->resolved.time) +
                              (c.seeds > 0 ? ", " + std::to_string(c.seeds) + " seeds" : "") + ")" +
-                             (c.seeds > 0 || c.conserved.empty() ? "" : ", drift of " + c.conserved));
+                             (c.seeds > 0 || c.conserved.empty() ? "" : ", drift of " + c.conserved) +
+                             (c.error.empty() ? "" : ", error: largest relative drift of " + c.error));
     text += c.seeds > 0 ? of_case.ensemble() : of_case.motion(restricted);
     marked = marked || of_case.marked;
   }

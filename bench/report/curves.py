@@ -3,16 +3,16 @@
 cost     the time of a run is that of its fastest repetition, sampling excluded; where nothing was timed, right-hand sides
          stand for it, and steps where a method counts none. A coarser step is never charged more time than a finer one:
          a timing that says so was disturbed.
-error    the largest relative error; without a reference solution the largest drift of the conserved quantity.
+error    as error_measure.py has it: of the state, or of a conserved quantity.
 An ensemble counts as one run, with the median over the seeds that finished. Failed runs enter nothing but their count.
 """
 import dataclasses
 import math
 import statistics
 
+from error_measure import error_measure
 from experiment import UNIT_ROUND_OFF, Run
 from families import family_of
-from figures import precision_measure
 from findings import ROUND_OFF
 
 CONTENDED = 1.3  # a timing whose median is above this times its fastest repetition was disturbed
@@ -52,6 +52,7 @@ class Curve:
     total: int
     residuals: list  # [(step, structure residual)], failed runs left out
     unit: float  # unit round-off
+    of_state: bool = True  # errors are of the state, whose order the method claims; those of a quantity may fall faster
 
     @property
     def label(self):
@@ -84,7 +85,7 @@ class Curve:
         """Points with an error and a cost, from the coarsest to the finest."""
         return [p for p in self.points if p.cost > 0 and 0 < p.error < math.inf]
 
-    def time_to(self, target, relative):
+    def time_to(self, target, of_state):
         """(cost at which the error is at most the target, whether the coarsest run is better already); nan if never."""
         target *= 1 + 1e-8  # an error that is the target but for its last digits reaches it
         points = self.measured()
@@ -95,7 +96,7 @@ class Curve:
             return points[0].cost, True
         for coarse, fine in zip(points, points[1:]):
             if coarse.error > target >= fine.error:
-                found.append(crossing(coarse, fine, target, self.claimed if relative else None))
+                found.append(crossing(coarse, fine, target, self.claimed if of_state else None))
         return min(found, default=math.nan), False
 
     def spread_at(self, cost):
@@ -126,7 +127,7 @@ class Curve:
         value, interval = fitted_slope(seen)
         if not interval <= 1:
             value, interval = fitted_slope(seen[-2:])[0], math.nan
-        off = math.inf if self.claimed is None else abs(value - self.claimed)
+        off = math.inf if self.claimed is None else abs(value - self.claimed) if self.of_state else self.claimed - value
         return Order(value, interval, off > (1 if math.isnan(interval) else max(0.15, interval)))
 
     def at_cost(self, level):
@@ -166,7 +167,8 @@ def fitted_slope(points):
 def curves(experiment, case, work):
     """The curves of all methods that ran on the case, in the experiment's order; `work` is "time", "right-hand sides" or
     "steps"."""
-    error = precision_measure(experiment, case) or (lambda run: math.nan)
+    measure = error_measure(experiment, case)
+    error = measure.of if measure else lambda run: math.nan
     out = []
     for method in experiment.methods:
         groups = [experiment.ensemble_of(r) for r in experiment.runs_of(case) if r.method == method["label"]]
@@ -179,7 +181,8 @@ def curves(experiment, case, work):
         residuals = [(p.run.step, p.run.number("structure_residual")) for p in points]
         out.append(Curve(method, experiment.declared_order(method, case), points,
                          sum(r.failed for g in groups for r in g), sum(map(len, groups)),
-                         [(h, x) for h, x in residuals if not math.isnan(x)], UNIT_ROUND_OFF[case["precision"]]))
+                         [(h, x) for h, x in residuals if not math.isnan(x)], UNIT_ROUND_OFF[case["precision"]],
+                         measure is None or measure.of_state))
     return out
 
 

@@ -67,7 +67,7 @@ def deviations(verdict):
 def errors(verdict):
     """Deviations from the most accurate run; none where there is no measure of accuracy."""
     experiment = verdict.experiment
-    known = [(p.error, p.run) for c in verdict.curves for p in c.points if verdict.relative and not math.isnan(p.error)]
+    known = [(p.error, p.run) for c in verdict.curves for p in c.points if verdict.of_state and not math.isnan(p.error)]
     if not known:
         return [], ""
     error, best = min(known, key=lambda k: (k[0], k[1].step))

@@ -134,7 +134,7 @@ class Experiment:
         for i, case in enumerate(self.cases):
             require(case, f"experiment.json, case {i + 1}", name=str, precision=str)
             allow(case, f"experiment.json, case {case['name']}", title=str, parameters=dict, time_unit=str,
-                  conserved=str, structure=str, motion=list)
+                  conserved=str, error=str, structure=str, motion=list)
             if len(case.get("motion") or []) not in (0, 2):
                 raise InputError(f"experiment.json, case {case['name']}: expected 'motion' to name two coordinates")
             if case["precision"] not in UNIT_ROUND_OFF:
@@ -189,6 +189,8 @@ class Experiment:
             if name and name not in invariants:
                 raise InputError(f"results.csv: column '{name}:max' is missing (the conserved quantity of case "
                                  f"{case['name']})")
+            if case.get("error") and "relative_drift_max" not in columns:
+                raise InputError(f"results.csv: column 'relative_drift_max' is missing (the error of case {case['name']})")
         return runs, invariants
 
     def _read_costs(self):

@@ -173,17 +173,6 @@ def values_of_directed(sheet, experiment, target, pairs, expected):
     time_axis(axes, 0, max(s.time[-1] for _, s in pairs))
 
 
-def precision_measure(experiment, case):
-    """A function run -> error: the largest error, or the largest drift without a reference solution; None where there is
-    neither."""
-    runs, invariant = experiment.runs_of(case), case.get("conserved")
-    if any(math.isfinite(r.number("error_max")) for r in runs):
-        return lambda r: r.number("error_max")
-    if invariant and experiment.expectation(case, invariant)[0] == "conserved":
-        return lambda r: r.drift(invariant, "max")
-    return None
-
-
 def limits(tracks, frame):
     """[(low, high)] of both axes: of all tracks (x, y) but those that leave the middle one by `frame` of its widths."""
     found = []

@@ -11,7 +11,8 @@ import math
 import constraints
 import ensembles
 from experiment import DIRECTIONS, UNIT_ROUND_OFF
-from figures import precision_measure, step_text, with_unit
+from error_measure import error_measure
+from figures import step_text, with_unit
 from wording import duration, listed, number
 
 ROUND_OFF = 1000
@@ -140,8 +141,9 @@ def order(experiment, case):
 
 
 def cost(experiment, case):
-    error = precision_measure(experiment, case)
-    runs = [r for r in experiment.runs_of(case) if not r.failed and error is not None and math.isfinite(error(r))]
+    measure = error_measure(experiment, case)
+    error = measure.of if measure else lambda run: math.nan
+    runs = [r for r in experiment.runs_of(case) if not r.failed and math.isfinite(error(r))]
     methods = {r.method for r in runs}
     if len(methods) < 2:
         return []
@@ -151,7 +153,6 @@ def cost(experiment, case):
         work, show, kind = (lambda r: r.total_rhs), number, "right-hand sides"
     else:
         return []
-    what = "error" if any(math.isfinite(r.number("error_max")) for r in runs) else "drift"
     items = []
     for target in targets(min(error(r) for r in runs if r.method == m) for m in methods):
         best = {}
@@ -162,7 +163,7 @@ def cost(experiment, case):
         first = ranked[0]
         next_best = [f"{r.method} ({work(r) / work(first):.2g}×)" for r in ranked[1:4]]
         then = f", then {listed(next_best)}" if next_best else ""
-        items.append(f"{what} at most {number(target)}: {first.method} at {step_text(first.step, case)} "
+        items.append(f"{measure.noun} at most {number(target)}: {first.method} at {step_text(first.step, case)} "
                      f"({show(work(first))}){then}; {len(ranked)} of {len(methods)} methods reach it")
     return [("Cost", f"Cheapest run in {kind}:", items)] if items else []
 

@@ -144,7 +144,7 @@ def cheapest_table(verdict):
                     + (cheapest_cell(verdict, keeping, target) if verdict.structured else "") + "</tr>")
     if not rows:
         return ""
-    what = "error" if verdict.relative else "drift"
+    what = text(verdict.measure.noun)
     keeping = '<th colspan="2">keeping the structure</th>' if verdict.structured else ""
     return (f'<table class="mini"><caption>Cheapest at each {what}</caption><thead><tr><th>{what}</th><th colspan="2">of all</th>'
             f'{keeping}</tr></thead><tbody>{"".join(rows)}</tbody></table>')
@@ -167,7 +167,7 @@ def missing(verdict, kinds):
         why.append("no figure of drift, because " + ("the case names no conserved quantity" if not verdict.invariant
                                                      else "the error of a quantity that changes is seen only beside an "
                                                      "accurate solution" if verdict.expected in DIRECTIONS and not
-                                                     verdict.relative else "no run left a series"))
+                                                     verdict.of_state else "no run left a series"))
     if "work_precision" not in kinds:
         why.append("no figure of work and precision, because " + (
             "no run with an error finished" if verdict.relative or verdict.comparable else

@@ -57,9 +57,8 @@ def cheapest(verdict):
     if verdict.target is None or len(verdict.rows) < 2:
         return ""
     best = verdict.best(verdict.target)
-    what = "error" if verdict.relative else f"drift of {text(verdict.invariant)}"
     who = names(best) if len(best) <= 3 else f"{names(best[:2])} and {len(best) - 2} others"
-    out = (f"at {what} {target_text(verdict.target)} {who} {'is' if len(best) == 1 else 'are'} cheapest, "
+    out = (f"at {text(verdict.measure.noun)} {target_text(verdict.target)} {who} {'is' if len(best) == 1 else 'are'} cheapest, "
            f"{spent(verdict, best[0], verdict.target)}")
     if best[0].curve.kept:
         return out + along_with(verdict)
@@ -256,12 +255,10 @@ def holds(verdict):
     unit = case.get("time_unit") or ""
     parts = [text(heading(case)) + (f" to t = {text(case['time'])} {text(unit)}".rstrip() if "time" in case else ""),
              f"{case['precision']} precision"]
-    if verdict.relative:
+    if verdict.measure:
         which = {"exact": "the exact solution", "30-digit": "a solution of 30 digits"}.get(
             case.get("reference_solution") or "", "the reference solution")
-        parts.append(f"largest error relative to {which}")
-    elif verdict.comparable:
-        parts.append(f"no reference solution, so that errors are the drift of {text(verdict.invariant)}")
+        parts.append(text(verdict.measure.defined(which)))
     steps = sorted({r.step for r in runs if not r.tolerance}, reverse=True)
     between = ("" if not steps else f" at step {steps[0]:.4g}" if len(steps) == 1 else
                f" at {len(steps)} steps between {steps[0]:.4g} and {steps[-1]:.4g}") + (f" {unit}" if unit and steps else "")

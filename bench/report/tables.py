@@ -107,7 +107,8 @@ def results(experiment, case):
     expected, unit = experiment.expectation(case, name) if name else ("", "")
     word = "drift" if expected == "conserved" else "change"
     columns = [("Method", ""), (text(with_unit("Step", time_unit)), "number"), ("Status", "status"),
-               ("Largest error", "number"), ("Final error", "number"),
+               ("Largest error<br>of the state", "number"), ("Final error<br>of the state", "number"),
+               (f"Largest relative error<br>of {text(case.get('error') or '')}", "number"),
                (f"Largest {word}" + (f"<br>of {text(with_unit(name, unit))}" if name else ""), "number"),
                (f"Class of {word}", ""), (f"Slope [interval]<br>in {text(slope_unit(unit, time_unit))}", ""),
                ("Structure<br>residual", "number"), ("Time per step<br>(range)", "number"), ("Time of run", "number"),
@@ -118,10 +119,10 @@ def results(experiment, case):
         status = text(r.status) + (f": {text(r.message)}" if r.failed and r.message else "")
         bodies.setdefault(r.method, []).append(("failed" if r.failed else "", [
             text(r.method), size_text(r) + ("<br><small>equal cost</small>" if r in equal.values() else ""), ("✗ " if r.failed else "") + status, number(r.number("error_max")),
-            number(r.number("error_final")), number(r.drift(name, "max")) if name else "–",
+            number(r.number("error_final")), number(r.number("relative_drift_max")), number(r.drift(name, "max")) if name else "–",
             drift_class(experiment, r, name), slope(r, name), number(r.number("structure_residual")), per_step(r),
             duration(r.total_ns), work(r), files(r)]))
-    about = ["Errors are relative to the norm of the reference solution."] if case.get("reference_solution") else []
+    about = ["Errors of the state are relative to the norm of the reference solution."] if case.get("reference_solution") else []
     if expected in DIRECTIONS:
         about.append(f"{text(name)} is expected to {DIRECTIONS[expected][0]}: its change is not an error.")
     about.append("Work per step: f right-hand sides, J Jacobians, it Newton iterations, LU factorisations.")

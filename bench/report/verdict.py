@@ -11,12 +11,12 @@ import math
 import statistics
 
 from curves import ZERO, Curve, curves, front
+from error_measure import error_measure
 from experiment import DIRECTIONS, UNIT_ROUND_OFF, Run
-from figures import precision_measure
 from findings import largest_setback
 from wording import short_count, short_time
 
-TARGETS = (1e-3, 1e-6, 1e-9)
+TARGETS = (1e-3, 1e-6, 1e-9, 1e-12)
 LEAD = 1e-6
 TIE = 1.1
 
@@ -45,12 +45,14 @@ class Verdict:
         self.experiment, self.case = experiment, case
         self.work = work_of(experiment, case)
         self.curves = curves(experiment, case, self.work)
-        self.relative = any(math.isfinite(r.number("error_max")) for r in experiment.runs_of(case))
-        self.comparable = precision_measure(experiment, case) is not None
+        self.measure = error_measure(experiment, case)
+        self.of_state = self.measure is not None and self.measure.of_state
+        self.relative = self.measure is not None and self.measure.relative
+        self.comparable = self.measure is not None
         self.invariant = case.get("conserved") or ""
         self.expected = experiment.expectation(case, self.invariant)[0] if self.invariant else ""
         self.unit = UNIT_ROUND_OFF[case["precision"]]
-        self.rows = [Row(c, times={t: c.time_to(t, self.relative) for t in self._asked()}) for c in self.curves]
+        self.rows = [Row(c, times={t: c.time_to(t, self.of_state) for t in self._asked()}) for c in self.curves]
         self.target = self._target()
         self.level, self.made = (experiment.equal.get(case["name"]) if self.work == "time" else None) or (self._level(), {})
         for row in self.rows:
@@ -98,7 +100,7 @@ class Verdict:
             row.run, row.error, row.off = found
             made = self.made.get(row.label)
             if made and not made.failed:
-                measured = (precision_measure(self.experiment, self.case) or (lambda run: math.nan))(made)
+                measured = self.measure.of(made) if self.measure else math.nan
                 row.run, row.off = made, False
                 row.error = measured if math.isnan(measured) else max(ZERO * self.unit, measured)
         elif points:  # nothing is known of costs: the run at the step that most methods share

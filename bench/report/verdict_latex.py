@@ -31,7 +31,8 @@ def latex_table(verdict):
         head = f"{DIRECTIONS[verdict.expected][1]} of " if verdict.expected in DIRECTIONS else "drift of "
         columns.append(("l", escaped(head + verdict.invariant), lambda r: drift(verdict, r)))
     if verdict.relative:
-        columns.append(("r", "error", lambda r: "phase lost" if r.error >= 0.5 else size(r.error)))
+        columns.append(("r", escaped(verdict.measure.noun), lambda r: "phase lost" if r.error >= 0.5 and verdict.of_state
+                        else size(r.error)))
     unit, divisor = time_unit(verdict)
     if verdict.comparable:
         for target in TARGETS:
@@ -43,7 +44,7 @@ def latex_table(verdict):
     rows = [" & ".join(cell(r) for _, _, cell in columns) + r"\\" for r in verdict.rows]
     return "\n".join([
         r"% needs \usepackage{booktabs}", f"% drift and error {level}; columns of powers of ten: {escaped(unit)} to that "
-        f"{'error' if verdict.relative else 'drift'}", r"{\footnotesize\setlength{\tabcolsep}{2pt}%",
+        f"{escaped(verdict.measure.noun) if verdict.measure else 'error'}", r"{\footnotesize\setlength{\tabcolsep}{2pt}%",
         rf"\begin{{tabular}}{{@{{}}{''.join(c[0] for c in columns)}@{{}}}}", r"\toprule",
         " & ".join(head for _, head, _ in columns) + r"\\", r"\midrule", *rows, r"\bottomrule", r"\end{tabular}}", ""])
 

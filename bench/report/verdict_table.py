@@ -61,7 +61,7 @@ def all_columns(verdict):
     level = f"at equal cost, {verdict.cost_text(verdict.level)}" if verdict.level > 0 else "at one step"
     if verdict.work != "time" and verdict.level > 0:
         level += f" {verdict.work}"
-    what = "error" if verdict.relative else "drift"
+    what = text(verdict.measure.noun) if verdict.measure else "error"
     spent = {"time": "time", "right-hand sides": "right-hand sides", "steps": "steps"}[verdict.work]
     lead = verdict.target or TARGETS[1]
     asked = TARGETS if lead in TARGETS else tuple(sorted((*TARGETS, lead), reverse=True))
@@ -76,14 +76,14 @@ def all_columns(verdict):
         columns.append(column(text(level_name.replace("hidden-", "hidden ")), "r more",
                               lambda r, n=level_name: level_cell(verdict, r, n), level))
     if verdict.comparable and verdict.relative:
-        columns.append(column("error", "r", lambda r: error_cell(verdict, r), level))
+        columns.append(column(what, "r", lambda r: error_cell(verdict, r), level))
     for target in asked:
         head = f'<span class="short">{spent} to </span>{power(round(math.log10(target)))}'
         columns.append(column(head, "r lead" if target == lead else "r more",
                               lambda r, t=target: time_cell(verdict, r, t), f"{spent} to reach {what}",
                               sorted=target == lead))
     columns += [column("claim", "r more", claim_cell, "order"),
-                column("measured", "r more", order_cell, "order")]
+                column("measured" if verdict.of_state else f"slope of {what}", "r more", order_cell, "order")]
     if verdict.failures:
         columns.append(column("failed", "r more", lambda r: ("", r.curve.failed, f"{r.curve.failed} of {r.curve.total}"
                                                              if r.curve.failed else "·")))
@@ -132,7 +132,7 @@ def error_cell(verdict, row):
     if math.isnan(row.error):
         return "na", None, "–"
     star = '<span class="star" title="cannot cost this much: its nearest run">*</span>' if row.off else ""
-    shown = "phase lost" if row.error >= 0.5 else size(row.error)
+    shown = "phase lost" if row.error >= 0.5 and verdict.of_state else size(row.error)
     return "", math.log10(max(row.error, 1e-40)), (
         "" if verdict.experiment.residuals else strip(row)) + f'<span class="num">{shown}</span>{star}'
 
@@ -183,7 +183,7 @@ def caption(verdict):
     parts = []
     if verdict.target is not None:
         spent = "time" if verdict.work == "time" else f"number of {verdict.work}"
-        parts.append(f"Sorted by the {spent} to {'error' if verdict.relative else 'drift'} {power(round(math.log10(lead)))}; "
+        parts.append(f"Sorted by the {spent} to {text(verdict.measure.noun)} {power(round(math.log10(lead)))}; "
                      "× is the ratio to the best, ≤ says that the coarsest run is better already, – that no run reaches it.")
     if verdict.level > 0:
         level = verdict.cost_text(verdict.level) + ("" if verdict.work == "time" else f" {verdict.work}")

@@ -63,9 +63,11 @@ def drawing(verdict, work, some):
     failed = [f"{r.method} at {step_text(r.step, case)}" for r in verdict.experiment.runs if r.case == case["name"] and r.failed]
     contended, timed = verdict.contended
     caption = sentences(
+        f"Errors are those of {verdict.measure.name}, relative to its value at the start." if verdict.measure.kind == "quantity"
+        else "",
         "Down and to the left is better: a point is a run, along a line the step becomes smaller.",
         "Shaded in yellow: the Pareto front.",
-        f"Band at the top: error of at least {LOST}, the phase is lost." if verdict.relative and any(
+        f"Band at the top: error of at least {LOST}, the phase is lost." if verdict.of_state and any(
             p.error >= LOST for c in some for p in c.points) else "",
         "Whiskers run from the fastest repetition to the median." if work == "time" else "",
         f"{contended} of {timed} timings were disturbed (median over 1.3 times the fastest)." if work == "time" and contended
@@ -107,7 +109,7 @@ def draw(verdict, work, some, named, look):
             for p, e in zip(points, errors):
                 axes.plot([p.cost, p.slowest], [e, e], color=shown["color"], linewidth=0.7 * look.scale, zorder=2)
     words = {"time": "time of the run", "right-hand sides": "right-hand sides of the run", "steps": "steps of the run"}
-    canvas.labels(axes, words[work], "largest relative error" if verdict.relative else f"largest drift of {verdict.invariant}")
+    canvas.labels(axes, words[work], verdict.measure.axis)
     ticks(canvas, axes, work, look)
     annotate(canvas, axes, verdict, some, named, look, (low, high))
     return canvas
@@ -125,7 +127,7 @@ def frame(verdict, axes, some, named):
     """Set the axes: decades of error, and costs up to the third quartile of the longest runs."""
     errors = [e for c in some for p in c.measured() for e in clipped(verdict, [p.error])]
     low = 10.0 ** math.floor(math.log10(min(errors)) - 0.3)
-    high = 2 * CLIPPED if verdict.relative and max(errors) > LOST / 2 else 10.0 ** math.ceil(math.log10(max(errors)) + 0.1)
+    high = 2 * CLIPPED if verdict.of_state and max(errors) > LOST / 2 else 10.0 ** math.ceil(math.log10(max(errors)) + 0.1)
     longest = sorted(max(p.cost for p in c.measured()) for c in some)
     kept = max(longest[(3 * len(longest) - 1) // 4],
                max((max(p.cost for p in c.measured()) for c in some if c.label in named[:1]), default=0))
@@ -168,7 +170,7 @@ def annotate(canvas, axes, verdict, some, named, look, limits):
         verdict, [p.error for p in c.measured()]))] for c in some}
     every = [pixel for line in lines.values() for pixel in sampled(line)]
     taken = []
-    if verdict.relative and limits[1] > LOST:
+    if verdict.of_state and limits[1] > LOST:
         axes.axhspan(LOST, limits[1], color=BAND, zorder=0, linewidth=0)
         taken.append(band_text(canvas, "phase lost", box, "top", small, every))
     floor = verdict.floor()

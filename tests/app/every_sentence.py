@@ -44,7 +44,7 @@ def faults(folder):
         named = {html.unescape(x) for x in re.findall(r"<b [^>]*>(.*?)</b>", markup)}
         if not named or not named <= labels:
             yield f"{case['name']}: names {named or 'no method'}"
-        cheapest = re.match(rf"At (error|drift of .*?) 10\^−\d+ .+? (is|are) cheapest, {COST}", said)
+        cheapest = re.match(rf"At (.*? error|drift of .*?) 10\^−\d+ .+? (is|are) cheapest, {COST}", said)
         if not cheapest and "No error is known here" not in below:
             yield f"{case['name']}: does not say who is cheapest: {said}"
         if not cheapest and "stays closest to the constraints" not in said:

@@ -159,7 +159,7 @@ class Said(Fresh):
     def test_cheapest_loses_and_somebody_keeps(self):
         synthetic(self.folder)
         said = self.said()
-        self.assertTrue(said.startswith("At error 10^−5 rk and bad are cheapest, 16 µs, but both let the energy drift "
+        self.assertTrue(said.startswith("At state error 10^−5 rk and bad are cheapest, 16 µs, but both let the energy drift "
                                         "(drifting); only mid keeps the symplectic structure at round-off"), said)
 
     def test_cheapest_keeps(self):
