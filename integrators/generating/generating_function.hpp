@@ -26,11 +26,11 @@
 #include <vector>
 
 #include <pfaff/core/integrator.hpp>
-#include <pfaff/core/solve/convergence.hpp>
 #include <pfaff/integrators/generating/gradient_evaluator.hpp>
 #include <pfaff/integrators/support/continuation.hpp>
 #include <pfaff/integrators/support/difference_predictor.hpp>
 #include <pfaff/integrators/support/remembered_contraction.hpp>
+#include <pfaff/integrators/support/secant_convergence.hpp>
 #include <pfaff/integrators/support/secant_updates.hpp>
 
 namespace pfaff {
@@ -216,9 +216,7 @@ struct GeneratingFunction {
     if (const Status status = factor(p, t, h, w); status != Status::converged) return w.fail(status);
     w.gradient.set_step(t, h);
     w.secants.forget();
-    // Secants make the ratios of corrections vary. The midpoint form corrects psi by what is left of the last
-    // one, and needs no second forecast.
-    Convergence<T> convergence(w.factors() && !w.midpoint ? Corrections::uneven : Corrections::even);
+    SecantConvergence<T> convergence;
     do {
       w.gradient(w.w.data(), w.psi.data());
       ++p.counters().iterations;
