@@ -6,6 +6,9 @@
 // it; before there are two, the slowest first ratio of earlier steps stands for the one that is missing. An
 // iteration without secants, whose ratios are even, ends where it would end by its last ratio alone.
 //
+// The ratio to a correction of a few units of round-off is one of rounding errors. There the ratio before it
+// says whether anything is left to gain.
+//
 // A first correction that is larger than what it corrects, as that of a component that was nearly zero,
 // measures no contraction: the ratio to it may be as small as that component, and foretells nothing.
 #pragma once
@@ -49,7 +52,9 @@ class SecantConvergence {
     }
     const Number last = ratio_;
     ratio_ = previous_ <= Number(1) ? Number(size_ / previous_) : Number(1);
-    if (!(std::max(last, ratio_) * size_ <= unit_roundoff<T>() / Number(64))) return false;
+    const Number u = unit_roundoff<T>();
+    const bool settled = size_ <= Number(4) * u && last * size_ <= u / Number(16);
+    if (!settled && !(std::max(last, ratio_) * size_ <= u / Number(64))) return false;
     status_ = Status::converged;
     return true;
   }
