@@ -8,8 +8,9 @@
 // Variant S, even m, expands at the mid-time: symmetric as well. Degrees beyond m, from the same nodes, bring
 // the error constant close to that of Gauss collocation in the chart.
 //
-// The step solves w = y + P psi(w), with Y the field in the chart. A first w is predicted from past steps and
-// corrected with one factorisation of I - tau P Y_y or, for many degrees of freedom, without derivatives.
+// The step solves w = y + P psi(w), with Y the field in the chart. A first w is predicted from past steps or
+// by a Taylor series (expected_change.hpp) and corrected with one factorisation (correction_matrix.hpp) or,
+// for many degrees of freedom, without derivatives.
 // From the second correction on these matrices are improved by what the corrections have shown
 // (secant_updates.hpp), which halves the evaluations of psi in long steps. In the midpoint form the new state
 // is y + psi(w) at the last w that was evaluated, and what its correction changes of psi; doubling w - y
@@ -26,18 +27,18 @@
 #include <vector>
 
 #include <pfaff/core/integrator.hpp>
-#include <pfaff/core/solve/convergence.hpp>
+#include <pfaff/integrators/generating/correction_matrix.hpp>
+#include <pfaff/integrators/generating/expected_change.hpp>
 #include <pfaff/integrators/generating/gradient_evaluator.hpp>
 #include <pfaff/integrators/support/continuation.hpp>
-#include <pfaff/integrators/support/difference_predictor.hpp>
 #include <pfaff/integrators/support/remembered_contraction.hpp>
+#include <pfaff/integrators/support/secant_convergence.hpp>
 #include <pfaff/integrators/support/secant_updates.hpp>
 
 namespace pfaff {
 
 /// The scheme of order `truncation`. Call validate() once the parameters are set.
 struct GeneratingFunction {
-  static constexpr std::size_t history_length = 8;
   /// The largest number of coordinates for which the correction factors a matrix.
   static constexpr std::size_t largest_matrix = 8;
   static constexpr bool fixed_sizes = false;  // the work is in the series, whose size is its own
@@ -138,10 +139,11 @@ struct GeneratingFunction {
     ShareMatrix<T> share;
     bool midpoint;
     GradientEvaluator<T> gradient;
-    std::vector<T> y, carry, d, w, psi, residual, correction, moved, rate, start, jacobian;
-    DifferencePredictor<T, dynamic, dynamic> past;  // of d
+    std::vector<T> y, carry, d, w, psi, residual, correction, moved, rate, start;
+    std::vector<T> change;  // of y: what is expected of it, and in the end what it is
+    ExpectedChange<P> forecast;
     SecantUpdates<T> secants;
-    LU<Value<T>> matrix;
+    CorrectionMatrix<P> matrix;
     std::vector<Value<T>> predicted;    // of d
     std::array<Value<T>, 2> largest{};  // of the positions and of the momenta in the chart
     Continuation<P> continuation;
@@ -162,10 +164,10 @@ struct GeneratingFunction {
           moved(n),
           rate(n),
           start(n),
-          jacobian(factors() ? n * n : 0),
-          past(n, history_length),
+          change(n),
+          forecast(p, m.truncation, gradient.evaluations()),
           secants(n),
-          matrix(factors() ? n : 0),
+          matrix(factors() ? n : 0, m.truncation + m.extra > 2),
           predicted(n),
           continuation(p) {
       p.prepare(Formula::chart_field);
@@ -212,13 +214,10 @@ struct GeneratingFunction {
   template <HasDarbouxChart P>
   Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
     using T = Scalar<P>;
-    predict(p, t, h, z, w);
-    if (const Status status = factor(p, t, h, w); status != Status::converged) return w.fail(status);
+    if (const Status status = start(p, t, h, z, w); status != Status::converged) return w.fail(status);
     w.gradient.set_step(t, h);
     w.secants.forget();
-    // Secants make the ratios of corrections vary. The midpoint form corrects psi by what is left of the last
-    // one, and needs no second forecast.
-    Convergence<T> convergence(w.factors() && !w.midpoint ? Corrections::uneven : Corrections::even);
+    SecantConvergence<T> convergence;
     do {
       w.gradient(w.w.data(), w.psi.data());
       ++p.counters().iterations;
@@ -240,58 +239,37 @@ struct GeneratingFunction {
     if (!w.midpoint) w.gradient(w.w.data(), w.psi.data());
     for (std::size_t k = 0; k < w.n; ++k) {
       const T rest = w.correction[k] - w.residual[k];
-      add_to(w.y[k], w.carry[k], w.midpoint ? w.psi[k] + (rest + rest) : w.psi[k], compensated);
+      w.change[k] = w.midpoint ? w.psi[k] + (rest + rest) : w.psi[k];
     }
-    w.past.remember([&w](std::size_t k) { return w.d[k]; });
+    w.forecast.remember(w.change, [&w](std::size_t k) { return w.reference(k); });
+    for (std::size_t k = 0; k < w.n; ++k) add_to(w.y[k], w.carry[k], w.change[k], compensated);
     p.chart_inverse(t + h, w.y, z);
     w.continuation.remember(t + h, h, z);
     return Status::converged;
   }
 
  private:
-  // The first w = y + d. Where past steps are known d is extrapolated from them. Otherwise it is P h Y, with
-  // the field Y taken at the mid-time, at the point that half an Euler step reaches.
+  // The first w = y + d, and the matrix that corrects it.
   template <class P>
-  static void predict(const P& p, const Scalar<P>& t, const Scalar<P>& h, const State<P>& z, Work<P>& w) {
+  static Status start(const P& p, const Scalar<P>& t, const Scalar<P>& h, const State<P>& z, Work<P>& w) {
     using T = Scalar<P>;
-    if (w.continuation.holds(t, h, z)) {
-      for (std::size_t k = 0; k < w.n; ++k) w.d[k] = w.past.expected(k);
-    } else {
+    if (!w.continuation.holds(t, h, z)) {
       p.chart(t, z, w.y);
       for (T& x : w.carry) x = T(0);
-      w.past.forget();
+      w.forecast.forget();
       w.contraction.forget();
-      p.chart_field(t, w.y, w.rate);
-      for (std::size_t k = 0; k < w.n; ++k) w.w[k] = w.y[k] + h / T(2) * w.rate[k];
-      p.chart_field(t + h / T(2), w.w, w.rate);
-      for (std::size_t k = 0; k < w.n; ++k) w.d[k] = h * w.share.row(k, w.rate.data());
     }
-    for (std::size_t k = 0; k < w.n; ++k) w.predicted[k] = value_of(w.d[k]);
     w.measure();
+    w.forecast.expect(
+        p, t, h, w.y, [&w](std::size_t k) { return w.reference(k); }, w.change);
+    for (std::size_t k = 0; k < w.n; ++k) {
+      w.d[k] = w.share.row(k, w.change.data());
+      w.predicted[k] = value_of(w.d[k]);
+    }
     w.place();
-  }
-
-  // Factors I - h P Y_y at the predicted point and the mid-time, where corrections use this matrix.
-  template <class P>
-  static Status factor(const P& p, const Scalar<P>& t, const Scalar<P>& h, Work<P>& w) {
-    using T = Scalar<P>;
     if (!w.factors()) return Status::converged;
-    p.chart_field_jacobian(t + h / T(2), w.w, w.jacobian);
-    for (const T& x : w.jacobian)
-      if (!isfinite(value_of(x))) return Status::non_finite;
-    for (std::size_t i = 0; i < w.n; ++i)
-      for (std::size_t j = 0; j < w.n; ++j) {
-        Value<T> sum(0);
-        if (w.share.diagonal()) {
-          sum = value_of(w.share(i, i)) * value_of(w.jacobian[i * w.n + j]);
-        } else {
-          for (std::size_t k = 0; k < w.n; ++k)
-            sum = sum + value_of(w.share(i, k)) * value_of(w.jacobian[k * w.n + j]);
-        }
-        w.matrix(i, j) = (i == j ? Value<T>(1) : Value<T>(0)) - value_of(h) * sum;
-      }
     ++p.counters().factorisations;
-    return w.matrix.factor() ? Status::converged : Status::singular;
+    return w.matrix.factor(p, t, h, w.share, w.y, w.w, w.change);
   }
 
   // Solves (I - h P Y_y) correction = residual. Without a matrix it does so by a few iterations of
@@ -300,7 +278,7 @@ struct GeneratingFunction {
   template <class P>
   static void correct(const P& p, const Scalar<P>& t, const Scalar<P>& h, Work<P>& w) {
     using T = Scalar<P>;
-    if (w.factors()) return w.matrix.solve(w.residual.data(), w.correction.data());
+    if (w.factors()) return w.matrix.solve(w.share, w.residual, w.correction);
     const T middle = t + h / T(2);
     p.chart_field(middle, w.w, w.start);
     w.correction = w.residual;

@@ -10,6 +10,10 @@
 //
 // Corrections then become smaller faster than by a fixed ratio. Components are weighed by their size, so that
 // the units of a chart do not matter. Derivatives are corrected by the same matrices as values.
+//
+// The direction of a correction at round-off, and what the residual does along it, are rounding errors. Such
+// corrections are made with the matrices so far and teach nothing; the derivatives, which converge later than
+// the values, would be corrected by matrices of noise.
 #pragma once
 
 #include <algorithm>
@@ -18,6 +22,7 @@
 #include <vector>
 
 #include <pfaff/core/numbers/dual.hpp>
+#include <pfaff/core/numbers/functions.hpp>
 
 namespace pfaff {
 
@@ -27,6 +32,8 @@ class SecantUpdates {
   using Number = Value<T>;
   /// Corrections beyond this many are not kept; an iteration that long gains nothing from them.
   static constexpr std::size_t most = 12;
+  /// Corrections below so many units of round-off teach nothing.
+  static constexpr int least = 64;
 
   explicit SecantUpdates(std::size_t size)
       : size_(size), weight_(size), steps_(most * size), squares_(most) {}
@@ -39,7 +46,7 @@ class SecantUpdates {
     if (count_ == 0) return keep(correction, Number(1));
     if (count_ == 1) weigh(reference, change);
     for (std::size_t j = 0; j + 1 < count_; ++j) add(correction, along(j, correction), j + 1);
-    if (count_ == most) return;
+    if (count_ == most || at_round_off(correction)) return;
     const T last = along(count_ - 1, correction);
     const Number rest = Number(1) - value_of(last);
     if (!(abs(rest) > Number(1e-3))) {  // residuals that hardly differ say nothing
@@ -52,6 +59,12 @@ class SecantUpdates {
   }
 
  private:
+  [[nodiscard]] bool at_round_off(const std::vector<T>& correction) const {
+    Number size(0);
+    for (std::size_t k = 0; k < size_; ++k)
+      size = std::max(size, Number(weight_[k] * abs(value_of(correction[k]))));
+    return size <= Number(least) * unit_roundoff<T>();
+  }
   // s_j^T x / s_j^T s_j
   [[nodiscard]] T along(std::size_t j, const std::vector<T>& x) const {
     T sum(0);

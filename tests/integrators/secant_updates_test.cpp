@@ -67,6 +67,30 @@ TEST(SecantUpdates, CorrectDerivativesWithTheSameMatrices) {
     EXPECT_NEAR(x[k].derivative[0], (above[k] - below[k]) / (2 * h), 1e-8) << k;
 }
 
+// Where the values have converged their corrections are rounding errors. What these are must not change what
+// is made of the derivatives.
+TEST(SecantUpdates, LearnNothingFromRoundOff) {
+  const auto derivatives_after = [](std::vector<double> roundings) {
+    SecantUpdates<D> updates(2);
+    const std::vector<D> scale{D(1), D(1)};
+    for (const double x : {1e-2, 1e-4}) {
+      std::vector<D> correction{D::variable(x, 0), D(-x / 2)};
+      updates.improve(correction, scale, scale);
+    }
+    std::vector<double> made;
+    for (const double rounding : roundings) {
+      std::vector<D> correction{D::variable(rounding, 0), D(-rounding)};
+      updates.improve(correction, scale, scale);
+      made.push_back(correction[0].derivative[0]);
+      made.push_back(correction[1].derivative[0]);
+    }
+    return made;
+  };
+  EXPECT_EQ(derivatives_after({1e-16, 2e-16, -1e-16}), derivatives_after({-3e-16, -2.9e-16, 1e-15}));
+  // The control: corrections that are more than that do change it.
+  EXPECT_NE(derivatives_after({1e-7, 2e-8, -1e-8}), derivatives_after({-3e-7, 2e-8, 1e-9}));
+}
+
 TEST(SecantUpdates, StartAnewOnceForgotten) {
   SecantUpdates<double> used(2), fresh(2);
   const std::vector<double> scale{1, 1};

@@ -1,0 +1,121 @@
+// The matrix of the corrections of w = y + P psi(w), the equation of a step y' = y + psi(w).
+//
+// Newton's method multiplies the residual by (I - P psi')^-1. Up to order 2, psi is h times the field at w
+// and psi' is h A, A the field's Jacobian at the predicted w and the mid-time. For higher orders that would
+// leave O(h^3). Where the step is the flow with Jacobian M = I + D, psi' = D (I + P D)^-1, so that Newton's
+// correction is (I + P D) times the residual. M is found to order 4 from A_1 and A_2 at the two Gauss points
+// of the step (Magnus' expansion, hairer-lubich-wanner2006 section IV.7):
+//
+//   M = e^Omega,   Omega = h/2 (A_1 + A_2) + sqrt(3)/12 h^2 (A_2 A_1 - A_1 A_2),
+//   D = e^Omega - I = (I - Omega/2 + Omega^2/12)^-1 Omega + O(Omega^5),
+//
+// which leaves O(h^5). The states at the Gauss points are those of the parabola from y, along the field
+// there, to the predicted y'.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <pfaff/core/errors/status.hpp>
+#include <pfaff/core/facets/problem.hpp>
+#include <pfaff/core/linear/lu.hpp>
+#include <pfaff/integrators/generating/generating_share.hpp>
+
+namespace pfaff {
+
+template <class P>
+class CorrectionMatrix {
+ public:
+  using T = Scalar<P>;
+  using Number = Value<T>;
+
+  /// For n coordinates and schemes of an order above 2, or up to it; buffers are made here.
+  CorrectionMatrix(std::size_t n, bool high_order)
+      : n_(n),
+        high_order_(high_order),
+        rate_(n),
+        state_(n),
+        jacobian_(n * n),
+        image_(n),
+        solved_(n),
+        first_(n * n),
+        second_(high_order ? n * n : 0),
+        omega_(n * n),
+        factors_(n) {}
+
+  /// For the step of size h from y at time t, with w and the change of y as they are expected.
+  Status factor(const P& p, const T& t, const T& h, const ShareMatrix<T>& share, const std::vector<T>& y,
+                const std::vector<T>& w, const std::vector<T>& change) {
+    if (!high_order_) return factor_midpoint(p, t, h, share, w);
+    p.chart_field(t, y, rate_);
+    const Number offset = sqrt(Number(3)) / Number(6), middle = Number(1) / Number(2);
+    for (std::vector<Number>* scaled : {&first_, &second_}) {
+      const T theta(scaled == &first_ ? middle - offset : middle + offset);
+      for (std::size_t k = 0; k < n_; ++k) {
+        const T straight = h * rate_[k];
+        state_[k] = y[k] + theta * (straight + theta * (change[k] - straight));
+      }
+      p.chart_field_jacobian(t + theta * h, state_, jacobian_);
+      if (!scale(value_of(h), *scaled)) return Status::non_finite;
+    }
+    for (std::size_t i = 0; i < n_; ++i)
+      for (std::size_t j = 0; j < n_; ++j) {
+        Number commutator(0);
+        for (std::size_t k = 0; k < n_; ++k)
+          commutator = commutator + second_[i * n_ + k] * first_[k * n_ + j] -
+                       first_[i * n_ + k] * second_[k * n_ + j];
+        omega_[i * n_ + j] = (first_[i * n_ + j] + second_[i * n_ + j] + offset * commutator) / Number(2);
+      }
+    for (std::size_t i = 0; i < n_; ++i)
+      for (std::size_t j = 0; j < n_; ++j) {
+        Number square(0);
+        for (std::size_t k = 0; k < n_; ++k) square = square + omega_[i * n_ + k] * omega_[k * n_ + j];
+        factors_(i, j) = identity(i, j) - omega_[i * n_ + j] / Number(2) + square / Number(12);
+      }
+    return factors_.factor() ? Status::converged : Status::singular;
+  }
+
+  /// correction = (I - P psi')^-1 residual, with what factor() knows of psi'.
+  void solve(const ShareMatrix<T>& share, const std::vector<T>& residual, std::vector<T>& correction) {
+    if (!high_order_) return factors_.solve(residual.data(), correction.data());
+    for (std::size_t i = 0; i < n_; ++i) {
+      T sum(0);
+      for (std::size_t k = 0; k < n_; ++k) sum = sum + T(omega_[i * n_ + k]) * residual[k];
+      image_[i] = sum;
+    }
+    factors_.solve(image_.data(), solved_.data());
+    for (std::size_t k = 0; k < n_; ++k) correction[k] = residual[k] + share.row(k, solved_.data());
+  }
+
+ private:
+  static Number identity(std::size_t i, std::size_t j) { return Number(i == j ? 1 : 0); }
+  // scaled = h times the Jacobian; false where that is not finite.
+  bool scale(const Number& h, std::vector<Number>& scaled) const {
+    for (std::size_t i = 0; i < scaled.size(); ++i) {
+      if (!isfinite(value_of(jacobian_[i]))) return false;
+      scaled[i] = h * value_of(jacobian_[i]);
+    }
+    return true;
+  }
+  Status factor_midpoint(const P& p, const T& t, const T& h, const ShareMatrix<T>& share,
+                         const std::vector<T>& w) {
+    p.chart_field_jacobian(t + h / T(2), w, jacobian_);
+    if (!scale(value_of(h), omega_)) return Status::non_finite;
+    for (std::size_t i = 0; i < n_; ++i)
+      for (std::size_t j = 0; j < n_; ++j) {
+        Number sum(0);
+        for (std::size_t k = 0; k < n_; ++k)
+          if (k == i || !share.diagonal()) sum = sum + value_of(share(i, k)) * omega_[k * n_ + j];
+        factors_(i, j) = identity(i, j) - sum;
+      }
+    return factors_.factor() ? Status::converged : Status::singular;
+  }
+
+  std::size_t n_;
+  bool high_order_;
+  std::vector<T> rate_, state_, jacobian_, image_, solved_;
+  std::vector<Number> first_, second_, omega_;  // h A_1, h A_2, Omega
+  LU<Number> factors_;
+};
+
+}  // namespace pfaff
