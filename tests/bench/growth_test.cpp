@@ -1,6 +1,7 @@
 // Growth of residuals: made-up series with a known power or rate give that power or rate back.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -36,6 +37,15 @@ TEST(Growth, SeesTheLargestSoFarAndNoSigns) {
   EXPECT_NEAR(growth(s.times, s.values)->exponent, 1, 0.1);  // maxima are met to within a tenth
   const auto level = sampled([](double) { return 3e-16; });
   EXPECT_NEAR(growth(level.times, level.values)->exponent, 0, 1e-12);
+}
+
+// An error that has come back near zero at the end has still been as large as it was.
+TEST(Growth, DoesNotForgetWhatComesBack) {
+  const auto back = sampled([](double t) { return t < 10 ? 1e-9 * t : 1e-15; }),
+             stayed = sampled([](double t) { return 1e-9 * std::min(t, 9.9); });
+  const auto found = growth(back.times, back.values), expected = growth(stayed.times, stayed.values);
+  EXPECT_NEAR(found->exponent, expected->exponent, 1e-9);
+  EXPECT_NEAR(found->rate, expected->rate, 1e-9);
 }
 
 TEST(Growth, NothingWhereThereIsNothingToSay) {

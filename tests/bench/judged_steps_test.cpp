@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include <pfaff/bench/measure/chosen_steps.hpp>
+#include <pfaff/bench/measure/history.hpp>
 #include <pfaff/bench/runner/record.hpp>
 #include <pfaff/core/integrator.hpp>
 
@@ -152,6 +153,40 @@ TEST(JudgedSteps, MethodsWithHistoryAreJudgedAfterTheirStart) {
     EXPECT_EQ(bad(adams, system), Names{});
     EXPECT_EQ(bad(vain, system), Names{"order"});
   }
+}
+
+// Euler's method with a small part of the step before added to each step.
+template <int Digits>
+struct FaintlyRemembering {
+  template <class P>
+  struct Work {
+    State<P> before;
+    Work(const FaintlyRemembering& /*method*/, const P& p) : before(p.make_state()) {
+      for (auto& x : before) x = Scalar<P>(0);
+    }
+  };
+  template <HasVectorField P>
+  Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
+    State<P> rate = p.make_state();
+    p.field(t, z, rate);
+    for (std::size_t i = 0; i < z.size(); ++i) {
+      z[i] = z[i] + h * (rate[i] + pow(Scalar<P>(10), -Scalar<P>(Digits)) * w.before[i]);
+      w.before[i] = rate[i];
+    }
+    return Status::converged;
+  }
+};
+
+// A predictor changes a step by its round-off in quad, 1e-34. What changes it by more is history, however
+// little it is.
+TEST(JudgedSteps, HistoryIsMoreThanRoundOff) {
+  const auto model = systems().get("pendulum", "system").make({});
+  static const Method<FaintlyRemembering<21>> little{described("little-history", 1)};
+  static const Method<FaintlyRemembering<28>> less{described("less-history", 1)};
+  for (const MethodPlugin* plugin : std::initializer_list<const MethodPlugin*>{&little, &less})
+    EXPECT_EQ(keeps_history(*plugin->make({}), model, Quad(0), Quad(0.1), {Quad(1), Quad(0.5)}),
+              plugin == &little)
+        << plugin->name();
 }
 
 TEST(JudgedSteps, AStructureThatCannotBeJudgedIsNotClaimed) {

@@ -226,6 +226,18 @@ TEST(Classification, RoundOffOfTermsIsNoPivot) {
   EXPECT_EQ(classify(w, Symmetry::skew, Matrix<double>(0, 0), sizes).rank(), 0U);
 }
 
+// W = e e^T with e = (1, 0, 1), but for the round-off 3e-17 of terms of size 1 in the bracket of the first
+// two. The pivot {1, 1} brings it to the bracket of the last two, which was exactly zero.
+TEST(Classification, RoundOffGoesWhereAPivotBringsIt) {
+  Matrix<double> w(3, 3), sizes(3, 3);
+  w(0, 0) = w(0, 2) = w(2, 0) = w(2, 2) = 1;
+  w(0, 1) = w(1, 0) = 3e-17;
+  sizes(0, 1) = sizes(1, 0) = 1;
+  EXPECT_EQ(classify(w, Symmetry::symmetric, Matrix<double>(0, 0), sizes).rank(), 1U);
+  // Control: without the sizes of terms it is no round-off.
+  EXPECT_EQ(classify(w, Symmetry::symmetric).rank(), 3U);
+}
+
 TYPED_TEST(Classes, RedundantConstraintsAreNamed) {
   using T = TypeParam;
   // phi1 = q1, phi2 = p1, phi3 = 2 q1 - 3 p1, phi4 = q2 with the canonical bracket of (q1, q2, p1, p2).

@@ -51,6 +51,31 @@ TEST(LeapFrog, IsOfOrderTwoOverManySteps) {
   EXPECT_NEAR(std::log2(error(800) / error(1600)), 2, 0.05);
 }
 
+struct Drift {
+  static constexpr int dimension = 1;
+  template <class T>
+  void field(const T& /*t*/, In<T> /*z*/, Out<T> rate) const {
+    rate[0] = T(Real::fraction(1, 10));
+  }
+};
+
+// A hundred thousand equal increments: only sums are rounded. Even and odd states are two sums, each with a
+// compensation of its own, which leaves the rounding of the last one.
+TEST(LeapFrog, BothSumsAreCompensated) {
+  static const System<Drift> plugin{{.name = "drift", .title = "", .reference = "", .initial = {Real(0)}}};
+  const std::int64_t steps = 100000;
+  const double h = 0.1, expected = static_cast<double>(steps / 2) * (2 * h * 0.1);
+  const double unit = std::ldexp(1.0, -43);  // in the last place of 1000
+  for (const bool compensated : {true, false}) {
+    std::vector<double> z{0};
+    std::int64_t completed = 0;
+    const auto leaps = method("leap-frog", {{"compensated", compensated ? "yes" : "no"}});
+    ASSERT_EQ(leaps->stepper(plugin.make({}), double())->advance(0, 0, h, steps, z, completed),
+              Status::converged);
+    EXPECT_EQ(std::abs(z[0] - expected) <= unit, compensated) << z[0] - expected;
+  }
+}
+
 TEST(LeapFrog, IsNotKSymplectic) {
   const auto model = systems().get("damped-pendulum", "system").make({});
   StructureResidual<Quad> residual(*method("leap-frog"), model);
