@@ -10,19 +10,20 @@
 //
 //   f - 1 = -mu G_2/r0,   g = r0 G_1 + eta G_2,   f' = -mu G_1/(r0 r),   g' - 1 = -mu G_2/r.
 //
-// Three choices keep rounding errors from adding up in the energy. What is computed is the change of the
-// state, from f - 1 and g' - 1, so that a short flow is wrong by round-off of the change and not of the
-// state. g is made of G_1 and G_2, and not as h - mu G_3: an s that is not quite the solution then gives a
-// state that is early or late on the right orbit. And nothing is divided by beta where it is small: there the
-// G_k are series, and so are short flows of every orbit.
+// What is computed is the change of the state, from f - 1, g - h and g' - 1: a short flow is wrong by
+// round-off of the change and not of the state. Of the positions it is also given without the uniform motion,
+// so that whoever adds uniform motions of several bodies can do so by themselves; where the attraction is the
+// smaller part g - h = -mu G_3. Nothing is divided by beta where it is small: there the G_k are series, and
+// so are short flows of every orbit.
 //
 // The equation for s has one root, since dh/ds = r > 0. Laguerre's method of degree 5 finds it (conway1986),
 // inside a bracket that halves where a step would leave it, so that it converges from any state and time. Of
 // ellipses whole periods are taken off the time first. The last digits are Newton's, in the scalar itself,
 // which for a dual number gives the derivative of the root.
 //
-// Limits: the phase after many periods is as good as the period, which is wrong by some round-off in each;
-// and close to a collision as good as 1/r.
+// Limits: the phase after many periods is as good as the period, which is wrong by some round-off in each. A
+// hyperbola of several times the speed of escape that comes in from afar and goes out again in one flow loses
+// digits, as the product of both distances over the square of the smallest one.
 #pragma once
 
 #include <array>
@@ -139,12 +140,12 @@ V universal_anomaly(const V& r0, const V& eta, const V& zeta, const V& mu, const
 }  // namespace detail
 
 /// The flow of q'' = -mu q/|q|^3, mu >= 0, for the time h of either sign, in as many dimensions as q has: dq
-/// and dv are the changes of q and v. The status is `not_converged` where the root was not found or the time
-/// is more periods than a double counts, and `non_finite` where the state has no orbit or ends in a
-/// collision.
+/// and dv are the changes of q and v, and bend is what dq has beyond the uniform motion, dq - h v. The status
+/// is `not_converged` where the root was not found or the time is more periods than a double counts, and
+/// `non_finite` where the state has no orbit or ends in a collision.
 template <class T>
 Status kepler_change(const T& mu, const T& h, std::span<const T> q, std::span<const T> v, std::span<T> dq,
-                     std::span<T> dv) {
+                     std::span<T> bend, std::span<T> dv) {
   using V = Value<T>;
   static const V pi(3.14159265358979323846264338327950288_r);
   T distance(0), eta(0), speed(0);
@@ -159,6 +160,7 @@ Status kepler_change(const T& mu, const T& h, std::span<const T> q, std::span<co
     return Status::non_finite;
   T time = h;
   V largest(0);
+  bool periods_off = false;
   if (curve > V(0)) {
     const T root = sqrt(beta), period = T(V(2) * pi) * mu / (beta * root);
     if (abs(value_of(h)) > value_of(period) / V(2)) {
@@ -166,6 +168,7 @@ Status kepler_change(const T& mu, const T& h, std::span<const T> q, std::span<co
       // More turns than a double counts leave no phase.
       if (!(std::abs(turns) < 0x1p52)) return Status::not_converged;
       time = h - T(V(turns)) * period;
+      periods_off = true;
     }
     largest = V(2) * pi / value_of(root);
   }
@@ -184,6 +187,10 @@ Status kepler_change(const T& mu, const T& h, std::span<const T> q, std::span<co
     if (status != Status::converged) return status;
     if constexpr (std::is_same_v<T, V>) {
       u = {turned * found.g1, found.g2, turned * found.g3};
+      // The iteration ends at one side of the root, by some round-off; the first order brings it there.
+      const T ahead = r0 * u.g1 + eta * u.g2 + mu * u.g3 - time;
+      const T step = ahead / (r0 + eta * u.g1 + zeta * u.g2);
+      u = {u.g1 - (T(1) - beta * u.g2) * step, u.g2 - u.g1 * step, u.g3 - u.g2 * step};
     } else {
       s = T(turned * root);
       u = universal_functions(beta, s);
@@ -191,22 +198,26 @@ Status kepler_change(const T& mu, const T& h, std::span<const T> q, std::span<co
       u = universal_functions(beta, s);
     }
   }
+  // Where the pull is the smaller part of the time, dq is made of h v and what the attraction adds.
   const T f = -(mu * u.g2 / r0), pull = mu * u.g3;
-  T g = r0 * u.g1 + eta * u.g2;
-  // Fast bodies that come in and go out again in one flow: the two terms cancel, and the orbit is nearly
-  // straight.
-  if (V(4) * abs(value_of(g)) < abs(value_of(r0) * value_of(u.g1)) &&
-      V(2) * abs(value_of(pull)) < abs(value_of(time)))
-    g = time - pull;
+  const bool nearly_free = !periods_off && V(2) * abs(value_of(pull)) <= abs(value_of(time));
+  const T g = r0 * u.g1 + eta * u.g2;
   T square(0);
   for (std::size_t x = 0; x < q.size(); ++x) {
-    dq[x] = f * q[x] + g * v[x];
+    const T uniform = h * v[x];
+    if (nearly_free) {
+      bend[x] = f * q[x] - pull * v[x];
+      dq[x] = uniform + bend[x];
+    } else {
+      dq[x] = f * q[x] + g * v[x];
+      bend[x] = dq[x] - uniform;
+    }
     square = square + (q[x] + dq[x]) * (q[x] + dq[x]);
   }
   const T r = sqrt(square), f_rate = -(mu * u.g1 / (r0 * r)), g_rate = -(mu * u.g2 / r);
   for (std::size_t x = 0; x < q.size(); ++x) dv[x] = f_rate * q[x] + g_rate * v[x];
   for (std::size_t x = 0; x < q.size(); ++x)
-    if (!isfinite(value_of(dq[x])) || !isfinite(value_of(dv[x]))) return Status::non_finite;
+    if (!isfinite(value_of(bend[x])) || !isfinite(value_of(dv[x]))) return Status::non_finite;
   return Status::converged;
 }
 

@@ -53,44 +53,44 @@ Status kepler_part(const Mass& mass, const T& constant, std::size_t n, std::size
   // Outwards: the change of Jacobi's coordinates of each body, left where its own change will stand.
   for (std::size_t i = 1; i < n; ++i) {
     const T own = mass(i), outer = inner + own;
-    std::array<T, 3> r{}, v{}, dr{}, dv{};
+    std::array<T, 3> r{}, v{}, dr{}, bend{}, dv{};
     for (std::size_t x = 0; x < d; ++x) {
       r[x] = z[x * n + i] - centre[x];
       v[x] = z[half + x * n + i] / own - total[x] / inner;
     }
     const Status status = kepler_change<T>(T(constant * outer), h, std::span<const T>(r.data(), d),
                                            std::span<const T>(v.data(), d), std::span<T>(dr.data(), d),
-                                           std::span<T>(dv.data(), d));
+                                           std::span<T>(bend.data(), d), std::span<T>(dv.data(), d));
     if (status != Status::converged) return status;
     const T share = own / outer, reduced = own * inner / outer;
     for (std::size_t x = 0; x < d; ++x) {
-      change[x * n + i] = dr[x];
+      change[x * n + i] = bend[x];
       change[half + x * n + i] = reduced * dv[x];
       centre[x] = centre[x] + share * r[x];
       total[x] = total[x] + z[half + x * n + i];
     }
     inner = outer;
   }
-  // Inwards: the changes of R_i and P_i, and from them those of body i.
-  std::array<T, 3> moved{}, pushed{};
-  for (std::size_t x = 0; x < d; ++x) {
-    moved[x] = h * total[x] / inner;
-    pushed[x] = T(0);
-  }
+  // Inwards: the changes of R_i and P_i, and from them those of body i. The uniform motions of Jacobi's
+  // coordinates are together those of the bodies, which move by themselves: added up for the heavy body,
+  // whose own is small, they would cancel.
+  std::array<T, 3> moved, pushed;
+  moved.fill(T(0));
+  pushed.fill(T(0));
   for (std::size_t i = n; i-- > 1;) {
     const T outer = inner, own = mass(i), share = own / outer;
     inner = inner - own;
     const T rest = inner / outer;
     for (std::size_t x = 0; x < d; ++x) {
-      const T dr = change[x * n + i], dp = change[half + x * n + i];
-      change[x * n + i] = moved[x] + rest * dr;
-      moved[x] = moved[x] - share * dr;
+      const T bend = change[x * n + i], dp = change[half + x * n + i];
+      change[x * n + i] = h * (z[half + x * n + i] / own) + (moved[x] + rest * bend);
+      moved[x] = moved[x] - share * bend;
       change[half + x * n + i] = dp + share * pushed[x];
       pushed[x] = rest * pushed[x] - dp;
     }
   }
   for (std::size_t x = 0; x < d; ++x) {
-    change[x * n] = moved[x];
+    change[x * n] = h * (z[half + x * n] / mass(0)) + moved[x];
     change[half + x * n] = pushed[x];
   }
   return Status::converged;

@@ -25,7 +25,7 @@ struct Spring {
   Status part_flow(std::size_t part, const T& h, In<T> z, Out<T> change) const {
     change[part] = part == 0 ? T(h * z[1]) : T(-(h * z[0]));
     change[1 - part] = T(0);
-    return h * h > T(100) ? Status::not_converged : Status::converged;
+    return value_of(h) > Value<T>(10) ? Status::not_converged : Status::converged;
   }
 };
 struct Named : Spring {
@@ -34,7 +34,7 @@ struct Named : Spring {
 // A step that needs flows and nothing else.
 struct Lie {
   template <HasExactFlows P>
-  Status step(const P& p, const Scalar<P>& /*t*/, const Scalar<P>& h, State<P>& z) const {
+  Status step(const P& p, const Scalar<P>& /*t*/, const Scalar<P>& h, State<P>& z, NoWork& /*work*/) const {
     State<P> change = p.make_state();
     for (std::size_t part = 0; part < p.parts(); ++part) {
       const Status status = p.part_flow(part, h, z, change);

@@ -66,8 +66,11 @@ TEST(NearIntegrable, SchemesFulfilTheirConditionsAndNoOthers) {
 }
 
 TEST(NearIntegrable, ACoefficientWrongByABillionthIsRefused) {
-  for (const NearIntegrableScheme& scheme : all_schemes())
-    for (std::size_t k = 0; k < scheme.flows.size(); ++k) {
+  for (const NearIntegrableScheme& scheme : all_schemes()) {
+    // Words of degree 10 and 12 take a second for each change: of those schemes the first flows and the
+    // middle.
+    const std::size_t count = scheme.flows.size(), stride = scheme.orders.front() > 8 ? count / 2 : 1;
+    for (std::size_t k = 0; k < count; k += stride) {
       // What one flow has more another of the same part has less, so that the lengths still add up to one.
       for (const std::size_t other : {(k + 2) % scheme.flows.size(), (k + 4) % scheme.flows.size()}) {
         if (other == k || scheme.flows[other].part != scheme.flows[k].part) continue;
@@ -79,6 +82,7 @@ TEST(NearIntegrable, ACoefficientWrongByABillionthIsRefused) {
         EXPECT_GE(first->order, 2) << scheme.name << " " << k;
       }
     }
+  }
 }
 
 // Matrices with a number eps: dual numbers of dual numbers give the derivatives by eps at eps = 0.
@@ -199,9 +203,9 @@ TEST(NearIntegrable, ErrorsScaleWithThePowerOfThePlanetsMasses) {
     double h;   // days; Jupiter goes round in 4333
     int power;  // of eps
   };
-  for (const Row& row : {Row{"strang", 100, 1}, Row{"aba-8-2", 400, 1}, Row{"aba-8-2", 20, 2},
+  for (const Row& row : {Row{"strang", 100, 1}, Row{"aba-8-2", 800, 1}, Row{"aba-8-2", 20, 2},
                          Row{"aba-8-4", 50, 2}, Row{"corrected-7", 40, 2}}) {
-    const int steps = static_cast<int>(3000 / row.h);
+    const int steps = static_cast<int>(std::max(3000.0, 8 * row.h) / row.h);
     const double full = energy_error(row.scheme, Quad(1), Quad(row.h), steps),
                  tenth = energy_error(row.scheme, Quad(1) / Quad(10), Quad(row.h), steps);
     EXPECT_NEAR(std::log10(full / tenth), row.power, 0.2) << row.scheme << " at " << row.h << ": " << full;
