@@ -271,7 +271,7 @@ class Said(Fresh):
         path = self.folder / "experiment.json"
         path.write_text(path.read_text().replace('"conserved": "energy"', '"conserved": "energy", "error": "energy"', 1))
         status, told = run(self.folder)
-        self.assertEqual(status, 1)
+        self.assertEqual(status, 2)
         self.assertIn("column 'relative_drift_max' is missing", told)
 
     def test_a_slope_above_the_order_surprises_of_the_state_alone(self):
