@@ -92,6 +92,13 @@ TEST(BadExperiment, AutomaticSteps) {
   refused(list, automatic + "\n" + finding + "step = 0.1", {"[[finding]]", "case short", "without 'than'"});
 }
 
+TEST(BadExperiment, ErrorsOfQuantities) {
+  refused("", "error = \"energi\"\n", {"case short", "'error'", "unknown error 'energi'"});
+  refused("", "error = \"energy\"\n", {"case short", "'error'", "expected a conserved quantity", "'energy'"});
+  refused("", "error = \"solution\"\nreference = \"none\"\n",
+          {"[[case]] short", "'error'", "name of a conserved quantity", "'solution'"});
+}
+
 TEST(BadExperiment, SyntaxErrorsNameTheLine) {
   refused("label = \"RK4\"", "label = RK4\"", {"test.toml:4:"});
   refused("", "initial = [1, 0\n", {"test.toml:11:"});

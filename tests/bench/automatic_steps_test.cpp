@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include <pfaff/bench/experiment/automatic_steps.hpp>
+#include <pfaff/bench/experiment/error_measure.hpp>
 #include <pfaff/bench/experiment/team.hpp>
 #include <pfaff/bench/runner/files.hpp>
 
@@ -252,4 +253,68 @@ TEST_F(AutomaticExperiment, QuickRunsMayHaveAListInstead) {
   EXPECT_EQ(quick.cases.at(0).steps, (std::vector<std::string>{"0.5", "0.25"}));
 }
 
+// By the error of the energy, without a solution: the steps are those of that error, which is written into
+// results.csv and is what the samples of the run say.
+TEST_F(AutomaticExperiment, StepsMayBeChosenByAConservedQuantity) {
+  const Experiment of = read(R"(schema = 1
+title = "A test"
+[[method]]
+label = "RK4"
+integrator = "rk4"
+[[case]]
+name = "orbit"
+system = "kepler"
+time = 20
+steps = "auto"
+evaluations = 20000
+error = "energy"
+reference = "none"
+structure = "none"
+)");
+  run(of, "out");
+  double least = 1;
+  for (const std::string& name : runs_in("out")) {
+    const auto summary = nlohmann::json::parse(read_file(files_ / ("out/runs/" + name + "/summary.json")));
+    EXPECT_TRUE(summary["error_max"].is_null());
+    const auto& energy = summary["invariants"][0];
+    ASSERT_EQ(energy["name"], "energy");
+    // H = -1/2 at the start, so that the relative error is twice the absolute one.
+    EXPECT_NEAR(energy["initial"].get<double>(), -0.5, 1e-15);
+    const double error = error_of(of.cases.front(), summary);
+    EXPECT_DOUBLE_EQ(error, 2 * energy["max"].get<double>());
+    EXPECT_LE(error, 0.1) << name;
+    least = std::min(least, error);
+    nlohmann::json false_summary = summary;  // control: another start makes another error
+    false_summary["invariants"][0]["initial"] = 1.0;
+    EXPECT_DOUBLE_EQ(error_of(of.cases.front(), false_summary), error / 2);
+    false_summary["invariants"][0]["name"] = "momentum";
+    EXPECT_TRUE(std::isnan(error_of(of.cases.front(), false_summary)));
+  }
+  EXPECT_LT(least, 1e-6);
+}
+
+// A pendulum that hangs at rest has the energy that its potential is counted from; relative to zero nothing
+// is small.
+TEST_F(AutomaticExperiment, AQuantityThatIsZeroAtTheStartIsNoMeasure) {
+  const Experiment of = read(R"(schema = 1
+title = "A test"
+[[method]]
+label = "RK4"
+integrator = "rk4"
+[[case]]
+name = "still"
+system = "harmonic-oscillator"
+initial = [0, 0]
+time = 20
+steps = [0.1]
+error = "energy"
+)");
+  try {
+    (void)expand(of);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("case still, method RK4: key 'error'"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("not zero at the start"), std::string::npos);
+  }
+}
 }  // namespace

@@ -21,6 +21,8 @@ class Ratios(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.file = pathlib.Path(folder.name) / "times.json"
         self.times = {"/".join(key): 1.0 for row in LIMITED for key in row[1:3]}  # no target is below 1
+        for method, path, error, _ in ratios.KEPLER_RUNS:
+            self.times["/".join(ratios.error_of(("kepler-run", method, path)))] = error
 
     def check(self):
         self.file.write_text(json.dumps(self.times), encoding="utf-8")
@@ -51,6 +53,23 @@ class Ratios(unittest.TestCase):
             self.assertEqual(status, 1, row[0])
             self.assertIn("exceeded by 26 %", self.line(told, row))
             self.assertIn("1 of the ratios exceed their targets by more than 25 %", complained)
+
+    def test_a_run_that_does_not_reach_its_error_fails(self):
+        method, path, error, _ = ratios.KEPLER_RUNS[0]
+        for false in (1.01 * error, float("nan"), None):
+            self.setUp()
+            key = "/".join(ratios.error_of(("kepler-run", method, path)))
+            self.times.pop(key) if false is None else self.times.update({key: false})
+            status, told, complained = self.check()
+            self.assertEqual(status, 1, false)
+            self.assertIn(f"kepler-run {method} {path}: expected an error of the energy of at most", told)
+            self.assertIn("1 of the whole runs do not reach", complained)
+
+    def test_errors_are_read_beside_times(self):
+        run = {"run_type": "iteration", "run_name": "kepler-run/m-h1/static", "ns_per_run": 5.0, "energy_error": 1e-9}
+        found = ratios.fastest(json.dumps({"benchmarks": [run, run | {"ns_per_run": 4.0}]}))
+        self.assertEqual(found, {("kepler-run", "m-h1", "static"): 4.0,
+                                 ("kepler-run", "m-h1", "static-energy-error"): 1e-9})
 
     def test_a_ratio_between_the_target_and_the_bound_is_marked_and_passes(self):
         row = LIMITED[-1]

@@ -227,6 +227,62 @@ class Said(Fresh):
         costs = [p.cost for p in next(r for r in self.verdict().rows if r.label == "rk").curve.points]
         self.assertEqual(costs, [8000, 8000, 16000])
 
+    def of_energy(self):
+        """The oscillator's case, compared by the relative error of its energy: 10^-k for rk at its steps, from the coarsest."""
+        path = self.folder / "experiment.json"
+        head = json.loads(path.read_text())
+        head["cases"][0]["error"] = "energy"
+        path.write_text(json.dumps(head))
+        rows = load(self.folder / "results.csv")
+        steps = {"0.4": 1e-4, "0.2": 1e-8, "0.1": 1e-13}
+        for row in rows:
+            row.append("relative_drift_max" if row is rows[0] else "" if row[9] != "converged" else
+                       repr(steps[row[5]]) if row[2] == "rk" else "0.5" if row[0] == "osc" else "")
+        save(self.folder / "results.csv", rows)
+
+    def test_the_error_of_a_conserved_quantity(self):
+        synthetic(self.folder)
+        before = self.verdict()
+        self.of_energy()
+        shown = self.verdict()
+        rk = next(r for r in shown.rows if r.label == "rk")
+        self.assertEqual(shown.target, 1e-6)
+        # From 4 us and 1e-4 to 8 us and 1e-8, straight in logarithms: 1e-6 is in the middle.
+        self.assertAlmostEqual(rk.times[1e-6][0] / (4000 * math.sqrt(2)), 1, places=6)
+        self.assertAlmostEqual(rk.times[1e-12][0] / (8000 * 2 ** (4 / 5)), 1, places=6)
+        self.assertNotEqual(before.rows[0].times, rk.times)
+        said = self.said()
+        self.assertTrue(said.startswith("At energy error 10^−6 rk is cheapest, 5.7 µs"), said)
+        page = verdict_table.table(shown)
+        for told in ("time to reach energy error", ">energy error<", "slope of energy error", "10<sup>−12</sup>"):
+            self.assertIn(told, page)
+        self.assertIn("|I − I(0)| / |I(0)| of energy", wording.plain_text(sentence.holds(shown)))
+        self.assertNotIn("state error", said + page)
+        self.assertEqual(shown.measure.axis, "largest relative error of energy, |ΔI/I(0)|")
+        self.assertEqual(before.measure.axis, "largest relative error of the state")
+        # An error of the state that is false is not looked at; one of the energy is.
+        self.edit("results.csv", "error_max", lambda x: "1e-30" if x else x)
+        self.assertEqual([r.times for r in self.verdict().rows], [r.times for r in shown.rows])
+        self.edit("results.csv", "relative_drift_max", lambda x: "1e-30" if x else x)
+        self.assertNotEqual([r.times for r in self.verdict().rows], [r.times for r in shown.rows])
+
+    def test_an_error_that_is_not_in_the_results_is_refused(self):
+        synthetic(self.folder)
+        path = self.folder / "experiment.json"
+        path.write_text(path.read_text().replace('"conserved": "energy"', '"conserved": "energy", "error": "energy"', 1))
+        status, told = run(self.folder)
+        self.assertEqual(status, 2)
+        self.assertIn("column 'relative_drift_max' is missing", told)
+
+    def test_a_slope_above_the_order_surprises_of_the_state_alone(self):
+        some = curve(power_law(6))
+        self.assertTrue(some.order().surprising)
+        some.of_state = False
+        self.assertFalse(some.order().surprising)
+        slow = curve(power_law(2))
+        slow.of_state = False
+        self.assertTrue(slow.order().surprising)
+
     def test_ties_are_both_named_and_both_bold(self):
         synthetic(self.folder)
         self.assertEqual([r.label for r in self.verdict().best(1e-4)], ["rk", "bad"])
