@@ -23,10 +23,11 @@ class MeasuredFlows {
       : model_(std::move(model)),
         flows_(model_->exact_flows<T>()),
         dual_(model_->exact_flows<StepDual<T>>()),
+        now_(generic_time_of(*model_)),
         // A quarter of the time in which the motion changes, as far as flows of one step go.
-        time_(T(Real(own_time(*model_, generic_time, centre))) / T(4)) {
+        time_(T(Real(own_time(*model_, now_, centre))) / T(4)) {
     for (const Real& x : centre) start_.push_back(T(x));
-    for (const double x : coordinate_scales(*model_, generic_time, centre)) scales_.push_back(T(x));
+    for (const double x : coordinate_scales(*model_, now_, centre)) scales_.push_back(T(x));
   }
 
   // phi_s o phi_t - phi_(s+t) for times of either sign, t = -s among them, in units of the sizes of the
@@ -53,7 +54,7 @@ class MeasuredFlows {
         return no_step;
       for (std::size_t k = 0; k < n; ++k) sum[k] = sum[k] + change[k].derivative[0];
     }
-    Problem<T>(model_).field(T(generic_time), In<T>(start_), Out<T>(field));
+    Problem<T>(model_).field(T(now_), In<T>(start_), Out<T>(field));
     double worst = 0;
     for (std::size_t k = 0; k < n; ++k)
       worst = std::max(worst, static_cast<double>(T(abs(sum[k] - field[k])) * time_ / scales_[k]));
@@ -78,7 +79,7 @@ class MeasuredFlows {
           step.jacobian[i * n + first + k] = z[i].derivative[k] + change[i].derivative[k];
       }
     }
-    return static_cast<double>(KeptStructure<T>(model_)(step, T(generic_time), time_, start_, scales_));
+    return static_cast<double>(KeptStructure<T>(model_)(step, T(now_), time_, start_, scales_));
   }
 
  private:
@@ -92,6 +93,7 @@ class MeasuredFlows {
   std::shared_ptr<const Model> model_;
   ExactFlowsPointer<T> flows_;
   ExactFlowsPointer<StepDual<T>> dual_;
+  Real now_;
   T time_;
   std::vector<T> start_, scales_;
 };
