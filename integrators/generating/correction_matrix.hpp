@@ -9,8 +9,8 @@
 //   M = e^Omega,   Omega = h/2 (A_1 + A_2) + sqrt(3)/12 h^2 (A_2 A_1 - A_1 A_2),
 //   D = e^Omega - I = (I - Omega/2 + Omega^2/12)^-1 Omega + O(Omega^5),
 //
-// which leaves O(h^5). The states at the Gauss points are those of the parabola from y, along the field
-// there, to the predicted y'.
+// The states at the Gauss points are those of the parabola from y, along the field there, to the predicted
+// y'. They miss by O(h^3), and the correction by O(h^4), by O(h^5) where the field is symmetric enough.
 #pragma once
 
 #include <cstddef>

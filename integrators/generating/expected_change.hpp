@@ -65,23 +65,29 @@ class ExpectedChange {
 
  private:
   static int degree(int m) { return (m + 1) / 2 + 3; }
-  // Sums the series of component k over h; returns the size of the last term that was added.
+  // Sums the series of component k over h; returns the size of the last terms that were added.
   Number sum(const T& h, std::size_t k, const T& reference, T* change) const {
     const std::vector<T>& coefficients = series_.coefficients();
-    T total(0), power = h;
-    // Every other term may vanish, so that a term is compared with the larger of the two before it.
-    Number before = std::numeric_limits<Number>::infinity(), last_size = before;
-    for (std::size_t degree = 1; degree <= series_.order(); ++degree) {
+    T total = h * coefficients[n_ + k], power = h * h;
+    const T first = total;
+    // Every other term may vanish, so that a term is compared with the larger of the two before it. The
+    // second one is the larger at turning points; where the third is larger still, the series does not begin
+    // to converge.
+    Number before = std::numeric_limits<Number>::infinity(), last = abs(value_of(first));
+    for (std::size_t degree = 2; degree <= series_.order(); ++degree) {
       const T term = power * coefficients[degree * n_ + k];
       const Number size = abs(value_of(term));
-      if (!(size <= std::max(before, last_size))) break;
+      if (!(size <= std::max(before, last))) {
+        if (degree == 3 && last > before) total = first;
+        break;
+      }
       total = total + term;
-      before = last_size;
-      last_size = size;
+      before = last;
+      last = size;
       power = power * h;
     }
     if (change != nullptr) *change = total;
-    return relative_size(T(std::max(last_size, before)), T(value_of(reference)), T(value_of(total)));
+    return relative_size(T(std::max(last, before)), T(value_of(reference)), T(value_of(total)));
   }
 
   std::size_t n_;

@@ -13,10 +13,10 @@
 // for many degrees of freedom, without derivatives.
 // From the second correction on these matrices are improved by what the corrections have shown
 // (secant_updates.hpp), which halves the evaluations of psi in long steps. In the midpoint form the new state
-// is y + psi(w) at the last w that was evaluated, and what its correction changes of psi; doubling w - y
-// would keep the rounding of that difference, which has a bias. The structure holds only as accurately as
-// this equation is solved. The iteration therefore goes on to round-off in every component by itself, because
-// a chart such as (r, e^{nu t} p) mixes numbers forty decades apart.
+// is y + psi(w) at the last w that was evaluated, and what its correction changes of psi. This
+// rounds as w - y doubled does, with a bias that docs/drift-and-cost.md measures. The structure holds only as
+// accurately as this equation is solved. The iteration therefore goes on to round-off in every component by
+// itself, because a chart such as (r, e^{nu t} p) mixes numbers forty decades apart.
 #pragma once
 
 #include <algorithm>
