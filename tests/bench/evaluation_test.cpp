@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <pfaff/bench/evaluation/evaluation.hpp>
+#include <pfaff/bench/measure/constraint_brackets.hpp>
 #include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 
@@ -26,6 +27,36 @@ TEST(Evaluation, OfConstraintsWithoutAFormulationHasNoMotion) {
     EXPECT_EQ(without[key], with[key]) << key;
   EXPECT_EQ(with["rhs"].size(), raw->initial().size());  // the control
   EXPECT_FALSE(with.contains("reason"));
+}
+
+// A point in the plane with its angular momentum and its distance from the origin given: their bracket is
+// zero, but the two products that it is the difference of are rounded.
+struct TurnedPoint {
+  static constexpr int dimension = 4, constraint_count = 2;
+  template <class T>
+  T hamiltonian(const T& /*t*/, In<T> z) const {
+    return (z[2] * z[2] + z[3] * z[3]) / 2;
+  }
+  template <class T>
+  void constraints(const T& /*t*/, In<T> z, Out<T> phi) const {
+    phi[0] = z[0] * z[3] - z[1] * z[2];
+    phi[1] = (z[0] * z[0] + z[1] * z[1]) / 3;
+  }
+};
+
+TEST(Evaluation, BracketsThatAreRoundOffOfTheirTermsAreZero) {
+  const auto model = make_model({.name = "turned-point",
+                                 .title = "",
+                                 .reference = "",
+                                 .coordinates = {{"x", ""}, {"y", ""}, {"px", ""}, {"py", ""}}},
+                                TurnedPoint());
+  int rounded = 0;
+  for (int k = 1; k <= 20; ++k) {
+    const auto found = constraint_brackets<double>(*model, 0.0, {0.1 * k, 1 / (0.3 * k), 0.7, -0.2 * k});
+    rounded += found.brackets(0, 1) != 0;
+    EXPECT_EQ(found.classes.rank(), 0U) << k;
+  }
+  EXPECT_GT(rounded, 2);
 }
 
 // A sleigh by its centre of mass: mass 1, J = 2, r = 1/2.

@@ -216,6 +216,37 @@ TEST(AlmostDirac, OnlyTheDiracComplementKeepsJacobi) {
     EXPECT_NE(jacobi_residual<Rational>(almost, time, z).residual, Rational(0));
   }
 }
+// Vectors that have nothing to do with the bracket or the constraints, so that A V is neither symmetric nor
+// skew: covectors are projected with the transpose of what projects vectors.
+struct ConstantComplement {
+  std::vector<Rational> vectors;
+  template <class T>
+  void columns(const T& /*t*/, In<T> /*z*/, In<T> /*rows*/, Out<T> columns) const {
+    for (std::size_t k = 0; k < columns.size(); ++k) columns[k] = T(vectors[k]);
+  }
+};
+
+TEST(AlmostDirac, AnyComplementMakesCasimirsOfTheConstraints) {
+  std::mt19937 random(36);
+  RandomGram numbers(36);
+  constexpr std::size_t n = 6, count = 2;
+  for (int instance = 0; instance < 3; ++instance) {
+    const PolynomialConstraints constraints(count, n, random);
+    ConstantComplement complement;
+    for (std::size_t k = 0; k < count * n; ++k) complement.vectors.push_back(numbers.number());
+    const AlmostDiracReduction<CanonicalBracket, PolynomialConstraints, ConstantComplement> reduced{
+        {}, constraints, complement};
+    std::vector<Rational> z;
+    for (std::size_t k = 0; k < n; ++k) z.push_back(numbers.number() / Rational(4));
+    const Exact p = bracket_matrix<Rational>(reduced, Rational(0), z);
+    EXPECT_TRUE(zero(p + p.transposed()));
+    EXPECT_FALSE(zero(p));
+    for (const Polynomial& phi : constraints.functions)
+      EXPECT_EQ(casimir_residual<Rational>(reduced, Rational(0), z, phi.gradient<Rational>(z)).residual,
+                Rational(0));
+  }
+}
+
 // Semimetric brackets stay semimetric along any complement.
 TEST(AlmostDirac, KeepsTheSignOfSquares) {
   std::mt19937 random(35);
