@@ -7,8 +7,8 @@
 // names of constraints (model.hpp).
 //
 //   PFAFF_FACET(name, "text", "meaning", "operation")
-//       the operation, where there is one, is a member of the author's struct that belongs to the facet and is
-//       no formula, because it iterates or may fail
+//       the operation, where there is one, is a member of the author's struct that belongs to the facet and
+//       is no formula, because it iterates or may fail
 //   PFAFF_COUNT(name, member, names, "letter")
 //       a number that sizes are made of, the author's constant or member function `member`; what is counted
 //       is called by the author's `names()`, or by the letter and a number
