@@ -53,14 +53,14 @@ Status kepler_part(const Mass& mass, const T& constant, std::size_t n, std::size
   // Outwards: the change of Jacobi's coordinates of each body, left where its own change will stand.
   for (std::size_t i = 1; i < n; ++i) {
     const T own = mass(i), outer = inner + own;
-    std::array<T, 3> r{}, v{}, dr{}, bend{}, dv{};
+    std::array<T, 3> r{}, v{}, dr{}, bend{}, dv{};  // zero beyond direction d
     for (std::size_t x = 0; x < d; ++x) {
       r[x] = z[x * n + i] - centre[x];
       v[x] = z[half + x * n + i] / own - total[x] / inner;
     }
-    const Status status = kepler_change<T>(T(constant * outer), h, std::span<const T>(r.data(), d),
-                                           std::span<const T>(v.data(), d), std::span<T>(dr.data(), d),
-                                           std::span<T>(bend.data(), d), std::span<T>(dv.data(), d));
+    const Status status =
+        kepler_change<T>(T(constant * outer), h, std::span<const T>(r), std::span<const T>(v),
+                         std::span<T>(dr), std::span<T>(bend), std::span<T>(dv));
     if (status != Status::converged) return status;
     const T share = own / outer, reduced = own * inner / outer;
     for (std::size_t x = 0; x < d; ++x) {
