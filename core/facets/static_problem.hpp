@@ -20,12 +20,14 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <type_traits>
 #include <utility>
 
 #include <pfaff/core/facets/compiled_series.hpp>
 #include <pfaff/core/facets/problem.hpp>
 #include <pfaff/core/facets/written_formulas.hpp>
 #include <pfaff/core/numbers/dual.hpp>
+#include <pfaff/core/numbers/pack.hpp>
 #include <pfaff/core/tape/recorder.hpp>
 
 namespace pfaff {
@@ -99,6 +101,12 @@ class StaticProblem {
   }
   /// -dV/dq.
   void force(const T& t, In<T> q, Out<T> f) const requires separable { force_of<T>(t, q, f); }
+  /// The same at several times and positions side by side, one in each lane.
+  template <int W>
+  void force(const Pack<W>& t, In<Pack<W>> q, Out<Pack<W>> f) const
+      requires(separable&& std::is_same_v<T, double>&& detail::writes<S, Formula::force, Pack<W>>) {
+    system_.force(t, q, f);
+  }
   /// dT/dp.
   void velocity(const T& t, In<T> p, Out<T> v) const requires separable { velocity_of<T>(t, p, v); }
 

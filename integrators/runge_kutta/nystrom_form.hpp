@@ -53,6 +53,11 @@ class NystromForm {
         weight_(c.stages),
         scale_(c.stages),
         time_(c.stages),
+        weights_(iteration_.row_of(c.scale)),
+        scales_(iteration_.blocks()),
+        times_(iteration_.blocks()),
+        points_(in_lanes ? degrees_ : 0),
+        forces_(in_lanes ? degrees_ : 0),
         momentum_(degrees_),
         momentum_carry_(degrees_),
         position_carry_(degrees_),
@@ -92,6 +97,13 @@ class NystromForm {
 
  private:
   using Iteration = StageIteration<T, half, Stages>;
+  using Lane = typename Iteration::Lane;
+  // Where the problem evaluates forces at several stages side by side, divisions and roots of all of them
+  // cost little more than those of one. Each lane has the bits that its stage would have alone.
+  static constexpr bool in_lanes =
+      std::is_same_v<T, double> && requires(const P& p, const Lane& t, Vector<Lane, half>& z) {
+    p.force(t, In<Lane>(z), Out<Lane>(z));
+  };
 
   [[nodiscard]] std::size_t degrees() const {
     return half == dynamic ? degrees_ : static_cast<std::size_t>(half);
@@ -103,6 +115,11 @@ class NystromForm {
       scale_[i] = h * h * weight_[i];
       time_[i] = t + node_[i] * h;
     }
+    if constexpr (in_lanes)
+      for (std::size_t b = 0; b < iteration_.blocks(); ++b) {
+        scales_[b] = Lane(h * h) * weights_[b];
+        times_[b] = Lane(t) + nodes_[b] * Lane(h);
+      }
     if (!continuation_.holds(t, h, z)) {
       for (std::size_t k = 0; k < m; ++k) {
         momentum_[k] = h * z[m + k];
@@ -114,7 +131,6 @@ class NystromForm {
       p.force(t, In<T>(z.data(), m), Out<T>(force_.data(), m));
       for (std::size_t k = 0; k < m; ++k) iteration_.begin_with(k, scale_.data(), force_[k]);
     }
-    using Lane = typename Iteration::Lane;
     for (std::size_t k = 0; k < m; ++k) {
       const Lane fast(momentum_[k]), slow(momentum_carry_[k]), still(unit_mass_ ? position_carry_[k] : T(0));
       for (std::size_t b = 0; b < iteration_.blocks(); ++b)
@@ -129,6 +145,8 @@ class NystromForm {
 
   void evaluate_rates(const P& p, const State<P>& z) {
     const std::size_t m = degrees();
+    if constexpr (in_lanes)
+      if (unit_mass_) return evaluate_in_lanes(p, z);
     const Out<T> point(point_.data(), m), force(force_.data(), m), path(path_.data(), m);
     for (std::size_t i = 0; i < iteration_.stages(); ++i) {
       if (unit_mass_) {
@@ -140,6 +158,16 @@ class NystromForm {
       }
       p.force(time_[i], point, force);
       for (std::size_t k = 0; k < m; ++k) iteration_.set_rate(i, k, scale_[i] * force_[k]);
+    }
+  }
+
+  void evaluate_in_lanes(const P& p, const State<P>& z) requires in_lanes {
+    const std::size_t m = degrees();
+    const Out<Lane> point(points_.data(), m), force(forces_.data(), m);
+    for (std::size_t b = 0; b < iteration_.blocks(); ++b) {
+      for (std::size_t k = 0; k < m; ++k) point[k] = Lane(z[k]) + iteration_.stages_in(b, k);
+      p.force(times_[b], In<Lane>(point), force);
+      for (std::size_t k = 0; k < m; ++k) iteration_.set_rates(b, k, scales_[b] * force[k]);
     }
   }
 
@@ -186,6 +214,8 @@ class NystromForm {
   Iteration iteration_;
   typename Iteration::Row nodes_, beta_, counted_;
   Vector<T, Stages> node_, weight_, scale_, time_;
+  typename Iteration::Row weights_, scales_, times_;  // the same in lanes
+  Vector<Lane, in_lanes ? half : 0> points_, forces_;
   Vector<T, half> momentum_, momentum_carry_, position_carry_;  // w = h p and what sums have rounded off
   Vector<T, half> path_, point_, force_;
   std::vector<T> jacobian_, slopes_;

@@ -123,6 +123,13 @@ class StageIteration {
   }
   void set_rate(std::size_t i, std::size_t k, const T& x) { Lanes::set(at(next_, i, k), i % width, x); }
 
+  /// The same for all stages in a block of lanes, for a function that evaluates them together. Rates in lanes
+  /// beyond the last stage have to be zero.
+  [[nodiscard]] const Lane& stages_in(std::size_t block, std::size_t k) const {
+    return stage_[k * blocks() + block];
+  }
+  void set_rates(std::size_t block, std::size_t k, const Lane& x) { next_[k * blocks() + block] = x; }
+
   /// Solves for the rates. evaluate() calls set_rate for every stage and component. All components are judged
   /// together where `together`.
   template <class Evaluate>

@@ -116,6 +116,57 @@ TEST(StaticPath, ImplicitMethodsAgreeToRoundOff) {
                1e-14);
 }
 
+template <class T>
+inline constexpr bool is_pack = false;
+template <int W>
+inline constexpr bool is_pack<Pack<W>> = true;
+
+// A system that evaluates its force for one stage after the other.
+template <class S>
+struct StageByStage : S {
+  template <class T>
+  void force(const T& t, In<T> q, Out<T> f) const requires(!is_pack<T>) {
+    S::force(t, q, f);
+  }
+};
+
+// A pendulum that is shaken, so that stages have times of their own.
+struct Shaken : Pendulum {
+  template <class T>
+  void force(const T& t, In<T> q, Out<T> f) const {
+    Pendulum::force(t, q, f);
+    f[0] = f[0] + cos(2 * t) / 3;
+  }
+};
+
+template <class P>
+constexpr bool forces_in_lanes = requires(const P& p, const Pack<4>& t, std::vector<Pack<4>>& z) {
+  p.force(t, In<Pack<4>>(z), Out<Pack<4>>(z));
+};
+static_assert(forces_in_lanes<StaticProblem<Kepler>> &&
+              !forces_in_lanes<StaticProblem<StageByStage<Kepler>>> &&
+              !forces_in_lanes<StaticProblem<Kepler, Quad>>);
+
+template <class M>
+void expect_same_bits_in_lanes(const M& method) {
+  const std::vector<double> swing{1, 0.5};
+  EXPECT_EQ(run_static(method, Kepler(), kepler_start, 0.1, 200),
+            run_static(method, StageByStage<Kepler>(), kepler_start, 0.1, 200));
+  EXPECT_EQ(run_static(method, Shaken(), swing, 0.2, 200),
+            run_static(method, StageByStage<Shaken>(), swing, 0.2, 200));
+}
+
+// With lanes that are full, and with some beyond the last stage.
+TEST(StaticPath, ForcesAtSeveralStagesTogetherAreTheSameBits) {
+  expect_same_bits_in_lanes(Collocation<3>());
+  expect_same_bits_in_lanes(Collocation<6>());
+  expect_same_bits_in_lanes(Collocation<8>());
+  Gauss gauss;
+  gauss.stages = 6;
+  gauss.validate();
+  expect_same_bits_in_lanes(gauss);
+}
+
 TEST(StaticPath, StagesKnownAtRunTimeTakeTheSameSteps) {
   Gauss gauss;
   gauss.stages = 3;
