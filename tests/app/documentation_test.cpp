@@ -98,10 +98,11 @@ TEST(Documentation, ThePageOfMethodsIsWhatTheProgramPrints) {
   EXPECT_EQ(outcome.out, contents("docs/methods.md"))
       << "expected docs/methods.md to be the output of: pfaff list integrators --markdown";
   // A row by hand: Stoermer-Verlet is of order 2, symplectic, symmetric and reversible.
-  EXPECT_NE(outcome.out.find(
-                "\n| method | order | symplectic | K-symplectic | conformal | symmetric | reversible |\n"),
-            std::string::npos);
-  EXPECT_NE(outcome.out.find("\n| `verlet` | 2 | 2 | | | 2 | 2 |\n"), std::string::npos);
+  EXPECT_NE(
+      outcome.out.find("\n| method | order | symplectic | K-symplectic | poisson | conformal | symmetric | "
+                       "reversible |\n"),
+      std::string::npos);
+  EXPECT_NE(outcome.out.find("\n| `verlet` | 2 | 2 | | | | 2 | 2 |\n"), std::string::npos);
 }
 
 TEST(Documentation, CodeOfProgramsIsCompiled) {  // by app/out_of_tree, which runs it too

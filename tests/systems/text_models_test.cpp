@@ -240,9 +240,10 @@ TEST(TextModels, StartWhereTheirTwinsDo) {
 }
 
 TEST(TextModels, OfferWhatTheirTwinsOffer) {
+  // Flows of parts are never recorded, and so are written in C++ alone.
   for (const char* name : {"henon-heiles", "spherical-pendulum"})
     EXPECT_EQ(to_string(text_model(name)->facets()),
-              to_string(systems().get(name, "system").make({})->facets()));
+              to_string(systems().get(name, "system").make({})->facets().without(Facet::exact_flows)));
   EXPECT_TRUE(text_model("lagrangian-pendulum")->facets().has(Facet::separable));
   EXPECT_FALSE(text_model("double-pendulum")->facets().has(Facet::separable));
   EXPECT_TRUE(text_model("damped-pendulum")->facets().has(Facet::generating_map));
