@@ -11,6 +11,8 @@
 // a motion that is unstable for all but few bodies. A heavier first body, c > 1, has the others on circles
 // about it instead, of radii 1, 3/2, 2, ..., which their pulls on each other disturb. Other seeds draw
 // positions and velocities. The centre of mass is at rest.
+#include <array>
+
 #include <pfaff/core/numbers/random_numbers.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/systems/canonical/gravitation.hpp>
@@ -91,6 +93,13 @@ struct NBody : Gravitation<NBody> {
       const Real angle = pi * Real::fraction(2 * static_cast<std::int64_t>(i), count);
       z[i] = cos(angle);
       z[n + i] = sin(angle);
+      // Quarters of a turn exactly. The sine of the rounded pi is not zero but 1e-35, which would pass for
+      // the size of a coordinate.
+      if (4 * i % n == 0) {
+        constexpr std::array<int, 5> quarter{1, 0, -1, 0, 1};
+        z[i] = quarter[4 * i / n];
+        z[n + i] = quarter[(4 * i / n + 3) % 4];
+      }
       z[half + i] = -(rate * z[n + i]);
       z[half + n + i] = rate * z[i];
     }
