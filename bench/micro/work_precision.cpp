@@ -51,7 +51,8 @@ class EnergyError {
 
 // Adds the benchmark of run(z), which goes from z to the end of the run.
 template <class Start, class Run>
-void add_run(const std::string& name, const Start& start, const char* counter, double error, Run run) {
+void add_run([[maybe_unused]] const std::string& name, const Start& start, const char* counter, double error,
+             Run run) {
   [[maybe_unused]] const auto measured = [=](benchmark::State& state) mutable {
     for (auto _ : state) {
       Start z = start;
