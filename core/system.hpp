@@ -30,9 +30,8 @@
 //                                            chart
 //   invariants(t, z, values)                 in the order of the descriptor's list
 //   exact_solution(elapsed, t0, z0, z)       the flow
-//   part_flow(part, h, z, change)            the exact flow of one part of the field, dz/dt = sum X_k(z), as
-//   the
-//                                            change phi_h(z) - z, with a Status; how many parts says
+//   part_flow(part, h, z, change)            the exact flow of one part of the field, dz/dt = sum X_k(z):
+//                                            the change phi_h(z) - z, with a Status; how many parts says
 //                                            part_count, a constant or a member function; optional
 //                                            part_names(), small_part, the part that is a perturbation
 //   reversal(t, z, reversed)                 the involution rho that reverses the motion, rho o flow_h =
