@@ -11,25 +11,11 @@ StepDifferentiator<T>::StepDifferentiator(const MethodInstance& method, std::sha
 
 template <class T>
 StepJacobian<T> StepDifferentiator<T>::operator()(const T& t, const T& h, const std::vector<T>& z) {
-  const std::size_t n = z.size();
-  StepJacobian<T> result;
-  result.z.resize(n);
-  result.jacobian.resize(n * n);
-  std::vector<StepDual<T>> dual(n);
-  for (std::size_t first = 0; first < n; first += step_directions) {
-    const std::size_t count = std::min<std::size_t>(step_directions, n - first);
-    for (std::size_t k = 0; k < n; ++k) dual[k] = StepDual<T>(z[k]);
-    for (std::size_t k = 0; k < count; ++k) dual[first + k].derivative[k] = T(1);
+  return jacobian_of_map(z, [&](std::vector<StepDual<T>>& moved) {
     stepper_->forget();
     std::int64_t completed = 0;
-    const Status status = stepper_->advance(StepDual<T>(t), 0, StepDual<T>(h), 1, dual, completed);
-    if (status != Status::converged) result.status = status;
-    for (std::size_t i = 0; i < n; ++i) {
-      result.z[i] = dual[i].value;
-      for (std::size_t k = 0; k < count; ++k) result.jacobian[i * n + first + k] = dual[i].derivative[k];
-    }
-  }
-  return result;
+    return stepper_->advance(StepDual<T>(t), 0, StepDual<T>(h), 1, moved, completed);
+  });
 }
 
 namespace {

@@ -2,6 +2,7 @@
 // system (symplectic, K-symplectic, Poisson).
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -17,6 +18,28 @@ struct StepJacobian {
   std::vector<T> z;         // after the step
   std::vector<T> jacobian;  // row-major
 };
+
+/// The Jacobian at z of a map, some columns at a time: map(state) moves a state of dual numbers and says how
+/// that ended. The status is the last one that is not `converged`.
+template <class T, class Map>
+StepJacobian<T> jacobian_of_map(const std::vector<T>& z, const Map& map) {
+  const std::size_t n = z.size();
+  StepJacobian<T> result;
+  result.z.resize(n);
+  result.jacobian.resize(n * n);
+  std::vector<StepDual<T>> dual(n);
+  for (std::size_t first = 0; first < n; first += step_directions) {
+    const std::size_t count = std::min<std::size_t>(step_directions, n - first);
+    for (std::size_t k = 0; k < n; ++k) dual[k] = StepDual<T>(z[k]);
+    for (std::size_t k = 0; k < count; ++k) dual[first + k].derivative[k] = T(1);
+    if (const Status status = map(dual); status != Status::converged) result.status = status;
+    for (std::size_t i = 0; i < n; ++i) {
+      result.z[i] = dual[i].value;
+      for (std::size_t k = 0; k < count; ++k) result.jacobian[i * n + first + k] = dual[i].derivative[k];
+    }
+  }
+  return result;
+}
 
 /// Differentiates single steps of a method on a model by running them with dual numbers. The derivative is
 /// that of the converged step: each evaluation starts without the history of earlier steps, and the implicit

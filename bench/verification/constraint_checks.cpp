@@ -2,8 +2,6 @@
 // there, or independent where they constrain velocities, evaluators compute what is derived, and the default
 // formulation keeps the constraints, off their surface too. (Gradients that an author writes are compared
 // with derived ones, as all formulas are, in override_checks.cpp.)
-#include <stdexcept>
-
 #include <pfaff/bench/measure/constraint_brackets.hpp>
 #include <pfaff/bench/measure/constraints.hpp>
 #include <pfaff/bench/verification/residuals.hpp>
@@ -223,17 +221,9 @@ std::vector<Check> check_false_constraints() {
   // Makes controls of those checks whose claims start with `claim`: they have to fail.
   const auto control = [&](const std::string& what, const std::string& claim,
                            const std::vector<Check>& checks) {
-    const std::size_t before = controls.size();
-    for (Check check : checks) {
-      if (!check.claim.starts_with(claim) || check.precision != "quad") continue;
-      check.plugin = what;
-      check.system.clear();
-      check.scope = "control";
-      check.control = true;
-      check.result = check.result == CheckResult::fail ? CheckResult::rejected : CheckResult::pass;
-      controls.push_back(check);
-    }
-    if (controls.size() == before) throw std::logic_error(what + ": no claim is called " + claim);
+    add_controls(controls, what, claim, checks, [&](const Check& check) {
+      return check.claim.starts_with(claim) && check.precision == "quad";
+    });
   };
   const auto checks_of = [](const Line& line) {
     const auto model = make_model(SystemDescriptor{.name = "line", .title = "", .reference = ""}, line);

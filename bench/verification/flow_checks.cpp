@@ -5,7 +5,6 @@
 //
 // Flows iterate, so that they are measured as numbers, with the derivatives of dual numbers.
 #include <cmath>
-#include <stdexcept>
 
 #include <pfaff/bench/measure/structure.hpp>
 #include <pfaff/bench/verification/measured_step.hpp>
@@ -62,32 +61,22 @@ class MeasuredFlows {
   }
   // How far the Jacobian of the flow is from keeping the structure of the system.
   double off_structure(std::size_t part) {
-    using D = StepDual<T>;
-    const std::size_t n = start_.size();
-    StepJacobian<T> step;
-    step.z = start_;
-    step.jacobian.resize(n * n);
-    std::vector<D> change(n);
-    for (std::size_t first = 0; first < n; first += step_directions) {
-      const std::size_t count = std::min<std::size_t>(step_directions, n - first);
-      std::vector<D> z(start_.begin(), start_.end());
-      for (std::size_t k = 0; k < count; ++k) z[first + k].derivative[k] = T(1);
-      if (dual_->change(part, D(time_), In<D>(z), Out<D>(change)) != Status::converged) return no_step;
-      for (std::size_t i = 0; i < n; ++i) {
-        step.z[i] = start_[i] + change[i].value;
-        for (std::size_t k = 0; k < count; ++k)
-          step.jacobian[i * n + first + k] = z[i].derivative[k] + change[i].derivative[k];
-      }
-    }
+    const auto step = jacobian_of_map(
+        start_, [&](std::vector<StepDual<T>>& z) { return flow(*dual_, part, StepDual<T>(time_), z); });
+    if (step.status != Status::converged) return no_step;
     return static_cast<double>(KeptStructure<T>(model_)(step, T(now_), time_, start_, scales_));
   }
 
  private:
-  bool flow(std::size_t part, const T& h, std::vector<T>& z) {
-    std::vector<T> change(z.size());
-    if (flows_->change(part, h, In<T>(z), Out<T>(change)) != Status::converged) return false;
+  template <class U>
+  static Status flow(ExactFlows<U>& flows, std::size_t part, const U& h, std::vector<U>& z) {
+    std::vector<U> change(z.size());
+    const Status status = flows.change(part, h, In<U>(z), Out<U>(change));
     for (std::size_t k = 0; k < z.size(); ++k) z[k] = z[k] + change[k];
-    return true;
+    return status;
+  }
+  bool flow(std::size_t part, const T& h, std::vector<T>& z) {
+    return flow(*flows_, part, h, z) == Status::converged;
   }
 
   std::shared_ptr<const Model> model_;
@@ -168,18 +157,8 @@ std::vector<Check> check_false_flows() {
         SystemDescriptor{
             .name = "faulty-drift", .title = "", .reference = "", .initial = {Real(1), Real::fraction(1, 2)}},
         FaultyDrift{fault});
-    const std::size_t before = controls.size();
-    for (Check check : check_flows("faulty-drift", model, model->initial())) {
-      if (check.claim != claim) continue;
-      check.plugin = what;
-      check.system.clear();
-      check.scope = "control";
-      check.control = true;
-      check.result = check.result == CheckResult::fail ? CheckResult::rejected : CheckResult::pass;
-      controls.push_back(check);
-    }
-    if (controls.size() == before)
-      throw std::logic_error(std::string(what) + ": no claim is called " + claim);
+    add_controls(controls, what, claim, check_flows("faulty-drift", model, model->initial()),
+                 [&](const Check& check) { return check.claim == claim; });
   };
   control("a drift for the time h + 1e-6 h^2", Fault::bent, "flows of the drift are a group");
   control("a drift stretched by 1e-6", Fault::stretched, "flows of the parts add up to the field");

@@ -1,8 +1,6 @@
 // The claims of metriplectic systems (morrison1986). The field is zdot = Pi dH + G dS with Pi dS = 0 and G dH
 // = 0, so that the energy is conserved and the entropy never falls, or zdot = Pi dH - G dH, so that the
 // energy never rises. G is symmetric and non-negative in both.
-#include <stdexcept>
-
 #include <pfaff/bench/verification/residuals.hpp>
 #include <pfaff/brackets/dirac/classification.hpp>
 
@@ -157,17 +155,8 @@ std::vector<Check> check_false_metriplectic() {
                                                    .reference = "",
                                                    .initial = {Real(1), Real::fraction(1, 2), Real(2)}},
                                   FaultyBody{fault});
-    const std::size_t before = controls.size();
-    for (Check check : check_metriplectic("faulty-body", *model)) {
-      if (check.claim != claim || check.precision != "quad") continue;
-      check.plugin = what;
-      check.system.clear();
-      check.scope = "control";
-      check.control = true;
-      check.result = check.result == CheckResult::fail ? CheckResult::rejected : CheckResult::pass;
-      controls.push_back(check);
-    }
-    if (controls.size() == before) throw std::logic_error(what + ": no claim is called " + claim);
+    add_controls(controls, what, claim, check_metriplectic("faulty-body", *model),
+                 [&](const Check& check) { return check.claim == claim && check.precision == "quad"; });
   };
   control("relaxation with 1e-6 added along an axis", Fault::moves_energy,
           "energy is degenerate for the symmetric bracket");

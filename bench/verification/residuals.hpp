@@ -3,6 +3,10 @@
 
 #include <cmath>
 #include <random>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <pfaff/bench/verification/check.hpp>
 #include <pfaff/bench/verification/step_scale.hpp>
@@ -28,6 +32,24 @@ inline Check named(const std::string& plugin, const std::string& claim, const st
   check.tolerance = tolerance;
   check.result = measured <= tolerance ? CheckResult::pass : CheckResult::fail;
   return check;
+}
+
+// Adds to `controls` those of the checks of a planted fault that is_meant(check) selects: they have to fail.
+// std::logic_error where there are none, since the claim is then called otherwise.
+template <class Meant>
+void add_controls(std::vector<Check>& controls, const std::string& fault, const std::string& claim,
+                  const std::vector<Check>& checks, const Meant& is_meant) {
+  const std::size_t before = controls.size();
+  for (Check check : checks) {
+    if (!is_meant(check)) continue;
+    check.plugin = fault;
+    check.system.clear();
+    check.scope = "control";
+    check.control = true;
+    check.result = check.result == CheckResult::fail ? CheckResult::rejected : CheckResult::pass;
+    controls.push_back(std::move(check));
+  }
+  if (controls.size() == before) throw std::logic_error(fault + ": no claim is called " + claim);
 }
 
 // Random states near `centre`, drawn with a fixed seed: each coordinate within 1/20 of its scale.

@@ -1,7 +1,5 @@
 // The claims of a reversal: rho is an involution, rho rho z = z, and turns the motion round, d rho X = -X o
 // rho, so that rho o flow_h = flow_-h o rho.
-#include <stdexcept>
-
 #include <pfaff/bench/verification/residuals.hpp>
 
 namespace pfaff {
@@ -57,18 +55,8 @@ std::vector<Check> check_false_reversals() {
                                                    .reference = "",
                                                    .initial = {Real(1), Real::fraction(1, 2)}},
                                   FaultyPendulum{fault});
-    const std::size_t before = controls.size();
-    for (Check check : check_reversal("faulty-pendulum", *model, model->initial())) {
-      if (check.claim != claim || check.precision != "quad") continue;
-      check.plugin = what;
-      check.system.clear();
-      check.scope = "control";
-      check.control = true;
-      check.result = check.result == CheckResult::fail ? CheckResult::rejected : CheckResult::pass;
-      controls.push_back(check);
-    }
-    if (controls.size() == before)
-      throw std::logic_error(std::string(what) + ": no claim is called " + claim);
+    add_controls(controls, what, claim, check_reversal("faulty-pendulum", *model, model->initial()),
+                 [&](const Check& check) { return check.claim == claim && check.precision == "quad"; });
   };
   control("momenta reversed and stretched by 1e-6", Fault::stretched, "reversal is an involution");
   control("momenta reversed and stretched by 1e-6", Fault::stretched, "reversal turns the field");
