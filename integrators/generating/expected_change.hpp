@@ -36,6 +36,7 @@ class ExpectedChange {
       : n_(p.size()),
         series_pays_(2 * static_cast<std::size_t>(degree(m)) <= evaluations + 2),
         series_(p.chart_field_tape(), degree(m)),
+        summed_(n_),
         past_(n_, differences) {}
 
   void forget() { past_.forget(); }
@@ -49,9 +50,8 @@ class ExpectedChange {
     series_.expand(t, y.data());
     p.counters().fields += static_cast<std::int64_t>(series_.order());
     Number left(0);
-    for (std::size_t k = 0; k < n_; ++k) left = std::max(left, sum(h, k, reference(k), nullptr));
-    if (past_.knows() && !(left < missed_)) return;
-    for (std::size_t k = 0; k < n_; ++k) sum(h, k, reference(k), &change[k]);
+    for (std::size_t k = 0; k < n_; ++k) left = std::max(left, sum(h, k, reference(k), summed_[k]));
+    if (!past_.knows() || left < missed_) change = summed_;
   }
   /// Takes what the step has changed.
   template <class Reference>
@@ -66,10 +66,11 @@ class ExpectedChange {
  private:
   static int degree(int m) { return (m + 1) / 2 + 3; }
   // Sums the series of component k over h; returns the size of the last terms that were added.
-  Number sum(const T& h, std::size_t k, const T& reference, T* change) const {
+  Number sum(const T& h, std::size_t k, const T& reference, T& total) const {
     const std::vector<T>& coefficients = series_.coefficients();
-    T total = h * coefficients[n_ + k], power = h * h;
-    const T first = total;
+    const T first = h * coefficients[n_ + k];
+    T power = h * h;
+    total = first;
     // Every other term may vanish, so that a term is compared with the larger of the two before it. The
     // second one is the larger at turning points; where the third is larger still, the series does not begin
     // to converge.
@@ -86,13 +87,13 @@ class ExpectedChange {
       last = size;
       power = power * h;
     }
-    if (change != nullptr) *change = total;
     return relative_size(T(std::max(last, before)), T(value_of(reference)), T(value_of(total)));
   }
 
   std::size_t n_;
   bool series_pays_;
   TaylorExpansion<T> series_;
+  std::vector<T> summed_;
   DifferencePredictor<T, dynamic, dynamic> past_;
   Number missed_{0};
 };

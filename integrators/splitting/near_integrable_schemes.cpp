@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include <pfaff/core/linear/lu.hpp>
 #include <pfaff/core/numbers/gauss_legendre.hpp>
 
 namespace pfaff {
@@ -15,6 +16,15 @@ std::vector<Quad> numbers(const std::vector<const char*>& texts) {
   std::vector<Quad> list;
   for (const char* text : texts) list.push_back(Real::parse(text).value().quad());
   return list;
+}
+
+// Adds a flow after the others; two flows of one part are one.
+void append(std::vector<PartialFlow>& flows, const PartialFlow& flow) {
+  if (!flows.empty() && flows.back().part == flow.part) {
+    flows.back().length += flow.length;
+  } else {
+    flows.push_back(flow);
+  }
 }
 
 // The palindrome that begins with A: halves of the lengths, of A and of B, whose middle stands once where
@@ -65,38 +75,27 @@ std::vector<PartialFlow> processor(int order) {
     wanted[i] = Quad(1) / (factorial * power);  // of x^(2 i + 2) in sinh(x/2)/(x/2) - 1
     for (std::size_t j = 0; j < i; ++j) wanted[i] -= divisor[i - j] * wanted[j];
   }
-  // 2 sum_j b_j (j a)^(2 i + 1)/(2 i + 1)! = wanted_i: a system of Vandermonde's kind, by elimination.
+  // 2 sum_j b_j (j a)^(2 i + 1)/(2 i + 1)! = wanted_i: a system of Vandermonde's kind.
   const Quad a = sqrt(Quad(7) / Quad(40));
-  std::vector<std::vector<Quad>> rows(count, std::vector<Quad>(count + 1));
+  LU<Quad> equations(count);
   for (std::size_t j = 0; j < count; ++j) {
     const Quad place = a * Quad(static_cast<int>(j + 1));
     Quad term = Quad(2) * place;
     for (std::size_t i = 0; i < count; ++i) {
-      rows[i][j] = term;
+      equations(i, j) = term;
       term *= place * place / Quad(static_cast<int>((2 * i + 2) * (2 * i + 3)));
     }
   }
-  for (std::size_t i = 0; i < count; ++i) rows[i][count] = wanted[i];
-  for (std::size_t k = 0; k < count; ++k)
-    for (std::size_t i = 0; i < count; ++i) {
-      if (i == k) continue;
-      const Quad factor = rows[i][k] / rows[k][k];
-      for (std::size_t j = k; j <= count; ++j) rows[i][j] -= factor * rows[k][j];
-    }
+  if (!equations.factor()) throw std::logic_error("the equations of a processor are singular");
+  std::vector<Quad> weights(count);
+  equations.solve(wanted.data(), weights.data());
   std::vector<PartialFlow> flows;
-  const auto add = [&](std::size_t part, const Quad& length) {
-    if (!flows.empty() && flows.back().part == part) {
-      flows.back().length += length;
-    } else {
-      flows.push_back({part, length});
-    }
-  };
   for (std::size_t j = 0; j < count; ++j) {
-    const Quad place = a * Quad(static_cast<int>(j + 1)), weight = rows[j][count] / rows[j][j];
+    const Quad place = a * Quad(static_cast<int>(j + 1));
     for (const Quad& side : {Quad(1), Quad(-1)}) {
-      add(dominant, -(side * place));
-      add(perturbation, side * weight);
-      add(dominant, side * place);
+      append(flows, {dominant, -(side * place)});
+      append(flows, {perturbation, side * weights[j]});
+      append(flows, {dominant, side * place});
     }
   }
   return flows;
@@ -105,15 +104,8 @@ std::vector<PartialFlow> processor(int order) {
 std::vector<PartialFlow> corrected(int order) {
   std::vector<PartialFlow> flows = processor(order);
   const std::vector<PartialFlow> after = inverse(flows);
-  const auto add = [&](const PartialFlow& flow) {
-    if (flows.back().part == flow.part) {
-      flows.back().length += flow.length;
-    } else {
-      flows.push_back(flow);
-    }
-  };
-  for (const PartialFlow& flow : palindrome({Quad(1) / Quad(2)}, {Quad(1)})) add(flow);
-  for (const PartialFlow& flow : after) add(flow);
+  for (const PartialFlow& flow : palindrome({Quad(1) / Quad(2)}, {Quad(1)})) append(flows, flow);
+  for (const PartialFlow& flow : after) append(flows, flow);
   return flows;
 }
 
@@ -177,7 +169,7 @@ std::vector<std::string> near_integrable_names() {
   return names;
 }
 
-NearIntegrableScheme near_integrable_scheme(const std::string& name) {
+const NearIntegrableScheme& near_integrable_scheme(const std::string& name) {
   for (const NearIntegrableScheme& scheme : schemes())
     if (scheme.name == name) return scheme;
   throw std::logic_error("there is no near-integrable scheme " + name);

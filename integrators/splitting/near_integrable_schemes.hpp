@@ -34,6 +34,6 @@ struct NearIntegrableScheme {
 /// The names of all schemes.
 std::vector<std::string> near_integrable_names();
 /// The scheme of that name, which has to be one of these names.
-NearIntegrableScheme near_integrable_scheme(const std::string& name);
+const NearIntegrableScheme& near_integrable_scheme(const std::string& name);
 
 }  // namespace pfaff
