@@ -40,16 +40,16 @@ double unit_of_tolerance(const Model& model) {
   return std::min(1.0, *std::max_element(scales.begin(), scales.end()));
 }
 
-// One run from the generic state to `elapsed` later at a tolerance relative to the state. Fills `error`, in
-// units of the tolerance, and returns what is wrong, or nothing.
+// One run from the generic state to `elapsed` later at a tolerance relative to the state, whose unit is
+// `unit`. Fills `error`, in units of the tolerance, and returns what is wrong, or nothing.
 template <class T>
 std::string run_wrong(const MethodOnModel& on, const Model& motion, const T& elapsed, double tolerance,
-                      double& error) {
+                      double unit, double& error) {
   const auto stepper = on.method().stepper(on.model(), T());
   std::vector<T> z;
   for (const Real& x : generic_state(*on.model())) z.push_back(T(x));
   std::vector<Quad> exact(z.begin(), z.end());
-  const T begin(on.time()), end = begin + elapsed, allowed(tolerance * unit_of_tolerance(*on.model()));
+  const T begin(on.time()), end = begin + elapsed, allowed(tolerance * unit);
   T t = begin;
   // In two parts, so that the step with which the second begins is that with which the first ended.
   for (const T& to : {begin + elapsed / T(3), end}) {
@@ -74,6 +74,7 @@ template <class T>
 void check_in(const MethodOnModel& on, std::vector<Check>& checks) {
   const auto motion = motion_of(on.model());
   const T time(on.step_size() / check_step);
+  const double unit = unit_of_tolerance(*on.model());
   for (const int direction : {1, -1}) {
     Check check = on.check(direction > 0 ? "tolerance" : "tolerance, backwards", "every system",
                            Tolerances<T>::precision);
@@ -81,7 +82,7 @@ void check_in(const MethodOnModel& on, std::vector<Check>& checks) {
     check.result = CheckResult::pass;
     for (const double tolerance : Tolerances<T>::values) {
       double error = 0;
-      check.reason = run_wrong<T>(on, *motion, T(direction) * time, tolerance, error);
+      check.reason = run_wrong<T>(on, *motion, T(direction) * time, tolerance, unit, error);
       check.measured = std::max(check.measured, error);
       const bool right = check.reason.empty() && error <= most_errors;
       if (right) continue;
