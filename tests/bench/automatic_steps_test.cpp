@@ -253,15 +253,18 @@ TEST_F(AutomaticExperiment, QuickRunsMayHaveAListInstead) {
   EXPECT_EQ(quick.cases.at(0).steps, (std::vector<std::string>{"0.5", "0.25"}));
 }
 
-// By the error of the energy, without a solution: the steps are those of that error, which is written into
-// results.csv and is what the samples of the run say.
-TEST_F(AutomaticExperiment, StepsMayBeChosenByAConservedQuantity) {
-  const Experiment of = read(R"(schema = 1
+// An experiment with one method, whose cases are to follow.
+const std::string rk4_alone = R"(schema = 1
 title = "A test"
 [[method]]
 label = "RK4"
 integrator = "rk4"
-[[case]]
+)";
+
+// By the error of the energy, without a solution: the steps are those of that error, which is written into
+// results.csv and is what the samples of the run say.
+TEST_F(AutomaticExperiment, StepsMayBeChosenByAConservedQuantity) {
+  const Experiment of = read(rk4_alone + R"([[case]]
 name = "orbit"
 system = "kepler"
 time = 20
@@ -296,12 +299,7 @@ structure = "none"
 // A pendulum that hangs at rest has the energy that its potential is counted from; relative to zero nothing
 // is small.
 TEST_F(AutomaticExperiment, AQuantityThatIsZeroAtTheStartIsNoMeasure) {
-  const Experiment of = read(R"(schema = 1
-title = "A test"
-[[method]]
-label = "RK4"
-integrator = "rk4"
-[[case]]
+  const Experiment of = read(rk4_alone + R"([[case]]
 name = "still"
 system = "harmonic-oscillator"
 initial = [0, 0]
