@@ -4,7 +4,16 @@
 
 #include <string>
 
+// The library's literal "..."_json is an inline function that parses, so that GCC compiles a parser at the
+// end of every source that includes the library, for .3 s, whether the literal is used or not. Named by this
+// macro it is declared only, and its body becomes that of a function template that nobody calls.
+#define JSON_USE_GLOBAL_UDLS 0
+#define _json                      \
+  _json(const char*, std::size_t); \
+  template <class>                 \
+  nlohmann::json unused_literal_json
 #include <nlohmann/json.hpp>
+#undef _json
 
 namespace pfaff::detail {
 using JsonInText = nlohmann::detail::iterator_input_adapter<std::string::const_iterator>;
