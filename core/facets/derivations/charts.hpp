@@ -6,7 +6,7 @@
 #include <pfaff/core/facets/derivations/derivation.hpp>
 #include <pfaff/core/linear/symplectic_basis.hpp>
 
-namespace pfaff::derive {
+namespace pfaff::derivations {
 
 // Pulls the action form F.dz - B dt back through the chart's inverse z = zeta(y, t). There the structure is
 // constant and canonical, so the field is J (grad_y B~ + d_t F~) with F~_i = F_j d zeta_j / d y_i and B~ = B
@@ -132,4 +132,4 @@ inline constexpr std::array charts{
                &jacobian_of<Formula::chart_field>},
 };
 
-}  // namespace pfaff::derive
+}  // namespace pfaff::derivations

@@ -5,7 +5,7 @@
 
 #include <pfaff/core/facets/derivations/derivation.hpp>
 
-namespace pfaff::derive {
+namespace pfaff::derivations {
 
 inline std::shared_ptr<const Tape> with_hidden_constraints(const Model& model) {
   const auto phi = model.tape(Formula::holonomic), slopes = model.tape(Formula::hamiltonian_gradient);
@@ -66,4 +66,4 @@ inline constexpr std::array constraints{
                &jacobian_of<Formula::constraints>},
 };
 
-}  // namespace pfaff::derive
+}  // namespace pfaff::derivations

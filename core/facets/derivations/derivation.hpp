@@ -23,7 +23,7 @@ struct Derivation {
   std::shared_ptr<const Tape> (*make)(const Model& model);
 };
 
-namespace derive {
+namespace derivations {
 
 inline constexpr Formula none = Formula::count;
 
@@ -73,5 +73,5 @@ std::shared_ptr<const Tape> jacobian_of(const Model& model) {
   return shared(jacobian_tape(*model.tape(F)));
 }
 
-}  // namespace derive
+}  // namespace derivations
 }  // namespace pfaff

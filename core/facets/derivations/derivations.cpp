@@ -20,14 +20,14 @@ constexpr auto joined(const std::array<Derivation, N>&... families) {
 
 // Where the field can be derived in several ways the order decides: two brackets come before one, an energy
 // before a structure, a structure before friction.
-constexpr auto derivations = joined(derive::metriplectic, derive::energies, derive::structures,
-                                    derive::damped_energies, derive::charts, derive::constraints);
+constexpr auto in_order = joined(derivations::metriplectic, derivations::energies, derivations::structures,
+                                 derivations::damped_energies, derivations::charts, derivations::constraints);
 
 // True where every formula that no author can write has a derivation.
 constexpr bool complete() {
   return std::all_of(formula_table.begin(), formula_table.end(), [](const FormulaRow& row) {
     return row.origin != Origin::none ||
-           std::any_of(derivations.begin(), derivations.end(),
+           std::any_of(in_order.begin(), in_order.end(),
                        [&](const Derivation& d) { return d.of == row.formula; });
   });
 }
@@ -35,10 +35,10 @@ static_assert(complete(), "a formula that authors do not write, PFAFF_DERIVED, n
 }  // namespace
 
 const Derivation* derivation_of(Formula formula, const Model& model) {
-  const auto* const found = std::find_if(derivations.begin(), derivations.end(), [&](const Derivation& d) {
+  const auto* const found = std::find_if(in_order.begin(), in_order.end(), [&](const Derivation& d) {
     return d.of == formula && d.applies(model);
   });
-  return found == derivations.end() ? nullptr : found;
+  return found == in_order.end() ? nullptr : found;
 }
 
 std::shared_ptr<const Tape> Model::derived(Formula formula) const {
@@ -46,6 +46,6 @@ std::shared_ptr<const Tape> Model::derived(Formula formula) const {
   return way == nullptr ? nullptr : way->make(*this);
 }
 
-Tape damped_field(const Model& model) { return *derive::damped_field(model); }
+Tape damped_field(const Model& model) { return *derivations::damped_field(model); }
 
 }  // namespace pfaff

@@ -4,7 +4,7 @@
 
 #include <pfaff/core/facets/derivations/derivation.hpp>
 
-namespace pfaff::derive {
+namespace pfaff::derivations {
 
 inline std::shared_ptr<const Tape> sum_of_energies(const Model& model) {
   const auto kinetic = model.tape(Formula::kinetic), potential = model.tape(Formula::potential);
@@ -110,4 +110,4 @@ inline constexpr std::array damped_energies{
         Formula::field, {Formula::velocity, Formula::force, none}, &has<Facet::conformal>, &damped_field},
 };
 
-}  // namespace pfaff::derive
+}  // namespace pfaff::derivations

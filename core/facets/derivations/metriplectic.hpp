@@ -4,7 +4,7 @@
 
 #include <pfaff/core/facets/derivations/derivation.hpp>
 
-namespace pfaff::derive {
+namespace pfaff::derivations {
 
 inline std::shared_ptr<const Tape> metriplectic_field(const Model& model) {
   const auto energy = model.tape(Formula::hamiltonian_gradient),
@@ -31,4 +31,4 @@ inline constexpr std::array metriplectic{
                &metriplectic_field},
 };
 
-}  // namespace pfaff::derive
+}  // namespace pfaff::derivations

@@ -5,7 +5,7 @@
 
 #include <pfaff/core/facets/derivations/derivation.hpp>
 
-namespace pfaff::derive {
+namespace pfaff::derivations {
 
 /// K_ij = d_i F_j - d_j F_i.
 inline std::shared_ptr<const Tape> exterior_derivative(const Model& model) {
@@ -76,4 +76,4 @@ inline constexpr std::array structures{
                &field_of_structure},
 };
 
-}  // namespace pfaff::derive
+}  // namespace pfaff::derivations
