@@ -196,13 +196,17 @@ SeriesWidth<W> series_width(std::integer_sequence<int, Levels...> /*known*/) {
 }  // namespace detail
 
 /// The chart's field of S, ready for series. The numbers of levels compiled without loops include those of
-/// the symmetric schemes of order 4 (one lane, 3 levels) and 8 (two lanes, 7 levels).
+/// the symmetric schemes of order 4 (one lane, 3 levels) and 8 (two lanes, 7 levels). Fields in more than
+/// twelve coordinates are compiled with loops only: for the six bodies of outer-solar-system code without
+/// loops is 200 kilobytes long, which is more than caches of instructions hold.
 template <detail::CompilesChartField S>
 const CompiledSeries& compiled_series() {
-  static const CompiledSeries series{S::dimension, &detail::series_layout<S>,
-                                     detail::series_width<S, 1>(std::make_integer_sequence<int, 3>()),
-                                     detail::series_width<S, 2>(std::make_integer_sequence<int, 7>()),
-                                     detail::series_width<S, 4>(std::make_integer_sequence<int, 11>())};
+  constexpr bool small = S::dimension <= 12;
+  static const CompiledSeries series{
+      S::dimension, &detail::series_layout<S>,
+      detail::series_width<S, 1>(std::make_integer_sequence < int, small ? 3 : 0 > ()),
+      detail::series_width<S, 2>(std::make_integer_sequence < int, small ? 7 : 0 > ()),
+      detail::series_width<S, 4>(std::make_integer_sequence < int, small ? 11 : 0 > ())};
   return series;
 }
 
