@@ -17,7 +17,7 @@ namespace pfaff::app {
 
 namespace {
 
-struct Options {
+struct CompareOptions {
   std::vector<std::string> names;
   bool all = false, quick = false, force = false, compile = false;
   std::string out;
@@ -44,7 +44,7 @@ std::string left_out_text(const std::vector<LeftOut>& left_out) {
   return text;
 }
 
-int compare(const Options& options, const Common& common) {
+int compare(const CompareOptions& options, const Common& common) {
   const std::unique_ptr<Team> team = launched_team();
   const std::vector<std::string> names = options.all ? experiment_names() : options.names;
   nlohmann::json j{{"schema", 1}, {"experiments", nlohmann::json::array()}};
@@ -116,7 +116,7 @@ int compare(const Options& options, const Common& common) {
 void add_compare(CLI::App& app, Common& common, Action& action) {
   CLI::App* sub = subcommand(app, common, "compare", "Run an experiment: table, CSV, figures, report");
   add_quiet(*sub, common);
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CompareOptions>();
   sub->add_option("experiment", options->names,
                   "Name of one that ships (pfaff list experiments), or a TOML file")
       ->type_name("EXPERIMENT|FILE");

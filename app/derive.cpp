@@ -18,7 +18,7 @@ namespace pfaff::app {
 
 namespace {
 
-struct Options {
+struct DeriveOptions {
   std::string system, method, emit = "counts";
   std::vector<std::string> set;
 };
@@ -122,7 +122,7 @@ int print_counts(const Equations& equations, double seconds, bool as_json) {
   return 0;
 }
 
-int run(const Options& options, bool as_json) {
+int run(const DeriveOptions& options, bool as_json) {
   Assignments settings = parse_settings(options.set);
   const DerivationOptions chosen{take_friction_form(settings), take_order(settings, options.method),
                                  take_elimination(settings)};
@@ -150,7 +150,7 @@ int run(const Options& options, bool as_json) {
 
 void add_derive(CLI::App& app, Common& common, Action& action) {
   CLI::App* sub = subcommand(app, common, "derive", "Equations of motion of a system, derived symbolically");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DeriveOptions>();
   sub->add_option("system", options->system, "Name of the system, or the file of one written as text")
       ->type_name("SYSTEM|FILE")
       ->required();

@@ -13,13 +13,13 @@ namespace pfaff::app {
 
 namespace {
 
-struct Options {
+struct EvaluateOptions {
   RunSettings settings;
   std::vector<std::string> set;
   std::string state, time, precision, centre;
 };
 
-EvaluationSettings settings_of(const Options& options) {
+EvaluationSettings settings_of(const EvaluateOptions& options) {
   RunSettings run = options.settings;
   if (run.system.empty()) throw InputError("--system is missing (see pfaff list systems)");
   run.set = parse_settings(options.set);
@@ -50,7 +50,7 @@ EvaluationSettings settings_of(const Options& options) {
 
 void add_evaluate(CLI::App& app, Common& common, Action& action) {
   CLI::App* sub = subcommand(app, common, "evaluate", "A system at one state: its field, energy, structure");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<EvaluateOptions>();
   sub->add_option("system,--system", options->settings.system,
                   "The system: its name, or the file of one written as text")
       ->type_name("SYSTEM|FILE");

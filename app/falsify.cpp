@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct FalsifyOptions {
   std::string method, claim, system, step = "1/10", at = "0", out;
   std::vector<std::string> set;
   std::uint64_t seed = 1, systems = FalsificationSettings().systems;
@@ -40,7 +40,7 @@ Real number_of(const std::string& text, const char* option) {
   return *number;
 }
 
-std::vector<ClaimUnderTest> tests_of(const Options& options) {
+std::vector<ClaimUnderTest> tests_of(const FalsifyOptions& options) {
   if (options.all == !options.method.empty())
     throw InputError("falsify: expected the name of an integrator or --all (see pfaff list integrators)");
   if (options.all && !options.set.empty())
@@ -126,7 +126,7 @@ void print(const std::vector<FalsificationResult>& results, const Common& common
     if (result.counterexample) std::cout << '\n' << file_of(result) << ":\n\n" << model_of(result, common);
 }
 
-int search(const Options& options, const Common& common) {
+int search(const FalsifyOptions& options, const Common& common) {
   std::vector<ClaimUnderTest> tests = tests_of(options);
   FalsificationSettings settings;
   settings.seed = options.seed;
@@ -159,7 +159,7 @@ int search(const Options& options, const Common& common) {
 }
 
 // Judges one claim on a system by name, at its initial state.
-int show(const Options& options, const Common& common) {
+int show(const FalsifyOptions& options, const Common& common) {
   if (options.all || options.method.empty() || options.claim.empty())
     throw InputError("--system: expected an integrator and its --claim beside it");
   const Claim claim = claim_named(options.claim);
@@ -200,7 +200,7 @@ int show(const Options& options, const Common& common) {
 void add_falsify(CLI::App& app, Common& common, Action& action) {
   CLI::App* sub = subcommand(app, common, "falsify", "Search for the smallest system on which a claim fails");
   add_quiet(*sub, common);
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<FalsifyOptions>();
   sub->add_option("method", options->method,
                   "Name of the integrator, or the file of a table of coefficients (.toml)")
       ->type_name("INTEGRATOR|FILE");

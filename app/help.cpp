@@ -9,12 +9,12 @@
 namespace pfaff::app {
 
 namespace {
-struct Options {
+struct HelpOptions {
   std::string command;
   bool manual = false;
 };
 
-int help(const CLI::App& app, const Options& options) {
+int help(const CLI::App& app, const HelpOptions& options) {
   if (options.manual) {
     std::cout << manual_page(app);
     return 0;
@@ -37,7 +37,7 @@ int help(const CLI::App& app, const Options& options) {
 void add_help(CLI::App& app, Common& /*common*/, Action& action) {
   CLI::App* sub = app.add_subcommand("help", "What a command does and takes");
   sub->group("Commands");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<HelpOptions>();
   CLI::Option* command =
       sub->add_option("command", options->command, "A command; without, all of them")->type_name("COMMAND");
   sub->add_flag("--man", options->manual, "The manual page, for man")->excludes(command);

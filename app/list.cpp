@@ -99,7 +99,7 @@ nlohmann::json facet_list() {
   }
   return list;
 }
-std::string joined(const nlohmann::json& names) {
+std::string names_in(const nlohmann::json& names) {
   std::string text;
   for (const auto& name : names)
     text += (text.empty() ? "" : ", ") + (name.is_string() ? name : name["name"]).get<std::string>();
@@ -114,9 +114,9 @@ int list_facets(bool json) {
   TableRows lines;
   for (const auto& facet : facets) {
     lines.push_back({"  " + facet["name"].get<std::string>(), facet["meaning"].get<std::string>()});
-    lines.push_back({"    formulas", joined(facet["formulas"])});
-    lines.push_back({"    offered by", joined(facet["offered_by"])});
-    lines.push_back({"    needed by", joined(facet["needed_by"])});
+    lines.push_back({"    formulas", names_in(facet["formulas"])});
+    lines.push_back({"    offered by", names_in(facet["offered_by"])});
+    lines.push_back({"    needed by", names_in(facet["needed_by"])});
   }
   std::cout << "facets\n" << facts(lines);
   return 0;
@@ -219,19 +219,19 @@ void print(const std::string& kind, const nlohmann::json& entries) {
     if (methods) {
       const auto orders = entry["orders"].get<std::set<int>>();
       rows.back().push_back(orders.empty() ? "-" : in_words(orders));
-      rows.back().push_back(joined(entry["preserves"]));
+      rows.back().push_back(names_in(entry["preserves"]));
     }
     rows.back().push_back(entry["title"]);
   }
   std::cout << (methods ? table(rows) : kind + '\n' + facts(rows));
 }
 
-struct Options {
+struct ListOptions {
   std::string kind;
   bool markdown = false, names = false;
 };
 
-int list(const Options& options, bool json) {
+int list(const ListOptions& options, bool json) {
   const std::string& kind = options.kind;
   std::vector<std::string> known = kinds;
   known.emplace_back("facets");
@@ -263,7 +263,7 @@ int list(const Options& options, bool json) {
 void add_list(CLI::App& app, Common& common, Action& action) {
   CLI::App* sub =
       subcommand(app, common, "list", "List systems, integrators, brackets, formulations and experiments");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ListOptions>();
   sub->add_option("kind", options->kind, "What is listed; all kinds without, but for facets")
       ->type_name("systems|integrators|brackets|formulations|experiments|facets");
   sub->add_flag("--names", options->names, "The names alone, one a line")->excludes("--json");

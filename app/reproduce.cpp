@@ -13,7 +13,7 @@ namespace pfaff::app {
 
 namespace {
 
-struct Options {
+struct ReproduceOptions {
   std::string paper, section;
   bool coverage = false, list = false;
   [[nodiscard]] std::vector<std::string> chosen() const {
@@ -57,7 +57,7 @@ void print_rows(const std::string& paper, const std::vector<ReproducedRow>& rows
 }
 
 // What can be reproduced, without doing it: of every paper the number of its items, or every item of one.
-void print_list(const Options& options) {
+void print_list(const ReproduceOptions& options) {
   std::vector<std::vector<std::string>> lines;
   if (options.paper.empty()) {
     lines.push_back({"paper", "items", "with rows"});
@@ -75,7 +75,7 @@ void print_list(const Options& options) {
   }
   std::cout << table(lines);
 }
-nlohmann::json list_json(const Options& options) {
+nlohmann::json list_json(const ReproduceOptions& options) {
   nlohmann::json list = nlohmann::json::array();
   for (const std::string& paper : options.chosen()) {
     nlohmann::json items = nlohmann::json::array();
@@ -117,7 +117,7 @@ void print_coverage(const Coverage& coverage) {
 }
 
 // One JSON value: that of the paper, or of all papers together.
-void print_json(const Options& options, const nlohmann::json& papers, bool good) {
+void print_json(const ReproduceOptions& options, const nlohmann::json& papers, bool good) {
   nlohmann::json all{{"schema", 1}};
   if (options.paper.empty()) {
     all["ok"] = good;
@@ -128,7 +128,7 @@ void print_json(const Options& options, const nlohmann::json& papers, bool good)
   std::cout << json_text(all);
 }
 
-int run(const Options& options, const Common& common) {
+int run(const ReproduceOptions& options, const Common& common) {
   if (options.paper.empty() && !options.section.empty())
     throw InputError("--section " + options.section +
                      ": expected a paper before it, because sections are a paper's");
@@ -174,7 +174,7 @@ void add_reproduce(CLI::App& app, Common& common, Action& action) {
   CLI::App* sub = subcommand(app, common, "reproduce",
                              "Published values beside ours: reproduced, erratum or qualitative");
   add_quiet(*sub, common);
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReproduceOptions>();
   std::string known;
   for (const std::string& name : papers()) known += (known.empty() ? "" : ", ") + name;
   sub->add_option("paper", options->paper, known + "; all of them without")->type_name("PAPER");

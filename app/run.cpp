@@ -16,7 +16,7 @@ namespace pfaff::app {
 
 namespace {
 
-struct Options {
+struct RunOptions {
   RunSettings settings;
   std::vector<std::string> set;
   std::string every, precision, out, state, config, reference, max_steps;
@@ -24,7 +24,7 @@ struct Options {
 };
 
 // What the options ask for, read from a config.toml or from the options themselves, not yet resolved.
-RunConfig config_of(const Options& options) {
+RunConfig config_of(const RunOptions& options) {
   if (options.out.empty())
     throw InputError("--out is missing: a new directory for the run, or - for its series on standard output");
   RunConfig config{options.settings, {}};
@@ -58,7 +58,7 @@ RunConfig config_of(const Options& options) {
 
 // The run that the options ask for. One that was made before is not repeated from other files and builds
 // than then, unless that is forced.
-ResolvedRun resolved_run(const Options& options) {
+ResolvedRun resolved_run(const RunOptions& options) {
   const RunConfig config = config_of(options);
   load_missing_plugins(config.origins, options.config);
   ResolvedRun run = resolve(config.settings);
@@ -133,7 +133,7 @@ RunRecord executed(const ResolvedRun& resolved, bool quiet) {
       &Interruption::stop());
 }
 
-int run(const Options& options, const Common& common) {
+int run(const RunOptions& options, const Common& common) {
   const ResolvedRun resolved = resolved_run(options);
   if (const std::string end = of_the_last_step(resolved); !end.empty() && !common.quiet)
     std::cerr << "pfaff: " << end << '\n';
@@ -169,7 +169,7 @@ int run(const Options& options, const Common& common) {
 void add_run(CLI::App& app, Common& common, Action& action) {
   CLI::App* sub = subcommand(app, common, "run", "Integrate one system with one method");
   add_quiet(*sub, common);
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RunOptions>();
   RunSettings& s = options->settings;
   sub->add_option("system,--system", s.system, "The system: its name, or the file of one written as text")
       ->type_name("SYSTEM|FILE");

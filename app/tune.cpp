@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct TuneOptions {
   std::string system, name, out;
   std::vector<std::string> set, beside;
   double step = 0;
@@ -48,7 +48,7 @@ bool verified(const std::string& file, const Common& common) {
   return ok;
 }
 
-int tune(const Options& options, const Common& common) {
+int tune(const TuneOptions& options, const Common& common) {
   check(options.tuning);
   if (!(options.step > 0))
     throw InputError("--step: expected the step that the method is tuned for, above 0");
@@ -112,7 +112,7 @@ void add_tune(CLI::App& app, Common& common, Action& action) {
   CLI::App* sub =
       subcommand(app, common, "tune", "A splitting made for one system, as a table of coefficients");
   add_quiet(*sub, common);
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<TuneOptions>();
   sub->add_option("system", options->system, "The system: its name, or the file of one written as text")
       ->type_name("SYSTEM|FILE")
       ->required();

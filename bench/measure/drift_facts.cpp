@@ -15,7 +15,6 @@ using windows::Series;
 using windows::Shape;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t few_samples = 96;
 constexpr std::size_t twentieths = 20;
 
 /// Least and largest of some values.

@@ -36,6 +36,9 @@ struct Facts {
   [[nodiscard]] double evidence() const { return trend - noise; }
 };
 
+/// With fewer samples a walk cannot be told from an oscillation, and spreads are those of fewer windows.
+inline constexpr std::size_t few_samples = 96;
+
 Facts facts_of(const Observed& observed);
 
 /// The exponent or the rate of a shape, with its likelihood interval: the parameters whose score is

@@ -14,7 +14,7 @@ namespace {
 using windows::Estimate;
 using windows::Shape;
 
-constexpr std::size_t fewest_samples = 32, few_samples = 96;
+constexpr std::size_t fewest_samples = 32;
 
 template <class... A>
 std::string told(const char* format, A... numbers) {

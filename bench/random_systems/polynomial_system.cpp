@@ -8,7 +8,7 @@ namespace pfaff {
 
 namespace {
 
-std::vector<std::string> counted(const std::string& letter, std::size_t count) {
+std::vector<std::string> numbered(const std::string& letter, std::size_t count) {
   std::vector<std::string> names;
   for (std::size_t k = 1; k <= count; ++k) names.push_back(letter + std::to_string(k));
   return names;
@@ -38,7 +38,7 @@ std::shared_ptr<const Model> model_of(const PolynomialSystem& system) {
   source.damping = system.damping;
   source.invariants = system.invariants;
   source.initial = system.initial;
-  for (const std::string& name : counted("z", system.dimension)) source.coordinates.push_back({name, ""});
+  for (const std::string& name : numbered("z", system.dimension)) source.coordinates.push_back({name, ""});
   for (const auto& [formula, results] : system.formulas) {
     const auto& divisors = system.chart_divisors;
     const bool divided = formula == Formula::chart_inverse && !divisors.empty();
@@ -55,9 +55,9 @@ std::shared_ptr<const Model> model_of(const PolynomialSystem& system) {
           }
         }));
     if (formula == Formula::holonomic || formula == Formula::constraints)
-      source.constraint_names = counted("phi", results.size());
+      source.constraint_names = numbered("phi", results.size());
     if (formula == Formula::velocity_constraints)
-      source.velocity_constraint_names = counted("psi", results.size() / (system.dimension / 2));
+      source.velocity_constraint_names = numbered("psi", results.size() / (system.dimension / 2));
   }
   return std::make_shared<const Model>(std::move(source));
 }

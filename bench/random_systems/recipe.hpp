@@ -68,6 +68,8 @@ PolynomialSystem system_of(const Recipe& recipe);
 
 /// A random recipe, a function of kind, seed and `size`: 0 gives few terms and variables, 2 many.
 Recipe random_recipe(SystemKind kind, std::uint64_t seed, int size);
+/// The size with which claims and identities are verified.
+inline constexpr int verified_size = 1;
 
 /// Recipes that are simpler than this one in one respect: parts of their terms, fewer variables, constraints
 /// and rods, lower powers, and simpler numbers. Those that leave out most stand first.

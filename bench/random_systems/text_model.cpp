@@ -13,7 +13,7 @@ using Names = std::vector<std::string>;
 enum class Form { expression, list, rows };
 
 // letter1 ... lettern, or the letter alone where there is one.
-Names counted(const std::string& letter, std::size_t count) {
+Names numbered_or_alone(const std::string& letter, std::size_t count) {
   if (count == 1) return {letter};
   Names names;
   for (std::size_t k = 1; k <= count; ++k) names.push_back(letter + std::to_string(k));
@@ -22,9 +22,9 @@ Names counted(const std::string& letter, std::size_t count) {
 
 // q1, ..., p1, ... of systems whose variables are positions and momenta, z1, ... of others.
 Names coordinates_of(const PolynomialSystem& system) {
-  if (!system.canonical && !system.damping) return counted("z", system.dimension);
-  Names names = counted("q", system.dimension / 2);
-  for (std::string& name : counted("p", system.dimension / 2)) names.push_back(std::move(name));
+  if (!system.canonical && !system.damping) return numbered_or_alone("z", system.dimension);
+  Names names = numbered_or_alone("q", system.dimension / 2);
+  for (std::string& name : numbered_or_alone("p", system.dimension / 2)) names.push_back(std::move(name));
   return names;
 }
 

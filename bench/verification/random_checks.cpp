@@ -11,7 +11,6 @@ namespace pfaff {
 namespace {
 
 constexpr std::uint64_t seed = 20041;
-constexpr int size = 1;
 // Jacobians and Taylor series in quad of larger systems cost too much.
 constexpr std::size_t most_variables = 8;
 
@@ -54,7 +53,7 @@ std::vector<Check> check_on_random_systems(const MethodPlugin& plugin, const Ass
     for (const SystemKind kind : system_kinds) {
       // Registered systems have functions that are no polynomials; the random ones add what these lack.
       if (kind == SystemKind::transcendental) continue;
-      const Recipe recipe = random_recipe(kind, seed, size);
+      const Recipe recipe = random_recipe(kind, seed, verified_size);
       if (recipe.dimension <= most_variables &&
           model_claimed_on(*method, row.claim, model_of(system_of(recipe))) != nullptr)
         kinds.push_back(kind);
@@ -63,7 +62,7 @@ std::vector<Check> check_on_random_systems(const MethodPlugin& plugin, const Ass
   }
   std::vector<Check> checks;
   for (const SystemKind kind : chosen) {
-    const PolynomialSystem system = system_of(random_recipe(kind, seed, size));
+    const PolynomialSystem system = system_of(random_recipe(kind, seed, verified_size));
     const auto model = motion_for(*method, model_of(system));
     for (Check& check : check_in_short_runs(*method, parameters, system.name, model))
       checks.push_back(std::move(check));

@@ -42,7 +42,6 @@ struct RandomRods : BeadRodSystem<RandomRods> {
 };
 
 constexpr std::uint64_t seeds = 2;
-constexpr int size = 1;
 constexpr std::array kinds{SystemKind::surface, SystemKind::revolution, SystemKind::rods,
                            SystemKind::second_class, SystemKind::rolling};
 
@@ -56,7 +55,7 @@ std::vector<std::shared_ptr<const Model>> random_constraints() {
   std::vector<std::shared_ptr<const Model>> models;
   for (const SystemKind kind : kinds)
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-      PolynomialSystem system = system_of(random_recipe(kind, seed, size));
+      PolynomialSystem system = system_of(random_recipe(kind, seed, verified_size));
       system.name += "-" + std::to_string(seed);
       models.push_back(model_of(system));
       // Angular momentum is kept where everything is symmetric about an axis, and nothing that moves is.

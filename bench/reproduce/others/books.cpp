@@ -11,7 +11,7 @@ namespace {
 
 // Figures 2.2 and 2.3 of section I.2 in numbers: the energy error of symplectic methods on Kepler's ellipse
 // is bounded and of the order of the method, that of others grows.
-void kepler(Rows& rows) {
+void kepler_energy(Rows& rows) {
   const std::string equation = "hairer-lubich-wanner2006 I.2.3";
   const auto largest = [](const std::string& method, const std::string& step, const std::string& time) {
     return energy_error<double>(resolved({"kepler", method, {{"eccentricity", "0.6"}}, step, time})).largest;
@@ -141,7 +141,7 @@ void galaxy(Rows& rows) {
 }  // namespace
 
 void book_rows(Rows& rows) {
-  kepler(rows);
+  kepler_energy(rows);
   planets(rows);
   long_steps(rows);
   damped_oscillator(rows);

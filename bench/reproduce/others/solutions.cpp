@@ -16,7 +16,7 @@ struct Orbit {
 };
 
 // Problems D1 to D5 start at the pericentre, as the system does.
-void kepler(Rows& rows) {
+void kepler_orbits(Rows& rows) {
   const std::vector<Orbit> orbits{
       {"D1",
        "0.1",
@@ -95,7 +95,7 @@ void pendulum(Rows& rows) {
 }  // namespace
 
 void solution_rows(Rows& rows) {
-  kepler(rows);
+  kepler_orbits(rows);
   predators(rows);
   body(rows);
   stars(rows);

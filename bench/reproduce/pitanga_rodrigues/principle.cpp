@@ -30,7 +30,7 @@ std::vector<T> offsets(const T& t) {
   return {t * t, T(1) - t};
 }
 
-struct Sample {
+struct PrincipleSample {
   static constexpr int dimension = 2 * static_cast<int>(n), velocity_constraint_count = static_cast<int>(m);
   template <class T>
   T kinetic(const T& /*t*/, In<T> p) const {
@@ -56,7 +56,7 @@ struct Sample {
 };
 
 std::shared_ptr<const Model> sample_model() {
-  return make_model(SystemDescriptor{.name = "example", .title = "", .reference = ""}, Sample{});
+  return make_model(SystemDescriptor{.name = "example", .title = "", .reference = ""}, PrincipleSample{});
 }
 // V as a polynomial of the positions.
 Polynomial potential_polynomial() {

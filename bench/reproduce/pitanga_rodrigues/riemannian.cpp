@@ -20,7 +20,7 @@ double size_of(const LinearMap<Rational, From, To>& m) {
 
 // A metric of five dimensions and two one-forms in general position. The tables hold the same numbers for
 // what is printed.
-struct Sample {
+struct RiemannianSample {
   ExactSamples samples{26};
   ExactMatrix g = [this] {
     const ExactMatrix b = samples.any(dimension, dimension);
@@ -41,7 +41,7 @@ struct Sample {
         q_star = printed::transposed(q_table);
 };
 
-void splitting_of_the_metric(Rows& rows, const Sample& s) {
+void splitting_of_the_metric(Rows& rows, const RiemannianSample& s) {
   const auto& sharp = s.metric.sharp();
   const Covector<Rational> phi(s.phi), psi(s.psi);
   const auto q = s.straight.complement().transposed(), p = s.straight.admissible().transposed();
@@ -114,7 +114,7 @@ void other_tensors(Rows& rows) {
                    "a mixed part is left along other structures, and none along the compatible one");
 }
 
-void eigenspaces(Rows& rows, const Sample& s) {
+void eigenspaces(Rows& rows, const RiemannianSample& s) {
   const auto reflection = s.slanted.reflection();
   double worst = 0;
   for (const auto& y : s.slanted.fields()) {
@@ -127,7 +127,7 @@ void eigenspaces(Rows& rows, const Sample& s) {
       "Sections 1, 2.1, 4: here P is onto the admissible vectors throughout, and Gamma = P - Q");
 }
 
-void local_expressions(Rows& rows, const Sample& s) {
+void local_expressions(Rows& rows, const RiemannianSample& s) {
   const auto p = s.slanted.admissible(), q = s.slanted.complement();
   const TangentVector<Rational> z(s.z);
   rows.reproduced("(5)", "P(Z)", quads(printed::splitting_p(s.gamma_table, s.z)),
@@ -189,7 +189,7 @@ void local_expressions(Rows& rows, const Sample& s) {
                "(7), after it: symmetric in al and be");
 }
 
-void metric_projectors(Rows& rows, const Sample& s) {
+void metric_projectors(Rows& rows, const RiemannianSample& s) {
   const Table upper = printed::upper_g(s.inverse_table, s.w);
   rows.reproduced("(8)", "before it, G^{alpha beta} = w^beta(xi^alpha)", quads(upper),
                   quads(gram(s.metric.sharp(), s.one_forms, s.one_forms)));
@@ -221,7 +221,7 @@ void metric_projectors(Rows& rows, const Sample& s) {
 }  // namespace
 
 void riemannian_rows(Rows& rows) {
-  const Sample sample;
+  const RiemannianSample sample;
   eigenspaces(rows, sample);
   splitting_of_the_metric(rows, sample);
   other_tensors(rows);

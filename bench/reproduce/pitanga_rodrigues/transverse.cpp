@@ -12,7 +12,7 @@ using Table = printed::Table<Rational>;
 
 // Pi_W of rank 6 on seven dimensions, four constraints, two functions. What is printed is made of the tables
 // alone: X^a in rows, lambda^{ab} and lambda_ab.
-struct Sample {
+struct TransverseSample {
   ExactSamples samples{21};
   ExactMatrix p = [this] {
     const ExactMatrix b = samples.any(7, 6);
@@ -30,7 +30,7 @@ struct Sample {
       printed::product(printed::transposed(gradients), printed::product(lambda_inverse, fields));
 };
 
-void conditions(Rows& rows, const Sample& s) {
+void conditions(Rows& rows, const TransverseSample& s) {
   const auto subspace = dirac_subspace(s.p, s.dx);
   const bool regular = determinant(s.structure.lambda()) != Rational(0);
   rows.qualitative("(a), (b)", "TW = TM + sharp(Ann TM)", {"equivalent to (a) and (b)", describe(subspace)},
@@ -57,7 +57,7 @@ void conditions(Rows& rows, const Sample& s) {
                   quads(s.structure.composed()));
 }
 
-void projectors(Rows& rows, const Sample& s) {
+void projectors(Rows& rows, const TransverseSample& s) {
   const auto& structure = s.structure;
   const ExactMatrix onto = structure.leaf_projection(), x = structure.fields();
   // (14) with X^a(f) = {x^a, f}: X^a(x^b), rows a.
@@ -80,7 +80,7 @@ void projectors(Rows& rows, const Sample& s) {
                   quads((onto.transposed() * x.transposed()).transposed()));
 }
 
-void tensors(Rows& rows, const Sample& s) {
+void tensors(Rows& rows, const TransverseSample& s) {
   const auto& structure = s.structure;
   // 1/2 lambda_ab X^a ^ X^b
   const Table half = printed::product(printed::transposed(s.fields),
@@ -105,7 +105,7 @@ void tensors(Rows& rows, const Sample& s) {
 }  // namespace
 
 void transverse_rows(Rows& rows) {
-  const Sample sample;
+  const TransverseSample sample;
   conditions(rows, sample);
   projectors(rows, sample);
   tensors(rows, sample);

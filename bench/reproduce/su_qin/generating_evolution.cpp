@@ -10,12 +10,12 @@ namespace {
 
 using Arguments = std::span<const Recorded>;
 using Results = std::span<Recorded>;
-using Numbers = std::vector<Recorded>;
+using Formulas = std::vector<Recorded>;
 
 // J x = (x_p, -x_q), the inverse of K_c.
-Numbers canonical(const Numbers& x) {
+Formulas canonical(const Formulas& x) {
   const std::size_t half = x.size() / 2;
-  Numbers result(x.size());
+  Formulas result(x.size());
   for (std::size_t i = 0; i < half; ++i) {
     result[i] = x[half + i];
     result[half + i] = -x[i];
@@ -33,7 +33,7 @@ AlphaTapes chart_alpha(const Model& model) {
                  [&](const Recorded& t, Arguments x, Results out) {
                    const auto after = evaluate(*chart, t, x.first(size));
                    const auto before = evaluate(*chart, x[2 * size], x.subspan(size, size));
-                   Numbers difference(size);
+                   Formulas difference(size);
                    for (std::size_t k = 0; k < size; ++k) {
                      difference[k] = after[k] - before[k];
                      out[size + k] = (after[k] + before[k]) / Recorded(2);
@@ -42,8 +42,8 @@ AlphaTapes chart_alpha(const Model& model) {
                    std::copy(turned.begin(), turned.end(), out.begin());
                  }),
           record(2 * n + 1, 2 * n, [&](const Recorded& t, Arguments x, Results out) {
-            const auto half = canonical(Numbers(x.begin(), x.begin() + n));
-            Numbers after(size), before(size);
+            const auto half = canonical(Formulas(x.begin(), x.begin() + n));
+            Formulas after(size), before(size);
             for (std::size_t k = 0; k < size; ++k) {
               after[k] = x[size + k] - half[k] / Recorded(2);
               before[k] = x[size + k] + half[k] / Recorded(2);
@@ -62,13 +62,13 @@ Tape evolution(const Model& model, const AlphaTapes& alpha) {
   const auto field = derived != nullptr ? derived : model.tape(Formula::field);
   return record(2 * n + n * n + 1, n, [&](const Recorded& t, Arguments u, Results out) {
     const Arguments states_of_alpha = u.first(2 * size);
-    Numbers pair(states_of_alpha.begin(), states_of_alpha.end());
+    Formulas pair(states_of_alpha.begin(), states_of_alpha.end());
     pair.push_back(u.back());
     auto states = evaluate(alpha.backward, t, pair);
     const auto rate = evaluate(*field, t, Arguments(states).first(size));
     states.push_back(u.back());
     // (A K^-1 g + d_t alpha_1, C K^-1 g + d_t alpha_2): alpha along the flow of z' at fixed z.
-    Numbers direction(2 * size + 1);
+    Formulas direction(2 * size + 1);
     std::copy(rate.begin(), rate.end(), direction.begin());
     const auto total = directional_derivative(alpha.forward, t, Recorded(1), states, direction);
     for (std::size_t i = 0; i < size; ++i) {
@@ -94,8 +94,8 @@ Tape scalar_evolution(const Model& model, const AlphaTapes& alpha, const Tape& e
 Tape scalar_evolution(const Tape& chart_hamiltonian) {
   const int n = chart_hamiltonian.inputs;
   return record(2 * n + 1, 1, [&](const Recorded& t, Arguments u, Results out) {
-    const auto half = canonical(Numbers(u.begin(), u.begin() + n));
-    Numbers y(half.size());
+    const auto half = canonical(Formulas(u.begin(), u.begin() + n));
+    Formulas y(half.size());
     for (std::size_t k = 0; k < y.size(); ++k) y[k] = u[y.size() + k] - half[k] / Recorded(2);
     out[0] = -evaluate(chart_hamiltonian, t, y)[0];
   });

@@ -12,7 +12,7 @@ namespace {
 
 using Arguments = std::span<const Recorded>;
 using Results = std::span<Recorded>;
-using Numbers = std::vector<Recorded>;
+using Formulas = std::vector<Recorded>;
 
 Real factorial(int k) {
   Real product(1);
@@ -21,7 +21,7 @@ Real factorial(int k) {
 }
 Real binomial(int n, int k) { return factorial(n) / (factorial(k) * factorial(n - k)); }
 
-void append(Numbers& list, std::span<const Recorded> more) {
+void append(Formulas& list, std::span<const Recorded> more) {
   list.insert(list.end(), more.begin(), more.end());
 }
 
@@ -34,7 +34,7 @@ Tape time_derivative_tape(const Tape& tape) {
 }
 
 // [tau^k] of a tape whose time is tau.
-Numbers taylor_coefficient(Tape tape, int k, Arguments z) {
+Formulas taylor_coefficient(Tape tape, int k, Arguments z) {
   for (int i = 0; i < k; ++i) tape = time_derivative_tape(tape);
   auto value = evaluate(tape, Recorded(0), z);
   for (Recorded& x : value) x = x / Recorded(factorial(k));
@@ -47,7 +47,7 @@ class Derivatives {
   explicit Derivatives(const Tape& tape) : inputs_(tape.inputs) { tapes_.emplace(Key{0, 0}, tape); }
 
   // d_t^m a(u; direction_1, ..), where `arguments` is u with the directions behind it.
-  Numbers operator()(int m, int directions, const Recorded& t, Arguments arguments) {
+  Formulas operator()(int m, int directions, const Recorded& t, Arguments arguments) {
     return evaluate(tape(m, directions), t, arguments);
   }
 
@@ -61,7 +61,7 @@ class Derivatives {
                record(below.inputs + inputs_, static_cast<int>(below.outputs.size()),
                       [&](const Recorded& t, Arguments z, Results out) {
                         const auto all = static_cast<std::size_t>(below.inputs);
-                        Numbers direction(z.begin() + static_cast<std::ptrdiff_t>(all), z.end());
+                        Formulas direction(z.begin() + static_cast<std::ptrdiff_t>(all), z.end());
                         direction.resize(all);
                         const auto d = directional_derivative(below, t, Recorded(0), z.first(all), direction);
                         std::copy(d.begin(), d.end(), out.begin());
@@ -101,8 +101,8 @@ class Expansion {
     base_.push_back(t0);
   }
 
-  Numbers multilinear(int k) {
-    Numbers sum(n_);
+  Formulas multilinear(int k) {
+    Formulas sum(n_);
     for (int m = 0; m <= k; ++m)
       for (int n = 0; n <= k - m; ++n)
         for (int l = 0; n + l <= k - m; ++l)
@@ -114,8 +114,8 @@ class Expansion {
   // phi_ww in (77) and phi_w in (78). The last line of (78) contracts the n-th derivative in phi_w with l of
   // them and the l-th in phi_ww with n, which has a meaning up to k = 2 only; from there on the lengths of
   // (77) are taken.
-  Numbers as_printed(int k, bool third_in_hessian) {
-    Numbers sum(n_);
+  Formulas as_printed(int k, bool third_in_hessian) {
+    Formulas sum(n_);
     if (k == 0) return derivatives_(0, 0, t0_, base_);
     add(sum, Real(1), 0, {k}, {});
     add(sum, Real(1), 0, {}, {k});
@@ -133,15 +133,15 @@ class Expansion {
   }
 
  private:
-  void add_compositions(Numbers& sum, int m, int n, int l, int total, const Real& weight) {
+  void add_compositions(Formulas& sum, int m, int n, int l, int total, const Real& weight) {
     std::vector<int> parts;
     compositions(total, n + l, parts, [&](const std::vector<int>& found) {
       add(sum, weight, m, {found.begin(), found.begin() + n}, {found.begin() + n, found.end()});
     });
   }
   // sum += weight d_X^n d_Y^l d_t^m a in the directions phi_w^(h), phi_ww^(j).
-  void add(Numbers& sum, const Real& weight, int m, const std::vector<int>& h, const std::vector<int>& j) {
-    Numbers arguments = base_;
+  void add(Formulas& sum, const Real& weight, int m, const std::vector<int>& h, const std::vector<int>& j) {
+    Formulas arguments = base_;
     for (const int degree : h) {
       append(arguments, gradient_[static_cast<std::size_t>(degree)]);
       arguments.resize(arguments.size() + n_ + n_ * n_ + 1);
@@ -158,13 +158,13 @@ class Expansion {
   Derivatives& derivatives_;
   std::size_t n_;
   Recorded t0_;
-  std::vector<Numbers> gradient_, hessian_;
-  Numbers base_;
+  std::vector<Formulas> gradient_, hessian_;
+  Formulas base_;
 };
 
 // sum_i tau^i terms_i.
-Numbers polynomial(const std::vector<Numbers>& terms, const Recorded& tau) {
-  Numbers sum = terms.back();
+Formulas polynomial(const std::vector<Formulas>& terms, const Recorded& tau) {
+  Formulas sum = terms.back();
   for (std::size_t i = terms.size() - 1; i-- > 0;)
     for (std::size_t k = 0; k < sum.size(); ++k) sum[k] = sum[k] * tau + terms[i][k];
   return sum;
@@ -183,12 +183,12 @@ std::vector<Tape> expand_gradient(const Tape& evolution, int dimension, int degr
     const Tape along = record(dimension + 1, dimension, [&](const Recorded& tau, Arguments x, Results out) {
       const Recorded& t0 = x.back();
       const Arguments w = x.first(x.size() - 1);
-      std::vector<Numbers> gradients, hessians;
+      std::vector<Formulas> gradients, hessians;
       for (const Tape& term : terms) {
         gradients.push_back(evaluate(term, t0, w));
         hessians.push_back(jacobian(term, t0, w));
       }
-      Numbers u = polynomial(gradients, tau);
+      Formulas u = polynomial(gradients, tau);
       append(u, w);
       append(u, polynomial(hessians, tau));
       u.push_back(t0);
@@ -196,9 +196,9 @@ std::vector<Tape> expand_gradient(const Tape& evolution, int dimension, int degr
       std::copy(value.begin(), value.end(), out.begin());
     });
     terms.push_back(record(dimension, dimension, [&](const Recorded& t0, Arguments w, Results out) {
-      Numbers value;
+      Formulas value;
       if (rule == ExpansionRule::total_derivative) {
-        Numbers x(w.begin(), w.end());
+        Formulas x(w.begin(), w.end());
         x.push_back(t0);
         value = taylor_coefficient(along, k, x);
       } else {
@@ -219,15 +219,15 @@ std::vector<Tape> expand_scalar(const Tape& scalar_evolution, int dimension, int
     const Tape along = record(dimension + 1, 1, [&](const Recorded& tau, Arguments x, Results out) {
       const Recorded& t0 = x.back();
       const Arguments w = x.first(x.size() - 1);
-      std::vector<Numbers> gradients;
-      for (const Tape& term : terms) gradients.push_back(gradient(term, t0, w, Numbers{Recorded(1)}));
-      Numbers u = polynomial(gradients, tau);
+      std::vector<Formulas> gradients;
+      for (const Tape& term : terms) gradients.push_back(gradient(term, t0, w, Formulas{Recorded(1)}));
+      Formulas u = polynomial(gradients, tau);
       append(u, w);
       u.push_back(t0);
       out[0] = evaluate(scalar_evolution, t0 + tau, u)[0];
     });
     terms.push_back(record(dimension, 1, [&](const Recorded& t0, Arguments w, Results out) {
-      Numbers x(w.begin(), w.end());
+      Formulas x(w.begin(), w.end());
       x.push_back(t0);
       out[0] = taylor_coefficient(along, k, x)[0] / Recorded(k + 1);
     }));

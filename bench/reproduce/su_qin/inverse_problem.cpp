@@ -12,7 +12,7 @@ namespace {
 
 constexpr int nodes = 6;  // exact to degree 11 in lambda; the integrands reach 4
 
-Numbers at(const std::vector<printed::Polynomial>& functions, const Numbers& zt) {
+Numbers values_at(const std::vector<printed::Polynomial>& functions, const Numbers& zt) {
   Numbers values;
   for (const printed::Polynomial& f : functions) values.push_back(f.at(zt));
   return values;
@@ -30,8 +30,8 @@ std::vector<ReproducedRow> inverse_problem() {
   const Tape &form = action.one_form, &b = action.birkhoffian;
   const auto as_printed = printed::constructed_form(printed, Rational(1) / Rational(2), 0),
              corrected = printed::constructed_form(printed, Rational(1), 1);
-  rows.erratum("(17)", "F from K", at(as_printed, zt), at(corrected, zt), value(form, t0, sample_state),
-               "(17): the weight is lambda, not 1/2");
+  rows.erratum("(17)", "F from K", values_at(as_printed, zt), values_at(corrected, zt),
+               value(form, t0, sample_state), "(17): the weight is lambda, not 1/2");
   // What F is for: its curl is K.
   const Matrix<Quad> slope(4, value(jacobian_tape(form), t0, sample_state));
   rows.reproduced("(17)", "corrected: curl of F", printed::listed(printed::structure_at(printed, zt)),
@@ -41,7 +41,7 @@ std::vector<ReproducedRow> inverse_problem() {
                "(18): B has a minus in front");
   const std::vector<printed::Polynomial> forces = printed::forces(printed, corrected);
   const Matrix<Quad> fall(1, value(jacobian_tape(b), t0, sample_state));
-  rows.reproduced("(14)", "-grad B with B from (17), (18)", at(forces, zt), (-fall).entries());
+  rows.reproduced("(14)", "-grad B with B from (17), (18)", values_at(forces, zt), (-fall).entries());
   // (15): the slopes of D + F_t, transposed on our side.
   const Tape sum = record(4, 4, [&](const Recorded& t, Arguments z, Results out) {
     const auto first = evaluate(*d, t, z), rate = time_derivative(form, t, z);
@@ -50,7 +50,7 @@ std::vector<ReproducedRow> inverse_problem() {
   std::vector<printed::Polynomial> slopes;
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t j = 0; j < 4; ++j) slopes.push_back(forces[i].slope(j));
-  rows.reproduced("(15)", "symmetry of the slopes of D + F_t", at(slopes, zt),
+  rows.reproduced("(15)", "symmetry of the slopes of D + F_t", values_at(slopes, zt),
                   Matrix<Quad>(4, value(jacobian_tape(sum), t0, sample_state)).transposed().entries());
   return rows.take();
 }
