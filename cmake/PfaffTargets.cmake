@@ -40,8 +40,17 @@ set(pfaff_cold_options "$<$<CONFIG:Release>:-Og;-Wno-maybe-uninitialized>")
 function(pfaff_cold_target target)
   target_compile_options(${target} PRIVATE ${pfaff_cold_options})
 endfunction()
-function(pfaff_cold_sources)
-  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "${pfaff_cold_options}")
+
+# Sources that are compiled together parse headers, instantiate templates and compile inline functions once for all of
+# them. Plug-ins stay alone, so that one which changes is soon there.
+function(pfaff_joined target)
+  if(PFAFF_JOINED)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+    # A local variable may have the name of what only another source declares, and what is joined is no header,
+    # whose types must not depend on unnamed namespaces.
+    target_compile_options(${target} PRIVATE
+      $<$<CXX_COMPILER_ID:GNU>:-Wno-shadow;-Wshadow=local;-Wno-subobject-linkage>)
+  endif()
 endfunction()
 
 # Libraries are looked for beside the file that needs them, never in the current directory. CMake pads the run path
