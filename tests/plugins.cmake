@@ -8,6 +8,7 @@ function(pfaff_test_plugin name)
   set_target_properties(${name}_plugin PROPERTIES PREFIX "" OUTPUT_NAME ${name}
                                                   LIBRARY_OUTPUT_DIRECTORY ${pfaff_plugins})
   pfaff_target(${name}_plugin)
+  pfaff_cold_target(${name}_plugin)
 endfunction()
 
 file(GLOB templates CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/examples/templates/*.cpp)
