@@ -72,15 +72,20 @@ MeasuredOrder settle(Error&& error_of, int halvings, Floor&& floor_of) {
   MeasuredOrder result;
   std::vector<double> slopes;
   Quad last_error(-1);
+  bool longest = true;
   for (int halving = 0; halving < halvings; ++halving) {
     const Quad error = error_of(halving);
     if (error < Quad(0)) continue;  // too large a step for the implicit solve
+    // A step of many operations loses up to two digits to round-off.
+    if (longest) result.exact = error < Quad(100) * floor_of(halving);
+    longest = false;
     if (error < floor_of(halving)) break;
     if (last_error > Quad(0)) slopes.push_back(logarithm2(last_error / error));
     last_error = error;
     const std::size_t n = slopes.size();
     if (n >= 4 && std::abs(slopes[n - 1] - slopes[n - 2]) < 0.01 &&
         std::abs(slopes[n - 2] - slopes[n - 3]) < 0.02) {
+      result.exact = false;
       result.slope = slopes.back();
       result.settled = true;
       return result;
