@@ -8,10 +8,12 @@
 // end of every source that includes the library, for .3 s, whether the literal is used or not. Named by this
 // macro it is declared only, and its body becomes that of a function template that nobody calls.
 #define JSON_USE_GLOBAL_UDLS 0
+// NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming): the name is the library's.
 #define _json                      \
   _json(const char*, std::size_t); \
   template <class>                 \
   nlohmann::json unused_literal_json
+// NOLINTEND(bugprone-reserved-identifier,readability-identifier-naming)
 #include <nlohmann/json.hpp>
 #undef _json
 
