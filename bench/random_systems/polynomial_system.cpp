@@ -6,13 +6,13 @@
 
 namespace pfaff {
 
-namespace {
-
 std::vector<std::string> numbered(const std::string& letter, std::size_t count) {
   std::vector<std::string> names;
   for (std::size_t k = 1; k <= count; ++k) names.push_back(letter + std::to_string(k));
   return names;
 }
+
+namespace {
 
 Recorded value(Function function, const Recorded& x) {
   switch (function) {

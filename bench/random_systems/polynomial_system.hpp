@@ -42,6 +42,9 @@ struct PolynomialSystem {
   std::vector<Real> initial;          // on the constraints
 };
 
+/// letter1 ... lettern: the names of coordinates and constraints.
+std::vector<std::string> numbered(const std::string& letter, std::size_t count);
+
 /// The system recorded as a system of an author's is, without code compiled for doubles.
 std::shared_ptr<const Model> model_of(const PolynomialSystem& system);
 

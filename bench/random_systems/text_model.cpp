@@ -14,10 +14,7 @@ enum class Form { expression, list, rows };
 
 // letter1 ... lettern, or the letter alone where there is one.
 Names numbered_or_alone(const std::string& letter, std::size_t count) {
-  if (count == 1) return {letter};
-  Names names;
-  for (std::size_t k = 1; k <= count; ++k) names.push_back(letter + std::to_string(k));
-  return names;
+  return count == 1 ? Names{letter} : numbered(letter, count);
 }
 
 // q1, ..., p1, ... of systems whose variables are positions and momenta, z1, ... of others.
