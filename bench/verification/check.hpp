@@ -59,7 +59,7 @@ Real generic_time_of(const Model& model);
 struct MeasuredOrder {
   double slope = 0;
   bool settled = false;
-  bool exact = false;  // no step has an error above round-off, the longest included
+  bool exact = false;  // the longest step has an error of round-off, and the slopes do not settle
   std::string reason;  // when nothing could be measured
 };
 MeasuredOrder measure_order(const MethodInstance& method, const std::shared_ptr<const Model>& model,

@@ -72,13 +72,11 @@ MeasuredOrder settle(Error&& error_of, int halvings, Floor&& floor_of) {
   MeasuredOrder result;
   std::vector<double> slopes;
   Quad last_error(-1);
-  bool longest = true;
   for (int halving = 0; halving < halvings; ++halving) {
     const Quad error = error_of(halving);
     if (error < Quad(0)) continue;  // too large a step for the implicit solve
-    // A step of many operations loses up to two digits to round-off.
-    if (longest) result.exact = error < Quad(100) * floor_of(halving);
-    longest = false;
+    // The longest step decides. In quad, a step of many operations loses up to two digits to round-off.
+    if (last_error < Quad(0)) result.exact = error < std::max(floor_of(halving), Quad(1e-30));
     if (error < floor_of(halving)) break;
     if (last_error > Quad(0)) slopes.push_back(logarithm2(last_error / error));
     last_error = error;
