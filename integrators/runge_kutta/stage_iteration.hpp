@@ -263,7 +263,7 @@ class StageIteration {
   // where one in memory would have to be stored before it could be read.
   template <class Evaluate>
   [[gnu::always_inline]] void evaluate_at_stages(const Evaluate& evaluate) {
-    if constexpr (Stages == dynamic) {
+    if constexpr (std::is_same_v<Table, Vector<Lane, dynamic>>) {
       combine_apart(stage_);
       evaluate(stage_);
     } else {
