@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 
 #include <pfaff/core/numbers/functions.hpp>
@@ -26,11 +27,35 @@ template <int Doubles>
 struct RegisterOf {
   // NOLINTNEXTLINE(modernize-use-using): an alias of a dependent size loses the attribute
   typedef double type __attribute__((vector_size(static_cast<unsigned>(Doubles) * sizeof(double))));
+  // NOLINTNEXTLINE(modernize-use-using)
+  typedef unsigned long long bits
+      __attribute__((vector_size(static_cast<unsigned>(Doubles) * sizeof(double))));
 };
 template <>
 struct RegisterOf<1> {
   using type = double;
+  using bits = unsigned long long;
 };
+
+// The root of every number in a register, which the machine rounds correctly, as the standard library does.
+inline double root_of(double x) { return std::sqrt(x); }
+template <class Register>
+Register root_of(const Register& x) {
+#if defined(__GNUC__) && !defined(__clang__) && defined(__SSE2__)
+#ifdef __AVX512F__
+  if constexpr (sizeof(Register) == 64)
+    return __builtin_ia32_sqrtpd512_mask(x, x, -1, 4);  // all lanes, rounded as set
+#endif
+#ifdef __AVX__
+  if constexpr (sizeof(Register) == 32) return __builtin_ia32_sqrtpd256(x);
+#endif
+  if constexpr (sizeof(Register) == 16) return __builtin_ia32_sqrtpd(x);
+#else
+  Register r;
+  for (std::size_t k = 0; k < sizeof(Register) / sizeof(double); ++k) r[k] = std::sqrt(x[k]);
+  return r;
+#endif
+}
 }  // namespace detail
 
 /// W doubles, W = 1, 2, 4 or 8.
@@ -64,7 +89,11 @@ class Pack {
     else
       registers_[lane / register_width][lane % register_width] = x;
   }
-  /// The sum over all lanes.
+  /// The first and the second half of the lanes.
+  [[nodiscard]] Pack<W / 2> lower() const requires(W > 1) { return half<0>(); }
+  [[nodiscard]] Pack<W / 2> upper() const requires(W > 1) { return half<1>(); }
+
+  /// The sum over all lanes, one after the other.
   [[nodiscard]] double sum() const {
     double total = (*this)[0];
     for (std::size_t lane = 1; lane < W; ++lane) total += (*this)[lane];
@@ -112,7 +141,19 @@ class Pack {
     return r;
   }
   friend Pack sqrt(const Pack& a) {
-    return a.each([](double x) { return std::sqrt(x); });
+    Pack r;
+    for (std::size_t k = 0; k < count; ++k) r.registers_[k] = detail::root_of(a.registers_[k]);
+    return r;
+  }
+  friend Pack abs(const Pack& a) {
+    Pack r;
+    for (std::size_t k = 0; k < count; ++k) {
+      if constexpr (register_width == 1)
+        r.registers_[k] = std::abs(a.registers_[k]);
+      else  // without the bit of the sign
+        r.registers_[k] = std::bit_cast<Register>(std::bit_cast<Bits>(a.registers_[k]) & (~0ULL >> 1));
+    }
+    return r;
   }
   friend Pack exp(const Pack& a) {
     return a.each([](double x) { return std::exp(x); });
@@ -132,6 +173,27 @@ class Pack {
   }
 
  private:
+  template <int>
+  friend class Pack;
+  using Bits = typename detail::RegisterOf<register_width>::bits;
+
+  // Half number H of the lanes: registers, or the half of one.
+  template <std::size_t H>
+  [[nodiscard]] Pack<W / 2> half() const {
+    Pack<W / 2> r;
+    if constexpr (count > 1) {
+      for (std::size_t k = 0; k < count / 2; ++k) r.registers_[k] = registers_[H * count / 2 + k];
+    } else if constexpr (W == 2) {
+      r.registers_[0] = registers_[0][H];
+    } else {
+      const Register& x = registers_[0];
+      if constexpr (W == 4)
+        r.registers_[0] = __builtin_shufflevector(x, x, 2 * H, 2 * H + 1);
+      else
+        r.registers_[0] = __builtin_shufflevector(x, x, 4 * H, 4 * H + 1, 4 * H + 2, 4 * H + 3);
+    }
+    return r;
+  }
   static Register broadcast(double x) {
     if constexpr (register_width == 1)
       return x;

@@ -116,9 +116,9 @@ struct Collocation {
     if constexpr (Work<P>::separable)
       if (w.of_second_order) return w.second_order->step(p, t, h, z, compensated);
     begin(p, t, h, z, w);
-    const auto evaluate = [&] {
+    const auto evaluate = [&](const auto& stages) {
       for (std::size_t i = 0; i < w.iteration.stages(); ++i) {
-        for (std::size_t k = 0; k < z.size(); ++k) w.point[k] = z[k] + w.iteration.stage(i, k);
+        for (std::size_t k = 0; k < z.size(); ++k) w.point[k] = z[k] + w.iteration.stage(stages, i, k);
         p.field(t + w.node[i] * h, w.point, w.rate);
         for (std::size_t k = 0; k < z.size(); ++k) w.iteration.set_rate(i, k, w.scale[i] * w.rate[k]);
       }

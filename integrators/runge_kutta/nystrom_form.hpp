@@ -56,8 +56,6 @@ class NystromForm {
         weights_(iteration_.row_of(c.scale)),
         scales_(iteration_.blocks()),
         times_(iteration_.blocks()),
-        points_(in_lanes ? degrees_ : 0),
-        forces_(in_lanes ? degrees_ : 0),
         momentum_(degrees_),
         momentum_carry_(degrees_),
         position_carry_(degrees_),
@@ -82,7 +80,9 @@ class NystromForm {
 
   Status step(const P& p, const T& t, const T& h, State<P>& z, bool compensated) {
     begin(p, t, h, z);
-    const auto evaluate = [&] { evaluate_rates(p, z); };
+    const auto evaluate = [&](const Table& stages) __attribute__((always_inline)) {
+      evaluate_rates(p, z, stages);
+    };
     Status status = iteration_.solve(evaluate, false, p.counters().iterations);
     if constexpr (HasFieldJacobian<P>)
       if (status == Status::not_converged) status = correct_by_newton(p, t, h, z, evaluate);
@@ -98,6 +98,7 @@ class NystromForm {
  private:
   using Iteration = StageIteration<T, half, Stages>;
   using Lane = typename Iteration::Lane;
+  using Table = typename Iteration::Table;
   // Where the problem evaluates forces at several stages side by side, divisions and roots of all of them
   // cost little more than those of one. Each lane has the bits that its stage would have alone.
   static constexpr bool in_lanes =
@@ -111,16 +112,14 @@ class NystromForm {
 
   void begin(const P& p, const T& t, const T& h, const State<P>& z) {
     const std::size_t m = degrees();
-    for (std::size_t i = 0; i < iteration_.stages(); ++i) {
-      scale_[i] = h * h * weight_[i];
-      time_[i] = t + node_[i] * h;
-    }
     if constexpr (in_lanes)
-      for (std::size_t b = 0; b < iteration_.blocks(); ++b) {
-        scales_[b] = Lane(h * h) * weights_[b];
-        times_[b] = Lane(t) + nodes_[b] * Lane(h);
-      }
+      for (std::size_t b = 0; b < iteration_.blocks(); ++b) times_[b] = Lane(t) + nodes_[b] * Lane(h);
+    if (!in_lanes || !unit_mass_)
+      for (std::size_t i = 0; i < iteration_.stages(); ++i) time_[i] = t + node_[i] * h;
     if (!continuation_.holds(t, h, z)) {
+      for (std::size_t i = 0; i < iteration_.stages(); ++i) scale_[i] = h * h * weight_[i];
+      if constexpr (in_lanes)
+        for (std::size_t b = 0; b < iteration_.blocks(); ++b) scales_[b] = Lane(h * h) * weights_[b];
       for (std::size_t k = 0; k < m; ++k) {
         momentum_[k] = h * z[m + k];
         momentum_carry_[k] = position_carry_[k] = T(0);
@@ -143,16 +142,24 @@ class NystromForm {
     }
   }
 
-  void evaluate_rates(const P& p, const State<P>& z) {
+  [[gnu::always_inline]] void evaluate_rates(const P& p, const State<P>& z, const Table& stages) {
+    if constexpr (in_lanes) {
+      if (unit_mass_) [[likely]]
+        return evaluate_in_lanes(p, z, stages);
+      const Table copy = stages;  // so that the stages themselves may stay in registers
+      evaluate_one_by_one(p, z, copy);
+    } else {
+      evaluate_one_by_one(p, z, stages);
+    }
+  }
+  [[gnu::noinline]] void evaluate_one_by_one(const P& p, const State<P>& z, const Table& stages) {
     const std::size_t m = degrees();
-    if constexpr (in_lanes)
-      if (unit_mass_) return evaluate_in_lanes(p, z);
     const Out<T> point(point_.data(), m), force(force_.data(), m), path(path_.data(), m);
     for (std::size_t i = 0; i < iteration_.stages(); ++i) {
       if (unit_mass_) {
-        for (std::size_t k = 0; k < m; ++k) point_[k] = z[k] + iteration_.stage(i, k);
+        for (std::size_t k = 0; k < m; ++k) point_[k] = z[k] + iteration_.stage(stages, i, k);
       } else {
-        for (std::size_t k = 0; k < m; ++k) force_[k] = iteration_.stage(i, k);
+        for (std::size_t k = 0; k < m; ++k) force_[k] = iteration_.stage(stages, i, k);
         p.velocity(time_[i], force, path);
         for (std::size_t k = 0; k < m; ++k) point_[k] = z[k] + (path_[k] + position_carry_[k]);
       }
@@ -161,12 +168,13 @@ class NystromForm {
     }
   }
 
-  void evaluate_in_lanes(const P& p, const State<P>& z) requires in_lanes {
+  [[gnu::always_inline]] void evaluate_in_lanes(const P& p, const State<P>& z,
+                                                const Table& stages) requires in_lanes {
     const std::size_t m = degrees();
-    const Out<Lane> point(points_.data(), m), force(forces_.data(), m);
     for (std::size_t b = 0; b < iteration_.blocks(); ++b) {
-      for (std::size_t k = 0; k < m; ++k) point[k] = Lane(z[k]) + iteration_.stages_in(b, k);
-      p.force(times_[b], In<Lane>(point), force);
+      Vector<Lane, half> point, force;
+      for (std::size_t k = 0; k < m; ++k) point[k] = Lane(z[k]) + iteration_.stages_in(stages, b, k);
+      p.force(times_[b], In<Lane>(point), Out<Lane>(force));
       for (std::size_t k = 0; k < m; ++k) iteration_.set_rates(b, k, scales_[b] * force[k]);
     }
   }
@@ -214,8 +222,7 @@ class NystromForm {
   Iteration iteration_;
   typename Iteration::Row nodes_, beta_, counted_;
   Vector<T, Stages> node_, weight_, scale_, time_;
-  typename Iteration::Row weights_, scales_, times_;  // the same in lanes
-  Vector<Lane, in_lanes ? half : 0> points_, forces_;
+  typename Iteration::Row weights_, scales_, times_;            // the same in lanes
   Vector<T, half> momentum_, momentum_carry_, position_carry_;  // w = h p and what sums have rounded off
   Vector<T, half> path_, point_, force_;
   std::vector<T> jacobian_, slopes_;

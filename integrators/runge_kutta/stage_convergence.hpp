@@ -5,7 +5,8 @@
 // S, so that |dL|^2 / |dS| is what the next change of L would be. The iteration ends where that is a
 // thousandth of a unit of round-off of L: what the error left in L adds up to over a long run is then lost in
 // what rounding adds up to. L belongs to the last stages, not to those before. Each component is measured
-// against its own rates and, where those vanish, against a small part of what they are added to.
+// against its own rates and, where those vanish, against a small part of what they are added to
+// (stage_iteration.hpp).
 #pragma once
 
 #include <array>
@@ -18,7 +19,7 @@
 namespace pfaff {
 
 /// The sum of the absolute values of numbers; of duals, that of their values and that of all their
-/// derivatives.
+/// derivatives; of packs, that of all lanes, halves first, so that it does not depend on their width.
 template <class T>
 struct Sizes {
   static constexpr std::size_t parts = 1;
@@ -29,8 +30,13 @@ struct Sizes {
 template <int W>
 struct Sizes<Pack<W>> {
   Pack<W> sum;
-  void add(const Pack<W>& x) { sum = sum + select(x, x, -x); }
-  [[nodiscard]] double part(std::size_t /*index*/) const { return sum.sum(); }
+  void add(const Pack<W>& x) { sum = sum + abs(x); }
+  [[nodiscard]] double part(std::size_t index) const {
+    if constexpr (W == 1)
+      return sum[0];
+    else
+      return Sizes<Pack<W / 2>>{sum.lower() + sum.upper()}.part(index);
+  }
 };
 template <class T, int N>
 struct Sizes<Dual<T, N>> {
@@ -62,30 +68,30 @@ class StageConvergence {
     ++iterations_;
   }
   /// One component, or several that are judged together: the sizes of the changes of the stages and of the
-  /// scaled rates, and what they are measured against.
-  void add(std::size_t part, const Number& stages, const Number& rates, const Number& size) {
-    const Number scale = size + Number(std::numeric_limits<double>::min());
-    const Number moved = stages / scale, changed = rates / scale;
-    finite_ = finite_ && isfinite(moved) && isfinite(changed);
-    if (moved > last_[part].stages) last_[part].stages = moved;
-    if (changed > last_[part].rates) last_[part].rates = changed;
+  /// scaled rates, divided by what they are measured against.
+  void add(std::size_t part, const Number& stages, const Number& rates) {
+    checked_ = checked_ + (stages + rates);
+    Change& last = last_[part];  // without branches, which nothing could predict
+    last.stages = stages > last.stages ? stages : last.stages;
+    last.rates = rates > last.rates ? rates : last.rates;
+  }
+  /// Have the rates of some component changed by more than `limit` in this iteration?
+  [[nodiscard]] bool changed_by_more_than(const Number& limit) const {
+    bool more = false;
+    for (const Change& change : last_) more = more || change.rates > limit;
+    return more;
   }
   /// True when the iteration should stop; status() then says how. It is not_converged where changes become
   /// larger, or smaller so slowly, that another iteration should take over.
-  bool finished() {
-    if (!finite_) return stop(Status::non_finite);
-    bool converged = !in_turns_ || iterations_ > 1, still = true, slow = false;
+  [[gnu::always_inline]] bool finished() {
+    bool converged = !in_turns_ || iterations_ > 1;
     for (std::size_t k = 0; k < parts; ++k) {
       const Change &now = last_[k], &before = previous_[k];
       converged = converged && now.rates * now.rates <= goal_ * now.stages &&
                   (!in_turns_ || now.rates * before.rates <= goal_ * before.stages);
-      still = still && at_round_off(now.rates, before.rates, older_[k].rates);
-      const bool diverges = iterations_ >= 4 && now.rates > Number(0.5);
-      slow = slow || diverges || (iterations_ >= 10 && now.rates > Number(0.6) * before.rates);
     }
-    if (converged || (iterations_ > 3 && still)) return stop(Status::converged);
-    if (iterations_ >= 60 || slow) return stop(Status::not_converged);
-    return false;
+    if (!isfinite(checked_)) return stop(Status::non_finite);
+    return converged ? stop(Status::converged) : hopeless();
   }
   [[nodiscard]] Status status() const { return status_; }
 
@@ -98,10 +104,22 @@ class StageConvergence {
   static constexpr Number noise = u * Number(1 << 20);
 
   // Changes that shrink no more, because they are round-off amplified by the sums it passes through.
-  bool at_round_off(const Number& now, const Number& before, const Number& older) {
+  [[gnu::always_inline]] bool at_round_off(const Number& now, const Number& before, const Number& older) {
     if (now <= Number(4) * u && Number(2) * now >= before) return true;
     if (now < before || (in_turns_ && now < older)) return false;  // in turns, every other one may stall
     return now <= noise / Number(64) || (++stalls_ >= 3 && now <= noise);
+  }
+  // Can this iteration not get nearer?
+  [[gnu::always_inline]] bool hopeless() {
+    bool still = true, slow = false;
+    for (std::size_t k = 0; k < parts; ++k) {
+      const Change &now = last_[k], &before = previous_[k];
+      still = still && at_round_off(now.rates, before.rates, older_[k].rates);
+      const bool diverges = iterations_ >= 4 && now.rates > Number(0.5);
+      slow = slow || diverges || (iterations_ >= 10 && now.rates > Number(0.6) * before.rates);
+    }
+    if (iterations_ > 3 && still) return stop(Status::converged);
+    return (iterations_ >= 60 || slow) && stop(Status::not_converged);
   }
   bool stop(Status status) {
     status_ = status;
@@ -109,8 +127,8 @@ class StageConvergence {
   }
   std::array<Change, parts> last_{}, previous_{}, older_{};
   int iterations_ = 0, stalls_ = 0;
-  bool in_turns_, finite_ = true;
-  Number goal_;
+  bool in_turns_;
+  Number goal_, checked_{0};
   Status status_ = Status::not_converged;
 };
 

@@ -2,18 +2,20 @@
 // L_i = rates(S_i) of m components with
 //   S_i = line_i + sum_j m_ij L_j.
 //
-// Stages are lanes: those of one component lie side by side, four to a pack in double, so that the sums over
-// j are formed for all of them together. Lanes beyond the last stage have zero coefficients. The first stages
-// of a step are extrapolated from the rates of the step before, by the polynomial through them. A fixed-point
-// iteration goes on until the rates are known (stage_convergence.hpp); where it contracts slowly, simplified
-// Newton iteration can take over. The rates that remain are those at the last stages: an update by rates from
-// one iteration earlier makes conserved quantities drift.
+// Stages are lanes: those of one component lie side by side, several to a pack in double, so that the sums
+// over j are formed for all of them together. Lanes beyond the last stage have zero coefficients. The first
+// stages of a step are extrapolated from the rates of the step before, by the polynomial through them. A
+// fixed-point iteration goes on until the rates are known (stage_convergence.hpp); where it contracts slowly,
+// simplified Newton iteration can take over. The rates that remain are those at the last stages: an update by
+// rates from one iteration earlier makes conserved quantities drift.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include <pfaff/core/linear/lu.hpp>
@@ -21,27 +23,10 @@
 #include <pfaff/core/solve/newton.hpp>
 #include <pfaff/core/solve/sum_of_two.hpp>
 #include <pfaff/integrators/runge_kutta/stage_convergence.hpp>
+#include <pfaff/integrators/runge_kutta/stage_lanes.hpp>
 #include <pfaff/integrators/support/difference_predictor.hpp>
 
 namespace pfaff {
-
-namespace detail {
-/// What holds several stages of a component, and how many.
-template <class T>
-struct StageLanes {
-  using type = T;
-  static constexpr std::size_t width = 1;
-  static T get(const T& lanes, std::size_t /*lane*/) { return lanes; }
-  static void set(T& lanes, std::size_t /*lane*/, const T& x) { lanes = x; }
-};
-template <>
-struct StageLanes<double> {
-  using type = Pack<4>;
-  static constexpr std::size_t width = 4;
-  static double get(const Pack<4>& lanes, std::size_t lane) { return lanes[lane]; }
-  static void set(Pack<4>& lanes, std::size_t lane, double x) { lanes.set(lane, x); }
-};
-}  // namespace detail
 
 /// a b, where both are known to the compiler.
 constexpr int product_of_sizes(int a, int b) { return a == dynamic || b == dynamic ? dynamic : a * b; }
@@ -49,15 +34,16 @@ constexpr int product_of_sizes(int a, int b) { return a == dynamic || b == dynam
 /// `Components` and `Stages` may be dynamic.
 template <class T, int Components, int Stages>
 class StageIteration {
-  using Lanes = detail::StageLanes<T>;
-  static constexpr std::size_t width = Lanes::width;
+  using Lanes = detail::StageLanes<T, Stages>;
+  static constexpr std::size_t width = Lanes::width, parts = Sizes<T>::parts;
   static constexpr int blocks_known =
       Stages == dynamic ? dynamic : (Stages + static_cast<int>(width) - 1) / static_cast<int>(width);
 
  public:
   using Number = Value<T>;
   using Lane = typename Lanes::type;
-  using Row = Vector<Lane, blocks_known>;  // a number for every stage
+  using Row = Vector<Lane, blocks_known>;                                  // a number for every stage
+  using Table = Vector<Lane, product_of_sizes(Components, blocks_known)>;  // [component][block of stages]
 
   /// The matrix m and the one that extrapolates the rates of the last step, row-major. `in_turns`: see
   /// StageConvergence. `newton`: whether to make room for solve_by_newton.
@@ -70,13 +56,12 @@ class StageIteration {
         line_(components * blocks()),
         stage_(line_),
         rate_(line_),
-        next_(line_),
+        before_(line_),
         expected_(line_),
         moved_(components),
         small_(components),
-        measures_(components),
-        levels_(static_cast<std::size_t>(std::max(difference_levels<T> + 1 - static_cast<int>(stages), 0))),
-        missed_(stages * components, levels_),
+        scale_(components),
+        missed_(stages * components, levels()),
         in_turns_(in_turns),
         newton_(newton ? stages * components : 0) {
     for (std::size_t i = 0; i < stages; ++i)
@@ -117,39 +102,41 @@ class StageIteration {
     for (std::size_t i = 0; i < stages(); ++i) Lanes::set(at(rate_, i, k), i % width, scale[i] * x);
   }
 
-  /// Component k of stage i, and of the rate there, for the function that evaluates rates.
-  [[nodiscard]] T stage(std::size_t i, std::size_t k) const {
-    return Lanes::get(at(stage_, i, k), i % width);
+  /// Component k of stage i among those that a function is given that evaluates rates, and of the rate there.
+  [[nodiscard]] T stage(const Table& stages, std::size_t i, std::size_t k) const {
+    return Lanes::get(at(stages, i, k), i % width);
   }
-  void set_rate(std::size_t i, std::size_t k, const T& x) { Lanes::set(at(next_, i, k), i % width, x); }
+  void set_rate(std::size_t i, std::size_t k, const T& x) { Lanes::set(at(rate_, i, k), i % width, x); }
 
   /// The same for all stages in a block of lanes, for a function that evaluates them together. Rates in lanes
   /// beyond the last stage have to be zero.
-  [[nodiscard]] const Lane& stages_in(std::size_t block, std::size_t k) const {
-    return stage_[k * blocks() + block];
+  [[nodiscard]] const Lane& stages_in(const Table& stages, std::size_t block, std::size_t k) const {
+    return stages[k * blocks() + block];
   }
-  void set_rates(std::size_t block, std::size_t k, const Lane& x) { next_[k * blocks() + block] = x; }
+  void set_rates(std::size_t block, std::size_t k, const Lane& x) { rate_[k * blocks() + block] = x; }
 
-  /// Solves for the rates. evaluate() calls set_rate for every stage and component. All components are judged
-  /// together where `together`.
+  /// Solves for the rates. evaluate(stages) calls set_rate for every stage and component. All components are
+  /// judged together where `together`.
   template <class Evaluate>
   Status solve(const Evaluate& evaluate, bool together, auto&& iterations) {
     const bool extrapolated = known_;
     if (extrapolated) extrapolate();
-    combine<false>(matrix_);
-    evaluate();
-    rate_ = next_;
     known_ = false;
     StageConvergence<T> convergence(in_turns_);
+    evaluate_at_stages(evaluate);
+    before_ = rate_;
+    measure(together);
     do {
       convergence.begin_iteration();
-      combine<true>(matrix_);
-      evaluate();
-      compare(convergence, together);
+      evaluate_at_stages(evaluate);
+      if constexpr (Stages == dynamic)
+        compare_apart(convergence, together);
+      else
+        compare(convergence, together);
       ++iterations;
     } while (!convergence.finished());
     known_ = convergence.status() == Status::converged;
-    if (extrapolated && known_ && levels_ > 0)
+    if (extrapolated && known_ && levels() > 0)
       missed_.remember([this](std::size_t k) { return rate_number(rate_, k) - rate_number(expected_, k); });
     return convergence.status();
   }
@@ -177,17 +164,17 @@ class StageIteration {
     const auto evaluate_there = [&] {
       for (std::size_t i = 0; i < s; ++i)
         for (std::size_t k = 0; k < m; ++k) Lanes::set(at(stage_, i, k), i % width, w.unknowns[i * m + k]);
-      evaluate();
-      rate_ = next_;
+      evaluate(stage_);
     };
     int count = 0;
     const Status status = newton<T>(
         w.matrix,
         [&](std::span<T> unknowns, std::span<T> residual) {
           evaluate_there();
-          combine<false>(matrix_);
+          combine_apart(stage_);
           for (std::size_t i = 0; i < s; ++i)
-            for (std::size_t k = 0; k < m; ++k) residual[i * m + k] = unknowns[i * m + k] - stage(i, k);
+            for (std::size_t k = 0; k < m; ++k)
+              residual[i * m + k] = unknowns[i * m + k] - stage(stage_, i, k);
         },
         w.unknowns, w.reference, w.residual, w.correction, 100, count);
     iterations += count;
@@ -206,24 +193,30 @@ class StageIteration {
       two_sum(sums, weights[b] * rate[b], sums, error);
       rest = rest + error;
     }
-    sum = Lanes::get(sums, 0);
-    lost = Lanes::get(rest, 0);
-    for (std::size_t lane = 1; lane < width; ++lane) {
-      T error;
-      two_sum(sum, Lanes::get(sums, lane), sum, error);
-      lost = lost + (error + Lanes::get(rest, lane));
-    }
+    detail::add_lanes(sums, rest, sum, lost);
   }
 
  private:
-  using Matrix = Vector<Lane, product_of_sizes(Stages, blocks_known)>;     // [column][block of rows]
-  using Table = Vector<Lane, product_of_sizes(Components, blocks_known)>;  // [component][block of stages]
+  using Matrix = Vector<Lane, product_of_sizes(Stages, blocks_known)>;  // [column][block of rows]
 
   struct Newton {
     explicit Newton(std::size_t n) : matrix(n), unknowns(n), reference(n), residual(n), correction(n) {}
     LU<Number> matrix;
     std::vector<T> unknowns, reference, residual, correction;
   };
+
+  // f(k) for every component, unrolled where they are few. What an iteration consists of is inlined by force:
+  // GCC leaves it in functions of its own, behind which numbers wait for the store buffer.
+  template <class F>
+  [[gnu::always_inline]] void for_components(const F& f) const {
+    if constexpr (Components != dynamic && Components <= 3) {
+      f(0);
+      if constexpr (Components > 1) f(1);
+      if constexpr (Components > 2) f(2);
+    } else {
+      for (std::size_t k = 0; k < components(); ++k) f(k);
+    }
+  }
 
   // The pack that holds component k of stage i.
   [[nodiscard]] const Lane& at(const Table& table, std::size_t i, std::size_t k) const {
@@ -233,96 +226,104 @@ class StageIteration {
     return table[k * blocks() + i / width];
   }
 
+  // The rate of component k at stage i, in every lane.
+  [[nodiscard]] Lane rate_of(std::size_t i, std::size_t k) const {
+    return Lane(Lanes::get(at(rate_, i, k), i % width));
+  }
+
   // The rates that the polynomial through the last ones has in this step, and, where few stages make a
   // polynomial of low degree, what it is expected to miss.
   void extrapolate() {
-    for (std::size_t k = 0; k < components(); ++k)
+    for_components([&](std::size_t k) __attribute__((always_inline)) {
       for (std::size_t b = 0; b < blocks(); ++b) {
-        Lane sum(0);
-        for (std::size_t j = 0; j < stages(); ++j)
-          sum = sum + extrapolation_[j * blocks() + b] * Lane(Lanes::get(at(rate_, j, k), j % width));
+        Lane sum = extrapolation_[b] * rate_of(0, k);
+        for (std::size_t j = 1; j < stages(); ++j)
+          sum = sum + extrapolation_[j * blocks() + b] * rate_of(j, k);
         expected_[k * blocks() + b] = sum;
       }
+    });
     rate_ = expected_;
-    if (levels_ == 0) return;
+    if (levels() == 0) return;
     for (std::size_t k = 0; k < components() * stages(); ++k) {
       Lane& lanes = at(rate_, k % stages(), k / stages());
       const std::size_t lane = k % stages() % width;
       Lanes::set(lanes, lane, Lanes::get(lanes, lane) + missed_.expected(k));
     }
   }
+  // A polynomial through s stages predicts as much as s - 1 differences from step to step.
+  [[nodiscard]] std::size_t levels() const {
+    return static_cast<std::size_t>(std::max(difference_levels<T> + 1 - static_cast<int>(stages()), 0));
+  }
   // Number k of all rates, the stages of a component in a row.
   [[nodiscard]] T rate_number(const Table& table, std::size_t k) const {
     return Lanes::get(at(table, k % stages(), k / stages()), k % stages() % width);
   }
 
-  // The stages that the rates make, and how far they have moved.
-  template <bool Measured>
-  void combine(const Matrix& matrix) {
-    for (std::size_t k = 0; k < components(); ++k) {
-      Sizes<Lane> moved;
-      std::size_t block = 0;
-      for (; block + 1 < blocks(); block += 2) combine_blocks<2, Measured>(matrix, k, block, moved);
-      if (block < blocks()) combine_blocks<1, Measured>(matrix, k, block, moved);
-      if constexpr (Measured) moved_[k] = moved;
+  // Makes the stages and evaluates rates there. A local table of known size stays in registers on the way,
+  // where one in memory would have to be stored before it could be read.
+  template <class Evaluate>
+  [[gnu::always_inline]] void evaluate_at_stages(const Evaluate& evaluate) {
+    if constexpr (std::is_same_v<Table, Vector<Lane, dynamic>>) {
+      combine_apart(stage_);
+      evaluate(stage_);
+    } else {
+      Table table;
+      combine(table);
+      evaluate(table);
     }
   }
-  template <std::size_t Count, bool Measured>
-  void combine_blocks(const Matrix& matrix, std::size_t k, std::size_t block, Sizes<Lane>& moved) {
+  // The stages that the rates make, and how far they have moved.
+  [[gnu::always_inline]] void combine(Table& table) {
+    for_components([&](std::size_t k) __attribute__((always_inline)) {
+      moved_[k] = {};
+      std::size_t block = 0;
+      for (; block + 1 < blocks(); block += 2) combine_blocks<2>(table, k, block);
+      if (block < blocks()) combine_blocks<1>(table, k, block);
+    });
+  }
+  template <std::size_t Count>
+  [[gnu::always_inline]] void combine_blocks(Table& table, std::size_t k, std::size_t block) {
     std::array<Lane, Count> sum;
-    for (std::size_t b = 0; b < Count; ++b) sum[b] = Lane(0);
-    for (std::size_t j = 0; j < stages(); ++j) {
-      const Lane rate(Lanes::get(at(rate_, j, k), j % width));
-      for (std::size_t b = 0; b < Count; ++b) sum[b] = sum[b] + matrix[j * blocks() + block + b] * rate;
+    const Lane first = rate_of(0, k);
+    for (std::size_t b = 0; b < Count; ++b) sum[b] = matrix_[block + b] * first;
+    for (std::size_t j = 1; j < stages(); ++j) {
+      const Lane rate = rate_of(j, k);
+      for (std::size_t b = 0; b < Count; ++b) sum[b] = sum[b] + matrix_[j * blocks() + block + b] * rate;
     }
     for (std::size_t b = 0; b < Count; ++b) {
-      Lane& stage = stage_[k * blocks() + block + b];
-      const Lane next = line_[k * blocks() + block + b] + sum[b];
-      if constexpr (Measured) moved.add(next - stage);
-      stage = next;
+      const std::size_t at = k * blocks() + block + b;
+      const Lane next = line_[at] + sum[b];
+      moved_[k].add(next - stage_[at]);
+      stage_[at] = next;
+      table[at] = next;
     }
   }
 
-  // What the change of a component is judged by, part by part.
-  struct Measure {
-    std::array<Number, Sizes<T>::parts> stages{}, rates{}, sizes{};
-  };
+  // Where the number of stages is not known, one copy serves all.
+  [[gnu::noinline]] void combine_apart(Table& table) { combine(table); }
+  [[gnu::noinline]] void compare_apart(StageConvergence<T>& convergence, bool together) {
+    compare(convergence, together);
+  }
 
-  // Takes the rates that have been evaluated, and measures how far they have moved.
-  void compare(StageConvergence<T>& convergence, bool together) {
-    constexpr std::size_t parts = Sizes<T>::parts;
-    std::array<Measure, 2> group;
+  // What changes of rates and stages are measured against: the rates themselves and, where those vanish, a
+  // small part of what they are added to.
+  void measure(bool together) {
+    std::array<std::array<Number, parts>, 2> group{};
     for (std::size_t k = 0; k < components(); ++k) {
-      Sizes<Lane> changed, size;
-      for (std::size_t b = 0; b < blocks(); ++b) {
-        const Lane& next = next_[k * blocks() + b];
-        Lane& rate = rate_[k * blocks() + b];
-        changed.add(next - rate);
-        size.add(next);
-        rate = next;
-      }
-      Measure& measure = measures_[k];
-      Measure& all = group[group_of(k)];
+      Sizes<Lane> size;
+      for (std::size_t b = 0; b < blocks(); ++b) size.add(rate_[k * blocks() + b]);
       for (std::size_t part = 0; part < parts; ++part) {
-        measure.stages[part] = moved_[k].part(part);
-        measure.rates[part] = changed.part(part);
-        measure.sizes[part] = size.part(part) + small_[k].part(part);
-        all.stages[part] = all.stages[part] + measure.stages[part];
-        all.rates[part] = all.rates[part] + measure.rates[part];
-        all.sizes[part] = all.sizes[part] + measure.sizes[part];
+        scale_[k][part] = size.part(part) + small_[k].part(part);
+        Number& all = group[group_of(k)][part];
+        all = all + scale_[k][part];
       }
     }
-    for (std::size_t part = 0; part < parts; ++part) {
-      if (together)
-        convergence.add(part, group[0].stages[part] + group[1].stages[part],
-                        group[0].rates[part] + group[1].rates[part],
-                        group[0].sizes[part] + group[1].sizes[part]);
-      for (std::size_t k = 0; k < components() && !together; ++k) {
-        const Measure& one = measures_[k];
-        convergence.add(part, one.stages[part], one.rates[part],
-                        one.sizes[part] + group[group_of(k)].sizes[part] * negligible);
+    for (std::size_t k = 0; k < components(); ++k)
+      for (std::size_t part = 0; part < parts; ++part) {
+        const Number size = together ? group[0][part] + group[1][part]
+                                     : scale_[k][part] + group[group_of(k)][part] * negligible;
+        scale_[k][part] = Number(1) / (size + Number(std::numeric_limits<double>::min()));
       }
-    }
   }
   // Components of a group are measured against each other: what is 2^-26 times as large as they are together,
   // such as the front of a wave that enters a chain, need not be known to its own last digit. Positions and
@@ -332,14 +333,40 @@ class StageIteration {
     return in_turns_ && 2 * k >= components() ? 1 : 0;
   }
 
+  // Takes the rates that have been evaluated, and judges how far they have moved. Where they have changed
+  // much, what they are measured against has, too.
+  [[gnu::always_inline]] void compare(StageConvergence<T>& convergence, bool together) {
+    std::array<Number, parts> stages{}, rates{};
+    for_components([&](std::size_t k) __attribute__((always_inline)) {
+      Sizes<Lane> changed;
+      for (std::size_t b = 0; b < blocks(); ++b) {
+        const Lane& rate = rate_[k * blocks() + b];
+        Lane& before = before_[k * blocks() + b];
+        changed.add(rate - before);
+        before = rate;
+      }
+      for (std::size_t part = 0; part < parts; ++part) {
+        const Number moved = moved_[k].part(part) * scale_[k][part],
+                     change = changed.part(part) * scale_[k][part];
+        if (together) {
+          stages[part] = stages[part] + moved;
+          rates[part] = rates[part] + change;
+        } else {
+          convergence.add(part, moved, change);
+        }
+      }
+    });
+    for (std::size_t part = 0; part < parts; ++part)
+      if (together) convergence.add(part, stages[part], rates[part]);
+    if (convergence.changed_by_more_than(Number(0x1p-4))) measure(together);
+  }
+
   std::size_t stages_, components_;
   Matrix matrix_, extrapolation_;
-  Table line_, stage_, rate_, next_, expected_;
+  Table line_, stage_, rate_, before_, expected_;
   Vector<Sizes<Lane>, Components> moved_;
   Vector<Sizes<T>, Components> small_;
-  Vector<Measure, Components> measures_;
-  // A polynomial through s stages predicts as much as s - 1 differences from step to step.
-  std::size_t levels_;
+  Vector<std::array<Number, parts>, Components> scale_;  // the reciprocal
   DifferencePredictor<T, dynamic, dynamic> missed_;
   bool in_turns_, known_ = false;
   Newton newton_;

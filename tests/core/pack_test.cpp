@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <vector>
 
 #include <pfaff/core/numbers/pack.hpp>
 
@@ -38,6 +40,46 @@ void functions_are_those_of_the_lanes() {
   EXPECT_EQ(both([](const auto& x) { return 0.1_r * x / (1 + sqrt(x) * exp(-x)); }), 0);
   // Control: another function differs in every lane.
   EXPECT_EQ(different<W>([](const auto& x) { return sin(x); }, [](double x) { return std::cos(x); }), W);
+}
+
+// A number of either sign, of either zero, infinite, and one that is none.
+template <int W>
+void roots_and_sizes_of_special_numbers() {
+  const double infinity = std::numeric_limits<double>::infinity();
+  const std::vector<double> numbers{-2.5, 2.5, -0.0, 0.0, -infinity, infinity, std::nan(""), -1e-310};
+  for (std::size_t first = 0; first < numbers.size(); ++first) {
+    Pack<W> x;
+    for (std::size_t lane = 0; lane < W; ++lane) x.set(lane, numbers[(first + lane) % numbers.size()]);
+    const Pack<W> size = abs(x), root = sqrt(x);
+    for (std::size_t lane = 0; lane < W; ++lane) {
+      EXPECT_EQ(std::signbit(size[lane]), false);
+      EXPECT_TRUE(size[lane] == std::abs(x[lane]) || (std::isnan(x[lane]) && std::isnan(size[lane])));
+      EXPECT_TRUE(root[lane] == std::sqrt(x[lane]) ||
+                  (std::isnan(std::sqrt(x[lane])) && std::isnan(root[lane])));
+      EXPECT_EQ(std::signbit(root[lane]) && x[lane] == 0, std::signbit(x[lane]) && x[lane] == 0);
+    }
+  }
+}
+TEST(Pack, RootsAndSizesOfSpecialNumbers) {
+  roots_and_sizes_of_special_numbers<1>();
+  roots_and_sizes_of_special_numbers<2>();
+  roots_and_sizes_of_special_numbers<4>();
+  roots_and_sizes_of_special_numbers<8>();
+}
+
+template <int W>
+void halves_are_the_lanes() {
+  const Pack<W> x = numbers<W>();
+  const Pack<W / 2> lower = x.lower(), upper = x.upper();
+  for (std::size_t lane = 0; lane < W / 2; ++lane) {
+    EXPECT_EQ(lower[lane], x[lane]);
+    EXPECT_EQ(upper[lane], x[W / 2 + lane]);
+  }
+}
+TEST(Pack, HalvesAreTheLanes) {
+  halves_are_the_lanes<2>();
+  halves_are_the_lanes<4>();
+  halves_are_the_lanes<8>();
 }
 
 TEST(Pack, FunctionsAreThoseOfTheLanes) {

@@ -165,14 +165,14 @@ TEST(StageConvergence, LosesNoNaN) {
     for (const auto& [first, second] : {std::pair(nan, small), std::pair(small, nan)}) {
       StageConvergence<double> convergence(in_turns);
       convergence.begin_iteration();
-      convergence.add(0, first, first, 1);
-      convergence.add(0, second, second, 1);
+      convergence.add(0, first, first);
+      convergence.add(0, second, second);
       EXPECT_TRUE(convergence.finished());
       EXPECT_EQ(convergence.status(), Status::non_finite);
     }
   StageConvergence<double> control(false);
   control.begin_iteration();
-  for (int k = 0; k < 2; ++k) control.add(0, small, small, 1);
+  for (int k = 0; k < 2; ++k) control.add(0, small, small);
   EXPECT_TRUE(control.finished());
   EXPECT_EQ(control.status(), Status::converged);
 }

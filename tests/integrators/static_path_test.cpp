@@ -167,6 +167,21 @@ TEST(StaticPath, ForcesAtSeveralStagesTogetherAreTheSameBits) {
   expect_same_bits_in_lanes(gauss);
 }
 
+// Sums over stages have one order whether those lie in packs of four or of eight.
+TEST(StaticPath, LanesOfFourAndOfEightAreTheSameBits) {
+  Gauss gauss;
+  for (const int stages : {5, 6, 8}) {
+    gauss.stages = stages;
+    gauss.validate();
+    const std::vector<double> four = run_static(gauss, Kepler(), kepler_start, 0.1, 200);
+    EXPECT_EQ(stages == 5   ? run_static(Collocation<5>(), Kepler(), kepler_start, 0.1, 200)
+              : stages == 6 ? run_static(Collocation<6>(), Kepler(), kepler_start, 0.1, 200)
+                            : run_static(Collocation<8>(), Kepler(), kepler_start, 0.1, 200),
+              four)
+        << stages;
+  }
+}
+
 TEST(StaticPath, StagesKnownAtRunTimeTakeTheSameSteps) {
   Gauss gauss;
   gauss.stages = 3;
