@@ -25,13 +25,15 @@ struct Nonholonomic {
   template <class T>
   struct Work {
     Work(const Nonholonomic& /*formulation*/, VelocityConstraints<T>& constraints)
-        : multipliers(constraints.count()) {}
+        : multipliers(constraints.count()), rates(constraints.ideal_rates()) {}
     std::vector<T> multipliers;
+    ConstrainedRates<T>* rates;  // the whole field as one operation, where there is one
   };
 
   template <class T>
   Status field(VelocityConstraints<T>& constraints, const T& t, In<T> q, In<T> p, Out<T> q_rate,
                Out<T> p_rate, Work<T>& w) const {
+    if (w.rates != nullptr) return (*w.rates)(t, q, p, q_rate, p_rate);
     const Status status = constraints.place(t, q, p);
     constraints.solve(constraints.rates(), w.multipliers);
     constraints.apply_transpose(w.multipliers, p_rate);

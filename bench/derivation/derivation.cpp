@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <functional>
-#include <set>
+#include <utility>
 
 #include <pfaff/bench/derivation/elimination_order.hpp>
 #include <pfaff/bench/derivation/engines.hpp>
@@ -152,20 +152,25 @@ const std::vector<DerivationMethod>& derivation_methods() {
 }
 
 Equations keep_used(Equations equations) {
-  const int coordinates = static_cast<int>(equations.coordinates.size());
-  std::set<int> used;
+  const std::size_t coordinates = equations.coordinates.size();
+  std::vector<int> place(equations.parameters.size(), -1);  // of the parameters that are kept
+  const auto place_of = [&](const Instruction& i) -> int* {
+    const auto input = static_cast<std::size_t>(i.a);
+    return i.operation == Operation::input && input >= coordinates ? &place[input - coordinates] : nullptr;
+  };
   for (const Instruction& i : equations.tape.code)
-    if (i.operation == Operation::input && i.a >= coordinates) used.insert(i.a);
+    if (int* kept = place_of(i)) *kept = 0;
   std::vector<Symbol> names;
   std::vector<Real> values;
-  for (const int input : used) {
-    names.push_back(equations.parameters[static_cast<std::size_t>(input - coordinates)]);
-    values.push_back(equations.parameter_values[static_cast<std::size_t>(input - coordinates)]);
+  for (std::size_t k = 0; k < place.size(); ++k) {
+    if (place[k] < 0) continue;
+    place[k] = static_cast<int>(coordinates + names.size());
+    names.push_back(std::move(equations.parameters[k]));
+    values.push_back(equations.parameter_values[k]);
   }
   for (Instruction& i : equations.tape.code)
-    if (i.operation == Operation::input && i.a >= coordinates)
-      i.a = coordinates + static_cast<int>(std::distance(used.begin(), used.find(i.a)));
-  equations.tape.inputs = coordinates + static_cast<int>(used.size());
+    if (const int* kept = place_of(i)) i.a = *kept;
+  equations.tape.inputs = static_cast<int>(coordinates + names.size());
   equations.parameters = std::move(names);
   equations.parameter_values = std::move(values);
   return equations;

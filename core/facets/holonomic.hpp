@@ -19,6 +19,7 @@
 #include <string_view>
 
 #include <pfaff/core/errors/status.hpp>
+#include <pfaff/core/facets/constrained_rates.hpp>
 #include <pfaff/core/facets/scalars.hpp>
 #include <pfaff/core/linear/symmetric_pattern.hpp>
 #include <pfaff/core/numbers/functions.hpp>
@@ -82,15 +83,6 @@ constexpr std::string_view to_string(Reactions reactions) {
   return names[static_cast<std::size_t>(reactions)];
 }
 
-/// The whole right-hand side, without friction, of the motion with one kind of reactions.
-template <class T>
-class ConstrainedRates {
- public:
-  virtual ~ConstrainedRates() = default;
-  /// q' and p' at (q, p, t). The call may overwrite whatever the constraints had placed before.
-  virtual Status operator()(const T& t, In<T> q, In<T> p, Out<T> q_rate, Out<T> p_rate) = 0;
-};
-
 /// The constraints in the phase space: what formulations need to make equations of motion.
 template <class T>
 class HolonomicConstraints : public PositionConstraints<T> {
@@ -119,6 +111,10 @@ class HolonomicConstraints : public PositionConstraints<T> {
   /// zero; solve_friction then expects right-hand sides in its range.
   virtual Status factor_friction() = 0;
   virtual void solve_friction(In<T> r, Out<T> x) const = 0;
+
+  /// As rates(Reactions::ideal), offered by evaluators that also tell how the motion responds to forces; null
+  /// from all others.
+  [[nodiscard]] virtual IdealRates<T>* ideal_rates() { return nullptr; }
 };
 
 template <class T>

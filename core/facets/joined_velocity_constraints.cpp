@@ -1,5 +1,8 @@
 #include <pfaff/core/facets/joined_velocity_constraints.hpp>
 
+#include <algorithm>
+#include <initializer_list>
+
 #include <pfaff/core/facets/model.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 
@@ -34,6 +37,17 @@ std::shared_ptr<const SymmetricPattern> pattern_of(const Model& model, const Joi
   }
   return std::make_shared<const SymmetricPattern>(tapes.holonomic + tapes.count, std::move(couplings));
 }
+
+// The inputs that tapes read, in ascending order.
+std::vector<std::size_t> inputs_of(std::initializer_list<const Tape*> tapes) {
+  std::vector<std::size_t> read;
+  for (const Tape* tape : tapes)
+    for (const Instruction& i : tape->code)
+      if (i.operation == Operation::input) read.push_back(static_cast<std::size_t>(i.a));
+  std::sort(read.begin(), read.end());
+  read.erase(std::unique(read.begin(), read.end()), read.end());
+  return read;
+}
 }  // namespace
 
 JoinedTapes record_joined(const Model& model) {
@@ -67,6 +81,7 @@ JoinedTapes record_joined(const Model& model) {
   for (std::size_t i = 0; i < m; ++i)
     for (std::size_t j = i + 1; j < m; ++j) all.emplace_back(i, j);
   tapes.dense = std::make_shared<const SymmetricPattern>(m, std::move(all));
+  tapes.read = inputs_of({tapes.values.get(), tapes.place.get()});
   tapes.pattern = pattern_of(model, tapes);
   return tapes;
 }

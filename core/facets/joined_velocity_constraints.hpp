@@ -9,6 +9,12 @@
 // so that S_h is factored by the author's evaluator in its own structure, and a placement costs one more
 // solve with it for each constraint of velocities. These are taken to be few: Z is factored as a dense
 // matrix. The tapes hold what belongs to A_v alone, and are short where its rows have few entries.
+//
+// Where the author's evaluator offers its ideal rates p'_h, those of all constraints are
+//
+//   p' = p'_h - W x_v,  W = (1 - B^T S_h^-1 P_h) A_v^T,  Z = psi_p W,  Z x_v = psi_t + psi_q v + psi_p p'_h
+//
+// with one response of the holonomic motion, a column of W, for each constraint of velocities.
 #pragma once
 
 #include <memory>
@@ -32,6 +38,7 @@ struct JoinedTapes {
   std::shared_ptr<const Tape> place;                       // (q, p, t) -> A, psi_p, psi_q, psi, psi_t
   SparseRows rows, by_momentum, by_position;               // A, psi_p, psi_q
   std::shared_ptr<const SymmetricPattern> pattern, dense;  // of S and of Z
+  std::vector<std::size_t> read;                           // the entries of (q, p) that these tapes read
 };
 
 /// Records them of a model with holonomic constraints and constraints of velocities. Entries of C are looked
@@ -54,7 +61,10 @@ class JoinedVelocityConstraints final : public VelocityConstraints<T> {
         coupling_(tapes_->holonomic * tapes_->count),
         answer_(coupling_.size()),
         residuals_(count()),
-        rates_(count()) {}
+        rates_(count()),
+        response_(degrees() * tapes_->count),
+        multipliers_(tapes_->count),
+        ideal_(holonomic_->ideal_rates()) {}
 
   [[nodiscard]] std::size_t count() const override { return tapes_->holonomic + tapes_->count; }
   [[nodiscard]] std::size_t degrees() const override { return tapes_->degrees; }
@@ -107,8 +117,7 @@ class JoinedVelocityConstraints final : public VelocityConstraints<T> {
     const Status status = holonomic_->place(t, q, p);
     place_(t, join(q, p), placed_.data());
     const Status joined = factor();
-    const T *slopes = momenta() + tapes_->by_momentum.columns.size(),
-            *psi = slopes + tapes_->by_position.columns.size();
+    const T *slopes = positions(), *psi = placed_values();
     const In<T> v = holonomic_->velocities(), f = holonomic_->forces();
     std::copy(holonomic_->hidden().begin(), holonomic_->hidden().end(), residuals_.begin());
     std::copy(holonomic_->hidden_rates().begin(), holonomic_->hidden_rates().end(), rates_.begin());
@@ -127,12 +136,58 @@ class JoinedVelocityConstraints final : public VelocityConstraints<T> {
   [[nodiscard]] std::span<const T> rates() const override { return rates_; }
   [[nodiscard]] std::span<const T> velocities() const override { return holonomic_->velocities(); }
   [[nodiscard]] std::span<const T> forces() const override { return holonomic_->forces(); }
+  [[nodiscard]] ConstrainedRates<T>* ideal_rates() override { return ideal_ == nullptr ? nullptr : &motion_; }
 
  private:
+  struct Motion final : ConstrainedRates<T> {
+    explicit Motion(JoinedVelocityConstraints& of) : joined(of) {}
+    Status operator()(const T& t, In<T> q, In<T> p, Out<T> q_rate, Out<T> p_rate) override {
+      return joined.move(t, q, p, q_rate, p_rate);
+    }
+    JoinedVelocityConstraints& joined;
+  };
+
+  Status move(const T& t, In<T> q, In<T> p, Out<T> q_rate, Out<T> p_rate) {
+    const std::size_t n = degrees(), m = tapes_->count;
+    const SparseRows &rows = tapes_->rows, &by_momentum = tapes_->by_momentum;
+    const Status status = (*ideal_)(t, q, p, q_rate, p_rate);
+    place_(t, join(q, p), placed_.data());
+    const auto along = [](const SparseRows& where, std::size_t i, const T* entries, In<T> u) {
+      T sum(0);
+      for (std::size_t e = where.begin[i]; e < where.begin[i + 1]; ++e)
+        sum = sum + entries[e] * u[where.columns[e]];
+      return sum;
+    };
+    for (std::size_t i = 0; i < m; ++i) {
+      const Out<T> response = Out<T>(response_).subspan(i * n, n);
+      for (std::size_t e = rows.begin[i]; e < rows.begin[i + 1]; ++e) row_[rows.columns[e]] = placed_[e];
+      ideal_->respond(row_, response);
+      for (std::size_t e = rows.begin[i]; e < rows.begin[i + 1]; ++e) row_[rows.columns[e]] = T(0);
+      for (std::size_t j = 0; j <= i; ++j) {
+        const T entry = along(by_momentum, j, momenta(), response);
+        if (i == j) {
+          z_.diagonal()[i] = entry;
+        } else {
+          z_.couplings()[tapes_->dense->coupling(j, i)] = entry;
+        }
+      }
+      multipliers_[i] = placed_values()[m + i] + along(tapes_->by_position, i, positions(), q_rate) +
+                        along(by_momentum, i, momenta(), p_rate);
+    }
+    const Status joined = z_.factor();
+    z_.solve(multipliers_.data(), multipliers_.data());
+    for (std::size_t i = 0; i < m; ++i)
+      for (std::size_t k = 0; k < n; ++k) p_rate[k] = p_rate[k] - response_[i * n + k] * multipliers_[i];
+    return status == Status::converged ? joined : status;
+  }
+
+  // As last placed: the entries of psi_p and psi_q, and psi and psi_t.
   [[nodiscard]] const T* momenta() const { return placed_.data() + tapes_->rows.columns.size(); }
+  [[nodiscard]] const T* positions() const { return momenta() + tapes_->by_momentum.columns.size(); }
+  [[nodiscard]] const T* placed_values() const { return positions() + tapes_->by_position.columns.size(); }
+  // What the tapes read of the state.
   const T* join(In<T> q, In<T> p) {
-    std::copy(q.begin(), q.end(), state_.begin());
-    std::copy(p.begin(), p.end(), state_.begin() + static_cast<std::ptrdiff_t>(degrees()));
+    for (const std::size_t k : tapes_->read) state_[k] = k < degrees() ? q[k] : p[k - degrees()];
     return state_.data();
   }
   // f += X^T x_v
@@ -171,6 +226,9 @@ class JoinedVelocityConstraints final : public VelocityConstraints<T> {
   Replay<T> values_, place_;
   StructuredLDLT<T> z_;
   std::vector<T> state_, placed_, row_, coupling_, answer_, residuals_, rates_;
+  std::vector<T> response_, multipliers_;  // W column by column, and x_v
+  IdealRates<T>* ideal_;                   // of the holonomic constraints, where they offer them
+  Motion motion_{*this};
 };
 
 /// The factory of such constraints.

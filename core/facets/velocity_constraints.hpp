@@ -16,6 +16,7 @@
 #include <span>
 
 #include <pfaff/core/errors/status.hpp>
+#include <pfaff/core/facets/constrained_rates.hpp>
 #include <pfaff/core/facets/scalars.hpp>
 #include <pfaff/core/linear/symmetric_pattern.hpp>
 #include <pfaff/core/numbers/functions.hpp>
@@ -60,6 +61,11 @@ class VelocityConstraints {
   [[nodiscard]] virtual std::span<const T> rates() const = 0;       // {psi, H} + psi_t
   [[nodiscard]] virtual std::span<const T> velocities() const = 0;  // H_p
   [[nodiscard]] virtual std::span<const T> forces() const = 0;      // -H_q
+
+  /// The motion with ideal reactions, q' = v and p' = -H_q - A^T x with psi' = 0, as one operation, offered
+  /// by evaluators that need fewer passes for it than the operations above together; null from all others.
+  /// The object lives as long as this one: ask for it once and use it at every step.
+  [[nodiscard]] virtual ConstrainedRates<T>* ideal_rates() { return nullptr; }
 };
 
 template <class T>

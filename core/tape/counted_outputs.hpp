@@ -15,7 +15,7 @@ namespace pfaff {
 class CountedOutputs {
  public:
   explicit CountedOutputs(int count)
-      : count_(static_cast<std::size_t>(count)), values_(count_ + spare, Recorded(nullptr, unwritten)) {}
+      : count_(static_cast<std::size_t>(count)), values_(count_ + spare, Recorded::unwritten()) {}
 
   /// What the formula gets.
   [[nodiscard]] std::span<Recorded> span() { return {values_.data(), count_}; }
@@ -31,9 +31,8 @@ class CountedOutputs {
   }
 
  private:
-  static constexpr int unwritten = -2;       // a slot that no recorded number and no constant has
   static constexpr std::size_t spare = 256;  // how far past the end a mistake is still seen
-  static bool is_written(const Recorded& x) { return !x.is_constant() || x.slot() != unwritten; }
+  static bool is_written(const Recorded& x) { return !x.is_unwritten(); }
 
   std::size_t count_;
   std::vector<Recorded> values_;

@@ -1,9 +1,38 @@
 #include <pfaff/core/tape/recorder.hpp>
 
 #include <algorithm>
+#include <atomic>
+#include <cmath>
 #include <limits>
 
 namespace pfaff {
+
+struct Recorded::SharedConstant {
+  Real value;
+  std::atomic<int> uses{1};
+};
+
+Recorded::Recorded(const Real& value) {
+  constexpr std::int64_t largest = std::numeric_limits<int>::max();
+  // A zero with a sign is no integer.
+  const bool integer = value.is_fraction() && value.denominator() == 1 && value.numerator() <= largest &&
+                       value.numerator() >= -largest &&
+                       !(value.numerator() == 0 && std::signbit(value.value()));
+  if (integer) {
+    number_ = static_cast<int>(value.numerator());
+  } else {
+    target_ = new SharedConstant{value};
+    kind_ = Kind::shared;
+  }
+}
+void Recorded::share() const noexcept {
+  static_cast<SharedConstant*>(target_)->uses.fetch_add(1, std::memory_order_relaxed);
+}
+void Recorded::release() const noexcept {
+  auto* shared = static_cast<SharedConstant*>(target_);
+  if (shared->uses.fetch_sub(1, std::memory_order_acq_rel) == 1) delete shared;
+}
+const Real& Recorded::shared_constant() const { return static_cast<const SharedConstant*>(target_)->value; }
 
 namespace {
 Recorder* recorder_of(const Recorded& a, const Recorded& b) {
@@ -19,6 +48,18 @@ Recorded binary(Operation operation, const Recorded& a, const Recorded& b) {
 }
 Recorded unary(Operation operation, const Recorded& a) {
   return a.recorder()->append({operation, a.slot(), 0, 0});
+}
+}  // namespace
+
+namespace {
+// What an operation makes of two small integers, where that is an int again.
+template <class Combine>
+std::optional<Recorded> of_integers(const Recorded& a, const Recorded& b, const Combine& combine) {
+  const std::optional<int> left = a.small_integer(), right = b.small_integer();
+  if (!left || !right) return std::nullopt;
+  const std::int64_t value = combine(std::int64_t{*left}, std::int64_t{*right});
+  if (std::abs(value) > std::numeric_limits<int>::max()) return std::nullopt;
+  return Recorded(static_cast<int>(value));
 }
 }  // namespace
 
@@ -40,7 +81,10 @@ Recorded operator-(const Recorded& a, const Recorded& b) {
   return binary(Operation::subtract, a, b);
 }
 Recorded operator*(const Recorded& a, const Recorded& b) {
-  if (a.is_constant() && b.is_constant()) return Recorded(a.constant() * b.constant());
+  if (a.is_constant() && b.is_constant()) {
+    if (const auto whole = of_integers(a, b, [](auto x, auto y) { return x * y; })) return *whole;
+    return Recorded(a.constant() * b.constant());
+  }
   if (a.is(0) || b.is(0)) return Recorded(0);
   if (a.is(1)) return b;
   if (b.is(1)) return a;
@@ -158,10 +202,10 @@ std::vector<Recorded> solve(std::span<const Recorded> matrix, std::span<const Re
 }
 
 Recorder::Recorder(int inputs) : inputs_(inputs) {
-  // Room for what the formulas of many variables record, some tens of instructions for each: while the table
-  // grows it is sorted anew again and again, which took half of the time that recording a long chain takes.
+  // Room for what the formulas of many variables record, some tens of instructions for each. What is not used
+  // of it costs nothing, while moving the code of a long chain to larger and larger memory takes a third of
+  // the time of its recording.
   constexpr std::size_t instructions_for_each = 32;
-  known_.reserve(instructions_for_each * static_cast<std::size_t>(inputs));
   code_.reserve(instructions_for_each * static_cast<std::size_t>(inputs));
   time_slot_ = append({Operation::time, 0, 0, 0}).slot();
   for (int k = 0; k < inputs; ++k) append({Operation::input, k, 0, 0});
@@ -169,6 +213,7 @@ Recorder::Recorder(int inputs) : inputs_(inputs) {
 
 std::vector<Recorded> Recorder::inputs() {
   std::vector<Recorded> z;
+  z.reserve(static_cast<std::size_t>(inputs_));
   for (int k = 0; k < inputs_; ++k) z.emplace_back(this, time_slot_ + 1 + k);
   return z;
 }

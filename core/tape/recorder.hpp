@@ -6,7 +6,10 @@
 
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <pfaff/core/numbers/functions.hpp>
@@ -18,22 +21,63 @@ namespace pfaff {
 class Recorder;
 
 /// A number that records what is done with it. Plain constants belong to no recorder and fold immediately.
+///
+/// Formulas of long chains hold hundreds of thousands of these at once. A number is therefore two words: a
+/// slot and its recorder, or a small integer, or a constant of another kind that stands elsewhere, shared by
+/// the copies.
 class Recorded {
  public:
   Recorded() = default;
-  Recorded(int value) : constant_(value) {}  // NOLINT(google-explicit-constructor)
-  explicit Recorded(const Real& value) : constant_(value) {}
+  Recorded(int value) : number_(value) {}  // NOLINT(google-explicit-constructor)
+  explicit Recorded(const Real& value);
   /// Refused, because a floating-point number would be cut to an int. The constants of a formula are ints and
   /// Reals.
   template <std::floating_point F>
   Recorded(F value) = delete;
-  Recorded(Recorder* recorder, int slot) : recorder_(recorder), slot_(slot) {}
+  Recorded(Recorder* recorder, int slot) : kind_(Kind::slot), number_(slot), target_(recorder) {}
 
-  [[nodiscard]] bool is_constant() const { return recorder_ == nullptr; }
-  [[nodiscard]] const Real& constant() const { return constant_; }
-  [[nodiscard]] Recorder* recorder() const { return recorder_; }
-  [[nodiscard]] int slot() const { return slot_; }
-  [[nodiscard]] bool is(int value) const { return is_constant() && constant_.is(value); }
+  Recorded(const Recorded& o) : kind_(o.kind_), number_(o.number_), target_(o.target_) {
+    if (kind_ == Kind::shared) share();
+  }
+  Recorded(Recorded&& o) noexcept { swap(o); }
+  Recorded& operator=(const Recorded& o) {
+    Recorded copy(o);
+    swap(copy);
+    return *this;
+  }
+  Recorded& operator=(Recorded&& o) noexcept {
+    swap(o);
+    return *this;
+  }
+  ~Recorded() {
+    if (kind_ == Kind::shared) release();
+  }
+
+  /// A zero that tells that nobody has assigned to it.
+  static Recorded unwritten() {
+    Recorded zero;
+    zero.kind_ = Kind::unwritten;
+    return zero;
+  }
+  [[nodiscard]] bool is_unwritten() const { return kind_ == Kind::unwritten; }
+
+  [[nodiscard]] bool is_constant() const { return kind_ != Kind::slot; }
+  /// The value of a constant.
+  [[nodiscard]] Real constant() const { return kind_ == Kind::shared ? shared_constant() : Real(number_); }
+  /// Null for a constant.
+  [[nodiscard]] Recorder* recorder() const {
+    return kind_ == Kind::slot ? static_cast<Recorder*>(target_) : nullptr;
+  }
+  /// Of a number that is no constant.
+  [[nodiscard]] int slot() const { return kind_ == Kind::slot ? number_ : -1; }
+  /// The value where it is an int and is known as one, which saves exact arithmetic.
+  [[nodiscard]] std::optional<int> small_integer() const {
+    return kind_ == Kind::integer || kind_ == Kind::unwritten ? std::optional<int>(number_) : std::nullopt;
+  }
+  [[nodiscard]] bool is(int value) const {
+    if (kind_ == Kind::slot) return false;
+    return kind_ == Kind::shared ? shared_constant().is(value) : number_ == value;
+  }
 
   Recorded& operator+=(const Recorded& o) { return *this = *this + o; }
   Recorded& operator-=(const Recorded& o) { return *this = *this - o; }
@@ -47,9 +91,21 @@ class Recorded {
   friend Recorded operator/(const Recorded& a, const Recorded& b);
 
  private:
-  Recorder* recorder_ = nullptr;
-  int slot_ = -1;
-  Real constant_;
+  enum class Kind : std::uint8_t { integer, unwritten, shared, slot };
+  struct SharedConstant;
+
+  void share() const noexcept;
+  void release() const noexcept;
+  [[nodiscard]] const Real& shared_constant() const;
+  void swap(Recorded& o) noexcept {
+    std::swap(kind_, o.kind_);
+    std::swap(number_, o.number_);
+    std::swap(target_, o.target_);
+  }
+
+  Kind kind_ = Kind::integer;
+  int number_ = 0;          // the integer or the slot
+  void* target_ = nullptr;  // the recorder or the shared constant
 };
 
 Recorded sqrt(const Recorded& x);

@@ -51,6 +51,7 @@ bool Tape::state_independent() const {
 
 Tape Recorder::finish(std::span<const Recorded> outputs) {
   std::vector<int> results;
+  results.reserve(outputs.size());
   for (const Recorded& output : outputs) results.push_back(slot_of(output));
 
   // Mark what the outputs need, last instruction first. A group is kept whole.
@@ -65,7 +66,7 @@ Tape Recorder::finish(std::span<const Recorded> outputs) {
   }
 
   // Dependence: 0 constants, 1 time, 2 state.
-  std::vector<int> level(n, 0);
+  std::vector<char> level(n, 0);
   for (std::size_t k = 0; k < n; ++k) {
     if (code_[k].operation == Operation::time) level[k] = 1;
     if (code_[k].operation == Operation::input) level[k] = 2;
@@ -74,11 +75,13 @@ Tape Recorder::finish(std::span<const Recorded> outputs) {
     operands(code_[k], solves_,
              [&](int slot) { level[k] = std::max(level[k], level[static_cast<std::size_t>(slot)]); });
     // A function of constants alone that could not be folded is evaluated with the time part.
-    if (code_[k].operation != Operation::constant) level[k] = std::max(level[k], 1);
+    if (code_[k].operation != Operation::constant) level[k] = std::max<char>(level[k], 1);
   }
 
   Tape tape;
   tape.inputs = inputs_;
+  tape.code.reserve(static_cast<std::size_t>(std::count(needed.begin(), needed.end(), 1)));
+  tape.outputs.reserve(results.size());
   std::vector<int> place(n, -1);
   for (int l = 0; l <= 2; ++l) {
     if (l == 1) tape.time_begin = static_cast<int>(tape.code.size());

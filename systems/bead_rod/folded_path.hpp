@@ -120,8 +120,8 @@ class FoldedPath {
   bool multipliers(const double* q, const double* p, double* rate_q, double* rate_p) {
     const L usable = eliminate<false>(q, p);
     const Row& last = work_[half_ - 1];
-    const Middle middle(*this, last);
-    L x = middle.solve(last.rate);
+    middle_ = Middle(*this, last);
+    L x = middle_.solve(last.rate);
     const Vec none{};
     Vec push = x * last.direction;
     store_middle(none, push, p, rate_q, rate_p);
@@ -133,7 +133,47 @@ class FoldedPath {
       push = next_push;
     }
     store_ends(none, push, p, rate_q, rate_p);
-    return middle.usable(usable);
+    return middle_.usable(usable);
+  }
+
+  /// rest = f - B^T S^-1 B M^-1 f of forces f on the beads, with the factors that multipliers() has left.
+  void respond(const double* f, double* rest) {
+    const Vec none{};
+    Vec a = inverse_mass_[0] * load_ends(f, none);
+    if (odd_)  // the additional point goes with the bead beside it
+      for (std::size_t k = 0; k < D; ++k) a[k] = L(a[k][0], inverse_mass_[1][1] * f[offsets_[1].right + k]);
+    L y(0.0);
+    for (std::size_t j = 0; j < half_; ++j) {
+      Row& row = work_[j];
+      const Vec next_a = inverse_mass_[j + 1] * load(offsets_[j + 1], f);
+      y = dot(row.direction, next_a - a) - row.lower * y;
+      row.reduced = y;
+      a = next_a;
+    }
+    const Row& last = work_[half_ - 1];
+    L x = middle_.solve(last.reduced);
+    Vec push = x * last.direction;
+    for (std::size_t k = 0; k < D; ++k) {
+      const std::size_t at = offsets_[half_].left + k;
+      rest[at] = f[at] - push[k].sum();
+    }
+    for (std::size_t j = half_ - 1; j > 0; --j) {
+      const Row& row = work_[j - 1];
+      x = row.reduced * row.inverse - work_[j].lower * x;
+      const Vec next_push = x * row.direction;
+      const auto [left, right] = offsets_[j];
+      for (std::size_t k = 0; k < D; ++k) {
+        const L kept = L(f[left + k], f[right + k]) - (next_push[k] - push[k]);
+        rest[left + k] = kept[0];
+        rest[right + k] = kept[1];
+      }
+      push = next_push;
+    }
+    const auto [left, right] = offsets_[0];
+    for (std::size_t k = 0; k < D; ++k) {
+      if (left != fixed) rest[left + k] = f[left + k] + push[k][0];
+      if (right != fixed) rest[right + k] = f[right + k] + push[k][1];
+    }
   }
 
  protected:
@@ -175,6 +215,7 @@ class FoldedPath {
   /// Where the halves meet: both last rods point at the same bead, and couple with each other.
   class Middle {
    public:
+    Middle() = default;
     Middle(const FoldedPath& path, const Row& last)
         : left_(1 / last.inverse[0]),
           right_(1 / last.inverse[1]),
@@ -190,7 +231,7 @@ class FoldedPath {
     }
 
    private:
-    double left_, right_, coupling_, scale_;
+    double left_ = 0, right_ = 0, coupling_ = 0, scale_ = 0;
   };
 
   [[nodiscard]] std::size_t mirrored(std::size_t j) const { return rods_ + (odd_ ? 1 : 0) - j; }
@@ -304,6 +345,7 @@ class FoldedPath {
   std::vector<Offsets> offsets_;
   std::vector<Vec> force_, acceleration_;
   std::vector<Row> work_;
+  Middle middle_;  // of the last multipliers()
   Vec anchors_;
 };
 

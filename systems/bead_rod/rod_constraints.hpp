@@ -119,6 +119,10 @@ class RodConstraints final : public HolonomicConstraints<T>, public DescribedByR
     if (reactions == Reactions::hamiltonian) return &hamiltonian_;
     return reactions == Reactions::ideal ? &ideal_ : nullptr;
   }
+  // Folded rings do not tell how they respond.
+  [[nodiscard]] IdealRates<T>* ideal_rates() override {
+    return folded_ && !rings_.empty() ? nullptr : &ideal_;
+  }
 
   [[nodiscard]] std::span<const T> friction() const override { return friction_; }
   Status factor_friction() override {
@@ -159,11 +163,12 @@ class RodConstraints final : public HolonomicConstraints<T>, public DescribedByR
     }
     RodConstraints& rods;
   };
-  struct IdealRates final : ConstrainedRates<T> {
-    explicit IdealRates(RodConstraints& of) : rods(of) {}
+  struct Multipliers final : IdealRates<T> {
+    explicit Multipliers(RodConstraints& of) : rods(of) {}
     Status operator()(const T& /*t*/, In<T> q, In<T> p, Out<T> q_rate, Out<T> p_rate) override {
-      return rods.ideal_rates(q, p, q_rate, p_rate);
+      return rods.rates_by_multipliers(q, p, q_rate, p_rate);
     }
+    void respond(In<T> f, Out<T> rest) override { rods.respond(f, rest); }
     RodConstraints& rods;
   };
 
@@ -205,7 +210,7 @@ class RodConstraints final : public HolonomicConstraints<T>, public DescribedByR
     maps_.velocity(q_rate, q_rate);
     return status;
   }
-  Status ideal_rates(In<T> q, In<T> p, Out<T> q_rate, Out<T> p_rate) {
+  Status rates_by_multipliers(In<T> q, In<T> p, Out<T> q_rate, Out<T> p_rate) {
     if constexpr (folds)
       if (folded_)
         return folded_rates(q, p, q_rate, p_rate, [&](auto& path) {
@@ -224,6 +229,21 @@ class RodConstraints final : public HolonomicConstraints<T>, public DescribedByR
       }
     }
     return status;
+  }
+
+  // With the factors that rates_by_multipliers has left.
+  void respond(In<T> f, Out<T> rest) {
+    if constexpr (folds)
+      if (folded_) {
+        for (auto& path : paths_) path.respond(f.data(), rest.data());
+        for (const std::size_t i : lone_)
+          for (std::size_t at = i * D; at < i * D + D; ++at) rest[at] = f[at];
+        return;
+      }
+    hidden_by_momentum(f, multipliers_);
+    s_.solve(multipliers_.data(), multipliers_.data());
+    apply_transpose(multipliers_, rest);
+    for (std::size_t k = 0; k < degrees_; ++k) rest[k] = f[k] - rest[k];
   }
 
   static constexpr bool folds = std::is_same_v<T, double>;
@@ -329,7 +349,7 @@ class RodConstraints final : public HolonomicConstraints<T>, public DescribedByR
   std::vector<FoldedRing<D>> rings_;
   std::vector<std::size_t> lone_;  // beads without rods
   HamiltonianRates hamiltonian_{*this};
-  IdealRates ideal_{*this};
+  Multipliers ideal_{*this};
 };
 
 }  // namespace pfaff

@@ -217,6 +217,41 @@ TEST(Recording, SmallPowersAreProductsAndRoots) {
   EXPECT_EQ(count(tape_of([](auto&, auto& x, auto& y) { return pow(x, y); }), Operation::logarithm), 1);
 }
 
+// Whatever form a constant is kept in, its copies are the constant to the last bit, also when the original is
+// gone.
+TEST(Recording, ConstantsAreKeptExactly) {
+  const Real large = Real::fraction(std::numeric_limits<int>::max(), 1);
+  for (const Real& value : {Real(0), -Real(0), Real(-7), 0.3_r, Real::fraction(-1, 3), large, large + 1,
+                            -large - 1, 1e18_r, sqrt(Real(2)), Real(std::numeric_limits<Quad>::infinity())}) {
+    Recorded copy;
+    {
+      Recorded original(value);
+      copy = original;
+      original = 5;
+      Recorded moved(std::move(copy));
+      copy = std::move(moved);
+    }
+    const Real kept = copy.constant();
+    EXPECT_TRUE(copy.is_constant());
+    EXPECT_TRUE(kept == value) << to_string(kept);
+    EXPECT_EQ(kept.value(), value.value());
+    EXPECT_EQ(std::signbit(kept.value()), std::signbit(value.value()));
+    EXPECT_EQ(kept.is_fraction(), value.is_fraction());
+    EXPECT_EQ(kept.denominator(), value.denominator());
+    EXPECT_EQ(kept.numerator(), value.numerator());
+    EXPECT_EQ(copy.is(0), value.is(0));
+  }
+  EXPECT_EQ(sizeof(Recorded), 2 * sizeof(void*));
+}
+
+// Products of small integers that are no longer small.
+TEST(Recording, LargeProductsOfConstantsAreExact) {
+  const Recorded large(100000);
+  EXPECT_TRUE((large * large).constant() == Real::fraction(10000000000, 1));
+  EXPECT_TRUE((large * large * large).constant() == Real::fraction(1000000000000000, 1));
+  EXPECT_TRUE((large * Recorded(-3)).is(-300000));
+}
+
 TEST(Recording, SolvesThatNeedNoPivotsAreDivisions) {
   const Tape monomial = record(2, 2, [](const Recorded& t, Arguments z, Results out) {
     const auto x = solve(std::vector<Recorded>{0, exp(t), -exp(t), 0}, z);

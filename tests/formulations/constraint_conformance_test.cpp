@@ -133,6 +133,8 @@ enum class Broken {
   factor_friction,
   solve_friction,
   ideal_rates,
+  ideal_rates_that_respond,
+  respond,
   hamiltonian_rates,
   pattern,
   count
@@ -208,6 +210,11 @@ class Wrong final : public HolonomicConstraints<T> {
                        (broken_ == Broken::hamiltonian_rates && reactions == Reactions::hamiltonian);
     return wrong ? &rates_ : rates_.inner;
   }
+  [[nodiscard]] IdealRates<T>* ideal_rates() override {
+    responding_.inner = c_->ideal_rates();
+    responding_.wrong = broken_;
+    return responding_.inner == nullptr ? nullptr : &responding_;
+  }
   [[nodiscard]] std::span<const T> friction() const override {
     return spoiled(Broken::friction, c_->friction());
   }
@@ -237,11 +244,26 @@ class Wrong final : public HolonomicConstraints<T> {
     }
   };
 
+  struct Responding final : IdealRates<T> {
+    IdealRates<T>* inner = nullptr;
+    Broken wrong = Broken::none;
+    Status operator()(const T& t, In<T> q, In<T> p, Out<T> q_rate, Out<T> p_rate) override {
+      const Status status = (*inner)(t, q, p, q_rate, p_rate);
+      if (wrong == Broken::ideal_rates_that_respond) p_rate[0] = p_rate[0] + T(1e-6);
+      return status;
+    }
+    void respond(In<T> f, Out<T> rest) override {
+      inner->respond(f, rest);
+      if (wrong == Broken::respond) rest[0] = rest[0] + T(1e-6);
+    }
+  };
+
   std::unique_ptr<HolonomicConstraints<T>> c_;
   Broken broken_;
   SymmetricPattern pattern_;
   mutable std::vector<T> copy_;
   Rates rates_;
+  Responding responding_;
 };
 
 // The operations that are found to be wrong, in the order they are tried.
@@ -284,6 +306,8 @@ void expect_every_fault_found(const Model& model) {
       {Broken::solve_friction, {"solve_friction"}},
       {Broken::factor_friction, {"solve_friction"}},
       {Broken::ideal_rates, {"rates, ideal"}},
+      {Broken::ideal_rates_that_respond, {"ideal_rates"}},
+      {Broken::respond, {"respond"}},
       {Broken::hamiltonian_rates, {"rates, hamiltonian"}},
       {Broken::pattern, {"pattern"}},
       {Broken::count, {"count"}}};

@@ -54,6 +54,7 @@ enum class Broken {
   rates,
   velocities,
   forces,
+  ideal_rates,
   none
 };
 
@@ -102,14 +103,34 @@ class Wrong final : public VelocityConstraints<double> {
   [[nodiscard]] std::span<const double> rates() const override { return rates_; }
   [[nodiscard]] std::span<const double> velocities() const override { return velocities_; }
   [[nodiscard]] std::span<const double> forces() const override { return forces_; }
+  [[nodiscard]] ConstrainedRates<double>* ideal_rates() override { return &motion_; }
 
  private:
   void spoil(Broken operation, std::span<double> numbers) const {
     if (operation == broken_) numbers[0] += 1e-8;
   }
+  // Those of the operations, spoilt.
+  struct Motion final : ConstrainedRates<double> {
+    explicit Motion(Wrong& of) : of(of) {}
+    Status operator()(const double& t, In<double> q, In<double> p, Out<double> q_rate,
+                      Out<double> p_rate) override {
+      std::vector<double> x(of.count());
+      const Status status = of.right_->place(t, q, p);
+      of.right_->solve(of.right_->rates(), x);
+      of.right_->apply_transpose(x, p_rate);
+      for (std::size_t k = 0; k < q.size(); ++k) {
+        q_rate[k] = of.right_->velocities()[k];
+        p_rate[k] = of.right_->forces()[k] - p_rate[k];
+      }
+      of.spoil(Broken::ideal_rates, p_rate);
+      return status;
+    }
+    Wrong& of;
+  };
   VelocityPointer<double> right_;
   Broken broken_;
   std::vector<double> residuals_, rates_, velocities_, forces_;
+  Motion motion_{*this};
 };
 
 TEST(VelocityConformance, EveryWrongOperationIsFound) {
@@ -154,6 +175,20 @@ TEST(VelocityConformance, AChainWithASkateIsLinearInItsLength) {
     return tapes.place->outputs.size() + tapes.values->outputs.size();
   };
   EXPECT_EQ(joined(10), joined(30));
+}
+
+// Chains of even and odd numbers of rods with a skate, whose rods offer their motion and its responses as one
+// operation, to which the skate is joined.
+TEST(VelocityConformance, ChainsWithASkateKeepEveryIdentity) {
+  for (const char* beads : {"2", "3", "6", "7"}) {
+    const auto model = systems().get("skate-chain", "system").make({{"beads", beads}});
+    SCOPED_TRACE(beads);
+    const auto in_double = model->velocity_constraints<double>();
+    const auto in_quad = model->velocity_constraints<Quad>();
+    EXPECT_NE(in_double->ideal_rates(), nullptr);
+    EXPECT_THAT(in_double.get(), KeepsConstraintIdentities(model, ConstraintSamples{}));
+    EXPECT_THAT(in_quad.get(), KeepsConstraintIdentities(model, ConstraintSamples{}));
+  }
 }
 
 // With two skates, a mass matrix that depends on positions and constraints that move, joined by the same

@@ -61,6 +61,7 @@ class ConstraintConformance : public MeasuredIdentities<T> {
     fast_rates(Reactions::ideal, "rates, ideal", t, q, p);
     fast_rates(Reactions::two_level, "rates, two-level", t, q, p);
     fast_rates(Reactions::hamiltonian, "rates, hamiltonian", t, q, p);
+    response(t, q, p);
   }
 
  private:
@@ -116,11 +117,27 @@ class ConstraintConformance : public MeasuredIdentities<T> {
   void fast_rates(Reactions reactions, const char* operation, const T& t, In<T> q, In<T> p) {
     ConstrainedRates<T>* const rates = c_.rates(reactions);
     if (rates == nullptr) return note(operation, 0);
+    same_rates(operation, *rates, reactions, t, q, p);
+  }
+  bool same_rates(const char* operation, ConstrainedRates<T>& rates, Reactions reactions, const T& t, In<T> q,
+                  In<T> p) {
     std::vector<T> z(2 * q.size());
     const Out<T> out(z);
-    const Status status = (*rates)(t, q, p, out.first(q.size()), out.subspan(q.size()));
-    if (status != Status::converged) return note(operation, INFINITY);
-    same(operation, z, dense_.rates(reactions), 0, dense_.condition());
+    const bool converged = rates(t, q, p, out.first(q.size()), out.subspan(q.size())) == Status::converged;
+    if (converged) same(operation, z, dense_.rates(reactions), 0, dense_.condition());
+    if (!converged) note(operation, INFINITY);
+    return converged;
+  }
+
+  // The rates that tell how the motion responds to forces, which need not be those of fast_rates.
+  void response(const T& t, In<T> q, In<T> p) {
+    IdealRates<T>* const rates = c_.ideal_rates();
+    if (rates == nullptr) return note("respond", 0);
+    if (!same_rates("ideal_rates", *rates, Reactions::ideal, t, q, p)) return note("respond", INFINITY);
+    const std::vector<T> f = random(c_.degrees());
+    std::vector<T> rest(f.size());
+    rates->respond(f, rest);
+    same("respond", rest, dense_.response(quad(f)), 0, dense_.condition());
   }
 
   HolonomicConstraints<T>& c_;

@@ -121,6 +121,14 @@ std::vector<Quad> DenseConstraints::rates(Reactions reactions) const {
   return rate;
 }
 
+std::vector<Quad> DenseConstraints::response(const std::vector<Quad>& f) const {
+  std::vector<Quad> rest = f;
+  if (count_ == 0) return rest;
+  const std::vector<Quad> reaction = by_position.transposed() * dense_solve(s, by_momentum * f);
+  for (std::size_t i = 0; i < degrees_; ++i) rest[i] = rest[i] - reaction[i];
+  return rest;
+}
+
 std::vector<Quad> DenseConstraints::metriplectic_friction() const {
   // Gram and Schmidt on the columns of Lambda^1/2 P^T, twice; those that depend on others are left out.
   std::vector<std::vector<Quad>> range;

@@ -42,6 +42,9 @@ class DenseConstraints {
   /// them. Not-a-number where these do not exist; empty for Reactions::other.
   [[nodiscard]] std::vector<Quad> rates(Reactions reactions) const;
 
+  /// f - B^T S^-1 P f: what ideal reactions leave of a force f on the momenta.
+  [[nodiscard]] std::vector<Quad> response(const std::vector<Quad>& f) const;
+
   /// What friction adds to p'. Metriplectic: -Lambda^1/2 (1 - Q) Lambda^1/2 v with the orthogonal projector Q
   /// on the range of Lambda^1/2 P^T. With ideal reactions (Stokes's drag): -Lambda v + B^T S^-1 P Lambda v.
   [[nodiscard]] std::vector<Quad> metriplectic_friction() const;

@@ -49,6 +49,7 @@ class VelocityConformance : public MeasuredIdentities<T> {
              size_of(dense_.by_momentum, dense_.forces));
     same("velocities", c_.velocities(), dense_.velocities);
     same("forces", c_.forces(), dense_.forces);
+    fast_rates(t, q, p);
   }
 
  private:
@@ -81,6 +82,16 @@ class VelocityConformance : public MeasuredIdentities<T> {
     c_.solve(r, x), solved("solve" + when, dense_.s, x, r);
     x = r;
     c_.solve(x, x), solved("solve in place" + when, dense_.s, x, r);
+  }
+
+  void fast_rates(const T& t, In<T> q, In<T> p) {
+    ConstrainedRates<T>* const rates = c_.ideal_rates();
+    if (rates == nullptr) return note("ideal_rates", 0);
+    std::vector<T> z(2 * q.size());
+    const Out<T> out(z);
+    const Status status = (*rates)(t, q, p, out.first(q.size()), out.subspan(q.size()));
+    if (status != Status::converged) return note("ideal_rates", INFINITY);
+    same("ideal_rates", z, dense_.nonholonomic_motion(), 0, dense_.condition());
   }
 
   VelocityConstraints<T>& c_;
