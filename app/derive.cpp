@@ -47,8 +47,8 @@ int take_order(Assignments& settings, const std::string& method) {
     if (setting.first != "order") return false;
     const std::optional<Real> order = Real::parse(setting.second);
     if (!order || !order->is_fraction() || order->denominator() != 1 || order->numerator() < 1 ||
-        order->numerator() > largest_degree)
-      throw InputError("order: expected a whole number in 1 .. " + std::to_string(largest_degree) +
+        order->numerator() > largest_derived_degree)
+      throw InputError("order: expected a whole number in 1 .. " + std::to_string(largest_derived_degree) +
                        ", got '" + setting.second + "'");
     degree = static_cast<int>(order->numerator());
     return true;

@@ -42,10 +42,10 @@ function(pfaff_cold_target target)
 endfunction()
 
 # Sources that are compiled together parse headers, instantiate templates and compile inline functions once for all of
-# them. Plug-ins stay alone, so that one which changes is soon there.
-function(pfaff_joined target)
+# them, `batch` at a time. Plug-ins stay alone, so that one which changes is soon there.
+function(pfaff_joined target batch)
   if(PFAFF_JOINED)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch})
     # A local variable may have the name of what only another source declares, and what is joined is no header,
     # whose types must not depend on unnamed namespaces.
     target_compile_options(${target} PRIVATE

@@ -23,7 +23,7 @@ const std::vector<DerivationMethod>& derivation_methods();
 std::string derivation_misfit(const Model& model, const std::string& method);
 
 /// The largest degree of a generating function that is derived.
-inline constexpr int largest_degree = 12;
+inline constexpr int largest_derived_degree = 12;
 
 /// What may be chosen beside the method.
 struct DerivationOptions {

@@ -179,9 +179,9 @@ bool has_chart_hamiltonian(const Model& model) {
 }
 
 void expand_generating_function(const Model& model, int degree, Equations& equations) {
-  if (degree < 1 || degree > largest_degree)
-    throw InputError("method generating-function: order: expected 1 .. " + std::to_string(largest_degree) +
-                     ", got " + std::to_string(degree));
+  if (degree < 1 || degree > largest_derived_degree)
+    throw InputError("method generating-function: order: expected 1 .. " +
+                     std::to_string(largest_derived_degree) + ", got " + std::to_string(degree));
   const bool own = !model.given(Formula::chart);
   const auto hamiltonian = std::make_shared<const Tape>(explicit_solves(
       *model.tape(own ? Formula::hamiltonian : Formula::chart_hamiltonian), "system " + model.name()));

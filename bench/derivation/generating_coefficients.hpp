@@ -17,7 +17,7 @@ bool has_chart_hamiltonian(const Model& model);
 
 /// Fills in the tape: the rates of the Darboux coordinates, then phi^(1), .., phi^(degree) at (w, t0) as
 /// further outputs phi1, phi2, .. Coordinates that are not the system's own are named y1, y2, .. InputError
-/// for a degree that is not in 1 .. largest_degree.
+/// for a degree that is not in 1 .. largest_derived_degree.
 void expand_generating_function(const Model& model, int degree, Equations& equations);
 
 }  // namespace pfaff

@@ -6,7 +6,7 @@ namespace {
 
 using namespace pfaff::testing;
 
-const std::vector<std::string> pendulum{
+const std::vector<std::string> pendulum_run{
     "run",    "--out", "-",      "--system", "damped-pendulum", "--integrator", "rk4",
     "--step", "0.1",   "--time", "1"};
 
@@ -21,16 +21,17 @@ TEST(BadNames, Commands) {
 
 TEST(BadNames, Options) {
   expect_refused({"list", "--jsn"}, {"unknown option '--jsn'", "did you mean '--json'?", "pfaff list"});
-  expect_refused(pendulum + std::vector<std::string>{"--presision", "quad"},
+  expect_refused(pendulum_run + std::vector<std::string>{"--presision", "quad"},
                  {"unknown option '--presision'", "did you mean '--precision'?"});
-  expect_refused(pendulum + std::vector<std::string>{"--presision=quad"}, {"did you mean '--precision'?"});
+  expect_refused(pendulum_run + std::vector<std::string>{"--presision=quad"},
+                 {"did you mean '--precision'?"});
   // Said before anything that is missing because of it.
   expect_refused({"run", "--sytem", "kepler"}, {"unknown option '--sytem'", "did you mean '--system'?"});
   expect_refused({"run", "--ot", "-"}, {"unknown option '--ot'", "did you mean '--out'?"});
   expect_refused({"compare", "kepler", "--quik"}, {"did you mean '--quick'?"});
-  expect_refused(pendulum + std::vector<std::string>{"more"}, {"more", "not expected"});
-  expect_refused(pendulum + std::vector<std::string>{"--precision"}, {"--precision"});
-  expect_refused(pendulum + std::vector<std::string>{"--step", "0.2"}, {"--step"});
+  expect_refused(pendulum_run + std::vector<std::string>{"more"}, {"more", "not expected"});
+  expect_refused(pendulum_run + std::vector<std::string>{"--precision"}, {"--precision"});
+  expect_refused(pendulum_run + std::vector<std::string>{"--step", "0.2"}, {"--step"});
 }
 
 TEST(BadNames, SystemsAndMethods) {
@@ -40,13 +41,13 @@ TEST(BadNames, SystemsAndMethods) {
   expect_refused({"run", "--out", "-", "--system", "damped-pendulum", "--integrator", "rk5", "--time", "1",
                   "--step", "0.1"},
                  {"unknown integrator 'rk5'", "did you mean 'rk4'?"});
-  expect_refused(pendulum + std::vector<std::string>{"--precision", "qad"},
+  expect_refused(pendulum_run + std::vector<std::string>{"--precision", "qad"},
                  {"unknown precision 'qad'", "did you mean 'quad'?"});
 }
 
 TEST(BadNames, Parameters) {
   const auto with = [](const std::string& setting) {
-    return pendulum + std::vector<std::string>{"--set", setting};
+    return pendulum_run + std::vector<std::string>{"--set", setting};
   };
   expect_refused(with("mu=0.3"), {"unknown parameter 'mu'", "did you mean 'nu'?", "damped-pendulum", "rk4"});
   expect_refused(with("system.mu=0.3"), {"unknown parameter 'mu'", "did you mean 'nu'?", "damped-pendulum"});

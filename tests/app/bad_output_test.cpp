@@ -7,7 +7,7 @@ namespace {
 using namespace pfaff::testing;
 using Arguments = std::vector<std::string>;
 
-Arguments run_to(const std::string& out, const std::string& time = "1") {
+Arguments pendulum_run_to(const std::string& out, const std::string& time = "1") {
   return {"run",     "--system", "damped-pendulum", "--integrator", "rk4",   "--step", "0.1",
           "--every", "1",        "--time",          time,           "--out", out};
 }
@@ -16,12 +16,13 @@ TEST(BadOutput, ADirectoryThatHoldsSomethingIsLeftAlone) {
   const TemporaryDirectory files;
   fs::create_directory(files.path() / "kept");
   write(files / "kept/notes.txt", "mine");
-  expect_complaint(run_pfaff(run_to(files / "kept")), 2, {"'" + files / "kept" + "' exists already"}, "run");
+  expect_complaint(run_pfaff(pendulum_run_to(files / "kept")), 2, {"'" + files / "kept" + "' exists already"},
+                   "run");
   EXPECT_EQ(text_of(files / "kept/notes.txt"), "mine");
   EXPECT_EQ(std::distance(fs::directory_iterator(files.path() / "kept"), {}), 1);
 
   write(files / "file", "mine");
-  expect_complaint(run_pfaff(run_to(files / "file")), 2, {"exists already"}, "run to a file");
+  expect_complaint(run_pfaff(pendulum_run_to(files / "file")), 2, {"exists already"}, "run to a file");
   EXPECT_EQ(text_of(files / "file"), "mine");
   expect_complaint(run_pfaff({"compare", "kepler", "--quick", "--out", files / "kept"}), 2,
                    {"exists already"}, "compare");
@@ -30,7 +31,7 @@ TEST(BadOutput, ADirectoryThatHoldsSomethingIsLeftAlone) {
 
 TEST(BadOutput, AnEmptyDirectoryIsTaken) {
   const TemporaryDirectory files;
-  EXPECT_EQ(run_pfaff(run_to(files.path().string())).status, 0);
+  EXPECT_EQ(run_pfaff(pendulum_run_to(files.path().string())).status, 0);
   EXPECT_TRUE(fs::exists(files.path() / "summary.json"));
 }
 
@@ -38,11 +39,11 @@ TEST(BadOutput, AnEmptyDirectoryIsTaken) {
 TEST(BadOutput, AParentThatCannotBeWritten) {
   const TemporaryDirectory files;
   write(files / "file", "mine");
-  expect_complaint(run_pfaff(run_to(files / "file/run")), 2, {"file/run' cannot be made"},
+  expect_complaint(run_pfaff(pendulum_run_to(files / "file/run")), 2, {"file/run' cannot be made"},
                    "run under a file");
   EXPECT_EQ(text_of(files / "file"), "mine");
-  expect_refused(run_to("/proc/run"), {"'/proc/run'", "cannot be made"});
-  expect_refused(run_to("/proc/self/fdinfo"), {"'/proc/self/fdinfo'"});
+  expect_refused(pendulum_run_to("/proc/run"), {"'/proc/run'", "cannot be made"});
+  expect_refused(pendulum_run_to("/proc/self/fdinfo"), {"'/proc/self/fdinfo'"});
   expect_refused({"compare", "kepler", "--quick", "--out", "/proc/run"}, {"'/proc/run'", "cannot be made"});
 }
 
@@ -51,13 +52,13 @@ TEST(BadOutput, FullDiskAfterTheWork) {
   const TemporaryDirectory files;
   Circumstances full;
   full.largest_file = 16384;
-  expect_complaint(run_pfaff(run_to(files / "run", "100"), full), 1, {"cannot write", "series.csv"},
+  expect_complaint(run_pfaff(pendulum_run_to(files / "run", "100"), full), 1, {"cannot write", "series.csv"},
                    "full disk");
   for (const auto& entry : fs::directory_iterator(files.path() / "run"))
     EXPECT_EQ(entry.path().filename(), "config.toml") << "half-written: " << entry.path();
   // Control: with room for it, the same run is written.
   full.largest_file = 1 << 20;
-  EXPECT_EQ(run_pfaff(run_to(files / "again", "100"), full).status, 0);
+  EXPECT_EQ(run_pfaff(pendulum_run_to(files / "again", "100"), full).status, 0);
   EXPECT_GT(fs::file_size(files.path() / "again/series.csv"), 16384U);
 }
 
@@ -65,7 +66,7 @@ TEST(BadOutput, FullDiskBeforeTheWork) {
   const TemporaryDirectory files;
   Circumstances full;
   full.largest_file = 0;
-  expect_complaint(run_pfaff(run_to(files / "run"), full), 2, {"cannot be written to"}, "full disk");
+  expect_complaint(run_pfaff(pendulum_run_to(files / "run"), full), 2, {"cannot be written to"}, "full disk");
   EXPECT_TRUE(fs::is_empty(files.path() / "run"));
 }
 
@@ -87,7 +88,7 @@ TEST(BadOutput, StandardOutputThatTakesNothing) {
   gone.nobody_reads = true;
   for (const auto& [where, name] : {std::pair{&full, "/dev/full"}, std::pair{&gone, "closed pipe"}})
     for (const Arguments& command :
-         {run_to("-"), run_to("-", "1000"), Arguments{"list"}, Arguments{"list", "--json"},
+         {pendulum_run_to("-"), pendulum_run_to("-", "1000"), Arguments{"list"}, Arguments{"list", "--json"},
           Arguments{"describe", "kepler"}, Arguments{"cite", "verlet"}, Arguments{"reproduce", "su-qin"}})
       expect_complaint(run_pfaff(command, *where), 1, {"cannot write to standard output"},
                        std::string(name) + ": " + joined(command));

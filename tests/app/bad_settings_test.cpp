@@ -7,12 +7,12 @@ namespace {
 using namespace pfaff::testing;
 using Arguments = std::vector<std::string>;
 
-Arguments run_of(const std::string& system, const std::string& integrator, const Arguments& more) {
+Arguments refused_run(const std::string& system, const std::string& integrator, const Arguments& more) {
   return Arguments{"run", "--out", "run", "--system", system, "--integrator", integrator} + more;
 }
-Arguments pendulum(const Arguments& more) { return run_of("damped-pendulum", "rk4", more); }
+Arguments refused_pendulum(const Arguments& more) { return refused_run("damped-pendulum", "rk4", more); }
 Arguments set(const std::string& setting) {
-  return pendulum({"--step", "0.1", "--time", "1", "--set", setting});
+  return refused_pendulum({"--step", "0.1", "--time", "1", "--set", setting});
 }
 
 TEST(BadSettings, Parameters) {
@@ -25,8 +25,8 @@ TEST(BadSettings, Parameters) {
   expect_refused(set("nu"), {"--set", "KEY=VALUE", "'nu'"});
   expect_refused(set("=0.3"), {"--set", "KEY=VALUE", "'=0.3'"});
   const auto generating = [](const std::string& a, const std::string& b) {
-    return run_of("damped-pendulum", "generating-function",
-                  {"--step", "0.1", "--time", "1", "--set", a, "--set", b});
+    return refused_run("damped-pendulum", "generating-function",
+                       {"--step", "0.1", "--time", "1", "--set", a, "--set", b});
   };
   expect_refused(generating("order=3.5", "variant=P"), {"'order'", "an integer in 1 .. 40", "'3.5'"});
   expect_refused(generating("order=0", "variant=P"), {"'order'", "1 .. 40", "'0'"});
@@ -39,7 +39,7 @@ TEST(BadSettings, FormsOfGeneratingFunctions) {
   const auto refused = [](const Arguments& settings, const Arguments& fragments) {
     Arguments arguments{"--step", "0.1", "--time", "1"};
     for (const std::string& setting : settings) arguments = arguments + Arguments{"--set", setting};
-    expect_refused(run_of("damped-pendulum", "generating-function", arguments), fragments);
+    expect_refused(refused_run("damped-pendulum", "generating-function", arguments), fragments);
   };
   refused({"form=normal"}, {"form normal", "matrix", "normal=0.3,0.2,-0.4,-0.3"});
   refused({"normal=1,0,0,-1"}, {"form midpoint", "expected form normal"});
@@ -79,15 +79,16 @@ TEST(BadSettings, InitialState) {
 }
 
 TEST(BadSettings, AStateWhereTheFieldIsNotFinite) {
-  expect_refused(run_of("kepler", "verlet", {"--step", "0.1", "--time", "1", "--set", "initial=0,0,1,0"}),
-                 {"initial state of kepler", "not finite"});
+  expect_refused(
+      refused_run("kepler", "verlet", {"--step", "0.1", "--time", "1", "--set", "initial=0,0,1,0"}),
+      {"initial state of kepler", "not finite"});
 }
 
 TEST(BadSettings, StateFile) {
   const TemporaryDirectory files;
   const auto refused = [&](const std::string& content, const Arguments& fragments) {
     write(files / "state.json", content);
-    expect_refused(pendulum({"--step", "0.1", "--time", "1", "--state", files / "state.json"}),
+    expect_refused(refused_pendulum({"--step", "0.1", "--time", "1", "--state", files / "state.json"}),
                    Arguments{"state.json"} + fragments);
   };
   refused(R"({"t": 0, "z": [1, 0], "zz": 1})", {"unknown key 'zz'", "did you mean 'z'?"});
@@ -102,7 +103,7 @@ TEST(BadSettings, StateFile) {
   refused(R"({"z": [1, 0])", {"expected a JSON object"});
   refused("[1, 0]", {"expected a JSON object"});
   refused("", {"expected a JSON object"});
-  const auto with_state = pendulum({"--step", "0.1", "--time", "1", "--state", files / "state.json"});
+  const auto with_state = refused_pendulum({"--step", "0.1", "--time", "1", "--state", files / "state.json"});
   write(files / "state.json", R"({"z": [1, 0, 2]})");
   expect_refused(with_state, {"expected 2 numbers, got 3"});
   write(files / "state.json", R"({"z": ["1", "nan"]})");
@@ -111,40 +112,43 @@ TEST(BadSettings, StateFile) {
   expect_refused(with_state, {"initial time", "'x'"});
   write(files / "state.json", R"({"z": [1, 0]})");
   expect_refused(with_state + Arguments{"--set", "initial=1,0"}, {"--state", "--set initial", "exclude"});
-  expect_refused(pendulum({"--step", "0.1", "--time", "1", "--state", files / "missing.json"}),
+  expect_refused(refused_pendulum({"--step", "0.1", "--time", "1", "--state", files / "missing.json"}),
                  {"cannot read", "missing.json"});
-  expect_refused(pendulum({"--step", "0.1", "--time", "1", "--state", files.path().string()}),
+  expect_refused(refused_pendulum({"--step", "0.1", "--time", "1", "--state", files.path().string()}),
                  {"cannot read"});
 }
 
 TEST(BadSettings, Step) {
-  expect_refused(pendulum({"--time", "1"}), {"--step is missing", "--tolerance"});
+  expect_refused(refused_pendulum({"--time", "1"}), {"--step is missing", "--tolerance"});
   for (const std::string bad : {"0", "-0.1", "0/1"})
-    expect_refused(pendulum({"--time", "1", "--step", bad}),
+    expect_refused(refused_pendulum({"--time", "1", "--step", bad}),
                    {"--step: expected a number > 0", "'" + bad + "'"});
   for (const std::string bad : {"nan", "inf", "1e999", "h", "0.1s", "1/2/3"})
-    expect_refused(pendulum({"--time", "1", "--step", bad}), {"--step: expected a finite", "'" + bad + "'"});
-  expect_refused(pendulum({"--time", "1", "--step", "2"}),
+    expect_refused(refused_pendulum({"--time", "1", "--step", bad}),
+                   {"--step: expected a finite", "'" + bad + "'"});
+  expect_refused(refused_pendulum({"--time", "1", "--step", "2"}),
                  {"--step: expected at most the duration 1", "'2'"});
-  expect_refused(pendulum({"--time", "1", "--step", "1e-30"}),
+  expect_refused(refused_pendulum({"--time", "1", "--step", "1e-30"}),
                  {"--step: 1e-30 vanishes beside the time 1", "t + h = t"});
-  expect_refused(pendulum({"--time", "1", "--step", "1e-13"}), {"--step: 1e-13 is too small", "--max-steps"});
+  expect_refused(refused_pendulum({"--time", "1", "--step", "1e-13"}),
+                 {"--step: 1e-13 is too small", "--max-steps"});
 }
 
 TEST(BadSettings, Time) {
-  expect_refused(pendulum({"--step", "0.1"}), {"--time is missing"});
+  expect_refused(refused_pendulum({"--step", "0.1"}), {"--time is missing"});
   for (const std::string bad : {"0", "-1"})
-    expect_refused(pendulum({"--step", "0.1", "--time", bad}),
+    expect_refused(refused_pendulum({"--step", "0.1", "--time", bad}),
                    {"--time: expected a duration > 0", "'" + bad + "'"});
   for (const std::string bad : {"nan", "inf", "ten"})
-    expect_refused(pendulum({"--step", "0.1", "--time", bad}),
+    expect_refused(refused_pendulum({"--step", "0.1", "--time", bad}),
                    {"--time: expected a finite", "'" + bad + "'"});
 }
 
 TEST(BadSettings, Tolerance) {
-  expect_refused(pendulum({"--time", "1", "--tolerance", "1e-6"}), {"rk4 takes fixed steps only", "--step"});
+  expect_refused(refused_pendulum({"--time", "1", "--tolerance", "1e-6"}),
+                 {"rk4 takes fixed steps only", "--step"});
   const auto dopri = [](const Arguments& more) {
-    return run_of("damped-pendulum", "odeint-dopri5", Arguments{"--time", "1"} + more);
+    return refused_run("damped-pendulum", "odeint-dopri5", Arguments{"--time", "1"} + more);
   };
   expect_refused(dopri({"--tolerance", "1e-6", "--step", "0.1"}),
                  {"--step and --tolerance exclude each other"});
@@ -156,13 +160,14 @@ TEST(BadSettings, Tolerance) {
 
 TEST(BadSettings, QuadNeedsCoefficientsInQuad) {
   for (const std::string method : {"odeint-dopri5", "odeint-rk4"})
-    expect_refused(run_of("damped-pendulum", method, {"--time", "1", "--step", "0.1", "--precision", "quad"}),
-                   {method, "double only", "--precision double"});
+    expect_refused(
+        refused_run("damped-pendulum", method, {"--time", "1", "--step", "0.1", "--precision", "quad"}),
+        {method, "double only", "--precision double"});
 }
 
 TEST(BadSettings, Every) {
   for (const std::string bad : {"0", "-1", "1.5", "x", "1000000000000000000000"})
-    expect_refused(pendulum({"--time", "1", "--step", "0.1", "--every", bad}),
+    expect_refused(refused_pendulum({"--time", "1", "--step", "0.1", "--every", bad}),
                    {"--every: expected a whole number of steps > 0", "'" + bad + "'"});
 }
 

@@ -16,6 +16,7 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -152,6 +153,21 @@ inline std::string joined(const std::vector<std::string>& arguments) {
 inline std::vector<std::string> operator+(std::vector<std::string> a, const std::vector<std::string>& b) {
   a.insert(a.end(), b.begin(), b.end());
   return a;
+}
+
+/// What `evaluate` says of a system, with arguments after its name.
+inline nlohmann::json evaluated(const std::vector<std::string>& more) {
+  const Outcome outcome = run_pfaff(std::vector<std::string>{"evaluate", "--json", "--system"} + more);
+  EXPECT_EQ(outcome.status, 0) << joined(more) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  const auto j = json_of(outcome.out);
+  EXPECT_EQ(j["schema"], 1);
+  return j;
+}
+inline std::set<std::string> keys_of(const nlohmann::json& object) {
+  std::set<std::string> keys;
+  for (const auto& [key, value] : object.items()) keys.insert(key);
+  return keys;
 }
 
 /// One line on stderr that begins with "pfaff: " and holds every fragment; nothing on stdout.

@@ -7,16 +7,16 @@ namespace {
 using namespace pfaff::testing;
 using Arguments = std::vector<std::string>;
 
-Arguments pendulum(const Arguments& more) {
+Arguments pendulum_with(const Arguments& more) {
   return Arguments{"run",    "--out", "-",      "--system", "damped-pendulum", "--integrator", "rk4",
                    "--step", "0.1",   "--time", "1"} +
          more;
 }
 
 TEST(CommandLine, AParameterIsSetOnce) {
-  expect_refused(pendulum({"--set", "nu=0.1", "--set", "nu=0.2"}), {"'nu'", "damped-pendulum", "twice"});
-  expect_refused(pendulum({"--set", "nu=0.1", "--set", "system.nu=0.1"}), {"'nu'", "twice"});
-  expect_refused(pendulum({"--set", "initial=1,0", "--set", "initial=1,0"}), {"'initial'", "twice"});
+  expect_refused(pendulum_with({"--set", "nu=0.1", "--set", "nu=0.2"}), {"'nu'", "damped-pendulum", "twice"});
+  expect_refused(pendulum_with({"--set", "nu=0.1", "--set", "system.nu=0.1"}), {"'nu'", "twice"});
+  expect_refused(pendulum_with({"--set", "initial=1,0", "--set", "initial=1,0"}), {"'initial'", "twice"});
   expect_refused({"evaluate", "--system", "damped-pendulum", "--set", "nu=0.1", "--set", "nu=0.1"},
                  {"'nu'", "twice"});
   const Arguments composed{"run",         "--out",  "-",   "--system", "kepler", "--integrator",
@@ -40,7 +40,7 @@ TEST(CommandLine, OptionsThatExcludeEachOther) {
   for (const std::string flag : {"--project-initial", "--allow-inconsistent"}) {
     expect_refused({"run", "--out", "-", "--config", files / "config.toml", flag},
                    {"--config holds the whole run"});
-    expect_refused(pendulum({flag}), {flag, "damped-pendulum", "no constraints"});
+    expect_refused(pendulum_with({flag}), {flag, "damped-pendulum", "no constraints"});
   }
   expect_refused({"run", "--out", "-", "--system", "damped-pendulum", "--integrator", "odeint-dopri5",
                   "--tolerance", "1e-6", "--time", "1", "--every", "2"},
@@ -55,7 +55,7 @@ TEST(CommandLine, AnOptionIsNoValue) {
   expect_refused({"compare", "--out", "-h"}, {"--out", "'-h'"});
   expect_refused({"list", "--plugin", "-h"}, {"--plugin", "'-h'"});
   // Controls: a negative number is a value, and help where no value is missing is help.
-  expect_refused(pendulum({"--set", "nu=-1"}), {"'nu'"});
+  expect_refused(pendulum_with({"--set", "nu=-1"}), {"'nu'"});
   EXPECT_EQ(run_pfaff({"run", "--out", "-", "--step", "-1", "-h"}).status, 0);
   EXPECT_EQ(run_pfaff({"run", "--json", "-h"}).status, 0);
 }
@@ -87,7 +87,7 @@ TEST(CommandLine, StatesAreWrittenOnce) {
   const TemporaryDirectory files;
   const auto refused = [&](const std::string& content, const Arguments& fragments) {
     write(files / "state.json", content);
-    expect_refused(pendulum({"--state", files / "state.json"}), Arguments{"state.json"} + fragments);
+    expect_refused(pendulum_with({"--state", files / "state.json"}), Arguments{"state.json"} + fragments);
   };
   refused(R"({"t": 0, "t": 1, "z": [1, 0]})", {"'t'", "twice"});
   refused(R"({"z": [1, 0], "z": [1, 1]})", {"'z'", "twice"});
@@ -98,7 +98,8 @@ TEST(CommandLine, NestingHasALimit) {
   const TemporaryDirectory files;
   const std::string deep = std::string(200000, '[') + std::string(200000, ']');
   write(files / "state.json", "{\"z\": " + deep + "}");
-  expect_refused(pendulum({"--state", files / "state.json"}), {"state.json", "lists inside one another"});
+  expect_refused(pendulum_with({"--state", files / "state.json"}),
+                 {"state.json", "lists inside one another"});
   write(files / "model.json", "{\"dimension\": " + deep + "}");
   expect_refused({"evaluate", "--system", "bead-rod", "--set", "model=" + (files / "model.json")},
                  {"model.json", "at most 64 lists"});

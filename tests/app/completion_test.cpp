@@ -36,7 +36,7 @@ Names options_of(const std::string& command) {
 }
 
 // What a shell script prints, on both streams.
-std::string printed_by(const std::string& program, const fs::path& script) {
+std::string output_of(const std::string& program, const fs::path& script) {
   FILE* pipe = popen((program + " '" + script.string() + "' 2>&1").c_str(), "r");
   EXPECT_NE(pipe, nullptr);
   std::string text;
@@ -53,7 +53,7 @@ Names offered(const std::vector<std::string>& words) {
   script += ")\nCOMP_CWORD=" + std::to_string(words.size()) +
             "\ncompopt() { :; }\n_pfaff\nprintf '%s\\n' \"${COMPREPLY[@]}\"\n";
   write(files / "ask.bash", script);
-  std::istringstream lines(printed_by("bash", files / "ask.bash"));
+  std::istringstream lines(output_of("bash", files / "ask.bash"));
   Names names;
   for (std::string line; std::getline(lines, line);) names.insert(line);
   return names;
@@ -123,9 +123,9 @@ TEST(ManualPage, IsSetWithoutComplaints) {
   const TemporaryDirectory files;
   const std::string page = run_pfaff({"help", "--man"}).out;
   write(files / "pfaff.1", page);
-  EXPECT_EQ(printed_by("groff -man -Tutf8 -ww -z", files / "pfaff.1"), "");
+  EXPECT_EQ(output_of("groff -man -Tutf8 -ww -z", files / "pfaff.1"), "");
   write(files / "faulty.1", page + ".NOSUCH request\n");  // control
-  EXPECT_NE(printed_by("groff -man -Tutf8 -ww -z", files / "faulty.1"), "");
+  EXPECT_NE(output_of("groff -man -Tutf8 -ww -z", files / "faulty.1"), "");
 }
 
 }  // namespace

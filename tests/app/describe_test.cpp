@@ -26,11 +26,6 @@ std::set<std::string> names_of(const nlohmann::json& list) {
   for (const auto& item : list) names.insert(item["name"]);
   return names;
 }
-std::set<std::string> keys_of(const nlohmann::json& object) {
-  std::set<std::string> keys;
-  for (const auto& [key, value] : object.items()) keys.insert(key);
-  return keys;
-}
 void expect_narrow(const std::string& text) {
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {

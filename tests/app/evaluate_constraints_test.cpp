@@ -11,19 +11,8 @@ namespace {
 using namespace pfaff::testing;
 using Arguments = std::vector<std::string>;
 
-nlohmann::json evaluated(const Arguments& arguments) {
-  const Outcome outcome = run_pfaff(Arguments{"evaluate", "--json", "--system"} + arguments);
-  EXPECT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_EQ(outcome.err, "");
-  return json_of(outcome.out);
-}
 double number(const nlohmann::json& x) {
   return x.is_string() ? std::strtod(x.get<std::string>().c_str(), nullptr) : x.get<double>();
-}
-std::set<std::string> keys_of(const nlohmann::json& object) {
-  std::set<std::string> keys;
-  for (const auto& [key, value] : object.items()) keys.insert(key);
-  return keys;
 }
 void expect_solvers_agree(const nlohmann::json& j, double tolerance) {
   for (const auto& [name, solver] : j["solvers"].items()) {

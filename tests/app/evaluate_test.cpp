@@ -12,19 +12,6 @@ namespace {
 using namespace pfaff::testing;
 using Arguments = std::vector<std::string>;
 
-nlohmann::json evaluated(const Arguments& more) {
-  const Outcome outcome = run_pfaff(Arguments{"evaluate", "--json", "--system"} + more);
-  EXPECT_EQ(outcome.status, 0) << joined(more) << outcome.err;
-  EXPECT_EQ(outcome.err, "");
-  const auto j = json_of(outcome.out);
-  EXPECT_EQ(j["schema"], 1);
-  return j;
-}
-std::set<std::string> keys_of(const nlohmann::json& object) {
-  std::set<std::string> keys;
-  for (const auto& [key, value] : object.items()) keys.insert(key);
-  return keys;
-}
 const std::set<std::string> common{"schema", "system", "parameters", "precision", "t",          "coordinates",
                                    "state",  "status", "rhs",        "energy",    "energy_rate"};
 const std::set<std::string> birkhoffian{

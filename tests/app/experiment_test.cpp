@@ -14,7 +14,7 @@ using namespace pfaff::testing;
 using Arguments = std::vector<std::string>;
 
 // Two short cases, one of which no method survives, and one long run, so that a kill falls before the end.
-const std::string experiment = R"(schema = 1
+const std::string short_and_long_runs = R"(schema = 1
 title = "A test"
 reference = ["su-qin"]
 [[method]]
@@ -87,7 +87,7 @@ void expect_self_contained(const std::string& page, std::size_t figures) {
 
 TEST(Experiment, KilledAndResumedItGivesTheSameResults) {
   const TemporaryDirectory files;
-  write(files / "test.toml", experiment);
+  write(files / "test.toml", short_and_long_runs);
   {
     Program program(compare(files, "killed"));
     while (!program.ended() && runs_in(files.path() / "killed").empty())
@@ -149,7 +149,7 @@ TEST(Experiment, KilledAndResumedItGivesTheSameResults) {
   EXPECT_EQ(text_of(files / "whole/cost.csv"), cost);
 
   // The directory is this experiment's: another one is refused and changes nothing.
-  std::string other = experiment;
+  std::string other = short_and_long_runs;
   other.replace(other.find("time = \"20\""), 11, "time = \"30\"");
   write(files / "test.toml", other);
   expect_complaint(run_pfaff(compare(files, "whole")), 2, {"whole' holds another experiment"}, "compare");

@@ -12,11 +12,11 @@ std::string chain(const std::string& gravity) {
          "\nanchors = { origin = [0.0, 0.0] }\nrods = [[0, \"origin\"], [0, 1]]\n"
          "positions = [[0.6, -0.8], [1.1, -0.8]]\n";
 }
-Arguments run_to(const std::string& out, const Arguments& more) {
+Arguments short_run_to(const std::string& out, const Arguments& more) {
   return Arguments{"run", "--out", out, "--step", "0.01", "--time", "0.5"} + more;
 }
 Arguments chain_to(const std::string& out, const std::string& model) {
-  return run_to(out, {"--system", "bead-rod", "--integrator", "rattle", "--set", "model=" + model});
+  return short_run_to(out, {"--system", "bead-rod", "--integrator", "rattle", "--set", "model=" + model});
 }
 void expect_same_run(const fs::path& a, const fs::path& b) {
   for (const char* name : {"config.toml", "series.csv", "summary.json"})
@@ -31,7 +31,7 @@ Circumstances in(const fs::path& directory) {
 TEST(Identity, ARunThatIsThereAlreadyIsKept) {
   const TemporaryDirectory files;
   const Arguments run =
-      run_to(files / "run", {"--system", "damped-pendulum", "--integrator", "rk4", "--json"});
+      short_run_to(files / "run", {"--system", "damped-pendulum", "--integrator", "rk4", "--json"});
   const Outcome first = run_pfaff(run);
   ASSERT_EQ(first.status, 0) << first.err;
   const auto written = fs::last_write_time(files.path() / "run/series.csv");
@@ -71,7 +71,7 @@ TEST(Identity, AChangedModelFileIsNoticed) {
 
 TEST(Identity, AChangedStateFileIsAnotherRun) {
   const TemporaryDirectory files;
-  const Arguments run = run_to(
+  const Arguments run = short_run_to(
       files / "run", {"--system", "damped-pendulum", "--integrator", "rk4", "--state", files / "state.json"});
   write(files / "state.json", R"({"t": 0, "z": [1, 0.5]})");
   ASSERT_EQ(run_pfaff(run).status, 0);
@@ -88,8 +88,8 @@ TEST(Identity, ARebuiltPluginIsNoticed) {
                   fs::copy_options::overwrite_existing);
   };
   const auto run = [&](const std::string& out) {
-    return run_to(files / out,
-                  {"--system", "test-spring", "--integrator", "verlet", "--plugin", files / "spring.so"});
+    return short_run_to(
+        files / out, {"--system", "test-spring", "--integrator", "verlet", "--plugin", files / "spring.so"});
   };
   build("1");
   ASSERT_EQ(run_pfaff(run("run")).status, 0);
@@ -126,7 +126,7 @@ TEST(Identity, ARebuiltPluginThatAFileNamesIsNoticed) {
   const Arguments table{"--system", "pendulum", "--integrator", files / "table.toml"};
   for (const Arguments& named : {model, table}) {
     build("1");
-    const Arguments run = run_to(files / "run", named + plugin);
+    const Arguments run = short_run_to(files / "run", named + plugin);
     const Outcome first = run_pfaff(run);
     ASSERT_EQ(first.status, 0) << first.err;
     // From the configuration alone, which says where the plug-in is.
@@ -148,10 +148,11 @@ TEST(Identity, ConfigRepeatsARunFromAnywhere) {
   write(files / ("models/" + name), chain("9.81"));
   fs::copy_file(fs::path(PFAFF_TEST_PLUGINS) / "spring-1.so", files.path() / "models/spring.so");
   const Arguments with_model = chain_to("run", "models/" + name);
-  const Arguments with_plugin =
-      run_to("run", {"--system", "test-spring", "--integrator", "verlet", "--plugin", "models/spring.so"});
-  const Arguments projected = run_to("run", {"--system", "spherical-pendulum", "--integrator", "rattle",
-                                             "--set", "initial=0.6,0,-0.9,0,0.5,0", "--project-initial"});
+  const Arguments with_plugin = short_run_to(
+      "run", {"--system", "test-spring", "--integrator", "verlet", "--plugin", "models/spring.so"});
+  const Arguments projected =
+      short_run_to("run", {"--system", "spherical-pendulum", "--integrator", "rattle", "--set",
+                           "initial=0.6,0,-0.9,0,0.5,0", "--project-initial"});
   for (const Arguments& run : {with_model, with_plugin, projected}) {
     ASSERT_EQ(run_pfaff(run, in(files.path())).status, 0) << joined(run);
     const Outcome again = run_pfaff({"run", "--out", "again", "--config", "../run/config.toml"},
@@ -168,7 +169,7 @@ TEST(Identity, ConfigRepeatsARunFromAnywhere) {
 }
 
 // An experiment with one case, of a model file.
-std::string experiment(const fs::path& model, const std::string& more) {
+std::string model_experiment(const fs::path& model, const std::string& more) {
   return "schema = 1\ntitle = \"A test\"\n[[method]]\nlabel = \"RATTLE\"\nintegrator = \"rattle\"\n"
          "[[case]]\nname = \"chain\"\nsystem = \"bead-rod\"\ntime = \"0.5\"\nsteps = [\"0.01\", \"0.02\"]\n"
          "set = { model = '" +
@@ -187,7 +188,7 @@ TEST(Identity, AnExperimentMakesChangedRunsAnew) {
     return json_of(outcome.out)["experiments"][0]["resumed"].get<int>();
   };
   write(files / "chain.toml", chain("9.81"));
-  write(files / "test.toml", experiment(files / "chain.toml", ""));
+  write(files / "test.toml", model_experiment(files / "chain.toml", ""));
   EXPECT_EQ(resumed(compare({})), 0);
   EXPECT_EQ(resumed(compare({})), 2);
   const std::string before = text_of(series), costs = text_of(out / "cost.csv");
@@ -210,7 +211,7 @@ TEST(Identity, AnExperimentMakesChangedRunsAnew) {
   // What is measured belongs to the settings of the runs.
   const std::string residuals = text_of(series);
   EXPECT_NE(residuals.find("structure_residual"), std::string::npos);
-  write(files / "test.toml", experiment(files / "chain.toml", "structure = \"none\"\n"));
+  write(files / "test.toml", model_experiment(files / "chain.toml", "structure = \"none\"\n"));
   EXPECT_EQ(resumed(compare({})), 0);
   EXPECT_EQ(text_of(series).find("structure_residual"), std::string::npos);
 }
@@ -219,7 +220,7 @@ TEST(Identity, DamagedRunsAreMadeAnew) {
   const TemporaryDirectory files;
   const fs::path out = files.path() / "out", run = out / "runs/chain-rattle-h0.01";
   write(files / "chain.toml", chain("9.81"));
-  write(files / "test.toml", experiment(files / "chain.toml", ""));
+  write(files / "test.toml", model_experiment(files / "chain.toml", ""));
   const Arguments compare{"compare", files / "test.toml", "--quick", "--json", "--out", out.string()};
   ASSERT_EQ(run_pfaff(compare).status, 0);
   const std::string config = text_of(run / "config.toml"), series = text_of(run / "series.csv"),

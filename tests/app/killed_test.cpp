@@ -14,7 +14,7 @@ using Arguments = std::vector<std::string>;
 using Clock = std::chrono::steady_clock;
 const std::vector<const char*> names{"config.toml", "series.csv", "summary.json"};
 
-Arguments run_to(const std::string& out, const std::string& time) {
+Arguments killed_run_to(const std::string& out, const std::string& time) {
   return {"run",    "--out", out,      "--system", "damped-pendulum", "--integrator", "rk4",
           "--step", "0.1",   "--time", time,       "--json"};
 }
@@ -122,7 +122,7 @@ void wait_for_lock(const Program& program, const fs::path& directory) {
 
 TEST(InterruptedRun, KeepsItsSamplesAndSaysSo) {
   const TemporaryDirectory files;
-  const Arguments run = run_to(files / "run", "1e8") + Arguments{"--every", "100"};
+  const Arguments run = killed_run_to(files / "run", "1e8") + Arguments{"--every", "100"};
   for (const int signal : {SIGINT, SIGTERM}) {
     Program program(run);
     wait_for_lock(program, files.path() / "run");
@@ -142,7 +142,7 @@ TEST(InterruptedRun, KeepsItsSamplesAndSaysSo) {
   // The samples are those of a run that nobody interrupts.
   const auto part = rows_of(text_of(files / "run/series.csv"));
   ASSERT_GE(part.size(), 3U);
-  const auto whole = rows_of(run_pfaff(run_to("-", "10") + Arguments{"--every", "100"}).out);
+  const auto whole = rows_of(run_pfaff(killed_run_to("-", "10") + Arguments{"--every", "100"}).out);
   ASSERT_GE(whole.size(), 3U);
   for (std::size_t column = 0; column < 4; ++column) EXPECT_EQ(part[2][column], whole[2][column]);
   // An interrupted run is not the run that was asked for: the next one begins anew.
@@ -159,8 +159,8 @@ TEST(TwoProcesses, TheSecondSaysWhoIsThere) {
         "schema = 1\ntitle = \"A test\"\n[[method]]\nlabel = \"RK4\"\nintegrator = \"rk4\"\n[[case]]\n"
         "name = \"long\"\nsystem = \"damped-pendulum\"\ntime = \"1e6\"\nsteps = [\"0.01\"]\n"
         "precision = \"quad\"\nreference = \"none\"\n");
-  for (const Arguments& command :
-       {run_to(files / "out", "1e9"), Arguments{"compare", files / "test.toml", "--out", files / "out"}}) {
+  for (const Arguments& command : {killed_run_to(files / "out", "1e9"),
+                                   Arguments{"compare", files / "test.toml", "--out", files / "out"}}) {
     Program first(command);
     wait_for_lock(first, files.path() / "out");
     ASSERT_FALSE(first.ended());

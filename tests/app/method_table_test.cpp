@@ -12,14 +12,15 @@ const std::string shipped = std::string(PFAFF_GOLDEN) + "/../../examples/tables/
 std::string verlet(const std::string& drift) {
   return "name = \"my-verlet\"\nkind = \"splitting\"\norder = 2\ndrift = [" + drift + "]\nkick = [1]\n";
 }
-Arguments run_to(const std::string& out, const std::string& table) {
+Arguments table_run_to(const std::string& out, const std::string& table) {
   return {"run", "--out", out, "--system", "pendulum", "--integrator", table, "--step", "0.1", "--time", "2"};
 }
 
 TEST(MethodTable, RunsLikeARegisteredIntegrator) {
   const TemporaryDirectory files;
   write(files / "table.toml", verlet("0.5, 0.5"));
-  const Outcome table = run_pfaff(run_to("-", files / "table.toml")), cpp = run_pfaff(run_to("-", "verlet"));
+  const Outcome table = run_pfaff(table_run_to("-", files / "table.toml")),
+                cpp = run_pfaff(table_run_to("-", "verlet"));
   EXPECT_EQ(table.status, 0) << table.err;
   EXPECT_EQ(table.out, cpp.out);
 }
@@ -27,7 +28,7 @@ TEST(MethodTable, RunsLikeARegisteredIntegrator) {
 TEST(MethodTable, ItsContentIsAPartOfTheRun) {
   const TemporaryDirectory files;
   write(files / "table.toml", verlet("0.5, 0.5"));
-  const Outcome first = run_pfaff(run_to(files / "run", files / "table.toml"));
+  const Outcome first = run_pfaff(table_run_to(files / "run", files / "table.toml"));
   ASSERT_EQ(first.status, 0) << first.err;
   EXPECT_NE(text_of(files / "run/config.toml").find("table.toml"), std::string::npos);
   const Arguments again{"run", "--out", files / "new", "--config", files / "run/config.toml"};
@@ -35,7 +36,7 @@ TEST(MethodTable, ItsContentIsAPartOfTheRun) {
   EXPECT_EQ(text_of(files / "run/series.csv"), text_of(files / "new/series.csv"));
   write(files / "table.toml", "# other bytes\n" + verlet("0.5, 0.5"));
   for (const Arguments& run :
-       {run_to(files / "run", files / "table.toml"),
+       {table_run_to(files / "run", files / "table.toml"),
         Arguments{"run", "--out", files / "newer", "--config", files / "run/config.toml"}})
     expect_complaint(run_pfaff(run), 2, {"table.toml has changed", "--force"}, joined(run));
 }
@@ -110,7 +111,7 @@ TEST(MethodTable, AFileThatIsWrongIsRefusedWithItsPlace) {
   const TemporaryDirectory files;
   write(files / "table.toml", verlet("0.5, 0.500000001"));
   for (const Arguments& command :
-       {run_to("-", files / "table.toml"), Arguments{"describe", files / "table.toml"},
+       {table_run_to("-", files / "table.toml"), Arguments{"describe", files / "table.toml"},
         Arguments{"verify", files / "table.toml"}, Arguments{"falsify", files / "table.toml"},
         Arguments{"list", "--plugin", files / "table.toml"}}) {
     Outcome outcome = run_pfaff(command);
@@ -120,7 +121,7 @@ TEST(MethodTable, AFileThatIsWrongIsRefusedWithItsPlace) {
     expect_complaint(outcome, 2, {"table.toml:3", "the Lie word drift = 1", "is off by 1.00e-09"},
                      joined(command));
   }
-  expect_complaint(run_pfaff(run_to("-", files / "none.toml")), 2, {"cannot read", "none.toml"},
+  expect_complaint(run_pfaff(table_run_to("-", files / "none.toml")), 2, {"cannot read", "none.toml"},
                    "a file that is not there");
 }
 

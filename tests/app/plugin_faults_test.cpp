@@ -10,31 +10,31 @@ using Arguments = std::vector<std::string>;
 const std::string faulty = std::string(PFAFF_TEST_PLUGINS) + "/faulty.so",
                   throws_late = std::string(PFAFF_TEST_PLUGINS) + "/throws-late.so";
 
-Arguments run_of(const std::string& system, const std::string& integrator, const Arguments& more = {}) {
+Arguments faulty_run(const std::string& system, const std::string& integrator, const Arguments& more = {}) {
   return Arguments{"run",          "--plugin", faulty,   "--out", "-",      "--system", system,
                    "--integrator", integrator, "--step", "0.125", "--time", "1"} +
          more;
 }
 
 TEST(PluginFaults, AnElementPastTheEndOfAnArgument) {
-  expect_refused(run_of("reads-past", "rk4"),
+  expect_refused(faulty_run("reads-past", "rk4"),
                  {"system reads-past", "kinetic(t, p)", "element [1] of an argument with 1 element"});
-  expect_refused(run_of("reads-far-away", "rk4"),
+  expect_refused(faulty_run("reads-far-away", "rk4"),
                  {"system reads-far-away", "field(t, z, rate)", "[18446744073709551615]", "with 2 elements"});
-  expect_refused(run_of("writes-far-away", "rk4"),
+  expect_refused(faulty_run("writes-far-away", "rk4"),
                  {"system writes-far-away", "field(t, z, rate)", "element [100000000]"});
   // What stands behind the argument here is a number of the same tape.
   expect_refused(
-      run_of("reads-its-neighbour", "rk4"),
+      faulty_run("reads-its-neighbour", "rk4"),
       {"system reads-its-neighbour", "exact_solution(elapsed, t0, z0, z)", "element [2]", "2 elements"});
 }
 
 TEST(PluginFaults, WhatAFormulaThrows) {
-  expect_refused(run_of("throws-while-recorded", "rk4"),
+  expect_refused(faulty_run("throws-while-recorded", "rk4"),
                  {"system throws-while-recorded", "field(t, z, rate)", "exception of type", "Odd"});
   expect_refused({"describe", "--plugin", faulty, "throws-while-recorded"}, {"throws-while-recorded", "Odd"});
   expect_complaint(
-      run_pfaff(run_of("throws-when-compiled", "rk4")), 1,
+      run_pfaff(faulty_run("throws-when-compiled", "rk4")), 1,
       {"integrator rk4", "system throws-when-compiled", "after t = 0.25", "no formula after a quarter"},
       "a compiled formula");
 }
@@ -85,8 +85,9 @@ TEST(PluginFaults, AReferenceWithoutAKey) {
 }
 
 TEST(PluginFaults, AnInitialStateOfTheWrongLength) {
-  expect_refused(run_of("too-long", "rk4"), {"system too-long", "initial state of 3 numbers", "expected 2"});
-  EXPECT_EQ(run_pfaff(run_of("too-long", "rk4", {"--set", "initial=1,0"})).status, 0);
+  expect_refused(faulty_run("too-long", "rk4"),
+                 {"system too-long", "initial state of 3 numbers", "expected 2"});
+  EXPECT_EQ(run_pfaff(faulty_run("too-long", "rk4", {"--set", "initial=1,0"})).status, 0);
 }
 
 }  // namespace

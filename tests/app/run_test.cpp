@@ -15,11 +15,11 @@ using pfaff::Quad;
 using pfaff::Real;
 
 // Lines that end early must show.
-Arguments pendulum(const std::string& out, const Arguments& more) {
+Arguments pendulum_to(const std::string& out, const Arguments& more) {
   return Arguments{"run", "--out", out, "--system", "damped-pendulum", "--integrator"} + more;
 }
 std::vector<std::vector<std::string>> series(const Arguments& more) {
-  const Outcome run = run_pfaff(pendulum("-", more));
+  const Outcome run = run_pfaff(pendulum_to("-", more));
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(run.err, "");
   EXPECT_TRUE(run.out.ends_with('\n'));
@@ -170,13 +170,13 @@ TEST(Run, StateFiles) {
 TEST(Run, LeavesThreeFilesAndSummarisesThem) {
   const TemporaryDirectory files;
   const Arguments run{"generating-function", "--step", "0.1", "--time", "10", "--json"};
-  const Outcome outcome = run_pfaff(pendulum(files / "deep/er/run", run));
+  const Outcome outcome = run_pfaff(pendulum_to(files / "deep/er/run", run));
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   std::set<std::string> names;
   for (const auto& entry : fs::directory_iterator(files.path() / "deep/er/run"))
     names.insert(entry.path().filename());
   EXPECT_EQ(names, (std::set<std::string>{"config.toml", "series.csv", "summary.json"}));
-  EXPECT_EQ(text_of(files / "deep/er/run/series.csv"), run_pfaff(pendulum("-", run)).out);
+  EXPECT_EQ(text_of(files / "deep/er/run/series.csv"), run_pfaff(pendulum_to("-", run)).out);
   EXPECT_EQ(text_of(files / "deep/er/run/summary.json"), outcome.out);
   const auto j = json_of(outcome.out);
   EXPECT_EQ(j["schema"], 1);
@@ -206,7 +206,7 @@ TEST(Run, SaysWhatBecameOfQuantitiesThatMustDecrease) {
 TEST(Run, QuadNumbersAreStrings) {
   const TemporaryDirectory files;
   const Outcome outcome = run_pfaff(
-      pendulum(files / "run", {"rk4", "--step", "0.1", "--time", "1", "--precision", "quad", "--json"}));
+      pendulum_to(files / "run", {"rk4", "--step", "0.1", "--time", "1", "--precision", "quad", "--json"}));
   const auto j = json_of(outcome.out);
   ASSERT_TRUE(j["invariants"][0]["initial"].is_string());
   EXPECT_EQ(digits(j["invariants"][0]["initial"]), 36U);
@@ -217,8 +217,8 @@ TEST(Run, ToStandardOutputNothingElseIsPrinted) {
   const TemporaryDirectory files;
   Circumstances here;
   here.directory = files.path();
-  EXPECT_EQ(run_pfaff(pendulum("-", run), here).out,
-            run_pfaff(pendulum("-", run + Arguments{"--json"}), here).out);
+  EXPECT_EQ(run_pfaff(pendulum_to("-", run), here).out,
+            run_pfaff(pendulum_to("-", run + Arguments{"--json"}), here).out);
   EXPECT_TRUE(fs::is_empty(files.path()));
 }
 

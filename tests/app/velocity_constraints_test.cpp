@@ -9,10 +9,10 @@ namespace {
 using namespace pfaff::testing;
 using Arguments = std::vector<std::string>;
 
-Arguments run_of(const std::string& system, const Arguments& more) {
+Arguments nonholonomic_run(const std::string& system, const Arguments& more) {
   return Arguments{"run", "--system", system, "--integrator", "rk4", "--step", "0.05", "--time", "2"} + more;
 }
-void expect_refused(const Arguments& arguments, const std::string& message) {
+void expect_refused_with(const Arguments& arguments, const std::string& message) {
   const Outcome outcome = run_pfaff(arguments + Arguments{"--out", "-"});
   EXPECT_EQ(outcome.status, 2);
   EXPECT_EQ(outcome.err, "pfaff: " + message + "\n");
@@ -21,7 +21,8 @@ void expect_refused(const Arguments& arguments, const std::string& message) {
 TEST(VelocityConstraintsCommand, RunInTheNonholonomicFormulationAndRecordTheirDrift) {
   const TemporaryDirectory files;
   const fs::path& directory = files.path();
-  const Outcome outcome = run_pfaff(run_of("contact-particle", {"--out", (directory / "run").string()}));
+  const Outcome outcome =
+      run_pfaff(nonholonomic_run("contact-particle", {"--out", (directory / "run").string()}));
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const auto summary = json_of(text_of(directory / "run" / "summary.json"));
   ASSERT_EQ(summary["constraints"].size(), 1U);
@@ -36,43 +37,48 @@ TEST(VelocityConstraintsCommand, RunInTheNonholonomicFormulationAndRecordTheirDr
 TEST(VelocityConstraintsCommand, RunInTheVakonomicFormulation) {
   const TemporaryDirectory files;
   const fs::path& directory = files.path();
-  const Outcome outcome = run_pfaff(
-      run_of("contact-particle", {"--formulation", "vakonomic", "--out", (directory / "run").string()}));
+  const Outcome outcome = run_pfaff(nonholonomic_run(
+      "contact-particle", {"--formulation", "vakonomic", "--out", (directory / "run").string()}));
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   const auto summary = json_of(text_of(directory / "run" / "summary.json"));
   EXPECT_FALSE(summary.contains("constraints"));
   EXPECT_EQ(summary["invariants"].size(), 1U);
   EXPECT_EQ(summary["invariants"][0]["name"], "energy");
-  expect_refused(run_of("contact-particle", {"--formulation", "vakonomic", "--project-initial"}),
-                 "--project-initial: states of formulation vakonomic are not constrained");
+  expect_refused_with(
+      nonholonomic_run("contact-particle", {"--formulation", "vakonomic", "--project-initial"}),
+      "--project-initial: states of formulation vakonomic are not constrained");
 }
 
 TEST(VelocityConstraintsCommand, FormulationsOfOtherConstraintsAreRefused) {
   for (const std::string other : {"dirac", "simplified-dirac", "lmm", "ggl"})
-    expect_refused(run_of("sleigh", {"--formulation", other}),
-                   "formulation " + other +
-                       " makes no motion of velocity constraints, which sleigh has; expected nonholonomic or "
-                       "vakonomic");
-  expect_refused(run_of("spherical-pendulum", {"--formulation", "nonholonomic"}),
-                 "formulation nonholonomic needs velocity-constraints; spherical-pendulum offers holonomic, "
-                 "constraints, invariants");
+    expect_refused_with(
+        nonholonomic_run("sleigh", {"--formulation", other}),
+        "formulation " + other +
+            " makes no motion of velocity constraints, which sleigh has; expected nonholonomic or "
+            "vakonomic");
+  expect_refused_with(
+      nonholonomic_run("spherical-pendulum", {"--formulation", "nonholonomic"}),
+      "formulation nonholonomic needs velocity-constraints; spherical-pendulum offers holonomic, "
+      "constraints, invariants");
 }
 
 // z' = y x' is off by 1 at (0, 1, 0) with the momenta (1, 0, 2).
 TEST(VelocityConstraintsCommand, StatesOffTheConstraintsAreRefusedOrMoved) {
   const Arguments state{"--set", "initial=0,1,0,1,0,2"};
-  expect_refused(run_of("contact-particle", state),
-                 "initial state of contact-particle: constraint contact is off by 1; expected a state on the "
-                 "constraints, or --project-initial (which changes it by 0.32, relatively), or "
-                 "--allow-inconsistent");
+  expect_refused_with(
+      nonholonomic_run("contact-particle", state),
+      "initial state of contact-particle: constraint contact is off by 1; expected a state on the "
+      "constraints, or --project-initial (which changes it by 0.32, relatively), or "
+      "--allow-inconsistent");
   const TemporaryDirectory files;
   const fs::path& directory = files.path();
-  const Outcome moved = run_pfaff(run_of(
+  const Outcome moved = run_pfaff(nonholonomic_run(
       "contact-particle", state + Arguments{"--project-initial", "--out", (directory / "run").string()}));
   ASSERT_EQ(moved.status, 0) << moved.err;
   EXPECT_NE(text_of(directory / "run" / "series.csv").find("\n0,0,1,0,1.5,0,1.5,"), std::string::npos);
   EXPECT_EQ(
-      run_pfaff(run_of("contact-particle", state + Arguments{"--allow-inconsistent", "--out", "-"})).status,
+      run_pfaff(nonholonomic_run("contact-particle", state + Arguments{"--allow-inconsistent", "--out", "-"}))
+          .status,
       0);
 }
 
@@ -82,9 +88,9 @@ TEST(VelocityConstraintsCommand, DependentConstraintsAreRefused) {
   const std::string message =
       "the row of A of velocity constraint back-wheels depends on that of front-wheels";
   for (const std::string formulation : {"nonholonomic", "vakonomic"})
-    expect_refused(run_of("snakeboard", {"--set", state, "--formulation", formulation}),
-                   "initial state of snakeboard: " + message +
-                       "; expected a state where the constraints are independent");
+    expect_refused_with(nonholonomic_run("snakeboard", {"--set", state, "--formulation", formulation}),
+                        "initial state of snakeboard: " + message +
+                            "; expected a state where the constraints are independent");
   const auto j = json_of(run_pfaff({"evaluate", "--json", "--system", "snakeboard", "--set", state}).out);
   EXPECT_EQ(j["status"], "singular");
   EXPECT_EQ(j["reason"], message);

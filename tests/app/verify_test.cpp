@@ -20,11 +20,6 @@ nlohmann::json passed(const Arguments& arguments) {
   EXPECT_EQ(j["ok"], true);
   return j;
 }
-std::set<std::string> keys_of(const nlohmann::json& object) {
-  std::set<std::string> keys;
-  for (const auto& [key, value] : object.items()) keys.insert(key);
-  return keys;
-}
 bool of_structure(const std::string& claim) {
   return claim == "K-symplectic" || claim == "symplectic" || claim == "constrained-symplectic";
 }

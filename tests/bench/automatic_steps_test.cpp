@@ -20,7 +20,7 @@ using Counts = std::vector<std::int64_t>;
 
 // A method of an order whose error at N steps is constant / N^order, but not below round-off, and which takes
 // `stages` evaluations a step. `most` is the largest number of evaluations of one trial.
-struct Method {
+struct SteppedMethod {
   double order, constant, stages, round_off = 1e-13;
   mutable double most = 0;
   [[nodiscard]] double error(double count) const {
@@ -39,7 +39,7 @@ struct Method {
 
 TEST(AutomaticSteps, AreFiveToEightFromSmallErrorsToRoundOff) {
   for (const double order : {1.0, 2.0, 4.0, 8.0, 16.0, 40.0}) {
-    const Method method{order, std::pow(30.0, order), 4};
+    const SteppedMethod method{order, std::pow(30.0, order), 4};
     const Counts counts = method.chosen(1e12);
     SCOPED_TRACE(order);
     ASSERT_GE(counts.size(), fewest_automatic);
@@ -59,7 +59,7 @@ TEST(AutomaticSteps, AreFiveToEightFromSmallErrorsToRoundOff) {
 
 // What lies above the limit is neither chosen nor tried; with more evaluations there would be finer steps.
 TEST(AutomaticSteps, TakeNoMoreEvaluationsThanAllowed) {
-  const Method method{2, 900, 4};
+  const SteppedMethod method{2, 900, 4};
   const Counts few = method.chosen(1e5);
   EXPECT_LE(method.most, 1e5);
   EXPECT_EQ(few, (Counts{100, 250, 400, 1000, 2500, 6400, 10000, 25000}));
@@ -67,15 +67,15 @@ TEST(AutomaticSteps, TakeNoMoreEvaluationsThanAllowed) {
 }
 
 TEST(AutomaticSteps, OfAMethodThatFailsEverywhereAreTheFinest) {
-  const Method method{1, 1e12, 1};
+  const SteppedMethod method{1, 1e12, 1};
   EXPECT_EQ(method.chosen(1e4), (Counts{1600, 2500, 4000, 6400, 10000}));
   EXPECT_EQ(method.chosen(20), (Counts{10, 11, 13, 14, 16}));
   EXPECT_TRUE(method.chosen(12).empty());  // one rung is no choice
 }
 
 TEST(AutomaticSteps, OfAMethodWithoutErrorAreTheCoarsest) {
-  EXPECT_EQ((Method{4, 0, 1}.chosen(1e6)), (Counts{10, 16, 25, 40, 64}));
-  EXPECT_EQ((Method{4, 0, 1}.chosen(30)), (Counts{10, 13, 16, 20, 25}));
+  EXPECT_EQ((SteppedMethod{4, 0, 1}.chosen(1e6)), (Counts{10, 16, 25, 40, 64}));
+  EXPECT_EQ((SteppedMethod{4, 0, 1}.chosen(30)), (Counts{10, 13, 16, 20, 25}));
 }
 
 // Round-off that happens to be smaller at some fine step is not a slope: steps stay between 25 and 250 to the
@@ -109,7 +109,7 @@ TEST(AutomaticSteps, ALuckyErrorIsPassedOver) {
   EXPECT_EQ(step_counts(trial, 1e6).front(), 64);
 }
 
-const char* const experiment = R"(schema = 1
+const char* const chosen_steps = R"(schema = 1
 title = "A test"
 [[method]]
 label = "Gauss 4"
@@ -161,7 +161,7 @@ class AutomaticExperiment : public ::testing::Test {
 };
 
 TEST_F(AutomaticExperiment, StepsAreChosenForEachMethodAndStayTheSame) {
-  const Experiment of = read(experiment);
+  const Experiment of = read(chosen_steps);
   run(of, "first");
   run(of, "second");
   const auto runs = runs_in("first");
@@ -190,7 +190,7 @@ TEST_F(AutomaticExperiment, StepsAreChosenForEachMethodAndStayTheSame) {
 }
 
 TEST_F(AutomaticExperiment, ResumedItChoosesTheSameAndKeepsItsRuns) {
-  const Experiment of = read(experiment);
+  const Experiment of = read(chosen_steps);
   run(of, "out");
   const auto runs = runs_in("out");
   std::filesystem::remove_all(files_ / ("out/runs/" + runs.front()));
@@ -203,14 +203,14 @@ TEST_F(AutomaticExperiment, ResumedItChoosesTheSameAndKeepsItsRuns) {
   EXPECT_EQ(kept, runs.size() - 1);
   EXPECT_EQ(runs_in("out"), runs);
   // Other evaluations make another experiment, which the directory does not take.
-  std::string other = experiment;
+  std::string other = chosen_steps;
   other.replace(other.find("4000"), 4, "9000");
   EXPECT_THROW((void)run_experiment(read(other), files_ / "out", {}), InputError);
 }
 
 TEST_F(AutomaticExperiment, AskedToStopItEndsBeforeItsRuns) {
   const std::atomic<bool> stop = true;
-  const ExperimentOutcome outcome = run_experiment(read(experiment), files_ / "out", {}, {.stop = &stop});
+  const ExperimentOutcome outcome = run_experiment(read(chosen_steps), files_ / "out", {}, {.stop = &stop});
   EXPECT_TRUE(outcome.interrupted);
   EXPECT_FALSE(std::filesystem::exists(files_ / "out/runs"));
 }
@@ -237,14 +237,14 @@ class Follower final : public Team {
 TEST_F(AutomaticExperiment, ProcessesTakeTheStepsThatTheLeadingOneHasChosen) {
   Follower follower;
   std::filesystem::create_directories(files_ / "out/runs");
-  (void)run_experiment(read(experiment), files_ / "out", {}, {.team = &follower});
+  (void)run_experiment(read(chosen_steps), files_ / "out", {}, {.team = &follower});
   EXPECT_EQ(runs_in("out"),
             (std::vector<std::string>{"chosen-dormand-and-prince-tol1e-6", "chosen-gauss-4-h1",
                                       "chosen-rk4-h0.25", "chosen-rk4-h0.5", "given-rk4-h0.5"}));
 }
 
 TEST_F(AutomaticExperiment, QuickRunsMayHaveAListInstead) {
-  std::string text = experiment;
+  std::string text = chosen_steps;
   text.replace(text.find("evaluations = 4000"), 18, "evaluations = 4000\n[case.quick]\nsteps = [0.5, 0.25]");
   write_file(files_ / "test.toml", text);
   EXPECT_TRUE(read_experiment(files_ / "test.toml", false).cases.at(0).automatic);

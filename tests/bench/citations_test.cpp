@@ -39,10 +39,18 @@ TEST(Citations, KeysAreFoundInReferences) {
   EXPECT_EQ(keys_in("su-qin (92); hairer-lubich-wanner2006 II.1"),
             (std::vector<std::string>{"hairer-lubich-wanner2006", "su-qin"}));
   EXPECT_TRUE(keys_in("nothing of ours").empty());
-  for (const auto* plugin : systems().all())
-    EXPECT_FALSE(keys_in(plugin->descriptor().reference).empty()) << plugin->name();
-  for (const auto* plugin : integrators().all())
-    EXPECT_FALSE(keys_in(plugin->descriptor().reference).empty()) << plugin->name();
+  // Tests that run before this one in the same process may have loaded plug-ins of their own.
+  const auto expect_cited = [](const auto& registry) {
+    int cited = 0;
+    for (const auto* plugin : registry.all()) {
+      if (plugin->file().find("/tests/") != std::string::npos) continue;
+      EXPECT_FALSE(keys_in(plugin->descriptor().reference).empty()) << plugin->name();
+      ++cited;
+    }
+    EXPECT_GT(cited, 30);
+  };
+  expect_cited(systems());
+  expect_cited(integrators());
 }
 
 TEST(Citations, ExperimentsCiteWhatIsThere) {

@@ -13,14 +13,14 @@
 #include <pfaff/bench/verification/claim_checks.hpp>
 #include <pfaff/bench/verification/method_on_model.hpp>
 
+#include "../formula_values.hpp"
+
 namespace pfaff {
 namespace {
 
-using ::testing::HasSubstr;
+using testing::model_named;
 
-std::shared_ptr<const Model> model_of(std::string_view name, const Assignments& parameters = {}) {
-  return systems().get(name, "system").make(parameters);
-}
+using ::testing::HasSubstr;
 
 // A claim about rounding is measured in double alone, every other one in quad too.
 TEST(ClaimTable, EveryClaimHasItsMeasures) {
@@ -96,7 +96,7 @@ TEST(ClaimTable, RowsSayWhatAndOfWhich) {
     EXPECT_FALSE(row.scope.empty()) << row.name;
   }
   EXPECT_EQ(to_string(Claim::none), "none");
-  EXPECT_FALSE(in_scope(Claim::none, *model_of("pendulum")));
+  EXPECT_FALSE(in_scope(Claim::none, *model_named("pendulum")));
 }
 
 TEST(ClaimTable, ScopesSpeakOfTheSystemsMeant) {
@@ -122,9 +122,9 @@ TEST(ClaimTable, ScopesSpeakOfTheSystemsMeant) {
         {"damped-pendulum", "driven-duffing", "free-rigid-body", "spherical-pendulum"}}}};
   for (const auto& [claim, systems] : spoken) {
     for (const char* name : systems.first)
-      EXPECT_TRUE(in_scope(claim, *model_of(name))) << to_string(claim) << ' ' << name;
+      EXPECT_TRUE(in_scope(claim, *model_named(name))) << to_string(claim) << ' ' << name;
     for (const char* name : systems.second)
-      EXPECT_FALSE(in_scope(claim, *model_of(name))) << to_string(claim) << ' ' << name;
+      EXPECT_FALSE(in_scope(claim, *model_named(name))) << to_string(claim) << ' ' << name;
   }
 }
 
@@ -161,7 +161,8 @@ TEST(ClaimTable, FalseOnesFail) {
     const FalseClaim& control = row.control;
     Assignments parameters;
     if (!control.key.empty()) parameters.emplace_back(control.key, control.value);
-    auto model = control.model != nullptr ? control.model() : model_of(control.system, parameters);
+    auto model =
+        control.model != nullptr ? control.model() : model_named(std::string(control.system), parameters);
     if (model->restricted() && !model->moves()) model = motion_of(model);
     const auto found = checks_of_claims<Runge>(model, {row.claim});
     const auto checks = found.find(std::string(to_string(row.claim)));
@@ -178,7 +179,7 @@ TEST(ClaimTable, FalseOnesFail) {
 
 // One step of a control of rounding is like any other; the growth of its errors is not.
 TEST(ClaimTable, PlainUpdatesAreNotARandomWalkOfIncrements) {
-  const auto model = model_of("harmonic-oscillator");
+  const auto model = model_named("harmonic-oscillator");
   const auto residual = [&](const char* compensated) {
     const auto gauss = integrators().get("gauss", "").make({{"compensated", compensated}});
     MeasuredStep<double> step(*gauss, model, generic_state(*model), generic_time_of(*model), check_step);
@@ -190,7 +191,7 @@ TEST(ClaimTable, PlainUpdatesAreNotARandomWalkOfIncrements) {
 
 // A method of low order cannot claim it: truncation is in sight at every step, and nothing is judged.
 TEST(ClaimTable, RoundingBehindTruncationIsNotJudged) {
-  const auto checks = checks_of_claims<Runge>(model_of("pendulum"), {Claim::unbiased_round_off});
+  const auto checks = checks_of_claims<Runge>(model_named("pendulum"), {Claim::unbiased_round_off});
   const auto found = checks.find("unbiased-round-off");
   ASSERT_NE(found, checks.end());
   ASSERT_EQ(found->second.size(), 1U);  // in double alone
@@ -201,15 +202,15 @@ TEST(ClaimTable, RoundingBehindTruncationIsNotJudged) {
 // What the flow keeps passes, in both precisions. (Its round-off is that of closed forms, not of a step.)
 TEST(ClaimTable, TrueOnesOfTheExactFlowPass) {
   const std::vector<std::pair<std::shared_ptr<const Model>, std::vector<Claim>>> flows{
-      {model_of("harmonic-oscillator"),
+      {model_named("harmonic-oscillator"),
        {Claim::symplectic, Claim::volume, Claim::symmetric, Claim::reversible, Claim::quadratic_invariants,
         Claim::energy}},
-      {model_of("pendulum"),
+      {model_named("pendulum"),
        {Claim::symplectic, Claim::volume, Claim::symmetric, Claim::reversible, Claim::energy}},
-      {model_of("free-rigid-body"),
+      {model_named("free-rigid-body"),
        {Claim::poisson, Claim::volume, Claim::symmetric, Claim::reversible, Claim::quadratic_invariants,
         Claim::energy, Claim::casimirs}},
-      {model_of("damped-oscillator"), {Claim::k_symplectic, Claim::conformal, Claim::symmetric}}};
+      {model_named("damped-oscillator"), {Claim::k_symplectic, Claim::conformal, Claim::symmetric}}};
   for (const auto& [model, kept] : flows) {
     const auto found = checks_of_claims<ExactFlow>(model, all_claims());
     for (const Claim claim : kept) {
@@ -224,7 +225,7 @@ TEST(ClaimTable, TrueOnesOfTheExactFlowPass) {
 
 // Where more entropy is produced than the method loses, none is seen to fall.
 TEST(ClaimTable, EntropyMayGrow) {
-  auto checks = checks_of_claims<Runge>(model_of("relaxing-rigid-body"), {Claim::entropy});
+  auto checks = checks_of_claims<Runge>(model_named("relaxing-rigid-body"), {Claim::entropy});
   ASSERT_FALSE(checks["entropy"].empty());
   for (const Check& check : checks["entropy"])
     EXPECT_EQ(check.result, CheckResult::pass) << check.precision << ' ' << check.measured;
@@ -234,7 +235,7 @@ TEST(ClaimTable, OrdersThatAreNotPositiveFail) {
   for (const int order : {0, -1, 2, 3}) {
     const Local<Runge> plugin(
         {.name = "runge", .title = "", .reference = "", .order = order, .preserves = {Claim::none}});
-    const auto checks = check_method(*plugin.make(), {}, "pendulum", model_of("pendulum"));
+    const auto checks = check_method(*plugin.make(), {}, "pendulum", model_named("pendulum"));
     const auto check_of_order =
         std::find_if(checks.begin(), checks.end(), [](const Check& c) { return c.claim == "order"; });
     ASSERT_NE(check_of_order, checks.end());

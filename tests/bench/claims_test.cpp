@@ -25,7 +25,7 @@ struct Euler {
   }
 };
 
-Check order_of(const MethodPlugin& method) {
+Check order_check(const MethodPlugin& method) {
   for (Check& check : check_method(method, {}, systems().get("pendulum", "system")))
     if (check.claim == "order") return check;
   return {};
@@ -34,12 +34,12 @@ Check order_of(const MethodPlugin& method) {
 TEST(FalseClaims, AMethodWithoutAPositiveOrderFails) {
   static const Method<Euler> without{
       {.name = "euler-without-order", .title = "", .reference = "", .preserves = {Claim::none}}};
-  const Check check = order_of(without);
+  const Check check = order_check(without);
   EXPECT_EQ(check.result, CheckResult::fail);
   EXPECT_NE(check.reason.find("not positive"), std::string::npos) << check.reason;
   static const Method<Euler> with{
       {.name = "euler-with-order", .title = "", .reference = "", .order = 1, .preserves = {Claim::none}}};
-  EXPECT_EQ(order_of(with).result, CheckResult::pass);
+  EXPECT_EQ(order_check(with).result, CheckResult::pass);
 }
 
 // Heun's method, of order 2, to be registered with too low an order.
@@ -65,12 +65,12 @@ struct Heun {
 TEST(FalseClaims, AnOrderClaimedAsExactFailsWhereItIsExceeded) {
   static const Method<Heun<true>> exact{
       {.name = "heun-exactly-1", .title = "", .reference = "", .order = 1, .preserves = {Claim::none}}};
-  const Check check = order_of(exact);
+  const Check check = order_check(exact);
   EXPECT_EQ(check.result, CheckResult::fail);
   EXPECT_NEAR(check.measured, 2, 0.1);
   static const Method<Heun<false>> at_least{
       {.name = "heun-at-least-1", .title = "", .reference = "", .order = 1, .preserves = {Claim::none}}};
-  EXPECT_EQ(order_of(at_least).result, CheckResult::pass);
+  EXPECT_EQ(order_check(at_least).result, CheckResult::pass);
 }
 
 // Symplectic Euler's error of the first order is that of H_p.H_q, which vanishes on heisenberg-geodesic: the
@@ -118,8 +118,8 @@ struct Multipliers {
 };
 
 // The claims that are not as they should be, by name: false ones, or controls that were not rejected.
-std::vector<std::string> bad(const FormulationPlugin& plugin, const Assignments& parameters,
-                             const std::shared_ptr<const Model>& model, bool controls) {
+std::vector<std::string> bad_claims_of(const FormulationPlugin& plugin, const Assignments& parameters,
+                                       const std::shared_ptr<const Model>& model, bool controls) {
   std::vector<std::string> names;
   for (const Check& check : check_formulation(plugin, parameters, model))
     if (check.control == controls && !good(check) &&
@@ -150,17 +150,17 @@ TEST(FalseClaims, FormulationsAreHeldAgainstTheirDefinition) {
     if (model->facets().has(Facet::holonomic)) models.push_back(model);
   for (const auto& model : models) {
     SCOPED_TRACE(model->name());
-    EXPECT_EQ(bad(honest, {}, model, false), Names{});
-    EXPECT_EQ(bad(honest, {}, model, true), Names{});
+    EXPECT_EQ(bad_claims_of(honest, {}, model, false), Names{});
+    EXPECT_EQ(bad_claims_of(honest, {}, model, true), Names{});
     // A wrong sign, and a size that is wrong by a millionth.
     for (const char* size : {"-1", "1.000001"})
-      EXPECT_EQ(bad(honest, {{"size", size}}, model, false),
+      EXPECT_EQ(bad_claims_of(honest, {{"size", size}}, model, false),
                 (Names{"field is its definition", "keeps hidden-constraints", "tangent"}))
           << size;
     // On the surface all reactions are one: what is claimed off it is found to be false.
     Names expected{"field is its definition", "keeps constraints"};
     if (model->tape(Formula::constraints)->autonomous()) expected.emplace_back("keeps energy");
-    EXPECT_EQ(bad(boastful, {}, model, false), expected);
+    EXPECT_EQ(bad_claims_of(boastful, {}, model, false), expected);
   }
 }
 

@@ -11,19 +11,13 @@
 #include <pfaff/bench/measure/links.hpp>
 #include <pfaff/bench/runner/settings.hpp>
 
+#include "../formula_values.hpp"
+#include "worst_residual.hpp"
+
 namespace {
 using namespace pfaff;
-
-std::vector<Quad> initial_state(const Model& model) {
-  std::vector<Quad> z;
-  for (const Real& x : model.initial()) z.push_back(x.quad());
-  return z;
-}
-Quad worst_residual(const Model& model, const std::vector<Quad>& z) {
-  std::vector<Quad> residuals;
-  ConstraintResiduals<Quad>{model}(Quad(0), z, residuals);
-  return *std::max_element(residuals.begin(), residuals.end());
-}
+using pfaff::testing::initial_state;
+using pfaff::testing::worst_residual;
 
 TEST(ProjectionOntoConstraints, EndsAtRoundOffAndSaysWhatItChanged) {
   for (const std::string name :
@@ -31,14 +25,14 @@ TEST(ProjectionOntoConstraints, EndsAtRoundOffAndSaysWhatItChanged) {
     const auto model = systems().get(name, "system").make({});
     std::vector<Quad> z = initial_state(*model);
     for (std::size_t k = 0; k < z.size(); ++k) z[k] += Quad(static_cast<int>(k % 3) - 1) / Quad(64);
-    const Quad before = worst_residual(*model, z);
+    const Quad before = worst_residual(*model, Quad(0), z);
     ASSERT_GT(before, Quad(1e-3)) << name;
     const ProjectionOntoConstraints projection = project_onto_constraints(*model, Quad(0), z);
     EXPECT_EQ(projection.status, Status::converged) << name;
     EXPECT_NEAR(projection.worst_residual, static_cast<double>(before), 1e-15 * static_cast<double>(before));
     EXPECT_GT(projection.change, 1e-3) << name;
     // Residuals are sums of products of numbers up to 10.
-    EXPECT_LT(worst_residual(*model, z), Quad(1e-31)) << name;
+    EXPECT_LT(worst_residual(*model, Quad(0), z), Quad(1e-31)) << name;
     EXPECT_LT(project_onto_constraints(*model, Quad(0), z).change, 1e-32) << name;
   }
 }

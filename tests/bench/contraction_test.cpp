@@ -58,7 +58,7 @@ TEST(Contraction, OfANonlinearSystemIsSeenAsWell) {
   EXPECT_GT(std::abs(lost.back().area / lost.back().law - 1), 2e-2);
 }
 
-const char* const experiment = R"(schema = 1
+const char* const contracting_steps = R"(schema = 1
 title = "A test"
 [[method]]
 label = "RK4, one"
@@ -77,7 +77,7 @@ steps = [0.4]
 
 TEST(Contraction, IsThatOfTheLargestStepThatEndsWell) {
   const pfaff::testing::TemporaryDirectory files;
-  write_file(files / "test.toml", experiment);
+  write_file(files / "test.toml", contracting_steps);
   const Experiment of = read_experiment(files / "test.toml", false);
   const auto runs = expand(of);
   std::vector<nlohmann::json> summaries(runs.size(), {{"status", "converged"}});

@@ -21,8 +21,8 @@ using namespace pfaff::testing;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-Equations named(const SystemPlugin& system, const Assignments& settings, const std::string& method,
-                int degree = 4) {
+Equations derived_with_names(const SystemPlugin& system, const Assignments& settings,
+                             const std::string& method, int degree = 4) {
   return with_named_parameters(system, settings, [&](const Model& model) {
     return derive(model, method, DerivationOptions{.degree = degree});
   });
@@ -37,7 +37,7 @@ std::vector<Quad> somewhere(const Model& model) {
   for (int k = 0; k < model.dimension(); ++k) z.push_back(Quad(7 + 3 * k) / Quad(11 + k));
   return z;
 }
-double difference(const std::vector<Quad>& a, const std::vector<Quad>& b) {
+double relative_difference(const std::vector<Quad>& a, const std::vector<Quad>& b) {
   double worst = 0;
   for (std::size_t k = 0; k < a.size(); ++k)
     worst = std::max(worst, static_cast<double>(abs(a[k] - b[k]) / std::max(Quad(1), abs(b[k]))));
@@ -61,17 +61,17 @@ TEST(NamedParameters, OtherValuesGiveTheirEquations) {
     SCOPED_TRACE(one.system);
     const SystemPlugin& system = systems().get(one.system, "system");
     const auto model = system.make(one.other);
-    Equations equations = named(system, {}, one.method);
+    Equations equations = derived_with_names(system, {}, one.method);
     EXPECT_THAT(symbols(equations), ::testing::UnorderedElementsAreArray(one.symbols));
     const std::vector<Quad> z = somewhere(*model);
     const auto before = rates_of(derive(*system.make({}), one.method), Quad(0.3), z);
-    EXPECT_LT(difference(rates_of(equations, Quad(0.3), z), before), 1e-31);
+    EXPECT_LT(relative_difference(rates_of(equations, Quad(0.3), z), before), 1e-31);
     for (std::size_t k = 0; k < equations.parameters.size(); ++k)
       for (const auto& [name, value] : one.other)
         if (name == equations.parameters[k].name) equations.parameter_values[k] = *Real::parse(value);
     const auto found = rates_of(equations, Quad(0.3), z);
-    EXPECT_LT(difference(found, rates_of(derive(*model, one.method), Quad(0.3), z)), 1e-31);
-    EXPECT_GT(difference(found, before), 1e-3);  // the control: the values matter
+    EXPECT_LT(relative_difference(found, rates_of(derive(*model, one.method), Quad(0.3), z)), 1e-31);
+    EXPECT_GT(relative_difference(found, before), 1e-3);  // the control: the values matter
   }
 }
 
@@ -89,12 +89,13 @@ kinetic = "p^2/(2*d)"
 potential = "(a + b)*q^2/2 + c*d^2*q^4/4 + none*q"
 )toml";
   const SystemPlugin& system = system_named(path);
-  Equations equations = named(system, {}, "birkhoffian");
+  Equations equations = derived_with_names(system, {}, "birkhoffian");
   EXPECT_THAT(symbols(equations), ElementsAre("c", "d"));
   const std::vector<Quad> z{Quad(2), Quad(3)};
   equations.parameter_values = {7, 4};
   // q' = p/d, p' = -(a + b) q - c d^2 q^3
-  EXPECT_LT(difference(rates_of(equations, Quad(0), z), {Quad(0.75), Quad(-10 - 7 * 16 * 8)}), 1e-33);
+  EXPECT_LT(relative_difference(rates_of(equations, Quad(0), z), {Quad(0.75), Quad(-10 - 7 * 16 * 8)}),
+            1e-33);
 }
 
 // phi of q'' + q = 0 is -tan(tau/2) (q^2 + p^2).
@@ -105,8 +106,9 @@ TEST(GeneratingCoefficients, AreClosedFormsOfTheOscillator) {
   EXPECT_THAT(equations.further_outputs, ElementsAre("phi1", "phi2", "phi3", "phi4", "phi5"));
   const std::vector<Quad> z{Quad(0.5), Quad(-0.75)};
   const Quad square = z[0] * z[0] + z[1] * z[1];
-  EXPECT_LT(difference(rates_of(equations, Quad(0), z), {z[1], -z[0], -square / Quad(2), Quad(0),
-                                                         -square / Quad(24), Quad(0), -square / Quad(240)}),
+  EXPECT_LT(relative_difference(
+                rates_of(equations, Quad(0), z),
+                {z[1], -z[0], -square / Quad(2), Quad(0), -square / Quad(24), Quad(0), -square / Quad(240)}),
             1e-33);
 }
 
@@ -125,10 +127,10 @@ TEST(GeneratingCoefficients, AreThoseOfTheLiteralExpansion) {
       std::vector<Quad> expected(1), earlier(1);
       Replay<Quad> replay(std::make_shared<const Tape>(terms[static_cast<std::size_t>(k)]));
       replay(Quad(0.7), z.data(), expected.data());
-      EXPECT_LT(difference({found[z.size() + static_cast<std::size_t>(k) - 1]}, expected), 1e-30)
+      EXPECT_LT(relative_difference({found[z.size() + static_cast<std::size_t>(k) - 1]}, expected), 1e-30)
           << name << k;
       replay(Quad(0.2), z.data(), earlier.data());
-      changed = std::max(changed, difference(earlier, expected));
+      changed = std::max(changed, relative_difference(earlier, expected));
     }
     // The control: what depends on time is compared at the right one.
     if (name != std::string("henon-heiles")) {

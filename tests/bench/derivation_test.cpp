@@ -39,7 +39,7 @@ class DerivedEquations : public ::testing::TestWithParam<Constrained> {};
 
 // The difference of a and b relative to the largest of b.
 template <class T>
-double relative_distance(const std::vector<T>& a, const std::vector<Quad>& b) {
+double relative_to_largest(const std::vector<T>& a, const std::vector<Quad>& b) {
   Quad largest(0), difference(0);
   for (std::size_t k = 0; k < b.size(); ++k) {
     largest = std::max(largest, abs(b[k]));
@@ -73,9 +73,9 @@ TEST_P(DerivedEquations, AreTheFormulationsAtRandomStates) {
       }
       dense.place(Quad(amplitude), exact);
       const double condition = dense.condition();
-      EXPECT_LT(relative_distance(rates_of(equations, t, z), expected) / condition, 1e-33)
+      EXPECT_LT(relative_to_largest(rates_of(equations, t, z), expected) / condition, 1e-33)
           << method.name << ' ' << amplitude;
-      EXPECT_LT(relative_distance(rates_of(equations, amplitude, rounded), dense.rates(method.reactions)) /
+      EXPECT_LT(relative_to_largest(rates_of(equations, amplitude, rounded), dense.rates(method.reactions)) /
                     condition,
                 1e-15)
           << method.name << ' ' << amplitude;
@@ -98,12 +98,13 @@ TEST_P(DerivedEquations, HaveTheFrictionOfTheFormulations) {
   };
   const auto metriplectic = added(dense.metriplectic_friction()), stokes = added(dense.stokes_friction());
   for (const char* method : {"ldl", "recursion", "bivector", "recursion-literal"})
-    EXPECT_LT(relative_distance(rates_of(derive(*model, method), Quad(0), z), metriplectic), 1e-29) << method;
-  EXPECT_LT(relative_distance(rates_of(derive(*model, "ldl", FrictionForm::stokes), Quad(0), z), stokes),
+    EXPECT_LT(relative_to_largest(rates_of(derive(*model, method), Quad(0), z), metriplectic), 1e-29)
+        << method;
+  EXPECT_LT(relative_to_largest(rates_of(derive(*model, "ldl", FrictionForm::stokes), Quad(0), z), stokes),
             1e-29);
   // The control: the two forms differ, but where the coefficients are proportional to the masses.
   if (GetParam().system == "humanoid") {
-    EXPECT_GT(relative_distance(metriplectic, stokes), 1e-6);
+    EXPECT_GT(relative_to_largest(metriplectic, stokes), 1e-6);
   }
 }
 
@@ -140,7 +141,7 @@ TEST(Derivation, GivesTheFieldsOfOtherSystems) {
     field(Quad(0.5), z.data(), expected.data());
     const Equations equations = derive(*model, name);
     EXPECT_TRUE(equations.tape.solves.empty()) << system;
-    EXPECT_LT(relative_distance(rates_of(equations, Quad(0.5), z), expected), 1e-31) << system;
+    EXPECT_LT(relative_to_largest(rates_of(equations, Quad(0.5), z), expected), 1e-31) << system;
   }
 }
 
@@ -240,9 +241,9 @@ TEST(Derivation, KeepsTheParametersOfRodsAsSymbols) {
   Equations changed = equations;
   for (std::size_t k = 0; k < 3; ++k) changed.parameter_values[k] = 3;
   const std::vector<Quad> z = state_of(*model, 0.1, 3);
-  EXPECT_LT(relative_distance(rates_of(changed, Quad(0), z), rates_of(derive(*heavy, "ldl"), Quad(0), z)),
+  EXPECT_LT(relative_to_largest(rates_of(changed, Quad(0), z), rates_of(derive(*heavy, "ldl"), Quad(0), z)),
             1e-31);
-  EXPECT_GT(relative_distance(rates_of(equations, Quad(0), z), rates_of(changed, Quad(0), z)), 1e-3);
+  EXPECT_GT(relative_to_largest(rates_of(equations, Quad(0), z), rates_of(changed, Quad(0), z)), 1e-3);
 }
 
 std::string message_of(const auto& work) {
@@ -322,7 +323,7 @@ TEST(Derivation, TakesAnOrderOfEliminationAndSaysWhereItBreaksDown) {
   const auto expected = rates_of(derive(*model, "recursion"), Quad(0), z);
   for (const std::vector<std::size_t>& order :
        {std::vector<std::size_t>{4, 5, 2, 3, 0, 1}, std::vector<std::size_t>{1, 0, 3, 2, 5, 4}})
-    EXPECT_LT(relative_distance(rates_of(in_order(order), Quad(0), z), expected), 1e-31);
+    EXPECT_LT(relative_to_largest(rates_of(in_order(order), Quad(0), z), expected), 1e-31);
   const std::string refused = message_of([&] { (void)in_order({0, 2, 4, 1, 3, 5}); });
   EXPECT_THAT(refused, HasSubstr(names[0]));
   EXPECT_THAT(refused, HasSubstr("an order that works: " + names[0] + "," + names[1] + "," + names[2]));

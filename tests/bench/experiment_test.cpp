@@ -165,7 +165,7 @@ TEST_F(Experiments, TheTableMarksTrendsBelowRoundOff) {
   EXPECT_NE(table("bounded", 0).find("never rises"), std::string::npos);
 }
 
-const char* const oscillator = R"([[case]]
+const char* const oscillator_case = R"([[case]]
 name = "damped"
 system = "damped-oscillator"
 time = 1.0
@@ -188,7 +188,7 @@ std::vector<std::string> fitting(const std::string& system) {
 
 TEST_F(Experiments, AllMethodsAreThoseThatFit) {
   std::vector<LeftOut> left_out;
-  const auto taken = labels_of(expand(read(std::string("methods = \"all\"\n") + oscillator), &left_out));
+  const auto taken = labels_of(expand(read(std::string("methods = \"all\"\n") + oscillator_case), &left_out));
   EXPECT_EQ(taken, fitting("damped-oscillator"));
   EXPECT_EQ(taken.size() + left_out.size(), integrators().all().size());
   const auto rattle = std::find_if(left_out.begin(), left_out.end(),
@@ -200,7 +200,7 @@ TEST_F(Experiments, AllMethodsAreThoseThatFit) {
 
 TEST_F(Experiments, MethodsAreSelectedByClaimsNeedsAndOrders) {
   const auto selected = [&](const std::string& selection, const std::string& system) {
-    std::string text = "methods = " + selection + "\n" + oscillator;
+    std::string text = "methods = " + selection + "\n" + oscillator_case;
     text.replace(text.find("damped-oscillator"), 17, system);
     return labels_of(expand(read(text)));
   };
@@ -228,7 +228,7 @@ TEST_F(Experiments, ASelectionStandsBesideMethodsByName) {
   const Experiment experiment = read(
       std::string(
           "methods = { keeps = \"K-symplectic\" }\n[[method]]\nlabel = \"RK4\"\nintegrator = \"rk4\"\n") +
-      oscillator);
+      oscillator_case);
   const auto runs = expand(experiment);
   EXPECT_EQ(runs.front().method->label, "RK4");
   EXPECT_GT(runs.size(), 1U);
@@ -270,7 +270,7 @@ TEST_F(Experiments, IncludedFilesGiveTheirTables) {
       directory / "common/more.toml",
       "schema = 1\ntitle = \"not this one\"\n[[method]]\nlabel = \"a table\"\nintegrator = \"mine.toml\"\n");
   const Experiment e =
-      read(std::string("include = [\"common/methods.toml\", \"common/more.toml\"]\n") + oscillator);
+      read(std::string("include = [\"common/methods.toml\", \"common/more.toml\"]\n") + oscillator_case);
   EXPECT_EQ(e.title, "A test");
   EXPECT_EQ(e.notes, std::vector<std::string>{"from the file"});
   ASSERT_EQ(e.methods.size(), 2U);  // each file once

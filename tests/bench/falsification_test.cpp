@@ -16,7 +16,7 @@
 namespace pfaff {
 namespace {
 
-const MethodPlugin& method(const std::string& name) {
+const MethodPlugin& method_plugin(const std::string& name) {
   if ((name.starts_with("false-") || name.starts_with("noisy-")) && integrators().find(name) == nullptr)
     load_plugin(PFAFF_TEST_PLUGINS "/false-claims.so");
   return integrators().get(name, "integrator");
@@ -25,7 +25,7 @@ const MethodPlugin& method(const std::string& name) {
 // Ends after so many systems, and so with the same result on every machine.
 FalsificationResult result_of(const std::string& name, Claim claim, std::uint64_t systems = 200,
                               double budget = 300) {
-  auto tests = claims_under_test(method(name), {}, claim);
+  auto tests = claims_under_test(method_plugin(name), {}, claim);
   return falsify({tests.front()}, {.seed = 1, .budget = budget, .systems = systems}, nullptr).front();
 }
 
@@ -75,7 +75,7 @@ TEST(Falsify, SinglyDiagonalMethodNeedsANonlinearSystem) {
 // The control of the above: on linear systems the false claim holds, so that a search which draws none but
 // these would not find it.
 TEST(Falsify, SinglyDiagonalMethodIsSymplecticOnLinearSystems) {
-  const auto instance = method("false-singly-diagonal").make({});
+  const auto instance = method_plugin("false-singly-diagonal").make({});
   const auto model = systems().get("harmonic-oscillator", "system").make({});
   const Judgement judgement =
       judge(*instance, Claim::symplectic, {model, model->initial(), 0, Real::fraction(1, 2)});
@@ -110,7 +110,7 @@ TEST(Falsify, AveragedRatesNeedAFunctionThatIsNoPolynomial) {
 
 // The method keeps its claim with the parameters that it is verified with, and not with others.
 TEST(Falsify, ParametersAreDrawn) {
-  const auto tests = claims_under_test(method("false-with-parameters"), {}, {});
+  const auto tests = claims_under_test(method_plugin("false-with-parameters"), {}, {});
   ASSERT_EQ(tests.size(), 3U);
   EXPECT_TRUE(tests.front().parameters.empty());
   const auto results = falsify(tests, {.seed = 1, .budget = 300, .systems = 20}, nullptr);
@@ -142,7 +142,7 @@ TEST(Falsify, ParasiticOscillationShowsInSeveralSteps) {
   EXPECT_GT(counterexample.at.count, 1);
   JudgedStep one = counterexample.at;
   one.count = 1;
-  const auto instance = method("false-two-step").make({});
+  const auto instance = method_plugin("false-two-step").make({});
   const Judgement single = judge(*instance, Claim::symmetric, one);
   EXPECT_FALSE(single.falsified);
   EXPECT_LE(single.residuals.front(), 1e-31);
@@ -153,7 +153,7 @@ TEST(Falsify, ParasiticOscillationShowsInSeveralSteps) {
 TEST(Falsify, WhatAMethodCarriesGoesBackWithTheState) {
   const auto particle = systems().get("contact-particle", "system").make({});
   for (const char* name : {"gni", "nonholonomic-leap-frog"}) {
-    const auto instance = method(name).make({});
+    const auto instance = method_plugin(name).make({});
     const JudgedStep two{.model = particle, .state = particle->initial(), .count = 2};
     EXPECT_FALSE(judge(*instance, Claim::symmetric, two).falsified) << name;
     const ManySteps many(*instance, 2);
@@ -170,7 +170,7 @@ TEST(Falsify, WhatAMethodCarriesGoesBackWithTheState) {
 
 // Several steps as one: of a method of one step they are that method's, and they keep what it keeps.
 TEST(Falsify, ManyStepsAreThoseOfTheMethod) {
-  const auto instance = method("verlet").make({});
+  const auto instance = method_plugin("verlet").make({});
   const auto model = systems().get("pendulum", "system").make({});
   const ManySteps many(*instance, 4);
   std::vector<Quad> one{Quad(1), Quad(0.5)}, other = one;
@@ -229,16 +229,16 @@ TEST(Falsify, VerificationOnRandomSystemsRejectsFalseClaims) {
     return claims;
   };
   using Claims = std::set<std::string>;
-  EXPECT_EQ(failed(method("false-singly-diagonal")), (Claims{"symplectic"}));
-  EXPECT_EQ(failed(method("false-projection")), (Claims{"constrained-symplectic"}));
-  EXPECT_EQ(failed(method("false-midpoint")), (Claims{"K-symplectic"}));
-  EXPECT_EQ(failed(method("false-leap-frog")), (Claims{"energy", "symmetric"}));
+  EXPECT_EQ(failed(method_plugin("false-singly-diagonal")), (Claims{"symplectic"}));
+  EXPECT_EQ(failed(method_plugin("false-projection")), (Claims{"constrained-symplectic"}));
+  EXPECT_EQ(failed(method_plugin("false-midpoint")), (Claims{"K-symplectic"}));
+  EXPECT_EQ(failed(method_plugin("false-leap-frog")), (Claims{"energy", "symmetric"}));
   for (const char* name : {"verlet", "rattle", "midpoint-darboux"})
-    EXPECT_EQ(failed(method(name)), Claims{}) << name;
+    EXPECT_EQ(failed(method_plugin(name)), Claims{}) << name;
 }
 
 TEST(Falsify, RoundingIsNoFalsification) {
-  const auto instance = method("gauss").make({});
+  const auto instance = method_plugin("gauss").make({});
   const auto model = systems().get("henon-heiles", "system").make({});
   const Judgement judgement =
       judge(*instance, Claim::symplectic, {model, model->initial(), 0, Real::fraction(1, 10)});
@@ -252,7 +252,7 @@ TEST(Falsify, PlainUpdatesAreSeenInLongRuns) {
   const auto model = systems().get("harmonic-oscillator", "system").make({});
   const JudgedStep at{model, model->initial(), 0, Real::fraction(1, 10)};
   const auto judged = [&](const Assignments& parameters) {
-    return judge(*method("gauss").make(parameters), Claim::unbiased_round_off, at);
+    return judge(*method_plugin("gauss").make(parameters), Claim::unbiased_round_off, at);
   };
   const Judgement plain = judged({{"compensated", "no"}});
   EXPECT_TRUE(plain.falsified);
@@ -265,7 +265,7 @@ TEST(Falsify, PlainUpdatesAreSeenInLongRuns) {
 
 // An error as large as double's rounding is above the threshold in quad, and is no power of the step.
 TEST(Falsify, NoiseIsNoFalsification) {
-  const auto instance = method("noisy-midpoint").make({});
+  const auto instance = method_plugin("noisy-midpoint").make({});
   const auto model = systems().get("pendulum", "system").make({});
   const Judgement judgement =
       judge(*instance, Claim::symmetric, {model, model->initial(), 0, Real::fraction(1, 10)});

@@ -8,8 +8,8 @@
 namespace pfaff {
 namespace {
 
-RunRecord executed(const std::string& system, const std::vector<std::string>& initial,
-                   Precision precision = Precision::double_precision) {
+RunRecord executed_by_gauss(const std::string& system, const std::vector<std::string>& initial,
+                            Precision precision = Precision::double_precision) {
   RunSettings settings;
   settings.system = system;
   settings.integrator = "gauss";
@@ -24,7 +24,7 @@ RunRecord executed(const std::string& system, const std::vector<std::string>& in
 // E = p^2/2 - cos q of the pendulum through q = 1 with E = 0, or nearly so: with exact numbers in its state E
 // has the terms p^2/2 = cos q, whose sum the scale is, up to the rounding of these few operations.
 TEST(InvariantScale, IsTheSizeOfTermsThatCancel) {
-  const RunRecord record = executed("pendulum", {"1", "1.0395"});
+  const RunRecord record = executed_by_gauss("pendulum", {"1", "1.0395"});
   double largest_terms = 0, largest_energy = 0;
   for (const Sample& sample : record.samples) {
     const auto q = static_cast<double>(sample.state[0]), p = static_cast<double>(sample.state[1]);
@@ -39,8 +39,9 @@ TEST(InvariantScale, IsTheSizeOfTermsThatCancel) {
 // The energy of a harmonic oscillator is homogeneous of degree two, and multiplying its state by a power of
 // two rounds nothing: the scale of the run is multiplied by exactly the square.
 TEST(InvariantScale, HasTheUnitOfTheInvariant) {
-  const RunRecord one = executed("harmonic-oscillator", {"1", "0.5"});
-  const RunRecord small = executed("harmonic-oscillator", {"0.0009765625", "0.00048828125"});  // 2^-10
+  const RunRecord one = executed_by_gauss("harmonic-oscillator", {"1", "0.5"});
+  const RunRecord small =
+      executed_by_gauss("harmonic-oscillator", {"0.0009765625", "0.00048828125"});  // 2^-10
   ASSERT_GT(one.scales.at(0), 0);
   EXPECT_EQ(small.scales.at(0), std::ldexp(one.scales.at(0), -20));
 }
@@ -48,7 +49,8 @@ TEST(InvariantScale, HasTheUnitOfTheInvariant) {
 // In quad the same run has the same scale, since it is in units of the precision's own round-off.
 TEST(InvariantScale, IsTheSameInBothPrecisions) {
   for (const char* system : {"pendulum", "kepler", "henon-heiles"}) {
-    const RunRecord in_double = executed(system, {}), in_quad = executed(system, {}, Precision::quad);
+    const RunRecord in_double = executed_by_gauss(system, {}),
+                    in_quad = executed_by_gauss(system, {}, Precision::quad);
     ASSERT_FALSE(in_double.scales.empty());
     for (std::size_t i = 0; i < in_double.scales.size(); ++i)
       EXPECT_NEAR(in_double.scales[i] / in_quad.scales[i], 1, 1e-10) << system << " " << i;

@@ -25,9 +25,9 @@ MethodDescriptor described(std::string name, int order, std::vector<Claim> prese
 
 using pfaff::testing::bad;
 using pfaff::testing::Names;
-using Classical = pfaff::testing::Classical<false>;
+using ClassicalInScalar = pfaff::testing::Classical<false>;
 
-Names bad(const MethodPlugin& method, const char* system) {
+Names bad_on(const MethodPlugin& method, const char* system) {
   return bad(check_method(method, {}, systems().get(system, "system")));
 }
 
@@ -69,7 +69,7 @@ struct Stuck {
 
 TEST(JudgedSteps, AMethodThatNeverStepsFails) {
   static const Method<Stuck> stuck{described("stuck", 2, {Claim::symplectic})};
-  EXPECT_EQ(bad(stuck, "pendulum"), Names{"steps"});
+  EXPECT_EQ(bad_on(stuck, "pendulum"), Names{"steps"});
 }
 
 // Momenta of planets are 1e-11 of their positions; a step that does not converge there is shown and not
@@ -82,7 +82,7 @@ TEST(JudgedSteps, AStepOnCoordinatesOfVeryDifferentSizesNeedNotConverge) {
   EXPECT_TRUE(good(checks[0]));
   EXPECT_NE(checks[0].reason.find("sizes of coordinates differ by 2^"), std::string::npos)
       << checks[0].reason;
-  EXPECT_EQ(bad(stuck, "n-body"), Names{"steps"});
+  EXPECT_EQ(bad_on(stuck, "n-body"), Names{"steps"});
 }
 
 // The backward differentiation formula of two steps, z_2 = 4/3 z_1 - 1/3 z_0 + beta h f(z_2), with implicit
@@ -121,17 +121,18 @@ struct Adams {
   template <class P>
   struct Work {
     std::array<State<P>, 4> slopes;  // the last one first
-    pfaff::Work<Classical, P> start;
+    pfaff::Work<ClassicalInScalar, P> start;
     int known = 0;
     Work(const Adams& /*method*/, const P& p)
-        : slopes{p.make_state(), p.make_state(), p.make_state(), p.make_state()}, start(Classical(), p) {}
+        : slopes{p.make_state(), p.make_state(), p.make_state(), p.make_state()},
+          start(ClassicalInScalar(), p) {}
   };
   template <HasVectorField P>
   Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
     using T = Scalar<P>;
     std::rotate(w.slopes.begin(), w.slopes.end() - 1, w.slopes.end());
     p.field(t, z, w.slopes[0]);
-    if (++w.known < 4) return Classical().step(p, t, h, z, w.start);
+    if (++w.known < 4) return ClassicalInScalar().step(p, t, h, z, w.start);
     for (std::size_t i = 0; i < z.size(); ++i)
       z[i] = z[i] + h *
                         (T(55) * w.slopes[0][i] - T(59) * w.slopes[1][i] + T(37) * w.slopes[2][i] -
@@ -148,10 +149,10 @@ TEST(JudgedSteps, MethodsWithHistoryAreJudgedAfterTheirStart) {
   static const Method<Adams> vain{described("adams-called-5", 5)};
   for (const char* system : {"pendulum", "driven-duffing"}) {
     SCOPED_TRACE(system);
-    EXPECT_EQ(bad(right, system), Names{});
-    EXPECT_EQ(bad(wrong, system), Names{"order"});
-    EXPECT_EQ(bad(adams, system), Names{});
-    EXPECT_EQ(bad(vain, system), Names{"order"});
+    EXPECT_EQ(bad_on(right, system), Names{});
+    EXPECT_EQ(bad_on(wrong, system), Names{"order"});
+    EXPECT_EQ(bad_on(adams, system), Names{});
+    EXPECT_EQ(bad_on(vain, system), Names{"order"});
   }
 }
 
@@ -214,7 +215,7 @@ TEST(JudgedSteps, RunsOfMethodsWithHistoryShowNoStructureOfOneStep) {
 // fault.
 enum class Fault { none, skips, stops_short, overshoots, careless, idle };
 template <Fault fault>
-struct Adaptive : Classical {
+struct Adaptive : ClassicalInScalar {
   template <HasVectorField P>
   requires std::is_same_v < Scalar<P>,
   double >
@@ -234,7 +235,7 @@ struct Adaptive : Classical {
 // Runs with a tolerance by the registered extrapolation; in quad, with the fault, to 1e-10 whatever the
 // tolerance.
 template <bool careless>
-struct AdaptiveInQuad : Classical {
+struct AdaptiveInQuad : ClassicalInScalar {
   template <HasVectorField P>
   requires std::is_same_v<Scalar<P>, Value<Scalar<P>>> Status advance_to(const P& p, Scalar<P>& t,
                                                                          const Scalar<P>& end,
@@ -260,12 +261,12 @@ TEST(JudgedSteps, RunsWithAToleranceEndWhereTheyShouldWithTheErrorTheyShould) {
   static const Method<Adaptive<Fault::overshoots>> beyond{described("adaptive-overshoots", 4)};
   static const Method<Adaptive<Fault::careless>> careless{described("adaptive-careless", 4)};
   static const Method<Adaptive<Fault::idle>> idle{described("adaptive-idle", 4)};
-  EXPECT_EQ(bad(none, "harmonic-oscillator"), Names{});
+  EXPECT_EQ(bad_on(none, "harmonic-oscillator"), Names{});
   const Names both{"tolerance", "tolerance, backwards"};
   for (const MethodPlugin* plugin :
        std::initializer_list<const MethodPlugin*>{&skips, &stops, &beyond, &careless, &idle})
-    EXPECT_EQ(bad(*plugin, "harmonic-oscillator"), both) << plugin->name();
-  EXPECT_EQ(bad(integrators().get("odeint-dopri5", ""), "harmonic-oscillator"), Names{});
+    EXPECT_EQ(bad_on(*plugin, "harmonic-oscillator"), both) << plugin->name();
+  EXPECT_EQ(bad_on(integrators().get("odeint-dopri5", ""), "harmonic-oscillator"), Names{});
 }
 
 // The same methods in the scalar of the run: their faults are found in quad too.

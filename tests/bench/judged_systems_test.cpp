@@ -15,7 +15,7 @@ using pfaff::testing::Names;
 // An oscillator with one number called an invariant.
 enum class Claimed { tiny_product, constant, tiny_energy, quartic };
 template <Claimed claimed>
-struct Oscillator {
+struct ClaimedOscillator {
   static constexpr int dimension = 2;
   template <class T>
   T hamiltonian(const T& /*t*/, In<T> z) const {
@@ -32,25 +32,27 @@ struct Oscillator {
   }
 };
 template <Claimed claimed>
-const SystemPlugin& oscillator(const char* name) {
-  static const System<Oscillator<claimed>> plugin{{.name = name,
-                                                   .title = "",
-                                                   .reference = "",
-                                                   .coordinates = {{"q", ""}, {"p", ""}},
-                                                   .initial = {Real(1), Real::fraction(1, 3)},
-                                                   .invariants = {conserved_quadratic("claimed", "")},
-                                                   .time_unit = ""}};
+const SystemPlugin& claimed_oscillator(const char* name) {
+  static const System<ClaimedOscillator<claimed>> plugin{{.name = name,
+                                                          .title = "",
+                                                          .reference = "",
+                                                          .coordinates = {{"q", ""}, {"p", ""}},
+                                                          .initial = {Real(1), Real::fraction(1, 3)},
+                                                          .invariants = {conserved_quadratic("claimed", "")},
+                                                          .time_unit = ""}};
   return plugin;
 }
 
 TEST(JudgedSystems, InvariantsAreJudgedAtTheirOwnSize) {
-  EXPECT_EQ(bad(check_system(oscillator<Claimed::tiny_product>("tiny-product"))), Names{"conserves claimed"});
-  EXPECT_EQ(bad(check_system(oscillator<Claimed::constant>("constant-invariant"))), Names{"claimed varies"});
-  EXPECT_EQ(bad(check_system(oscillator<Claimed::tiny_energy>("tiny-energy"))), Names{});
+  EXPECT_EQ(bad(check_system(claimed_oscillator<Claimed::tiny_product>("tiny-product"))),
+            Names{"conserves claimed"});
+  EXPECT_EQ(bad(check_system(claimed_oscillator<Claimed::constant>("constant-invariant"))),
+            Names{"claimed varies"});
+  EXPECT_EQ(bad(check_system(claimed_oscillator<Claimed::tiny_energy>("tiny-energy"))), Names{});
 }
 
 TEST(JudgedSystems, AWrongQuadraticFlagIsBlamedOnTheFlag) {
-  const SystemPlugin& plugin = oscillator<Claimed::quartic>("quartic");
+  const SystemPlugin& plugin = claimed_oscillator<Claimed::quartic>("quartic");
   EXPECT_EQ(bad(check_system(plugin)), Names{"claimed is quadratic"});
   EXPECT_EQ(bad(check_method(integrators().get("gauss", ""), {}, plugin)), Names{});
 }

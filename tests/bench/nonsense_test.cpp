@@ -6,27 +6,14 @@
 
 #include <pfaff/bench/runner/record.hpp>
 
+#include "run_settings.hpp"
+
 namespace pfaff {
 namespace {
 
-RunSettings settings_of(const std::string& system, const std::string& step, const std::string& time,
-                        const Assignments& set = {}) {
-  RunSettings s;
-  s.system = system;
-  s.integrator = "rk4";
-  s.step = step;
-  s.time = time;
-  s.set = set;
-  return s;
-}
-std::string complaint(const RunSettings& settings) {
-  try {
-    (void)resolve(settings);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return {};
-}
+using testing::complaint;
+using testing::settings_of;
+
 RunRecord executed(const RunSettings& settings) {
   const ResolvedRun run = resolve(settings);
   return execute(run, reference_asked_for(run).get());

@@ -15,7 +15,7 @@ using namespace pfaff;
 std::shared_ptr<const Model> two_bodies() {
   return systems().get("n-body", "system").make({{"bodies", "2"}});
 }
-Check order_of(const char* name) {
+Check exact_order_check(const char* name) {
   const auto method = integrators().get(name, "integrator").make({});
   const auto checks = check_method(*method, {}, "n-body", two_bodies());
   const auto order =
@@ -24,7 +24,7 @@ Check order_of(const char* name) {
 }
 
 TEST(OrderOfExactSteps, IsNotJudged) {
-  const Check order = order_of("exact-flow-splitting");
+  const Check order = exact_order_check("exact-flow-splitting");
   ASSERT_EQ(order.claim, "order");
   EXPECT_FALSE(order.in_scope);
   EXPECT_NE(order.result, CheckResult::fail);
@@ -33,7 +33,7 @@ TEST(OrderOfExactSteps, IsNotJudged) {
 
 // The control: a method that is not exact on the same motion is judged.
 TEST(OrderOfExactSteps, StepsWithErrorsAreJudged) {
-  const Check order = order_of("verlet");
+  const Check order = exact_order_check("verlet");
   EXPECT_TRUE(order.in_scope);
   EXPECT_EQ(order.result, CheckResult::pass);
   EXPECT_NEAR(order.measured, 2, 0.1);

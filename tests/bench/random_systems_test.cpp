@@ -12,8 +12,12 @@
 #include <pfaff/core/facets/claims.hpp>
 #include <pfaff/core/tape/replay.hpp>
 
+#include "../formula_values.hpp"
+
 namespace pfaff {
 namespace {
+
+using testing::values;
 
 constexpr std::uint64_t seeds = 4;
 
@@ -26,13 +30,6 @@ void every_recipe(F&& f) {
                      std::to_string(size));
         f(random_recipe(kind, seed, size));
       }
-}
-
-std::vector<Quad> values(const Model& model, Formula formula, Quad t, const std::vector<Quad>& z) {
-  Replay<Quad> replay(model.tape(formula));
-  std::vector<Quad> out(replay.tape().outputs.size());
-  replay(t, z.data(), out.data());
-  return out;
 }
 
 std::vector<Quad> initial(const Model& model) {

@@ -20,7 +20,7 @@ std::shared_ptr<const Model> read_back(const std::string& text) {
   return TextSystem::read(file.string())->make({});
 }
 
-std::vector<Quad> values(const Model& model, Formula formula) {
+std::vector<Quad> values_at_a_point(const Model& model, Formula formula) {
   Replay<Quad> replay(model.tape(formula));
   std::vector<Quad> in(static_cast<std::size_t>(replay.tape().inputs)), out(replay.tape().outputs.size());
   for (std::size_t k = 0; k < in.size(); ++k) in[k] = Quad(0.3) + Quad(static_cast<double>(k)) / Quad(7);
@@ -29,8 +29,8 @@ std::vector<Quad> values(const Model& model, Formula formula) {
 }
 
 // The largest difference between a formula of two models, in units of the largest value.
-double difference(const Model& a, const Model& b, Formula formula) {
-  const auto x = values(a, formula), y = values(b, formula);
+double formula_difference(const Model& a, const Model& b, Formula formula) {
+  const auto x = values_at_a_point(a, formula), y = values_at_a_point(b, formula);
   if (x.size() != y.size()) return 1;
   Quad largest(1), apart(0);
   for (std::size_t k = 0; k < x.size(); ++k) {
@@ -40,7 +40,7 @@ double difference(const Model& a, const Model& b, Formula formula) {
   return static_cast<double>(apart / largest);
 }
 
-PolynomialSystem named(PolynomialSystem system) {
+PolynomialSystem with_name(PolynomialSystem system) {
   system.name = "found";
   system.title = "a random system";
   return system;
@@ -54,7 +54,7 @@ TEST(RandomTexts, AreTheSystemsThatTheyWrite) {
   for (const SystemKind kind : system_kinds)
     for (std::uint64_t seed = 1; seed <= 3; ++seed)
       for (int size = 0; size < 3; ++size) {
-        const PolynomialSystem system = named(system_of(random_recipe(kind, seed, size)));
+        const PolynomialSystem system = with_name(system_of(random_recipe(kind, seed, size)));
         const std::string text = text_model(system, {"A comment.", "", "  and a command"});
         SCOPED_TRACE(text);
         const auto written = model_of(system), read = read_back(text);
@@ -71,7 +71,7 @@ TEST(RandomTexts, AreTheSystemsThatTheyWrite) {
           EXPECT_EQ(read->damping().quad(), written->damping().quad());
         }
         for (const auto& [formula, results] : system.formulas) {
-          EXPECT_LE(difference(*read, *written, formula), rounding) << to_string(formula);
+          EXPECT_LE(formula_difference(*read, *written, formula), rounding) << to_string(formula);
           ++formulas;
         }
       }
@@ -80,19 +80,19 @@ TEST(RandomTexts, AreTheSystemsThatTheyWrite) {
 
 // The control: a term that is missing in the text is seen in the formula.
 TEST(RandomTexts, ATermThatIsMissingShows) {
-  PolynomialSystem system = named(system_of(random_recipe(SystemKind::nonseparable, 1, 2)));
+  PolynomialSystem system = with_name(system_of(random_recipe(SystemKind::nonseparable, 1, 2)));
   const auto whole = model_of(system);
   SparsePolynomial& energy = system.formulas.at(Formula::hamiltonian).front();
   const auto [powers, coefficient] = *energy.terms().begin();
   energy.add(powers, -coefficient);
-  EXPECT_GT(difference(*read_back(text_model(system, {})), *whole, Formula::hamiltonian), 1e-6);
+  EXPECT_GT(formula_difference(*read_back(text_model(system, {})), *whole, Formula::hamiltonian), 1e-6);
 }
 
 TEST(RandomTexts, LongExpressionsAreBrokenAtSpaces) {
   std::size_t broken = 0;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const std::string text =
-        text_model(named(system_of(random_recipe(SystemKind::sheared_form, seed, 2))), {});
+        text_model(with_name(system_of(random_recipe(SystemKind::sheared_form, seed, 2))), {});
     for (std::size_t begin = 0; begin < text.size(); begin = text.find('\n', begin) + 1)
       EXPECT_LE(text.find('\n', begin) - begin, 120U) << text.substr(begin, 130);
     broken += text.find("\"\"\"\n") != std::string::npos ? 1 : 0;

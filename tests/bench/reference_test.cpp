@@ -9,20 +9,20 @@
 #include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/core/system.hpp>
 
+#include "../formula_values.hpp"
+
 namespace {
 
 using namespace pfaff;
+using pfaff::testing::model_named;
 
-std::shared_ptr<const Model> model_of(const std::string& name, const Assignments& set = {}) {
-  return systems().get(name, "system").make(set);
-}
 std::vector<Quad> start_of(const Model& model) {
   std::vector<Quad> z;
   for (const Real& x : model.initial()) z.push_back(x.quad());
   return z;
 }
 // |a - b| <= epsilon max(1, |b|) componentwise, as a distance.
-double distance(const std::vector<Quad>& a, const std::vector<Quad>& b) {
+double componentwise_distance(const std::vector<Quad>& a, const std::vector<Quad>& b) {
   Quad worst(0);
   for (std::size_t k = 0; k < a.size(); ++k) {
     const Quad d = abs(a[k] - b[k]) / std::max(Quad(1), abs(b[k]));
@@ -44,7 +44,7 @@ TEST(Reference, TaylorFlowAgreesWithEveryExactSolution) {
       const Problem<Quad> problem(model);
       problem.exact_solution(s, arguments, exact);
       taylor_flow(*model, t0, s, z);
-      EXPECT_LE(distance(z, exact), 1e-30) << plugin->name();
+      EXPECT_LE(componentwise_distance(z, exact), 1e-30) << plugin->name();
     }
   }
   EXPECT_GE(systems_seen, 3);
@@ -57,49 +57,49 @@ TEST(Reference, TaylorFlowAgreesWithTheGoldenFlow) {
   const auto number = [](const nlohmann::json& x) { return Real::parse(x.get<std::string>())->quad(); };
   for (const auto& g : golden) {
     SCOPED_TRACE(g.dump().substr(0, 200));
-    const auto model = model_of("damped-pendulum", {{"nu", g["nu"]}});
+    const auto model = model_named("damped-pendulum", {{"nu", g["nu"]}});
     std::vector<Quad> z{number(g["r0"]), number(g["p0"])};
     taylor_flow(*model, Quad(0), number(g["t"]), z);  // autonomous in r and p
-    EXPECT_LE(distance(z, {number(g["r"]), number(g["p"])}), 1e-30);
+    EXPECT_LE(componentwise_distance(z, {number(g["r"]), number(g["p"])}), 1e-30);
   }
 }
 
 TEST(Reference, ThereAndBack) {
   for (const char* name : {"damped-pendulum", "henon-heiles", "kepler"}) {
-    const auto model = model_of(name);
+    const auto model = model_named(name);
     std::vector<Quad> z = start_of(*model);
     taylor_flow(*model, Quad(0), Quad(5), z);
-    EXPECT_GT(distance(z, start_of(*model)), 1e-3) << name;
+    EXPECT_GT(componentwise_distance(z, start_of(*model)), 1e-3) << name;
     taylor_flow(*model, Quad(5), Quad(-5), z);
-    EXPECT_LE(distance(z, start_of(*model)), 1e-29) << name;
+    EXPECT_LE(componentwise_distance(z, start_of(*model)), 1e-29) << name;
   }
 }
 
 TEST(Reference, SolutionIsExactWhereThereIsAClosedForm) {
-  const auto model = model_of("damped-oscillator", {{"nu", "0"}});
+  const auto model = model_named("damped-oscillator", {{"nu", "0"}});
   const ReferenceSolution solution(model, Quad(0), {Quad(1), Quad(0)}, Quad(100));
   EXPECT_EQ(solution.kind(), "exact");
   for (const double t : {0.0, 1.0, 57.25, 100.0})
-    EXPECT_LE(distance(solution.at(Quad(t)), {cos(Quad(t)), -sin(Quad(t))}), 1e-30) << t;
+    EXPECT_LE(componentwise_distance(solution.at(Quad(t)), {cos(Quad(t)), -sin(Quad(t))}), 1e-30) << t;
 }
 
 TEST(Reference, SolutionByTaylorSeriesIsTheFlowAtEveryTime) {
-  const auto model = model_of("damped-pendulum");
+  const auto model = model_named("damped-pendulum");
   const Quad t0 = Quad(1) / Quad(3);
   const std::vector<Quad> start{Quad(2), Quad(0)};
   const ReferenceSolution solution(model, t0, start, Quad(20));
   EXPECT_EQ(solution.kind(), "30-digit");
-  EXPECT_EQ(distance(solution.at(t0), start), 0);
+  EXPECT_EQ(componentwise_distance(solution.at(t0), start), 0);
   for (int k = 1; k <= 40; ++k) {
     const Quad elapsed = Quad(k) / Quad(2);
     std::vector<Quad> z = start;
     taylor_flow(*model, t0, elapsed, z);
-    EXPECT_LE(distance(solution.at(t0 + elapsed), z), 1e-30) << k;
+    EXPECT_LE(componentwise_distance(solution.at(t0 + elapsed), z), 1e-30) << k;
   }
 }
 
 TEST(Reference, CoefficientsAreDerivativesOverFactorials) {
-  const auto model = model_of("harmonic-oscillator");  // q' = p, p' = -q
+  const auto model = model_named("harmonic-oscillator");  // q' = p, p' = -q
   ReferenceExpansion expansion(*model);
   const std::vector<Quad> z{Quad(3), Quad(5)};
   expansion.expand(Quad(0), z.data());

@@ -57,9 +57,9 @@ struct KickedRotation {
   }
 };
 
-class Plugin final : public MethodPlugin {
+class NoisyPlugin final : public MethodPlugin {
  public:
-  Plugin()
+  NoisyPlugin()
       : MethodPlugin({.name = "kicked-rotation", .title = "", .reference = "", .order = 1}, {},
                      typeid(KickedRotation), std::source_location::current()) {}
   [[nodiscard]] std::unique_ptr<MethodInstance> make(const Assignments& /*none*/ = {}) const override {
@@ -70,7 +70,7 @@ class Plugin final : public MethodPlugin {
 
 RoundOffGrowth growth_with(const Kicks& made) {
   kicks = made;
-  const Plugin plugin;
+  const NoisyPlugin plugin;
   const auto method = plugin.make();
   const auto model = systems().get("harmonic-oscillator", "system").make({});
   const std::vector<Real> centre{1, Real::fraction(1, 2)};

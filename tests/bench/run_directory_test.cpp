@@ -16,7 +16,7 @@ namespace {
 
 using testing::TemporaryDirectory;
 
-ResolvedRun pendulum(const std::string& time) {
+ResolvedRun resolved_pendulum(const std::string& time) {
   RunSettings s;
   s.system = "damped-pendulum";
   s.integrator = "rk4";
@@ -37,7 +37,7 @@ TEST(Checksum, IsSha1) {  // FIPS 180-2, appendix A
 
 TEST(RunDirectory, AnyDamagedByteIsNoticed) {
   const TemporaryDirectory files;
-  const ResolvedRun run = pendulum("2");
+  const ResolvedRun run = resolved_pendulum("2");
   (void)write_run(files.path(), run, execute(run, nullptr));
   ASSERT_TRUE(kept_run(files.path(), run).current());
   for (const std::string& name : run_file_names()) {
@@ -70,10 +70,10 @@ TEST(RunDirectory, AnyDamagedByteIsNoticed) {
 
 TEST(RunDirectory, IsThatOfOneRun) {
   const TemporaryDirectory files;
-  const ResolvedRun run = pendulum("2");
+  const ResolvedRun run = resolved_pendulum("2");
   (void)write_run(files.path(), run, execute(run, nullptr));
-  EXPECT_TRUE(kept_run(files.path(), pendulum("2")).current());
-  const KeptRun of_another = kept_run(files.path(), pendulum("3"));
+  EXPECT_TRUE(kept_run(files.path(), resolved_pendulum("2")).current());
+  const KeptRun of_another = kept_run(files.path(), resolved_pendulum("3"));
   EXPECT_TRUE(of_another.whole);
   EXPECT_TRUE(of_another.other);
   EXPECT_FALSE(of_another.current());
@@ -93,7 +93,7 @@ TEST(RunDirectory, IsThatOfOneRun) {
 
 TEST(RunDirectory, OriginsThatChangeMakeItOutdated) {
   const TemporaryDirectory files;
-  ResolvedRun run = pendulum("1");
+  ResolvedRun run = resolved_pendulum("1");
   EXPECT_GE(run.origins.libraries.size(), 2U);
   run.origins.files = {{"/models/a.toml", "1"}};
   run.origins.plugins = {{"/plugins/b.so", "2"}};

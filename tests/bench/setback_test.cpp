@@ -6,9 +6,12 @@
 #include <pfaff/bench/experiment/experiment_findings.hpp>
 #include <pfaff/bench/measure/setback.hpp>
 
+#include "run_settings.hpp"
+
 namespace {
 
 using namespace pfaff;
+using pfaff::testing::settings_of;
 
 TEST(Setback, IsTheLargestMoveAgainstTheExpectedDirection) {
   const std::vector<double> values{5, 3, 4, 1, 1.5, std::nan("")};
@@ -24,7 +27,7 @@ TEST(Setback, IsTheLargestMoveAgainstTheExpectedDirection) {
 }
 
 // q = cos t from 1 on: its position falls and never rises until t = pi, whatever it is declared to do.
-struct Oscillator {
+struct FallingOscillator {
   static constexpr int dimension = 2;
   template <class T>
   T kinetic(const T& /*t*/, In<T> p) const {
@@ -40,17 +43,8 @@ struct Oscillator {
   }
 };
 
-RunSettings settings_of(const char* system) {
-  RunSettings settings;
-  settings.system = system;
-  settings.integrator = "rk4";
-  settings.step = "0.01";
-  settings.time = "3";
-  return settings;
-}
-
 TEST(Setback, RunsMeasureBothDirections) {
-  ResolvedRun run = resolve(settings_of("harmonic-oscillator"));
+  ResolvedRun run = resolve(settings_of("harmonic-oscillator", "0.01", "3"));
   run.model = make_model(SystemDescriptor{.name = "oscillator",
                                           .title = "",
                                           .reference = "",
@@ -58,7 +52,7 @@ TEST(Setback, RunsMeasureBothDirections) {
                                           .initial = {1, 0},
                                           .invariants = {{"falling", "m", Behaviour::decreasing},
                                                          {"rising", "m", Behaviour::increasing}}},
-                         Oscillator{});
+                         FallingOscillator{});
   run.initial = {1, 0};
   const nlohmann::json j = summary(run, execute(run, nullptr));
   EXPECT_EQ(j["invariants"][0]["largest_rise"], 0.0);
@@ -75,7 +69,7 @@ TEST(Setback, RunsMeasureBothDirections) {
 }
 
 TEST(Setback, EntropyOfARelaxingBodyNeverFalls) {
-  const ResolvedRun run = resolve(settings_of("relaxing-rigid-body"));
+  const ResolvedRun run = resolve(settings_of("relaxing-rigid-body", "0.01", "3"));
   const RunRecord record = execute(run, nullptr);
   ASSERT_EQ(run.model->invariants()[1].behaviour, Behaviour::increasing);
   EXPECT_EQ(record.setback[1], 0);

@@ -9,25 +9,20 @@
 
 #include <pfaff/bench/runner/config_file.hpp>
 
+#include "run_settings.hpp"
+
 namespace {
 
 using namespace pfaff;
+using pfaff::testing::complaint;
 
-RunSettings pendulum(const std::string& step, const std::string& time) {
+RunSettings pendulum_settings(const std::string& step, const std::string& time) {
   RunSettings s;
   s.system = "damped-pendulum";
   s.integrator = "generating-function";
   s.step = step;
   s.time = time;
   return s;
-}
-std::string complaint(const RunSettings& settings) {
-  try {
-    (void)resolve(settings);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return {};
 }
 
 TEST(Settings, AreSplitByWhoKnowsThem) {
@@ -66,7 +61,7 @@ TEST(Settings, ABareKeyOfBothSidesIsAmbiguous) {
                                           .reference = "su-qin",
                                           .coordinates = {{"q", "m"}, {"p", "m/s"}},
                                           .initial = {1, 0}}};
-  RunSettings settings = pendulum("0.1", "1");
+  RunSettings settings = pendulum_settings("0.1", "1");
   settings.system = "spring-with-order";
   settings.set = {{"order", "4"}};
   const std::string said = complaint(settings);
@@ -85,7 +80,7 @@ TEST(Settings, ASystemThatDescribesTooLittleIsRefused) {
                                          .coordinates = {{"q", "m"}, {"p", "m/s"}}}};
   static const System<Spring> nameless{
       {.name = "spring-without-names", .title = "a test", .reference = "su-qin", .initial = {1, 0}}};
-  RunSettings settings = pendulum("0.1", "1");
+  RunSettings settings = pendulum_settings("0.1", "1");
   settings.system = "spring-without-names";
   EXPECT_NE(complaint(settings).find("names 0 coordinates; expected 2"), std::string::npos)
       << complaint(settings);
@@ -97,7 +92,7 @@ TEST(Settings, ASystemThatDescribesTooLittleIsRefused) {
 
 TEST(Settings, Steps) {
   const auto steps = [](const std::string& step, const std::string& time) {
-    return resolve(pendulum(step, time)).steps;
+    return resolve(pendulum_settings(step, time)).steps;
   };
   EXPECT_EQ(steps("0.1", "1"), 10);  // 1/0.1 in binary is not 10
   EXPECT_EQ(steps("0.1", "0.3"), 3);
@@ -114,7 +109,7 @@ TEST(Settings, Steps) {
 }
 
 TEST(Settings, NumbersAreExact) {
-  RunSettings settings = pendulum("0.1", "2");
+  RunSettings settings = pendulum_settings("0.1", "2");
   settings.initial = {"1/3", "0.1"};
   settings.precision = Precision::quad;
   const ResolvedRun run = resolve(settings);
@@ -124,11 +119,11 @@ TEST(Settings, NumbersAreExact) {
 }
 
 TEST(Settings, SamplesAreAboutAThousandUnlessAskedFor) {
-  EXPECT_EQ(resolve(pendulum("0.1", "10")).every, 1);
-  EXPECT_EQ(resolve(pendulum("0.1", "100")).every, 1);
-  EXPECT_EQ(resolve(pendulum("0.1", "200")).every, 2);
-  EXPECT_EQ(resolve(pendulum("0.01", "10000")).every, 1000);
-  RunSettings settings = pendulum("0.1", "200");
+  EXPECT_EQ(resolve(pendulum_settings("0.1", "10")).every, 1);
+  EXPECT_EQ(resolve(pendulum_settings("0.1", "100")).every, 1);
+  EXPECT_EQ(resolve(pendulum_settings("0.1", "200")).every, 2);
+  EXPECT_EQ(resolve(pendulum_settings("0.01", "10000")).every, 1000);
+  RunSettings settings = pendulum_settings("0.1", "200");
   settings.every = 7;
   EXPECT_EQ(resolve(settings).every, 7);
   EXPECT_EQ(parse_every("12", "here"), 12);
@@ -137,7 +132,7 @@ TEST(Settings, SamplesAreAboutAThousandUnlessAskedFor) {
 }
 
 TEST(Settings, ConfigIsReadBackAsItWas) {
-  RunSettings settings = pendulum("1/7", "3.5");
+  RunSettings settings = pendulum_settings("1/7", "3.5");
   settings.initial = {"1/3", "-2e-5"};
   settings.t0 = "0.7";
   settings.every = 3;
@@ -158,11 +153,11 @@ TEST(Settings, ConfigIsReadBackAsItWas) {
 }
 
 TEST(Settings, WhatDoesNotFitIsRefused) {
-  RunSettings settings = pendulum("0.1", "1");
+  RunSettings settings = pendulum_settings("0.1", "1");
   EXPECT_EQ(complaint(settings), "");
   settings.integrator = "verlet";
   EXPECT_NE(complaint(settings).find("verlet needs separable"), std::string::npos);
-  settings = pendulum("0.1", "1");
+  settings = pendulum_settings("0.1", "1");
   settings.tolerance = "1e-6";
   EXPECT_NE(complaint(settings).find("exclude each other"), std::string::npos);
   settings.step.clear();

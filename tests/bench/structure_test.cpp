@@ -11,13 +11,13 @@
 #include <pfaff/bench/verification/method_on_model.hpp>
 #include <pfaff/core/integrator.hpp>
 
+#include "../formula_values.hpp"
+
 namespace {
 
 using namespace pfaff;
+using pfaff::testing::model_named;
 
-std::shared_ptr<const Model> model_of(const std::string& name, const Assignments& set = {}) {
-  return systems().get(name, "system").make(set);
-}
 std::unique_ptr<MethodInstance> method_of(const std::string& name, const Assignments& set = {}) {
   return integrators().get(name, "integrator").make(set);
 }
@@ -32,8 +32,8 @@ double residual(const MethodInstance& method, const std::shared_ptr<const Model>
 TEST(Structure, RungeKuttaDoesNotKeepIt) {
   const auto rk4 = method_of("rk4");
   for (const char* name : {"pendulum", "damped-pendulum", "henon-heiles", "kepler"}) {
-    EXPECT_GT(residual<double>(*rk4, model_of(name)), 1e-9) << name;
-    EXPECT_NEAR(residual<Quad>(*rk4, model_of(name)) / residual<double>(*rk4, model_of(name)), 1, 1e-3)
+    EXPECT_GT(residual<double>(*rk4, model_named(name)), 1e-9) << name;
+    EXPECT_NEAR(residual<Quad>(*rk4, model_named(name)) / residual<double>(*rk4, model_named(name)), 1, 1e-3)
         << name;
   }
 }
@@ -42,8 +42,8 @@ TEST(Structure, GeneratingFunctionsKeepItToRoundOffInBothPrecisions) {
   for (const char* order : {"1", "2", "3", "6"})
     for (const char* name : {"damped-pendulum", "damped-oscillator", "pendulum", "kepler"}) {
       const auto method = method_of("generating-function", {{"order", order}, {"variant", "P"}});
-      EXPECT_LE(residual<double>(*method, model_of(name)), 1e-14) << name << ' ' << order;
-      EXPECT_LE(residual<Quad>(*method, model_of(name)), 1e-31) << name << ' ' << order;
+      EXPECT_LE(residual<double>(*method, model_named(name)), 1e-14) << name << ' ' << order;
+      EXPECT_LE(residual<Quad>(*method, model_named(name)), 1e-31) << name << ' ' << order;
     }
 }
 
@@ -51,31 +51,33 @@ TEST(Structure, GeneratingFunctionsKeepItToRoundOffInBothPrecisions) {
 // given.
 TEST(Structure, TheMidpointRuleKeepsConstantStructureOnly) {
   const auto midpoint = method_of("implicit-midpoint");
-  EXPECT_LE(residual<Quad>(*midpoint, model_of("pendulum")), 1e-31);
-  EXPECT_GT(residual<Quad>(*midpoint, model_of("damped-pendulum")), 1e-6);
-  EXPECT_LE(residual<Quad>(*midpoint, model_of("damped-pendulum", {{"nu", "0"}})), 1e-31);
+  EXPECT_LE(residual<Quad>(*midpoint, model_named("pendulum")), 1e-31);
+  EXPECT_GT(residual<Quad>(*midpoint, model_named("damped-pendulum")), 1e-6);
+  EXPECT_LE(residual<Quad>(*midpoint, model_named("damped-pendulum", {{"nu", "0"}})), 1e-31);
 }
 
-TEST(Structure, VerletInQuad) { EXPECT_LE(residual<Quad>(*method_of("verlet"), model_of("kepler")), 1e-31); }
+TEST(Structure, VerletInQuad) {
+  EXPECT_LE(residual<Quad>(*method_of("verlet"), model_named("kepler")), 1e-31);
+}
 
 TEST(Structure, AppliesWhereThereIsOne) {
-  EXPECT_TRUE(StructureResidual<double>::applies(*model_of("damped-pendulum")));
-  EXPECT_TRUE(StructureResidual<double>::applies(*model_of("kepler")));
-  EXPECT_FALSE(StructureResidual<double>::applies(*model_of("relaxing-rigid-body")));
+  EXPECT_TRUE(StructureResidual<double>::applies(*model_named("damped-pendulum")));
+  EXPECT_TRUE(StructureResidual<double>::applies(*model_named("kepler")));
+  EXPECT_FALSE(StructureResidual<double>::applies(*model_named("relaxing-rigid-body")));
 }
 
 TEST(Structure, IsNamedAsItIsMeasured) {
-  const auto pendulum = model_of("spherical-pendulum");
+  const auto pendulum = model_named("spherical-pendulum");
   EXPECT_EQ(structure_name(*pendulum), "constrained-symplectic");
   EXPECT_EQ(structure_name(*motion_of(pendulum)), "constrained-symplectic");
-  EXPECT_EQ(structure_name(*model_of("damped-pendulum")), "K-symplectic");
-  EXPECT_EQ(structure_name(*model_of("pendulum")), "symplectic");
-  EXPECT_EQ(structure_name(*model_of("free-rigid-body")), "poisson");
-  EXPECT_EQ(structure_name(*model_of("relaxing-rigid-body")), "");  // dissipates: nothing is kept
+  EXPECT_EQ(structure_name(*model_named("damped-pendulum")), "K-symplectic");
+  EXPECT_EQ(structure_name(*model_named("pendulum")), "symplectic");
+  EXPECT_EQ(structure_name(*model_named("free-rigid-body")), "poisson");
+  EXPECT_EQ(structure_name(*model_named("relaxing-rigid-body")), "");  // dissipates: nothing is kept
 }
 
 TEST(Structure, JacobianOfAStepOfRK4IsItsStabilityPolynomial) {
-  const auto model = model_of("harmonic-oscillator");
+  const auto model = model_named("harmonic-oscillator");
   const Quad h(0.5);
   const auto step = StepDifferentiator<Quad>(*method_of("rk4"), model)(Quad(0), h, {Quad(0.3), Quad(-0.2)});
   // R(A h) with A = [[0, 1], [-1, 0]]: 1 - h^2/2 + h^4/24 on the diagonal, h - h^3/6 off it.
@@ -134,7 +136,7 @@ TEST(Structure, JacobiansAreThoseOfTheStep) {
   const auto of_wrong = jacobian(check_method(wrong, {}, systems().get("pendulum", "system")));
   EXPECT_EQ(of_wrong.result, CheckResult::fail);
   EXPECT_NEAR(of_wrong.measured, 1e-20, 1e-22);
-  const auto chain = model_of("skate-chain");
+  const auto chain = model_named("skate-chain");
   for (const char* name : {"dla", "nonholonomic-discrete-gradient"}) {
     const auto method = method_of(name);
     MethodOnModel on(*method, {}, "skate-chain", chain);

@@ -11,19 +11,13 @@
 #include <pfaff/bench/verification/skated_models.hpp>
 #include <pfaff/core/system.hpp>
 
+#include "../formula_values.hpp"
+#include "worst_residual.hpp"
+
 namespace {
 using namespace pfaff;
-
-std::vector<Quad> initial_state(const Model& model) {
-  std::vector<Quad> z;
-  for (const Real& x : model.initial()) z.push_back(x.quad());
-  return z;
-}
-Quad worst_residual(const Model& model, const Quad& t, const std::vector<Quad>& z) {
-  std::vector<Quad> residuals;
-  ConstraintResiduals<Quad>{model}(t, z, residuals);
-  return *std::max_element(residuals.begin(), residuals.end());
-}
+using pfaff::testing::initial_state;
+using pfaff::testing::worst_residual;
 
 TEST(VelocityConstraints, MoveInTheNonholonomicFormulationByDefault) {
   for (const auto& model : skated_models()) {

@@ -2,8 +2,6 @@
 // rationals, and the identities of pitanga-rodrigues section 2.
 #include <gtest/gtest.h>
 
-#include <fstream>
-
 #include <pfaff/bench/runner/json.hpp>
 #include <pfaff/brackets/almost_product/lie_bracket.hpp>
 #include <pfaff/brackets/almost_product/tensor_split.hpp>
@@ -14,23 +12,19 @@
 namespace {
 using namespace pfaff;
 using namespace pfaff::testing;
-using Exact = Matrix<Rational>;
 using nlohmann::json;
+using pfaff::testing::zero;  // beside that of linear maps
 
-const json& golden() {
-  static const json file = [] {
-    std::ifstream stream(PFAFF_GOLDEN "/projectors.json");
-    return json::parse(stream);
-  }();
+const json& golden_projectors() {
+  static const json file = golden("projectors");
   return file;
 }
-Exact golden_entries(const char* key) { return golden_matrix(golden().at(key)); }
+Exact golden_entries(const char* key) { return golden_matrix(golden_projectors().at(key)); }
 std::vector<Rational> golden_list(const char* key) {
   std::vector<Rational> list;
-  for (const auto& x : golden().at(key)) list.push_back(fraction(x.get<std::string>()));
+  for (const auto& x : golden_projectors().at(key)) list.push_back(fraction(x.get<std::string>()));
   return list;
 }
-bool zero(const Exact& m) { return largest(m) == Rational(0); }
 template <class From, class To>
 bool zero(const LinearMap<Rational, From, To>& m) {
   return zero(m.matrix());

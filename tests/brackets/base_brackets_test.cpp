@@ -16,7 +16,7 @@ namespace {
 using namespace pfaff;
 using ::testing::Not;
 
-BracketSamples samples(std::size_t n) {
+BracketSamples samples_in(std::size_t n) {
   BracketSamples s;
   for (std::size_t k = 0; k < n; ++k) s.centre.emplace_back(static_cast<double>(k + 1) / 3);
   return s;
@@ -36,18 +36,18 @@ TEST(LiePoisson, AlgebrasAndTheirCasimirs) {
   EXPECT_EQ(LiePoissonBracket::so3().algebra_residual(3), 0);
   EXPECT_EQ(LiePoissonBracket::se3().algebra_residual(6), 0);
   EXPECT_EQ(LiePoissonBracket::sl2().algebra_residual(3), 0);
-  EXPECT_THAT(LiePoissonBracket::so3(), ObeysJacobi(samples(3)));
-  EXPECT_THAT(LiePoissonBracket::se3(-1), ObeysJacobi(samples(6)));
-  EXPECT_THAT(LiePoissonBracket::sl2(), ObeysJacobi(samples(3)));
-  EXPECT_THAT(LiePoissonBracket::so3(), HasCasimir(samples(3), &square_of_first_three));
-  EXPECT_THAT(LiePoissonBracket::sl2(), HasCasimir(samples(3), &killing_form));
-  EXPECT_THAT(LiePoissonBracket::sl2(), Not(HasCasimir(samples(3), &square_of_first_three)));
+  EXPECT_THAT(LiePoissonBracket::so3(), ObeysJacobi(samples_in(3)));
+  EXPECT_THAT(LiePoissonBracket::se3(-1), ObeysJacobi(samples_in(6)));
+  EXPECT_THAT(LiePoissonBracket::sl2(), ObeysJacobi(samples_in(3)));
+  EXPECT_THAT(LiePoissonBracket::so3(), HasCasimir(samples_in(3), &square_of_first_three));
+  EXPECT_THAT(LiePoissonBracket::sl2(), HasCasimir(samples_in(3), &killing_form));
+  EXPECT_THAT(LiePoissonBracket::sl2(), Not(HasCasimir(samples_in(3), &square_of_first_three)));
 }
 TEST(LiePoisson, OtherConstantsAreNoAlgebra) {
   const LiePoissonBracket wrong{{{0, 1, 2, 1}, {1, 2, 0, 1}, {2, 0, 0, 1}}, 1};
   EXPECT_GT(wrong.algebra_residual(3), 0.5);
-  EXPECT_THAT(wrong, IsSkew(samples(3)));
-  EXPECT_THAT(wrong, Not(ObeysJacobi(samples(3))));
+  EXPECT_THAT(wrong, IsSkew(samples_in(3)));
+  EXPECT_THAT(wrong, Not(ObeysJacobi(samples_in(3))));
 }
 
 TEST(Combinations, AddSharpMaps) {
@@ -56,16 +56,16 @@ TEST(Combinations, AddSharpMaps) {
     entries[3 * 4 + 2] = -(z[0] * z[1]);
   });
   // Canonical plus magnetic is Poisson in the plane; twice it too; and skew minus symmetric is neither.
-  EXPECT_THAT(sum(CanonicalBracket{}, magnetic), ObeysJacobi(samples(4)));
-  EXPECT_THAT(scaled(2, sum(CanonicalBracket{}, magnetic)), ObeysJacobi(samples(4)));
+  EXPECT_THAT(sum(CanonicalBracket{}, magnetic), ObeysJacobi(samples_in(4)));
+  EXPECT_THAT(scaled(2, sum(CanonicalBracket{}, magnetic)), ObeysJacobi(samples_in(4)));
   const auto friction = friction_bracket([](const auto&, auto z, auto lambda) {
     for (std::size_t k = 0; k < lambda.size(); ++k) lambda[k] = z[k] * z[k];
   });
-  EXPECT_THAT(friction, IsSymmetric(samples(4)));
-  EXPECT_THAT(friction, IsNonNegative(samples(4)));
-  EXPECT_THAT(difference(CanonicalBracket{}, friction), Not(IsSkew(samples(4))));
-  EXPECT_THAT(difference(CanonicalBracket{}, friction), Not(IsSymmetric(samples(4))));
-  EXPECT_THAT(difference(CanonicalBracket{}, friction), ObeysLeibniz(samples(4)));
+  EXPECT_THAT(friction, IsSymmetric(samples_in(4)));
+  EXPECT_THAT(friction, IsNonNegative(samples_in(4)));
+  EXPECT_THAT(difference(CanonicalBracket{}, friction), Not(IsSkew(samples_in(4))));
+  EXPECT_THAT(difference(CanonicalBracket{}, friction), Not(IsSymmetric(samples_in(4))));
+  EXPECT_THAT(difference(CanonicalBracket{}, friction), ObeysLeibniz(samples_in(4)));
 }
 // Each obeys Jacobi, their sum does not: a.curl a = -2 for a = (y, -x, 1).
 TEST(Combinations, SumsOfPoissonBracketsNeedNotBePoisson) {
@@ -76,9 +76,9 @@ TEST(Combinations, SumsOfPoissonBracketsNeedNotBePoisson) {
     entries[2] = z[0];
   });
   const ConstantBracket upright{3, {0, 1, 0, -1, 0, 0, 0, 0, 0}};
-  EXPECT_THAT(turning, ObeysJacobi(samples(3)));
-  EXPECT_THAT(upright, ObeysJacobi(samples(3)));
-  EXPECT_THAT(sum(turning, upright), Not(ObeysJacobi(samples(3))));
+  EXPECT_THAT(turning, ObeysJacobi(samples_in(3)));
+  EXPECT_THAT(upright, ObeysJacobi(samples_in(3)));
+  EXPECT_THAT(sum(turning, upright), Not(ObeysJacobi(samples_in(3))));
 }
 
 TEST(Symmetric, SquaresAreSemimetricAndOtherSignaturesAreNot) {
@@ -88,11 +88,11 @@ TEST(Symmetric, SquaresAreSemimetricAndOtherSignaturesAreNot) {
     c[2] = z[2];
     c[5] = z[0];
   });
-  EXPECT_THAT(square, IsSymmetric(samples(3)));
-  EXPECT_THAT(square, IsNonNegative(samples(3)));
+  EXPECT_THAT(square, IsSymmetric(samples_in(3)));
+  EXPECT_THAT(square, IsNonNegative(samples_in(3)));
   const ConstantBracket lorentz{3, {1, 0, 0, 0, 1, 0, 0, 0, -1}};
-  EXPECT_THAT(lorentz, IsSymmetric(samples(3)));
-  EXPECT_THAT(lorentz, Not(IsNonNegative(samples(3))));
+  EXPECT_THAT(lorentz, IsSymmetric(samples_in(3)));
+  EXPECT_THAT(lorentz, Not(IsNonNegative(samples_in(3))));
 }
 
 // The relaxing rigid body: energy conserved, entropy |z|^2/2 rising; with another entropy the pair is not

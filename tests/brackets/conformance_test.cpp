@@ -28,7 +28,7 @@ struct Spoilt {
   }
 };
 const auto squared_radius = [](In<Quad> z, Out<Quad> slope) { std::copy(z.begin(), z.end(), slope.begin()); };
-const auto first = [](In<Quad>, Out<Quad> slope) { slope[0] = Quad(1); };
+const auto first_coordinate = [](In<Quad>, Out<Quad> slope) { slope[0] = Quad(1); };
 
 TEST(Matchers, PoissonBracketsPass) {
   const auto rigid = LiePoissonBracket::rigid_body();
@@ -63,8 +63,8 @@ TEST(Matchers, JacobiFailsForSkewBracketsThatAreNotPoisson) {
   EXPECT_THAT(no_algebra, Not(ObeysJacobi(in_three)));
 }
 TEST(Matchers, CasimirsFailForOtherFunctions) {
-  EXPECT_THAT(LiePoissonBracket::rigid_body(), Not(HasCasimir(in_three, first)));
-  EXPECT_THAT(CanonicalBracket{}, Not(HasCasimir(in_four, first)));
+  EXPECT_THAT(LiePoissonBracket::rigid_body(), Not(HasCasimir(in_three, first_coordinate)));
+  EXPECT_THAT(CanonicalBracket{}, Not(HasCasimir(in_four, first_coordinate)));
 }
 TEST(Matchers, SymmetricAndNonNegative) {
   std::mt19937 random(3);

@@ -31,7 +31,7 @@ std::vector<int> generations(const ConstraintAlgorithm<Quad>& result) {
   for (const FoundConstraint& c : result.constraints) all.push_back(c.generation);
   return all;
 }
-Numbers values(const ConstraintAlgorithm<Quad>& result, const Numbers& z, Quad t = 0) {
+Numbers results_of(const ConstraintAlgorithm<Quad>& result, const Numbers& z, Quad t = 0) {
   Numbers out(result.constraints.size());
   Replay<Quad> replay(result.values);
   replay(t, z.data(), out.data());
@@ -60,9 +60,9 @@ TEST(DiracBergmann, SphericalPendulumClosesWithItsHiddenConstraint) {
   EXPECT_EQ(generations(result), (std::vector<int>{1, 2}));
   EXPECT_EQ(result.constraints[1].name, "length'");
   EXPECT_TRUE(result.classes.regular());
-  EXPECT_LE(largest(values(result, result.point)), bound);
+  EXPECT_LE(largest(results_of(result, result.point)), bound);
   // The second constraint is q.p wherever it is asked for, on the surface or off it.
-  EXPECT_LE(abs(values(result, pendulum_point)[1] -
+  EXPECT_LE(abs(results_of(result, pendulum_point)[1] -
                 (pendulum_point[0] * pendulum_point[3] + pendulum_point[1] * pendulum_point[4] +
                  pendulum_point[2] * pendulum_point[5])),
             bound);
@@ -149,7 +149,7 @@ TEST(DiracBergmann, AChainOfThreeGenerations) {
   ASSERT_EQ(result.closure, ConstraintClosure::closed);
   EXPECT_EQ(generations(result), (std::vector<int>{1, 2, 3}));
   EXPECT_EQ(result.constraints[2].name, "p1''");
-  EXPECT_EQ(values(result, {Quad(1), Quad(2), Quad(3), Quad(5), Quad(7), Quad(11)}),
+  EXPECT_EQ(results_of(result, {Quad(1), Quad(2), Quad(3), Quad(5), Quad(7), Quad(11)}),
             (Numbers{Quad(5), Quad(-7), Quad(11)}));
   EXPECT_THROW((void)dirac_bergmann<Quad>(system, Quad(0), Numbers(6), 2), RunError);
 }

@@ -3,7 +3,6 @@
 // evaluation without allocation.
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <pfaff/bench/runner/json.hpp>
 
 #include <pfaff/brackets/canonical.hpp>
@@ -11,11 +10,13 @@
 #include <pfaff/core/tape/replay.hpp>
 
 #include "../counted_allocations.hpp"
+#include "golden_brackets.hpp"
 #include "random_gram.hpp"
 
 namespace {
 using namespace pfaff;
 using pfaff::testing::as;
+using pfaff::testing::golden_brackets;
 
 // The constraints of the reference values on R^6: a sphere, a surface, and their rates under H.
 struct SphereAndSurface {
@@ -40,15 +41,11 @@ std::vector<T> golden_point() {
   for (const char* x : {"1/3", "1/2", "2/3", "1/5", "-1/4", "3/7"}) z.push_back(T(*Real::parse(x)));
   return z;
 }
-nlohmann::json golden() {
-  std::ifstream file(PFAFF_GOLDEN "/recursive_brackets.json");
-  return nlohmann::json::parse(file).at("skew_canonical_R6");
-}
 
 // The field at one level of the recursion: elements 5 .. 10 are the coordinates, element 4 is H.
 template <class Solver>
 void check_golden(const Solver& solver) {
-  const nlohmann::json levels = golden().at("levels");
+  const nlohmann::json levels = golden_brackets().at("skew_canonical_R6").at("levels");
   for (const std::size_t level : {std::size_t{1}, std::size_t{2}}) {
     const auto bracket = dirac(CanonicalBracket{}, SphereAndSurface{2 * level}, solver);
     const auto exact = golden_point<Rational>();
@@ -162,8 +159,8 @@ struct UnitMetric {
   }
 };
 template <class Bracket>
-void check_structured(const Bracket& structured, std::span<const double> dense, const std::vector<double>& z,
-                      const std::vector<double>& covector) {
+void expect_dense_values(const Bracket& structured, std::span<const double> dense,
+                         const std::vector<double>& z, const std::vector<double>& covector) {
   std::vector<double> direct(z.size()), replayed(z.size()), x = z;
   structured.sharp(0.0, In<double>(z), In<double>(covector), Out<double>(direct));
   const auto n = static_cast<int>(z.size());
@@ -191,11 +188,11 @@ TEST(DiracBracket, StructuredSolversAreRecordedAndDoNotAllocate) {
       dirac(UnitMetric{}, Chain{},
             StructuredDirac{std::make_shared<const SymmetricPattern>(SymmetricPattern::path(4))},
             Symmetry::symmetric);
-  check_structured(line, dense, z, covector);
+  expect_dense_values(line, dense, z, covector);
   dirac(CanonicalBracket{}, Chain{4, true})
       .sharp(0.0, In<double>(z), In<double>(covector), Out<double>(dense));
   const auto skew = dirac(CanonicalBracket{}, Chain{4, true}, SkewForestDirac{{{0, 1}, {1, 2}, {2, 3}}});
-  check_structured(skew, dense, z, covector);
+  expect_dense_values(skew, dense, z, covector);
 }
 
 // An order chosen where its pivots are good breaks down elsewhere: the classification says so, and the tape
@@ -297,7 +294,7 @@ struct Named {
       phi[i] = which[i] == 0 ? z[0] : which[i] == 1 ? z[2] : which[i] == 2 ? T(2) * z[0] : z[1];
   }
 };
-std::string reason(const std::vector<int>& which) {
+std::string why_not(const std::vector<int>& which) {
   const std::vector<double> z{0.1, 0.2, 0.3, 0.4}, covector{1, 2, 3, 4};
   std::vector<double> out(4);
   try {
@@ -308,15 +305,15 @@ std::string reason(const std::vector<int>& which) {
   return "accepted";
 }
 TEST(DiracBracket, SaysWhyThereIsNone) {
-  EXPECT_EQ(reason({0, 1}), "accepted");
-  EXPECT_NE(reason({0}).find("position"), std::string::npos) << reason({0});
-  EXPECT_NE(reason({0, 1, 3}).find("other"), std::string::npos) << reason({0, 1, 3});
-  EXPECT_NE(reason({0, 1, 3}).find("first class"), std::string::npos) << reason({0, 1, 3});
-  EXPECT_NE(reason({0, 1, 2, 3}).find("redundant"), std::string::npos) << reason({0, 1, 2, 3});
+  EXPECT_EQ(why_not({0, 1}), "accepted");
+  EXPECT_NE(why_not({0}).find("position"), std::string::npos) << why_not({0});
+  EXPECT_NE(why_not({0, 1, 3}).find("other"), std::string::npos) << why_not({0, 1, 3});
+  EXPECT_NE(why_not({0, 1, 3}).find("first class"), std::string::npos) << why_not({0, 1, 3});
+  EXPECT_NE(why_not({0, 1, 2, 3}).find("redundant"), std::string::npos) << why_not({0, 1, 2, 3});
 }
 
 template <class Solver>
-long allocations(const Solver& solver) {
+long allocations_by(const Solver& solver) {
   const auto bracket = dirac(CanonicalBracket{}, SphereAndSurface{}, solver);
   DiracEvaluator<double, std::decay_t<decltype(bracket)>> evaluate(bracket, 6);
   const auto z = golden_point<double>(), covector = hamiltonian_gradient<double>(z);
@@ -327,11 +324,11 @@ long allocations(const Solver& solver) {
   });
 }
 TEST(DiracBracket, EvaluatesWithoutAllocation) {
-  EXPECT_EQ(allocations(DenseDirac{}), 0);
-  EXPECT_EQ(allocations(RecursiveVectorsDirac{}), 0);
-  EXPECT_EQ(allocations(RecursiveTensorDirac{}), 0);
-  EXPECT_EQ(allocations(HolonomicDirac{}), 0);
-  EXPECT_GT(allocations(RecursiveLiteralDirac{}), 0);  // the counter counts
+  EXPECT_EQ(allocations_by(DenseDirac{}), 0);
+  EXPECT_EQ(allocations_by(RecursiveVectorsDirac{}), 0);
+  EXPECT_EQ(allocations_by(RecursiveTensorDirac{}), 0);
+  EXPECT_EQ(allocations_by(HolonomicDirac{}), 0);
+  EXPECT_GT(allocations_by(RecursiveLiteralDirac{}), 0);  // the counter counts
 }
 
 }  // namespace

@@ -14,13 +14,13 @@ using namespace pfaff;
 using namespace pfaff::testing;
 using Point = std::vector<Rational>;
 
-Point point(RandomGram& random, std::size_t n) {
+Point random_point(RandomGram& random, std::size_t n) {
   Point z;
   for (std::size_t k = 0; k < n; ++k) z.push_back(random.number() / Rational(4));
   return z;
 }
 template <class B>
-bool regular(const DenseDirac<B>& dirac, const Point& z) {
+bool regular(const DenseDiracTensor<B>& dirac, const Point& z) {
   const auto p = bracket_matrix<Rational>(dirac.base, Rational(0), z);
   Matrix<Rational> a(dirac.constraints.count(), z.size());
   for (std::size_t k = 0; k < a.rows(); ++k) {
@@ -39,9 +39,9 @@ TEST(DiracBrackets, InheritTheAlgebraAndKillTheConstraints) {
     for (const std::size_t count : {2U, 4U})
       for (int instance = 0; instance < 4; ++instance) {
         constexpr std::size_t n = 6;
-        const DenseDirac<PolynomialBracket> dirac{PolynomialBracket(symmetry, n, random),
-                                                  PolynomialConstraints(count, n, random)};
-        const Point z = point(numbers, n);
+        const DenseDiracTensor<PolynomialBracket> dirac{PolynomialBracket(symmetry, n, random),
+                                                        PolynomialConstraints(count, n, random)};
+        const Point z = random_point(numbers, n);
         if (!regular(dirac, z)) continue;
         const Polynomial f(n, random), g(n, random), h(n, random);
         const auto skew = antisymmetry_residual<Rational>(dirac, zero, z, f, g);
@@ -77,9 +77,9 @@ TEST(DiracBrackets, ObeyJacobiOffTheSurfaceWhereTheBracketDoes) {
   int checked = 0;
   for (const auto& [n, count] : {std::pair<std::size_t, std::size_t>{5, 2}, {7, 2}, {7, 4}})
     for (int instance = 0; instance < 3; ++instance) {
-      const DenseDirac<NambuCanonicalBracket> dirac{{Polynomial(3, random)},
-                                                    PolynomialConstraints(count, n, random)};
-      const Point z = point(numbers, n);
+      const DenseDiracTensor<NambuCanonicalBracket> dirac{{Polynomial(3, random)},
+                                                          PolynomialConstraints(count, n, random)};
+      const Point z = random_point(numbers, n);
       if (!regular(dirac, z)) continue;
       ASSERT_EQ(jacobi_residual<Rational>(dirac.base, Rational(0), z).residual, Rational(0));
       ASSERT_EQ(jacobi_residual<Rational>(dirac, Rational(0), z).residual, Rational(0));
@@ -91,9 +91,9 @@ TEST(DiracBrackets, ObeyJacobiOffTheSurfaceWhereTheBracketDoes) {
   EXPECT_GE(checked, 6);
   for (int instance = 0; instance < 3; ++instance) {
     constexpr std::size_t n = 5;
-    const DenseDirac<PolynomialBracket> dirac{PolynomialBracket(Symmetry::skew, n, random),
-                                              PolynomialConstraints(2, n, random)};
-    const Point z = point(numbers, n);
+    const DenseDiracTensor<PolynomialBracket> dirac{PolynomialBracket(Symmetry::skew, n, random),
+                                                    PolynomialConstraints(2, n, random)};
+    const Point z = random_point(numbers, n);
     ASSERT_TRUE(regular(dirac, z));
     EXPECT_NE(jacobi_residual<Rational>(dirac.base, Rational(0), z).residual, Rational(0));
     EXPECT_NE(jacobi_residual<Rational>(dirac, Rational(0), z).residual, Rational(0));
@@ -105,7 +105,8 @@ template <class T>
 void expect_jacobi_to_round_off() {
   std::mt19937 random(22);
   const std::size_t n = 7;
-  const DenseDirac<NambuCanonicalBracket> dirac{{Polynomial(3, random)}, PolynomialConstraints(4, n, random)};
+  const DenseDiracTensor<NambuCanonicalBracket> dirac{{Polynomial(3, random)},
+                                                      PolynomialConstraints(4, n, random)};
   for (const auto& z : sample_points<T>(std::vector<T>(n, T(1)), random, 20)) {
     const auto r = jacobi_residual<T>(dirac, T(0), z);
     EXPECT_LE(r.relative(), 1e3 * 64 * static_cast<double>(unit_roundoff<T>()));
@@ -150,7 +151,7 @@ Rational expansion_defect(const B& bracket, const Point& z, std::mt19937& random
   const Rational expanded =
       value(f, gh) + value(g, hf) + value(h, fg) + first_order * s + second_order * s * s;
 
-  const DenseDirac<B> dirac{bracket, phi};
+  const DenseDiracTensor<B> dirac{bracket, phi};
   const auto gh_d = BracketFunction(dirac, g, h), hf_d = BracketFunction(dirac, h, f),
              fg_d = BracketFunction(dirac, f, g);
   jacobi = at(BracketFunction(dirac, f, gh_d)) + at(BracketFunction(dirac, g, hf_d)) +
@@ -164,7 +165,7 @@ TEST(DiracBrackets, ExpansionOfJacobiIsAnIdentity) {
         5;  // in four dimensions the level sets of two constraints leave Jacobi no choice
     std::mt19937 random(seed);
     const PolynomialBracket skew(Symmetry::skew, n, random);
-    const Point z = point(numbers, n);
+    const Point z = random_point(numbers, n);
     std::mt19937 again = random;
     Rational jacobi;
     EXPECT_EQ(expansion_defect(skew, z, random, false, jacobi), Rational(0));

@@ -31,7 +31,7 @@ struct Quadrics {
 };
 
 template <class T>
-std::vector<T> point() {
+std::vector<T> regular_point() {
   std::vector<T> z;
   for (const int k : {31, 47, -83, 29, 61, -13, 70, 90}) z.push_back(T(k) / T(100));
   return z;
@@ -40,7 +40,7 @@ std::vector<T> point() {
 // "accepted", or why not.
 template <class T, class Solver>
 std::string reason(const Quadrics& constraints, const Solver& solver, Symmetry symmetry = Symmetry::skew) {
-  const std::vector<T> z = point<T>(), covector(8, T(1));
+  const std::vector<T> z = regular_point<T>(), covector(8, T(1));
   std::vector<T> out(8);
   try {
     dirac(CanonicalBracket{}, constraints, solver, symmetry)
@@ -72,7 +72,7 @@ TEST(DiracRefusals, PivotsMadeOfRounding) {
 }
 
 TEST(DiracRefusals, EvaluatorsOfOddNumbersAreSingular) {
-  const std::vector<double> z = point<double>(), covector(8, 1.0);
+  const std::vector<double> z = regular_point<double>(), covector(8, 1.0);
   std::vector<double> out(8);
   const auto status = [&](std::size_t count) {
     const auto bracket = dirac(CanonicalBracket{}, Quadrics{count});

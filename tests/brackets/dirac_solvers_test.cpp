@@ -179,7 +179,7 @@ Edges humanoid() {
 }
 
 template <class T>
-void check_structured(const DiracInstance<Rational>& exact, const Edges& edges) {
+void expect_structured_agrees(const DiracInstance<Rational>& exact, const Edges& edges) {
   const Judge judge(exact);
   const StructuredDirac solver{std::make_shared<const SymmetricPattern>(exact.count, edges)};
   ASSERT_TRUE(solver.applies(in_scalar<double>(exact).data()));
@@ -195,9 +195,9 @@ TEST(DiracSolversStructured, TridiagonalCyclicAndTreesOfSymmetricAndGeneralBrack
                                                                                : 9;
       for (unsigned seed = 1; seed <= 10; ++seed) {
         const auto exact = structured_instance(seed, symmetry, count, edges);
-        check_structured<double>(exact, edges);
-        check_structured<Quad>(exact, edges);
-        check_structured<Rational>(exact, edges);
+        expect_structured_agrees<double>(exact, edges);
+        expect_structured_agrees<Quad>(exact, edges);
+        expect_structured_agrees<Rational>(exact, edges);
       }
     }
 }

@@ -23,13 +23,13 @@ Indices with(Indices list, std::initializer_list<std::size_t> more) {
   list.insert(list.end(), more);
   return list;
 }
-Indices first(std::size_t n) {
+Indices first_indices(std::size_t n) {
   Indices list;
   for (std::size_t k = 0; k < n; ++k) list.push_back(k);
   return list;
 }
 // (3.5) for the elements after the first `count`, which are the constraints.
-Matrix<Rational> dirac(const Matrix<Rational>& g, std::size_t count) {
+Matrix<Rational> dirac_brackets(const Matrix<Rational>& g, std::size_t count) {
   const std::size_t rest = g.rows() - count;
   return g.block(count, count, rest, rest) - g.block(count, 0, rest, count) *
                                                  inverse(g.block(0, 0, count, count)) *
@@ -58,7 +58,7 @@ TEST(TannerIdentities, HoldForRandomMatrices) {
   for (int instance = 0; instance < 200; ++instance) {
     const std::size_t n = random.size(0, 4);
     const auto f = random.any(n + 3, n + 3);
-    const auto a = first(n);
+    const auto a = first_indices(n);
     const std::size_t x = n, u = n + 1, v = n + 2, y = n, s = n + 1, t = n + 2;
     const auto m = [&](std::initializer_list<std::size_t> i, std::initializer_list<std::size_t> j) {
       return minor(f, with(a, i), with(a, j));
@@ -84,14 +84,14 @@ TEST(RecursionOfGramMatrices, IsTheDiracBracketAtEveryLevel) {
     for (int instance = 0; instance < 40; ++instance) {
       const std::size_t count = step * random.size(1, 3);
       const auto g = random.of(symmetry, count + 3);
-      Elimination<Rational> recursion(g, symmetry, Matrix<Rational>(0, 0), first(count + 3));
+      Elimination<Rational> recursion(g, symmetry, Matrix<Rational>(0, 0), first_indices(count + 3));
       std::size_t done = 0;
       for (; done < count; done += step) {
         Pivot<Rational> pivot{{done}, {done}, {}};
         if (step == 2) pivot.rows = pivot.columns = {done, done + 1};
         if (recursion.value(pivot) == Rational(0)) break;
         recursion.eliminate(pivot);
-        const auto expected = dirac(g, done + step);
+        const auto expected = dirac_brackets(g, done + step);
         const Rational w = determinant(g.block(0, 0, done + step, done + step));
         for (std::size_t i = 0; i < count + 3; ++i)
           for (std::size_t j = 0; j < count + 3; ++j) {
@@ -99,7 +99,9 @@ TEST(RecursionOfGramMatrices, IsTheDiracBracketAtEveryLevel) {
             const Rational value = recursion(i, j);
             ASSERT_EQ(value, eliminated ? Rational(0) : expected(i - done - step, j - done - step));
             if (eliminated) continue;
-            ASSERT_EQ(value, minor(g, with(first(done + step), {i}), with(first(done + step), {j})) / w);
+            ASSERT_EQ(
+                value,
+                minor(g, with(first_indices(done + step), {i}), with(first_indices(done + step), {j})) / w);
           }
       }
       complete += done == count;
@@ -118,7 +120,7 @@ TEST(RecursionOfGramMatrices, ReferenceLevels) {
                                                   : Symmetry::skew;
     const auto& levels = golden_brackets().at(kind).at("levels");
     const auto g = golden_matrix(levels[0]);
-    Elimination<Rational> recursion(g, symmetry, Matrix<Rational>(0, 0), first(g.rows()));
+    Elimination<Rational> recursion(g, symmetry, Matrix<Rational>(0, 0), first_indices(g.rows()));
     for (std::size_t k = 1; k < levels.size(); ++k) {
       Pivot<Rational> pivot{{k - 1}, {k - 1}, {}};
       if (symmetry == Symmetry::skew) pivot.rows = pivot.columns = {2 * k - 2, 2 * k - 1};
@@ -138,7 +140,7 @@ TEST(RecursionOfGramMatrices, SquareOfTheSkewDiracBracket) {
     const auto g = random.of(Symmetry::skew, count + 2);
     const auto w = g.block(0, 0, count, count);
     if (determinant(w) == Rational(0)) continue;
-    const Rational bracket = dirac(g, count)(0, 1);
+    const Rational bracket = dirac_brackets(g, count)(0, 1);
     ASSERT_EQ(bracket * bracket, determinant(g) / determinant(w));
     ASSERT_EQ(bracket, pfaffian(g) / pfaffian(w));
   }
@@ -146,7 +148,7 @@ TEST(RecursionOfGramMatrices, SquareOfTheSkewDiracBracket) {
   const auto g = golden_matrix(golden_brackets().at("skew").at("levels")[0]);
   EXPECT_EQ(pfaffian(g.block(0, 0, 6, 6)), fraction(golden.at("Pf_W6")));
   EXPECT_EQ(pfaffian(g), fraction(golden.at("Pf_W_fg")));
-  EXPECT_EQ(dirac(g, 6)(0, 1), fraction(golden.at("dirac_fg")));
+  EXPECT_EQ(dirac_brackets(g, 6)(0, 1), fraction(golden.at("dirac_fg")));
   EXPECT_EQ(determinant(g) / determinant(g.block(0, 0, 6, 6)), fraction(golden.at("square_check_3_18")));
 }
 
@@ -160,16 +162,16 @@ TEST(RecursionOfGramMatrices, SemimetricBracketsStaySo) {
     const auto b = random.any(n, n + 1);
     const auto g = b * b.transposed();
     if (determinant(g.block(0, 0, count, count)) == Rational(0)) continue;
-    const auto reduced = dirac(g, count);
+    const auto reduced = dirac_brackets(g, count);
     for (std::size_t k = 1; k <= 3; ++k) ASSERT_GE(determinant(reduced.block(0, 0, k, k)), Rational(0));
     for (std::size_t i = 1; i < n; ++i)
       ASSERT_LE(g(0, i) * g(0, i) - g(0, 0) * g(i, i), Rational(0));  // printed: >= 0
-    ASSERT_TRUE(plain_recursion(g, Symmetry::symmetric, first(count)).works);
+    ASSERT_TRUE(plain_recursion(g, Symmetry::symmetric, first_indices(count)).works);
     Matrix<Rational> signs = Matrix<Rational>::identity(n + 1);
     signs(0, 0) = -1;
     const auto pseudo = b * signs * b.transposed();
     if (determinant(pseudo.block(0, 0, count, count)) != Rational(0))
-      negative += dirac(pseudo, count)(0, 0) < Rational(0);
+      negative += dirac_brackets(pseudo, count)(0, 0) < Rational(0);
   }
   EXPECT_GT(negative, 0);
 }

@@ -5,19 +5,12 @@
 #include <pfaff/brackets/conformance/residuals.hpp>
 #include <pfaff/brackets/nonholonomic/nonholonomic_bracket.hpp>
 
+#include "../formula_values.hpp"
 #include "nonholonomic_samples.hpp"
 
 namespace {
 using namespace pfaff;
 using namespace pfaff::testing;
-
-template <class T>
-double distance(const std::vector<T>& a, const std::vector<T>& b) {
-  T worst(0);
-  for (std::size_t k = 0; k < a.size(); ++k)
-    if (!(abs(a[k] - b[k]) <= worst)) worst = abs(a[k] - b[k]);
-  return static_cast<double>(worst);
-}
 
 // |Pibar grad H - motion| at a constrained state.
 template <class T, class S>

@@ -11,16 +11,15 @@
 #include <pfaff/brackets/reduction/splitting.hpp>
 #include <pfaff/brackets/reduction/transverse.hpp>
 
+#include "golden_brackets.hpp"
 #include "random_gram.hpp"
 #include "sample_brackets.hpp"
 
 namespace {
 using namespace pfaff;
 using namespace pfaff::testing;
-using Exact = Matrix<Rational>;
 
-bool zero(const Exact& m) { return largest(m) == Rational(0); }
-Exact dirac(const Exact& p, const Exact& a) {
+Exact dirac_tensor(const Exact& p, const Exact& a) {
   return p - p * a.transposed() * inverse(a * p * a.transposed()) * a * p;
 }
 // Columns that span ker A, A of full rank.
@@ -88,10 +87,10 @@ TEST(Splitting, DiracProjectionsNeedTheirComplement) {
       EXPECT_FALSE(zero(reduced - other.reduced(p)));
       if (symmetry == Symmetry::none) {
         EXPECT_TRUE(zero(chosen.projection() * p * Splitting<Rational>(f, left).projection().transposed() -
-                         dirac(p, a)));
+                         dirac_tensor(p, a)));
         continue;
       }
-      EXPECT_TRUE(zero(reduced - dirac(p, a)));
+      EXPECT_TRUE(zero(reduced - dirac_tensor(p, a)));
       const Exact along = Exact::identity(n) - chosen.projection();
       EXPECT_TRUE(zero(reduced + along * p * along.transposed() - p));
     }
@@ -204,7 +203,7 @@ TEST(AlmostDirac, OnlyTheDiracComplementKeepsJacobi) {
         poisson{{}, constraints, {}};
     const AlmostDiracReduction<CanonicalBracket, PolynomialConstraints, NormalComplement> almost{
         {}, constraints, {}};
-    const DenseDirac<CanonicalBracket> dirac{{}, constraints};
+    const DenseDiracTensor<CanonicalBracket> dirac{{}, constraints};
     std::vector<Rational> z;
     for (std::size_t k = 0; k < n; ++k) z.push_back(numbers.number() / Rational(4));
     EXPECT_TRUE(zero(bracket_matrix<Rational>(poisson, time, z) - bracket_matrix<Rational>(dirac, time, z)));

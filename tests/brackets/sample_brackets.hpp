@@ -35,7 +35,7 @@ struct SquaresBracket {
 
 /// The Dirac bracket (1.2), with W factored densely: eta(f, g) - eta(f, phi_i) C_ij eta(phi_j, g).
 template <class B>
-struct DenseDirac {
+struct DenseDiracTensor {
   B base;
   PolynomialConstraints constraints;
   template <class T>

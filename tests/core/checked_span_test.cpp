@@ -24,7 +24,7 @@ TEST(CheckedSpan, ElementsInsideAreThoseOfTheSpan) {
   EXPECT_EQ(span[0], 1);
   EXPECT_EQ(span.front(), 1);
   EXPECT_EQ(span.back(), 3);
-  EXPECT_THAT(std::vector<int>(span.subspan(1).begin(), span.subspan(1).end()), testing::ElementsAre(2, 3));
+  EXPECT_THAT(std::vector<int>(span.subspan(1).begin(), span.subspan(1).end()), ::testing::ElementsAre(2, 3));
   EXPECT_EQ(span.subspan(3).size(), 0U);
   EXPECT_EQ(span.first(2).back(), 2);
   EXPECT_EQ(span.last(2).front(), 2);

@@ -6,35 +6,30 @@
 #include <random>
 
 #include <pfaff/core/tape/derivatives.hpp>
-#include <pfaff/core/tape/replay.hpp>
 
+#include "../formula_values.hpp"
 #include "random_formula.hpp"
+#include "relative_error.hpp"
 
 namespace {
 using namespace pfaff;
+using pfaff::testing::Numbers;
 using pfaff::testing::RandomFormula;
+using pfaff::testing::relative_error;
+using pfaff::testing::shared;
+using pfaff::testing::values;
 using Arguments = std::span<const Recorded>;
 using Results = std::span<Recorded>;
-using Numbers = std::vector<Quad>;
-
-std::shared_ptr<const Tape> shared(Tape tape) { return std::make_shared<const Tape>(std::move(tape)); }
-
-Numbers values(const Tape& tape, Quad t, const Numbers& z) {
-  Numbers out(tape.outputs.size());
-  Replay<Quad> replay(shared(tape));
-  replay(t, z.data(), out.data());
-  return out;
-}
 
 // Differences of fourth order with h = 1e-7: h^4 f^(5)/30 + u f/h, 1e-27 for derivatives of order one. The
 // formulas are chains of a dozen operations, whose fifth derivatives reach 1e8.
-constexpr double difference_bound = 1e-18;
-const Quad step(1e-7);
+constexpr double quotient_bound = 1e-18;
+const Quad quotient_step(1e-7);
 
 // d/ds of every output along (z + s direction, t + s rate).
-Numbers difference(const Tape& tape, Quad t, Quad rate, const Numbers& z, const Numbers& direction) {
+Numbers difference_quotient(const Tape& tape, Quad t, Quad rate, const Numbers& z, const Numbers& direction) {
   const auto at = [&](int k) {
-    const Quad s = Quad(k) * step;
+    const Quad s = Quad(k) * quotient_step;
     Numbers moved = z;
     for (std::size_t i = 0; i < z.size(); ++i) moved[i] += s * direction[i];
     return values(tape, t + s * rate, moved);
@@ -42,12 +37,8 @@ Numbers difference(const Tape& tape, Quad t, Quad rate, const Numbers& z, const 
   const Numbers a = at(1), b = at(-1), c = at(2), d = at(-2);
   Numbers slope(a.size());
   for (std::size_t i = 0; i < a.size(); ++i)
-    slope[i] = (Quad(8) * (a[i] - b[i]) - (c[i] - d[i])) / (Quad(12) * step);
+    slope[i] = (Quad(8) * (a[i] - b[i]) - (c[i] - d[i])) / (Quad(12) * quotient_step);
   return slope;
-}
-
-double error(Quad value, Quad expected) {
-  return isfinite(value) ? static_cast<double>(abs(value - expected) / (Quad(1) + abs(expected))) : INFINITY;
 }
 
 struct Point {
@@ -70,38 +61,39 @@ Numbers unit(int size, int k) {
   return e;
 }
 
-constexpr unsigned formulas = 60;
-constexpr int operations = 14;
+constexpr unsigned differentiated_formulas = 60;
+constexpr int differentiated_operations = 14;
 
 // inputs > outputs is differentiated in reverse, inputs <= outputs forward.
 const struct { int inputs, outputs; } shapes[] = {{4, 1}, {3, 2}, {2, 4}};
 
 TEST(Derivatives, JacobiansAgreeWithDifferences) {
   for (const auto& [n, m] : shapes)
-    for (unsigned seed = 0; seed < formulas; ++seed) {
-      const Tape tape = RandomFormula{seed, n, m, operations}.tape();
+    for (unsigned seed = 0; seed < differentiated_formulas; ++seed) {
+      const Tape tape = RandomFormula{seed, n, m, differentiated_operations}.tape();
       const auto [t, z, direction] = random_point(seed, n);
       const Numbers jacobian = values(jacobian_tape(tape), t, z);
       ASSERT_EQ(jacobian.size(), static_cast<std::size_t>(n * m));
       double wrong = 0;
       for (int j = 0; j < n; ++j) {
-        const Numbers column = difference(tape, t, Quad(0), z, unit(n, j));
+        const Numbers column = difference_quotient(tape, t, Quad(0), z, unit(n, j));
         for (int i = 0; i < m; ++i) {
           const Quad element = jacobian[static_cast<std::size_t>(i * n + j)],
                      expected = column[static_cast<std::size_t>(i)];
-          EXPECT_LE(error(element, expected), difference_bound) << "seed " << seed << ", " << i << " " << j;
-          wrong = std::fmax(wrong, error(element * Quad(1 + 1e-9), expected));
+          EXPECT_LE(relative_error(element, expected), quotient_bound)
+              << "seed " << seed << ", " << i << " " << j;
+          wrong = std::fmax(wrong, relative_error(element * Quad(1 + 1e-9), expected));
         }
       }
       // Control: derivatives wrong by 1e-9 are seen, unless the formula is constant.
-      EXPECT_TRUE(wrong < 1e-15 || wrong > difference_bound * 1e3);
+      EXPECT_TRUE(wrong < 1e-15 || wrong > quotient_bound * 1e3);
     }
 }
 
 TEST(Derivatives, ForwardReverseAndTimeAgreeWithDifferences) {
-  for (unsigned seed = 0; seed < formulas; ++seed) {
+  for (unsigned seed = 0; seed < differentiated_formulas; ++seed) {
     const int n = 3;
-    const Tape tape = RandomFormula{seed, n, 2, operations}.tape();
+    const Tape tape = RandomFormula{seed, n, 2, differentiated_operations}.tape();
     const auto [t, z, direction] = random_point(seed, n);
     const Recorded rate(Real::fraction(-3, 4));
     // Outputs: directional derivative (2), gradient of 2 f_1 - f_2/3 (3), time derivative (2).
@@ -118,23 +110,24 @@ TEST(Derivatives, ForwardReverseAndTimeAgreeWithDifferences) {
           std::copy(timed.begin(), timed.end(), out.begin() + 5);
         });
     const Numbers result = values(all, t, z);
-    const Numbers along = difference(tape, t, Quad(-0.75), z, direction);
-    const Numbers in_time = difference(tape, t, Quad(1), z, Numbers(3));
+    const Numbers along = difference_quotient(tape, t, Quad(-0.75), z, direction);
+    const Numbers in_time = difference_quotient(tape, t, Quad(1), z, Numbers(3));
     for (std::size_t k = 0; k < 2; ++k) {
-      EXPECT_LE(error(result[k], along[k]), difference_bound) << seed;
-      EXPECT_LE(error(result[5 + k], in_time[k]), difference_bound) << seed;
+      EXPECT_LE(relative_error(result[k], along[k]), quotient_bound) << seed;
+      EXPECT_LE(relative_error(result[5 + k], in_time[k]), quotient_bound) << seed;
     }
     for (int k = 0; k < n; ++k) {
-      const Numbers slope = difference(tape, t, Quad(0), z, unit(n, k));
-      EXPECT_LE(error(result[static_cast<std::size_t>(2 + k)], Quad(2) * slope[0] - slope[1] / Quad(3)),
-                difference_bound)
+      const Numbers slope = difference_quotient(tape, t, Quad(0), z, unit(n, k));
+      EXPECT_LE(
+          relative_error(result[static_cast<std::size_t>(2 + k)], Quad(2) * slope[0] - slope[1] / Quad(3)),
+          quotient_bound)
           << seed;
     }
   }
 }
 
 TEST(Derivatives, DifferentiatedTapesDifferentiateAgain) {
-  for (unsigned seed = 0; seed < formulas; ++seed) {
+  for (unsigned seed = 0; seed < differentiated_formulas; ++seed) {
     const int n = 3;
     const Tape tape = RandomFormula{seed, n, 1, 10}.tape();
     const auto [t, z, direction] = random_point(seed, n);
@@ -142,12 +135,12 @@ TEST(Derivatives, DifferentiatedTapesDifferentiateAgain) {
     const Tape hessian_tape = jacobian_tape(slope);
     const Numbers hessian = values(hessian_tape, t, z);
     for (int j = 0; j < n; ++j) {
-      const Numbers column = difference(slope, t, Quad(0), z, unit(n, j));
+      const Numbers column = difference_quotient(slope, t, Quad(0), z, unit(n, j));
       for (int i = 0; i < n; ++i) {
         const Quad element = hessian[static_cast<std::size_t>(i * n + j)];
         // Symmetric up to the rounding of a chain of operations.
-        EXPECT_LE(error(element, hessian[static_cast<std::size_t>(j * n + i)]), 1e-30) << seed;
-        EXPECT_LE(error(element, column[static_cast<std::size_t>(i)]), difference_bound) << seed;
+        EXPECT_LE(relative_error(element, hessian[static_cast<std::size_t>(j * n + i)]), 1e-30) << seed;
+        EXPECT_LE(relative_error(element, column[static_cast<std::size_t>(i)]), quotient_bound) << seed;
       }
     }
     // Time and state derivatives commute.
@@ -159,7 +152,7 @@ TEST(Derivatives, DifferentiatedTapesDifferentiateAgain) {
       out[0] = time_derivative(tape, time, x)[0];
     });
     const Numbers a = values(one, t, z), b = values(jacobian_tape(timed), t, z);
-    for (std::size_t k = 0; k < 3; ++k) EXPECT_LE(error(a[k], b[k]), 1e-30) << seed;
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_LE(relative_error(a[k], b[k]), 1e-30) << seed;
   }
 }
 
@@ -177,8 +170,8 @@ TEST(Derivatives, OfSingleOperations) {
     });
     const Numbers z{Quad(x), Quad(y)}, a = values(jacobian_tape(tape), Quad(0), z),
                                        b = values(forward, Quad(0), z);
-    EXPECT_LE(error(a[0], b[0]), 1e-33);
-    EXPECT_LE(error(a[1], b[1]), 1e-33);
+    EXPECT_LE(relative_error(a[0], b[0]), 1e-33);
+    EXPECT_LE(relative_error(a[1], b[1]), 1e-33);
     return std::pair{static_cast<double>(a[0]), static_cast<double>(a[1])};
   };
   const auto expect = [&](const auto& f, double x, double y, double dx, double dy) {

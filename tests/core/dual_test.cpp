@@ -6,8 +6,11 @@
 
 #include <pfaff/core/numbers/dual.hpp>
 
+#include "relative_error.hpp"
+
 namespace {
 using namespace pfaff;
+using pfaff::testing::relative_error;
 
 // Central differences of step h have an error of h^2 f'''/6 + u f/h: 1e-21 at h = 1e-11 in quad, times what
 // the derivatives of the functions below amount to.
@@ -15,10 +18,6 @@ constexpr double difference_bound = 1e-18;
 // Second differences: h^2 f''''/12 + 4 u f/h^2, 1e-16 at h = 1e-9.
 constexpr double second_difference_bound = 1e-14;
 const Quad step(1e-11), second_step(1e-9);
-
-double error(Quad value, Quad expected) {
-  return static_cast<double>(abs(value - expected) / (Quad(1) + abs(expected)));
-}
 
 // Calls check(name, f, x) for every function a formula may use, at arguments where it is smooth.
 template <class Check>
@@ -49,11 +48,11 @@ void for_every_function(const Check& check) {
 TEST(Dual, FirstDerivativesAgreeWithDifferences) {
   for_every_function([](const char* name, const auto& f, Quad x) {
     const auto y = f(Dual<Quad, 1>::variable(x, 0));
-    EXPECT_LE(error(y.value, f(x)), 1e-33) << name;
+    EXPECT_LE(relative_error(y.value, f(x)), 1e-33) << name;
     const Quad slope = (f(x + step) - f(x - step)) / (step + step);
-    EXPECT_LE(error(y.derivative[0], slope), difference_bound) << name << " at " << to_string(x, 5);
+    EXPECT_LE(relative_error(y.derivative[0], slope), difference_bound) << name << " at " << to_string(x, 5);
     // Control: a derivative that is wrong by one part in a million is seen.
-    EXPECT_GT(error(y.derivative[0] * Quad(1 + 1e-6) + Quad(1e-6), slope), difference_bound) << name;
+    EXPECT_GT(relative_error(y.derivative[0] * Quad(1 + 1e-6) + Quad(1e-6), slope), difference_bound) << name;
   });
 }
 
@@ -63,8 +62,8 @@ TEST(Dual, DoublesAgreeWithQuads) {
     const auto y = f(Dual<double, 1>::variable(rounded, 0));
     const auto exact = f(Dual<Quad, 1>::variable(Quad(rounded), 0));
     // A composition of half a dozen roundings.
-    EXPECT_LE(error(Quad(y.value), exact.value), 2e-15) << name;
-    EXPECT_LE(error(Quad(y.derivative[0]), exact.derivative[0]), 4e-15) << name;
+    EXPECT_LE(relative_error(Quad(y.value), exact.value), 2e-15) << name;
+    EXPECT_LE(relative_error(Quad(y.derivative[0]), exact.derivative[0]), 4e-15) << name;
   });
 }
 
@@ -76,7 +75,7 @@ TEST(Dual, NestedDualsGiveSecondDerivatives) {
     const Second y = f(variable);
     const Quad h = second_step, curvature = (f(x + h) - f(x) - (f(x) - f(x - h))) / (h * h);
     EXPECT_EQ(y.value.derivative[0], y.derivative[0].value) << name;
-    EXPECT_LE(error(y.derivative[0].derivative[0], curvature), second_difference_bound)
+    EXPECT_LE(relative_error(y.derivative[0].derivative[0], curvature), second_difference_bound)
         << name << " at " << to_string(x, 5);
   });
 }
@@ -92,9 +91,12 @@ TEST(Dual, EveryDirectionIsItsOwn) {
     using D = Dual<Quad, 3>;
     const D r = f(D::variable(a, 0), D::variable(b, 1), D::variable(c, 2));
     const Quad h2 = step + step;
-    EXPECT_LE(error(r.derivative[0], (f(a + step, b, c) - f(a - step, b, c)) / h2), difference_bound);
-    EXPECT_LE(error(r.derivative[1], (f(a, b + step, c) - f(a, b - step, c)) / h2), difference_bound);
-    EXPECT_LE(error(r.derivative[2], (f(a, b, c + step) - f(a, b, c - step)) / h2), difference_bound);
+    EXPECT_LE(relative_error(r.derivative[0], (f(a + step, b, c) - f(a - step, b, c)) / h2),
+              difference_bound);
+    EXPECT_LE(relative_error(r.derivative[1], (f(a, b + step, c) - f(a, b - step, c)) / h2),
+              difference_bound);
+    EXPECT_LE(relative_error(r.derivative[2], (f(a, b, c + step) - f(a, b, c - step)) / h2),
+              difference_bound);
   }
 }
 
@@ -103,8 +105,8 @@ TEST(Dual, DerivativesSatisfyIdentities) {
   std::uniform_real_distribution<double> number(0.1, 3);
   using D = Dual<Quad, 2>;
   const auto equal = [](const D& a, const D& b) {
-    EXPECT_LE(error(a.value, b.value), 2e-33);
-    for (std::size_t k = 0; k < 2; ++k) EXPECT_LE(error(a.derivative[k], b.derivative[k]), 2e-33);
+    EXPECT_LE(relative_error(a.value, b.value), 2e-33);
+    for (std::size_t k = 0; k < 2; ++k) EXPECT_LE(relative_error(a.derivative[k], b.derivative[k]), 2e-33);
   };
   for (int k = 0; k < 50; ++k) {
     const D x = D::variable(Quad(number(random)) / Quad(3), 0),

@@ -12,9 +12,9 @@ namespace {
 using namespace pfaff;
 
 // A dozen transformations, each a few roundings: 20 units, 2e-33, for arguments of order one.
-constexpr double few_units = 4e-33;
+constexpr double transformation_bound = 4e-33;
 
-double distance(Quad a, Quad b) { return static_cast<double>(abs(a - b)); }
+double gap(Quad a, Quad b) { return static_cast<double>(abs(a - b)); }
 
 TEST(Elliptic, AgreesWithPublishedDigits) {
   // K(1/2) = Gamma(1/4)^2 / (4 sqrt pi).
@@ -23,14 +23,14 @@ TEST(Elliptic, AgreesWithPublishedDigits) {
   ASSERT_TRUE(parse("3.14159265358979323846264338327950288419716939937510", pi));
   const Quad half(0.5);
   const auto at = [&](Quad u) { return jacobi_functions(u, half, half); };
-  EXPECT_LE(distance(at(quarter).sn, Quad(1)), few_units);
-  EXPECT_LE(distance(at(quarter).cn, Quad(0)), few_units);
-  EXPECT_LE(distance(at(quarter).dn, sqrt(half)), few_units);
-  EXPECT_LE(distance(at(quarter).mean, pi / Quad(2)), few_units);
-  EXPECT_LE(distance(at(quarter + quarter).sn, Quad(0)), few_units);
+  EXPECT_LE(gap(at(quarter).sn, Quad(1)), transformation_bound);
+  EXPECT_LE(gap(at(quarter).cn, Quad(0)), transformation_bound);
+  EXPECT_LE(gap(at(quarter).dn, sqrt(half)), transformation_bound);
+  EXPECT_LE(gap(at(quarter).mean, pi / Quad(2)), transformation_bound);
+  EXPECT_LE(gap(at(quarter + quarter).sn, Quad(0)), transformation_bound);
   // At half the quarter period sn = 1/sqrt(1 + k') (abramowitz-stegun1964 16.5).
-  EXPECT_LE(distance(at(quarter / Quad(2)).sn, Quad(1) / sqrt(Quad(1) + sqrt(half))), few_units);
-  EXPECT_GT(distance(at(quarter * Quad(1 + 1e-12)).cn, Quad(0)), 1e-13);  // control
+  EXPECT_LE(gap(at(quarter / Quad(2)).sn, Quad(1) / sqrt(Quad(1) + sqrt(half))), transformation_bound);
+  EXPECT_GT(gap(at(quarter * Quad(1 + 1e-12)).cn, Quad(0)), 1e-13);  // control
 }
 
 TEST(Elliptic, SatisfiesIdentitiesAndEquationsForEveryModulus) {
@@ -44,12 +44,12 @@ TEST(Elliptic, SatisfiesIdentitiesAndEquationsForEveryModulus) {
     const Quad m = near_one ? Quad(1) - small : small, complement = near_one ? small : Quad(1) - small;
     const auto f = jacobi_functions(D::variable(u, 0), D(m), D(complement));
     const auto [sn, cn, dn] = std::array{f.sn.value, f.cn.value, f.dn.value};
-    EXPECT_LE(distance(sn * sn + cn * cn, Quad(1)), few_units);
-    EXPECT_LE(distance(dn * dn + m * sn * sn, Quad(1)), few_units);
+    EXPECT_LE(gap(sn * sn + cn * cn, Quad(1)), transformation_bound);
+    EXPECT_LE(gap(dn * dn + m * sn * sn, Quad(1)), transformation_bound);
     // cosh 6 = 200 magnifies the error of the derivative near the separatrix.
-    EXPECT_LE(distance(f.sn.derivative[0], cn * dn), 2e-31);
-    EXPECT_LE(distance(f.cn.derivative[0], -sn * dn), 2e-31);
-    EXPECT_LE(distance(f.dn.derivative[0], -m * sn * cn), 2e-31);
+    EXPECT_LE(gap(f.sn.derivative[0], cn * dn), 2e-31);
+    EXPECT_LE(gap(f.cn.derivative[0], -sn * dn), 2e-31);
+    EXPECT_LE(gap(f.dn.derivative[0], -m * sn * cn), 2e-31);
     EXPECT_GT(dn, Quad(0));
   }
 }
@@ -60,9 +60,9 @@ TEST(Elliptic, TheSeparatrixIsHyperbolic) {
                secant = Quad(2) * e / (e * e + Quad(1));
     for (const double complement : {0.0, 1e-75, 1e-69}) {
       const auto f = jacobi_functions(Quad(u), Quad(1), Quad(complement));
-      EXPECT_LE(distance(f.sn, tanh), few_units) << u;
-      EXPECT_LE(distance(f.cn, secant), few_units) << u;
-      EXPECT_LE(distance(f.dn, secant), few_units) << u;
+      EXPECT_LE(gap(f.sn, tanh), transformation_bound) << u;
+      EXPECT_LE(gap(f.cn, secant), transformation_bound) << u;
+      EXPECT_LE(gap(f.dn, secant), transformation_bound) << u;
     }
   }
   // Far out nothing overflows into NaN.
@@ -76,7 +76,7 @@ TEST(Elliptic, AnglesAreThoseOfTheirSineAndCosine) {
   ASSERT_TRUE(parse("3.14159265358979323846264338327950288419716939937510", pi));
   for (int k = -400; k <= 400; ++k) {
     const Quad angle = Quad(k) / Quad(400) * pi * Quad(1 - 1e-9);
-    EXPECT_LE(distance(angle_of(cos(angle), sin(angle)), angle), 2e-33) << k;
+    EXPECT_LE(gap(angle_of(cos(angle), sin(angle)), angle), 2e-33) << k;
     const double rounded = static_cast<double>(angle);
     EXPECT_NEAR(angle_of(std::cos(rounded), std::sin(rounded)), rounded, 4.5e-16) << k;
   }
@@ -86,9 +86,9 @@ TEST(Elliptic, AnglesAreThoseOfTheirSineAndCosine) {
   EXPECT_NEAR(std::fabs(angle_of(-1.0, 0.0)), std::acos(-1.0), 4.5e-16);
 }
 
-JacobiState<Quad> flow(const JacobiState<Quad>& s, Quad t) { return jacobi_flow(t, s).state; }
-double distance(const JacobiState<Quad>& a, const JacobiState<Quad>& b) {
-  return std::max({distance(a.x, b.x), distance(a.y, b.y), distance(a.z, b.z)});
+JacobiState<Quad> state_after(const JacobiState<Quad>& s, Quad t) { return jacobi_flow(t, s).state; }
+double gap(const JacobiState<Quad>& a, const JacobiState<Quad>& b) {
+  return std::max({gap(a.x, b.x), gap(a.y, b.y), gap(a.z, b.z)});
 }
 
 TEST(Elliptic, TheFlowIsAGroupAndKeepsItsInvariants) {
@@ -100,19 +100,19 @@ TEST(Elliptic, TheFlowIsAGroupAndKeepsItsInvariants) {
     if (k % 10 == 1) s.z = Quad(0);
     if (k % 10 == 2) s.x = s.y = Quad(0);
     const Quad a(number(random)), b(number(random));
-    const JacobiState<Quad> once = flow(s, a + b), twice = flow(flow(s, a), b);
+    const JacobiState<Quad> once = state_after(s, a + b), twice = state_after(state_after(s, a), b);
     // |state| |time| up to 10, and e^4 near the separatrix.
-    EXPECT_LE(distance(once, twice), 1e-31) << k;
-    EXPECT_LE(distance(flow(flow(s, a), -a), s), 1e-31) << k;
-    EXPECT_LE(distance(once.x * once.x + once.y * once.y, s.x * s.x + s.y * s.y), 1e-32) << k;
-    EXPECT_LE(distance(once.x * once.x + once.z * once.z, s.x * s.x + s.z * s.z), 1e-32) << k;
-    EXPECT_EQ(distance(flow(s, Quad(0)), s) < 1e-33, true) << k;
+    EXPECT_LE(gap(once, twice), 1e-31) << k;
+    EXPECT_LE(gap(state_after(state_after(s, a), -a), s), 1e-31) << k;
+    EXPECT_LE(gap(once.x * once.x + once.y * once.y, s.x * s.x + s.y * s.y), 1e-32) << k;
+    EXPECT_LE(gap(once.x * once.x + once.z * once.z, s.x * s.x + s.z * s.z), 1e-32) << k;
+    EXPECT_EQ(gap(state_after(s, Quad(0)), s) < 1e-33, true) << k;
     // The field: x' = y z, y' = -x z, z' = -x y.
     using D = Dual<Quad, 1>;
     const auto d = jacobi_flow(D::variable(Quad(0), 0), JacobiState<D>{D(s.x), D(s.y), D(s.z)}).state;
-    EXPECT_LE(distance({d.x.derivative[0], d.y.derivative[0], d.z.derivative[0]},
-                       {s.y * s.z, -s.x * s.z, -s.x * s.y}),
-              few_units)
+    EXPECT_LE(
+        gap({d.x.derivative[0], d.y.derivative[0], d.z.derivative[0]}, {s.y * s.z, -s.x * s.z, -s.x * s.y}),
+        transformation_bound)
         << k;
   }
 }

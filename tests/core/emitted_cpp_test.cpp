@@ -54,7 +54,7 @@ class CompiledTexts {
 
 // The largest difference between the function and a replay, in units of max(1, |result|), over random points.
 // Results are written over the state, which emitted code allows.
-double difference(const Equations& equations, Rates rates) {
+double emitted_difference(const Equations& equations, Rates rates) {
   Replay<double> replay(std::make_shared<const Tape>(equations.tape));
   const std::size_t n = equations.coordinates.size(), results = equations.tape.outputs.size();
   std::mt19937 random(7);
@@ -110,14 +110,14 @@ TEST(EmittedCpp, RandomTapesGiveWhatTheirReplaysGive) {
     ASSERT_NE(rates, nullptr) << name;
     // The same operations in the same order; functions of the library may differ in their last bit where the
     // compiler takes a sine and a cosine together.
-    EXPECT_LE(difference(equations, rates), 1e-15) << name;
+    EXPECT_LE(emitted_difference(equations, rates), 1e-15) << name;
   }
 }
 
 TEST(EmittedCpp, AFaultInTheTextIsSeen) {
   const Equations equations = rational_equations(4, 40);
   const CompiledTexts compiled({changed(write_cpp(equations), " - ", " + ")});
-  EXPECT_GT(difference(equations, compiled.function("rational_4_rates")), 1e-6);
+  EXPECT_GT(emitted_difference(equations, compiled.function("rational_4_rates")), 1e-6);
 }
 
 TEST(EmittedCpp, ASingularSystemGivesWhatIsNoNumber) {

@@ -9,7 +9,7 @@
 namespace {
 using namespace pfaff;
 
-const SystemDescriptor descriptor{.name = "trap", .title = "", .reference = ""};
+const SystemDescriptor trap_descriptor{.name = "trap", .title = "", .reference = ""};
 
 // H = p^2/2 + q^4/4, everything written.
 struct Trap {
@@ -71,7 +71,7 @@ struct TrapWithABlade : Trap {
 // p' at (q, p) = (1, 2), as a run in double evaluates it.
 template <class S>
 double momentum_rate() {
-  const Problem<double> problem(make_model(descriptor, S{}));
+  const Problem<double> problem(make_model(trap_descriptor, S{}));
   auto z = problem.make_state(), rate = problem.make_state();
   z[0] = 1;
   z[1] = 2;
@@ -86,8 +86,8 @@ TEST(EnergyAlone, FrictionIsInTheFieldOfRunsInDouble) {
   EXPECT_EQ(momentum_rate<Trap>(), -1);
 }
 TEST(EnergyAlone, WhatIsCompiledOfForceAndVelocityIsTheFieldOfTheEnergyOnly) {
-  EXPECT_NE(make_model(descriptor, Trap{})->compiled(Formula::field), nullptr);
-  EXPECT_EQ(make_model(descriptor, TrapWithFriction{})->compiled(Formula::field), nullptr);
+  EXPECT_NE(make_model(trap_descriptor, Trap{})->compiled(Formula::field), nullptr);
+  EXPECT_EQ(make_model(trap_descriptor, TrapWithFriction{})->compiled(Formula::field), nullptr);
 }
 TEST(EnergyAlone, StaticProblemsOfferNoFieldOfIt) {
   static_assert(HasVectorField<StaticProblem<Trap>> && HasSeparable<StaticProblem<Trap>>);

@@ -10,27 +10,27 @@
 namespace {
 using namespace pfaff;
 
-const std::vector<std::string> names{"damped-oscillator", "damped-pendulum", "henon-heiles", "kepler",
-                                     "pendulum"};
+const std::vector<std::string> system_names{"damped-oscillator", "damped-pendulum", "henon-heiles", "kepler",
+                                            "pendulum"};
 
 TEST(Errors, NearestFindsSlipsOfTheKeyboard) {
-  EXPECT_EQ(nearest("damped-oscilator", names), "damped-oscillator");
-  EXPECT_EQ(nearest("keppler", names), "kepler");
-  EXPECT_EQ(nearest("kelper", names), "kepler");
-  EXPECT_EQ(nearest("damped_pendulum", names), "damped-pendulum");
-  EXPECT_EQ(nearest("pendulum", names), "pendulum");
-  EXPECT_EQ(nearest("hen", names), "henon-heiles");  // typed short
-  EXPECT_EQ(nearest("hennon-heiles", names), "henon-heiles");
+  EXPECT_EQ(nearest("damped-oscilator", system_names), "damped-oscillator");
+  EXPECT_EQ(nearest("keppler", system_names), "kepler");
+  EXPECT_EQ(nearest("kelper", system_names), "kepler");
+  EXPECT_EQ(nearest("damped_pendulum", system_names), "damped-pendulum");
+  EXPECT_EQ(nearest("pendulum", system_names), "pendulum");
+  EXPECT_EQ(nearest("hen", system_names), "henon-heiles");  // typed short
+  EXPECT_EQ(nearest("hennon-heiles", system_names), "henon-heiles");
 }
 
 TEST(Errors, NearestIsEmptyWhenNothingIsNear) {
-  EXPECT_EQ(nearest("rigid-body-in-a-box", names), "");
-  EXPECT_EQ(nearest("zzzzzz", names), "");
+  EXPECT_EQ(nearest("rigid-body-in-a-box", system_names), "");
+  EXPECT_EQ(nearest("zzzzzz", system_names), "");
   EXPECT_EQ(nearest("kepler", {}), "");
 }
 
 TEST(Errors, UnknownNameSuggestsOrLists) {
-  EXPECT_EQ(unknown_name("system", "damped-oscilator", names),
+  EXPECT_EQ(unknown_name("system", "damped-oscilator", system_names),
             "unknown system 'damped-oscilator'; did you mean 'damped-oscillator'?");
   EXPECT_EQ(unknown_name("system", "zzzzzzzz", {"kepler", "pendulum"}),
             "unknown system 'zzzzzzzz'; expected one of: kepler, pendulum");

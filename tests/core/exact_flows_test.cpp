@@ -8,10 +8,10 @@
 namespace {
 using namespace pfaff;
 
-const SystemDescriptor descriptor{.name = "spring", .title = "", .reference = ""};
+const SystemDescriptor spring_descriptor{.name = "spring", .title = "", .reference = ""};
 
 // q' = p, p' = -q as a drift and a kick, or with no parts at all.
-struct Spring {
+struct SpringInParts {
   static constexpr int dimension = 2;
   int parts = 2;
   [[nodiscard]] int part_count() const { return parts; }
@@ -28,7 +28,7 @@ struct Spring {
     return value_of(h) > Value<T>(10) ? Status::not_converged : Status::converged;
   }
 };
-struct Named : Spring {
+struct NamedSpring : SpringInParts {
   static std::vector<std::string> part_names() { return {"drift", "kick"}; }
 };
 // A step that needs flows and nothing else.
@@ -46,17 +46,18 @@ struct Lie {
 };
 
 TEST(ExactFlows, AreOfferedWhereTheyAreWritten) {
-  const auto model = make_model(descriptor, Spring());
+  const auto model = make_model(spring_descriptor, SpringInParts());
   EXPECT_EQ(model->facets(), facets(Facet::vector_field, Facet::exact_flows));
   EXPECT_EQ(model->part_names(), (std::vector<std::string>{"part-1", "part-2"}));
   EXPECT_EQ(model->small_part(), std::optional<std::size_t>(0));
-  EXPECT_EQ(make_model(descriptor, Named())->part_names(), (std::vector<std::string>{"drift", "kick"}));
+  EXPECT_EQ(make_model(spring_descriptor, NamedSpring())->part_names(),
+            (std::vector<std::string>{"drift", "kick"}));
 }
 
 TEST(ExactFlows, AreNotOfferedByACountOfZero) {
-  Spring spring;
+  SpringInParts spring;
   spring.parts = 0;
-  const auto model = make_model(descriptor, spring);
+  const auto model = make_model(spring_descriptor, spring);
   EXPECT_EQ(model->facets(), facets(Facet::vector_field));
   EXPECT_EQ(model->small_part(), std::nullopt);
   EXPECT_THROW((void)model->exact_flows<double>(), std::logic_error);
@@ -66,7 +67,7 @@ TEST(ExactFlows, AreNeededByWhoeverAsksForThem) { EXPECT_EQ(needs_of<Lie>(), fac
 
 template <class T>
 void flows_are_those_written() {
-  const Problem<T> problem(make_model(descriptor, Spring()));
+  const Problem<T> problem(make_model(spring_descriptor, SpringInParts()));
   EXPECT_EQ(problem.parts(), 2U);
   EXPECT_EQ(problem.perturbation(), 0U);
   std::vector<T> z{T(3), T(5)}, change(2);
@@ -101,7 +102,7 @@ struct Held {
   }
 };
 TEST(ExactFlows, AreHiddenByConstraints) {
-  const auto model = make_model(descriptor, Held());
+  const auto model = make_model(spring_descriptor, Held());
   EXPECT_TRUE(model->content().has(Facet::exact_flows));
   EXPECT_FALSE(model->facets().has(Facet::exact_flows));
 }

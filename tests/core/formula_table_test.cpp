@@ -4,20 +4,14 @@
 #include <set>
 
 #include <pfaff/core/system.hpp>
-#include <pfaff/core/tape/replay.hpp>
+
+#include "../formula_values.hpp"
 
 namespace {
 using namespace pfaff;
+using pfaff::testing::values;
 
-std::vector<double> values(const Model& model, Formula formula, double t, const std::vector<double>& x) {
-  const auto tape = model.tape(formula);
-  EXPECT_EQ(static_cast<std::size_t>(tape->inputs), x.size());
-  std::vector<double> out(tape->outputs.size());
-  Replay<double> replay(tape);
-  replay(t, x.data(), out.data());
-  return out;
-}
-const SystemDescriptor descriptor{.name = "sample", .title = "", .reference = ""};
+const SystemDescriptor sample_descriptor{.name = "sample", .title = "", .reference = ""};
 
 TEST(FormulaTable, RowsStandInTheOrderOfTheirEnumeratorsUnderNamesOfTheirOwn) {
   std::set<std::string_view> names;
@@ -79,9 +73,9 @@ struct Transformed {
 };
 
 TEST(FormulaTable, ArgumentsStandInTheOrderOfTheTape) {
-  const auto model = make_model(descriptor, Transformed{});
-  EXPECT_EQ(values(*model, Formula::alpha, 7, {1, 2, 3, 4, 5}), (std::vector<double>{31, 42, 7, 5}));
-  EXPECT_EQ(values(*model, Formula::exact_solution, 7, {1, 2, 5}), (std::vector<double>{57, 2}));
+  const auto model = make_model(sample_descriptor, Transformed{});
+  EXPECT_EQ(values(*model, Formula::alpha, 7.0, {1, 2, 3, 4, 5}), (std::vector<double>{31, 42, 7, 5}));
+  EXPECT_EQ(values(*model, Formula::exact_solution, 7.0, {1, 2, 5}), (std::vector<double>{57, 2}));
 }
 
 // Reversal and Casimirs: a body whose bracket is that of so(3), and one whose bracket claims nothing.
@@ -125,19 +119,20 @@ struct Body {
 };
 
 TEST(FormulaTable, CasimirsComeFromTheBracketThatCountsThem) {
-  const auto body = make_model(descriptor, Body<Rotation>{});
+  const auto body = make_model(sample_descriptor, Body<Rotation>{});
   ASSERT_TRUE(body->given(Formula::casimirs));
-  EXPECT_EQ(values(*body, Formula::casimirs, 0, {1, 2, 3}), (std::vector<double>{14}));
-  EXPECT_FALSE(make_model(descriptor, Body<Silent>{})->given(Formula::casimirs));
+  EXPECT_EQ(values(*body, Formula::casimirs, 0.0, {1, 2, 3}), (std::vector<double>{14}));
+  EXPECT_FALSE(make_model(sample_descriptor, Body<Silent>{})->given(Formula::casimirs));
   // A bracket without any, for its parameters.
-  EXPECT_FALSE(make_model(descriptor, Body<Rotation>{{.count = 0}})->given(Formula::casimirs));
+  EXPECT_FALSE(make_model(sample_descriptor, Body<Rotation>{{.count = 0}})->given(Formula::casimirs));
 }
 
 TEST(FormulaTable, ReversalIsAFormulaAndNoFacet) {
-  const auto body = make_model(descriptor, Body<Rotation>{}), plain = make_model(descriptor, Transformed{});
+  const auto body = make_model(sample_descriptor, Body<Rotation>{}),
+             plain = make_model(sample_descriptor, Transformed{});
   ASSERT_TRUE(body->given(Formula::reversal));
   EXPECT_FALSE(plain->given(Formula::reversal));
-  EXPECT_EQ(values(*body, Formula::reversal, 0, {1, 2, 3}), (std::vector<double>{-1, -2, -3}));
+  EXPECT_EQ(values(*body, Formula::reversal, 0.0, {1, 2, 3}), (std::vector<double>{-1, -2, -3}));
   EXPECT_EQ(body->facets(), facets(Facet::vector_field, Facet::hamiltonian));
 }
 

@@ -3,9 +3,9 @@
 
 #include <pfaff/core/registry/member_names.hpp>
 
-namespace names {
+namespace order_names {
 PFAFF_MEMBER_NAME(order)
-}  // namespace names
+}  // namespace order_names
 
 namespace {
 
@@ -24,7 +24,7 @@ struct Template {
     return x;
   }
 };
-struct Overloaded {
+struct OverloadedOrder {
   static int order(int x) { return x; }
   static double order(double x) { return x; }
 };
@@ -38,32 +38,32 @@ struct Type {
   struct order {};
 };
 struct Inherited : Function {};
-class Private {
+class PrivateOrder {
   [[maybe_unused]] void order() {}
 };
 
 TEST(MemberNames, AnyMemberIsFoundByItsNameAlone) {
-  EXPECT_FALSE(names::has_order<None>);
-  EXPECT_TRUE(names::has_order<Function>);
-  EXPECT_TRUE(names::has_order<Static>);
-  EXPECT_TRUE(names::has_order<Template>);
-  EXPECT_TRUE(names::has_order<Overloaded>);
-  EXPECT_TRUE(names::has_order<Data>);
-  EXPECT_TRUE(names::has_order<StaticData>);
-  EXPECT_TRUE(names::has_order<Type>);
-  EXPECT_TRUE(names::has_order<Inherited>);
-  EXPECT_TRUE(names::has_order<Private>);
+  EXPECT_FALSE(order_names::has_order<None>);
+  EXPECT_TRUE(order_names::has_order<Function>);
+  EXPECT_TRUE(order_names::has_order<Static>);
+  EXPECT_TRUE(order_names::has_order<Template>);
+  EXPECT_TRUE(order_names::has_order<OverloadedOrder>);
+  EXPECT_TRUE(order_names::has_order<Data>);
+  EXPECT_TRUE(order_names::has_order<StaticData>);
+  EXPECT_TRUE(order_names::has_order<Type>);
+  EXPECT_TRUE(order_names::has_order<Inherited>);
+  EXPECT_TRUE(order_names::has_order<PrivateOrder>);
 }
 
 TEST(MemberNames, DataIsToldFromTheRest) {
-  EXPECT_FALSE(names::names_order<None>);
-  EXPECT_TRUE(names::names_order<Function>);
-  EXPECT_TRUE(names::names_order<Static>);
-  EXPECT_TRUE(names::names_order<Template>);
-  EXPECT_TRUE(names::names_order<Overloaded>);
-  EXPECT_FALSE(names::names_order<Data>);
-  EXPECT_FALSE(names::names_order<StaticData>);
-  EXPECT_TRUE(names::names_order<Inherited>);
+  EXPECT_FALSE(order_names::names_order<None>);
+  EXPECT_TRUE(order_names::names_order<Function>);
+  EXPECT_TRUE(order_names::names_order<Static>);
+  EXPECT_TRUE(order_names::names_order<Template>);
+  EXPECT_TRUE(order_names::names_order<OverloadedOrder>);
+  EXPECT_FALSE(order_names::names_order<Data>);
+  EXPECT_FALSE(order_names::names_order<StaticData>);
+  EXPECT_TRUE(order_names::names_order<Inherited>);
 }
 
 }  // namespace

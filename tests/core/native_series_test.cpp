@@ -73,7 +73,7 @@ SeriesCombination<W> combination(std::size_t levels, bool symmetric, bool one_ki
 
 // The largest difference between the compiled collocation and the one by replay.
 template <int W>
-double difference(const Model& compiled_model, std::size_t levels, bool symmetric, bool one_kind) {
+double series_difference(const Model& compiled_model, std::size_t levels, bool symmetric, bool one_kind) {
   const CompiledSeries& series = *compiled_model.chart_field_series();
   const SeriesWidth<W>& width = series.template width<W>();
   const auto c = combination<W>(levels, symmetric, one_kind);
@@ -128,9 +128,9 @@ TEST_F(NativeSeries, EveryRecurrenceGivesWhatTheReplayGives) {
     for (const bool one_kind : {false, true})
       for (const std::size_t levels : {1U, 3U, 6U, 7U, 11U, 15U}) {
         SCOPED_TRACE(levels);
-        EXPECT_LE(difference<1>(*made, levels, symmetric, one_kind), tolerance);
-        EXPECT_LE(difference<2>(*made, levels, symmetric, one_kind), tolerance);
-        EXPECT_LE(difference<4>(*made, levels, symmetric, one_kind), tolerance);
+        EXPECT_LE(series_difference<1>(*made, levels, symmetric, one_kind), tolerance);
+        EXPECT_LE(series_difference<2>(*made, levels, symmetric, one_kind), tolerance);
+        EXPECT_LE(series_difference<4>(*made, levels, symmetric, one_kind), tolerance);
       }
 }
 

@@ -48,7 +48,7 @@ std::shared_ptr<const Model> bare(const std::shared_ptr<const Model>& model) {
 
 // The largest difference between the compiled formula and a replay of the tape, relative to max(1, |x|), at
 // points about the initial state. NaN in both is no difference.
-double difference(const Model& model, Formula formula) {
+double compiled_difference(const Model& model, Formula formula) {
   Replay<double> replay(model.tape(formula));
   std::mt19937 random(5);
   std::uniform_real_distribution<double> change(-0.2, 0.2);
@@ -86,7 +86,7 @@ TEST_F(Native, CompiledFormulasGiveWhatTheTapesGive) {
       ASSERT_NE(model->compiled(formula), nullptr);
       // The same operations; a sine and a cosine taken together may differ in the last bit, which elimination
       // magnifies.
-      EXPECT_LE(difference(*model, formula), name == "n-pendulum-angles" ? 1e-13 : 2e-15);
+      EXPECT_LE(compiled_difference(*model, formula), name == "n-pendulum-angles" ? 1e-13 : 2e-15);
     }
   }
 }
@@ -98,7 +98,7 @@ TEST_F(Native, WhatAnAuthorCompiledStays) {
   EXPECT_EQ(written->compiled(Formula::field_jacobian), nullptr);
   ASSERT_NE(model->compiled(Formula::field_jacobian), nullptr);
   EXPECT_EQ(model->system(), written->system()) << "the author's code is called with the author's object";
-  EXPECT_LE(difference(*model, Formula::force), 2e-15);
+  EXPECT_LE(compiled_difference(*model, Formula::force), 2e-15);
 }
 
 // The field of a formulation loops over structured factors where it is not compiled.

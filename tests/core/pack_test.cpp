@@ -12,7 +12,7 @@ namespace {
 using namespace pfaff;
 
 template <int W>
-Pack<W> numbers() {
+Pack<W> lane_numbers() {
   Pack<W> x;
   for (int lane = 0; lane < W; ++lane) x.set(static_cast<std::size_t>(lane), 0.3 + 0.7 * lane);
   return x;
@@ -20,7 +20,7 @@ Pack<W> numbers() {
 // Where a function of packs differs from one of doubles: how many lanes.
 template <int W, class F, class G>
 int different(const F& of_pack, const G& of_double) {
-  const Pack<W> x = numbers<W>(), y = of_pack(x);
+  const Pack<W> x = lane_numbers<W>(), y = of_pack(x);
   int count = 0;
   for (std::size_t lane = 0; lane < W; ++lane) count += y[lane] == of_double(x[lane]) ? 0 : 1;
   return count;

@@ -7,26 +7,26 @@
 namespace {
 using namespace pfaff;
 
-struct Sample {
+struct Settings {
   Real nu = 0.3_r;
   int stages = 2;
   std::string form = "midpoint";
   bool compensated = true;
   static std::vector<Parameter> parameters() {
-    return {parameter(&Sample::nu, "nu", "1/s", 0, 10, "damping rate"),
-            parameter(&Sample::stages, "stages", "", 1, 32, "number of stages"),
-            parameter(&Sample::form, "form", {"midpoint", "qhat-p"}, "kind of generating function"),
-            parameter(&Sample::compensated, "compensated", "compensated summation")};
+    return {parameter(&Settings::nu, "nu", "1/s", 0, 10, "damping rate"),
+            parameter(&Settings::stages, "stages", "", 1, 32, "number of stages"),
+            parameter(&Settings::form, "form", {"midpoint", "qhat-p"}, "kind of generating function"),
+            parameter(&Settings::compensated, "compensated", "compensated summation")};
   }
 };
 
-void assign(Sample& sample, const Assignments& assignments) {
-  assign_all(Sample::parameters(), &sample, assignments, "system sample");
+void assign(Settings& sample, const Assignments& assignments) {
+  assign_all(Settings::parameters(), &sample, assignments, "system sample");
 }
 
 // The message that refuses the assignment; empty when it is accepted, in which case the test fails.
 std::string refusal(const std::string& key, const std::string& text) {
-  Sample sample;
+  Settings sample;
   try {
     assign(sample, {{key, text}});
   } catch (const InputError& error) {
@@ -43,7 +43,7 @@ std::string refusal(const std::string& key, const std::string& text) {
 }
 
 TEST(Parameter, TakesTextExactly) {
-  Sample sample;
+  Settings sample;
   assign(sample, {{"nu", "0.1"}, {"stages", "32"}, {"form", "qhat-p"}, {"compensated", "no"}});
   EXPECT_TRUE(sample.nu.is_fraction());
   EXPECT_TRUE(sample.nu == Real::fraction(1, 10));
@@ -86,14 +86,14 @@ TEST(Parameter, UnknownNamesGetTheNearest) {
 }
 
 TEST(Parameter, ResolvedGivesWhatAssignTakes) {
-  Sample sample;
+  Settings sample;
   assign(sample, {{"nu", "2/7"}, {"compensated", "no"}});
-  const Assignments values = resolved(Sample::parameters(), &sample);
+  const Assignments values = resolved(Settings::parameters(), &sample);
   EXPECT_EQ(values,
             (Assignments{{"nu", "2/7"}, {"stages", "2"}, {"form", "midpoint"}, {"compensated", "no"}}));
-  Sample copy;
+  Settings copy;
   assign(copy, values);
-  EXPECT_EQ(resolved(Sample::parameters(), &copy), values);
+  EXPECT_EQ(resolved(Settings::parameters(), &copy), values);
   EXPECT_TRUE(copy.nu == Real::fraction(2, 7));
   // A plug-in without parameters has none.
   struct Plain {};
@@ -101,7 +101,7 @@ TEST(Parameter, ResolvedGivesWhatAssignTakes) {
 }
 
 TEST(Parameter, RangesAreWrittenShort) {
-  const auto p = Sample::parameters();
+  const auto p = Settings::parameters();
   EXPECT_EQ(range_of(p[0]), "0 .. 10 1/s");
   EXPECT_EQ(range_of(p[1]), "1 .. 32");
   EXPECT_EQ(range_of(p[2]), "midpoint|qhat-p");

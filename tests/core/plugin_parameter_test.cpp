@@ -11,9 +11,9 @@ namespace {
 using namespace pfaff;
 
 // Plug-ins that can be chosen: springs in springs.
-const std::vector<std::string> names{"coil", "stiff"};
+const std::vector<std::string> spring_names{"coil", "stiff"};
 
-struct Spring {
+struct NestedSpring {
   Real stiffness = 1_r;
   std::vector<Real> lengths;
   PluginValue inner{"coil"};
@@ -21,42 +21,42 @@ struct Spring {
 };
 
 void require_known(const std::string& name) {
-  if (std::find(names.begin(), names.end(), name) == names.end())
-    throw InputError(unknown_name("spring", name, names));
+  if (std::find(spring_names.begin(), spring_names.end(), name) == spring_names.end())
+    throw InputError(unknown_name("spring", name, spring_names));
 }
 
 PluginChoice springs() {
   return {.kind = "spring",
-          .names = [] { return names; },
+          .names = [] { return spring_names; },
           .parameters =
               [](const std::string& name) {
                 require_known(name);
-                return name == "coil" ? std::vector<Parameter>{} : Spring::parameters();
+                return name == "coil" ? std::vector<Parameter>{} : NestedSpring::parameters();
               },
           .resolve =
               [](const PluginValue& value) {
                 require_known(value.name);
-                Spring spring;
+                NestedSpring spring;
                 const auto parameters =
-                    value.name == "coil" ? std::vector<Parameter>{} : Spring::parameters();
+                    value.name == "coil" ? std::vector<Parameter>{} : NestedSpring::parameters();
                 assign_all(parameters, &spring, value.settings, "spring " + value.name);
                 return resolved(parameters, &spring);
               }};
 }
 
-std::vector<Parameter> Spring::parameters() {
-  return {parameter(&Spring::stiffness, "stiffness", "N/m", 0, 10),
-          parameter(&Spring::lengths, "lengths", "m", 0, 10),
-          parameter(&Spring::inner, "inner", springs(), "the spring within")};
+std::vector<Parameter> NestedSpring::parameters() {
+  return {parameter(&NestedSpring::stiffness, "stiffness", "N/m", 0, 10),
+          parameter(&NestedSpring::lengths, "lengths", "m", 0, 10),
+          parameter(&NestedSpring::inner, "inner", springs(), "the spring within")};
 }
 
 // What `inner` is after the assignments.
 std::string inner(const Assignments& assignments) {
-  Spring spring;
-  assign_all(Spring::parameters(), &spring, assignments, "spring outermost");
+  NestedSpring spring;
+  assign_all(NestedSpring::parameters(), &spring, assignments, "spring outermost");
   return to_string(spring.inner);
 }
-std::string refusal(const Assignments& assignments) {
+std::string choice_refusal(const Assignments& assignments) {
   try {
     return "accepted as " + inner(assignments);
   } catch (const InputError& error) {
@@ -100,35 +100,37 @@ TEST(PluginParameter, RefusalsSayWhatWasExpected) {
   for (const char* text : {"", "(", "coil(", "coil)", "(coil)", "stiff(stiffness)", "stiff(=1)", "stiff(,)",
                            "stiff(stiffness=1", "stiff(stiffness=1))", "stiff(stiffness=1)x", "two words",
                            "stiff(stiffness=1,)", "stiff()(inner=coil)"})
-    EXPECT_EQ(refusal({{"inner", text}}), std::string("parameter 'inner' of spring outermost, of kind "
-                                                      "spring: expected NAME or NAME(key=value, key=value), "
-                                                      "got '") +
-                                              text + "'");
-  EXPECT_EQ(refusal({{"inner", "coli"}}), "unknown spring 'coli'; did you mean 'coil'?");
-  EXPECT_EQ(refusal({{"inner", "stiff(stifness=1)"}}),
+    EXPECT_EQ(choice_refusal({{"inner", text}}),
+              std::string("parameter 'inner' of spring outermost, of kind "
+                          "spring: expected NAME or NAME(key=value, key=value), "
+                          "got '") +
+                  text + "'");
+  EXPECT_EQ(choice_refusal({{"inner", "coli"}}), "unknown spring 'coli'; did you mean 'coil'?");
+  EXPECT_EQ(choice_refusal({{"inner", "stiff(stifness=1)"}}),
             "unknown parameter 'stifness'; did you mean 'stiffness'? (of spring stiff)");
-  EXPECT_EQ(refusal({{"inner", "stiff"}, {"inner.stifness", "1"}}),
+  EXPECT_EQ(choice_refusal({{"inner", "stiff"}, {"inner.stifness", "1"}}),
             "unknown parameter 'stifness'; did you mean 'stiffness'? (of spring stiff)");
-  EXPECT_EQ(refusal({{"inner", "stiff(inner=stiff(stiffness=11))"}}),
+  EXPECT_EQ(choice_refusal({{"inner", "stiff(inner=stiff(stiffness=11))"}}),
             "parameter 'stiffness' of spring stiff: expected a number in 0 .. 10 N/m, got '11'");
-  EXPECT_EQ(refusal({{"iner.stiffness", "1"}}).substr(0, 36), "unknown parameter 'iner.stiffness'; ");
-  EXPECT_NE(refusal({{"stiffness.x", "1"}}).find("unknown parameter 'stiffness.x'"), std::string::npos);
+  EXPECT_EQ(choice_refusal({{"iner.stiffness", "1"}}).substr(0, 36), "unknown parameter 'iner.stiffness'; ");
+  EXPECT_NE(choice_refusal({{"stiffness.x", "1"}}).find("unknown parameter 'stiffness.x'"),
+            std::string::npos);
 }
 
 TEST(PluginParameter, ItsRangeIsWhatCanBeChosen) {
-  EXPECT_EQ(range_of(Spring::parameters()[2]), "coil|stiff");
+  EXPECT_EQ(range_of(NestedSpring::parameters()[2]), "coil|stiff");
 }
 
 // Plug-ins of a registry of their own.
-struct Named {
+struct BarePlugin {
   std::string name_, file_;
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const std::string& file() const { return file_; }
 };
 
 TEST(Registry, AliasesAreFoundAndNotListed) {
-  const Named verlet{"verlet", "a.cpp"}, leap{"leap", "a.cpp"}, other{"stormer", "a.cpp"};
-  Registry<Named> registry;
+  const BarePlugin verlet{"verlet", "a.cpp"}, leap{"leap", "a.cpp"}, other{"stormer", "a.cpp"};
+  Registry<BarePlugin> registry;
   registry.add_alias(&other);
   registry.add(&verlet);
   registry.add(&leap);
@@ -150,8 +152,8 @@ TEST(Registry, AliasesAreFoundAndNotListed) {
 }
 
 TEST(Registry, AnAliasAndAPlugInOfOneNameAreReported) {
-  const Named first{"verlet", "a.cpp"}, second{"verlet", "b.cpp"}, third{"verlet", "c.cpp"};
-  Registry<Named> registry;
+  const BarePlugin first{"verlet", "a.cpp"}, second{"verlet", "b.cpp"}, third{"verlet", "c.cpp"};
+  Registry<BarePlugin> registry;
   registry.add_alias(&first);
   registry.add(&second);
   registry.add_alias(&third);

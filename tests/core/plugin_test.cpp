@@ -19,7 +19,7 @@ using namespace pfaff;
 
 std::string plugin(const std::string& name) { return std::string(PFAFF_TEST_PLUGINS) + "/" + name + ".so"; }
 
-std::string refusal(const std::string& path) {
+std::string abi_refusal(const std::string& path) {
   try {
     require_same_abi(path);
   } catch (const InputError& error) {
@@ -36,7 +36,7 @@ TEST(AbiStamp, EveryTranslationUnitLeavesOne) {
 }
 
 TEST(AbiStamp, ARefusalNamesWhatDiffersAndNothingElse) {
-  const std::string text = refusal(plugin("fast-math"));
+  const std::string text = abi_refusal(plugin("fast-math"));
   EXPECT_NE(text.find("built for arithmetic=fast; expected arithmetic=strict"), std::string::npos) << text;
   EXPECT_EQ(text.find("compiler="), std::string::npos) << text;
 }
@@ -54,11 +54,11 @@ TEST(AbiStamp, DamagedFilesAreRefused) {
     return path.string();
   };
   for (std::size_t size = 0; size < 2048; size += 7)
-    EXPECT_NE(refusal(written(bytes.substr(0, size))), "") << size;
+    EXPECT_NE(abi_refusal(written(bytes.substr(0, size))), "") << size;
   for (std::size_t at = 16; at < 1024; ++at) {
     std::string damaged = bytes;
     damaged[at] = static_cast<char>(~damaged[at]);
-    EXPECT_NE(refusal(written(damaged)), "") << at;
+    EXPECT_NE(abi_refusal(written(damaged)), "") << at;
   }
   std::filesystem::remove(path);
 }
@@ -83,7 +83,7 @@ TEST(AbiStamp, FilesThatAreCutOffAreRefused) {
       std::filesystem::temp_directory_path() / ("pfaff-cut-off-" + std::to_string(getpid()) + ".so");
   const auto cut = [&](std::size_t size) {
     std::ofstream(path, std::ios::binary) << bytes.substr(0, size);
-    return refusal(path.string());
+    return abi_refusal(path.string());
   };
   for (std::size_t size = 64; size < segments_end; size += 509) EXPECT_NE(cut(size), "") << size;
   EXPECT_NE(cut(segments_end - 1).find("is cut off or damaged"), std::string::npos);
@@ -98,14 +98,14 @@ TEST(AbiStamp, FilesThatAreCutOffAreRefused) {
   segment.p_filesz = 16;
   std::memcpy(damaged.data() + header.e_phoff, &segment, sizeof segment);
   std::ofstream(path, std::ios::binary) << damaged;
-  EXPECT_NE(refusal(path.string()).find("is cut off or damaged"), std::string::npos);
+  EXPECT_NE(abi_refusal(path.string()).find("is cut off or damaged"), std::string::npos);
   std::filesystem::remove(path);
 }
 
 TEST(AbiStamp, OnlyFilesAreOpened) {
-  EXPECT_NE(refusal("/dev/zero").find("is no regular file"), std::string::npos);
-  EXPECT_NE(refusal("/tmp").find("is no regular file"), std::string::npos);
-  EXPECT_NE(refusal("/missing.so").find("cannot be read"), std::string::npos);
+  EXPECT_NE(abi_refusal("/dev/zero").find("is no regular file"), std::string::npos);
+  EXPECT_NE(abi_refusal("/tmp").find("is no regular file"), std::string::npos);
+  EXPECT_NE(abi_refusal("/missing.so").find("cannot be read"), std::string::npos);
 }
 
 // The words by which the flags -fshort-enums, -fpack-struct and -funsigned-char show.

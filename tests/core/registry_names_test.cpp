@@ -16,19 +16,19 @@ TEST(RegistryNames, KebabCase) {
     EXPECT_FALSE(is_kebab_case(name)) << name;
 }
 
-class Named : public Plugin {
+class NamedPlugin : public Plugin {
  public:
-  Named(const std::string& name, std::vector<Parameter> parameters)
-      : Plugin(name, std::move(parameters), typeid(Named), std::source_location::current()) {}
+  NamedPlugin(const std::string& name, std::vector<Parameter> parameters)
+      : Plugin(name, std::move(parameters), typeid(NamedPlugin), std::source_location::current()) {}
 };
 struct Object {
   Real rate = 1;
 };
 
 TEST(RegistryNames, OthersAreKeptAside) {
-  const Named good("good", {}), spaced("two words", {}), alias("Alias", {}),
+  const NamedPlugin good("good", {}), spaced("two words", {}), alias("Alias", {}),
       parameter("fine", {pfaff::parameter(&Object::rate, "a rate", "", 0, 1)});
-  Registry<Named> registry;
+  Registry<NamedPlugin> registry;
   registry.add(&good);
   EXPECT_TRUE(registry.misnamed().empty());
   registry.add(&spaced);

@@ -9,15 +9,15 @@
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/replay.hpp>
 
+#include "../formula_values.hpp"
 #include "random_formula.hpp"
 
 namespace {
 using namespace pfaff;
 using pfaff::testing::RandomFormula;
+using pfaff::testing::shared;
 using Arguments = std::span<const Recorded>;
 using Results = std::span<Recorded>;
-
-std::shared_ptr<const Tape> shared(Tape tape) { return std::make_shared<const Tape>(std::move(tape)); }
 
 constexpr unsigned formulas = 100;
 constexpr int inputs = 3, outputs = 2, operations = 25;

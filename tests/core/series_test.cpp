@@ -12,14 +12,14 @@
 #include <pfaff/core/tape/replay.hpp>
 #include <pfaff/core/tape/series.hpp>
 
+#include "../formula_values.hpp"
 #include "random_formula.hpp"
 
 namespace {
 using namespace pfaff;
+using pfaff::testing::shared;
 using Arguments = std::span<const Recorded>;
 using Results = std::span<Recorded>;
-
-std::shared_ptr<const Tape> shared(Tape tape) { return std::make_shared<const Tape>(std::move(tape)); }
 
 constexpr int levels = 16;
 constexpr std::size_t size = levels;

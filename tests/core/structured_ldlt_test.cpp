@@ -72,7 +72,7 @@ T bound(const SymmetricPattern& pattern, const Entries& e, const T& growth, cons
 }
 
 template <class T>
-void residuals_are_round_off() {
+void ldlt_residuals_are_round_off() {
   std::mt19937_64 random(42);
   int noticed = 0, changed = 0;
   for (const Sample& sample : samples(random)) {
@@ -102,8 +102,8 @@ void residuals_are_round_off() {
   // Not where the entry or the solution there happens to be small.
   EXPECT_GT(noticed, changed / 2);
 }
-TEST(StructuredLDLT, ResidualsAreRoundOffInDouble) { residuals_are_round_off<double>(); }
-TEST(StructuredLDLT, ResidualsAreRoundOffInQuad) { residuals_are_round_off<Quad>(); }
+TEST(StructuredLDLT, ResidualsAreRoundOffInDouble) { ldlt_residuals_are_round_off<double>(); }
+TEST(StructuredLDLT, ResidualsAreRoundOffInQuad) { ldlt_residuals_are_round_off<Quad>(); }
 
 TEST(StructuredLDLT, SolvesLikeEigensSimplicialFactorisation) {
   std::mt19937_64 random(43);
@@ -180,7 +180,7 @@ TEST(StructuredLDLT, DualsCarryDerivativesThrough) {
 }
 
 // factor() and solve(), or factor_semidefinite() and solve(), as a formula of all entries.
-struct Formula {
+struct SolveFormula {
   std::shared_ptr<const SymmetricPattern> pattern;
   bool semidefinite;
 
@@ -204,7 +204,7 @@ void recorded_is_the_same() {
   std::mt19937_64 random(45);
   for (const Sample& sample : samples(random))
     for (const bool semidefinite : {false, true}) {
-      const Formula formula{sample.pattern, semidefinite};
+      const SolveFormula formula{sample.pattern, semidefinite};
       const auto rows = static_cast<int>(sample.pattern->rows());
       Replay<T> replay(std::make_shared<const Tape>(record(
           formula.inputs(), rows,

@@ -48,7 +48,7 @@ TEST(StructuredLU, ExactOverRationals) {
 
 // A residual of round-off times growth, as for L D L^T.
 template <class T>
-void residuals_are_round_off() {
+void lu_residuals_are_round_off() {
   std::mt19937_64 random(62);
   for (const Sample& sample : samples(random)) {
     StructuredLU<T> matrix(sample.pattern);
@@ -69,8 +69,8 @@ void residuals_are_round_off() {
     }
   }
 }
-TEST(StructuredLU, ResidualsAreRoundOffInDouble) { residuals_are_round_off<double>(); }
-TEST(StructuredLU, ResidualsAreRoundOffInQuad) { residuals_are_round_off<Quad>(); }
+TEST(StructuredLU, ResidualsAreRoundOffInDouble) { lu_residuals_are_round_off<double>(); }
+TEST(StructuredLU, ResidualsAreRoundOffInQuad) { lu_residuals_are_round_off<Quad>(); }
 
 TEST(StructuredLU, SolvesLikeEigen) {
   std::mt19937_64 random(63);

@@ -33,13 +33,13 @@ struct DoublesOnly {
 struct NotATemplate {
   void field(double t, In<double> z, Out<double> rate) const { rate[0] = t * z[0]; }
 };
-class Private {
+class PrivateField {
   template <class T>
   void field(const T& /*t*/, In<T> z, Out<T> rate) const {
     rate[0] = z[0];
   }
 };
-struct Overloaded {
+struct OverloadedField {
   template <class T>
   void field(In<T> z) const;
   template <class T>
@@ -64,8 +64,8 @@ TEST(SystemFormulas, NamesAreFoundWhateverTheirSignature) {
   EXPECT_TRUE((names<NotConst, Formula::field> && !writes<NotConst, Formula::field>));
   EXPECT_TRUE((names<DoublesOnly, Formula::field> && !writes<DoublesOnly, Formula::field>));
   EXPECT_TRUE((names<NotATemplate, Formula::field> && !writes<NotATemplate, Formula::field>));
-  EXPECT_TRUE((names<Private, Formula::field> && !writes<Private, Formula::field>));
-  EXPECT_TRUE((names<Overloaded, Formula::field> && !writes<Overloaded, Formula::field>));
+  EXPECT_TRUE((names<PrivateField, Formula::field> && !writes<PrivateField, Formula::field>));
+  EXPECT_TRUE((names<OverloadedField, Formula::field> && !writes<OverloadedField, Formula::field>));
   EXPECT_TRUE((names<Inherits, Formula::field> && !writes<Inherits, Formula::field>));
   EXPECT_TRUE((names<ReturnsNothing, Formula::kinetic> && !writes<ReturnsNothing, Formula::kinetic>));
   EXPECT_FALSE((names<DataOfTheName, Formula::field> || names<StaticDataOfTheName, Formula::field>));

@@ -25,12 +25,12 @@ Tridiagonal<T> random_matrix(std::size_t rows, int smallest_diagonal, std::mt199
   return s;
 }
 template <class T>
-T difference(const Matrix<T>& a, const Matrix<T>& b) {
+T matrix_distance(const Matrix<T>& a, const Matrix<T>& b) {
   return largest(a - b);
 }
 template <class T>
 T error_of(const Tridiagonal<T>& s, const Matrix<T>& inverse) {
-  return difference(s.dense() * inverse, Matrix<T>::identity(s.rows()));
+  return matrix_distance(s.dense() * inverse, Matrix<T>::identity(s.rows()));
 }
 
 // Reference values, computed with 40 digits.
@@ -74,7 +74,8 @@ void expect_reference_values(double tolerance) {
   // The condition of S is below 10, its entries of order 1.
   for (const Matrix<T>& inverse : {inverse_by_minors(s), pair.dense(), factor.inverse()})
     EXPECT_LE(error_of(s, inverse), T(10 * tolerance));
-  EXPECT_LE(difference(u.transposed() * s.dense() * u, Matrix<T>::identity(s.rows())), T(10 * tolerance));
+  EXPECT_LE(matrix_distance(u.transposed() * s.dense() * u, Matrix<T>::identity(s.rows())),
+            T(10 * tolerance));
 }
 // A few dozen roundings each.
 TEST(TridiagonalInverse, ReferenceValuesInDouble) { expect_reference_values<double>(40 * 0x1p-53); }
@@ -107,9 +108,9 @@ TEST(TridiagonalInverse, ClosedFormsAreExactOverRationals) {
     if (leading_minors(s).back() == Rational(0)) continue;
     ++regular;
     const Matrix<Rational> expected = inverse(s.dense());
-    EXPECT_EQ(difference(inverse_by_minors(s), expected), Rational(0));
+    EXPECT_EQ(matrix_distance(inverse_by_minors(s), expected), Rational(0));
     const OnePair<Rational> pair = one_pair_inverse(s);
-    EXPECT_EQ(difference(pair.dense(), expected), Rational(0));
+    EXPECT_EQ(matrix_distance(pair.dense(), expected), Rational(0));
     // There and back.
     const auto again = tridiagonal_inverse(pair);
     EXPECT_EQ(again.diagonal, s.diagonal);
@@ -129,7 +130,7 @@ TEST(TridiagonalInverse, OnePairMatricesHaveTridiagonalInverses) {
                           Rational(7));
     }
     const auto s = tridiagonal_inverse(pair);
-    EXPECT_EQ(difference(s.dense(), inverse(pair.dense())), Rational(0));
+    EXPECT_EQ(matrix_distance(s.dense(), inverse(pair.dense())), Rational(0));
   }
   // Control: the inverse of a matrix that is no one-pair matrix is full.
   Matrix<Rational> m(3, 3);
@@ -176,9 +177,9 @@ void factor_is_of_the_inverse() {
     const Matrix<T> u = factor.dense();
     // Diagonally dominant by 1/3 at least, entries below 6: the condition is below 60.
     const T tolerance = T(400) * unit_roundoff<T>();
-    EXPECT_LE(difference(u.transposed() * s.dense() * u, Matrix<T>::identity(rows)), tolerance);
+    EXPECT_LE(matrix_distance(u.transposed() * s.dense() * u, Matrix<T>::identity(rows)), tolerance);
     EXPECT_LE(error_of(s, u * u.transposed()), tolerance);
-    EXPECT_LE(difference(factor.inverse(), u * u.transposed()), tolerance);
+    EXPECT_LE(matrix_distance(factor.inverse(), u * u.transposed()), tolerance);
     if (rows == 1) continue;
     const std::vector<T> beta = normalised_couplings(s);
     ASSERT_EQ(beta.size(), factor.beta.size());

@@ -4,22 +4,16 @@
 #include <pfaff/core/formulation.hpp>
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
-#include <pfaff/core/tape/replay.hpp>
+
+#include "../formula_values.hpp"
 
 namespace {
 using namespace pfaff;
+using pfaff::testing::values;
 
-const SystemDescriptor descriptor{
+const SystemDescriptor sleigh_descriptor{
     .name = "sleigh", .title = "", .reference = "", .invariants = {conserved("energy", "J")}};
 
-std::vector<double> values(const Model& model, Formula formula, double t, const std::vector<double>& x) {
-  const auto tape = model.tape(formula);
-  EXPECT_EQ(static_cast<std::size_t>(tape->inputs), x.size());
-  std::vector<double> out(tape->outputs.size());
-  Replay<double> replay(tape);
-  replay(t, x.data(), out.data());
-  return out;
-}
 void expect_near(const std::vector<double>& found, const std::vector<double>& expected) {
   ASSERT_EQ(found.size(), expected.size());
   for (std::size_t k = 0; k < found.size(); ++k) EXPECT_NEAR(found[k], expected[k], 1e-15) << k;
@@ -61,7 +55,7 @@ struct SleighOnABelt : Sleigh {
 const std::vector<double> q{0.1, 0.2, 0.7}, z{0.1, 0.2, 0.7, 3, -2, 1};
 
 TEST(VelocityConstraints, AreOfferedAndNoVectorFieldIs) {
-  const auto model = make_model(descriptor, Sleigh{});
+  const auto model = make_model(sleigh_descriptor, Sleigh{});
   EXPECT_EQ(model->facets(), facets(Facet::velocity_constraints, Facet::invariants));
   EXPECT_TRUE(model->restricted());
   EXPECT_TRUE(model->has_energy());
@@ -83,23 +77,24 @@ TEST(VelocityConstraints, AreOfferedAndNoVectorFieldIs) {
 }
 
 TEST(VelocityConstraints, TapesAreWhatTheirAuthorWrote) {
-  const auto rest = make_model(descriptor, Sleigh{}), moving = make_model(descriptor, SleighOnABelt{});
+  const auto rest = make_model(sleigh_descriptor, Sleigh{}),
+             moving = make_model(sleigh_descriptor, SleighOnABelt{});
   for (const auto& model : {rest, moving})
-    expect_near(values(*model, Formula::velocity_constraints, 2, q), {-std::sin(0.7), std::cos(0.7), 0});
+    expect_near(values(*model, Formula::velocity_constraints, 2.0, q), {-std::sin(0.7), std::cos(0.7), 0});
   EXPECT_FALSE(rest->given(Formula::velocity_offsets));
-  EXPECT_EQ(values(*rest, Formula::velocity_offsets, 2, q), std::vector<double>{0});
-  expect_near(values(*moving, Formula::velocity_offsets, 2, q), {-2 * std::cos(0.7)});
+  EXPECT_EQ(values(*rest, Formula::velocity_offsets, 2.0, q), std::vector<double>{0});
+  expect_near(values(*moving, Formula::velocity_offsets, 2.0, q), {-2 * std::cos(0.7)});
   EXPECT_FALSE(moving->autonomous());
 }
 
 TEST(VelocityConstraints, AreConstraintsOfThePhaseSpaceWithTheirGradients) {
-  const auto model = make_model(descriptor, SleighOnABelt{});
+  const auto model = make_model(sleigh_descriptor, SleighOnABelt{});
   const double s = std::sin(0.7), c = std::cos(0.7), slip = -s * 3 / 4 - c * 2 / 4 - 2 * c;
-  expect_near(values(*model, Formula::constraints, 2, z), {slip});
-  expect_near(values(*model, Formula::constraint_gradients, 2, z),
+  expect_near(values(*model, Formula::constraints, 2.0, z), {slip});
+  expect_near(values(*model, Formula::constraint_gradients, 2.0, z),
               {0, 0, -c * 3 / 4 + s * 2 / 4 + 2 * s, -s / 4, c / 4, 0});
   EXPECT_EQ(model->constraint_names(), std::vector<std::string>{"blade"});
-  EXPECT_EQ(make_model(descriptor, Sleigh{})->constraint_names(), std::vector<std::string>{"psi1"});
+  EXPECT_EQ(make_model(sleigh_descriptor, Sleigh{})->constraint_names(), std::vector<std::string>{"psi1"});
 }
 
 // On a plane that tilts as well: a holonomic constraint beside that of velocities.
@@ -111,11 +106,11 @@ struct SleighOnASlope : Sleigh {
   }
 };
 TEST(VelocityConstraints, StandBesideHolonomicOnes) {
-  const auto model = make_model(descriptor, SleighOnASlope{});
+  const auto model = make_model(sleigh_descriptor, SleighOnASlope{});
   EXPECT_EQ(model->facets(), facets(Facet::velocity_constraints, Facet::invariants));
   EXPECT_EQ(model->constraint_names(), (std::vector<std::string>{"phi1", "phi1~", "psi1"}));
   const double s = std::sin(0.7), c = std::cos(0.7);
-  expect_near(values(*model, Formula::constraints, 2, z),
+  expect_near(values(*model, Formula::constraints, 2.0, z),
               {0.2 - 2 * 0.1, -2.0 / 4 - 2 * 3.0 / 4 - 0.1, -s * 3 / 4 - c * 2 / 4});
 }
 
@@ -123,7 +118,7 @@ TEST(VelocityConstraints, ProblemsHaveTheirMembers) {
   EXPECT_TRUE(HasVelocityConstraints<Problem<double>>);
   constexpr FacetSet without = FacetSet::all().without(Facet::velocity_constraints);
   EXPECT_FALSE((HasVelocityConstraints<Problem<double, dynamic, without>>));
-  const Problem<Quad> problem(make_model(descriptor, Sleigh{}));
+  const Problem<Quad> problem(make_model(sleigh_descriptor, Sleigh{}));
   std::vector<Quad> at{Quad(0), Quad(0), Quad(1)}, rows(3), b(1);
   problem.velocity_constraints(Quad(0), at, rows);
   problem.velocity_offsets(Quad(0), at, b);
@@ -148,7 +143,7 @@ TEST(VelocityConstraints, AWrongNumberOfResultsIsRefused) {
   try {
     SleighOnABelt wrong;
     wrong.written = 2;
-    (void)make_model(descriptor, wrong);
+    (void)make_model(sleigh_descriptor, wrong);
     FAIL() << "two offsets of one constraint were accepted";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(), "system sleigh: velocity_offsets(t, q, b) writes 2 results; expected 1");

@@ -107,7 +107,7 @@ TEST(ConstraintConformance, EveryGraphOfRods) {
 }
 
 // Operations that an evaluator may have wrong.
-enum class Broken {
+enum class HolonomicFault {
   none,
   values,
   hidden_values,
@@ -142,72 +142,78 @@ enum class Broken {
 
 // Another evaluator's operations, one of them off by a millionth in its first number (or not done at all).
 template <class T>
-class Wrong final : public HolonomicConstraints<T> {
+class WrongHolonomicConstraints final : public HolonomicConstraints<T> {
  public:
-  Wrong(std::unique_ptr<HolonomicConstraints<T>> sound, Broken broken)
+  WrongHolonomicConstraints(std::unique_ptr<HolonomicConstraints<T>> sound, HolonomicFault broken)
       : c_(std::move(sound)), broken_(broken), pattern_(c_->count(), {}) {}
 
   [[nodiscard]] std::size_t count() const override {
-    return broken_ == Broken::count ? c_->count() - 1 : c_->count();
+    return broken_ == HolonomicFault::count ? c_->count() - 1 : c_->count();
   }
   [[nodiscard]] std::size_t degrees() const override { return c_->degrees(); }
   [[nodiscard]] const SymmetricPattern& pattern() const override {
-    return broken_ == Broken::pattern ? pattern_ : c_->pattern();
+    return broken_ == HolonomicFault::pattern ? pattern_ : c_->pattern();
   }
-  void values(const T& t, In<T> q, Out<T> phi) override { c_->values(t, q, phi), spoil(Broken::values, phi); }
+  void values(const T& t, In<T> q, Out<T> phi) override {
+    c_->values(t, q, phi), spoil(HolonomicFault::values, phi);
+  }
   void hidden_values(const T& t, In<T> q, In<T> p, Out<T> hidden) override {
-    c_->hidden_values(t, q, p, hidden), spoil(Broken::hidden_values, hidden);
+    c_->hidden_values(t, q, p, hidden), spoil(HolonomicFault::hidden_values, hidden);
   }
   void velocity(const T& t, In<T> q, In<T> p, Out<T> v) override {
-    c_->velocity(t, q, p, v), spoil(Broken::velocity, v);
+    c_->velocity(t, q, p, v), spoil(HolonomicFault::velocity, v);
   }
   void force(const T& t, In<T> q, In<T> p, Out<T> f) override {
-    c_->force(t, q, p, f), spoil(Broken::force, f);
+    c_->force(t, q, p, f), spoil(HolonomicFault::force, f);
   }
   Status linearise(const T& t, In<T> q, In<T> p) override {
-    return broken_ == Broken::linearise ? Status::converged : c_->linearise(t, q, p);
+    return broken_ == HolonomicFault::linearise ? Status::converged : c_->linearise(t, q, p);
   }
-  void apply(In<T> u, Out<T> r) const override { c_->apply(u, r), spoil(Broken::apply, r); }
+  void apply(In<T> u, Out<T> r) const override { c_->apply(u, r), spoil(HolonomicFault::apply, r); }
   void apply_transpose(In<T> x, Out<T> f) const override {
-    c_->apply_transpose(x, f), spoil(Broken::apply_transpose, f);
+    c_->apply_transpose(x, f), spoil(HolonomicFault::apply_transpose, f);
   }
   void solve(In<T> r, Out<T> x) const override {
     const bool in_place = r.data() == x.data();
-    c_->solve(r, x), spoil(in_place ? Broken::solve_in_place : Broken::solve, x);
+    c_->solve(r, x), spoil(in_place ? HolonomicFault::solve_in_place : HolonomicFault::solve, x);
   }
   void solve(In<T> r1, Out<T> x1, In<T> r2, Out<T> x2) const override {
-    c_->solve(r1, x1, r2, x2), spoil(Broken::solve_of_two, x2);
+    c_->solve(r1, x1, r2, x2), spoil(HolonomicFault::solve_of_two, x2);
   }
   void hidden_by_momentum(In<T> u, Out<T> r) const override {
-    c_->hidden_by_momentum(u, r), spoil(Broken::hidden_by_momentum, r);
+    c_->hidden_by_momentum(u, r), spoil(HolonomicFault::hidden_by_momentum, r);
   }
   void hidden_by_momentum_transpose(In<T> x, Out<T> v) const override {
-    c_->hidden_by_momentum_transpose(x, v), spoil(Broken::hidden_by_momentum_transpose, v);
+    c_->hidden_by_momentum_transpose(x, v), spoil(HolonomicFault::hidden_by_momentum_transpose, v);
   }
   Status place(const T& t, In<T> q, In<T> p) override {
-    return broken_ == Broken::place ? Status::converged : c_->place(t, q, p);
+    return broken_ == HolonomicFault::place ? Status::converged : c_->place(t, q, p);
   }
   [[nodiscard]] std::span<const T> residuals() const override {
-    return spoiled(Broken::residuals, c_->residuals());
+    return spoiled(HolonomicFault::residuals, c_->residuals());
   }
-  [[nodiscard]] std::span<const T> hidden() const override { return spoiled(Broken::hidden, c_->hidden()); }
+  [[nodiscard]] std::span<const T> hidden() const override {
+    return spoiled(HolonomicFault::hidden, c_->hidden());
+  }
   [[nodiscard]] std::span<const T> hidden_rates() const override {
-    return spoiled(Broken::hidden_rates, c_->hidden_rates());
+    return spoiled(HolonomicFault::hidden_rates, c_->hidden_rates());
   }
   [[nodiscard]] std::span<const T> velocities() const override {
-    return spoiled(Broken::velocities, c_->velocities());
+    return spoiled(HolonomicFault::velocities, c_->velocities());
   }
-  [[nodiscard]] std::span<const T> forces() const override { return spoiled(Broken::forces, c_->forces()); }
+  [[nodiscard]] std::span<const T> forces() const override {
+    return spoiled(HolonomicFault::forces, c_->forces());
+  }
   void hidden_by_position(In<T> u, Out<T> r) const override {
-    c_->hidden_by_position(u, r), spoil(Broken::hidden_by_position, r);
+    c_->hidden_by_position(u, r), spoil(HolonomicFault::hidden_by_position, r);
   }
   void hidden_by_position_transpose(In<T> x, Out<T> f) const override {
-    c_->hidden_by_position_transpose(x, f), spoil(Broken::hidden_by_position_transpose, f);
+    c_->hidden_by_position_transpose(x, f), spoil(HolonomicFault::hidden_by_position_transpose, f);
   }
   [[nodiscard]] ConstrainedRates<T>* rates(Reactions reactions) override {
     rates_.inner = c_->rates(reactions);
-    const bool wrong = (broken_ == Broken::ideal_rates && reactions == Reactions::ideal) ||
-                       (broken_ == Broken::hamiltonian_rates && reactions == Reactions::hamiltonian);
+    const bool wrong = (broken_ == HolonomicFault::ideal_rates && reactions == Reactions::ideal) ||
+                       (broken_ == HolonomicFault::hamiltonian_rates && reactions == Reactions::hamiltonian);
     return wrong ? &rates_ : rates_.inner;
   }
   [[nodiscard]] IdealRates<T>* ideal_rates() override {
@@ -216,20 +222,20 @@ class Wrong final : public HolonomicConstraints<T> {
     return responding_.inner == nullptr ? nullptr : &responding_;
   }
   [[nodiscard]] std::span<const T> friction() const override {
-    return spoiled(Broken::friction, c_->friction());
+    return spoiled(HolonomicFault::friction, c_->friction());
   }
   Status factor_friction() override {
-    return broken_ == Broken::factor_friction ? Status::converged : c_->factor_friction();
+    return broken_ == HolonomicFault::factor_friction ? Status::converged : c_->factor_friction();
   }
   void solve_friction(In<T> r, Out<T> x) const override {
-    c_->solve_friction(r, x), spoil(Broken::solve_friction, x);
+    c_->solve_friction(r, x), spoil(HolonomicFault::solve_friction, x);
   }
 
  private:
-  void spoil(Broken operation, Out<T> numbers) const {
+  void spoil(HolonomicFault operation, Out<T> numbers) const {
     if (operation == broken_) numbers[0] = numbers[0] + T(1e-6);
   }
-  [[nodiscard]] std::span<const T> spoiled(Broken operation, std::span<const T> numbers) const {
+  [[nodiscard]] std::span<const T> spoiled(HolonomicFault operation, std::span<const T> numbers) const {
     if (operation != broken_) return numbers;
     copy_.assign(numbers.begin(), numbers.end());
     spoil(operation, copy_);
@@ -246,20 +252,20 @@ class Wrong final : public HolonomicConstraints<T> {
 
   struct Responding final : IdealRates<T> {
     IdealRates<T>* inner = nullptr;
-    Broken wrong = Broken::none;
+    HolonomicFault wrong = HolonomicFault::none;
     Status operator()(const T& t, In<T> q, In<T> p, Out<T> q_rate, Out<T> p_rate) override {
       const Status status = (*inner)(t, q, p, q_rate, p_rate);
-      if (wrong == Broken::ideal_rates_that_respond) p_rate[0] = p_rate[0] + T(1e-6);
+      if (wrong == HolonomicFault::ideal_rates_that_respond) p_rate[0] = p_rate[0] + T(1e-6);
       return status;
     }
     void respond(In<T> f, Out<T> rest) override {
       inner->respond(f, rest);
-      if (wrong == Broken::respond) rest[0] = rest[0] + T(1e-6);
+      if (wrong == HolonomicFault::respond) rest[0] = rest[0] + T(1e-6);
     }
   };
 
   std::unique_ptr<HolonomicConstraints<T>> c_;
-  Broken broken_;
+  HolonomicFault broken_;
   SymmetricPattern pattern_;
   mutable std::vector<T> copy_;
   Rates rates_;
@@ -268,8 +274,8 @@ class Wrong final : public HolonomicConstraints<T> {
 
 // The operations that are found to be wrong, in the order they are tried.
 template <class T>
-std::vector<std::string> found(const Model& model, Broken broken) {
-  Wrong<T> wrong(model.holonomic_constraints<T>(), broken);
+std::vector<std::string> found(const Model& model, HolonomicFault broken) {
+  WrongHolonomicConstraints<T> wrong(model.holonomic_constraints<T>(), broken);
   const ConstraintSamples samples{.points = 3};
   std::vector<std::string> operations;
   for (const ConstraintIdentity& identity : constraint_identities<T>(wrong, model, samples))
@@ -282,43 +288,43 @@ void expect_every_fault_found(const Model& model) {
   const auto once_placed = [](const std::string& name) {
     return std::vector<std::string>{name, name + " once placed"};
   };
-  const std::vector<std::pair<Broken, std::vector<std::string>>> faults{
-      {Broken::none, {}},
-      {Broken::values, {"values"}},
-      {Broken::hidden_values, {"hidden_values"}},
-      {Broken::velocity, {"velocity"}},
-      {Broken::force, {"force"}},
-      {Broken::apply, once_placed("apply")},
-      {Broken::apply_transpose, once_placed("apply_transpose")},
-      {Broken::solve, once_placed("solve")},
-      {Broken::solve_of_two, once_placed("solve of two")},
-      {Broken::solve_in_place, once_placed("solve in place")},
-      {Broken::hidden_by_momentum, once_placed("hidden_by_momentum")},
-      {Broken::hidden_by_momentum_transpose, once_placed("hidden_by_momentum_transpose")},
-      {Broken::residuals, {"residuals"}},
-      {Broken::hidden, {"hidden"}},
-      {Broken::hidden_rates, {"hidden_rates"}},
-      {Broken::velocities, {"velocities"}},
-      {Broken::forces, {"forces"}},
-      {Broken::hidden_by_position, {"hidden_by_position"}},
-      {Broken::hidden_by_position_transpose, {"hidden_by_position_transpose"}},
-      {Broken::friction, {"friction"}},
-      {Broken::solve_friction, {"solve_friction"}},
-      {Broken::factor_friction, {"solve_friction"}},
-      {Broken::ideal_rates, {"rates, ideal"}},
-      {Broken::ideal_rates_that_respond, {"ideal_rates"}},
-      {Broken::respond, {"respond"}},
-      {Broken::hamiltonian_rates, {"rates, hamiltonian"}},
-      {Broken::pattern, {"pattern"}},
-      {Broken::count, {"count"}}};
+  const std::vector<std::pair<HolonomicFault, std::vector<std::string>>> faults{
+      {HolonomicFault::none, {}},
+      {HolonomicFault::values, {"values"}},
+      {HolonomicFault::hidden_values, {"hidden_values"}},
+      {HolonomicFault::velocity, {"velocity"}},
+      {HolonomicFault::force, {"force"}},
+      {HolonomicFault::apply, once_placed("apply")},
+      {HolonomicFault::apply_transpose, once_placed("apply_transpose")},
+      {HolonomicFault::solve, once_placed("solve")},
+      {HolonomicFault::solve_of_two, once_placed("solve of two")},
+      {HolonomicFault::solve_in_place, once_placed("solve in place")},
+      {HolonomicFault::hidden_by_momentum, once_placed("hidden_by_momentum")},
+      {HolonomicFault::hidden_by_momentum_transpose, once_placed("hidden_by_momentum_transpose")},
+      {HolonomicFault::residuals, {"residuals"}},
+      {HolonomicFault::hidden, {"hidden"}},
+      {HolonomicFault::hidden_rates, {"hidden_rates"}},
+      {HolonomicFault::velocities, {"velocities"}},
+      {HolonomicFault::forces, {"forces"}},
+      {HolonomicFault::hidden_by_position, {"hidden_by_position"}},
+      {HolonomicFault::hidden_by_position_transpose, {"hidden_by_position_transpose"}},
+      {HolonomicFault::friction, {"friction"}},
+      {HolonomicFault::solve_friction, {"solve_friction"}},
+      {HolonomicFault::factor_friction, {"solve_friction"}},
+      {HolonomicFault::ideal_rates, {"rates, ideal"}},
+      {HolonomicFault::ideal_rates_that_respond, {"ideal_rates"}},
+      {HolonomicFault::respond, {"respond"}},
+      {HolonomicFault::hamiltonian_rates, {"rates, hamiltonian"}},
+      {HolonomicFault::pattern, {"pattern"}},
+      {HolonomicFault::count, {"count"}}};
   for (const auto& [broken, expected] : faults)
     EXPECT_THAT(found<T>(model, broken), ::testing::UnorderedElementsAreArray(expected))
         << static_cast<int>(broken);
   // Maps that are not placed are those of another state.
-  EXPECT_THAT(found<T>(model, Broken::linearise), ::testing::Contains("apply"));
-  EXPECT_THAT(found<T>(model, Broken::linearise), ::testing::Contains("solve"));
-  EXPECT_THAT(found<T>(model, Broken::place), ::testing::Contains("apply once placed"));
-  EXPECT_THAT(found<T>(model, Broken::place), ::testing::Contains("residuals"));
+  EXPECT_THAT(found<T>(model, HolonomicFault::linearise), ::testing::Contains("apply"));
+  EXPECT_THAT(found<T>(model, HolonomicFault::linearise), ::testing::Contains("solve"));
+  EXPECT_THAT(found<T>(model, HolonomicFault::place), ::testing::Contains("apply once placed"));
+  EXPECT_THAT(found<T>(model, HolonomicFault::place), ::testing::Contains("residuals"));
 }
 
 TEST(ConstraintConformance, EveryOperationThatIsWrongIsNamed) {
@@ -330,7 +336,8 @@ TEST(ConstraintConformance, EveryOperationThatIsWrongIsNamed) {
   expect_every_fault_found<double>(*model);
   expect_every_fault_found<Quad>(*model);
   // The matcher says so.
-  Wrong<double> wrong(model->holonomic_constraints<double>(), Broken::solve_of_two);
+  WrongHolonomicConstraints<double> wrong(model->holonomic_constraints<double>(),
+                                          HolonomicFault::solve_of_two);
   EXPECT_THAT(&wrong, ::testing::Not(KeepsConstraintIdentities(model, ConstraintSamples{})));
 }
 

@@ -47,8 +47,10 @@ void generic_bracket_is_the_structured_one() {
     for (int k = 0; k < points; ++k) {
       const T t = at.time();
       const auto z = at.near(*model), dense = dense_dirac(*model, t, z);
-      EXPECT_LE(distance<T>(field(dirac, t, z), dense), 10 * kept<T>);  // W has the condition of S twice
-      EXPECT_GT(distance<T>(field(simple, t, z), dense), 1e-6) << "the control is the same off the surface";
+      EXPECT_LE(relative_distance<T>(field(dirac, t, z), dense),
+                10 * kept<T>);  // W has the condition of S twice
+      EXPECT_GT(relative_distance<T>(field(simple, t, z), dense), 1e-6)
+          << "the control is the same off the surface";
     }
   }
 }
@@ -107,9 +109,10 @@ TEST(Formulations, ConstraintsOfThePhaseSpaceGiveTheSameMotion) {
   for (const char* form : {"none", "metriplectic"})
     for (int k = 0; k < points; ++k) {
       const auto z = at.near(*structured);
-      EXPECT_LE(distance<Quad>(field(motion(dense, "dirac", {{"friction-form", form}}), Quad(0), z),
-                               field(motion(structured, "dirac", {{"friction-form", form}}), Quad(0), z)),
-                10 * kept<Quad>)
+      EXPECT_LE(
+          relative_distance<Quad>(field(motion(dense, "dirac", {{"friction-form", form}}), Quad(0), z),
+                                  field(motion(structured, "dirac", {{"friction-form", form}}), Quad(0), z)),
+          10 * kept<Quad>)
           << form;
     }
   EXPECT_THROW(motion(dense, "lmm"), InputError);

@@ -68,9 +68,9 @@ double difference_of_friction_forms(const std::vector<Real>& drag) {
   double worst = 0;
   for (int k = 0; k < points; ++k) {
     const auto z = at.near(*model);
-    worst = std::max(worst,
-                     distance<T>(field(motion(model, "dirac", {{"friction-form", "metriplectic"}}), T(0), z),
-                                 field(motion(model, "dirac", {{"friction-form", "stokes"}}), T(0), z)));
+    worst = std::max(worst, relative_distance<T>(
+                                field(motion(model, "dirac", {{"friction-form", "metriplectic"}}), T(0), z),
+                                field(motion(model, "dirac", {{"friction-form", "stokes"}}), T(0), z)));
   }
   return worst;
 }

@@ -2,7 +2,6 @@
 // and vakonomic motion beside it.
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <pfaff/bench/runner/json.hpp>
 
 #include <pfaff/bench/verification/skated_models.hpp>
@@ -11,7 +10,10 @@
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/replay.hpp>
 
+#include "../formula_values.hpp"
+#include "../golden_numbers.hpp"
 #include "../systems/taylor_flow.hpp"
+#include "rods.hpp"
 #include "velocity_systems.hpp"
 
 namespace {
@@ -19,24 +21,10 @@ using namespace pfaff;
 using namespace pfaff::testing;
 
 template <class T>
-inline constexpr double bound = std::is_same_v<T, double> ? 1e-14 : 1e-31;
-
-template <class T>
-std::vector<T> values(const std::shared_ptr<const Model>& model, Formula formula, const T& t,
-                      const std::vector<T>& x) {
-  std::vector<T> out(model->tape(formula)->outputs.size());
-  const Evaluator<T> evaluator = make_evaluator<T>(model, formula);
-  evaluator.call(evaluator.context, t, x.data(), out.data());
-  return out;
-}
-template <class T>
 void expect_near(const std::vector<T>& found, const std::vector<T>& expected, double tolerance) {
   ASSERT_EQ(found.size(), expected.size());
   for (std::size_t k = 0; k < found.size(); ++k)
     EXPECT_LE(static_cast<double>(abs(found[k] - expected[k])), tolerance) << k;
-}
-std::shared_ptr<const Model> motion(const std::shared_ptr<const Model>& model, const char* formulation) {
-  return formulations().get(formulation, "formulation").apply(model, {});
 }
 // q'' along a field: the rate of H_p.
 template <class T>
@@ -58,16 +46,10 @@ std::vector<T> acceleration(const Model& model, const T& t, const std::vector<T>
   return out;
 }
 
-std::vector<Quad> numbers(const nlohmann::json& list) {
-  std::vector<Quad> numbers;
-  for (const auto& text : list) numbers.push_back(Real::parse(text.get<std::string>()).value().quad());
-  return numbers;
-}
 // Velocities and accelerations of four systems with 36 digits, from a symbolic elimination of the multipliers
 // in the velocities.
 TEST(Nonholonomic, AgreesWithTheGoldenRightHandSides) {
-  std::ifstream file(PFAFF_GOLDEN "/J.json");
-  const nlohmann::json cases = nlohmann::json::parse(file)["cases"];
+  const nlohmann::json cases = golden("J")["cases"];
   const std::vector<std::shared_ptr<const Model>> models{
       model_of<ContactOscillator>("contact"), model_of<KnifeEdge>("edge"), model_of<Snakeboard>("board"),
       model_of<ChaplyginSleigh>("sleigh")};
@@ -76,7 +58,8 @@ TEST(Nonholonomic, AgreesWithTheGoldenRightHandSides) {
     std::vector<Quad> z = numbers(cases[k]["q0"]);
     const std::vector<Quad> p = numbers(cases[k]["p0"]), expected = numbers(cases[k]["rhs (v,a)"]);
     z.insert(z.end(), p.begin(), p.end());
-    std::vector<Quad> field = values(motion(models[k], "nonholonomic"), Formula::field, Quad(0), z);
+    std::vector<Quad> field =
+        evaluated(motion(models[k], "nonholonomic"), Formula::field, z, z.size(), Quad(0));
     const std::vector<Quad> turned = acceleration(*models[k], Quad(0), z, field);
     std::copy(turned.begin(), turned.end(), field.begin() + static_cast<std::ptrdiff_t>(p.size()));
     expect_near(field, expected, 1e-31);  // numbers of order one, given with 36 digits
@@ -89,7 +72,7 @@ void contact_particle_moves_as_in_closed_form() {
   const auto moving = motion(model_of<ContactParticle>("contact"), "nonholonomic");
   const std::vector<T> z{T(1) / T(3), T(2) / T(3), T(1), T(5) / T(7), T(-3) / T(2), T(10) / T(21)};
   const T y = z[1], d = T(1) + y * y;
-  expect_near(values(moving, Formula::field, T(0), z),
+  expect_near(evaluated(moving, Formula::field, z, z.size(), T(0)),
               {z[3], z[4], z[5], -y * z[3] * z[4] / d, T(0), z[3] * z[4] / d}, bound<T>);
 }
 TEST(Nonholonomic, MovesTheContactParticle) {
@@ -101,8 +84,8 @@ TEST(Nonholonomic, MovesTheContactParticle) {
 TEST(Nonholonomic, NeedsItsReactions) {
   const auto model = model_of<KnifeEdge>("knife edge");
   const std::vector<Quad> z{Quad(0), Quad(0), Quad(1), cos(Quad(1)), sin(Quad(1)), Quad(1) / Quad(3)};
-  const auto held = values(motion(model, "nonholonomic"), Formula::field, Quad(0), z),
-             slopes = values(model, Formula::hamiltonian_gradient, Quad(0), z);
+  const auto held = evaluated(motion(model, "nonholonomic"), Formula::field, z, z.size(), Quad(0)),
+             slopes = evaluated(model, Formula::hamiltonian_gradient, z, z.size(), Quad(0));
   const auto turn = [&](Quad share) {  // d/dt of A v with a share of the reactions
     std::vector<Quad> field = held;
     for (std::size_t k = 3; k < 6; ++k) field[k] = -slopes[k - 3] + share * (held[k] + slopes[k - 3]);
@@ -140,13 +123,13 @@ TEST(Nonholonomic, AgreesWithTheOtherMotionsWhereConstraintsAreIntegrable) {
   const std::vector<Quad> z{Quad(2) / Quad(7), Quad(3) / Quad(7), Quad(-6) / Quad(7),
                             Quad(3),           Quad(2),           Quad(2)};
   const auto free = motion(disguised, "nonholonomic"), vakonomic = motion(disguised, "vakonomic");
-  const auto expected = values(motion(open, "lmm"), Formula::field, Quad(0), z);
-  expect_near(values(free, Formula::field, Quad(0), z), expected, 1e-32);
+  const auto expected = evaluated(motion(open, "lmm"), Formula::field, z, z.size(), Quad(0));
+  expect_near(evaluated(free, Formula::field, z, z.size(), Quad(0)), expected, 1e-32);
   const auto turned = acceleration(*disguised, Quad(0), z, expected);
   for (const int multiplier : {0, 1, -3}) {
     std::vector<Quad> shifted = z;
     for (std::size_t k = 0; k < 3; ++k) shifted[3 + k] += Quad(multiplier) * (Quad(2) + z[0]) * z[k];
-    const auto field = values(vakonomic, Formula::field, Quad(0), shifted);
+    const auto field = evaluated(vakonomic, Formula::field, shifted, shifted.size(), Quad(0));
     for (std::size_t k = 0; k < 3; ++k)
       EXPECT_LE(static_cast<double>(abs(field[k] - expected[k])), 1e-31) << k;
     expect_near(acceleration(*vakonomic, Quad(0), shifted, field), turned, 1e-30);
@@ -162,9 +145,10 @@ TEST(Vakonomic, HasTheHamiltonianOfGeodesicsOnTheContactParticle) {
   const std::vector<Quad> z{Quad(1) / Quad(3), Quad(2) / Quad(3),  Quad(1),
                             Quad(5) / Quad(7), Quad(-3) / Quad(2), Quad(2)};
   const Quad along = z[3] + z[1] * z[5];
-  expect_near(values(model, Formula::hamiltonian, Quad(0), z),
+  expect_near(evaluated(model, Formula::hamiltonian, z, 1, Quad(0)),
               {(along * along / (Quad(1) + z[1] * z[1]) + z[4] * z[4]) / Quad(2)}, 1e-32);
-  EXPECT_EQ(values(model, Formula::invariants, Quad(0), z), values(model, Formula::hamiltonian, Quad(0), z));
+  EXPECT_EQ(evaluated(model, Formula::invariants, z, 1, Quad(0)),
+            evaluated(model, Formula::hamiltonian, z, 1, Quad(0)));
 }
 
 // z' = y x' along a trajectory, which is not the nonholonomic one that starts from the same state.
@@ -173,13 +157,14 @@ TEST(Vakonomic, KeepsTheConstraintsOfItsOwnVelocityAndIsAnotherMotion) {
   const auto vakonomic = motion(particle, "vakonomic"), rolling = motion(particle, "nonholonomic");
   const std::vector<Quad> start{Quad(0), Quad(1) / Quad(2), Quad(0), Quad(1), Quad(1), Quad(1) / Quad(2)};
   // They leave the start with the same velocity and acceleration, since lambda = 0 there.
-  const auto first = values(vakonomic, Formula::field, Quad(0), start);
+  const auto first = evaluated(vakonomic, Formula::field, start, start.size(), Quad(0));
   expect_near(acceleration(*vakonomic, Quad(0), start, first),
-              acceleration(*particle, Quad(0), start, values(rolling, Formula::field, Quad(0), start)),
+              acceleration(*particle, Quad(0), start,
+                           evaluated(rolling, Formula::field, start, start.size(), Quad(0))),
               1e-32);
   const auto moved = taylor_flow(vakonomic->tape(Formula::field), Quad(0), start, Quad(1)),
              rolled = taylor_flow(rolling->tape(Formula::field), Quad(0), start, Quad(1));
-  const auto velocity = values(vakonomic, Formula::field, Quad(1), moved);
+  const auto velocity = evaluated(vakonomic, Formula::field, moved, moved.size(), Quad(1));
   EXPECT_LE(static_cast<double>(abs(velocity[2] - moved[1] * velocity[0])), 1e-30);
   EXPECT_LE(static_cast<double>(abs(rolled[5] - rolled[1] * rolled[3])), 1e-30);
   EXPECT_GT(static_cast<double>(abs(moved[5] - moved[1] * moved[3])), 0.01) << "p has left p = L_v";

@@ -9,6 +9,7 @@
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/replay.hpp>
 
+#include "../formula_values.hpp"
 #include "rods.hpp"
 
 namespace pfaff::testing {
@@ -18,9 +19,6 @@ using Results = std::span<Recorded>;
 
 inline constexpr int points = 10;
 
-inline std::shared_ptr<const Model> named(const char* name, const Assignments& set = {}) {
-  return systems().get(name, "system").make(set);
-}
 /// The hanging chain of four, friction or none, about the golden state on the surface.
 inline std::shared_ptr<const Model> chain(std::vector<Real> drag) {
   Rods rods = golden_rods();
@@ -32,15 +30,12 @@ inline std::shared_ptr<const Model> chain(std::vector<Real> drag) {
 }
 inline std::vector<std::shared_ptr<const Model>> holonomic_models() {
   return {chain({}),
-          named("spherical-pendulum"),
-          named("sphere-particle"),
-          named("torus-particle"),
-          named("polar-double-pendulum"),
-          named("shaken-pendulum")};
+          model_named("spherical-pendulum"),
+          model_named("sphere-particle"),
+          model_named("torus-particle"),
+          model_named("polar-double-pendulum"),
+          model_named("shaken-pendulum")};
 }
-
-template <class T>
-inline constexpr double bound = std::is_same_v<T, double> ? 1e-14 : 1e-31;
 
 /// Random states within a tenth of the initial one: off the surface, where constraints are independent.
 template <class T>
@@ -59,30 +54,8 @@ class Points {
 };
 
 template <class T>
-std::vector<T> values(const std::shared_ptr<const Tape>& tape, const T& t, const std::vector<T>& z) {
-  std::vector<T> out(tape->outputs.size());
-  Replay<T> replay(tape);
-  replay(t, z.data(), out.data());
-  return out;
-}
-template <class T>
 std::vector<T> field(const std::shared_ptr<const Model>& model, const T& t, const std::vector<T>& z) {
-  const Evaluator<T> f = make_evaluator<T>(model, Formula::field);
-  std::vector<T> rate(z.size());
-  f.call(f.context, t, z.data(), rate.data());
-  return rate;
-}
-template <class T>
-double distance(std::span<const T> a, std::span<const T> b) {
-  if (a.size() != b.size()) return INFINITY;
-  double worst = 0;
-  T size(1);
-  for (const T& x : b) size = std::max(size, abs(x));
-  for (std::size_t k = 0; k < a.size(); ++k) {
-    const auto d = static_cast<double>(abs(a[k] - b[k]) / size);
-    worst = std::isnan(d) ? INFINITY : std::max(worst, d);
-  }
-  return worst;
+  return evaluated(model, Formula::field, z, z.size(), t);
 }
 
 /// The rates of all constraints (each phi followed by its phi~) and of H along a motion, with the partial

@@ -11,6 +11,8 @@
 #include <pfaff/core/formulation.hpp>
 #include <pfaff/core/system.hpp>
 
+#include "../golden_numbers.hpp"
+
 namespace pfaff::testing {
 
 struct Rods {
@@ -45,23 +47,18 @@ struct Rods {
   }
 };
 
-inline Real real_of(const nlohmann::json& text) { return Real::parse(text.get<std::string>()).value(); }
-inline std::vector<Real> reals_of(const nlohmann::json& list) {
-  std::vector<Real> values;
-  for (const auto& text : list) values.push_back(real_of(text));
-  return values;
-}
-inline nlohmann::json golden_pendulum() {
-  return nlohmann::json::parse(std::ifstream(PFAFF_GOLDEN "/pendulum4_2d.json"));
-}
+inline nlohmann::json golden_pendulum() { return golden("pendulum4_2d"); }
 inline Rods golden_rods() {
-  const nlohmann::json golden = golden_pendulum();
-  return {reals_of(golden["masses"]), reals_of(golden["lengths"]), reals_of(golden["Lambda"]),
-          real_of(golden["g"])};
+  const nlohmann::json file = golden_pendulum();
+  return {reals_of(file["masses"]), reals_of(file["lengths"]), reals_of(file["Lambda"]), real_of(file["g"])};
 }
 inline std::shared_ptr<const Model> model_of(const Rods& rods) {
   return make_model(SystemDescriptor{.name = "rods", .title = "", .reference = ""}, rods);
 }
+
+/// Some hundred roundings of numbers of order one.
+template <class T>
+inline constexpr double bound = std::is_same_v<T, double> ? 1e-14 : 1e-31;
 
 /// The motion of a model in a formulation.
 inline std::shared_ptr<const Model> motion(const std::shared_ptr<const Model>& model, const char* formulation,

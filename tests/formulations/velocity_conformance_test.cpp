@@ -40,7 +40,7 @@ TEST(VelocityConformance, TheDerivedEvaluatorKeepsEveryIdentity) {
   }
 }
 
-enum class Broken {
+enum class VelocityFault {
   values,
   velocity,
   force,
@@ -59,44 +59,49 @@ enum class Broken {
 };
 
 // An evaluator with one operation wrong by a relative 1e-8, or placed wrongly.
-class Wrong final : public VelocityConstraints<double> {
+class WrongVelocityConstraints final : public VelocityConstraints<double> {
  public:
-  Wrong(VelocityPointer<double> right, Broken broken) : right_(std::move(right)), broken_(broken) {}
+  WrongVelocityConstraints(VelocityPointer<double> right, VelocityFault broken)
+      : right_(std::move(right)), broken_(broken) {}
   [[nodiscard]] std::size_t count() const override { return right_->count(); }
   [[nodiscard]] std::size_t degrees() const override { return right_->degrees(); }
   [[nodiscard]] const SymmetricPattern& pattern() const override { return right_->pattern(); }
   void values(const double& t, In<double> q, In<double> p, Out<double> psi) override {
-    right_->values(t, q, p, psi), spoil(Broken::values, psi);
+    right_->values(t, q, p, psi), spoil(VelocityFault::values, psi);
   }
   void velocity(const double& t, In<double> q, In<double> p, Out<double> v) override {
-    right_->velocity(t, q, p, v), spoil(Broken::velocity, v);
+    right_->velocity(t, q, p, v), spoil(VelocityFault::velocity, v);
   }
   void force(const double& t, In<double> q, In<double> p, Out<double> f) override {
-    right_->force(t, q, p, f), spoil(Broken::force, f);
+    right_->force(t, q, p, f), spoil(VelocityFault::force, f);
   }
   Status linearise(const double& t, In<double> q, In<double> p) override {
     return right_->linearise(t, q, p);
   }
-  void apply(In<double> u, Out<double> r) const override { right_->apply(u, r), spoil(Broken::apply, r); }
-  void apply_transpose(In<double> x, Out<double> f) const override {
-    right_->apply_transpose(x, f), spoil(Broken::apply_transpose, f);
+  void apply(In<double> u, Out<double> r) const override {
+    right_->apply(u, r), spoil(VelocityFault::apply, r);
   }
-  void solve(In<double> r, Out<double> x) const override { right_->solve(r, x), spoil(Broken::solve, x); }
+  void apply_transpose(In<double> x, Out<double> f) const override {
+    right_->apply_transpose(x, f), spoil(VelocityFault::apply_transpose, f);
+  }
+  void solve(In<double> r, Out<double> x) const override {
+    right_->solve(r, x), spoil(VelocityFault::solve, x);
+  }
   void by_momentum(In<double> u, Out<double> r) const override {
-    right_->by_momentum(u, r), spoil(Broken::by_momentum, r);
+    right_->by_momentum(u, r), spoil(VelocityFault::by_momentum, r);
   }
   void by_momentum_transpose(In<double> x, Out<double> v) const override {
-    right_->by_momentum_transpose(x, v), spoil(Broken::by_momentum_transpose, v);
+    right_->by_momentum_transpose(x, v), spoil(VelocityFault::by_momentum_transpose, v);
   }
   Status place(const double& t, In<double> q, In<double> p) override {
-    const Status status = right_->place(broken_ == Broken::place ? t + 1e-8 : t, q, p);
+    const Status status = right_->place(broken_ == VelocityFault::place ? t + 1e-8 : t, q, p);
     for (const auto& [part, values] : {std::pair(&residuals_, right_->residuals()),
                                        {&rates_, right_->rates()},
                                        {&velocities_, right_->velocities()},
                                        {&forces_, right_->forces()}})
       part->assign(values.begin(), values.end());
-    spoil(Broken::residuals, residuals_), spoil(Broken::rates, rates_);
-    spoil(Broken::velocities, velocities_), spoil(Broken::forces, forces_);
+    spoil(VelocityFault::residuals, residuals_), spoil(VelocityFault::rates, rates_);
+    spoil(VelocityFault::velocities, velocities_), spoil(VelocityFault::forces, forces_);
     return status;
   }
   [[nodiscard]] std::span<const double> residuals() const override { return residuals_; }
@@ -106,7 +111,7 @@ class Wrong final : public VelocityConstraints<double> {
   [[nodiscard]] ConstrainedRates<double>* ideal_rates() override { return &motion_; }
 
  private:
-  void spoil(Broken operation, std::span<double> numbers) const {
+  void spoil(VelocityFault operation, std::span<double> numbers) const {
     if (operation == broken_) numbers[0] += 1e-8;
   }
   // Those of the operations, spoilt.
@@ -128,17 +133,17 @@ class Wrong final : public VelocityConstraints<double> {
     Wrong& of;
   };
   VelocityPointer<double> right_;
-  Broken broken_;
+  VelocityFault broken_;
   std::vector<double> residuals_, rates_, velocities_, forces_;
   Motion motion_{*this};
 };
 
 TEST(VelocityConformance, EveryWrongOperationIsFound) {
   const auto model = two_blades(true);
-  for (int k = 0; k <= static_cast<int>(Broken::none); ++k) {
-    const auto broken = static_cast<Broken>(k);
-    Wrong wrong(model->velocity_constraints<double>(), broken);
-    if (broken == Broken::none) {
+  for (int k = 0; k <= static_cast<int>(VelocityFault::none); ++k) {
+    const auto broken = static_cast<VelocityFault>(k);
+    WrongVelocityConstraints wrong(model->velocity_constraints<double>(), broken);
+    if (broken == VelocityFault::none) {
       EXPECT_THAT(&wrong, KeepsConstraintIdentities(model, ConstraintSamples{}));
     } else {
       EXPECT_THAT(&wrong, ::testing::Not(KeepsConstraintIdentities(model, ConstraintSamples{}))) << k;

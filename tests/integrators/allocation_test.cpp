@@ -60,7 +60,7 @@ void no_method_allocates_on_velocity_constraints() {
          {"dla", "gni", "nonholonomic-leap-frog", "mclachlan-perlmutter", "nonholonomic-discrete-gradient",
           "composition", "velocity-projected-rk4", "velocity-projected-gauss", "spark-lobatto"}) {
       const auto method = std::string(name) == "composition" ? nonholonomic::composed("dla", "kahan-li", "6")
-                                                             : nonholonomic::method(name);
+                                                             : nonholonomic::method_named(name);
       const auto motion = motion_for(*method, model);
       if (!method->refuses(*motion).empty()) continue;
       const auto stepper = method->stepper(motion, T(0));

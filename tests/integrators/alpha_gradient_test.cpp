@@ -8,40 +8,27 @@
 #include <pfaff/integrators/generating/alpha_gradient.hpp>
 #include <pfaff/integrators/generating/generating_gradient.hpp>
 
+#include "generating_samples.hpp"
 #include "mixed_alpha.hpp"
 
 namespace pfaff {
 namespace {
 
 using testing::AlphaKind;
+using testing::at_round_off;
 using testing::bent_with;
 using testing::BentWithAlpha;
-using Numbers = std::vector<Quad>;
-
-// Coefficients are sums of some hundred products of numbers of order one to ten.
-constexpr double at_round_off = 1e-30;
-
-const Quad start = Quad(7) / Quad(10);
-
-double size(const Numbers& a) {
-  double worst = 0;
-  for (const Quad& x : a) {
-    const auto d = static_cast<double>(abs(x));
-    worst = std::isfinite(d) ? std::max(worst, d) : INFINITY;
-  }
-  return worst;
-}
-double distance(Numbers a, const Numbers& b) {
-  for (std::size_t k = 0; k < a.size(); ++k) a[k] = a[k] - b[k];
-  return size(a);
-}
-std::shared_ptr<const Tape> shared(Tape tape) { return std::make_shared<const Tape>(std::move(tape)); }
+using testing::distance;
+using testing::Numbers;
+using testing::shared;
+using testing::size_of;
+using testing::start_time;
 
 // phi_w^(0), .., phi_w^(order) at w.
 std::vector<Numbers> terms(const Model& model, const std::shared_ptr<const Tape>& alpha, int order,
                            const Numbers& w, const Numbers& guess) {
   AlphaGradient<Quad> gradient(model.tape(Formula::field), alpha, order, gauss_coefficients((order + 1) / 2));
-  gradient.set_step(start, Quad(1));
+  gradient.set_step(start_time, Quad(1));
   gradient.search_from(guess, guess);
   const std::size_t n = w.size();
   Numbers all(gradient.term_count() * n);
@@ -59,7 +46,7 @@ std::vector<Numbers> terms(const Model& model, int order, const Numbers& w, cons
 std::vector<Numbers> chart_terms(const Model& model, int order, const Numbers& w) {
   GeneratingGradient<Quad> gradient(model.tape(Formula::chart_field), order, false, GeneratingForm::midpoint,
                                     gauss_coefficients((order + 1) / 2));
-  gradient.set_step(start, Quad(1));
+  gradient.set_step(start_time, Quad(1));
   const std::size_t n = w.size(), half = n / 2;
   Numbers all(gradient.term_count() * n);
   gradient.terms(w.data(), all.data());
@@ -78,7 +65,7 @@ std::vector<Numbers> chart_terms(const Model& model, int order, const Numbers& w
 TEST(AlphaGradient, OfTheStandardAlphaIsTheCharts) {
   const auto expect = [](const std::shared_ptr<const Model>& model, const Numbers& z) {
     Numbers w(z.size());
-    Replay<Quad>(model->tape(Formula::chart))(start, z.data(), w.data());
+    Replay<Quad>(model->tape(Formula::chart))(start_time, z.data(), w.data());
     Numbers away = z;  // the search has to find z
     for (Quad& x : away) x = x * Quad(1.05) + Quad(0.01);
     for (int order = 1; order <= 9; ++order) {
@@ -86,7 +73,7 @@ TEST(AlphaGradient, OfTheStandardAlphaIsTheCharts) {
       const auto expected = chart_terms(*model, order, w);
       ASSERT_EQ(found.size(), expected.size());
       for (std::size_t k = 0; k < found.size(); ++k)
-        EXPECT_LE(distance(found[k], expected[k]), at_round_off * std::max(1.0, size(expected[k])))
+        EXPECT_LE(distance(found[k], expected[k]), at_round_off * std::max(1.0, size_of(expected[k])))
             << model->name() << " order " << order << " term " << k;
     }
   };
@@ -112,8 +99,8 @@ TEST(AlphaGradient, OfANonlinearAlphaSatisfiesTheRecursion) {
     const auto found = terms(*model, 5, w, {Quad(0.6), Quad(0.1)});
     for (std::size_t k = 0; k <= 5; ++k) {
       Numbers expected(2);
-      Replay<Quad>(shared(oracle[k]))(start, w.data(), expected.data());
-      EXPECT_LE(distance(found[k], expected), at_round_off * std::max(1.0, size(expected))) << k;
+      Replay<Quad>(shared(oracle[k]))(start_time, w.data(), expected.data());
+      EXPECT_LE(distance(found[k], expected), at_round_off * std::max(1.0, size_of(expected))) << k;
     }
   }
 }
@@ -123,7 +110,7 @@ TEST(AlphaGradient, DependsOnAlphaAndNotOnTheTruncation) {
   const Numbers w{Quad(3) / Quad(5), Quad(6) / Quad(5)}, guess{Quad(0.6), Quad(0.1)};
   const auto model = bent_with(AlphaKind::mixed);
   const auto many = terms(*model, 12, w, guess), few = terms(*model, 4, w, guess);
-  for (std::size_t k = 0; k <= 4; ++k) EXPECT_LE(distance(many[k], few[k]), at_round_off * size(many[4]));
+  for (std::size_t k = 0; k <= 4; ++k) EXPECT_LE(distance(many[k], few[k]), at_round_off * size_of(many[4]));
   // On the diagonal the mixed w is the standard one with 1 added to w_2, and w^ enters it squared: the terms
   // differ from the third on.
   const auto standard = terms(*bent_with(AlphaKind::standard), 4, {w[0], w[1] - Quad(1)}, guess);
@@ -136,17 +123,17 @@ TEST(AlphaGradient, KeepsWhatDoesNotVanishOnTheDiagonal) {
   const Numbers w{Quad(0.6), Quad(0.2)}, guess{Quad(0.6), Quad(0.1)};
   const auto sheared = terms(*bent_with(AlphaKind::sheared), 6, w, guess);
   const auto standard = terms(*bent_with(AlphaKind::standard), 6, w, guess);
-  EXPECT_LE(size(standard[0]), at_round_off);
+  EXPECT_LE(size_of(standard[0]), at_round_off);
   EXPECT_LE(distance(sheared[0], {Quad(2) * w[0] * w[1] + cos(w[0]), w[0] * w[0]}), at_round_off);
   for (std::size_t k = 1; k <= 6; ++k)
-    EXPECT_LE(distance(sheared[k], standard[k]), at_round_off * std::max(1.0, size(standard[k]))) << k;
+    EXPECT_LE(distance(sheared[k], standard[k]), at_round_off * std::max(1.0, size_of(standard[k]))) << k;
 }
 
-double asymmetry(const Model& model, int order) {
+double gradient_asymmetry(const Model& model, int order) {
   using D = Dual<Quad, 2>;
   AlphaGradient<D> gradient(model.tape(Formula::field), model.tape(Formula::alpha), order,
                             gauss_coefficients((order + 1) / 2));
-  gradient.set_step(D(start), D(Quad(1) / Quad(4)));
+  gradient.set_step(D(start_time), D(Quad(1) / Quad(4)));
   const std::vector<D> near{D(Quad(0.6)), D(Quad(0.1))};
   gradient.search_from(near, near);
   const std::vector<D> w{D::variable(Quad(0.6), 0), D::variable(Quad(1.1), 1)};
@@ -158,10 +145,10 @@ double asymmetry(const Model& model, int order) {
 TEST(AlphaGradient, IsAGradientWhereAlphaIsLagrangian) {
   for (int order = 1; order <= 8; ++order) {
     for (const AlphaKind kind : {AlphaKind::standard, AlphaKind::mixed, AlphaKind::sheared})
-      EXPECT_LE(asymmetry(*bent_with(kind), order), at_round_off) << order;
+      EXPECT_LE(gradient_asymmetry(*bent_with(kind), order), at_round_off) << order;
     // The control. To first order psi is h times the field, wherever w is.
     if (order > 1) {
-      EXPECT_GT(asymmetry(*bent_with(AlphaKind::weighted), order), 1e-4) << order;
+      EXPECT_GT(gradient_asymmetry(*bent_with(AlphaKind::weighted), order), 1e-4) << order;
     }
   }
 }
@@ -172,8 +159,8 @@ TEST(AlphaGradient, IsOddInTimeWhereAlphaIsSymmetricAndNothingDependsOnTime) {
   const auto free = terms(*plugin.make({{"nu", "0"}}), 6, w, guess);
   const auto damped = terms(*plugin.make({}), 6, w, guess);
   for (const std::size_t k : {2U, 4U, 6U}) {
-    EXPECT_LE(size(free[k]), at_round_off) << k;
-    EXPECT_GT(size(damped[k]), 1e-4) << k;
+    EXPECT_LE(size_of(free[k]), at_round_off) << k;
+    EXPECT_GT(size_of(damped[k]), 1e-4) << k;
   }
 }
 

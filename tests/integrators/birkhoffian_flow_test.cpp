@@ -9,30 +9,19 @@
 #include <pfaff/core/tape/replay.hpp>
 
 #include "bent.hpp"
+#include "generating_samples.hpp"
 
 namespace pfaff {
 namespace {
 
+using testing::at_round_off;
 using testing::bent;
-using Numbers = std::vector<Quad>;
-
-// A few hundred roundings of numbers about 1; steps end their iteration there.
-constexpr double at_round_off = 1e-30;
-
-double size(const Matrix<Quad>& m) {
-  const auto value = static_cast<double>(largest(m));
-  return std::isfinite(value) ? value : INFINITY;
-}
-double distance(const Numbers& a, const Numbers& b) { return size(Matrix<Quad>(1, a) - Matrix<Quad>(1, b)); }
-Matrix<Quad> structure(const Model& model, Quad t, const Numbers& z) {
-  Numbers k(z.size() * z.size());
-  Replay<Quad> replay(model.tape(Formula::structure));
-  replay(t, z.data(), k.data());
-  return {z.size(), k};
-}
-std::shared_ptr<const Tape> shared(Tape tape) { return std::make_shared<const Tape>(std::move(tape)); }
-
-const Quad t0 = Quad(7) / Quad(10);
+using testing::distance;
+using testing::Numbers;
+using testing::shared;
+using testing::size_of;
+using testing::start_time;
+using testing::structure_at;
 
 // The contact form (11)-(13): with F~ = (-B, F) on (t, z), d_a F~_b - d_b F~_a = [[0, -D^T], [D, K]], D = -K
 // z'. The form is closed, and (1, z') is its kernel.
@@ -48,15 +37,15 @@ TEST(BirkhoffianFlow, ContactForm) {
             const auto f = evaluate(*model->tape(Formula::one_form), x[0], x.subspan(1));
             std::copy(f.begin(), f.end(), out.begin() + 1);
           });
-      Numbers x{t0}, slope((n + 1) * (n + 1)), rate(n);
+      Numbers x{start_time}, slope((n + 1) * (n + 1)), rate(n);
       x.insert(x.end(), z.begin(), z.end());
       Replay<Quad> slopes(shared(jacobian_tape(form)));
       slopes(Quad(0), x.data(), slope.data());
       Matrix<Quad> k_hat(n + 1, slope);
       k_hat = k_hat.transposed() - k_hat;
       Replay<Quad> field(model->derived(Formula::field));
-      field(t0, z.data(), rate.data());
-      const Matrix<Quad> k = structure(*model, t0, z);
+      field(start_time, z.data(), rate.data());
+      const Matrix<Quad> k = structure_at(*model, start_time, z);
       const Numbers minus_d = k * rate;
       Matrix<Quad> expected(n + 1, n + 1);
       for (std::size_t i = 0; i < n; ++i) {
@@ -68,10 +57,10 @@ TEST(BirkhoffianFlow, ContactForm) {
       along.insert(along.end(), rate.begin(), rate.end());
       const double kernel = distance(k_hat * along, Numbers(n + 1));
       if (sign < 0) {
-        EXPECT_LE(size(k_hat - expected), at_round_off);
+        EXPECT_LE(size_of(k_hat - expected), at_round_off);
         EXPECT_LE(kernel, at_round_off);
       } else {
-        EXPECT_GT(size(k_hat - expected), 1e-2);
+        EXPECT_GT(size_of(k_hat - expected), 1e-2);
         EXPECT_GT(kernel, 1e-2);
       }
     }

@@ -99,16 +99,16 @@ std::shared_ptr<const Model> fast() {
 }
 
 template <class T>
-struct Run {
+struct CollocationRun {
   std::vector<T> z;
   Counters counters;
 };
 template <class T>
-Run<T> run(const std::string& method, const std::shared_ptr<const Model>& model, int stages, const Real& step,
-           std::int64_t steps) {
+CollocationRun<T> run_collocation(const std::string& method, const std::shared_ptr<const Model>& model,
+                                  int stages, const Real& step, std::int64_t steps) {
   const auto stepper =
       integrators().get(method, "").make({{"stages", std::to_string(stages)}})->stepper(model, T(0));
-  Run<T> result;
+  CollocationRun<T> result;
   for (const Real& x : model->initial()) result.z.push_back(T(x));
   std::int64_t completed = 0;
   EXPECT_EQ(stepper->advance(T(0), 0, T(step), steps, result.z, completed), Status::converged);
@@ -120,8 +120,8 @@ Run<T> run(const std::string& method, const std::shared_ptr<const Model>& model,
 // round-off, which a hundred steps multiply by a thousand at most.
 template <class T>
 void both_forms_agree(const std::shared_ptr<const Model>& model, int stages, const Real& step) {
-  const auto second = run<T>("gauss", model, stages, step, 100),
-             first = run<T>("gauss-darboux", model, stages, step, 100);
+  const auto second = run_collocation<T>("gauss", model, stages, step, 100),
+             first = run_collocation<T>("gauss-darboux", model, stages, step, 100);
   const double tolerance = 2000 * static_cast<double>(unit_roundoff<T>());
   for (std::size_t k = 0; k < first.z.size(); ++k)
     EXPECT_LE(static_cast<double>(abs(second.z[k] - first.z[k])),
@@ -140,8 +140,8 @@ TEST(Collocation, TheFormsOfFirstAndOfSecondOrderMakeTheSameSteps) {
 
 TEST(Collocation, ItIsTheSecondOrderThatHalvesTheIterations) {
   const auto counts = [](const std::shared_ptr<const Model>& model) {
-    return std::pair(run<double>("gauss", model, 4, 0.1_r, 200).counters.iterations,
-                     run<double>("gauss-darboux", model, 4, 0.1_r, 200).counters.iterations);
+    return std::pair(run_collocation<double>("gauss", model, 4, 0.1_r, 200).counters.iterations,
+                     run_collocation<double>("gauss-darboux", model, 4, 0.1_r, 200).counters.iterations);
   };
   const auto [second, first] = counts(masses());
   EXPECT_LT(second, 0.67 * static_cast<double>(first));
@@ -151,8 +151,8 @@ TEST(Collocation, ItIsTheSecondOrderThatHalvesTheIterations) {
 
 TEST(Collocation, NewtonTakesOverWhereStepsAreLong) {
   const auto stiff = masses(Real(40000));  // h omega = 10
-  const auto second = run<double>("gauss", stiff, 3, 0.05_r, 20),
-             first = run<double>("gauss-darboux", stiff, 3, 0.05_r, 20);
+  const auto second = run_collocation<double>("gauss", stiff, 3, 0.05_r, 20),
+             first = run_collocation<double>("gauss-darboux", stiff, 3, 0.05_r, 20);
   EXPECT_EQ(second.counters.factorisations, 20);
   // Momenta are 200 times the positions, and errors of the stages are multiplied by h omega.
   for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(second.z[k], first.z[k], k < 2 ? 1e-12 : 2e-10) << k;

@@ -11,15 +11,16 @@
 #include <pfaff/core/system.hpp>
 #include <pfaff/integrators/composition/composition_weights.hpp>
 
+#include "methods.hpp"
+
 namespace pfaff {
 namespace {
 
-std::unique_ptr<MethodInstance> method(const std::string& name, const Assignments& parameters = {}) {
-  return integrators().get(name, "integrator").make(parameters);
-}
-std::string refusal(const Assignments& parameters, const char* name = "composition") {
+using testing::method_named;
+
+std::string composition_refusal(const Assignments& parameters, const char* name = "composition") {
   try {
-    (void)method(name, parameters);
+    (void)method_named(name, parameters);
   } catch (const InputError& error) {
     EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
     return error.what();
@@ -43,7 +44,7 @@ const std::vector<Short> shorts{{"yoshida", "yoshida", "midpoint-darboux", "damp
                                 {"kahan-li-conformal", "kahan-li", "conformal-splitting", "damped-pendulum"}};
 
 template <class T>
-std::vector<T> after_steps(const MethodInstance& method, const char* system) {
+std::vector<T> steps_on(const MethodInstance& method, const char* system) {
   const auto model = systems().get(system, "system").make({});
   EXPECT_EQ(method.refuses(*model), "");
   const auto stepper = method.stepper(model, T());
@@ -60,28 +61,29 @@ TEST(Aliases, StepBitForBitLikeTheCompositionTheyName) {
     for (const char* compensated : {"yes", "no"}) {
       const Assignments whole{
           {"scheme", s.scheme}, {"base", s.base}, {"order", "6"}, {"base.compensated", compensated}};
-      const auto named = method(s.name, {{"order", "6"}, {"compensated", compensated}});
-      EXPECT_EQ(after_steps<double>(*named, s.system),
-                after_steps<double>(*method("composition", whole), s.system))
+      const auto named = method_named(s.name, {{"order", "6"}, {"compensated", compensated}});
+      EXPECT_EQ(steps_on<double>(*named, s.system),
+                steps_on<double>(*method_named("composition", whole), s.system))
           << s.name;
-      EXPECT_EQ(after_steps<Quad>(*named, s.system),
-                after_steps<Quad>(*method("composition", whole), s.system))
+      EXPECT_EQ(steps_on<Quad>(*named, s.system),
+                steps_on<Quad>(*method_named("composition", whole), s.system))
           << s.name;
       // Control: another order is another map.
-      EXPECT_NE(after_steps<Quad>(*named, s.system),
-                after_steps<Quad>(*method(s.name, {{"order", "8"}}), s.system))
+      EXPECT_NE(steps_on<Quad>(*named, s.system),
+                steps_on<Quad>(*method_named(s.name, {{"order", "8"}}), s.system))
           << s.name;
     }
 }
 
 TEST(Aliases, KeepTheirNameAndTheirOwnParameters) {
   for (const Short& s : shorts) {
-    const auto instance = method(s.name);
+    const auto instance = method_named(s.name);
     const std::string lowest = s.scheme == std::string("kahan-li") ? "6" : "4";
     EXPECT_EQ(instance->descriptor().name, s.name);
     EXPECT_EQ(instance->parameters(), (Assignments{{"order", lowest}, {"compensated", "yes"}})) << s.name;
-    EXPECT_NE(refusal({{"scheme", "suzuki"}}, s.name).find("unknown parameter 'scheme'"), std::string::npos);
-    EXPECT_NE(refusal({{"compensate", "no"}}, s.name)
+    EXPECT_NE(composition_refusal({{"scheme", "suzuki"}}, s.name).find("unknown parameter 'scheme'"),
+              std::string::npos);
+    EXPECT_NE(composition_refusal({{"compensate", "no"}}, s.name)
                   .find("did you mean 'compensated'? (of integrator " + std::string(s.name) + ")"),
               std::string::npos);
     const auto listed = integrators().names();
@@ -94,8 +96,8 @@ TEST(Aliases, KeepTheirNameAndTheirOwnParameters) {
 
 TEST(Aliases, ARefusalNamesTheAlias) {
   const auto model = systems().get("damped-pendulum", "system").make({});
-  EXPECT_EQ(method("yoshida-verlet")->refuses(*model).find("yoshida-verlet needs separable; "), 0U);
-  EXPECT_EQ(method("composition", {{"base", "verlet"}})
+  EXPECT_EQ(method_named("yoshida-verlet")->refuses(*model).find("yoshida-verlet needs separable; "), 0U);
+  EXPECT_EQ(method_named("composition", {{"base", "verlet"}})
                 ->refuses(*model)
                 .find("composition of verlet needs separable; "),
             0U);
@@ -103,12 +105,12 @@ TEST(Aliases, ARefusalNamesTheAlias) {
 
 TEST(Composition, IsResolvedWithItsBase) {
   EXPECT_EQ(
-      method("composition")->parameters(),
+      method_named("composition")->parameters(),
       (Assignments{{"scheme", "yoshida"}, {"order", "4"}, {"base", "midpoint-darboux(compensated=yes)"}}));
-  const auto fine = method("composition", {{"base", "verlet(compensated=no)"}, {"scheme", "kahan-li"}});
+  const auto fine = method_named("composition", {{"base", "verlet(compensated=no)"}, {"scheme", "kahan-li"}});
   EXPECT_EQ(fine->parameters(),
             (Assignments{{"scheme", "kahan-li"}, {"order", "6"}, {"base", "verlet(compensated=no)"}}));
-  EXPECT_EQ(method("composition", fine->parameters())->parameters(), fine->parameters());
+  EXPECT_EQ(method_named("composition", fine->parameters())->parameters(), fine->parameters());
   EXPECT_EQ(fine->coefficient_count(), kahan_li_weights(6).size());
 }
 
@@ -125,7 +127,7 @@ TEST(Composition, RefusesOtherBases) {
   const std::string expected =
       "; expected one of: conformal-splitting, dla, midpoint-darboux, rattle, verlet";
   const auto because = [&](const char* base, const char* reason) {
-    EXPECT_EQ(refusal({{"base", base}}),
+    EXPECT_EQ(composition_refusal({{"base", base}}),
               "composition cannot have the base " + std::string(base) + ": " + reason + expected);
   };
   because("rk4", "it is not symmetric");
@@ -134,10 +136,10 @@ TEST(Composition, RefusesOtherBases) {
   because("composition", "it does not say how it is composed");
   because("yoshida-verlet", "it does not say how it is composed");
   because("odeint-dopri5", "it chooses its steps itself");
-  EXPECT_EQ(refusal({{"base", "verlte"}}), "unknown integrator 'verlte'; did you mean 'verlet'?");
-  EXPECT_EQ(refusal({{"base", "verlet(compensate=no)"}}),
+  EXPECT_EQ(composition_refusal({{"base", "verlte"}}), "unknown integrator 'verlte'; did you mean 'verlet'?");
+  EXPECT_EQ(composition_refusal({{"base", "verlet(compensate=no)"}}),
             "unknown parameter 'compensate'; did you mean 'compensated'? (of integrator verlet)");
-  EXPECT_EQ(refusal({{"scheme", "kahan-li"}, {"order", "4"}}),
+  EXPECT_EQ(composition_refusal({{"scheme", "kahan-li"}, {"order", "4"}}),
             "parameter 'order' of integrator composition: expected 6|8 with scheme=kahan-li, got '4'");
 }
 
@@ -173,8 +175,10 @@ TEST(Composition, RefusesComposableBasesOfAnotherKind) {
                                        .reference = "su-qin",
                                        .order = 4,
                                        .preserves = {Claim::symmetric}}};
-  EXPECT_NE(refusal({{"base", "lopsided"}}).find("base lopsided: it is not symmetric; "), std::string::npos);
-  EXPECT_NE(refusal({{"base", "high"}}).find("base high: its order is not 2; "), std::string::npos);
+  EXPECT_NE(composition_refusal({{"base", "lopsided"}}).find("base lopsided: it is not symmetric; "),
+            std::string::npos);
+  EXPECT_NE(composition_refusal({{"base", "high"}}).find("base high: its order is not 2; "),
+            std::string::npos);
 }
 
 RunSettings run_of(const char* integrator, const Assignments& set) {

@@ -7,12 +7,18 @@
 #include <pfaff/bench/verification/check.hpp>
 #include <pfaff/integrators/composition/composition_weights.hpp>
 
+#include "methods.hpp"
+
 namespace pfaff {
 namespace {
 
+using testing::after_steps;
+using testing::method_named;
+using testing::model_named;
+
 // Some units of round-off, 1e-34, for each coefficient: a sum of products of weights, relative to the sum of
 // their absolute values.
-constexpr double round_off = 1e-33;
+constexpr double weight_round_off = 1e-33;
 
 // The coefficient of a word as a sum over the stages k_1 <= k_2 <= ... its letters may come from, each run of
 // r letters from one stage with 1 / r!.
@@ -57,12 +63,12 @@ double largest_defect(const std::vector<Quad>& weights, int weight) {
   return largest;
 }
 
-struct Case {
+struct SchemeCase {
   const char* name;
   std::vector<Quad> weights;
   int order;
 };
-std::vector<Case> cases() {
+std::vector<SchemeCase> scheme_cases() {
   return {{"yoshida", yoshida_weights(4), 4},  {"yoshida", yoshida_weights(6), 6},
           {"yoshida", yoshida_weights(8), 8},  {"suzuki", suzuki_weights(4), 4},
           {"suzuki", suzuki_weights(6), 6},    {"kahan-li", kahan_li_weights(6), 6},
@@ -70,17 +76,19 @@ std::vector<Case> cases() {
 }
 
 TEST(CompositionWeights, FulfilEveryOrderConditionInQuad) {
-  for (const Case& c : cases())
+  for (const SchemeCase& c : scheme_cases())
     for (int weight = 1; weight < c.order; ++weight)
-      EXPECT_LE(largest_defect(c.weights, weight), round_off) << c.name << ' ' << c.order << ' ' << weight;
+      EXPECT_LE(largest_defect(c.weights, weight), weight_round_off)
+          << c.name << ' ' << c.order << ' ' << weight;
 }
 
 TEST(CompositionWeights, FailTheNextOnes) {  // control: that order more is seen to be missing
-  for (const Case& c : cases()) EXPECT_GT(defect(c.weights, {c.order + 1}), 1e-9) << c.name << ' ' << c.order;
+  for (const SchemeCase& c : scheme_cases())
+    EXPECT_GT(defect(c.weights, {c.order + 1}), 1e-9) << c.name << ' ' << c.order;
 }
 
 TEST(CompositionWeights, AreSymmetricAndAddUpToOne) {
-  for (const Case& c : cases()) {
+  for (const SchemeCase& c : scheme_cases()) {
     for (std::size_t k = 0; k < c.weights.size(); ++k)
       EXPECT_EQ(c.weights[k], c.weights[c.weights.size() - 1 - k]) << c.name;
     EXPECT_EQ(c.weights.size() % 2, 1U);
@@ -94,10 +102,10 @@ TEST(CompositionWeights, OfLowOrderAreTheClosedForms) {
   const auto yoshida = yoshida_weights(4), suzuki = suzuki_weights(4);
   ASSERT_EQ(yoshida.size(), 3U);
   ASSERT_EQ(suzuki.size(), 5U);
-  EXPECT_LE(static_cast<double>(abs(yoshida[0] - jump)), round_off);
-  EXPECT_LE(static_cast<double>(abs(yoshida[1] + pow(Quad(2), third) * jump)), round_off);
-  EXPECT_LE(static_cast<double>(abs(suzuki[1] - fold)), round_off);
-  EXPECT_LE(static_cast<double>(abs(suzuki[2] - (Quad(1) - Quad(4) * fold))), round_off);
+  EXPECT_LE(static_cast<double>(abs(yoshida[0] - jump)), weight_round_off);
+  EXPECT_LE(static_cast<double>(abs(yoshida[1] + pow(Quad(2), third) * jump)), weight_round_off);
+  EXPECT_LE(static_cast<double>(abs(suzuki[1] - fold)), weight_round_off);
+  EXPECT_LE(static_cast<double>(abs(suzuki[2] - (Quad(1) - Quad(4) * fold))), weight_round_off);
   EXPECT_EQ(yoshida_weights(2), std::vector<Quad>{Quad(1)});
   EXPECT_EQ(yoshida_weights(10).size(), 81U);
   EXPECT_EQ(suzuki_weights(8).size(), 125U);
@@ -123,7 +131,7 @@ TEST(CompositionWeights, OfKahanAndLiArePublishedOnesInTheirLastDigit) {
 TEST(CompositionWeights, PublishedDigitsAloneAreSeen) {  // control: a change in the 26th digit
   auto weights = kahan_li_weights(8);
   weights[3] += Quad(1e-26);
-  EXPECT_GT(largest_defect(weights, 1), 100 * round_off);
+  EXPECT_GT(largest_defect(weights, 1), 100 * weight_round_off);
 }
 
 TEST(CompositionWeights, IndependentConditionsAreAsManyAsThereShouldBe) {
@@ -133,33 +141,17 @@ TEST(CompositionWeights, IndependentConditionsAreAsManyAsThereShouldBe) {
   for (const Word& word : order_condition_words(8))
     EXPECT_LE(static_cast<double>(
                   abs(word_coefficient(suzuki_weights(4), word) - counted(suzuki_weights(4), word))),
-              round_off);
-}
-
-std::unique_ptr<MethodInstance> method(const char* name, const Assignments& parameters = {}) {
-  return integrators().get(name, "integrator").make(parameters);
-}
-std::shared_ptr<const Model> model(const char* name) { return systems().get(name, "system").make({}); }
-
-template <class T>
-std::vector<T> run(const MethodInstance& method, const std::shared_ptr<const Model>& model, const T& h,
-                   std::int64_t steps) {
-  const auto stepper = method.stepper(model, T());
-  std::vector<T> z;
-  for (const Real& x : model->initial()) z.push_back(T(x));
-  std::int64_t completed = 0;
-  EXPECT_EQ(stepper->advance(T(0), 0, h, steps, z, completed), Status::converged);
-  return z;
+              weight_round_off);
 }
 
 TEST(Composition, IsItsSubSteps) {
   // Three steps of the generating-function scheme of order 2 expanded at the mid-time, which is the midpoint
   // rule in the chart.
-  const auto pendulum = model("damped-pendulum");
+  const auto pendulum = model_named("damped-pendulum");
   const Quad h(0.1);
-  const auto whole = run<Quad>(*method("yoshida", {{"order", "4"}}), pendulum, h, 1);
+  const auto whole = after_steps<Quad>(*method_named("yoshida", {{"order", "4"}}), pendulum, h, 1);
   const auto stepper =
-      method("generating-function", {{"order", "2"}, {"variant", "S"}})->stepper(pendulum, Quad());
+      method_named("generating-function", {{"order", "2"}, {"variant", "S"}})->stepper(pendulum, Quad());
   std::vector<Quad> parts;
   for (const Real& x : pendulum->initial()) parts.push_back(x.quad());
   Quad t(0);
@@ -176,11 +168,11 @@ TEST(Composition, IsItsSubSteps) {
 double round_off_of(const char* name, const char* system, const char* compensated, const Assignments& more) {
   Assignments parameters = more;
   parameters.emplace_back("compensated", compensated);
-  const auto pendulum = model(system);
+  const auto pendulum = model_named(system);
   const double h = 1.0 / 512;  // short enough for the implicit solve to end far below round-off
   const std::int64_t steps = 10000;
-  const auto ours = run<double>(*method(name, parameters), pendulum, h, steps);
-  const auto exact = run<Quad>(*method(name, parameters), pendulum, Quad(h), steps);
+  const auto ours = after_steps<double>(*method_named(name, parameters), pendulum, h, steps);
+  const auto exact = after_steps<Quad>(*method_named(name, parameters), pendulum, Quad(h), steps);
   double largest = 0;
   for (std::size_t k = 0; k < ours.size(); ++k)
     largest = std::max(largest, static_cast<double>(abs(Quad(ours[k]) - exact[k])));
@@ -203,15 +195,15 @@ TEST(InDarbouxChart, CompensationSurvives) {
 
 TEST(InDarbouxChart, IsTheMethodItselfInCanonicalCoordinates) {
   for (const char* name : {"kepler", "henon-heiles"}) {
-    const auto system = model(name);
-    EXPECT_EQ(run<double>(*method("midpoint-darboux"), system, 0.05, 100),
-              run<double>(*method("implicit-midpoint"), system, 0.05, 100));
+    const auto system = model_named(name);
+    EXPECT_EQ(after_steps<double>(*method_named("midpoint-darboux"), system, 0.05, 100),
+              after_steps<double>(*method_named("implicit-midpoint"), system, 0.05, 100));
   }
 }
 
 std::int64_t iterations_of(const char* name, bool forgetting) {
-  const auto pendulum = model("damped-pendulum");
-  const auto stepper = method(name)->stepper(pendulum, double());
+  const auto pendulum = model_named("damped-pendulum");
+  const auto stepper = method_named(name)->stepper(pendulum, double());
   std::vector<double> z{1, 0.5};
   std::int64_t completed = 0;
   for (std::int64_t k = 0; k < 100; ++k) {
@@ -229,10 +221,10 @@ TEST(InDarbouxChart, HistorySavesIterations) {
 }
 
 TEST(InDarbouxChart, AStateChangedFromOutsideStartsAfresh) {
-  const auto pendulum = model("damped-pendulum");
+  const auto pendulum = model_named("damped-pendulum");
   for (const char* name : {"gauss-darboux", "kahan-li", "leap-frog"}) {
-    const auto used = method(name)->stepper(pendulum, double()),
-               fresh = method(name)->stepper(pendulum, double());
+    const auto used = method_named(name)->stepper(pendulum, double()),
+               fresh = method_named(name)->stepper(pendulum, double());
     std::vector<double> z{1, 0.5};
     std::int64_t completed = 0;
     used->advance(0.0, 0, 0.1, 7, z, completed);
@@ -247,7 +239,8 @@ TEST(InDarbouxChart, AStateChangedFromOutsideStartsAfresh) {
 TEST(InDarbouxChart, AChartOfFortyDecadesIsSolvedInEveryComponent) {
   // e^{nu t} grows to 1e43; the motion decays to 1e-22, where it must still be right.
   const auto oscillator = systems().get("damped-oscillator", "system").make({{"nu", "0.01"}});
-  const auto z = run<double>(*method("gauss-darboux", {{"stages", "5"}}), oscillator, 0.1, 100000);
+  const auto z =
+      after_steps<double>(*method_named("gauss-darboux", {{"stages", "5"}}), oscillator, 0.1, 100000);
   const Problem<double> problem(oscillator);
   std::vector<double> exact(2);
   problem.exact_solution(1e4, std::vector<double>{1, 0, 0}, exact);
@@ -260,13 +253,13 @@ TEST(InDarbouxChart, AChartOfFortyDecadesIsSolvedInEveryComponent) {
 TEST(InDarbouxChart, OverflowIsAStatus) {
   const auto oscillator = systems().get("damped-oscillator", "system").make({{"nu", "10"}});
   for (const char* name : {"gauss-darboux", "kahan-li"}) {
-    const auto stepper = method(name)->stepper(oscillator, double());
+    const auto stepper = method_named(name)->stepper(oscillator, double());
     // e^{nu t} passes the largest double, 1.8e308, at t = 70.98.
     std::vector<double> z{1, 0.5}, kept = z;
     std::int64_t completed = 0, all = 0;
     EXPECT_EQ(stepper->advance(70.9, 0, 0.01, 100, z, completed), Status::non_finite) << name;
     EXPECT_GT(completed, 0) << name;
-    const auto again = method(name)->stepper(oscillator, double());
+    const auto again = method_named(name)->stepper(oscillator, double());
     EXPECT_EQ(again->advance(70.9, 0, 0.01, completed, kept, all), Status::converged) << name;
     EXPECT_EQ(z, kept) << name;  // the state of the last step that was completed
   }

@@ -7,12 +7,16 @@
 #include <pfaff/core/facets/static_problem.hpp>
 #include <pfaff/integrators/splitting/conformal_splitting.hpp>
 
+#include "methods.hpp"
+
 namespace pfaff {
 namespace {
 
+using testing::method_named;
+
 // A step of some dozen operations rounds by 1e-16 or 1e-34 in each.
 template <class T>
-constexpr double round_off = std::is_same_v<T, Quad> ? 1e-32 : 3e-15;
+constexpr double splitting_round_off = std::is_same_v<T, Quad> ? 1e-32 : 3e-15;
 
 // Two coupled oscillators with a driven, nonlinear potential and no other formula than those of the facet, or
 // with force and velocity written out.
@@ -55,10 +59,6 @@ std::shared_ptr<const Model> driven_pair(const char* nu = "0.4") {
                     pair);
 }
 
-std::unique_ptr<MethodInstance> method(const char* name, const Assignments& parameters = {}) {
-  return integrators().get(name, "integrator").make(parameters);
-}
-
 // |M^T J M - e^{-rate h} J|, relative.
 template <class T>
 double conformal_residual(const MethodInstance& method, const std::shared_ptr<const Model>& model, const T& h,
@@ -83,10 +83,13 @@ void expect_conformal() {
     for (const double h : {0.1, -0.1, 0.5}) {
       const auto model = driven_pair<false>(nu);
       const T rate(*Real::parse(nu));
-      EXPECT_LE(conformal_residual<T>(*method("conformal-splitting"), model, T(h), rate), round_off<T>);
-      EXPECT_LE(conformal_residual<T>(*method("suzuki-conformal"), model, T(h), rate), round_off<T>);
-      EXPECT_LE(conformal_residual<T>(*method("kahan-li-conformal", {{"order", "8"}}), model, T(h), rate),
-                round_off<T>);
+      EXPECT_LE(conformal_residual<T>(*method_named("conformal-splitting"), model, T(h), rate),
+                splitting_round_off<T>);
+      EXPECT_LE(conformal_residual<T>(*method_named("suzuki-conformal"), model, T(h), rate),
+                splitting_round_off<T>);
+      EXPECT_LE(
+          conformal_residual<T>(*method_named("kahan-li-conformal", {{"order", "8"}}), model, T(h), rate),
+          splitting_round_off<T>);
     }
 }
 TEST(ConformalSplitting, TheCanonicalStructureDecaysAtItsRateInDouble) { expect_conformal<double>(); }
@@ -95,42 +98,45 @@ TEST(ConformalSplitting, TheCanonicalStructureDecaysAtItsRateInQuad) { expect_co
 TEST(ConformalSplitting, AnotherRateIsSeenAndOtherMethodsFail) {  // controls
   const auto model = driven_pair<false>();
   const Quad h(0.1), rate = Real(0.4_r).quad();
-  EXPECT_GT(conformal_residual<Quad>(*method("conformal-splitting"), model, h, rate * Quad(1 + 1e-6)), 1e-9);
+  EXPECT_GT(conformal_residual<Quad>(*method_named("conformal-splitting"), model, h, rate * Quad(1 + 1e-6)),
+            1e-9);
   for (const char* name : {"rk4", "leap-frog", "implicit-midpoint", "gauss"})
-    EXPECT_GT(conformal_residual<Quad>(*method(name), model, h, rate), 1e-10) << name;
+    EXPECT_GT(conformal_residual<Quad>(*method_named(name), model, h, rate), 1e-10) << name;
 }
 
 TEST(ConformalSplitting, OrdersOnADrivenSystem) {
   const auto model = driven_pair<false>();
-  EXPECT_NEAR(measure_order(*method("conformal-splitting"), model).slope, 2, 0.1);
-  EXPECT_NEAR(measure_order(*method("suzuki-conformal", {{"order", "4"}}), model).slope, 4, 0.1);
-  EXPECT_NEAR(measure_order(*method("kahan-li-conformal", {{"order", "6"}}), model).slope, 6, 0.1);
-  EXPECT_NEAR(measure_order(*method("kahan-li-conformal", {{"order", "8"}}), model).slope, 8, 0.1);
+  EXPECT_NEAR(measure_order(*method_named("conformal-splitting"), model).slope, 2, 0.1);
+  EXPECT_NEAR(measure_order(*method_named("suzuki-conformal", {{"order", "4"}}), model).slope, 4, 0.1);
+  EXPECT_NEAR(measure_order(*method_named("kahan-li-conformal", {{"order", "6"}}), model).slope, 6, 0.1);
+  EXPECT_NEAR(measure_order(*method_named("kahan-li-conformal", {{"order", "8"}}), model).slope, 8, 0.1);
 }
 
 // D(h/2) S(h) D(h/2) for r'' + nu r' + r = 0, S = [[1 - h^2/2, h - h^3/4], [-h, 1 - h^2/2]].
 template <class T>
-void expect_transition() {
+void expect_conformal_transition() {
   for (const char* nu : {"0", "0.3", "1"}) {
     const auto model = systems().get("damped-oscillator", "system").make({{"nu", nu}});
     const T h(Real::fraction(1, 10)), e = exp(-(T(*Real::parse(nu)) * h / T(2)));
-    const auto step = StepDifferentiator<T>(*method("conformal-splitting"), model)(T(0.7), h, {T(1), T(0)});
+    const auto step =
+        StepDifferentiator<T>(*method_named("conformal-splitting"), model)(T(0.7), h, {T(1), T(0)});
     const T c = T(1) - h * h / T(2);
     const std::array<T, 4> exact{c, (h - h * h * h / T(4)) * e, -(h * e), c * e * e};
     for (std::size_t k = 0; k < 4; ++k)
-      EXPECT_LE(static_cast<double>(abs(step.jacobian[k] - exact[k])), round_off<T>) << nu << ' ' << k;
+      EXPECT_LE(static_cast<double>(abs(step.jacobian[k] - exact[k])), splitting_round_off<T>)
+          << nu << ' ' << k;
   }
 }
-TEST(ConformalSplitting, TransitionMatrixOfTheOscillatorInDouble) { expect_transition<double>(); }
-TEST(ConformalSplitting, TransitionMatrixOfTheOscillatorInQuad) { expect_transition<Quad>(); }
+TEST(ConformalSplitting, TransitionMatrixOfTheOscillatorInDouble) { expect_conformal_transition<double>(); }
+TEST(ConformalSplitting, TransitionMatrixOfTheOscillatorInQuad) { expect_conformal_transition<Quad>(); }
 
 TEST(ConformalSplitting, WithoutFrictionIsVerlet) {
   const auto damped = systems().get("damped-pendulum", "system").make({{"nu", "0"}});
   const auto free = systems().get("pendulum", "system").make({});
   std::vector<double> a{1, 0.5}, b{1, 0.5};
   std::int64_t completed = 0;
-  method("conformal-splitting")->stepper(damped, double())->advance(0.0, 0, 0.1, 100, a, completed);
-  method("verlet")->stepper(free, double())->advance(0.0, 0, 0.1, 100, b, completed);
+  method_named("conformal-splitting")->stepper(damped, double())->advance(0.0, 0, 0.1, 100, a, completed);
+  method_named("verlet")->stepper(free, double())->advance(0.0, 0, 0.1, 100, b, completed);
   for (std::size_t k = 0; k < 2; ++k) EXPECT_NEAR(a[k], b[k], 1e-14);
 }
 
@@ -141,8 +147,8 @@ TEST(ConformalSplitting, ALongRunDecaysToRoundOff) {
   std::vector<Quad> exact{Quad(1), Quad(0.5)};
   std::int64_t completed = 0;
   const double h = 1.0 / 64;
-  method("conformal-splitting")->stepper(model, double())->advance(0.0, 0, h, 200000, z, completed);
-  method("conformal-splitting")
+  method_named("conformal-splitting")->stepper(model, double())->advance(0.0, 0, h, 200000, z, completed);
+  method_named("conformal-splitting")
       ->stepper(model, Quad())
       ->advance(Quad(0), 0, Quad(h), 200000, exact, completed);
   for (std::size_t k = 0; k < 2; ++k) EXPECT_NEAR(z[k], static_cast<double>(exact[k]), 1e-14);
@@ -167,13 +173,13 @@ TEST(ConformalSplitting, ExpMinusOneHasNoCancellation) {
 TEST(ConformalFacet, IsNotTakenForASeparableHamiltonian) {
   for (const auto& model : {driven_pair<false>(), driven_pair<true>()}) {
     EXPECT_EQ(model->facets(), FacetSet{}.with(Facet::vector_field).with(Facet::conformal));
-    EXPECT_NE(method("verlet")->refuses(*model).find("verlet needs separable"), std::string::npos);
-    EXPECT_TRUE(method("conformal-splitting")->refuses(*model).empty());
+    EXPECT_NE(method_named("verlet")->refuses(*model).find("verlet needs separable"), std::string::npos);
+    EXPECT_TRUE(method_named("conformal-splitting")->refuses(*model).empty());
   }
   const auto kepler = systems().get("kepler", "system").make({});
-  EXPECT_NE(method("conformal-splitting")->refuses(*kepler).find("conformal-splitting needs conformal"),
+  EXPECT_NE(method_named("conformal-splitting")->refuses(*kepler).find("conformal-splitting needs conformal"),
             std::string::npos);
-  EXPECT_EQ(method("conformal-splitting")->needs(), FacetSet{}.with(Facet::conformal));
+  EXPECT_EQ(method_named("conformal-splitting")->needs(), FacetSet{}.with(Facet::conformal));
 }
 
 TEST(ConformalFacet, FrictionIsInTheField) {
@@ -204,7 +210,7 @@ TEST(ConformalFacet, TheStaticPathTakesTheSameSteps) {
   std::copy(other.begin(), other.end(), z.begin());
   std::int64_t completed = 0;
   EXPECT_EQ(advance(splitting, problem, 0.0, 0, 0.1, 100, z, work, completed), Status::converged);
-  method("conformal-splitting")
+  method_named("conformal-splitting")
       ->stepper(driven_pair<true>(), double())
       ->advance(0.0, 0, 0.1, 100, other, completed);
   for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(z[k], other[k], 1e-14);

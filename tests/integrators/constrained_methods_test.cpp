@@ -9,33 +9,30 @@
 #include <pfaff/bench/verification/check.hpp>
 #include <pfaff/tests/integrators/constrained_systems.hpp>
 
+#include "methods.hpp"
+
 namespace pfaff {
 namespace {
 
 using constrained::BentSphere;
 using constrained::on_sphere;
 using constrained::UnevenSphere;
-
-std::unique_ptr<MethodInstance> method(const char* name, const Assignments& parameters = {}) {
-  return integrators().get(name, "integrator").make(parameters);
-}
-std::shared_ptr<const Model> model(const char* name, const Assignments& parameters = {}) {
-  return systems().get(name, "system").make(parameters);
-}
+using testing::method_named;
+using testing::model_named;
 
 template <class T>
-struct Run {
+struct ConstrainedRun {
   std::vector<T> z;
   std::int64_t completed = 0;
   Status status = Status::converged;
   Counters counters;
 };
 template <class T>
-Run<T> run(const MethodInstance& method, const std::shared_ptr<const Model>& model, const T& h,
-           std::int64_t steps, std::vector<T> start = {}) {
+ConstrainedRun<T> run_constrained(const MethodInstance& method, const std::shared_ptr<const Model>& model,
+                                  const T& h, std::int64_t steps, std::vector<T> start = {}) {
   const auto motion = motion_for(method, model);
   const auto stepper = method.stepper(motion, T());
-  Run<T> result;
+  ConstrainedRun<T> result;
   result.z = std::move(start);
   if (result.z.empty())
     for (const Real& x : model->initial()) result.z.push_back(T(x));
@@ -52,7 +49,7 @@ double largest_residual(const Model& model, const T& t, const std::vector<T>& z)
   return static_cast<double>(*std::max_element(residuals.begin(), residuals.end()));
 }
 template <class T>
-double distance(const std::vector<T>& a, const std::vector<T>& b, std::size_t count) {
+double distance_of_first(const std::vector<T>& a, const std::vector<T>& b, std::size_t count) {
   T largest(0);
   for (std::size_t k = 0; k < count; ++k) largest = std::max(largest, abs(a[k] - b[k]));
   return static_cast<double>(largest);
@@ -80,21 +77,22 @@ const std::vector<Named> keeping_both{{"rattle", {}},
 // Sums of squares of numbers of order one: some units of round-off, 1e-16 and 1e-34.
 TEST(ConstrainedMethods, KeepBothLevelsToRoundOff) {
   for (const Named& n : keeping_both)
-    for (const auto& on : {on_sphere(BentSphere()), model("n-pendulum"), model("torus-particle")}) {
-      const auto m = method(n.name, n.parameters);
-      const auto in_double = run<double>(*m, on, 0.004, 500);
+    for (const auto& on :
+         {on_sphere(BentSphere()), model_named("n-pendulum"), model_named("torus-particle")}) {
+      const auto m = method_named(n.name, n.parameters);
+      const auto in_double = run_constrained<double>(*m, on, 0.004, 500);
       EXPECT_EQ(in_double.status, Status::converged) << n.name << ' ' << on->name();
       EXPECT_LE(largest_residual<double>(*on, 2.0, in_double.z), 1e-14) << n.name << ' ' << on->name();
-      const auto in_quad = run<Quad>(*m, on, Quad(0.004), 10);
+      const auto in_quad = run_constrained<Quad>(*m, on, Quad(0.004), 10);
       EXPECT_LE(largest_residual<Quad>(*on, Quad(0.04), in_quad.z), 1e-31) << n.name << ' ' << on->name();
     }
 }
 
 TEST(ConstrainedMethods, OthersDoNot) {  // control
   const auto on = on_sphere(BentSphere());
-  const auto rk4 = run<double>(*method("rk4"), on, 0.05, 40);
+  const auto rk4 = run_constrained<double>(*method_named("rk4"), on, 0.05, 40);
   EXPECT_GT(largest_residual<double>(*on, 2.0, rk4.z), 1e-7);
-  const auto shake = run<double>(*method("shake"), on, 0.05, 40);
+  const auto shake = run_constrained<double>(*method_named("shake"), on, 0.05, 40);
   EXPECT_GT(largest_residual<double>(*on, 2.0, shake.z), 1e-4);  // of the momenta
 }
 
@@ -103,8 +101,9 @@ TEST(ConstrainedMethods, WithAKineticEnergyThatIsNotQuadraticToo) {
   fast.fast = true;
   const auto on = on_sphere(fast);
   for (const char* name : {"rattle", "lobatto-spark"}) {
-    const auto m = method(name);
-    EXPECT_LE(largest_residual<Quad>(*on, Quad(0.5), run<Quad>(*m, on, Quad(0.05), 10).z), 1e-32) << name;
+    const auto m = method_named(name);
+    EXPECT_LE(largest_residual<Quad>(*on, Quad(0.5), run_constrained<Quad>(*m, on, Quad(0.05), 10).z), 1e-32)
+        << name;
     EXPECT_NEAR(measure_order(*m, on).slope, m->order(*on), 0.1) << name;
   }
 }
@@ -112,24 +111,26 @@ TEST(ConstrainedMethods, WithAKineticEnergyThatIsNotQuadraticToo) {
 TEST(ConstrainedMethods, HaveTheirOrders) {
   const auto bent = on_sphere(BentSphere()), uneven = on_sphere(UnevenSphere());
   for (const Named& n : keeping_both) {
-    const auto m = method(n.name, n.parameters);
+    const auto m = method_named(n.name, n.parameters);
     for (const auto& on : {motion_for(*m, bent), motion_for(*m, uneven)}) {
       if (!m->refuses(*on).empty()) continue;
       EXPECT_NEAR(measure_order(*m, on).slope, m->order(*on), 0.1) << n.name;
     }
   }
   for (const char* name : {"shake", "lincs"})
-    EXPECT_NEAR(measure_order(*method(name), bent).slope, 2, 0.1) << name;
+    EXPECT_NEAR(measure_order(*method_named(name), bent).slope, 2, 0.1) << name;
 }
 
 TEST(ConstrainedMethods, RattleIsTheLobattoPairOfTwoStages) {
-  const auto on = model("n-pendulum");
-  const auto rattle = run<Quad>(*method("rattle"), on, Quad(0.01), 50);
-  const auto lobatto = run<Quad>(*method("lobatto-spark", {{"stages", "2"}}), on, Quad(0.01), 50);
+  const auto on = model_named("n-pendulum");
+  const auto rattle = run_constrained<Quad>(*method_named("rattle"), on, Quad(0.01), 50);
+  const auto lobatto =
+      run_constrained<Quad>(*method_named("lobatto-spark", {{"stages", "2"}}), on, Quad(0.01), 50);
   // Fifty steps of a motion whose errors grow by some e^5 a second.
-  EXPECT_LE(distance(rattle.z, lobatto.z, rattle.z.size()), 1e-30);
-  const auto other = run<Quad>(*method("lobatto-spark", {{"stages", "3"}}), on, Quad(0.01), 50);
-  EXPECT_GT(distance(rattle.z, other.z, rattle.z.size()), 1e-6);  // control
+  EXPECT_LE(distance_of_first(rattle.z, lobatto.z, rattle.z.size()), 1e-30);
+  const auto other =
+      run_constrained<Quad>(*method_named("lobatto-spark", {{"stages", "3"}}), on, Quad(0.01), 50);
+  EXPECT_GT(distance_of_first(rattle.z, other.z, rattle.z.size()), 1e-6);  // control
 }
 
 TEST(ConstrainedMethods, ShakeHasThePositionsOfRattle) {
@@ -137,10 +138,10 @@ TEST(ConstrainedMethods, ShakeHasThePositionsOfRattle) {
   double gap = 0;
   for (const int steps : {20, 40}) {
     const Quad h = Quad(1) / Quad(steps);
-    const auto rattle = run<Quad>(*method("rattle"), on, h, steps),
-               shake = run<Quad>(*method("shake"), on, h, steps);
-    EXPECT_LE(distance(rattle.z, shake.z, 3), 1e-31);
-    const double momenta = distance(rattle.z, shake.z, 6);  // of second order in h
+    const auto rattle = run_constrained<Quad>(*method_named("rattle"), on, h, steps),
+               shake = run_constrained<Quad>(*method_named("shake"), on, h, steps);
+    EXPECT_LE(distance_of_first(rattle.z, shake.z, 3), 1e-31);
+    const double momenta = distance_of_first(rattle.z, shake.z, 6);  // of second order in h
     if (gap > 0) {
       EXPECT_NEAR(gap / momenta, 4, 0.2);
     }
@@ -149,24 +150,25 @@ TEST(ConstrainedMethods, ShakeHasThePositionsOfRattle) {
 }
 
 TEST(ConstrainedMethods, LincsComesNearerWithEveryPowerAndCorrection) {
-  const auto on = model("n-pendulum", {{"bobs", "3"}});
+  const auto on = model_named("n-pendulum", {{"bobs", "3"}});
   double last = 1;
   for (const int expansion : {0, 1, 4, 16}) {
-    const auto lincs = method("lincs", {{"expansion", std::to_string(expansion)}, {"iterations", "3"}});
-    const double residual = largest_residual<double>(*on, 0.05, run<double>(*lincs, on, 0.001, 50).z);
+    const auto lincs = method_named("lincs", {{"expansion", std::to_string(expansion)}, {"iterations", "3"}});
+    const double residual =
+        largest_residual<double>(*on, 0.05, run_constrained<double>(*lincs, on, 0.001, 50).z);
     EXPECT_LT(residual, last / (expansion == 1 ? 1.5 : 3)) << expansion;  // one power more, or several
     last = residual;
   }
-  const auto exact =
-      run<double>(*method("lincs", {{"expansion", "64"}, {"iterations", "60"}}), on, 0.001, 50);
-  const auto rattle = run<double>(*method("rattle"), on, 0.001, 50);
-  EXPECT_LE(distance(exact.z, rattle.z, rattle.z.size()), 1e-10);
+  const auto exact = run_constrained<double>(
+      *method_named("lincs", {{"expansion", "64"}, {"iterations", "60"}}), on, 0.001, 50);
+  const auto rattle = run_constrained<double>(*method_named("rattle"), on, 0.001, 50);
+  EXPECT_LE(distance_of_first(exact.z, rattle.z, rattle.z.size()), 1e-10);
 }
 
 TEST(ConstrainedMethods, EnergyDoesNotDriftWhereTheStepIsSymplectic) {
   const auto on = on_sphere(constrained::StillSphere());
   const auto largest_error = [&](const char* name, const Assignments& parameters, double h) {
-    const auto m = method(name, parameters);
+    const auto m = method_named(name, parameters);
     const auto motion = motion_for(*m, on);
     const auto stepper = m->stepper(motion, double());
     std::vector<double> z;
@@ -191,21 +193,24 @@ TEST(ConstrainedMethods, EnergyDoesNotDriftWhereTheStepIsSymplectic) {
 }
 
 TEST(ConstrainedMethods, MomentumMapsAreKeptOverManySteps) {
-  const auto on = model("spherical-pendulum");
+  const auto on = model_named("spherical-pendulum");
   const auto vertical = [](const std::vector<double>& z) { return z[0] * z[4] - z[1] * z[3]; };
   std::vector<double> start;
   for (const Real& x : on->initial()) start.push_back(x.value());
   // 10000 steps, each with a rounding error or so of the state.
   for (const char* name : {"rattle", "kahan-li-rattle", "lobatto-spark"})
-    EXPECT_NEAR(vertical(run<double>(*method(name), on, 0.05, 10000).z), vertical(start), 1e-13) << name;
-  EXPECT_GT(std::abs(vertical(run<double>(*method("projected-rk4"), on, 0.05, 10000).z) - vertical(start)),
+    EXPECT_NEAR(vertical(run_constrained<double>(*method_named(name), on, 0.05, 10000).z), vertical(start),
+                1e-13)
+        << name;
+  EXPECT_GT(std::abs(vertical(run_constrained<double>(*method_named("projected-rk4"), on, 0.05, 10000).z) -
+                     vertical(start)),
             1e-6);
 }
 
 TEST(ConstrainedMethods, RunBackToWhereTheyCameFrom) {
   const auto on = on_sphere(BentSphere());
   for (const Named& n : keeping_both) {
-    const auto m = method(n.name, n.parameters);
+    const auto m = method_named(n.name, n.parameters);
     const auto motion = motion_for(*m, on);
     const auto stepper = m->stepper(motion, Quad());
     std::vector<Quad> z, start;
@@ -217,39 +222,41 @@ TEST(ConstrainedMethods, RunBackToWhereTheyCameFrom) {
     stepper->forget();
     EXPECT_EQ(stepper->advance(Quad(1), 0, -h, 16, z, completed), Status::converged);
     if (std::string(n.name) == "projected-rk4") {
-      EXPECT_GT(distance(z, start, 6), 1e-9);  // control
+      EXPECT_GT(distance_of_first(z, start, 6), 1e-9);  // control
     } else {
-      EXPECT_LE(distance(z, start, 6), 1e-30) << n.name;
+      EXPECT_LE(distance_of_first(z, start, 6), 1e-30) << n.name;
     }
   }
 }
 
 TEST(ConstrainedMethods, RattleFactorsOnceAStep) {
-  const auto result = run<double>(*method("rattle"), model("n-pendulum"), 0.001, 100);
+  const auto result = run_constrained<double>(*method_named("rattle"), model_named("n-pendulum"), 0.001, 100);
   EXPECT_EQ(result.counters.factorisations, 101);
   EXPECT_EQ(result.counters.fields, 101);
   EXPECT_LE(result.counters.iterations, 400);
   // So do its compositions: each of the three sub-steps goes on from the one before.
-  EXPECT_EQ(run<double>(*method("yoshida-rattle"), model("n-pendulum"), 0.001, 100).counters.factorisations,
+  EXPECT_EQ(run_constrained<double>(*method_named("yoshida-rattle"), model_named("n-pendulum"), 0.001, 100)
+                .counters.factorisations,
             301);
 }
 
 TEST(ConstrainedMethods, StopWhereAStepIsTooLargeAndKeepTheState) {
   const auto on = on_sphere(BentSphere());
   for (const Named& n : keeping_both) {
-    const auto m = method(n.name, n.parameters);
-    const auto result = run<double>(*m, on, 40.0, 3);
+    const auto m = method_named(n.name, n.parameters);
+    const auto result = run_constrained<double>(*m, on, 40.0, 3);
     EXPECT_NE(result.status, Status::converged) << n.name;
     EXPECT_EQ(result.completed, 0) << n.name;
     for (std::size_t k = 0; k < 6; ++k) EXPECT_EQ(result.z[k], on->initial()[k].value()) << n.name;
   }
-  EXPECT_EQ(run<double>(*method("rattle"), on, 40.0, 3).status, Status::not_converged);
+  EXPECT_EQ(run_constrained<double>(*method_named("rattle"), on, 40.0, 3).status, Status::not_converged);
 }
 
 TEST(ConstrainedMethods, SayWhereConstraintsHaveNoGradient) {
   const auto on = on_sphere(BentSphere());
   for (const char* name : {"rattle", "shake", "lobatto-spark", "lincs"})
-    EXPECT_EQ(run<double>(*method(name), on, 0.01, 1, std::vector<double>{0, 0, 0, 1, 0, 0}).status,
+    EXPECT_EQ(run_constrained<double>(*method_named(name), on, 0.01, 1, std::vector<double>{0, 0, 0, 1, 0, 0})
+                  .status,
               Status::singular)
         << name;
 }
@@ -259,12 +266,12 @@ TEST(ConstrainedMethods, RefuseWhatTheyAreNotMadeFor) {
   rough.drag = Real::fraction(1, 10);
   const auto friction = on_sphere(rough), uneven = on_sphere(UnevenSphere());
   for (const char* name : {"rattle", "shake", "lincs", "yoshida-rattle", "lobatto-spark"})
-    EXPECT_NE(method(name)->refuses(*friction).find("friction"), std::string::npos) << name;
+    EXPECT_NE(method_named(name)->refuses(*friction).find("friction"), std::string::npos) << name;
   for (const char* name : {"rattle", "shake", "lincs"})
-    EXPECT_NE(method(name)->refuses(*uneven).find("T(p) + V(q, t)"), std::string::npos) << name;
-  EXPECT_EQ(method("lobatto-spark")->refuses(*uneven), "");
-  EXPECT_NE(method("rattle")->refuses(*model("pendulum")).find("holonomic"), std::string::npos);
-  EXPECT_NE(method("rk4")->refuses(*friction).find("vector-field"), std::string::npos);
+    EXPECT_NE(method_named(name)->refuses(*uneven).find("T(p) + V(q, t)"), std::string::npos) << name;
+  EXPECT_EQ(method_named("lobatto-spark")->refuses(*uneven), "");
+  EXPECT_NE(method_named("rattle")->refuses(*model_named("pendulum")).find("holonomic"), std::string::npos);
+  EXPECT_NE(method_named("rk4")->refuses(*friction).find("vector-field"), std::string::npos);
 }
 
 TEST(ConstrainedMethods, RefuseInTheirOwnNames) {
@@ -274,7 +281,7 @@ TEST(ConstrainedMethods, RefuseInTheirOwnNames) {
   const std::string reason =
       " keeps energies and needs a system without friction; " + friction->name() + " has friction";
   for (const char* name : {"rattle", "shake", "lincs", "yoshida-rattle", "lobatto-spark"})
-    EXPECT_EQ(method(name)->refuses(*friction), name + reason);
+    EXPECT_EQ(method_named(name)->refuses(*friction), name + reason);
   EXPECT_EQ(integrators().get("composition", "integrator").make({{"base", "rattle"}})->refuses(*friction),
             "composition of rattle" + reason);
 }

@@ -7,27 +7,15 @@
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
 
+#include "adaptive_samples.hpp"
+
 namespace pfaff {
 namespace {
 
-struct Growth {  // z' = z
-  static constexpr int dimension = 1;
-  template <class T>
-  void field(const T& /*t*/, In<T> z, Out<T> rate) const {
-    rate[0] = z[0];
-  }
-};
-struct Blowing {  // z' = z^2, which is infinite at t = 1/z(0)
-  static constexpr int dimension = 1;
-  template <class T>
-  void field(const T& /*t*/, In<T> z, Out<T> rate) const {
-    rate[0] = z[0] * z[0];
-  }
-};
-template <class S>
-std::shared_ptr<const Model> model_of(S system) {
-  return make_model({.name = "sample", .title = "", .reference = "", .initial = {1}}, system);
-}
+using testing::expect_refused_tolerances;
+using testing::Growth;
+using testing::sample_of;
+
 std::unique_ptr<MethodInstance> extrapolation(const Assignments& parameters = {}) {
   return integrators().get("extrapolation", "integrator").make(parameters);
 }
@@ -45,7 +33,7 @@ TEST(Extrapolation, StepsAreTheClosedForm) {
   const std::vector<Quad> expected{Quad(1) + two, Quad(1) + d4 + (d4 - two) / Quad(3)};
   for (std::size_t columns = 1; columns <= 2; ++columns) {
     const auto stepper =
-        extrapolation({{"columns", std::to_string(columns)}})->stepper(model_of(Growth{}), Quad());
+        extrapolation({{"columns", std::to_string(columns)}})->stepper(sample_of(Growth{}), Quad());
     std::vector<Quad> z{Quad(1)};
     std::int64_t completed = 0;
     EXPECT_EQ(stepper->advance(Quad(0), 0, h, 1, z, completed), Status::converged);
@@ -56,10 +44,10 @@ TEST(Extrapolation, StepsAreTheClosedForm) {
 // e^t over ten time units at tolerances down to 1e-30: the error is in proportion to the tolerance, the time
 // is met exactly, forwards and backwards, and smaller tolerances do not take many times more steps.
 template <class T>
-void expect_tolerances_met(std::initializer_list<double> tolerances) {
+void extrapolation_meets_tolerances(std::initializer_list<double> tolerances) {
   for (const double tolerance : tolerances)
     for (const int direction : {1, -1}) {
-      const auto stepper = extrapolation()->stepper(model_of(Growth{}), T());
+      const auto stepper = extrapolation()->stepper(sample_of(Growth{}), T());
       std::vector<T> z{T(1)};
       T t(0);
       const T end = T(direction) * T(10);
@@ -74,27 +62,15 @@ void expect_tolerances_met(std::initializer_list<double> tolerances) {
       EXPECT_GE(stepper->counters().steps, 3) << tolerance;
     }
 }
-TEST(Extrapolation, MeetsTolerancesInDouble) { expect_tolerances_met<double>({1e-4, 1e-7, 1e-10, 1e-13}); }
+TEST(Extrapolation, MeetsTolerancesInDouble) {
+  extrapolation_meets_tolerances<double>({1e-4, 1e-7, 1e-10, 1e-13});
+}
 TEST(Extrapolation, MeetsTolerancesInQuad) {
-  expect_tolerances_met<Quad>({1e-10, 1e-16, 1e-22, 1e-28, 1e-30});
+  extrapolation_meets_tolerances<Quad>({1e-10, 1e-16, 1e-22, 1e-28, 1e-30});
 }
 
-// A tolerance below round-off, and steps that get lost in the time, end with a status.
-template <class T>
-void expect_refusals() {
-  const auto stepper = extrapolation()->stepper(model_of(Growth{}), T());
-  std::vector<T> z{T(1)};
-  T t(0);
-  EXPECT_EQ(stepper->advance_to(t, T(1), std::numeric_limits<T>::epsilon() / T(2), z), Status::not_converged);
-  EXPECT_TRUE(t == T(0));
-  EXPECT_TRUE(z[0] == T(1));
-  // From here on the solution 1/(1 - t) has no continuation: steps shrink until they no longer move the time.
-  const auto blowing = extrapolation()->stepper(model_of(Blowing{}), T());
-  EXPECT_NE(blowing->advance_to(t, T(2), T(1e-8), z), Status::converged);
-  EXPECT_TRUE(t > T(0.99) && t < T(1.01));
-}
-TEST(Extrapolation, RefusesInDouble) { expect_refusals<double>(); }
-TEST(Extrapolation, RefusesInQuad) { expect_refusals<Quad>(); }
+TEST(Extrapolation, RefusesInDouble) { expect_refused_tolerances<double>(*extrapolation()); }
+TEST(Extrapolation, RefusesInQuad) { expect_refused_tolerances<Quad>(*extrapolation()); }
 
 }  // namespace
 }  // namespace pfaff

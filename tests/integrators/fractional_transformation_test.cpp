@@ -2,16 +2,20 @@
 // symplectic and not: what su-qin states about it, as identities between matrices.
 #include <gtest/gtest.h>
 
+#include "generating_samples.hpp"
 #include "random_matrices.hpp"
 
 namespace pfaff {
 namespace {
 
+using testing::asymmetry;
+using testing::distance;
 using testing::RandomMatrices;
+using testing::size_of;
 
 // Products of up to six matrices of size 8 with entries about 1 and condition numbers below a hundred.
 template <class T>
-constexpr double round_off = 1e5 * static_cast<double>(unit_roundoff<T>());
+constexpr double matrix_round_off = 1e5 * static_cast<double>(unit_roundoff<T>());
 
 template <class T>
 Matrix<T> darboux_structure(std::size_t n) {  // K_c = -J
@@ -49,27 +53,14 @@ struct Setting {
 };
 
 template <class T>
-double size(const Matrix<T>& m) {
-  const auto value = static_cast<double>(largest(m));
-  return std::isfinite(value) ? value : INFINITY;
-}
-template <class T>
-double distance(const Matrix<T>& a, const Matrix<T>& b) {
-  return size(a - b);
-}
-template <class T>
-double asymmetry(const Matrix<T>& m) {
-  return distance(m, m.transposed());
-}
-template <class T>
 double pair_residual(const Setting<T>& s, const FractionalTransformation<T>& alpha) {
   return distance(pulled_back(canonical_structure<T>(s.n), alpha.jacobian()), pair_structure(s.k, s.k0));
 }
 
 template <class T>
 class FractionalTransformationTest : public ::testing::Test {};
-using Scalars = ::testing::Types<double, Quad>;
-TYPED_TEST_SUITE(FractionalTransformationTest, Scalars);
+using TestedScalars = ::testing::Types<double, Quad>;
+TYPED_TEST_SUITE(FractionalTransformationTest, TestedScalars);
 
 template <class T, class F>
 void for_every_setting(F&& check) {
@@ -83,7 +74,7 @@ void for_every_setting(F&& check) {
 
 TYPED_TEST(FractionalTransformationTest, AlphaCarriesThePairStructureToJ) {
   for_every_setting<TypeParam>([](Setting<TypeParam>& s) {
-    EXPECT_LE(pair_residual(s, s.alpha), round_off<TypeParam>);
+    EXPECT_LE(pair_residual(s, s.alpha), matrix_round_off<TypeParam>);
     // The middle matrix as printed in (35), diag(J, -J), does not serve.
     const Matrix<TypeParam> j = canonical_structure<TypeParam>(s.n / 2);
     EXPECT_GT(distance(pulled_back(pair_structure(j, j), s.alpha.jacobian()), pair_structure(s.k, s.k0)),
@@ -95,7 +86,7 @@ TYPED_TEST(FractionalTransformationTest, InverseBlocksFollowFromTheStructure) {
   using T = TypeParam;
   for_every_setting<T>([](Setting<T>& s) {
     const auto unit = Matrix<T>::identity(2 * s.n);
-    EXPECT_LE(distance(s.alpha.jacobian() * s.inverse_alpha.jacobian(), unit), round_off<T>);
+    EXPECT_LE(distance(s.alpha.jacobian() * s.inverse_alpha.jacobian(), unit), matrix_round_off<T>);
     // Control: the formulas rest on (34); an alpha without it has another inverse.
     auto other = s.alpha;
     other.c = other.c + T(1) / T(1000) * s.random.any(s.n);
@@ -109,7 +100,7 @@ TYPED_TEST(FractionalTransformationTest, RoundTripsOfAnyMap) {
     for (const bool symplectic : {true, false}) {
       const Matrix<T> m = symplectic ? s.k_symplectic() : s.random.regular(s.n);
       const Matrix<T> n = s.alpha(m);
-      const double tolerance = round_off<T> * (1 + size(n) * size(n));
+      const double tolerance = matrix_round_off<T> * (1 + size_of(n) * size_of(n));
       EXPECT_LE(distance(s.inverse_alpha(n), m), tolerance);  // (43)
       EXPECT_LE(distance(s.alpha.solved_for(n), m), tolerance);
       // The two products behind the equivalence of (38).
@@ -127,20 +118,21 @@ TYPED_TEST(FractionalTransformationTest, SymmetricExactlyForSymplecticMaps) {
   for_every_setting<T>([](Setting<T>& s) {
     const Matrix<T> symplectic = s.k_symplectic();
     const Matrix<T> n = s.alpha(symplectic);
-    EXPECT_LE(asymmetry(n), round_off<T> * (1 + size(n) * size(n)));
+    EXPECT_LE(asymmetry(n), matrix_round_off<T> * (1 + size_of(n) * size_of(n)));
 
     const Matrix<T> other = symplectic + T(1) / T(100) * s.random.any(s.n);
     const Matrix<T> defect = pulled_back(s.k, other) - s.k0;
-    ASSERT_GT(size(defect), 1e-4);
+    ASSERT_GT(size_of(defect), 1e-4);
     const Matrix<T> image = s.alpha(other), y = s.alpha.denominator(other);
     EXPECT_GT(asymmetry(image), 1e-6);
     EXPECT_LE(distance(y.transposed() * (image.transposed() - image) * y, defect),
-              round_off<T> * (1 + size(image) * size(image)));
+              matrix_round_off<T> * (1 + size_of(image) * size_of(image)));
 
     // The other way: a symmetric N gives a K-symplectic M, one that is not symmetric does not.
     const Matrix<T> symmetric = T(1) / T(5) * s.random.symmetric(s.n);
     const Matrix<T> back = s.inverse_alpha(symmetric);
-    EXPECT_LE(distance(pulled_back(s.k, back), s.k0), round_off<T> * (1 + size(back) * size(back)));
+    EXPECT_LE(distance(pulled_back(s.k, back), s.k0),
+              matrix_round_off<T> * (1 + size_of(back) * size_of(back)));
     Matrix<T> skewed = symmetric;
     skewed(0, 1) = skewed(0, 1) + T(1) / T(100);
     EXPECT_GT(distance(pulled_back(s.k, s.inverse_alpha(skewed)), s.k0), 1e-6);
@@ -157,7 +149,7 @@ TYPED_TEST(FractionalTransformationTest, FourConditionsAreOne) {
       const auto [first, second, third, fourth] = transversality(s.alpha, s.inverse_alpha, m, s.alpha(m));
       const T whole = determinant(s.alpha.jacobian());
       ASSERT_GT(static_cast<double>(abs(first)), 1e-6);
-      const double tolerance = round_off<T> * (1 + 1 / static_cast<double>(abs(first)));
+      const double tolerance = matrix_round_off<T> * (1 + 1 / static_cast<double>(abs(first)));
       EXPECT_LE(static_cast<double>(abs(first - whole * second)), tolerance);
       EXPECT_LE(static_cast<double>(abs(first * third - T(1))), tolerance);
       EXPECT_LE(static_cast<double>(abs(second * fourth - T(1))), tolerance);
@@ -177,16 +169,19 @@ TYPED_TEST(FractionalTransformationTest, AndVanishTogether) {
       return m + T(1) / square * ((image - m * x) * x.transposed());
     };
     const Matrix<T> m = annihilated(s.random.regular(s.n), s.alpha);
-    const double scale = 1 + std::pow(size(m) * (1 + size(inverse(s.alpha.c))), static_cast<double>(s.n));
-    EXPECT_LE(static_cast<double>(abs(determinant(s.alpha.denominator(m)))), round_off<T> * scale);
+    const double scale =
+        1 + std::pow(size_of(m) * (1 + size_of(inverse(s.alpha.c))), static_cast<double>(s.n));
+    EXPECT_LE(static_cast<double>(abs(determinant(s.alpha.denominator(m)))), matrix_round_off<T> * scale);
     EXPECT_LE(static_cast<double>(abs(determinant(m * s.inverse_alpha.c - s.inverse_alpha.a))),
-              round_off<T> * scale);
+              matrix_round_off<T> * scale);
     // From the other side, N with C' N + D' singular.
     const Matrix<T> n = annihilated(s.random.symmetric(s.n), s.inverse_alpha);
     const double n_scale =
-        1 + std::pow(size(n) * (1 + size(inverse(s.inverse_alpha.c))), static_cast<double>(s.n));
-    EXPECT_LE(static_cast<double>(abs(determinant(s.inverse_alpha.denominator(n)))), round_off<T> * n_scale);
-    EXPECT_LE(static_cast<double>(abs(determinant(n * s.alpha.c - s.alpha.a))), round_off<T> * n_scale);
+        1 + std::pow(size_of(n) * (1 + size_of(inverse(s.inverse_alpha.c))), static_cast<double>(s.n));
+    EXPECT_LE(static_cast<double>(abs(determinant(s.inverse_alpha.denominator(n)))),
+              matrix_round_off<T> * n_scale);
+    EXPECT_LE(static_cast<double>(abs(determinant(n * s.alpha.c - s.alpha.a))),
+              matrix_round_off<T> * n_scale);
   });
 }
 
@@ -196,9 +191,10 @@ TYPED_TEST(FractionalTransformationTest, ASymplecticMapWithoutGeneratingFunction
   using T = TypeParam;
   Setting<T> s(3, 2, true);
   const Matrix<T> m = inverse(s.y1) * (-Matrix<T>::identity(2)) * s.y0;
-  EXPECT_LE(distance(pulled_back(s.k, m), s.k0), round_off<T>);
-  EXPECT_LE(static_cast<double>(abs(determinant(s.alpha.denominator(m)))), round_off<T>);
-  EXPECT_LE(static_cast<double>(abs(determinant(m * s.inverse_alpha.c - s.inverse_alpha.a))), round_off<T>);
+  EXPECT_LE(distance(pulled_back(s.k, m), s.k0), matrix_round_off<T>);
+  EXPECT_LE(static_cast<double>(abs(determinant(s.alpha.denominator(m)))), matrix_round_off<T>);
+  EXPECT_LE(static_cast<double>(abs(determinant(m * s.inverse_alpha.c - s.inverse_alpha.a))),
+            matrix_round_off<T>);
   const Matrix<T> other = T(2) * Matrix<T>::identity(2);  // control: a regular one is finite
   EXPECT_TRUE(isfinite(largest(s.alpha(inverse(s.y1) * other * s.y0))));
 }
@@ -211,9 +207,9 @@ TYPED_TEST(FractionalTransformationTest, GeneralNormalDarbouxMatrices) {
     const T half = T(1) / T(2);
     const Matrix<T> v = s.random.hamiltonian(s.n);
     const auto alpha = s.normal(half * (unit + v));
-    EXPECT_LE(pair_residual(s, alpha), round_off<T>);
+    EXPECT_LE(pair_residual(s, alpha), matrix_round_off<T>);
     const Matrix<T> n = alpha(s.k_symplectic());
-    EXPECT_LE(asymmetry(n), round_off<T> * (1 + size(n) * size(n) * size(n)));
+    EXPECT_LE(asymmetry(n), matrix_round_off<T> * (1 + size_of(n) * size_of(n) * size_of(n)));
 
     // Control: V not in sp(n); already a small part out of it is seen.
     Matrix<T> outside = v;
@@ -226,7 +222,7 @@ TYPED_TEST(FractionalTransformationTest, GeneralNormalDarbouxMatrices) {
   for (const int sign : {1, -1}) {
     Matrix<T> p(4, 4);
     for (std::size_t i = 0; i < 4; ++i) p(i, i) = T((i < 2) == (sign > 0) ? 1 : 0);
-    EXPECT_LE(pair_residual(s, s.normal(p)), round_off<T>);
+    EXPECT_LE(pair_residual(s, s.normal(p)), matrix_round_off<T>);
   }
 }
 
@@ -239,15 +235,15 @@ TYPED_TEST(FractionalTransformationTest, AConstantFactorIsLagrangianToo) {
     scaled.b = T(3) * scaled.b;
     EXPECT_GT(pair_residual(s, scaled), 1);
     const Matrix<T> n = scaled(s.k_symplectic());
-    EXPECT_LE(asymmetry(n), round_off<T> * (1 + size(n) * size(n)));
+    EXPECT_LE(asymmetry(n), matrix_round_off<T> * (1 + size_of(n) * size_of(n)));
   });
 }
 
 TYPED_TEST(FractionalTransformationTest, MatrixInverseAndDeterminant) {
   using T = TypeParam;
   const Matrix<T> a(3, std::vector<T>{T(2), T(0), T(1), T(1), T(3), T(2), T(1), T(1), T(2)});
-  EXPECT_LE(static_cast<double>(abs(determinant(a) - T(6))), round_off<T>);
-  EXPECT_LE(distance(a * inverse(a), Matrix<T>::identity(3)), round_off<T>);
+  EXPECT_LE(static_cast<double>(abs(determinant(a) - T(6))), matrix_round_off<T>);
+  EXPECT_LE(distance(a * inverse(a), Matrix<T>::identity(3)), matrix_round_off<T>);
   const Matrix<T> singular(2, std::vector<T>{T(1), T(2), T(2), T(4)});
   EXPECT_EQ(determinant(singular), T(0));
   EXPECT_TRUE(isnan(largest(inverse(singular))));

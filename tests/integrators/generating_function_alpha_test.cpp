@@ -10,71 +10,52 @@
 #include <pfaff/core/system.hpp>
 #include <pfaff/integrators/generating/generating_map_check.hpp>
 
+#include "generating_samples.hpp"
+#include "methods.hpp"
 #include "mixed_alpha.hpp"
 
 namespace pfaff {
 namespace {
 
+using testing::after_steps;
 using testing::AlphaKind;
 using testing::bent_with;
 using testing::coupled;
+using testing::distance;
+using testing::initial_state;
+using testing::method_named;
+using testing::structure_residual;
 using ModelPointer = std::shared_ptr<const Model>;
 
-std::unique_ptr<MethodInstance> scheme(int order) {
-  return integrators()
-      .get("generating-function-alpha", "integrator")
-      .make({{"order", std::to_string(order)}});
+std::unique_ptr<MethodInstance> alpha_scheme(int order) {
+  return method_named("generating-function-alpha", {{"order", std::to_string(order)}});
 }
 ModelPointer relativistic(const Assignments& parameters = {}) {
   return systems().get("damped-relativistic-oscillator", "system").make(parameters);
 }
 // Round-off of a step: what the schemes in a chart are held to.
 template <class T>
-constexpr double at_round_off = std::is_same_v<T, Quad> ? 1e-31 : 1e-14;
+constexpr double step_round_off = std::is_same_v<T, Quad> ? 1e-31 : 1e-14;
 
 template <class T>
-std::vector<T> initial(const Model& model) {
-  std::vector<T> z;
-  for (const Real& x : model.initial()) z.push_back(T(x));
-  return z;
-}
-template <class T>
-double structure_residual(const MethodInstance& method, const ModelPointer& model) {
-  return static_cast<double>(StructureResidual<T>(method, model)(
-      T(Real::fraction(7, 10)), T(Real::fraction(1, 10)), initial<T>(*model)));
-}
-template <class T>
 std::vector<T> steps(const MethodInstance& method, const ModelPointer& model, int count) {
-  auto z = initial<T>(*model);
-  std::int64_t completed = 0;
-  EXPECT_EQ(method.stepper(model, T(0))
-                ->advance(T(Real::fraction(7, 10)), 0, T(Real::fraction(1, 20)), count, z, completed),
-            Status::converged);
-  return z;
-}
-template <class T>
-double distance(const std::vector<T>& a, const std::vector<T>& b) {
-  double worst = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) {
-    const auto d = static_cast<double>(abs(a[k] - b[k]));
-    worst = std::isfinite(d) ? std::max(worst, d) : INFINITY;
-  }
-  return worst;
+  return after_steps(method, model, T(Real::fraction(1, 20)), count, initial_state<T>(*model),
+                     T(Real::fraction(7, 10)));
 }
 
 template <class T>
 class GeneratingFunctionAlphaTest : public ::testing::Test {};
-using Scalars = ::testing::Types<double, Quad>;
-TYPED_TEST_SUITE(GeneratingFunctionAlphaTest, Scalars);
+using TestedScalars = ::testing::Types<double, Quad>;
+TYPED_TEST_SUITE(GeneratingFunctionAlphaTest, TestedScalars);
 
 // K(z, t), and w a nonlinear mix of both states.
 TYPED_TEST(GeneratingFunctionAlphaTest, KeepsTheStructure) {
   for (int order = 1; order <= 8; ++order) {
-    const auto method = scheme(order);
+    const auto method = alpha_scheme(order);
     for (const ModelPointer& model :
          {relativistic(), bent_with(AlphaKind::standard), bent_with(AlphaKind::mixed),
           bent_with(AlphaKind::sheared), coupled()}) {
-      EXPECT_LE(structure_residual<TypeParam>(*method, model), at_round_off<TypeParam>)
+      EXPECT_LE(structure_residual<TypeParam>(*method, model), step_round_off<TypeParam>)
           << model->name() << " order " << order;
       EXPECT_TRUE(method->refuses(*model).empty()) << method->refuses(*model);
     }
@@ -87,21 +68,22 @@ TYPED_TEST(GeneratingFunctionAlphaTest, OthersDoNot) {
   for (const ModelPointer& model : {relativistic(), bent_with(AlphaKind::mixed), coupled()})
     EXPECT_GT(structure_residual<TypeParam>(*rk4, model), 1e-9);
   for (int order = 1; order <= 4; ++order)
-    EXPECT_GT(structure_residual<TypeParam>(*scheme(order), bent_with(AlphaKind::weighted)), 1e-9) << order;
+    EXPECT_GT(structure_residual<TypeParam>(*alpha_scheme(order), bent_with(AlphaKind::weighted)), 1e-9)
+        << order;
 }
 
 // With the standard alpha the step is that of the scheme in the chart, whatever coordinates it is solved in;
 // and a shear of w^ along w, or its sign, changes nothing.
 TYPED_TEST(GeneratingFunctionAlphaTest, StandardAlphaIsTheChartsScheme) {
   for (int order = 1; order <= 7; ++order) {
-    const auto method = scheme(order);
+    const auto method = alpha_scheme(order);
     const auto in_chart = integrators()
                               .get("generating-function", "integrator")
                               .make({{"order", std::to_string(order)}, {"variant", "P"}});
     const auto expected = steps<TypeParam>(*in_chart, bent_with(AlphaKind::standard), 10);
     for (const AlphaKind kind : {AlphaKind::standard, AlphaKind::sheared, AlphaKind::negative})
       EXPECT_LE(distance(steps<TypeParam>(*method, bent_with(kind), 10), expected),
-                10 * at_round_off<TypeParam>)
+                10 * step_round_off<TypeParam>)
           << order;
     EXPECT_GT(distance(steps<TypeParam>(*method, bent_with(AlphaKind::mixed), 10), expected), 1e-10) << order;
   }
@@ -111,7 +93,7 @@ TEST(GeneratingFunctionAlpha, HasItsOrder) {
   for (int order = 1; order <= 6; ++order)
     for (const ModelPointer& model :
          {relativistic(), bent_with(AlphaKind::mixed), bent_with(AlphaKind::sheared), coupled()}) {
-      const auto method = scheme(order);
+      const auto method = alpha_scheme(order);
       EXPECT_EQ(method->order(*model), order);
       const MeasuredOrder measured = measure_order(*method, model);
       EXPECT_TRUE(measured.reason.empty()) << measured.reason;
@@ -122,7 +104,7 @@ TEST(GeneratingFunctionAlpha, HasItsOrder) {
 TEST(GeneratingFunctionAlpha, GainsAnOrderWhereNothingDependsOnTime) {
   const ModelPointer free = relativistic({{"nu", "0"}});
   for (int order = 1; order <= 5; order += 2) {
-    const auto method = scheme(order);
+    const auto method = alpha_scheme(order);
     EXPECT_EQ(method->order(*free), order + 1);
     EXPECT_NEAR(measure_order(*method, free).slope, order + 1, 0.1);
     const auto claims = method->preserves(*free), damped = method->preserves(*relativistic());
@@ -133,7 +115,7 @@ TEST(GeneratingFunctionAlpha, GainsAnOrderWhereNothingDependsOnTime) {
 }
 
 TEST(GeneratingFunctionAlpha, WrongAlphasAreRefused) {
-  const auto refusal = [](const Model& model) { return scheme(2)->refuses(model); };
+  const auto refusal = [](const Model& model) { return alpha_scheme(2)->refuses(model); };
   const auto expect = [&](const Model& model, const std::string& said) {
     const std::string text = refusal(model);
     EXPECT_NE(text.find(said), std::string::npos) << text;
@@ -162,12 +144,12 @@ struct Displacements : testing::Bent {
 TEST(GeneratingFunctionAlpha, TransversalityIsNeeded) {
   const auto model = make_model(
       {.name = "displacements", .title = "", .reference = "", .initial = {1, 0.5_r}}, Displacements{});
-  EXPECT_NE(scheme(2)->refuses(*model).find("(C + D) is singular"), std::string::npos)
-      << scheme(2)->refuses(*model);
-  auto z = initial<double>(*model);
+  EXPECT_NE(alpha_scheme(2)->refuses(*model).find("(C + D) is singular"), std::string::npos)
+      << alpha_scheme(2)->refuses(*model);
+  auto z = initial_state<double>(*model);
   std::int64_t completed = 0;
-  EXPECT_NE(scheme(2)->stepper(model, 0.0)->advance(0.0, 0, 0.1, 1, z, completed), Status::converged);
-  EXPECT_EQ(z, initial<double>(*model));
+  EXPECT_NE(alpha_scheme(2)->stepper(model, 0.0)->advance(0.0, 0, 0.1, 1, z, completed), Status::converged);
+  EXPECT_EQ(z, initial_state<double>(*model));
 }
 
 struct Unwritten : testing::Bent {
@@ -195,7 +177,7 @@ TEST(GeneratingFunctionAlpha, LongRunsSolveEveryStep) {
       const auto model = relativistic({{"nu", "0"}});
       std::vector<double> z = start;
       std::int64_t completed = 0;
-      EXPECT_EQ(scheme(order)->stepper(model, 0.0)->advance(0.0, 0, 0.05, 4000, z, completed),
+      EXPECT_EQ(alpha_scheme(order)->stepper(model, 0.0)->advance(0.0, 0, 0.05, 4000, z, completed),
                 Status::converged)
           << order << " after " << completed;
     }
@@ -206,7 +188,7 @@ TEST(GeneratingFunctionAlpha, StepsThatFailSaySo) {
   const auto model = relativistic();
   std::vector<double> z{5, 0.999};
   std::int64_t completed = 0;
-  EXPECT_NE(scheme(4)->stepper(model, 0.0)->advance(0.0, 0, 3.0, 5, z, completed), Status::converged);
+  EXPECT_NE(alpha_scheme(4)->stepper(model, 0.0)->advance(0.0, 0, 3.0, 5, z, completed), Status::converged);
   EXPECT_EQ(completed, 0);
   EXPECT_EQ(z, (std::vector<double>{5, 0.999}));
 }

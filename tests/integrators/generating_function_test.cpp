@@ -44,7 +44,7 @@ Measured measured(const Motion& motion, const Assignments& method_parameters) {
   return result;
 }
 
-const Motion damped{"damped-pendulum", {{"nu", "1.5"}}, {2, 0}, 0.4, 50};
+const Motion damped_motion{"damped-pendulum", {{"nu", "1.5"}}, {2, 0}, 0.4, 50};
 const Motion weakly_damped{"damped-pendulum", {}, {1, 0.5}, 0.8, 50};
 const Motion predators{"lotka-volterra", {}, {3, 1}, 0.4, 125};
 const Motion stars{"henon-heiles", {}, {0.1, 0.2, 0.3, -0.1}, 0.8, 50};
@@ -53,7 +53,7 @@ const Motion stars{"henon-heiles", {}, {0.1, 0.2, 0.3, -0.1}, 0.8, 50};
 // roundings; eight units of round-off, of 1.1e-16, are twice what is found. An iteration that ends one
 // correction too early leaves 1e-14 to 3e-12 in some step of each of these runs.
 TEST(GeneratingFunction, KeepsStructureToRoundOffInEveryStepOfARun) {
-  for (const Motion& motion : {damped, weakly_damped, predators, stars})
+  for (const Motion& motion : {damped_motion, weakly_damped, predators, stars})
     for (const char* order : {"1", "2", "4", "8", "12"}) {
       const Measured now = measured<double>(motion, {{"order", order}});
       EXPECT_LE(now.residual, 8 * unit_roundoff<double>())
@@ -67,7 +67,7 @@ TEST(GeneratingFunction, KeepsStructureToRoundOffInEveryStepOfARun) {
 TEST(GeneratingFunction, KeepsStructureToRoundOffInQuad) {
   Motion shorter = predators;
   shorter.steps = 20;
-  for (const Motion& motion : {damped, shorter})
+  for (const Motion& motion : {damped_motion, shorter})
     for (const char* order : {"1", "4", "12"})
       EXPECT_LE(measured<Quad>(motion, {{"order", order}}).residual,
                 8 * static_cast<double>(unit_roundoff<Quad>()))
@@ -76,7 +76,7 @@ TEST(GeneratingFunction, KeepsStructureToRoundOffInQuad) {
 // Without secants the same steps take 8.7 and 8.0 iterations.
 TEST(GeneratingFunction, TakesFewIterationsAtLongSteps) {
   EXPECT_LE(measured<double>(predators, {{"order", "8"}}).iterations, 6.5);
-  EXPECT_LE(measured<double>(damped, {{"order", "8"}}).iterations, 5.5);
+  EXPECT_LE(measured<double>(damped_motion, {{"order", "8"}}).iterations, 5.5);
 }
 
 // A chain of which all but one momentum begin at almost nothing. The first corrections of the others are

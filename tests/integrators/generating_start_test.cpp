@@ -12,13 +12,15 @@
 #include <pfaff/integrators/generating/expected_change.hpp>
 #include <pfaff/integrators/generating/generating_gradient.hpp>
 
+#include "../formula_values.hpp"
+
 namespace pfaff {
 namespace {
 
 using P = Problem<Quad>;
+using testing::model_named;
 
-std::shared_ptr<const Model> model_of(const std::string& name) { return systems().get(name, "").make({}); }
-std::vector<Quad> start_of(const P& p, const Quad& t) {
+std::vector<Quad> chart_start(const P& p, const Quad& t) {
   std::vector<Quad> z, y(p.size());
   for (const Real& x : p.model()->initial()) z.push_back(x.quad());
   p.chart(t, z, y);
@@ -28,14 +30,14 @@ std::vector<Quad> start_of(const P& p, const Quad& t) {
 // By how much the correction of (I - P psi') e differs from e, the largest over unit vectors e. psi' is that
 // of the step itself, by central differences of psi at the w that solves it.
 double mismatch(const std::string& system, bool high_order, GeneratingForm form, const Quad& h) {
-  const P p(model_of(system));
+  const P p(model_named(system));
   const std::size_t n = p.size();
   const Quad t = Quad(1) / Quad(4), half = Quad(1) / Quad(2), least(1e-12);
   const bool symmetric = form == GeneratingForm::midpoint;
   const ShareMatrix<Quad> share(form, n);
   GeneratingGradient<Quad> gradient(p.chart_field_tape(), 8, symmetric, form, gauss_coefficients(4));
   gradient.set_step(t, h);
-  const std::vector<Quad> y = start_of(p, t);
+  const std::vector<Quad> y = chart_start(p, t);
   std::vector<Quad> w = y, change(n), above(n), below(n), residual(n), correction(n);
   for (int iteration = 0; iteration < 60; ++iteration) {
     gradient(w.data(), change.data());
@@ -82,9 +84,9 @@ Quad unit(std::size_t /*k*/) { return Quad(1); }
 
 // Against a series of many more degrees; the first one left out is degree 8.
 TEST(ExpectedChange, OfAFirstStepIsThatOfATaylorSeries) {
-  const P p(model_of("damped-pendulum"));
+  const P p(model_named("damped-pendulum"));
   const Quad t = Quad(1) / Quad(4);
-  const std::vector<Quad> y = start_of(p, t);
+  const std::vector<Quad> y = chart_start(p, t);
   TaylorExpansion<Quad> exact(p.chart_field_tape(), 30);
   exact.expand(t, y.data());
   std::vector<double> error;
@@ -99,8 +101,8 @@ TEST(ExpectedChange, OfAFirstStepIsThatOfATaylorSeries) {
   EXPECT_NEAR(std::log2(error[0] / error[1]), degree + 1, 0.25);
 }
 TEST(ExpectedChange, StopsWhereTermsGrow) {
-  const P p(model_of("damped-pendulum"));
-  const std::vector<Quad> y = start_of(p, Quad(0));
+  const P p(model_named("damped-pendulum"));
+  const std::vector<Quad> y = chart_start(p, Quad(0));
   TaylorExpansion<Quad> whole(p.chart_field_tape(), degree);
   whole.expand(Quad(0), y.data());
   ExpectedChange<P> expected(p, order, evaluations);
@@ -118,8 +120,8 @@ TEST(ExpectedChange, StopsWhereTermsGrow) {
   }
 }
 TEST(ExpectedChange, TakesDifferencesWhereTheyAreGoodAndTheSeriesWhereTheyAreNot) {
-  const P p(model_of("damped-pendulum"));
-  const std::vector<Quad> y = start_of(p, Quad(0));
+  const P p(model_named("damped-pendulum"));
+  const std::vector<Quad> y = chart_start(p, Quad(0));
   const Quad h = Quad(1) / Quad(8);
   // Fields that the forecast after ten changes takes.
   const auto taken = [&](auto changed, std::size_t psi) {

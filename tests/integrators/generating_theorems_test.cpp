@@ -13,37 +13,28 @@
 #include <pfaff/integrators/generating/lagrangian_transformation.hpp>
 
 #include "bent.hpp"
+#include "generating_samples.hpp"
 
 namespace pfaff {
 namespace {
 
+using testing::asymmetry;
+using testing::at_round_off;
 using testing::bent;
-using Numbers = std::vector<Quad>;
+using testing::distance;
+using testing::Numbers;
+using testing::shared;
+using testing::size_of;
+using testing::start_time;
+using testing::structure_at;
 
-// A few hundred roundings of numbers about 1; steps end their iteration there.
-constexpr double at_round_off = 1e-30;
+const Quad tau = Quad(1) / Quad(5), t1 = start_time + tau;
 
-double size(const Matrix<Quad>& m) {
-  const auto value = static_cast<double>(largest(m));
-  return std::isfinite(value) ? value : INFINITY;
-}
-double distance(const Numbers& a, const Numbers& b) { return size(Matrix<Quad>(1, a) - Matrix<Quad>(1, b)); }
-double asymmetry(const Matrix<Quad>& m) { return size(m - m.transposed()); }
-Matrix<Quad> structure(const Model& model, Quad t, const Numbers& z) {
-  Numbers k(z.size() * z.size());
-  Replay<Quad> replay(model.tape(Formula::structure));
-  replay(t, z.data(), k.data());
-  return {z.size(), k};
-}
-std::shared_ptr<const Tape> shared(Tape tape) { return std::make_shared<const Tape>(std::move(tape)); }
-
-const Quad t0 = Quad(7) / Quad(10), tau = Quad(1) / Quad(5), t1 = t0 + tau;
-
-struct Case {
+struct TheoremCase {
   std::shared_ptr<const Model> model;
   Numbers z;
 };
-std::vector<Case> cases() {
+std::vector<TheoremCase> theorem_cases() {
   const auto q = [](int x) { return Quad(x) / Quad(20); };
   return {{systems().get("damped-pendulum", "system").make({{"nu", "0.3"}}), {q(17), q(-9)}},
           {bent(), {q(8), q(5)}},
@@ -56,7 +47,7 @@ class Gradient {
   Gradient(const Model& model, int order)
       : gradient_(model.tape(Formula::chart_field), order, false, GeneratingForm::midpoint,
                   gauss_coefficients((order + 1) / 2)) {
-    gradient_.set_step(StepDual<Quad>(t0), StepDual<Quad>(tau));
+    gradient_.set_step(StepDual<Quad>(start_time), StepDual<Quad>(tau));
   }
   Numbers operator()(const Numbers& w) {
     const std::size_t n = w.size(), half = n / 2;
@@ -81,11 +72,11 @@ class Gradient {
   GeneratingGradient<StepDual<Quad>> gradient_;
 };
 
-StepJacobian<Quad> step(const std::string& name, const Assignments& parameters, const Case& c,
+StepJacobian<Quad> step(const std::string& name, const Assignments& parameters, const TheoremCase& c,
                         const Numbers& z) {
   const auto method = integrators().get(name, "integrator").make(parameters);
   StepDifferentiator<Quad> differentiate(*method, c.model);
-  auto result = differentiate(t0, tau, z);
+  auto result = differentiate(start_time, tau, z);
   EXPECT_EQ(result.status, Status::converged);
   return result;
 }
@@ -93,27 +84,27 @@ StepJacobian<Quad> step(const std::string& name, const Assignments& parameters, 
 // Theorem 3.1 with (41) and (42), and (55): the step is what its gradient says, N = sigma(M) is that
 // gradient's Jacobian, and symmetric.
 TEST(GeneratingTheorems, StepsHaveGeneratingFunctions) {
-  for (const Case& c : cases())
+  for (const TheoremCase& c : theorem_cases())
     for (const int order : {1, 4}) {
       const auto s =
           step("generating-function", {{"order", std::to_string(order)}, {"variant", "P"}}, c, c.z);
       LagrangianTransformation<Quad> alpha(shared(chart_alpha(*c.model).forward));
-      const Matrix<Quad> n = alpha.blocks(t1, t0, s.z, c.z)(Matrix<Quad>(c.z.size(), s.jacobian));
+      const Matrix<Quad> n = alpha.blocks(t1, start_time, s.z, c.z)(Matrix<Quad>(c.z.size(), s.jacobian));
       EXPECT_LE(asymmetry(n), at_round_off) << c.model->name();
 
-      const Numbers pair = alpha(t1, t0, s.z, c.z);
+      const Numbers pair = alpha(t1, start_time, s.z, c.z);
       const auto middle = pair.begin() + static_cast<std::ptrdiff_t>(c.z.size());
       Gradient f(*c.model, order);
       EXPECT_LE(distance(f(Numbers(middle, pair.end())), Numbers(pair.begin(), middle)), at_round_off);
-      EXPECT_LE(size(f.jacobian - n), at_round_off);
+      EXPECT_LE(size_of(f.jacobian - n), at_round_off);
     }
 }
 
 TEST(GeneratingTheorems, StepsThatAreNotSymplecticHaveNone) {  // control
-  for (const Case& c : cases()) {
+  for (const TheoremCase& c : theorem_cases()) {
     const auto s = step("rk4", {}, c, c.z);
     LagrangianTransformation<Quad> alpha(shared(chart_alpha(*c.model).forward));
-    EXPECT_GT(asymmetry(alpha.blocks(t1, t0, s.z, c.z)(Matrix<Quad>(c.z.size(), s.jacobian))), 1e-10)
+    EXPECT_GT(asymmetry(alpha.blocks(t1, start_time, s.z, c.z)(Matrix<Quad>(c.z.size(), s.jacobian))), 1e-10)
         << c.model->name();
   }
 }
@@ -133,11 +124,11 @@ struct ShearedAlpha {
 };
 
 TEST(GeneratingTheorems, AnyAlphaThatKeepsTheStructureServes) {
-  const Case c = cases().front();
+  const TheoremCase c = theorem_cases().front();
   const auto s = step("generating-function", {{"order", "3"}, {"variant", "P"}}, c, c.z);
   const auto image = [&](const Tape& alpha) {
     LagrangianTransformation<Quad> transformation(shared(alpha));
-    return transformation.blocks(t1, t0, s.z, c.z)(Matrix<Quad>(2, s.jacobian));
+    return transformation.blocks(t1, start_time, s.z, c.z)(Matrix<Quad>(2, s.jacobian));
   };
   EXPECT_LE(asymmetry(image(record_alpha(examples::NewPositionOldMomentum{.mass = 1, .damping = 0.3_r}, 2))),
             at_round_off);
@@ -147,13 +138,13 @@ TEST(GeneratingTheorems, AnyAlphaThatKeepsTheStructureServes) {
 
 // Proposition 3.2, (52): from any w, the states that f and alpha^-1 give are one step apart.
 TEST(GeneratingTheorems, GradientsAreStepsSeenFromTheOtherSide) {
-  for (const Case& c : cases()) {
+  for (const TheoremCase& c : theorem_cases()) {
     const std::size_t n = c.z.size();
     Numbers w(c.z);
     Gradient f(*c.model, 4);
     Numbers arguments = f(w), states(2 * n);
     arguments.insert(arguments.end(), w.begin(), w.end());
-    arguments.push_back(t0);
+    arguments.push_back(start_time);
     Replay<Quad> backward(shared(chart_alpha(*c.model).backward));
     backward(t1, arguments.data(), states.data());
     const Numbers old_z(states.begin() + static_cast<std::ptrdiff_t>(n), states.end());
@@ -169,7 +160,7 @@ TEST(GeneratingTheorems, GradientsAreStepsSeenFromTheOtherSide) {
 // with M = (A - N C)^-1 (N D - B). What is not a gradient is not.
 class RandomMap {
  public:
-  RandomMap(const Case& c, unsigned seed, bool gradient)
+  RandomMap(const TheoremCase& c, unsigned seed, bool gradient)
       : alpha_(shared(chart_alpha(*c.model).forward)), n_(c.z.size()) {
     std::mt19937 random(seed);
     std::uniform_int_distribution<int> draw(-9, 9);
@@ -197,10 +188,10 @@ class RandomMap {
   Numbers operator()(const Numbers& z) {
     Numbers next = z, f(n_), slope(n_ * n_);
     for (int iteration = 0; iteration < 30; ++iteration) {
-      const Numbers pair = alpha_(t1, t0, next, z);
+      const Numbers pair = alpha_(t1, start_time, next, z);
       (*value_)(t1, pair.data() + n_, f.data());
       (*slope_)(t1, pair.data() + n_, slope.data());
-      const auto blocks = alpha_.blocks(t1, t0, next, z);
+      const auto blocks = alpha_.blocks(t1, start_time, next, z);
       const Matrix<Quad> n(n_, slope);
       for (std::size_t k = 0; k < n_; ++k) f[k] -= pair[k];
       const Numbers correction = inverse(blocks.a - n * blocks.c) * f;
@@ -218,16 +209,16 @@ class RandomMap {
 };
 
 TEST(GeneratingTheorems, GradientsDefineSymplecticMaps) {
-  for (const Case& c : cases())
+  for (const TheoremCase& c : theorem_cases())
     for (unsigned seed = 1; seed <= 5; ++seed)
       for (const bool gradient : {true, false}) {
         RandomMap map(c, seed, gradient);
         const Numbers after = map(c.z);
         const Matrix<Quad> m = map.jacobian;
-        const double residual =
-            size(pulled_back(structure(*c.model, t1, after), m) - structure(*c.model, t0, c.z));
+        const double residual = size_of(pulled_back(structure_at(*c.model, t1, after), m) -
+                                        structure_at(*c.model, start_time, c.z));
         if (gradient) {
-          EXPECT_LE(residual, at_round_off * (1 + size(m) * size(m))) << c.model->name() << ' ' << seed;
+          EXPECT_LE(residual, at_round_off * (1 + size_of(m) * size_of(m))) << c.model->name() << ' ' << seed;
         } else {
           EXPECT_GT(residual, 1e-6) << c.model->name() << ' ' << seed;
         }
@@ -254,20 +245,20 @@ TEST(GeneratingTheorems, EvolutionOfTheExactGeneratingFunction) {
   Replay<D> flow(model->tape(Formula::exact_solution));
   Matrix<D> m(2, 2);
   for (std::size_t j = 0; j < 2; ++j) {
-    const std::vector<D> initial{D(j == 0 ? 1 : 0), D(j == 1 ? 1 : 0), D(t0)};
+    const std::vector<D> initial{D(j == 0 ? 1 : 0), D(j == 1 ? 1 : 0), D(start_time)};
     std::vector<D> after(2);
     flow(D::variable(tau, 0), initial.data(), after.data());
     for (std::size_t i = 0; i < 2; ++i) m(i, j) = after[i];
   }
   LagrangianTransformation<D> alpha(shared(tapes.forward));
   const std::vector<D> anywhere(2);
-  const Matrix<D> n = alpha.blocks(D::variable(t1, 0), D(t0), anywhere, anywhere)(m);
+  const Matrix<D> n = alpha.blocks(D::variable(t1, 0), D(start_time), anywhere, anywhere)(m);
 
   const Numbers w{Quad(0.6), Quad(-0.3)};
   Numbers u(9), rate(2), expected(2);
   u[2] = w[0];
   u[3] = w[1];
-  u[8] = t0;
+  u[8] = start_time;
   for (std::size_t i = 0; i < 2; ++i)
     for (std::size_t j = 0; j < 2; ++j) {
       u[i] += n(i, j).value * w[j];
@@ -280,11 +271,11 @@ TEST(GeneratingTheorems, EvolutionOfTheExactGeneratingFunction) {
 
   // Control: the sign as printed turns the part along the flow around.
   Numbers pair(u.begin(), u.begin() + 4), states(4);
-  pair.push_back(t0);
+  pair.push_back(start_time);
   Replay<Quad> backward(shared(tapes.backward));
   backward(t1, pair.data(), states.data());
   LagrangianTransformation<Quad> in_quad(shared(tapes.forward));
-  const Numbers partial = in_quad.time_derivative(t1, t0, std::span<const Quad>(states).first(2),
+  const Numbers partial = in_quad.time_derivative(t1, start_time, std::span<const Quad>(states).first(2),
                                                   std::span<const Quad>(states).subspan(2));
   Numbers printed(2);
   for (std::size_t i = 0; i < 2; ++i) {

@@ -10,16 +10,17 @@
 #include <pfaff/core/system.hpp>
 #include <pfaff/integrators/generating/generating_gradient.hpp>
 
+#include "../golden_numbers.hpp"
+
 namespace pfaff {
 namespace {
 
 // One rounding is 1.1e-16 or 9.6e-35; a step makes a few dozen of them, a trajectory a few hundred.
-constexpr double in_double = 1e-14, in_quad = 1e-30;
+constexpr double golden_in_double = 1e-14, golden_in_quad = 1e-30;
 
 // A list of reference values, never empty.
-std::vector<nlohmann::json> golden(const std::string& file, const std::string& list) {
-  const auto j = nlohmann::json::parse(std::ifstream(std::string(PFAFF_GOLDEN) + "/" + file + ".json"));
-  const auto entries = j.at(list).get<std::vector<nlohmann::json>>();
+std::vector<nlohmann::json> golden_entries(const std::string& file, const std::string& list) {
+  const auto entries = testing::golden(file).at(list).get<std::vector<nlohmann::json>>();
   EXPECT_FALSE(entries.empty()) << file << ' ' << list;
   return entries;
 }
@@ -32,7 +33,7 @@ T number(const nlohmann::json& value) {
 }
 
 template <class T>
-double distance(const T& ours, const nlohmann::json& theirs) {
+double error_of(const T& ours, const nlohmann::json& theirs) {
   const Quad reference = number<Quad>(theirs);
   return static_cast<double>(abs(Quad(ours) - reference) / std::max(Quad(1), abs(reference)));
 }
@@ -54,42 +55,42 @@ void expect_transition(const nlohmann::json& entry, double tolerance) {
       const auto step = differentiate(T(t0), number<T>(entry["tau"]), {T(1), T(0)});
       ASSERT_EQ(step.status, Status::converged);
       for (std::size_t k = 0; k < 4; ++k)
-        EXPECT_LE(distance(step.jacobian[k], matrix[k / 2][k % 2]), tolerance)
+        EXPECT_LE(error_of(step.jacobian[k], matrix[k / 2][k % 2]), tolerance)
             << "nu " << entry["nu"] << " tau " << entry["tau"] << " order " << order << " entry " << k;
     }
   }
 }
 
 TEST(GoldenOscillator, TransitionMatricesOfOrders1To8) {
-  for (const auto& entry : golden("damped_oscillator", "transition")) {
-    expect_transition<double>(entry, in_double);
-    expect_transition<Quad>(entry, in_quad);
+  for (const auto& entry : golden_entries("damped_oscillator", "transition")) {
+    expect_transition<double>(entry, golden_in_double);
+    expect_transition<Quad>(entry, golden_in_quad);
   }
 }
 
 TEST(GoldenOscillator, ImplicitMidpointIsTheEulerCentreScheme) {
-  for (const auto& entry : golden("damped_oscillator", "transition")) {
+  for (const auto& entry : golden_entries("damped_oscillator", "transition")) {
     const auto method = integrators().get("implicit-midpoint", "integrator").make({});
     StepDifferentiator<Quad> differentiate(*method, system_with("damped-oscillator", entry["nu"]));
     const auto step = differentiate(Quad(0), number<Quad>(entry["tau"]), {Quad(1), Quad(0)});
     for (std::size_t k = 0; k < 4; ++k)
-      EXPECT_LE(distance(step.jacobian[k], entry["euler_centre_107"][k / 2][k % 2]), in_quad);
+      EXPECT_LE(error_of(step.jacobian[k], entry["euler_centre_107"][k / 2][k % 2]), golden_in_quad);
   }
 }
 
 TEST(GoldenOscillator, VariantSOfOrder2IsTheMidpointExpandedScheme) {
-  for (const auto& entry : golden("damped_oscillator", "transition")) {
+  for (const auto& entry : golden_entries("damped_oscillator", "transition")) {
     const auto method = integrators().get("generating-function", "").make({{"order", "2"}, {"variant", "S"}});
     StepDifferentiator<Quad> differentiate(*method, system_with("damped-oscillator", entry["nu"]));
     const auto step = differentiate(Quad(0), number<Quad>(entry["tau"]), {Quad(1), Quad(0)});
     for (std::size_t k = 0; k < 4; ++k)
-      EXPECT_LE(distance(step.jacobian[k], entry["time_symmetric_order2_midpoint_expanded"][k / 2][k % 2]),
-                in_quad);
+      EXPECT_LE(error_of(step.jacobian[k], entry["time_symmetric_order2_midpoint_expanded"][k / 2][k % 2]),
+                golden_in_quad);
   }
 }
 
 TEST(GoldenOscillator, MidpointInTheChartIsTheMidpointExpandedScheme) {
-  for (const auto& entry : golden("damped_oscillator", "transition")) {
+  for (const auto& entry : golden_entries("damped_oscillator", "transition")) {
     const auto model = system_with("damped-oscillator", entry["nu"]);
     const auto method = integrators().get("gauss-darboux", "").make({{"stages", "1"}});
     StepDifferentiator<double> in_doubles(*method, model);
@@ -99,9 +100,9 @@ TEST(GoldenOscillator, MidpointInTheChartIsTheMidpointExpandedScheme) {
     double other = 0;  // control: the distance from the expansion at the start of the step
     for (std::size_t k = 0; k < 4; ++k) {
       const auto& expected = entry["time_symmetric_order2_midpoint_expanded"][k / 2][k % 2];
-      EXPECT_LE(distance(step.jacobian[k], expected), in_double);
-      EXPECT_LE(distance(exact.jacobian[k], expected), in_quad);
-      other = std::max(other, distance(exact.jacobian[k], entry["orders"]["2"][k / 2][k % 2]));
+      EXPECT_LE(error_of(step.jacobian[k], expected), golden_in_double);
+      EXPECT_LE(error_of(exact.jacobian[k], expected), golden_in_quad);
+      other = std::max(other, error_of(exact.jacobian[k], entry["orders"]["2"][k / 2][k % 2]));
     }
     if (number<double>(entry["nu"]) > 0) {
       EXPECT_GT(other, 1e-10);
@@ -122,28 +123,29 @@ std::vector<Quad> coefficient(const Model& model, Quad t0, int k, Quad r, Quad p
 }
 
 TEST(GoldenOscillator, CoefficientsOfTheGeneratingGradient) {
-  for (const auto& entry : golden("damped_oscillator", "phi_k_numeric")) {
+  for (const auto& entry : golden_entries("damped_oscillator", "phi_k_numeric")) {
     const auto model = system_with("damped-oscillator", entry["nu"]);
     for (int k = 1; k <= 8; ++k) {
       const auto& n = entry["N"][static_cast<std::size_t>(k)];
       for (std::size_t column = 0; column < 2; ++column) {
         const auto ours = coefficient(*model, number<Quad>(entry["t0"]), k, Quad(column == 0 ? 1 : 0),
                                       Quad(column == 1 ? 1 : 0));
-        EXPECT_LE(distance(ours[0], n[0][column]), in_quad) << "k " << k;
-        EXPECT_LE(distance(ours[1], n[1][column]), in_quad) << "k " << k;
+        EXPECT_LE(error_of(ours[0], n[0][column]), golden_in_quad) << "k " << k;
+        EXPECT_LE(error_of(ours[1], n[1][column]), golden_in_quad) << "k " << k;
       }
     }
   }
 }
 
 TEST(GoldenPendulum, CoefficientsOfTheGeneratingGradient) {
-  for (const auto& entry : golden("damped_pendulum", "phi_w")) {
+  for (const auto& entry : golden_entries("damped_pendulum", "phi_w")) {
     const auto model = system_with("damped-pendulum", entry["nu"]);
     for (int k = 1; k <= 6; ++k) {
       const auto ours = coefficient(*model, number<Quad>(entry["t0"]), k, number<Quad>(entry["R"]),
                                     number<Quad>(entry["P"]));
       for (std::size_t i = 0; i < 2; ++i)
-        EXPECT_LE(distance(ours[i], entry["k0_to_6"][static_cast<std::size_t>(k)][i]), in_quad) << "k " << k;
+        EXPECT_LE(error_of(ours[i], entry["k0_to_6"][static_cast<std::size_t>(k)][i]), golden_in_quad)
+            << "k " << k;
     }
   }
 }
@@ -157,27 +159,27 @@ void expect_one_step(const nlohmann::json& entry, double tolerance) {
                                     {number<T>(entry["r"]), number<T>(entry["p"])});
     ASSERT_EQ(step.status, Status::converged);
     for (std::size_t i = 0; i < 2; ++i) {
-      EXPECT_LE(distance(step.z[i], expected["z"][i]), tolerance) << "order " << order;
+      EXPECT_LE(error_of(step.z[i], expected["z"][i]), tolerance) << "order " << order;
       for (std::size_t j = 0; j < 2; ++j)
-        EXPECT_LE(distance(step.jacobian[2 * i + j], expected["jacobian"][i][j]), tolerance)
+        EXPECT_LE(error_of(step.jacobian[2 * i + j], expected["jacobian"][i][j]), tolerance)
             << "order " << order;
     }
   }
 }
 
 TEST(GoldenPendulum, OneStepMapsAndTheirJacobians) {
-  for (const auto& entry : golden("damped_pendulum", "one_step")) {
-    expect_one_step<double>(entry, in_double);
-    expect_one_step<Quad>(entry, in_quad);
+  for (const auto& entry : golden_entries("damped_pendulum", "one_step")) {
+    expect_one_step<double>(entry, golden_in_double);
+    expect_one_step<Quad>(entry, golden_in_quad);
   }
 }
 
 TEST(GoldenPendulum, AnotherOrderIsSeen) {  // control: the tolerance tells orders apart
-  const auto entry = golden("damped_pendulum", "one_step")[0];
+  const auto entry = golden_entries("damped_pendulum", "one_step")[0];
   StepDifferentiator<double> differentiate(*paper_scheme("6"), system_with("damped-pendulum", entry["nu"]));
   const auto step = differentiate(number<double>(entry["t0"]), number<double>(entry["tau"]),
                                   {number<double>(entry["r"]), number<double>(entry["p"])});
-  EXPECT_GT(distance(step.z[1], entry["orders"]["5"]["z"][1]), 100 * in_double);
+  EXPECT_GT(error_of(step.z[1], entry["orders"]["5"]["z"][1]), 100 * golden_in_double);
 }
 
 template <class T>
@@ -190,14 +192,14 @@ void expect_trajectory(const nlohmann::json& entry, double tolerance) {
   ASSERT_EQ(stepper->advance(number<T>(entry["t0"]), 0, number<T>(entry["tau"]), steps, z, completed),
             Status::converged);
   EXPECT_EQ(completed, steps);
-  EXPECT_LE(distance(z[0], entry["r"]), tolerance);
-  EXPECT_LE(distance(z[1], entry["p"]), tolerance);
+  EXPECT_LE(error_of(z[0], entry["r"]), tolerance);
+  EXPECT_LE(error_of(z[1], entry["p"]), tolerance);
 }
 
 TEST(GoldenPendulum, TrajectoriesWithHistoryAndCompensation) {
-  for (const auto& entry : golden("damped_pendulum", "trajectories")) {
-    expect_trajectory<double>(entry, in_double);
-    expect_trajectory<Quad>(entry, in_quad);
+  for (const auto& entry : golden_entries("damped_pendulum", "trajectories")) {
+    expect_trajectory<double>(entry, golden_in_double);
+    expect_trajectory<Quad>(entry, golden_in_quad);
   }
 }
 

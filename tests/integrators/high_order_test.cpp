@@ -7,27 +7,18 @@
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
 
+#include "methods.hpp"
+
 namespace pfaff {
 namespace {
 
 using ModelPointer = std::shared_ptr<const Model>;
+using testing::after_steps;
+using testing::generating_scheme;
+using testing::initial_state;
 
-std::vector<Quad> start_of(const Model& model) {
-  std::vector<Quad> z;
-  for (const Real& x : model.initial()) z.push_back(x.quad());
-  return z;
-}
 std::vector<Quad> stepped(const MethodInstance& method, const ModelPointer& model, const Quad& h, int count) {
-  std::vector<Quad> z = start_of(*model);
-  std::int64_t completed = 0;
-  EXPECT_EQ(method.stepper(model, Quad())->advance(Quad(1) / Quad(4), 0, h, count, z, completed),
-            Status::converged);
-  return z;
-}
-std::unique_ptr<MethodInstance> scheme(int order, const char* variant) {
-  return integrators()
-      .get("generating-function", "integrator")
-      .make({{"order", std::to_string(order)}, {"variant", variant}});
+  return after_steps(method, model, h, count, initial_state(*model), Quad(1) / Quad(4));
 }
 Quad local_error(const MethodInstance& method, const MethodInstance& reference, const ModelPointer& model,
                  const Quad& h) {
@@ -50,7 +41,7 @@ TEST(HighOrders, AreReachedInOneStep) {
         if (order % 2 == 1 && variant[0] == 'S') continue;
         // The leading term of odd orders is small as the damping, and shows at steps too small for quad only.
         if (order % 2 == 1 && !model->chart_autonomous()) continue;
-        const auto method = scheme(order, variant);
+        const auto method = generating_scheme(order, variant);
         const Quad coarse = local_error(*method, *reference, model, h);
         const Quad fine = local_error(*method, *reference, model, h / Quad(2));
         EXPECT_GT(fine, Quad(1e-32)) << name << " " << order << variant << ": nothing left to measure";
@@ -64,14 +55,14 @@ TEST(HighOrders, KeepTheStructure) {
   for (const char* name : {"damped-pendulum", "lotka-volterra", "henon-heiles", "dense-time-structure"}) {
     const ModelPointer model = systems().get(name, "system").make({});
     for (int order = 13; order <= 20; ++order) {
-      const auto method = scheme(order, "auto");
+      const auto method = generating_scheme(order, "auto");
       StructureResidual<Quad> residual(*method, model);
-      const std::vector<Quad> z = start_of(*model);
+      const std::vector<Quad> z = initial_state(*model);
       EXPECT_LE(residual(Quad(1) / Quad(4), Quad(1) / Quad(10), z), Quad(1e-31)) << name << " " << order;
     }
     // The control: what does not keep it.
     StructureResidual<Quad> residual(*integrators().get("rk4", "integrator").make({}), model);
-    EXPECT_GT(residual(Quad(1) / Quad(4), Quad(1) / Quad(10), start_of(*model)), Quad(1e-12)) << name;
+    EXPECT_GT(residual(Quad(1) / Quad(4), Quad(1) / Quad(10), initial_state(*model)), Quad(1e-12)) << name;
   }
 }
 

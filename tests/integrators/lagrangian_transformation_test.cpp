@@ -69,7 +69,7 @@ std::shared_ptr<const Tape> logarithmic_structure() {
       }));
 }
 template <class T>
-std::vector<StatePair<T>> points() {
+std::vector<StatePair<T>> state_pairs() {
   const auto q = [](int x) { return T(x) / T(10); };
   return {{q(9), q(7), {q(5), q(3)}, {q(4), q(6)}},
           {q(2), q(1), {q(13), q(8)}, {q(11), q(2)}},
@@ -78,20 +78,20 @@ std::vector<StatePair<T>> points() {
 
 template <class T>
 class LagrangianTransformationTest : public ::testing::Test {};
-using Scalars = ::testing::Types<double, Quad>;
-TYPED_TEST_SUITE(LagrangianTransformationTest, Scalars);
+using TestedScalars = ::testing::Types<double, Quad>;
+TYPED_TEST_SUITE(LagrangianTransformationTest, TestedScalars);
 
 TYPED_TEST(LagrangianTransformationTest, RightOnesHold) {
   for (const bool sheared : {false, true}) {
-    const auto check =
-        check_lagrangian(recorded(DampedAlpha{.sheared = sheared}), damped_structure(), points<TypeParam>());
+    const auto check = check_lagrangian(recorded(DampedAlpha{.sheared = sheared}), damped_structure(),
+                                        state_pairs<TypeParam>());
     EXPECT_TRUE(check.holds) << check.message;
     EXPECT_LE(check.residual, 8 * static_cast<double>(unit_roundoff<TypeParam>()));
     EXPECT_EQ(check.factor, 1);
     EXPECT_TRUE(check.message.empty());
   }
   const auto check =
-      check_lagrangian(recorded(LogarithmicAlpha{}), logarithmic_structure(), points<TypeParam>());
+      check_lagrangian(recorded(LogarithmicAlpha{}), logarithmic_structure(), state_pairs<TypeParam>());
   EXPECT_TRUE(check.holds) << check.message;
 }
 
@@ -103,10 +103,10 @@ TYPED_TEST(LagrangianTransformationTest, TheDocumentedOneHolds) {
         k[1] = -k[2];
       }));
   const auto right =
-      check_lagrangian(recorded(examples::NewPositionOldMomentum{}), structure, points<TypeParam>());
+      check_lagrangian(recorded(examples::NewPositionOldMomentum{}), structure, state_pairs<TypeParam>());
   EXPECT_TRUE(right.holds) << right.message;
   EXPECT_FALSE(check_lagrangian(recorded(examples::NewPositionOldMomentum{.damping = 0.6_r}), structure,
-                                points<TypeParam>())
+                                state_pairs<TypeParam>())
                    .holds);
 }
 
@@ -120,7 +120,7 @@ TYPED_TEST(LagrangianTransformationTest, WrongOnesAreNamed) {
   };
   const auto with = [](Mistake mistake) {
     return check_lagrangian(recorded(DampedAlpha{.mistake = mistake, .sheared = true}), damped_structure(),
-                            points<TypeParam>());
+                            state_pairs<TypeParam>());
   };
   expect(with(Mistake::sign), -1, "change the sign of w_hat");
   expect(with(Mistake::factor), 3, "divide w_hat by 3");
@@ -128,7 +128,7 @@ TYPED_TEST(LagrangianTransformationTest, WrongOnesAreNamed) {
   expect(with(Mistake::old_time), 1, "(old, old): B^T D - D^T B must be -K(z, t0)");
   expect(with(Mistake::varying_factor), 1, "block (");  // 1 + t is not a constant
   expect(check_lagrangian(recorded(LogarithmicAlpha{.linear = true}), logarithmic_structure(),
-                          points<TypeParam>()),
+                          state_pairs<TypeParam>()),
          1, "block (");
 }
 
@@ -136,13 +136,13 @@ TYPED_TEST(LagrangianTransformationTest, WrongOnesAreNamed) {
 TYPED_TEST(LagrangianTransformationTest, SmallMistakesAreNoRoundOff) {
   const Quad off = Quad(6400) * Quad(unit_roundoff<TypeParam>());
   const DampedAlpha nearly{.nu = Real(Quad(3) / Quad(10) + off)};
-  const auto check = check_lagrangian(recorded(nearly), damped_structure(), points<TypeParam>());
+  const auto check = check_lagrangian(recorded(nearly), damped_structure(), state_pairs<TypeParam>());
   EXPECT_FALSE(check.holds);
   EXPECT_LE(check.residual, 4 * static_cast<double>(off));
 }
 
 TYPED_TEST(LagrangianTransformationTest, BadPointsAreNotSilent) {
-  auto bad = points<TypeParam>();
+  auto bad = state_pairs<TypeParam>();
   bad[1].new_z[0] = TypeParam(-1);  // its logarithm is not a number
   const auto check = check_lagrangian(recorded(LogarithmicAlpha{}), logarithmic_structure(), bad);
   EXPECT_FALSE(check.holds);

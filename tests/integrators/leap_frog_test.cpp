@@ -8,17 +8,17 @@
 #include <pfaff/bench/measure/structure.hpp>
 #include <pfaff/core/system.hpp>
 
+#include "methods.hpp"
+
 namespace pfaff {
 namespace {
 
-std::unique_ptr<MethodInstance> method(const char* name, const Assignments& parameters = {}) {
-  return integrators().get(name, "integrator").make(parameters);
-}
+using testing::method_named;
 
 TEST(LeapFrog, LeapsFromTheStateBefore) {
   const auto model = systems().get("damped-pendulum", "system").make({});
   const Problem<Quad> problem(model);
-  const auto stepper = method("leap-frog")->stepper(model, Quad());
+  const auto stepper = method_named("leap-frog")->stepper(model, Quad());
   const Quad h(0.05);
   std::vector<std::vector<Quad>> z{{Quad(1), Quad(0.5)}};
   for (std::int64_t n = 0; n < 6; ++n) {
@@ -42,7 +42,7 @@ TEST(LeapFrog, IsOfOrderTwoOverManySteps) {
   const auto error = [&](std::int64_t steps) {
     std::vector<Quad> z{Quad(1), Quad(0.5)};
     std::int64_t completed = 0;
-    method("leap-frog")
+    method_named("leap-frog")
         ->stepper(model, Quad())
         ->advance(Quad(0), 0, Quad(2) / Quad(int(steps)), steps, z, completed);
     return static_cast<double>(
@@ -51,7 +51,7 @@ TEST(LeapFrog, IsOfOrderTwoOverManySteps) {
   EXPECT_NEAR(std::log2(error(800) / error(1600)), 2, 0.05);
 }
 
-struct Drift {
+struct DriftFlow {
   static constexpr int dimension = 1;
   template <class T>
   void field(const T& /*t*/, In<T> /*z*/, Out<T> rate) const {
@@ -62,14 +62,15 @@ struct Drift {
 // A hundred thousand equal increments: only sums are rounded. Even and odd states are two sums, each with a
 // compensation of its own, which leaves the rounding of the last one.
 TEST(LeapFrog, BothSumsAreCompensated) {
-  static const System<Drift> plugin{{.name = "drift", .title = "", .reference = "", .initial = {Real(0)}}};
+  static const System<DriftFlow> plugin{
+      {.name = "drift", .title = "", .reference = "", .initial = {Real(0)}}};
   const std::int64_t steps = 100000;
   const double h = 0.1, expected = static_cast<double>(steps / 2) * (2 * h * 0.1);
   const double unit = std::ldexp(1.0, -43);  // in the last place of 1000
   for (const bool compensated : {true, false}) {
     std::vector<double> z{0};
     std::int64_t completed = 0;
-    const auto leaps = method("leap-frog", {{"compensated", compensated ? "yes" : "no"}});
+    const auto leaps = method_named("leap-frog", {{"compensated", compensated ? "yes" : "no"}});
     ASSERT_EQ(leaps->stepper(plugin.make({}), double())->advance(0, 0, h, steps, z, completed),
               Status::converged);
     EXPECT_EQ(std::abs(z[0] - expected) <= unit, compensated) << z[0] - expected;
@@ -78,7 +79,7 @@ TEST(LeapFrog, BothSumsAreCompensated) {
 
 TEST(LeapFrog, IsNotKSymplectic) {
   const auto model = systems().get("damped-pendulum", "system").make({});
-  StructureResidual<Quad> residual(*method("leap-frog"), model);
+  StructureResidual<Quad> residual(*method_named("leap-frog"), model);
   EXPECT_GT(static_cast<double>(residual(Quad(0), Quad(0.1), {Quad(1), Quad(0.5)})), 1e-8);
 }
 
@@ -88,7 +89,7 @@ TEST(LeapFrog, IsUnstableWhereMotionIsDamped) {
   const auto size = [&](const char* name) {
     std::vector<double> z{1, 0};
     std::int64_t completed = 0;
-    EXPECT_EQ(method(name)->stepper(model, double())->advance(0.0, 0, 0.1, 1000, z, completed),
+    EXPECT_EQ(method_named(name)->stepper(model, double())->advance(0.0, 0, 0.1, 1000, z, completed),
               Status::converged);
     return std::hypot(z[0], z[1]);
   };

@@ -7,7 +7,7 @@
 namespace pfaff {
 namespace {
 
-constexpr double round_off =
+constexpr double lobatto_round_off =
     1e-32;  // some hundred units of quad's, for the inner products of Lagrange's polynomials
 
 double gap(Quad a, Quad b) { return static_cast<double>(abs(a - b)); }
@@ -34,15 +34,15 @@ TEST(LobattoCoefficients, OfTwoAndThreeStagesAreTheClosedForms) {
   const std::vector<Quad> b3{fraction(1, 6), fraction(-1, 6), 0, fraction(1, 6), fraction(1, 3), 0,
                              fraction(1, 6), fraction(5, 6),  0};
   for (std::size_t k = 0; k < 4; ++k) {
-    EXPECT_LE(gap(two.positions[k], a2[k]), round_off) << k;
-    EXPECT_LE(gap(two.momenta[k], b2[k]), round_off) << k;
+    EXPECT_LE(gap(two.positions[k], a2[k]), lobatto_round_off) << k;
+    EXPECT_LE(gap(two.momenta[k], b2[k]), lobatto_round_off) << k;
   }
   for (std::size_t k = 0; k < 9; ++k) {
-    EXPECT_LE(gap(three.positions[k], a3[k]), round_off) << k;
-    EXPECT_LE(gap(three.momenta[k], b3[k]), round_off) << k;
+    EXPECT_LE(gap(three.positions[k], a3[k]), lobatto_round_off) << k;
+    EXPECT_LE(gap(three.momenta[k], b3[k]), lobatto_round_off) << k;
   }
   const LobattoCoefficients four = lobatto_coefficients(4);
-  EXPECT_LE(gap(four.nodes[1], (Quad(1) - sqrt(fraction(1, 5))) / Quad(2)), round_off);
+  EXPECT_LE(gap(four.nodes[1], (Quad(1) - sqrt(fraction(1, 5))) / Quad(2)), lobatto_round_off);
 }
 
 TEST(LobattoCoefficients, FulfilTheirConditions) {
@@ -54,7 +54,7 @@ TEST(LobattoCoefficients, FulfilTheirConditions) {
       Quad sum(0);
       for (std::size_t i = 0; i < s; ++i) sum += l.weights[i] * power(l.nodes[i], degree);
       if (degree <= 2 * stages - 3) {
-        EXPECT_LE(gap(sum, Quad(1) / Quad(degree + 1)), round_off) << stages << ' ' << degree;
+        EXPECT_LE(gap(sum, Quad(1) / Quad(degree + 1)), lobatto_round_off) << stages << ' ' << degree;
       } else if (stages <= 8) {
         EXPECT_GT(gap(sum, Quad(1) / Quad(degree + 1)), 1e-12) << stages;
       }
@@ -63,7 +63,7 @@ TEST(LobattoCoefficients, FulfilTheirConditions) {
       for (std::size_t j = 0; j < s; ++j)
         EXPECT_LE(gap(l.weights[i] * l.momenta[i * s + j] + l.weights[j] * l.positions[j * s + i],
                       l.weights[i] * l.weights[j]),
-                  round_off);
+                  lobatto_round_off);
       for (int degree = 0; degree < stages; ++degree) {  // IIIA collocates, IIIB to degree s - 3
         Quad a(0), b(0);
         for (std::size_t j = 0; j < s; ++j) {
@@ -71,13 +71,13 @@ TEST(LobattoCoefficients, FulfilTheirConditions) {
           b += l.momenta[i * s + j] * power(l.nodes[j], degree);
         }
         const Quad exact = power(l.nodes[i], degree + 1) / Quad(degree + 1);
-        EXPECT_LE(gap(a, exact), round_off) << stages;
+        EXPECT_LE(gap(a, exact), lobatto_round_off) << stages;
         if (degree <= stages - 3) {
-          EXPECT_LE(gap(b, exact), 10 * round_off) << stages << ' ' << degree;
+          EXPECT_LE(gap(b, exact), 10 * lobatto_round_off) << stages << ' ' << degree;
         }
       }
       EXPECT_EQ(l.positions[i], Quad(0));
-      EXPECT_LE(gap(l.positions[(s - 1) * s + i], l.weights[i]), round_off);
+      EXPECT_LE(gap(l.positions[(s - 1) * s + i], l.weights[i]), lobatto_round_off);
       EXPECT_EQ(l.momenta[i * s + s - 1], Quad(0));
     }
   }
@@ -95,7 +95,7 @@ TEST(LobattoCoefficients, MultipliersInvertTheProduct) {
         for (std::size_t j = 0; j < s; ++j)
           for (std::size_t k = 0; k + 1 < s; ++k)
             sum += l.positions[i * s + j] * l.momenta[j * s + k] * l.multipliers[k * (s - 1) + m - 1];
-        EXPECT_LE(gap(sum, Quad(i == m ? 1 : 0)), round_off * static_cast<double>(largest)) << stages;
+        EXPECT_LE(gap(sum, Quad(i == m ? 1 : 0)), lobatto_round_off * static_cast<double>(largest)) << stages;
       }
   }
 }
@@ -109,7 +109,7 @@ TEST(LobattoCoefficients, MultipliersOfVelocityConstraintsFulfilTheirConditions)
     const std::vector<Quad> g = velocity_multipliers(l);
     Quad largest(0);
     for (const Quad& x : g) largest = std::max(largest, Quad(abs(x)));
-    const double bound = round_off * static_cast<double>(largest);
+    const double bound = lobatto_round_off * static_cast<double>(largest);
     for (std::size_t j = 0; j + 1 < s; ++j) {
       for (std::size_t m = 0; m + 1 < s; ++m) {
         Quad sum(0);
@@ -126,17 +126,18 @@ TEST(LobattoCoefficients, MultipliersOfVelocityConstraintsFulfilTheirConditions)
         difference += term;
         size = std::max(size, Quad(abs(term)));
       }
-      EXPECT_LE(gap(difference, Quad(0)), round_off * static_cast<double>(size)) << stages;
+      EXPECT_LE(gap(difference, Quad(0)), lobatto_round_off * static_cast<double>(size)) << stages;
     }
     for (int k = 1; k < stages; ++k)
       for (std::size_t j = 0; j + 1 < s; ++j) {
         Quad sum(0);
         for (std::size_t i = 0; i < s; ++i)
           sum += l.weights[i] * power(l.nodes[i], k - 1) * l.momenta[i * s + j];
-        EXPECT_LE(gap(sum, l.weights[j] * (Quad(1) - power(l.nodes[j], k)) / Quad(k)), round_off) << stages;
+        EXPECT_LE(gap(sum, l.weights[j] * (Quad(1) - power(l.nodes[j], k)) / Quad(k)), lobatto_round_off)
+            << stages;
       }
   }
-  EXPECT_LE(gap(velocity_multipliers(lobatto_coefficients(2))[1], Quad(1)), round_off);  // (1, 1)
+  EXPECT_LE(gap(velocity_multipliers(lobatto_coefficients(2))[1], Quad(1)), lobatto_round_off);  // (1, 1)
 }
 
 }  // namespace

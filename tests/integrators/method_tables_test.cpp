@@ -8,33 +8,16 @@
 #include <random>
 
 #include <pfaff/core/system.hpp>
-#include <pfaff/integrators/tables/method_table.hpp>
 
-#include "../temporary_directory.hpp"
+#include "method_files.hpp"
 
 namespace {
 using namespace pfaff;
+using pfaff::testing::expect_table_refused;
+using pfaff::testing::Relativistic;
+using pfaff::testing::shipped_tables;
+using pfaff::testing::table_refusal;
 using pfaff::testing::TemporaryDirectory;
-
-const std::string shipped = std::string(PFAFF_GOLDEN) + "/../../examples/tables/";
-
-// The message with which a table is refused, or what it became.
-std::string refusal(const std::string& text) {
-  const TemporaryDirectory files;
-  std::ofstream(files / "table.toml") << text;
-  try {
-    return "accepted: " + read_method_table(files / "table.toml")->name();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-}
-
-void expect_refused(const std::string& text, const std::vector<std::string>& parts) {
-  const std::string message = refusal(text);
-  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
-  EXPECT_NE(message.find("table.toml"), std::string::npos) << message;
-  for (const std::string& part : parts) EXPECT_NE(message.find(part), std::string::npos) << message;
-}
 
 std::string verlet_with(const std::string& drift, const std::string& more = "order = 2") {
   return "name = \"table\"\nkind = \"splitting\"\n" + more + "\ndrift = [" + drift + "]\nkick = [1]\n";
@@ -49,7 +32,7 @@ using Names = std::vector<std::string>;
 
 // The largest difference of two methods after twenty steps, relative to the size of the state.
 template <class T>
-double difference(const MethodInstance& a, const MethodInstance& b, const std::string& system) {
+double run_difference(const MethodInstance& a, const MethodInstance& b, const std::string& system) {
   const std::shared_ptr<const Model> model = systems().get(system, "system").make({});
   std::vector<T> za, zb;
   for (const Real& x : model->initial()) za.push_back(T(x));
@@ -68,13 +51,13 @@ double difference(const MethodInstance& a, const MethodInstance& b, const std::s
 
 // The same method, up to the rounding of twenty steps of some flows each.
 void expect_same_steps(const MethodInstance& a, const MethodInstance& b, const std::string& system) {
-  EXPECT_LT(difference<double>(a, b, system), 1e-14);
-  EXPECT_LT(difference<Quad>(a, b, system), 1e-32);
+  EXPECT_LT(run_difference<double>(a, b, system), 1e-14);
+  EXPECT_LT(run_difference<Quad>(a, b, system), 1e-32);
 }
 
 TEST(MethodTables, EveryOneThatIsShippedIsRead) {
   int count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(shipped)) {
+  for (const auto& entry : std::filesystem::directory_iterator(shipped_tables)) {
     if (entry.path().extension() != ".toml") continue;
     const auto table = read_method_table(entry.path().string());
     EXPECT_EQ(table->name(), entry.path().stem().string());
@@ -90,7 +73,7 @@ TEST(MethodTables, EveryOneThatIsShippedIsRead) {
 
 TEST(MethodTables, WhatTheyKeepIsComputed) {
   const auto kept = [](const std::string& name) {
-    return names_of(read_method_table(shipped + name + ".toml")->descriptor().preserves);
+    return names_of(read_method_table(shipped_tables + name + ".toml")->descriptor().preserves);
   };
   EXPECT_EQ(kept("dormand-prince"), Names{"none"});
   EXPECT_EQ(kept("radau-iia-5"), Names{"none"});
@@ -102,7 +85,9 @@ TEST(MethodTables, WhatTheyKeepIsComputed) {
 }
 
 TEST(MethodTables, StepLikeTheSameMethodInCpp) {
-  const auto made = [](const std::string& name) { return read_method_table(shipped + name + ".toml"); };
+  const auto made = [](const std::string& name) {
+    return read_method_table(shipped_tables + name + ".toml");
+  };
   const auto registered = [](const std::string& name, const Assignments& set) {
     return integrators().get(name, "integrator").make(set);
   };
@@ -112,9 +97,9 @@ TEST(MethodTables, StepLikeTheSameMethodInCpp) {
     expect_same_steps(*forest_ruth->make({}), *registered("yoshida-verlet", {{"order", "4"}}), system);
     expect_same_steps(*suzuki->make({}), *registered("suzuki-verlet", {{"order", "4"}}), system);
     expect_same_steps(*euler->make({}), *registered("verlet", {}), system);
-    EXPECT_GT(
-        difference<double>(*forest_ruth->make({}), *registered("suzuki-verlet", {{"order", "4"}}), system),
-        1e-12);
+    EXPECT_GT(run_difference<double>(*forest_ruth->make({}), *registered("suzuki-verlet", {{"order", "4"}}),
+                                     system),
+              1e-12);
   }
 }
 
@@ -136,25 +121,25 @@ TEST(MethodTables, RungeKuttaTablesStepLikeTheSameMethodInCpp) {
 }
 
 TEST(MethodTables, AWrongCoefficientIsRefusedWithItsConditionAndResidual) {
-  EXPECT_EQ(refusal(verlet_with("0.5, \"1/2\"")), "accepted: table");
-  expect_refused(
+  EXPECT_EQ(table_refusal(verlet_with("0.5, \"1/2\"")), "accepted: table");
+  expect_table_refused(
       verlet_with("0.5, 0.500000001"),
       {":3:9: key 'order': 2, but the Lie word drift = 1, a condition of order 1, is off by 1.00e-09",
        "expected at most"});
-  expect_refused(verlet_with("0.5, 0.500000000000000000001"),
-                 {"is off by 1.00e-21", "numbers of 36 digits", "precision = \"double\""});
-  expect_refused(verlet_with("0.4, 0.6"), {"the Lie word drift kick = 0, a condition of order 2"});
-  expect_refused(verlet_with("0.5, 0.5", "order = 4"), {"a condition of order 3"});
-  expect_refused(verlet_with("0.5, 0.5", "order = 1"),
-                 {"all conditions of order 2 hold; expected that order"});
-  expect_refused(
+  expect_table_refused(verlet_with("0.5, 0.500000000000000000001"),
+                       {"is off by 1.00e-21", "numbers of 36 digits", "precision = \"double\""});
+  expect_table_refused(verlet_with("0.4, 0.6"), {"the Lie word drift kick = 0, a condition of order 2"});
+  expect_table_refused(verlet_with("0.5, 0.5", "order = 4"), {"a condition of order 3"});
+  expect_table_refused(verlet_with("0.5, 0.5", "order = 1"),
+                       {"all conditions of order 2 hold; expected that order"});
+  expect_table_refused(
       "name = \"table\"\nkind = \"runge-kutta\"\norder = 4\na = [[], [0.5], [0, 0.5], [0, 0, 1]]\n"
       "b = [\"1/6\", \"1/3\", \"1/3\", \"1/6 + 1e-9\"]\n",
       {"the tree t, Phi = 1/1, a condition of order 1, is off by 1.00e-09"});
-  expect_refused(
+  expect_table_refused(
       "name = \"table\"\nkind = \"multistep\"\norder = 2\nrho = [-1, 0, 1]\nsigma = [0, 2.001, 0]\n",
       {"the sum of j rho_j - sigma_j = 0"});
-  expect_refused(
+  expect_table_refused(
       "name = \"table\"\nkind = \"composition\"\nbase = \"verlet\"\norder = 4\nweights = [0.3, 0.4, "
       "0.3]\n",
       {"the Lie word Y3 = 0, a condition of order 3"});
@@ -164,64 +149,67 @@ TEST(MethodTables, DoublesAreTakenWhereTheyAreMarked) {
   const std::string yoshida =
       "name = \"table\"\nkind = \"composition\"\nbase = \"verlet\"\norder = 4\n"
       "weights = [1.3512071919596578, -1.7024143839193153, 1.3512071919596578]\n";
-  expect_refused(yoshida, {"precision = \"double\""});
+  expect_table_refused(yoshida, {"precision = \"double\""});
   const TemporaryDirectory files;
   std::ofstream(files / "table.toml") << yoshida + "precision = \"double\"\n";
   EXPECT_TRUE(read_method_table(files / "table.toml")->descriptor().double_coefficients);
 }
 
 TEST(MethodTables, AClaimThatTheNumbersDoNotBearOutIsRefused) {
-  expect_refused(
+  expect_table_refused(
       "name = \"table\"\nkind = \"runge-kutta\"\norder = 2\na = [[], [0.5]]\nb = [0, 1]\n"
       "preserves = [\"symplectic\"]\n",
       {"key 'preserves': 'symplectic' does not follow", "b2 a2,2 + b2 a2,2 = b2 b2"});
-  expect_refused(verlet_with("0.5, 0.5", "order = 2\npreserves = [\"energy\"]"),
-                 {"splittings are not tested"});
-  expect_refused(verlet_with("0.5, 0.5", "order = 2\npreserves = [\"symplectc\"]"), {"symplectic"});
-  expect_refused(
+  expect_table_refused(verlet_with("0.5, 0.5", "order = 2\npreserves = [\"energy\"]"),
+                       {"splittings are not tested"});
+  expect_table_refused(verlet_with("0.5, 0.5", "order = 2\npreserves = [\"symplectc\"]"), {"symplectic"});
+  expect_table_refused(
       "name = \"table\"\nkind = \"multistep\"\norder = 2\nrho = [-1, 0, 1]\nsigma = [0, 2, 0]\n"
       "preserves = [\"symmetric\"]\n",
       {"a map of several states"});
 }
 
 TEST(MethodTables, AnUnstableMultistepMethodIsRefused) {
-  expect_refused("name = \"table\"\nkind = \"multistep\"\norder = 3\nrho = [-5, 4, 1]\nsigma = [2, 4, 0]\n",
-                 {"not zero-stable", "of modulus 5"});
+  expect_table_refused(
+      "name = \"table\"\nkind = \"multistep\"\norder = 3\nrho = [-5, 4, 1]\nsigma = [2, 4, 0]\n",
+      {"not zero-stable", "of modulus 5"});
 }
 
 TEST(MethodTables, AKernelIsToldFromItsProcessor) {
   const std::string head = "name = \"table\"\nkind = \"processed\"\norder = 2\n";
-  expect_refused(head + "pre = { drift = [\"-1/4\"], kick = [0] }\nkernel = { drift = [1], kick = [1] }\n",
-                 {"key 'order': 2, but the Lie word drift kick = 0"});
-  expect_refused(
+  expect_table_refused(
+      head + "pre = { drift = [\"-1/4\"], kick = [0] }\nkernel = { drift = [1], kick = [1] }\n",
+      {"key 'order': 2, but the Lie word drift kick = 0"});
+  expect_table_refused(
       "name = \"table\"\nkind = \"processed\"\norder = 3\npre = { drift = [\"-1/2\"], kick = [0] }\n"
       "kernel = { drift = [1], kick = [1] }\n",
       {"key 'kernel': is not of effective order 3: whatever the processor"});
 }
 
 TEST(MethodTables, BadFilesAreRefusedInOneLine) {
-  expect_refused("name = ", {":1:"});
-  expect_refused("kind = \"splitting\"\norder = 2\n", {"key 'name': is missing"});
-  expect_refused("name = \"Table\"\nkind = \"splitting\"\norder = 2\n", {"kebab-case", "'Table'"});
-  expect_refused("name = \"table\"\nkind = \"spliting\"\norder = 2\n", {"did you mean 'splitting'?"});
-  expect_refused("name = \"table\"\nkind = \"splitting\"\norder = 0\n", {"expected a whole number > 0"});
-  expect_refused(verlet_with("0.5, 0.5", "order = 13"), {"expected at most 12"});
-  expect_refused(verlet_with("0.5, 0.5", "order = 2\nkik = 1"),
-                 {"unknown key 'kik'", "did you mean 'kick'?"});
-  expect_refused(verlet_with("0.5, \"g\""), {":4:16: ", "'g'"});
-  expect_refused(verlet_with("0.5, true"), {"key 'drift': expected a list of numbers"});
-  expect_refused(verlet_with("0.5, \"1/0\""), {":4:"});
-  expect_refused(verlet_with("0.2, 0.3, 0.5"), {"key 'kick': expected 3 numbers or one less", "got 1"});
-  expect_refused("name = \"table\"\nkind = \"runge-kutta\"\norder = 1\na = [[], []]\nb = [1]\n",
-                 {"key 'a': expected 1 rows"});
-  expect_refused(
+  expect_table_refused("name = ", {":1:"});
+  expect_table_refused("kind = \"splitting\"\norder = 2\n", {"key 'name': is missing"});
+  expect_table_refused("name = \"Table\"\nkind = \"splitting\"\norder = 2\n", {"kebab-case", "'Table'"});
+  expect_table_refused("name = \"table\"\nkind = \"spliting\"\norder = 2\n", {"did you mean 'splitting'?"});
+  expect_table_refused("name = \"table\"\nkind = \"splitting\"\norder = 0\n",
+                       {"expected a whole number > 0"});
+  expect_table_refused(verlet_with("0.5, 0.5", "order = 13"), {"expected at most 12"});
+  expect_table_refused(verlet_with("0.5, 0.5", "order = 2\nkik = 1"),
+                       {"unknown key 'kik'", "did you mean 'kick'?"});
+  expect_table_refused(verlet_with("0.5, \"g\""), {":4:16: ", "'g'"});
+  expect_table_refused(verlet_with("0.5, true"), {"key 'drift': expected a list of numbers"});
+  expect_table_refused(verlet_with("0.5, \"1/0\""), {":4:"});
+  expect_table_refused(verlet_with("0.2, 0.3, 0.5"), {"key 'kick': expected 3 numbers or one less", "got 1"});
+  expect_table_refused("name = \"table\"\nkind = \"runge-kutta\"\norder = 1\na = [[], []]\nb = [1]\n",
+                       {"key 'a': expected 1 rows"});
+  expect_table_refused(
       "name = \"table\"\nkind = \"runge-kutta\"\norder = 2\nc = [0, 0.6]\na = [[], [0.5]]\nb = [0, 1]\n",
       {"key 'c': the sum of row 2 of a less c2 is off by -1.00e-01"});
-  expect_refused(
+  expect_table_refused(
       "name = \"table\"\nkind = \"runge-kutta\"\norder = 1\na = [[0.5, 0.5], [0.5, 0.5]]\nb = [0.5, 0.5]\n",
       {"have the same sum"});
-  expect_refused("name = \"table\"\nkind = \"composition\"\nbase = \"rk4\"\norder = 2\nweights = [1]\n",
-                 {"rk4 cannot be composed; expected a symmetric method of order 2"});
+  expect_table_refused("name = \"table\"\nkind = \"composition\"\nbase = \"rk4\"\norder = 2\nweights = [1]\n",
+                       {"rk4 cannot be composed; expected a symmetric method of order 2"});
   EXPECT_THROW((void)read_method_table("no-such-file.toml"), InputError);
 }
 
@@ -231,7 +219,7 @@ TEST(MethodTables, DamagedFilesAreRefusedOrRead) {
                                      "\"sqrt(-1)\"", "\"g\"",   "0",         "99",        "\"\"", "true",
                                      "\"((\"",       "]",       "\"a\\nb\"", "\"1e4000\""};
   std::vector<std::string> texts;
-  for (const auto& entry : std::filesystem::directory_iterator(shipped)) {
+  for (const auto& entry : std::filesystem::directory_iterator(shipped_tables)) {
     std::ifstream file(entry.path());
     texts.emplace_back(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
   }
@@ -251,26 +239,12 @@ TEST(MethodTables, DamagedFilesAreRefusedOrRead) {
         text.replace(at, std::min(end, text.size()) - at, odd[below(odd.size())]);
       }
     }
-    const std::string message = refusal(text);
+    const std::string message = table_refusal(text);
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
     refused += message.starts_with("accepted") ? 0 : 1;
   }
   EXPECT_GT(refused, 300);  // the others were changed in comments and descriptions
 }
-
-// A kinetic energy that is not quadratic, and the same as far as it is.
-struct Relativistic {
-  static constexpr int dimension = 2;
-  bool slow = false;
-  template <class T>
-  T kinetic(const T& /*t*/, In<T> p) const {
-    return slow ? T(p[0] * p[0] / 2) : sqrt(1 + p[0] * p[0]);
-  }
-  template <class T>
-  T potential(const T& /*t*/, In<T> q) const {
-    return q[0] * q[0] / 2;
-  }
-};
 
 TEST(MethodTables, ThoseOfNystroemRefuseOtherKineticEnergies) {
   const SystemDescriptor descriptor{.name = "oscillator",
@@ -278,24 +252,24 @@ TEST(MethodTables, ThoseOfNystroemRefuseOtherKineticEnergies) {
                                     .reference = "none",
                                     .coordinates = {{"q", "m"}, {"p", "m/s"}},
                                     .initial = {1, 1}};
-  const auto table = read_method_table(shipped + "blanes-moan-srkn6.toml");
+  const auto table = read_method_table(shipped_tables + "blanes-moan-srkn6.toml");
   const auto nystroem = table->make({});
   Relativistic system;
   EXPECT_NE(nystroem->refuses(*make_model(descriptor, system)).find("quadratic in the momenta only"),
             std::string::npos);
-  const auto general = read_method_table(shipped + "blanes-moan-s6.toml");
+  const auto general = read_method_table(shipped_tables + "blanes-moan-s6.toml");
   EXPECT_EQ(general->make({})->refuses(*make_model(descriptor, system)), "");
   system.slow = true;
   EXPECT_EQ(nystroem->refuses(*make_model(descriptor, system)), "");
 }
 
 TEST(MethodTables, AreRegisteredUnderTheirNamesWhenTheyAreNamed) {
-  const MethodPlugin& table = integrator_named(shipped + "ruth-3.toml");
+  const MethodPlugin& table = integrator_named(shipped_tables + "ruth-3.toml");
   EXPECT_EQ(table.name(), "ruth-3");
-  EXPECT_EQ(&integrator_named(shipped + "ruth-3.toml"), &table);
+  EXPECT_EQ(&integrator_named(shipped_tables + "ruth-3.toml"), &table);
   EXPECT_EQ(integrators().find("ruth-3"), &table);
   EXPECT_TRUE(order_theory("ruth-3", {}).has_value());
-  EXPECT_TRUE(names_method_table(shipped + "ruth-3.toml"));
+  EXPECT_TRUE(names_method_table(shipped_tables + "ruth-3.toml"));
   EXPECT_FALSE(names_method_table("verlet"));
   const TemporaryDirectory files;
   std::ofstream(files / "verlet.toml") << "name = \"verlet\"\nkind = \"splitting\"\norder = 2\n"

@@ -12,7 +12,7 @@ std::vector<Quad> over(int denominator, const std::vector<int>& numerators) {
   return list;
 }
 
-int order_of(const MultistepPolynomials& method, int most) {
+int multistep_order(const MultistepPolynomials& method, int most) {
   return order_shown(multistep_conditions(method, most), precision_of_quad_coefficients);
 }
 
@@ -26,12 +26,12 @@ const MultistepPolynomials backward_2{over(2, {1, -4, 3}), over(1, {0, 0, 1})};
 const MultistepPolynomials unstable{over(1, {-5, 4, 1}), over(1, {2, 4, 0})};
 
 TEST(MultistepConditions, GiveTheKnownOrders) {
-  EXPECT_EQ(order_of(adams_bashforth_4, 7), 4);
-  EXPECT_EQ(order_of(adams_moulton_4, 7), 4);
-  EXPECT_EQ(order_of(leap_frog, 5), 2);
-  EXPECT_EQ(order_of(milne_simpson, 7), 4);
-  EXPECT_EQ(order_of(backward_2, 5), 2);
-  EXPECT_EQ(order_of(unstable, 5), 3);
+  EXPECT_EQ(multistep_order(adams_bashforth_4, 7), 4);
+  EXPECT_EQ(multistep_order(adams_moulton_4, 7), 4);
+  EXPECT_EQ(multistep_order(leap_frog, 5), 2);
+  EXPECT_EQ(multistep_order(milne_simpson, 7), 4);
+  EXPECT_EQ(multistep_order(backward_2, 5), 2);
+  EXPECT_EQ(multistep_order(unstable, 5), 3);
 }
 
 TEST(MultistepConditions, NameTheConditionThatAChangeOf1e9Violates) {

@@ -16,7 +16,7 @@ using namespace pfaff;
 std::shared_ptr<const Model> system_of(const char* name, const Assignments& set = {}) {
   return systems().get(name, "system").make(set);
 }
-std::unique_ptr<MethodInstance> method(const std::string& scheme) {
+std::unique_ptr<MethodInstance> splitting_of(const std::string& scheme) {
   return integrators().get("exact-flow-splitting", "integrator").make({{"scheme", scheme}});
 }
 
@@ -88,18 +88,18 @@ TEST(NearIntegrable, ACoefficientWrongByABillionthIsRefused) {
 // Matrices with a number eps: dual numbers of dual numbers give the derivatives by eps at eps = 0.
 using One = Dual<Quad, 1>;
 using Two = Dual<One, 1>;
-constexpr std::size_t size = 3;
+constexpr std::size_t matrix_size = 3;
 template <class T>
-using Square = std::array<T, size * size>;
+using Square = std::array<T, matrix_size * matrix_size>;
 
 template <class T>
 Square<T> product(const Square<T>& a, const Square<T>& b) {
   Square<T> c;
   c.fill(T(0));
-  for (std::size_t i = 0; i < size; ++i)
-    for (std::size_t k = 0; k < size; ++k)
-      for (std::size_t j = 0; j < size; ++j)
-        c[i * size + j] = c[i * size + j] + a[i * size + k] * b[k * size + j];
+  for (std::size_t i = 0; i < matrix_size; ++i)
+    for (std::size_t k = 0; k < matrix_size; ++k)
+      for (std::size_t j = 0; j < matrix_size; ++j)
+        c[i * matrix_size + j] = c[i * matrix_size + j] + a[i * matrix_size + k] * b[k * matrix_size + j];
   return c;
 }
 template <class T>
@@ -107,7 +107,7 @@ Square<T> exponential(Square<T> x, const T& length) {
   for (T& entry : x) entry = entry * length;
   Square<T> sum, term;
   sum.fill(T(0));
-  for (std::size_t i = 0; i < size; ++i) sum[i * size + i] = T(1);
+  for (std::size_t i = 0; i < matrix_size; ++i) sum[i * matrix_size + i] = T(1);
   term = sum;
   for (int k = 1; k < 45; ++k) {
     term = product(term, x);
@@ -116,7 +116,7 @@ Square<T> exponential(Square<T> x, const T& length) {
   }
   return sum;
 }
-const std::array<int, size * size> first_matrix{3, -7, 2, 5, 1, -4, -2, 6, -5},
+const std::array<int, matrix_size * matrix_size> first_matrix{3, -7, 2, 5, 1, -4, -2, 6, -5},
     second_matrix{-1, 4, 6, -3, 2, 5, 7, -2, 1};
 
 // The error of a step of size h: its first and second derivative by eps, the largest entries.
@@ -132,7 +132,7 @@ std::array<double, 2> errors(const NearIntegrableScheme& scheme, const Quad& h) 
   }
   Square<Two> step;
   step.fill(Two(0));
-  for (std::size_t i = 0; i < size; ++i) step[i * size + i] = Two(1);
+  for (std::size_t i = 0; i < matrix_size; ++i) step[i * matrix_size + i] = Two(1);
   for (const PartialFlow& flow : scheme.flows)
     step = product(exponential(flow.part == 0 ? a : b, Two(One(flow.length * h))), step);
   const Square<Two> exact = exponential(whole, Two(One(h)));
@@ -170,7 +170,7 @@ TEST(NearIntegrable, AWrongLengthShowsOnMatrices) {
 }
 
 // The largest relative error of the energy in a run of the outer planets, with all planets' masses scaled.
-double energy_error(const std::string& scheme, const Quad& scale, const Quad& h, int steps) {
+double planetary_energy_error(const std::string& scheme, const Quad& scale, const Quad& h, int steps) {
   Assignments masses;
   for (const auto& [name, mass] : {std::pair{"jupiter", 0.000954786104043_r},
                                    {"saturn", 0.000285583733151_r},
@@ -179,7 +179,7 @@ double energy_error(const std::string& scheme, const Quad& scale, const Quad& h,
                                    {"pluto", Real::fraction(1, 130000000)}})
     masses.emplace_back(name, to_string(Real(mass.quad() * scale)));
   const auto model = system_of("outer-solar-system", masses);
-  const auto stepper = method(scheme)->stepper(model, Quad());
+  const auto stepper = splitting_of(scheme)->stepper(model, Quad());
   std::vector<Quad> z, values(model->invariants().size());
   for (const Real& x : model->initial()) z.push_back(x.quad());
   const Problem<Quad> problem(model);
@@ -206,8 +206,8 @@ TEST(NearIntegrable, ErrorsScaleWithThePowerOfThePlanetsMasses) {
   for (const Row& row : {Row{"strang", 100, 1}, Row{"aba-8-2", 800, 1}, Row{"aba-8-2", 20, 2},
                          Row{"aba-8-4", 50, 2}, Row{"corrected-7", 40, 2}}) {
     const int steps = static_cast<int>(std::max(3000.0, 8 * row.h) / row.h);
-    const double full = energy_error(row.scheme, Quad(1), Quad(row.h), steps),
-                 tenth = energy_error(row.scheme, Quad(1) / Quad(10), Quad(row.h), steps);
+    const double full = planetary_energy_error(row.scheme, Quad(1), Quad(row.h), steps),
+                 tenth = planetary_energy_error(row.scheme, Quad(1) / Quad(10), Quad(row.h), steps);
     EXPECT_NEAR(std::log10(full / tenth), row.power, 0.2) << row.scheme << " at " << row.h << ": " << full;
   }
 }
@@ -216,8 +216,8 @@ TEST(NearIntegrable, ErrorsScaleWithThePowerOfThePlanetsMasses) {
 TEST(NearIntegrable, OrdersInTheStepChangeWhereTheTermsDo) {
   const auto slope = [](const char* scheme, double h) {
     const int steps = static_cast<int>(3200 / h);
-    return std::log2(energy_error(scheme, Quad(1), Quad(h), steps) /
-                     energy_error(scheme, Quad(1), Quad(h / 2), 2 * steps));
+    return std::log2(planetary_energy_error(scheme, Quad(1), Quad(h), steps) /
+                     planetary_energy_error(scheme, Quad(1), Quad(h / 2), 2 * steps));
   };
   EXPECT_NEAR(slope("strang", 100), 2, 0.2);
   EXPECT_NEAR(slope("aba-8-2", 20), 2, 0.2);
@@ -244,25 +244,25 @@ TEST(NearIntegrable, TheMapOfWisdomAndHolmanIsHalfAKeplerStepAKickAndHalfAKepler
 }
 
 TEST(NearIntegrable, SystemsThatDoNotFitAreRefusedWithTheReason) {
-  EXPECT_EQ(method("strang")
+  EXPECT_EQ(splitting_of("strang")
                 ->refuses(*system_of("pendulum"))
                 .find("exact-flow-splitting needs exact-flows; pendulum offers "),
             0U);
   EXPECT_EQ(
-      method("aba-8-4")->refuses(*system_of("free-rigid-body")),
+      splitting_of("aba-8-4")->refuses(*system_of("free-rigid-body")),
       "exact-flow-splitting with scheme=aba-8-4 needs a system of two parts; free-rigid-body has 3, for "
       "which there is scheme=strang");
-  EXPECT_EQ(method("strang")->refuses(*system_of("free-rigid-body")), "");
-  EXPECT_NE(method("strang")->refuses(*system_of("n-body", {{"softening", "0.1"}})), "");
-  EXPECT_EQ(method("strang")->refuses(*system_of("n-body", {{"bodies", "4"}})), "");
-  EXPECT_THROW((void)method("aba-9-4"), InputError);
+  EXPECT_EQ(splitting_of("strang")->refuses(*system_of("free-rigid-body")), "");
+  EXPECT_NE(splitting_of("strang")->refuses(*system_of("n-body", {{"softening", "0.1"}})), "");
+  EXPECT_EQ(splitting_of("strang")->refuses(*system_of("n-body", {{"bodies", "4"}})), "");
+  EXPECT_THROW((void)splitting_of("aba-9-4"), InputError);
 }
 
 // Two planets in the same place, a planet in the Sun, and a state that is not finite: a status, and the state
 // as it was before the step.
 TEST(NearIntegrable, EncountersThatHaveNoFlowEndWithAStatus) {
   const auto model = system_of("outer-solar-system");
-  const auto stepper = method("strang")->stepper(model, 0.0);
+  const auto stepper = splitting_of("strang")->stepper(model, 0.0);
   std::vector<double> start;
   for (const Real& x : model->initial()) start.push_back(x.value());
   std::int64_t completed = 0;

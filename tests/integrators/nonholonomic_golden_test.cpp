@@ -32,8 +32,8 @@ void expect_projected(const char* name, const char* key) {
   for (std::size_t k = 0; k < cases.size(); ++k) {
     const auto& entry = cases[k]["methods"].at(key);
     for (std::size_t i = 0; i < 2; ++i) {
-      const auto z =
-          run(*method(name), models[k], T(Real::fraction(1, 10)), i == 0 ? 1 : 10, initial<T>(*models[k]));
+      const auto z = after_steps(*method_named(name), models[k], T(Real::fraction(1, 10)), i == 0 ? 1 : 10,
+                                 initial_state<T>(*models[k]));
       const auto expected = joined(first(numbers<T>(entry[lengths[i]]), z.size() / 2),
                                    numbers<T>(entry["projected p after one, ten"][i]));
       EXPECT_LE(distance(z, expected), bound<T>) << name << ' ' << models[k]->name() << ' ' << lengths[i];
@@ -57,8 +57,8 @@ void expect_lobatto_pairs() {
   for (std::size_t k = 0; k < cases.size(); ++k)
     for (const char* stages : {"2", "3", "4"})
       for (std::size_t i = 0; i < 2; ++i) {
-        const auto z = run(*method("spark-lobatto", {{"stages", stages}}), models[k],
-                           T(Real::fraction(1, 10)), i == 0 ? 1 : 10, initial<T>(*models[k]));
+        const auto z = after_steps(*method_named("spark-lobatto", {{"stages", stages}}), models[k],
+                                   T(Real::fraction(1, 10)), i == 0 ? 1 : 10, initial_state<T>(*models[k]));
         EXPECT_LE(distance(z, numbers<T>(cases[k]["stages"][stages][lengths[i]])), bound<T>)
             << models[k]->name() << ' ' << stages << ' ' << lengths[i];
       }
@@ -69,9 +69,9 @@ TEST(NonholonomicGolden, LobattoPairs) {
 }
 TEST(NonholonomicGolden, TheTwoAreNotTheSame) {  // control
   const auto model = golden_models().front();
-  const auto start = initial<Quad>(*model);
-  EXPECT_GT(distance(run(*method("dla"), model, Quad(0.1), 10, start),
-                     run(*method("gni"), model, Quad(0.1), 10, start)),
+  const auto start = initial_state<Quad>(*model);
+  EXPECT_GT(distance(after_steps(*method_named("dla"), model, Quad(0.1), 10, start),
+                     after_steps(*method_named("gni"), model, Quad(0.1), 10, start)),
             1e-4);
 }
 
@@ -81,8 +81,8 @@ void expect_mclachlan_perlmutter() {
   const auto cases = golden_cases();
   for (std::size_t k = 0; k < 3; ++k)  // those with a constant mass matrix
     for (std::size_t i = 0; i < 2; ++i) {
-      const auto z = run(*method("mclachlan-perlmutter"), models[k], T(Real::fraction(1, 10)),
-                         i == 0 ? 1 : 10, initial<T>(*models[k]));
+      const auto z = after_steps(*method_named("mclachlan-perlmutter"), models[k], T(Real::fraction(1, 10)),
+                                 i == 0 ? 1 : 10, initial_state<T>(*models[k]));
       const auto found = joined(first(z, z.size() / 2), velocity(*models[k], z));
       const auto& entry = cases[k]["methods"].at("mclachlan-perlmutter state (q,v)");
       EXPECT_LE(distance(found, numbers<T>(entry[lengths[i]])), 5 * bound<T>)
@@ -102,14 +102,15 @@ void expect_leap_frog() {
   const auto cases = golden_cases();
   const T h(Real::fraction(1, 10));
   for (std::size_t k = 0; k < 3; ++k) {
-    auto start = initial<T>(*models[k]);
+    auto start = initial_state<T>(*models[k]);
     const auto slopes = values(*models[k], Formula::hamiltonian_gradient, T(0), start);
     const std::size_t n = start.size() / 2;
     for (std::size_t i = 0; i < n; ++i) start[n + i] = start[n + i] - h / T(2) * slopes[i];
     for (std::size_t i = 0; i < 2; ++i) {
       const std::int64_t count = i == 0 ? 1 : 10;
-      const auto m = method("nonholonomic-leap-frog");
-      const auto z = run(*m, models[k], h, count, start), before = run(*m, models[k], h, count - 1, start);
+      const auto m = method_named("nonholonomic-leap-frog");
+      const auto z = after_steps(*m, models[k], h, count, start),
+                 before = after_steps(*m, models[k], h, count - 1, start);
       auto found = first(z, n);
       for (std::size_t j = 0; j < n; ++j) found.push_back((z[j] - before[j]) / h);
       const auto& entry = cases[k]["methods"].at("nonholonomic leap-frog state (q_k,v_{k-1/2})");
@@ -139,8 +140,8 @@ void expect_discrete_gradient(const Assignments& parameters, const char* key) {
   const auto cases = golden_cases();
   for (std::size_t k = 0; k < cases.size(); ++k)
     for (std::size_t i = 0; i < 2; ++i) {
-      const auto z = run(*method("nonholonomic-discrete-gradient", parameters), models[k],
-                         T(Real::fraction(1, 10)), i == 0 ? 1 : 10, initial<T>(*models[k]));
+      const auto z = after_steps(*method_named("nonholonomic-discrete-gradient", parameters), models[k],
+                                 T(Real::fraction(1, 10)), i == 0 ? 1 : 10, initial_state<T>(*models[k]));
       const auto& entry = cases[k]["methods"].at(key);
       EXPECT_LE(
           distance(joined(first(z, z.size() / 2), reduced_momenta(k, z)), numbers<T>(entry[lengths[i]])),
@@ -162,8 +163,8 @@ TEST(NonholonomicGolden, DiscreteGradientWithMultipliersIsAnotherMethod) {
   const auto models = golden_models();
   const auto cases = golden_cases();
   for (std::size_t k = 0; k < cases.size(); ++k) {
-    const auto z = run(*method("nonholonomic-discrete-gradient", {{"form", "multipliers"}}), models[k],
-                       Quad(Real::fraction(1, 10)), 10, initial<Quad>(*models[k]));
+    const auto z = after_steps(*method_named("nonholonomic-discrete-gradient", {{"form", "multipliers"}}),
+                               models[k], Quad(Real::fraction(1, 10)), 10, initial_state<Quad>(*models[k]));
     const auto theirs =
         first(numbers<Quad>(cases[k]["methods"].at("energy-preserving gonzalez state (q,pi)")["ten_steps"]),
               z.size() / 2);

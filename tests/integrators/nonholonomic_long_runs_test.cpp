@@ -15,19 +15,9 @@ namespace {
 using namespace nonholonomic;
 using ::testing::HasSubstr;
 
-const std::vector<const char*> staggered{"gni", "nonholonomic-leap-frog"};
-
 std::unique_ptr<MethodInstance> mean_value(const char* form, const char* nodes) {
-  return method("nonholonomic-discrete-gradient",
-                {{"form", form}, {"gradient", "mean-value"}, {"nodes", nodes}});
-}
-// The energy of the golden states in quad, less that at the start, after 40 steps.
-double energy_error(const MethodInstance& m, const std::shared_ptr<const Model>& model) {
-  const auto start = initial<Quad>(*model), z = run(m, model, Quad(0.125), 40, start);
-  const auto energy = [&](const std::vector<Quad>& at) {
-    return values(*model, Formula::hamiltonian, Quad(0), at).front();
-  };
-  return static_cast<double>(abs(energy(z) - energy(start)));
+  return method_named("nonholonomic-discrete-gradient",
+                      {{"form", form}, {"gradient", "mean-value"}, {"nodes", nodes}});
 }
 bool claims_energy(const MethodInstance& m, const Model& model) {
   const auto kept = m.preserves(model);
@@ -45,7 +35,7 @@ TEST(MeanValues, KeepPolynomialsOfTwiceAsManyDegreesAsNodes) {
   EXPECT_FALSE(claims_energy(*one, *contact));
   EXPECT_FALSE(claims_energy(*mean_value("multipliers", "20"), *edge)) << "its blade turns";
   EXPECT_FALSE(claims_energy(*mean_value("kernel", "20"), *contact));
-  EXPECT_TRUE(claims_energy(*method("nonholonomic-discrete-gradient"), *edge));
+  EXPECT_TRUE(claims_energy(*method_named("nonholonomic-discrete-gradient"), *edge));
   double last = energy_error(*mean_value("kernel", "1"), contact);
   for (const char* nodes : {"2", "4", "8"}) {
     const double error = energy_error(*mean_value("kernel", nodes), contact);
@@ -58,9 +48,9 @@ void mean_values_are_symmetric() {
   for (const char* form : {"kernel", "multipliers"}) {
     const auto m = mean_value(form, "3");
     for (const auto& model : golden_models()) {
-      const auto start = initial<T>(*model);
+      const auto start = initial_state<T>(*model);
       const T h(Real::fraction(1, 10));
-      const auto there = run(*m, model, h, 1, start), back = run(*m, model, T(-h), 1, there);
+      const auto there = after_steps(*m, model, h, 1, start), back = after_steps(*m, model, T(-h), 1, there);
       EXPECT_LE(distance(back, start), (std::is_same_v<T, Quad> ? 1e-31 : 2e-14)) << form << model->name();
     }
   }
@@ -102,14 +92,14 @@ TEST(KernelCoordinates, TakeOneBasisForAllSteps) {
   const auto sixths = [](std::int64_t n) { return Real::fraction(n, 6); };
   const auto sloped =
       testing::model_of<Sloped>("sloped", {Real(0), Real(0), Real(1), sixths(5), sixths(1), sixths(2)});
-  const auto kernel = method("nonholonomic-discrete-gradient", {{"form", "kernel"}});
-  const auto start = initial<Quad>(*sloped), there = run(*kernel, sloped, Quad(1), 1, start);
-  EXPECT_LE(distance(run(*kernel, sloped, Quad(-1), 1, there), start), 1e-31);
+  const auto kernel = method_named("nonholonomic-discrete-gradient", {{"form", "kernel"}});
+  const auto start = initial_state<Quad>(*sloped), there = after_steps(*kernel, sloped, Quad(1), 1, start);
+  EXPECT_LE(distance(after_steps(*kernel, sloped, Quad(-1), 1, there), start), 1e-31);
   EXPECT_GT(distance(there, start), 0.1);
 
   const auto turned = testing::model_of<Turned>("turned", std::vector<Real>(6, Real::fraction(1, 4)));
   EXPECT_THAT(kernel->refuses(*turned), HasSubstr("one basis of ker A that serves everywhere"));
-  EXPECT_EQ(method("nonholonomic-discrete-gradient")->refuses(*turned), "");
+  EXPECT_EQ(method_named("nonholonomic-discrete-gradient")->refuses(*turned), "");
 }
 
 // The sleigh's motion is attracted by that straight ahead, at the rate k = r c/I. A map that is reversible
@@ -118,10 +108,10 @@ TEST(KernelCoordinates, TakeOneBasisForAllSteps) {
 // single steps. DLA carries nothing, and does not show it.
 TEST(NonholonomicLongRuns, ReactionsThatAreCarriedGrowWhereMotionIsAttracted) {
   const auto sleigh = systems().get("sleigh", "system").make({});
-  const auto start = initial<double>(*sleigh);
+  const auto start = initial_state<double>(*sleigh);
   const auto energy_lost = [&](const char* name, std::int64_t steps_a_second, std::int64_t seconds) {
-    const auto z = run(*method(name), sleigh, 1.0 / static_cast<double>(steps_a_second),
-                       steps_a_second * seconds, start);
+    const auto z = after_steps(*method_named(name), sleigh, 1.0 / static_cast<double>(steps_a_second),
+                               steps_a_second * seconds, start);
     const auto energy = [&](const std::vector<double>& at) {
       return values(*sleigh, Formula::hamiltonian, 0.0, at).front();
     };
@@ -139,13 +129,13 @@ TEST(NonholonomicLongRuns, ReactionsThatAreCarriedGrowWhereMotionIsAttracted) {
 
 // The exponent of the root mean square of energy errors over the states of `states` seeds, between two
 // numbers of steps of size h.
-struct Spread {
+struct ErrorSpread {
   int states;
   double h;
   std::int64_t early, late;
 
   double exponent(const char* name, const char* system, const Assignments& set) const {
-    const auto m = method(name);
+    const auto m = method_named(name);
     std::array<double, 2> squares{};
     for (int seed = 1; seed <= states; ++seed) {
       Assignments settings = set;
@@ -153,7 +143,7 @@ struct Spread {
       auto model = systems().get(system, "system").make(settings);
       if (!m->refuses(*model).empty())
         model = formulations().get("nonholonomic", "formulation").apply(model, {});
-      auto z = initial<double>(*model);
+      auto z = initial_state<double>(*model);
       const auto energy = [&] { return values(*model, Formula::hamiltonian, 0.0, z).front(); };
       const double before = energy();
       const auto stepper = m->stepper(model, double());
@@ -171,7 +161,7 @@ struct Spread {
 // reversible, and all else as it is, errors stay as they are. Over 12 states these go up and down by a factor
 // of 1.8 between one time and another, which makes 0.42 in the exponent.
 TEST(NonholonomicLongRuns, EnergiesAreLostWhereNothingReversesTheMotion) {
-  const Spread spread{.states = 12, .h = 0.1, .early = 1000, .late = 4000};
+  const ErrorSpread spread{.states = 12, .h = 0.1, .early = 1000, .late = 4000};
   const char* system = "gyroscopic-contact-oscillator";
   EXPECT_NEAR(spread.exponent("dla", system, {{"gamma", "1"}}), 0.9, 0.1);
   EXPECT_NEAR(spread.exponent("dla", system, {{"gamma", "0"}}), 0, 0.42);  // control
@@ -180,7 +170,7 @@ TEST(NonholonomicLongRuns, EnergiesAreLostWhereNothingReversesTheMotion) {
 // On the chaotic quartic system errors of a reversible method are a random walk, t^(1/2), once it exceeds the
 // bounded error of O(h^2); states of one energy walk alike. RK4 loses energy in every step.
 TEST(NonholonomicLongRuns, ReversibleMethodsWalkAtRandomOnTheQuarticSystem) {
-  const Spread spread{.states = 24, .h = 0.2, .early = 1000, .late = 8000};
+  const ErrorSpread spread{.states = 24, .h = 0.2, .early = 1000, .late = 8000};
   const char* system = "quartic-nonholonomic";
   EXPECT_NEAR(spread.exponent("mclachlan-perlmutter", system, {{"energy", "3"}}), 0.5, 0.2);
   EXPECT_GT(spread.exponent("rk4", system, {{"energy", "3"}}), 0.75);  // control: 0.85 was measured

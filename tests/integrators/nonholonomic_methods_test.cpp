@@ -12,8 +12,8 @@ namespace {
 using namespace nonholonomic;
 using ::testing::HasSubstr;
 
-const std::vector<const char*> staggered{"gni", "nonholonomic-leap-frog"},
-    one_step{"dla", "mclachlan-perlmutter", "nonholonomic-discrete-gradient", "spark-lobatto"},
+const std::vector<const char*> one_step{"dla", "mclachlan-perlmutter", "nonholonomic-discrete-gradient",
+                                        "spark-lobatto"},
     all{"dla", "gni", "nonholonomic-leap-frog", "mclachlan-perlmutter", "nonholonomic-discrete-gradient"};
 
 // The slope of the errors at T = 1 from reference flows of 36 digits, between `steps` steps and twice as
@@ -22,7 +22,8 @@ double slope(const MethodInstance& m, std::size_t k, std::int64_t steps) {
   const auto model = golden_models()[k];
   const auto flow = numbers<Quad>(golden_cases()[k]["flow T=1 (q,v)"]);
   const auto error = [&](std::int64_t count) {
-    const auto z = run(m, model, Quad(1) / Quad(static_cast<double>(count)), count, initial<Quad>(*model));
+    const auto z =
+        after_steps(m, model, Quad(1) / Quad(static_cast<double>(count)), count, initial_state<Quad>(*model));
     return distance(joined(positions(z), velocity(*model, z)), flow);
   };
   return std::log2(error(steps) / error(2 * steps));
@@ -31,17 +32,18 @@ double slope(const MethodInstance& m, std::size_t k, std::int64_t steps) {
 TEST(Nonholonomic, MethodsHaveOrderTwo) {
   for (const char* name : all)
     for (std::size_t k = 0; k < 4; ++k) {
-      const auto m = method(name);
+      const auto m = method_named(name);
       if (!m->refuses(*golden_models()[k]).empty()) continue;
       EXPECT_NEAR(slope(*m, k, 64), 2, 0.03) << name << ' ' << k;
     }
   for (std::size_t k = 0; k < 4; ++k)
-    EXPECT_NEAR(slope(*method("nonholonomic-discrete-gradient", {{"form", "multipliers"}}), k, 64), 2, 0.05);
+    EXPECT_NEAR(slope(*method_named("nonholonomic-discrete-gradient", {{"form", "multipliers"}}), k, 64), 2,
+                0.05);
 }
 TEST(Nonholonomic, LobattoPairsHaveOrderTwoLessThanTwiceTheirStages) {
   for (const int stages : {2, 3, 4})
     for (std::size_t k = 0; k < 4; ++k)
-      EXPECT_NEAR(slope(*method("spark-lobatto", {{"stages", std::to_string(stages)}}), k, 16),
+      EXPECT_NEAR(slope(*method_named("spark-lobatto", {{"stages", std::to_string(stages)}}), k, 16),
                   2 * stages - 2, 0.1)
           << stages << ' ' << k;
 }
@@ -72,10 +74,11 @@ void constraints_hold() {
   for (const auto& model : golden_models())
     for (const char* name :
          {"dla", "gni", "nonholonomic-leap-frog", "nonholonomic-discrete-gradient", "spark-lobatto"}) {
-      const auto m = method(name);
+      const auto m = method_named(name);
       if (!m->refuses(*model).empty()) continue;
-      EXPECT_LE(slip(*model, T(0), run(*m, model, T(Real::fraction(1, 20)), 40, initial<T>(*model))),
-                round_off<T> / 10)
+      EXPECT_LE(
+          slip(*model, T(0), after_steps(*m, model, T(Real::fraction(1, 20)), 40, initial_state<T>(*model))),
+          round_off<T> / 10)
           << name << ' ' << model->name();
     }
 }
@@ -86,42 +89,37 @@ TEST(Nonholonomic, ConstraintsHoldAtTheEndsOfSteps) {
 TEST(Nonholonomic, OnesInTheMiddleDoNot) {  // control, and what the description says: of order h^2
   const auto model = golden_models().front();
   const auto slip_of = [&](double h) {
-    return slip(
-        *model, Quad(0),
-        run(*method("mclachlan-perlmutter"), model, Quad(h), std::int64_t(1 / h), initial<Quad>(*model)));
+    return slip(*model, Quad(0),
+                after_steps(*method_named("mclachlan-perlmutter"), model, Quad(h), std::int64_t(1 / h),
+                            initial_state<Quad>(*model)));
   };
   EXPECT_GT(slip_of(0.0625), 1e-5);
   EXPECT_NEAR(std::log2(slip_of(0.03125) / slip_of(0.015625)), 2, 0.2);
 }
 
-double energy_error(const char* name, const std::shared_ptr<const Model>& model,
-                    const Assignments& parameters = {}) {
-  const auto start = initial<Quad>(*model), z = run(*method(name, parameters), model, Quad(0.125), 40, start);
-  const Quad before = values(*model, Formula::hamiltonian, Quad(0), start).front();
-  return static_cast<double>(abs(values(*model, Formula::hamiltonian, Quad(0), z).front() - before));
-}
 TEST(Nonholonomic, DiscreteGradientKeepsEnergies) {
   for (const auto& model : golden_models()) {
-    EXPECT_LE(energy_error("nonholonomic-discrete-gradient", model), 1e-31) << model->name();
-    EXPECT_LE(energy_error("nonholonomic-discrete-gradient", model, {{"form", "multipliers"}}), 1e-31);
-    EXPECT_GT(energy_error("gni", model), 1e-7) << model->name();  // control
+    EXPECT_LE(energy_error(*method_named("nonholonomic-discrete-gradient"), model), 1e-31) << model->name();
+    EXPECT_LE(energy_error(*method_named("nonholonomic-discrete-gradient", {{"form", "multipliers"}}), model),
+              1e-31);
+    EXPECT_GT(energy_error(*method_named("gni"), model), 1e-7) << model->name();  // control
   }
-  EXPECT_GT(energy_error("dla", golden_models()[0]), 1e-6);
+  EXPECT_GT(energy_error(*method_named("dla"), golden_models()[0]), 1e-6);
 }
 
 template <class T>
 void steps_are_symmetric() {
   for (const auto& model : golden_models())
     for (const char* name : one_step) {
-      const auto m = method(name);
+      const auto m = method_named(name);
       if (!m->refuses(*model).empty()) continue;
-      const auto start = initial<T>(*model);
+      const auto start = initial_state<T>(*model);
       const T h(Real::fraction(1, 10));
-      const auto there = run(*m, model, h, 1, start);
-      EXPECT_LE(distance(run(*m, model, T(-h), 1, there), start), round_off<T>)
+      const auto there = after_steps(*m, model, h, 1, start);
+      EXPECT_LE(distance(after_steps(*m, model, T(-h), 1, there), start), round_off<T>)
           << name << ' ' << model->name();
       auto reversed = values(*model, Formula::reversal, T(0), there);
-      reversed = values(*model, Formula::reversal, T(0), run(*m, model, h, 1, reversed));
+      reversed = values(*model, Formula::reversal, T(0), after_steps(*m, model, h, 1, reversed));
       EXPECT_LE(distance(reversed, start), round_off<T>) << name << ' ' << model->name();
     }
 }
@@ -133,10 +131,10 @@ TEST(Nonholonomic, StepsAreSymmetricAndReversible) {
 TEST(Nonholonomic, StaggeredStepsAreSymmetricWithTheReactionTheyCarry) {
   for (const auto& model : golden_models())
     for (const char* name : staggered) {
-      const auto m = method(name);
+      const auto m = method_named(name);
       if (!m->refuses(*model).empty()) continue;
       const Quad h(0.0625);
-      const auto start = initial<Quad>(*model);
+      const auto start = initial_state<Quad>(*model);
       for (const bool by_reversal : {false, true}) {
         const auto stepper = m->stepper(model, Quad());
         auto z = start;
@@ -149,20 +147,23 @@ TEST(Nonholonomic, StaggeredStepsAreSymmetricWithTheReactionTheyCarry) {
         EXPECT_LE(distance(z, start), 1e-31) << name << ' ' << model->name() << ' ' << by_reversal;
       }
       // Control: forgetting the reaction spoils it.
-      const auto there = run(*m, model, h, 10, start);
-      EXPECT_GT(distance(run(*m, model, Quad(-h), 10, there), start), 1e-6) << name << ' ' << model->name();
+      const auto there = after_steps(*m, model, h, 10, start);
+      EXPECT_GT(distance(after_steps(*m, model, Quad(-h), 10, there), start), 1e-6)
+          << name << ' ' << model->name();
     }
 }
 
 // The edge turns freely, its spin p_theta being along a direction that the constraint allows.
 TEST(Nonholonomic, MomentaOfAllowedSymmetriesAreKept) {
   const auto edge = golden_models()[1];
-  const auto start = initial<Quad>(*edge);
+  const auto start = initial_state<Quad>(*edge);
   for (const char* name : {"dla", "gni", "nonholonomic-leap-frog", "mclachlan-perlmutter", "spark-lobatto"})
-    EXPECT_LE(static_cast<double>(abs(run(*method(name), edge, Quad(0.125), 40, start)[5] - start[5])), 1e-32)
+    EXPECT_LE(static_cast<double>(
+                  abs(after_steps(*method_named(name), edge, Quad(0.125), 40, start)[5] - start[5])),
+              1e-32)
         << name;
-  const auto other = method("nonholonomic-discrete-gradient", {{"form", "multipliers"}});
-  EXPECT_GT(static_cast<double>(abs(run(*other, edge, Quad(0.125), 40, start)[5] - start[5])),
+  const auto other = method_named("nonholonomic-discrete-gradient", {{"form", "multipliers"}});
+  EXPECT_GT(static_cast<double>(abs(after_steps(*other, edge, Quad(0.125), 40, start)[5] - start[5])),
             1e-6);  // control
 }
 
@@ -209,20 +210,20 @@ TEST(Nonholonomic, MovingConstraintsAreFollowed) {
   ASSERT_LE(slip(*model, Quad(0), start), 1e-33);
   const auto flow = belt_flow(start, 4000);  // the error of RK4 at h = 1/4000 is below 1e-13
   for (const char* name : all) {
-    const auto m = method(name);
+    const auto m = method_named(name);
     const auto error = [&](std::int64_t count) {
-      const auto z = run(*m, model, Quad(1) / Quad(static_cast<double>(count)), count, start);
+      const auto z = after_steps(*m, model, Quad(1) / Quad(static_cast<double>(count)), count, start);
       const bool at_ends = std::string(name) != "mclachlan-perlmutter";
       EXPECT_LE(slip(*model, Quad(1), z), at_ends ? 1e-32 : 1e-2) << name;
       return distance(z, flow);
     };
     EXPECT_NEAR(std::log2(error(64) / error(128)), 2, 0.05) << name;
   }
-  const auto eighth = run(*composed("dla", "kahan-li", "8"), model, Quad(1) / Quad(32), 32, start);
+  const auto eighth = after_steps(*composed("dla", "kahan-li", "8"), model, Quad(1) / Quad(32), 32, start);
   EXPECT_LE(distance(eighth, flow), 1e-12);
   const auto lobatto = [&](std::int64_t count) {
-    const auto z =
-        run(*method("spark-lobatto"), model, Quad(1) / Quad(static_cast<double>(count)), count, start);
+    const auto z = after_steps(*method_named("spark-lobatto"), model,
+                               Quad(1) / Quad(static_cast<double>(count)), count, start);
     EXPECT_LE(slip(*model, Quad(1), z), 1e-32);
     return distance(z, flow);
   };
@@ -232,13 +233,13 @@ TEST(Nonholonomic, MovingConstraintsAreFollowed) {
 TEST(Nonholonomic, PairingsThatMakeNoSenseAreRefused) {
   const auto models = golden_models();
   for (const char* name : {"rattle", "shake", "lobatto-spark", "verlet", "rk4"})
-    EXPECT_THAT(method(name)->refuses(*models[0]), HasSubstr(std::string(name) + " needs")) << name;
+    EXPECT_THAT(method_named(name)->refuses(*models[0]), HasSubstr(std::string(name) + " needs")) << name;
   for (const char* name : {"nonholonomic-leap-frog", "mclachlan-perlmutter"})
-    EXPECT_THAT(method(name)->refuses(*models[3]), HasSubstr(": take dla or gni")) << name;
+    EXPECT_THAT(method_named(name)->refuses(*models[3]), HasSubstr(": take dla or gni")) << name;
   const auto pendulum = systems().get("pendulum", "system").make({});
   for (const auto& names : {all, {"spark-lobatto"}})
     for (const char* name : names)
-      EXPECT_THAT(method(name)->refuses(*pendulum), HasSubstr("needs velocity-constraints")) << name;
+      EXPECT_THAT(method_named(name)->refuses(*pendulum), HasSubstr("needs velocity-constraints")) << name;
   for (const Claim claim : {Claim::symplectic, Claim::k_symplectic, Claim::poisson, Claim::volume})
     EXPECT_FALSE(in_scope(claim, *models[0])) << to_string(claim);
 }
@@ -246,8 +247,8 @@ TEST(Nonholonomic, PairingsThatMakeNoSenseAreRefused) {
 TEST(Nonholonomic, StepsThatAreTooLargeAreReported) {
   const auto model = golden_models()[0];
   for (const char* name : {"dla", "gni", "nonholonomic-discrete-gradient", "spark-lobatto"}) {
-    const auto stepper = method(name)->stepper(model, double());
-    auto z = initial<double>(*model);
+    const auto stepper = method_named(name)->stepper(model, double());
+    auto z = initial_state<double>(*model);
     const auto before = z;
     std::int64_t done = 0;
     EXPECT_NE(stepper->advance(0.0, 0, 100.0, 1, z, done), Status::converged) << name;

@@ -1,28 +1,31 @@
 // Models and runs that the tests of methods for velocity constraints share.
 #pragma once
 
-#include <fstream>
-#include <pfaff/bench/runner/json.hpp>
-
 #include <pfaff/core/facets/problem.hpp>
 #include <pfaff/core/formulation.hpp>
 #include <pfaff/core/integrator.hpp>
-#include <pfaff/core/tape/replay.hpp>
 #include <pfaff/tests/formulations/velocity_systems.hpp>
+
+#include "../golden_numbers.hpp"
+#include "methods.hpp"
 
 namespace pfaff::nonholonomic {
 
+using testing::after_steps;
+using testing::distance;
+using testing::golden;
+using testing::initial_state;
+using testing::method_named;
+using testing::numbers;
+using testing::values;
+
+inline const std::vector<const char*> staggered{"gni", "nonholonomic-leap-frog"};
+
 inline std::vector<nlohmann::json> golden_cases() {
-  const auto cases = nlohmann::json::parse(std::ifstream(PFAFF_GOLDEN "/J.json")).at("cases");
+  const auto cases = golden("J").at("cases");
   return {cases.begin(), cases.begin() + 4};
 }
 
-template <class T>
-std::vector<T> numbers(const nlohmann::json& list) {
-  std::vector<T> out;
-  for (const auto& text : list) out.push_back(T(*Real::parse(text.get<std::string>())));
-  return out;
-}
 template <class T>
 std::vector<T> joined(std::vector<T> a, const std::vector<T>& b) {
   a.insert(a.end(), b.begin(), b.end());
@@ -54,36 +57,10 @@ inline std::vector<std::shared_ptr<const Model>> golden_models() {
           golden_model<testing::ChaplyginSleigh>("sleigh", cases[3])};
 }
 
-inline std::unique_ptr<MethodInstance> method(const std::string& name, const Assignments& parameters = {}) {
-  return integrators().get(name, "integrator").make(parameters);
-}
 inline std::unique_ptr<MethodInstance> composed(const char* base, const char* scheme, const char* order) {
-  return method("composition", {{"scheme", scheme}, {"order", order}, {"base", base}});
+  return method_named("composition", {{"scheme", scheme}, {"order", order}, {"base", base}});
 }
 
-template <class T>
-std::vector<T> initial(const Model& model) {
-  std::vector<T> z;
-  for (const Real& x : model.initial()) z.push_back(T(x));
-  return z;
-}
-/// The state after `count` steps of size h from z at t.
-template <class T>
-std::vector<T> run(const MethodInstance& method, const std::shared_ptr<const Model>& model, const T& h,
-                   std::int64_t count, std::vector<T> z, const T& t = T(0)) {
-  const auto stepper = method.stepper(model, T());
-  std::int64_t completed = 0;
-  EXPECT_EQ(stepper->advance(t, 0, h, count, z, completed), Status::converged)
-      << method.called() << " on " << model->name() << " after " << completed;
-  return z;
-}
-template <class T>
-std::vector<T> values(const Model& model, Formula formula, const T& t, const std::vector<T>& z) {
-  Replay<T> replay(model.tape(formula));
-  std::vector<T> out(replay.tape().outputs.size());
-  replay(t, z.data(), out.data());
-  return out;
-}
 /// H_p.
 template <class T>
 std::vector<T> velocity(const Model& model, const std::vector<T>& z) {
@@ -96,16 +73,17 @@ double slip(const Model& model, const T& t, const std::vector<T>& z) {
   for (const T& x : values(model, Formula::constraints, t, z)) largest = std::max(largest, T(abs(x)));
   return static_cast<double>(largest);
 }
-template <class T>
-double distance(const std::vector<T>& a, const std::vector<T>& b) {
-  EXPECT_EQ(a.size(), b.size());
-  T largest(0);
-  for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k)
-    largest = std::max(largest, T(abs(a[k] - b[k])));
-  return static_cast<double>(largest);
-}
 inline std::vector<Quad> positions(const std::vector<Quad>& z) {
   return {z.begin(), z.begin() + static_cast<std::ptrdiff_t>(z.size() / 2)};
+}
+
+/// By how much 40 steps in quad change the energy of the initial state.
+inline double energy_error(const MethodInstance& method, const std::shared_ptr<const Model>& model) {
+  const auto start = initial_state(*model), z = after_steps(method, model, Quad(0.125), 40, start);
+  const auto energy = [&](const std::vector<Quad>& at) {
+    return values(*model, Formula::hamiltonian, Quad(0), at).front();
+  };
+  return static_cast<double>(abs(energy(z) - energy(start)));
 }
 
 }  // namespace pfaff::nonholonomic

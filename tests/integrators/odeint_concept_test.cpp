@@ -54,7 +54,7 @@ TEST(OdeintConcept, IntegrateConstDrivesAMethodOfOurs) {
 }
 
 // The damped pendulum of the registered system, as a function for odeint.
-void damped(const std::vector<double>& x, std::vector<double>& rate, double /*t*/) {
+void damped_pendulum(const std::vector<double>& x, std::vector<double>& rate, double /*t*/) {
   rate[0] = x[1];
   rate[1] = -std::sin(x[0]) - 0.3 * x[1];
 }
@@ -64,12 +64,12 @@ TEST(OdeintConcept, AMethodWithHistoryKeepsItFromStepToStep) {
   std::vector<std::vector<double>> states;
   std::vector<double> x{1, 0.5};
   boost::numeric::odeint::integrate_const(
-      OdeintStepper<LeapFrog>(LeapFrog{}, 2), damped, x, 0.0, 100 * 0.05, 0.05,
+      OdeintStepper<LeapFrog>(LeapFrog{}, 2), damped_pendulum, x, 0.0, 100 * 0.05, 0.05,
       [&](const std::vector<double>& state, double) { states.push_back(state); });
   ASSERT_EQ(states.size(), 101U);
   std::vector<double> rate(2);
   for (std::size_t n = 1; n < 100; ++n) {
-    damped(states[n], rate, 0);
+    damped_pendulum(states[n], rate, 0);
     for (std::size_t k = 0; k < 2; ++k)
       ASSERT_NEAR(states[n + 1][k] - states[n - 1][k], 2 * 0.05 * rate[k], 1e-15) << n;
   }
@@ -77,7 +77,7 @@ TEST(OdeintConcept, AMethodWithHistoryKeepsItFromStepToStep) {
   using Function = void(const std::vector<double>&, std::vector<double>&, double);
   using P = FunctionProblem<Function, std::vector<double>>;
   const std::vector<double> start{1, 0.5};
-  const P problem(damped, start);
+  const P problem(damped_pendulum, start);
   LeapFrog::Work<P> work(LeapFrog{}, problem);
   auto z = problem.make_state();
   std::copy(start.begin(), start.end(), z.begin());
@@ -107,9 +107,9 @@ void expect_history_ends() {
   const std::vector<double> start{1, 0.5};
   OdeintStepper<M> used(M{}, 2);
   std::vector<double> after = start;
-  for (int n = 0; n < 3; ++n) used.do_step(damped, after, 0.1 * n, 0.1);
+  for (int n = 0; n < 3; ++n) used.do_step(damped_pendulum, after, 0.1 * n, 0.1);
   const auto stepped = [](OdeintStepper<M> stepper, std::vector<double> x, double t, double dt) {
-    stepper.do_step(damped, x, t, dt);
+    stepper.do_step(damped_pendulum, x, t, dt);
     return x;
   };
   const auto fresh = [&](const std::vector<double>& x, double t, double dt) {
@@ -117,15 +117,15 @@ void expect_history_ends() {
   };
   std::vector<double> next = after;
   OdeintStepper<M> copy = used;
-  used.do_step(damped, next, 0.3, 0.1);
+  used.do_step(damped_pendulum, next, 0.3, 0.1);
   EXPECT_NE(next, fresh(after, 0.3, 0.1)) << "control: this step does follow";
   EXPECT_EQ(stepped(copy, after, 0.3, 0.1), fresh(after, 0.3, 0.1)) << "a copy";
   const auto twice = [&](const std::vector<double>& x, double t, double dt) {
     OdeintStepper<M> stepper(M{}, 2);
     std::vector<double> z = start;
-    for (int n = 0; n < 3; ++n) stepper.do_step(damped, z, 0.1 * n, 0.1);
+    for (int n = 0; n < 3; ++n) stepper.do_step(damped_pendulum, z, 0.1 * n, 0.1);
     z = x;
-    stepper.do_step(damped, z, t, dt);
+    stepper.do_step(damped_pendulum, z, t, dt);
     return z;
   };
   EXPECT_EQ(twice(after, 0.3, 0.1), next) << "control";
@@ -134,9 +134,9 @@ void expect_history_ends() {
   EXPECT_EQ(twice(after, 0.3, 0.2), fresh(after, 0.3, 0.2)) << "another step";
   OdeintStepper<M> again(M{}, 2);
   std::vector<double> z = start;
-  for (int n = 0; n < 3; ++n) again.do_step(damped, z, 0.1 * n, 0.1);
+  for (int n = 0; n < 3; ++n) again.do_step(damped_pendulum, z, 0.1 * n, 0.1);
   again.reset();
-  again.do_step(damped, z, 0.3, 0.1);
+  again.do_step(damped_pendulum, z, 0.3, 0.1);
   EXPECT_EQ(z, fresh(after, 0.3, 0.1)) << "reset";
 }
 

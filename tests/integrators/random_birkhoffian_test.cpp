@@ -12,10 +12,16 @@
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/replay.hpp>
 
+#include "generating_samples.hpp"
+#include "methods.hpp"
+
 namespace pfaff {
 namespace {
 
-constexpr int degrees = 2, size = 2 * degrees;
+using testing::generating_scheme;
+using testing::structure_residual;
+
+constexpr int degrees = 2, states = 2 * degrees;
 
 // y = (q + g(p', t), p') after p' = p + f(q, t) with gradients f = grad f0(q), so that K in z is not
 // canonical: the shears act on q or p componentwise by arbitrary polynomials, which makes them
@@ -48,36 +54,36 @@ class RandomSystem {
   template <class T>
   T energy(const T& t, std::span<const T> y) const {
     T sum = (y[0] * y[0] + y[1] * y[1] + y[2] * y[2] + y[3] * y[3]) / 2;
-    for (int i = 0; i < size; ++i)
-      for (int j = 0; j < size; ++j)
-        sum = sum + energy_[at(i * size + j)] * (y[at(i)] * y[at(i)] * y[at(j)]) / 4 +
-              energy_[at(size * size + i)] * sin(t) * y[at(i)] / 8;
+    for (int i = 0; i < states; ++i)
+      for (int j = 0; j < states; ++j)
+        sum = sum + energy_[at(i * states + j)] * (y[at(i)] * y[at(i)] * y[at(j)]) / 4 +
+              energy_[at(states * states + i)] * sin(t) * y[at(i)] / 8;
     return sum;
   }
 
   [[nodiscard]] std::shared_ptr<const Model> model() const {
     ModelSource source;
     source.name = "random";
-    source.dimension = size;
-    for (int k = 0; k < size; ++k)
+    source.dimension = states;
+    for (int k = 0; k < states; ++k)
       source.coordinates.push_back({std::string("z").append(std::to_string(k)), ""});
     source.initial = {Real::fraction(3, 10), Real::fraction(-1, 5), Real::fraction(1, 10),
                       Real::fraction(2, 5)};
     const auto give = [&](Formula formula, int outputs, auto&& f) {
-      source.given[index(formula)] = std::make_shared<const Tape>(record(size, outputs, f));
+      source.given[index(formula)] = std::make_shared<const Tape>(record(states, outputs, f));
     };
     using R = Recorded;
     using In_ = std::span<const R>;
     using Out_ = std::span<R>;
-    give(Formula::chart, size, [&](const R& t, In_ z, Out_ y) { chart<R>(t, z, y); });
-    give(Formula::chart_inverse, size, [&](const R& t, In_ y, Out_ z) { chart_inverse<R>(t, y, z); });
+    give(Formula::chart, states, [&](const R& t, In_ z, Out_ y) { chart<R>(t, z, y); });
+    give(Formula::chart_inverse, states, [&](const R& t, In_ y, Out_ z) { chart_inverse<R>(t, y, z); });
     const auto chart_tape = source.given[index(Formula::chart)];
     // p dq - H dt in y, pulled back: F_i = y_p . d y_q / d z_i,  B = H - y_p . d y_q / dt.
-    give(Formula::one_form, size, [&](const R& t, In_ z, Out_ form) {
+    give(Formula::one_form, states, [&](const R& t, In_ z, Out_ form) {
       const auto y = evaluate(*chart_tape, t, z);
       const auto slope = jacobian(*chart_tape, t, z);
-      for (std::size_t i = 0; i < size; ++i)
-        for (std::size_t a = 0; a < degrees; ++a) form[i] = form[i] + y[degrees + a] * slope[a * size + i];
+      for (std::size_t i = 0; i < states; ++i)
+        for (std::size_t a = 0; a < degrees; ++a) form[i] = form[i] + y[degrees + a] * slope[a * states + i];
     });
     give(Formula::birkhoffian, 1, [&](const R& t, In_ z, Out_ b) {
       const auto y = evaluate(*chart_tape, t, z);
@@ -97,22 +103,8 @@ class RandomSystem {
            c[k + 5] * sin(t) * a;
   }
   std::array<Real, 12> first_, second_;
-  std::array<Real, size * size + size> energy_;
+  std::array<Real, states * states + states> energy_;
 };
-
-template <class T>
-double structure_residual(const MethodInstance& method, const std::shared_ptr<const Model>& model) {
-  std::vector<T> z;
-  for (const Real& x : model->initial()) z.push_back(T(x));
-  return static_cast<double>(
-      StructureResidual<T>(method, model)(T(Real::fraction(7, 10)), T(Real::fraction(1, 10)), z));
-}
-
-std::unique_ptr<MethodInstance> scheme(int order, const char* variant) {
-  return integrators()
-      .get("generating-function", "")
-      .make({{"order", std::to_string(order)}, {"variant", variant}});
-}
 
 TEST(RandomBirkhoffian, EveryOrderKeepsTheStructureAtRoundOff) {
   for (unsigned seed = 1; seed <= 3; ++seed) {
@@ -120,10 +112,13 @@ TEST(RandomBirkhoffian, EveryOrderKeepsTheStructureAtRoundOff) {
     for (int order = 1; order <= 8; ++order) {
       // Structure to the residual's own round-off: products of three 4 x 4 matrices, pulled through two
       // charts.
-      EXPECT_LE(structure_residual<double>(*scheme(order, "P"), model), 1e-14) << seed << ' ' << order;
-      EXPECT_LE(structure_residual<Quad>(*scheme(order, "P"), model), 1e-31) << seed << ' ' << order;
+      EXPECT_LE(structure_residual<double>(*generating_scheme(order, "P"), model), 1e-14)
+          << seed << ' ' << order;
+      EXPECT_LE(structure_residual<Quad>(*generating_scheme(order, "P"), model), 1e-31)
+          << seed << ' ' << order;
       if (order % 2 == 0) {
-        EXPECT_LE(structure_residual<Quad>(*scheme(order, "S"), model), 1e-31) << seed << ' ' << order;
+        EXPECT_LE(structure_residual<Quad>(*generating_scheme(order, "S"), model), 1e-31)
+            << seed << ' ' << order;
       }
     }
   }
@@ -162,10 +157,10 @@ TEST(RandomBirkhoffian, OrdersAreExact) {
   for (unsigned seed = 1; seed <= 3; ++seed) {
     const auto model = RandomSystem(seed).model();
     for (int order = 1; order <= 6; ++order) {
-      const MeasuredOrder p = measure_order(*scheme(order, "P"), model);
+      const MeasuredOrder p = measure_order(*generating_scheme(order, "P"), model);
       EXPECT_NEAR(p.slope, order, 0.1) << "variant P, seed " << seed;
       if (order % 2 == 0) {
-        EXPECT_NEAR(measure_order(*scheme(order, "S"), model).slope, order, 0.1) << seed;
+        EXPECT_NEAR(measure_order(*generating_scheme(order, "S"), model).slope, order, 0.1) << seed;
       }
     }
   }
@@ -177,13 +172,13 @@ TEST(RandomBirkhoffian, FieldInTheChartIsTheFieldCarriedThere) {
     const auto chart = model->tape(Formula::chart), field = model->tape(Formula::field);
     const auto in_chart = model->tape(Formula::chart_field);
     const Tape difference =
-        record(size, size, [&](const Recorded& t, std::span<const Recorded> z, std::span<Recorded> out) {
+        record(states, states, [&](const Recorded& t, std::span<const Recorded> z, std::span<Recorded> out) {
           const auto carried = directional_derivative(*chart, t, Recorded(1), z, evaluate(*field, t, z));
           const auto there = evaluate(*in_chart, t, evaluate(*chart, t, z));
-          for (std::size_t k = 0; k < size; ++k) out[k] = carried[k] - there[k];
+          for (std::size_t k = 0; k < states; ++k) out[k] = carried[k] - there[k];
         });
     Replay<Quad> replay(std::make_shared<const Tape>(difference));
-    std::vector<Quad> z, out(size);
+    std::vector<Quad> z, out(states);
     for (const Real& x : model->initial()) z.push_back(x.quad());
     replay(Quad(0.7), z.data(), out.data());
     for (const Quad& x : out) EXPECT_LE(static_cast<double>(abs(x)), 1e-31) << seed;

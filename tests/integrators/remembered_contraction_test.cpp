@@ -49,11 +49,11 @@ TEST(RememberedContraction, TheSlowestOnlyGrows) {
 
 // Feeds corrections of a component of size 1 until the iteration ends: how many it has taken, and how it
 // ended.
-struct Ending {
+struct RememberedEnding {
   int taken;
   Status status;
 };
-Ending ended(const std::vector<double>& corrections, double remembered) {
+RememberedEnding remembered_ending(const std::vector<double>& corrections, double remembered) {
   RememberedContraction<double> contraction;
   contraction.remember_slowest(remembered);
   SettlingConvergence<double> convergence;
@@ -69,20 +69,21 @@ Ending ended(const std::vector<double>& corrections, double remembered) {
 
 // 5e-15 is what a good prediction is off by, and the corrections after it are round-off.
 TEST(SettlingConvergence, EndsWhereTheSecondCorrectionIsRoundOff) {
-  const Ending known = ended({5e-15, 1.5e-16, 1e-16, 1e-17}, 1e-3);
+  const RememberedEnding known = remembered_ending({5e-15, 1.5e-16, 1e-16, 1e-17}, 1e-3);
   EXPECT_EQ(known.taken, 2);
   EXPECT_EQ(known.status, Status::converged);
   // Controls: without a contraction that is known, or with one that leaves more, it goes on.
-  EXPECT_GT(ended({5e-15, 1.5e-16, 1e-16, 1e-17}, 0).taken, 2);
-  EXPECT_GT(ended({5e-15, 1.5e-16, 1e-16, 1e-17}, 0.25).taken, 2);
+  EXPECT_GT(remembered_ending({5e-15, 1.5e-16, 1e-16, 1e-17}, 0).taken, 2);
+  EXPECT_GT(remembered_ending({5e-15, 1.5e-16, 1e-16, 1e-17}, 0.25).taken, 2);
 }
 // A correction that is more than round-off shows that the iteration contracts more slowly than remembered.
 TEST(SettlingConvergence, DoesNotTrustWhatIsRememberedBeyondRoundOff) {
-  EXPECT_EQ(ended({1e-6, 1e-8, 1e-10, 1e-12}, 1e-12).taken, 4);
+  EXPECT_EQ(remembered_ending({1e-6, 1e-8, 1e-10, 1e-12}, 1e-12).taken, 4);
 }
 TEST(SettlingConvergence, ReportsHowIterationsFail) {
-  EXPECT_EQ(ended({1e-3, std::numeric_limits<double>::quiet_NaN(), 0}, 1e-3).status, Status::non_finite);
-  EXPECT_EQ(ended({1e-3, std::numeric_limits<double>::quiet_NaN(), 0}, 1e-3).taken, 2);
-  EXPECT_EQ(ended(std::vector<double>(120, 1e-3), 1e-3).status, Status::not_converged);
+  EXPECT_EQ(remembered_ending({1e-3, std::numeric_limits<double>::quiet_NaN(), 0}, 1e-3).status,
+            Status::non_finite);
+  EXPECT_EQ(remembered_ending({1e-3, std::numeric_limits<double>::quiet_NaN(), 0}, 1e-3).taken, 2);
+  EXPECT_EQ(remembered_ending(std::vector<double>(120, 1e-3), 1e-3).status, Status::not_converged);
 }
 }  // namespace

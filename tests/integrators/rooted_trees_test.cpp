@@ -81,7 +81,7 @@ int exact_order(const RungeKuttaTableau<Rational>& tableau, int most) {
   return order;
 }
 
-int order_of(const RungeKuttaTableau<Quad>& tableau, int most) {
+int tree_order(const RungeKuttaTableau<Quad>& tableau, int most) {
   return order_shown(tree_conditions(tableau, most), precision_of_quad_coefficients);
 }
 
@@ -122,13 +122,13 @@ TEST(RootedTrees, HaveTheirDensities) {
 TEST(RootedTrees, GiveTheKnownOrdersInExactFractions) {
   EXPECT_EQ(exact_order(classical(), 6), 4);
   EXPECT_EQ(exact_order(dormand_prince(), 7), 5);
-  EXPECT_EQ(order_of(in_quad(classical()), 6), 4);
-  EXPECT_EQ(order_of(in_quad(dormand_prince()), 7), 5);
+  EXPECT_EQ(tree_order(in_quad(classical()), 6), 4);
+  EXPECT_EQ(tree_order(in_quad(dormand_prince()), 7), 5);
 }
 
 TEST(RootedTrees, GiveTheOrderOfGaussMethods) {
-  for (int s = 1; s <= 4; ++s) EXPECT_EQ(order_of(gauss(s), 2 * s + 1), 2 * s) << s;
-  EXPECT_EQ(order_of(gauss(5), 10), 10);
+  for (int s = 1; s <= 4; ++s) EXPECT_EQ(tree_order(gauss(s), 2 * s + 1), 2 * s) << s;
+  EXPECT_EQ(tree_order(gauss(5), 10), 10);
 }
 
 TEST(RootedTrees, NameTheConditionThatAChangeOf1e9Violates) {

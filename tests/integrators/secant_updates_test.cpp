@@ -26,7 +26,7 @@ struct Solution {
   int corrections = 0;
 };
 template <class T>
-Solution<T> solved(const T& parameter, bool secants, double unit = 1) {
+Solution<T> secant_solution(const T& parameter, bool secants, double unit = 1) {
   SecantUpdates<T> updates(2);
   Solution<T> s{{T(0.8), T(1.2 * unit)}, 0};
   const std::vector<T> scale{T(1), T(unit)};
@@ -43,16 +43,16 @@ Solution<T> solved(const T& parameter, bool secants, double unit = 1) {
 }
 
 TEST(SecantUpdates, MakeCorrectionsSmallerFasterThanAFixedRatio) {
-  const auto with = solved(1.0, true), plain = solved(1.0, false);
+  const auto with = secant_solution(1.0, true), plain = secant_solution(1.0, false);
   for (std::size_t k = 0; k < 2; ++k) EXPECT_NEAR(with.x[k], plain.x[k], 1e-14);
   EXPECT_GE(plain.corrections, 25);  // the control: a ratio of about 0.3
   EXPECT_LE(with.corrections, 10);
 }
 
 TEST(SecantUpdates, DoNotDependOnUnits) {
-  const auto one = solved(1.0, true);
+  const auto one = secant_solution(1.0, true);
   for (const double unit : {0x1p100, 0x1p-600}) {  // the square of 1 / unit is no number in double
-    const auto other = solved(1.0, true, unit);
+    const auto other = secant_solution(1.0, true, unit);
     EXPECT_EQ(one.corrections, other.corrections);
     EXPECT_EQ(one.x[0], other.x[0]);
     EXPECT_EQ(one.x[1], other.x[1] / unit);
@@ -60,9 +60,9 @@ TEST(SecantUpdates, DoNotDependOnUnits) {
 }
 
 TEST(SecantUpdates, CorrectDerivativesWithTheSameMatrices) {
-  const auto x = solved(D::variable(1.0, 0), true).x;
+  const auto x = secant_solution(D::variable(1.0, 0), true).x;
   const double h = 1e-6;  // its square and round-off over it are what the difference quotient misses
-  const auto above = solved(1.0 + h, true).x, below = solved(1.0 - h, true).x;
+  const auto above = secant_solution(1.0 + h, true).x, below = secant_solution(1.0 - h, true).x;
   for (std::size_t k = 0; k < 2; ++k)
     EXPECT_NEAR(x[k].derivative[0], (above[k] - below[k]) / (2 * h), 1e-8) << k;
 }

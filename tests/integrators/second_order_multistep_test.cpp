@@ -3,34 +3,34 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 
 #include <pfaff/core/system.hpp>
 #include <pfaff/integrators/order_conditions/multistep_conditions.hpp>
-#include <pfaff/integrators/tables/method_table.hpp>
 
-#include "../temporary_directory.hpp"
+#include "method_files.hpp"
 
 namespace {
 using namespace pfaff;
-using pfaff::testing::TemporaryDirectory;
+using pfaff::testing::expect_table_refused;
+using pfaff::testing::Relativistic;
+using pfaff::testing::shipped_tables;
+using pfaff::testing::table_refusal;
 
-const std::string shipped = std::string(PFAFF_GOLDEN) + "/../../examples/tables/";
 const std::vector<std::string> symmetric{"quinlan-tremaine-8", "quinlan-tremaine-10", "quinlan-tremaine-12",
                                          "hairer-lubich-wanner-8"};
 
 template <class T>
-struct Run {
+struct MultistepRun {
   std::vector<std::vector<T>> states;
   Status status = Status::converged;
 };
 // Kepler's motion at eccentricity 0.1, one state for each step.
 template <class T>
-Run<T> kepler_run(const MethodInstance& method, const T& h, int steps) {
+MultistepRun<T> kepler_run(const MethodInstance& method, const T& h, int steps) {
   const auto model = systems().get("kepler", "system").make({});
   const auto stepper = method.stepper(model, T());
   std::vector<T> z{T(9) / T(10), T(0), T(0), sqrt(T(11) / T(9))};
-  Run<T> run{{z}};
+  MultistepRun<T> run{{z}};
   for (int n = 0; n < steps && run.status == Status::converged; ++n) {
     std::int64_t completed = 0;
     run.status = stepper->advance(T(0), n, h, 1, z, completed);
@@ -43,11 +43,11 @@ Run<T> kepler_run(const MethodInstance& method, const T& h, int steps) {
 // its largest term: round-off of quad, once no step among them is one of the starting method.
 TEST(SecondOrderMultistep, StepsSatisfyTheEquationOfTheMethod) {
   for (const std::string& name : symmetric) {
-    TableDocument document(shipped + name + ".toml");
+    TableDocument document(shipped_tables + name + ".toml");
     const std::vector<Quad> rho = document.numbers("rho"), sigma = document.numbers("sigma");
     const Quad h = Quad(1) / Quad(32);
     const auto k = rho.size() - 1;
-    const auto run = kepler_run<Quad>(*read_method_table(shipped + name + ".toml")->make({}), h, 60);
+    const auto run = kepler_run<Quad>(*read_method_table(shipped_tables + name + ".toml")->make({}), h, 60);
     ASSERT_EQ(run.status, Status::converged) << name;
     double largest = 0;
     for (std::size_t n = k; n + k < run.states.size(); ++n)
@@ -71,7 +71,7 @@ TEST(SecondOrderMultistep, ErrorsShrinkAsTheOrderSays) {
   const auto model = systems().get("kepler", "system").make({});
   const Problem<Quad> exact(model);
   for (const std::string& name : symmetric) {
-    const auto table = read_method_table(shipped + name + ".toml");
+    const auto table = read_method_table(shipped_tables + name + ".toml");
     const auto method = table->make({});
     std::vector<double> errors;
     for (const int steps : {128, 256}) {
@@ -93,7 +93,7 @@ TEST(SecondOrderMultistep, ErrorsShrinkAsTheOrderSays) {
 // Adams method of order 4 loses energy at a rate that is seen a hundred times over in the same time.
 TEST(SecondOrderMultistep, EnergiesStayBounded) {
   const auto largest_errors = [](const std::string& name, double h) {
-    const auto run = kepler_run<double>(*read_method_table(shipped + name + ".toml")->make({}), h,
+    const auto run = kepler_run<double>(*read_method_table(shipped_tables + name + ".toml")->make({}), h,
                                         static_cast<int>(6300 / h));
     const auto energy = [](const std::vector<double>& z) {
       return (z[2] * z[2] + z[3] * z[3]) / 2 - 1 / std::hypot(z[0], z[1]);
@@ -113,49 +113,32 @@ TEST(SecondOrderMultistep, EnergiesStayBounded) {
   EXPECT_GE(adams_late, 10 * adams_early);
 }
 
-std::string refusal(const std::string& numbers) {
-  const TemporaryDirectory files;
-  std::ofstream(files / "table.toml")
-      << "name = \"table\"\nkind = \"second-order-multistep\"\nreference = \"none\"\n" + numbers + "\n";
-  try {
-    return "accepted: " + read_method_table(files / "table.toml")->name();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-}
-void expect_refused(const std::string& numbers, const std::vector<std::string>& parts) {
-  const std::string message = refusal(numbers);
-  for (const std::string& part : parts) EXPECT_NE(message.find(part), std::string::npos) << message;
+std::string multistep_table(const std::string& numbers) {
+  return "name = \"table\"\nkind = \"second-order-multistep\"\nreference = \"none\"\n" + numbers + "\n";
 }
 
 TEST(SecondOrderMultistep, WrongTablesAreRefused) {
-  EXPECT_EQ(refusal("order = 2\nrho = [1, -2, 1]\nsigma = [0, 1, 0]"), "accepted: table");  // Stoermer's
-  expect_refused("order = 2\nrho = [1, -2, 1]\nsigma = [0, \"1 + 1/1000000000\", 0]",
-                 {"the sum of j^2 rho_j - 2 sigma_j = 0", "order 1"});
-  expect_refused("order = 4\nrho = [1, -2, 1]\nsigma = [0, 1, 0]", {"a condition of order 3"});
-  expect_refused("order = 4\nrho = [1, -2, 1]\nsigma = [\"1/12\", \"10/12\", \"1/12\"]",  // Cowell's
-                 {"sigma", "expected an explicit method"});
-  expect_refused("order = 1\nrho = [-1, 1]\nsigma = [1, 0]", {"rho", "3 to 25 numbers"});
+  EXPECT_EQ(table_refusal(multistep_table("order = 2\nrho = [1, -2, 1]\nsigma = [0, 1, 0]")),
+            "accepted: table");  // Stoermer's
+  expect_table_refused(multistep_table("order = 2\nrho = [1, -2, 1]\nsigma = [0, \"1 + 1/1000000000\", 0]"),
+                       {"the sum of j^2 rho_j - 2 sigma_j = 0", "order 1"});
+  expect_table_refused(multistep_table("order = 4\nrho = [1, -2, 1]\nsigma = [0, 1, 0]"),
+                       {"a condition of order 3"});
+  expect_table_refused(
+      multistep_table("order = 4\nrho = [1, -2, 1]\nsigma = [\"1/12\", \"10/12\", \"1/12\"]"),  // Cowell's
+      {"sigma", "expected an explicit method"});
+  expect_table_refused(multistep_table("order = 1\nrho = [-1, 1]\nsigma = [1, 0]"),
+                       {"rho", "3 to 25 numbers"});
   // (x - 1)^2 (x^2 + 1)^2: of order 2 with this sigma, and with double roots besides 1.
-  expect_refused("order = 2\nrho = [1, -2, 3, -4, 3, -2, 1]\nsigma = [0, 0, 0, 4, 0, 0, 0]",
-                 {"not zero-stable", "multiple root"});
+  expect_table_refused(
+      multistep_table("order = 2\nrho = [1, -2, 3, -4, 3, -2, 1]\nsigma = [0, 0, 0, 4, 0, 0, 0]"),
+      {"not zero-stable", "multiple root"});
 }
 
-struct Relativistic {
-  static constexpr int dimension = 2;
-  template <class T>
-  T kinetic(const T& /*t*/, In<T> p) const {
-    return sqrt(T(1) + p[0] * p[0]);
-  }
-  template <class T>
-  T potential(const T& /*t*/, In<T> q) const {
-    return q[0] * q[0] / T(2);
-  }
-};
 TEST(SecondOrderMultistep, OtherKineticEnergiesAreRefused) {
   const auto model =
       make_model({.name = "sample", .title = "", .reference = "", .initial = {1, 1}}, Relativistic{});
-  const auto table = read_method_table(shipped + "quinlan-tremaine-8.toml");  // outlives its method
+  const auto table = read_method_table(shipped_tables + "quinlan-tremaine-8.toml");  // outlives its method
   const auto method = table->make({});
   EXPECT_NE(method->refuses(*model).find("quadratic in the momenta"), std::string::npos);
   EXPECT_EQ(method->refuses(*systems().get("kepler", "system").make({})), "");

@@ -7,23 +7,16 @@
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
 
+#include "adaptive_samples.hpp"
+#include "methods.hpp"
+
 namespace pfaff {
 namespace {
 
-struct Growth {  // z' = z
-  static constexpr int dimension = 1;
-  template <class T>
-  void field(const T& /*t*/, In<T> z, Out<T> rate) const {
-    rate[0] = z[0];
-  }
-};
-struct Blowing {  // z' = z^2, which is infinite at t = 1/z(0)
-  static constexpr int dimension = 1;
-  template <class T>
-  void field(const T& /*t*/, In<T> z, Out<T> rate) const {
-    rate[0] = z[0] * z[0];
-  }
-};
+using testing::expect_refused_tolerances;
+using testing::Growth;
+using testing::sample_of;
+
 struct Falling {  // a polynomial of time of degree two
   static constexpr int dimension = 2;
   template <class T>
@@ -40,10 +33,6 @@ struct Draining {  // z0' = sqrt(z1), which is no number once z1 is negative; z1
     rate[1] = T(-1);
   }
 };
-template <class S>
-std::shared_ptr<const Model> model_of(S system, std::vector<Real> initial = {1}) {
-  return make_model({.name = "sample", .title = "", .reference = "", .initial = std::move(initial)}, system);
-}
 template <class T>
 StepperPointer<T> stepper(std::shared_ptr<const Model> model, const Assignments& parameters = {},
                           const char* method = "taylor") {
@@ -58,7 +47,7 @@ TEST(Taylor, StepsArePartialSumsOfTheExponential) {
     sum += term;
     std::vector<Quad> z{Quad(1)};
     std::int64_t completed = 0;
-    EXPECT_EQ(stepper<Quad>(model_of(Growth{}), {{"order", std::to_string(order)}})
+    EXPECT_EQ(stepper<Quad>(sample_of(Growth{}), {{"order", std::to_string(order)}})
                   ->advance(Quad(0), 0, h, 1, z, completed),
               Status::converged);
     EXPECT_LE(static_cast<double>(abs(z[0] - sum)), 1e-33) << order;  // a few roundings of quad
@@ -69,10 +58,10 @@ TEST(Taylor, StepsArePartialSumsOfTheExponential) {
 // max(1, |z|); growing, e^t carries the errors of about ten steps on without amplifying them relatively, and
 // decaying, what is allowed is absolute.
 template <class T>
-void expect_tolerances_met(std::initializer_list<double> tolerances) {
+void taylor_meets_tolerances(std::initializer_list<double> tolerances) {
   for (const double tolerance : tolerances)
     for (const int direction : {1, -1}) {
-      const auto growing = stepper<T>(model_of(Growth{}));
+      const auto growing = stepper<T>(sample_of(Growth{}));
       std::vector<T> z{T(1)};
       T t(0);
       const T end = T(direction) * T(10);
@@ -85,8 +74,8 @@ void expect_tolerances_met(std::initializer_list<double> tolerances) {
       EXPECT_GE(growing->counters().steps, 3) << tolerance;
     }
 }
-TEST(Taylor, MeetsTolerancesInDouble) { expect_tolerances_met<double>({1e-4, 1e-7, 1e-10, 1e-13}); }
-TEST(Taylor, MeetsTolerancesInQuad) { expect_tolerances_met<Quad>({1e-10, 1e-16, 1e-22, 1e-28, 1e-31}); }
+TEST(Taylor, MeetsTolerancesInDouble) { taylor_meets_tolerances<double>({1e-4, 1e-7, 1e-10, 1e-13}); }
+TEST(Taylor, MeetsTolerancesInQuad) { taylor_meets_tolerances<Quad>({1e-10, 1e-16, 1e-22, 1e-28, 1e-31}); }
 
 // Kepler's motion at eccentricity 0.6 to 29 digits, against extrapolation, which evaluates the field and
 // never its series.
@@ -106,7 +95,7 @@ TEST(Taylor, AgreesWithExtrapolation) {
 
 // Where the last coefficients vanish the solution is a polynomial, and one step goes all the way.
 TEST(Taylor, PolynomialsTakeOneStep) {
-  const auto falling = stepper<double>(model_of(Falling{}, {0, 0}));
+  const auto falling = stepper<double>(sample_of(Falling{}, {0, 0}));
   std::vector<double> z{0, 0};
   double t = 0;
   EXPECT_EQ(falling->advance_to(t, 1000.0, 1e-12, z), Status::converged);
@@ -116,28 +105,15 @@ TEST(Taylor, PolynomialsTakeOneStep) {
 
 // A component that is no number stops the run where it is, although the others allow any step.
 TEST(Taylor, LosesNoNaN) {
-  const auto draining = stepper<double>(model_of(Draining{}, {0, 1}));
+  const auto draining = stepper<double>(sample_of(Draining{}, {0, 1}));
   std::vector<double> z{0, -1};
   double t = 0;
   EXPECT_EQ(draining->advance_to(t, 1.0, 1e-8, z), Status::non_finite);
   EXPECT_EQ(t, 0.0);
 }
 
-// A tolerance below round-off, and steps that get lost in the time, end with a status.
-template <class T>
-void expect_refusals() {
-  const auto growing = stepper<T>(model_of(Growth{}));
-  std::vector<T> z{T(1)};
-  T t(0);
-  EXPECT_EQ(growing->advance_to(t, T(1), std::numeric_limits<T>::epsilon() / T(2), z), Status::not_converged);
-  EXPECT_TRUE(t == T(0));
-  EXPECT_TRUE(z[0] == T(1));
-  const auto blowing = stepper<T>(model_of(Blowing{}));
-  EXPECT_NE(blowing->advance_to(t, T(2), T(1e-8), z), Status::converged);
-  EXPECT_TRUE(t > T(0.99) && t < T(1.01));
-}
-TEST(Taylor, RefusesInDouble) { expect_refusals<double>(); }
-TEST(Taylor, RefusesInQuad) { expect_refusals<Quad>(); }
+TEST(Taylor, RefusesInDouble) { expect_refused_tolerances<double>(*testing::method_named("taylor")); }
+TEST(Taylor, RefusesInQuad) { expect_refused_tolerances<Quad>(*testing::method_named("taylor")); }
 
 }  // namespace
 }  // namespace pfaff

@@ -34,7 +34,7 @@ std::vector<PartialFlow> composed_verlet(const std::vector<Quad>& weights) {
   return list;
 }
 
-int order_of(const std::vector<OrderCondition>& conditions) {
+int word_order(const std::vector<OrderCondition>& conditions) {
   return order_shown(conditions, precision_of_quad_coefficients);
 }
 
@@ -120,23 +120,23 @@ TEST(WordConditions, AreAsManyAsThereAre) {
 }
 
 TEST(WordConditions, GiveTheKnownOrdersOfSplittings) {
-  EXPECT_EQ(order_of(splitting_conditions(flows({Quad(1), Quad(1)}), 4)), 1);
-  EXPECT_EQ(order_of(splitting_conditions(flows({Quad(0.5), Quad(1), Quad(0.5)}), 4)), 2);
+  EXPECT_EQ(word_order(splitting_conditions(flows({Quad(1), Quad(1)}), 4)), 1);
+  EXPECT_EQ(word_order(splitting_conditions(flows({Quad(0.5), Quad(1), Quad(0.5)}), 4)), 2);
   // ruth1983, of order 3
   const std::vector<Quad> ruth{Quad(1),           Quad(-1) / Quad(24), Quad(-2) * third(),
                                Quad(3) / Quad(4), Quad(2) * third(),   Quad(7) / Quad(24)};
-  EXPECT_EQ(order_of(splitting_conditions(flows(ruth), 5)), 3);
-  EXPECT_EQ(order_of(splitting_conditions(composed_verlet(yoshida_weights(4)), 6)), 4);
-  EXPECT_EQ(order_of(splitting_conditions(composed_verlet(suzuki_weights(4)), 6)), 4);
-  EXPECT_EQ(order_of(splitting_conditions(composed_verlet(kahan_li_weights(6)), 8)), 6);
+  EXPECT_EQ(word_order(splitting_conditions(flows(ruth), 5)), 3);
+  EXPECT_EQ(word_order(splitting_conditions(composed_verlet(yoshida_weights(4)), 6)), 4);
+  EXPECT_EQ(word_order(splitting_conditions(composed_verlet(suzuki_weights(4)), 6)), 4);
+  EXPECT_EQ(word_order(splitting_conditions(composed_verlet(kahan_li_weights(6)), 8)), 6);
 }
 
 TEST(WordConditions, GiveTheKnownOrdersOfCompositions) {
-  EXPECT_EQ(order_of(composition_conditions(yoshida_weights(4), 6)), 4);
-  EXPECT_EQ(order_of(composition_conditions(yoshida_weights(8), 10)), 8);
-  EXPECT_EQ(order_of(composition_conditions(suzuki_weights(6), 8)), 6);
-  EXPECT_EQ(order_of(composition_conditions(kahan_li_weights(6), 8)), 6);
-  EXPECT_EQ(order_of(composition_conditions(kahan_li_weights(8), 10)), 8);
+  EXPECT_EQ(word_order(composition_conditions(yoshida_weights(4), 6)), 4);
+  EXPECT_EQ(word_order(composition_conditions(yoshida_weights(8), 10)), 8);
+  EXPECT_EQ(word_order(composition_conditions(suzuki_weights(6), 8)), 6);
+  EXPECT_EQ(word_order(composition_conditions(kahan_li_weights(6), 8)), 6);
+  EXPECT_EQ(word_order(composition_conditions(kahan_li_weights(8), 10)), 8);
 }
 
 // McLachlan and Atela's four kicks and drifts (mclachlan-atela1992), in their nineteen digits: of order 4
@@ -183,16 +183,16 @@ TEST(WordConditions, NameTheConditionThatAChangeOf1e9Violates) {
 TEST(WordConditions, AProcessedMethodHasTheOrderOfItsKernelAtMost) {
   // Symplectic Euler is Stoermer-Verlet processed by half a drift, so that its effective order is 2, not 3.
   const auto euler = flows({Quad(1), Quad(1)});
-  EXPECT_EQ(order_of(splitting_conditions(euler, 4)), 1);
-  EXPECT_EQ(order_of(effective_conditions(euler, 4)), 2);
+  EXPECT_EQ(word_order(splitting_conditions(euler, 4)), 1);
+  EXPECT_EQ(word_order(effective_conditions(euler, 4)), 2);
   // The same of a method of order 4, conjugated by a drift and a kick.
   std::vector<PartialFlow> pre{{0, Quad(0.3)}, {1, Quad(-0.2)}}, whole = pre;
   for (const PartialFlow& flow : composed_verlet(yoshida_weights(4))) whole.push_back(flow);
   for (const PartialFlow& flow : inverse(pre)) whole.push_back(flow);
-  EXPECT_EQ(order_of(splitting_conditions(whole, 5)), 1);
-  EXPECT_EQ(order_of(effective_conditions(whole, 6)), 4);
+  EXPECT_EQ(word_order(splitting_conditions(whole, 5)), 1);
+  EXPECT_EQ(word_order(effective_conditions(whole, 6)), 4);
   // A consistent kernel that nothing can lift: its part of degree 3 is no bracket with A + B.
-  EXPECT_EQ(order_of(effective_conditions(flows({Quad(0.5), Quad(1), Quad(0.5)}), 4)), 2);
+  EXPECT_EQ(word_order(effective_conditions(flows({Quad(0.5), Quad(1), Quad(0.5)}), 4)), 2);
   EXPECT_EQ(gamma_4(), yoshida_weights(4).front());
 }
 

@@ -9,6 +9,7 @@
 
 #include <pfaff/core/system.hpp>
 
+#include "../golden_numbers.hpp"
 #include "../temporary_directory.hpp"
 
 namespace pfaff::testing {
@@ -22,10 +23,6 @@ inline std::string write_file(const std::string& name, const std::string& text) 
 
 inline std::shared_ptr<const Model> bead_rod(const std::string& name, const nlohmann::json& model) {
   return systems().get("bead-rod", "system").make({{"model", write_file(name + ".json", model.dump())}});
-}
-
-inline nlohmann::json golden(const std::string& name) {
-  return nlohmann::json::parse(std::ifstream(std::string(PFAFF_GOLDEN) + "/" + name + ".json"));
 }
 
 /// The model file of a golden system in one of its states; numbers stay decimal strings.

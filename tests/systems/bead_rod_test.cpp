@@ -12,12 +12,15 @@
 #include <pfaff/systems/bead_rod/cell_list.hpp>
 #include <pfaff/systems/bead_rod/potentials.hpp>
 
+#include "../formula_values.hpp"
 #include "bead_rod_files.hpp"
 
 namespace {
 using namespace pfaff;
 using nlohmann::json;
 using pfaff::testing::bead_rod;
+using pfaff::testing::evaluated;
+using pfaff::testing::initial_state;
 
 class Random {
  public:
@@ -77,18 +80,8 @@ json every_potential(int axes) {
 }
 
 template <class T>
-std::vector<T> start(const Model& model) {
-  std::vector<T> z;
-  for (const Real& x : model.initial()) z.push_back(T(x));
-  return z;
-}
-
-template <class T>
 std::vector<T> field_at(const std::shared_ptr<const Model>& model, const std::vector<T>& z) {
-  const auto evaluator = make_evaluator<T>(model, Formula::field);
-  std::vector<T> rate(z.size());
-  evaluator.call(evaluator.context, T(0), z.data(), rate.data());
-  return rate;
+  return evaluated(model, Formula::field, z, z.size());
 }
 
 // -dV/dq by hand equals the derivative of the energy, which duals and the tape know without being told.
@@ -96,7 +89,7 @@ TEST(BeadRod, ForcesAreTheEnergysSlopes) {
   for (const int axes : {2, 3}) {
     const json rods{{0, 1}, {1, 2}, {2, 3}, {3, 4}};
     const auto model = bead_rod("forces", random_model(axes, 5, rods, 11, every_potential(axes)));
-    const auto z = start<Quad>(*model);
+    const auto z = initial_state<Quad>(*model);
     const std::size_t n = z.size() / 2;
     const auto constraints = model->holonomic_constraints<Quad>();
     std::vector<Quad> f(n);
@@ -133,7 +126,7 @@ TEST(BeadRod, EnergiesVanishContinuouslyAtTheCutoff) {
       const auto made = bead_rod("cutoff", model);
       const auto evaluator = make_evaluator<Quad>(made, Formula::potential);
       Quad v;
-      const auto z = start<Quad>(*made);
+      const auto z = initial_state<Quad>(*made);
       evaluator.call(evaluator.context, Quad(0), z.data(), &v);
       return v;
     };
@@ -249,7 +242,7 @@ TEST(BeadRod, EveryGraphMovesAsItsTapesSay) {
       ModelSource source = model->source();
       source.holonomic = nullptr;  // from the tapes
       const auto taped = std::make_shared<const Model>(std::move(source));
-      const auto z = start<Quad>(*model);
+      const auto z = initial_state<Quad>(*model);
       std::vector<double> rounded;
       for (const Quad x : z) rounded.push_back(static_cast<double>(x));
       for (const char* formulation : {"dirac", "simplified-dirac", "lmm"}) {
@@ -275,7 +268,7 @@ TEST(BeadRod, MembersStartConsistently) {
   const auto expect_consistent = [](const std::string& name, const Assignments& parameters) {
     const auto model = systems().get(name, "system").make(parameters);
     const auto constraints = model->holonomic_constraints<Quad>();
-    const auto z = start<Quad>(*model);
+    const auto z = initial_state<Quad>(*model);
     const std::size_t n = z.size() / 2;
     Quad kinetic(0);
     for (std::size_t k = n; k < z.size(); ++k) kinetic = kinetic + z[k] * z[k];
@@ -304,8 +297,8 @@ TEST(BeadRod, HumanoidWeighsWhatItShould) {
   EXPECT_EQ(model->holonomic_constraints<double>()->count(), 12U);
   EXPECT_EQ(model->holonomic_constraints<double>()->pattern().structure(), MatrixStructure::tree);
   // All the beads' weight: at rest in the air the centre of mass falls freely.
-  const auto f =
-      field_at<Quad>(formulations().get("dirac", "formulation").apply(model, {}), start<Quad>(*model));
+  const auto f = field_at<Quad>(formulations().get("dirac", "formulation").apply(model, {}),
+                                initial_state<Quad>(*model));
   Quad weight(0);
   for (std::size_t k = 41; k < 78; k += 3) weight = weight - f[k];
   EXPECT_LE(abs(weight - Quad(80) * Real(9.81_r).quad()), Quad(1e-29));
@@ -316,7 +309,7 @@ TEST(BeadRod, AHundredThousandRods) {
   const auto raw = systems().get("n-pendulum", "system").make({{"bobs", "100000"}, {"seed", "0"}});
   EXPECT_EQ(raw->dimension(), 400000);
   const auto model = formulations().get("dirac", "formulation").apply(raw, {});
-  const auto rate = field_at<double>(model, start<double>(*model));
+  const auto rate = field_at<double>(model, initial_state<double>(*model));
   // A straight horizontal chain at rest: every bob falls freely.
   for (std::size_t k = 0; k < 200000; k += 2) {
     ASSERT_EQ(rate[200000 + k], 0) << k;

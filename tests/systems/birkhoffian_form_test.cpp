@@ -135,7 +135,7 @@ struct Written {
   }
 };
 template <class S>
-std::shared_ptr<const Model> model_of(const S& object) {
+std::shared_ptr<const Model> oscillator_of(const S& object) {
   SystemDescriptor descriptor;
   descriptor.name = "test";
   descriptor.coordinates = {{"q", ""}, {"p", ""}};
@@ -145,13 +145,14 @@ std::shared_ptr<const Model> model_of(const S& object) {
 
 TEST(BirkhoffianClass, IsThatOfTheDefinition) {
   using enum BirkhoffianClass;
-  EXPECT_EQ(birkhoffian_class(*model_of(Pair{})), autonomous);
-  EXPECT_EQ(birkhoffian_class(*model_of(Pair{.function_moves = true})), semi_autonomous);
-  EXPECT_EQ(birkhoffian_class(*model_of(Pair{.form_moves = true})), nonautonomous);
-  EXPECT_EQ(birkhoffian_class(*model_of(Pair{.form_moves = true, .function_moves = true})), nonautonomous);
-  EXPECT_EQ(birkhoffian_class(*model_of(Written{})), autonomous);
-  EXPECT_EQ(birkhoffian_class(*model_of(Written{.covector_moves = true})), semi_autonomous);
-  EXPECT_EQ(birkhoffian_class(*model_of(Written{.structure_moves = true})), nonautonomous);
+  EXPECT_EQ(birkhoffian_class(*oscillator_of(Pair{})), autonomous);
+  EXPECT_EQ(birkhoffian_class(*oscillator_of(Pair{.function_moves = true})), semi_autonomous);
+  EXPECT_EQ(birkhoffian_class(*oscillator_of(Pair{.form_moves = true})), nonautonomous);
+  EXPECT_EQ(birkhoffian_class(*oscillator_of(Pair{.form_moves = true, .function_moves = true})),
+            nonautonomous);
+  EXPECT_EQ(birkhoffian_class(*oscillator_of(Written{})), autonomous);
+  EXPECT_EQ(birkhoffian_class(*oscillator_of(Written{.covector_moves = true})), semi_autonomous);
+  EXPECT_EQ(birkhoffian_class(*oscillator_of(Written{.structure_moves = true})), nonautonomous);
 }
 
 template <class T>
@@ -188,7 +189,7 @@ TEST(BirkhoffianForm, OfTheDampedOscillator) {
 }
 
 TEST(BirkhoffianForm, DegenerateAndWithoutACentre) {
-  const auto model = model_of(Written{});
+  const auto model = oscillator_of(Written{});
   const std::vector<double> edge{0, 2}, inside{0.5, 2};
   const std::vector<Real> centre{1, 0};
   const auto there = birkhoffian_form<double>(*model, centre, 0, edge);

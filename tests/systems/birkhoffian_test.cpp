@@ -5,26 +5,18 @@
 
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
-#include <pfaff/core/tape/replay.hpp>
 
+#include "../formula_values.hpp"
 #include "samples.hpp"
 
 namespace {
 using namespace pfaff;
-using pfaff::testing::Samples;
+using namespace pfaff::testing;
 using Arguments = std::span<const Recorded>;
 using Results = std::span<Recorded>;
-using Numbers = std::vector<Quad>;
 
-constexpr int points = 20;
-constexpr double bound = 1e-31;
-
-Numbers values(const Tape& tape, Quad t, const Numbers& z) {
-  Numbers out(tape.outputs.size());
-  Replay<Quad> replay(std::shared_ptr<const Tape>(std::shared_ptr<const Tape>(), &tape));
-  replay(t, z.data(), out.data());
-  return out;
-}
+constexpr int structure_points = 20;
+constexpr double structure_bound = 1e-31;
 
 struct Residuals {
   double skew = 0, closed = 0, darboux = 0, inverse = 0, field = 0, poisson = 0, chart_field = 0;
@@ -48,7 +40,7 @@ Residuals residuals(const Model& model, Samples& samples) {
         std::copy(timed.begin(), timed.end(), out.begin());
       });
   Residuals r;
-  for (int point = 0; point < points; ++point) {
+  for (int point = 0; point < structure_points; ++point) {
     const Numbers z = samples.state(model, 0.3);
     const Quad t = samples.quad(0, 2);
     const Numbers k = values(*structure, t, z), dk = values(slopes, t, z), m = values(chart_slopes, t, z);
@@ -90,13 +82,13 @@ Residuals residuals(const Model& model, Samples& samples) {
 
 void expect_sound(const Model& model, Samples& samples) {
   const Residuals r = residuals(model, samples);
-  EXPECT_LE(r.skew, bound) << model.name();
-  EXPECT_LE(r.closed, bound) << model.name();
-  EXPECT_LE(r.darboux, bound) << model.name();
-  EXPECT_LE(r.inverse, bound) << model.name();
-  EXPECT_LE(r.field, bound) << model.name();
-  EXPECT_LE(r.poisson, bound) << model.name();
-  EXPECT_LE(r.chart_field, bound) << model.name();
+  EXPECT_LE(r.skew, structure_bound) << model.name();
+  EXPECT_LE(r.closed, structure_bound) << model.name();
+  EXPECT_LE(r.darboux, structure_bound) << model.name();
+  EXPECT_LE(r.inverse, structure_bound) << model.name();
+  EXPECT_LE(r.field, structure_bound) << model.name();
+  EXPECT_LE(r.poisson, structure_bound) << model.name();
+  EXPECT_LE(r.chart_field, structure_bound) << model.name();
 }
 
 TEST(Birkhoffian, SystemsSatisfyTheirIdentities) {
@@ -160,8 +152,8 @@ TEST(Birkhoffian, IdentitiesHoldInFourDimensionsAndFailForAWrongChart) {
       continue;
     }
     const Residuals r = residuals(*model, samples);
-    EXPECT_LE(r.closed, bound);  // the chart has no part in K
-    EXPECT_LE(r.field, bound);
+    EXPECT_LE(r.closed, structure_bound);  // the chart has no part in K
+    EXPECT_LE(r.field, structure_bound);
     EXPECT_EQ(r.darboux > 1e-12, wrong != 4) << wrong;
     EXPECT_EQ(r.inverse > 1e-12, wrong == 4) << wrong;
   }

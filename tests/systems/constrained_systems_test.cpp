@@ -4,8 +4,8 @@
 #include <pfaff/bench/measure/constraints.hpp>
 #include <pfaff/core/linear/matrix.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
-#include <pfaff/core/tape/replay.hpp>
 
+#include "../formula_values.hpp"
 #include "../formulations/rods.hpp"
 #include "motion.hpp"
 #include "samples.hpp"
@@ -13,46 +13,16 @@
 
 namespace {
 using namespace pfaff;
-using pfaff::testing::motion_of;
-using pfaff::testing::Samples;
-using pfaff::testing::taylor_flow;
+using namespace pfaff::testing;
 using Arguments = std::span<const Recorded>;
 using Results = std::span<Recorded>;
-using Numbers = std::vector<Quad>;
 
-std::shared_ptr<const Model> named(const char* name, const Assignments& set = {}) {
-  return systems().get(name, "system").make(set);
-}
-Numbers values(const std::shared_ptr<const Tape>& tape, Quad t, const Numbers& z) {
-  Numbers out(tape->outputs.size());
-  Replay<Quad> replay(tape);
-  replay(t, z.data(), out.data());
-  return out;
-}
-Numbers flow(const std::shared_ptr<const Model>& motion, const Numbers& z, Quad time) {
-  return taylor_flow(motion->tape(Formula::field), Quad(0), z, time);
-}
-Numbers numbers(const std::vector<Real>& values) {
-  Numbers z;
-  for (const Real& x : values) z.push_back(x.quad());
-  return z;
-}
-// Taylor series are good to about 1e-32 a unit of time, and errors grow with the motion.
-constexpr double near = 1e-29;
-void expect_near(const Numbers& a, const Numbers& b, double tolerance = near) {
+void expect_near(const Numbers& a, const Numbers& b, double tolerance = taylor_tolerance) {
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t k = 0; k < a.size(); ++k)
     EXPECT_LE(static_cast<double>(abs(a[k] - b[k])),
               tolerance * std::max(1.0, abs(static_cast<double>(b[k]))))
         << k;
-}
-double distance(const Numbers& a, const Numbers& b) {
-  double worst = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) worst = std::max(worst, static_cast<double>(abs(a[k] - b[k])));
-  return worst;
-}
-Quad q(std::int64_t numerator, std::int64_t denominator = 1) {
-  return Real::fraction(numerator, denominator).quad();
 }
 
 TEST(ConstrainedSystems, StartOnTheirConstraintsForAllParameters) {
@@ -63,10 +33,10 @@ TEST(ConstrainedSystems, StartOnTheirConstraintsForAllParameters) {
     for (int k = 0; k < 10; ++k) {
       const auto model = plugin.make(samples.parameters(plugin));
       ConstraintResiduals<Quad> residuals(*model);
-      Numbers z = numbers(model->initial()), worst;
+      Numbers z = initial_state(*model), worst;
       residuals(Quad(0), z, worst);
       for (const Quad& x : worst) EXPECT_LE(static_cast<double>(x), 1e-31) << name;
-      z[0] += q(1, 1000000);  // the control
+      z[0] += ratio(1, 1000000);  // the control
       residuals(Quad(0), z, worst);
       EXPECT_GT(static_cast<double>(worst[0]), 1e-8) << name;
     }
@@ -76,59 +46,60 @@ TEST(ConstrainedSystems, StartOnTheirConstraintsForAllParameters) {
 // At the angle with cosine 4/5 and sine 3/5 from the vertical: omega^2 = g/(l cos).
 TEST(ConstrainedSystems, SphericalPendulumTurnsAsAConicalOne) {
   const auto motion =
-      motion_of(named("spherical-pendulum", {{"mass", "1.5"}, {"length", "2"}, {"gravity", "9"}}));
-  const Quad omega = sqrt(Quad(9) / (Quad(2) * q(4, 5))), radius = Quad(2) * q(3, 5), height = -q(8, 5);
+      motion_of(model_named("spherical-pendulum", {{"mass", "1.5"}, {"length", "2"}, {"gravity", "9"}}));
+  const Quad omega = sqrt(Quad(9) / (Quad(2) * ratio(4, 5))), radius = Quad(2) * ratio(3, 5),
+             height = -ratio(8, 5);
   const auto at = [&](Quad t) {
-    const Quad c = cos(omega * t), s = sin(omega * t), p = q(3, 2) * omega * radius;
+    const Quad c = cos(omega * t), s = sin(omega * t), p = ratio(3, 2) * omega * radius;
     return Numbers{radius * c, radius * s, height, -p * s, p * c, Quad(0)};
   };
-  expect_near(flow(motion, at(Quad(0)), q(17, 10)), at(q(17, 10)));
+  expect_near(taylor_flow(motion, at(Quad(0)), ratio(17, 10)), at(ratio(17, 10)));
   Numbers other = at(Quad(0));  // the control: any other speed nods
-  other[4] = other[4] * q(11, 10);
-  EXPECT_GT(distance({flow(motion, other, q(17, 10))[2]}, {height}), 1e-3);
+  other[4] = other[4] * ratio(11, 10);
+  EXPECT_GT(distance({taylor_flow(motion, other, ratio(17, 10))[2]}, {height}), 1e-3);
 }
 
 TEST(ConstrainedSystems, SphericalPendulumSwingsInAPlaneAsThePendulum) {
-  const auto motion = motion_of(named("spherical-pendulum", {{"length", "1"}, {"gravity", "9"}}));
-  const auto plane = named("pendulum", {{"omega", "3"}});
-  const Numbers start{q(7, 5), q(-3, 2)};
+  const auto motion = motion_of(model_named("spherical-pendulum", {{"length", "1"}, {"gravity", "9"}}));
+  const auto plane = model_named("pendulum", {{"omega", "3"}});
+  const Numbers start{ratio(7, 5), ratio(-3, 2)};
   const auto lifted = [](const Numbers& swing) {
     const Quad s = sin(swing[0]), c = cos(swing[0]);
     return Numbers{s, Quad(0), -c, swing[1] * c, Quad(0), swing[1] * s};
   };
-  for (const Quad t : {q(1, 2), q(3)}) {
+  for (const Quad t : {ratio(1, 2), ratio(3)}) {
     Numbers from = start;
     from.push_back(Quad(0));
-    expect_near(flow(motion, lifted(start), t),
+    expect_near(taylor_flow(motion, lifted(start), t),
                 lifted(values(plane->tape(Formula::exact_solution), t, from)));
   }
 }
 
 TEST(ConstrainedSystems, TorusHasItsEquatorsAndMeridiansAsGeodesics) {
-  const auto motion = motion_of(named("torus-particle", {{"mass", "2"}}));  // R = 2, r = 1
-  const Quad speed = q(3, 4);
+  const auto motion = motion_of(model_named("torus-particle", {{"mass", "2"}}));  // R = 2, r = 1
+  const Quad speed = ratio(3, 4);
   for (const Quad radius : {Quad(3), Quad(1)}) {
     const auto at = [&](Quad t) {
       const Quad angle = speed * t / radius, c = cos(angle), s = sin(angle), p = Quad(2) * speed;
       return Numbers{radius * c, radius * s, Quad(0), -p * s, p * c, Quad(0)};
     };
-    expect_near(flow(motion, at(Quad(0)), q(5, 2)), at(q(5, 2)));
+    expect_near(taylor_flow(motion, at(Quad(0)), ratio(5, 2)), at(ratio(5, 2)));
   }
   const auto meridian = [&](Quad t) {
     const Quad c = cos(speed * t), s = sin(speed * t), p = Quad(2) * speed;
     return Numbers{Quad(2) + c, Quad(0), s, -p * s, Quad(0), p * c};
   };
-  expect_near(flow(motion, meridian(Quad(0)), q(5, 2)), meridian(q(5, 2)));
+  expect_near(taylor_flow(motion, meridian(Quad(0)), ratio(5, 2)), meridian(ratio(5, 2)));
   const auto parallel = [&](Quad t) {  // the control: the parallel on top is no geodesic
     const Quad angle = speed * t / Quad(2), c = cos(angle), s = sin(angle), p = Quad(2) * speed;
     return Numbers{Quad(2) * c, Quad(2) * s, Quad(1), -p * s, p * c, Quad(0)};
   };
-  EXPECT_GT(distance(flow(motion, parallel(Quad(0)), q(5, 2)), parallel(q(5, 2))), 1e-2);
+  EXPECT_GT(distance(taylor_flow(motion, parallel(Quad(0)), ratio(5, 2)), parallel(ratio(5, 2))), 1e-2);
 }
 
 // {q_i, p_j}_D = delta_ij - q_i q_j/|q|^2, {p_i, p_j}_D = -(q_i p_j - q_j p_i)/|q|^2, off the sphere too.
 TEST(ConstrainedSystems, DiracBracketsOfTheSphereAreTheKnownOnes) {
-  const auto model = named("sphere-particle", {{"mass", "1.5"}});
+  const auto model = model_named("sphere-particle", {{"mass", "1.5"}});
   Samples samples(45);
   for (int k = 0; k < 10; ++k) {
     const Numbers z = samples.state(*model, 0.3);
@@ -149,7 +120,7 @@ TEST(ConstrainedSystems, DiracBracketsOfTheSphereAreTheKnownOnes) {
 
 // {x, y}_D = -1/b.
 TEST(ConstrainedSystems, GuidingCentreHasThePlaneAsItsPhaseSpace) {
-  const auto model = named("guiding-centre");
+  const auto model = model_named("guiding-centre");
   Samples samples(46);
   for (int k = 0; k < 10; ++k) {
     const Numbers z = samples.state(*model, 0.3);
@@ -166,13 +137,13 @@ TEST(ConstrainedSystems, GuidingCentreHasThePlaneAsItsPhaseSpace) {
 // A particle of mass m, in units where b0 and k are divided by m, drifts as the guiding centre does, up to a
 // multiple of m.
 TEST(ConstrainedSystems, GuidingCentreIsTheLimitOfASmallMass) {
-  const auto drift = named("guiding-centre", {{"b0", "1"}, {"b2", "0"}, {"k", "0.2"}});
-  const Quad x(1), y = q(1, 2), rate = q(1, 5), time(1);
+  const auto drift = model_named("guiding-centre", {{"b0", "1"}, {"b2", "0"}, {"k", "0.2"}});
+  const Quad x(1), y = ratio(1, 2), rate = ratio(1, 5), time(1);
   const Numbers end =
       values(drift->tape(Formula::exact_solution), time, {x, y, -y / Quad(2), x / Quad(2), Quad(0)});
   const auto error = [&](const char* b0, const char* k) {
-    const auto particle = named("magnetic-planar", {{"b0", b0}, {"b2", "0"}, {"k", k}});
-    const Numbers z = flow(particle, {x, y, -rate * y, rate * x}, time);
+    const auto particle = model_named("magnetic-planar", {{"b0", b0}, {"b2", "0"}, {"k", k}});
+    const Numbers z = taylor_flow(particle, {x, y, -rate * y, rate * x}, time);
     return distance({z[0], z[1]}, {end[0], end[1]});
   };
   const double coarse = error("10", "2"), fine = error("100", "20");
@@ -198,7 +169,7 @@ Tape cartesian() {
 
 // r_k - l_k and (r_k^2 - l_k^2)/2 have the same level sets, so that Dirac's brackets are the same everywhere.
 TEST(ConstrainedSystems, PolarDoublePendulumMovesAsTwoRodsInCartesianCoordinates) {
-  const auto polar = motion_of(named("polar-double-pendulum"));
+  const auto polar = motion_of(model_named("polar-double-pendulum"));
   const pfaff::testing::Rods rods{{1, 0.5_r}, {1, 0.8_r}, {}, 9.81_r};
   const auto model = pfaff::testing::model_of(rods);
   const auto map = std::make_shared<const Tape>(cartesian());
@@ -214,27 +185,27 @@ TEST(ConstrainedSystems, PolarDoublePendulumMovesAsTwoRodsInCartesianCoordinates
     const Numbers moved = values(carried, Quad(0), z);
     expect_near(moved, values(motion_of(model)->tape(Formula::field), Quad(0), image));
     EXPECT_GT(
-        distance(moved, values(motion_of(model, "simplified-dirac")->tape(Formula::field), Quad(0), image)),
+        distance(moved, values(motion(model, "simplified-dirac")->tape(Formula::field), Quad(0), image)),
         1e-6);  // the control, as the state is off the surface
   }
 }
 
 TEST(ConstrainedSystems, PolarDoublePendulumKeepsAngularMomentumWithoutGravity) {
-  const auto model = named("polar-double-pendulum", {{"gravity", "0"}});
+  const auto model = model_named("polar-double-pendulum", {{"gravity", "0"}});
   ASSERT_EQ(model->invariants().size(), 2U);
   const auto invariants = model->tape(Formula::invariants);
-  const Numbers start = numbers(model->initial());
-  expect_near(values(invariants, Quad(0), flow(motion_of(model), start, Quad(1))),
+  const Numbers start = initial_state(*model);
+  expect_near(values(invariants, Quad(0), taylor_flow(motion_of(model), start, Quad(1))),
               values(invariants, Quad(0), start));
-  EXPECT_EQ(named("polar-double-pendulum")->invariants().size(), 1U);
+  EXPECT_EQ(model_named("polar-double-pendulum")->invariants().size(), 1U);
 }
 
 // th'' = -(g - a w^2 cos w t)/l sin th, with q = s + l (sin th, -cos th).
 TEST(ConstrainedSystems, ShakenPendulumIsAnAngleInAGravityThatVaries) {
-  const Quad mass = q(3, 2), length(2), gravity(9), a = q(1, 4), w(5);
-  const auto motion = motion_of(
-      named("shaken-pendulum",
-            {{"mass", "1.5"}, {"length", "2"}, {"gravity", "9"}, {"amplitude", "0.25"}, {"frequency", "5"}}));
+  const Quad mass = ratio(3, 2), length(2), gravity(9), a = ratio(1, 4), w(5);
+  const auto motion = motion_of(model_named(
+      "shaken-pendulum",
+      {{"mass", "1.5"}, {"length", "2"}, {"gravity", "9"}, {"amplitude", "0.25"}, {"frequency", "5"}}));
   const auto angle =
       std::make_shared<const Tape>(record(2, 2, [&](const Recorded& t, Arguments z, Results out) {
         const Real l = 2, g = 9;
@@ -246,28 +217,29 @@ TEST(ConstrainedSystems, ShakenPendulumIsAnAngleInAGravityThatVaries) {
     return Numbers{length * s, a * cos(w * t) - length * c, mass * v * c,
                    mass * (v * s - a * w * sin(w * t))};
   };
-  const Numbers start{q(3, 5), q(2, 5)};
-  const Quad time = q(13, 10);
-  expect_near(flow(motion, lifted(start, Quad(0)), time),
+  const Numbers start{ratio(3, 5), ratio(2, 5)};
+  const Quad time = ratio(13, 10);
+  expect_near(taylor_flow(motion, lifted(start, Quad(0)), time),
               lifted(taylor_flow(angle, Quad(0), start, time), time));
   const auto still =
-      motion_of(named("shaken-pendulum", {{"mass", "1.5"}, {"length", "2"}, {"gravity", "9"}}));
-  EXPECT_GT(distance(flow(still, lifted(start, Quad(0)), time), flow(motion, lifted(start, Quad(0)), time)),
+      motion_of(model_named("shaken-pendulum", {{"mass", "1.5"}, {"length", "2"}, {"gravity", "9"}}));
+  EXPECT_GT(distance(taylor_flow(still, lifted(start, Quad(0)), time),
+                     taylor_flow(motion, lifted(start, Quad(0)), time)),
             1e-2);
 }
 
 // phi'' + 2 alpha phi' + beta^2 phi = 0 with alpha = beta = 2: phi = (phi_0 + (phi~_0 + alpha phi_0) t)
 // e^-2t.
 TEST(ConstrainedSystems, BaumgarteBringsAStateBackAtItsRate) {
-  const auto model = named("spherical-pendulum");
-  const auto damped = motion_of(model, "lmm", {{"baumgarte-alpha", "2"}, {"baumgarte-beta", "2"}});
-  Numbers start = numbers(model->initial());
-  start[0] += q(1, 50);
-  start[4] -= q(1, 30);
+  const auto model = model_named("spherical-pendulum");
+  const auto damped = motion(model, "lmm", {{"baumgarte-alpha", "2"}, {"baumgarte-beta", "2"}});
+  Numbers start = initial_state(*model);
+  start[0] += ratio(1, 50);
+  start[4] -= ratio(1, 30);
   const auto phi = model->tape(Formula::constraints);
   const Numbers before = values(phi, Quad(0), start);
-  const Quad time = q(3, 2), decay = exp(Quad(-2) * time), slope = before[1] + Quad(2) * before[0];
-  const Numbers after = values(phi, Quad(0), flow(damped, start, time));
+  const Quad time = ratio(3, 2), decay = exp(Quad(-2) * time), slope = before[1] + Quad(2) * before[0];
+  const Numbers after = values(phi, Quad(0), taylor_flow(damped, start, time));
   expect_near(after, {(before[0] + slope * time) * decay, (before[1] - Quad(2) * slope * time) * decay});
   EXPECT_GT(abs(before[1]), Quad(1e-3));
 }

@@ -4,33 +4,13 @@
 
 #include <functional>
 
-#include <pfaff/core/tape/replay.hpp>
-
+#include "../formula_values.hpp"
 #include "samples.hpp"
 #include "taylor_flow.hpp"
 
 namespace {
 using namespace pfaff;
-using pfaff::testing::Samples;
-using pfaff::testing::taylor_flow;
-using Numbers = std::vector<Quad>;
-
-Numbers values(const std::shared_ptr<const Tape>& tape, Quad t, const Numbers& z) {
-  Numbers out(tape->outputs.size());
-  Replay<Quad> replay(tape);
-  replay(t, z.data(), out.data());
-  return out;
-}
-
-double distance(const Numbers& a, const Numbers& b) {
-  Quad worst(0), size(1);
-  for (std::size_t k = 0; k < a.size(); ++k) {
-    if (!isfinite(a[k] - b[k])) return INFINITY;
-    worst = std::max(worst, abs(a[k] - b[k]));
-    size = std::max(size, abs(b[k]));
-  }
-  return static_cast<double>(worst / size);
-}
+using namespace pfaff::testing;
 
 /// A system with the parameters P, in the order of its list, and what it should be.
 struct Expected {
@@ -66,7 +46,7 @@ Numbers chain_structure(const Numbers& p, Quad t, const Numbers& z) {
   return canonical(Numbers(z.size() / 2, exp(p[1] * t)));
 }
 
-std::vector<Expected> cases() {
+std::vector<Expected> written_out() {
   return {
       {"lotka-volterra",
        {{"alpha", "0.7"}, {"beta", "1.3"}, {"gamma", "2.1"}, {"delta", "0.9"}},
@@ -181,10 +161,10 @@ std::vector<Expected> cases() {
 }
 
 // A few dozen roundings of 1e-34 each.
-constexpr double bound = 1e-31;
+constexpr double written_out_bound = 1e-31;
 
 TEST(EquationsOfMotion, AreWhatTheActionFormGives) {
-  for (const Expected& expected : cases()) {
+  for (const Expected& expected : written_out()) {
     SCOPED_TRACE(expected.system);
     const auto model = systems().get(expected.system, "system").make(expected.parameters);
     Numbers parameters, wrong;
@@ -202,15 +182,16 @@ TEST(EquationsOfMotion, AreWhatTheActionFormGives) {
       const Numbers full = values(model->tape(Formula::structure), t, z);
       for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = i + 1; j < n; ++j) k.push_back(full[i * n + j]);
-      EXPECT_LE(distance(k, expected.structure(parameters, t, z)), bound);
-      structure_control |= distance(k, expected.structure(wrong, t, z)) > 1e-12;
-      varies |= distance(expected.structure(parameters, t + Quad(1), samples.state(*model, 0.3)),
-                         expected.structure(parameters, t, z)) > 1e-3;
+      EXPECT_LE(relative_distance(k, expected.structure(parameters, t, z)), written_out_bound);
+      structure_control |= relative_distance(k, expected.structure(wrong, t, z)) > 1e-12;
+      varies |= relative_distance(expected.structure(parameters, t + Quad(1), samples.state(*model, 0.3)),
+                                  expected.structure(parameters, t, z)) > 1e-3;
       if (expected.field == nullptr) continue;
       const auto derived = model->derived(Formula::field);
       ASSERT_NE(derived, nullptr);
-      EXPECT_LE(distance(values(derived, t, z), expected.field(parameters, t, z)), bound);
-      field_control |= distance(values(derived, t, z), expected.field(wrong, t, z)) > 1e-12;
+      EXPECT_LE(relative_distance(values(derived, t, z), expected.field(parameters, t, z)),
+                written_out_bound);
+      field_control |= relative_distance(values(derived, t, z), expected.field(wrong, t, z)) > 1e-12;
     }
     // Controls: with every parameter off by 1e-9 they differ, where parameters enter.
     const bool constant = model->tape(Formula::structure)->autonomous() && !varies;
@@ -233,7 +214,7 @@ TEST(EquationsOfMotion, ADenseStructureStaysRegular) {
 
 TEST(EquationsOfMotion, ConservedQuantitiesStayAlongSolutions) {
   int found = 0;
-  for (const Expected& expected : cases()) {
+  for (const Expected& expected : written_out()) {
     const auto model = systems().get(expected.system, "system").make(expected.parameters);
     Numbers start;
     for (const Real& x : model->initial()) start.push_back(x.quad());

@@ -4,17 +4,14 @@
 #include <pfaff/core/facets/problem.hpp>
 #include <pfaff/core/facets/scalars.hpp>
 
+#include "../formula_values.hpp"
 #include "motion.hpp"
 #include "samples.hpp"
 #include "taylor_flow.hpp"
 
 namespace {
 using namespace pfaff;
-using pfaff::testing::motion_of;
-using pfaff::testing::on_velocity_constraints;
-using pfaff::testing::Samples;
-using pfaff::testing::taylor_flow;
-using Numbers = std::vector<Quad>;
+using namespace pfaff::testing;
 
 constexpr double t0 = 0.7;
 
@@ -50,19 +47,9 @@ double condition(const std::shared_ptr<const Model>& model, const Numbers& start
   return *std::max_element(sum.begin(), sum.end());
 }
 
-template <class T>
-double distance(const std::vector<T>& a, const Numbers& b) {
-  double worst = 0;
-  for (std::size_t k = 0; k < b.size(); ++k) {
-    const Quad difference = Quad(a[k]) - b[k];
-    worst = isfinite(difference) ? std::max(worst, static_cast<double>(abs(difference))) : INFINITY;
-  }
-  return worst;
-}
-
 // Formulas of up to 500 operations whose roundings partly add up: 20 units in double, measured 9. In quad the
 // error of the reference, which takes some hundred steps, is allowed for: 1000 units, measured 120.
-constexpr double double_bound = 20 * 0x1p-53, quad_bound = 1e-31;
+constexpr double scaled_double_bound = 20 * 0x1p-53, scaled_quad_bound = 1e-31;
 // Unscaled, where the problem is not ill-conditioned.
 constexpr double plain_double_bound = 1e-13, plain_quad_bound = 1e-29, well_conditioned = 300;
 
@@ -74,8 +61,8 @@ void compare(const std::shared_ptr<const Model>& model, const Numbers& start, do
   const double scale = condition(model, start, elapsed);
   const double coarse = distance(exact<double>(model, start, elapsed), reference);
   const double fine = distance(exact<Quad>(model, start, Quad(elapsed)), reference);
-  EXPECT_LE(coarse, double_bound * scale);
-  EXPECT_LE(fine, quad_bound * scale);
+  EXPECT_LE(coarse, scaled_double_bound * scale);
+  EXPECT_LE(fine, scaled_quad_bound * scale);
   if (scale < well_conditioned) {
     EXPECT_LE(coarse, plain_double_bound);
     EXPECT_LE(fine, plain_quad_bound);
@@ -84,7 +71,7 @@ void compare(const std::shared_ptr<const Model>& model, const Numbers& start, do
   Problem<Quad>(model).field(Quad(t0 + elapsed), reference, rate);
   const double moved = distance(rate, Numbers(start.size())) * std::fabs(elapsed);
   const double wrong = distance(exact<Quad>(model, start, Quad(elapsed) * Quad(1 + 1e-9)), reference);
-  EXPECT_TRUE(moved <= 1e-3 * scale || wrong > 1e4 * quad_bound * scale) << "control";
+  EXPECT_TRUE(moved <= 1e-3 * scale || wrong > 1e4 * scaled_quad_bound * scale) << "control";
 }
 
 constexpr double times[] = {0.1, 1, 10, 20};
@@ -142,9 +129,9 @@ TEST(ExactSolution, IsAGroup) {
       const double onward = condition(model, middle, static_cast<double>(b)) +
                             condition(model, middle, static_cast<double>(-a));
       EXPECT_LE(distance(exact<Quad>(model, middle, b), exact<Quad>(model, start, a + b)),
-                quad_bound * scale * onward);
-      EXPECT_LE(distance(exact<Quad>(model, middle, -a), start), quad_bound * scale * onward);
-      EXPECT_LE(distance(exact<Quad>(model, start, Quad(0)), start), quad_bound * scale);
+                scaled_quad_bound * scale * onward);
+      EXPECT_LE(distance(exact<Quad>(model, middle, -a), start), scaled_quad_bound * scale * onward);
+      EXPECT_LE(distance(exact<Quad>(model, start, Quad(0)), start), scaled_quad_bound * scale);
     }
   }
 }

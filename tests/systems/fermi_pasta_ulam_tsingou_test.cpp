@@ -11,36 +11,18 @@
 #include <pfaff/core/system.hpp>
 #include <pfaff/systems/text/text_system.hpp>
 
+#include "../formula_values.hpp"
 #include "samples.hpp"
 #include "taylor_flow.hpp"
 
 namespace {
 using namespace pfaff;
-using pfaff::testing::Samples;
-using pfaff::testing::taylor_flow;
-using Numbers = std::vector<Quad>;
+using namespace pfaff::testing;
 
 constexpr double round_off = 1e-31;  // of quad, for sums of some tens of terms of the order of one
 
 std::shared_ptr<const Model> lattice(const Assignments& set = {}) {
   return systems().get("fermi-pasta-ulam-tsingou", "system").make(set);
-}
-Numbers start_of(const Model& model) {
-  Numbers z;
-  for (const Real& x : model.initial()) z.push_back(x.quad());
-  return z;
-}
-Numbers values(const std::shared_ptr<const Model>& model, Formula formula, const Numbers& z,
-               std::size_t count) {
-  const auto evaluator = make_evaluator<Quad>(model, formula);
-  Numbers out(count);
-  evaluator.call(evaluator.context, Quad(0), z.data(), out.data());
-  return out;
-}
-double distance(const Numbers& a, const Numbers& b) {
-  double worst = 0;
-  for (std::size_t k = 0; k < b.size(); ++k) worst = std::max(worst, static_cast<double>(abs(a[k] - b[k])));
-  return worst;
 }
 const Quad pi = (3.14159265358979323846264338327950288_r).quad();
 
@@ -49,7 +31,7 @@ TEST(FermiPastaUlamTsingou, StartsWithTheEnergyOfTheLowestMode) {
     const auto model = lattice({{"n", std::to_string(n)}, {"beta", "0.3"}});
     const Quad s = sin(pi / Quad(2 * (n + 1))), square = s * s;
     const Quad linear = Quad(n + 1) * square;
-    const Numbers found = values(model, Formula::invariants, start_of(*model), 1 + std::min(n, 4));
+    const Numbers found = evaluated(model, Formula::invariants, initial_state(*model), 1 + std::min(n, 4));
     EXPECT_LT(static_cast<double>(abs(found[0] - linear - Quad(n + 1) * Quad(0.45) * square * square)),
               1e-16);  // 0.45 is a double; what is left is its rounding
     EXPECT_LT(distance({found[1]}, {linear}), round_off);
@@ -74,9 +56,9 @@ TEST(FermiPastaUlamTsingou, ForcesAtTheStartAreSinesOfMultiples) {
     return f;
   };
   const auto model = lattice({{"beta", "0.5"}});
-  Numbers z = start_of(*model);
+  Numbers z = initial_state(*model);
   z.resize(n);
-  const Numbers f = values(model, Formula::force, z, n);
+  const Numbers f = evaluated(model, Formula::force, z, n);
   EXPECT_LT(distance(f, forces_of(Quad(0.25), Quad(0.5))), round_off);
   EXPECT_GT(distance(f, forces_of(Quad(0.25), Quad(0.25))), 1e-6);  // control
   EXPECT_GT(distance(f, forces_of(Quad(0.125), Quad(0.5))), 1e-4);
@@ -86,16 +68,18 @@ TEST(FermiPastaUlamTsingou, IsItsTextWrittenInCpp) {
   const Assignments set{{"n", "7"}, {"alpha", "0.6"}, {"beta", "0.4"}};
   const auto path = std::filesystem::path(PFAFF_GOLDEN) / "../../examples/models/lattice.toml";
   const auto text = system_named(path.string()).make(set), ours = lattice(set);
-  EXPECT_EQ(distance(start_of(*ours), start_of(*text)), 0);
+  EXPECT_EQ(distance(initial_state(*ours), initial_state(*text)), 0);
   Samples samples(11);
   for (int sample = 0; sample < 20; ++sample) {
     const Numbers z = samples.state(*ours, 1);
-    EXPECT_LT(distance(values(ours, Formula::field, z, 14), values(text, Formula::field, z, 14)), 1e-30);
-    EXPECT_LT(distance({values(ours, Formula::invariants, z, 5)[0]}, values(text, Formula::invariants, z, 1)),
+    EXPECT_LT(distance(evaluated(ours, Formula::field, z, 14), evaluated(text, Formula::field, z, 14)),
               1e-30);
-    EXPECT_GT(
-        distance(values(lattice({{"n", "7"}}), Formula::field, z, 14), values(text, Formula::field, z, 14)),
-        1e-6);  // control: other springs
+    EXPECT_LT(
+        distance({evaluated(ours, Formula::invariants, z, 5)[0]}, evaluated(text, Formula::invariants, z, 1)),
+        1e-30);
+    EXPECT_GT(distance(evaluated(lattice({{"n", "7"}}), Formula::field, z, 14),
+                       evaluated(text, Formula::field, z, 14)),
+              1e-6);  // control: other springs
   }
 }
 
@@ -103,13 +87,13 @@ TEST(FermiPastaUlamTsingou, ModesOfTheLinearLatticeAreOscillators) {
   const auto linear = lattice({{"n", "4"}, {"alpha", "0"}});
   Samples samples(12);
   for (int sample = 0; sample < 10; ++sample) {
-    const Numbers e = values(linear, Formula::invariants, samples.state(*linear, 1), 5);
+    const Numbers e = evaluated(linear, Formula::invariants, samples.state(*linear, 1), 5);
     EXPECT_LT(distance({e[1] + e[2] + e[3] + e[4]}, {e[0]}), round_off);
-    const Numbers bent = values(lattice({{"n", "4"}}), Formula::invariants, samples.state(*linear, 1), 5);
+    const Numbers bent = evaluated(lattice({{"n", "4"}}), Formula::invariants, samples.state(*linear, 1), 5);
     EXPECT_GT(distance({bent[1] + bent[2] + bent[3] + bent[4]}, {bent[0]}), 1e-6);  // control
   }
   const Quad half = pi / Quad(10), frequency = Quad(2) * sin(half), time(1.5);
-  const Numbers z = taylor_flow(linear->tape(Formula::field), Quad(0), start_of(*linear), time);
+  const Numbers z = taylor_flow(linear->tape(Formula::field), Quad(0), initial_state(*linear), time);
   Numbers expected(8);
   for (std::size_t i = 0; i < 4; ++i) {
     const Quad shape = sin(Quad(static_cast<double>(i + 1)) * Quad(2) * half);

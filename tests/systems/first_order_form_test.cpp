@@ -6,29 +6,13 @@
 #include <pfaff/bench/verification/check.hpp>
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
-#include <pfaff/core/tape/replay.hpp>
 
+#include "../formula_values.hpp"
 #include "samples.hpp"
 
 namespace {
 using namespace pfaff;
-using pfaff::testing::Samples;
-using Numbers = std::vector<Quad>;
-
-Numbers values(const std::shared_ptr<const Tape>& tape, Quad t, const Numbers& z) {
-  Numbers out(tape->outputs.size());
-  Replay<Quad> replay(tape);
-  replay(t, z.data(), out.data());
-  return out;
-}
-Quad distance(const Numbers& a, const Numbers& b) {
-  Quad worst(0), size(1);
-  for (std::size_t k = 0; k < a.size(); ++k) {
-    worst = isfinite(a[k] - b[k]) ? std::max(worst, abs(a[k] - b[k])) : std::numeric_limits<Quad>::infinity();
-    size = std::max(size, abs(b[k]));
-  }
-  return worst / size;
-}
+using namespace pfaff::testing;
 
 // The damped pendulum, twice: e^{nu t} (p' + nu p + sin q) = 0 and e^{nu t} (q' - p) = 0; F, B as su-qin
 // (93).
@@ -71,7 +55,7 @@ struct ByActionForm {
   }
 };
 template <class S>
-std::shared_ptr<const Model> model_of(const S& object) {
+std::shared_ptr<const Model> sample_of(const S& object) {
   SystemDescriptor descriptor;
   descriptor.name = "test";
   descriptor.coordinates = {{"q", ""}, {"p", ""}};
@@ -80,8 +64,8 @@ std::shared_ptr<const Model> model_of(const S& object) {
 }
 
 TEST(FirstOrderForm, IsTheSystemOfTheActionForm) {
-  const auto written = model_of(ByEquations{}), charted = model_of(Charted{}),
-             form = model_of(ByActionForm{});
+  const auto written = sample_of(ByEquations{}), charted = sample_of(Charted{}),
+             form = sample_of(ByActionForm{});
   EXPECT_TRUE(written->facets().has(Facet::structure));
   EXPECT_TRUE(written->facets().has(Facet::darboux_chart));
   EXPECT_TRUE(written->facets().has(Facet::vector_field));
@@ -93,20 +77,20 @@ TEST(FirstOrderForm, IsTheSystemOfTheActionForm) {
     const Quad t = samples.quad(0, 3);
     for (const Formula formula : {Formula::structure, Formula::covector, Formula::field,
                                   Formula::poisson_tensor, Formula::chart, Formula::chart_field})
-      EXPECT_LE(distance(values(written->tape(formula), t, z), values(form->tape(formula), t, z)),
+      EXPECT_LE(relative_distance(values(written->tape(formula), t, z), values(form->tape(formula), t, z)),
                 Quad(1e-32))
           << static_cast<int>(formula);
     // Closed forms, and the field in the author's chart: y1' = e^{nu t} (p' + nu p) + 2 q q'.
     const Quad e = exp(Quad(0.3_r) * t), velocity = z[1], pull = -sin(z[0]) - Quad(0.3_r) * z[1];
-    EXPECT_LE(distance(values(written->tape(Formula::field), t, z), {velocity, pull}), Quad(1e-32));
+    EXPECT_LE(relative_distance(values(written->tape(Formula::field), t, z), {velocity, pull}), Quad(1e-32));
     const Numbers y = values(charted->tape(Formula::chart), t, z);
-    EXPECT_LE(distance(values(charted->tape(Formula::chart_field), t, y),
-                       {velocity, -(e * sin(z[0])) + Quad(2) * z[0] * velocity}),
+    EXPECT_LE(relative_distance(values(charted->tape(Formula::chart_field), t, y),
+                                {velocity, -(e * sin(z[0])) + Quad(2) * z[0] * velocity}),
               Quad(1e-31));
-    EXPECT_GT(
-        distance(values(charted->tape(Formula::chart_field), t, y),  // control: time left out of the chart
-                 {velocity, e * pull + Quad(2) * z[0] * velocity}),
-        Quad(1e-3) * abs(z[1]));
+    EXPECT_GT(relative_distance(
+                  values(charted->tape(Formula::chart_field), t, y),  // control: time left out of the chart
+                  {velocity, e * pull + Quad(2) * z[0] * velocity}),
+              Quad(1e-3) * abs(z[1]));
   }
 }
 
@@ -125,14 +109,14 @@ struct StateDependent {
   }
 };
 TEST(FirstOrderForm, WithoutAChartSaysWhy) {
-  const auto model = model_of(StateDependent{});
+  const auto model = sample_of(StateDependent{});
   EXPECT_FALSE(model->facets().has(Facet::darboux_chart));
   EXPECT_NE(model->advice(FacetSet{}.with(Facet::darboux_chart)).find("depends on the state"),
             std::string::npos);
   const Numbers z{Quad(2), Quad(3)};
-  EXPECT_LE(
-      distance(values(model->tape(Formula::field), Quad(0), z), {Quad(3) / Quad(5), Quad(-2) / Quad(5)}),
-      Quad(1e-33));
+  EXPECT_LE(relative_distance(values(model->tape(Formula::field), Quad(0), z),
+                              {Quad(3) / Quad(5), Quad(-2) / Quad(5)}),
+            Quad(1e-33));
 }
 
 TEST(FirstOrderForm, MethodsKeepItsStructure) {

@@ -10,13 +10,12 @@
 
 namespace {
 using namespace pfaff;
-using pfaff::testing::motion_of;
 using pfaff::testing::on_velocity_constraints;
 using pfaff::testing::Samples;
 using Arguments = std::span<const Recorded>;
 using Results = std::span<Recorded>;
 
-constexpr int points = 30;
+constexpr int rate_points = 30;
 
 // For every invariant: its rate along the field, the sum of the sizes of the terms that make it, and the most
 // that rates mixed with each other could make of it.
@@ -71,7 +70,7 @@ TEST(Invariants, BehaveAsDeclared) {
   int conserved = 0, decreasing = 0;
   for (const SystemPlugin* plugin : systems().all()) {
     Samples samples(31);
-    for (int k = 0; k < points; ++k) {
+    for (int k = 0; k < rate_points; ++k) {
       const Assignments parameters = samples.parameters(*plugin);
       const auto model = motion_of(plugin->make(parameters));
       if (!model->facets().has(Facet::invariants)) continue;
@@ -109,8 +108,8 @@ TEST(Invariants, BehaveAsDeclared) {
       }
     }
   }
-  EXPECT_GE(conserved, points * 8);
-  EXPECT_GE(decreasing, points * 2);
+  EXPECT_GE(conserved, rate_points * 8);
+  EXPECT_GE(decreasing, rate_points * 2);
 }
 
 // I(z) = z.Q z/2 with constant Q: the Hessian is the same everywhere and I is homogeneous of degree two.
@@ -129,7 +128,7 @@ TEST(Invariants, MarkedQuadraticAreQuadraticForms) {
       Replay<Quad> value(std::make_shared<const Tape>(one));
       Replay<Quad> hessian(std::make_shared<const Tape>(jacobian_tape(jacobian_tape(one))));
       Quad worst(0);
-      for (int k = 0; k < points; ++k) {
+      for (int k = 0; k < rate_points; ++k) {
         const auto z = samples.state(*model, 0.3), other = samples.state(*model, 0.3);
         std::vector<Quad> a(n * n), b(n * n);
         const Quad t = samples.quad(0, 3), later = samples.quad(0, 3);

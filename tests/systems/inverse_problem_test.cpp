@@ -10,6 +10,7 @@
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/replay.hpp>
 
+#include "../golden_numbers.hpp"
 #include "samples.hpp"
 
 namespace {
@@ -112,8 +113,7 @@ Real rational(const std::string& text) {
 
 template <class T>
 void expect_golden(double tolerance) {
-  const auto golden =
-      nlohmann::json::parse(std::ifstream(std::string(PFAFF_GOLDEN) + "/birkhoff_inverse_problem.json"));
+  const auto golden = pfaff::testing::golden("birkhoff_inverse_problem");
   const auto number = [](const nlohmann::json& j) { return T(rational(j.get<std::string>())); };
   const auto& point = golden.at("point");
   const std::vector<T> z{number(point.at("z1")), number(point.at("z2")), number(point.at("z3")),
@@ -196,7 +196,7 @@ SelfAdjointness<T> measured(const Equations& equations, const std::vector<Real>&
                              z);
 }
 template <class T>
-double relative(const Residual<T>& r) {
+double relative_residual(const Residual<T>& r) {
   return static_cast<double>(r.residual / r.scale);
 }
 
@@ -217,30 +217,31 @@ TEST(SelfAdjointness, HoldsForActionFormsAndSeesEachDefectAlone) {
   for (const auto& [equations, where] : {std::pair(polynomial(), state), std::pair(transcendental(), near)}) {
     const auto in_double = measured<double>(equations, where);
     const auto in_quad = measured<Quad>(equations, where);
-    for (const auto& r : {in_double.skew, in_double.closed, in_double.time}) EXPECT_LE(relative(r), 1e-14);
-    EXPECT_LE(relative(in_quad.skew), 1e-32);
-    EXPECT_LE(relative(in_quad.time), 1e-32);
+    for (const auto& r : {in_double.skew, in_double.closed, in_double.time})
+      EXPECT_LE(relative_residual(r), 1e-14);
+    EXPECT_LE(relative_residual(in_quad.skew), 1e-32);
+    EXPECT_LE(relative_residual(in_quad.time), 1e-32);
     EXPECT_GT(in_quad.time.scale, Quad(0.1));
   }
-  EXPECT_LE(relative(measured<Quad>(polynomial(), state).closed), 1e-32);
+  EXPECT_LE(relative_residual(measured<Quad>(polynomial(), state).closed), 1e-32);
   // Controls, each by a millionth: one entry of K alone; a pair of entries by z3, which is not closed; D by a
   // covector that is not a gradient.
   Equations wrong = polynomial();
   wrong.structure = changed(wrong.structure, 1, [](const Recorded&, Arguments) { return Recorded(1); });
   auto r = measured<Quad>(wrong, state);
-  EXPECT_GT(relative(r.skew), 1e-8);
-  EXPECT_LE(relative(r.time), 1e-32);
+  EXPECT_GT(relative_residual(r.skew), 1e-8);
+  EXPECT_LE(relative_residual(r.time), 1e-32);
   wrong = polynomial();
   wrong.structure = changed(wrong.structure, 1, [](const Recorded&, Arguments z) { return z[2]; });
   wrong.structure = changed(wrong.structure, 4, [](const Recorded&, Arguments z) { return -z[2]; });
   r = measured<Quad>(wrong, state);
-  EXPECT_LE(relative(r.skew), 1e-32);
-  EXPECT_GT(relative(r.closed), 1e-8);
+  EXPECT_LE(relative_residual(r.skew), 1e-32);
+  EXPECT_GT(relative_residual(r.closed), 1e-8);
   wrong = polynomial();
   wrong.covector = changed(wrong.covector, 0, [](const Recorded&, Arguments z) { return z[1]; });
   r = measured<Quad>(wrong, state);
-  EXPECT_LE(relative(r.closed), 1e-32);
-  EXPECT_GT(relative(r.time), 1e-8);
+  EXPECT_LE(relative_residual(r.closed), 1e-32);
+  EXPECT_GT(relative_residual(r.time), 1e-8);
 }
 
 }  // namespace

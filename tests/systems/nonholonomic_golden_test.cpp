@@ -5,8 +5,8 @@
 #include <functional>
 
 #include <pfaff/core/facets/problem.hpp>
-#include <pfaff/core/tape/replay.hpp>
 
+#include "../formula_values.hpp"
 #include "bead_rod_files.hpp"
 #include "motion.hpp"
 #include "multipliers.hpp"
@@ -15,33 +15,7 @@
 namespace {
 using namespace pfaff;
 using namespace pfaff::testing;
-using Numbers = std::vector<Quad>;
 
-std::shared_ptr<const Model> named(const char* name, const Assignments& set = {}) {
-  return systems().get(name, "system").make(set);
-}
-Numbers initial(const Model& model) {
-  Numbers z;
-  for (const Real& x : model.initial()) z.push_back(x.quad());
-  return z;
-}
-Numbers numbers(const nlohmann::json& list) {
-  Numbers x;
-  for (const auto& text : list) x.push_back(Real::parse(text.get<std::string>())->quad());
-  return x;
-}
-Numbers values(const std::shared_ptr<const Tape>& tape, const Numbers& z) {
-  Numbers out(tape->outputs.size());
-  Replay<Quad> replay(tape);
-  replay(Quad(0), z.data(), out.data());
-  return out;
-}
-double distance(const Numbers& a, const Numbers& b) {
-  double worst = a.size() == b.size() ? 0 : INFINITY;
-  for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k)
-    worst = std::max(worst, static_cast<double>(abs(a[k] - b[k])));
-  return worst;
-}
 Numbers joined(Numbers a, const Numbers& b) {
   a.insert(a.end(), b.begin(), b.end());
   return a;
@@ -69,7 +43,7 @@ void to_contact_point(Numbers& q, Numbers& v, Numbers& a) {
   v[0] += v[2] * s, v[1] -= v[2] * c;
 }
 
-const std::vector<Golden>& cases() {
+const std::vector<Golden>& golden_systems() {
   static const std::vector<Golden> list{
       {"contact-oscillator", "contact oscillator"},
       {"knife-edge", "knife edge on an incline"},
@@ -88,27 +62,27 @@ nlohmann::json golden_case(const std::string& name) {
 // q, v and q'' at a state, in the golden coordinates.
 std::array<Numbers, 3> observed(const Golden& c, const std::shared_ptr<const Tape>& field, const Numbers& z) {
   const std::size_t half = z.size() / 2;
-  const Numbers rates = values(field, z);
+  const Numbers rates = values(field, Quad(0), z);
   std::array<Numbers, 3> seen{part(z, 0, half), part(rates, 0, half), part(rates, 2 * half, half)};
   c.translate(seen[0], seen[1], seen[2]);
   return seen;
 }
 
 TEST(NonholonomicGolden, StartsAcceleratesAndFlows) {
-  for (const Golden& c : cases()) {
+  for (const Golden& c : golden_systems()) {
     SCOPED_TRACE(c.system);
     const auto entry = golden_case(c.name);
-    const auto model = named(c.system);
+    const auto model = model_named(c.system);
     const auto field = std::make_shared<const Tape>(multiplier_field(*model));
-    const auto [q, v, a] = observed(c, field, initial(*model));
+    const auto [q, v, a] = observed(c, field, initial_state(*model));
     EXPECT_LE(distance(q, numbers(entry.at("q0"))), digits);
     EXPECT_LE(distance(joined(v, a), numbers(entry.at("rhs (v,a)"))), 10 * digits);
-    const Numbers end = taylor_flow(field, Quad(0), initial(*model), Quad(1));
+    const Numbers end = taylor_flow(field, Quad(0), initial_state(*model), Quad(1));
     const auto [q1, v1, a1] = observed(c, field, end);
     EXPECT_LE(distance(joined(q1, v1), numbers(entry.at("flow T=1 (q,v)"))), series);
     // Control: the state a millionth of a second earlier is another.
     const auto [q2, v2, a2] =
-        observed(c, field, taylor_flow(field, Quad(0), initial(*model), Quad(1 - 1e-6)));
+        observed(c, field, taylor_flow(field, Quad(0), initial_state(*model), Quad(1 - 1e-6)));
     EXPECT_GT(distance(joined(q2, v2), numbers(entry.at("flow T=1 (q,v)"))), 1e-8);
   }
 }
@@ -124,23 +98,23 @@ TEST(NonholonomicGolden, TheFormulationIsTheMotionByMultipliers) {
     SCOPED_TRACE(plugin->name());
     const auto field = std::make_shared<const Tape>(multiplier_field(*model));
     const auto motion = motion_of(model);
-    Numbers z = initial(*model);
+    Numbers z = initial_state(*model);
     for (std::size_t k = 0; k < z.size(); ++k) z[k] += Quad(static_cast<int>(k % 3) + 1) / Quad(17);
-    for (const Numbers& state : {initial(*model), z}) {
-      const Numbers ours = values(motion->tape(Formula::field), state);
-      EXPECT_LE(distance(ours, part(values(field, state), 0, z.size())), 1e-31);
+    for (const Numbers& state : {initial_state(*model), z}) {
+      const Numbers ours = values(motion->tape(Formula::field), Quad(0), state);
+      EXPECT_LE(distance(ours, part(values(field, Quad(0), state), 0, z.size())), 1e-31);
     }
   }
 }
 
 TEST(NonholonomicGolden, ClosedFormsEndWhereTheFlowEnds) {
-  for (const Golden& c : cases()) {
-    const auto model = named(c.system);
+  for (const Golden& c : golden_systems()) {
+    const auto model = model_named(c.system);
     if (!model->facets().has(Facet::exact_solution)) continue;
     SCOPED_TRACE(c.system);
     const auto expected = numbers(golden_case(c.name).at("flow T=1 (q,v)"));
     const auto field = std::make_shared<const Tape>(multiplier_field(*model));
-    Numbers arguments = initial(*model), z(arguments.size());
+    Numbers arguments = initial_state(*model), z(arguments.size());
     arguments.emplace_back(0);
     Problem<Quad>(model).exact_solution(Quad(1), arguments, z);
     const auto [q, v, a] = observed(c, field, z);
@@ -154,9 +128,9 @@ TEST(NonholonomicGolden, ClosedFormsEndWhereTheFlowEnds) {
 
 TEST(NonholonomicGolden, ABallOnATurntableRunsOnItsCircle) {
   const auto entry = golden_case("rolling homogeneous ball on a turntable, reduced");
-  const auto model = named("rolling-ball"), motion = motion_of(model);
+  const auto model = model_named("rolling-ball"), motion = motion_of(model);
   const auto field = motion->tape(Formula::field);
-  const Numbers start = initial(*model);
+  const Numbers start = initial_state(*model);
   const auto seen = [](const Numbers& z) { return Numbers{z[0], z[1], z[6], z[7]}; };  // mass 1
   EXPECT_LE(distance(seen(start), numbers(entry.at("x0 (x,y,vx,vy)"))), digits);
   const Numbers end = taylor_flow(field, Quad(0), start, Quad(3));
@@ -169,8 +143,12 @@ TEST(NonholonomicGolden, ABallOnATurntableRunsOnItsCircle) {
   EXPECT_GT(distance(round, start), 0.1);
 
   // The energy is not kept, the moving energy is.
-  const auto energy = [&](const Numbers& z) { return values(model->tape(Formula::hamiltonian), z)[0]; };
-  const auto moving = [&](const Numbers& z) { return values(model->tape(Formula::invariants), z)[0]; };
+  const auto energy = [&](const Numbers& z) {
+    return values(model->tape(Formula::hamiltonian), Quad(0), z)[0];
+  };
+  const auto moving = [&](const Numbers& z) {
+    return values(model->tape(Formula::invariants), Quad(0), z)[0];
+  };
   EXPECT_GT(static_cast<double>(abs(energy(end) - energy(start))), 0.05);
   EXPECT_LE(static_cast<double>(abs(moving(end) - moving(start))), 1e-31);
 }
@@ -204,7 +182,7 @@ struct BallInAngles {
 
 // The path of the contact point depends on how the ball turns and not on what describes it.
 TEST(NonholonomicGolden, TheBallRollsAlikeInEulersAngles) {
-  const auto ball = named("rolling-ball");
+  const auto ball = model_named("rolling-ball");
   const auto angles =
       make_model(SystemDescriptor{.name = "ball-in-angles", .title = "", .reference = ""}, BallInAngles{});
   const Quad half = Quad(1) / Quad(2), i = Quad(2) / Quad(5), omega = Quad(9) / Quad(10);
@@ -232,8 +210,8 @@ TEST(NonholonomicGolden, TheBallRollsAlikeInEulersAngles) {
                       i * (wx * c + wy * s),
                       i * (sin(theta) * (wx * s - wy * c) + wz * cos(theta))};
   for (const auto& [model, state] : {std::pair(ball, z), std::pair(angles, other)}) {
-    EXPECT_LE(distance(values(model->tape(Formula::constraints), state), {Quad(0), Quad(0)}), 1e-32);
-    const Numbers rates = values(std::make_shared<const Tape>(multiplier_field(*model)), state);
+    EXPECT_LE(distance(values(model->tape(Formula::constraints), Quad(0), state), {Quad(0), Quad(0)}), 1e-32);
+    const Numbers rates = values(std::make_shared<const Tape>(multiplier_field(*model)), Quad(0), state);
     const std::size_t n = state.size();
     const Quad k = omega * Quad(2) / Quad(7);
     EXPECT_LE(distance({rates[n], rates[n + 1]}, {-k * vy, k * vx}), 1e-31) << model->name();

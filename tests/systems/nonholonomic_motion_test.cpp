@@ -7,6 +7,7 @@
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/replay.hpp>
 
+#include "../formula_values.hpp"
 #include "motion.hpp"
 #include "samples.hpp"
 #include "taylor_flow.hpp"
@@ -14,17 +15,7 @@
 namespace {
 using namespace pfaff;
 using namespace pfaff::testing;
-using Numbers = std::vector<Quad>;
 
-std::shared_ptr<const Model> named(const char* name, const Assignments& set = {}) {
-  return systems().get(name, "system").make(set);
-}
-Numbers values(const std::shared_ptr<const Tape>& tape, const Numbers& z) {
-  Numbers out(tape->outputs.size());
-  Replay<Quad> replay(tape);
-  replay(Quad(0), z.data(), out.data());
-  return out;
-}
 double size_of(const Numbers& x) {
   double worst = 0;
   for (const Quad& entry : x) worst = std::max(worst, static_cast<double>(abs(entry)));
@@ -44,10 +35,10 @@ TEST(NonholonomicMotion, ClosedFormsStayOnTheConstraints) {
       for (const int time : {-3, 0, 1, 20}) {
         Problem<Quad>(model).exact_solution(Quad(time), start, z);
         // Momenta of size one to ten.
-        EXPECT_LE(size_of(values(model->tape(Formula::constraints), z)), 1e-31) << time;
+        EXPECT_LE(size_of(values(model->tape(Formula::constraints), Quad(0), z)), 1e-31) << time;
         z.back() += Quad(1e-6);                // the control
         if (plugin->name() != "knife-edge") {  // whose constraint does not see p_theta
-          EXPECT_GT(size_of(values(model->tape(Formula::constraints), z)), 1e-9);
+          EXPECT_GT(size_of(values(model->tape(Formula::constraints), Quad(0), z)), 1e-9);
         }
         ++judged;
       }
@@ -58,7 +49,7 @@ TEST(NonholonomicMotion, ClosedFormsStayOnTheConstraints) {
 
 // Positions move alike from the same velocities, which are other momenta.
 TEST(NonholonomicMotion, AChangeOfGaugeChangesMomentaOnly) {
-  const auto plain = named("contact-oscillator"), other = named("contact-oscillator-conjugate");
+  const auto plain = model_named("contact-oscillator"), other = model_named("contact-oscillator-conjugate");
   Numbers a, b;
   for (const Real& x : plain->initial()) a.push_back(x.quad());
   for (const Real& x : other->initial()) b.push_back(x.quad());
@@ -89,14 +80,15 @@ Numbers characteristic(const Matrix<Quad>& m) {
 Numbers exponents(const std::shared_ptr<const Model>& model, Quad s) {
   const auto field = motion_of(model)->tape(Formula::field);
   const Numbers at{s, Quad(0), Quad(0), Quad(0), Quad(0), Quad(0)};
-  EXPECT_LE(size_of(values(field, at)), 1e-33) << "no equilibrium";
-  return characteristic({6, values(std::make_shared<const Tape>(jacobian_tape(*field)), at)});
+  EXPECT_LE(size_of(values(field, Quad(0), at)), 1e-33) << "no equilibrium";
+  return characteristic(
+      Matrix<Quad>(6, values(std::make_shared<const Tape>(jacobian_tape(*field)), Quad(0), at)));
 }
 
 TEST(NonholonomicMotion, NothingReversesTheGyroscopicContactOscillator) {
-  const auto model = named("gyroscopic-contact-oscillator");
-  const auto turned_off = named("gyroscopic-contact-oscillator", {{"gamma", "0"}});
-  const auto plain = named("contact-oscillator");
+  const auto model = model_named("gyroscopic-contact-oscillator");
+  const auto turned_off = model_named("gyroscopic-contact-oscillator", {{"gamma", "0"}});
+  const auto plain = model_named("contact-oscillator");
   for (const double place : {-2.0, -0.3, 0.7, 1.5}) {
     const Quad s(place), square = s * s,
                          stiffness = Quad(1) + Quad(13) / Quad(10) * square;  // epsilon + beta
@@ -130,7 +122,7 @@ double turning_residual(const std::shared_ptr<const Tape>& field, int gamma, con
         for (std::size_t k = 0; k < 6; ++k) out[k] = there[k] + carried[k];
       })));
   Numbers point = z, out(6);
-  const Numbers rate = values(field, z);
+  const Numbers rate = values(field, Quad(0), z);
   point.insert(point.end(), rate.begin(), rate.end());
   turned(Quad(0), point.data(), out.data());
   return size_of(out);
@@ -161,18 +153,19 @@ TEST(NonholonomicMotion, ReversedVelocitiesAndMirrorsDoNotReverseTheGyroscopicCo
 TEST(NonholonomicMotion, StatesOfTheQuarticSystemHaveTheEnergyThatIsAskedFor) {
   for (const char* energy : {"3", "0.25", "100", "0"})
     for (const char* seed : {"1", "2", "31"}) {
-      const auto model = named("quartic-nonholonomic", {{"n", "4"}, {"seed", seed}, {"energy", energy}});
+      const auto model =
+          model_named("quartic-nonholonomic", {{"n", "4"}, {"seed", seed}, {"energy", energy}});
       Numbers z;
       for (const Real& x : model->initial()) z.push_back(x.quad());
       const Quad asked = Real::parse(energy)->quad(),
-                 found = values(model->tape(Formula::hamiltonian), z).front();
+                 found = values(model->tape(Formula::hamiltonian), Quad(0), z).front();
       const double off = static_cast<double>(abs(found - asked) / (asked + Quad(1)));
       if (asked == Quad(0)) {
         EXPECT_GT(off, 0.1) << "as drawn";  // control
       } else {
         EXPECT_LE(off, 1e-32) << energy << ' ' << seed;
       }
-      EXPECT_LE(size_of(values(model->tape(Formula::constraints), z)), 1e-30);
+      EXPECT_LE(size_of(values(model->tape(Formula::constraints), Quad(0), z)), 1e-30);
     }
 }
 

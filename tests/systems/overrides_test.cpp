@@ -15,7 +15,7 @@ using Formulas = std::vector<std::pair<std::string, Formula>>;
 
 // Two ways to compute one vector differ by roundings only: a few dozen operations.
 constexpr double double_bound = 1e-14, quad_bound = 1e-31;
-constexpr int points = 30;
+constexpr int override_points = 30;
 
 const Formulas overridable{{"field", Formula::field},
                            {"force", Formula::force},
@@ -27,8 +27,8 @@ const Formulas overridable{{"field", Formula::field},
 
 // The largest difference of two tapes at (t, z), relative to 1 + the largest value.
 template <class T>
-double difference(const std::shared_ptr<const Tape>& a, const std::shared_ptr<const Tape>& b, Quad t,
-                  const std::vector<Quad>& z) {
+double tape_difference(const std::shared_ptr<const Tape>& a, const std::shared_ptr<const Tape>& b, Quad t,
+                       const std::vector<Quad>& z) {
   std::vector<T> arguments, x(a->outputs.size()), y(b->outputs.size());
   for (const Quad v : z) arguments.push_back(static_cast<T>(v));
   Replay<T> first(a), second(b);
@@ -56,11 +56,11 @@ std::pair<double, double> worst_override(const Model& model, Samples& samples, i
     const auto derived = model.derived(formula);
     if (derived == nullptr) continue;
     const auto given = model.tape(formula);
-    for (int k = 0; k < points; ++k) {
+    for (int k = 0; k < override_points; ++k) {
       const auto z = arguments_of(*given, samples.state(model, 0.3));
       const Quad t = samples.quad(0, 3);
-      coarse = std::max(coarse, difference<double>(given, derived, t, z));
-      fine = std::max(fine, difference<Quad>(given, derived, t, z));
+      coarse = std::max(coarse, tape_difference<double>(given, derived, t, z));
+      fine = std::max(fine, tape_difference<Quad>(given, derived, t, z));
     }
     ++compared;
   }
@@ -94,7 +94,7 @@ TEST(Overrides, CompiledFormulasAreThoseOnTheTape) {
       ++compared;
       const auto tape = model->tape(formula);
       Replay<double> replay(tape);
-      for (int k = 0; k < points; ++k) {
+      for (int k = 0; k < override_points; ++k) {
         std::vector<double> z, a(tape->outputs.size()), b(tape->outputs.size());
         for (const Quad x : arguments_of(*tape, samples.state(*model, 0.3)))
           z.push_back(static_cast<double>(x));
@@ -131,11 +131,11 @@ TEST(Overrides, ChartFieldsArePushedForward) {
     if (!model->facets().has(Facet::darboux_chart)) continue;
     ++compared;
     const auto pushed = pushed_forward(*model), field = model->tape(Formula::chart_field);
-    for (int k = 0; k < points; ++k) {
+    for (int k = 0; k < override_points; ++k) {
       const auto y = samples.state(*model, 0.3);
       const Quad t = samples.quad(0, 3);
-      EXPECT_LE(difference<double>(field, pushed, t, y), double_bound) << plugin->name();
-      EXPECT_LE(difference<Quad>(field, pushed, t, y), quad_bound) << plugin->name();
+      EXPECT_LE(tape_difference<double>(field, pushed, t, y), double_bound) << plugin->name();
+      EXPECT_LE(tape_difference<Quad>(field, pushed, t, y), quad_bound) << plugin->name();
     }
   }
   EXPECT_GE(compared, 5);
@@ -187,11 +187,11 @@ std::pair<double, double> worst_friction(const Model& model, Samples& samples) {
   const auto damped = std::make_shared<const Tape>(damped_field(model));
   const auto field = model.tape(Formula::field);
   double coarse = 0, fine = 0;
-  for (int k = 0; k < points; ++k) {
+  for (int k = 0; k < override_points; ++k) {
     const auto z = samples.state(model, 0.3);
     const Quad t = samples.quad(0, 3);
-    coarse = std::max(coarse, difference<double>(field, damped, t, z));
-    fine = std::max(fine, difference<Quad>(field, damped, t, z));
+    coarse = std::max(coarse, tape_difference<double>(field, damped, t, z));
+    fine = std::max(fine, tape_difference<Quad>(field, damped, t, z));
   }
   return {coarse, fine};
 }

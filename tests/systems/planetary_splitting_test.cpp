@@ -6,8 +6,11 @@
 #include <pfaff/core/numbers/dual.hpp>
 #include <pfaff/core/system.hpp>
 
+#include "../formula_values.hpp"
+
 namespace {
 using namespace pfaff;
+using pfaff::testing::initial_state;
 
 constexpr std::size_t n = 6, half = 18;
 
@@ -26,7 +29,8 @@ const Real constant = 2.95912208286e-4_r;
 
 // r_i = q_i - (m_0 q_0 + ... + m_(i-1) q_(i-1))/M_(i-1), and velocities likewise.
 template <class T>
-std::array<T, 3> relative(const std::vector<T>& m, const std::vector<T>& z, std::size_t i, bool velocity) {
+std::array<T, 3> jacobi_coordinates(const std::vector<T>& m, const std::vector<T>& z, std::size_t i,
+                                    bool velocity) {
   std::array<T, 3> result;
   for (std::size_t x = 0; x < 3; ++x) {
     T sum(0), mass(0);
@@ -48,8 +52,8 @@ T kepler_energy(const std::vector<T>& m, const std::vector<T>& z) {
   T sum(0), inner = m[0];
   std::array<T, 3> total{z[half], z[half + n], z[half + 2 * n]};
   for (std::size_t i = 1; i < n; ++i) {
-    sum = sum + m[i] * inner / (inner + m[i]) * square(relative(m, z, i, true)) / 2;
-    sum = sum - T(constant) * m[i] * inner / sqrt(square(relative(m, z, i, false)));
+    sum = sum + m[i] * inner / (inner + m[i]) * square(jacobi_coordinates(m, z, i, true)) / 2;
+    sum = sum - T(constant) * m[i] * inner / sqrt(square(jacobi_coordinates(m, z, i, false)));
     inner = inner + m[i];
     for (std::size_t x = 0; x < 3; ++x) total[x] = total[x] + z[half + x * n + i];
   }
@@ -63,21 +67,15 @@ T interaction_energy(const std::vector<T>& m, const std::vector<T>& z) {
       std::array<T, 3> way{z[i] - z[j], z[n + i] - z[n + j], z[2 * n + i] - z[2 * n + j]};
       sum = sum - T(constant) * m[i] * m[j] / sqrt(square(way));
     }
-    sum = sum + T(constant) * m[i] * inner / sqrt(square(relative(m, z, i, false)));
+    sum = sum + T(constant) * m[i] * inner / sqrt(square(jacobi_coordinates(m, z, i, false)));
     inner = inner + m[i];
   }
   return sum;
 }
 
-std::vector<Quad> start_of(const Model& model) {
-  std::vector<Quad> z;
-  for (const Real& x : model.initial()) z.push_back(x.quad());
-  return z;
-}
-
 TEST(PlanetarySplitting, TheEnergiesAddUp) {
   const auto model = planets();
-  const auto z = start_of(*model);
+  const auto z = initial_state(*model);
   const auto m = masses<Quad>(*model);
   std::vector<Quad> values(model->invariants().size());
   Problem<Quad>(model).invariants(Quad(0), z, values);
@@ -91,7 +89,7 @@ TEST(PlanetarySplitting, TheEnergiesAddUp) {
 // every system.
 TEST(PlanetarySplitting, KeplerOrbitsKeepTheirEnergyAndAllMomenta) {
   const auto model = planets();
-  const auto start = start_of(*model);
+  const auto start = initial_state(*model);
   const auto m = masses<Quad>(*model);
   const auto flows = model->exact_flows<Quad>();
   for (const int days : {10, -700, 100000}) {
@@ -112,7 +110,7 @@ TEST(PlanetarySplitting, KeplerOrbitsKeepTheirEnergyAndAllMomenta) {
 TEST(PlanetarySplitting, FlowsBeginAlongTheGradientsOfTheirEnergies) {
   using D = Dual<Quad, 4>;
   const auto model = planets();
-  auto start = start_of(*model);
+  auto start = initial_state(*model);
   for (std::size_t k = 0; k < start.size(); ++k)
     start[k] *= Quad(1) + Quad(static_cast<int>(k % 5)) / Quad(40);
   const auto m = masses<D>(*model);
@@ -137,7 +135,7 @@ TEST(PlanetarySplitting, FlowsBeginAlongTheGradientsOfTheirEnergies) {
 // that of Kepler's problem, which agree to three digits and for Pluto to more.
 TEST(PlanetarySplitting, KicksLoseNoDigits) {
   const auto model = planets();
-  const auto exact = start_of(*model);
+  const auto exact = initial_state(*model);
   std::vector<double> z, change(36);
   std::vector<Quad> same, exact_change(36);
   for (const Quad& x : exact) {

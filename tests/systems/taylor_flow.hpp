@@ -46,5 +46,12 @@ inline std::vector<Quad> taylor_flow(const std::shared_ptr<const Tape>& field, Q
   }
   return z;
 }
+/// The same along the field of a model, from time 0 on.
+inline std::vector<Quad> taylor_flow(const std::shared_ptr<const Model>& motion, const std::vector<Quad>& z,
+                                     Quad elapsed) {
+  return taylor_flow(motion->tape(Formula::field), Quad(0), z, elapsed);
+}
+/// How near to the solution that is over a few units of time: errors grow with the motion.
+inline constexpr double taylor_tolerance = 1e-29;
 
 }  // namespace pfaff::testing

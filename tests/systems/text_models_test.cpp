@@ -12,10 +12,12 @@
 #include <pfaff/bench/verification/check.hpp>
 #include <pfaff/systems/text/text_system.hpp>
 
+#include "../formula_values.hpp"
 #include "../temporary_directory.hpp"
 
 namespace {
 using namespace pfaff;
+using pfaff::testing::evaluated;
 namespace fs = std::filesystem;
 using enum Formula;
 
@@ -26,7 +28,8 @@ std::shared_ptr<const Model> text_model(const std::string& name, const Assignmen
 
 // The largest difference of a formula's results, relative to their size, at random states of order one.
 template <class T>
-double difference(const std::shared_ptr<const Model>& a, const std::shared_ptr<const Model>& b, Formula f) {
+double formula_difference(const std::shared_ptr<const Model>& a, const std::shared_ptr<const Model>& b,
+                          Formula f) {
   const auto first = make_evaluator<T>(a, f), second = make_evaluator<T>(b, f);
   const std::size_t inputs = 2 * static_cast<std::size_t>(a->dimension()) + 1;  // as many as alpha reads
   const std::size_t outputs = inputs * inputs;
@@ -56,8 +59,8 @@ void expect_twins(const std::string& name, const std::string& system, std::initi
   for (const Formula f : formulas) {
     const auto a = f == field ? motion_of(text) : text, b = f == field ? motion_of(twin) : twin;
     // Other orders of operations in a handful of terms, and the linear solves of formulations.
-    EXPECT_LT(difference<double>(a, b, f), 2e-13) << name << " " << to_string(f);
-    EXPECT_LT(difference<Quad>(a, b, f), 1e-30) << name << " " << to_string(f);
+    EXPECT_LT(formula_difference<double>(a, b, f), 2e-13) << name << " " << to_string(f);
+    EXPECT_LT(formula_difference<Quad>(a, b, f), 1e-30) << name << " " << to_string(f);
   }
 }
 
@@ -150,14 +153,6 @@ TEST(TextModels, ABracketMayBeWrittenAsRows) {
     EXPECT_LT(static_cast<double>(abs(rate[i] - x[i] * (x[(i + 1) % 3] - x[(i + 2) % 3]))), 1e-32);
 }
 
-// The results of a formula at one state, in quad.
-std::vector<Quad> results(const std::shared_ptr<const Model>& model, Formula f, const std::vector<Quad>& z,
-                          std::size_t size) {
-  const auto evaluator = make_evaluator<Quad>(model, f);
-  std::vector<Quad> values(size);
-  evaluator.call(evaluator.context, Quad(0), z.data(), values.data());
-  return values;
-}
 std::vector<Quad> some_state(std::size_t size) {
   std::vector<Quad> z;
   for (std::size_t k = 0; k < size; ++k) z.push_back(sin(Quad(static_cast<int>(3 * k + 1))));
@@ -169,8 +164,8 @@ TEST(TextModels, RelativeAnglesAreTheSameDoublePendulum) {
   const auto relative = text_model("double-pendulum-relative");
   const auto angles = systems().get("n-pendulum-angles", "system").make({{"bobs", "2"}, {"gravity", "9.8"}});
   const std::vector<Quad> z = some_state(4);
-  const Quad ours = results(relative, hamiltonian, z, 1)[0];
-  const Quad theirs = results(angles, hamiltonian, {z[0], z[0] + z[1], z[2] - z[3], z[3]}, 1)[0];
+  const Quad ours = evaluated<Quad>(relative, hamiltonian, z, 1)[0];
+  const Quad theirs = evaluated<Quad>(angles, hamiltonian, {z[0], z[0] + z[1], z[2] - z[3], z[3]}, 1)[0];
   EXPECT_LT(static_cast<double>(abs(ours - theirs)), 1e-31);  // a dozen terms of up to 20
 }
 
@@ -180,11 +175,12 @@ TEST(TextModels, QuadrupoleBosonHoldsHenonHeiles) {
   const auto boson = systems().get("quadrupole-boson", "system").make({{"b", "1/4"}, {"d", "0"}});
   const auto galaxy = systems().get("henon-heiles", "system").make({{"lambda", lambda}});
   const std::vector<Quad> z = some_state(4), exchanged{z[1], z[0], z[3], z[2]};
-  const auto ours = results(boson, force, {z[0], z[1]}, 2), theirs = results(galaxy, force, {z[1], z[0]}, 2);
+  const auto ours = evaluated<Quad>(boson, force, {z[0], z[1]}, 2),
+             theirs = evaluated<Quad>(galaxy, force, {z[1], z[0]}, 2);
   EXPECT_LT(static_cast<double>(abs(ours[0] - theirs[1])), 1e-32);
   EXPECT_LT(static_cast<double>(abs(ours[1] - theirs[0])), 1e-32);
-  EXPECT_LT(static_cast<double>(
-                abs(results(boson, hamiltonian, z, 1)[0] - results(galaxy, hamiltonian, exchanged, 1)[0])),
+  EXPECT_LT(static_cast<double>(abs(evaluated<Quad>(boson, hamiltonian, z, 1)[0] -
+                                    evaluated<Quad>(galaxy, hamiltonian, exchanged, 1)[0])),
             1e-32);
 }
 
@@ -194,7 +190,7 @@ void expect_gravity(const std::string& name, const std::vector<Quad>& m, std::si
   const auto model = text_model(name);
   const std::size_t n = m.size();
   const std::vector<Quad> q = some_state(dimensions * n);
-  const auto ours = results(model, force, q, q.size());
+  const auto ours = evaluated<Quad>(model, force, q, q.size());
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t x = 0; x < dimensions; ++x) {
       Quad pull(0);
@@ -222,7 +218,7 @@ TEST(TextModels, BodiesAttractEachOther) {
 TEST(TextModels, ADifferentTwinIsSeen) {
   const auto text = text_model("henon-heiles", {{"lambda", "1.000001"}});
   const auto twin = systems().get("henon-heiles", "system").make({});
-  EXPECT_GT(difference<double>(text, twin, field), 1e-8);
+  EXPECT_GT(formula_difference<double>(text, twin, field), 1e-8);
 }
 
 TEST(TextModels, StartWhereTheirTwinsDo) {

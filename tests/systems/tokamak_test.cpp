@@ -4,12 +4,13 @@
 #include <pfaff/core/facets/problem.hpp>
 #include <pfaff/core/system.hpp>
 
+#include "../formula_values.hpp"
 #include "taylor_flow.hpp"
 
 namespace {
 using namespace pfaff;
+using pfaff::testing::Numbers;
 using pfaff::testing::taylor_flow;
-using Numbers = std::vector<Quad>;
 
 const Numbers somewhere{Quad(0.8), Quad(0.5), Quad(-0.2)}, moving{Quad(0.01), Quad(-0.03), Quad(0.02)};
 

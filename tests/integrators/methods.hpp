@@ -1,0 +1,37 @@
+// Methods by their names, and the states that they lead to.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <pfaff/core/integrator.hpp>
+
+#include "../formula_values.hpp"
+
+namespace pfaff::testing {
+
+inline std::unique_ptr<MethodInstance> method_named(const std::string& name,
+                                                    const Assignments& parameters = {}) {
+  return integrators().get(name, "integrator").make(parameters);
+}
+inline std::unique_ptr<MethodInstance> generating_scheme(int order, const char* variant) {
+  return method_named("generating-function", {{"order", std::to_string(order)}, {"variant", variant}});
+}
+
+/// The state after `count` steps of size h from z at t.
+template <class T>
+std::vector<T> after_steps(const MethodInstance& method, const std::shared_ptr<const Model>& model,
+                           const T& h, std::int64_t count, std::vector<T> z, const T& t = T(0)) {
+  const auto stepper = method.stepper(model, T());
+  std::int64_t completed = 0;
+  EXPECT_EQ(stepper->advance(t, 0, h, count, z, completed), Status::converged)
+      << method.called() << " on " << model->name() << " after " << completed;
+  return z;
+}
+/// The same from the initial state of the model.
+template <class T>
+std::vector<T> after_steps(const MethodInstance& method, const std::shared_ptr<const Model>& model,
+                           const T& h, std::int64_t count) {
+  return after_steps(method, model, h, count, initial_state<T>(*model));
+}
+
+}  // namespace pfaff::testing
