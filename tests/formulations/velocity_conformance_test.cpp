@@ -127,7 +127,7 @@ class WrongVelocityConstraints final : public VelocityConstraints<double> {
         q_rate[k] = of.right_->velocities()[k];
         p_rate[k] = of.right_->forces()[k] - p_rate[k];
       }
-      of.spoil(Broken::ideal_rates, p_rate);
+      of.spoil(VelocityFault::ideal_rates, p_rate);
       return status;
     }
     Wrong& of;
