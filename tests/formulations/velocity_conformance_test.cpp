@@ -116,7 +116,7 @@ class WrongVelocityConstraints final : public VelocityConstraints<double> {
   }
   // Those of the operations, spoilt.
   struct Motion final : ConstrainedRates<double> {
-    explicit Motion(Wrong& of) : of(of) {}
+    explicit Motion(WrongVelocityConstraints& of) : of(of) {}
     Status operator()(const double& t, In<double> q, In<double> p, Out<double> q_rate,
                       Out<double> p_rate) override {
       std::vector<double> x(of.count());
@@ -130,7 +130,7 @@ class WrongVelocityConstraints final : public VelocityConstraints<double> {
       of.spoil(VelocityFault::ideal_rates, p_rate);
       return status;
     }
-    Wrong& of;
+    WrongVelocityConstraints& of;
   };
   VelocityPointer<double> right_;
   VelocityFault broken_;
