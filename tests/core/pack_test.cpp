@@ -69,7 +69,7 @@ TEST(Pack, RootsAndSizesOfSpecialNumbers) {
 
 template <int W>
 void halves_are_the_lanes() {
-  const Pack<W> x = numbers<W>();
+  const Pack<W> x = lane_numbers<W>();
   const Pack<W / 2> lower = x.lower(), upper = x.upper();
   for (std::size_t lane = 0; lane < W / 2; ++lane) {
     EXPECT_EQ(lower[lane], x[lane]);

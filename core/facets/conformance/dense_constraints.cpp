@@ -28,13 +28,16 @@ std::shared_ptr<const Tape> record_everything(const Model& model) {
           for (const Recorded& x : numbers) out[at++] = x;
         };
         const Numbers gradient = evaluate(*slopes, t, z);
-        Numbers flow(gradient.begin() + static_cast<std::ptrdiff_t>(n), gradient.end());
-        for (std::size_t k = 0; k < n; ++k) flow.push_back(-gradient[k]);
+        Numbers flow(2 * n);
+        for (std::size_t k = 0; k < n; ++k) flow[k] = gradient[n + k], flow[n + k] = -gradient[k];
         append(evaluate(*phi, t, z.first(n)));
         append(evaluate(hidden, t, z));
         append(directional_derivative(hidden, t, Recorded(1), z, flow));
         append(flow);
-        append(model.given(Formula::friction) ? evaluate(*model.tape(Formula::friction), t, z) : Numbers(n));
+        if (model.given(Formula::friction))
+          append(evaluate(*model.tape(Formula::friction), t, z));
+        else
+          for (std::size_t k = 0; k < n; ++k) out[at++] = Recorded(0);
         append(jacobian(*phi, t, z.first(n)));
         append(jacobian(hidden, t, z));
       }));
