@@ -7,33 +7,6 @@
 
 namespace pfaff {
 
-struct Recorded::SharedConstant {
-  Real value;
-  std::atomic<int> uses{1};
-};
-
-Recorded::Recorded(const Real& value) {
-  constexpr std::int64_t largest = std::numeric_limits<int>::max();
-  // A zero with a sign is no integer.
-  const bool integer = value.is_fraction() && value.denominator() == 1 && value.numerator() <= largest &&
-                       value.numerator() >= -largest &&
-                       !(value.numerator() == 0 && std::signbit(value.value()));
-  if (integer) {
-    number_ = static_cast<int>(value.numerator());
-  } else {
-    target_ = new SharedConstant{value};
-    kind_ = Kind::shared;
-  }
-}
-void Recorded::share() const noexcept {
-  static_cast<SharedConstant*>(target_)->uses.fetch_add(1, std::memory_order_relaxed);
-}
-void Recorded::release() const noexcept {
-  auto* shared = static_cast<SharedConstant*>(target_);
-  if (shared->uses.fetch_sub(1, std::memory_order_acq_rel) == 1) delete shared;
-}
-const Real& Recorded::shared_constant() const { return static_cast<const SharedConstant*>(target_)->value; }
-
 namespace {
 Recorder* recorder_of(const Recorded& a, const Recorded& b) {
   return a.recorder() != nullptr ? a.recorder() : b.recorder();
@@ -49,9 +22,7 @@ Recorded binary(Operation operation, const Recorded& a, const Recorded& b) {
 Recorded unary(Operation operation, const Recorded& a) {
   return a.recorder()->append({operation, a.slot(), 0, 0});
 }
-}  // namespace
 
-namespace {
 // What an operation makes of two small integers, where that is an int again.
 template <class Combine>
 std::optional<Recorded> of_integers(const Recorded& a, const Recorded& b, const Combine& combine) {
