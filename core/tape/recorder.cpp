@@ -1,7 +1,6 @@
 #include <pfaff/core/tape/recorder.hpp>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 
