@@ -150,7 +150,7 @@ class PathElimination {
     const T lower = entry(next, front.at, c), upper = entry(front.at, next, c);
     const T l = lower * r;
     view_.below[between] = l;
-    T u = l;
+    T u = l;  // NOLINT(performance-unnecessary-copy-initialization): it changes where nothing is symmetric
     if constexpr (!Symmetric) {
       u = upper * r;
       view_.above[between] = u;

@@ -81,7 +81,7 @@ class SemidefinitePivots {
     // twice.
     const T visible = (error + pivot / T(64)) - error;
     const T safe = select(visible, pivot, T(1));
-    const T r = select(visible, T(1) / safe, T(0));
+    T r = select(visible, T(1) / safe, T(0));
     if constexpr (has_numbers<T>) {
       note(r, visible);
     }

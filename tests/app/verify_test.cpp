@@ -46,7 +46,8 @@ TEST(Verify, EveryClaimOfEveryMethod) {
       EXPECT_TRUE(plugin.starts_with("odeint-") ||
                   reason.find("remembers earlier steps") != std::string::npos ||
                   reason.find("has not settled") != std::string::npos ||
-                  reason.find("no series") != std::string::npos)
+                  reason.find("no series") != std::string::npos ||
+                  reason.find("sizes of coordinates differ") != std::string::npos)
           << c;
     }
     if (c["control"]) continue;
@@ -71,7 +72,7 @@ TEST(Verify, EveryClaimOfEveryMethod) {
       // many coordinates, orders and Jacobians are left to smaller systems.
       if (system.contains("formulation") && name != "spherical-pendulum") continue;
       const auto whole = json_of(run_pfaff({"describe", name, "--json"}).out);
-      if (whole.contains("constraints") && whole["dimension"] > 16) continue;
+      if (whole["dimension"] > (whole.contains("constraints") ? 16 : 24)) continue;
       EXPECT_TRUE(ordered[method].contains(name)) << method << ": no order on " << name;
       const bool claims = std::any_of(system["preserves"].begin(), system["preserves"].end(),
                                       [](const auto& c) { return of_structure(c); });
