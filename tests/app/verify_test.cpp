@@ -69,10 +69,11 @@ TEST(Verify, EveryClaimOfEveryMethod) {
     for (const auto& system : described["systems"]) {
       const std::string name = system["name"];
       // Methods for vector fields are shown on one system with constraints, in passing; and where there are
-      // many coordinates, orders and Jacobians are left to smaller systems.
+      // many coordinates, orders and Jacobians are left to smaller systems: verification differentiates steps
+      // in 32 coordinates at the most.
       if (system.contains("formulation") && name != "spherical-pendulum") continue;
       const auto whole = json_of(run_pfaff({"describe", name, "--json"}).out);
-      if (whole["dimension"] > (whole.contains("constraints") ? 16 : 24)) continue;
+      if (whole["dimension"] > (whole.contains("constraints") ? 16 : 32)) continue;
       EXPECT_TRUE(ordered[method].contains(name)) << method << ": no order on " << name;
       const bool claims = std::any_of(system["preserves"].begin(), system["preserves"].end(),
                                       [](const auto& c) { return of_structure(c); });
