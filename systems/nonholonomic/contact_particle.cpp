@@ -59,7 +59,8 @@ struct ContactParticle {
   }
   template <class T>
   void exact_solution(const T& elapsed, const T& /*t0*/, In<T> z0, Out<T> z) const {
-    const T y0 = z0[1], y = y0 + z0[4] * elapsed, s0 = sqrt(1 + y0 * y0), s = sqrt(1 + y * y);
+    const T& y0 = z0[1];
+    const T y = y0 + z0[4] * elapsed, s0 = sqrt(1 + y0 * y0), s = sqrt(1 + y * y);
     const T product = y * y0, c = z0[3] * s0;
     // s s_0 - y y_0, whose terms cancel where y and y_0 have the same sign
     const T cosh = select(product, (1 + y * y + y0 * y0) / (s * s0 + product), s * s0 - product);
