@@ -42,10 +42,15 @@ function(pfaff_cold_target target)
 endfunction()
 
 # Sources that are compiled together parse headers, instantiate templates and compile inline functions once for all of
-# them, `batch` at a time. Plug-ins stay alone, so that one which changes is soon there.
+# them, `batch` at a time. Every plug-in calls what it registers `registered`; there each has a name of its own.
 function(pfaff_joined target batch)
   if(PFAFF_JOINED)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch})
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch}
+      UNITY_BUILD_UNIQUE_ID PFAFF_SOURCE
+      UNITY_BUILD_CODE_BEFORE_INCLUDE
+"#define PFAFF_REGISTERED_IN(source) registered_##source
+#define PFAFF_REGISTERED(source) PFAFF_REGISTERED_IN(source)
+#define registered PFAFF_REGISTERED(PFAFF_SOURCE)")
     # A local variable may have the name of what only another source declares, and what is joined is no header,
     # whose types must not depend on unnamed namespaces.
     target_compile_options(${target} PRIVATE

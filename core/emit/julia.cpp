@@ -8,7 +8,7 @@ namespace pfaff {
 namespace {
 using namespace emit;
 
-constexpr std::string_view reserved =
+constexpr std::string_view julia_reserved =
     "abstract baremodule begin break catch const continue do else elseif end export false finally for "
     "function "
     "global if import in isa let local macro module mutable new outer primitive public quote return struct "
@@ -45,8 +45,8 @@ class JuliaLanguage final : public Language {
 };
 
 // In a matrix literal spaces separate entries, so that sums are put in parentheses.
-std::string solve(const std::vector<std::vector<Phrase>>& matrix,
-                  const std::vector<Phrase>& right_hand_side) {
+std::string julia_solution(const std::vector<std::vector<Phrase>>& matrix,
+                           const std::vector<Phrase>& right_hand_side) {
   std::vector<std::string> rows, right;
   for (const auto& row : matrix) {
     std::vector<std::string> entries;
@@ -70,7 +70,7 @@ std::string write_julia(const Equations& equations) {
   const JuliaLanguage language;
   const Tape& tape = equations.tape;
   const Plan plan(tape, language.rules());
-  Names names({"_", reserved, &with_underscore});
+  Names names({"_", julia_reserved, &with_underscore});
   const std::string function = names(equations.system + "_rates");
   const TextNames text_name = text_names(equations, plan, names);
 
@@ -82,7 +82,7 @@ std::string write_julia(const Equations& equations) {
   const std::span<const std::string> inputs(text_name.inputs);
   text += unpacked(inputs.first(equations.coordinates.size()), "state") +
           unpacked(inputs.subspan(equations.coordinates.size()), "parameters");
-  for (const Assignment& a : assignments_of(tape, plan, language, text_name.slots, &solve))
+  for (const Assignment& a : assignments_of(tape, plan, language, text_name.slots, &julia_solution))
     text += "    " + joined(a.names, ", ") + (a.list ? ", = " : " = ") + a.value + "\n";
   const std::vector<std::string> values = outputs_of(tape, language, text_name.slots);
   for (std::size_t k = 0; k < values.size(); ++k)

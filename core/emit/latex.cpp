@@ -59,8 +59,8 @@ class Latex final : public Language {
 std::string column(const std::vector<std::string>& entries) {
   return "\\begin{pmatrix} " + joined(entries, " \\\\ ") + " \\end{pmatrix}";
 }
-std::string solve(const std::vector<std::vector<Phrase>>& matrix,
-                  const std::vector<Phrase>& right_hand_side) {
+std::string latex_solution(const std::vector<std::vector<Phrase>>& matrix,
+                           const std::vector<Phrase>& right_hand_side) {
   std::vector<std::string> rows, right;
   for (const auto& row : matrix) {
     std::vector<std::string> entries;
@@ -132,7 +132,7 @@ std::string write_latex(const Equations& equations) {
   text += legend("Coordinates, and their rates with a dot:", equations.coordinates, symbols.inputs.data());
   text += legend("Parameters:", equations.parameters, symbols.inputs.data() + n);
   std::vector<std::string> lines;
-  for (const Assignment& a : assignments_of(tape, plan, language, symbols.slots, &solve))
+  for (const Assignment& a : assignments_of(tape, plan, language, symbols.slots, &latex_solution))
     lines.push_back((a.list ? column(a.names) : a.names.front()) + " &= " + a.value);
   if (!lines.empty()) text += "\\subsection*{Intermediate quantities}\n" + aligned(lines);
   lines.clear();

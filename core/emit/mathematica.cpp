@@ -46,8 +46,8 @@ class Wolfram final : public Language {
   }
 };
 
-std::string solve(const std::vector<std::vector<Phrase>>& matrix,
-                  const std::vector<Phrase>& right_hand_side) {
+std::string mathematica_solution(const std::vector<std::vector<Phrase>>& matrix,
+                                 const std::vector<Phrase>& right_hand_side) {
   const auto list = [](const std::vector<Phrase>& entries) {
     std::vector<std::string> texts;
     for (const Phrase& entry : entries) texts.push_back(entry.text);
@@ -86,7 +86,7 @@ std::string write_mathematica(const Equations& equations) {
   text += function + "[" + text_name.time + "_, " + patterns({text_name.inputs.begin(), split}) + ", " +
           patterns({split, text_name.inputs.end()}) + "] :=\n";
   std::vector<std::string> locals, lines;
-  for (const Assignment& a : assignments_of(tape, plan, language, text_name.slots, &solve)) {
+  for (const Assignment& a : assignments_of(tape, plan, language, text_name.slots, &mathematica_solution)) {
     locals.insert(locals.end(), a.names.begin(), a.names.end());
     const std::string left = !a.list ? a.names.front() : "{" + joined(a.names, ", ") + "}";
     lines.push_back("    " + left + " = " + a.value + ";\n");

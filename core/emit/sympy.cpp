@@ -10,7 +10,7 @@ namespace pfaff {
 namespace {
 using namespace emit;
 
-constexpr std::string_view reserved =
+constexpr std::string_view sympy_reserved =
     "False None True and as assert async await break case class continue def del elif else except finally "
     "for "
     "from global if import in is lambda match nonlocal not or pass raise return try type while with "
@@ -44,8 +44,8 @@ class Python final : public Language {
   }
 };
 
-std::string solve(const std::vector<std::vector<Phrase>>& matrix,
-                  const std::vector<Phrase>& right_hand_side) {
+std::string sympy_solution(const std::vector<std::vector<Phrase>>& matrix,
+                           const std::vector<Phrase>& right_hand_side) {
   std::vector<std::string> rows, right;
   for (const auto& row : matrix) {
     std::vector<std::string> entries;
@@ -74,7 +74,7 @@ std::string write_sympy(const Equations& equations) {
   const Python language;
   const Tape& tape = equations.tape;
   const Plan plan(tape, language.rules());
-  Names names({"_", reserved, &with_underscore});
+  Names names({"_", sympy_reserved, &with_underscore});
   const TextNames text_name = text_names(equations, plan, names);
   const auto split = text_name.inputs.begin() + static_cast<std::ptrdiff_t>(equations.coordinates.size());
   const std::vector<std::string> coordinates(text_name.inputs.begin(), split);
@@ -92,7 +92,7 @@ std::string write_sympy(const Equations& equations) {
           "):\n    \"\"\"The results, at a time, a state and parameters that are symbols or numbers.\"\"\"\n";
   text += "    " + text_name.time + " = sympify(" + text_name.time + ")\n";
   text += unpacked(coordinates, "map(sympify, state)") + unpacked(parameters, "map(sympify, parameters)");
-  for (const Assignment& a : assignments_of(tape, plan, language, text_name.slots, &solve))
+  for (const Assignment& a : assignments_of(tape, plan, language, text_name.slots, &sympy_solution))
     text += "    " + joined(a.names, ", ") + (a.list ? ", = " : " = ") + a.value + "\n";
   text += "    return [\n";
   for (const std::string& value : outputs_of(tape, language, text_name.slots))

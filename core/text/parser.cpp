@@ -9,7 +9,6 @@
 namespace pfaff::text {
 
 namespace {
-using Kind = Node::Kind;
 
 constexpr std::array functions{Function{"sqrt", 1}, Function{"exp", 1}, Function{"log", 1},
                                Function{"sin", 1},  Function{"cos", 1}, Function{"tan", 1},
@@ -71,7 +70,7 @@ class Parser {
 
   // Terms joined by one of two signs of the same rank; a single term is itself.
   template <class Term>
-  std::size_t joined(Kind kind, std::string_view sign, std::string_view inverse, Term&& term) {
+  std::size_t joined(Node::Kind kind, std::string_view sign, std::string_view inverse, Term&& term) {
     Node node{.kind = kind, .offset = here().offset};
     node.operands.push_back(term());
     node.inverted.push_back(false);
@@ -84,8 +83,8 @@ class Parser {
     return node.operands.size() == 1 ? node.operands.front() : add(std::move(node));
   }
   std::size_t sum() {
-    return joined(Kind::sum, "+", "-",
-                  [&] { return joined(Kind::product, "*", "/", [&] { return factor(); }); });
+    return joined(Node::Kind::sum, "+", "-",
+                  [&] { return joined(Node::Kind::product, "*", "/", [&] { return factor(); }); });
   }
 
   std::size_t factor() {
@@ -95,13 +94,13 @@ class Parser {
       return factor();
     }
     if (is("-")) {
-      Node node{.kind = Kind::negate, .offset = take().offset};
+      Node node{.kind = Node::Kind::negate, .offset = take().offset};
       node.operands.push_back(factor());
       return add(std::move(node));
     }
     const std::size_t base = primary();
     if (!is("^")) return base;
-    Node node{.kind = Kind::power, .offset = take().offset};
+    Node node{.kind = Node::Kind::power, .offset = take().offset};
     node.operands = {base, factor()};
     return add(std::move(node));
   }
@@ -111,7 +110,7 @@ class Parser {
     if (token.kind == Token::Kind::number) {
       const auto value = Real::parse(token.text);
       if (!value) fail(token, "'" + word(token) + "' is too large for a number");
-      return add({.kind = Kind::number, .offset = token.offset, .value = *value});
+      return add({.kind = Node::Kind::number, .offset = token.offset, .value = *value});
     }
     if (token.kind == Token::Kind::name) return named(token);
     if (token.kind == Token::Kind::sign && token.text == "(") {
@@ -128,7 +127,7 @@ class Parser {
     Node node{.offset = token.offset};
     node.name = word(token);
     const Function* function = function_named(token.text, functions);
-    node.kind = function != nullptr ? Kind::function : Kind::call;
+    node.kind = function != nullptr ? Node::Kind::function : Node::Kind::call;
     if (function == nullptr) function = function_named(token.text, more_);
     if (is("(")) {
       if (is_range(token.text)) return range(std::move(node));
@@ -142,10 +141,10 @@ class Parser {
     }
     if (function != nullptr || is_range(token.text))
       fail(here(), "expected '(' behind the function '" + node.name + "'");
-    node.kind = Kind::name;
+    node.kind = Node::Kind::name;
     if (is("[")) {
       take();
-      node.kind = Kind::element;
+      node.kind = Node::Kind::element;
       node.operands.push_back(sum());
       expect("]", "behind the index of '" + node.name + "'");
     }
@@ -167,7 +166,7 @@ class Parser {
   }
   std::size_t range(Node node) {
     const std::string form = node.name + "(index, first, last, expression)";
-    node.kind = Kind::range;
+    node.kind = Node::Kind::range;
     take();
     const Token index = take();
     const auto& reserved = reserved_names();
@@ -212,14 +211,14 @@ Expression::Expression(Source source, std::span<const Function> more)
 
 bool Expression::is_vector() const {
   const Node& top = node(root());
-  return top.kind == Kind::range && top.name == "vector";
+  return top.kind == Node::Kind::range && top.name == "vector";
 }
 
 std::vector<std::string> Expression::names() const {
   std::vector<std::string> read, indices;
   for (const Node& n : tree_->nodes) {
-    if (n.kind == Kind::name || n.kind == Kind::element) read.push_back(n.name);
-    if (n.kind == Kind::range) indices.push_back(n.variable);
+    if (n.kind == Node::Kind::name || n.kind == Node::Kind::element) read.push_back(n.name);
+    if (n.kind == Node::Kind::range) indices.push_back(n.variable);
   }
   std::sort(read.begin(), read.end());
   read.erase(std::unique(read.begin(), read.end()), read.end());

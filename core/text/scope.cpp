@@ -6,8 +6,6 @@
 namespace pfaff::text {
 
 namespace {
-using Kind = Node::Kind;
-
 const Real& pi() {
   static const Real value = *Real::parse("3.14159265358979323846264338327950288419716939937510582");
   return value;
@@ -78,13 +76,13 @@ void Scope::append(const Expression& expression, std::vector<Recorded>& values) 
 void Scope::append_node(const Expression& of, std::size_t number, std::vector<Recorded>& values) {
   const Call call(*this, of, number);
   const Node& node = of.node(number);
-  if (node.kind == Kind::range && node.name == "vector") {
+  if (node.kind == Node::Kind::range && node.name == "vector") {
     for_each_index(of, number, [&] { append_node(of, node.operands[2], values); });
     return;
   }
   const bool index =
       std::any_of(indices_.begin(), indices_.end(), [&](const Index& i) { return i.name == node.name; });
-  if (node.kind == Kind::name && !index && node.name != "t") {
+  if (node.kind == Node::Kind::name && !index && node.name != "t") {
     const Entry& named = entry(of, number);
     if (named.state == Entry::State::elements) {
       operations_left_ -= static_cast<long>(named.elements.size());
@@ -121,27 +119,27 @@ Recorded Scope::value(const Expression& of, std::size_t number) {
   const Call call(*this, of, number);
   const Node& node = of.node(number);
   switch (node.kind) {
-    case Kind::number:
+    case Node::Kind::number:
       return Recorded(node.value);
-    case Kind::name:
+    case Node::Kind::name:
       return named(of, number);
-    case Kind::element:
+    case Node::Kind::element:
       return element(of, number);
-    case Kind::negate:
+    case Node::Kind::negate:
       return -value(of, node.operands[0]);
-    case Kind::sum:
+    case Node::Kind::sum:
       return sum(of, node);
-    case Kind::product:
+    case Node::Kind::product:
       return product(of, node);
-    case Kind::power: {
+    case Node::Kind::power: {
       const Recorded base = value(of, node.operands[0]);
       return power(of, number, base, value(of, node.operands[1]));
     }
-    case Kind::function:
+    case Node::Kind::function:
       return function(of, number);
-    case Kind::call:
+    case Node::Kind::call:
       return meaning_(number);
-    case Kind::range:
+    case Node::Kind::range:
       break;
   }
   if (node.name == "vector") fail(of, number, "vector(...) stands for several values; expected one number");

@@ -16,7 +16,7 @@ struct ProjectedGauss : SymmetricallyProjected<Gauss, SurfaceShift> {
   }
 };
 
-const Method<ProjectedRungeKutta4> projected{
+const Method<ProjectedRungeKutta4> projected_runge_kutta{
     {.name = "projected-rk4",
      .title = "classical Runge-Kutta method, each step projected onto the constraints",
      .reference = "hairer-lubich-wanner2006 IV.4; hairer-norsett-wanner1993 II.1",
@@ -26,7 +26,7 @@ const Method<ProjectedRungeKutta4> projected{
          "with friction too. The projection keeps no other structure: energies drift as without it.",
      .order = 4,
      .preserves = {Claim::constraints}}};
-const Method<ProjectedGauss> symmetric{
+const Method<ProjectedGauss> projected_gauss{
     {.name = "projected-gauss",
      .title = "Gauss collocation projected symmetrically onto the constraints, order 2 s",
      .reference = "hairer-lubich-wanner2006 V.4.1, (II.1.3)",

@@ -24,7 +24,7 @@ const Method<LeapFrog> registered{
 
 // The starting step is z_0 + h leap X(z_0 + h half X(z_0)), a Runge-Kutta method; the others are those of
 // rho = x^2 - 1 and sigma = 2 leap x.
-const KnownOrderTheory conditions{
+const KnownOrderTheory leap_frog_conditions{
     "leap-frog", [](const Assignments& /*parameters*/) {
       const auto lengths = pfaff::LeapFrog().lengths;
       OrderTheory theory{

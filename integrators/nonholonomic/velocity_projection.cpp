@@ -16,7 +16,7 @@ struct VelocityProjectedGauss : SymmetricallyProjected<Gauss, VelocityShift> {
   }
 };
 
-const Method<VelocityProjectedRungeKutta4> projected{
+const Method<VelocityProjectedRungeKutta4> velocity_projected_runge_kutta{
     {.name = "velocity-projected-rk4",
      .title = "classical Runge-Kutta method, momenta projected onto velocity constraints",
      .reference = "hairer-lubich-wanner2006 IV.4; hairer-norsett-wanner1993 II.1",
@@ -27,7 +27,7 @@ const Method<VelocityProjectedRungeKutta4> projected{
          "to hold but nothing else is asked for. It keeps no other structure: energies drift.",
      .order = 4,
      .preserves = {Claim::velocity_constraints}}};
-const Method<VelocityProjectedGauss> symmetric{
+const Method<VelocityProjectedGauss> velocity_projected_gauss{
     {.name = "velocity-projected-gauss",
      .title = "Gauss collocation, momenta projected symmetrically onto velocity constraints, order 2 s",
      .reference = "hairer-lubich-wanner2006 V.4.1, (II.1.3)",

@@ -29,8 +29,9 @@ RungeKuttaTableau<Quad> tableau_of(const std::vector<Quad>& numbers) {
   return tableau;
 }
 
-const KnownOrderTheory conditions{"rk4", [](const Assignments& /*parameters*/) {
-                                    const auto numbers = RungeKutta4().tableau;
-                                    return tree_theory(tableau_of({numbers.begin(), numbers.end()}), 4, true);
-                                  }};
+const KnownOrderTheory runge_kutta_4_conditions{
+    "rk4", [](const Assignments& /*parameters*/) {
+      const auto numbers = RungeKutta4().tableau;
+      return tree_theory(tableau_of({numbers.begin(), numbers.end()}), 4, true);
+    }};
 }  // namespace

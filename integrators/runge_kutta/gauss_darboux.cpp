@@ -12,7 +12,7 @@ struct MidpointDarboux : InDarbouxChart<ImplicitMidpoint> {
   using Composed = InDarbouxChart<Composition<ImplicitMidpoint>>;  // sub-steps stay in the chart
 };
 
-const Method<GaussDarboux> gauss{
+const Method<GaussDarboux> gauss_darboux{
     {.name = "gauss-darboux",
      .title = "Gauss collocation in Darboux coordinates, order 2 s",
      .reference = "hairer-lubich-wanner2006 (II.1.3), VI.4.2; su-qin (21)",
@@ -21,7 +21,7 @@ const Method<GaussDarboux> gauss{
                     "the generating functions of the same chart. It needs the chart and its inverse at every "
                     "step, and loses digits where the chart mixes numbers of very different size.",
      .preserves = {Claim::symmetric, Claim::reversible, Claim::symplectic, Claim::k_symplectic}}};
-const Method<MidpointDarboux> midpoint{
+const Method<MidpointDarboux> midpoint_darboux{
     {.name = "midpoint-darboux",
      .title = "implicit midpoint rule in Darboux coordinates",
      .reference = "hairer-lubich-wanner2006 (II.1.4); su-qin (21)",

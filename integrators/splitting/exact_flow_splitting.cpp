@@ -133,7 +133,7 @@ const Method<ExactFlowSplitting> splitting{
 const MethodAlias wisdom_holman{splitting, "wisdom-holman", {{"scheme", "strang"}}};
 
 // The conditions of generalised order, as far as words are listed.
-const KnownOrderTheory conditions{
+const KnownOrderTheory exact_flow_conditions{
     "exact-flow-splitting", [](const Assignments& parameters) {
       std::string name = ExactFlowSplitting().scheme;
       for (const auto& [key, value] : parameters)

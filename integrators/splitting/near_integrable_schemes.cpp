@@ -29,7 +29,7 @@ void append(std::vector<PartialFlow>& flows, const PartialFlow& flow) {
 
 // The palindrome that begins with A: halves of the lengths, of A and of B, whose middle stands once where
 // there are an odd number of them.
-std::vector<PartialFlow> palindrome(const std::vector<Quad>& a, const std::vector<Quad>& b) {
+std::vector<PartialFlow> palindromic_flows(const std::vector<Quad>& a, const std::vector<Quad>& b) {
   std::vector<PartialFlow> half;
   for (std::size_t k = 0; k < std::max(a.size(), b.size()); ++k) {
     if (k < a.size()) half.push_back({dominant, a[k]});
@@ -104,7 +104,7 @@ std::vector<PartialFlow> processor(int order) {
 std::vector<PartialFlow> corrected(int order) {
   std::vector<PartialFlow> flows = processor(order);
   const std::vector<PartialFlow> after = inverse(flows);
-  for (const PartialFlow& flow : palindrome({Quad(1) / Quad(2)}, {Quad(1)})) append(flows, flow);
+  for (const PartialFlow& flow : palindromic_flows({Quad(1) / Quad(2)}, {Quad(1)})) append(flows, flow);
   for (const PartialFlow& flow : after) append(flows, flow);
   return flows;
 }
@@ -114,13 +114,13 @@ std::vector<PartialFlow> corrected(int order) {
 // conditions again.
 std::vector<NearIntegrableScheme> make_schemes() {
   std::vector<NearIntegrableScheme> list;
-  list.push_back({"strang", {2}, palindrome({Quad(1) / Quad(2)}, {Quad(1)})});
+  list.push_back({"strang", {2}, palindromic_flows({Quad(1) / Quad(2)}, {Quad(1)})});
   for (const int n : {2, 3, 4, 5})
     list.push_back({"aba-" + std::to_string(2 * n) + "-2", {2 * n, 2}, gauss_flows(n)});
   list.push_back(
       {"aba-8-4",
        {8, 4},
-       palindrome(
+       palindromic_flows(
            numbers({"0.0753469602698928884165278036834744644", "0.517916854688256782300773978496315644",
                     "-0.0932638149581496707173017821797901087"}),
            numbers({"0.190225939373676619245230762738453897", "0.846524070443526257055080544646775834",
@@ -128,7 +128,7 @@ std::vector<NearIntegrableScheme> make_schemes() {
   list.push_back(
       {"aba-10-4",
        {10, 4},
-       palindrome(
+       palindromic_flows(
            numbers({"0.0470671006459725061294788763724367856", "0.184756935417088106924737619370256097",
                     "0.282706005679836205324361656554145248", "-0.0145300417428968183785781522968381303"}),
            numbers({"0.118881917368197019945350395085388594", "0.241050460551501565744166786590165111",
@@ -136,7 +136,7 @@ std::vector<NearIntegrableScheme> make_schemes() {
   list.push_back(
       {"aba-8-6-4",
        {8, 6, 4},
-       palindrome(
+       palindromic_flows(
            numbers({"0.0711334264982231177779387300061549964", "0.24115342795664009873648779532628965",
                     "0.52141176177281478921213607806799423", "-0.333698616227678005726562603400438876"}),
            numbers({"0.183083687472197221961703757166430291", "0.310782859898574869507522291054262796",
@@ -145,7 +145,7 @@ std::vector<NearIntegrableScheme> make_schemes() {
   list.push_back(
       {"aba-10-6-4",
        {10, 6, 4},
-       palindrome(
+       palindromic_flows(
            numbers({"0.0380944974224121954569753223086375653", "0.14529871611691374929402007266066375",
                     "0.207627695725541250716205611324988207", "0.435909703651526159223154862401065184",
                     "-0.653861225832786709380711737390709412"}),

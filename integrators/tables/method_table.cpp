@@ -6,20 +6,20 @@ namespace pfaff {
 
 namespace {
 
-struct Kind {
+struct TableKind {
   const char* name;
   std::unique_ptr<const MethodTable> (*read)(TableDocument&, TableHead);
 };
 
-const std::vector<Kind>& kinds() {
-  static const std::vector<Kind> list{{"runge-kutta", read_runge_kutta_table},
-                                      {"splitting", read_splitting_table},
-                                      {"rkn-splitting", read_splitting_table},
-                                      {"processed", read_splitting_table},
-                                      {"composition", read_composition_table},
-                                      {"multistep", read_multistep_table},
-                                      {"second-order-multistep", read_second_order_multistep_table},
-                                      {"map", read_map_table}};
+const std::vector<TableKind>& kinds() {
+  static const std::vector<TableKind> list{{"runge-kutta", read_runge_kutta_table},
+                                           {"splitting", read_splitting_table},
+                                           {"rkn-splitting", read_splitting_table},
+                                           {"processed", read_splitting_table},
+                                           {"composition", read_composition_table},
+                                           {"multistep", read_multistep_table},
+                                           {"second-order-multistep", read_second_order_multistep_table},
+                                           {"map", read_map_table}};
   return list;
 }
 
@@ -108,7 +108,7 @@ std::unique_ptr<const MethodTable> read_method_table(const std::string& path) {
   TableDocument document(text::absolute_path(path));
   const std::string kind = document.required_text("kind");
   std::vector<std::string> names;
-  for (const Kind& k : kinds()) {
+  for (const TableKind& k : kinds()) {
     if (kind == k.name) return k.read(document, read_head(document, kind));
     names.emplace_back(k.name);
   }

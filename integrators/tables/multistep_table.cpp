@@ -127,7 +127,7 @@ struct MultistepTable {
   }
 };
 
-MultistepPolynomials polynomials_of(const std::vector<Quad>& numbers) {
+MultistepPolynomials first_order_polynomials(const std::vector<Quad>& numbers) {
   const std::size_t k = numbers.size() / 2;
   MultistepPolynomials method{std::vector<Quad>(k + 1),
                               {numbers.begin() + static_cast<std::ptrdiff_t>(k), numbers.end()}};
@@ -157,7 +157,7 @@ std::unique_ptr<const MethodTable> read_multistep_table(TableDocument& document,
   made.starter.tableau = gauss_coefficients((order + 1) / 2);
   OrderTheory theory = multistep_theory("multistep", head, made.numbers, made.steps);
   theory.conditions = [order](const std::vector<Quad>& numbers) {
-    return multistep_conditions(polynomials_of(numbers), order);
+    return multistep_conditions(first_order_polynomials(numbers), order);
   };
   return std::make_unique<TableOf<MultistepTable>>(head.descriptor, document, std::move(theory),
                                                    std::move(made));

@@ -180,7 +180,7 @@ struct SecondOrderMultistepTable {
   }
 };
 
-MultistepPolynomials polynomials_of(const std::vector<Quad>& numbers) {
+MultistepPolynomials second_order_polynomials(const std::vector<Quad>& numbers) {
   const std::size_t k = (numbers.size() + 1) / 2;
   MultistepPolynomials method{std::vector<Quad>(k + 1, Quad(0)),
                               {numbers.begin() + static_cast<std::ptrdiff_t>(k) - 1, numbers.end()}};
@@ -217,7 +217,7 @@ std::unique_ptr<const MethodTable> read_second_order_multistep_table(TableDocume
   made.starter.tableau = gauss_coefficients((order + 1) / 2);
   OrderTheory theory = multistep_theory("second-order multistep", head, made.numbers, r.size());
   theory.conditions = [order](const std::vector<Quad>& numbers) {
-    return second_order_multistep_conditions(polynomials_of(numbers), order);
+    return second_order_multistep_conditions(second_order_polynomials(numbers), order);
   };
   return std::make_unique<TableOf<SecondOrderMultistepTable>>(head.descriptor, document, std::move(theory),
                                                               std::move(made));

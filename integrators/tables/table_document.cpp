@@ -6,9 +6,9 @@
 namespace pfaff {
 
 namespace {
-using Kind = text::Item::Kind;
-
-bool is_number(const text::Item& item) { return item.kind == Kind::number || item.kind == Kind::text; }
+bool is_number(const text::Item& item) {
+  return item.kind == text::Item::Kind::number || item.kind == text::Item::Kind::text;
+}
 }  // namespace
 
 TableDocument::TableDocument(const std::string& path)
@@ -30,7 +30,7 @@ const text::Item* TableDocument::find(std::string_view key) {
 std::string TableDocument::text(std::string_view key, const std::string& fallback) {
   const text::Item* item = find(key);
   if (item == nullptr) return fallback;
-  if (item->kind != Kind::text) refuse(key, "expected a text");
+  if (item->kind != text::Item::Kind::text) refuse(key, "expected a text");
   return item->source.text;
 }
 
@@ -42,10 +42,10 @@ std::string TableDocument::required_text(std::string_view key) {
 std::vector<std::string> TableDocument::texts(std::string_view key) {
   const text::Item* list = find(key);
   if (list == nullptr) return {};
-  if (list->kind != Kind::list) refuse(key, "expected a list of texts");
+  if (list->kind != text::Item::Kind::list) refuse(key, "expected a list of texts");
   std::vector<std::string> texts;
   for (const text::Item& item : list->items) {
-    if (item.kind != Kind::text) refuse(key, "expected a list of texts");
+    if (item.kind != text::Item::Kind::text) refuse(key, "expected a list of texts");
     texts.push_back(item.source.text);
   }
   return texts;
@@ -54,7 +54,7 @@ std::vector<std::string> TableDocument::texts(std::string_view key) {
 int TableDocument::required_whole_number(std::string_view key) {
   const text::Item* item = find(key);
   int number = 0;
-  if (item != nullptr && item->kind == Kind::number && item->whole)
+  if (item != nullptr && item->kind == text::Item::Kind::number && item->whole)
     (void)std::from_chars(item->source.text.data(), item->source.text.data() + item->source.text.size(),
                           number);  // which leaves 0 where the number is too large
   if (number < 1)
@@ -85,7 +85,7 @@ std::vector<std::vector<Quad>> TableDocument::rows(std::string_view key) {
   if (list == nullptr) refuse(key, "is missing; expected a list of rows of numbers");
   std::vector<std::vector<Quad>> rows;
   for (const text::Item& row : list->items) {
-    if (row.kind != Kind::list || !std::all_of(row.items.begin(), row.items.end(), is_number))
+    if (row.kind != text::Item::Kind::list || !std::all_of(row.items.begin(), row.items.end(), is_number))
       refuse(key, "expected a list of rows of numbers");
     rows.emplace_back();
     for (const text::Item& item : row.items) append_numbers(item, rows.back());

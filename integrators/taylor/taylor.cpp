@@ -27,7 +27,7 @@ namespace {
 using namespace pfaff;
 
 constexpr int most_order = 64;
-constexpr std::int64_t most_steps = 1000000000;
+constexpr std::int64_t most_taylor_steps = 1000000000;
 
 template <class P>
 concept HasFieldTape = HasVectorField<P> && requires(const P& p) {
@@ -86,7 +86,7 @@ struct Taylor {
       w.adaptive.emplace(p.field_tape(), degree);
     TaylorExpansion<T>& expansion = *w.adaptive;
     for (std::int64_t taken = 0; t != end; ++taken) {
-      if (taken == most_steps) return Status::not_converged;
+      if (taken == most_taylor_steps) return Status::not_converged;
       ++p.counters().fields;
       expansion.expand(t, z.data());
       const double longest = step_of(expansion);

@@ -7,7 +7,7 @@
 namespace {
 using namespace pfaff;
 
-struct Oscillator {
+struct SpringPotential {
   static constexpr const char* unit = "m";
   template <class T>
   static T energy(const T& r) {
@@ -19,7 +19,7 @@ struct Oscillator {
   }
 };
 
-struct CoupledDampedOscillators : DampedChain<CoupledDampedOscillators, Oscillator> {
+struct CoupledDampedOscillators : DampedChain<CoupledDampedOscillators, SpringPotential> {
   template <class T>
   void invariants(const T& t, In<T> z, Out<T> values) const {
     values[0] = birkhoffian(t, z);

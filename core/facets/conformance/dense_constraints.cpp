@@ -9,7 +9,7 @@ namespace {
 using Numbers = std::vector<Recorded>;
 
 // (q, p, t) -> phi, phi~, h, H_p, -H_q, lambda, B, (T, P) row by row.
-std::shared_ptr<const Tape> record_everything(const Model& model) {
+std::shared_ptr<const Tape> record_constraints(const Model& model) {
   const auto phi = model.tape(Formula::holonomic), slopes = model.tape(Formula::hamiltonian_gradient);
   const auto n = static_cast<std::size_t>(phi->inputs), count = phi->outputs.size();
   const int inputs = static_cast<int>(2 * n);
@@ -68,7 +68,7 @@ DenseConstraints::DenseConstraints(const Model& model)
       s(0, 0),
       count_(model.tape(Formula::holonomic)->outputs.size()),
       degrees_(static_cast<std::size_t>(model.dimension()) / 2),
-      everything_(record_everything(model)),
+      everything_(record_constraints(model)),
       numbers_(3 * count_ + 3 * degrees_ + 3 * count_ * degrees_) {}
 
 void DenseConstraints::place(Quad t, In<Quad> z) {

@@ -42,7 +42,7 @@ Tape record_linear(const Model& model) {
 }
 
 // (q, p, t) -> H_p, -H_q, H_pq H_p + H_pt, H_pp row by row, dpsi/dq, A, b, and A' and b' along q' = H_p.
-std::shared_ptr<const Tape> record_everything(const Model& model) {
+std::shared_ptr<const Tape> record_velocity_constraints(const Model& model) {
   const Tape linear = record_linear(model);
   const auto slopes = model.tape(Formula::hamiltonian_gradient);
   const std::size_t n = static_cast<std::size_t>(linear.inputs), size = 2 * n, rows = linear.outputs.size(),
@@ -110,7 +110,7 @@ DenseVelocityConstraints::DenseVelocityConstraints(const Model& model)
       holonomic_(holonomic_count(model)),
       count_(holonomic_ + velocity_count(model)),
       degrees_(static_cast<std::size_t>(model.dimension()) / 2),
-      everything_(record_everything(model)),
+      everything_(record_velocity_constraints(model)),
       gradient_(model.tape(Formula::hamiltonian_gradient)),
       reaction_(record_reaction(model)),
       numbers_(everything_.tape().outputs.size()) {}
