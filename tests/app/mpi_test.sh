@@ -26,6 +26,13 @@ time = 20
 steps = [0.5, 0.2, 0.1]
 conserved = "energy"
 [[case]]
+name = "automatic"
+system = "henon-heiles"
+time = 20
+steps = "auto"
+evaluations = 20000
+conserved = "energy"
+[[case]]
 name = "long"
 system = "pendulum"
 time = 20000
