@@ -7,8 +7,8 @@ namespace pfaff {
 
 namespace {
 using namespace evaluation_parts;
-using Arguments = std::span<const Recorded>;
-using Results = std::span<Recorded>;
+using MapArguments = std::span<const Recorded>;
+using MapResults = std::span<Recorded>;
 
 // The energy: H, or T + V where friction is linear and there is no H; null where there is neither.
 std::shared_ptr<const Tape> energy_of(const Model& model) {
@@ -17,7 +17,7 @@ std::shared_ptr<const Tape> energy_of(const Model& model) {
   const auto kinetic = model.tape(Formula::kinetic), potential = model.tape(Formula::potential);
   const auto half = static_cast<std::size_t>(model.dimension() / 2);
   return std::make_shared<const Tape>(
-      record(model.dimension(), 1, [&](const Recorded& t, Arguments z, Results out) {
+      record(model.dimension(), 1, [&](const Recorded& t, MapArguments z, MapResults out) {
         out[0] = evaluate(*kinetic, t, z.subspan(half))[0] + evaluate(*potential, t, z.first(half))[0];
       }));
 }
@@ -26,7 +26,7 @@ std::shared_ptr<const Tape> energy_of(const Model& model) {
 template <class T>
 T rate_of(const Point<T>& at, const Tape& function, const std::vector<T>& rate) {
   const auto slopes = at.values(std::make_shared<const Tape>(
-      record(function.inputs, function.inputs + 1, [&](const Recorded& t, Arguments z, Results out) {
+      record(function.inputs, function.inputs + 1, [&](const Recorded& t, MapArguments z, MapResults out) {
         const std::vector<Recorded> one{Recorded(1)}, slope = gradient(function, t, z, one);
         std::copy(slope.begin(), slope.end(), out.begin());
         out[slope.size()] = time_derivative(function, t, z)[0];

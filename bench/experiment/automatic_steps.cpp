@@ -21,7 +21,7 @@ constexpr double least_gain =
     1.25;  // by which an error falls from rung to rung above round-off, at order 1/2
 constexpr double round_off_spread = 10;     // the ratio of errors that are round-off
 constexpr std::size_t rungs_in_spread = 5;  // in which an error falls by that ratio at order 1
-constexpr std::int64_t part = 4;            // of the time, of which trials at the fine end take one
+constexpr std::int64_t part_of_time = 4;    // of the time, of which trials at the fine end take one
 
 std::int64_t rung(std::size_t k) {
   constexpr std::array<std::int64_t, 5> first{10, 16, 25, 40, 64};
@@ -102,7 +102,7 @@ std::size_t fine_end(Ladder& ladder, std::size_t coarse) {
   double best = infinity;
   bool allowed = true;
   for (std::size_t k = coarse; allowed && k <= fine + 2; ++k) {
-    const auto error = ladder.error(k, part);
+    const auto error = ladder.error(k, part_of_time);
     allowed = error.has_value();
     if (!allowed) break;
     errors.push_back(*error);

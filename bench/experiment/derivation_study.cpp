@@ -22,7 +22,7 @@ namespace {
 
 constexpr const char* experiment_file = "experiment.json";
 
-nlohmann::json to_json(const Derived& d) {
+nlohmann::json json_of_derived(const Derived& d) {
   nlohmann::json j{{"schema", 1},           {"method", d.method},         {"size", d.size},
                    {"constraints", d.rods}, {"equations", d.equations},   {"operations", d.operations},
                    {"nodes", d.nodes},      {"tree_operations", nullptr}, {"seconds", d.seconds}};
@@ -167,7 +167,7 @@ ExperimentOutcome run_derivation_study(
       all.push_back(before ? *before : derived(study, sweep.method, size));
       if (!before) {
         fs::create_directories(run, error);
-        write_file(file, to_json(all.back()).dump(1) + "\n");
+        write_file(file, json_of_derived(all.back()).dump(1) + "\n");
       }
       if (all.back().seconds > study.seconds) {
         done += static_cast<std::size_t>(&sweep.sizes.back() - &size);

@@ -10,7 +10,7 @@ namespace pfaff {
 
 namespace {
 
-std::string number(double x) {
+std::string short_number(double x) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.3g", x);
   return text.data();
@@ -60,7 +60,7 @@ std::string model_text_of(const ClaimUnderTest& test, const Counterexample& coun
       "A system on which the integrator " + test.method->descriptor().name + " does not keep the claim " +
           std::string(to_string(test.claim)) + ":",
       std::string(claim_row(test.claim).meaning),
-      "The residual from the initial state is " + number(judgement.residuals.front())};
+      "The residual from the initial state is " + short_number(judgement.residuals.front())};
   if (judged_by_long_runs(test.claim)) {
     comment.back() += ", in units of what is allowed, in long runs of many starts near it";
   } else {
@@ -70,8 +70,8 @@ std::string model_text_of(const ClaimUnderTest& test, const Counterexample& coun
     comment.back() += " in " + std::to_string(counterexample.at.count) + " steps in a row";
   const std::size_t count = judgement.residuals.size();
   if (count > 1) {
-    comment.back() += ", " + number(judgement.residuals[1]) + " with h/2, and falls";
-    comment.push_back("as a power of h with the exponent " + number(judgement.exponent) + ".");
+    comment.back() += ", " + short_number(judgement.residuals[1]) + " with h/2, and falls";
+    comment.push_back("as a power of h with the exponent " + short_number(judgement.exponent) + ".");
   } else {
     comment.back() += ".";
   }

@@ -20,7 +20,7 @@ using Clock = std::chrono::steady_clock;
 constexpr int draws = 2;
 // The sizes of recipes and the steps that successive systems of a kind take.
 constexpr int sizes = 3;
-const Real& step_of(std::uint64_t round) {
+const Real& step_of_round(std::uint64_t round) {
   static const std::array steps{Real::fraction(1, 4), Real::fraction(1, 10), Real::fraction(1, 2)};
   return steps[(round / sizes) % steps.size()];
 }
@@ -85,7 +85,7 @@ void try_next(Search& search, std::uint64_t seed) {
   if (model_under_test(search.result.test, model_of(system_of(recipe))) == nullptr) return;
   ++search.result.tried;
   auto found = counterexample_in(search.result.test, recipe,
-                                 {nullptr, {}, trial_time(), step_of(round), count_of(round)});
+                                 {nullptr, {}, trial_time(), step_of_round(round), count_of(round)});
   if (found) search.result.counterexample = shrink(search.result.test, std::move(*found));
 }
 

@@ -6,7 +6,8 @@
 namespace pfaff {
 
 namespace {
-double slope(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& weight) {
+double weighted_slope(const std::vector<double>& x, const std::vector<double>& y,
+                      const std::vector<double>& weight) {
   double sum = 0, mean_x = 0, mean_y = 0;
   for (std::size_t k = 0; k < x.size(); ++k) {
     sum += weight[k];
@@ -41,7 +42,7 @@ std::optional<Growth> growth(const std::vector<double>& times, const std::vector
     before = times[k];
   }
   if (t.size() < 8 || t.back() < 4 * t.front()) return std::nullopt;
-  return Growth{slope(log_t, log_r, alike_in_log), slope(t, log_r, alike_in_t)};
+  return Growth{weighted_slope(log_t, log_r, alike_in_log), weighted_slope(t, log_r, alike_in_t)};
 }
 
 }  // namespace pfaff

@@ -16,7 +16,7 @@ using Vector = std::vector<double>;
 constexpr std::size_t points_in_half = 16;
 
 /// A square matrix, or one of window responses, row by row.
-struct Matrix {
+struct WindowMatrix {
   std::size_t rows, columns;
   Vector entries = Vector(rows * columns);
   double& operator()(std::size_t i, std::size_t j) { return entries[i * columns + j]; }
@@ -24,8 +24,8 @@ struct Matrix {
 };
 
 /// The windows' weights on the fine grid; each row adds up to 1.
-Matrix filter(std::size_t windows) {
-  Matrix f{windows, points_in_half * (windows + 1)};
+WindowMatrix filter(std::size_t windows) {
+  WindowMatrix f{windows, points_in_half * (windows + 1)};
   for (std::size_t j = 0; j < windows; ++j) {
     double sum = 0;
     for (std::size_t g = 0; g < f.columns; ++g)
@@ -37,25 +37,25 @@ Matrix filter(std::size_t windows) {
 }
 
 /// Responses to the values whose running sum is filtered by `f`.
-Matrix of_running_sum(const Matrix& f) {
-  Matrix r = f;
+WindowMatrix of_running_sum(const WindowMatrix& f) {
+  WindowMatrix r = f;
   for (std::size_t j = 0; j < r.rows; ++j)
     for (std::size_t g = r.columns - 1; g-- > 0;) r(j, g) += r(j, g + 1);
   return r;
 }
 
 /// Responses to the values whose differences are filtered by `f`.
-Matrix of_differences(const Matrix& f) {
-  Matrix r = f;
+WindowMatrix of_differences(const WindowMatrix& f) {
+  WindowMatrix r = f;
   for (std::size_t j = 0; j < r.rows; ++j)
     for (std::size_t g = 0; g + 1 < r.columns; ++g) r(j, g) = f(j, g) - f(j, g + 1);
   return r;
 }
 
 /// R R', scaled so that its trace without mean and line is the number of windows.
-Matrix covariance(const Matrix& r) {
+WindowMatrix covariance(const WindowMatrix& r) {
   const std::size_t n = r.rows;
-  Matrix c{n, n};
+  WindowMatrix c{n, n};
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j)
       for (std::size_t g = 0; g < r.columns; ++g) c(i, j) += r(i, g) * r(j, g);
@@ -74,16 +74,16 @@ Matrix covariance(const Matrix& r) {
   return c;
 }
 
-Matrix mixed(double share, const Matrix& a, const Matrix& b) {
-  Matrix c = a;
+WindowMatrix mixed(double share, const WindowMatrix& a, const WindowMatrix& b) {
+  WindowMatrix c = a;
   for (std::size_t k = 0; k < c.entries.size(); ++k) c.entries[k] += share * (b.entries[k] - a.entries[k]);
   return c;
 }
 
 /// The inverse of Cholesky's factor of c, and the logarithm of the determinant of c.
-Vector whitener_of(const Matrix& c, double& log_determinant) {
+Vector whitener_of(const WindowMatrix& c, double& log_determinant) {
   const std::size_t n = c.rows;
-  Matrix l{n, n}, inverse{n, n};
+  WindowMatrix l{n, n}, inverse{n, n};
   log_determinant = 0;
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
@@ -117,7 +117,7 @@ double dot(const double* a, const double* b, std::size_t n) {
 }
 
 /// The models' raw columns: every shape, cosine and sine, filtered.
-std::vector<Vector> raw_columns(const WindowModels& models, const Matrix& f) {
+std::vector<Vector> raw_columns(const WindowModels& models, const WindowMatrix& f) {
   std::vector<Vector> columns;
   const auto append = [&](const std::function<double(double)>& value) {
     Vector column(f.rows);
@@ -134,7 +134,7 @@ std::vector<Vector> raw_columns(const WindowModels& models, const Matrix& f) {
   return columns;
 }
 
-Covariance seen_through(Noise noise, const Matrix& c, const std::vector<Vector>& raw) {
+Covariance seen_through(Noise noise, const WindowMatrix& c, const std::vector<Vector>& raw) {
   const std::size_t n = c.rows;
   Covariance result{noise, 0, {}, {}, 0, {}, {}, {}};
   result.whitener = whitener_of(c, result.log_determinant);
@@ -165,11 +165,11 @@ WindowModels make_models(std::size_t windows) {
   const double fastest = windows == few_windows ? 6 : 12;
   for (double frequency = 1; frequency <= fastest; frequency += 0.25) models.frequencies.push_back(frequency);
 
-  const Matrix f = filter(windows), summed = of_running_sum(f);
-  const Matrix white = covariance(f), blue = covariance(of_differences(f)), walk = covariance(summed),
-               smooth = covariance(of_running_sum(summed));
+  const WindowMatrix f = filter(windows), summed = of_running_sum(f);
+  const WindowMatrix white = covariance(f), blue = covariance(of_differences(f)), walk = covariance(summed),
+                     smooth = covariance(of_running_sum(summed));
   const std::vector<Vector> raw = raw_columns(models, f);
-  const auto add = [&](Noise noise, const Matrix& c) {
+  const auto add = [&](Noise noise, const WindowMatrix& c) {
     models.covariances.push_back(seen_through(noise, c, raw));
   };
   for (const double share : {0.0, 0.8, 0.96}) add(Noise::white, mixed(share, white, blue));

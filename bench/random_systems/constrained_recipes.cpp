@@ -11,7 +11,7 @@ using detail::half_square;
 using detail::keep;
 using Vector = std::vector<Real>;
 
-Real dot(const Vector& a, const Vector& b) {
+Real dot_product(const Vector& a, const Vector& b) {
   Real sum = 0;
   for (std::size_t k = 0; k < a.size(); ++k) sum = sum + a[k] * b[k];
   return sum;
@@ -20,10 +20,10 @@ Real dot(const Vector& a, const Vector& b) {
 // What is left of v when its components along the rows are removed.
 Vector tangent(Vector v, std::vector<Vector> rows) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Real square = dot(rows[i], rows[i]);
+    const Real square = dot_product(rows[i], rows[i]);
     if (square.is(0)) continue;
     const auto remove = [&](Vector& from) {
-      const Real share = dot(rows[i], from) / square;
+      const Real share = dot_product(rows[i], from) / square;
       for (std::size_t k = 0; k < from.size(); ++k) from[k] = from[k] - share * rows[i][k];
     };
     for (std::size_t j = i + 1; j < rows.size(); ++j) remove(rows[j]);

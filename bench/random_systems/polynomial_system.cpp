@@ -14,7 +14,7 @@ std::vector<std::string> numbered(const std::string& letter, std::size_t count) 
 
 namespace {
 
-Recorded value(Function function, const Recorded& x) {
+Recorded function_value(Function function, const Recorded& x) {
   switch (function) {
     case Function::sine:
       return sin(x);
@@ -48,7 +48,7 @@ std::shared_ptr<const Model> model_of(const PolynomialSystem& system) {
         static_cast<int>(results.front().variables() - applied.size()), static_cast<int>(results.size()),
         [&, &made_of = results](const Recorded& t, In<Recorded> read, Out<Recorded> out) {
           std::vector<Recorded> x(read.begin(), read.end());
-          for (const AppliedFunction& f : applied) x.push_back(value(f.function, read[f.variable]));
+          for (const AppliedFunction& f : applied) x.push_back(function_value(f.function, read[f.variable]));
           for (std::size_t k = 0; k < made_of.size(); ++k) {
             out[k] = made_of[k](t, x);
             if (divided) out[k] = out[k] / divisors[k](t, x);

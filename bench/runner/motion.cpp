@@ -3,7 +3,7 @@
 namespace pfaff {
 
 namespace {
-const FormulationPlugin& default_formulation(bool of_velocities) {
+const FormulationPlugin& formulation_of_kind(bool of_velocities) {
   return of_velocities ? nonholonomic_formulation() : dirac_formulation();
 }
 }  // namespace
@@ -15,13 +15,13 @@ const FormulationPlugin& nonholonomic_formulation() {
 }
 
 const FormulationPlugin& default_formulation(const Model& model) {
-  return default_formulation(model.nonholonomic());
+  return formulation_of_kind(model.nonholonomic());
 }
 
 const FormulationPlugin* formulation_for(const SystemPlugin& system, const std::string& name) {
   const FormulationPlugin* named = name.empty() ? nullptr : &formulations().get(name, "formulation");
   if (system.constrained())
-    return named != nullptr ? named : &default_formulation(system.constrains_velocities());
+    return named != nullptr ? named : &formulation_of_kind(system.constrains_velocities());
   if (named != nullptr)
     throw InputError("--formulation: " + system.name() + " has no constraints; expected none");
   return nullptr;

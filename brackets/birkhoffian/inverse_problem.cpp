@@ -8,12 +8,12 @@
 namespace pfaff {
 
 namespace {
-using Arguments = std::span<const Recorded>;
-using Results = std::span<Recorded>;
+using FormArguments = std::span<const Recorded>;
+using FormResults = std::span<Recorded>;
 
 // Calls term(s, weight, x, z* + s x) at every node.
 template <class Term>
-void along_ray(std::span<const Real> centre, const std::vector<QuadratureNode>& nodes, Arguments z,
+void along_ray(std::span<const Real> centre, const std::vector<QuadratureNode>& nodes, FormArguments z,
                Term&& term) {
   std::vector<Recorded> x, point(z.size());
   for (std::size_t k = 0; k < z.size(); ++k) x.push_back(z[k] - Recorded(centre[k]));
@@ -31,19 +31,20 @@ ActionForm inverse_problem(const Tape& structure, const Tape& covector, std::spa
   const int n = structure.inputs;
   const auto size = static_cast<std::size_t>(n);
   ActionForm form;
-  form.one_form = record(n, n, [&](const Recorded& t, Arguments z, Results out) {
-    along_ray(centre, places, z, [&](const Recorded& s, const Recorded& weight, Arguments x, Arguments at) {
-      const auto k = evaluate(structure, t, at);
-      for (std::size_t i = 0; i < size; ++i) {
-        Recorded sum(0);
-        for (std::size_t j = 0; j < size; ++j) sum = sum + x[j] * k[j * size + i];
-        out[i] = out[i] + weight * s * sum;
-      }
-    });
-  });
-  form.birkhoffian = record(n, 1, [&](const Recorded& t, Arguments z, Results out) {
+  form.one_form = record(n, n, [&](const Recorded& t, FormArguments z, FormResults out) {
     along_ray(centre, places, z,
-              [&](const Recorded& /*s*/, const Recorded& weight, Arguments x, Arguments at) {
+              [&](const Recorded& s, const Recorded& weight, FormArguments x, FormArguments at) {
+                const auto k = evaluate(structure, t, at);
+                for (std::size_t i = 0; i < size; ++i) {
+                  Recorded sum(0);
+                  for (std::size_t j = 0; j < size; ++j) sum = sum + x[j] * k[j * size + i];
+                  out[i] = out[i] + weight * s * sum;
+                }
+              });
+  });
+  form.birkhoffian = record(n, 1, [&](const Recorded& t, FormArguments z, FormResults out) {
+    along_ray(centre, places, z,
+              [&](const Recorded& /*s*/, const Recorded& weight, FormArguments x, FormArguments at) {
                 const auto d = evaluate(covector, t, at);
                 Recorded sum(0);
                 for (std::size_t i = 0; i < size; ++i) sum = sum + x[i] * d[i];

@@ -66,7 +66,7 @@ namespace {
 
 bool every_system(const Model& /*model*/) { return true; }
 
-bool canonical_structure(const Model& model) {
+bool has_canonical_structure(const Model& model) {
   return model.facets().has(Facet::darboux_chart) && !model.facets().has(Facet::structure);
 }
 
@@ -95,7 +95,7 @@ bool linear_friction(const Model& model) { return model.facets().has(Facet::conf
 // points near the initial state.
 bool divergence_free(const Model& model) {
   if (!model.moves() || model.restricted()) return false;
-  if (canonical_structure(model)) return true;
+  if (has_canonical_structure(model)) return true;
   const auto n = static_cast<std::size_t>(model.dimension());
   if (model.initial().size() != n) return false;  // there is no point to look at
   Replay<Quad> slopes(model.tape(Formula::field_jacobian));
@@ -149,7 +149,9 @@ bool conserved_energy(const Model& model) {
          model.tape(Formula::hamiltonian)->autonomous();
 }
 
-bool canonical_energy(const Model& model) { return canonical_structure(model) && conserved_energy(model); }
+bool has_canonical_energy(const Model& model) {
+  return has_canonical_structure(model) && conserved_energy(model);
+}
 
 bool entropy_of_two_brackets(const Model& model) {
   return model.facets().has(Facet::metriplectic) && model.given(Formula::entropy);

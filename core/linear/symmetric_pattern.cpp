@@ -11,15 +11,15 @@ namespace pfaff {
 
 namespace {
 
-using Index = EliminationPlan::Index;
+using PlanIndex = EliminationPlan::Index;
 using Coupling = SymmetricPattern::Coupling;
 
-Index narrow(std::size_t i) { return static_cast<Index>(i); }
+PlanIndex narrow(std::size_t i) { return static_cast<PlanIndex>(i); }
 
 /// The neighbours of every row, each with the coupling that leads to it.
 struct Graph {
   struct Neighbour {
-    Index row, coupling;
+    PlanIndex row, coupling;
   };
   std::vector<std::size_t> start;
   std::vector<Neighbour> neighbours;
@@ -45,7 +45,7 @@ struct Graph {
 bool follow(const Graph& graph, std::size_t row, std::size_t none, std::vector<char>& seen,
             EliminationPlan& plan) {
   const std::size_t first = row;
-  Index arrived_by = narrow(none);
+  PlanIndex arrived_by = narrow(none);
   for (;;) {
     seen[row] = 1;
     plan.order.push_back(narrow(row));
@@ -80,19 +80,19 @@ bool plan_paths_or_ring(const Graph& graph, std::size_t rows, std::size_t coupli
 
 /// Rows in the order of a maximum cardinality search, last found first. It has no fill if any order has
 /// none (tarjan-yannakakis1984).
-std::vector<Index> leaf_first(const Graph& graph, std::size_t rows) {
+std::vector<PlanIndex> leaf_first(const Graph& graph, std::size_t rows) {
   // Rows not yet found, in lists by the number of their found neighbours.
-  const Index none = narrow(rows);
-  std::vector<Index> head(rows + 1, none), next(rows, none), previous(rows, none), found_neighbours(rows);
+  const PlanIndex none = narrow(rows);
+  std::vector<PlanIndex> head(rows + 1, none), next(rows, none), previous(rows, none), found_neighbours(rows);
   std::vector<char> found(rows);
-  const auto insert = [&](Index i) {
-    Index& first = head[found_neighbours[i]];
+  const auto insert = [&](PlanIndex i) {
+    PlanIndex& first = head[found_neighbours[i]];
     next[i] = first;
     previous[i] = none;
     if (first != none) previous[first] = i;
     first = i;
   };
-  const auto remove = [&](Index i) {
+  const auto remove = [&](PlanIndex i) {
     if (next[i] != none) previous[next[i]] = previous[i];
     if (previous[i] != none)
       next[previous[i]] = next[i];
@@ -100,11 +100,11 @@ std::vector<Index> leaf_first(const Graph& graph, std::size_t rows) {
       head[found_neighbours[i]] = next[i];
   };
   for (std::size_t i = rows; i-- > 0;) insert(narrow(i));
-  std::vector<Index> order(rows);
+  std::vector<PlanIndex> order(rows);
   std::size_t most = 0;
   for (std::size_t k = rows; k-- > 0;) {
     while (head[most] == none) --most;
-    const Index i = head[most];
+    const PlanIndex i = head[most];
     remove(i);
     found[i] = 1;
     order[k] = i;
@@ -119,8 +119,8 @@ std::vector<Index> leaf_first(const Graph& graph, std::size_t rows) {
   return order;
 }
 
-std::vector<Index> positions_of(const std::vector<Index>& order) {
-  std::vector<Index> position(order.size());
+std::vector<PlanIndex> positions_of(const std::vector<PlanIndex>& order) {
+  std::vector<PlanIndex> position(order.size());
   for (std::size_t k = 0; k < order.size(); ++k) position[order[k]] = narrow(k);
   return position;
 }
@@ -128,18 +128,18 @@ std::vector<Index> positions_of(const std::vector<Index>& order) {
 /// True where elimination in this order couples no rows that are not coupled already, that is, where all
 /// later neighbours of a row are neighbours of the first of them. That first one is asked about the others
 /// when its turn comes.
-bool without_fill(const Graph& graph, const std::vector<Index>& order) {
-  const std::vector<Index> position = positions_of(order);
+bool without_fill(const Graph& graph, const std::vector<PlanIndex>& order) {
+  const std::vector<PlanIndex> position = positions_of(order);
   const std::size_t rows = order.size();
-  std::vector<std::vector<Index>> asked(rows);
-  std::vector<Index> mark(rows, narrow(rows));
+  std::vector<std::vector<PlanIndex>> asked(rows);
+  std::vector<PlanIndex> mark(rows, narrow(rows));
   for (std::size_t k = 0; k < rows; ++k) {
-    const Index i = order[k];
+    const PlanIndex i = order[k];
     // The questions asked of row i come from rows before it, so that they are complete by now.
     for (const auto& n : graph.of(i)) mark[n.row] = i;
-    for (const Index row : asked[i])
+    for (const PlanIndex row : asked[i])
       if (mark[row] != i) return false;
-    Index first = narrow(rows);
+    PlanIndex first = narrow(rows);
     for (const auto& n : graph.of(i))
       if (position[n.row] > k && (first == rows || position[n.row] < position[first])) first = n.row;
     if (first == rows) continue;
@@ -152,24 +152,24 @@ bool without_fill(const Graph& graph, const std::vector<Index>& order) {
 
 /// An order of minimum degree: the next row is always one with the fewest couplings left, fill included (of
 /// equal ones, the row with the lower number).
-std::vector<Index> minimum_degree(const Graph& graph, std::size_t rows) {
-  std::vector<std::set<Index>> left(rows);
+std::vector<PlanIndex> minimum_degree(const Graph& graph, std::size_t rows) {
+  std::vector<std::set<PlanIndex>> left(rows);
   for (std::size_t i = 0; i < rows; ++i)
     for (const auto& n : graph.of(i)) left[i].insert(n.row);
-  std::set<std::pair<std::size_t, Index>> queue;
+  std::set<std::pair<std::size_t, PlanIndex>> queue;
   for (std::size_t i = 0; i < rows; ++i) queue.emplace(left[i].size(), narrow(i));
-  std::vector<Index> order;
+  std::vector<PlanIndex> order;
   while (!queue.empty()) {
-    const Index i = queue.begin()->second;
+    const PlanIndex i = queue.begin()->second;
     queue.erase(queue.begin());
     order.push_back(i);
-    for (const Index j : left[i]) queue.erase({left[j].size(), j});
-    for (const Index j : left[i]) {
+    for (const PlanIndex j : left[i]) queue.erase({left[j].size(), j});
+    for (const PlanIndex j : left[i]) {
       left[j].erase(i);
-      for (const Index k : left[i])
+      for (const PlanIndex k : left[i])
         if (k != j) left[j].insert(k);
     }
-    for (const Index j : left[i]) queue.emplace(left[j].size(), j);
+    for (const PlanIndex j : left[i]) queue.emplace(left[j].size(), j);
     left[i].clear();
   }
   return order;
@@ -178,23 +178,23 @@ std::vector<Index> minimum_degree(const Graph& graph, std::size_t rows) {
 /// For every k, the positions of the later rows that the k-th row is coupled with in the factor, sorted.
 /// They come from its own couplings and from its children, the earlier rows whose first later row it is:
 /// their other later rows are coupled with it by fill.
-std::vector<std::vector<Index>> factor_rows(const Graph& graph, const std::vector<Index>& order) {
+std::vector<std::vector<PlanIndex>> factor_rows(const Graph& graph, const std::vector<PlanIndex>& order) {
   const std::size_t rows = order.size();
-  const std::vector<Index> position = positions_of(order);
-  std::vector<std::vector<Index>> entries(rows);  // positions
-  std::vector<std::vector<Index>> children(rows);
-  std::vector<Index> mark(rows, narrow(rows));
+  const std::vector<PlanIndex> position = positions_of(order);
+  std::vector<std::vector<PlanIndex>> entries(rows);  // positions
+  std::vector<std::vector<PlanIndex>> children(rows);
+  std::vector<PlanIndex> mark(rows, narrow(rows));
   for (std::size_t k = 0; k < rows; ++k) {
     auto& mine = entries[k];
-    const auto add = [&](Index p) {
+    const auto add = [&](PlanIndex p) {
       if (p > k && mark[p] != k) {
         mark[p] = narrow(k);
         mine.push_back(p);
       }
     };
     for (const auto& n : graph.of(order[k])) add(position[n.row]);
-    for (const Index child : children[k])
-      for (const Index p : entries[child]) add(p);
+    for (const PlanIndex child : children[k])
+      for (const PlanIndex p : entries[child]) add(p);
     std::sort(mine.begin(), mine.end());
     if (!mine.empty()) children[mine.front()].push_back(narrow(k));
   }
@@ -204,31 +204,31 @@ std::vector<std::vector<Index>> factor_rows(const Graph& graph, const std::vecto
 /// An order with the same fill in which rows that do not wait for each other are neighbours: first the rows
 /// that wait for none, then those that wait for these only, and so on. Independent branches of a tree are
 /// then eliminated side by side.
-std::vector<Index> by_levels(const std::vector<Index>& order,
-                             const std::vector<std::vector<Index>>& entries) {
+std::vector<PlanIndex> by_levels(const std::vector<PlanIndex>& order,
+                                 const std::vector<std::vector<PlanIndex>>& entries) {
   const std::size_t rows = order.size();
-  std::vector<Index> level(rows), at(rows), result(rows);
+  std::vector<PlanIndex> level(rows), at(rows), result(rows);
   for (std::size_t k = 0; k < rows; ++k)
     if (!entries[k].empty()) level[entries[k].front()] = std::max(level[entries[k].front()], level[k] + 1);
-  std::iota(at.begin(), at.end(), Index(0));
-  std::stable_sort(at.begin(), at.end(), [&](Index a, Index b) { return level[a] < level[b]; });
+  std::iota(at.begin(), at.end(), PlanIndex(0));
+  std::stable_sort(at.begin(), at.end(), [&](PlanIndex a, PlanIndex b) { return level[a] < level[b]; });
   for (std::size_t k = 0; k < rows; ++k) result[k] = order[at[k]];
   return result;
 }
 
 /// Entries, their couplings and the targets of the updates, for plan.order.
-void plan_entries(const Graph& graph, const std::vector<std::vector<Index>>& entries, std::size_t couplings,
-                  EliminationPlan& plan) {
+void plan_entries(const Graph& graph, const std::vector<std::vector<PlanIndex>>& entries,
+                  std::size_t couplings, EliminationPlan& plan) {
   const std::size_t rows = plan.order.size();
   plan.start.assign(1, 0);
   for (std::size_t k = 0; k < rows; ++k) plan.start.push_back(plan.start.back() + narrow(entries[k].size()));
   plan.row.reserve(plan.start.back());
   plan.coupling.reserve(plan.start.back());
-  std::vector<Index> known(rows, narrow(couplings)), place(rows);
+  std::vector<PlanIndex> known(rows, narrow(couplings)), place(rows);
   for (std::size_t k = 0; k < rows; ++k) {
     const auto neighbours = graph.of(plan.order[k]);
     for (const auto& n : neighbours) known[n.row] = n.coupling;
-    for (const Index p : entries[k]) {
+    for (const PlanIndex p : entries[k]) {
       plan.row.push_back(plan.order[p]);
       plan.coupling.push_back(known[plan.order[p]]);
     }
@@ -236,7 +236,7 @@ void plan_entries(const Graph& graph, const std::vector<std::vector<Index>>& ent
   }
   for (std::size_t k = 0; k < rows; ++k)
     for (std::size_t b = 0; b < entries[k].size(); ++b) {
-      const Index column = entries[k][b];
+      const PlanIndex column = entries[k][b];
       // All later rows of k beyond `column` are later rows of `column`.
       auto at = entries[column].begin();
       for (std::size_t a = b + 1; a < entries[k].size(); ++a) {
@@ -263,7 +263,7 @@ SymmetricPattern::SymmetricPattern(std::size_t rows, std::vector<Coupling> coupl
   const std::size_t count = couplings_.size(), all = rows < 2 ? 0 : rows * (rows - 1) / 2;
   const auto set_natural_order = [&] {
     plan_.order.resize(rows);
-    std::iota(plan_.order.begin(), plan_.order.end(), Index(0));
+    std::iota(plan_.order.begin(), plan_.order.end(), PlanIndex(0));
   };
   if (count == 0) {
     set_natural_order();

@@ -26,21 +26,21 @@ namespace fs = std::filesystem;
 
 namespace {
 // Values are those of IEEE arithmetic in the order of the text: no contraction, no reordering. Without errno
-// a square root is one instruction.
-constexpr std::array flags{"-std=c++17",
-                           "-O2",
-                           "-shared",
-                           "-fPIC",
-                           "-ffp-contract=off",
-                           "-fno-math-errno",
-                           "-fno-tree-slp-vectorize",
-                           "-w"};
+// a square root is one instruction. The instructions are those that the library itself needs.
+constexpr const char* flags =
+    "-std=c++17 -O2 -shared -fPIC -ffp-contract=off -fno-math-errno -fno-tree-slp-vectorize "
+    "-w" PFAFF_INSTRUCTIONS;
+
+std::vector<std::string> words_of(const char* text) {
+  std::istringstream stream(text);
+  std::vector<std::string> words;
+  for (std::string word; stream >> word;) words.push_back(word);
+  return words;
+}
 
 std::vector<std::string> compiler() {
   const char* named = std::getenv("CXX");
-  std::istringstream stream(named != nullptr ? named : "");
-  std::vector<std::string> words;
-  for (std::string word; stream >> word;) words.push_back(word);
+  std::vector<std::string> words = words_of(named != nullptr ? named : "");
   if (words.empty()) words.emplace_back("c++");
   return words;
 }
@@ -49,8 +49,7 @@ std::vector<std::string> compiler() {
 std::string command_line() {
   std::string line;
   for (const std::string& word : compiler()) line += " " + word;
-  for (const char* flag : flags) line += std::string(" ") + flag;
-  return line;
+  return line + " " + flags;
 }
 
 // Starts a program with its output in `output`, a file, and waits for it; the exit status, or -1 where it
@@ -170,7 +169,8 @@ std::shared_ptr<const Library> library_of(const std::string& code, const std::st
   std::ofstream(made_source, std::ios::binary) << text;
   if (content(made_source) != text) throw RunError("cannot write '" + made_source.string() + "'");
   std::vector<std::string> command = words;
-  command.insert(command.end(), flags.begin(), flags.end());
+  const std::vector<std::string> options = words_of(flags);
+  command.insert(command.end(), options.begin(), options.end());
   command.insert(command.end(), {"-o", made_library.string(), made_source.string()});
   if (const int status = run(command, log); status != 0)
     throw RunError("compiling the formulas of " + what + ": " + words.front() +

@@ -20,13 +20,13 @@ constexpr std::size_t most_constraints = 3, most_degrees = 16;
 // Of the determinant that is divided by, in units of the largest one at the initial state.
 constexpr double smallest_determinant = 0.125;
 
-Recorded determinant(const Numbers& a, std::size_t n, const Places& columns, std::size_t row = 0) {
+Recorded minor_determinant(const Numbers& a, std::size_t n, const Places& columns, std::size_t row = 0) {
   if (columns.empty()) return Recorded(1);
   Recorded sum(0);
   for (std::size_t k = 0; k < columns.size(); ++k) {
     Places others = columns;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
-    const Recorded term = a[row * n + columns[k]] * determinant(a, n, others, row + 1);
+    const Recorded term = a[row * n + columns[k]] * minor_determinant(a, n, others, row + 1);
     sum = k % 2 == 0 ? sum + term : sum - term;
   }
   return sum;
@@ -77,7 +77,7 @@ class Recording {
                              [&](const Recorded& t, In<Recorded> q, Out<Recorded> out) {
                                const Numbers a = evaluate(*rows_, t, q);
                                for (std::size_t k = 0; k < all.size(); ++k)
-                                 out[k] = determinant(a, n_, all[k]);
+                                 out[k] = minor_determinant(a, n_, all[k]);
                              });
     std::vector<double> values(all.size());
     Replay<double>(std::make_shared<const Tape>(tape))(0.0, initial_positions(model).data(), values.data());
@@ -149,11 +149,11 @@ class Recording {
     std::size_t column = 0;
     for (const std::size_t place : coupled_) {
       if (std::find(dependent.begin(), dependent.end(), place) != dependent.end()) continue;
-      x[place * rank() + column] = determinant(a, n_, dependent);
+      x[place * rank() + column] = minor_determinant(a, n_, dependent);
       for (std::size_t j = 0; j < dependent.size(); ++j) {
         Places replaced = dependent;
         replaced[j] = place;
-        x[dependent[j] * rank() + column] = -determinant(a, n_, replaced);
+        x[dependent[j] * rank() + column] = -minor_determinant(a, n_, replaced);
       }
       ++column;
     }

@@ -6,9 +6,9 @@
 namespace {
 using namespace pfaff;
 
-struct RungeKutta4 : pfaff::RungeKutta4 {};
+struct RegisteredRungeKutta4 : pfaff::RungeKutta4 {};
 
-const Method<RungeKutta4> registered{
+const Method<RegisteredRungeKutta4> registered{
     {.name = "rk4",
      .title = "classical Runge-Kutta method of order 4",
      .reference = "hairer-norsett-wanner1993 II.1",
@@ -21,7 +21,7 @@ const Method<RungeKutta4> registered{
 
 // The lower triangle of a row by row, then b, as a tableau.
 RungeKuttaTableau<Quad> tableau_of(const std::vector<Quad>& numbers) {
-  constexpr std::size_t s = RungeKutta4::stages;
+  constexpr std::size_t s = RegisteredRungeKutta4::stages;
   RungeKuttaTableau<Quad> tableau{std::vector<Quad>(s * s),
                                   std::vector<Quad>(numbers.end() - s, numbers.end())};
   for (std::size_t i = 1, k = 0; i < s; ++i)
@@ -31,7 +31,7 @@ RungeKuttaTableau<Quad> tableau_of(const std::vector<Quad>& numbers) {
 
 const KnownOrderTheory runge_kutta_4_conditions{
     "rk4", [](const Assignments& /*parameters*/) {
-      const auto numbers = RungeKutta4().tableau;
+      const auto numbers = RegisteredRungeKutta4().tableau;
       return tree_theory(tableau_of({numbers.begin(), numbers.end()}), 4, true);
     }};
 }  // namespace

@@ -6,15 +6,15 @@
 namespace {
 using namespace pfaff;
 
-const std::vector<Claim> kept{Claim::symmetric, Claim::reversible, Claim::symplectic,
-                              Claim::quadratic_invariants};
+const std::vector<Claim> kept_by_gauss{Claim::symmetric, Claim::reversible, Claim::symplectic,
+                                       Claim::quadratic_invariants};
 
-struct Gauss : pfaff::Gauss {
+struct RegisteredGauss : pfaff::Gauss {
   /// With compensation rounding errors of conserved quantities do a random walk where the energy is T(p) +
   /// V(q), which with six stages and more can be told from truncation. In steps of first order, of other
   /// energies, a small bias is left on some systems.
   [[nodiscard]] std::vector<Claim> preserves(const Model& model) const {
-    std::vector<Claim> claims = kept;
+    std::vector<Claim> claims = kept_by_gauss;
     if (compensated && stages >= 6 && model.facets().has(Facet::separable))
       claims.push_back(Claim::unbiased_round_off);
     return claims;
@@ -22,7 +22,7 @@ struct Gauss : pfaff::Gauss {
 };
 struct ImplicitMidpoint : pfaff::ImplicitMidpoint {};
 
-const Method<Gauss> gauss{
+const Method<RegisteredGauss> gauss{
     {.name = "gauss",
      .title = "Gauss collocation, order 2 s",
      .reference = "hairer-lubich-wanner2006 (II.1.3)",
@@ -31,7 +31,7 @@ const Method<Gauss> gauss{
          "problems at high accuracy and for long runs of any vector field: it is symmetric, symplectic for "
          "constant structures, and keeps quadratic invariants. Structures that depend on the state or on "
          "time are not kept in the system's own variables, and each step solves equations.",
-     .preserves = kept}};
+     .preserves = kept_by_gauss}};
 const Method<ImplicitMidpoint> midpoint{
     {.name = "implicit-midpoint",
      .title = "implicit midpoint rule (Euler centre scheme)",
@@ -41,7 +41,7 @@ const Method<ImplicitMidpoint> midpoint{
                     "separable, and where quadratic invariants have to stay. Its order is 2, and for "
                     "structures that depend on the state or on time it is no longer symplectic.",
      .order = 2,
-     .preserves = kept}};
+     .preserves = kept_by_gauss}};
 
 // Trees are listed up to order 10.
 OrderTheory gauss_theory(int stages) {
@@ -49,8 +49,8 @@ OrderTheory gauss_theory(int stages) {
   return tree_theory({g.matrix, g.weights}, std::min(2 * stages, largest_tree), false);
 }
 const KnownOrderTheory gauss_conditions{"gauss", [](const Assignments& parameters) {
-                                          Gauss method;
-                                          assign_all(Gauss::parameters(), &method, parameters,
+                                          RegisteredGauss method;
+                                          assign_all(RegisteredGauss::parameters(), &method, parameters,
                                                      "integrator gauss");
                                           return gauss_theory(method.stages);
                                         }};

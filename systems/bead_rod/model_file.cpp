@@ -12,9 +12,9 @@ namespace {
 using Kind = DocumentNode::Kind;
 
 // A value and where it stands, for messages.
-class Entry {
+class ModelEntry {
  public:
-  Entry(const DocumentNode& node, std::string where) : node_(node), where_(std::move(where)) {}
+  ModelEntry(const DocumentNode& node, std::string where) : node_(node), where_(std::move(where)) {}
 
   [[noreturn]] void refuse(const std::string& expected) const {
     throw InputError(
@@ -46,16 +46,16 @@ class Entry {
     if (!is(Kind::number) || error != std::errc() || end != s.data() + s.size()) refuse("an integer");
     return value;
   }
-  [[nodiscard]] std::vector<Entry> items() const {
+  [[nodiscard]] std::vector<ModelEntry> items() const {
     if (!is(Kind::list)) refuse("a list");
-    std::vector<Entry> result;
+    std::vector<ModelEntry> result;
     for (std::size_t k = 0; k < node_.items.size(); ++k)
       result.emplace_back(node_.items[k], where_ + "[" + std::to_string(k) + "]");
     return result;
   }
   [[nodiscard]] std::vector<Real> numbers() const {
     std::vector<Real> result;
-    for (const Entry& item : items()) result.push_back(item.number());
+    for (const ModelEntry& item : items()) result.push_back(item.number());
     return result;
   }
   [[nodiscard]] std::vector<Real> numbers(std::size_t count) const {
@@ -70,14 +70,14 @@ class Entry {
     if (lists.size() != count)
       refuse(std::to_string(count) + " lists, one per bead, got " + std::to_string(lists.size()));
     std::vector<Real> result;
-    for (const Entry& list : lists)
+    for (const ModelEntry& list : lists)
       for (const Real& x : list.numbers(width)) result.push_back(x);
     return result;
   }
   template <std::size_t N>
   [[nodiscard]] std::vector<std::array<std::size_t, N>> tuples() const {
     std::vector<std::array<std::size_t, N>> result;
-    for (const Entry& item : items()) {
+    for (const ModelEntry& item : items()) {
       const auto ends = item.items();
       if (ends.size() != N) item.refuse(std::to_string(N) + " beads, got " + std::to_string(ends.size()));
       auto& tuple = result.emplace_back();
@@ -96,16 +96,16 @@ class Entry {
 // A table whose keys are checked: finish() refuses those that nobody asked for.
 class Table {
  public:
-  Table(const Entry& entry, std::string prefix) : entry_(entry), prefix_(std::move(prefix)) {
+  Table(const ModelEntry& entry, std::string prefix) : entry_(entry), prefix_(std::move(prefix)) {
     if (!entry.is(Kind::table)) entry.refuse("a table");
   }
-  std::optional<Entry> find(const std::string& key) {
+  std::optional<ModelEntry> find(const std::string& key) {
     asked_.push_back(key);
     for (const auto& [name, node] : entry_.node().members)
-      if (name == key) return Entry(node, prefix_ + key);
+      if (name == key) return ModelEntry(node, prefix_ + key);
     return std::nullopt;
   }
-  Entry required(const std::string& key) {
+  ModelEntry required(const std::string& key) {
     if (const auto entry = find(key)) return *entry;
     throw InputError(entry_.where() + ": key '" + key + "' is missing");
   }
@@ -116,12 +116,12 @@ class Table {
   }
 
  private:
-  const Entry& entry_;
+  const ModelEntry& entry_;
   std::string prefix_;
   std::vector<std::string> asked_;
 };
 
-std::size_t read_end(const BeadRodDescription& d, const Entry& end) {
+std::size_t read_end(const BeadRodDescription& d, const ModelEntry& end) {
   if (!end.is(Kind::text)) {
     const std::size_t bead = end.index();
     if (bead >= d.beads())
@@ -140,7 +140,7 @@ std::size_t read_end(const BeadRodDescription& d, const Entry& end) {
 
 void read_rods(BeadRodDescription& d, Table& root) {
   if (const auto rods = root.find("rods"))
-    for (const Entry& item : rods->items()) {
+    for (const ModelEntry& item : rods->items()) {
       const auto ends = item.items();
       if (ends.size() != 2) item.refuse("two points, got " + std::to_string(ends.size()));
       std::size_t first = read_end(d, ends[0]), second = read_end(d, ends[1]);
@@ -155,9 +155,9 @@ void read_rods(BeadRodDescription& d, Table& root) {
   }
 }
 
-void read_potential(BeadRodDescription& d, const Entry& entry) {
+void read_potential(BeadRodDescription& d, const ModelEntry& entry) {
   Table table(entry, entry.where() + ".");
-  const Entry kind = table.required("kind");
+  const ModelEntry kind = table.required("kind");
   const auto pair = [&](PairPotential p) {
     if (const auto cutoff = table.find("cutoff")) p.cutoff = cutoff->number();
     if (const auto exclude = table.find("exclude")) p.exclude = exclude->integer();
@@ -204,11 +204,11 @@ void read_motion(BeadRodDescription& d, Table& root) {
 
 BeadRodDescription read_bead_rod_model(const std::string& path) {
   const DocumentNode document = read_document(path);
-  const Entry whole(document, path);
+  const ModelEntry whole(document, path);
   Table root(whole, path + ": ");
   BeadRodDescription d;
   d.origin = path;
-  const Entry dimension = root.required("dimension");
+  const ModelEntry dimension = root.required("dimension");
   d.dimension = dimension.integer();
   if (d.dimension != 2 && d.dimension != 3) dimension.refuse("2 or 3");
   d.masses = root.required("masses").numbers();
@@ -226,13 +226,13 @@ BeadRodDescription read_bead_rod_model(const std::string& path) {
   if (const auto anchors = root.find("anchors")) {
     if (!anchors->is(Kind::table)) anchors->refuse("a table of named points");
     for (const auto& [name, node] : anchors->node().members)
-      d.anchors.push_back({name, Entry(node, anchors->where() + "." + name).numbers(d.axes())});
+      d.anchors.push_back({name, ModelEntry(node, anchors->where() + "." + name).numbers(d.axes())});
   }
   d.positions = root.required("positions").rows(beads, d.axes());
   read_motion(d, root);
   read_rods(d, root);
   if (const auto potentials = root.find("potentials"))
-    for (const Entry& entry : potentials->items()) read_potential(d, entry);
+    for (const ModelEntry& entry : potentials->items()) read_potential(d, entry);
   root.finish();
   d.check();
   return d;

@@ -7,7 +7,7 @@
 namespace {
 using namespace pfaff;
 
-struct SpringPotential {
+struct OscillatorSpring {
   static constexpr const char* unit = "m";
   template <class T>
   static T energy(const T& r) {
@@ -19,7 +19,7 @@ struct SpringPotential {
   }
 };
 
-struct CoupledDampedOscillators : DampedChain<CoupledDampedOscillators, SpringPotential> {
+struct CoupledDampedOscillators : DampedChain<CoupledDampedOscillators, OscillatorSpring> {
   template <class T>
   void invariants(const T& t, In<T> z, Out<T> values) const {
     values[0] = birkhoffian(t, z);

@@ -8,7 +8,7 @@
 namespace {
 using namespace pfaff;
 
-struct PendulumPotential {
+struct PendulumSpring {
   static constexpr const char* unit = "rad";
   template <class T>
   static T energy(const T& r) {
@@ -20,7 +20,7 @@ struct PendulumPotential {
   }
 };
 
-struct CoupledDampedPendula : DampedChain<CoupledDampedPendula, PendulumPotential> {
+struct CoupledDampedPendula : DampedChain<CoupledDampedPendula, PendulumSpring> {
   template <class T>
   void invariants(const T& /*t*/, In<T> z, Out<T> values) const {
     values[0] = square_of_momenta<T>(z) / 2 + potential_energy<T>(z);

@@ -10,15 +10,15 @@ namespace {
 using namespace pfaff::testing;
 using Lines = std::vector<std::string>;
 
-struct Step {
+struct TutorialStep {
   std::string command;
   Lines shown;
 };
 
 // The commands of the blocks ```console of a page: lines behind "$ ", with what follows up to END where one
 // asks for it. What stands below a command is what it prints.
-std::vector<Step> steps_of(const std::string& page) {
-  std::vector<Step> steps;
+std::vector<TutorialStep> steps_of(const std::string& page) {
+  std::vector<TutorialStep> steps;
   std::istringstream lines(page);
   bool inside = false, here_document = false;
   for (std::string line; std::getline(lines, line);) {
@@ -75,7 +75,7 @@ TEST(Tutorial, EveryCommandPrintsWhatThePageShows) {
   ASSERT_GT(steps.size(), 15U);
   const TemporaryDirectory directory;
   std::size_t lines = 0;
-  for (const Step& step : steps) {
+  for (const TutorialStep& step : steps) {
     const Lines printed = printed_by(step.command, directory.path());
     std::string all;
     for (const std::string& line : printed) all += "  " + line + '\n';

@@ -16,7 +16,7 @@
 namespace {
 using namespace pfaff;
 using pfaff::testing::TemporaryDirectory;
-using Counts = std::vector<std::int64_t>;
+using StepCounts = std::vector<std::int64_t>;
 
 // A method of an order whose error at N steps is constant / N^order, but not below round-off, and which takes
 // `stages` evaluations a step. `most` is the largest number of evaluations of one trial.
@@ -26,7 +26,7 @@ struct SteppedMethod {
   [[nodiscard]] double error(double count) const {
     return std::max(constant / std::pow(count, order), round_off);
   }
-  [[nodiscard]] Counts chosen(double evaluations) const {
+  [[nodiscard]] StepCounts chosen(double evaluations) const {
     return step_counts(
         [&](std::int64_t count, std::int64_t taken) {
           most = std::max(most, stages * static_cast<double>(taken));
@@ -40,7 +40,7 @@ struct SteppedMethod {
 TEST(AutomaticSteps, AreFiveToEightFromSmallErrorsToRoundOff) {
   for (const double order : {1.0, 2.0, 4.0, 8.0, 16.0, 40.0}) {
     const SteppedMethod method{order, std::pow(30.0, order), 4};
-    const Counts counts = method.chosen(1e12);
+    const StepCounts counts = method.chosen(1e12);
     SCOPED_TRACE(order);
     ASSERT_GE(counts.size(), fewest_automatic);
     ASSERT_LE(counts.size(), most_automatic);
@@ -60,22 +60,22 @@ TEST(AutomaticSteps, AreFiveToEightFromSmallErrorsToRoundOff) {
 // What lies above the limit is neither chosen nor tried; with more evaluations there would be finer steps.
 TEST(AutomaticSteps, TakeNoMoreEvaluationsThanAllowed) {
   const SteppedMethod method{2, 900, 4};
-  const Counts few = method.chosen(1e5);
+  const StepCounts few = method.chosen(1e5);
   EXPECT_LE(method.most, 1e5);
-  EXPECT_EQ(few, (Counts{100, 250, 400, 1000, 2500, 6400, 10000, 25000}));
+  EXPECT_EQ(few, (StepCounts{100, 250, 400, 1000, 2500, 6400, 10000, 25000}));
   EXPECT_GT(method.chosen(1e6).back(), few.back());
 }
 
 TEST(AutomaticSteps, OfAMethodThatFailsEverywhereAreTheFinest) {
   const SteppedMethod method{1, 1e12, 1};
-  EXPECT_EQ(method.chosen(1e4), (Counts{1600, 2500, 4000, 6400, 10000}));
-  EXPECT_EQ(method.chosen(20), (Counts{10, 11, 13, 14, 16}));
+  EXPECT_EQ(method.chosen(1e4), (StepCounts{1600, 2500, 4000, 6400, 10000}));
+  EXPECT_EQ(method.chosen(20), (StepCounts{10, 11, 13, 14, 16}));
   EXPECT_TRUE(method.chosen(12).empty());  // one rung is no choice
 }
 
 TEST(AutomaticSteps, OfAMethodWithoutErrorAreTheCoarsest) {
-  EXPECT_EQ((SteppedMethod{4, 0, 1}.chosen(1e6)), (Counts{10, 16, 25, 40, 64}));
-  EXPECT_EQ((SteppedMethod{4, 0, 1}.chosen(30)), (Counts{10, 13, 16, 20, 25}));
+  EXPECT_EQ((SteppedMethod{4, 0, 1}.chosen(1e6)), (StepCounts{10, 16, 25, 40, 64}));
+  EXPECT_EQ((SteppedMethod{4, 0, 1}.chosen(30)), (StepCounts{10, 13, 16, 20, 25}));
 }
 
 // Round-off that happens to be smaller at some fine step is not a slope: steps stay between 25 and 250 to the

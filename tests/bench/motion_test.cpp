@@ -9,17 +9,17 @@ namespace {
 
 using namespace pfaff;
 
-const SystemPlugin& system_named(const char* name) { return systems().get(name, "system"); }
+const SystemPlugin& system_by_name(const char* name) { return systems().get(name, "system"); }
 std::shared_ptr<const MethodInstance> method_named(const char* name) {
   return integrators().get(name, "integrator").make({});
 }
 
 TEST(Motion, OfWhatMovesIsTheModelItself) {
   for (const char* name : {"pendulum", "damped-pendulum", "free-rigid-body"}) {
-    const auto model = system_named(name).make({});
+    const auto model = system_by_name(name).make({});
     EXPECT_EQ(motion_of(model), model) << name;
   }
-  const auto raw = system_named("spherical-pendulum").make({});
+  const auto raw = system_by_name("spherical-pendulum").make({});
   EXPECT_FALSE(raw->moves());
   const auto motion = motion_of(raw);
   EXPECT_TRUE(motion->moves());
@@ -28,18 +28,18 @@ TEST(Motion, OfWhatMovesIsTheModelItself) {
 }
 
 TEST(Motion, ForAMethodOnTheConstraintsIsTheModelItself) {
-  const auto raw = system_named("spherical-pendulum").make({});
+  const auto raw = system_by_name("spherical-pendulum").make({});
   EXPECT_EQ(motion_for(*method_named("rattle"), raw), raw);
   EXPECT_EQ(motion_for(*method_named("rk4"), raw)->source().formulation, dirac_formulation().name());
 }
 
 TEST(Motion, FormulationIsTheOneNamed) {
-  const SystemPlugin& constrained = system_named("spherical-pendulum");
+  const SystemPlugin& constrained = system_by_name("spherical-pendulum");
   EXPECT_EQ(formulation_for(constrained, ""), &dirac_formulation());
   EXPECT_EQ(formulation_for(constrained, "lmm")->name(), "lmm");
-  EXPECT_EQ(formulation_for(system_named("pendulum"), ""), nullptr);
+  EXPECT_EQ(formulation_for(system_by_name("pendulum"), ""), nullptr);
   EXPECT_THROW((void)formulation_for(constrained, "lmn"), InputError);
-  EXPECT_THROW((void)formulation_for(system_named("pendulum"), "lmm"), InputError);
+  EXPECT_THROW((void)formulation_for(system_by_name("pendulum"), "lmm"), InputError);
 }
 
 // The reference of a run on the constraints is the motion of its model: RATTLE approaches it with the step.

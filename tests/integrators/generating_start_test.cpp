@@ -17,10 +17,10 @@
 namespace pfaff {
 namespace {
 
-using P = Problem<Quad>;
+using QuadProblem = Problem<Quad>;
 using testing::model_named;
 
-std::vector<Quad> chart_start(const P& p, const Quad& t) {
+std::vector<Quad> chart_start(const QuadProblem& p, const Quad& t) {
   std::vector<Quad> z, y(p.size());
   for (const Real& x : p.model()->initial()) z.push_back(x.quad());
   p.chart(t, z, y);
@@ -30,7 +30,7 @@ std::vector<Quad> chart_start(const P& p, const Quad& t) {
 // By how much the correction of (I - P psi') e differs from e, the largest over unit vectors e. psi' is that
 // of the step itself, by central differences of psi at the w that solves it.
 double mismatch(const std::string& system, bool high_order, GeneratingForm form, const Quad& h) {
-  const P p(model_named(system));
+  const QuadProblem p(model_named(system));
   const std::size_t n = p.size();
   const Quad t = Quad(1) / Quad(4), half = Quad(1) / Quad(2), least(1e-12);
   const bool symmetric = form == GeneratingForm::midpoint;
@@ -43,7 +43,7 @@ double mismatch(const std::string& system, bool high_order, GeneratingForm form,
     gradient(w.data(), change.data());
     for (std::size_t k = 0; k < n; ++k) w[k] = y[k] + share.row(k, change.data());
   }
-  CorrectionMatrix<P> matrix(n, high_order);
+  CorrectionMatrix<QuadProblem> matrix(n, high_order);
   EXPECT_EQ(matrix.factor(p, t, h, share, y, w, change), Status::converged);
   double worst = 0;
   for (std::size_t e = 0; e < n; ++e) {
@@ -84,14 +84,14 @@ Quad unit(std::size_t /*k*/) { return Quad(1); }
 
 // Against a series of many more degrees; the first one left out is degree 8.
 TEST(ExpectedChange, OfAFirstStepIsThatOfATaylorSeries) {
-  const P p(model_named("damped-pendulum"));
+  const QuadProblem p(model_named("damped-pendulum"));
   const Quad t = Quad(1) / Quad(4);
   const std::vector<Quad> y = chart_start(p, t);
   TaylorExpansion<Quad> exact(p.chart_field_tape(), 30);
   exact.expand(t, y.data());
   std::vector<double> error;
   for (const Quad& h : {Quad(1) / Quad(16), Quad(1) / Quad(32)}) {
-    ExpectedChange<P> expected(p, order, evaluations);
+    ExpectedChange<QuadProblem> expected(p, order, evaluations);
     std::vector<Quad> change(p.size());
     expected.expect(p, t, h, y, unit, change);
     error.push_back(0);
@@ -101,11 +101,11 @@ TEST(ExpectedChange, OfAFirstStepIsThatOfATaylorSeries) {
   EXPECT_NEAR(std::log2(error[0] / error[1]), degree + 1, 0.25);
 }
 TEST(ExpectedChange, StopsWhereTermsGrow) {
-  const P p(model_named("damped-pendulum"));
+  const QuadProblem p(model_named("damped-pendulum"));
   const std::vector<Quad> y = chart_start(p, Quad(0));
   TaylorExpansion<Quad> whole(p.chart_field_tape(), degree);
   whole.expand(Quad(0), y.data());
-  ExpectedChange<P> expected(p, order, evaluations);
+  ExpectedChange<QuadProblem> expected(p, order, evaluations);
   std::vector<Quad> change(p.size());
   const Quad h(40);
   expected.expect(p, Quad(0), h, y, unit, change);
@@ -120,12 +120,12 @@ TEST(ExpectedChange, StopsWhereTermsGrow) {
   }
 }
 TEST(ExpectedChange, TakesDifferencesWhereTheyAreGoodAndTheSeriesWhereTheyAreNot) {
-  const P p(model_named("damped-pendulum"));
+  const QuadProblem p(model_named("damped-pendulum"));
   const std::vector<Quad> y = chart_start(p, Quad(0));
   const Quad h = Quad(1) / Quad(8);
   // Fields that the forecast after ten changes takes.
   const auto taken = [&](auto changed, std::size_t psi) {
-    ExpectedChange<P> expected(p, order, psi);
+    ExpectedChange<QuadProblem> expected(p, order, psi);
     std::vector<Quad> change(p.size());
     for (int n = 0; n < 10; ++n) {
       for (std::size_t k = 0; k < change.size(); ++k) change[k] = changed(n);

@@ -18,7 +18,7 @@ const std::vector<const char*> one_step{"dla", "mclachlan-perlmutter", "nonholon
 
 // The slope of the errors at T = 1 from reference flows of 36 digits, between `steps` steps and twice as
 // many.
-double slope(const MethodInstance& m, std::size_t k, std::int64_t steps) {
+double measured_slope(const MethodInstance& m, std::size_t k, std::int64_t steps) {
   const auto model = golden_models()[k];
   const auto flow = numbers<Quad>(golden_cases()[k]["flow T=1 (q,v)"]);
   const auto error = [&](std::int64_t count) {
@@ -34,24 +34,25 @@ TEST(Nonholonomic, MethodsHaveOrderTwo) {
     for (std::size_t k = 0; k < 4; ++k) {
       const auto m = method_named(name);
       if (!m->refuses(*golden_models()[k]).empty()) continue;
-      EXPECT_NEAR(slope(*m, k, 64), 2, 0.03) << name << ' ' << k;
+      EXPECT_NEAR(measured_slope(*m, k, 64), 2, 0.03) << name << ' ' << k;
     }
   for (std::size_t k = 0; k < 4; ++k)
-    EXPECT_NEAR(slope(*method_named("nonholonomic-discrete-gradient", {{"form", "multipliers"}}), k, 64), 2,
-                0.05);
+    EXPECT_NEAR(
+        measured_slope(*method_named("nonholonomic-discrete-gradient", {{"form", "multipliers"}}), k, 64), 2,
+        0.05);
 }
 TEST(Nonholonomic, LobattoPairsHaveOrderTwoLessThanTwiceTheirStages) {
   for (const int stages : {2, 3, 4})
     for (std::size_t k = 0; k < 4; ++k)
-      EXPECT_NEAR(slope(*method_named("spark-lobatto", {{"stages", std::to_string(stages)}}), k, 16),
+      EXPECT_NEAR(measured_slope(*method_named("spark-lobatto", {{"stages", std::to_string(stages)}}), k, 16),
                   2 * stages - 2, 0.1)
           << stages << ' ' << k;
 }
 TEST(Nonholonomic, CompositionsReachHigherOrders) {
-  EXPECT_NEAR(slope(*composed("dla", "suzuki", "4"), 0, 16), 4, 0.1);
-  EXPECT_NEAR(slope(*composed("dla", "suzuki", "4"), 3, 16), 4, 0.1);
-  EXPECT_NEAR(slope(*composed("dla", "kahan-li", "6"), 2, 16), 6, 0.1);
-  EXPECT_NEAR(slope(*composed("dla", "kahan-li", "8"), 0, 8), 8, 0.3);
+  EXPECT_NEAR(measured_slope(*composed("dla", "suzuki", "4"), 0, 16), 4, 0.1);
+  EXPECT_NEAR(measured_slope(*composed("dla", "suzuki", "4"), 3, 16), 4, 0.1);
+  EXPECT_NEAR(measured_slope(*composed("dla", "kahan-li", "6"), 2, 16), 6, 0.1);
+  EXPECT_NEAR(measured_slope(*composed("dla", "kahan-li", "8"), 0, 8), 8, 0.3);
 }
 // Control: sub-steps of these leave an error that depends on their size (see their files).
 TEST(Nonholonomic, OtherMethodsCannotBeComposed) {

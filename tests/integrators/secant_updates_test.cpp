@@ -13,7 +13,7 @@ using D = Dual<double, 1>;
 // x = g(x) with a contraction that turns and bends, x measured in other units. The residual is the correction
 // of the plain iteration.
 template <class T>
-std::vector<T> residual(const std::vector<T>& x, const T& parameter, double unit) {
+std::vector<T> plain_correction(const std::vector<T>& x, const T& parameter, double unit) {
   const T a = x[0], b = x[1] / T(unit);
   return {parameter + T(0.3) * a - T(0.2) * b + T(0.05) * a * b - a,
           (T(1) + T(0.25) * a + T(0.1) * b * b - b) * T(unit)};
@@ -31,7 +31,7 @@ Solution<T> secant_solution(const T& parameter, bool secants, double unit = 1) {
   Solution<T> s{{T(0.8), T(1.2 * unit)}, 0};
   const std::vector<T> scale{T(1), T(unit)};
   for (double size = 1; size > 1e-15 && s.corrections < 100; ++s.corrections) {
-    std::vector<T> correction = residual(s.x, parameter, unit);
+    std::vector<T> correction = plain_correction(s.x, parameter, unit);
     if (secants) updates.improve(correction, scale, scale);
     size = 0;
     for (std::size_t k = 0; k < 2; ++k) {

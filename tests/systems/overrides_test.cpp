@@ -11,19 +11,19 @@ using namespace pfaff;
 using pfaff::testing::Samples;
 using Arguments = std::span<const Recorded>;
 using Results = std::span<Recorded>;
-using Formulas = std::vector<std::pair<std::string, Formula>>;
+using OverridableFormulas = std::vector<std::pair<std::string, Formula>>;
 
 // Two ways to compute one vector differ by roundings only: a few dozen operations.
 constexpr double double_bound = 1e-14, quad_bound = 1e-31;
 constexpr int override_points = 30;
 
-const Formulas overridable{{"field", Formula::field},
-                           {"force", Formula::force},
-                           {"velocity", Formula::velocity},
-                           {"hamiltonian", Formula::hamiltonian},
-                           {"chart_field", Formula::chart_field},
-                           {"structure", Formula::structure},
-                           {"poisson_tensor", Formula::poisson_tensor}};
+const OverridableFormulas overridable{{"field", Formula::field},
+                                      {"force", Formula::force},
+                                      {"velocity", Formula::velocity},
+                                      {"hamiltonian", Formula::hamiltonian},
+                                      {"chart_field", Formula::chart_field},
+                                      {"structure", Formula::structure},
+                                      {"poisson_tensor", Formula::poisson_tensor}};
 
 // The largest difference of two tapes at (t, z), relative to 1 + the largest value.
 template <class T>

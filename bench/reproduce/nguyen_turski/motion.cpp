@@ -11,7 +11,7 @@ namespace pfaff::nguyen_turski {
 
 namespace {
 
-Numbers second_half(const Numbers& z) {
+Numbers momenta_of(const Numbers& z) {
   return {z.begin() + static_cast<std::ptrdiff_t>(z.size() / 2), z.end()};
 }
 Numbers minus(Numbers a, const Numbers& b) {
@@ -31,7 +31,7 @@ void equations(Rows& rows, const printed::Motion& motion, const BeadRodPoint& en
                   engine.rates("dirac", "metriplectic"));
   const Numbers rubbed = engine.rates("dirac", "metriplectic"), free = engine.rates("dirac", "none");
   rows.reproduced("(4.2)", "the last line alone", motion.friction(),
-                  minus(second_half(rubbed), second_half(free)));
+                  minus(momenta_of(rubbed), momenta_of(free)));
   rows.reproduced("(4.7)", "without friction", motion.simplified(false),
                   engine.rates("simplified-dirac", "none"));
   rows.reproduced("(4.7)", "with its last line, the friction", motion.simplified(true),
@@ -42,10 +42,9 @@ void equations(Rows& rows, const printed::Motion& motion, const BeadRodPoint& en
 
 // Appendix A: B and G of the paper are B^T and G of the engine.
 void multipliers(Rows& rows, const printed::Motion& motion, const BeadRodPoint& engine) {
-  const Numbers rate = engine.rates("lmm", "none"),
-                accelerated = engine.hidden_by_momentum(second_half(rate));
+  const Numbers rate = engine.rates("lmm", "none"), accelerated = engine.hidden_by_momentum(momenta_of(rate));
   rows.reproduced("(A.1)", "F - M q'' is B lambda", motion.reactions(),
-                  minus(engine.force(), second_half(rate)));
+                  minus(engine.force(), momenta_of(rate)));
   rows.reproduced("(A.2)", "rates of phi are B^T q'", motion.first_derivatives(),
                   engine.hidden_constraints());
   Numbers opposite = accelerated;

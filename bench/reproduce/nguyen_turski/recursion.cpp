@@ -7,7 +7,7 @@ namespace pfaff::nguyen_turski {
 
 namespace {
 
-using Table = printed::Table<Rational>;
+using RationalTable = printed::Table<Rational>;
 using List = std::initializer_list<std::size_t>;
 
 ExactMatrix matrix(const std::vector<std::vector<Rational>>& rows) {
@@ -26,7 +26,7 @@ std::string outcome(const ExactMatrix& w, Symmetry symmetry, const std::vector<s
   return describe(plain_recursion(w, symmetry, order), symmetry, order, names);
 }
 // The brackets of the elements after the first `count`.
-Table after(const Table& g, std::size_t count) {
+RationalTable after(const RationalTable& g, std::size_t count) {
   const auto rest = printed::counted(count, g.size());
   return printed::part(g, rest, rest);
 }
@@ -38,7 +38,7 @@ void general(Rows& rows) {
   for (const auto& [symmetry, kind] :
        {std::pair{Symmetry::symmetric, "symmetric"}, {Symmetry::none, "general"}}) {
     const ExactMatrix g = symmetry == Symmetry::symmetric ? samples.symmetric(5) : samples.any(5, 5);
-    Table level = table_of(g);
+    RationalTable level = table_of(g);
     for (std::size_t m = 1; m <= 3; ++m) {
       const std::string which = std::string(kind) + " bracket, level " + std::to_string(m);
       level = printed::symmetric_step(level, m - 1);
@@ -49,7 +49,7 @@ void general(Rows& rows) {
     }
   }
   const ExactMatrix g = samples.any(5, 5);  // alpha: 2 constraints, then phi_3, f, g
-  const Table table = table_of(g);
+  const RationalTable table = table_of(g);
   const auto m = [&](List i, List j) {
     return printed::bordered(table, printed::counted(0, 2, i), printed::counted(0, 2, j));
   };
@@ -59,7 +59,7 @@ void general(Rows& rows) {
   rows.reproduced("(3.13)", "the step of the proof",
                   quads({m({3}, {4}) / m({}, {}) - m({3}, {2}) * m({2}, {4}) / (m({}, {}) * m({2}, {2}))}),
                   quads({whole}));
-  const Table second = printed::dirac_brackets(table, 2);  // of phi_3, f, g
+  const RationalTable second = printed::dirac_brackets(table, 2);  // of phi_3, f, g
   rows.reproduced("(3.14)", "the step of the proof",
                   quads({second[1][2] - second[1][0] * second[0][2] / second[0][0]}), quads({whole}));
   // The condition is on leading minors. A vanishing minor that does not lead is harmless.
@@ -117,8 +117,8 @@ void break_downs(Rows& rows) {
 void skew(Rows& rows) {
   ExactSamples samples(8);
   const ExactMatrix g = samples.skew(8);
-  const Table table = table_of(g);
-  Table level = table;
+  const RationalTable table = table_of(g);
+  RationalTable level = table;
   for (std::size_t m = 1; m <= 3; ++m) {
     level = printed::skew_step(level, m - 1);
     rows.reproduced("(3.15), (3.16), Theorem 2", "level " + std::to_string(m), quads(after(level, 2 * m)),

@@ -13,7 +13,7 @@ namespace pfaff::pitanga_rodrigues {
 namespace {
 
 using printed::Polynomial;
-constexpr std::size_t n = 4, m = 2;
+constexpr std::size_t coordinate_count = 4, m = 2;
 
 // The inputs of both sides.
 Rational mass(std::size_t k) { return Rational(static_cast<int>(k) + 2) / Rational(static_cast<int>(k) + 1); }
@@ -31,11 +31,12 @@ std::vector<T> offsets(const T& t) {
 }
 
 struct PrincipleSample {
-  static constexpr int dimension = 2 * static_cast<int>(n), velocity_constraint_count = static_cast<int>(m);
+  static constexpr int dimension = 2 * static_cast<int>(coordinate_count),
+                       velocity_constraint_count = static_cast<int>(m);
   template <class T>
   T kinetic(const T& /*t*/, In<T> p) const {
     T sum(0);
-    for (std::size_t k = 0; k < n; ++k)
+    for (std::size_t k = 0; k < coordinate_count; ++k)
       sum = sum + p[k] * p[k] * T(static_cast<int>(k) + 1) / T(static_cast<int>(k) + 2) / T(2);
     return sum;
   }
@@ -61,7 +62,7 @@ std::shared_ptr<const Model> sample_model() {
 // V as a polynomial of the positions.
 Polynomial potential_polynomial() {
   std::vector<Polynomial> z;
-  for (std::size_t k = 0; k < n; ++k) z.push_back(Polynomial::variable(k));
+  for (std::size_t k = 0; k < coordinate_count; ++k) z.push_back(Polynomial::variable(k));
   return potential_energy(z);
 }
 
@@ -70,14 +71,14 @@ Polynomial potential_polynomial() {
 void stationarity(Rows& rows) {
   const Polynomial t = Polynomial::variable(0), v = potential_polynomial();
   std::vector<Polynomial> z, dz;
-  for (std::size_t k = 0; k < n; ++k) {
+  for (std::size_t k = 0; k < coordinate_count; ++k) {
     const int i = static_cast<int>(k);
     z.push_back(Polynomial(Rational(1 - i) / Rational(3)) + Polynomial(Rational(i + 1)) * t -
                 Polynomial(Rational(2) / Rational(i + 1)) * t * t);
     dz.push_back(t * (Polynomial(Rational(1)) - t) * (Polynomial(Rational(1)) + Polynomial(Rational(i)) * t));
   }
   Polynomial integrand;
-  for (std::size_t k = 0; k < n; ++k)
+  for (std::size_t k = 0; k < coordinate_count; ++k)
     integrand = integrand + (Polynomial(mass(k)) * z[k].slope(0).slope(0) + v.slope(k).at(z)) * dz[k];
   const std::vector<Rational> end{Rational(1)};
 
@@ -87,14 +88,15 @@ void stationarity(Rows& rows) {
   Quad change(0);
   for (std::size_t node = 0; node < gauss.nodes.size(); ++node) {
     const Numbers at{gauss.nodes[node]};
-    Numbers state(2 * n), slopes(2 * n);
-    for (std::size_t k = 0; k < n; ++k) {
+    Numbers state(2 * coordinate_count), slopes(2 * coordinate_count);
+    for (std::size_t k = 0; k < coordinate_count; ++k) {
       state[k] = z[k].at(at);
-      state[n + k] = static_cast<Quad>(mass(k)) * z[k].slope(0).at(at);
+      state[coordinate_count + k] = static_cast<Quad>(mass(k)) * z[k].slope(0).at(at);
     }
     replay(Quad(0), state.data(), slopes.data());
-    for (std::size_t k = 0; k < n; ++k)
-      change += gauss.weights[node] * (state[n + k] * dz[k].slope(0).at(at) - slopes[k] * dz[k].at(at));
+    for (std::size_t k = 0; k < coordinate_count; ++k)
+      change += gauss.weights[node] *
+                (state[coordinate_count + k] * dz[k].slope(0).at(at) - slopes[k] * dz[k].at(at));
   }
   rows.reproduced("(19), (21)", "the integral of E dz is minus the change of the action",
                   quads(std::vector<Rational>{integrand.along_ray(1, 0).at(end)}), {-change});
@@ -119,17 +121,19 @@ void projections(Rows& rows) {
   const Numbers eta{Quad(1), Quad(-2) / 3, Quad(1) / 5, Quad(7) / 4};
 
   const Numbers entries = constraint_rows(engine.q());
-  printed::Table<Quad> a{{entries.begin(), entries.begin() + n}, {entries.begin() + n, entries.end()}},
-      inverse_metric = printed::unit_table<Quad>(n);
-  for (std::size_t k = 0; k < n; ++k) inverse_metric[k][k] = Quad(1) / static_cast<Quad>(mass(k));
+  printed::Table<Quad> a{{entries.begin(), entries.begin() + coordinate_count},
+                         {entries.begin() + coordinate_count, entries.end()}},
+      inverse_metric = printed::unit_table<Quad>(coordinate_count);
+  for (std::size_t k = 0; k < coordinate_count; ++k)
+    inverse_metric[k][k] = Quad(1) / static_cast<Quad>(mass(k));
   const auto q = printed::constraint_q(a, inverse_metric),
-             p = printed::difference(printed::unit_table<Quad>(n), q), q_star = printed::transposed(q),
-             p_star = printed::transposed(p);
+             p = printed::difference(printed::unit_table<Quad>(coordinate_count), q),
+             q_star = printed::transposed(q), p_star = printed::transposed(p);
 
   // At momenta that do not keep the constraint.
   Numbers off = engine.state(), v = engine.velocity();
-  for (std::size_t k = 0; k < n; ++k) {
-    off[n + k] += eta[k];
+  for (std::size_t k = 0; k < coordinate_count; ++k) {
+    off[coordinate_count + k] += eta[k];
     v[k] += inverse_metric[k][k] * eta[k];
   }
   rows.reproduced("(18)", "A v + B", plus(printed::product(a, v), offsets(t)), engine.constraints(off));
@@ -142,7 +146,7 @@ void projections(Rows& rows) {
   // E = M z'' + grad V of the engine's motion.
   Numbers force = engine.acceleration();
   const Polynomial potential = potential_polynomial();
-  for (std::size_t k = 0; k < n; ++k)
+  for (std::size_t k = 0; k < coordinate_count; ++k)
     force[k] = static_cast<Quad>(mass(k)) * force[k] + potential.slope(k).at(engine.q());
   const Covector<Quad> e(force);
   rows.erratum("(24)", "P E", printed::product(p, force), printed::product(p_star, force),

@@ -7,7 +7,7 @@ namespace pfaff::pitanga_rodrigues {
 
 namespace {
 
-using Table = printed::Table<Rational>;
+using RiemannianTable = printed::Table<Rational>;
 using List = std::vector<Rational>;
 
 constexpr std::size_t dimension = 5, forms = 2, free_coordinates = dimension - forms;
@@ -34,11 +34,12 @@ struct RiemannianSample {
   std::vector<Covector<Rational>> one_forms = one_forms_of(gamma);
   AlmostProduct<Rational> straight = orthogonal(metric.sharp(), one_forms), slanted = oblique(one_forms);
 
-  Table g_table = table_of(g), gamma_table = table_of(gamma), w = printed::forms(gamma_table),
-        inverse_table = printed::inverse(g_table);
+  RiemannianTable g_table = table_of(g), gamma_table = table_of(gamma), w = printed::forms(gamma_table),
+                  inverse_table = printed::inverse(g_table);
   /// (8) with the inverse of G^{alpha beta}; the transposes act on covectors.
-  Table q_table = printed::metric_q(inverse_table, w, printed::inverse(printed::upper_g(inverse_table, w))),
-        q_star = printed::transposed(q_table);
+  RiemannianTable q_table = printed::metric_q(inverse_table, w,
+                                              printed::inverse(printed::upper_g(inverse_table, w))),
+                  q_star = printed::transposed(q_table);
 };
 
 void splitting_of_the_metric(Rows& rows, const RiemannianSample& s) {
@@ -144,11 +145,11 @@ void local_expressions(Rows& rows, const RiemannianSample& s) {
     dz.push_back(coordinate_element<Rational, Covectors>(dimension, a));
   }
   const auto printed_part = printed::metric_coefficients(s.g_table, s.gamma_table);
-  const auto symmetrised = [](const Table& m) {
+  const auto symmetrised = [](const RiemannianTable& m) {
     return printed::sum(printed::sum(m, printed::transposed(m)),
                         printed::zero_table<Rational>(m.size(), m.size()), Rational(1) / Rational(2));
   };
-  const auto halved = [](const Table& m) {
+  const auto halved = [](const RiemannianTable& m) {
     return printed::sum(m, printed::zero_table<Rational>(m.size(), m.front().size()),
                         Rational(1) / Rational(2));
   };
@@ -162,7 +163,8 @@ void local_expressions(Rows& rows, const RiemannianSample& s) {
   rows.reproduced("(7)", "the coefficients of w^alpha (x) w^beta", quads(printed_part.constrained),
                   quads(gram(s.metric.flat(), fields, fields)));
   // As a quadratic form (7) is right, twice over in its mixed part: its value on one vector.
-  const auto on_one = [&](const Table& f, const Table& m, const Table& last, const List& v) {
+  const auto on_one = [&](const RiemannianTable& f, const RiemannianTable& m, const RiemannianTable& last,
+                          const List& v) {
     const List first(v.begin(), v.begin() + free_coordinates), w = printed::product(s.w, v);
     Rational sum(0);
     for (std::size_t a = 0; a < first.size(); ++a) {
@@ -190,7 +192,7 @@ void local_expressions(Rows& rows, const RiemannianSample& s) {
 }
 
 void metric_projectors(Rows& rows, const RiemannianSample& s) {
-  const Table upper = printed::upper_g(s.inverse_table, s.w);
+  const RiemannianTable upper = printed::upper_g(s.inverse_table, s.w);
   rows.reproduced("(8)", "before it, G^{alpha beta} = w^beta(xi^alpha)", quads(upper),
                   quads(gram(s.metric.sharp(), s.one_forms, s.one_forms)));
   rows.erratum("(7), (8)", "G_{alpha beta} is two matrices",
@@ -202,8 +204,9 @@ void metric_projectors(Rows& rows, const RiemannianSample& s) {
   rows.reproduced("(9)", "q q = q, after it", quads(printed::product(s.q_table, s.q_table)),
                   quads(s.straight.complement().matrix()));
   // Gamma with g_{a al} = g_{al be} Gamma^be_a.
-  const Table fitting = printed::product(printed::inverse(printed::kinds(s.g_table, free_coordinates, 1, 1)),
-                                         printed::kinds(s.g_table, free_coordinates, 1, 0));
+  const RiemannianTable fitting =
+      printed::product(printed::inverse(printed::kinds(s.g_table, free_coordinates, 1, 1)),
+                       printed::kinds(s.g_table, free_coordinates, 1, 0));
   ExactMatrix gamma(forms, free_coordinates);
   for (std::size_t i = 0; i < forms; ++i)
     for (std::size_t j = 0; j < free_coordinates; ++j) gamma(i, j) = fitting[i][j];

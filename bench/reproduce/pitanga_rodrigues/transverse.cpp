@@ -8,7 +8,7 @@ namespace pfaff::pitanga_rodrigues {
 
 namespace {
 
-using Table = printed::Table<Rational>;
+using TransverseTable = printed::Table<Rational>;
 
 // Pi_W of rank 6 on seven dimensions, four constraints, two functions. What is printed is made of the tables
 // alone: X^a in rows, lambda^{ab} and lambda_ab.
@@ -21,12 +21,12 @@ struct TransverseSample {
   ExactMatrix dx = samples.any(4, 7), f = samples.any(1, 7), g = samples.any(1, 7);
   TransverseStructure<Rational> structure{p, dx};
 
-  Table tensor = table_of(p), gradients = table_of(dx), df = table_of(f), dg = table_of(g);
-  Table fields = printed::product(gradients, tensor);
-  Table lambda = printed::product(fields, printed::transposed(gradients)),
+  TransverseTable tensor = table_of(p), gradients = table_of(dx), df = table_of(f), dg = table_of(g);
+  TransverseTable fields = printed::product(gradients, tensor);
+  TransverseTable lambda = printed::product(fields, printed::transposed(gradients)),
         lambda_inverse = printed::inverse(lambda);
   /// p*_TS = lambda_ab dx^a (x) X^b on covectors.
-  Table leaf_projection =
+  TransverseTable leaf_projection =
       printed::product(printed::transposed(gradients), printed::product(lambda_inverse, fields));
 };
 
@@ -49,7 +49,7 @@ void conditions(Rows& rows, const TransverseSample& s) {
   rows.qualitative("(a), (b)", "each can fail", {"-", describe(broken)},
                    {is_true(!broken.meets_in_zero()), is_true(!broken.transversal())},
                    "control: q1, p1, q2 and a Casimir as constraints");
-  const Table onto = printed::difference(printed::unit_table<Rational>(7), s.leaf_projection);
+  const TransverseTable onto = printed::difference(printed::unit_table<Rational>(7), s.leaf_projection);
   rows.reproduced("(13)", "p . sharp . p* on TM",
                   quads(printed::product(printed::transposed(onto), printed::product(s.tensor, onto))),
                   quads(s.structure.transverse()));
@@ -67,7 +67,7 @@ void projectors(Rows& rows, const TransverseSample& s) {
   const ExactMatrix tau = s.f - (onto * s.f.transposed()).transposed();
   rows.reproduced("(15)", "X^a of (I - x^b lambda_ba X^a) f", zeros(4), quads(x * tau.transposed()));
   // sigma(x^c) = x^c: its differential X^a(x^c) lambda_ab dx^b, printed, and with lambda_ba.
-  const Table acting = printed::transposed(s.lambda);
+  const TransverseTable acting = printed::transposed(s.lambda);
   rows.erratum(
       "after (15)", "sigma(x^c) = x^c",
       quads(printed::product(acting, printed::product(s.lambda_inverse, s.gradients))),
@@ -83,15 +83,15 @@ void projectors(Rows& rows, const TransverseSample& s) {
 void tensors(Rows& rows, const TransverseSample& s) {
   const auto& structure = s.structure;
   // 1/2 lambda_ab X^a ^ X^b
-  const Table half = printed::product(printed::transposed(s.fields),
+  const TransverseTable half = printed::product(printed::transposed(s.fields),
                                       printed::product(s.lambda_inverse, s.fields)),
               minus = printed::difference(printed::zero_table<Rational>(7, 7), half);
   rows.erratum("(16), before (17)", "Pi_S", quads(half), quads(minus), quads(structure.leaf()),
                "(16), before (17): Pi_S = -1/2 lambda_ab X^a ^ X^b");
-  const auto bracket = [&](const Table& a, const Table& b) {
+  const auto bracket = [&](const TransverseTable& a, const TransverseTable& b) {
     return printed::product(a, printed::product(s.tensor, printed::transposed(b)));
   };
-  const Table last = printed::product(bracket(s.df, s.gradients),
+  const TransverseTable last = printed::product(bracket(s.df, s.gradients),
                                       printed::product(s.lambda_inverse, bracket(s.gradients, s.dg)));
   rows.reproduced("(17)", "{f, g} - {f, x^a} lambda_ab {x^b, g}",
                   quads(printed::difference(bracket(s.df, s.dg), last)),

@@ -8,8 +8,8 @@ namespace pfaff {
 
 namespace {
 
-using Arguments = std::span<const Recorded>;
-using Results = std::span<Recorded>;
+using EvolutionArguments = std::span<const Recorded>;
+using EvolutionResults = std::span<Recorded>;
 using Formulas = std::vector<Recorded>;
 
 // J x = (x_p, -x_q), the inverse of K_c.
@@ -30,7 +30,7 @@ AlphaTapes chart_alpha(const Model& model) {
   const auto size = static_cast<std::size_t>(n);
   const auto chart = model.tape(Formula::chart), inverse = model.tape(Formula::chart_inverse);
   return {record(2 * n + 1, 2 * n,
-                 [&](const Recorded& t, Arguments x, Results out) {
+                 [&](const Recorded& t, EvolutionArguments x, EvolutionResults out) {
                    const auto after = evaluate(*chart, t, x.first(size));
                    const auto before = evaluate(*chart, x[2 * size], x.subspan(size, size));
                    Formulas difference(size);
@@ -41,7 +41,7 @@ AlphaTapes chart_alpha(const Model& model) {
                    const auto turned = canonical(difference);  // -K_c = J
                    std::copy(turned.begin(), turned.end(), out.begin());
                  }),
-          record(2 * n + 1, 2 * n, [&](const Recorded& t, Arguments x, Results out) {
+          record(2 * n + 1, 2 * n, [&](const Recorded& t, EvolutionArguments x, EvolutionResults out) {
             const auto half = canonical(Formulas(x.begin(), x.begin() + n));
             Formulas after(size), before(size);
             for (std::size_t k = 0; k < size; ++k) {
@@ -60,12 +60,12 @@ Tape evolution(const Model& model, const AlphaTapes& alpha) {
   // K^-1 (grad B + F_t), from F and B where there are any, whatever else the author wrote.
   const auto derived = model.derived(Formula::field);
   const auto field = derived != nullptr ? derived : model.tape(Formula::field);
-  return record(2 * n + n * n + 1, n, [&](const Recorded& t, Arguments u, Results out) {
-    const Arguments states_of_alpha = u.first(2 * size);
+  return record(2 * n + n * n + 1, n, [&](const Recorded& t, EvolutionArguments u, EvolutionResults out) {
+    const EvolutionArguments states_of_alpha = u.first(2 * size);
     Formulas pair(states_of_alpha.begin(), states_of_alpha.end());
     pair.push_back(u.back());
     auto states = evaluate(alpha.backward, t, pair);
-    const auto rate = evaluate(*field, t, Arguments(states).first(size));
+    const auto rate = evaluate(*field, t, EvolutionArguments(states).first(size));
     states.push_back(u.back());
     // (A K^-1 g + d_t alpha_1, C K^-1 g + d_t alpha_2): alpha along the flow of z' at fixed z.
     Formulas direction(2 * size + 1);
@@ -81,9 +81,10 @@ Tape evolution(const Model& model, const AlphaTapes& alpha) {
 Tape scalar_evolution(const Model& model, const AlphaTapes& alpha, const Tape& exact_part) {
   const int n = model.dimension();
   const auto size = static_cast<std::size_t>(n);
-  return record(2 * n + 1, 1, [&](const Recorded& t, Arguments u, Results out) {
+  return record(2 * n + 1, 1, [&](const Recorded& t, EvolutionArguments u, EvolutionResults out) {
     auto states = evaluate(alpha.backward, t, u);
-    const auto energy = evaluate(*model.tape(Formula::birkhoffian), t, Arguments(states).first(size));
+    const auto energy =
+        evaluate(*model.tape(Formula::birkhoffian), t, EvolutionArguments(states).first(size));
     states.push_back(u.back());
     const auto explicit_rate = time_derivative(alpha.forward, t, states);
     out[0] = time_derivative(exact_part, t, states)[0] - energy[0];
@@ -93,7 +94,7 @@ Tape scalar_evolution(const Model& model, const AlphaTapes& alpha, const Tape& e
 
 Tape scalar_evolution(const Tape& chart_hamiltonian) {
   const int n = chart_hamiltonian.inputs;
-  return record(2 * n + 1, 1, [&](const Recorded& t, Arguments u, Results out) {
+  return record(2 * n + 1, 1, [&](const Recorded& t, EvolutionArguments u, EvolutionResults out) {
     const auto half = canonical(Formulas(u.begin(), u.begin() + n));
     Formulas y(half.size());
     for (std::size_t k = 0; k < y.size(); ++k) y[k] = u[y.size() + k] - half[k] / Recorded(2);

@@ -10,7 +10,7 @@ namespace pfaff {
 namespace {
 using Numbers = std::vector<Recorded>;
 
-void append(const Numbers& numbers, std::size_t& at, Out<Recorded> out) {
+void append_entries(const Numbers& numbers, std::size_t& at, Out<Recorded> out) {
   for (const Recorded& x : numbers) out[at++] = x;
 }
 
@@ -33,11 +33,11 @@ Tape record_linear(const Model& model) {
                   std::size_t row = 0, offset = count * n;
                   if (before > 0) {
                     const Tape& phi = *model.tape(Formula::holonomic);
-                    append(jacobian(phi, t, q), row, out);
-                    append(time_derivative(phi, t, q), offset, out);
+                    append_entries(jacobian(phi, t, q), row, out);
+                    append_entries(time_derivative(phi, t, q), offset, out);
                   }
-                  append(evaluate(*a, t, q), row, out);
-                  append(evaluate(*b, t, q), offset, out);
+                  append_entries(evaluate(*a, t, q), row, out);
+                  append_entries(evaluate(*b, t, q), offset, out);
                 });
 }
 
@@ -66,7 +66,7 @@ std::shared_ptr<const Tape> record_velocity_constraints(const Model& model) {
                Numbers flow = v;
                flow.resize(size);
                const Numbers moved = directional_derivative(*slopes, t, Recorded(1), z, flow);
-               append(v, at, out);
+               append_entries(v, at, out);
                for (std::size_t k = 0; k < n; ++k) out[at++] = -gradient[k];
                for (std::size_t k = 0; k < n; ++k) out[at++] = moved[n + k];
                for (std::size_t i = 0; i < n; ++i)
@@ -74,8 +74,8 @@ std::shared_ptr<const Tape> record_velocity_constraints(const Model& model) {
                const Numbers slopes_of_psi = jacobian(psi, t, z);
                for (std::size_t i = 0; i < count; ++i)
                  for (std::size_t j = 0; j < n; ++j) out[at++] = slopes_of_psi[i * size + j];
-               append(evaluate(linear, t, z.first(n)), at, out);
-               append(directional_derivative(linear, t, Recorded(1), z.first(n), v), at, out);
+               append_entries(evaluate(linear, t, z.first(n)), at, out);
+               append_entries(directional_derivative(linear, t, Recorded(1), z.first(n), v), at, out);
              }));
 }
 

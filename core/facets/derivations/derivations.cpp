@@ -11,7 +11,7 @@ namespace pfaff {
 
 namespace {
 template <std::size_t... N>
-constexpr auto joined(const std::array<Derivation, N>&... families) {
+constexpr auto joined_families(const std::array<Derivation, N>&... families) {
   std::array<Derivation, (N + ...)> all{};
   auto end = all.begin();
   ((end = std::copy(families.begin(), families.end(), end)), ...);
@@ -20,8 +20,9 @@ constexpr auto joined(const std::array<Derivation, N>&... families) {
 
 // Where the field can be derived in several ways the order decides: two brackets come before one, an energy
 // before a structure, a structure before friction.
-constexpr auto in_order = joined(derivations::metriplectic, derivations::energies, derivations::structures,
-                                 derivations::damped_energies, derivations::charts, derivations::constraints);
+constexpr auto in_order =
+    joined_families(derivations::metriplectic, derivations::energies, derivations::structures,
+                    derivations::damped_energies, derivations::charts, derivations::constraints);
 
 // True where every formula that no author can write has a derivation.
 constexpr bool complete() {
