@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include <pfaff/app/command.hpp>
+#include <pfaff/app/heap.hpp>
 #include <pfaff/app/help_formatter.hpp>
 #include <pfaff/app/terminal.hpp>
 #include <pfaff/core/bracket.hpp>
@@ -210,4 +211,7 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace pfaff::app
 
-int main(int argc, char** argv) { return pfaff::app::run(argc, argv); }
+int main(int argc, char** argv) {
+  pfaff::app::use_large_pages();
+  return pfaff::app::run(argc, argv);
+}
