@@ -14,7 +14,7 @@
 #endif
 
 // The structure, from the Jacobian of a step.
-PFAFF_CLAIM(symplectic, "symplectic", canonical_structure,
+PFAFF_CLAIM(symplectic, "symplectic", has_canonical_structure,
             .meaning = "A step keeps the canonical structure, M^T J M = J.",
             .scope = "canonical structure")
 PFAFF_CLAIM(k_symplectic, "K-symplectic", chart_or_alpha,
@@ -73,7 +73,7 @@ PFAFF_CLAIM(nonholonomic_momentum, "nonholonomic-momentum", allowed_momentum_map
             .scope = "velocity constraints that allow the direction of a conserved momentum map")
 
 // Rounding.
-PFAFF_CLAIM(unbiased_round_off, "unbiased-round-off", canonical_energy,
+PFAFF_CLAIM(unbiased_round_off, "unbiased-round-off", has_canonical_energy,
             .meaning = "Rounding errors of conserved quantities add up without a trend, as a random walk of roundings of what each step adds.",
             .scope = "autonomous canonical systems")
 
