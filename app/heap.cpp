@@ -18,12 +18,12 @@ void use_large_pages() {
   mallopt(M_MMAP_THRESHOLD, largest_from_the_heap);
   mallopt(M_TRIM_THRESHOLD, 2 * reserve);
   mallopt(M_TOP_PAD, reserve);
-  // More than is left of the heap, so that it is extended; it keeps the addresses when this is freed.
+  // More than is left of the heap, so that it is extended; it keeps the addresses when this is given back.
   void* extended = std::malloc(large_page);
+  const auto begin = reinterpret_cast<std::uintptr_t>(extended) / large_page * large_page + large_page;
   std::free(extended);
   const auto end = reinterpret_cast<std::uintptr_t>(sbrk(0));
-  const auto begin = reinterpret_cast<std::uintptr_t>(extended) / large_page * large_page + large_page;
-  if (extended != nullptr && begin < end && end - begin <= 2 * std::uintptr_t{reserve})
+  if (begin < end && end - begin <= 2 * std::uintptr_t{reserve})
     (void)madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
 #endif
 }
