@@ -24,7 +24,7 @@ struct TransverseSample {
   TransverseTable tensor = table_of(p), gradients = table_of(dx), df = table_of(f), dg = table_of(g);
   TransverseTable fields = printed::product(gradients, tensor);
   TransverseTable lambda = printed::product(fields, printed::transposed(gradients)),
-        lambda_inverse = printed::inverse(lambda);
+                  lambda_inverse = printed::inverse(lambda);
   /// p*_TS = lambda_ab dx^a (x) X^b on covectors.
   TransverseTable leaf_projection =
       printed::product(printed::transposed(gradients), printed::product(lambda_inverse, fields));
@@ -84,15 +84,15 @@ void tensors(Rows& rows, const TransverseSample& s) {
   const auto& structure = s.structure;
   // 1/2 lambda_ab X^a ^ X^b
   const TransverseTable half = printed::product(printed::transposed(s.fields),
-                                      printed::product(s.lambda_inverse, s.fields)),
-              minus = printed::difference(printed::zero_table<Rational>(7, 7), half);
+                                                printed::product(s.lambda_inverse, s.fields)),
+                        minus = printed::difference(printed::zero_table<Rational>(7, 7), half);
   rows.erratum("(16), before (17)", "Pi_S", quads(half), quads(minus), quads(structure.leaf()),
                "(16), before (17): Pi_S = -1/2 lambda_ab X^a ^ X^b");
   const auto bracket = [&](const TransverseTable& a, const TransverseTable& b) {
     return printed::product(a, printed::product(s.tensor, printed::transposed(b)));
   };
-  const TransverseTable last = printed::product(bracket(s.df, s.gradients),
-                                      printed::product(s.lambda_inverse, bracket(s.gradients, s.dg)));
+  const TransverseTable last = printed::product(
+      bracket(s.df, s.gradients), printed::product(s.lambda_inverse, bracket(s.gradients, s.dg)));
   rows.reproduced("(17)", "{f, g} - {f, x^a} lambda_ab {x^b, g}",
                   quads(printed::difference(bracket(s.df, s.dg), last)),
                   quads(s.f * structure.transverse() * s.g.transposed()));

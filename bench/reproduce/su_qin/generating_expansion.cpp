@@ -10,8 +10,8 @@ namespace pfaff {
 
 namespace {
 
-using ExpansionArguments = std::span<const Recorded>;
-using ExpansionResults = std::span<Recorded>;
+using SeriesIn = std::span<const Recorded>;
+using SeriesOut = std::span<Recorded>;
 using Formulas = std::vector<Recorded>;
 
 Real factorial(int k) {
@@ -27,14 +27,14 @@ void append(Formulas& list, std::span<const Recorded> more) {
 
 Tape time_derivative_tape(const Tape& tape) {
   return record(tape.inputs, static_cast<int>(tape.outputs.size()),
-                [&](const Recorded& t, ExpansionArguments z, ExpansionResults out) {
+                [&](const Recorded& t, SeriesIn z, SeriesOut out) {
                   const auto rate = time_derivative(tape, t, z);
                   std::copy(rate.begin(), rate.end(), out.begin());
                 });
 }
 
 // [tau^k] of a tape whose time is tau.
-Formulas taylor_coefficient(Tape tape, int k, ExpansionArguments z) {
+Formulas taylor_coefficient(Tape tape, int k, SeriesIn z) {
   for (int i = 0; i < k; ++i) tape = time_derivative_tape(tape);
   auto value = evaluate(tape, Recorded(0), z);
   for (Recorded& x : value) x = x / Recorded(factorial(k));
@@ -47,7 +47,7 @@ class Derivatives {
   explicit Derivatives(const Tape& tape) : inputs_(tape.inputs) { tapes_.emplace(Key{0, 0}, tape); }
 
   // d_t^m a(u; direction_1, ..), where `arguments` is u with the directions behind it.
-  Formulas operator()(int m, int directions, const Recorded& t, ExpansionArguments arguments) {
+  Formulas operator()(int m, int directions, const Recorded& t, SeriesIn arguments) {
     return evaluate(tape(m, directions), t, arguments);
   }
 
@@ -59,7 +59,7 @@ class Derivatives {
     const Tape& below = tape(m, directions - 1);
     return tapes_[{m, directions}] =
                record(below.inputs + inputs_, static_cast<int>(below.outputs.size()),
-                      [&](const Recorded& t, ExpansionArguments z, ExpansionResults out) {
+                      [&](const Recorded& t, SeriesIn z, SeriesOut out) {
                         const auto all = static_cast<std::size_t>(below.inputs);
                         Formulas direction(z.begin() + static_cast<std::ptrdiff_t>(all), z.end());
                         direction.resize(all);
@@ -89,7 +89,7 @@ void compositions(int total, int count, std::vector<int>& parts,
 // Everything that [tau^k] a is made of at one recorded point.
 class Expansion {
  public:
-  Expansion(Derivatives& derivatives, const std::vector<Tape>& gradients, const Recorded& t0, ExpansionArguments w)
+  Expansion(Derivatives& derivatives, const std::vector<Tape>& gradients, const Recorded& t0, SeriesIn w)
       : derivatives_(derivatives), n_(w.size()), t0_(t0) {
     for (const Tape& tape : gradients) {
       gradient_.push_back(evaluate(tape, t0, w));
@@ -171,7 +171,7 @@ Formulas polynomial(const std::vector<Formulas>& terms, const Recorded& tau) {
 }
 
 Tape zero(int inputs, int outputs) {
-  return record(inputs, outputs, [](const Recorded&, ExpansionArguments, ExpansionResults) {});
+  return record(inputs, outputs, [](const Recorded&, SeriesIn, SeriesOut) {});
 }
 
 }  // namespace
@@ -180,9 +180,9 @@ std::vector<Tape> expand_gradient(const Tape& evolution, int dimension, int degr
   std::vector<Tape> terms{zero(dimension, dimension)};
   Derivatives derivatives(evolution);
   for (int k = 0; k < degree; ++k) {
-    const Tape along = record(dimension + 1, dimension, [&](const Recorded& tau, ExpansionArguments x, ExpansionResults out) {
+    const Tape along = record(dimension + 1, dimension, [&](const Recorded& tau, SeriesIn x, SeriesOut out) {
       const Recorded& t0 = x.back();
-      const ExpansionArguments w = x.first(x.size() - 1);
+      const SeriesIn w = x.first(x.size() - 1);
       std::vector<Formulas> gradients, hessians;
       for (const Tape& term : terms) {
         gradients.push_back(evaluate(term, t0, w));
@@ -195,7 +195,7 @@ std::vector<Tape> expand_gradient(const Tape& evolution, int dimension, int degr
       const auto value = evaluate(evolution, t0 + tau, u);
       std::copy(value.begin(), value.end(), out.begin());
     });
-    terms.push_back(record(dimension, dimension, [&](const Recorded& t0, ExpansionArguments w, ExpansionResults out) {
+    terms.push_back(record(dimension, dimension, [&](const Recorded& t0, SeriesIn w, SeriesOut out) {
       Formulas value;
       if (rule == ExpansionRule::total_derivative) {
         Formulas x(w.begin(), w.end());
@@ -216,9 +216,9 @@ std::vector<Tape> expand_gradient(const Tape& evolution, int dimension, int degr
 std::vector<Tape> expand_scalar(const Tape& scalar_evolution, int dimension, int degree) {
   std::vector<Tape> terms{zero(dimension, 1)};
   for (int k = 0; k < degree; ++k) {
-    const Tape along = record(dimension + 1, 1, [&](const Recorded& tau, ExpansionArguments x, ExpansionResults out) {
+    const Tape along = record(dimension + 1, 1, [&](const Recorded& tau, SeriesIn x, SeriesOut out) {
       const Recorded& t0 = x.back();
-      const ExpansionArguments w = x.first(x.size() - 1);
+      const SeriesIn w = x.first(x.size() - 1);
       std::vector<Formulas> gradients;
       for (const Tape& term : terms) gradients.push_back(gradient(term, t0, w, Formulas{Recorded(1)}));
       Formulas u = polynomial(gradients, tau);
@@ -226,7 +226,7 @@ std::vector<Tape> expand_scalar(const Tape& scalar_evolution, int dimension, int
       u.push_back(t0);
       out[0] = evaluate(scalar_evolution, t0 + tau, u)[0];
     });
-    terms.push_back(record(dimension, 1, [&](const Recorded& t0, ExpansionArguments w, ExpansionResults out) {
+    terms.push_back(record(dimension, 1, [&](const Recorded& t0, SeriesIn w, SeriesOut out) {
       Formulas x(w.begin(), w.end());
       x.push_back(t0);
       out[0] = taylor_coefficient(along, k, x)[0] / Recorded(k + 1);
