@@ -7,6 +7,10 @@ What a source declares in an unnamed namespace is seen by the sources that follo
 uses the same name for what a header declares would then silently get the other. Therefore no source uses a name that
 another source of the same target declares in an unnamed namespace, unless it declares the name itself. Names are looked
 for as words, without reading C++: a local variable counts as a declaration of its name, and members do not count.
+
+Types are looked for in the whole of an unnamed namespace. Functions and variables are looked for only up to the first
+line that begins with a closing brace: further down many have the names of other functions, from whose overloads the
+compiler tells them by their arguments.
 """
 import collections
 import pathlib
@@ -28,17 +32,30 @@ REGISTERED = "registered"  # has a name of its own in each source (cmake/PfaffTa
 IGNORED = re.compile(r'R"(\w*)\(.*?\)\1"|//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])+\'|^#[^\n]*', re.S | re.M)
 KEYWORDS = re.compile(r"\b(?:return|throw|else|case|new|delete|goto|and|or|not|co_return)\b")  # no types before a name
 UNNAMED = re.compile(r"^namespace \{\n(.*?)^\}", re.S | re.M)
+UNNAMED_BEGINS = re.compile(r"^namespace \{\n", re.M)
 TYPE = re.compile(r"^(?:template\s*<.*>\s*)?(?:struct|class|enum class|enum|union|concept|using(?! namespace))\s+(\w+)", re.M)
 FUNCTION = re.compile(r"^(?!return|using|else|for|if|while|struct|class|enum|template|requires)"
                       r"[\w:\[][\w:<>,&*\s\[\]]*?[\s&*](\w+)\(", re.M)
 VARIABLE = re.compile(r"^(?:constexpr|const|static|thread_local|inline|std::)[^;(){}=]*?[\s&*>](\w+)\s*(?:\{|=|\[|;)", re.M)
 
 
+def unnamed(text):
+    """What stands in the unnamed namespaces of a text, each up to the brace that ends it."""
+    for begin in UNNAMED_BEGINS.finditer(text):
+        depth, rest = 1, text[begin.end():]
+        for brace in re.finditer(r"[{}]", rest):
+            depth += 1 if brace.group() == "{" else -1
+            if depth == 0:
+                yield rest[:brace.start()]
+                break
+
+
 def declared(text):
     """The names that a text declares in unnamed namespaces, each with the pattern of a use."""
     names = {}
-    for block in UNNAMED.findall(text):
-        for name in TYPE.findall(block) + VARIABLE.findall(block):
+    types = [name for block in unnamed(text) for name in TYPE.findall(block)]
+    for block in [*UNNAMED.findall(text), ""]:
+        for name in types + VARIABLE.findall(block):
             names[name] = rf"(?<![\w.:>])(?<!-> ){name}\b(?!::)"
         for name in FUNCTION.findall(block):
             names.setdefault(name, rf"(?<![\w.:>]){name}\s*(?:<[^;(){{}}]*>)?\(")
@@ -56,6 +73,7 @@ def declares(text, name):
 def clashes(sources):
     """Lines about the sources, {path: text}, of one target."""
     texts = {path: KEYWORDS.sub(";", IGNORED.sub(" ", text)) for path, text in sources.items()}
+    words = {path: set(re.findall(r"\w+", text)) for path, text in texts.items()}
     where = collections.defaultdict(list)
     for path, text in texts.items():
         for name, use in declared(text).items():
@@ -65,16 +83,17 @@ def clashes(sources):
         for path, text in texts.items():
             if any(path == place for place, _ in places):
                 continue
-            if re.search(places[0][1], text, re.M) and not declares(text, name):
+            if name in words[path] and re.search(places[0][1], text, re.M) and not declares(text, name):
                 others = ", ".join(place for place, _ in places)
                 lines.append(f"{path}: uses the name '{name}', declared in unnamed namespaces of {others}")
     return lines
 
 
 def main():
-    planted = {"one.cpp": "namespace {\nstruct Gauss : pfaff::Gauss {};\nint twice(int x) {\n  return 2 * x;\n}\n}\n",
-               "other.cpp": "namespace {\nstruct Chart : In<Gauss> {};\n}\nint f() { return twice(1); }\n"}
-    if len(clashes(planted)) != 2:
+    planted = {"one.cpp": "namespace {\nstruct Gauss : pfaff::Gauss {};\nint twice(int x) {\n  return 2 * x;\n}\n"
+                          "struct Later {};\n}\n",
+               "other.cpp": "namespace {\nstruct Chart : In<Gauss> {};\n}\nint f() { return twice(1); }\nLater later();\n"}
+    if len(clashes(planted)) != 3:
         print("joined.py: does not find planted clashes:", clashes(planted))
         return 1
     found = []

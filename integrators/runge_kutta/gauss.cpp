@@ -20,7 +20,7 @@ struct RegisteredGauss : pfaff::Gauss {
     return claims;
   }
 };
-struct ImplicitMidpoint : pfaff::ImplicitMidpoint {};
+struct RegisteredImplicitMidpoint : pfaff::ImplicitMidpoint {};
 
 const Method<RegisteredGauss> gauss{
     {.name = "gauss",
@@ -32,7 +32,7 @@ const Method<RegisteredGauss> gauss{
          "constant structures, and keeps quadratic invariants. Structures that depend on the state or on "
          "time are not kept in the system's own variables, and each step solves equations.",
      .preserves = kept_by_gauss}};
-const Method<ImplicitMidpoint> midpoint{
+const Method<RegisteredImplicitMidpoint> midpoint{
     {.name = "implicit-midpoint",
      .title = "implicit midpoint rule (Euler centre scheme)",
      .reference = "su-qin (107); hairer-lubich-wanner2006 (II.1.4)",

@@ -48,18 +48,18 @@ const char* words(MapExtent extent) {
 }
 
 // NAME = EXPRESSION, taken apart.
-struct Assignment {
+struct MapAssignment {
   std::string name;
   text::Source place;  // of the name
   text::Source right;  // what is behind the sign
 };
 
-Assignment taken_apart(const text::Item& item) {
+MapAssignment taken_apart(const text::Item& item) {
   const std::string& written = text::text_of(item, "step");
   const std::size_t sign = written.find('=');
   if (sign == std::string::npos)
     text::refuse(item.source, 0, "expected an assignment, such as \"z = z + h*field(t, z)\"");
-  Assignment a{{}, item.source, item.source};
+  MapAssignment a{{}, item.source, item.source};
   const std::size_t first = written.find_first_not_of(" \t\r\n"),
                     last = written.find_last_not_of(" \t\r\n", sign - 1);
   if (first < sign && sign > 0) a.name = written.substr(first, last - first + 1);
@@ -79,7 +79,7 @@ class Translation {
       : program_(std::move(program)), names_(names), functions_(functions_of(program_.state)) {}
 
   void add(const text::Item& item) {
-    const Assignment a = taken_apart(item);
+    const MapAssignment a = taken_apart(item);
     const Expression right(a.right, functions_);
     calls_.clear();
     prepare(right, right.root());

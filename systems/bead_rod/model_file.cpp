@@ -94,9 +94,9 @@ class ModelEntry {
 };
 
 // A table whose keys are checked: finish() refuses those that nobody asked for.
-class Table {
+class ModelTable {
  public:
-  Table(const ModelEntry& entry, std::string prefix) : entry_(entry), prefix_(std::move(prefix)) {
+  ModelTable(const ModelEntry& entry, std::string prefix) : entry_(entry), prefix_(std::move(prefix)) {
     if (!entry.is(Kind::table)) entry.refuse("a table");
   }
   std::optional<ModelEntry> find(const std::string& key) {
@@ -138,7 +138,7 @@ std::size_t read_end(const BeadRodDescription& d, const ModelEntry& end) {
   throw InputError(end.where() + ": " + unknown_name("anchor", end.text(), names));
 }
 
-void read_rods(BeadRodDescription& d, Table& root) {
+void read_rods(BeadRodDescription& d, ModelTable& root) {
   if (const auto rods = root.find("rods"))
     for (const ModelEntry& item : rods->items()) {
       const auto ends = item.items();
@@ -156,7 +156,7 @@ void read_rods(BeadRodDescription& d, Table& root) {
 }
 
 void read_potential(BeadRodDescription& d, const ModelEntry& entry) {
-  Table table(entry, entry.where() + ".");
+  ModelTable table(entry, entry.where() + ".");
   const ModelEntry kind = table.required("kind");
   const auto pair = [&](PairPotential p) {
     if (const auto cutoff = table.find("cutoff")) p.cutoff = cutoff->number();
@@ -191,7 +191,7 @@ void read_potential(BeadRodDescription& d, const ModelEntry& entry) {
   table.finish();
 }
 
-void read_motion(BeadRodDescription& d, Table& root) {
+void read_motion(BeadRodDescription& d, ModelTable& root) {
   const auto velocities = root.find("velocities"), momenta = root.find("momenta");
   if (velocities && momenta) momenta->refuse("either velocities or momenta, not both");
   d.momenta.assign(d.beads() * d.axes(), Real(0));
@@ -205,7 +205,7 @@ void read_motion(BeadRodDescription& d, Table& root) {
 BeadRodDescription read_bead_rod_model(const std::string& path) {
   const DocumentNode document = read_document(path);
   const ModelEntry whole(document, path);
-  Table root(whole, path + ": ");
+  ModelTable root(whole, path + ": ");
   BeadRodDescription d;
   d.origin = path;
   const ModelEntry dimension = root.required("dimension");
