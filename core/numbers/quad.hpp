@@ -2,13 +2,16 @@
 //
 // A thin value type over the compiler's __float128 (113-bit significand, unit round-off 2^-113 = 9.6e-35).
 // The functions of libquadmath are declared here instead of including its header, which clang does not ship
-// and which multiplies compile times. Everything is inline except parsing and printing.
+// and which multiplies compile times. Everything is inline except sums, products, parsing and printing.
 #pragma once
 
 #include <concepts>
 #include <limits>
 #include <string>
 #include <string_view>
+#include <type_traits>
+
+#include <pfaff/core/numbers/binary128.hpp>
 
 extern "C" {
 __float128 sqrtq(__float128) noexcept;
@@ -35,28 +38,21 @@ class Quad {
   constexpr explicit operator double() const { return static_cast<double>(value_); }
   [[nodiscard]] constexpr __float128 native() const { return value_; }
 
-  constexpr Quad& operator+=(Quad other) {
-    value_ += other.value_;
-    return *this;
-  }
-  constexpr Quad& operator-=(Quad other) {
-    value_ -= other.value_;
-    return *this;
-  }
-  constexpr Quad& operator*=(Quad other) {
-    value_ *= other.value_;
-    return *this;
-  }
-  constexpr Quad& operator/=(Quad other) {
-    value_ /= other.value_;
-    return *this;
-  }
-
   friend constexpr Quad operator-(Quad a) { return Quad(-a.value_); }
-  friend constexpr Quad operator+(Quad a, Quad b) { return Quad(a.value_ + b.value_); }
-  friend constexpr Quad operator-(Quad a, Quad b) { return Quad(a.value_ - b.value_); }
-  friend constexpr Quad operator*(Quad a, Quad b) { return Quad(a.value_ * b.value_); }
+  friend constexpr Quad operator+(Quad a, Quad b) {
+    return Quad(std::is_constant_evaluated() ? a.value_ + b.value_ : binary128_sum(a.value_, b.value_));
+  }
+  friend constexpr Quad operator-(Quad a, Quad b) { return a + -b; }
+  friend constexpr Quad operator*(Quad a, Quad b) {
+    return Quad(std::is_constant_evaluated() ? a.value_ * b.value_ : binary128_product(a.value_, b.value_));
+  }
   friend constexpr Quad operator/(Quad a, Quad b) { return Quad(a.value_ / b.value_); }
+
+  constexpr Quad& operator+=(Quad other) { return *this = *this + other; }
+  constexpr Quad& operator-=(Quad other) { return *this = *this - other; }
+  constexpr Quad& operator*=(Quad other) { return *this = *this * other; }
+  constexpr Quad& operator/=(Quad other) { return *this = *this / other; }
+
   friend constexpr bool operator==(Quad a, Quad b) { return a.value_ == b.value_; }
   friend constexpr bool operator<(Quad a, Quad b) { return a.value_ < b.value_; }
   friend constexpr bool operator>(Quad a, Quad b) { return a.value_ > b.value_; }
