@@ -126,6 +126,12 @@ Scope TextNames::scope(Arguments arguments, const std::string& what, const Recor
       scope.define("elapsed", time);
       scope.withhold("t", "is no argument of an exact solution; expected elapsed, the time since t0");
       return scope;
+    case Arguments::flow:
+      define_state(scope, inputs);
+      scope.define("h", time);
+      scope.withhold(
+          "t", "is no argument of " + what + "; parts do not depend on the time, h is that of the flow");
+      return scope;
     case Arguments::none:
       for (const Block& block : blocks_)
         scope.withhold(block.name, "is a coordinate; " + what + " is made of parameters alone");
@@ -154,6 +160,7 @@ void TextNames::check_definitions(const TextDeclaration& declaration) const {
   if (declaration.has(Formula::chart)) define_list(scope, chart_coordinates_, "y", part(3, n));
   if (declaration.lagrangian) define_list(scope, velocities_, "v", part(1, n / 2));
   for (const char* time : {"t", "t0", "elapsed"}) scope.define(time, recorder.time());
+  if (!declaration.parts.empty()) scope.define("h", recorder.time());
   std::vector<Recorded> values;
   for (const TextDefinition& definition : declaration.definitions)
     scope.append(Expression(Source{definition.name, declaration.path}), values);

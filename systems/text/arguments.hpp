@@ -16,6 +16,7 @@ enum class Arguments {
   chart,       // coordinates of a chart, y[1], y[2], ... or by their names
   pair,        // new_NAME and old_NAME for every coordinate, and the second time t0
   elapsed,     // the coordinates at the time t0; the time is `elapsed`
+  flow,        // the coordinates; the time is `h`, for which they flow
   none         // neither time nor state
 };
 Arguments arguments_of(Formula formula);

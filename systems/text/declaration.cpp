@@ -120,6 +120,25 @@ std::vector<TextVelocityConstraint> read_velocity_constraints(const Item& value)
   return list;
 }
 
+std::vector<TextPart> read_parts(const Item& value) {
+  if (value.kind != Kind::list || value.items.empty())
+    refuse(value, "parts: expected a list of { name = ..., change = [...] }");
+  std::vector<TextPart> list;
+  for (const Item& item : value.items) {
+    Table table(item, "part");
+    const std::string name = label_of(table.required("name"), "name");
+    TextPart part{name, read_formula(table.required("change"), "change of '" + name + "'")};
+    if (const Item* small = table.find("small")) {
+      part.small = truth_of(*small, "small");
+      if (part.small && std::any_of(list.begin(), list.end(), [](const TextPart& p) { return p.small; }))
+        refuse(*small, "part '" + name + "': expected one small part at most");
+    }
+    table.finish();
+    list.push_back(std::move(part));
+  }
+  return list;
+}
+
 // alpha = { w_hat = [...], w = [...] }, whose results stand one behind the other.
 TextFormula read_alpha(const Item& value) {
   Table table(value, "alpha");
@@ -169,6 +188,10 @@ TextDeclaration read_declaration(const Document& document) {
     d.symmetric_bracket = read_bracket(*value, "symmetric_bracket", d.path);
   if (const Item* value = root.find("velocity_constraints"))
     d.velocity_constraints = read_velocity_constraints(*value);
+  if (const Item* value = root.find("parts")) {
+    names.take(value->source, "h", "time of a flow");
+    d.parts = read_parts(*value);
+  }
   if (const Item* value = root.find("invariants")) {
     if (value->kind != Kind::table) refuse(*value, "invariants: expected a table of names and expressions");
     for (const Member& member : value->members) {

@@ -42,6 +42,13 @@ struct TextVelocityConstraint {
   std::optional<Expression> offset;
 };
 
+/// A part of the field that is solved exactly, by the change of the state in a time h.
+struct TextPart {
+  std::string name;
+  TextFormula change;
+  bool small = false;  // a perturbation of the other parts
+};
+
 struct TextDeclaration {
   std::string path, name, title, reference, description, time_unit;
   std::vector<TextParameter> parameters;
@@ -53,6 +60,7 @@ struct TextDeclaration {
   std::array<std::optional<TextFormula>, formula_count> formulas;
   std::optional<GivenBracket> bracket, symmetric_bracket;
   std::vector<TextVelocityConstraint> velocity_constraints;
+  std::vector<TextPart> parts;
   std::vector<TextInvariant> invariants;
 
   [[nodiscard]] const TextFormula* find(Formula formula) const {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <pfaff/core/facets/taped_flows.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/systems/text/arguments.hpp>
 #include <pfaff/systems/text/legendre.hpp>
@@ -37,6 +38,7 @@ class Builder {
     if (d_.bracket) take_bracket(*d_.bracket, Formula::poisson_tensor);
     if (d_.symmetric_bracket) take_bracket(*d_.symmetric_bracket, Formula::symmetric_tensor);
     if (!d_.velocity_constraints.empty()) take_velocity_constraints();
+    if (!d_.parts.empty()) take_parts();
     if (!d_.invariants.empty()) take_invariants();
     const auto given = [&](Formula f) { return source_.given[index(f)] != nullptr; };
     source_.canonical =
@@ -191,6 +193,17 @@ class Builder {
     if (any_offset)
       source_.given[index(Formula::velocity_offsets)] =
           recorded(offsets, Arguments::positions, "b of velocity_constraints", offsets.size(), place);
+  }
+
+  void take_parts() {
+    std::vector<Tapes> changes;
+    for (const TextPart& part : d_.parts) {
+      if (part.small) source_.small_part = changes.size();
+      changes.push_back(recorded(part.change.results, Arguments::flow, "change of '" + part.name + "'", n_,
+                                 part.change.place));
+      source_.part_names.push_back(part.name);
+    }
+    source_.flows = taped_flows(std::move(changes));
   }
 
   void take_invariants() {

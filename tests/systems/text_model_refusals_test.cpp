@@ -36,6 +36,25 @@ const std::string spring = two + "kinetic = \"p^2/2\"\npotential = \"q^2/2\"\n";
 
 TEST(TextModelRefusals, TheRightOneIsAccepted) { EXPECT_EQ(message(spring), "accepted"); }
 
+TEST(TextModelRefusals, Parts) {
+  const auto parts = [](const std::string& list) { return spring + "parts = " + list + "\n"; };
+  const std::string drift = R"({ name = "drift", change = ["h*p", 0] })",
+                    kick = R"({ name = "kick", change = [0, "-h*q"] })";
+  EXPECT_EQ(message(parts("[" + drift + ", " + kick + "]")), "accepted");
+  expect_refused(parts("[]"), "model.toml:4:9: parts: expected a list of { name = ..., change = [...] }");
+  expect_refused(parts("[{ name = \"drift\" }]"), "model.toml:4:10: part: the key 'change' is missing");
+  expect_refused(parts("[{ name = \"drift\", change = [\"h*p\"] }]"),
+                 "model.toml:4:37: change of 'drift': expected 2 expressions, got 1");
+  expect_refused(parts("[{ name = \"drift\", change = [\"t*p\", 0] }]"),
+                 "model.toml:4:39: 't' is no argument of change of 'drift'");
+  expect_refused(parts("[{ name = \"a\", change = [0, 0], small = true }, { name = \"b\", change = [0, 0], "
+                       "small = true }]"),
+                 "model.toml:4:91: part 'b': expected one small part at most");
+  expect_refused(
+      "coordinates = [\"h\", \"p\"]\nfield = [1, 1]\nparts = [{ name = \"all\", change = [\"h\", \"h\"] }]\n",
+      "model.toml:1:16: coordinate 'h' has the name of a time of a flow");
+}
+
 TEST(TextModelRefusals, KeysAndFiles) {
   expect_refused(spring + "holonomical = [\"q\"]\n",
                  "model.toml:4:1: unknown key 'holonomical'; did you mean 'holonomic'?");

@@ -236,10 +236,9 @@ TEST(TextModels, StartWhereTheirTwinsDo) {
 }
 
 TEST(TextModels, OfferWhatTheirTwinsOffer) {
-  // Flows of parts are never recorded, and so are written in C++ alone.
   for (const char* name : {"henon-heiles", "spherical-pendulum"})
     EXPECT_EQ(to_string(text_model(name)->facets()),
-              to_string(systems().get(name, "system").make({})->facets().without(Facet::exact_flows)));
+              to_string(systems().get(name, "system").make({})->facets()));
   EXPECT_TRUE(text_model("lagrangian-pendulum")->facets().has(Facet::separable));
   EXPECT_FALSE(text_model("double-pendulum")->facets().has(Facet::separable));
   EXPECT_TRUE(text_model("damped-pendulum")->facets().has(Facet::generating_map));
@@ -301,6 +300,11 @@ TEST(TextModels, FalseClaimsAreFound) {
   EXPECT_FALSE(bad("true", spring + "invariants = { H = \"p^2/2 + q^4/4\" }\n", false));
   EXPECT_TRUE(bad("invariant", spring + "invariants = { H = \"p^2/2 + q^4/4.000001\" }\n", false));
   EXPECT_TRUE(bad("reversal", spring + "reversal = [\"q\", \"p\"]\n", false));
+  const std::string parts =
+      spring + "parts = [{ name = \"drift\", change = [\"h*p\", 0] }, { name = \"kick\", change = ";
+  EXPECT_FALSE(bad("parts", parts + "[0, \"-h*q^3\"] }]\n", false));
+  EXPECT_TRUE(bad("part", parts + "[0, \"-h*q^3*1.000001\"] }]\n", false));
+  EXPECT_TRUE(bad("group", parts + "[0, \"-h*q^3*(1 + h^2/1e6)\"] }]\n", false));
   EXPECT_TRUE(bad("override", spring + "force = [\"-q^3*1.000001\"]\n", false));
   EXPECT_TRUE(bad("bracket",
                   "coordinates = [\"x\", \"y\", \"z\"]\nsymmetry = \"skew\"\njacobi = true\n"
