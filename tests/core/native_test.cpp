@@ -208,4 +208,24 @@ TEST_F(Native, ACompilersErrorIsOneLineThatSaysWhereItsMessagesAre) {
   }
 }
 
+// These tests are compiled for the same instructions as the library. Each is named, because a cache may be
+// shared by machines of which one has fewer.
+TEST_F(Native, TheCompilerIsAskedForTheInstructionsOfTheLibrary) {
+#ifdef __AVX2__
+  constexpr bool wide = true;
+#else
+  constexpr bool wide = false;
+#endif
+#ifdef __AVX512F__
+  constexpr bool widest = true;
+#else
+  constexpr bool widest = false;
+#endif
+  const std::string command = native::compiler_identity() + " ";
+  EXPECT_NE(command.find(" -ffp-contract=off "), std::string::npos) << command;
+  EXPECT_EQ(command.find(" -mavx2 ") != std::string::npos, wide) << command;
+  EXPECT_EQ(command.find(" -mavx512f ") != std::string::npos, widest) << command;
+  EXPECT_EQ(command.find("native"), std::string::npos) << command;
+}
+
 }  // namespace
