@@ -12,7 +12,7 @@ namespace {
 using nlohmann::json;
 using Rows = TableRows;
 
-std::string text_of(const json& value) {
+std::string shown_value(const json& value) {
   if (value.is_null()) return "-";
   const double x =
       value.is_string() ? std::strtod(value.get<std::string>().c_str(), nullptr) : value.get<double>();
@@ -30,7 +30,7 @@ std::string joined(const json& list) {
 std::string combination(const json& direction, const json& names) {
   std::string text;
   for (std::size_t k = 0; k < direction.size(); ++k) {
-    std::string factor = text_of(direction[k]);
+    std::string factor = shown_value(direction[k]);
     if (factor == "0") continue;
     const bool negative = factor.front() == '-';
     if (negative) factor.erase(0, 1);
@@ -53,14 +53,14 @@ std::string matrix_text(const std::string& title, const json& matrix, const json
     for (const auto& name : names) rows[0].push_back(name);
     for (std::size_t i = 0; i < matrix.size(); ++i) {
       rows.push_back({names[i]});
-      for (const auto& x : matrix[i]) rows.back().push_back(text_of(x));
+      for (const auto& x : matrix[i]) rows.back().push_back(shown_value(x));
     }
     return '\n' + table(rows);
   }
   rows.push_back({"i", "j", title + "_ij"});
   for (std::size_t i = 0; i < matrix.size(); ++i)
     for (std::size_t k = symmetric ? i : i + 1; k < matrix.size(); ++k)
-      if (text_of(matrix[i][k]) != "0") rows.push_back({names[i], names[k], text_of(matrix[i][k])});
+      if (shown_value(matrix[i][k]) != "0") rows.push_back({names[i], names[k], shown_value(matrix[i][k])});
   if (rows.size() > most_entries)
     return '\n' + title + ": " + std::to_string(matrix.size()) + " x " + std::to_string(matrix.size()) +
            ", in --json\n";
@@ -70,19 +70,19 @@ std::string matrix_text(const std::string& title, const json& matrix, const json
 void add_structure_facts(const json& j, Rows& facts) {
   facts.push_back({"class", j["class"]});
   const bool infinite = j["condition"].is_null();
-  facts.push_back({"K", j["regular"] ? "regular, condition " + text_of(j["condition"])
-                        : j["kernel"].empty()
-                            ? "not finite"
-                            : "degenerate, condition " + (infinite ? "infinite" : text_of(j["condition"]))});
+  facts.push_back({"K", j["regular"]          ? "regular, condition " + shown_value(j["condition"])
+                        : j["kernel"].empty() ? "not finite"
+                                              : "degenerate, condition " +
+                                                    (infinite ? "infinite" : shown_value(j["condition"]))});
   for (const auto& direction : j["kernel"])
     facts.push_back({"degenerate along", combination(direction, j["coordinates"])});
-  facts.push_back({"self-adjoint", "skew to " + text_of(j["self_adjoint"]["skew"]) + ", closed to " +
-                                       text_of(j["self_adjoint"]["closed"]) + ", time to " +
-                                       text_of(j["self_adjoint"]["time"]) + " (relative)"});
-  facts.push_back({"B", text_of(j["B"])});
+  facts.push_back({"self-adjoint", "skew to " + shown_value(j["self_adjoint"]["skew"]) + ", closed to " +
+                                       shown_value(j["self_adjoint"]["closed"]) + ", time to " +
+                                       shown_value(j["self_adjoint"]["time"]) + " (relative)"});
+  facts.push_back({"B", shown_value(j["B"])});
   if (j["centre"].is_null()) return;
   std::string centre;
-  for (const auto& x : j["centre"]) centre += (centre.empty() ? "" : ", ") + text_of(x);
+  for (const auto& x : j["centre"]) centre += (centre.empty() ? "" : ", ") + shown_value(x);
   facts.push_back({"F and B", "from K and D about " + centre});
 }
 
@@ -96,7 +96,7 @@ void add_constraint_facts(const json& j, Rows& facts) {
     facts.push_back({"W", "rank " + std::to_string(j["rank"].get<std::size_t>()) + " of " +
                               std::to_string(j["constraint_names"].size()) + ", " +
                               (j["condition"].is_null() ? "singular to working precision"
-                                                        : "condition " + text_of(j["condition"]))});
+                                                        : "condition " + shown_value(j["condition"]))});
     if (!j["first_class"].empty()) facts.push_back({"first class", joined(j["first_class"])});
     if (!j["redundant"].empty()) facts.push_back({"redundant", joined(j["redundant"])});
   }
@@ -105,13 +105,13 @@ void add_constraint_facts(const json& j, Rows& facts) {
 void add_bracket_facts(const json& bracket, Rows& facts) {
   facts.push_back({"{,}_nh", "rank " + std::to_string(bracket["rank"].get<std::size_t>()) + " of " +
                                  std::to_string(bracket["bracket"].size())});
-  facts.push_back({"Casimirs", joined(bracket["casimirs"]) + " to " + text_of(bracket["casimir_residual"]) +
-                                   " (relative)"});
+  facts.push_back({"Casimirs", joined(bracket["casimirs"]) + " to " +
+                                   shown_value(bracket["casimir_residual"]) + " (relative)"});
   const auto& jacobiator = bracket["jacobiator"];
   facts.push_back(
-      {"Jacobi", "largest sum " + text_of(jacobiator["value"]) + ", of " + joined(jacobiator["of"])});
+      {"Jacobi", "largest sum " + shown_value(jacobiator["value"]) + ", of " + joined(jacobiator["of"])});
   if (bracket["flow_difference"].is_null()) return;
-  const std::string difference = text_of(bracket["flow_difference"]);
+  const std::string difference = shown_value(bracket["flow_difference"]);
   const bool same = std::strtod(difference.c_str(), nullptr) < 1e-8;
   facts.push_back({"flow", same ? "{z, H}_nh is the rhs, to " + difference
                                 : "{z, H}_nh is not the rhs, which differs by " + difference});
@@ -128,9 +128,9 @@ std::string constraint_tables(const json& j) {
   if (moves) rows[0].emplace_back("multiplier");
   for (std::size_t k = 0; k < j["constraints"].size(); ++k) {
     own.push_back(names[holonomic ? 2 * k : k]);
-    rows.push_back({own.back(), text_of(j["constraints"][k])});
-    if (holonomic) rows.back().push_back(text_of(j["hidden_constraints"][k]));
-    if (moves) rows.back().push_back(j["multipliers"].is_null() ? "-" : text_of(j["multipliers"][k]));
+    rows.push_back({own.back(), shown_value(j["constraints"][k])});
+    if (holonomic) rows.back().push_back(shown_value(j["hidden_constraints"][k]));
+    if (moves) rows.back().push_back(j["multipliers"].is_null() ? "-" : shown_value(j["multipliers"][k]));
   }
   std::string text = '\n' + table(rows);
   for (const char* key : {"S", "A", "S_D"})
@@ -146,7 +146,7 @@ std::string constraint_tables(const json& j) {
   if (!j.contains("solvers")) return text;
   Rows solvers{{"solver", "difference", "status"}};
   for (const auto& [name, solver] : j["solvers"].items())
-    solvers.push_back({name, text_of(solver["difference"]), solver["status"]});
+    solvers.push_back({name, shown_value(solver["difference"]), solver["status"]});
   return text + '\n' + table(solvers);
 }
 
@@ -161,11 +161,11 @@ std::string evaluation_text(const json& j) {
   Rows known{{"system", j["system"]}};
   if (constrained) known.push_back({"formulation", j["formulation"]});
   if (!parameters.empty()) known.push_back({"parameters", parameters});
-  known.push_back({"t", text_of(j["t"])});
+  known.push_back({"t", shown_value(j["t"])});
   known.push_back({"status", j["status"]});
   if (j.contains("reason")) known.push_back({"reason", j["reason"]});
   for (const auto& [key, label] : {std::pair{"energy", "energy"}, std::pair{"energy_rate", "energy rate"}})
-    if (!j[key].is_null()) known.push_back({label, text_of(j[key])});
+    if (!j[key].is_null()) known.push_back({label, shown_value(j[key])});
   if (structured) add_structure_facts(j, known);
   if (constrained) add_constraint_facts(j, known);
   if (j.contains("nonholonomic") && !j["nonholonomic"].is_null()) add_bracket_facts(j["nonholonomic"], known);
@@ -175,12 +175,13 @@ std::string evaluation_text(const json& j) {
     for (const char* label : {"D", "F", "F_t"}) rows[0].emplace_back(label);
   if (forced) rows[0].emplace_back("constraint force");
   for (std::size_t k = 0; k < names.size(); ++k) {
-    rows.push_back({names[k], text_of(j["state"][k]), j["rhs"].is_null() ? "-" : text_of(j["rhs"][k])});
+    rows.push_back(
+        {names[k], shown_value(j["state"][k]), j["rhs"].is_null() ? "-" : shown_value(j["rhs"][k])});
     if (structured)
-      for (const char* key : {"D", "F", "F_t"}) rows.back().push_back(text_of(j[key][k]));
+      for (const char* key : {"D", "F", "F_t"}) rows.back().push_back(shown_value(j[key][k]));
     if (forced)
       rows.back().push_back(k < names.size() / 2 ? ""
-                                                 : text_of(j["constraint_forces"][k - names.size() / 2]));
+                                                 : shown_value(j["constraint_forces"][k - names.size() / 2]));
   }
   std::string text = facts(known) + '\n' + table(rows);
   if (structured) text += matrix_text("K", j["K"], names, false);

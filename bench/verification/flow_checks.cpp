@@ -118,10 +118,10 @@ std::vector<Check> check_flows(const std::string& name, const std::shared_ptr<co
 namespace {
 
 // A pendulum split into drift and kick, with a drift that is wrong in one of these ways.
-enum class Fault { bent, stretched, slowed };
+enum class FalseFlow { bent, stretched, slowed };
 struct FaultyDrift {
   static constexpr int dimension = 2, part_count = 2;
-  Fault fault;
+  FalseFlow fault;
   static std::vector<std::string> part_names() { return {"drift", "kick"}; }
   template <class T>
   T kinetic(const T& /*t*/, In<T> p) const {
@@ -137,12 +137,12 @@ struct FaultyDrift {
     change[0] = change[1] = T(0);
     if (part == 1) {
       change[1] = -(h * sin(z[0]));
-    } else if (fault == Fault::slowed) {  // the flow of q' = p, p' = -1e-6 p
+    } else if (fault == FalseFlow::slowed) {  // the flow of q' = p, p' = -1e-6 p
       const T decay = exp(-(millionth * h)) - T(1);
       change[0] = -(decay * z[1] / millionth);
       change[1] = decay * z[1];
     } else {
-      change[0] = z[1] * (fault == Fault::bent ? T(h + millionth * h * h) : T(h + millionth * h));
+      change[0] = z[1] * (fault == FalseFlow::bent ? T(h + millionth * h * h) : T(h + millionth * h));
     }
     return Status::converged;
   }
@@ -152,7 +152,7 @@ struct FaultyDrift {
 
 std::vector<Check> check_false_flows() {
   std::vector<Check> controls;
-  const auto control = [&](const char* what, Fault fault, const std::string& claim) {
+  const auto control = [&](const char* what, FalseFlow fault, const std::string& claim) {
     const auto model = make_model(
         SystemDescriptor{
             .name = "faulty-drift", .title = "", .reference = "", .initial = {Real(1), Real::fraction(1, 2)}},
@@ -160,9 +160,9 @@ std::vector<Check> check_false_flows() {
     add_controls(controls, what, claim, check_flows("faulty-drift", model, model->initial()),
                  [&](const Check& check) { return check.claim == claim; });
   };
-  control("a drift for the time h + 1e-6 h^2", Fault::bent, "flows of the drift are a group");
-  control("a drift stretched by 1e-6", Fault::stretched, "flows of the parts add up to the field");
-  control("a drift with friction of 1e-6", Fault::slowed, "flows of the drift keep the structure");
+  control("a drift for the time h + 1e-6 h^2", FalseFlow::bent, "flows of the drift are a group");
+  control("a drift stretched by 1e-6", FalseFlow::stretched, "flows of the parts add up to the field");
+  control("a drift with friction of 1e-6", FalseFlow::slowed, "flows of the drift keep the structure");
   return controls;
 }
 

@@ -104,9 +104,9 @@ std::vector<Check> check_metriplectic(const std::string& name, const Model& mode
 namespace {
 
 // A body that turns about its centre of mass, with a relaxation that is wrong in one of these ways.
-enum class Fault { none, moves_energy, not_symmetric, indefinite, entropy_no_casimir };
+enum class FalseBracketSum { none, moves_energy, not_symmetric, indefinite, entropy_no_casimir };
 struct FaultyBracket {
-  Fault fault;
+  FalseBracketSum fault;
   template <class T>
   void sharp(const T& /*t*/, In<T> z, In<T> covector, Out<T> vector) const {
     const T millionth(Real::fraction(1, 1000000));
@@ -114,10 +114,10 @@ struct FaultyBracket {
     const T square = w[0] * w[0] + w[1] * w[1] + w[2] * w[2];
     const T along = w[0] * covector[0] + w[1] * covector[1] + w[2] * covector[2];
     for (std::size_t a = 0; a < 3; ++a) vector[a] = square * covector[a] - w[a] * along;
-    if (fault == Fault::indefinite)
+    if (fault == FalseBracketSum::indefinite)
       for (T& x : vector) x = -x;
-    if (fault == Fault::moves_energy) vector[0] = vector[0] + millionth * covector[0];
-    if (fault == Fault::not_symmetric) vector[0] = vector[0] + millionth * covector[1];
+    if (fault == FalseBracketSum::moves_energy) vector[0] = vector[0] + millionth * covector[0];
+    if (fault == FalseBracketSum::not_symmetric) vector[0] = vector[0] + millionth * covector[1];
   }
 };
 struct RotationBracket {
@@ -131,7 +131,7 @@ struct RotationBracket {
 };
 struct FaultyBody {
   static constexpr int dimension = 3;
-  Fault fault = Fault::none;
+  FalseBracketSum fault = FalseBracketSum::none;
   [[nodiscard]] RotationBracket bracket() const { return {}; }
   [[nodiscard]] FaultyBracket symmetric_bracket() const { return {fault}; }
   template <class T>
@@ -141,7 +141,7 @@ struct FaultyBody {
   template <class T>
   T entropy(const T& /*t*/, In<T> z) const {
     const T square = (z[0] * z[0] + z[1] * z[1] + z[2] * z[2]) / 2;
-    return fault == Fault::entropy_no_casimir ? square + z[0] * Real::fraction(1, 1000000) : square;
+    return fault == FalseBracketSum::entropy_no_casimir ? square + z[0] * Real::fraction(1, 1000000) : square;
   }
 };
 
@@ -149,7 +149,7 @@ struct FaultyBody {
 
 std::vector<Check> check_false_metriplectic() {
   std::vector<Check> controls;
-  const auto control = [&](const std::string& what, Fault fault, const std::string& claim) {
+  const auto control = [&](const std::string& what, FalseBracketSum fault, const std::string& claim) {
     const auto model = make_model(SystemDescriptor{.name = "faulty-body",
                                                    .title = "",
                                                    .reference = "",
@@ -158,14 +158,15 @@ std::vector<Check> check_false_metriplectic() {
     add_controls(controls, what, claim, check_metriplectic("faulty-body", *model),
                  [&](const Check& check) { return check.claim == claim && check.precision == "quad"; });
   };
-  control("relaxation with 1e-6 added along an axis", Fault::moves_energy,
+  control("relaxation with 1e-6 added along an axis", FalseBracketSum::moves_energy,
           "energy is degenerate for the symmetric bracket");
-  control("relaxation with 1e-6 added along an axis", Fault::moves_energy, "energy is conserved");
-  control("relaxation with 1e-6 added beside the diagonal", Fault::not_symmetric,
+  control("relaxation with 1e-6 added along an axis", FalseBracketSum::moves_energy, "energy is conserved");
+  control("relaxation with 1e-6 added beside the diagonal", FalseBracketSum::not_symmetric,
           "symmetric bracket is symmetric");
-  control("relaxation with its sign turned", Fault::indefinite, "symmetric bracket is non-negative");
-  control("relaxation with its sign turned", Fault::indefinite, "entropy does not fall");
-  control("entropy with 1e-6 of a component added", Fault::entropy_no_casimir,
+  control("relaxation with its sign turned", FalseBracketSum::indefinite,
+          "symmetric bracket is non-negative");
+  control("relaxation with its sign turned", FalseBracketSum::indefinite, "entropy does not fall");
+  control("entropy with 1e-6 of a component added", FalseBracketSum::entropy_no_casimir,
           "entropy is a Casimir of the Poisson bracket");
   return controls;
 }

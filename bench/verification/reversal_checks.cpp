@@ -27,21 +27,21 @@ std::vector<Check> check_reversal(const std::string& name, const Model& motion,
 namespace {
 
 // A pendulum whose reversal is wrong in one of these ways.
-enum class Fault { stretched, none_at_all, friction };
+enum class FalseReversal { stretched, none_at_all, friction };
 struct FaultyPendulum {
   static constexpr int dimension = 2;
-  Fault fault;
+  FalseReversal fault;
   template <class T>
   void field(const T& /*t*/, In<T> z, Out<T> rate) const {
     rate[0] = z[1];
     rate[1] = -sin(z[0]);
-    if (fault == Fault::friction) rate[1] = rate[1] - z[1] * Real::fraction(1, 1000000);
+    if (fault == FalseReversal::friction) rate[1] = rate[1] - z[1] * Real::fraction(1, 1000000);
   }
   template <class T>
   void reversal(const T& /*t*/, In<T> z, Out<T> reversed) const {
     reversed[0] = z[0];
-    reversed[1] = fault == Fault::none_at_all ? z[1] : T(-z[1]);
-    if (fault == Fault::stretched) reversed[1] = reversed[1] * Real::fraction(1000001, 1000000);
+    reversed[1] = fault == FalseReversal::none_at_all ? z[1] : T(-z[1]);
+    if (fault == FalseReversal::stretched) reversed[1] = reversed[1] * Real::fraction(1000001, 1000000);
   }
 };
 
@@ -49,7 +49,7 @@ struct FaultyPendulum {
 
 std::vector<Check> check_false_reversals() {
   std::vector<Check> controls;
-  const auto control = [&](const char* what, Fault fault, const std::string& claim) {
+  const auto control = [&](const char* what, FalseReversal fault, const std::string& claim) {
     const auto model = make_model(SystemDescriptor{.name = "faulty-pendulum",
                                                    .title = "",
                                                    .reference = "",
@@ -58,10 +58,10 @@ std::vector<Check> check_false_reversals() {
     add_controls(controls, what, claim, check_reversal("faulty-pendulum", *model, model->initial()),
                  [&](const Check& check) { return check.claim == claim && check.precision == "quad"; });
   };
-  control("momenta reversed and stretched by 1e-6", Fault::stretched, "reversal is an involution");
-  control("momenta reversed and stretched by 1e-6", Fault::stretched, "reversal turns the field");
-  control("the identity as a reversal", Fault::none_at_all, "reversal turns the field");
-  control("momenta reversed beside friction of 1e-6", Fault::friction, "reversal turns the field");
+  control("momenta reversed and stretched by 1e-6", FalseReversal::stretched, "reversal is an involution");
+  control("momenta reversed and stretched by 1e-6", FalseReversal::stretched, "reversal turns the field");
+  control("the identity as a reversal", FalseReversal::none_at_all, "reversal turns the field");
+  control("momenta reversed beside friction of 1e-6", FalseReversal::friction, "reversal turns the field");
   return controls;
 }
 

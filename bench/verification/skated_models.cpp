@@ -47,7 +47,7 @@ struct TwoMovingBlades : TwoBlades {
   }
 };
 
-SystemDescriptor named(const char* name) {
+SystemDescriptor blades(const char* name) {
   const auto part = [](std::int64_t n) { return Real::fraction(n, 10); };
   return {.name = name,
           .title = "",
@@ -58,8 +58,8 @@ SystemDescriptor named(const char* name) {
 }  // namespace
 
 std::shared_ptr<const Model> two_blades(bool moving) {
-  return moving ? make_model(named("two moving blades"), TwoMovingBlades{})
-                : make_model(named("two blades"), TwoBlades{});
+  return moving ? make_model(blades("two moving blades"), TwoMovingBlades{})
+                : make_model(blades("two blades"), TwoBlades{});
 }
 
 std::vector<std::shared_ptr<const Model>> skated_models() { return {two_blades(false), two_blades(true)}; }
