@@ -34,6 +34,7 @@ KEYWORDS = re.compile(r"\b(?:return|throw|else|case|new|delete|goto|and|or|not|c
 UNNAMED = re.compile(r"^namespace \{\n(.*?)^\}", re.S | re.M)
 UNNAMED_BEGINS = re.compile(r"^namespace \{\n", re.M)
 TYPE = re.compile(r"^(?:template\s*<.*>\s*)?(?:struct|class|enum class|enum|union|concept|using(?! namespace))\s+(\w+)", re.M)
+TYPEDEF = re.compile(r"^(?:__extension__ )?typedef [\w ]+?(\w+);", re.M)
 FUNCTION = re.compile(r"^(?!return|using|else|for|if|while|struct|class|enum|template|requires)"
                       r"[\w:\[][\w:<>,&*\s\[\]]*?[\s&*](\w+)\(", re.M)
 VARIABLE = re.compile(r"^(?:constexpr|const|static|thread_local|inline|std::)[^;(){}=]*?[\s&*>](\w+)\s*(?:\{|=|\[|;)", re.M)
@@ -53,7 +54,7 @@ def unnamed(text):
 def declared(text):
     """The names that a text declares in unnamed namespaces, each with the pattern of a use."""
     names = {}
-    types = [name for block in unnamed(text) for name in TYPE.findall(block)]
+    types = [name for block in unnamed(text) for name in TYPE.findall(block) + TYPEDEF.findall(block)]
     for block in [*UNNAMED.findall(text), ""]:
         for name in types + VARIABLE.findall(block):
             names[name] = rf"(?<![\w.:>])(?<!-> ){name}\b(?!::)"

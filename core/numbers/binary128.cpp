@@ -11,7 +11,7 @@ namespace {
 
 // A binary128 number: sign, 15 bits of exponent, 112 bits of fraction, in two halves.
 using Half = std::uint64_t;
-__extension__ typedef unsigned __int128 Wide;  // NOLINT(modernize-use-using): only a typedef takes __extension__
+__extension__ typedef unsigned __int128 Whole;  // NOLINT(modernize-use-using): `using` takes no __extension__
 struct Encoded {
   Half high, low;
 };
@@ -78,8 +78,8 @@ __float128 binary128_sum(__float128 a, __float128 b) noexcept {
     n = {0, 0};  // too small to be seen
   }
   const Half opposite = -((larger.high ^ smaller.high) >> 63);  // all bits if the signs differ
-  const Wide total = ((Wide{m.high} << 64) | m.low) + ((Wide{n.high ^ opposite} << 64) | (n.low ^ opposite)) +
-                     (opposite & 1);
+  const Whole total = ((Whole{m.high} << 64) | m.low) +
+                      ((Whole{n.high ^ opposite} << 64) | (n.low ^ opposite)) + (opposite & 1);
   Encoded sum{static_cast<Half>(total >> 64), static_cast<Half>(total)};
   int zeros = 0;
   if (sum.high != 0) [[likely]] {
@@ -107,11 +107,11 @@ __float128 binary128_product(__float128 a, __float128 b) noexcept {
   // Leading bits at 127: the upper 128 bits of the product of 256 have theirs at 127 or 126. Whether the
   // lower ones are zero is remembered in the lowest bit.
   const Encoded m = significand(x, 15), n = significand(y, 15);
-  const Wide lowest = Wide{m.low} * n.low;
-  const Wide middle = Wide{m.low} * n.high + static_cast<Half>(lowest >> 64);
-  const Wide also_middle = Wide{m.high} * n.low + static_cast<Half>(middle);
-  const Wide highest =
-      Wide{m.high} * n.high + static_cast<Half>(middle >> 64) + static_cast<Half>(also_middle >> 64);
+  const Whole lowest = Whole{m.low} * n.low;
+  const Whole middle = Whole{m.low} * n.high + static_cast<Half>(lowest >> 64);
+  const Whole also_middle = Whole{m.high} * n.low + static_cast<Half>(middle);
+  const Whole highest =
+      Whole{m.high} * n.high + static_cast<Half>(middle >> 64) + static_cast<Half>(also_middle >> 64);
   const Half rest = static_cast<Half>(lowest) | static_cast<Half>(also_middle);
   Encoded product{static_cast<Half>(highest >> 64),
                   static_cast<Half>(highest) | static_cast<Half>(rest != 0)};
