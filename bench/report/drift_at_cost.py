@@ -4,8 +4,8 @@ Each method is drawn in its run at the level of the verdict, or the nearest to i
 stretches of time; those of other families stand behind in the lightest grey. Dashed: a fitted trend, |slope| t, of methods
 whose class of drift is sized by a slope. Dotted: 2 u sqrt(n) after n steps, what round-off alone adds up to.
 
-Of a quantity that is expected to decrease or to increase the error is drawn: its difference from that of the most accurate
-run of the case, at the times that both have.
+Of a quantity that is expected to decrease or to increase the error is drawn: its difference from that of the reference
+solution.
 """
 import dataclasses
 import math
@@ -54,38 +54,15 @@ def drawings(verdict):
 
 def deviations(verdict):
     """([(row, times, deviations over max(1, |I(0)|))], what they are deviations from)."""
-    if verdict.expected in DIRECTIONS:
-        return errors(verdict)
+    of_error = verdict.expected in DIRECTIONS
     found = []
     for row in verdict.rows:
         series = verdict.experiment.series(row.run, verdict.invariant) if row.run else None
-        if series and series.time:
-            found.append((row, *envelope(series.time, [abs(x) / series.scale for x in series.change])))
-    return found, f"Deviation of {verdict.invariant} from its value at the start."
-
-
-def errors(verdict):
-    """Deviations from the most accurate run; none where there is no measure of accuracy."""
-    experiment = verdict.experiment
-    known = [(p.error, p.run) for c in verdict.curves for p in c.points if verdict.of_state and not math.isnan(p.error)]
-    if not known:
-        return [], ""
-    error, best = min(known, key=lambda k: (k[0], k[1].step))
-    series = experiment.series(best, verdict.invariant)
-    if not series or not series.time:
-        return [], ""
-    values = {f"{t:.9g}": series.initial + x for t, x in zip(series.time, series.change)}
-    found = []
-    for row in verdict.rows:
-        own = experiment.series(row.run, verdict.invariant) if row.run and row.run is not best else None
-        if not own:
-            continue
-        shared = [(t, abs(own.initial + x - values[f"{t:.9g}"]) / own.scale) for t, x in zip(own.time, own.change)
-                  if f"{t:.9g}" in values]
-        if len(shared) > 2:
-            found.append((row, *envelope(*zip(*shared))))
-    return found, (f"Error of {verdict.invariant} against the most accurate run, {best.method} at "
-                   f"{step_text(best.step, verdict.case)}, whose own largest error is {error:.0e}.")
+        values = (series.error if of_error else series.change) if series else []
+        if any(not math.isnan(x) for x in values):
+            found.append((row, *envelope(series.time, [abs(x) / series.scale for x in values])))
+    return found, (f"Error of {verdict.invariant} against the reference solution."
+                   if of_error else f"Deviation of {verdict.invariant} from its value at the start.")
 
 
 def drawing(verdict, found, told):

@@ -99,6 +99,7 @@ class Series:
     change: list  # I(t) - I(0)
     unit: str
     residual: list  # structure residual, nan where it was not measured
+    error: list  # of what is not conserved: I(t) less that of the reference solution, nan where there is none
 
     @property
     def scale(self):
@@ -333,7 +334,7 @@ def read_series(path, invariant, precision, may_lack=False):
         change = [float(decimal.Decimal(row[k]) - start) if math.isfinite(x) else x
                   for (_, row), x in zip(rows, values)]
     unit = units[names.index(invariant)] if invariant is not None else ""
-    return Series(column("t"), units[0], initial, change, unit, column("structure_residual"))
+    return Series(column("t"), units[0], initial, change, unit, column("structure_residual"), column(f"{invariant}:error"))
 
 
 def split_unit(cell):

@@ -112,7 +112,8 @@ def read_recording(folder):
     values = list(zip(*([parse(x, f"{folder.name}/series.csv, line {line}") for x in row] for line, row in rows)))
     values = values or [()] * len(names)
     measured = {entry["name"] for key in ("invariants", "constraints") for entry in summary.get(key) or []}
-    state = [n for n in names[1:] if n not in measured and n not in ("error", "structure_residual")]
+    state = [n for n in names[1:] if n not in measured and n not in ("error", "structure_residual")
+             and not n.endswith(":error")]
     return Recording(folder, summary, units[0], list(values[0]), dict(zip(names[1:], units[1:])),
                      {n: list(v) for n, v in zip(names[1:], values[1:])}, state)
 

@@ -87,9 +87,10 @@ def quantities(recording):
             told = f", expected to {DIRECTIONS[expected][0]}" if expected in DIRECTIONS else ""
             shown.append((with_unit(name + told, unit), [("", recording.times, recording.columns[name])], False))
     measured = [e["name"] for e in recording.summary.get("constraints") or []] + ["error", "structure_residual"]
+    measured += [name for name in recording.columns if name.endswith(":error")]
     for name in measured:
         if any(not math.isnan(v) for v in recording.columns.get(name, ())):
-            what = name.replace("_", " ").replace("hidden-", "hidden ")
+            what = name.replace("_", " ").replace("hidden-", "hidden ").replace(":error", ": error")
             shown.append((what, [("", *envelope(recording.times, [abs(v) for v in recording.columns[name]], linear=True))],
                           True))
     shown = [(what, lines, log) for what, lines, log in shown if any(t for _, t, _ in lines)]

@@ -65,6 +65,7 @@ class Observer {
         run.model->dimension() <= most_differentiated_in_runs && !remembers(run))
       residual_.emplace(*run.method, run.model);
     if (!values_.empty()) magnitudes_.emplace(run.model->tape(Formula::invariants));
+    if (reference != nullptr && changes(run)) exact_.emplace(run.model);
     drift_.resize(values_.size());
     constraint_drift_.resize(constraint_residual_names(*run.model).size());
     for (const Invariant& invariant : run.model->invariants()) setbacks_.emplace_back(invariant.behaviour);
@@ -115,6 +116,11 @@ class Observer {
   }
 
  private:
+  static bool changes(const ResolvedRun& run) {
+    const auto& invariants = run.model->invariants();
+    return std::any_of(invariants.begin(), invariants.end(),
+                       [](const Invariant& i) { return i.behaviour != Behaviour::conserved; });
+  }
   // The Jacobian of a single step says nothing about the map of several states that a method with history is.
   static bool remembers(const ResolvedRun& run) {
     std::vector<Quad> z;
@@ -128,6 +134,7 @@ class Observer {
                   {values_.begin(), values_.end()},
                   {residuals_.begin(), residuals_.end()},
                   {},
+                  {},
                   {}};
     if (magnitudes_) {
       for (std::size_t k = 0; k < z.size(); ++k) in_double_[k] = static_cast<double>(z[k]);
@@ -135,7 +142,9 @@ class Observer {
     }
     std::string not_finite;
     if (reference_ != nullptr) {
-      const Quad error = relative_error(sample);
+      const std::vector<Quad> exact = reference_->at(sample.t);
+      if (exact_) sample.invariant_errors = errors_of_invariants(sample, exact);
+      const Quad error = relative_error(sample, exact);
       if (std::isfinite(static_cast<double>(error))) {
         sample.error = error;
         worst(record_.error_max, static_cast<double>(error));
@@ -160,8 +169,15 @@ class Observer {
   static void worst(std::optional<double>& slot, double value) {
     if (!slot || value > *slot) slot = value;
   }
-  [[nodiscard]] Quad relative_error(const Sample& sample) const {
-    const std::vector<Quad> exact = reference_->at(sample.t);
+  [[nodiscard]] std::vector<Quad> errors_of_invariants(const Sample& sample, const std::vector<Quad>& exact) {
+    std::vector<Quad> off, values(sample.invariants.size());
+    exact_->invariants(sample.t, exact, values);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (run_.model->invariants()[i].behaviour != Behaviour::conserved)
+        off.push_back(sample.invariants[i] - values[i]);
+    return off;
+  }
+  [[nodiscard]] static Quad relative_error(const Sample& sample, const std::vector<Quad>& exact) {
     Quad distance(0), norm(0);
     for (std::size_t k = 0; k < exact.size(); ++k) {
       const Quad d = sample.state[k] - exact[k];
@@ -175,6 +191,7 @@ class Observer {
   const ReferenceSolution* reference_;
   RunRecord& record_;
   Problem<T> problem_;
+  std::optional<Problem<Quad>> exact_;  // of invariants that change, where there is a reference solution
   std::optional<StructureResidual<T>> residual_;
   ConstraintResiduals<T> constraints_;
   std::optional<TermMagnitudes> magnitudes_;

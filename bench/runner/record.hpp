@@ -26,6 +26,7 @@ struct Sample {
   std::vector<Quad> state, invariants, constraints;  // `constraints`: the largest residual of each level
   std::optional<Quad> error;                         // relative to the reference solution's norm
   std::optional<Quad> structure;                     // structure residual of one step from here
+  std::vector<Quad> invariant_errors;  // of those that are not conserved: I(z) less that of the reference
 };
 
 struct RunRecord {

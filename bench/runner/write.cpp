@@ -55,6 +55,11 @@ std::string series_csv(const ResolvedRun& run, const RunRecord& record) {
   for (const Invariant& i : run.model->invariants()) text << ',' << header(i.name, i.unit);
   for (const std::string& name : constraint_residual_names(*run.model)) text << ',' << header(name, "1");
   if (error) text << ",error [1]";
+  // What is conserved has its drift for an error; of what changes the error is written.
+  const std::size_t errors = record.samples.empty() ? 0 : record.samples.front().invariant_errors.size();
+  if (errors > 0)
+    for (const Invariant& i : run.model->invariants())
+      if (i.behaviour != Behaviour::conserved) text << ',' << header(i.name + ":error", i.unit);
   if (structure) text << ",structure_residual [1]";
   text << '\n';
   const Precision p = run.settings.precision;
@@ -64,6 +69,7 @@ std::string series_csv(const ResolvedRun& run, const RunRecord& record) {
     for (const Quad& x : sample.invariants) text << ',' << number(x, p);
     for (const Quad& x : sample.constraints) text << ',' << to_string(x, 6);
     if (error) text << ',' << (sample.error ? to_string(*sample.error, 6) : "");
+    for (const Quad& x : sample.invariant_errors) text << ',' << to_string(x, 6);
     if (structure) text << ',' << (sample.structure ? to_string(*sample.structure, 6) : "");
     text << '\n';
   }

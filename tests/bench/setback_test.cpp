@@ -76,4 +76,28 @@ TEST(Setback, EntropyOfARelaxingBodyNeverFalls) {
   EXPECT_GT(record.samples.back().invariants[1], record.samples.front().invariants[1]);
 }
 
+// The error of an energy that falls, in the series, against the closed solution of the damped oscillator with
+// nu = 1/2.
+TEST(Setback, TheErrorOfWhatFallsIsWritten) {
+  const ResolvedRun run = resolve(settings_of("damped-oscillator", "0.1", "3", {{"nu", "1/2"}}));
+  const RunRecord record = execute(run, reference_of(run).get());
+  const std::string series = series_csv(run, record);
+  const std::string header = series.substr(0, series.find('\n'));
+  EXPECT_NE(header.find(",error [1],energy:error [m^2/s^2]"), std::string::npos) << header;
+  EXPECT_EQ(header.find("birkhoffian:error"), std::string::npos) << header;  // it is conserved
+  double worst = 0;
+  for (const Sample& sample : record.samples) {
+    ASSERT_EQ(sample.invariant_errors.size(), 1U);
+    const double t = static_cast<double>(sample.t), w = std::sqrt(1 - 0.0625), decay = std::exp(-t / 4);
+    const double r = decay * (std::cos(w * t) + std::sin(w * t) / (4 * w)), p = -decay * std::sin(w * t) / w;
+    const double error = static_cast<double>(sample.invariants[1]) - (r * r + p * p) / 2;
+    EXPECT_NEAR(static_cast<double>(sample.invariant_errors[0]), error, 1e-15)
+        << t;  // a few roundings of 1/2
+    worst = std::max(worst, std::abs(error));
+  }
+  EXPECT_GT(worst, 1e-8);  // there is an error to be seen
+  // Without a reference solution there is no such column.
+  EXPECT_EQ(series_csv(run, execute(run, nullptr)).find(":error"), std::string::npos);
+}
+
 }  // namespace

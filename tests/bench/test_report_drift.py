@@ -1,10 +1,13 @@
 """bench/report: classes of drift come from experiment.json alone, and quantities that are expected to move one way."""
 import json
+import math
 import unittest
 
 from synthetic import CLASSES, Fresh, figures, load, parsed, reading, run, save, synthetic
 
+import drift_at_cost  # noqa: E402
 import findings  # noqa: E402
+import verdict  # noqa: E402
 
 NAMES = [c["name"] for c in CLASSES]
 
@@ -107,6 +110,24 @@ class Directed(Fresh):
         self.assertIn("expected to increase", drawn.title)
         self.assertIn("largest fall of energy so far", drawn.draw(True).axes[1].get_ylabel())
         self.assertIn("falls by 0.982", parsed(self.folder).text)
+
+    def test_the_error_of_what_falls_is_drawn(self):
+        self.expect("decreasing")
+        said = verdict.Verdict(self.shown, self.shown.cases[1])
+        self.assertEqual(drift_at_cost.drawings(said), [])  # there is no reference solution, and no error
+        for path in self.folder.glob("runs/damped-*/series.csv"):
+            rows = load(path)
+            save(path, [rows[0] + ["energy:error [J]"]] + [row + [repr(1e-6 * math.sin(float(row[0])))] for row in rows[1:]])
+        said = verdict.Verdict(reading.Experiment(self.folder), self.shown.cases[1])
+        found, told = drift_at_cost.deviations(said)
+        self.assertEqual(told, "Error of energy against the reference solution.")
+        self.assertEqual({row.label for row, *_ in found}, {row.label for row in said.rows if row.run})
+        for _, times, errors in found:
+            self.assertGreater(len(times), 30)
+            self.assertAlmostEqual(max(errors), 1e-6, places=9)
+            for t, error in zip(times, errors):
+                self.assertAlmostEqual(error, abs(1e-6 * math.sin(t)), places=12)
+        self.assertEqual(len(drift_at_cost.drawings(said)), 1)
 
     def test_a_run_without_a_series_is_named(self):
         self.expect("increasing")

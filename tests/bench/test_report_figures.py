@@ -106,7 +106,7 @@ class Numbers(Fresh):
         self.assertEqual(t, sorted(t))
 
     def test_largest_move_against_the_expected_direction(self):
-        series = reading.Series([0, 1, 2, 3, 4], "s", 5, [0, -2, -1, -4, -3.5], "J", [])
+        series = reading.Series([0, 1, 2, 3, 4], "s", 5, [0, -2, -1, -4, -3.5], "J", [], [])
         self.assertEqual(series.setbacks("decreasing"), [0, 0, 1, 1, 1])
         self.assertEqual(series.setbacks("increasing"), [0, 2, 2, 4, 4])
 
