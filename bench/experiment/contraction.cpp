@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <pfaff/bench/experiment/cells.hpp>
+#include <pfaff/bench/experiment/largest_steps.hpp>
 
 namespace pfaff {
 
@@ -78,19 +79,7 @@ std::vector<CarriedDisc> carry_disc(const ResolvedRun& run, int looks) {
 
 std::string contraction_csv(const std::vector<ExperimentRun>& runs,
                             const std::vector<nlohmann::json>& summaries) {
-  std::vector<const ExperimentRun*> largest;  // of each case and method, the run at the largest step
-  for (std::size_t k = 0; k < runs.size(); ++k) {
-    const ExperimentRun& run = runs[k];
-    if (run.seed > 0 || summaries[k]["status"] != "converged" || !contracts(run.resolved)) continue;
-    const auto same = std::find_if(largest.begin(), largest.end(), [&](const ExperimentRun* other) {
-      return other->which == run.which && other->method == run.method;
-    });
-    if (same == largest.end()) {
-      largest.push_back(&run);
-    } else if ((*same)->resolved.step < run.resolved.step) {
-      *same = &run;
-    }
-  }
+  const auto largest = runs_at_largest_steps(runs, summaries, contracts);
   if (largest.empty()) return {};
   std::vector<std::string> rows(largest.size());
   oneapi::tbb::parallel_for(std::size_t{0}, largest.size(), [&](std::size_t m) {

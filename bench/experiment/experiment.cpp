@@ -8,6 +8,7 @@
 #include <pfaff/bench/experiment/costs.hpp>
 #include <pfaff/bench/experiment/equal_cost.hpp>
 #include <pfaff/bench/experiment/experiment_findings.hpp>
+#include <pfaff/bench/experiment/loop_invariant.hpp>
 #include <pfaff/bench/experiment/references.hpp>
 #include <pfaff/bench/experiment/results.hpp>
 #include <pfaff/bench/experiment/team.hpp>
@@ -158,8 +159,8 @@ void remove_outdated(const fs::path& directory, const std::vector<ExperimentRun>
     return kept_run(directory / "runs" / run.slug, run.resolved).same();
   });
   std::error_code error;
-  for (const char* name :
-       {"results.csv", "equal_cost.csv", "ensembles.csv", "contraction.csv", "findings.csv", "report.html"})
+  for (const char* name : {"results.csv", "equal_cost.csv", "ensembles.csv", "contraction.csv", "loops.csv",
+                           "findings.csv", "report.html"})
     fs::remove(directory / name, error);
 }
 
@@ -304,6 +305,7 @@ ExperimentOutcome run_experiment(const Experiment& asked, const fs::path& direct
   write_file(directory / "results.csv", results_csv(runs, summaries));
   write_or_remove(directory / "ensembles.csv", ensembles_csv(runs, summaries));
   write_or_remove(directory / "contraction.csv", contraction_csv(runs, summaries));
+  write_or_remove(directory / "loops.csv", loops_csv(runs, summaries));
   const std::vector<Finding> findings = findings_of(experiment, runs, summaries);
   write_or_remove(directory / "findings.csv", findings.empty() ? "" : findings_csv(findings));
   for (const Finding& finding : findings) outcome.findings.push_back(to_json(finding));

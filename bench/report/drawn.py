@@ -4,6 +4,7 @@ import constraints
 import contraction
 import drift_at_cost
 import ensembles
+import loops
 import motion
 import moving
 import structure
@@ -15,7 +16,7 @@ def drawn(verdict):
     """[Drawing]"""
     experiment, case = verdict.experiment, verdict.case
     equal_step = None if case.get("seeds") else drift_at_equal_step(experiment, case)
-    return (work_precision.drawings(verdict) + drift_at_cost.drawings(verdict) + structure.drawings(verdict)
+    return (work_precision.drawings(verdict) + drift_at_cost.drawings(verdict) + structure.drawings(verdict) + loops.drawings(verdict)
             + (motion.drawings(experiment, case) or moving.drawings(verdict))
             + contraction.drawings(verdict) + constraints.drawings(experiment, case)
             + bands.drawings(verdict) + ensembles.drawings(experiment, case) + ([equal_step] if equal_step else []))

@@ -49,10 +49,10 @@ TEST(TextModelRefusals, Parts) {
                  "model.toml:4:39: 't' is no argument of change of 'drift'");
   expect_refused(parts("[{ name = \"a\", change = [0, 0], small = true }, { name = \"b\", change = [0, 0], "
                        "small = true }]"),
-                 "model.toml:4:91: part 'b': expected one small part at most");
+                 "model.toml:4:96: part 'b': expected one small part at most");
   expect_refused(
       "coordinates = [\"h\", \"p\"]\nfield = [1, 1]\nparts = [{ name = \"all\", change = [\"h\", \"h\"] }]\n",
-      "model.toml:1:16: coordinate 'h' has the name of a time of a flow");
+      "model.toml:3:9: time of a flow 'h' has the name of a coordinate; expected another");
 }
 
 TEST(TextModelRefusals, KeysAndFiles) {
