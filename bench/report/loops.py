@@ -50,12 +50,13 @@ def drawings(verdict):
         return []
     axis = ErrorAxis([one.deviations[1:] for _, one in shown], UNIT_ROUND_OFF["double"])
     steps = {one.step for _, one in shown}
-    at = step_text(steps.pop(), case) if len(steps) == 1 else "the largest step at which each method finishes"
+    at = "at " + (step_text(steps.pop(), case) if len(steps) == 1 else "the largest step at which each method finishes")
     told = sentences(
         f"How far the integral of F·dz (p dq of canonical systems) around a loop of states that a method carries along, {at}, has "
         "moved from that at the start, for at most a thousand steps. It stays where every step keeps the structure dF; dashed is unit "
         "round-off.",
-        "" if all(one.whole for _, one in shown) else "A line ends where the loop is so wound up that its 64 points no longer say where it is.",
+        "" if all(one.whole for _, one in shown) else
+        "A line ends where the loop is so wound up that its 64 points no longer say where it is.",
         *axis.remarks())
     return [Drawing("loop", case, f"{heading(case)}: Poincaré's integral invariant", told,
                     lambda wide: draw(verdict, shown, axis, wide))]
