@@ -305,6 +305,7 @@ ExperimentOutcome run_experiment(const Experiment& asked, const fs::path& direct
   write_file(directory / "results.csv", results_csv(runs, summaries));
   write_or_remove(directory / "ensembles.csv", ensembles_csv(runs, summaries));
   write_or_remove(directory / "contraction.csv", contraction_csv(runs, summaries));
+  report(ExperimentStage::phases, "loops of states", 0);
   write_or_remove(directory / "loops.csv", loops_csv(runs, summaries));
   const std::vector<Finding> findings = findings_of(experiment, runs, summaries);
   write_or_remove(directory / "findings.csv", findings.empty() ? "" : findings_csv(findings));

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t points_of_loop = 64;  // an even number of pairs
 constexpr std::int64_t steps_of_loop = 1000;
 constexpr int looks_at_loop = 50;
-constexpr double extent = 0.01;  // of the loop, over the sizes of the coordinates
+constexpr double extent = 1e-3;  // of the loop, over the sizes of the coordinates
 
 using States = std::vector<std::vector<double>>;
 
@@ -25,6 +25,10 @@ using States = std::vector<std::vector<double>>;
 // derivative of the trigonometric polynomial through these points.
 double around(const States& points, const States& forms, std::size_t stride) {
   const std::size_t count = points.size() / stride;
+  // What is constant along the loop gives nothing but rounding errors.
+  std::vector<double> mean(forms.front().size());
+  for (const std::vector<double>& form : forms)
+    for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += form[i] / static_cast<double>(forms.size());
   double total = 0;
   for (std::size_t j = 0; j < count; ++j)
     for (std::size_t k = 0; k < count; ++k) {
@@ -34,7 +38,8 @@ double around(const States& points, const States& forms, std::size_t stride) {
       const double weight = ((j + k) % 2 == 0 ? 0.5 : -0.5) / std::tan(angle);
       const std::vector<double>& form = forms[j * stride];
       double along = 0;
-      for (std::size_t i = 0; i < form.size(); ++i) along += form[i] * points[k * stride][i];
+      for (std::size_t i = 0; i < form.size(); ++i)
+        along += (form[i] - mean[i]) * (points[k * stride][i] - points.front()[i]);
       total += weight * along;
     }
   return 2 * std::numbers::pi * total / static_cast<double>(count);
@@ -70,7 +75,7 @@ States loop_about(const std::vector<Real>& initial) {
   for (std::size_t j = 0; j < points_of_loop; ++j) {
     const double angle = 2 * std::numbers::pi * static_cast<double>(j) / static_cast<double>(points_of_loop);
     for (std::size_t i = 0; i < initial.size(); ++i) {
-      const double x = initial[i].value(), scale = extent * std::max(std::abs(x), size / 10);
+      const double x = initial[i].value(), scale = extent * std::max(std::abs(x), size / 2);
       const auto turn = static_cast<double>(i);
       points[j].push_back(
           x + scale * (std::cos(1 + 2 * turn) * std::cos(angle) + std::sin(2 + 3 * turn) * std::sin(angle)));

@@ -24,9 +24,13 @@ ResolvedRun looped(const std::string& system, const std::string& integrator, con
   return resolve(settings);
 }
 
+// While the loop is resolved, as reports draw it.
 double largest_change(const std::vector<CarriedLoop>& loops) {
   double worst = 0;
-  for (const CarriedLoop& loop : loops) worst = std::max(worst, std::abs(loop.integral - 1));
+  std::size_t resolved = 0;
+  while (resolved < loops.size() && loops[resolved].uncertainty <= 1e-6)
+    worst = std::max(worst, std::abs(loops[resolved++].integral - 1));
+  EXPECT_GE(resolved, 10U);
   return worst;
 }
 
@@ -38,19 +42,20 @@ TEST(LoopInvariant, OfCanonicalAndBirkhoffianSystemsWithoutConstraints) {
   EXPECT_FALSE(has_loop_invariant(looped("relaxing-rigid-body", "rk4")));
 }
 
-// A loop of 64 points of size 1/100 is known to 1e-16 * 100 * 64, a few times over; kept where steps are
-// symplectic, or keep K(z, t) of the damped pendulum, and lost by the same orders of magnitude as structure
-// otherwise.
+// A loop of 64 points and of size 1/1000 is known to 1e-16 * 1000 * 64, a few times over; kept where steps
+// are symplectic, or keep K(z, t) of the damped pendulum, and lost by the same orders of magnitude as
+// structure otherwise.
 TEST(LoopInvariant, StaysWhereStepsKeepTheStructure) {
+  // Three times round an ellipse the loop is a hundred times as long, and so are the errors.
   for (const char* method : {"verlet", "gauss", "implicit-midpoint"})
-    EXPECT_LT(largest_change(carry_loop(looped("kepler", method, {}, "0.05"), 40)), 1e-11) << method;
+    EXPECT_LT(largest_change(carry_loop(looped("kepler", method, {}, "0.05"), 40)), 1e-9) << method;
   EXPECT_GT(largest_change(carry_loop(looped("kepler", "rk4", {}, "0.05"), 40)), 1e-7);
 
-  EXPECT_LT(largest_change(carry_loop(looped("damped-pendulum", "generating-function"), 40)), 1e-11);
-  EXPECT_LT(largest_change(carry_loop(looped("damped-pendulum", "gauss-darboux"), 40)), 1e-11);
+  EXPECT_LT(largest_change(carry_loop(looped("damped-pendulum", "generating-function"), 40)), 3e-11);
+  EXPECT_LT(largest_change(carry_loop(looped("damped-pendulum", "gauss-darboux"), 40)), 3e-11);
   EXPECT_GT(largest_change(carry_loop(looped("damped-pendulum", "implicit-midpoint"), 40)), 1e-5);
 
-  EXPECT_LT(largest_change(carry_loop(looped("lotka-volterra", "generating-function"), 40)), 1e-11);
+  EXPECT_LT(largest_change(carry_loop(looped("lotka-volterra", "generating-function"), 40)), 3e-11);
   EXPECT_GT(largest_change(carry_loop(looped("lotka-volterra", "implicit-midpoint"), 40)), 1e-7);
 }
 
@@ -61,7 +66,7 @@ TEST(LoopInvariant, OfALinearSystemIsTheDeterminantOfTheSteps) {
   const double h = 0.1, even = 1 - h * h / 2 + std::pow(h, 4) / 24, odd = h - h * h * h / 6;
   const double determinant = even * even + odd * odd;
   for (const CarriedLoop& loop : loops)
-    EXPECT_NEAR(loop.integral, std::pow(determinant, loop.t / h), 1e-11) << loop.t;
+    EXPECT_NEAR(loop.integral, std::pow(determinant, loop.t / h), 3e-11) << loop.t;
   EXPECT_GT(std::abs(loops.back().integral - 1), 1e-6);
 }
 
