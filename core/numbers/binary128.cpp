@@ -101,7 +101,7 @@ __float128 binary128_product(__float128 a, __float128 b) noexcept {
   const Encoded x = encoded(a), y = encoded(b);
   const auto x_exponent = static_cast<int>(exponent_of(x.high)),
              y_exponent = static_cast<int>(exponent_of(y.high));
-  if (!is_normal(x_exponent) | !is_normal(y_exponent)) [[unlikely]]
+  if (!is_normal(x_exponent) || !is_normal(y_exponent)) [[unlikely]]
     return a * b;
 
   // Leading bits at 127: the upper 128 bits of the product of 256 have theirs at 127 or 126. Whether the
