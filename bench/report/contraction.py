@@ -11,7 +11,7 @@ from canvas import MID, Canvas, plain
 from experiment import UNIT_ROUND_OFF
 from figures import Drawing, heading, limits, sentences, step_text, with_unit
 from files import InputError, parse
-from labels import pushed_apart
+from labels import right_of
 from scales import ErrorAxis, time_axis
 
 PANELS = 8
@@ -112,13 +112,9 @@ def deviations(canvas, verdict, shown, axis, place):
     for row, one in shown:
         colour, placed = row.curve.family.light, axis.place(one.deviations[1:])
         canvas.line(axes, one.times[1:], placed, f"{row.label}: at the end {one.deviations[-1]:.1e}", color=colour, linewidth=1.2)
-        ends.append((row, placed[-1]))
+        ends.append((row.label, placed[-1], row.curve.family.light))
     axis.apply(axes)
     axes.axhline(verdict.unit, color=MID, linewidth=0.8, linestyle=(0, (4, 2)), zorder=1)
     time_axis(axes, 0, max(one.times[-1] for _, one in shown))
     canvas.labels(axes, with_unit("t", verdict.case.get("time_unit") or ""), "|area / exact − 1|")
-    size, box = 0.86, axes.get_window_extent(canvas.renderer)
-    high = canvas.measure("Xg", size)[1] + 1
-    wanted = [axes.transData.transform((1, y))[1] - high / 2 for _, y in ends]
-    for (row, _), y in zip(ends, pushed_apart(wanted, high, box.y0 - high / 2, box.y1 - high / 2)):
-        canvas.write(axes, box.x1 + 6, y, row.label, size, color=row.curve.family.light, ha="left", va="bottom", zorder=6)
+    right_of(canvas, axes, ends)

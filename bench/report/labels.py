@@ -97,6 +97,15 @@ def inside(points, box):
     return sum(box[0] <= x <= box[2] and box[1] <= y <= box[3] for x, y in points)
 
 
+def right_of(canvas, axes, ends):
+    """Writes names to the right of the lines that end at the right side of a panel: [(name, y of the end, colour)]."""
+    size, box = 0.86, axes.get_window_extent(canvas.renderer)
+    tall = canvas.measure("Xg", size)[1] + 1
+    wanted = [axes.transData.transform((1, y))[1] - tall / 2 for _, y, _ in ends]
+    for (name, _, colour), y in zip(ends, pushed_apart(wanted, tall, box.y0 - tall / 2, box.y1 - tall / 2)):
+        canvas.write(axes, box.x1 + 6, y, name, size, color=colour, ha="left", va="bottom", zorder=6)
+
+
 def pushed_apart(heights, least, low, high):
     """Heights as near to those wanted as possible, at least `least` apart and between low and high as far as there is room."""
     order = sorted(range(len(heights)), key=lambda k: heights[k])

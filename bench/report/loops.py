@@ -13,7 +13,7 @@ from experiment import UNIT_ROUND_OFF
 from families import style
 from figures import Drawing, heading, sentences, step_text, with_unit
 from files import parse
-from labels import pushed_apart
+from labels import right_of
 from scales import ErrorAxis, time_axis
 
 RESOLVED = 1e-6
@@ -73,14 +73,10 @@ def draw(verdict, shown, axis, wide):
         look = style(row.curve.family, rank[row.label], row.curve.kept is not False) | {"linewidth": 1.5, "marker": ""}
         placed = axis.place(one.deviations[1:])
         canvas.line(axes, one.times[1:], placed, f"{row.label}: largest {max(one.deviations):.1e}", **look)
-        ends.append((row, placed[-1]))
+        ends.append((row.label, placed[-1], row.curve.family.light))
     axis.apply(axes)
     axes.axhline(UNIT_ROUND_OFF["double"], color=MID, linewidth=0.8, linestyle=(0, (4, 2)), zorder=1)
     time_axis(axes, 0, max(one.times[-1] for _, one in shown))
     canvas.labels(axes, with_unit("t", verdict.case.get("time_unit") or ""), "|∮F·dz over the first − 1|")
-    size, box = 0.86, axes.get_window_extent(canvas.renderer)
-    high = canvas.measure("Xg", size)[1] + 1
-    wanted = [axes.transData.transform((1, y))[1] - high / 2 for _, y in ends]
-    for (row, _), y in zip(ends, pushed_apart(wanted, high, box.y0 - high / 2, box.y1 - high / 2)):
-        canvas.write(axes, box.x1 + 6, y, row.label, size, color=row.curve.family.light, ha="left", va="bottom", zorder=6)
+    right_of(canvas, axes, ends)
     return canvas

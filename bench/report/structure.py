@@ -10,7 +10,7 @@ from experiment import UNIT_ROUND_OFF
 from families import style
 from figures import Drawing, heading, sentences, with_unit
 from findings import ROUND_OFF
-from labels import pushed_apart
+from labels import right_of
 from scales import ErrorAxis, envelope, step_axis, time_axis
 from sentence import collective, kept_split, structure_of
 from wording import counted, plain_text
@@ -112,15 +112,10 @@ def draw(verdict, judged, along, axis, look):
 
 def name_ends(canvas, axes, ends):
     """Labels to the right of the lines' ends; one for all methods that keep the structure."""
-    size = 0.86
-    box = axes.get_window_extent(canvas.renderer)
-    tall = canvas.measure("Xg", size)[1] + 1
     kept = [(r, y) for r, y in ends if r.curve.kept]
     named = [(r.label, y, r.curve.family.light) for r, y in ends if not r.curve.kept and y > 0]
     if len(kept) == 1:
         named.append((kept[0][0].label, kept[0][1], kept[0][0].curve.family.light))
     elif kept:
         named.append((f"{len(kept)} kept", sorted(y for _, y in kept)[len(kept) // 2], MID))
-    wanted = [axes.transData.transform((1, y))[1] - tall / 2 for _, y, _ in named]
-    for (label, _, colour), y in zip(named, pushed_apart(wanted, tall, box.y0 - tall / 2, box.y1 - tall / 2)):
-        canvas.write(axes, box.x1 + 6, y, label, size, color=colour, ha="left", va="bottom", zorder=6)
+    right_of(canvas, axes, named)
