@@ -1,4 +1,4 @@
-#include <pfaff/bench/experiment/largest_steps.hpp>
+#include <pfaff/bench/experiment/carried_states.hpp>
 
 #include <algorithm>
 
@@ -21,6 +21,26 @@ std::vector<const ExperimentRun*> runs_at_largest_steps(
     }
   }
   return largest;
+}
+
+void carry(const ResolvedRun& run, std::vector<std::vector<double>>& states, std::int64_t steps, int looks,
+           const std::function<bool(std::int64_t step)>& look) {
+  std::vector<StepperPointer<double>> steppers;
+  for (std::size_t k = 0; k < states.size(); ++k)
+    steppers.push_back(run.method->stepper(run.model, double()));
+  const double h = run.step.value(), t0 = run.t0.value();
+  if (!look(0)) return;
+  std::int64_t done = 0;
+  for (int k = 1; k <= looks; ++k) {
+    const std::int64_t until = steps * k / looks;
+    if (until == done) continue;
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      std::int64_t completed = 0;
+      if (steppers[i]->advance(t0, done, h, until - done, states[i], completed) != Status::converged) return;
+    }
+    done = until;
+    if (!look(done)) return;
+  }
 }
 
 }  // namespace pfaff

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include <pfaff/bench/experiment/carried_states.hpp>
 #include <pfaff/bench/experiment/cells.hpp>
-#include <pfaff/bench/experiment/largest_steps.hpp>
 
 namespace pfaff {
 
@@ -35,21 +35,19 @@ bool contracts(const ResolvedRun& run) {
 }
 
 std::vector<CarriedDisc> carry_disc(const ResolvedRun& run, int looks) {
-  const double h = run.step.value(), nu = run.model->damping().value(), t0 = run.t0.value();
+  const double h = run.step.value(), nu = run.model->damping().value();
   const auto steps =
       static_cast<std::int64_t>(std::clamp(std::floor(folds / nu / h), 1.0, static_cast<double>(run.steps)));
   const double q = run.initial[0].value(), p = run.initial[1].value();
   const double size = std::hypot(q, p), r = radius * (size > 0 ? size : 1);
   std::vector<std::vector<double>> points;
-  std::vector<StepperPointer<double>> steppers;  // of each point, with the history that a method may need
   for (int k = 0; k < corners; ++k) {
     const double angle = 2 * std::numbers::pi * k / corners;
     points.push_back({q + r * std::cos(angle), p + r * std::sin(angle)});
-    steppers.push_back(run.method->stepper(run.model, double()));
   }
   std::vector<CarriedDisc> discs;
   double first_area = 1;
-  const auto look = [&](std::int64_t step) {
+  carry(run, points, steps, looks, [&](std::int64_t step) {
     CarriedDisc disc;
     disc.t = static_cast<double>(step) * h;
     for (const std::vector<double>& z : points) {
@@ -58,22 +56,10 @@ std::vector<CarriedDisc> carry_disc(const ResolvedRun& run, int looks) {
     }
     disc.law = std::exp(-nu * disc.t);
     disc.area = area_of(disc.first, disc.second) / first_area;
+    if (step == 0) first_area = std::exchange(disc.area, 1);
     if (std::isfinite(disc.area)) discs.push_back(std::move(disc));
-  };
-  look(0);
-  first_area = std::exchange(discs.front().area, 1);
-  std::int64_t done = 0;
-  for (int k = 1; k <= looks; ++k) {
-    const std::int64_t until = steps * k / looks;
-    if (until == done) continue;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      std::int64_t completed = 0;
-      if (steppers[i]->advance(t0, done, h, until - done, points[i], completed) != Status::converged)
-        return discs;
-    }
-    done = until;
-    look(done);
-  }
+    return true;
+  });
   return discs;
 }
 

@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <span>
 
+#include <pfaff/bench/experiment/carried_states.hpp>
 #include <pfaff/bench/experiment/cells.hpp>
-#include <pfaff/bench/experiment/largest_steps.hpp>
 
 namespace pfaff {
 
@@ -98,37 +97,19 @@ std::vector<CarriedLoop> carry_loop(const ResolvedRun& run, int looks) {
   const std::int64_t steps = std::min(run.steps, steps_of_loop);
   const OneForm form(run.model);
   States points = loop_about(run.initial);
-  std::vector<StepperPointer<double>> steppers;  // of each point, with the history that a method may need
-  for (std::size_t j = 0; j < points.size(); ++j)
-    steppers.push_back(run.method->stepper(run.model, double()));
-
   std::vector<CarriedLoop> loops;
   double first = 1;
-  const auto look = [&](std::int64_t step) {
+  carry(run, points, steps, looks, [&](std::int64_t step) {
     const double t = static_cast<double>(step) * h;
     States forms;
     for (const std::vector<double>& z : points) forms.push_back(form.at(t0 + t, z));
     const double integral = around(points, forms, 1), coarse = around(points, forms, 2);
     if (step == 0) first = integral;
-    loops.push_back({t, integral / first, std::abs((integral - coarse) / first)});
-    return std::isfinite(loops.back().integral);
-  };
-  if (!look(0) || first == 0) return {};
-  std::int64_t done = 0;
-  for (int k = 1; k <= looks; ++k) {
-    const std::int64_t until = steps * k / looks;
-    if (until == done) continue;
-    for (std::size_t j = 0; j < points.size(); ++j) {
-      std::int64_t completed = 0;
-      if (steppers[j]->advance(t0, done, h, until - done, points[j], completed) != Status::converged)
-        return loops;
-    }
-    done = until;
-    if (!look(done)) {
-      loops.pop_back();
-      return loops;
-    }
-  }
+    const CarriedLoop loop{t, integral / first, std::abs((integral - coarse) / first)};
+    if (!std::isfinite(loop.integral)) return false;
+    loops.push_back(loop);
+    return true;
+  });
   return loops;
 }
 
