@@ -19,7 +19,7 @@ namespace {
 
 struct CompareOptions {
   std::vector<std::string> names;
-  bool all = false, quick = false, force = false, compile = false;
+  bool all = false, quick = false, force = false, compile = false, no_report = false;
   std::string out;
   PaperFigures paper;
 };
@@ -72,7 +72,10 @@ int compare(const CompareOptions& options, const Common& common) {
                 text.at(stage, passed.count()),
                 stage.all == 0 ? 1.0 : static_cast<double>(stage.done) / static_cast<double>(stage.all));
           },
-          {.force = options.force, .stop = &Interruption::stop(), .team = team.get()});
+          {.force = options.force,
+           .stop = &Interruption::stop(),
+           .team = team.get(),
+           .report = !options.no_report});
     }
     if (team != nullptr && !team->leads()) continue;
     if (outcome.interrupted && outcome.runs == 0)
@@ -88,8 +91,8 @@ int compare(const CompareOptions& options, const Common& common) {
                                 {"directory", directory.string()},
                                 {"runs", outcome.runs},
                                 {"resumed", outcome.resumed},
-                                {"failed", outcome.failed},
-                                {"report", outcome.report.string()}});
+                                {"failed", outcome.failed}});
+    if (!outcome.report.empty()) j["experiments"].back()["report"] = outcome.report.string();
     if (!figures.empty()) j["experiments"].back()["figures"] = figures.string();
     if (!outcome.findings.empty()) j["experiments"].back()["findings"] = outcome.findings;
     for (const LeftOut& one : outcome.left_out)
@@ -99,7 +102,8 @@ int compare(const CompareOptions& options, const Common& common) {
       std::cout << paragraph(experiment.title) << printable(outcome.table) << '\n'
                 << outcome.runs << (outcome.runs == 1 ? " run (" : " runs (") << outcome.resumed
                 << " resumed, " << outcome.failed << " ended early)\nresults  "
-                << (directory / "results.csv").string() << "\nreport   " << outcome.report.string() << '\n'
+                << (directory / "results.csv").string() << '\n'
+                << (outcome.report.empty() ? "" : "report   " + outcome.report.string() + "\n")
                 << (figures.empty() ? "" : "figures  " + figures.string() + "\n")
                 << left_out_text(outcome.left_out);
     if (!outcome.failed_claims.empty())
@@ -125,6 +129,7 @@ void add_compare(CLI::App& app, Common& common, Action& action) {
   sub->add_flag("--force", options->force, "Run anew what was made from other files or builds");
   sub->add_flag("--compile", options->compile,
                 "Compile the systems' formulas with the C++ compiler of this machine");
+  sub->add_flag("--no-report", options->no_report, "Leave out the figures and report.html");
   sub->add_option("--out", options->out, "Where results go (default pfaff-out/NAME), or resume from")
       ->type_name("DIR");
   sub->add_option("--figures", options->paper.kinds,

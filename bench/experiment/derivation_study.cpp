@@ -135,7 +135,7 @@ void check_identity(const fs::path& directory, const nlohmann::json& mine, bool 
 ExperimentOutcome run_derivation_study(
     const Experiment& experiment, const fs::path& directory,
     const std::function<void(const std::string& what, std::size_t done, std::size_t all)>& progress,
-    bool force) {
+    const ExperimentOptions& options) {
   const DerivationStudy& study = *experiment.derivation;
   // Every size is made once before anything is derived, so that mistakes are found first.
   for (const DerivationSweep& sweep : study.sweeps)
@@ -150,7 +150,7 @@ ExperimentOutcome run_derivation_study(
   std::error_code error;
   if (!fs::exists(directory / experiment_file, error)) make_output_directory(directory, {experiment_file});
   const DirectoryLock held(directory, "pfaff compare");
-  check_identity(directory, described, force);
+  check_identity(directory, described, options.force);
   write_file(directory / experiment_file, described.dump(1) + "\n");
   ExperimentOutcome outcome;
   std::vector<Derived> all;
@@ -179,8 +179,11 @@ ExperimentOutcome run_derivation_study(
   write_derivation_tables(directory, all, fits);
   judge_derivations(study, fits, outcome);
   outcome.table = derivation_table(study, all, fits);
-  if (progress) progress("figures and report", study.size(), study.size());
-  outcome.report = make_report(directory);
+  if (outcome.resumed < outcome.runs) fs::remove(directory / "report.html", error);  // it is of other runs
+  if (options.report) {
+    if (progress) progress("figures and report", study.size(), study.size());
+    outcome.report = make_report(directory);
+  }
   return outcome;
 }
 

@@ -19,6 +19,7 @@ namespace pfaff {
 
 class Keys;
 struct Experiment;
+struct ExperimentOptions;
 struct ExperimentOutcome;
 
 /// One method, with the values of the system's parameter at which it derives equations, in rising order.
@@ -50,11 +51,11 @@ struct DerivationStudy {
 DerivationStudy read_derivation_study(Keys& keys, const std::string& where, bool quick);
 
 /// Derives what `directory` does not hold yet, one after the other, then writes results.csv, cost.csv,
-/// fits.csv, figures and report.html, as run_experiment does.
+/// fits.csv, and where they are asked for figures and report.html, as run_experiment does.
 ExperimentOutcome run_derivation_study(
     const Experiment& experiment, const std::filesystem::path& directory,
     const std::function<void(const std::string& what, std::size_t done, std::size_t all)>& progress,
-    bool force);
+    const ExperimentOptions& options);
 
 /// A slope of least squares with its interval of 95 %.
 struct FittedSlope {

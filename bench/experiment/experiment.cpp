@@ -248,7 +248,7 @@ ExperimentOutcome run_experiment(const Experiment& asked, const fs::path& direct
         [&](const std::string& what, std::size_t done, std::size_t all) {
           if (progress) progress({1, what, done, all});
         },
-        options.force);
+        options);
   }
   ExperimentOutcome outcome;
   std::vector<ExperimentRun> runs = expand(experiment, &outcome.left_out);
@@ -317,8 +317,10 @@ ExperimentOutcome run_experiment(const Experiment& asked, const fs::path& direct
     return outcome;
   }
   outcome.table = results_table(directory, experiment, runs, summaries) + findings_table(findings);
-  report(ExperimentStage::phases, "figures and report", 0);
-  outcome.report = make_report(directory);
+  if (options.report) {
+    report(ExperimentStage::phases, "figures and report", 0);
+    outcome.report = make_report(directory);
+  }
   return outcome;
 }
 

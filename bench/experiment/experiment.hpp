@@ -125,7 +125,7 @@ void leave(const std::filesystem::path& directory, const ResolvedRun& run, const
 
 struct ExperimentOutcome {
   std::size_t runs = 0, resumed = 0, failed = 0;
-  std::filesystem::path report;
+  std::filesystem::path report;                       // empty where none was asked for
   std::string table;                                  // what the terminal shows
   nlohmann::json findings = nlohmann::json::array();  // of the experiment's claims, see findings_of
   std::string failed_claims;                          // one line; empty where every claim holds
@@ -149,13 +149,14 @@ struct ExperimentOptions {
   bool force = false;                       // make runs anew that were made from other files or builds
   const std::atomic<bool>* stop = nullptr;  // where it becomes true, the experiment ends; what is whole stays
   Team* team = nullptr;  // the processes that make the runs (team.hpp); null for this one alone
+  bool report = true;    // draw figures and write report.html
 };
 
 /// Runs what `directory` does not hold yet, alone or with a team, then writes results.csv, cost.csv (each run
-/// timed alone, one after another), figures and report.html. Runs that are damaged or were made with other
-/// settings are made anew. InputError where another process works in the directory, where it holds another
-/// experiment, and, unless the options say to make them anew, where it holds runs made from other files or
-/// builds.
+/// timed alone, one after another), and where they are asked for figures and report.html. Runs that are
+/// damaged or were made with other settings are made anew. InputError where another process works in the
+/// directory, where it holds another experiment, and, unless the options say to make them anew, where it
+/// holds runs made from other files or builds.
 ExperimentOutcome run_experiment(const Experiment& experiment, const std::filesystem::path& directory,
                                  const ExperimentProgress& progress, const ExperimentOptions& options = {});
 

@@ -119,7 +119,8 @@ time = "5"
 steps = ["0.1"]
 )";
   write(files() / "compiled.toml", experiment);
-  const Outcome outcome = run_pfaff({"compare", files() / "compiled.toml", "--out", files() / "out"});
+  const Outcome outcome =
+      run_pfaff({"compare", files() / "compiled.toml", "--no-report", "--out", files() / "out"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   bool found = false;
   for (const auto& entry : fs::recursive_directory_iterator(files().path() / "out"))

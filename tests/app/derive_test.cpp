@@ -94,7 +94,9 @@ sizes = [2]
   EXPECT_NE(results.find("ldl,4,4,16," + counts["operations"].dump() + "," + counts["nodes"].dump() + ","),
             std::string::npos)
       << results << counts;
-  EXPECT_EQ(json_of(run_pfaff(command).out)["experiments"][0]["resumed"], 5);
+  const auto again = json_of(run_pfaff(command + std::vector<std::string>{"--no-report"}).out);
+  EXPECT_EQ(again["experiments"][0]["resumed"], 5);
+  EXPECT_FALSE(again["experiments"][0].contains("report"));
   EXPECT_EQ(text_of(files / "out/results.csv"), results);
 }
 

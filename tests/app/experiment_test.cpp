@@ -52,6 +52,10 @@ constexpr std::size_t all_runs = 6;
 Arguments compare(const TemporaryDirectory& files, const std::string& out) {
   return {"compare", files / "test.toml", "--quick", "--json", "--out", files / out};
 }
+// Figures and reports take most of the time of a small experiment.
+Arguments compare_without_report(const TemporaryDirectory& files, const std::string& out) {
+  return compare(files, out) + Arguments{"--no-report"};
+}
 nlohmann::json completed(const Outcome& outcome) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "");
@@ -89,7 +93,7 @@ TEST(Experiment, KilledAndResumedItGivesTheSameResults) {
   const TemporaryDirectory files;
   write(files / "test.toml", short_and_long_runs);
   {
-    Program program(compare(files, "killed"));
+    Program program(compare_without_report(files, "killed"));
     while (!program.ended() && runs_in(files.path() / "killed").empty())
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     program.kill();
@@ -105,9 +109,12 @@ TEST(Experiment, KilledAndResumedItGivesTheSameResults) {
     EXPECT_EQ(json_of(text_of(directory / "summary.json"))["schema"], 1);
     EXPECT_TRUE(text_of(directory / "series.csv").ends_with('\n'));
   }
-  const auto resumed = completed(run_pfaff(compare(files, "killed")));
+  const auto resumed = completed(run_pfaff(compare_without_report(files, "killed")));
   EXPECT_EQ(resumed["resumed"], done.size());
   EXPECT_EQ(resumed["failed"], 1);
+  EXPECT_FALSE(resumed.contains("report"));
+  for (const char* name : {"report.html", "figures"})
+    EXPECT_FALSE(fs::exists(files.path() / "killed" / name)) << name;
   const auto whole = completed(run_pfaff(compare(files, "whole")));
   EXPECT_EQ(whole["resumed"], 0);
   const std::string results = text_of(files / "whole/results.csv");
@@ -144,7 +151,8 @@ TEST(Experiment, KilledAndResumedItGivesTheSameResults) {
   // A run whose summary is damaged is run again; the rest, costs included, stays.
   const fs::path damaged = files.path() / "whole/runs" / *done.begin() / "summary.json";
   write(damaged, text_of(damaged).substr(0, 100));
-  EXPECT_EQ(completed(run_pfaff(compare(files, "whole")))["resumed"], all_runs - 1);
+  EXPECT_EQ(completed(run_pfaff(compare_without_report(files, "whole")))["resumed"], all_runs - 1);
+  EXPECT_FALSE(fs::exists(files.path() / "whole/report.html")) << "the report of other runs is left";
   EXPECT_EQ(text_of(files / "whole/results.csv"), results);
   EXPECT_EQ(text_of(files / "whole/cost.csv"), cost);
 
@@ -210,11 +218,12 @@ TEST(Experiment, EnsembleWithFindings) {
   expect_self_contained(text_of(files / "out/report.html"), 1);
 
   // Resumed it takes every run from the disk and says the same.
-  const auto again =
-      json_of(run_pfaff({"compare", files / "test.toml", "--json", "--out", files / "out"}).out);
+  const auto again = json_of(
+      run_pfaff({"compare", files / "test.toml", "--json", "--no-report", "--out", files / "out"}).out);
   EXPECT_EQ(again["experiments"][0]["resumed"], 9);
   EXPECT_EQ(again["experiments"][0]["findings"][0]["holding"], 3);
   EXPECT_EQ(text_of(files / "out/results.csv"), results);
+  EXPECT_TRUE(fs::exists(files.path() / "out/report.html")) << "it is of the same runs";
 
   // A claim that is wrong: one line, exit status 1, everything written.
   std::string wrong = ensemble;

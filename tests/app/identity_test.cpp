@@ -180,8 +180,9 @@ TEST(Identity, AnExperimentMakesChangedRunsAnew) {
   const TemporaryDirectory files;
   const fs::path out = files.path() / "out", series = out / "runs/chain-rattle-h0.01/series.csv";
   const auto compare = [&](const Arguments& more) {
-    return run_pfaff(Arguments{"compare", files / "test.toml", "--quick", "--json", "--out", out.string()} +
-                     more);
+    return run_pfaff(
+        Arguments{"compare", files / "test.toml", "--quick", "--json", "--no-report", "--out", out.string()} +
+        more);
   };
   const auto resumed = [&](const Outcome& outcome) {
     EXPECT_EQ(outcome.status, 0) << outcome.err;
@@ -221,11 +222,12 @@ TEST(Identity, DamagedRunsAreMadeAnew) {
   const fs::path out = files.path() / "out", run = out / "runs/chain-rattle-h0.01";
   write(files / "chain.toml", chain("9.81"));
   write(files / "test.toml", model_experiment(files / "chain.toml", ""));
-  const Arguments compare{"compare", files / "test.toml", "--quick", "--json", "--out", out.string()};
+  const Arguments compare{"compare", files / "test.toml", "--quick", "--json", "--no-report",
+                          "--out",   out.string()};
   ASSERT_EQ(run_pfaff(compare).status, 0);
   const std::string config = text_of(run / "config.toml"), series = text_of(run / "series.csv"),
                     summary = text_of(run / "summary.json");
-  // Each costs a report; all other damages stand in tests/bench/run_directory_test.cpp.
+  // All other damages stand in tests/bench/run_directory_test.cpp.
   const std::vector<std::pair<const char*, std::string>> damages{
       {"summary.json", "{}"},
       {"summary.json", "null"},

@@ -89,7 +89,7 @@ TEST(MethodTable, IsComparedInExperiments) {
         "schema = 1\ntitle = \"a table\"\n[[method]]\nlabel = \"table\"\nintegrator = \"" + shipped +
             "pefrl.toml\"\n[[case]]\nname = \"pendulum\"\nsystem = \"pendulum\"\ntime = 1\nsteps = [0.1]\n");
   const Outcome outcome =
-      run_pfaff({"compare", files / "experiment.toml", "--quick", "--out", files / "out"});
+      run_pfaff({"compare", files / "experiment.toml", "--quick", "--no-report", "--out", files / "out"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NE(text_of(files / "out/results.csv").find("pefrl.toml"), std::string::npos);
 }
@@ -102,7 +102,7 @@ TEST(MethodTable, OfAnExperimentIsFoundBesideItsFile) {
         "schema = 1\ntitle = \"a table\"\n[[method]]\nlabel = \"table\"\nintegrator = \"tables/table.toml\"\n"
         "[[case]]\nname = \"pendulum\"\nsystem = \"pendulum\"\ntime = 1\nsteps = [0.1]\n");
   const Outcome outcome =
-      run_pfaff({"compare", files / "experiment.toml", "--quick", "--out", files / "out"});
+      run_pfaff({"compare", files / "experiment.toml", "--quick", "--no-report", "--out", files / "out"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
 }
 

@@ -151,8 +151,8 @@ system = "contact-particle"
 time = "2"
 steps = ["0.1"]
 )");
-  const Outcome outcome =
-      run_pfaff({"compare", (directory / "both.toml").string(), "--out", (directory / "both").string()});
+  const Outcome outcome = run_pfaff(
+      {"compare", (directory / "both.toml").string(), "--no-report", "--out", (directory / "both").string()});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   for (const std::string run : {"vakonomic", "rolling"}) {
     const auto summary =

@@ -38,7 +38,7 @@ steps = [0.5]
 )";
     write_file(files / "classes.toml", text);
     experiment = read_experiment(files / "classes.toml", true);
-    (void)run_experiment(experiment, directory, {});
+    (void)run_experiment(experiment, directory, {}, {.report = false});
     runs = expand(experiment);
     summaries = read_summaries(directory, runs);
     for (std::size_t k = 0; k < runs.size(); ++k) classify(k, drift_classes()[k].name);
@@ -112,11 +112,11 @@ TEST_F(Classified, TheTerminalKnowsEveryClassToo) {
 
 TEST_F(Classified, RunsUnderOtherNamesAreNotResumed) {
   auto head = nlohmann::json::parse(read_file(directory / "experiment.json"));
-  EXPECT_EQ(run_experiment(experiment, directory, {}).resumed, runs.size());
+  EXPECT_EQ(run_experiment(experiment, directory, {}, {.report = false}).resumed, runs.size());
   head["drift_classes"][4]["name"] = "random_walk";
   write_file(directory / "experiment.json", head.dump());
   try {
-    (void)run_experiment(experiment, directory, {});
+    (void)run_experiment(experiment, directory, {}, {.report = false});
     FAIL() << "expected an error";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("other drift classes"), std::string::npos) << error.what();

@@ -83,7 +83,7 @@ steps = [0.5]
 )";
 
 TEST_F(Experiments, ClaimsAreThoseInScopeOfEachSystem) {
-  (void)run_experiment(read(two_systems), directory / "out", {});
+  (void)run_experiment(read(two_systems), directory / "out", {}, {.report = false});
   const auto j = nlohmann::json::parse(read_file(directory / "out/experiment.json"));
   const nlohmann::json gauss{
       {{"name", "damped-oscillator"}, {"order", 4}, {"preserves", {"symmetric"}}},
@@ -139,7 +139,7 @@ TEST_F(Experiments, TimingsAreKeptAsTheyCome) {
   ASSERT_EQ(rows().size(), 3U);
   EXPECT_EQ(rows()[2], first[2]);
 
-  (void)run_experiment(experiment, directory / "out", {});
+  (void)run_experiment(experiment, directory / "out", {}, {.report = false});
   ASSERT_EQ(rows().size(), 7U);
   EXPECT_EQ(rows()[2], first[2]);
 }
@@ -147,7 +147,7 @@ TEST_F(Experiments, TimingsAreKeptAsTheyCome) {
 TEST_F(Experiments, TheTableMarksTrendsBelowRoundOff) {
   Experiment experiment = read(two_systems);
   experiment.cases[0].conserved = "birkhoffian";
-  (void)run_experiment(experiment, directory / "out", {});
+  (void)run_experiment(experiment, directory / "out", {}, {.report = false});
   const auto runs = expand(experiment);
   auto summaries = read_summaries(directory / "out", runs);
   const auto table = [&](const char* kind, double slope) {
