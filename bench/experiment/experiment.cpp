@@ -8,6 +8,7 @@
 #include <pfaff/bench/experiment/costs.hpp>
 #include <pfaff/bench/experiment/equal_cost.hpp>
 #include <pfaff/bench/experiment/experiment_findings.hpp>
+#include <pfaff/bench/experiment/frequencies.hpp>
 #include <pfaff/bench/experiment/loop_invariant.hpp>
 #include <pfaff/bench/experiment/references.hpp>
 #include <pfaff/bench/experiment/results.hpp>
@@ -66,6 +67,12 @@ nlohmann::json description(const Experiment& experiment, const std::vector<Exper
                                                  : exact      ? "exact"
                                                               : "30-digit"}});
     if (!c.error.empty()) j["cases"].back()["error"] = c.error;
+    for (const FrequencyVector& vector : c.frequencies) {
+      nlohmann::json definitions = nlohmann::json::object();
+      for (const auto& [name, expression] : vector.definitions) definitions[name] = expression;
+      j["cases"].back()["frequencies"].push_back(
+          {{"name", vector.name}, {"x", vector.x}, {"y", vector.y}, {"let", definitions}});
+    }
     if (c.seeds > 0) j["cases"].back()["seeds"] = c.seeds;
     if (c.automatic) {
       j["cases"].back()["steps"] = "auto";
@@ -160,7 +167,7 @@ void remove_outdated(const fs::path& directory, const std::vector<ExperimentRun>
   });
   std::error_code error;
   for (const char* name : {"results.csv", "equal_cost.csv", "ensembles.csv", "contraction.csv", "loops.csv",
-                           "findings.csv", "report.html"})
+                           "frequencies.csv", "findings.csv", "report.html"})
     fs::remove(directory / name, error);
 }
 
@@ -307,6 +314,8 @@ ExperimentOutcome run_experiment(const Experiment& asked, const fs::path& direct
   write_or_remove(directory / "contraction.csv", contraction_csv(runs, summaries));
   report(ExperimentStage::phases, "loops of states", 0);
   write_or_remove(directory / "loops.csv", loops_csv(runs, summaries));
+  report(ExperimentStage::phases, "frequencies", 0);
+  write_or_remove(directory / "frequencies.csv", frequencies_csv(runs, summaries));
   const std::vector<Finding> findings = findings_of(experiment, runs, summaries);
   write_or_remove(directory / "findings.csv", findings.empty() ? "" : findings_csv(findings));
   for (const Finding& finding : findings) outcome.findings.push_back(to_json(finding));

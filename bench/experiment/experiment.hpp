@@ -28,6 +28,13 @@ struct ExperimentMethod {
       tolerances;  // of a method that chooses its steps; such a method ignores the case's steps
 };
 
+/// A vector in a plane whose frequency is measured (frequencies.hpp): two expressions of the coordinates, and
+/// names for expressions that they have in common.
+struct FrequencyVector {
+  std::string name, x, y;
+  Assignments definitions;
+};
+
 struct ExperimentCase {
   std::string name, title, system, time;
   Assignments set;
@@ -38,6 +45,7 @@ struct ExperimentCase {
   std::string conserved;                                   // the invariant whose drift is shown
   std::string error;  // the invariant whose relative drift is the error of a run (error_measure.hpp); or none
   std::vector<std::string> motion;  // two coordinates, whose tracks in their plane are drawn; or none
+  std::vector<FrequencyVector> frequencies;
   Precision precision = Precision::double_precision;
   std::vector<std::string> methods;  // labels; empty: all
   int seeds = 0;                     // > 0: an ensemble over the system's parameter `seed` = 1 ... seeds

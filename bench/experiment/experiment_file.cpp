@@ -163,6 +163,12 @@ void read_case(const toml::table& table, const Part& part, Experiment& experimen
   if (!one.motion.empty() && one.motion.size() != 2)
     throw InputError(where + ": key 'motion': expected two coordinates, got " +
                      std::to_string(one.motion.size()));
+  for (const toml::table* entry : c.tables("frequency", false)) {
+    Keys f(*entry, part.name() + " [[case.frequency]]");
+    FrequencyVector vector{f.required("name"), f.required("x"), f.required("y"), f.assignments("let")};
+    f.finish();
+    one.frequencies.push_back(std::move(vector));
+  }
   one.precision = c.read("precision", "double", parse_precision);
   one.methods = c.list("methods");
   one.seeds = static_cast<int>(whole(c.text("seeds", "0"), 0, 10000, where, "seeds"));

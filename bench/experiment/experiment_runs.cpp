@@ -6,6 +6,7 @@
 #include <pfaff/bench/experiment/error_measure.hpp>
 #include <pfaff/bench/experiment/experiment.hpp>
 #include <pfaff/bench/experiment/experiment_findings.hpp>
+#include <pfaff/bench/experiment/frequencies.hpp>
 #include <pfaff/bench/experiment/method_selection.hpp>
 #include <pfaff/core/text/source.hpp>
 #include <pfaff/systems/text/text_system.hpp>
@@ -84,6 +85,11 @@ void check_names(const Experiment& experiment, const ExperimentCase& c, const Ex
     if (std::find(coordinates.begin(), coordinates.end(), name) == coordinates.end())
       throw InputError(experiment.name + ", case " + c.name + ": " +
                        unknown_name("coordinate", name, coordinates));
+  try {
+    for (const FrequencyVector& vector : c.frequencies) (void)vector_tape(vector, *run.resolved.model);
+  } catch (const text::TextError& error) {
+    throw text::TextError(experiment.name + ", case " + c.name + ": " + error.what(), error.excerpt());
+  }
 }
 
 // Motions of the formulations that make an energy of their own have invariants of their own, so that every

@@ -23,6 +23,7 @@ COST_COLUMNS = ("case", "method", "step", "ns_per_step", "ns_per_step_min", "ns_
 SPREAD_COLUMNS = ("case", "method", "step", "tolerance", "runs", "finished", "measure", "measured", "median", "low",
                   "high")
 CONTRACTION_COLUMNS = ("case", "method", "step", "t", "area", "law", "outline")
+FREQUENCY_COLUMNS = ("case", "method", "step", "vector", "frequency", "error", "change")
 LOOP_COLUMNS = ("case", "method", "step", "t", "integral", "uncertainty")
 CLAIM_COLUMNS = ("case", "measure", "method", "relation", "factor", "than", "bound", "step", "runs", "holding", "needed",
                  "holds", "ratio_median")
@@ -163,6 +164,7 @@ class Experiment:
         self.spreads = self._read_rows("ensembles.csv", SPREAD_COLUMNS)
         self.contraction = self._read_rows("contraction.csv", CONTRACTION_COLUMNS)
         self.loops = self._read_rows("loops.csv", LOOP_COLUMNS)
+        self.frequencies = self._read_rows("frequencies.csv", FREQUENCY_COLUMNS)
         self.claims = self._read_rows("findings.csv", CLAIM_COLUMNS)
         self._series, self._summaries = {}, {}
 
