@@ -7,6 +7,7 @@ import ensembles
 import loops
 import motion
 import moving
+import reversibility
 import structure
 import work_precision
 from figures import drift_at_equal_step
@@ -17,6 +18,7 @@ def drawn(verdict):
     experiment, case = verdict.experiment, verdict.case
     equal_step = None if case.get("seeds") else drift_at_equal_step(experiment, case)
     return (work_precision.drawings(verdict) + drift_at_cost.drawings(verdict) + structure.drawings(verdict) + loops.drawings(verdict)
+            + reversibility.drawings(verdict)
             + (motion.drawings(experiment, case) or moving.drawings(verdict))
             + contraction.drawings(verdict) + constraints.drawings(experiment, case)
             + bands.drawings(verdict) + ensembles.drawings(experiment, case) + ([equal_step] if equal_step else []))

@@ -12,7 +12,7 @@ from findings import findings
 from wording import counted, text
 
 DATA = ("experiment.json", "results.csv", "cost.csv", "fits.csv", "equal_cost.csv", "ensembles.csv", "contraction.csv", "loops.csv",
-        "findings.csv", "machine.json")
+        "reversibility.csv", "findings.csv", "machine.json")
 
 
 def footer(experiment, verdicts, drawn, picture):
