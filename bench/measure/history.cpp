@@ -1,15 +1,11 @@
 #include <pfaff/bench/measure/history.hpp>
 
 #include <algorithm>
-#include <array>
-#include <cstdint>
 
 namespace pfaff {
 
 namespace {
-// After how many steps the next one is looked at. A multistep method of k states begins with k - 1 steps of
-// another method, which remember nothing; the longest in use have 14 states.
-constexpr std::array<std::int64_t, 2> looks{3, 15};
+constexpr std::int64_t first_look = 3;
 // Predictors and compensated sums remember earlier steps too, and change a step by its round-off.
 constexpr double more_than_round_off = 1e-24;
 
@@ -24,11 +20,12 @@ bool differ(const std::vector<Quad>& a, const std::vector<Quad>& b) {
 }  // namespace
 
 bool keeps_history(const MethodInstance& method, const std::shared_ptr<const Model>& model, Quad t, Quad h,
-                   const std::vector<Quad>& z) {
+                   const std::vector<Quad>& z, std::int64_t beginning) {
   const auto running = method.stepper(model, Quad()), fresh = method.stepper(model, Quad());
   std::vector<Quad> remembering = z;
   std::int64_t done = 0, completed = 0;
-  for (const std::int64_t look : looks) {
+  for (const std::int64_t look : {first_look, beginning}) {
+    if (look < done) break;
     if (running->advance(t, done, h, look - done, remembering, completed) != Status::converged) return false;
     std::vector<Quad> forgetting = remembering;
     fresh->forget();
