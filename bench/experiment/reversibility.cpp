@@ -16,7 +16,7 @@ namespace pfaff {
 namespace {
 
 constexpr std::int64_t most_steps = 1000, least_steps = 100;
-constexpr std::int64_t numbers = 64 * most_steps;  // steps times coordinates
+constexpr std::int64_t most_numbers = 64 * most_steps;  // steps times coordinates
 constexpr int intervals = 12;
 constexpr double unit = 0x1p-53;
 constexpr double change = 0x1p-26;  // at the turn: so small that it acts linearly, and far above round-off
@@ -112,7 +112,7 @@ Coordinates changed(Coordinates z) {
 // The numbers of steps after which a method turns round.
 std::vector<std::int64_t> turns(const ResolvedRun& run) {
   const std::int64_t most =
-      std::clamp<std::int64_t>(numbers / run.model->dimension(), least_steps, most_steps);
+      std::clamp<std::int64_t>(most_numbers / run.model->dimension(), least_steps, most_steps);
   const auto all = static_cast<double>(std::min(run.steps, most));
   std::vector<std::int64_t> found;
   for (int k = 0; k <= intervals; ++k) {

@@ -255,6 +255,7 @@ integrator = "leap-frog"
 [[case]]
 name = "swing"
 system = "pendulum"
+methods = ["RK4, one", "chosen", "two states"]
 time = 4
 steps = [0.1, 0.4, 0.2]
 [[case]]
@@ -264,6 +265,15 @@ methods = ["RK4, one"]
 time = 4
 steps = [0.1]
 seeds = 2
+[[method]]
+label = "remembers"
+integrator = "gni"
+[[case]]
+name = "particle"
+system = "contact-particle"
+methods = ["remembers"]
+time = 0.1
+steps = [0.1]
 )");
   const Experiment of = read_experiment(files / "test.toml", false);
   const auto runs = expand(of);
@@ -277,10 +287,11 @@ seeds = 2
   EXPECT_EQ(rows_with("case,method,step,t,distance,rounding,by"), 1U);
   const std::size_t turns = 9;  // after 1 to 8 and 10 steps, as 10^(k/12) is rounded
   EXPECT_EQ(rows_with("swing,\"RK4, one\",0.4,"), turns);
-  EXPECT_EQ(rows_with(""), 1 + turns);
+  EXPECT_EQ(rows_with(""), 1 + turns + 1);
+  EXPECT_TRUE(reversibility_csv(runs, summaries).ends_with(",,reversal\n"));  // no rounding of GNI
   for (std::size_t k = 0; k < runs.size(); ++k)
     if (runs[k].step == "0.4") summaries[k]["status"] = "non_finite";
-  EXPECT_EQ(rows_with("swing,\"RK4, one\",0.2,"), rows_with("") - 1);
+  EXPECT_EQ(rows_with("swing,\"RK4, one\",0.2,"), rows_with("") - 2);
   for (nlohmann::json& summary : summaries) summary["status"] = "non_finite";
   EXPECT_EQ(reversibility_csv(runs, summaries), "");
 }

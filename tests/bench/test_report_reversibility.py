@@ -1,4 +1,6 @@
 """bench/report: how far methods miss their start when they turn round, and who is said to come back."""
+import math
+import types
 import unittest
 
 from synthetic import Fresh, reading, run, save, synthetic
@@ -66,6 +68,22 @@ class Reversibility(Fresh):
         self.assertEqual((bad.times, bad.distances, bad.whole), ([0.2, 0.8], [1e-3, 1e-2], False))
         self.assertIn("no point where a step of the way back fails", self.drawing(shown).caption)
         self.assertNotIn("Left out", self.drawing(shown).caption)
+        self.assertIn("The start is missed by bad by up to 1.0e-02; rk by 1.1e-05.", self.drawing(shown).caption)
+
+    def test_the_one_in_the_middle_has_the_median_rounding(self):
+        three = [reversibility.Returns(0.1, "reversal", [1], [1e-16], [x]) for x in (3e-16, math.nan, 1e-10, 2e-16)]
+        self.assertIs(reversibility.in_the_middle(three), three[0])
+        self.assertIsNone(reversibility.in_the_middle(three[1:2]))
+
+    def test_of_many_that_miss_the_start_the_worst_are_named(self):
+        def shown(*missed):
+            return [reversibility.Shown(types.SimpleNamespace(label=f"m{k}, odd"), reversibility.Returns(0.1, "reversal", [1], [x], [x]),
+                                        x < 1e-15) for k, x in enumerate(missed)]
+        self.assertEqual(reversibility.finding(shown(1e-6, 1e-2, 1e-3, 1e-5, 1e-4, 1e-16, 1e-16)),
+                         "2 of 7 methods come back to the start but for rounding. The start is missed by m1, odd by up to 1.0e-02; "
+                         "m2, odd by 1.0e-03; m4, odd by 1.0e-04; 2 more by less.")
+        self.assertEqual(reversibility.finding(shown(1e-16, 1e-16)), "Every method comes back to its start but for rounding.")
+        self.assertEqual(reversibility.finding(shown(1e-16)), "m0, odd comes back to its start but for rounding.")
 
     def test_methods_of_which_nothing_is_known_are_named(self):
         caption = self.drawing(self.write()).caption
