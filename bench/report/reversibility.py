@@ -157,11 +157,11 @@ def draw(verdict, shown, middle, axis, wide):
     canvas = Canvas(width, top + tall + below, font)
     canvas.description = finding(shown)
     axes, rank = canvas.panel(left, top, width - left - right, tall), ranks(verdict.curves)
-    ends = []
+    ends, several = [], sum(one.back for one in shown) > 1
     for one in shown:
         curve, placed = one.row.curve, axis.place(visible(one.returns))
         look = style(curve.family, rank[one.label], True) | {"linewidth": 1.5, "marker": "", "zorder": 4}
-        look |= {"color": GREY, "linestyle": "-", "linewidth": 0.8, "zorder": 3} if one.back else {}
+        look |= {"color": GREY, "linestyle": "-", "linewidth": 0.8, "zorder": 3} if one.back and several else {}
         canvas.line(axes, one.returns.times, placed, f"{one.label}: at most {one.returns.farthest:.1e}"
                     + (", comes back" if one.back else ""), **look)
         ends.append((one, placed[-1]))
