@@ -169,7 +169,8 @@ def draw(verdict, shown, middle, axis, wide):
     axes.axhline(UNIT, color=MID, linewidth=0.8, linestyle=(0, (4, 2)), zorder=1)
     if middle:
         known = [(t, x) for t, x in zip(middle.times, middle.roundings) if not math.isnan(x)]
-        canvas.line(axes, [t for t, _ in known], [max(UNIT, x) for _, x in known], "one rounding at the turn", color=MID, linewidth=1.2, linestyle=(0, (1, 1.6)), zorder=2)
+        canvas.line(axes, [t for t, _ in known], [max(UNIT, x) for _, x in known], "one rounding at the turn", color=MID,
+                    linewidth=1.2, linestyle=(0, (1, 1.6)), zorder=2)
     times = [t for one in shown for t in one.returns.times]
     time_axis(axes, min(times), max(times))
     canvas.labels(axes, with_unit("t at the turn", verdict.case.get("time_unit") or ""), "distance from the start")
