@@ -12,6 +12,7 @@
 #include <pfaff/bench/experiment/loop_invariant.hpp>
 #include <pfaff/bench/experiment/references.hpp>
 #include <pfaff/bench/experiment/results.hpp>
+#include <pfaff/bench/experiment/reversibility.hpp>
 #include <pfaff/bench/experiment/team.hpp>
 #include <pfaff/bench/runner/directory_lock.hpp>
 #include <pfaff/bench/runner/files.hpp>
@@ -167,7 +168,7 @@ void remove_outdated(const fs::path& directory, const std::vector<ExperimentRun>
   });
   std::error_code error;
   for (const char* name : {"results.csv", "equal_cost.csv", "ensembles.csv", "contraction.csv", "loops.csv",
-                           "frequencies.csv", "findings.csv", "report.html"})
+                           "reversibility.csv", "frequencies.csv", "findings.csv", "report.html"})
     fs::remove(directory / name, error);
 }
 
@@ -314,6 +315,7 @@ ExperimentOutcome run_experiment(const Experiment& asked, const fs::path& direct
   write_or_remove(directory / "contraction.csv", contraction_csv(runs, summaries));
   report(ExperimentStage::phases, "loops of states", 0);
   write_or_remove(directory / "loops.csv", loops_csv(runs, summaries));
+  write_or_remove(directory / "reversibility.csv", reversibility_csv(runs, summaries));
   report(ExperimentStage::phases, "frequencies", 0);
   write_or_remove(directory / "frequencies.csv", frequencies_csv(runs, summaries));
   const std::vector<Finding> findings = findings_of(experiment, runs, summaries);

@@ -1,6 +1,7 @@
 // Whether a method remembers earlier steps, as linear multistep methods do.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -8,10 +9,15 @@
 
 namespace pfaff {
 
-/// True where a step of size h depends on more than the state it starts from: a step taken after others
-/// differs by more than round-off from one that is taken from the same state by a stepper that has forgotten
-/// them. The steps begin at z and time t, in quad. False where one of them does not converge.
+/// A multistep method of k states begins with k - 1 steps of another method, which remember nothing. The
+/// longest in use have 14 states.
+inline constexpr std::int64_t longest_beginning = 15;
+
+/// True where a step of size h depends on more than the state it starts from: a step taken after three
+/// others, or after `beginning` of them, differs by more than round-off from one that is taken from the same
+/// state by a stepper that has forgotten them. The steps begin at z and time t, in quad. False where one of
+/// them does not converge.
 bool keeps_history(const MethodInstance& method, const std::shared_ptr<const Model>& model, Quad t, Quad h,
-                   const std::vector<Quad>& z);
+                   const std::vector<Quad>& z, std::int64_t beginning = 3);
 
 }  // namespace pfaff

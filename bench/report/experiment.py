@@ -25,6 +25,7 @@ SPREAD_COLUMNS = ("case", "method", "step", "tolerance", "runs", "finished", "me
 CONTRACTION_COLUMNS = ("case", "method", "step", "t", "area", "law", "outline")
 FREQUENCY_COLUMNS = ("case", "method", "step", "vector", "frequency", "error", "change")
 LOOP_COLUMNS = ("case", "method", "step", "t", "integral", "uncertainty")
+RETURN_COLUMNS = ("case", "method", "step", "t", "distance", "rounding", "by")
 CLAIM_COLUMNS = ("case", "measure", "method", "relation", "factor", "than", "bound", "step", "runs", "holding", "needed",
                  "holds", "ratio_median")
 MEASURES = ("max", "rms", "final", "slope", "slope_low", "slope_high", "oscillation", "exponent", "class")
@@ -164,6 +165,7 @@ class Experiment:
         self.spreads = self._read_rows("ensembles.csv", SPREAD_COLUMNS)
         self.contraction = self._read_rows("contraction.csv", CONTRACTION_COLUMNS)
         self.loops = self._read_rows("loops.csv", LOOP_COLUMNS)
+        self.reversibility = self._read_rows("reversibility.csv", RETURN_COLUMNS)
         self.frequencies = self._read_rows("frequencies.csv", FREQUENCY_COLUMNS)
         self.claims = self._read_rows("findings.csv", CLAIM_COLUMNS)
         self._series, self._summaries = {}, {}

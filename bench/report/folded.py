@@ -11,8 +11,8 @@ from figures import heading
 from findings import findings
 from wording import counted, text
 
-DATA = ("experiment.json", "results.csv", "cost.csv", "fits.csv", "equal_cost.csv", "ensembles.csv", "contraction.csv", "loops.csv", "frequencies.csv",
-        "findings.csv", "machine.json")
+DATA = ("experiment.json", "results.csv", "cost.csv", "fits.csv", "equal_cost.csv", "ensembles.csv", "contraction.csv", "loops.csv",
+        "reversibility.csv", "frequencies.csv", "findings.csv", "machine.json")
 
 
 def footer(experiment, verdicts, drawn, picture):

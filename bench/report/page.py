@@ -26,7 +26,9 @@ LIGHT = {"paper": PAPER, "ink": INK, "mid": MID, "rule": RULE, "grey": GREY, "ba
 
 SECTIONS = (("work", "Work and precision", ("work_precision", "work_precision_evaluations")),
             ("drift", "Drift at equal cost", ("drift",)), ("structure", "Structure", ("structure",)),
-            ("loop", "Poincaré's integral invariant", ("loop",)), ("frequencies", "Frequencies", ("frequencies",)),
+            ("loop", "Poincaré's integral invariant", ("loop",)),
+            ("reversibility", "Reversibility along the run", ("reversibility",)),
+            ("frequencies", "Frequencies", ("frequencies",)),
             ("motion", "Motion", ("motion", "section")), ("contraction", "Contraction of areas", ("contraction",)), ("constraints", "Constraints", ("constraints",)),
             ("spread", "Spread over the seeds", ("bands", "ensemble")))
 
