@@ -34,7 +34,7 @@ double apart(const Coordinates& a, const Coordinates& b) {
 bool remembers(const ResolvedRun& run) {
   std::vector<Quad> z;
   for (const Real& x : run.initial) z.push_back(x.quad());
-  return keeps_history(*run.method, run.model, run.t0.quad(), run.step.quad(), z, longest_beginning);
+  return keeps_history(*run.method, run.model, run.t0.quad(), run.step.quad(), z);
 }
 
 bool claimed(const ResolvedRun& run, Claim claim) {

@@ -20,12 +20,11 @@ bool differ(const std::vector<Quad>& a, const std::vector<Quad>& b) {
 }  // namespace
 
 bool keeps_history(const MethodInstance& method, const std::shared_ptr<const Model>& model, Quad t, Quad h,
-                   const std::vector<Quad>& z, std::int64_t beginning) {
+                   const std::vector<Quad>& z) {
   const auto running = method.stepper(model, Quad()), fresh = method.stepper(model, Quad());
   std::vector<Quad> remembering = z;
   std::int64_t done = 0, completed = 0;
-  for (const std::int64_t look : {first_look, beginning}) {
-    if (look < done) break;
+  for (const std::int64_t look : {first_look, longest_beginning}) {
     if (running->advance(t, done, h, look - done, remembering, completed) != Status::converged) return false;
     std::vector<Quad> forgetting = remembering;
     fresh->forget();

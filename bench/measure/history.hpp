@@ -14,10 +14,10 @@ namespace pfaff {
 inline constexpr std::int64_t longest_beginning = 15;
 
 /// True where a step of size h depends on more than the state it starts from: a step taken after three
-/// others, or after `beginning` of them, differs by more than round-off from one that is taken from the same
-/// state by a stepper that has forgotten them. The steps begin at z and time t, in quad. False where one of
-/// them does not converge.
+/// others, or after the longest beginning, differs by more than round-off from one that is taken from the
+/// same state by a stepper that has forgotten them. The steps begin at z and time t, in quad. False where one
+/// of them does not converge.
 bool keeps_history(const MethodInstance& method, const std::shared_ptr<const Model>& model, Quad t, Quad h,
-                   const std::vector<Quad>& z, std::int64_t beginning = 3);
+                   const std::vector<Quad>& z);
 
 }  // namespace pfaff

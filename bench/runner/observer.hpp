@@ -125,7 +125,7 @@ class Observer {
   static bool remembers(const ResolvedRun& run) {
     std::vector<Quad> z;
     for (const Real& x : run.initial) z.push_back(x.quad());
-    return keeps_history(*run.method, run.model, run.t0.quad(), run.step.quad(), z, longest_beginning);
+    return keeps_history(*run.method, run.model, run.t0.quad(), run.step.quad(), z);
   }
 
   std::string observe_sample(const T& t, const std::vector<T>& z, bool structure) {

@@ -53,8 +53,9 @@ Real generic_time_of(const Model& model);
 /// less than 0.02; where round-off comes first, the slope is extrapolated from the last ones. Methods that
 /// need constraints are measured by their errors at the end of a fixed interval instead, without the minus
 /// one. The reason is that momenta of central differences do not accumulate their errors: over many steps
-/// they are as accurate as the positions, but after one step they are not. So are methods with history, whose
-/// first steps are those of another method, which makes the starting values. Methods whose coefficients are
+/// they are as accurate as the positions, but after one step they are not. So are methods with history, over
+/// a longer interval, because their first steps are those of another method, which makes the starting values.
+/// Methods whose coefficients are
 /// doubles are measured in quad too, down to the error of their coefficients.
 struct MeasuredOrder {
   double slope = 0;
@@ -64,9 +65,11 @@ struct MeasuredOrder {
 };
 MeasuredOrder measure_order(const MethodInstance& method, const std::shared_ptr<const Model>& model,
                             bool history = false);
-/// The order measured as the step falls by factors of ten to 1e-10. A small error of a coefficient dominates
-/// the error of so small a step, and so lowers the slope.
-double order_at_small_steps(const MethodInstance& method, const std::shared_ptr<const Model>& model);
+/// The order measured as the step falls by factors of ten to 1e-10; with history, from one halving over a
+/// long interval. A small error of a coefficient dominates the error of so small a step, and so lowers the
+/// slope.
+double order_at_small_steps(const MethodInstance& method, const std::shared_ptr<const Model>& model,
+                            bool history);
 
 /// Checks of one method with given parameters on one system, in double and quad.
 std::vector<Check> check_method(const MethodPlugin& plugin, const Assignments& parameters,

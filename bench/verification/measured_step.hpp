@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <vector>
 
+#include <pfaff/bench/measure/history.hpp>
 #include <pfaff/bench/measure/structure.hpp>
 #include <pfaff/bench/verification/step_scale.hpp>
 
@@ -29,7 +30,7 @@ constexpr const char* precision_name() {
 inline constexpr double no_step = std::numeric_limits<double>::quiet_NaN();
 
 /// As many steps forget the start of a method that remembers its past, which is not of the method's own kind.
-inline constexpr int steps_of_warm_up = 8;
+inline constexpr int steps_of_warm_up = static_cast<int>(longest_beginning);
 
 /// A step of size h from `start` at time t, in the scalar T. What is asked of it is computed when it is first
 /// asked for, and kept. With a warm-up, the stepper takes so many steps of the same size before the one that

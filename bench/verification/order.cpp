@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <pfaff/bench/measure/history.hpp>
 #include <pfaff/bench/measure/reference.hpp>
 #include <pfaff/bench/verification/check.hpp>
 #include <pfaff/bench/verification/step_scale.hpp>
@@ -103,6 +104,10 @@ MeasuredOrder settle(Error&& error_of, int halvings, Floor&& floor_of) {
 }
 
 const Quad interval = Quad(1) / Quad(8);
+// Of methods with history, of which the beginning is another method: its part of the interval falls with the
+// step, and with it what the slope lacks.
+const Quad long_interval = Quad(1);
+constexpr std::int64_t fewest_steps = 2 * (longest_beginning + 1);
 
 }  // namespace
 
@@ -117,7 +122,10 @@ MeasuredOrder measure_order(const MethodInstance& method, const std::shared_ptr<
                             rate = errors.rate()](const Quad& elapsed) {
     return doubles ? std::max(Quad(1e-32), Quad(1e-15) * rate * elapsed) : Quad(1e-32);
   };
-  if (method.needs_constraints() || history)
+  if (history)
+    return settle([&](int k) { return errors.after(long_interval * time, fewest_steps << k); }, 9,
+                  [&](int) { return Quad(100) * floor_after(long_interval * time); });
+  if (method.needs_constraints())
     return settle([&](int k) { return errors.after(interval * time, std::int64_t{1} << k); }, 10,
                   [&](int) { return Quad(100) * floor_after(interval * time); });
   const auto step = [&](int k) { return time / Quad(std::ldexp(1.0, k + 1)); };
@@ -127,9 +135,13 @@ MeasuredOrder measure_order(const MethodInstance& method, const std::shared_ptr<
   return order;
 }
 
-double order_at_small_steps(const MethodInstance& method, const std::shared_ptr<const Model>& model) {
+double order_at_small_steps(const MethodInstance& method, const std::shared_ptr<const Model>& model,
+                            bool history) {
   const Errors errors(method, model);
   const Quad time = errors.time();
+  if (history)
+    return logarithm2(errors.after(long_interval * time, fewest_steps << 5) /
+                      errors.after(long_interval * time, fewest_steps << 6));
   if (method.needs_constraints() &&
       method.order(*model) <= 2)  // at this h a change of 1e-6 exceeds the error h^2
     return logarithm2(errors.after(interval * time, 512) / errors.after(interval * time, 1024));

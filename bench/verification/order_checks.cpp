@@ -71,6 +71,7 @@ std::vector<Check> check_changed_coefficient(const MethodPlugin& plugin, const A
                                              const SystemPlugin& system) {
   const auto method = plugin.make(parameters);
   const auto model = motion_for(*method, system.make({}));
+  const bool history = MethodOnModel(*method, parameters, system.name(), model).history();
   std::vector<Check> checks;
   for (std::size_t k = 0; k < method->coefficient_count(); ++k) {
     const auto changed = method->with_changed_coefficient(k, Quad(1e-6));
@@ -84,7 +85,7 @@ std::vector<Check> check_changed_coefficient(const MethodPlugin& plugin, const A
     check.control = true;
     check.expected = method->order(*model);
     check.tolerance = 0.1;
-    check.measured = order_at_small_steps(*changed, model);
+    check.measured = order_at_small_steps(*changed, model, history);
     check.result =
         check.measured < check.expected - check.tolerance ? CheckResult::rejected : CheckResult::pass;
     if (check.result == CheckResult::pass && StructureResidual<Quad>::applies(*model)) {
