@@ -3,6 +3,10 @@
 #include <pfaff/integrators/order_conditions/rooted_trees.hpp>
 #include <pfaff/integrators/runge_kutta/gauss.hpp>
 
+namespace pfaff::detail {
+PFAFF_REGISTERED_FORMS()
+}  // namespace pfaff::detail
+
 namespace {
 using namespace pfaff;
 
