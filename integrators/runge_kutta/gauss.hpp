@@ -76,15 +76,14 @@ std::unique_ptr<CollocationForm<P>> collocation_form(const GaussCoefficients& ta
 
 // What registered methods step on is compiled once, in gauss.cpp, and not wherever a method starts with steps
 // of collocation or is built on it.
-#define PFAFF_REGISTERED_FORMS(declaration)                     \
-  PFAFF_REGISTERED_FORM(declaration, Problem<double>)           \
-  PFAFF_REGISTERED_FORM(declaration, Problem<Quad>)             \
-  PFAFF_REGISTERED_FORM(declaration, Problem<StepDual<double>>) \
-  PFAFF_REGISTERED_FORM(declaration, Problem<StepDual<Quad>>)
-#define PFAFF_REGISTERED_FORM(declaration, P)                                            \
-  declaration template std::unique_ptr<CollocationForm<P>> collocation_form<dynamic, P>( \
-      const GaussCoefficients&, const P&);
-PFAFF_REGISTERED_FORMS(extern)
+extern template std::unique_ptr<CollocationForm<Problem<double>>> collocation_form<dynamic>(
+    const GaussCoefficients& tableau, const Problem<double>& p);
+extern template std::unique_ptr<CollocationForm<Problem<Quad>>> collocation_form<dynamic>(
+    const GaussCoefficients& tableau, const Problem<Quad>& p);
+extern template std::unique_ptr<CollocationForm<Problem<StepDual<double>>>> collocation_form<dynamic>(
+    const GaussCoefficients& tableau, const Problem<StepDual<double>>& p);
+extern template std::unique_ptr<CollocationForm<Problem<StepDual<Quad>>>> collocation_form<dynamic>(
+    const GaussCoefficients& tableau, const Problem<StepDual<Quad>>& p);
 
 }  // namespace detail
 

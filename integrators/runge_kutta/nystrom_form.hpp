@@ -10,6 +10,7 @@
 // since the last step, w is computed from p and the past forgotten.
 #pragma once
 
+#include <type_traits>
 #include <vector>
 
 #include <pfaff/core/facets/problem.hpp>
@@ -162,11 +163,13 @@ class NystromForm final : public CollocationForm<P> {
         p.counters().fields += static_cast<std::int64_t>(iteration_.stages());
         return;
       }
-      const Table copy = stages;  // so that the stages themselves may stay in registers
-      evaluate_one_by_one(p, z, copy);
-    } else {
-      evaluate_one_by_one(p, z, stages);
+      if constexpr (!std::is_same_v<Table, Vector<Lane, dynamic>>) {
+        // So that the stages themselves may stay in registers.
+        const Table copy = stages;  // NOLINT(performance-unnecessary-copy-initialization)
+        return evaluate_one_by_one(p, z, copy);
+      }
     }
+    evaluate_one_by_one(p, z, stages);
   }
   [[gnu::noinline]] void evaluate_one_by_one(const P& p, const State<P>& z, const Table& stages) {
     const std::size_t m = degrees();
