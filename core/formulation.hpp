@@ -187,7 +187,7 @@ class Formulation final : public FormulationPlugin {
       ModelSource source = model->source();
       constexpr std::size_t field = index(Formula::field);
       source.given[field] = nullptr;
-      source.compiled[field] = nullptr;
+      source.compiled[field] = {};
       if constexpr (of_phase_space)
         if (!model->holonomic()) {
           source.given[field] = std::make_shared<const Tape>(object.field_tape(*model));

@@ -1,5 +1,7 @@
 // Concrete method types on concrete system types: how fast the formulas run when the compiler sees
 // everything.
+#include <memory>
+
 #include <pfaff/core/facets/advance.hpp>
 #include <pfaff/core/facets/static_problem.hpp>
 #include <pfaff/integrators/generating/generating_function.hpp>
@@ -18,11 +20,11 @@ template <class C, class S, class M>
 void add_static(const std::string& name, const std::string& path, const M& method) {
   using P = StaticProblem<S>;
   const P problem;
-  add<C>(name, path, [=, work = Work<M, P>(method, problem)](auto& start, double h) mutable {
+  add<C>(name, path, [=, work = std::make_shared<Work<M, P>>(method, problem)](auto& start, double h) {
     State<P> z;
     std::copy(start.begin(), start.end(), z.begin());
     std::int64_t completed = 0;
-    advance(method, problem, 0.0, 0, h, chunk, z, work, completed);
+    advance(method, problem, 0.0, 0, h, chunk, z, *work, completed);
     std::copy(z.begin(), z.end(), start.begin());
   });
 }

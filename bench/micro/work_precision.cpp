@@ -11,6 +11,7 @@
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 
 #include <pfaff/core/facets/advance.hpp>
 #include <pfaff/core/facets/static_problem.hpp>
@@ -110,12 +111,13 @@ void add_gauss(double h) {
   const P problem;
   const M method;
   add_orbit("gauss-" + std::to_string(2 * Stages), "static", h,
-            [=, work = Work<M, P>(method, problem)](Orbit& start, double step, std::int64_t count) mutable {
-              if (start == Case<Kepler>::start) work.restart();
+            [=, work = std::make_shared<Work<M, P>>(method, problem)](Orbit& start, double step,
+                                                                      std::int64_t count) {
+              if (start == Case<Kepler>::start) work->restart();
               State<P> z;
               std::copy(start.begin(), start.end(), z.begin());
               std::int64_t completed = 0;
-              advance(method, problem, 0.0, 0, step, count, z, work, completed);
+              advance(method, problem, 0.0, 0, step, count, z, *work, completed);
               std::copy(z.begin(), z.end(), start.begin());
             });
 }

@@ -96,12 +96,12 @@ class Collector {
     // The field of the energy alone, which is not the motion where a second bracket takes part.
     if constexpr (energies && !damped && !writes<S, symmetric_tensor> && writes<S, force> &&
                   writes<S, velocity>)
-      compile(field, [](const void* object, const double& t, const double* z, double* o) {
-        const S& self = *static_cast<const S*>(object);
-        const auto m = static_cast<std::size_t>(dimension_of(self) / 2);
-        self.velocity(t, In<double>(z + m, m), Out<double>(o, m));
-        self.force(t, In<double>(z, m), Out<double>(o + m, m));
-      });
+      compile<writes<S, force, Pack<8>> && writes<S, velocity, Pack<8>>>(
+          field, []<class T>(const S& self, const T& t, const T* z, T* o) {
+            const auto m = static_cast<std::size_t>(dimension_of(self) / 2);
+            self.velocity(t, In<T>(z + m, m), Out<T>(o, m));
+            self.force(t, In<T>(z, m), Out<T>(o + m, m));
+          });
     if constexpr (WritesConstraintEvaluator<S>)
       source_.holonomic = std::make_shared<const HolonomicFactoryOf<S>>(system_);
     // A part count of zero means that with these parameters there are no parts to be solved exactly.
@@ -139,12 +139,12 @@ class Collector {
                      system_.get()});
       }
       if constexpr (row_of(F).traits.compiled)
-        compile(F, [](const void* object, const double& t, const double* x, double* out) {
-          const S& self = *static_cast<const S*>(object);
-          const FormulaSize m = size_of<F>(Sizes{.n = dimension_of(self)});
-          write<F>(self, t, In<double>(x, static_cast<std::size_t>(m.inputs)),
-                   Out<double>(out, static_cast<std::size_t>(m.outputs)));
-        });
+        compile<row_of(F).traits.in_lanes && writes<S, F, Pack<8>>>(
+            F, []<class T>(const S& self, const T& t, const T* x, T* out) {
+              const FormulaSize m = size_of<F>(Sizes{.n = dimension_of(self)});
+              write<F>(self, t, In<T>(x, static_cast<std::size_t>(m.inputs)),
+                       Out<T>(out, static_cast<std::size_t>(m.outputs)));
+            });
     } else if constexpr (row_of(F).traits.listed) {
       require_no_list(source_, F);
     }
@@ -156,32 +156,49 @@ class Collector {
   }
   // Canonical coordinates are Darboux coordinates already: the chart copies them.
   void compile_identity_chart() {
-    const CompiledFormula copy = [](const void* object, const double& /*t*/, const double* from, double* to) {
-      std::copy_n(from, static_cast<std::size_t>(dimension_of(*static_cast<const S*>(object))), to);
+    const auto copy = []<class T>(const S& self, const T& /*t*/, const T* from, T* to) {
+      std::copy_n(from, static_cast<std::size_t>(dimension_of(self)), to);
     };
-    compile(Formula::chart, copy);
-    compile(Formula::chart_inverse, copy);
+    compile<false>(Formula::chart, copy);
+    compile<false>(Formula::chart_inverse, copy);
   }
   void compile_chart_field() requires CompilesChartField<S> {
     source_.chart_field_series = &compiled_series<S>();
-    compile(Formula::chart_field, [](const void* object, const double& t, const double* y, double* rate) {
+    using Lanes = Pack<8>;
+    constexpr bool in_lanes = writes<S, Formula::chart_field>
+                                  ? writes<S, Formula::chart_field, Lanes>
+                                  : writes<S, Formula::force, Lanes> && writes<S, Formula::velocity, Lanes>;
+    compile<in_lanes>(Formula::chart_field, []<class T>(const S& self, const T& t, const T* y, T* rate) {
       constexpr auto size = static_cast<std::size_t>(S::dimension);
-      chart_field_of<S, double>(*static_cast<const S*>(object), t, In<double>(y, size),
-                                Out<double>(rate, size));
+      chart_field_of<S, T>(self, t, In<T>(y, size), Out<T>(rate, size));
     });
     if constexpr (S::dimension <= 6)  // all columns in one pass of duals; for larger n the tape is as fast
-      compile(Formula::chart_field_jacobian,
-              [](const void* object, const double& t, const double* y, double* matrix) {
-                constexpr auto size = static_cast<std::size_t>(S::dimension);
-                using D = Dual<double, S::dimension>;
-                std::array<D, size> point, rate;
-                for (std::size_t k = 0; k < size; ++k) point[k] = D::variable(y[k], static_cast<int>(k));
-                chart_field_of<S, D>(*static_cast<const S*>(object), D(t), point, rate);
-                for (std::size_t i = 0; i < size; ++i)
-                  for (std::size_t j = 0; j < size; ++j) matrix[i * size + j] = rate[i].derivative[j];
-              });
+      compile<false>(Formula::chart_field_jacobian,
+                     [](const S& self, const double& t, const double* y, double* matrix) {
+                       constexpr auto size = static_cast<std::size_t>(S::dimension);
+                       using D = Dual<double, S::dimension>;
+                       std::array<D, size> point, rate;
+                       for (std::size_t k = 0; k < size; ++k)
+                         point[k] = D::variable(y[k], static_cast<int>(k));
+                       chart_field_of<S, D>(self, D(t), point, rate);
+                       for (std::size_t i = 0; i < size; ++i)
+                         for (std::size_t j = 0; j < size; ++j) matrix[i * size + j] = rate[i].derivative[j];
+                     });
   }
-  void compile(Formula formula, CompiledFormula f) { source_.compiled[index(formula)] = f; }
+  // Keeps the code of call(system, t, arguments, results) for doubles and, where `InLanes`, for packs.
+  template <bool InLanes, class Call>
+  void compile(Formula formula, const Call& /*call*/) {
+    CompiledCode& code = source_.compiled[index(formula)];
+    code.one = &run<double, Call>;
+    if constexpr (InLanes) {
+      code.four = &run<Pack<4>, Call>;
+      code.eight = &run<Pack<8>, Call>;
+    }
+  }
+  template <class T, class Call>
+  static void run(const void* system, const T& t, const T* arguments, T* results) {
+    Call()(*static_cast<const S*>(system), t, arguments, results);
+  }
 
   std::shared_ptr<const S> system_;
   ModelSource& source_;

@@ -76,6 +76,7 @@ enum class Counts { nothing, field, jacobian };
 /// What is true of a formula beside its signature.
 struct FormulaTraits {
   bool compiled = false;        // also kept compiled for doubles; its sizes must be made of n alone
+  bool in_lanes = false;        // and for packs, in which the stages of a step are evaluated together
   bool may_skip_zeros = false;  // results that are zero need not be written
   bool listed = false;          // one result for each entry of the descriptor's list; written if it has any
   bool unique = true;           // what is written must equal what is derived

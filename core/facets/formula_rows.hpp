@@ -71,7 +71,7 @@ PFAFF_COUNT(velocity_constraints, velocity_constraint_count, velocity_constraint
 PFAFF_COUNT(parts, part_count, part_names, "part-")
 
 // The vector field X and dX_i / dz_j, row-major.
-PFAFF_MAP(field, z, n, rate, n, .compiled = true, .offered_by = facets(Facet::vector_field), .counts = Counts::field)
+PFAFF_MAP(field, z, n, rate, n, .compiled = true, .in_lanes = true, .offered_by = facets(Facet::vector_field), .counts = Counts::field)
 PFAFF_DERIVED(field_jacobian, n, n * n, .offered_by = facets(Facet::vector_field), .counts = Counts::jacobian)
 // The energy H, its gradient, and the tensor Pi(z, t), row-major, with X = Pi grad H.
 PFAFF_VALUE(hamiltonian, z, n, .offered_by = facets(Facet::hamiltonian), .part_of = facets(Facet::constraints, Facet::metriplectic))
@@ -83,8 +83,8 @@ PFAFF_BRACKET(casimirs, bracket, BracketCasimirs, casimirs, .part_of = facets(Fa
 // H = T(p) + V(q, t), the force -dV/dq and the velocity dT/dp.
 PFAFF_VALUE(kinetic, p, n / 2, .part_of = facets(Facet::separable, Facet::conformal))
 PFAFF_VALUE(potential, q, n / 2, .part_of = facets(Facet::separable, Facet::conformal))
-PFAFF_MAP(force, q, n / 2, f, n / 2, .compiled = true, .offered_by = facets(Facet::separable), .part_of = facets(Facet::conformal), .counts = Counts::field)
-PFAFF_MAP(velocity, p, n / 2, v, n / 2, .compiled = true, .offered_by = facets(Facet::separable), .part_of = facets(Facet::conformal))
+PFAFF_MAP(force, q, n / 2, f, n / 2, .compiled = true, .in_lanes = true, .offered_by = facets(Facet::separable), .part_of = facets(Facet::conformal), .counts = Counts::field)
+PFAFF_MAP(velocity, p, n / 2, v, n / 2, .compiled = true, .in_lanes = true, .offered_by = facets(Facet::separable), .part_of = facets(Facet::conformal))
 // The action form F.dz - B dt, and K zdot + D = 0 with K_ij = d_i F_j - d_j F_i, row-major, D = -(grad B + F_t). K is
 // constant, -J, for canonical systems.
 PFAFF_VALUE(birkhoffian, z, n, .offered_by = facets(Facet::birkhoffian))

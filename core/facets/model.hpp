@@ -24,6 +24,7 @@
 #include <pfaff/core/facets/holonomic.hpp>
 #include <pfaff/core/facets/velocity_constraints.hpp>
 #include <pfaff/core/linear/symplectic_basis.hpp>
+#include <pfaff/core/numbers/pack.hpp>
 #include <pfaff/core/tape/tape.hpp>
 
 namespace pfaff {
@@ -64,6 +65,26 @@ struct Coordinate {
 using CompiledFormula = void (*)(const void* system, const double& t, const double* arguments,
                                  double* results);
 
+/// The same at W points side by side: each lane has the bits that its point would have alone.
+template <int W>
+using CompiledInLanes = void (*)(const void* system, const Pack<W>& t, const Pack<W>* arguments,
+                                 Pack<W>* results);
+
+/// What is compiled of a formula: its code for doubles and, with some formulas, for packs.
+struct CompiledCode {
+  CompiledFormula one = nullptr;
+  CompiledInLanes<4> four = nullptr;
+  CompiledInLanes<8> eight = nullptr;
+
+  template <int W>
+  [[nodiscard]] CompiledInLanes<W> in_lanes() const {
+    if constexpr (W == 4)
+      return four;
+    else
+      return eight;
+  }
+};
+
 struct CompiledSeries;
 
 /// What a system's author provides, before anything is derived.
@@ -86,7 +107,7 @@ struct ModelSource {
   std::string time_unit = "s";
   std::vector<std::pair<std::string, std::string>> parameters;  // resolved: name, value
   std::array<std::shared_ptr<const Tape>, formula_count> given;
-  std::array<CompiledFormula, formula_count> compiled{};
+  std::array<CompiledCode, formula_count> compiled{};
   const CompiledSeries* chart_field_series = nullptr;
   std::array<std::shared_ptr<const FormulaProgram>, formula_count> programs;   // instead of given
   std::shared_ptr<const HolonomicFactory> holonomic;                           // null: from the tapes
@@ -197,9 +218,11 @@ class Model {
   /// The author's code for doubles, to be called with system(); null when there is none. Canonical
   /// coordinates are Darboux coordinates already, so that the code of the field is also that of the field in
   /// the chart.
-  [[nodiscard]] CompiledFormula compiled(Formula formula) const {
-    const bool same = formula == Formula::chart_field && source_.canonical && !given(Formula::chart);
-    return source_.compiled[index(same ? Formula::field : formula)];
+  [[nodiscard]] CompiledFormula compiled(Formula formula) const { return code_of(formula).one; }
+  /// The same for packs; null where it is not compiled for them.
+  template <int W>
+  [[nodiscard]] CompiledInLanes<W> compiled_in_lanes(Formula formula) const {
+    return code_of(formula).in_lanes<W>();
   }
   /// The author's field in the chart compiled for series; null when there is none.
   [[nodiscard]] const CompiledSeries* chart_field_series() const { return source_.chart_field_series; }
@@ -211,6 +234,10 @@ class Model {
   [[nodiscard]] bool chart_autonomous() const { return tape(Formula::chart_field)->autonomous(); }
 
  private:
+  [[nodiscard]] const CompiledCode& code_of(Formula formula) const {
+    const bool same = formula == Formula::chart_field && source_.canonical && !given(Formula::chart);
+    return source_.compiled[index(same ? Formula::field : formula)];
+  }
   [[nodiscard]] PivotPairs pivots_of_structure() const;
 
   /// What content() is before a chart derived from the structure is added.

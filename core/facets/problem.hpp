@@ -22,6 +22,11 @@ namespace pfaff {
 template <class T>
 Evaluator<T> make_evaluator(const std::shared_ptr<const Model>& model, Formula formula);
 
+/// The formula at W points side by side: the author's code for packs, or a replay with them. Without a call
+/// where there is neither. Instantiated for W = 4 and 8.
+template <int W>
+Evaluator<Pack<W>> make_evaluator_in_lanes(const std::shared_ptr<const Model>& model, Formula formula);
+
 /// The work a method has done. StaticProblem, made for speed, does not count it.
 struct Counters {
   std::int64_t steps = 0;
@@ -51,6 +56,14 @@ class Problem {
   /// which runs once, does not swell every place that evaluates a formula.
   [[gnu::noinline]] void prepare(Formula formula) const {
     evaluators_[index(formula)] = make_evaluator<T>(model_, formula);
+  }
+
+  /// The formula at W points side by side, one in each lane, with the bits that it has at each of them alone.
+  /// Without a call where it has to be evaluated at one after the other. Evaluations are the caller's to
+  /// count.
+  template <int W>
+  [[nodiscard]] Evaluator<Pack<W>> in_lanes(Formula formula) const requires std::is_same_v<T, double> {
+    return make_evaluator_in_lanes<W>(model_, formula);
   }
 
   // One member for every formula that a facet offers, with the signature and the meaning of its row. Derived

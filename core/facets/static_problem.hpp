@@ -72,6 +72,8 @@ class StaticProblem {
   static constexpr bool separable = alone && energies && !conformal;
   static constexpr bool canonical = separable || (alone && detail::writes<S, Formula::hamiltonian, T> &&
                                                   !detail::writes<S, Formula::poisson_tensor>);
+  template <Formula F, int W>
+  static constexpr bool written_in_lanes = std::is_same_v<T, double>&& detail::writes<S, F, Pack<W>>;
   static constexpr bool has_field =
       canonical || conformal || (!constrained && detail::writes<S, Formula::field, T>);
 
@@ -101,14 +103,26 @@ class StaticProblem {
   }
   /// -dV/dq.
   void force(const T& t, In<T> q, Out<T> f) const requires separable { force_of<T>(t, q, f); }
-  /// The same at several times and positions side by side, one in each lane.
-  template <int W>
-  void force(const Pack<W>& t, In<Pack<W>> q, Out<Pack<W>> f) const
-      requires(separable&& std::is_same_v<T, double>&& detail::writes<S, Formula::force, Pack<W>>) {
-    system_.force(t, q, f);
-  }
   /// dT/dp.
   void velocity(const T& t, In<T> p, Out<T> v) const requires separable { velocity_of<T>(t, p, v); }
+  /// What of these the author writes, at several times and points side by side, one in each lane.
+  template <int W>
+  void force(const Pack<W>& t, In<Pack<W>> q, Out<Pack<W>> f) const
+      requires(separable&& written_in_lanes<Formula::force, W>) {
+    system_.force(t, q, f);
+  }
+  template <int W>
+  void velocity(const Pack<W>& t, In<Pack<W>> p, Out<Pack<W>> v) const
+      requires(separable&& written_in_lanes<Formula::velocity, W>) {
+    system_.velocity(t, p, v);
+  }
+  template <int W>
+  void field(const Pack<W>& t, In<Pack<W>> z, Out<Pack<W>> rate) const
+      requires(has_field && (written_in_lanes<Formula::field, W> ||
+                             ((separable || conformal) && written_in_lanes<Formula::force, W> &&
+                              written_in_lanes<Formula::velocity, W>))) {
+    field_of<Pack<W>>(t, z, rate);
+  }
 
   /// The tape of the velocity.
   [[nodiscard]] std::shared_ptr<const Tape> velocity_tape() const requires separable {

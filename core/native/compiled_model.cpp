@@ -128,7 +128,7 @@ std::shared_ptr<const Model> compiled(const std::shared_ptr<const Model>& model)
   }
   for (const Formula formula : candidates)
     if (void* address = owner->library->symbol(symbol_of(formula)))
-      source.compiled[index(formula)] = reinterpret_cast<CompiledFormula>(address);
+      source.compiled[index(formula)] = {.one = reinterpret_cast<CompiledFormula>(address)};
   source.system = std::shared_ptr<const void>(std::move(owner), object);
   return std::make_shared<const Model>(std::move(source));
 }

@@ -4,7 +4,8 @@
 // For code that does the same to several nodes at once. Registers of 16 bytes belong to every machine of this
 // architecture; those of 32 and of 64 bytes are used where the build allows them. Results do not depend on
 // it: every lane is computed by itself, and sums go from lane to lane. The lanes of a pack that a caller has
-// no use for should hold copies of one that it has, never rubbish: arithmetic on rubbish can be very slow.
+// no use for should hold copies of the last one that it has, never rubbish: arithmetic on rubbish can be very
+// slow, and functions of copies cost nothing.
 #pragma once
 
 #include <array>
@@ -133,11 +134,17 @@ class Pack {
     return r;
   }
 
-  /// f of the number in every lane.
+  /// f of the number in every lane, computed once for lanes in a row that hold the same number.
   template <class F>
   [[nodiscard]] Pack each(const F& f) const {
     Pack r;
-    for (std::size_t lane = 0; lane < W; ++lane) r.set(lane, f((*this)[lane]));
+    double x = (*this)[0], y = f(x);
+    r.set(0, y);
+    for (std::size_t lane = 1; lane < W; ++lane) {
+      const double next = (*this)[lane];
+      if (std::bit_cast<unsigned long long>(next) != std::bit_cast<unsigned long long>(x)) y = f(x = next);
+      r.set(lane, y);
+    }
     return r;
   }
   friend Pack sqrt(const Pack& a) {

@@ -10,6 +10,7 @@
 
 #include <pfaff/core/linear/lu.hpp>
 #include <pfaff/core/numbers/dual.hpp>
+#include <pfaff/core/numbers/pack.hpp>
 #include <pfaff/core/tape/recorder.hpp>
 
 namespace pfaff {
@@ -22,23 +23,45 @@ class TapeSolver {
 
   /// Writes the solution to slots[first, first + size). A singular matrix gives non-finite components.
   void operator()(const LinearSystem& system, std::vector<T>& slots, std::size_t first) {
+    solve(
+        system, [&](int slot) -> const T& { return slots[static_cast<std::size_t>(slot)]; },
+        [&](std::size_t i, const T& x) { slots[first + i] = x; });
+  }
+  /// The same with slots that read(slot) returns, and write(i, x) for component i of the solution.
+  template <class Read, class Write>
+  void solve(const LinearSystem& system, const Read& read, const Write& write) {
     const std::size_t n = lu_.size();
     for (std::size_t i = 0; i < n; ++i) {
-      for (std::size_t j = 0; j < n; ++j)
-        lu_(i, j) = slots[static_cast<std::size_t>(system.matrix[i * n + j])];
-      b_[i] = slots[static_cast<std::size_t>(system.right_hand_side[i])];
+      for (std::size_t j = 0; j < n; ++j) lu_(i, j) = read(system.matrix[i * n + j]);
+      b_[i] = read(system.right_hand_side[i]);
     }
     if (lu_.factor()) {
       lu_.solve(b_.data(), x_.data());
     } else {
       for (T& x : x_) x = T(std::numeric_limits<double>::quiet_NaN());
     }
-    for (std::size_t i = 0; i < n; ++i) slots[first + i] = x_[i];
+    for (std::size_t i = 0; i < n; ++i) write(i, x_[i]);
   }
 
  private:
   LU<T> lu_;
   std::vector<T> b_, x_;
+};
+
+/// Every lane has pivots of its own.
+template <int W>
+class TapeSolver<Pack<W>> {
+ public:
+  explicit TapeSolver(int size) : one_(size) {}
+  void operator()(const LinearSystem& system, std::vector<Pack<W>>& slots, std::size_t first) {
+    for (std::size_t lane = 0; lane < W; ++lane)
+      one_.solve(
+          system, [&](int slot) { return slots[static_cast<std::size_t>(slot)][lane]; },
+          [&](std::size_t i, double x) { slots[first + i].set(lane, x); });
+  }
+
+ private:
+  TapeSolver<double> one_;
 };
 
 template <>

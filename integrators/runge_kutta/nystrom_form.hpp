@@ -10,12 +10,15 @@
 // since the last step, w is computed from p and the past forgotten.
 #pragma once
 
+#include <type_traits>
 #include <vector>
 
 #include <pfaff/core/facets/problem.hpp>
 #include <pfaff/core/solve/summation.hpp>
 #include <pfaff/core/tape/linear.hpp>
 #include <pfaff/integrators/runge_kutta/collocation_coefficients.hpp>
+#include <pfaff/integrators/runge_kutta/collocation_form.hpp>
+#include <pfaff/integrators/runge_kutta/formula_in_lanes.hpp>
 #include <pfaff/integrators/runge_kutta/stage_iteration.hpp>
 #include <pfaff/integrators/support/continuation.hpp>
 
@@ -32,10 +35,11 @@ std::shared_ptr<const Tape> separable_velocity(const P& p) {
   return nullptr;
 }
 
-/// What a Nystroem step on a problem of type P keeps and works with.
-template <HasSeparable P, int Stages>
-class NystromForm {
-  static constexpr int half = P::extent == dynamic ? dynamic : P::extent / 2;
+/// Nystroem steps on a problem of type P, which is separable. Its size and the number of stages may be
+/// dynamic.
+template <class P, int Stages, int Size = P::extent>
+class NystromForm final : public CollocationForm<P> {
+  static constexpr int half = Size == dynamic ? dynamic : Size / 2;
 
  public:
   using T = Scalar<P>;
@@ -46,7 +50,7 @@ class NystromForm {
       : unit_mass_(identity(velocity)),
         degrees_(p.size() / 2),
         iteration_(degrees_, c.stages, c.nu, c.extrapolation, false, HasFieldJacobian<P>),
-        nodes_(iteration_.row_of(c.nodes)),
+        nodes_(iteration_.filled_row_of(c.nodes)),
         beta_(iteration_.row_of(c.beta)),
         counted_(iteration_.row_of(c.counted)),
         node_(c.stages),
@@ -62,6 +66,11 @@ class NystromForm {
         path_(degrees_),
         point_(degrees_),
         force_(degrees_),
+        force_in_lanes_(p, c.stages),
+        velocity_in_lanes_(p, c.stages),
+        in_lanes_(force_in_lanes_.offered() && (unit_mass_ || velocity_in_lanes_.offered())),
+        there_(degrees_),
+        here_(degrees_),
         continuation_(p) {
     for (std::size_t i = 0; i < c.stages; ++i) {
       node_[i] = T(c.nodes[i]);
@@ -76,9 +85,11 @@ class NystromForm {
     }
   }
 
-  void restart() { continuation_.forget(); }
+  void restart() override { continuation_.forget(); }
+  /// What sums round off belongs to w and to a step of one length: nothing is handed over.
+  void hand_over(CollocationForm<P>& /*next*/) override {}
 
-  Status step(const P& p, const T& t, const T& h, State<P>& z, bool compensated) {
+  Status step(const P& p, const T& t, const T& h, State<P>& z, bool compensated) override {
     begin(p, t, h, z);
     const auto evaluate = [&](const Table& stages) __attribute__((always_inline)) {
       evaluate_rates(p, z, stages);
@@ -99,12 +110,10 @@ class NystromForm {
   using Iteration = StageIteration<T, half, Stages>;
   using Lane = typename Iteration::Lane;
   using Table = typename Iteration::Table;
-  // Where the problem evaluates forces at several stages side by side, divisions and roots of all of them
-  // cost little more than those of one. Each lane has the bits that its stage would have alone.
-  static constexpr bool in_lanes =
-      std::is_same_v<T, double> && requires(const P& p, const Lane& t, Vector<Lane, half>& z) {
-    p.force(t, In<Lane>(z), Out<Lane>(z));
-  };
+  using Force = FormulaInLanes<Formula::force, P, Lane>;
+  using Velocity = FormulaInLanes<Formula::velocity, P, Lane>;
+  // Numbers of all components in lanes; on the way of an iteration they stay in registers where they are few.
+  using Point = Vector<Lane, half>;
 
   [[nodiscard]] std::size_t degrees() const {
     return half == dynamic ? degrees_ : static_cast<std::size_t>(half);
@@ -112,13 +121,13 @@ class NystromForm {
 
   void begin(const P& p, const T& t, const T& h, const State<P>& z) {
     const std::size_t m = degrees();
-    if constexpr (in_lanes)
+    if (in_lanes_)
       for (std::size_t b = 0; b < iteration_.blocks(); ++b) times_[b] = Lane(t) + nodes_[b] * Lane(h);
-    if (!in_lanes || !unit_mass_)
+    if (!in_lanes_ || !unit_mass_)
       for (std::size_t i = 0; i < iteration_.stages(); ++i) time_[i] = t + node_[i] * h;
     if (!continuation_.holds(t, h, z)) {
       for (std::size_t i = 0; i < iteration_.stages(); ++i) scale_[i] = h * h * weight_[i];
-      if constexpr (in_lanes)
+      if (in_lanes_)
         for (std::size_t b = 0; b < iteration_.blocks(); ++b) scales_[b] = Lane(h * h) * weights_[b];
       for (std::size_t k = 0; k < m; ++k) {
         momentum_[k] = h * z[m + k];
@@ -143,14 +152,24 @@ class NystromForm {
   }
 
   [[gnu::always_inline]] void evaluate_rates(const P& p, const State<P>& z, const Table& stages) {
-    if constexpr (in_lanes) {
-      if (unit_mass_) [[likely]]
-        return evaluate_in_lanes(p, z, stages);
-      const Table copy = stages;  // so that the stages themselves may stay in registers
-      evaluate_one_by_one(p, z, copy);
-    } else {
-      evaluate_one_by_one(p, z, stages);
+    if constexpr (Force::possible && Velocity::possible) {
+      if (in_lanes_) [[likely]] {
+        if constexpr (half == dynamic) {
+          evaluate_in_lanes(p, z, stages, there_, here_);
+        } else {
+          Point there, here;
+          evaluate_in_lanes(p, z, stages, there, here);
+        }
+        p.counters().fields += static_cast<std::int64_t>(iteration_.stages());
+        return;
+      }
+      if constexpr (!std::is_same_v<Table, Vector<Lane, dynamic>>) {
+        // So that the stages themselves may stay in registers.
+        const Table copy = stages;  // NOLINT(performance-unnecessary-copy-initialization)
+        return evaluate_one_by_one(p, z, copy);
+      }
     }
+    evaluate_one_by_one(p, z, stages);
   }
   [[gnu::noinline]] void evaluate_one_by_one(const P& p, const State<P>& z, const Table& stages) {
     const std::size_t m = degrees();
@@ -168,14 +187,19 @@ class NystromForm {
     }
   }
 
-  [[gnu::always_inline]] void evaluate_in_lanes(const P& p, const State<P>& z,
-                                                const Table& stages) requires in_lanes {
+  [[gnu::always_inline]] void evaluate_in_lanes(const P& p, const State<P>& z, const Table& stages,
+                                                Point& there, Point& here) {
     const std::size_t m = degrees();
     for (std::size_t b = 0; b < iteration_.blocks(); ++b) {
-      Vector<Lane, half> point, force;
-      for (std::size_t k = 0; k < m; ++k) point[k] = Lane(z[k]) + iteration_.stages_in(stages, b, k);
-      p.force(times_[b], In<Lane>(point), Out<Lane>(force));
-      for (std::size_t k = 0; k < m; ++k) iteration_.set_rates(b, k, scales_[b] * force[k]);
+      if (unit_mass_) [[likely]] {
+        for (std::size_t k = 0; k < m; ++k) there[k] = Lane(z[k]) + iteration_.stages_in(stages, b, k);
+      } else {
+        for (std::size_t k = 0; k < m; ++k) here[k] = iteration_.stages_in(stages, b, k);
+        velocity_in_lanes_(p, times_[b], In<Lane>(here), Out<Lane>(there));
+        for (std::size_t k = 0; k < m; ++k) there[k] = Lane(z[k]) + (there[k] + Lane(position_carry_[k]));
+      }
+      force_in_lanes_(p, times_[b], In<Lane>(there), Out<Lane>(here));
+      for (std::size_t k = 0; k < m; ++k) iteration_.set_rates(b, k, scales_[b] * here[k]);
     }
   }
 
@@ -225,6 +249,10 @@ class NystromForm {
   typename Iteration::Row weights_, scales_, times_;            // the same in lanes
   Vector<T, half> momentum_, momentum_carry_, position_carry_;  // w = h p and what sums have rounded off
   Vector<T, half> path_, point_, force_;
+  Force force_in_lanes_;
+  Velocity velocity_in_lanes_;
+  bool in_lanes_;
+  Point there_, here_;
   std::vector<T> jacobian_, slopes_;
   Continuation<P> continuation_;
 };

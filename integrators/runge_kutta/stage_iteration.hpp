@@ -3,8 +3,9 @@
 //   S_i = line_i + sum_j m_ij L_j.
 //
 // Stages are lanes: those of one component lie side by side, several to a pack in double, so that the sums
-// over j are formed for all of them together. Lanes beyond the last stage have zero coefficients. The first
-// stages of a step are extrapolated from the rates of the step before, by the polynomial through them. A
+// over j are formed for all of them together. Lanes beyond the last stage are copies of it, so that rates
+// evaluated in lanes are evaluated at stages only; their own rates are zero and add nothing. The first stages
+// of a step are extrapolated from the rates of the step before, by the polynomial through them. A
 // fixed-point iteration goes on until the rates are known (stage_convergence.hpp); where it contracts slowly,
 // simplified Newton iteration can take over. The rates that remain are those at the last stages: an update by
 // rates from one iteration earlier makes conserved quantities drift.
@@ -63,11 +64,14 @@ class StageIteration {
         scale_(components),
         missed_(stages * components, levels()),
         in_turns_(in_turns),
+        used_(row_of(std::vector<Number>(stages, Number(1)))),
         newton_(newton ? stages * components : 0) {
-    for (std::size_t i = 0; i < stages; ++i)
+    for (std::size_t lane = 0; lane < blocks() * width; ++lane)
       for (std::size_t j = 0; j < stages; ++j) {
-        Lanes::set(matrix_[j * blocks() + i / width], i % width, T(matrix[i * stages + j]));
-        Lanes::set(extrapolation_[j * blocks() + i / width], i % width, T(extrapolation[i * stages + j]));
+        const std::size_t i = std::min(lane, stages - 1);
+        Lanes::set(matrix_[j * blocks() + lane / width], lane % width, T(matrix[i * stages + j]));
+        if (lane == i)
+          Lanes::set(extrapolation_[j * blocks() + i / width], i % width, T(extrapolation[i * stages + j]));
       }
   }
 
@@ -79,15 +83,22 @@ class StageIteration {
   }
   /// Blocks of lanes that hold all stages of a component.
   [[nodiscard]] std::size_t blocks() const { return (stages() + width - 1) / width; }
-  /// One number for each stage, in lanes.
+  /// One number for each stage, in lanes; zero beyond the last stage.
   [[nodiscard]] Row row_of(const std::vector<Number>& numbers) const {
     Row row(blocks());
     for (std::size_t i = 0; i < stages(); ++i) Lanes::set(row[i / width], i % width, T(numbers[i]));
     return row;
   }
+  /// The same with copies of the last number there.
+  [[nodiscard]] Row filled_row_of(std::vector<Number> numbers) const {
+    Row row(blocks());
+    for (std::size_t lane = 0; lane < blocks() * width; ++lane)
+      Lanes::set(row[lane / width], lane % width, T(numbers[std::min(lane, stages() - 1)]));
+    return row;
+  }
 
-  /// What a step sets before it solves: the lines of component k, block by block, and a size that its
-  /// rates are measured against where they vanish.
+  /// What a step sets before it solves: the lines of component k, block by block and filled with copies of
+  /// the last, and a size that its rates are measured against where they vanish.
   Lane& line(std::size_t k, std::size_t block) { return line_[k * blocks() + block]; }
   Sizes<T>& small(std::size_t k) { return small_[k]; }
 
@@ -108,12 +119,13 @@ class StageIteration {
   }
   void set_rate(std::size_t i, std::size_t k, const T& x) { Lanes::set(at(rate_, i, k), i % width, x); }
 
-  /// The same for all stages in a block of lanes, for a function that evaluates them together. Rates in lanes
-  /// beyond the last stage have to be zero.
+  /// The same for all stages in a block of lanes, for a function that evaluates them together.
   [[nodiscard]] const Lane& stages_in(const Table& stages, std::size_t block, std::size_t k) const {
     return stages[k * blocks() + block];
   }
-  void set_rates(std::size_t block, std::size_t k, const Lane& x) { rate_[k * blocks() + block] = x; }
+  void set_rates(std::size_t block, std::size_t k, const Lane& x) {
+    rate_[k * blocks() + block] = of_stages(block, x);
+  }
 
   /// Solves for the rates. evaluate(stages) calls set_rate for every stage and component. All components are
   /// judged together where `together`.
@@ -162,8 +174,9 @@ class StageIteration {
         w.reference[i * m + k] = size(k);
       }
     const auto evaluate_there = [&] {
-      for (std::size_t i = 0; i < s; ++i)
-        for (std::size_t k = 0; k < m; ++k) Lanes::set(at(stage_, i, k), i % width, w.unknowns[i * m + k]);
+      for (std::size_t lane = 0; lane < blocks() * width; ++lane)
+        for (std::size_t k = 0; k < m; ++k)
+          Lanes::set(at(stage_, lane, k), lane % width, w.unknowns[std::min(lane, s - 1) * m + k]);
       evaluate(stage_);
     };
     int count = 0;
@@ -218,6 +231,14 @@ class StageIteration {
     }
   }
 
+  // x in the lanes of stages, zero beyond the last one.
+  [[nodiscard]] Lane of_stages([[maybe_unused]] std::size_t block, const Lane& x) const {
+    if constexpr (width == 1 || (Stages != dynamic && Stages % static_cast<int>(width) == 0))
+      return x;
+    else
+      return select(used_[block], x, Lane(0));
+  }
+
   // The pack that holds component k of stage i.
   [[nodiscard]] const Lane& at(const Table& table, std::size_t i, std::size_t k) const {
     return table[k * blocks() + i / width];
@@ -239,7 +260,7 @@ class StageIteration {
         Lane sum = extrapolation_[b] * rate_of(0, k);
         for (std::size_t j = 1; j < stages(); ++j)
           sum = sum + extrapolation_[j * blocks() + b] * rate_of(j, k);
-        expected_[k * blocks() + b] = sum;
+        expected_[k * blocks() + b] = of_stages(b, sum);
       }
     });
     rate_ = expected_;
@@ -293,7 +314,7 @@ class StageIteration {
     for (std::size_t b = 0; b < Count; ++b) {
       const std::size_t at = k * blocks() + block + b;
       const Lane next = line_[at] + sum[b];
-      moved_[k].add(next - stage_[at]);
+      moved_[k].add(of_stages(block + b, next - stage_[at]));
       stage_[at] = next;
       table[at] = next;
     }
@@ -369,6 +390,7 @@ class StageIteration {
   Vector<std::array<Number, parts>, Components> scale_;  // the reciprocal
   DifferencePredictor<T, dynamic, dynamic> missed_;
   bool in_turns_, known_ = false;
+  Row used_;  // 1 in the lanes of stages
   Newton newton_;
 };
 

@@ -23,11 +23,13 @@ class InChart : public ProblemView<P> {
   using ProblemView<P>::ProblemView;
 
   /// Makes the evaluator of the formula that stands for `formula` in the chart.
-  void prepare(Formula formula) const {
-    this->problem().prepare(formula == Formula::field            ? Formula::chart_field
-                            : formula == Formula::field_jacobian ? Formula::chart_field_jacobian
-                                                                 : formula);
+  void prepare(Formula formula) const { this->problem().prepare(in_chart(formula)); }
+  /// The same for an evaluator at W points side by side.
+  template <int W>
+  [[nodiscard]] Evaluator<Pack<W>> in_lanes(Formula formula) const requires requires(const P& p) {
+    p.template in_lanes<W>(formula);
   }
+  { return this->problem().template in_lanes<W>(in_chart(formula)); }
   /// rate = Y(y, t).
   void field(const Scalar& t, In<Scalar> y, Out<Scalar> rate) const requires HasDarbouxChart<P> {
     this->problem().chart_field(t, y, rate);
@@ -35,6 +37,13 @@ class InChart : public ProblemView<P> {
   /// matrix[i n + j] = dY_i / dy_j.
   void field_jacobian(const Scalar& t, In<Scalar> y, Out<Scalar> matrix) const requires HasDarbouxChart<P> {
     this->problem().chart_field_jacobian(t, y, matrix);
+  }
+
+ private:
+  static constexpr Formula in_chart(Formula formula) {
+    return formula == Formula::field            ? Formula::chart_field
+           : formula == Formula::field_jacobian ? Formula::chart_field_jacobian
+                                                : formula;
   }
 };
 

@@ -82,6 +82,23 @@ TEST(Pack, HalvesAreTheLanes) {
   halves_are_the_lanes<8>();
 }
 
+// Zeros of both signs are different numbers, and a NaN is the same as itself.
+TEST(Pack, FunctionsOfCopiesAreComputedOnce) {
+  Pack<8> x;
+  const std::vector<double> numbers{1, 2, 2, 0.0, -0.0, std::nan(""), std::nan(""), 2};
+  for (std::size_t lane = 0; lane < 8; ++lane) x.set(lane, numbers[lane]);
+  std::vector<double> asked;
+  const Pack<8> y = x.each([&](double number) {
+    asked.push_back(number);
+    return -number;
+  });
+  EXPECT_EQ(asked.size(), 6U);
+  for (std::size_t lane = 0; lane < 8; ++lane) {
+    EXPECT_EQ(std::signbit(y[lane]), !std::signbit(x[lane]));
+    EXPECT_TRUE(y[lane] == -x[lane] || lane == 5 || lane == 6);
+  }
+}
+
 TEST(Pack, FunctionsAreThoseOfTheLanes) {
   functions_are_those_of_the_lanes<1>();
   functions_are_those_of_the_lanes<2>();

@@ -94,6 +94,34 @@ TEST(Allocation, NeitherDoesNewtonsIteration) {
   }
 }
 
+// Stages are evaluated side by side where formulas are compiled for packs. Where they are not, neither:
+struct Unpacked {
+  static constexpr int dimension = 2;
+  template <class T>
+  T kinetic(const T& /*t*/, In<T> p) const {
+    return p[0] * p[0] / 2;
+  }
+  template <class T>
+  T potential(const T& /*t*/, In<T> q) const {
+    return q[0] * q[0] / 2;
+  }
+  template <class T>
+  void force(const T& /*t*/, In<T> q, Out<T> f) const
+      requires(!std::is_same_v<T, Pack<4>> && !std::is_same_v<T, Pack<8>>) {
+    f[0] = -q[0];
+  }
+};
+TEST(Allocation, NeitherDoStagesOneAfterTheOther) {
+  const auto model =
+      make_model({.name = "unpacked", .title = "", .reference = "", .initial = {1, 0}}, Unpacked{});
+  for (const char* name : {"gauss", "gauss-darboux"})
+    for (const char* stages : {"2", "5", "8"}) {
+      const auto stepper =
+          integrators().get(name, "integrator").make({{"stages", stages}})->stepper(model, 0.0);
+      EXPECT_EQ(allocations_of_steps(*stepper, *model, 0.1, 4), 0) << name << ' ' << stages;
+    }
+}
+
 // What the counter must see: a method that makes a vector in each step.
 struct Careless {
   template <HasVectorField P>

@@ -1,6 +1,11 @@
 // A formula that an author writes although it could be derived must give the same as the derived one.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#include <pfaff/core/facets/problem.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/replay.hpp>
 
@@ -108,6 +113,54 @@ TEST(Overrides, CompiledFormulasAreThoseOnTheTape) {
     }
   }
   EXPECT_GE(compared, 10);
+}
+
+// In how many numbers a formula in packs differs from the formula in doubles, at points of its own in every
+// lane; -1 where it is not evaluated in packs.
+template <int W>
+int different_in_lanes(const std::shared_ptr<const Model>& model, Formula formula, Samples& samples) {
+  const auto packs = make_evaluator_in_lanes<W>(model, formula);
+  if (packs.call == nullptr) return -1;
+  const auto doubles = make_evaluator<double>(model, formula);
+  const auto tape = model->tape(formula);
+  const auto inputs = static_cast<std::size_t>(tape->inputs);
+  std::array<std::vector<double>, W> points;
+  std::vector<Pack<W>> arguments(inputs), results(tape->outputs.size());
+  Pack<W> time;
+  for (std::size_t lane = 0; lane < W; ++lane) {
+    for (const Quad x : arguments_of(*tape, samples.state(*model, 0.3)))
+      points[lane].push_back(static_cast<double>(x));
+    for (std::size_t k = 0; k < inputs; ++k) arguments[k].set(lane, points[lane][k]);
+    time.set(lane, samples.number(0, 3));
+  }
+  packs.call(packs.context, time, arguments.data(), results.data());
+  int count = 0;
+  std::vector<double> alone(results.size());
+  for (std::size_t lane = 0; lane < W; ++lane) {
+    doubles.call(doubles.context, time[lane], points[lane].data(), alone.data());
+    for (std::size_t k = 0; k < alone.size(); ++k)
+      count +=
+          std::bit_cast<std::uint64_t>(alone[k]) == std::bit_cast<std::uint64_t>(results[k][lane]) ? 0 : 1;
+  }
+  return count;
+}
+
+// Compiled or replayed, with linear systems that are solved on the way.
+TEST(Overrides, PacksHaveTheBitsOfDoublesInEveryLane) {
+  int compared = 0;
+  for (const SystemPlugin* plugin : systems().all()) {
+    const auto model = plugin->make({});
+    Samples samples(43);
+    for (const Formula formula : {Formula::field, Formula::force, Formula::velocity, Formula::chart_field}) {
+      if (!model->facets().meets(row_of(formula).traits.offered_by)) continue;
+      const int four = different_in_lanes<4>(model, formula, samples),
+                eight = different_in_lanes<8>(model, formula, samples);
+      EXPECT_LE(four, 0) << plugin->name() << ' ' << to_string(formula);
+      EXPECT_LE(eight, 0) << plugin->name() << ' ' << to_string(formula);
+      compared += four == 0 && eight == 0 ? 1 : 0;
+    }
+  }
+  EXPECT_GE(compared, 60);
 }
 
 // y = chart(t, z) moves by y' = chart_z X + chart_t: the push-forward of the field, whether the chart's field

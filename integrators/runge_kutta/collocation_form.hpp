@@ -1,0 +1,30 @@
+// The ways in which a collocation method makes its steps on a problem: as equations of first order
+// (first_order_form.hpp) or, where the energy allows it, of second order (nystrom_form.hpp), for a number of
+// stages that the compiler knows or for any. Which one it is shows when a method meets a problem; behind this
+// interface a step costs one virtual call.
+#pragma once
+
+#include <pfaff/core/errors/status.hpp>
+#include <pfaff/core/facets/problem.hpp>
+
+namespace pfaff {
+
+/// Makes the steps of one collocation method on one problem of type P, and keeps what belongs to them.
+template <class P>
+class CollocationForm {
+ public:
+  using T = Scalar<P>;
+  CollocationForm() = default;
+  CollocationForm(const CollocationForm&) = delete;
+  CollocationForm& operator=(const CollocationForm&) = delete;
+  virtual ~CollocationForm() = default;
+
+  /// A step of size h from (t, z), in place; z is left as it was where the step fails.
+  virtual Status step(const P& p, const T& t, const T& h, State<P>& z, bool compensated) = 0;
+  /// Forgets the past, round-off included: the next step depends on its state alone.
+  virtual void restart() = 0;
+  /// Where forms of the same kind take turns: gives `next` what sums have rounded off of the state.
+  virtual void hand_over(CollocationForm& next) = 0;
+};
+
+}  // namespace pfaff
