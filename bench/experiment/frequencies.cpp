@@ -24,9 +24,9 @@ constexpr double largest_turn = 2 * std::numbers::pi / 3;  // between two looks
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
 // The vectors of a case at a state, one after the other.
-class Vectors {
+class VectorTracks {
  public:
-  explicit Vectors(const ExperimentRun& run) {
+  explicit VectorTracks(const ExperimentRun& run) {
     for (const FrequencyVector& vector : run.which->frequencies)
       replays_.emplace_back(vector_tape(vector, *run.resolved.model));
   }
@@ -85,7 +85,7 @@ std::vector<FoundFrequency> frequencies_of(const ExperimentRun& run, const Refer
   const ResolvedRun& resolved = run.resolved;
   const double h = resolved.step.value(), t0 = resolved.t0.value();
   const auto steps = static_cast<std::int64_t>(time.value() / h * (1 + 1e-12));
-  Vectors vectors(run);
+  VectorTracks vectors(run);
   std::vector<double> initial, times;
   for (const Real& x : resolved.initial) initial.push_back(x.value());
   std::vector<std::vector<double>> states{initial};
