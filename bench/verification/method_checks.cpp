@@ -5,6 +5,7 @@
 #include <pfaff/bench/runner/settings.hpp>
 #include <pfaff/bench/verification/claim_checks.hpp>
 #include <pfaff/bench/verification/method_on_model.hpp>
+#include <pfaff/integrators/order_conditions/order_condition.hpp>
 
 namespace pfaff {
 
@@ -67,7 +68,10 @@ std::vector<Check> checks_of(const MethodInstance& method, const Assignments& pa
   std::vector<Check> checks{check_steps(on)};
   if (!on.steps()) return checks;
   auto conditions = check_order_conditions(on);
-  if (on.differentiable()) checks.push_back(check_order(on, conditions && conditions->in_scope));
+  // Of methods with history no conditions are measured; those of tables are evaluated by check_coefficients.
+  const bool by_coefficients = on.history() && order_theory(method.descriptor().name, parameters).has_value();
+  if (on.differentiable())
+    checks.push_back(check_order(on, by_coefficients || (conditions && conditions->in_scope)));
   if (conditions) checks.push_back(std::move(*conditions));
   for (Check& check : check_adaptive(on)) checks.push_back(std::move(check));
   if (on.double_coefficients()) {
