@@ -59,8 +59,8 @@ def drawings(verdict):
         "This times the time is the phase that a method has lost, about which its energy says nothing.",
         *(f"In the solution {vector} " + ("stands still." if abs(rate) < 1e-12 else
                                           f"turns by {rate:.6g} rad per {unit_of(case)}.") for vector, (rate, _) in found.items()),
-        f"Open marks: the error is not steady, but changes by more than a third between the halves of the time, as where energy is "
-        f"lost ({', '.join(unsteady)})." if unsteady else "", *axis.remarks())
+        "Open marks: the error changes by more than a third between the halves of the time at one step or more, as where energy is "
+        f"lost or a slow oscillation is left: {', '.join(unsteady)}." if unsteady else "", *axis.remarks())
     return [Drawing("frequencies", case, f"{heading(case)}: errors of frequencies", caption,
                     lambda wide: draw(verdict, found, axis, wide))]
 

@@ -33,7 +33,7 @@ class Frequencies(Fresh):
         shown = self.write()
         drawing, = frequencies.drawings(verdict.Verdict(shown, shown.cases[0]))
         self.assertIn("In the solution phase turns by -1.5 rad per s.", drawing.caption)
-        self.assertIn("as where energy is lost (rk)", drawing.caption)
+        self.assertIn("a slow oscillation is left: rk.", drawing.caption)
         self.assertEqual(run(self.folder)[0], 0)
         page = (self.folder / "report.html").read_text(encoding="utf-8")
         self.assertTrue("At step 0.4 the frequency of phase is best with rk, wrong by 2.6e-05, and worst with mid" in page)
