@@ -17,10 +17,8 @@ bool differ(const std::vector<Quad>& a, const std::vector<Quad>& b) {
   }
   return difference > size * Quad(more_than_round_off);
 }
-}  // namespace
-
-bool keeps_history(const MethodInstance& method, const std::shared_ptr<const Model>& model, Quad t, Quad h,
-                   const std::vector<Quad>& z) {
+bool remembers_steps(const MethodInstance& method, const std::shared_ptr<const Model>& model, Quad t, Quad h,
+                     const std::vector<Quad>& z) {
   const auto running = method.stepper(model, Quad()), fresh = method.stepper(model, Quad());
   std::vector<Quad> remembering = z;
   std::int64_t done = 0, completed = 0;
@@ -34,6 +32,16 @@ bool keeps_history(const MethodInstance& method, const std::shared_ptr<const Mod
     done = look + 1;
   }
   return false;
+}
+}  // namespace
+
+bool keeps_history(const MethodInstance& method, const std::shared_ptr<const Model>& model, Quad t, Quad h,
+                   const std::vector<Quad>& z) {
+  try {
+    return remembers_steps(method, model, t, h, z);
+  } catch (...) {
+    return false;
+  }
 }
 
 }  // namespace pfaff

@@ -16,7 +16,7 @@ inline constexpr std::int64_t longest_beginning = 15;
 /// True where a step of size h depends on more than the state it starts from: a step taken after three
 /// others, or after the longest beginning, differs by more than round-off from one that is taken from the
 /// same state by a stepper that has forgotten them. The steps begin at z and time t, in quad. False where one
-/// of them does not converge.
+/// of them does not converge, or throws: then it is for the run to say so.
 bool keeps_history(const MethodInstance& method, const std::shared_ptr<const Model>& model, Quad t, Quad h,
                    const std::vector<Quad>& z);
 

@@ -146,14 +146,15 @@ MeasuredOrder measure_order(const MethodInstance& method, const std::shared_ptr<
                             rate = errors.rate()](const Quad& elapsed) {
     return doubles ? std::max(Quad(1e-32), Quad(1e-15) * rate * elapsed) : Quad(1e-32);
   };
-  if (history)
+  // What constrained motion remembers is a reaction, which is its own after a step.
+  if (history && !model->restricted())
     return settle([&](int k) { return errors.late(long_interval * time, fewest_steps << k); }, 10,
                   [&](int k) {
                     // Roundings of n steps of a recurrence of second order add up to n^2 / 2 of them.
                     const Quad n(static_cast<double>(fewest_steps << k));
                     return std::max(Quad(100) * floor_after(long_interval * time), Quad(1e-35) * n * n);
                   });
-  if (method.needs_constraints())
+  if (method.needs_constraints() || history)
     return settle([&](int k) { return errors.after(interval * time, std::int64_t{1} << k); }, 10,
                   [&](int) { return Quad(100) * floor_after(interval * time); });
   const auto step = [&](int k) { return time / Quad(std::ldexp(1.0, k + 1)); };
@@ -167,7 +168,7 @@ double order_at_small_steps(const MethodInstance& method, const std::shared_ptr<
                             bool history) {
   const Errors errors(method, model);
   const Quad time = errors.time();
-  if (history)
+  if (history && !model->restricted())
     return logarithm2(errors.late(long_interval * time, fewest_steps << 5) /
                       errors.late(long_interval * time, fewest_steps << 6));
   if (method.needs_constraints() &&
