@@ -30,14 +30,15 @@
 
 namespace pfaff {
 
-/// How a collocation goes on from X_l, level l of the field at its nodes: the matrix `columns` times X_l is
-/// level l + 1 of the inputs, and `weight` times X_l is added to the sums.
+/// How a collocation, or the Taylor series of a solution, goes on from X_l, level l of the field at its
+/// nodes: the matrix `columns` of this level times X_l is level l + 1 of the inputs, and `weight` times X_l
+/// is added to the sums.
 template <int W>
 struct SeriesCombination {
   std::size_t levels = 0;
-  bool symmetric = false;  // only even levels reach the sums, and odd levels have columns of their own
+  bool symmetric = false;  // only even levels reach the sums
   Pack<W> weight;
-  std::vector<std::array<Pack<W>, W>> columns;  // [2 kind + parity of the level][lane of X]
+  std::vector<std::array<Pack<W>, W>> columns;  // [kind * levels + level][lane of X]
   std::vector<std::size_t> kind;                // of each component: which of the columns it takes
   bool one_kind = true;                         // all components take the same
 };
@@ -52,15 +53,21 @@ struct SeriesWidth {
   using Collocate = void (*)(const void* system, Pack<W>* slots, const SeriesCombination<W>& combination,
                              const double* w, double* result);
   Collocate collocate = nullptr;
-  Collocate collocate_known = nullptr;  // the same without loops, for `known` levels and one kind
+  Collocate collocate_known = nullptr;  // the same without loops, for up to `known` levels and one kind
   std::size_t known = 0;
+
+  /// The faster of the two that can be called.
+  [[nodiscard]] Collocate best(const SeriesCombination<W>& combination) const {
+    return combination.levels <= known && combination.one_kind ? collocate_known : collocate;
+  }
 };
 
 /// A formula ready for series.
 struct CompiledSeries {
   struct Layout {
     int slots = 0;
-    bool timed = false;  // whether any slot depends on time alone, besides the time itself
+    bool timed = false;        // whether any slot depends on time alone, besides the time itself
+    std::vector<int> outputs;  // the slots of the results
   };
   int inputs = 0;
   Layout (*layout)(const void* system) = nullptr;
@@ -129,7 +136,7 @@ CompiledSeries::Layout series_layout(const void* system) {
   SeriesRun<1> run{nullptr, 0, SeriesPass::none};
   std::array<int, static_cast<std::size_t>(S::dimension)> outputs;
   run_series(*static_cast<const S*>(system), run, outputs);
-  return {run.next, run.timed > 0};
+  return {run.next, run.timed > 0, {outputs.begin(), outputs.end()}};
 }
 template <class S, int W>
 PFAFF_FLATTEN void expand_time(const void* system, Pack<W>* slots, int levels) {
@@ -153,7 +160,7 @@ void collocate_level(const S& s, Pack<W>* slots, const SeriesCombination<W>& c, 
     const Pack<W> x = slots[static_cast<std::size_t>(outputs[k]) * series_capacity + level];
     if (counts) sum[k] = sum[k] + c.weight * x;
     if (last) continue;
-    const auto& columns = c.columns[(OneKind ? 0 : 2 * c.kind[k]) + level % 2];
+    const auto& columns = c.columns[(OneKind ? 0 : c.kind[k] * c.levels) + level];
     Pack<W> next = columns[0] * Pack<W>(x[0]);
     for (std::size_t j = 1; j < W; ++j) next = next + columns[j] * Pack<W>(x[j]);
     slots[k * series_capacity + level + 1] = next;
@@ -176,18 +183,20 @@ PFAFF_FLATTEN void collocate(const void* system, Pack<W>* slots, const SeriesCom
     collocate_level<S, W, false>(*static_cast<const S*>(system), slots, c, level, level + 1 == c.levels, sum);
   for (std::size_t k = 0; k < sum.size(); ++k) result[k] = sum[k].sum();
 }
-template <class S, int W, int... Levels>
+template <class S, int W, std::size_t... Levels>
 PFAFF_FLATTEN void collocate_known(const void* system, Pack<W>* slots, const SeriesCombination<W>& c,
                                    const double* w, double* result) {
   std::array<Pack<W>, static_cast<std::size_t>(S::dimension)> sum;
   begin_collocation<S, W>(slots, w, sum);
-  (collocate_level<S, W, true>(*static_cast<const S*>(system), slots, c, Levels,
-                               Levels + 1 == sizeof...(Levels), sum),
-   ...);
+  // One level after the other, until && finds the last one.
+  static_cast<void>(((collocate_level<S, W, true>(*static_cast<const S*>(system), slots, c, Levels,
+                                                  Levels + 1 == c.levels, sum),
+                      Levels + 1 < c.levels) &&
+                     ...));
   for (std::size_t k = 0; k < sum.size(); ++k) result[k] = sum[k].sum();
 }
-template <class S, int W, int... Levels>
-SeriesWidth<W> series_width(std::integer_sequence<int, Levels...> /*known*/) {
+template <class S, int W, std::size_t... Levels>
+SeriesWidth<W> series_width(std::index_sequence<Levels...> /*known*/) {
   SeriesWidth<W> width{&expand_time<S, W>, &collocate<S, W>, nullptr, sizeof...(Levels)};
   if constexpr (sizeof...(Levels) > 0) width.collocate_known = &collocate_known<S, W, Levels...>;
   return width;
@@ -195,18 +204,19 @@ SeriesWidth<W> series_width(std::integer_sequence<int, Levels...> /*known*/) {
 
 }  // namespace detail
 
-/// The chart's field of S, ready for series. The numbers of levels compiled without loops include those of
-/// the symmetric schemes of order 4 (one lane, 3 levels) and 8 (two lanes, 7 levels). Fields in more than
-/// twelve coordinates are compiled with loops only: for the six bodies of outer-solar-system code without
-/// loops is 200 kilobytes long, which is more than caches of instructions hold.
+/// The chart's field of S, ready for series. The levels that are compiled without loops are those of the
+/// symmetric schemes up to order 12 (one lane and 3 levels up to order 4, then two lanes up to order 8 and
+/// four up to 12), and of order 8 with four more degrees. Fields in more than twelve coordinates are compiled
+/// with loops only: for the six bodies of outer-solar-system code without loops is 200 kilobytes long, which
+/// is more than caches of instructions hold.
 template <detail::CompilesChartField S>
 const CompiledSeries& compiled_series() {
   constexpr bool small = S::dimension <= 12;
   static const CompiledSeries series{
       S::dimension, &detail::series_layout<S>,
-      detail::series_width<S, 1>(std::make_integer_sequence < int, small ? 3 : 0 > ()),
-      detail::series_width<S, 2>(std::make_integer_sequence < int, small ? 7 : 0 > ()),
-      detail::series_width<S, 4>(std::make_integer_sequence < int, small ? 11 : 0 > ())};
+      detail::series_width<S, 1>(std::make_index_sequence < small ? 3 : 0 > ()),
+      detail::series_width<S, 2>(std::make_index_sequence < small ? 11 : 0 > ()),
+      detail::series_width<S, 4>(std::make_index_sequence < small ? 11 : 0 > ())};
   return series;
 }
 

@@ -25,7 +25,7 @@ template <int W>
 void collocate(const void* system, Pack<W>* slots, const SeriesCombination<W>& c, const double* w,
                double* result) {
   const NativeSeries& native = of(system);
-  const std::vector<int>& outputs = native.outputs();
+  const std::vector<int>& outputs = native.layout().outputs;
   for (std::size_t k = 0; k < outputs.size(); ++k) {
     slots[k * series_capacity] = Pack<W>(w[k]);
     result[k] = 0;
@@ -36,7 +36,7 @@ void collocate(const void* system, Pack<W>* slots, const SeriesCombination<W>& c
       const Pack<W> x = slots[static_cast<std::size_t>(outputs[k]) * series_capacity + level];
       if (!c.symmetric || level % 2 == 0) result[k] += (c.weight * x).sum();
       if (level + 1 == c.levels) continue;
-      const auto& columns = c.columns[2 * c.kind[k] + level % 2];
+      const auto& columns = c.columns[c.kind[k] * c.levels + level];
       Pack<W> next = columns[0] * Pack<W>(x[0]);
       for (std::size_t j = 1; j < W; ++j) next = next + columns[j] * Pack<W>(x[j]);
       slots[k * series_capacity + level + 1] = next;
@@ -47,7 +47,8 @@ void collocate(const void* system, Pack<W>* slots, const SeriesCombination<W>& c
 template <int W>
 void collocate_known(const void* system, Pack<W>* slots, const SeriesCombination<W>& c, const double* w,
                      double* result) {
-  of(system).functions<W>().collocate(slots, c.columns.front().data(), &c.weight, c.symmetric, w, result);
+  of(system).functions<W>().collocate(slots, c.columns.front().data(), &c.weight, c.symmetric,
+                                      static_cast<int>(c.levels), w, result);
 }
 
 template <int W>
@@ -62,8 +63,7 @@ NativeSeries::NativeSeries(std::shared_ptr<const Library> library, const SeriesT
       one_(functions_in<1>(*library_)),
       two_(functions_in<2>(*library_)),
       four_(functions_in<4>(*library_)),
-      layout_{text.slots, text.timed},
-      outputs_(text.outputs),
+      layout_{text.slots, text.timed, text.outputs},
       series_{static_cast<int>(text.outputs.size()), [](const void* system) { return of(system).layout(); },
               width(one_), width(two_), width(four_)} {}
 

@@ -15,7 +15,7 @@ template <int W>
 struct SeriesFunctions {
   void (*level)(Pack<W>* slots, int level) = nullptr;
   void (*time)(Pack<W>* slots, int levels) = nullptr;
-  void (*collocate)(Pack<W>* slots, const Pack<W>* columns, const Pack<W>* weight, bool symmetric,
+  void (*collocate)(Pack<W>* slots, const Pack<W>* columns, const Pack<W>* weight, bool symmetric, int levels,
                     const double* w, double* result) = nullptr;
 };
 
@@ -35,8 +35,7 @@ class NativeSeries {
     else
       return four_;
   }
-  [[nodiscard]] CompiledSeries::Layout layout() const { return layout_; }
-  [[nodiscard]] const std::vector<int>& outputs() const { return outputs_; }
+  [[nodiscard]] const CompiledSeries::Layout& layout() const { return layout_; }
 
  private:
   std::shared_ptr<const Library> library_;
@@ -44,7 +43,6 @@ class NativeSeries {
   SeriesFunctions<2> two_;
   SeriesFunctions<4> four_;
   CompiledSeries::Layout layout_;
-  std::vector<int> outputs_;
   CompiledSeries series_;
 };
 

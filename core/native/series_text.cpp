@@ -227,7 +227,7 @@ class SeriesWriter {
     std::string text =
         "template <class P, class L>\nINLINE void advance(P* s, const P* columns, P weight, bool symmetric, "
         "L l, "
-        "bool last, P* sum) {\n  level(s, l);\n  columns += l % 2 == 0 ? 0 : sizeof(P) / sizeof(double);\n  "
+        "bool last, P* sum) {\n  level(s, l);\n  columns += l * (sizeof(P) / sizeof(double));\n  "
         "P x;\n";
     for (std::size_t k = 0; k < outputs.size(); ++k)
       text += "  x = s[" + capacity_times(outputs[k]) + " + l];\n  if (!symmetric || l % 2 == 0) sum[" +
@@ -244,14 +244,18 @@ class SeriesWriter {
     const auto levels = static_cast<std::size_t>(known_levels(lanes));
     if (tape_.code.size() * levels * levels / 2 > most_products) return text;
     text += "extern \"C\" void pfaff_collocate_" + w + "(" + pack + "* s, const " + pack +
-            "* columns, const " + pack + "* weight, bool symmetric, const double* w, double* result) {\n  " +
-            pack + " sum[" + n + "];\n";
+            "* columns, const " + pack +
+            "* weight, bool symmetric, int levels, const double* w, double* result) {\n  " + pack + " sum[" +
+            n + "];\n";
     text += "  for (int k = 0; k < " + n + "; ++k) {\n    s[k * " + std::to_string(series_capacity) +
             "] = " + pack + "{} + w[k];\n    sum[k] = " + pack + "{};\n  }\n";
-    for (int l = 0; l < known_levels(lanes); ++l)
-      text += "  advance(s, columns, *weight, symmetric, Level<" + std::to_string(l) + ">(), " +
-              (l + 1 == known_levels(lanes) ? "true" : "false") + ", sum);\n";
-    return text + "  for (int k = 0; k < " + n + "; ++k) result[k] = total(sum[k]);\n}\n";
+    text += "  do {\n";
+    for (int l = 0; l < known_levels(lanes); ++l) {
+      const std::string last = "levels == " + std::to_string(l + 1);
+      text += "    advance(s, columns, *weight, symmetric, Level<" + std::to_string(l) + ">(), " + last +
+              ", sum);\n    if (" + last + ") break;\n";
+    }
+    return text + "  } while (false);\n  for (int k = 0; k < " + n + "; ++k) result[k] = total(sum[k]);\n}\n";
   }
 
   const Tape& tape_;

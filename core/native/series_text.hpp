@@ -10,7 +10,7 @@
 
 namespace pfaff::native {
 
-/// Levels of the collocation that are compiled without loops, for each number of lanes, unless the tape is
+/// How many levels of a collocation are compiled without loops, for each number of lanes, unless the tape is
 /// long.
 constexpr int known_levels(int lanes) { return lanes == 1 ? 3 : lanes == 2 ? 7 : 11; }
 
@@ -21,7 +21,8 @@ struct SeriesText {
   std::vector<int> outputs;  // slots
 };
 
-/// The functions pfaff_level_W and pfaff_time_W and, for known levels, pfaff_collocate_W, for W = 1, 2, 4.
+/// The functions pfaff_level_W and pfaff_time_W and, for up to the known levels, pfaff_collocate_W, for W =
+/// 1, 2, 4.
 SeriesText series_text(const Tape& tape);
 
 }  // namespace pfaff::native

@@ -9,7 +9,8 @@
 // formula must therefore run the same operations every time: no branch on values, as for every formula here.
 // What depends on time alone is computed in a pass of its own.
 //
-// Limits: levels <= series_capacity; the formula's size is a constant; all lanes have one time at level 0.
+// Limits: levels <= series_capacity; the formula's size is a constant; at level 0 all lanes have one time and
+// one state, so that functions are evaluated there once for all of them.
 #pragma once
 
 #include <cmath>
@@ -116,7 +117,7 @@ class OnlineSeries {
     if (!r.active()) return r;
     const int l = a.level();
     if (l == 0) {
-      r.store(a.each([](double x) { return std::sqrt(x); }));
+      r.store(a.first([](double x) { return std::sqrt(x); }));
       return r;
     }
     P sum = a.at(l);
@@ -130,7 +131,7 @@ class OnlineSeries {
     if (!r.active()) return r;
     const int l = a.level();
     if (l == 0) {
-      r.store(a.each([](double x) { return std::exp(x); }));
+      r.store(a.first([](double x) { return std::exp(x); }));
       return r;
     }
     P sum = a.at(1) * r.at(l - 1);
@@ -144,7 +145,7 @@ class OnlineSeries {
     if (!r.active()) return r;
     const int l = a.level();
     if (l == 0) {
-      r.store(a.each([](double x) { return std::log(x); }));
+      r.store(a.first([](double x) { return std::log(x); }));
       return r;
     }
     P sum(0);
@@ -160,7 +161,7 @@ class OnlineSeries {
     if (!r.active()) return r;
     const int l = a.level();
     if (l == 0) {
-      r.store(a.each([e](double x) { return std::pow(x, e); }));
+      r.store(a.first([e](double x) { return std::pow(x, e); }));
       return r;
     }
     P sum(0);
@@ -233,14 +234,10 @@ class OnlineSeries {
   [[nodiscard]] OnlineSeries kind_with(const OnlineSeries& o) const {
     return next_slot(of_time_ && o.of_time());
   }
-  // f at level 0, lane by lane. For a function of time alone it is computed once, as all lanes have the same
-  // time there.
+  // f at level 0, where all lanes have the same number.
   template <class F>
-  [[nodiscard]] P each(F f) const {
-    if (of_time_) return P(f(at(0)[0]));
-    P r;
-    for (std::size_t lane = 0; lane < W; ++lane) r.set(lane, f(at(0)[lane]));
-    return r;
+  [[nodiscard]] P first(F f) const {
+    return P(f(at(0)[0]));
   }
   static P square(const OnlineSeries& a, int l) {
     if (l == 0) return a.at(0) * a.at(0);
@@ -258,14 +255,8 @@ class OnlineSeries {
     if (!s.active()) return s.slot_;
     const int l = level();
     if (l == 0) {
-      P sine, cosine;
-      for (std::size_t lane = 0; lane < W; ++lane) {
-        const std::size_t from = of_time_ ? 0 : lane;
-        sine.set(lane, std::sin(at(0)[from]));
-        cosine.set(lane, std::cos(at(0)[from]));
-      }
-      s.store(sine);
-      c.store(cosine);
+      s.store(first([](double x) { return std::sin(x); }));
+      c.store(first([](double x) { return std::cos(x); }));
       return s.slot_;
     }
     P p = at(1) * c.at(l - 1), q = at(1) * s.at(l - 1);

@@ -53,12 +53,13 @@ class CompiledGradient {
       unit_.kind.push_back(same);
       if (same < shares.size()) continue;
       shares.push_back(moving);
-      for (const std::vector<Quad>* matrix : {&nodes.even, &nodes.odd}) {
+      for (std::size_t level = 0; level < nodes.levels; ++level) {
+        const std::vector<Quad>& matrix = level % 2 == 0 ? nodes.even : nodes.odd;
         std::array<Pack<W>, W> columns{};
         for (std::size_t j = 0; j < nodes.lanes; ++j)
           for (std::size_t i = 0; i < W; ++i)
-            columns[j].set(i, number((*matrix)[std::min(i, nodes.lanes - 1) * nodes.lanes + j] -
-                                     moving * nodes.weight[j]));
+            columns[j].set(
+                i, number(matrix[std::min(i, nodes.lanes - 1) * nodes.lanes + j] - moving * nodes.weight[j]));
         unit_.columns.push_back(columns);
       }
     }
@@ -83,8 +84,7 @@ class CompiledGradient {
   }
 
   void operator()(const double* w, double* psi) {
-    const bool known = scaled_.levels == width_.known && scaled_.one_kind;
-    (known ? width_.collocate_known : width_.collocate)(system_, slots_.data(), scaled_, w, psi);
+    width_.best(scaled_)(system_, slots_.data(), scaled_, w, psi);
   }
 
  private:

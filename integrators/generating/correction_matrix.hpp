@@ -31,90 +31,94 @@ class CorrectionMatrix {
 
   /// For n coordinates and schemes of an order above 2, or up to it; buffers are made here.
   CorrectionMatrix(std::size_t n, bool high_order)
-      : n_(n),
-        high_order_(high_order),
+      : high_order_(high_order),
         rate_(n),
         state_(n),
-        jacobian_(n * n),
         image_(n),
         solved_(n),
+        jacobian_(n * n),
         first_(n * n),
-        second_(high_order ? n * n : 0),
+        second_(n * n),
         omega_(n * n),
         factors_(n) {}
 
   /// For the step of size h from y at time t, with w and the change of y as they are expected.
-  Status factor(const P& p, const T& t, const T& h, const ShareMatrix<T>& share, const std::vector<T>& y,
-                const std::vector<T>& w, const std::vector<T>& change) {
+  Status factor(const P& p, const T& t, const T& h, const ShareMatrix<T>& share, const State<P>& y,
+                const State<P>& w, const State<P>& change) {
     if (!high_order_) return factor_midpoint(p, t, h, share, w);
     p.chart_field(t, y, rate_);
     const Number offset = sqrt(Number(3)) / Number(6), middle = Number(1) / Number(2);
-    for (std::vector<Number>* scaled : {&first_, &second_}) {
+    for (Square<Number>* scaled : {&first_, &second_}) {
       const T theta(scaled == &first_ ? middle - offset : middle + offset);
-      for (std::size_t k = 0; k < n_; ++k) {
+      for (std::size_t k = 0; k < size(); ++k) {
         const T straight = h * rate_[k];
         state_[k] = y[k] + theta * (straight + theta * (change[k] - straight));
       }
       p.chart_field_jacobian(t + theta * h, state_, jacobian_);
       if (!scale(value_of(h), *scaled)) return Status::non_finite;
     }
-    for (std::size_t i = 0; i < n_; ++i)
-      for (std::size_t j = 0; j < n_; ++j) {
+    for (std::size_t i = 0; i < size(); ++i)
+      for (std::size_t j = 0; j < size(); ++j) {
         Number commutator(0);
-        for (std::size_t k = 0; k < n_; ++k)
-          commutator = commutator + second_[i * n_ + k] * first_[k * n_ + j] -
-                       first_[i * n_ + k] * second_[k * n_ + j];
-        omega_[i * n_ + j] = (first_[i * n_ + j] + second_[i * n_ + j] + offset * commutator) / Number(2);
+        for (std::size_t k = 0; k < size(); ++k)
+          commutator = commutator + second_[i * size() + k] * first_[k * size() + j] -
+                       first_[i * size() + k] * second_[k * size() + j];
+        omega_[i * size() + j] =
+            (first_[i * size() + j] + second_[i * size() + j] + offset * commutator) / Number(2);
       }
-    for (std::size_t i = 0; i < n_; ++i)
-      for (std::size_t j = 0; j < n_; ++j) {
+    for (std::size_t i = 0; i < size(); ++i)
+      for (std::size_t j = 0; j < size(); ++j) {
         Number square(0);
-        for (std::size_t k = 0; k < n_; ++k) square = square + omega_[i * n_ + k] * omega_[k * n_ + j];
-        factors_(i, j) = identity(i, j) - omega_[i * n_ + j] / Number(2) + square / Number(12);
+        for (std::size_t k = 0; k < size(); ++k)
+          square = square + omega_[i * size() + k] * omega_[k * size() + j];
+        factors_(i, j) = identity(i, j) - omega_[i * size() + j] / Number(2) + square / Number(12);
       }
     return factors_.factor() ? Status::converged : Status::singular;
   }
 
   /// correction = (I - P psi')^-1 residual, with what factor() knows of psi'.
-  void solve(const ShareMatrix<T>& share, const std::vector<T>& residual, std::vector<T>& correction) {
+  void solve(const ShareMatrix<T>& share, const State<P>& residual, State<P>& correction) {
     if (!high_order_) return factors_.solve(residual.data(), correction.data());
-    for (std::size_t i = 0; i < n_; ++i) {
+    for (std::size_t i = 0; i < size(); ++i) {
       T sum(0);
-      for (std::size_t k = 0; k < n_; ++k) sum = sum + T(omega_[i * n_ + k]) * residual[k];
+      for (std::size_t k = 0; k < size(); ++k) sum = sum + T(omega_[i * size() + k]) * residual[k];
       image_[i] = sum;
     }
     factors_.solve(image_.data(), solved_.data());
-    for (std::size_t k = 0; k < n_; ++k) correction[k] = residual[k] + share.row(k, solved_.data());
+    for (std::size_t k = 0; k < size(); ++k) correction[k] = residual[k] + share.row(k, solved_.data());
   }
 
  private:
+  template <class X>
+  using Square = Vector<X, P::extent == dynamic ? dynamic : P::extent * P::extent>;
+
+  [[nodiscard]] std::size_t size() const { return rate_.size(); }
   static Number identity(std::size_t i, std::size_t j) { return Number(i == j ? 1 : 0); }
   // scaled = h times the Jacobian; false where that is not finite.
-  bool scale(const Number& h, std::vector<Number>& scaled) const {
+  bool scale(const Number& h, Square<Number>& scaled) const {
     for (std::size_t i = 0; i < scaled.size(); ++i) {
       if (!isfinite(value_of(jacobian_[i]))) return false;
       scaled[i] = h * value_of(jacobian_[i]);
     }
     return true;
   }
-  Status factor_midpoint(const P& p, const T& t, const T& h, const ShareMatrix<T>& share,
-                         const std::vector<T>& w) {
+  Status factor_midpoint(const P& p, const T& t, const T& h, const ShareMatrix<T>& share, const State<P>& w) {
     p.chart_field_jacobian(t + h / T(2), w, jacobian_);
     if (!scale(value_of(h), omega_)) return Status::non_finite;
-    for (std::size_t i = 0; i < n_; ++i)
-      for (std::size_t j = 0; j < n_; ++j) {
+    for (std::size_t i = 0; i < size(); ++i)
+      for (std::size_t j = 0; j < size(); ++j) {
         Number sum(0);
-        for (std::size_t k = 0; k < n_; ++k)
-          if (k == i || !share.diagonal()) sum = sum + value_of(share(i, k)) * omega_[k * n_ + j];
+        for (std::size_t k = 0; k < size(); ++k)
+          if (k == i || !share.diagonal()) sum = sum + value_of(share(i, k)) * omega_[k * size() + j];
         factors_(i, j) = identity(i, j) - sum;
       }
     return factors_.factor() ? Status::converged : Status::singular;
   }
 
-  std::size_t n_;
   bool high_order_;
-  std::vector<T> rate_, state_, jacobian_, image_, solved_;
-  std::vector<Number> first_, second_, omega_;  // h A_1, h A_2, Omega
+  State<P> rate_, state_, image_, solved_;
+  Square<T> jacobian_;
+  Square<Number> first_, second_, omega_;  // h A_1, h A_2, Omega
   LU<Number> factors_;
 };
 

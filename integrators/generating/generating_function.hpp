@@ -41,7 +41,6 @@ namespace pfaff {
 struct GeneratingFunction {
   /// The largest number of coordinates for which the correction factors a matrix.
   static constexpr std::size_t largest_matrix = 8;
-  static constexpr bool fixed_sizes = false;  // the work is in the series, whose size is its own
   int truncation = 4, extra = 0;
   std::string variant = "auto", form = "midpoint";
   std::vector<Real> normal;
@@ -135,23 +134,27 @@ struct GeneratingFunction {
   template <class P>
   struct Work {
     using T = Scalar<P>;
-    std::size_t n;
     ShareMatrix<T> share;
     bool midpoint;
     GradientEvaluator<T> gradient;
-    std::vector<T> y, carry, d, w, psi, residual, correction, moved, rate, start;
-    std::vector<T> change;  // of y: what is expected of it, and in the end what it is
+    State<P> y, carry, d, w, psi, residual, correction, moved, rate, start;
+    State<P> change;  // of y: what is expected of it, and in the end what it is
     ExpectedChange<P> forecast;
-    SecantUpdates<T> secants;
+    SecantUpdates<T, P::extent> secants;
     CorrectionMatrix<P> matrix;
-    std::vector<Value<T>> predicted;    // of d
-    std::array<Value<T>, 2> largest{};  // of the positions and of the momenta in the chart
+    Vector<Value<T>, P::extent> predicted;  // of d
+    std::array<Value<T>, 2> largest{};      // of the positions and of the momenta in the chart
     Continuation<P> continuation;
     RememberedContraction<Value<T>> contraction;  // of the corrections: the slowest since the start
 
-    Work(const GeneratingFunction& m, const P& p)
-        : n(p.size()),
-          share(m.share(), n),
+    Work(const GeneratingFunction& m, const P& p) : Work(m, p, p.size()) {
+      p.prepare(Formula::chart_field);
+      if (factors()) p.prepare(Formula::chart_field_jacobian);
+      p.prepare(Formula::chart);
+      p.prepare(Formula::chart_inverse);
+    }
+    Work(const GeneratingFunction& m, const P& p, std::size_t n)
+        : share(m.share(), n),
           midpoint(m.share().midpoint(n)),
           gradient(p, m.truncation, m.symmetric_variant(), m.extra, m.share(), m.gauss),
           y(n),
@@ -165,37 +168,33 @@ struct GeneratingFunction {
           rate(n),
           start(n),
           change(n),
-          forecast(p, m.truncation, gradient.evaluations()),
+          forecast(p, m.truncation + m.extra, gradient.evaluations()),
           secants(n),
           matrix(factors() ? n : 0, m.truncation + m.extra > 2),
           predicted(n),
-          continuation(p) {
-      p.prepare(Formula::chart_field);
-      if (factors()) p.prepare(Formula::chart_field_jacobian);
-      p.prepare(Formula::chart);
-      p.prepare(Formula::chart_inverse);
-    }
+          continuation(p) {}
 
-    [[nodiscard]] bool factors() const { return n <= largest_matrix; }
+    [[nodiscard]] bool factors() const { return y.size() <= largest_matrix; }
     // What corrections of component k are measured by: the component, or 2^-26 of the largest position or
     // momentum, so that the front of a wave that enters a chain need not be known to its own last digit.
     // Derivatives are measured by those of the component.
     [[nodiscard]] T reference(std::size_t k) const {
-      const Value<T> least = largest[2 * k < n ? 0 : 1] * Value<T>(0x1p-26);
+      const Value<T> least = largest[2 * k < y.size() ? 0 : 1] * Value<T>(0x1p-26);
       return abs(value_of(y[k])) < least ? T(least) + (y[k] - T(value_of(y[k]))) : y[k];
     }
     void measure() {
       largest = {};
-      for (std::size_t k = 0; k < n; ++k)
-        largest[2 * k < n ? 0 : 1] = std::max(largest[2 * k < n ? 0 : 1], Value<T>(abs(value_of(y[k]))));
+      for (std::size_t k = 0; k < y.size(); ++k)
+        largest[2 * k < y.size() ? 0 : 1] =
+            std::max(largest[2 * k < y.size() ? 0 : 1], Value<T>(abs(value_of(y[k]))));
     }
     // True where positions or momenta ended four times as far from the prediction as they and their predicted
     // change are large. At steps that are too long the equation has solutions far away, which a secant can
     // hit and which are not the motion.
     [[nodiscard]] bool on_another_branch() const {
       std::array<Value<T>, 2> gone{}, expected = largest;
-      for (std::size_t k = 0; k < n; ++k) {
-        const std::size_t kind = 2 * k < n ? 0 : 1;
+      for (std::size_t k = 0; k < y.size(); ++k) {
+        const std::size_t kind = 2 * k < y.size() ? 0 : 1;
         gone[kind] = std::max(gone[kind], Value<T>(abs(value_of(d[k]) - predicted[k])));
         expected[kind] = std::max(expected[kind], Value<T>(abs(predicted[k])));
       }
@@ -203,7 +202,7 @@ struct GeneratingFunction {
     }
     // w = y + d, with what the sums so far have rounded off.
     void place() {
-      for (std::size_t k = 0; k < n; ++k) w[k] = y[k] + (d[k] + carry[k]);
+      for (std::size_t k = 0; k < y.size(); ++k) w[k] = y[k] + (d[k] + carry[k]);
     }
     Status fail(Status status) {
       continuation.forget();
@@ -222,11 +221,11 @@ struct GeneratingFunction {
       w.gradient(w.w.data(), w.psi.data());
       ++p.counters().iterations;
       p.counters().fields += static_cast<std::int64_t>(w.gradient.evaluations());
-      for (std::size_t k = 0; k < w.n; ++k) w.residual[k] = w.share.row(k, w.psi.data()) - w.d[k];
+      for (std::size_t k = 0; k < w.y.size(); ++k) w.residual[k] = w.share.row(k, w.psi.data()) - w.d[k];
       correct(p, t, h, w);
       if (w.factors()) w.secants.improve(w.correction, w.y, w.psi);
       convergence.begin_iteration();
-      for (std::size_t k = 0; k < w.n; ++k) {
+      for (std::size_t k = 0; k < w.y.size(); ++k) {
         w.d[k] = w.d[k] + w.correction[k];
         convergence.add(w.correction[k], w.reference(k), w.psi[k]);
       }
@@ -237,12 +236,12 @@ struct GeneratingFunction {
     w.contraction.remember_slowest(convergence.contraction());
 
     if (!w.midpoint) w.gradient(w.w.data(), w.psi.data());
-    for (std::size_t k = 0; k < w.n; ++k) {
+    for (std::size_t k = 0; k < w.y.size(); ++k) {
       const T rest = w.correction[k] - w.residual[k];
       w.change[k] = w.midpoint ? w.psi[k] + (rest + rest) : w.psi[k];
     }
     w.forecast.remember(w.change, [&w](std::size_t k) { return w.reference(k); });
-    for (std::size_t k = 0; k < w.n; ++k) add_to(w.y[k], w.carry[k], w.change[k], compensated);
+    for (std::size_t k = 0; k < w.y.size(); ++k) add_to(w.y[k], w.carry[k], w.change[k], compensated);
     p.chart_inverse(t + h, w.y, z);
     w.continuation.remember(t + h, h, z);
     return Status::converged;
@@ -262,7 +261,7 @@ struct GeneratingFunction {
     w.measure();
     w.forecast.expect(
         p, t, h, w.y, [&w](std::size_t k) { return w.reference(k); }, w.change);
-    for (std::size_t k = 0; k < w.n; ++k) {
+    for (std::size_t k = 0; k < w.y.size(); ++k) {
       w.d[k] = w.share.row(k, w.change.data());
       w.predicted[k] = value_of(w.d[k]);
     }
@@ -284,11 +283,11 @@ struct GeneratingFunction {
     w.correction = w.residual;
     Value<T> last = std::numeric_limits<Value<T>>::infinity();
     for (int iteration = 0; iteration < 12; ++iteration) {
-      for (std::size_t k = 0; k < w.n; ++k) w.moved[k] = w.w[k] + w.correction[k];
+      for (std::size_t k = 0; k < w.y.size(); ++k) w.moved[k] = w.w[k] + w.correction[k];
       p.chart_field(middle, w.moved, w.rate);
-      for (std::size_t k = 0; k < w.n; ++k) w.moved[k] = w.rate[k] - w.start[k];
+      for (std::size_t k = 0; k < w.y.size(); ++k) w.moved[k] = w.rate[k] - w.start[k];
       Value<T> change(0), size(0);
-      for (std::size_t k = 0; k < w.n; ++k) {
+      for (std::size_t k = 0; k < w.y.size(); ++k) {
         const T next = w.residual[k] + h * w.share.row(k, w.moved.data());
         change = std::max(change, relative_size(T(next - w.correction[k]), w.reference(k), w.psi[k]));
         size = std::max(size, relative_size(next, w.reference(k), w.psi[k]));

@@ -17,16 +17,18 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <limits>
-#include <vector>
 
+#include <pfaff/core/linear/vector.hpp>
 #include <pfaff/core/numbers/dual.hpp>
 #include <pfaff/core/numbers/functions.hpp>
 
 namespace pfaff {
 
-template <class T>
+/// For N numbers of type T, or a size set at construction.
+template <class T, int N = dynamic>
 class SecantUpdates {
  public:
   using Number = Value<T>;
@@ -35,14 +37,13 @@ class SecantUpdates {
   /// Corrections below so many units of round-off teach nothing.
   static constexpr int least = 64;
 
-  explicit SecantUpdates(std::size_t size)
-      : size_(size), weight_(size), steps_(most * size), squares_(most) {}
+  explicit SecantUpdates(std::size_t size) : weight_(size), steps_(most * size) {}
 
   /// At the beginning of an iteration with another matrix.
   void forget() { count_ = 0; }
   /// correction := what the matrices so far make of a correction by the first one. Components are measured by
   /// the larger of two references.
-  void improve(std::vector<T>& correction, const std::vector<T>& reference, const std::vector<T>& change) {
+  void improve(Vector<T, N>& correction, const Vector<T, N>& reference, const Vector<T, N>& change) {
     if (count_ == 0) return keep(correction, Number(1));
     if (count_ == 1) weigh(reference, change);
     for (std::size_t j = 0; j + 1 < count_; ++j) add(correction, along(j, correction), j + 1);
@@ -59,46 +60,50 @@ class SecantUpdates {
   }
 
  private:
-  [[nodiscard]] bool at_round_off(const std::vector<T>& correction) const {
-    Number size(0);
-    for (std::size_t k = 0; k < size_; ++k)
-      size = std::max(size, Number(weight_[k] * abs(value_of(correction[k]))));
-    return size <= Number(least) * unit_roundoff<T>();
+  [[nodiscard]] std::size_t size() const { return weight_.size(); }
+  [[nodiscard]] bool at_round_off(const Vector<T, N>& correction) const {
+    Number largest(0);
+    for (std::size_t k = 0; k < size(); ++k)
+      largest = std::max(largest, Number(weight_[k] * abs(value_of(correction[k]))));
+    return largest <= Number(least) * unit_roundoff<T>();
   }
   // s_j^T x / s_j^T s_j
-  [[nodiscard]] T along(std::size_t j, const std::vector<T>& x) const {
+  [[nodiscard]] T along(std::size_t j, const Vector<T, N>& x) const {
     T sum(0);
-    for (std::size_t k = 0; k < size_; ++k)
-      sum = sum + T(weight_[k] * steps_[j * size_ + k]) * (T(weight_[k]) * x[k]);  // weights squared overflow
+    for (std::size_t k = 0; k < size(); ++k)
+      sum =
+          sum + T(weight_[k] * steps_[j * size() + k]) * (T(weight_[k]) * x[k]);  // weights squared overflow
     return sum * T(squares_[j]);
   }
   // x += factor s_j
-  void add(std::vector<T>& x, const T& factor, std::size_t j) const {
-    for (std::size_t k = 0; k < size_; ++k) x[k] = x[k] + factor * T(steps_[j * size_ + k]);
+  void add(Vector<T, N>& x, const T& factor, std::size_t j) const {
+    for (std::size_t k = 0; k < size(); ++k) x[k] = x[k] + factor * T(steps_[j * size() + k]);
   }
-  void keep(const std::vector<T>& x, const Number& factor) {
-    for (std::size_t k = 0; k < size_; ++k) steps_[count_ * size_ + k] = factor * value_of(x[k]);
+  void keep(const Vector<T, N>& x, const Number& factor) {
+    for (std::size_t k = 0; k < size(); ++k) steps_[count_ * size() + k] = factor * value_of(x[k]);
     ++count_;
   }
   // 1 / s_j^T s_j
   [[nodiscard]] Number square(std::size_t j) const {
     Number sum(0);
-    for (std::size_t k = 0; k < size_; ++k) {
-      const Number step = weight_[k] * steps_[j * size_ + k];
+    for (std::size_t k = 0; k < size(); ++k) {
+      const Number step = weight_[k] * steps_[j * size() + k];
       sum = sum + step * step;
     }
     return sum > Number(0) ? Number(1) / sum : Number(0);
   }
-  void weigh(const std::vector<T>& reference, const std::vector<T>& change) {
-    for (std::size_t k = 0; k < size_; ++k) {
+  void weigh(const Vector<T, N>& reference, const Vector<T, N>& change) {
+    for (std::size_t k = 0; k < size(); ++k) {
       const Number scale = std::max(abs(value_of(reference[k])), abs(value_of(change[k])));
       weight_[k] = scale > Number(std::numeric_limits<double>::min()) ? Number(1) / scale : Number(1);
     }
     squares_[0] = square(0);
   }
 
-  std::size_t size_, count_ = 0;
-  std::vector<Number> weight_, steps_, squares_;
+  std::size_t count_ = 0;
+  Vector<Number, N> weight_;
+  Vector<Number, N == dynamic ? dynamic : N* static_cast<int>(most)> steps_;
+  std::array<Number, most> squares_{};
 };
 
 }  // namespace pfaff

@@ -59,7 +59,7 @@ SeriesCombination<W> combination(std::size_t levels, bool symmetric, bool one_ki
   c.symmetric = symmetric;
   c.one_kind = one_kind;
   c.kind = one_kind ? std::vector<std::size_t>{0, 0, 0, 0} : std::vector<std::size_t>{0, 1, 0, 1};
-  for (int matrix = 0; matrix < (one_kind ? 2 : 4); ++matrix) {
+  for (std::size_t matrix = 0; matrix < (one_kind ? levels : 2 * levels); ++matrix) {
     std::array<Pack<W>, W> columns{};
     for (std::size_t j = 0; j < W; ++j)
       for (std::size_t i = 0; i < W; ++i)
@@ -89,9 +89,7 @@ double series_difference(const Model& compiled_model, std::size_t levels, bool s
   EXPECT_TRUE(series.layout(compiled_model.system()).timed);
   width.time(compiled_model.system(), slots.data(), static_cast<int>(levels));
   std::array<double, 4> found{};
-  const bool known = levels == width.known && one_kind;
-  (known ? width.collocate_known : width.collocate)(compiled_model.system(), slots.data(), c, z.data(),
-                                                    found.data());
+  width.best(c)(compiled_model.system(), slots.data(), c, z.data(), found.data());
 
   SeriesReplay<double> replay(compiled_model.tape(Formula::chart_field), static_cast<int>(levels), W);
   replay.set_time(t0.data(), t1.data());
@@ -104,7 +102,7 @@ double series_difference(const Model& compiled_model, std::size_t levels, bool s
     replay.advance(level);
     for (std::size_t k = 0; k < 4; ++k) {
       const double* x = replay.output(k, level);
-      const auto& columns = c.columns[2 * c.kind[k] + level % 2];
+      const auto& columns = c.columns[c.kind[k] * levels + level];
       for (std::size_t i = 0; i < W; ++i) {
         if (!symmetric || level % 2 == 0) expected[k] += c.weight[i] * x[i];
         input[k * W + i] = 0;

@@ -20,8 +20,8 @@ namespace {
 using QuadProblem = Problem<Quad>;
 using testing::model_named;
 
-std::vector<Quad> chart_start(const QuadProblem& p, const Quad& t) {
-  std::vector<Quad> z, y(p.size());
+QuadProblem::State chart_start(const QuadProblem& p, const Quad& t) {
+  QuadProblem::State z, y(p.size());
   for (const Real& x : p.model()->initial()) z.push_back(x.quad());
   p.chart(t, z, y);
   return y;
@@ -37,8 +37,8 @@ double mismatch(const std::string& system, bool high_order, GeneratingForm form,
   const ShareMatrix<Quad> share(form, n);
   GeneratingGradient<Quad> gradient(p.chart_field_tape(), 8, symmetric, form, gauss_coefficients(4));
   gradient.set_step(t, h);
-  const std::vector<Quad> y = chart_start(p, t);
-  std::vector<Quad> w = y, change(n), above(n), below(n), residual(n), correction(n);
+  const QuadProblem::State y = chart_start(p, t);
+  QuadProblem::State w = y, change(n), above(n), below(n), residual(n), correction(n);
   for (int iteration = 0; iteration < 60; ++iteration) {
     gradient(w.data(), change.data());
     for (std::size_t k = 0; k < n; ++k) w[k] = y[k] + share.row(k, change.data());
@@ -47,7 +47,7 @@ double mismatch(const std::string& system, bool high_order, GeneratingForm form,
   EXPECT_EQ(matrix.factor(p, t, h, share, y, w, change), Status::converged);
   double worst = 0;
   for (std::size_t e = 0; e < n; ++e) {
-    std::vector<Quad> moved = w;
+    QuadProblem::State moved = w;
     moved[e] = w[e] + least;
     gradient(moved.data(), above.data());
     moved[e] = w[e] - least;
@@ -86,13 +86,13 @@ Quad unit(std::size_t /*k*/) { return Quad(1); }
 TEST(ExpectedChange, OfAFirstStepIsThatOfATaylorSeries) {
   const QuadProblem p(model_named("damped-pendulum"));
   const Quad t = Quad(1) / Quad(4);
-  const std::vector<Quad> y = chart_start(p, t);
+  const QuadProblem::State y = chart_start(p, t);
   TaylorExpansion<Quad> exact(p.chart_field_tape(), 30);
   exact.expand(t, y.data());
   std::vector<double> error;
   for (const Quad& h : {Quad(1) / Quad(16), Quad(1) / Quad(32)}) {
     ExpectedChange<QuadProblem> expected(p, order, evaluations);
-    std::vector<Quad> change(p.size());
+    QuadProblem::State change(p.size());
     expected.expect(p, t, h, y, unit, change);
     error.push_back(0);
     for (std::size_t k = 0; k < change.size(); ++k)
@@ -102,11 +102,11 @@ TEST(ExpectedChange, OfAFirstStepIsThatOfATaylorSeries) {
 }
 TEST(ExpectedChange, StopsWhereTermsGrow) {
   const QuadProblem p(model_named("damped-pendulum"));
-  const std::vector<Quad> y = chart_start(p, Quad(0));
+  const QuadProblem::State y = chart_start(p, Quad(0));
   TaylorExpansion<Quad> whole(p.chart_field_tape(), degree);
   whole.expand(Quad(0), y.data());
   ExpectedChange<QuadProblem> expected(p, order, evaluations);
-  std::vector<Quad> change(p.size());
+  QuadProblem::State change(p.size());
   const Quad h(40);
   expected.expect(p, Quad(0), h, y, unit, change);
   const auto term = [&](std::size_t l, std::size_t k) {
@@ -121,12 +121,12 @@ TEST(ExpectedChange, StopsWhereTermsGrow) {
 }
 TEST(ExpectedChange, TakesDifferencesWhereTheyAreGoodAndTheSeriesWhereTheyAreNot) {
   const QuadProblem p(model_named("damped-pendulum"));
-  const std::vector<Quad> y = chart_start(p, Quad(0));
+  const QuadProblem::State y = chart_start(p, Quad(0));
   const Quad h = Quad(1) / Quad(8);
   // Fields that the forecast after ten changes takes.
   const auto taken = [&](auto changed, std::size_t psi) {
     ExpectedChange<QuadProblem> expected(p, order, psi);
-    std::vector<Quad> change(p.size());
+    QuadProblem::State change(p.size());
     for (int n = 0; n < 10; ++n) {
       for (std::size_t k = 0; k < change.size(); ++k) change[k] = changed(n);
       expected.remember(change, unit);

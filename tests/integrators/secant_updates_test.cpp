@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <vector>
 
 #include <pfaff/integrators/support/secant_updates.hpp>
 
@@ -13,7 +12,7 @@ using D = Dual<double, 1>;
 // x = g(x) with a contraction that turns and bends, x measured in other units. The residual is the correction
 // of the plain iteration.
 template <class T>
-std::vector<T> plain_correction(const std::vector<T>& x, const T& parameter, double unit) {
+Vector<T, dynamic> plain_correction(const Vector<T, dynamic>& x, const T& parameter, double unit) {
   const T a = x[0], b = x[1] / T(unit);
   return {parameter + T(0.3) * a - T(0.2) * b + T(0.05) * a * b - a,
           (T(1) + T(0.25) * a + T(0.1) * b * b - b) * T(unit)};
@@ -22,16 +21,16 @@ std::vector<T> plain_correction(const std::vector<T>& x, const T& parameter, dou
 // The solution, and the number of corrections until the last is below 1e-15.
 template <class T>
 struct Solution {
-  std::vector<T> x;
+  Vector<T, dynamic> x;
   int corrections = 0;
 };
 template <class T>
 Solution<T> secant_solution(const T& parameter, bool secants, double unit = 1) {
   SecantUpdates<T> updates(2);
   Solution<T> s{{T(0.8), T(1.2 * unit)}, 0};
-  const std::vector<T> scale{T(1), T(unit)};
+  const Vector<T, dynamic> scale{T(1), T(unit)};
   for (double size = 1; size > 1e-15 && s.corrections < 100; ++s.corrections) {
-    std::vector<T> correction = plain_correction(s.x, parameter, unit);
+    Vector<T, dynamic> correction = plain_correction(s.x, parameter, unit);
     if (secants) updates.improve(correction, scale, scale);
     size = 0;
     for (std::size_t k = 0; k < 2; ++k) {
@@ -70,16 +69,16 @@ TEST(SecantUpdates, CorrectDerivativesWithTheSameMatrices) {
 // Where the values have converged their corrections are rounding errors. What these are must not change what
 // is made of the derivatives.
 TEST(SecantUpdates, LearnNothingFromRoundOff) {
-  const auto derivatives_after = [](std::vector<double> roundings) {
+  const auto derivatives_after = [](Vector<double, dynamic> roundings) {
     SecantUpdates<D> updates(2);
-    const std::vector<D> scale{D(1), D(1)};
+    const Vector<D, dynamic> scale{D(1), D(1)};
     for (const double x : {1e-2, 1e-4}) {
-      std::vector<D> correction{D::variable(x, 0), D(-x / 2)};
+      Vector<D, dynamic> correction{D::variable(x, 0), D(-x / 2)};
       updates.improve(correction, scale, scale);
     }
-    std::vector<double> made;
+    Vector<double, dynamic> made;
     for (const double rounding : roundings) {
-      std::vector<D> correction{D::variable(rounding, 0), D(-rounding)};
+      Vector<D, dynamic> correction{D::variable(rounding, 0), D(-rounding)};
       updates.improve(correction, scale, scale);
       made.push_back(correction[0].derivative[0]);
       made.push_back(correction[1].derivative[0]);
@@ -93,14 +92,14 @@ TEST(SecantUpdates, LearnNothingFromRoundOff) {
 
 TEST(SecantUpdates, StartAnewOnceForgotten) {
   SecantUpdates<double> used(2), fresh(2);
-  const std::vector<double> scale{1, 1};
+  const Vector<double, dynamic> scale{1, 1};
   for (const double x : {1.0, 0.5, 0.1}) {
-    std::vector<double> correction{x, x * x};
+    Vector<double, dynamic> correction{x, x * x};
     used.improve(correction, scale, scale);
   }
   used.forget();
   for (const double x : {0.3, 0.2}) {
-    std::vector<double> a{x, 1 - x}, b = a;
+    Vector<double, dynamic> a{x, 1 - x}, b = a;
     used.improve(a, scale, scale);
     fresh.improve(b, scale, scale);
     EXPECT_EQ(a, b);
