@@ -40,13 +40,15 @@ void add_methods() {
   add_registered<S>("generating-function-8", "registered", model, "generating-function", {{"order", "8"}});
 }
 
-// Generating functions beside Gauss collocation of the same order, on systems where their structure matters.
+// Generating functions beside Gauss collocation of the same order in the chart, on systems where their
+// structure matters.
 template <class S>
 void add_generating_functions() {
   const SharedModel model = systems().get(Case<S>::name, "system").make({});
   for (const int order : {4, 8, 12}) {
     const std::string m = std::to_string(order);
-    add_registered<S>("gauss-" + m, "registered", model, "gauss", {{"stages", std::to_string(order / 2)}});
+    add_registered<S>("gauss-" + m, "registered", model, model->canonical() ? "gauss" : "gauss-darboux",
+                      {{"stages", std::to_string(order / 2)}});
     add_registered<S>("generating-function-" + m, "registered", model, "generating-function", {{"order", m}});
   }
 }

@@ -1,8 +1,9 @@
 // Whole runs at the accuracy that they reach: Kepler's problem with e = 0.6 over 200 units of time, about 32
-// revolutions, and the damped pendulum in its Darboux chart. Each benchmark is one run from the start, and
-// prints beside its time the largest relative error of the energy over its steps (of the pendulum, whose
-// energy falls, the error of the state at the end), which is measured in a run of its own. ratios.py compares
-// them with Verlet's method as a loop by hand at h = 0.02.
+// revolutions, and the damped pendulum and the model of Lotka and Volterra in their Darboux charts. Each
+// benchmark is one run from the start, and prints beside its time the largest relative error of the energy
+// over its steps (in the charts, the error of the state at the end), which is measured in a run of its own.
+// ratios.py compares Kepler's runs with Verlet's method as a loop by hand at h = 0.02, and generating
+// functions with Gauss collocation in the chart.
 #include <algorithm>
 #include <boost/numeric/odeint/integrate/integrate_adaptive.hpp>
 #include <boost/numeric/odeint/stepper/bulirsch_stoer.hpp>
@@ -26,9 +27,19 @@ using namespace pfaff;
 using namespace pfaff::micro;
 namespace odeint = boost::numeric::odeint;
 
-constexpr double duration = 200, pendulum_duration = 40;
+constexpr double duration = 200;
 using Orbit = std::array<double, 4>;
-using Swing = std::array<double, 2>;
+using Point = std::array<double, 2>;
+
+// A system with a Darboux chart, and the run of it that is made.
+struct ChartCase {
+  const char* system;
+  Assignments parameters;
+  Point start;
+  double duration;
+};
+const ChartCase pendulum{"damped-pendulum", {{"nu", "0.1"}}, {2, 0}, 40};
+const ChartCase predators{"lotka-volterra", {}, {3, 1}, 20};
 
 std::string step_name(double h) {
   std::array<char, 32> text{};
@@ -154,22 +165,23 @@ void add_adaptive(const std::string& method, double tolerance, Controlled contro
           error.largest(), [=](Orbit& end) { run(end, [](const Orbit&, double) {}); });
 }
 
-// The damped pendulum, with the error of the state at the end against Gauss of eight stages at h = 0.02.
-void add_pendulum(const std::string& name, const std::string& integrator, const Assignments& parameters,
-                  double h) {
-  const auto model = systems().get("damped-pendulum", "system").make({{"nu", "0.1"}});
-  const Swing start{2, 0};
-  const auto run = [=](Swing& z, const std::shared_ptr<Stepper<double>>& stepper, double step) {
+// With the error of the state at the end against Gauss of eight stages at h = 0.02.
+void add_in_chart(const ChartCase& which, const std::string& name, const std::string& integrator,
+                  const Assignments& parameters, double h) {
+  const auto model = systems().get(which.system, "system").make(which.parameters);
+  const Point start = which.start;
+  const auto run = [duration = which.duration](Point& z, const std::shared_ptr<Stepper<double>>& stepper,
+                                               double step) {
     std::int64_t completed = 0;
-    stepper->advance(0, 0, step, std::llround(pendulum_duration / step), z, completed);
+    stepper->advance(0, 0, step, std::llround(duration / step), z, completed);
   };
-  Swing exact = start, end = start;
+  Point exact = start, end = start;
   run(exact, stepper_of(model, "gauss-darboux", {{"stages", "8"}}), 0.02);
   const auto stepper = stepper_of(model, integrator, parameters);
   run(end, stepper, h);
   const double error = std::hypot(end[0] - exact[0], end[1] - exact[1]) / std::hypot(exact[0], exact[1]);
-  add_run("damped-pendulum-run/" + name + "-h" + step_name(h) + "/registered", start, "state_error", error,
-          [=](Swing& z) { run(z, stepper, h); });
+  add_run(std::string(which.system) + "-run/" + name + "-h" + step_name(h) + "/registered", start,
+          "state_error", error, [=](Point& z) { run(z, stepper, h); });
 }
 
 bool add_runs() {
@@ -196,9 +208,24 @@ bool add_runs() {
     });
     add_adaptive("bulirsch-stoer", tolerance, [](double e) { return odeint::bulirsch_stoer<Orbit>(e, e); });
   }
-  add_pendulum("gauss-16", "gauss-darboux", {{"stages", "8"}}, 0.4);
   for (const double h : {0.4, 0.8})
-    add_pendulum("generating-function-8", "generating-function", {{"order", "8"}}, h);
+    add_in_chart(pendulum, "generating-function-8", "generating-function", {{"order", "8"}}, h);
+  // Nearly the longest steps that reach 1e-6 and 1e-9.
+  const auto add_gauss_in_chart = [](const ChartCase& which, int stages, double h) {
+    add_in_chart(which, "gauss-" + std::to_string(2 * stages), "gauss-darboux",
+                 {{"stages", std::to_string(stages)}}, h);
+  };
+  for (const double h : {0.4, 1.6}) add_gauss_in_chart(pendulum, 8, h);
+  add_gauss_in_chart(pendulum, 4, 0.8);
+  add_gauss_in_chart(predators, 4, 0.4);
+  add_gauss_in_chart(predators, 8, 1.0);
+  add_gauss_in_chart(pendulum, 6, 0.8);
+  add_gauss_in_chart(predators, 6, 20.0 / 29);
+  const Assignments more{{"order", "8"}, {"extra", "4"}}, twelve{{"order", "12"}};
+  add_in_chart(pendulum, "generating-function-8+4", "generating-function", more, 0.8);
+  for (const double h : {20.0 / 54, 0.2})
+    add_in_chart(predators, "generating-function-8+4", "generating-function", more, h);
+  add_in_chart(pendulum, "generating-function-12", "generating-function", twelve, 0.5);
   return true;
 }
 
