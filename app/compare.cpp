@@ -20,6 +20,7 @@ namespace {
 struct CompareOptions {
   std::vector<std::string> names;
   bool all = false, quick = false, force = false, compile = false, no_report = false;
+  std::optional<double> timing;
   std::string out;
   PaperFigures paper;
 };
@@ -75,7 +76,8 @@ int compare(const CompareOptions& options, const Common& common) {
           {.force = options.force,
            .stop = &Interruption::stop(),
            .team = team.get(),
-           .report = !options.no_report});
+           .report = !options.no_report,
+           .timing = options.timing});
     }
     if (team != nullptr && !team->leads()) continue;
     if (outcome.interrupted && outcome.runs == 0)
@@ -130,6 +132,10 @@ void add_compare(CLI::App& app, Common& common, Action& action) {
   sub->add_flag("--compile", options->compile,
                 "Compile the systems' formulas with the C++ compiler of this machine");
   sub->add_flag("--no-report", options->no_report, "Leave out the figures and report.html");
+  sub->add_option("--timing", options->timing,
+                  "How long each run is timed, in seconds (default 0.3, with --quick 0.05)")
+      ->type_name("SECONDS")
+      ->check(CLI::PositiveNumber);
   sub->add_option("--out", options->out, "Where results go (default pfaff-out/NAME), or resume from")
       ->type_name("DIR");
   sub->add_option("--figures", options->paper.kinds,

@@ -79,9 +79,8 @@ void keep_costs(const fs::path& directory, const std::vector<ExperimentRun>& run
   write_file(path, costs_csv(runs, costs));
 }
 
-bool write_costs(const fs::path& directory, const Experiment& experiment,
-                 const std::vector<ExperimentRun>& runs, const ExperimentProgress& progress,
-                 const std::atomic<bool>* stop) {
+bool write_costs(const fs::path& directory, const std::vector<ExperimentRun>& runs, double seconds,
+                 const ExperimentProgress& progress, const std::atomic<bool>* stop) {
   const fs::path path = directory / "cost.csv";
   const bool tolerances = any_tolerance(runs);
   Costs costs = read_costs(path, runs);
@@ -99,7 +98,7 @@ bool write_costs(const fs::path& directory, const Experiment& experiment,
     const std::string key = key_of(run, tolerances);
     if (run.seed > 1 || costs.contains(key)) continue;
     timed = true;
-    const StepTime time = time_steps(run.resolved, experiment.quick ? 0.05 : 0.3);
+    const StepTime time = time_steps(run.resolved, seconds);
     costs[key].text = key + "," + as_text(time.median, "%.6g") + "," + as_text(time.minimum, "%.6g") + "," +
                       as_text(time.maximum, "%.6g") + "," + std::to_string(time.repetitions) + "," +
                       as_text(time.seconds, "%.4g") + "," + csv_quoted(host_name());

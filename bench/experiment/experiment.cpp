@@ -301,7 +301,8 @@ ExperimentOutcome run_experiment(const Experiment& asked, const fs::path& direct
   outcome.interrupted = done < runs.size();
   if (!team.leads()) return outcome;
   if (!outcome.interrupted)
-    outcome.interrupted = !write_costs(directory, experiment, runs, progress, options.stop);
+    outcome.interrupted = !write_costs(
+        directory, runs, options.timing.value_or(experiment.quick ? 0.05 : 0.3), progress, options.stop);
   if (outcome.interrupted) {
     outcome.resumed = done;
     return outcome;

@@ -29,6 +29,7 @@ TEST(BadNames, Options) {
   expect_refused({"run", "--sytem", "kepler"}, {"unknown option '--sytem'", "did you mean '--system'?"});
   expect_refused({"run", "--ot", "-"}, {"unknown option '--ot'", "did you mean '--out'?"});
   expect_refused({"compare", "kepler", "--quik"}, {"did you mean '--quick'?"});
+  expect_refused({"compare", "kepler", "--timing", "0"}, {"--timing"});
   expect_refused(pendulum_run + std::vector<std::string>{"more"}, {"more", "not expected"});
   expect_refused(pendulum_run + std::vector<std::string>{"--precision"}, {"--precision"});
   expect_refused(pendulum_run + std::vector<std::string>{"--step", "0.2"}, {"--step"});

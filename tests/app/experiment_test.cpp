@@ -52,9 +52,9 @@ constexpr std::size_t all_runs = 6;
 Arguments compare(const TemporaryDirectory& files, const std::string& out) {
   return {"compare", files / "test.toml", "--quick", "--json", "--out", files / out};
 }
-// Figures and reports take most of the time of a small experiment.
+// Figures, reports and timings take most of the time of a small experiment.
 Arguments compare_without_report(const TemporaryDirectory& files, const std::string& out) {
-  return compare(files, out) + Arguments{"--no-report"};
+  return compare(files, out) + Arguments{"--no-report", "--timing", "0.001"};
 }
 nlohmann::json completed(const Outcome& outcome) {
   EXPECT_EQ(outcome.status, 0) << outcome.err;
