@@ -158,8 +158,8 @@ struct ExperimentOptions {
   const std::atomic<bool>* stop = nullptr;  // where it becomes true, the experiment ends; what is whole stays
   Team* team = nullptr;  // the processes that make the runs (team.hpp); null for this one alone
   bool report = true;    // draw figures and write report.html
-  std::optional<double>
-      timing;  // seconds for which each run is timed, instead of 0.3, or of 0.05 where it is quick
+  // Seconds for which each run is timed, instead of 0.3, or of 0.05 where the experiment is quick.
+  std::optional<double> timing = std::nullopt;
 };
 
 /// Runs what `directory` does not hold yet, alone or with a team, then writes results.csv, cost.csv (each run

@@ -9,7 +9,10 @@
 // The last column of IIIB is zero, so that L_s stands in p1 alone, where the hidden constraints determine it.
 // Everything else is iterated to round-off: the stages by fixed-point iteration from extrapolated slopes, the
 // multipliers by a simplified Newton method. In place of the products B(Q_i) H_pp B(Q_j)^T its matrix has S
-// at q0, so that an iteration solves with S once for each stage. The update is compensated.
+// at q0, so that an iteration solves with S once for each stage. The positions are at last those to which the
+// velocities of the last momenta lead, so that both halves of the update are made of the same rates; their
+// projections onto the constraints, which are down to round-off by then, would bias the energy. The update is
+// compensated.
 #pragma once
 
 #include <memory>
@@ -92,16 +95,12 @@ struct LobattoSpark {
     bool first = true;
     do {
       Largest<T> moved, positions;
-      // P_i, into which L_s and the force of the last stage do not enter.
-      for (std::size_t i = 0; i < s; ++i)
-        for (std::size_t k = 0; k < n; ++k) w.momentum[i * n + k] = w.momentum_of(h, z, i, k);
+      set_momenta<P>(h, z, w);
       if (first)
         for (std::size_t i = 1; i < s; ++i)
           for (std::size_t k = 0; k < n; ++k)
             w.position[i * n + k] = z[k] + (w.displacement(h, i, k) + w.carry[k]);
-      for (std::size_t i = 0; i < s; ++i)
-        w.at[0]->velocity(t + w.c[i] * h, w.stage(w.position, i), w.stage(w.momentum, i),
-                          w.stage(w.velocity, i));
+      set_velocities<P>(t, h, w);
       // Q_i, moved onto phi = 0 with the multipliers that do so.
       for (std::size_t i = 1; i < s; ++i) {
         for (std::size_t k = 0; k < n; ++k) {
@@ -126,8 +125,27 @@ struct LobattoSpark {
       ++p.counters().iterations;
       first = false;
     } while (!convergence.finished(100));
+    set_momenta<P>(h, z, w);
+    set_velocities<P>(t, h, w);
+    for (std::size_t k = 0; k < n; ++k) {
+      w.move[k] = w.displacement(h, s - 1, k);
+      w.position[(s - 1) * n + k] = z[k] + (w.move[k] + w.carry[k]);
+    }
     // Iterates that overflow come from a step that is too large, and are reported as not converged, too.
     return convergence.status() == Status::converged ? Status::converged : Status::not_converged;
+  }
+
+  // P_i, into which L_s and the force of the last stage do not enter.
+  template <class P>
+  static void set_momenta(const Scalar<P>& h, const State<P>& z, Work<P>& w) {
+    for (std::size_t i = 0; i < w.s(); ++i)
+      for (std::size_t k = 0; k < w.n(); ++k) w.momentum[i * w.n() + k] = w.momentum_of(h, z, i, k);
+  }
+  template <class P>
+  static void set_velocities(const Scalar<P>& t, const Scalar<P>& h, Work<P>& w) {
+    for (std::size_t i = 0; i < w.s(); ++i)
+      w.at[0]->velocity(t + w.c[i] * h, w.stage(w.position, i), w.stage(w.momentum, i),
+                        w.stage(w.velocity, i));
   }
 
   // Corrects the multipliers L_1 ... L_{s-1} and fills the forces with their reactions.

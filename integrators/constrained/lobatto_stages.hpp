@@ -4,6 +4,11 @@
 //   Q_i = q0 + h sum_j a_ij H_p(Q_j, P_j),   P_i = p0 + h sum_j a^_ij (-H_q(Q_j, P_j) - R_j)
 //
 // The last column of IIIB is zero: neither the force nor the reaction of the last stage enters into any P_i.
+//
+// With rates that are multiplied by the weights b_j, the coefficients are mu_ij = a_ij / b_j and
+// mu^_ij = a^_ij / b_j, and the pair is symplectic where mu^_ij + mu_ji = 1. Here this holds exactly: mu_ij
+// is rounded to a multiple of a power of two, so that 1 - mu_ij is not rounded. Where it is missed by a unit
+// of round-off, the energy has a trend in each run (docs/drift-and-cost.md).
 #pragma once
 
 #include <span>
@@ -19,7 +24,7 @@ namespace pfaff {
 /// What methods with these stages work on, and what they remember of past steps.
 template <class T>
 struct LobattoStages {
-  std::vector<T> b, c, a, a_hat;
+  std::vector<T> b, c, mu, mu_hat, ones;
   // [stage][component]: Q, P, H_p, the force with its reactions; [stage][constraint]: the multipliers of all
   // stages but the last.
   std::vector<T> position, momentum, velocity, force, multiplier;
@@ -31,8 +36,9 @@ struct LobattoStages {
   LobattoStages(const LobattoCoefficients& tableau, std::size_t degrees, std::size_t constraints)
       : b(converted(tableau.weights)),
         c(converted(tableau.nodes)),
-        a(converted(tableau.positions)),
-        a_hat(converted(tableau.momenta)),
+        mu(b.size() * b.size()),
+        mu_hat(mu.size()),
+        ones(b.size(), T(1)),
         position(b.size() * degrees),
         momentum(position.size()),
         velocity(position.size()),
@@ -43,7 +49,15 @@ struct LobattoStages {
         impulse(degrees),
         end(degrees),
         predictor(velocity.size() + force.size() + multiplier.size(),
-                  static_cast<std::size_t>(difference_levels<T>)) {}
+                  static_cast<std::size_t>(difference_levels<T>)) {
+    const Value<T> offset(3);  // numbers between 2 and 4 have one spacing; mu_ij lies between -1 and 1
+    for (std::size_t i = 0; i < s(); ++i)
+      for (std::size_t j = 0; j < s(); ++j) {
+        const Value<T> rounded(Real(tableau.positions[i * s() + j] / tableau.weights[j]));
+        mu[i * s() + j] = T((rounded + offset) - offset);
+        mu_hat[j * s() + i] = T(1) - mu[i * s() + j];
+      }
+  }
 
   [[nodiscard]] std::size_t s() const { return b.size(); }
   [[nodiscard]] std::size_t n() const { return move.size(); }
@@ -52,19 +66,19 @@ struct LobattoStages {
   Out<T> constraint(std::vector<T>& all, std::size_t i) const {
     return Out<T>(all).subspan(i * count(), count());
   }
-  /// sum_j weights_j rates_j of the first `stages` stages, component k.
-  T sum(const T* weights, const std::vector<T>& rates, std::size_t stages, std::size_t k) const {
-    T total = weights[0] * rates[k];
-    for (std::size_t j = 1; j < stages; ++j) total = total + weights[j] * rates[j * n() + k];
+  /// sum_j factors_j b_j rates_j of the first `stages` stages, component k.
+  T sum(const T* factors, const std::vector<T>& rates, std::size_t stages, std::size_t k) const {
+    T total = factors[0] * (b[0] * rates[k]);
+    for (std::size_t j = 1; j < stages; ++j) total = total + factors[j] * (b[j] * rates[j * n() + k]);
     return total;
   }
   /// h sum_j a_ij H_p(Q_j, P_j), component k.
   T displacement(const T& h, std::size_t i, std::size_t k) const {
-    return h * sum(a.data() + i * s(), velocity, s(), k);
+    return h * sum(mu.data() + i * s(), velocity, s(), k);
   }
   /// P_i of a step from the state z, component k.
   T momentum_of(const T& h, const auto& z, std::size_t i, std::size_t k) const {
-    return z[n() + k] + (h * sum(a_hat.data() + i * s(), force, s() - 1, k) + carry[n() + k]);
+    return z[n() + k] + (h * sum(mu_hat.data() + i * s(), force, s() - 1, k) + carry[n() + k]);
   }
 
   /// Begins a step of size h from z: places the constraints there and fills in what an iteration starts from.
@@ -85,7 +99,7 @@ struct LobattoStages {
       return status;
     ++p.counters().fields;
     constraints.force(t + h, q, p_s, stage(force, s() - 1));
-    for (std::size_t k = 0; k < n(); ++k) impulse[k] = h * sum(b.data(), force, s(), k);
+    for (std::size_t k = 0; k < n(); ++k) impulse[k] = h * sum(ones.data(), force, s(), k);
     return Status::converged;
   }
   /// Ends the step of size h whose stages these are, with the status that finding them has had: where they

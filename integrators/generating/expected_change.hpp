@@ -63,7 +63,7 @@ class ExpectedChange {
   }
 
  private:
-  static std::size_t degree(int m) { return static_cast<std::size_t>((m + 1) / 2 + 3); }
+  static std::size_t degree(int m) { return (static_cast<std::size_t>(m) + 1) / 2 + 3; }
   // Sums the series of component k; returns the size of the last terms that were added.
   Number sum(std::size_t k, const T& reference, T& total) const {
     const T first = series_.term(k, 1);
