@@ -60,13 +60,14 @@ LobattoCoefficients lobatto_coefficients(int stages) {
   // a_ij is the integral of the j-th Lagrange polynomial over [0, c_i]. Its degree is s - 1, so that Gauss
   // quadrature with s points is exact.
   const GaussCoefficients gauss = gauss_coefficients(stages);
-  for (std::size_t i = 1; i < s; ++i)
+  for (std::size_t i = 1; i + 1 < s; ++i)
     for (std::size_t j = 0; j < s; ++j) {
       Quad sum(0);
       for (std::size_t k = 0; k < s; ++k)
         sum += gauss.weights[k] * lagrange(l.nodes, j, l.nodes[i] * gauss.nodes[k]);
       l.positions[i * s + j] = l.nodes[i] * sum;
     }
+  for (std::size_t j = 0; j < s; ++j) l.positions[(s - 1) * s + j] = l.weights[j];  // without rounding
   for (std::size_t i = 0; i < s; ++i)
     for (std::size_t j = 0; j + 1 < s; ++j)
       l.momenta[i * s + j] = l.weights[j] * (Quad(1) - l.positions[j * s + i] / l.weights[i]);

@@ -50,7 +50,8 @@ struct LobattoStages {
         end(degrees),
         predictor(velocity.size() + force.size() + multiplier.size(),
                   static_cast<std::size_t>(difference_levels<T>)) {
-    const Value<T> offset(3);  // numbers between 2 and 4 have one spacing; mu_ij lies between -1 and 1
+    // Numbers between 2 and 4 have one spacing, and mu_ij lies between -1/2 and 3/2.
+    const Value<T> offset = Value<T>(5) / Value<T>(2);
     for (std::size_t i = 0; i < s(); ++i)
       for (std::size_t j = 0; j < s(); ++j) {
         const Value<T> rounded(Real(tableau.positions[i * s() + j] / tableau.weights[j]));

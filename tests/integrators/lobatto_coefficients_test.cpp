@@ -1,8 +1,11 @@
 // Coefficients of the Lobatto IIIA-IIIB pairs against closed forms and the conditions that define them.
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include <pfaff/core/numbers/functions.hpp>
 #include <pfaff/integrators/constrained/lobatto_coefficients.hpp>
+#include <pfaff/integrators/constrained/lobatto_stages.hpp>
 
 namespace pfaff {
 namespace {
@@ -138,6 +141,41 @@ TEST(LobattoCoefficients, MultipliersOfVelocityConstraintsFulfilTheirConditions)
       }
   }
   EXPECT_LE(gap(velocity_multipliers(lobatto_coefficients(2))[1], Quad(1)), lobatto_round_off);  // (1, 1)
+}
+
+// mu^_ij + mu_ji = 1 in the numbers that steps are made of, which are no further from those of the pair than
+// one spacing at 2 and one rounding. The control: numbers that are rounded one by one miss it.
+template <class T>
+void expect_exactly_symplectic(int stages, double spacing) {
+  const LobattoCoefficients pair = lobatto_coefficients(stages);
+  const LobattoStages<T> rounded(pair, 1, 1);
+  const auto s = static_cast<std::size_t>(stages);
+  for (std::size_t i = 0; i < s; ++i)
+    for (std::size_t j = 0; j < s; ++j) {
+      SCOPED_TRACE(std::to_string(stages) + " stages, " + std::to_string(i) + ", " + std::to_string(j));
+      const T mu = rounded.mu[i * s + j];
+      EXPECT_TRUE(rounded.mu_hat[j * s + i] + mu == T(1));
+      EXPECT_TRUE(T(1) - rounded.mu_hat[j * s + i] == mu) << "the difference is not rounded";
+      EXPECT_TRUE(T(2) * mu > T(-1) && T(2) * mu < T(3)) << "where 5/2 + mu lies between 2 and 4";
+      EXPECT_LE(gap(Quad(mu), pair.positions[i * s + j] / pair.weights[j]), spacing);
+    }
+}
+TEST(LobattoStages, ArePreciselySymplectic) {
+  int missed = 0;
+  for (int stages = 2; stages <= 16; ++stages) {
+    expect_exactly_symplectic<double>(stages, 0x1p-51);
+    expect_exactly_symplectic<Quad>(stages, 0x1p-100);
+    const LobattoCoefficients pair = lobatto_coefficients(stages);
+    const auto s = static_cast<std::size_t>(stages);
+    for (std::size_t i = 0; i < s; ++i)
+      for (std::size_t j = 0; j < s; ++j)
+        missed += static_cast<double>(pair.positions[i * s + j] / pair.weights[j]) +
+                              static_cast<double>(pair.momenta[j * s + i] / pair.weights[i]) !=
+                          1
+                      ? 1
+                      : 0;
+  }
+  EXPECT_GT(missed, 100);
 }
 
 }  // namespace
