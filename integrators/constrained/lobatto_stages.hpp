@@ -17,6 +17,7 @@
 #include <pfaff/core/facets/problem.hpp>
 #include <pfaff/core/solve/summation.hpp>
 #include <pfaff/integrators/constrained/lobatto_coefficients.hpp>
+#include <pfaff/integrators/runge_kutta/collocation_coefficients.hpp>
 #include <pfaff/integrators/support/difference_predictor.hpp>
 
 namespace pfaff {
@@ -54,8 +55,7 @@ struct LobattoStages {
     const Value<T> offset = Value<T>(5) / Value<T>(2);
     for (std::size_t i = 0; i < s(); ++i)
       for (std::size_t j = 0; j < s(); ++j) {
-        const Value<T> rounded(Real(tableau.positions[i * s() + j] / tableau.weights[j]));
-        mu[i * s() + j] = T((rounded + offset) - offset);
+        mu[i * s() + j] = T(on_grid(tableau.positions[i * s() + j] / tableau.weights[j], offset));
         mu_hat[j * s() + i] = T(1) - mu[i * s() + j];
       }
   }

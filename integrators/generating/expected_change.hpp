@@ -31,7 +31,8 @@ class ExpectedChange {
   /// Differences that miss by less, relative to each component, are taken without looking further.
   static constexpr double near = 1e-4;
 
-  /// For a scheme of the order m, one psi of which takes so many evaluations of the field.
+  /// For a scheme truncated at degree m, extra degrees counted, one psi of which takes so many evaluations of
+  /// the field.
   ExpectedChange(const P& p, int m, std::size_t evaluations)
       : series_pays_(2 * degree(m) <= evaluations + 2),
         series_(p, degree(m)),

@@ -19,13 +19,6 @@ std::vector<Number> rounded(const std::vector<Quad>& list) {
   for (const Quad& x : list) result.push_back(rounded<Number>(x));
   return result;
 }
-// x as a multiple of the spacing of numbers about `offset`, where x + offset lies between the same powers of
-// two as `offset`.
-template <class Number>
-Number on_grid(const Quad& x, const Number& offset) {
-  return (rounded<Number>(x) + offset) - offset;
-}
-
 // matrix_ij for i < j becomes a multiple of the spacing at `offset`, equal to the number that mirrors it
 // where the method is symmetric in time. The other triangle is matrix_ij + difference(i, j).
 template <class Number, class Difference>

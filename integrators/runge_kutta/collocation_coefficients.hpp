@@ -15,9 +15,17 @@
 
 #include <vector>
 
+#include <pfaff/core/numbers/functions.hpp>
 #include <pfaff/integrators/runge_kutta/gauss_coefficients.hpp>
 
 namespace pfaff {
+
+/// x as a multiple of the spacing of numbers about `offset`, where x + offset lies between the same powers of
+/// two as `offset`. Differences of such multiples are not rounded.
+template <class Number>
+Number on_grid(const Quad& x, const Number& offset) {
+  return (Number(Real(x)) + offset) - offset;
+}
 
 template <class Number>
 struct CollocationCoefficients {

@@ -60,6 +60,8 @@ class SecantUpdates {
   }
 
  private:
+  static constexpr int kept = N == dynamic ? dynamic : static_cast<int>(most) * N;  // numbers of all steps
+
   [[nodiscard]] std::size_t size() const { return weight_.size(); }
   [[nodiscard]] bool at_round_off(const Vector<T, N>& correction) const {
     Number largest(0);
@@ -102,7 +104,7 @@ class SecantUpdates {
 
   std::size_t count_ = 0;
   Vector<Number, N> weight_;
-  Vector<Number, N == dynamic ? dynamic : N* static_cast<int>(most)> steps_;
+  Vector<Number, kept> steps_;
   std::array<Number, most> squares_{};
 };
 
