@@ -9,6 +9,7 @@ from canvas import MID
 from families import FAMILIES, style
 from figures import Drawing, sentences
 from labels import Label, place
+from scales import power_of_ten
 from wording import listed
 from work_precision import NARROW, WIDE, paper
 
@@ -102,7 +103,7 @@ def draw(study, quantity, look):
     decades = round(math.log10(high / low))
     stride = 1 if decades <= 8 else 2 if decades <= 14 else 5
     powers = [k for k in range(round(math.log10(low)), round(math.log10(high)) + 1) if k % stride == 0]
-    axes.set_yticks([10.0**k for k in powers], [f"$10^{{{k}}}$" for k in powers])
+    axes.set_yticks([10.0**k for k in powers], [power_of_ten(k) for k in powers])
     axes.set_yticks([], minor=True)
     axes.set_ylim(low, high)
     canvas.labels(axes, "number K of constraints", TITLES[quantity])

@@ -12,6 +12,7 @@ from curves import LOST, ZERO, curves, front, ranks
 from families import style
 from figures import Drawing, heading, sentences, step_text
 from labels import Label, inside, place, sampled
+from scales import power_of_ten
 from sentence import finding
 from wording import counted, listed, plain_text, short_count, short_time, tick_time
 
@@ -142,7 +143,7 @@ def ticks(canvas, axes, work, look):
     powers = [k for k in range(math.ceil(math.log10(low)), math.floor(math.log10(high)) + 1)]
     stride = 3 if len(powers) > 7 else 2 if len(powers) > 5 else 1
     some = [k for k in powers if k % stride == 0]
-    axes.set_yticks([10.0**k for k in some], [r"$1$" if k == 0 else f"$10^{{{k}}}$" for k in some])
+    axes.set_yticks([10.0**k for k in some], ["1" if k == 0 else power_of_ten(k) for k in some])
     axes.set_yticks([], minor=True)
     low, high = axes.get_xlim()
     decades = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)

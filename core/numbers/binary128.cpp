@@ -1,5 +1,6 @@
 #include <emmintrin.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 
@@ -35,9 +36,23 @@ __float128 decoded(Half high, Half low) {
 unsigned exponent_of(Half high) { return static_cast<unsigned>(high >> 48) & special_exponent; }
 bool is_normal(int exponent) { return static_cast<unsigned>(exponent - 1) < special_exponent - 1; }
 
+bool is_zero(Encoded x) { return ((x.high & ~sign_bit) | x.low) == 0; }
+
 // The significand of a normal number as an integer of 113 bits, times 2^shift, shift in 1...15.
 Encoded significand(Encoded x, int shift) {
   return {(((x.high & fraction_of_high) | leading_bit) << shift) | (x.low >> (64 - shift)), x.low << shift};
+}
+
+// 256 bits, in two halves.
+struct Product {
+  Whole upper, lower;
+};
+Product product_of(Encoded m, Encoded n) {
+  const Whole lowest = Whole{m.low} * n.low;
+  const Whole middle = Whole{m.low} * n.high + static_cast<Half>(lowest >> 64);
+  const Whole also_middle = Whole{m.high} * n.low + static_cast<Half>(middle);
+  return {Whole{m.high} * n.high + static_cast<Half>(middle >> 64) + static_cast<Half>(also_middle >> 64),
+          also_middle << 64 | static_cast<Half>(lowest)};
 }
 
 // The number nearest to m 2^(exponent - exponent_bias - 127), the even one of two, for 2^127 <= m < 2^128. A
@@ -60,8 +75,11 @@ __float128 binary128_sum(__float128 a, __float128 b) noexcept {
   const Encoded larger{x.high ^ change.high, x.low ^ change.low},
       smaller{y.high ^ change.high, y.low ^ change.low};
   const unsigned larger_exponent = exponent_of(larger.high), smaller_exponent = exponent_of(smaller.high);
-  if ((larger_exponent == special_exponent) | (smaller_exponent == 0)) [[unlikely]]
-    return a + b;
+  if ((larger_exponent == special_exponent) | (smaller_exponent == 0)) [[unlikely]] {
+    // A zero leaves the other number as it is; many coefficients of series are zero.
+    if (larger_exponent == special_exponent || !is_zero(smaller)) return a + b;
+    return is_zero(larger) ? decoded(x.high & y.high, 0) : decoded(larger.high, larger.low);
+  }
 
   // Leading bits at 126, which leaves room for a carry and 14 bits below the last one. What is shifted out is
   // remembered in the lowest bit, which suffices to round.
@@ -101,20 +119,16 @@ __float128 binary128_product(__float128 a, __float128 b) noexcept {
   const Encoded x = encoded(a), y = encoded(b);
   const auto x_exponent = static_cast<int>(exponent_of(x.high)),
              y_exponent = static_cast<int>(exponent_of(y.high));
-  if (!is_normal(x_exponent) || !is_normal(y_exponent)) [[unlikely]]
-    return a * b;
+  if (!is_normal(x_exponent) || !is_normal(y_exponent)) [[unlikely]] {
+    const bool finite = exponent_of(x.high) != special_exponent && exponent_of(y.high) != special_exponent;
+    return finite && (is_zero(x) || is_zero(y)) ? decoded((x.high ^ y.high) & sign_bit, 0) : a * b;
+  }
 
   // Leading bits at 127: the upper 128 bits of the product of 256 have theirs at 127 or 126. Whether the
   // lower ones are zero is remembered in the lowest bit.
-  const Encoded m = significand(x, 15), n = significand(y, 15);
-  const Whole lowest = Whole{m.low} * n.low;
-  const Whole middle = Whole{m.low} * n.high + static_cast<Half>(lowest >> 64);
-  const Whole also_middle = Whole{m.high} * n.low + static_cast<Half>(middle);
-  const Whole highest =
-      Whole{m.high} * n.high + static_cast<Half>(middle >> 64) + static_cast<Half>(also_middle >> 64);
-  const Half rest = static_cast<Half>(lowest) | static_cast<Half>(also_middle);
-  Encoded product{static_cast<Half>(highest >> 64),
-                  static_cast<Half>(highest) | static_cast<Half>(rest != 0)};
+  const Product p = product_of(significand(x, 15), significand(y, 15));
+  Encoded product{static_cast<Half>(p.upper >> 64),
+                  static_cast<Half>(p.upper) | static_cast<Half>(p.lower != 0)};
   const auto carried = static_cast<int>(product.high >> 63);
   const int shift = 1 - carried;
   product = {(product.high << shift) | ((product.low >> 63) & static_cast<Half>(shift)),
@@ -123,6 +137,116 @@ __float128 binary128_product(__float128 a, __float128 b) noexcept {
   if (!is_normal(exponent)) [[unlikely]]
     return a * b;
   return rounded((x.high ^ y.high) & sign_bit, exponent, product);
+}
+
+namespace {
+
+// The exponents of products.
+struct Exponents {
+  unsigned largest = 0;  // the sum of both
+  bool finite_and_not_subnormal = true;
+
+  void look_at(Encoded x, Encoded y) {
+    const unsigned x_exponent = exponent_of(x.high), y_exponent = exponent_of(y.high);
+    if (is_normal(static_cast<int>(x_exponent)) & is_normal(static_cast<int>(y_exponent))) [[likely]] {
+      largest = std::max(largest, x_exponent + y_exponent);
+    } else if (x_exponent == special_exponent || y_exponent == special_exponent ||
+               !(is_zero(x) || is_zero(y))) {
+      finite_and_not_subnormal = false;
+    }
+  }
+};
+
+// The sum of numbers of 256 bits; those of negative sign are summed by themselves.
+class Accumulator {
+ public:
+  explicit Accumulator(unsigned largest) : largest_(largest) {}
+
+  // Adds x y. The largest product that is added lies between 2^240 and 2^242, this one is 2^below times
+  // smaller than by its significands; so there is room for 2^13 products, and what is dropped of each is less
+  // than 2^-240 of the largest.
+  void add(Encoded x, Encoded y) {
+    const unsigned x_exponent = exponent_of(x.high), y_exponent = exponent_of(y.high);
+    const unsigned below = largest_ - x_exponent - y_exponent;
+    if (x_exponent == 0 || y_exponent == 0 || below >= 256) return;
+    const Product p = product_of(significand(x, 15), significand(y, 1));
+    parts_[0] = static_cast<Half>(p.lower);
+    parts_[1] = static_cast<Half>(p.lower >> 64);
+    parts_[2] = static_cast<Half>(p.upper);
+    parts_[3] = static_cast<Half>(p.upper >> 64);
+    const Half* from = parts_ + below / 64;
+    const unsigned right = below % 64, left = 63 - right;
+    const auto part = [&](int k) { return (from[k] >> right) | ((from[k + 1] << 1) << left); };
+    const Whole lower = Whole{part(1)} << 64 | part(0), upper = Whole{part(3)} << 64 | part(2);
+    Product& sum = sums_[(x.high ^ y.high) >> 63];
+    sum.lower += lower;
+    sum.upper += upper + static_cast<Half>(sum.lower < lower);
+  }
+
+  // The number nearest to the sum, where products of the exponent `largest` lie between 2^240 and 2^242.
+  // False where that is not a normal number.
+  bool rounded_to(__float128& result) const {
+    const Product &plus = sums_[0], &minus = sums_[1];
+    const bool negative = plus.upper < minus.upper || (plus.upper == minus.upper && plus.lower < minus.lower);
+    const Product &more = sums_[negative], &less = sums_[!negative];
+    Whole upper = more.upper - less.upper - static_cast<Half>(more.lower < less.lower),
+          lower = more.lower - less.lower;
+    result = 0;
+    if ((upper | lower) == 0) return true;
+    int zeros = 0;
+    if (upper == 0) {
+      zeros = 128;
+      upper = lower;
+      lower = 0;
+    }
+    const auto high = static_cast<Half>(upper >> 64);
+    const int more_zeros =
+        high != 0 ? std::countl_zero(high) : 64 + std::countl_zero(static_cast<Half>(upper));
+    if (more_zeros != 0) {
+      upper = upper << more_zeros | lower >> (128 - more_zeros);
+      lower <<= more_zeros;
+    }
+    const int exponent = static_cast<int>(largest_) - exponent_bias + 15 - zeros - more_zeros;
+    if (!is_normal(exponent)) return false;
+    result =
+        rounded(negative ? sign_bit : 0, exponent,
+                {static_cast<Half>(upper >> 64), static_cast<Half>(upper) | static_cast<Half>(lower != 0)});
+    return true;
+  }
+
+ private:
+  unsigned largest_;
+  Product sums_[2] = {};
+  Half parts_[8] = {};  // the product, lowest first, and zeros
+};
+
+constexpr Encoded one{static_cast<Half>(exponent_bias) << 48, 0};
+constexpr std::size_t most_products = 1U << 12;
+
+}  // namespace
+
+__float128 binary128_sum_of_products(__float128 start, const __float128* a, std::ptrdiff_t a_step,
+                                     const __float128* b, std::ptrdiff_t b_step, std::size_t count) noexcept {
+  __float128 result = 0;
+  if (count >= 2 && count < most_products) [[likely]] {
+    const auto a_at = [&](std::size_t k) { return encoded(a[static_cast<std::ptrdiff_t>(k) * a_step]); };
+    const auto b_at = [&](std::size_t k) { return encoded(b[static_cast<std::ptrdiff_t>(k) * b_step]); };
+    Exponents exponents;
+    exponents.look_at(encoded(start), one);
+    for (std::size_t k = 0; k < count; ++k) exponents.look_at(a_at(k), b_at(k));
+    if (exponents.finite_and_not_subnormal) [[likely]] {
+      Accumulator sum(exponents.largest);
+      sum.add(encoded(start), one);
+      for (std::size_t k = 0; k < count; ++k) sum.add(a_at(k), b_at(k));
+      if (sum.rounded_to(result)) return result;
+    }
+  }
+  result = start;
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto at = static_cast<std::ptrdiff_t>(k);
+    result = binary128_sum(result, binary128_product(a[at * a_step], b[at * b_step]));
+  }
+  return result;
 }
 
 }  // namespace pfaff

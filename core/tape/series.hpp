@@ -13,6 +13,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <type_traits>
 #include <vector>
 
 #include <pfaff/core/linear/lu.hpp>
@@ -87,11 +88,18 @@ class SeriesReplay {
     for (std::size_t i = first; i <= last; ++i) {
       const T* ai = a + i * lanes_;
       const T* bi = b + (level - i) * lanes_;
-      for (std::size_t lane = 0; lane < lanes_; ++lane)
-        to[lane] = to[lane] + weight(i) * (ai[lane] * bi[lane]);
+      const T w = weight(i);
+      for (std::size_t lane = 0; lane < lanes_; ++lane) to[lane] = to[lane] + w * (ai[lane] * bi[lane]);
     }
   }
   void convolve(T* to, const T* a, const T* b, std::size_t level, std::size_t first, std::size_t last) {
+    if constexpr (std::is_same_v<T, Quad>) {
+      const auto step = static_cast<std::ptrdiff_t>(lanes_);
+      for (std::size_t lane = 0; lane < lanes_ && first <= last; ++lane)
+        to[lane] = sum_of_products(to[lane], a + first * lanes_ + lane, step,
+                                   b + (level - first) * lanes_ + lane, -step, last + 1 - first);
+      return;
+    }
     for (std::size_t i = first; i <= last; ++i) {
       const T* ai = a + i * lanes_;
       const T* bi = b + (level - i) * lanes_;

@@ -92,7 +92,6 @@ class Directed(Fresh):
         synthetic(self.folder, steps=(0.2, 0.1))  # `bad` fails at the larger one
         for path in self.folder.glob("runs/damped-*/summary.json"):
             path.write_text(path.read_text().replace("decreasing", behaviour))
-        self.assertEqual(run(self.folder)[0], 0)
         self.shown = reading.Experiment(self.folder)
         return findings.drift(self.shown, self.shown.cases[1])[0]
 
@@ -109,6 +108,7 @@ class Directed(Fresh):
         drawn = figures.drift_at_equal_step(self.shown, self.shown.cases[1])
         self.assertIn("expected to increase", drawn.title)
         self.assertIn("largest fall of energy so far", drawn.draw(True).axes[1].get_ylabel())
+        self.assertEqual(run(self.folder)[0], 0)
         self.assertIn("falls by 0.982", parsed(self.folder).text)
 
     def test_the_error_of_what_falls_is_drawn(self):
