@@ -1,4 +1,5 @@
-// pfaff tune: a splitting whose shadow terms are small on one system, as a table of coefficients.
+// pfaff tune: a splitting, processed or not, whose shadow terms are small on one system, as a table of
+// coefficients.
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -60,7 +61,8 @@ int tune(const TuneOptions& options, const Common& common) {
   const SystemPlugin& system = system_named(options.system);
   const auto model = system.make(parse_settings(options.set));
   constexpr int states = 200;
-  const SplittingLogarithm logarithm(options.tuning.order);
+  const bool processed = options.tuning.processor > 0;
+  const SplittingLogarithm logarithm(options.tuning.order, processed ? Degrees::all : Degrees::odd);
   const ShadowTerms terms(*model, logarithm, options.step, states_along_the_motion(model, states));
   std::vector<std::pair<std::string, double>> others;
   for (const std::string& method : options.beside)
@@ -82,19 +84,23 @@ int tune(const TuneOptions& options, const Common& common) {
     nlohmann::json beside = nlohmann::json::array();
     for (const auto& [method, error] : others)
       beside.push_back({{"method", method}, {"shadow_error", error}});
-    std::cout << json_text({{"schema", 1},
-                            {"ok", ok.value_or(true)},
-                            {"system", system.name()},
-                            {"order", options.tuning.order},
-                            {"stages", options.tuning.stages},
-                            {"step", options.step},
-                            {"shadow_error", tuned.error},
-                            {"beside", beside},
-                            {"verified", ok ? nlohmann::json(*ok) : nlohmann::json(nullptr)},
-                            {"table", table_text}});
+    std::cout << json_text(
+        {{"schema", 1},
+         {"ok", ok.value_or(true)},
+         {"system", system.name()},
+         {"order", options.tuning.order},
+         {"stages", options.tuning.stages},
+         {"step", options.step},
+         {"shadow_error", tuned.error},
+         {"processor", options.tuning.processor},
+         {"kernel_error", processed ? nlohmann::json(tuned.error_of_kernel) : nlohmann::json(nullptr)},
+         {"beside", beside},
+         {"verified", ok ? nlohmann::json(*ok) : nlohmann::json(nullptr)},
+         {"table", table_text}});
   } else if (!common.quiet) {
     std::cout << table_text << '\n';
     TableRows rows{{"splitting", "shadow terms"}, {name, scientific(tuned.error)}};
+    if (processed) rows.push_back({"what no processor removes of it", scientific(tuned.error_of_kernel)});
     for (const auto& [method, error] : others) rows.push_back({method, scientific(error)});
     std::cout << table(rows)
               << paragraph(
@@ -121,6 +127,10 @@ void add_tune(CLI::App& app, Common& common, Action& action) {
       ->required();
   sub->add_option("--order", options->tuning.order, "2, 4 or 6; 4 without")->type_name("p");
   sub->add_option("--stages", options->tuning.stages, "Forces a step, 6 without")->type_name("s");
+  sub->add_option(
+         "--processor", options->tuning.processor,
+         "Make a processed method, with so many kicks in its processor; --stages is then of the kernel")
+      ->type_name("k");
   sub->add_option("--set", options->set, "A parameter of the system (omega=2)")
       ->type_name("KEY=VALUE")
       ->expected(1)

@@ -4,8 +4,9 @@
 
 namespace pfaff {
 
-SplittingLogarithm::SplittingLogarithm(int order) : order_(order), words_({1, 1}, order + 3) {
-  for (const int degree : {order + 1, order + 3})
+SplittingLogarithm::SplittingLogarithm(int order, Degrees degrees)
+    : order_(order), stride_(degrees == Degrees::odd ? 2 : 1), words_({1, 1}, order + 3) {
+  for (int degree = order + 1; degree <= order + 3; degree += stride_)
     for (const std::size_t word : words_.lyndon(degree)) lyndon_.push_back(word);
   const std::size_t n = lyndon_.size();
   bracketings_.resize(n * n);
@@ -15,22 +16,25 @@ SplittingLogarithm::SplittingLogarithm(int order) : order_(order), words_({1, 1}
   }
 }
 
-SplittingLogarithm::Coordinates SplittingLogarithm::of(const std::vector<PartialFlow>& flows) const {
-  WordSeries<double> product = WordSeries<double>::one(words_);
-  for (const PartialFlow& flow : flows)
-    product.times_exponential(flow.part, static_cast<double>(flow.length));
-  const WordSeries<double> log = logarithm(std::move(product));
-  Coordinates result;
-  for (int degree = 1; degree < order_; degree += 2)
-    for (const std::size_t word : words_.lyndon(degree))
-      result.conditions.push_back(log[word] - (degree == 1 ? 1 : 0));
+std::vector<double> SplittingLogarithm::brackets(const WordSeries<double>& log) const {
   // A word has the coefficient 1 in its own bracketing, which holds no smaller Lyndon word.
   const std::size_t n = lyndon_.size();
+  std::vector<double> result;
   for (std::size_t i = 0; i < n; ++i) {
     double c = log[lyndon_[i]];
-    for (std::size_t j = 0; j < i; ++j) c -= bracketings_[i * n + j] * result.brackets[j];
-    result.brackets.push_back(c);
+    for (std::size_t j = 0; j < i; ++j) c -= bracketings_[i * n + j] * result[j];
+    result.push_back(c);
   }
+  return result;
+}
+
+SplittingLogarithm::Coordinates SplittingLogarithm::of(const std::vector<PartialFlow>& flows) const {
+  const WordSeries<double> log = logarithm(series_of<double>(words_, flows));
+  Coordinates result;
+  for (int degree = 1; degree <= order_; degree += stride_)
+    for (const std::size_t word : words_.lyndon(degree))
+      result.conditions.push_back(log[word] - (degree == 1 ? 1 : 0));
+  result.brackets = brackets(log);
   return result;
 }
 

@@ -7,25 +7,43 @@
 
 namespace pfaff {
 
-/// Of palindromes of one even order; the logarithm of a palindrome has no words of even degree.
+/// A composition of flows as a series of words, the flow that acts first on the left.
+template <class T>
+WordSeries<T> series_of(const Words& words, const std::vector<PartialFlow>& flows) {
+  WordSeries<T> product = WordSeries<T>::one(words);
+  for (const PartialFlow& flow : flows) product.times_exponential(flow.part, static_cast<T>(flow.length));
+  return product;
+}
+
+/// The degrees that a logarithm is looked at in.
+enum class Degrees {
+  odd,  // of palindromes, whose logarithms have no words of even degree
+  all,
+};
+
+/// Of splittings of one even order.
 class SplittingLogarithm {
  public:
-  explicit SplittingLogarithm(int order);
+  explicit SplittingLogarithm(int order, Degrees degrees = Degrees::odd);
 
   struct Coordinates {
-    /// The residuals of the order conditions of degrees 1, 3, ..., order - 1.
+    /// The residuals of the order conditions of degrees 1, 3, ..., order - 1, or 1, 2, ..., order.
     std::vector<double> conditions;
-    /// The coordinates of degrees order + 1 and order + 3 in the bracketings of their Lyndon words.
+    /// The coordinates of degrees order + 1 and order + 3, or of all from the one to the other, in the
+    /// bracketings of their Lyndon words.
     std::vector<double> brackets;
   };
   [[nodiscard]] Coordinates of(const std::vector<PartialFlow>& flows) const;
+  /// `brackets` of a logarithm, a series of words().
+  [[nodiscard]] std::vector<double> brackets(const WordSeries<double>& log) const;
 
+  [[nodiscard]] int order() const { return order_; }
   [[nodiscard]] const Words& words() const { return words_; }
   /// The Lyndon words of `brackets`, in their order.
   [[nodiscard]] const std::vector<std::size_t>& lyndon() const { return lyndon_; }
 
  private:
-  int order_;
+  int order_, stride_;
   Words words_;
   std::vector<std::size_t> lyndon_;
   std::vector<double> bracketings_;  // row i, column j: the coefficient of word i in the bracketing of word j

@@ -69,6 +69,7 @@ WordSeries<T> bracketing(const Words& words, std::size_t lyndon_word) {
   return commutator(bracketing<T>(words, beginning), bracketing<T>(words, ending));
 }
 
+template WordSeries<double> bracketing(const Words& words, std::size_t lyndon_word);
 template WordSeries<Quad> bracketing(const Words& words, std::size_t lyndon_word);
 template WordSeries<Rational> bracketing(const Words& words, std::size_t lyndon_word);
 

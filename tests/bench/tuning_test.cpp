@@ -6,43 +6,16 @@
 #include <pfaff/bench/tuning/tuned_splitting.hpp>
 #include <pfaff/core/facets/problem.hpp>
 #include <pfaff/core/integrator.hpp>
-#include <pfaff/core/system.hpp>
-#include <pfaff/core/tape/replay.hpp>
+
+#include "splittings.hpp"
 
 namespace pfaff {
 namespace {
 
-std::shared_ptr<const Model> system(const std::string& name) {
-  return systems().get(name, "system").make({});
-}
-
-std::vector<PartialFlow> strang() { return {{0, Quad(1) / Quad(2)}, {1, Quad(1)}, {0, Quad(1) / Quad(2)}}; }
-// Yoshida's triple jump over it.
-std::vector<PartialFlow> triple_jump() {
-  const Quad root = pow(Quad(2), Real::fraction(1, 3)), outer = Quad(1) / (Quad(2) - root),
-             inner = Quad(1) - Quad(2) * outer;
-  return {{0, outer / Quad(2)},
-          {1, outer},
-          {0, (outer + inner) / Quad(2)},
-          {1, inner},
-          {0, (outer + inner) / Quad(2)},
-          {1, outer},
-          {0, outer / Quad(2)}};
-}
-
-// One step of a splitting, by formulas of the model.
-std::vector<Quad> step(const Model& model, const std::vector<PartialFlow>& flows, Quad h,
-                       std::vector<Quad> z) {
-  Replay<Quad> velocity(model.tape(Formula::velocity)), force(model.tape(Formula::force));
-  const std::size_t half = z.size() / 2;
-  std::vector<Quad> slope(half);
-  for (const PartialFlow& flow : flows) {
-    const std::size_t moved = flow.part == 0 ? 0 : half;
-    (flow.part == 0 ? velocity : force)(Quad(0), z.data() + (half - moved), slope.data());
-    for (std::size_t i = 0; i < half; ++i) z[moved + i] += flow.length * h * slope[i];
-  }
-  return z;
-}
+using testing::step;
+using testing::strang;
+using testing::system;
+using testing::triple_jump;
 
 // The logarithm of Strang's splitting is A + B - [A, [A, B]]/24 + [[A, B], B]/12 + ... in this order of the
 // flows, and the words A A B and A B B are Lyndon's.

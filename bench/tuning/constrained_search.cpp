@@ -1,0 +1,177 @@
+#include <pfaff/bench/tuning/constrained_search.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <pfaff/core/linear/lu.hpp>
+
+namespace pfaff {
+
+namespace {
+
+using Numbers = std::vector<double>;
+
+// Minimises |r(x)| under the conditions g(x) = 0 by Gauss and Newton: each step minimises the linearised sum
+// of squares under the linearised conditions, with a damping that grows while steps do not lead down.
+class Search {
+ public:
+  explicit Search(const ConstrainedProblem& problem) : problem_(problem) {}
+
+  struct Point {
+    Numbers x, conditions, residuals;
+  };
+  [[nodiscard]] Point at(Numbers x) const {
+    auto values = problem_.values(x);
+    return {std::move(x), std::move(values.conditions), std::move(values.residuals)};
+  }
+  // The derivatives of conditions and residuals, each one row for a variable.
+  struct Slopes {
+    std::vector<Numbers> conditions, residuals;
+  };
+  [[nodiscard]] Slopes slopes(const Point& point) const {
+    constexpr double offset = 1e-6;  // a central difference of it is good to 1e-10
+    Slopes slopes;
+    for (std::size_t k = 0; k < point.x.size(); ++k) {
+      Numbers forward = point.x, backward = point.x;
+      forward[k] += offset;
+      backward[k] -= offset;
+      Point a = at(std::move(forward)), b = at(std::move(backward));
+      for (std::size_t i = 0; i < a.conditions.size(); ++i)
+        a.conditions[i] = (a.conditions[i] - b.conditions[i]) / (2 * offset);
+      for (std::size_t i = 0; i < a.residuals.size(); ++i)
+        a.residuals[i] = (a.residuals[i] - b.residuals[i]) / (2 * offset);
+      slopes.conditions.push_back(std::move(a.conditions));
+      slopes.residuals.push_back(std::move(a.residuals));
+    }
+    return slopes;
+  }
+
+  // The end of a search from x, and nothing where it does not reach the conditions or is too long.
+  [[nodiscard]] std::optional<Point> from(Numbers x) const {
+    Point point = at(std::move(x));
+    double damping = 1e-3;
+    int idle = 0;
+    for (int iteration = 0; iteration < 200 && idle < 12; ++iteration) {
+      const std::optional<Numbers> step = step_of(point, damping);
+      if (!step) return std::nullopt;
+      Numbers moved = point.x;
+      for (std::size_t k = 0; k < moved.size(); ++k) moved[k] += (*step)[k];
+      Point next = at(std::move(moved));
+      const double now = merit(point), then = merit(next);
+      if (then < now) {
+        idle = then > now * (1 - 1e-10) ? idle + 1 : 0;
+        point = std::move(next);
+        damping = std::max(damping / 3, 1e-12);
+      } else {
+        damping *= 4;
+        ++idle;
+      }
+    }
+    if (!(norm_of(point.conditions) < 1e-8) || problem_.length(point.x) > problem_.longest)
+      return std::nullopt;
+    return point;
+  }
+
+  // Moves the numbers, by as little as possible, to where the conditions hold to round-off of quad. The
+  // slopes of double are good enough: each iteration divides what is left by a million or more.
+  [[nodiscard]] std::optional<std::vector<Quad>> in_quad(const Point& point) const {
+    const auto rows = slopes(point).conditions;
+    const std::size_t n = point.x.size(), m = point.conditions.size();
+    LU<Quad> normal(m);
+    for (std::size_t i = 0; i < m; ++i)
+      for (std::size_t j = 0; j < m; ++j) {
+        Quad sum(0);
+        for (std::size_t k = 0; k < n; ++k) sum += Quad(rows[k][i]) * Quad(rows[k][j]);
+        normal(i, j) = sum;
+      }
+    if (!normal.factor()) return std::nullopt;
+    std::vector<Quad> x(point.x.begin(), point.x.end()), multipliers(m);
+    constexpr int enough = 12;
+    for (int iteration = 0; iteration < enough; ++iteration) {
+      if (problem_.holds(x)) return x;
+      std::vector<Quad> right = problem_.conditions(x);
+      for (Quad& residual : right) residual = -residual;
+      normal.solve(right.data(), multipliers.data());
+      for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j < m; ++j) x[i] += Quad(rows[i][j]) * multipliers[j];
+    }
+    return std::nullopt;
+  }
+
+ private:
+  // Conditions count so much more than residuals that no valley of the sum lies far from them.
+  static double merit(const Point& point) {
+    return norm_of(point.residuals) + 1e3 * norm_of(point.conditions);
+  }
+
+  // d that minimises |r + J d|^2 + damping |d|^2 under g + A d = 0.
+  [[nodiscard]] std::optional<Numbers> step_of(const Point& point, double damping) const {
+    const Slopes s = slopes(point);
+    const std::size_t n = point.x.size(), m = point.conditions.size();
+    double scale = 0;
+    for (const Numbers& row : s.residuals) scale = std::max(scale, norm_of(row));
+    LU<double> matrix(n + m);
+    Numbers right(n + m, 0.0), solution(n + m);
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t j = 0; j < n; ++j) {
+        double sum = i == j ? damping * scale * scale + 1e-14 : 0;
+        for (std::size_t k = 0; k < point.residuals.size(); ++k) sum += s.residuals[i][k] * s.residuals[j][k];
+        matrix(i, j) = sum;
+      }
+      for (std::size_t k = 0; k < point.residuals.size(); ++k)
+        right[i] -= s.residuals[i][k] * point.residuals[k];
+      for (std::size_t k = 0; k < m; ++k) matrix(i, n + k) = matrix(n + k, i) = s.conditions[i][k];
+    }
+    for (std::size_t k = 0; k < m; ++k) {
+      for (std::size_t j = 0; j < m; ++j) matrix(n + k, n + j) = 0;
+      right[n + k] = -point.conditions[k];
+    }
+    if (!matrix.factor()) return std::nullopt;
+    matrix.solve(right.data(), solution.data());
+    solution.resize(n);
+    const double length = norm_of(solution), most = 0.3;
+    if (!std::isfinite(length)) return std::nullopt;
+    if (length > most)
+      for (double& x : solution) x *= most / length;
+    return solution;
+  }
+
+  const ConstrainedProblem& problem_;
+};
+
+Numbers rounded(const std::vector<Quad>& x) {
+  Numbers result;
+  for (const Quad& number : x) result.push_back(static_cast<double>(number));
+  return result;
+}
+
+}  // namespace
+
+double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11U) / 9007199254740992.0; }
+
+double norm_of(const std::vector<double>& v) {
+  double sum = 0;
+  for (const double x : v) sum += x * x;
+  return std::sqrt(sum);
+}
+
+std::optional<std::vector<Quad>> least_squares(const ConstrainedProblem& problem, std::mt19937_64& random,
+                                               int starts,
+                                               const std::function<void(double fraction)>& progress) {
+  const Search search(problem);
+  std::optional<std::vector<Quad>> best;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (int start = 0; start < starts; ++start) {
+    if (progress) progress(static_cast<double>(start) / starts);
+    const auto end = search.from(problem.start(random));
+    if (!end || !(norm_of(end->residuals) < smallest)) continue;
+    auto exact = search.in_quad(*end);
+    if (!exact) continue;
+    smallest = norm_of(problem.values(rounded(*exact)).residuals);
+    best = std::move(exact);
+  }
+  return best;
+}
+
+}  // namespace pfaff
