@@ -13,7 +13,10 @@ namespace {
 using Numbers = std::vector<double>;
 
 // Minimises |r(x)| under the conditions g(x) = 0 by Gauss and Newton: each step minimises the linearised sum
-// of squares under the linearised conditions, with a damping that grows while steps do not lead down.
+// of squares under the linearised conditions, with a damping that grows while steps do not lead down. From
+// each start this is done in two ways, which find different minima: on a path off the conditions, that
+// approaches them by and by, and on one that first goes to them, by the method of Levenberg, and then along
+// them, each step being followed by corrections.
 class Search {
  public:
   explicit Search(const ConstrainedProblem& problem) : problem_(problem) {}
@@ -47,30 +50,15 @@ class Search {
     return slopes;
   }
 
-  // The end of a search from x, and nothing where it does not reach the conditions or is too long.
-  [[nodiscard]] std::optional<Point> from(Numbers x) const {
-    Point point = at(std::move(x));
-    double damping = 1e-3;
-    int idle = 0;
-    for (int iteration = 0; iteration < 200 && idle < 12; ++iteration) {
-      const std::optional<Numbers> step = step_of(point, damping);
-      if (!step) return std::nullopt;
-      Numbers moved = point.x;
-      for (std::size_t k = 0; k < moved.size(); ++k) moved[k] += (*step)[k];
-      Point next = at(std::move(moved));
-      const double now = merit(point), then = merit(next);
-      if (then < now) {
-        idle = then > now * (1 - 1e-10) ? idle + 1 : 0;
-        point = std::move(next);
-        damping = std::max(damping / 3, 1e-12);
-      } else {
-        damping *= 4;
-        ++idle;
-      }
+  // The better end of the two paths from x, and nothing where neither reaches the conditions or both are too
+  // long.
+  [[nodiscard]] std::optional<Point> from(const Numbers& x) const {
+    std::optional<Point> best;
+    for (const bool off : {true, false}) {
+      std::optional<Point> end = along_conditions(off ? approaching(at(x)) : on_conditions(at(x)));
+      if (end && (!best || norm_of(end->residuals) < norm_of(best->residuals))) best = std::move(end);
     }
-    if (!(norm_of(point.conditions) < 1e-8) || problem_.length(point.x) > problem_.longest)
-      return std::nullopt;
-    return point;
+    return best;
   }
 
   // Moves the numbers, by as little as possible, to where the conditions hold to round-off of quad. The
@@ -100,14 +88,121 @@ class Search {
   }
 
  private:
+  static constexpr double most_damped = 1e6;
+
+  [[nodiscard]] bool good(const Point& point) const {
+    return norm_of(point.conditions) < 1e-8 && problem_.length(point.x) <= problem_.longest;
+  }
+
+  // x less A^T y, for the rows of slopes that are the columns of A.
+  static Numbers corrected(Numbers x, const std::vector<Numbers>& slopes, const Numbers& multipliers) {
+    for (std::size_t k = 0; k < x.size(); ++k)
+      for (std::size_t i = 0; i < multipliers.size(); ++i) x[k] -= slopes[k][i] * multipliers[i];
+    return x;
+  }
+  // A A^T + damping.
+  static LU<double> normal_matrix(const std::vector<Numbers>& slopes, std::size_t m, double damping) {
+    LU<double> normal(m);
+    for (std::size_t i = 0; i < m; ++i)
+      for (std::size_t j = 0; j < m; ++j) {
+        double sum = i == j ? damping : 0;
+        for (const Numbers& row : slopes) sum += row[i] * row[j];
+        normal(i, j) = sum;
+      }
+    return normal;
+  }
+
   // Conditions count so much more than residuals that no valley of the sum lies far from them.
   static double merit(const Point& point) {
     return norm_of(point.residuals) + 1e3 * norm_of(point.conditions);
   }
+  // The end of the path off the conditions.
+  [[nodiscard]] Point approaching(Point point) const {
+    constexpr double longest_step = 0.3;
+    double damping = 1e-3;
+    int idle = 0;
+    for (int iteration = 0; iteration < 200 && idle < 12; ++iteration) {
+      const std::optional<Numbers> step = step_of(point, slopes(point), damping);
+      if (!step) break;
+      const double length = norm_of(*step), factor = length > longest_step ? longest_step / length : 1;
+      Numbers x = point.x;
+      for (std::size_t k = 0; k < x.size(); ++k) x[k] += factor * (*step)[k];
+      Point next = at(std::move(x));
+      const double now = merit(point), then = merit(next);
+      if (then < now) {
+        idle = then > now * (1 - 1e-10) ? idle + 1 : 0;
+        point = std::move(next);
+        damping = std::max(damping / 3, 1e-12);
+      } else {
+        damping *= 4;
+        ++idle;
+      }
+    }
+    return point;
+  }
+
+  // From a point on the conditions along them to a minimum; nothing from other points.
+  [[nodiscard]] std::optional<Point> along_conditions(Point point) const {
+    if (!good(point)) return std::nullopt;
+    double damping = 1e-3;
+    for (int iteration = 0; iteration < 100; ++iteration) {
+      std::optional<Point> next = moved(point, damping);
+      if (!next) break;
+      const double before = norm_of(point.residuals), after = norm_of(next->residuals);
+      point = std::move(*next);
+      if (after > before * (1 - 1e-4)) break;
+      damping = std::max(damping / 5, 1e-12);
+    }
+    return point;
+  }
+
+  // Where the conditions hold, or as far as sixty steps lead towards that.
+  [[nodiscard]] Point on_conditions(Point point) const {
+    const std::size_t m = point.conditions.size();
+    Numbers multipliers(m);
+    double damping = 1e-2;
+    for (int iteration = 0; iteration < 60 && norm_of(point.conditions) > 1e-9; ++iteration) {
+      const auto rows = slopes(point).conditions;
+      LU<double> normal = normal_matrix(rows, m, damping);
+      if (!normal.factor()) break;
+      normal.solve(point.conditions.data(), multipliers.data());
+      Point next = at(corrected(point.x, rows, multipliers));
+      if (norm_of(next.conditions) < norm_of(point.conditions)) {
+        point = std::move(next);
+        damping /= 4;
+      } else {
+        damping *= 5;
+      }
+    }
+    return point;
+  }
+
+  // The next point on the conditions, with smaller residuals; nothing where no step leads to one.
+  [[nodiscard]] std::optional<Point> moved(const Point& point, double& damping) const {
+    const Slopes s = slopes(point);
+    const std::size_t m = point.conditions.size();
+    LU<double> normal = normal_matrix(s.conditions, m, 0);
+    if (!normal.factor()) return std::nullopt;
+    Numbers multipliers(m);
+    constexpr double longest_step = 0.3;
+    for (; damping < most_damped; damping *= 4) {
+      const std::optional<Numbers> step = step_of(point, s, damping);
+      if (!step || !(norm_of(*step) < longest_step)) continue;
+      Numbers x = point.x;
+      for (std::size_t k = 0; k < x.size(); ++k) x[k] += (*step)[k];
+      Point next = at(std::move(x));
+      // The slopes are those of the point before: five corrections are enough where the step is not too long.
+      for (int k = 0; k < 5 && norm_of(next.conditions) > 1e-11; ++k) {
+        normal.solve(next.conditions.data(), multipliers.data());
+        next = at(corrected(next.x, s.conditions, multipliers));
+      }
+      if (good(next) && norm_of(next.residuals) < norm_of(point.residuals)) return next;
+    }
+    return std::nullopt;
+  }
 
   // d that minimises |r + J d|^2 + damping |d|^2 under g + A d = 0.
-  [[nodiscard]] std::optional<Numbers> step_of(const Point& point, double damping) const {
-    const Slopes s = slopes(point);
+  static std::optional<Numbers> step_of(const Point& point, const Slopes& s, double damping) {
     const std::size_t n = point.x.size(), m = point.conditions.size();
     double scale = 0;
     for (const Numbers& row : s.residuals) scale = std::max(scale, norm_of(row));
@@ -130,10 +225,7 @@ class Search {
     if (!matrix.factor()) return std::nullopt;
     matrix.solve(right.data(), solution.data());
     solution.resize(n);
-    const double length = norm_of(solution), most = 0.3;
-    if (!std::isfinite(length)) return std::nullopt;
-    if (length > most)
-      for (double& x : solution) x *= most / length;
+    if (!std::isfinite(norm_of(solution))) return std::nullopt;
     return solution;
   }
 

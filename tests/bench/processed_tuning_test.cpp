@@ -148,7 +148,7 @@ TEST(ProcessedTuning, HasItsOrderByTheProcessorAndGainsByIt) {
   const SplittingLogarithm logarithm(4, Degrees::all);
   const double h = 0.6;
   const ShadowTerms terms(*model, logarithm, h, states_along_the_motion(model, 50));
-  const TuningSettings settings{.order = 4, .stages = 4, .processor = 5, .starts = 4};
+  const TuningSettings settings{.order = 4, .stages = 4, .processor = 5, .starts = 2};
   const TunedSplitting tuned = tuned_splitting(logarithm, terms, settings);
   ASSERT_EQ(tuned.flows.size(), 9U);
   ASSERT_EQ(tuned.pre.size(), 10U);
@@ -173,10 +173,10 @@ TEST(ProcessedTuning, HasItsOrderByTheProcessorAndGainsByIt) {
   }
   EXPECT_EQ(tuned.error, terms.of(logarithm.of(whole).brackets));
   EXPECT_GE(tuned.error, tuned.error_of_kernel);
-  // The palindrome of as many forces that is tuned alone has one free number, and few starts lead to it.
+  // The palindrome of as many forces that is tuned alone has one free number.
   const SplittingLogarithm odd(4);
   const ShadowTerms odd_terms(*model, odd, h, states_along_the_motion(model, 50));
-  const TunedSplitting alone = tuned_splitting(odd, odd_terms, {.order = 4, .stages = 4, .starts = 30});
+  const TunedSplitting alone = tuned_splitting(odd, odd_terms, {.order = 4, .stages = 4, .starts = 8});
   EXPECT_LT(tuned.error, alone.error / 3);
   const double error = energy_error(*model, tuned.pre, tuned.flows, h, 200);
   EXPECT_LT(error, energy_error(*model, {}, alone.flows, h, 200) / 3);
