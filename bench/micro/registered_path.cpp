@@ -36,8 +36,10 @@ void add_methods() {
   add_registered<S>("implicit-midpoint", "registered", model, "implicit-midpoint");
   add_registered<S>("gauss-4", "registered", model, "gauss", {{"stages", "2"}});
   add_registered<S>("gauss-8", "registered", model, "gauss", {{"stages", "4"}});
-  add_registered<S>("generating-function-4", "registered", model, "generating-function", {{"order", "4"}});
-  add_registered<S>("generating-function-8", "registered", model, "generating-function", {{"order", "8"}});
+  add_registered<S>("generating-function-4", "registered", model, "generating-function",
+                    {{"order", "4"}, {"extra", "0"}});
+  add_registered<S>("generating-function-8", "registered", model, "generating-function",
+                    {{"order", "8"}, {"extra", "0"}});
 }
 
 // Generating functions beside Gauss collocation of the same order in the chart, on systems where their
@@ -49,7 +51,8 @@ void add_generating_functions() {
     const std::string m = std::to_string(order);
     add_registered<S>("gauss-" + m, "registered", model, model->canonical() ? "gauss" : "gauss-darboux",
                       {{"stages", std::to_string(order / 2)}});
-    add_registered<S>("generating-function-" + m, "registered", model, "generating-function", {{"order", m}});
+    add_registered<S>("generating-function-" + m, "registered", model, "generating-function",
+                      {{"order", m}, {"extra", "0"}});
   }
 }
 
@@ -59,7 +62,7 @@ void add_chain() {
   const SharedModel model =
       systems().get("coupled-damped-pendula", "system").make({{"count", std::to_string(N)}});
   add_registered<DampedChain<N>>("generating-function-8", "registered", model, "generating-function",
-                                 {{"order", "8"}});
+                                 {{"order", "8"}, {"extra", "0"}});
 }
 
 [[maybe_unused]] const bool added =

@@ -125,6 +125,8 @@ TEST(Run, GoldenTrajectories) {
                     "--set",
                     "variant=P",
                     "--set",
+                    "extra=0",
+                    "--set",
                     "nu=" + text("nu"),
                     "--step",
                     text("tau"),

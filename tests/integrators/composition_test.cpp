@@ -150,8 +150,8 @@ TEST(Composition, IsItsSubSteps) {
   const auto pendulum = model_named("damped-pendulum");
   const Quad h(0.1);
   const auto whole = after_steps<Quad>(*method_named("yoshida", {{"order", "4"}}), pendulum, h, 1);
-  const auto stepper =
-      method_named("generating-function", {{"order", "2"}, {"variant", "S"}})->stepper(pendulum, Quad());
+  const auto stepper = method_named("generating-function", {{"order", "2"}, {"variant", "S"}, {"extra", "0"}})
+                           ->stepper(pendulum, Quad());
   std::vector<Quad> parts;
   for (const Real& x : pendulum->initial()) parts.push_back(x.quad());
   Quad t(0);

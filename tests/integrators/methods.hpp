@@ -13,8 +13,10 @@ inline std::unique_ptr<MethodInstance> method_named(const std::string& name,
                                                     const Assignments& parameters = {}) {
   return integrators().get(name, "integrator").make(parameters);
 }
+/// The generating-function scheme truncated at degree `order`.
 inline std::unique_ptr<MethodInstance> generating_scheme(int order, const char* variant) {
-  return method_named("generating-function", {{"order", std::to_string(order)}, {"variant", variant}});
+  return method_named("generating-function",
+                      {{"order", std::to_string(order)}, {"variant", variant}, {"extra", "0"}});
 }
 
 /// The state after `count` steps of size h from z at t.

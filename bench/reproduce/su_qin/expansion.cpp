@@ -67,7 +67,7 @@ void coefficients(Rows& rows) {
 MeasuredOrder order(int m, const std::shared_ptr<const Model>& model) {
   const auto method = integrators()
                           .get("generating-function", "integrator")
-                          .make({{"order", std::to_string(m)}, {"variant", "P"}});
+                          .make({{"order", std::to_string(m)}, {"variant", "P"}, {"extra", "0"}});
   return measure_order(*method, model);
 }
 
@@ -86,8 +86,8 @@ void orders(Rows& rows) {
   const Numbers z{Quad(0.8), Quad(-0.4)};
   const printed::Oscillator formula(nu, t0, t1);  // whose K is the pendulum's
   for (const int m : {1, 2, 3}) {
-    const auto step =
-        step_of("generating-function", {{"order", std::to_string(m)}, {"variant", "P"}}, pendulum, z);
+    const auto step = step_of("generating-function",
+                              {{"order", std::to_string(m)}, {"variant", "P"}, {"extra", "0"}}, pendulum, z);
     const Matrix<Quad> jacobian(2, step.jacobian);
     rows.reproduced("(88)", "K-symplectic at m = " + std::to_string(m) + ", damped pendulum",
                     printed::listed(formula.k0()),
@@ -98,7 +98,8 @@ void orders(Rows& rows) {
   for (const int m : {1, 2})
     rows.reproduced(
         "(88)", "the scheme at m = " + std::to_string(m) + ", damped oscillator", formula.step(m, start),
-        step_of("generating-function", {{"order", std::to_string(m)}, {"variant", "P"}}, oscillator, start)
+        step_of("generating-function", {{"order", std::to_string(m)}, {"variant", "P"}, {"extra", "0"}},
+                oscillator, start)
             .z);
 }
 

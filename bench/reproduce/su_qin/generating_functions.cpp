@@ -33,7 +33,7 @@ class Section {
                   printed_inverse_ = printed::blocks_of(printed_.alpha_inverse_jacobian());
   LagrangianTransformation<Quad> alpha_{shared(record_alpha(PapersAlpha{}, 2))};
   StepJacobian<Quad> step_ =
-      step_of("generating-function", {{"order", "4"}, {"variant", "P"}}, model_, old_state);
+      step_of("generating-function", {{"order", "4"}, {"variant", "P"}, {"extra", "0"}}, model_, old_state);
   Matrix<Quad> m_{2, step_.jacobian};
   Matrix<Quad> k_ = structure(*model_, t1, step_.z), k0_ = structure(*model_, t0, old_state);
   FractionalTransformation<Quad> blocks_ = alpha_.blocks(t1, t0, step_.z, old_state);
@@ -130,7 +130,8 @@ class Section {
   void propositions() {
     const auto oscillator = damped("damped-oscillator");
     const auto g = [&](const Numbers& z) {
-      return step_of("generating-function", {{"order", "2"}, {"variant", "P"}}, oscillator, z).z;
+      return step_of("generating-function", {{"order", "2"}, {"variant", "P"}, {"extra", "0"}}, oscillator, z)
+          .z;
     };
     const Numbers after = g(old_state), pair = alpha_(t1, t0, after, old_state);
     rows_.reproduced("(41)", "alpha_1(g(z), z) = f(alpha_2(g(z), z))",

@@ -31,7 +31,8 @@ class OscillatorSchemes {
   Matrix<Quad> k1_ = structure(*model_, t1, z_);
 
   [[nodiscard]] StepJacobian<Quad> step(int order) const {
-    return step_of("generating-function", {{"order", std::to_string(order)}, {"variant", "P"}}, model_, z_);
+    return step_of("generating-function",
+                   {{"order", std::to_string(order)}, {"variant", "P"}, {"extra", "0"}}, model_, z_);
   }
   // M^T K(t1) M of a step.
   [[nodiscard]] Numbers kept(const StepJacobian<Quad>& step) const {
