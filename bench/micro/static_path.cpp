@@ -32,6 +32,7 @@ void add_static(const std::string& name, const std::string& path, const M& metho
 GeneratingFunction generating_function(int order) {
   GeneratingFunction method;
   method.truncation = order;
+  method.extra = "0";
   method.validate();
   return method;
 }

@@ -6,7 +6,8 @@
 // solved; order m, and m + 1 for odd m in the midpoint form where the field in the chart does not depend on
 // time. With m = 1 and the midpoint form this is su-qin (102), with m = 2 variant P the corrected (105).
 // Variant S, even m, expands at the mid-time: symmetric as well. Degrees beyond m, from the same nodes, bring
-// the error constant close to that of Gauss collocation in the chart.
+// the error constant close to that of Gauss collocation in the chart (extra_degrees.hpp); without them the
+// scheme is su-qin's.
 //
 // The step solves w = y + P psi(w), with Y the field in the chart. A first w is predicted from past steps or
 // by a Taylor series (expected_change.hpp) and corrected with one factorisation (correction_matrix.hpp) or,
@@ -29,6 +30,7 @@
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/integrators/generating/correction_matrix.hpp>
 #include <pfaff/integrators/generating/expected_change.hpp>
+#include <pfaff/integrators/generating/extra_degrees.hpp>
 #include <pfaff/integrators/generating/gradient_evaluator.hpp>
 #include <pfaff/integrators/support/continuation.hpp>
 #include <pfaff/integrators/support/remembered_contraction.hpp>
@@ -41,8 +43,8 @@ namespace pfaff {
 struct GeneratingFunction {
   /// The largest number of coordinates for which the correction factors a matrix.
   static constexpr std::size_t largest_matrix = 8;
-  int truncation = 4, extra = 0;
-  std::string variant = "auto", form = "midpoint";
+  int truncation = 4;
+  std::string variant = "auto", form = "midpoint", extra = "auto";
   std::vector<Real> normal;
   bool compensated = true;
   GaussCoefficients gauss;
@@ -59,24 +61,10 @@ struct GeneratingFunction {
                   "which old and new coordinates w mixes"),
         parameter(&G::normal, "normal", "", -100, 100,
                   "form normal: V of P = (I + V)/2 by rows, or a,b,c,d for its blocks a I, b I, c I, d I"),
-        parameter(&G::extra, "extra", "", 0, 8, "degrees kept beyond m, from the same nodes (even)"),
+        parameter(&G::extra, "extra", {"auto", "0", "2", "4", "6", "8"},
+                  "degrees kept beyond m, from the same nodes; 0: the scheme of su-qin; auto: in variant S "
+                  "what costs least at equal error, 2 at orders 6 and 10, 4 at order 8, 0 at others; else 0"),
         parameter(&G::compensated, "compensated", "compensated summation")};
-  }
-  /// Every order up to the highest in the variant it takes by default; besides, even orders in variant P, the
-  /// other forms, and extra degrees.
-  static std::vector<Assignments> instances(bool full) {
-    std::vector<Assignments> list;
-    const int highest = full ? 14 : 12;  // beyond, quad has too few digits to see a slope on every system
-    for (int m = 1; m <= highest; ++m) list.push_back({{"order", std::to_string(m)}});
-    for (int m = 2; m <= highest; m += 2) list.push_back({{"order", std::to_string(m)}, {"variant", "P"}});
-    for (int m = 1; m <= (full ? 12 : 6); ++m)
-      for (const char* mixed : {"qhat-p", "q-phat"})
-        list.push_back({{"order", std::to_string(m)}, {"form", mixed}});
-    for (int m = 1; m <= (full ? 12 : 4); ++m)
-      list.push_back({{"order", std::to_string(m)}, {"form", "normal"}, {"normal", "0.2,0.1,-0.3,-0.2"}});
-    for (int m = 1; m <= 8; ++m)
-      list.push_back({{"order", std::to_string(m)}, {"extra", m % 4 < 2 ? "2" : "4"}});
-    return list;
   }
   void validate() {
     const auto refuse = [](const std::string& text) { throw InputError(text); };
@@ -84,7 +72,6 @@ struct GeneratingFunction {
       refuse("variant S needs an even order, got order " + std::to_string(truncation) +
              "; expected variant P or an even order");
     if (variant == "S" && form != "midpoint") refuse("variant S needs form midpoint, got '" + form + "'");
-    if (extra % 2 != 0) refuse("extra degrees come in pairs, got " + std::to_string(extra));
     if ((form == "normal") != !normal.empty())
       refuse(form == "normal" ? "form normal needs its matrix, e.g. normal=0.3,0.2,-0.4,-0.3"
                               : "a matrix is given with form " + form + "; expected form normal");
@@ -92,6 +79,11 @@ struct GeneratingFunction {
   }
   [[nodiscard]] bool symmetric_variant() const {
     return variant == "S" || (variant == "auto" && truncation % 2 == 0 && form == "midpoint");
+  }
+  /// The degrees kept beyond m.
+  [[nodiscard]] int extra_degrees() const {
+    if (extra != "auto") return std::stoi(extra);
+    return symmetric_variant() ? cheapest_extra_degrees(truncation) : 0;
   }
   [[nodiscard]] GeneratingShare share() const {
     if (form == "normal") return GeneratingShare(normal);
@@ -110,12 +102,12 @@ struct GeneratingFunction {
     return {};
   }
   [[nodiscard]] int order(const Model& model) const {
-    if (extra > 0) return 2 * gauss.stages;
+    if (extra_degrees() > 0) return 2 * gauss.stages;
     const bool gains = truncation % 2 == 1 && form == "midpoint" && model.chart_autonomous();
     return truncation + (gains ? 1 : 0);
   }
   /// With extra degrees the error of order 2 s is that of the collocation, too small to show at once.
-  [[nodiscard]] bool order_is_lower_bound() const { return extra > 0; }
+  [[nodiscard]] bool order_is_lower_bound() const { return extra_degrees() > 0; }
   /// order(model) counts the order that odd m gain on autonomous systems.
   [[nodiscard]] bool order_is_exact() const { return true; }
   [[nodiscard]] std::vector<Claim> preserves(const Model& model) const {
@@ -156,7 +148,7 @@ struct GeneratingFunction {
     Work(const GeneratingFunction& m, const P& p, std::size_t n)
         : share(m.share(), n),
           midpoint(m.share().midpoint(n)),
-          gradient(p, m.truncation, m.symmetric_variant(), m.extra, m.share(), m.gauss),
+          gradient(p, m.truncation, m.symmetric_variant(), m.extra_degrees(), m.share(), m.gauss),
           y(n),
           carry(n),
           d(n),
@@ -168,9 +160,9 @@ struct GeneratingFunction {
           rate(n),
           start(n),
           change(n),
-          forecast(p, m.truncation + m.extra, gradient.evaluations()),
+          forecast(p, m.truncation + m.extra_degrees(), gradient.evaluations()),
           secants(n),
-          matrix(factors() ? n : 0, m.truncation + m.extra > 2),
+          matrix(factors() ? n : 0, m.truncation + m.extra_degrees() > 2),
           predicted(n),
           continuation(p) {}
 

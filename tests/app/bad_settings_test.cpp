@@ -49,7 +49,7 @@ TEST(BadSettings, FormsOfGeneratingFunctions) {
   refused({"form=normal", "normal=1,,0,1"}, {"'normal'", "numbers separated by commas"});
   refused({"form=normal", "normal=1000,0,0,-1000"}, {"'normal'", "-100 .. 100"});
   refused({"form=symmetric"}, {"'form'", "midpoint|qhat-p|q-phat|normal"});
-  refused({"extra=3"}, {"extra degrees", "pairs", "3"});
+  refused({"extra=3"}, {"'extra'", "auto|0|2|4|6|8", "'3'"});
   refused({"variant=S", "form=qhat-p"}, {"variant S", "form midpoint"});
 }
 
@@ -58,7 +58,7 @@ TEST(BadSettings, AStepTooLargeNamesOneThatWorks) {
   const TemporaryDirectory files;
   const Outcome outcome =
       run_pfaff({"run", "--system", "damped-pendulum", "--integrator", "generating-function", "--set",
-                 "order=8", "--step", "8", "--time", "16", "--out", files / "run"});
+                 "order=8", "--set", "extra=0", "--step", "8", "--time", "16", "--out", files / "run"});
   EXPECT_EQ(outcome.status, 1);
   for (const char* said : {"at t = 0", "from there a step of 3.6", "completed samples are kept"})
     EXPECT_NE(outcome.err.find(said), std::string::npos) << outcome.err;
