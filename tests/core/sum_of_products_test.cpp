@@ -21,8 +21,9 @@ using HalvesOfQuad = std::array<std::uint64_t, 2>;  // low, high
 // A number of sign and magnitude below 2, 2^down times smaller than what lies between 1 and 2.
 Quad scaled_down(std::mt19937_64& random, unsigned down) {
   const std::uint64_t high = random();
-  const auto fraction = high & ((1ULL << 48) - 1), sign = high & (1ULL << 63);
-  return std::bit_cast<Quad>(HalvesOfQuad{random(), sign | (std::uint64_t{0x3fff - down} << 48) | fraction});
+  const auto digits = high & ((1ULL << 48) - 1), signed_as = high & (1ULL << 63);
+  return std::bit_cast<Quad>(
+      HalvesOfQuad{random(), signed_as | (std::uint64_t{0x3fff - down} << 48) | digits});
 }
 
 // The power of two with this biased exponent.
