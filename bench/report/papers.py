@@ -63,7 +63,9 @@ def settings(kinds, style, target):
     if "pgf" in kinds and not any(shutil.which(tex) for tex in ("xelatex", "pdflatex", "lualatex")):
         raise InputError("--figures: pgf needs LaTeX, with which it measures text, and none is installed")
     target.mkdir(parents=True, exist_ok=True)
-    return matplotlib.rc_context(matplotlib.rc_params_from_file(str(style or STYLE), use_default_template=False))
+    # LaTeX, and many a font that a style may name, has no characters for exponents.
+    formulas = {"axes.formatter.use_mathtext": True}
+    return matplotlib.rc_context(formulas | matplotlib.rc_params_from_file(str(style or STYLE), use_default_template=False))
 
 
 def figure(drawing, kinds, width, target, write):

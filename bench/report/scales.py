@@ -6,6 +6,8 @@ Values far above everything useful (a method that exploded) leave the frame at t
 import bisect
 import math
 
+import matplotlib
+
 EXPLOSION = 1e4  # values above this times max(1, the smallest of the lines' maxima) leave the frame
 TICK_GAP = 9  # pixels between the labels of neighbouring ticks
 
@@ -14,7 +16,9 @@ SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def power_of_ten(k):
-    """The label of a tick, as plain characters: matplotlib takes ten times as long to set a formula."""
+    """The label of a tick: plain characters, which take a tenth of the time of a formula, unless the style asks for one."""
+    if matplotlib.rcParams["axes.formatter.use_mathtext"]:
+        return f"$10^{{{k}}}$"
     return "10" + str(k).translate(SUPERSCRIPTS)
 
 

@@ -10,6 +10,8 @@ import xml.etree.ElementTree
 from synthetic import Fresh, reading, report, synthetic
 
 import labels  # noqa: E402
+import papers  # noqa: E402
+import scales  # noqa: E402
 import verdict  # noqa: E402
 import verdict_latex  # noqa: E402
 import work_precision  # noqa: E402
@@ -53,6 +55,12 @@ class Papers(Fresh):
         self.assertIn(r"rk & $h^{5.0}$ & drifting $2\cdot 10^{-6}$", tex)
         self.assertIn("mid & kept & near", tex)
         self.assertEqual(verdict_latex.escaped("a_b & 50 %"), r"a\_b \& 50 \%")
+
+    def test_exponents_are_formulas_in_papers_alone(self):
+        self.assertEqual(scales.power_of_ten(-16), "10⁻¹⁶")
+        with papers.settings(["pdf"], None, self.folder / "figures"):
+            self.assertEqual(scales.power_of_ten(-16), "$10^{-16}$")
+        self.assertEqual(scales.power_of_ten(3), "10³")
 
     def test_what_is_wrong_is_said(self):
         synthetic(self.folder)
