@@ -148,7 +148,7 @@ struct Exponents {
 
   void look_at(Encoded x, Encoded y) {
     const unsigned x_exponent = exponent_of(x.high), y_exponent = exponent_of(y.high);
-    if (is_normal(static_cast<int>(x_exponent)) & is_normal(static_cast<int>(y_exponent))) [[likely]] {
+    if (is_normal(static_cast<int>(x_exponent)) && is_normal(static_cast<int>(y_exponent))) [[likely]] {
       largest = std::max(largest, x_exponent + y_exponent);
     } else if (x_exponent == special_exponent || y_exponent == special_exponent ||
                !(is_zero(x) || is_zero(y))) {
