@@ -110,20 +110,20 @@ struct Products {
 TEST(SumOfProducts, IsTheNumberNearestToTheExactSum) {
   std::mt19937_64 random(1753);
   int differently = 0;
-  for (int k = 0; k < 200'000; ++k) {
+  for (int k = 0; k < 50'000; ++k) {
     const Products of(random, 8);
     const Quad expected = nearest(of.exact());
     ASSERT_TRUE(of.rounded_once() == expected)
         << k << ": " << to_string(of.rounded_once()) << " instead of " << to_string(expected);
     differently += of.rounded_each_time() == expected ? 0 : 1;
   }
-  EXPECT_GT(differently, 50'000);  // roundings of every operation are seen
+  EXPECT_GT(differently, 12'500);  // roundings of every operation are seen
 }
 
 // Of products that differ more, less than 2^-240 of the largest is dropped of each.
 TEST(SumOfProducts, DropsOnlyWhatIsFarBelowTheLargest) {
   std::mt19937_64 random(240);
-  for (int k = 0; k < 200'000; ++k) {
+  for (int k = 0; k < 50'000; ++k) {
     const Products of(random, 125);
     const cpp_int exact = of.exact();
     cpp_int largest = abs(as_integer(of.start)) << 512U;
