@@ -127,8 +127,9 @@ def compiled_alone(root, headers, arrows):
 
         def compile_one(header):
             held = closure(graph, header)
-            fits = (made[k] for k in range(len(made)) if made[k] and held.issuperset(map(Path, PRECOMPILED[k])))
-            before = [option for name in [*fits][:1] for option in ("-include", name)]
+            fitting = (name for name, parts in zip(made, PRECOMPILED) if name and held.issuperset(map(Path, parts)))
+            name = next(fitting, None)
+            before = ["-include", name] if name else []
             done = run("-fsyntax-only", "-x", "c++", *before, "-include", f"pfaff/{header}", "/dev/null")
             errors = [line for line in done.stderr.splitlines() if "error:" in line]
             return None if done.returncode == 0 else f"{header} does not compile by itself: {(errors or ['?'])[0]}"

@@ -10,8 +10,6 @@ import matplotlib
 
 EXPLOSION = 1e4  # values above this times max(1, the smallest of the lines' maxima) leave the frame
 TICK_GAP = 9  # pixels between the labels of neighbouring ticks
-
-
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 

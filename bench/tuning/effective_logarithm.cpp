@@ -22,8 +22,7 @@ void take_off(std::vector<double>& vector, const std::vector<std::vector<double>
 Irremovable::Irremovable(const SplittingLogarithm& logarithm, const ShadowTerms& terms)
     : logarithm_(logarithm), terms_(terms) {
   const Words& words = logarithm.words();
-  WordSeries<double> whole(words);
-  for (const std::size_t letter : {0U, 1U}) whole[words.extended(0, letter)] = 1;
+  const auto whole = sum_of_letters<double>(words);
   const std::size_t n = logarithm.lyndon().size();
   std::vector<double> sizes(n);  // of each bracket on the system
   for (std::size_t k = 0; k < n; ++k) {

@@ -29,16 +29,23 @@ WordSeries<T> transformed(const WordSeries<T>& q, const WordSeries<T>& x) {
   return sum;
 }
 
+/// X = A + B.
+template <class T>
+WordSeries<T> sum_of_letters(const Words& words) {
+  WordSeries<T> sum(words);
+  for (const std::size_t letter : {0U, 1U}) sum[words.extended(0, letter)] = T(1);
+  return sum;
+}
+
 /// Kernels of an even order, by series of words of the type T.
 template <class T>
 class KernelSeries {
  public:
   /// Series of these words, which must outlive it.
   KernelSeries(const Words& words, int order) : words_(words) {
-    WordSeries<T> whole(words);
-    for (const std::size_t letter : {0U, 1U}) whole[words.extended(0, letter)] = T(1);
+    const WordSeries<T> whole = sum_of_letters<T>(words);
     for (int degree = 3; degree < order; degree += 2) {
-      Removal removal{degree, words.lyndon(degree), {}, ReducedSpan<T>(words.lyndon(degree).size())};
+      Removal removal{words.lyndon(degree), {}, ReducedSpan<T>(words.lyndon(degree).size())};
       for (const std::size_t word : words.lyndon(degree - 1))
         removal.by.push_back(bracketing<T>(words, word));
       for (std::size_t k = 0; k < removal.by.size(); ++k) {
@@ -84,10 +91,9 @@ class KernelSeries {
 
  private:
   struct Removal {
-    int degree;
-    std::vector<std::size_t> lyndon;
-    std::vector<WordSeries<T>> by;  // a basis of degree - 1
-    ReducedSpan<T> removed;         // their brackets with X, followed by the number of each
+    std::vector<std::size_t> lyndon;  // of one degree
+    std::vector<WordSeries<T>> by;    // a basis of the degree below
+    ReducedSpan<T> removed;           // their brackets with X, followed by the number of each
   };
   const Words& words_;
   std::vector<Removal> removals_;

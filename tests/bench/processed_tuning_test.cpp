@@ -10,12 +10,8 @@
 
 #include "splittings.hpp"
 
-namespace pfaff {
+namespace pfaff::testing {
 namespace {
-using testing::step;
-using testing::strang;
-using testing::system;
-using testing::triple_jump;
 
 WordSeries<Quad> random_lie_series(const Words& words, int from, int to, std::mt19937_64& random) {
   WordSeries<Quad> sum(words);
@@ -200,4 +196,4 @@ TEST(ProcessedTuning, Refusals) {
 }
 
 }  // namespace
-}  // namespace pfaff
+}  // namespace pfaff::testing

@@ -9,13 +9,8 @@
 
 #include "splittings.hpp"
 
-namespace pfaff {
+namespace pfaff::testing {
 namespace {
-
-using testing::step;
-using testing::strang;
-using testing::system;
-using testing::triple_jump;
 
 // The logarithm of Strang's splitting is A + B - [A, [A, B]]/24 + [[A, B], B]/12 + ... in this order of the
 // flows, and the words A A B and A B B are Lyndon's.
@@ -120,4 +115,4 @@ TEST(Tuning, Refusals) {
 }
 
 }  // namespace
-}  // namespace pfaff
+}  // namespace pfaff::testing

@@ -55,6 +55,13 @@ class Includes(unittest.TestCase):
         self.assertEqual(status, 1)
         self.assertIn("core/linear/norm.hpp does not compile by itself", said)
 
+    def test_a_header_after_a_precompiled_one_needs_its_own_includes_too(self):
+        self.write("core/linear/named.hpp", "#pragma once\n#include <pfaff/core/numbers/real.hpp>\n"
+                   "inline Numbers of(const std::map<int, Numbers>& x) { return x.at(0); }\n")
+        status, said = self.check()
+        self.assertEqual(status, 1)
+        self.assertIn("core/linear/named.hpp does not compile by itself", said)
+
     def test_the_project_keeps_its_arrows(self):
         done = subprocess.run([sys.executable, PROJECT / ".ci/includes.py", "--no-compile"],
                               capture_output=True, text=True, check=False)
