@@ -1,7 +1,8 @@
 // Replay: evaluates a tape with any scalar.
 //
 // The replay owns every buffer it needs, so that one tape serves many threads, each with its own replay. What
-// depends on time alone is recomputed only when the time changes.
+// depends on time alone is recomputed only when the time changes. Scalars that compute take the instructions
+// by operation (schedule.hpp), those that record as the tape has them.
 #pragma once
 
 #include <cstddef>
@@ -12,6 +13,7 @@
 #include <pfaff/core/numbers/dual.hpp>
 #include <pfaff/core/numbers/pack.hpp>
 #include <pfaff/core/tape/recorder.hpp>
+#include <pfaff/core/tape/schedule.hpp>
 
 namespace pfaff {
 
@@ -85,13 +87,31 @@ class TapeSolver<Dual<Recorded, 1>> {
   std::size_t size_;
 };
 
+namespace detail {
+/// The order in which a tape is evaluated with a scalar.
+template <class T>
+inline constexpr ScheduleOrder schedule_order = ScheduleOrder::recorded;
+template <>
+inline constexpr ScheduleOrder schedule_order<double> = ScheduleOrder::by_operation;
+template <>
+inline constexpr ScheduleOrder schedule_order<Quad> = ScheduleOrder::by_operation;
+template <int W>
+inline constexpr ScheduleOrder schedule_order<Pack<W>> = ScheduleOrder::by_operation;
+template <class T, int N>
+inline constexpr ScheduleOrder schedule_order<Dual<T, N>> = schedule_order<T>;
+}  // namespace detail
+
 /// Evaluates one tape again and again.
 template <class T>
 class Replay {
  public:
   explicit Replay(std::shared_ptr<const Tape> tape) : tape_(std::move(tape)), slots_(tape_->code.size()) {
-    for (std::size_t k = 0; k < static_cast<std::size_t>(tape_->time_begin); ++k)
+    const auto time_begin = static_cast<std::size_t>(tape_->time_begin),
+               state_begin = static_cast<std::size_t>(tape_->state_begin);
+    for (std::size_t k = 0; k < time_begin; ++k)
       slots_[k] = T(tape_->constants[static_cast<std::size_t>(tape_->code[k].a)]);
+    of_time_ = Schedule(*tape_, time_begin, state_begin, detail::schedule_order<T>);
+    of_state_ = Schedule(*tape_, state_begin, slots_.size(), detail::schedule_order<T>);
     for (const LinearSystem& system : tape_->solves) solvers_.emplace_back(system.size);
   }
 
@@ -100,9 +120,9 @@ class Replay {
     if (!(timed_ && same_time(t))) {
       time_ = t;
       timed_ = true;
-      run(static_cast<std::size_t>(tape_->time_begin), static_cast<std::size_t>(tape_->state_begin), z);
+      run(of_time_, z);
     }
-    run(static_cast<std::size_t>(tape_->state_begin), slots_.size(), z);
+    run(of_state_, z);
     for (std::size_t k = 0; k < tape_->outputs.size(); ++k)
       outputs[k] = slots_[static_cast<std::size_t>(tape_->outputs[k])];
   }
@@ -117,68 +137,67 @@ class Replay {
     return false;
   }
 
-  void run(std::size_t begin, std::size_t end, const T* z) {
-    const Instruction* code = tape_->code.data();
+  void run(const Schedule& schedule, const T* z) {
     T* x = slots_.data();
-    const auto at = [x](int slot) -> const T& { return x[static_cast<std::size_t>(slot)]; };
-    for (std::size_t k = begin; k < end; ++k) {
-      const Instruction i = code[k];
-      switch (i.operation) {
+    for (const OperationRun& of_one : schedule.runs) {
+      const ScheduledInstruction* i = schedule.instructions.data() + of_one.begin;
+      const ScheduledInstruction* const end = schedule.instructions.data() + of_one.end;
+      switch (of_one.operation) {
         case Operation::constant:
-          break;
+        case Operation::cosine:
+        case Operation::solve_next:
+          break;  // in no schedule
         case Operation::time:
-          x[k] = time_;
+          for (; i != end; ++i) x[i->slot] = time_;
           break;
         case Operation::input:
-          x[k] = z[i.a];
+          for (; i != end; ++i) x[i->slot] = z[i->a];
           break;
         case Operation::negate:
-          x[k] = -at(i.a);
+          for (; i != end; ++i) x[i->slot] = -x[i->a];
           break;
         case Operation::add:
-          x[k] = at(i.a) + at(i.b);
+          for (; i != end; ++i) x[i->slot] = x[i->a] + x[i->b];
           break;
         case Operation::subtract:
-          x[k] = at(i.a) - at(i.b);
+          for (; i != end; ++i) x[i->slot] = x[i->a] - x[i->b];
           break;
         case Operation::multiply:
-          x[k] = at(i.a) * at(i.b);
+          for (; i != end; ++i) x[i->slot] = x[i->a] * x[i->b];
           break;
         case Operation::divide:
-          x[k] = at(i.a) / at(i.b);
+          for (; i != end; ++i) x[i->slot] = x[i->a] / x[i->b];
           break;
         case Operation::square_root:
-          x[k] = sqrt(at(i.a));
+          for (; i != end; ++i) x[i->slot] = sqrt(x[i->a]);
           break;
         case Operation::exponential:
-          x[k] = exp(at(i.a));
+          for (; i != end; ++i) x[i->slot] = exp(x[i->a]);
           break;
         case Operation::logarithm:
-          x[k] = log(at(i.a));
+          for (; i != end; ++i) x[i->slot] = log(x[i->a]);
           break;
         case Operation::sine:
-          sine_cosine(at(i.a), x[k], x[k + 1]);
-          break;
-        case Operation::cosine:
+          for (; i != end; ++i) sine_cosine(x[i->a], x[i->slot], x[i->slot + 1]);
           break;
         case Operation::power:
-          x[k] = pow(at(i.a), tape_->constants[static_cast<std::size_t>(i.b)]);
+          for (; i != end; ++i) x[i->slot] = pow(x[i->a], tape_->constants[static_cast<std::size_t>(i->b)]);
           break;
         case Operation::select:
-          x[k] = select(at(i.a), at(i.b), at(i.c));
+          for (; i != end; ++i) x[i->slot] = select(x[i->a], x[i->b], x[i->c]);
           break;
-        case Operation::solve: {
-          const auto s = static_cast<std::size_t>(i.a);
-          solvers_[s](tape_->solves[s], slots_, k);
-          break;
-        }
-        case Operation::solve_next:
+        case Operation::solve:
+          for (; i != end; ++i) {
+            const auto s = static_cast<std::size_t>(i->a);
+            solvers_[s](tape_->solves[s], slots_, static_cast<std::size_t>(i->slot));
+          }
           break;
       }
     }
   }
 
   std::shared_ptr<const Tape> tape_;
+  Schedule of_time_, of_state_;
   std::vector<T> slots_;
   std::vector<TapeSolver<T>> solvers_;
   T time_{};
