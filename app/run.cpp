@@ -185,7 +185,8 @@ void add_run(CLI::App& app, Common& common, Action& action) {
       ->type_name("e");
   sub->add_option("--time", s.time, "Duration of the run; the last whole step ends within it")
       ->type_name("T");
-  sub->add_option("--every", options->every, "Sample every k-th step (default: about a thousand samples)")
+  sub->add_option("--every", options->every,
+                  "Sample every k-th step (default: about a thousand samples, 200 of processed methods)")
       ->type_name("k");
   sub->add_option("--set", options->set, "A parameter (nu=0.3, integrator.order=4) or initial=a,b,...")
       ->type_name("KEY=VALUE")

@@ -30,6 +30,13 @@
 //   bool compensated             the loop over steps is compiled once for each of its two values
 //   static constexpr bool fixed_sizes = false   for methods that gain nothing from a known dimension: the
 //                                loop is then not compiled for the dimensions 2, 4 and 6 separately
+//   processed(), preprocess(p, t, h, z, work), kernel(p, t, h, z, work), postprocess(p, t, h, z, work)
+//                                for methods whose step is a processor, a kernel and the inverse of the
+//                                processor: the three parts by themselves, of the step that begins at t, or
+//                                of the last step, which ends at t, for postprocess. One that does not
+//                                converge leaves z as it was. Where processed() is true, a loop of steps
+//                                takes the processor at its beginning and its end alone; step() still takes
+//                                all three (core/facets/processed.hpp)
 //   using Composed = Composition<B>
 //                                for a symmetric M of order 2 that derives from B: the type by which the
 //                                integrator `composition` composes M (core/facets/composition.hpp)
@@ -118,6 +125,9 @@ class MethodInstance : public Maker<StepperPointer, StepScalars, std::shared_ptr
   }
   /// True when the method can choose its steps (advance_to).
   [[nodiscard]] virtual bool adaptive() const = 0;
+  /// True where steps cost less in a row than one by one, because a processor is taken at the ends of a loop
+  /// of steps alone. Whoever looks at the state after every step then pays for the processor in every step.
+  [[nodiscard]] virtual bool processed() const = 0;
   /// How many numbers define the method (0: not exposed), and the same method with one of them changed.
   [[nodiscard]] virtual std::size_t coefficient_count() const = 0;
   [[nodiscard]] virtual std::unique_ptr<MethodInstance> with_changed_coefficient(std::size_t index,
@@ -257,6 +267,10 @@ class Instance final : public MakerOf<Instance<M>, MethodInstance> {
     return requires(const P& p, double& t, State<P>& z, Work<M, P>& w) {
       method_.advance_to(p, t, t, t, z, w);
     };
+  }
+  [[nodiscard]] bool processed() const override {
+    if constexpr (requires { method_.processed(); }) return method_.processed();
+    return false;
   }
   [[nodiscard]] std::size_t coefficient_count() const override {
     if constexpr (requires(M m) { m.coefficients(); }) {

@@ -81,6 +81,7 @@ class AliasInstance final : public MakerOf<AliasInstance, MethodInstance> {
     return instance_->objection(model);
   }
   [[nodiscard]] bool adaptive() const override { return instance_->adaptive(); }
+  [[nodiscard]] bool processed() const override { return instance_->processed(); }
   [[nodiscard]] std::size_t coefficient_count() const override { return instance_->coefficient_count(); }
   [[nodiscard]] std::unique_ptr<MethodInstance> with_changed_coefficient(std::size_t index,
                                                                          Quad amount) const override {

@@ -24,6 +24,7 @@ class ManySteps final : public MakerOf<ManySteps, MethodInstance> {
   }
   [[nodiscard]] std::string objection(const Model& model) const override { return method_.objection(model); }
   [[nodiscard]] bool adaptive() const override { return false; }
+  [[nodiscard]] bool processed() const override { return method_.processed(); }
   [[nodiscard]] std::size_t coefficient_count() const override { return method_.coefficient_count(); }
   /// None: the object does not own the method that a changed one would have to refer to.
   [[nodiscard]] std::unique_ptr<MethodInstance> with_changed_coefficient(std::size_t /*index*/,

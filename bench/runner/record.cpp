@@ -79,8 +79,10 @@ void execute_fixed(const ResolvedRun& run, Observer<T>& observer, RunRecord& rec
   const T t0(run.t0), h(run.step);
   const auto time = [&](std::int64_t k) { return t0 + T(static_cast<double>(k)) * h; };
   // Drift is measured at every step in runs of up to two million steps, and at evenly spaced ones in longer
-  // runs.
-  const std::int64_t stride = std::min(run.every, std::max<std::int64_t>(1, run.steps / 2000000));
+  // runs. A processed method is looked at where states are kept alone, since every look takes its processor.
+  const std::int64_t stride = run.method->processed()
+                                  ? run.every
+                                  : std::min(run.every, std::max<std::int64_t>(1, run.steps / 2000000));
   const std::int64_t rows = run.steps / run.every + 1;
   const std::int64_t structure_rows = std::max<std::int64_t>(1, rows / 50);
   std::int64_t row = 0;

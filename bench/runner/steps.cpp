@@ -91,7 +91,10 @@ void resolve_fixed_steps(ResolvedRun& run) {
   const double nearest = std::round(ratio);
   run.steps =
       static_cast<std::int64_t>(std::abs(ratio - nearest) < 1e-9 * nearest ? nearest : std::floor(ratio));
-  run.every = settings.every > 0 ? settings.every : std::max<std::int64_t>(1, (run.steps + 999) / 1000);
+  // Every state that is kept costs a processed method its processor.
+  const std::int64_t states = run.method->processed() ? 200 : 1000;
+  run.every =
+      settings.every > 0 ? settings.every : std::max<std::int64_t>(1, (run.steps + states - 1) / states);
 }
 }  // namespace
 

@@ -121,6 +121,8 @@ std::vector<Check> check_false_metriplectic();
 std::vector<Check> check_false_reversals();
 /// Controls: flows that are no group, do not add up to the field, or do not keep the structure, by 1e-6.
 std::vector<Check> check_false_flows();
+/// The control of processed methods: one whose processor is wrong by 1e-6 where it is taken back.
+std::vector<Check> check_false_processors();
 /// Controls: a method with a false claim of every kind, and the scheme su-qin (105) as printed, which has a
 /// misprint.
 std::vector<Check> check_false_methods();

@@ -92,7 +92,8 @@ std::vector<Check> check_false_methods() {
   std::vector<Check> checks;
   for (const ClaimCheck& row : claim_checks())
     checks.push_back(row.of_rounding ? check_false_claim<double>(row) : check_false_claim<Quad>(row));
-  for (Check& check : check_printed_scheme()) checks.push_back(std::move(check));
+  for (auto controls : {check_false_processors(), check_printed_scheme()})
+    for (Check& check : controls) checks.push_back(std::move(check));
   return checks;
 }
 

@@ -74,6 +74,7 @@ std::vector<Check> checks_of(const MethodInstance& method, const Assignments& pa
     checks.push_back(check_order(on, by_coefficients || (conditions && conditions->in_scope)));
   if (conditions) checks.push_back(std::move(*conditions));
   for (Check& check : check_adaptive(on)) checks.push_back(std::move(check));
+  if (method.processed()) checks.push_back(check_steps_in_a_row(on));
   if (on.double_coefficients()) {
     exempt_from_quad(checks, on);
   } else {

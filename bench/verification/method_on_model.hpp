@@ -99,5 +99,7 @@ std::vector<Check> check_adaptive(MethodOnModel& on);
 Check check_steps(const MethodOnModel& on);
 Check check_precisions(MethodOnModel& on);
 Check check_step_jacobian(MethodOnModel& on);
+/// Of a processed method: steps in a row, without the processor between them, end where single steps do.
+Check check_steps_in_a_row(MethodOnModel& on);
 
 }  // namespace pfaff

@@ -1,11 +1,12 @@
 // What every step has to satisfy, whatever the method claims: it gives the same numbers in both precisions,
-// and its Jacobian is the derivative of the step itself.
+// its Jacobian is the derivative of the step itself, and several steps at once end where single ones do.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
 
 #include <pfaff/bench/verification/method_on_model.hpp>
+#include <pfaff/bench/verification/residuals.hpp>
 #include <pfaff/bench/verification/step_scale.hpp>
 
 namespace pfaff {
@@ -89,6 +90,35 @@ Check check_step_jacobian(MethodOnModel& on) {
   }
   return on.residual("step-jacobian", "every system", true, "quad",
                      judged ? static_cast<double>(worst / largest) : no_step, 1e-24);
+}
+
+namespace {
+// How far two steps at once end from two single steps.
+double difference_in_a_row(MeasuredStep<Quad>& step) {
+  const auto at_once = step.after(step.t(), step.h(), step.start(), 2);
+  const auto one = step.after(step.t(), step.h(), step.start());
+  if (!at_once || !one) return no_step;
+  const auto two = step.after(step.t() + step.h(), step.h(), *one);
+  return two ? static_cast<double>(step.distance(*at_once, *two)) : no_step;
+}
+}  // namespace
+
+Check check_steps_in_a_row(MethodOnModel& on) {
+  return on.residual("steps-in-a-row", "processed methods", true, "quad",
+                     difference_in_a_row(on.step<Quad>()), tolerance<Quad>() * on.growth_of_round_off());
+}
+
+std::vector<Check> check_false_processors() {
+  const std::string system = "henon-heiles";
+  const Assignments parameters{{"scheme", "corrected-3"}};
+  const auto sound = integrators().get("exact-flow-splitting", "integrator").make(parameters);
+  // The first flow of the processor, without the last of its inverse.
+  const auto changed = sound->with_changed_coefficient(0, Quad(1e-6));
+  MethodOnModel on(*changed, parameters, system, systems().get(system, "system").make({}));
+  std::vector<Check> controls;
+  add_controls(controls, "exact-flow-splitting with a processor that is not undone", "steps-in-a-row",
+               {check_steps_in_a_row(on)}, [](const Check& /*check*/) { return true; });
+  return controls;
 }
 
 }  // namespace pfaff

@@ -7,6 +7,7 @@
 
 #include <pfaff/core/errors/status.hpp>
 #include <pfaff/core/facets/problem.hpp>
+#include <pfaff/core/facets/processed.hpp>
 
 namespace pfaff {
 
@@ -24,7 +25,8 @@ struct WorkOf {
 template <class M, class P>
 requires requires { typename M::template Work<P>; }
 struct WorkOf<M, P> {
-  using type = typename M::template Work<P>;
+  using W = typename M::template Work<P>;
+  using type = std::conditional_t<WritesProcessor<M, P, W>, WithBeginning<W, P>, W>;
 };
 }  // namespace detail
 
@@ -62,6 +64,7 @@ Status unswitched(const M& method, Loop&& loop) {
 
 /// Takes steps first, first + 1, … first + count - 1 of size h from time t0, in place. Stops at the first
 /// step that does not converge, leaving z as it was before that step; `completed` says how many were taken.
+/// Processed methods take their processor at the beginning and at the end alone (core/facets/processed.hpp).
 template <class M, class P>
 requires Steps<M, P> Status advance(const M& method, const P& problem, const Scalar<P>& t0,
                                     std::int64_t first, const Scalar<P>& h, std::int64_t count, State<P>& z,
@@ -69,6 +72,9 @@ requires Steps<M, P> Status advance(const M& method, const P& problem, const Sca
   using W = Work<M, P>;
   const auto loop = [&](State<P>& state, W& w) {
     return detail::unswitched(method, [&](const M& m) {
+      if constexpr (detail::WritesProcessor<M, P, W>)
+        if (m.processed())
+          return detail::advance_kernel(m, problem, t0, first, h, count, state, w, completed);
       std::int64_t taken = 0;
       Status status = Status::converged;
       for (; taken < count; ++taken) {

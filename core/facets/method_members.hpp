@@ -27,6 +27,10 @@ PFAFF_MEMBER_NAME(coefficients)
 PFAFF_MEMBER_NAME(refuses)
 PFAFF_MEMBER_NAME(instances)
 PFAFF_MEMBER_NAME(advance_to)
+PFAFF_MEMBER_NAME(processed)
+PFAFF_MEMBER_NAME(preprocess)
+PFAFF_MEMBER_NAME(kernel)
+PFAFF_MEMBER_NAME(postprocess)
 PFAFF_MEMBER_NAME(fixed_sizes)
 PFAFF_MEMBER_NAME(compensated)
 PFAFF_MEMBER_NAME(Composed)
@@ -82,6 +86,11 @@ concept WritesAdvanceTo = requires(const M& m, const TriedProblem& p, double& t,
                                    State<TriedProblem>& z, Work<M, TriedProblem>& w) {
   { m.advance_to(p, t, end, end, z, w) } -> std::same_as<Status>;
 };
+template <class M>
+constexpr bool names_processor() {
+  return method::has_processed<M> || method::has_preprocess<M> || method::has_kernel<M> ||
+         method::has_postprocess<M>;
+}
 template <class M>
 concept WritesFixedSizes = requires {
   requires std::same_as<decltype(M::fixed_sizes), const bool>;
@@ -145,6 +154,11 @@ constexpr void check_method_members() {
       WritesAdvanceTo<M> || !method::has_advance_to<M>,
       "advance_to: expected template <class P> Status advance_to(const P& p, double& t, double end, "
       "double tolerance, State<P>& z, Work<P>& work) const");
+  static_assert(
+      WritesProcessor<M, TriedProblem, Work<M, TriedProblem>> || !names_processor<M>(),
+      "processed, preprocess, kernel, postprocess: expected bool processed() const and, all three of them, "
+      "template <class P> Status preprocess(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, "
+      "Work<P>& work) const, with whatever facet's concept they need");
   static_assert(WritesFixedSizes<M> || !method::has_fixed_sizes<M>,
                 "fixed_sizes: expected static constexpr bool fixed_sizes");
   static_assert(WritesCompensated<M> || !method::has_compensated<M>,

@@ -49,6 +49,7 @@ class ComposedInstance final : public MakerOf<ComposedInstance, MethodInstance> 
     return composed_->objection(model);
   }
   [[nodiscard]] bool adaptive() const override { return false; }
+  [[nodiscard]] bool processed() const override { return composed_->processed(); }
   [[nodiscard]] std::size_t coefficient_count() const override { return composed_->coefficient_count(); }
   [[nodiscard]] std::unique_ptr<MethodInstance> with_changed_coefficient(std::size_t index,
                                                                          Quad amount) const override {

@@ -4,7 +4,8 @@
 // Of two parts, A and the perturbation B, the lengths are those of a scheme (near_integrable_schemes.hpp). Of
 // more parts there is the scheme strang: half steps of all parts but the perturbation in their order, a step
 // of the perturbation, and the half steps in the opposite order. Each flow keeps the structure of the system,
-// and so does a step; for planets strang is the map of wisdom-holman1991.
+// and so does a step; for planets strang is the map of wisdom-holman1991. The corrected schemes are
+// processed: over many steps in a row they cost what strang does.
 #include <algorithm>
 
 #include <pfaff/core/integrator.hpp>
@@ -20,6 +21,7 @@ struct ExactFlowSplitting {
   bool compensated = true;
   std::vector<std::size_t> parts;  // of the scheme: 0 for A, 1 for B
   std::vector<Quad> lengths;
+  std::size_t processor = 0;  // the number of flows before the kernel, and of those after it
 
   static std::vector<Parameter> parameters() {
     return {parameter(&ExactFlowSplitting::scheme, "scheme", near_integrable_names(),
@@ -35,11 +37,14 @@ struct ExactFlowSplitting {
     return list;
   }
   void validate() {
-    for (const PartialFlow& flow : near_integrable_scheme(scheme).flows) {
+    const NearIntegrableScheme& chosen = near_integrable_scheme(scheme);
+    for (const PartialFlow& flow : chosen.flows) {
       parts.push_back(flow.part);
       lengths.push_back(flow.length);
     }
+    processor = chosen.processor;
   }
+  [[nodiscard]] bool processed() const { return processor > 0; }
   std::span<Quad> coefficients() { return lengths; }
   [[nodiscard]] int order(const Model& /*model*/) const {
     return near_integrable_scheme(scheme).orders.back();
@@ -76,35 +81,49 @@ struct ExactFlowSplitting {
 
   template <HasExactFlows P>
   Status step(const P& p, const Scalar<P>& /*t*/, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
+    return flows(p, h, 0, parts.size(), z, w);
+  }
+  template <HasExactFlows P>
+  Status preprocess(const P& p, const Scalar<P>& /*t*/, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
+    return flows(p, h, 0, processor, z, w);
+  }
+  template <HasExactFlows P>
+  Status kernel(const P& p, const Scalar<P>& /*t*/, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
+    return flows(p, h, processor, parts.size() - processor, z, w);
+  }
+  template <HasExactFlows P>
+  Status postprocess(const P& p, const Scalar<P>& /*t*/, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
+    return flows(p, h, parts.size() - processor, parts.size(), z, w);
+  }
+
+ private:
+  // The flows begin, ..., end - 1 of a step. Where one does not converge, z is as it was.
+  template <class P>
+  Status flows(const P& p, const Scalar<P>& h, std::size_t begin, std::size_t end, State<P>& z,
+               Work<P>& w) const {
     std::copy(z.begin(), z.end(), w.before.begin());
     std::copy(w.carry.begin(), w.carry.end(), w.carry_before.begin());
-    const Status status = flow_all(p, h, z, w);
+    Status status = Status::converged;
+    for (std::size_t k = begin; k < end && status == Status::converged; ++k)
+      status = flow_at(p, k, w.length[k] * h, z, w);
     if (status != Status::converged) {
       std::copy(w.before.begin(), w.before.end(), z.begin());
       std::copy(w.carry_before.begin(), w.carry_before.end(), w.carry.begin());
     }
     return status;
   }
-
- private:
+  // The flow k of a step: that of the perturbation, or those of all other parts, in the opposite order in the
+  // second half of a step.
   template <class P>
-  Status flow_all(const P& p, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
+  Status flow_at(const P& p, std::size_t k, const Scalar<P>& length, State<P>& z, Work<P>& w) const {
     const std::size_t count = p.parts(), small = p.perturbation();
-    for (std::size_t k = 0; k < parts.size(); ++k) {
-      const Scalar<P> length = w.length[k] * h;
-      Status status = Status::converged;
-      if (parts[k] == 1) {
-        status = flow(p, small, length, z, w);
-      } else {
-        // In the opposite order in the second half of a step.
-        for (std::size_t j = 0; j < count && status == Status::converged; ++j) {
-          const std::size_t part = 2 * k < parts.size() ? j : count - 1 - j;
-          if (part != small) status = flow(p, part, length, z, w);
-        }
-      }
-      if (status != Status::converged) return status;
+    if (parts[k] == 1) return flow(p, small, length, z, w);
+    Status status = Status::converged;
+    for (std::size_t j = 0; j < count && status == Status::converged; ++j) {
+      const std::size_t part = 2 * k < parts.size() ? j : count - 1 - j;
+      if (part != small) status = flow(p, part, length, z, w);
     }
-    return Status::converged;
+    return status;
   }
   template <class P>
   Status flow(const P& p, std::size_t part, const Scalar<P>& length, State<P>& z, Work<P>& w) const {

@@ -101,12 +101,16 @@ std::vector<PartialFlow> processor(int order) {
   return flows;
 }
 
-std::vector<PartialFlow> corrected(int order) {
-  std::vector<PartialFlow> flows = processor(order);
-  const std::vector<PartialFlow> after = inverse(flows);
-  for (const PartialFlow& flow : palindromic_flows({Quad(1) / Quad(2)}, {Quad(1)})) append(flows, flow);
-  for (const PartialFlow& flow : after) append(flows, flow);
-  return flows;
+// The flows of A on both sides of the kernel's ends are not one, because kernels in a row have no processor
+// between them.
+NearIntegrableScheme corrected(int order) {
+  const std::vector<PartialFlow> before = processor(order), after = inverse(before);
+  NearIntegrableScheme scheme{
+      "corrected-" + std::to_string(order), {order + 1, 2}, before, false, before.size()};
+  const std::vector<PartialFlow> kernel = palindromic_flows({Quad(1) / Quad(2)}, {Quad(1)});
+  scheme.flows.insert(scheme.flows.end(), kernel.begin(), kernel.end());
+  scheme.flows.insert(scheme.flows.end(), after.begin(), after.end());
+  return scheme;
 }
 
 // The published digits of the schemes of order (8, 4) of mclachlan1995small and (10, 4), (8, 6, 4) and (10,
@@ -151,8 +155,7 @@ std::vector<NearIntegrableScheme> make_schemes() {
                     "-0.653861225832786709380711737390709412"}),
            numbers({"0.0958588808370752106107715037714588478", "0.204446153142998780680507783916434478",
                     "0.217070347978991101714338592430633671", "-0.0173753819590650930056178801185269972"}))});
-  for (const int order : {3, 5, 7, 11})
-    list.push_back({"corrected-" + std::to_string(order), {order + 1, 2}, corrected(order), false});
+  for (const int order : {3, 5, 7, 11}) list.push_back(corrected(order));
   return list;
 }
 

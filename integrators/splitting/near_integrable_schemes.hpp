@@ -14,9 +14,10 @@
 //
 // A corrected scheme is C K C^-1 with the kernel K = A/2 B A/2 and a processor C of flows of B between flows
 // of A that undo each other (wisdom-holman-touma1996), which removes what K has with one B up to the order of
-// its name.
+// its name. The state after n steps is that after C, n kernels and C^-1.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,7 @@ struct NearIntegrableScheme {
   std::vector<int> orders;         // n_1, ..., n_m
   std::vector<PartialFlow> flows;  // of A (part 0) and of B (part 1), in units of the step
   bool symmetric = true;           // reads the same from both ends
+  std::size_t processor = 0;       // the number of flows before the kernel, and of those after it
 };
 
 /// The names of all schemes.

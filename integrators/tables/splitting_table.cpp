@@ -4,8 +4,8 @@
 //   says which acts first; they act in turn.
 // - rkn-splitting: the same for energies T quadratic in p, for which fewer order conditions are needed.
 // - processed: the tables `kernel` and `pre`, each with lists `drift` and `kick` and with `first`; a step is
-//   pre, kernel and the inverse of pre. `parts = "quadratic-kinetic"` asks for the conditions of
-//   rkn-splitting.
+//   pre, kernel and the inverse of pre, and n steps in a row are pre, n kernels and the inverse of pre.
+//   `parts = "quadratic-kinetic"` asks for the conditions of rkn-splitting.
 //
 // Only drifts advance the time. Splittings are symplectic whatever their numbers are, and symmetric where
 // they read the same from both ends.
@@ -25,6 +25,7 @@ struct SplittingTable {
   static constexpr bool fixed_sizes = false;
   std::vector<std::size_t> parts;  // drift or kick
   std::vector<Quad> lengths;
+  std::size_t processor = 0;  // the number of flows before the kernel, and of those after it
   bool quadratic_kinetic = false;
   bool compensated = true;
 
@@ -38,23 +39,49 @@ struct SplittingTable {
                : "";
   }
 
+  [[nodiscard]] bool processed() const { return processor > 0; }
+
   template <class P>
   struct Work {
     using T = Scalar<P>;
     std::vector<T> length;
+    T drifted;  // of the processor, the time by which it is ahead of a step, in units of the step
     State<P> carry, slope;
     Work(const SplittingTable& method, const P& p) : carry(p.make_state()), slope(p.make_state()) {
       for (const Quad& x : method.lengths) length.push_back(T(Real(x)));
+      Quad sum(0);
+      for (std::size_t k = 0; k < method.processor; ++k)
+        if (method.parts[k] == drift) sum += method.lengths[k];
+      drifted = T(Real(sum));
     }
   };
 
   template <HasSeparable P>
   Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
+    return flows(p, t, h, 0, parts.size(), z, w);
+  }
+  template <HasSeparable P>
+  Status preprocess(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
+    return flows(p, t, h, 0, processor, z, w);
+  }
+  template <HasSeparable P>
+  Status kernel(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
+    return flows(p, t + w.drifted * h, h, processor, parts.size() - processor, z, w);
+  }
+  template <HasSeparable P>
+  Status postprocess(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
+    return flows(p, t + w.drifted * h, h, parts.size() - processor, parts.size(), z, w);
+  }
+
+ private:
+  // The flows begin, ..., end - 1 of a step, from the time that those before them have reached.
+  template <class P>
+  Status flows(const P& p, Scalar<P> time, const Scalar<P>& h, std::size_t begin, std::size_t end,
+               State<P>& z, Work<P>& w) const {
     using T = Scalar<P>;
     const std::size_t half = z.size() / 2;
     const Out<T> q(z.data(), half), momentum(z.data() + half, half), slope(w.slope.data(), half);
-    T time = t;
-    for (std::size_t k = 0; k < parts.size(); ++k) {
+    for (std::size_t k = begin; k < end; ++k) {
       const T length = w.length[k] * h;
       const std::size_t offset = parts[k] == drift ? 0 : half;
       if (parts[k] == drift) {
@@ -104,6 +131,7 @@ bool palindrome(const std::vector<PartialFlow>& flows, const Quad& precision) {
 // The flows of a step and what is known of the parts.
 struct Step {
   std::vector<PartialFlow> flows;
+  std::size_t processor = 0;  // the number of flows before the kernel, and of those after it
   Parts parts = Parts::general;
 };
 
@@ -122,6 +150,7 @@ Step read_step(TableDocument& document) {
     document.refuse("parts", unknown_name("kind of parts", parts, {"general", "quadratic-kinetic"}));
   }
   step.flows = read_flows(document, "pre.");
+  step.processor = step.flows.size();
   const std::vector<PartialFlow> kernel = read_flows(document, "kernel."), post = inverse(step.flows);
   step.flows.insert(step.flows.end(), kernel.begin(), kernel.end());
   step.flows.insert(step.flows.end(), post.begin(), post.end());
@@ -163,6 +192,7 @@ std::unique_ptr<const MethodTable> read_splitting_table(TableDocument& document,
     method.parts.push_back(flow.part);
     method.lengths.push_back(flow.length);
   }
+  method.processor = step.processor;
   method.quadratic_kinetic = step.parts == Parts::quadratic_kinetic;
   OrderTheory theory{"words", order, method.lengths, {}, head.precision};
   for (const std::size_t part : method.parts) theory.sums.push_back(static_cast<int>(part));

@@ -61,6 +61,10 @@ struct AdvanceToWithoutTolerance : Euler {
     return Status::converged;
   }
 };
+// refused: processed, preprocess, kernel, postprocess: expected bool processed() const and, all three of
+struct ProcessedWithoutKernel : Euler {
+  [[nodiscard]] bool processed() const { return true; }
+};
 // refused: fixed_sizes: expected static constexpr bool fixed_sizes
 struct FixedSizesOfAnObject : Euler {
   bool fixed_sizes = false;
@@ -129,6 +133,7 @@ const MethodPlugin* const all[] = {&registered<OrderOfNothing>,
                                    &registered<RefusesByBool>,
                                    &registered<InstancesOfAnObject>,
                                    &registered<AdvanceToWithoutTolerance>,
+                                   &registered<ProcessedWithoutKernel>,
                                    &registered<FixedSizesOfAnObject>,
                                    &registered<CompensatedByFunction>,
                                    &registered<ComposableByConstant>,
