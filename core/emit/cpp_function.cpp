@@ -15,7 +15,8 @@ const std::string_view cpp_reserved =
     "static_cast struct switch template this thread_local throw true try typedef typeid typename union "
     "unsigned "
     "using virtual void volatile wchar_t while xor xor_eq std NAN INFINITY EOF errno assert linux unix "
-    "sqrt exp log sin cos pow abs fabs state parameters results shared arguments solve main";
+    "sqrt exp log sin cos pow abs fabs state parameters results shared arguments solve main as_lanes "
+    "choose_lanes each_lane lane_of lane_count lanes4 lanes8";
 
 Phrase Cpp::number(const Real& value) const {
   const double x = value.value();
@@ -33,6 +34,11 @@ Phrase Cpp::power(const Phrase& base, const Real& exponent) const {
 }
 Phrase Cpp::choice(const Phrase& condition, const Phrase& positive, const Phrase& otherwise) const {
   return {"(" + condition.text + " > 0.0 ? " + positive.text + " : " + otherwise.text + ")", Strength::atom};
+}
+
+Phrase CppInLanes::choice(const Phrase& condition, const Phrase& positive, const Phrase& otherwise) const {
+  return {"choose_lanes(" + condition.text + ", " + positive.text + ", " + otherwise.text + ")",
+          Strength::atom};
 }
 
 bool cut_into_parts(const Tape& tape) { return tape.code.size() / 2 > cpp_part_size; }
@@ -136,7 +142,7 @@ class FunctionWriter {
     for (std::size_t p = 0; p < parts_.size(); ++p) text += part(p);
     text += head();
     const std::string array = places_ > 0 ? "shared" : "nullptr";
-    if (places_ > 0) text += "  double shared[" + std::to_string(places_) + "];\n";
+    if (places_ > 0) text += "  " + interface_.number + " shared[" + std::to_string(places_) + "];\n";
     for (std::size_t p = 0; p < parts_.size(); ++p)
       text += "  " + part_name(p) + "(" + interface_.part_arguments + ", " + array + ");\n";
     std::vector<std::string> values;
@@ -159,11 +165,15 @@ class FunctionWriter {
   [[nodiscard]] std::string part_name(std::size_t p) const {
     return interface_.name + "_part_" + std::to_string(p + 1);
   }
-  static std::string results(const std::vector<std::string>& values) {
+  [[nodiscard]] std::string results(const std::vector<std::string>& values) const {
     std::string text;
     for (std::size_t k = 0; k < values.size(); ++k)
-      text += "  results[" + std::to_string(k) + "] = " + values[k] + ";\n";
+      text += "  results[" + std::to_string(k) + "] = " + as_number(values[k]) + ";\n";
     return text;
+  }
+  // A value in the type of all numbers, which an expression of constants alone does not have.
+  [[nodiscard]] std::string as_number(const std::string& value) const {
+    return interface_.number == "double" ? value : "as_lanes<" + interface_.number + ">(" + value + ")";
   }
 
   // Calls visit(slot) for all that the definition of a statement, or the value of an output, reads.
@@ -187,31 +197,31 @@ class FunctionWriter {
     for (const int slot : outputs) read_by(slot, true, note);
     std::string text;
     for (const int k : read)
-      text +=
-          "  const double " + interface_.input_names[at(k)] + " = " + interface_.input_values[at(k)] + ";\n";
+      text += "  const " + interface_.number + " " + interface_.input_names[at(k)] + " = " +
+              interface_.input_values[at(k)] + ";\n";
     return text;
   }
 
   [[nodiscard]] std::string statement(int slot) const {
     const Instruction& i = tape_.code[at(slot)];
-    const std::string& name = names_[at(slot)];
+    const std::string &name = names_[at(slot)], &number = interface_.number;
     if (i.operation != Operation::solve)
-      return "  const double " + name + " = " + expressions_.definition(slot).text + ";\n";
+      return "  const " + number + " " + name + " = " + as_number(expressions_.definition(slot).text) + ";\n";
     const LinearSystem& system = tape_.solves[at(i.a)];
     const std::vector<Phrase> entries = expressions_.entries(system);
     const auto size = static_cast<std::size_t>(system.size);
     const auto list = [&](std::size_t begin, std::size_t end) {
       std::string text;
-      for (std::size_t k = begin; k < end; ++k) text += (k == begin ? "" : ", ") + entries[k].text;
+      for (std::size_t k = begin; k < end; ++k) text += (k == begin ? "" : ", ") + as_number(entries[k].text);
       return text;
     };
     const std::string of = "_of_" + name;
-    std::string text = "  double matrix" + of + "[] = {" + list(0, size * size) + "};\n";
-    text += "  const double right" + of + "[] = {" + list(size * size, entries.size()) + "};\n";
-    text += "  double solution" + of + "[" + std::to_string(size) + "];\n";
+    std::string text = "  " + number + " matrix" + of + "[] = {" + list(0, size * size) + "};\n";
+    text += "  const " + number + " right" + of + "[] = {" + list(size * size, entries.size()) + "};\n";
+    text += "  " + number + " solution" + of + "[" + std::to_string(size) + "];\n";
     text += "  solve<" + std::to_string(size) + ">(matrix" + of + ", right" + of + ", solution" + of + ");\n";
     for (std::size_t k = 0; k < size; ++k)
-      text += "  [[maybe_unused]] const double " + names_[at(slot) + k] + " = solution" + of + "[" +
+      text += "  [[maybe_unused]] const " + number + " " + names_[at(slot) + k] + " = solution" + of + "[" +
               std::to_string(k) + "];\n";
     return text;
   }
@@ -255,9 +265,10 @@ class FunctionWriter {
         if (plan_.named(read) && part_of_.at(read) != p) foreign.insert(read);
       });
     std::string text = "[[gnu::noinline]] static void " + part_name(p) + "(" + interface_.part_parameters +
-                       ", [[maybe_unused]] double* shared) {\n" + inputs(parts_[p], {});
+                       ", [[maybe_unused]] " + interface_.number + "* shared) {\n" + inputs(parts_[p], {});
     for (const int slot : foreign)
-      text += "  const double " + names_[at(slot)] + " = shared[" + std::to_string(place_.at(slot)) + "];\n";
+      text += "  const " + interface_.number + " " + names_[at(slot)] + " = shared[" +
+              std::to_string(place_.at(slot)) + "];\n";
     for (const int slot : parts_[p]) text += statement(slot);
     for (const int slot : foreign)
       if (last_reader_.at(slot) == p) free_.push_back(place_.at(slot));

@@ -23,10 +23,12 @@ struct CppInterface {
   std::string part_arguments;             // and how it is handed on
   std::vector<std::string> input_names;   // of the tape's inputs, as local variables
   std::vector<std::string> input_values;  // what these are set to, such as "state[0]"
+  /// The type of all numbers, to which others than double are converted by as_lanes<number>(...).
+  std::string number = "double";
 };
 
 /// The functions of the standard library are written with this before their names: "std::" or "".
-class Cpp final : public Language {
+class Cpp : public Language {
  public:
   explicit Cpp(std::string prefix) : prefix_(std::move(prefix)) {}
   [[nodiscard]] PlanRules rules() const override { return {40, false, false}; }
@@ -39,6 +41,14 @@ class Cpp final : public Language {
 
  private:
   std::string prefix_;
+};
+
+/// For vectors of doubles, between which `?` does not choose.
+class CppInLanes final : public Cpp {
+ public:
+  CppInLanes() : Cpp("") {}
+  [[nodiscard]] Phrase choice(const Phrase& condition, const Phrase& positive,
+                              const Phrase& otherwise) const override;
 };
 
 /// Operations in one part.

@@ -23,6 +23,9 @@ constexpr std::array candidates{
 // of larger systems loop faster than a text as long as the system runs.
 constexpr std::size_t longest_tape = 200000, longest_program = 20000;
 constexpr int most_columns = 64, most_in_program = 400;
+// Packs are for systems whose steps are short; each of the two widths takes the compiler as long as doubles
+// do.
+constexpr std::size_t longest_in_lanes = 2000;
 
 bool is_jacobian(Formula f) { return f == Formula::field_jacobian || f == Formula::chart_field_jacobian; }
 
@@ -45,9 +48,59 @@ bool to_be_compiled(const Model& model, Formula formula, bool anew) {
   return model.tape(formula)->code.size() <= longest_tape;
 }
 
-std::string symbol_of(Formula formula) { return "pfaff_" + std::string(row_of(formula).name); }
+// What methods evaluate at several points side by side. Linear systems have pivots of their own at each
+// point, so that packs of them gain little, and lose where half of the lanes have no point.
+bool is_in_lanes(Formula formula, const Tape& tape) {
+  return (row_of(formula).traits.in_lanes || formula == Formula::chart_field) && tape.solves.empty() &&
+         tape.code.size() <= longest_in_lanes;
+}
 
-std::string function_text(const Tape& tape, const std::string& symbol, const Cpp& language) {
+// Vectors of doubles with the operations of formulas. Each lane has the bits of a double: functions are
+// called for one lane after the other.
+constexpr const char* lanes_prelude = R"(typedef double lanes4 __attribute__((vector_size(32), aligned(8)));
+typedef double lanes8 __attribute__((vector_size(64), aligned(8)));
+template <class P> constexpr unsigned lane_count = sizeof(P) / sizeof(double);
+inline double lane_of(double x, unsigned) { return x; }
+template <class P> inline double lane_of(const P& x, unsigned lane) { return x[lane]; }
+template <class P, class X> inline P as_lanes(const X& x) {
+  P r;
+  for (unsigned lane = 0; lane < lane_count<P>; ++lane) r[lane] = lane_of(x, lane);
+  return r;
+}
+template <class P> inline P sqrt(const P& x) {
+  P r;
+  for (unsigned lane = 0; lane < lane_count<P>; ++lane) r[lane] = sqrt(x[lane]);
+  return r;
+}
+template <class P, class F> inline P each_lane(const P& x, F f) {
+  P r;
+  double of = x[0], y = f(of);
+  r[0] = y;
+  for (unsigned lane = 1; lane < lane_count<P>; ++lane) {
+    if (x[lane] != of || of == 0.0) y = f(of = x[lane]);
+    r[lane] = y;
+  }
+  return r;
+}
+template <class P> inline P exp(const P& x) { return each_lane(x, [](double a) { return exp(a); }); }
+template <class P> inline P log(const P& x) { return each_lane(x, [](double a) { return log(a); }); }
+template <class P> inline P sin(const P& x) { return each_lane(x, [](double a) { return sin(a); }); }
+template <class P> inline P cos(const P& x) { return each_lane(x, [](double a) { return cos(a); }); }
+template <class P> inline P pow(const P& x, double y) { return each_lane(x, [y](double a) { return pow(a, y); }); }
+template <class P, class A, class B> inline P choose_lanes(const P& condition, const A& positive, const B& otherwise) {
+  P r;
+  for (unsigned lane = 0; lane < lane_count<P>; ++lane)
+    r[lane] = condition[lane] > 0.0 ? lane_of(positive, lane) : lane_of(otherwise, lane);
+  return r;
+}
+)";
+
+std::string symbol_of(Formula formula, const std::string& lanes = "") {
+  return "pfaff_" + std::string(row_of(formula).name) + lanes;
+}
+
+std::string function_text(const Tape& tape, const std::string& symbol, const Cpp& language,
+                          const std::string& number = "double") {
   Equations equations;  // names only
   equations.tape = tape;
   for (int k = 0; k < tape.inputs; ++k) equations.coordinates.push_back({"z" + std::to_string(k + 1), ""});
@@ -56,8 +109,9 @@ std::string function_text(const Tape& tape, const std::string& symbol, const Cpp
   const TextNames text_name = text_names(equations, plan, names);
   CppInterface interface;
   interface.name = symbol;
-  interface.part_parameters = "const double& t, const double* arguments";
-  interface.parameters = "const void*, " + interface.part_parameters + ", double* results";
+  interface.number = number;
+  interface.part_parameters = "const " + number + "& t, const " + number + "* arguments";
+  interface.parameters = "const void*, " + interface.part_parameters + ", " + number + "* results";
   interface.part_arguments = "t, arguments";
   interface.input_names = text_name.inputs;
   for (int k = 0; k < tape.inputs; ++k)
@@ -79,12 +133,18 @@ NativeText text_of(const Model& model) {
     result.series = native::series_text(*model.tape(Formula::chart_field));
   const bool anew = !result.series.text.empty();
   const Cpp language("");
-  std::string functions, solver;
+  const CppInLanes language_in_lanes;
+  std::string functions, solver, in_lanes;
   for (const Formula formula : candidates) {
     if (!to_be_compiled(model, formula, anew)) continue;
     const Tape& tape = *model.tape(formula);
     if (solver.empty()) solver = cpp_solver(tape);
     functions += function_text(tape, symbol_of(formula), language) + "\n";
+    if (!is_in_lanes(formula, tape)) continue;
+    in_lanes = lanes_prelude;
+    for (const std::string width : {"4", "8"})
+      functions +=
+          function_text(tape, symbol_of(formula, "_" + width), language_in_lanes, "lanes" + width) + "\n";
   }
   if (functions.empty() && !anew) return result;
   result.text =
@@ -92,7 +152,7 @@ NativeText text_of(const Model& model) {
       "noexcept;\n"
       "double sin(double) noexcept;\ndouble cos(double) noexcept;\ndouble pow(double, double) "
       "noexcept;\n}\n\n" +
-      solver + functions + result.series.text;
+      in_lanes + solver + functions + result.series.text;
   return result;
 }
 
@@ -126,9 +186,14 @@ std::shared_ptr<const Model> compiled(const std::shared_ptr<const Model>& model)
     source.chart_field_series = &owner->series->series();
     object = owner->series.get();
   }
+  const auto code = [&](Formula formula, const std::string& lanes = "") {
+    return owner->library->symbol(symbol_of(formula, lanes));
+  };
   for (const Formula formula : candidates)
-    if (void* address = owner->library->symbol(symbol_of(formula)))
-      source.compiled[index(formula)] = {.one = reinterpret_cast<CompiledFormula>(address)};
+    if (void* address = code(formula))
+      source.compiled[index(formula)] = {.one = reinterpret_cast<CompiledFormula>(address),
+                                         .four = reinterpret_cast<CompiledInLanes<4>>(code(formula, "_4")),
+                                         .eight = reinterpret_cast<CompiledInLanes<8>>(code(formula, "_8"))};
   source.system = std::shared_ptr<const void>(std::move(owner), object);
   return std::make_shared<const Model>(std::move(source));
 }

@@ -3,10 +3,13 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <fstream>
 #include <random>
+#include <set>
 
 #include <pfaff/core/facets/problem.hpp>
 #include <pfaff/core/formulation.hpp>
@@ -16,6 +19,7 @@
 #include <pfaff/core/tape/replay.hpp>
 
 #include "../temporary_directory.hpp"
+#include "random_formula.hpp"
 
 namespace {
 using namespace pfaff;
@@ -89,6 +93,112 @@ TEST_F(Native, CompiledFormulasGiveWhatTheTapesGive) {
       EXPECT_LE(compiled_difference(*model, formula), name == "n-pendulum-angles" ? 1e-13 : 2e-15);
     }
   }
+}
+
+// Every lane of a pack of points gives the bits of its point alone.
+template <int W>
+void expect_bits_in_lanes(const Model& model, Formula formula) {
+  ASSERT_NE(model.compiled(formula), nullptr);
+  const auto in_lanes = model.compiled_in_lanes<W>(formula);
+  ASSERT_NE(in_lanes, nullptr);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> change(-0.2, 0.2);
+  const Tape& tape = *model.tape(formula);
+  const auto inputs = static_cast<std::size_t>(tape.inputs);
+  std::vector<Pack<W>> points(inputs), found(tape.outputs.size());
+  Pack<W> times;
+  for (std::size_t lane = 0; lane < W; ++lane) {
+    times.set(lane, change(random));
+    for (std::size_t k = 0; k < inputs; ++k) points[k].set(lane, model.initial()[k].value() + change(random));
+  }
+  // Zeros of either sign side by side, which are equal and of which a sine is not.
+  points[0].set(0, 0.0);
+  points[0].set(1, -0.0);
+  in_lanes(model.system(), times, points.data(), found.data());
+  for (std::size_t lane = 0; lane < W; ++lane) {
+    std::vector<double> point, alone(found.size());
+    for (const Pack<W>& x : points) point.push_back(x[lane]);
+    model.compiled(formula)(model.system(), times[lane], point.data(), alone.data());
+    for (std::size_t k = 0; k < alone.size(); ++k)
+      EXPECT_TRUE(std::bit_cast<std::uint64_t>(found[k][lane]) == std::bit_cast<std::uint64_t>(alone[k]) ||
+                  (std::isnan(found[k][lane]) && std::isnan(alone[k])))
+          << "lane " << lane << ", result " << k << ": " << found[k][lane] << ", alone " << alone[k];
+  }
+}
+
+TEST_F(Native, FormulasAreCompiledForPacksToo) {
+  using enum Formula;
+  const std::vector<std::pair<std::string, std::vector<Formula>>> expected{
+      {"henon-heiles", {field, force, velocity}},
+      {"kepler", {force}},
+      {"damped-pendulum", {field, chart_field}},
+      {"lotka-volterra", {chart_field}}};
+  for (const auto& [name, formulas] : expected) {
+    const auto model = compiled(bare(model_of(name)));
+    for (const Formula formula : formulas) {
+      SCOPED_TRACE(name + ": " + std::string(to_string(formula)));
+      expect_bits_in_lanes<4>(*model, formula);
+      expect_bits_in_lanes<8>(*model, formula);
+    }
+    EXPECT_EQ(model->compiled_in_lanes<4>(hamiltonian), nullptr);  // which no method evaluates in packs
+  }
+}
+
+// Fields of random operations.
+struct RandomField {
+  static constexpr int dimension = 3;
+  unsigned seed = 0;
+  [[nodiscard]] RandomFormula formula() const { return {seed, 3, 3, 12}; }
+  template <class T>
+  void field(const T& t, In<T> z, Out<T> rates) const {
+    formula()(t, z, rates);
+  }
+};
+
+std::shared_ptr<const Model> random_model(unsigned seed) {
+  return make_model({.name = "random", .title = "", .reference = "", .initial = {1, 0.5_r, -0.3_r}},
+                    RandomField{.seed = seed});
+}
+
+TEST_F(Native, PacksHaveEveryOperation) {
+  int without_solves = 0;
+  std::set<Operation> met;
+  for (unsigned seed = 0; without_solves < 6; ++seed) {
+    const Tape tape = RandomField{.seed = seed}.formula().tape();
+    if (!tape.solves.empty()) continue;  // see PacksSolveNoLinearSystems
+    ++without_solves;
+    for (const Instruction& i : tape.code) met.insert(i.operation);
+    SCOPED_TRACE(seed);
+    const auto model = compiled(
+        bare(make_model({.name = "random", .title = "", .reference = "", .initial = {1, 0.5_r, -0.3_r}},
+                        RandomField{.seed = seed})));
+    expect_bits_in_lanes<4>(*model, Formula::field);
+    expect_bits_in_lanes<8>(*model, Formula::field);
+  }
+  EXPECT_EQ(met.size(), 15U);  // all but those of linear systems
+}
+
+// Infinite with the sign of a zero.
+struct ReciprocalSine {
+  static constexpr int dimension = 1;
+  template <class T>
+  void field(const T& /*t*/, In<T> z, Out<T> rate) const {
+    rate[0] = 1 / sin(z[0]);
+  }
+};
+
+TEST_F(Native, PacksTellTheSignOfZero) {
+  const auto model = compiled(bare(
+      make_model({.name = "reciprocal", .title = "", .reference = "", .initial = {1}}, ReciprocalSine{})));
+  expect_bits_in_lanes<4>(*model, Formula::field);
+}
+
+TEST_F(Native, PacksSolveNoLinearSystems) {
+  unsigned seed = 0;
+  while (RandomField{.seed = seed}.formula().tape().solves.empty()) ++seed;
+  const auto model = compiled(bare(random_model(seed)));
+  EXPECT_NE(model->compiled(Formula::field), nullptr);
+  EXPECT_EQ(model->compiled_in_lanes<4>(Formula::field), nullptr);
 }
 
 TEST_F(Native, WhatAnAuthorCompiledStays) {
