@@ -1,8 +1,8 @@
 // Replay: evaluates a tape with any scalar.
 //
 // The replay owns every buffer it needs, so that one tape serves many threads, each with its own replay. What
-// depends on time alone is recomputed only when the time changes. Scalars that compute take the instructions
-// by operation (schedule.hpp), those that record as the tape has them.
+// depends on time alone is recomputed only when the time changes. Doubles take the instructions by operation
+// (schedule.hpp), other scalars as the tape has them.
 #pragma once
 
 #include <cstddef>
@@ -88,13 +88,12 @@ class TapeSolver<Dual<Recorded, 1>> {
 };
 
 namespace detail {
-/// The order in which a tape is evaluated with a scalar.
+/// The order in which a tape is evaluated with a scalar. An operation of quad takes so much longer than a
+/// jump that a schedule by operation is not worth its making.
 template <class T>
 inline constexpr ScheduleOrder schedule_order = ScheduleOrder::recorded;
 template <>
 inline constexpr ScheduleOrder schedule_order<double> = ScheduleOrder::by_operation;
-template <>
-inline constexpr ScheduleOrder schedule_order<Quad> = ScheduleOrder::by_operation;
 template <int W>
 inline constexpr ScheduleOrder schedule_order<Pack<W>> = ScheduleOrder::by_operation;
 template <class T, int N>

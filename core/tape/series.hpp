@@ -189,7 +189,6 @@ class SeriesReplay {
                      : nullptr;
     const T* x0 = slot(k, 0);
     const std::size_t at = l * lanes_;
-    const T order(static_cast<int>(l));
     const auto each = [&](auto&& value) {
       for (std::size_t lane = 0; lane < lanes_; ++lane) x[lane] = value(lane);
     };
@@ -239,12 +238,12 @@ class SeriesReplay {
       case Operation::exponential:
         each([](std::size_t) { return T(0); });
         convolve(x, a, x0, l, 1, l, index);
-        each([&](std::size_t n) { return x[n] / order; });
+        each([&, order = index(l)](std::size_t n) { return x[n] / order; });
         break;
       case Operation::logarithm:
         each([](std::size_t) { return T(0); });
         if (l >= 2) convolve(x, x0, a, l, 1, l - 1, index);
-        each([&](std::size_t n) { return (a[at + n] - x[n] / order) / a[n]; });
+        each([&, order = index(l)](std::size_t n) { return (a[at + n] - x[n] / order) / a[n]; });
         break;
       case Operation::sine: {
         const T* c0 = slot(k + 1, 0);
@@ -252,6 +251,7 @@ class SeriesReplay {
         for (std::size_t lane = 0; lane < lanes_; ++lane) x[lane] = c[lane] = T(0);
         convolve(x, a, c0, l, 1, l, index);
         convolve(c, a, x0, l, 1, l, index);
+        const T order = index(l);
         for (std::size_t lane = 0; lane < lanes_; ++lane) {
           x[lane] = x[lane] / order;
           c[lane] = -c[lane] / order;
@@ -262,7 +262,7 @@ class SeriesReplay {
         const T r(tape_->constants[static_cast<std::size_t>(i.b)]);
         each([](std::size_t) { return T(0); });
         convolve(x, a, x0, l, 1, l, [&](std::size_t n) { return index(n) * r - index(l - n); });
-        each([&](std::size_t n) { return x[n] / (order * a[n]); });
+        each([&, order = index(l)](std::size_t n) { return x[n] / (order * a[n]); });
         break;
       }
       case Operation::select: {

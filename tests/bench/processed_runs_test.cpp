@@ -19,7 +19,9 @@ nlohmann::json run_of(const std::string& integrator, std::int64_t every) {
 TEST(ProcessedRuns, PayForTheProcessorWhereStatesAreKept) {
   const std::string table =
       std::string(PFAFF_GOLDEN) + "/../../examples/tables/verlet-as-processed-euler.toml";
-  const auto forces = [](const nlohmann::json& j) { return j["counts"]["right_hand_sides"].get<std::int64_t>(); };
+  const auto forces = [](const nlohmann::json& j) {
+    return j["counts"]["right_hand_sides"].get<std::int64_t>();
+  };
   const nlohmann::json sparse = run_of(table, 50), dense = run_of(table, 1), verlet = run_of("verlet", 50);
   EXPECT_EQ(forces(sparse), 1000 + 20 * 2);
   EXPECT_EQ(forces(dense), 1000 * 3);

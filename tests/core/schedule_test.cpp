@@ -136,7 +136,7 @@ TEST(Schedule, GivesTheBitsOfOneInstructionAfterTheOther) {
 
 TEST(Schedule, OfScalarsThatRecordIsTheOrderOfTheTape) {
   EXPECT_EQ(detail::schedule_order<double>, ScheduleOrder::by_operation);
-  EXPECT_EQ((detail::schedule_order<Dual<Quad, 1>>), ScheduleOrder::by_operation);
+  EXPECT_EQ((detail::schedule_order<Dual<double, 1>>), ScheduleOrder::by_operation);
   EXPECT_EQ(detail::schedule_order<Recorded>, ScheduleOrder::recorded);
   EXPECT_EQ((detail::schedule_order<Dual<Recorded, 1>>), ScheduleOrder::recorded);
   const Tape tape = RandomFormula{3, 3, 2, 40}.tape();
