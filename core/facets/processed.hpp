@@ -26,13 +26,24 @@ concept WritesProcessor = requires(const M& m, const P& p, const Scalar<P>& t, S
   { m.postprocess(p, t, t, z, w) } -> std::same_as<Status>;
 };
 
-/// What the method keeps, and the state from which a loop of steps begins: it is given back where the state
-/// after the last kernel cannot be brought to an end.
+/// What the method keeps, and the state from which a loop of steps begins, with what compensated sums have
+/// rounded off by then: both are given back where no step, or not the processor, comes to an end.
 template <class W, class P>
 struct WithBeginning : W {
-  State<P> beginning;
+  static constexpr bool carries = requires { requires std::same_as<decltype(W::carry), State<P>>; };
+  State<P> beginning, beginning_carry;
   template <class M>
-  WithBeginning(const M& method, const P& p) : W(method, p), beginning(p.make_state()) {}
+  WithBeginning(const M& method, const P& p)
+      : W(method, p), beginning(p.make_state()), beginning_carry(p.make_state()) {}
+
+  void begin(const State<P>& z) {
+    std::copy(z.begin(), z.end(), beginning.begin());
+    if constexpr (carries) std::copy(this->carry.begin(), this->carry.end(), beginning_carry.begin());
+  }
+  void give_back(State<P>& z) {
+    std::copy(beginning.begin(), beginning.end(), z.begin());
+    if constexpr (carries) std::copy(beginning_carry.begin(), beginning_carry.end(), this->carry.begin());
+  }
 };
 
 /// The steps first, ..., first + count - 1 of size h from time t0. Where a kernel does not converge, z is the
@@ -45,17 +56,17 @@ Status advance_kernel(const M& method, const P& problem, const Scalar<P>& t0, st
   };
   completed = 0;
   if (count <= 0) return Status::converged;
-  std::copy(z.begin(), z.end(), work.beginning.begin());
+  work.begin(z);
   Status status = method.preprocess(problem, time(0), h, z, work);
-  if (status != Status::converged) return status;
   std::int64_t taken = 0;
-  for (; taken < count; ++taken) {
+  for (; status == Status::converged && taken < count; ++taken) {
     status = method.kernel(problem, time(taken), h, z, work);
     if (status != Status::converged) break;
   }
-  const Status ended = method.postprocess(problem, time(taken), h, z, work);
-  if (ended != Status::converged) {
-    std::copy(work.beginning.begin(), work.beginning.end(), z.begin());
+  Status ended = status;
+  if (taken > 0) ended = method.postprocess(problem, time(taken), h, z, work);
+  if (taken == 0 || ended != Status::converged) {
+    work.give_back(z);
     return ended;
   }
   completed = taken;

@@ -135,7 +135,8 @@ struct Stumbling {
   [[nodiscard]] bool processed() const { return true; }
   template <class P>
   struct Work {
-    Work(const Stumbling& /*method*/, const P& /*p*/) {}
+    State<P> carry;
+    Work(const Stumbling& /*method*/, const P& p) : carry(p.make_state()) {}
   };
   template <HasVectorField P>
   Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
@@ -145,9 +146,10 @@ struct Stumbling {
   }
   template <HasVectorField P>
   Status preprocess(const P& /*p*/, const Scalar<P>& /*t*/, const Scalar<P>& /*h*/, State<P>& z,
-                    Work<P>& /*w*/) const {
+                    Work<P>& w) const {
     if (before) return Status::singular;
     z[0] += 100;
+    w.carry[0] += 1;
     return Status::converged;
   }
   template <HasVectorField P>
@@ -188,10 +190,12 @@ TEST(Processed, WhatDoesNotConvergeLeavesTheStateOfTheStepsBefore) {
     Work<Stumbling, P> work(row.method, problem);
     State<P> z = problem.make_state();
     z[0] = 4;
+    work.carry[0] = 0.5;
     std::int64_t completed = -1;
     EXPECT_EQ(advance(row.method, problem, 0.0, 0, 1.0, 8, z, work, completed), row.status);
     EXPECT_EQ(completed, row.completed);
     EXPECT_EQ(z[0], row.z);
+    EXPECT_EQ(work.carry[0], row.completed == 0 ? 0.5 : 1.5);
   }
 }
 
