@@ -64,8 +64,9 @@ void by_operation(Schedule& schedule, const Tape& tape, std::size_t begin, std::
     auto& run = *std::max_element(ready.begin(), ready.end(),
                                   [](const auto& a, const auto& b) { return a.size() < b.size(); });
     if (run.empty()) return;
-    for (std::size_t next = 0; next < run.size(); ++next) {
-      const std::size_t k = run[next];
+    std::size_t taken = 0;
+    while (taken < run.size()) {  // which grows
+      const std::size_t k = run[taken++];
       append(schedule, tape, begin + k);
       for (std::size_t r = waiting.first[k]; r < waiting.first[k + 1]; ++r) {
         const std::size_t reader = waiting.readers[r];
