@@ -9,6 +9,7 @@
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/bench/tuning/tuned_splitting.hpp>
 #include <pfaff/bench/verification/check.hpp>
+#include <pfaff/core/facets/quadratic_energy.hpp>
 #include <pfaff/integrators/tables/method_table.hpp>
 #include <pfaff/systems/text/text_system.hpp>
 
@@ -49,8 +50,16 @@ bool verified(const std::string& file, const Common& common) {
   return ok;
 }
 
+// Palindromes of order 6 are made for the system's own kind of kinetic energy.
+Parts parts_for(const Model& model, const TuningSettings& settings) {
+  constexpr int first_with_fewer_conditions = 6;
+  return settings.processor == 0 && settings.order >= first_with_fewer_conditions &&
+                 quadratic_in_momenta(model)
+             ? Parts::quadratic_kinetic
+             : Parts::general;
+}
+
 int tune(const TuneOptions& options, const Common& common) {
-  check(options.tuning);
   if (!(options.step > 0))
     throw InputError("--step: expected the step that the method is tuned for, above 0");
   const std::string name = options.name.empty() ? "tuned-splitting" : options.name;
@@ -60,9 +69,12 @@ int tune(const TuneOptions& options, const Common& common) {
     throw InputError("--out '" + options.out + "': expected a file that ends in .toml");
   const SystemPlugin& system = system_named(options.system);
   const auto model = system.make(parse_settings(options.set));
+  TuningSettings settings = options.tuning;
+  settings.parts = parts_for(*model, settings);
+  check(settings);
   constexpr int states = 200;
-  const bool processed = options.tuning.processor > 0;
-  const SplittingLogarithm logarithm(options.tuning.order, processed ? Degrees::all : Degrees::odd);
+  const bool processed = settings.processor > 0;
+  const SplittingLogarithm logarithm(settings.order, processed ? Degrees::all : Degrees::odd, settings.parts);
   const ShadowTerms terms(*model, logarithm, options.step, states_along_the_motion(model, states));
   std::vector<std::pair<std::string, double>> others;
   for (const std::string& method : options.beside)
@@ -71,7 +83,7 @@ int tune(const TuneOptions& options, const Common& common) {
   TunedSplitting tuned;
   {
     ProgressLine line(common.quiet);
-    tuned = tuned_splitting(logarithm, terms, options.tuning,
+    tuned = tuned_splitting(logarithm, terms, settings,
                             [&](double fraction) { line.show("starts of the search", fraction); });
   }
   const std::string table_text = splitting_table(tuned, name, options.tuning.order, system.name());

@@ -43,18 +43,19 @@ ConstrainedProblem palindromes(const SplittingLogarithm& logarithm, const Shadow
                                const TuningSettings& settings) {
   ConstrainedProblem problem = numbers_of_palindromes(settings);
   const int stages = settings.stages, order = settings.order;
+  const Parts parts = settings.parts;
   problem.values = [&logarithm, &terms, stages](const std::vector<double>& x) {
     auto found = logarithm.of(palindrome(in_quad(x), stages));
     return ConstrainedProblem::Values{std::move(found.conditions), terms.weighted(found.brackets)};
   };
-  problem.conditions = [stages, order](const std::vector<Quad>& x) {
+  problem.conditions = [stages, order, parts](const std::vector<Quad>& x) {
     std::vector<Quad> residuals;
-    for (const OrderCondition& condition : splitting_conditions(palindrome(x, stages), order))
+    for (const OrderCondition& condition : splitting_conditions(palindrome(x, stages), order, parts))
       if (condition.order % 2 == 1) residuals.push_back(condition.residual);
     return residuals;
   };
-  problem.holds = [stages, order](const std::vector<Quad>& x) {
-    return first_violated(splitting_conditions(palindrome(x, stages), order), order,
+  problem.holds = [stages, order, parts](const std::vector<Quad>& x) {
+    return first_violated(splitting_conditions(palindrome(x, stages), order, parts), order,
                           precision_of_quad_coefficients / Quad(4)) == nullptr;
   };
   return problem;

@@ -1,11 +1,21 @@
 #include <pfaff/bench/tuning/splitting_logarithm.hpp>
 
+#include <numeric>
+
 #include <pfaff/core/numbers/quad.hpp>
+#include <pfaff/integrators/order_conditions/lie_quotient.hpp>
 
 namespace pfaff {
 
-SplittingLogarithm::SplittingLogarithm(int order, Degrees degrees)
+SplittingLogarithm::SplittingLogarithm(int order, Degrees degrees, Parts parts)
     : order_(order), stride_(degrees == Degrees::odd ? 2 : 1), words_({1, 1}, order + 3) {
+  for (int degree = 1; degree <= order; degree += stride_) {
+    auto& rows = condition_rows_.emplace_back();
+    for (const std::vector<Quad>& row : condition_rows(degree, parts)) {
+      auto& rounded = rows.emplace_back();
+      for (const Quad& x : row) rounded.push_back(static_cast<double>(x));
+    }
+  }
   for (int degree = order + 1; degree <= order + 3; degree += stride_)
     for (const std::size_t word : words_.lyndon(degree)) lyndon_.push_back(word);
   const std::size_t n = lyndon_.size();
@@ -31,9 +41,15 @@ std::vector<double> SplittingLogarithm::brackets(const WordSeries<double>& log) 
 SplittingLogarithm::Coordinates SplittingLogarithm::of(const std::vector<PartialFlow>& flows) const {
   const WordSeries<double> log = logarithm(series_of<double>(words_, flows));
   Coordinates result;
-  for (int degree = 1; degree <= order_; degree += stride_)
-    for (const std::size_t word : words_.lyndon(degree))
-      result.conditions.push_back(log[word] - (degree == 1 ? 1 : 0));
+  int degree = 1;
+  for (const auto& rows : condition_rows_) {
+    std::vector<double> residual = coordinates(log, words_.lyndon(degree));
+    if (degree == 1)
+      for (double& x : residual) x -= 1;
+    for (const std::vector<double>& row : rows)
+      result.conditions.push_back(std::inner_product(row.begin(), row.end(), residual.begin(), 0.0));
+    degree += stride_;
+  }
   result.brackets = brackets(log);
   return result;
 }

@@ -24,7 +24,7 @@ enum class Degrees {
 /// Of splittings of one even order.
 class SplittingLogarithm {
  public:
-  explicit SplittingLogarithm(int order, Degrees degrees = Degrees::odd);
+  explicit SplittingLogarithm(int order, Degrees degrees = Degrees::odd, Parts parts = Parts::general);
 
   struct Coordinates {
     /// The residuals of the order conditions of degrees 1, 3, ..., order - 1, or 1, 2, ..., order.
@@ -45,6 +45,7 @@ class SplittingLogarithm {
  private:
   int order_, stride_;
   Words words_;
+  std::vector<std::vector<std::vector<double>>> condition_rows_;  // by degree: 1, 1 + stride, ...
   std::vector<std::size_t> lyndon_;
   std::vector<double> bracketings_;  // row i, column j: the coefficient of word i in the bracketing of word j
 };

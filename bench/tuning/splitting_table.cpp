@@ -18,12 +18,14 @@ std::string lists(const std::vector<PartialFlow>& flows) {
 std::string splitting_table(const TunedSplitting& tuned, const std::string& name, int order,
                             const std::string& system) {
   const bool processed = !tuned.pre.empty();
-  const std::string head = "name = \"" + name + "\"\nkind = \"" + (processed ? "processed" : "splitting") +
-                           "\"\norder = " + std::to_string(order) + "\ntitle = \"" +
-                           (processed ? "processed splitting" : "splitting") + " of order " +
-                           std::to_string(order) + " tuned to " + system + "\"\nreference = \"" +
-                           (processed ? "blanes-casas-ros1999" : "blanes-casas2016") +
-                           "\"\ndescription = \"\"\"\n";
+  const std::string kind = processed                                 ? "processed"
+                           : tuned.parts == Parts::quadratic_kinetic ? "rkn-splitting"
+                                                                     : "splitting";
+  const std::string head =
+      "name = \"" + name + "\"\nkind = \"" + kind + "\"\norder = " + std::to_string(order) + "\ntitle = \"" +
+      (processed ? "processed splitting" : "splitting") + " of order " + std::to_string(order) +
+      " tuned to " + system + "\"\nreference = \"" +
+      (processed ? "blanes-casas-ros1999" : "blanes-casas2016") + "\"\ndescription = \"\"\"\n";
   const std::string where =
       "are small on the system " + system + ". On other systems \\\nnothing is known of them.\"\"\"\n";
   if (!processed) return head + "A palindrome whose leading shadow terms " + where + lists(tuned.flows);

@@ -7,22 +7,23 @@ namespace pfaff {
 
 namespace {
 
-// The number of conditions that are left when those of the odd degrees below `order` + 1 are, by Witt's
-// formula, 2, 2, 6, 18 of degree 1, 3, 5, 7. A processor takes on as many of a degree d > 1 as there are
-// Lyndon words of degree d - 1.
-int conditions_of(int order, bool processed) {
-  const Words words({1, 1}, order);
-  const auto count = [&](int degree) { return static_cast<int>(words.lyndon(degree).size()); };
+// The number of conditions that are left when those of the odd degrees below `order` + 1 are: in general, by
+// Witt's formula, 2, 2, 6, 18 of degree 1, 3, 5, 7. A processor takes on as many of a degree d > 1 as there
+// are Lyndon words of degree d - 1.
+int conditions_of(const TuningSettings& settings) {
+  const Words words({1, 1}, settings.order);
   int sum = 0;
-  for (int degree = 1; degree < order; degree += 2)
-    sum += count(degree) - (processed && degree > 1 ? count(degree - 1) : 0);
+  for (int degree = 1; degree < settings.order; degree += 2) {
+    sum += static_cast<int>(condition_rows(degree, settings.parts).size());
+    if (settings.processor > 0 && degree > 1) sum -= static_cast<int>(words.lyndon(degree - 1).size());
+  }
   return sum;
 }
 
 }  // namespace
 
-int free_coefficients(int order, int stages, bool processed) {
-  return stages + 1 - conditions_of(order, processed);
+int free_coefficients(const TuningSettings& settings) {
+  return settings.stages + 1 - conditions_of(settings);
 }
 
 void check(const TuningSettings& settings) {
@@ -33,7 +34,7 @@ void check(const TuningSettings& settings) {
     throw InputError("a processor of " + std::to_string(settings.processor) +
                      " kicks: expected a number above 0, or 0 for none");
   const bool processed = settings.processor > 0;
-  if (const int number = free_coefficients(settings.order, settings.stages, processed); number < 1)
+  if (const int number = free_coefficients(settings); number < 1)
     throw InputError("a palindrome of " + std::string(processed ? "effective " : "") + "order " +
                      std::to_string(settings.order) + " with " + std::to_string(settings.stages) +
                      " forces a step has no free coefficient; expected at least " +
@@ -112,6 +113,7 @@ TunedSplitting tuned_splitting(const SplittingLogarithm& logarithm, const Shadow
                   "starts or forces");
   TunedSplitting best;
   best.flows = palindrome(*x, settings.stages);
+  best.parts = settings.parts;
   best.error = terms.of(logarithm.of(best.flows).brackets);
   return best;
 }

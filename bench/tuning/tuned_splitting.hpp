@@ -21,6 +21,9 @@ struct TuningSettings {
   int order = 4;      // even
   int stages = 6;     // forces a step, of the kernel where there is a processor; drifts come first and last
   int processor = 0;  // the kicks of the processor, which begins with a drift; none where it is 0
+  /// Kinetic energies that are quadratic in the momenta need fewer conditions from order 6 on. Processed
+  /// methods are made for general parts.
+  Parts parts = Parts::general;
   std::uint64_t seed = 1;
   int starts = 60;  // of the search, drawn by `seed`
   /// The sum of the lengths of all flows, taken positive, may be so large at most: long steps back and forth
@@ -34,11 +37,12 @@ struct TunedSplitting {
   std::vector<PartialFlow> pre;    // the processor; a step is pre, flows and the inverse of pre
   double error = 0;                // ShadowTerms::of the whole step
   double error_of_kernel = 0;      // where there is a processor: what none removes
+  Parts parts = Parts::general;    // for which it is of its order
 };
 
 /// How many numbers of a palindrome the conditions of order, or effective order where it is processed, leave
 /// free; negative where there are too few.
-int free_coefficients(int order, int stages, bool processed = false);
+int free_coefficients(const TuningSettings& settings);
 
 /// InputError for an order that is odd or outside 2 ... 6, and where the order conditions leave nothing free
 /// of the palindrome or of the processor.

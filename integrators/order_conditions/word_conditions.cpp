@@ -124,6 +124,23 @@ std::vector<OrderCondition> splitting_conditions(const std::vector<PartialFlow>&
   return conditions;
 }
 
+std::vector<std::vector<Quad>> condition_rows(int degree, Parts parts) {
+  const Words words({1, 1}, degree);
+  const ReducedSpan<Quad> span = Ideal(words, parts).span(degree);
+  const std::size_t count = words.lyndon(degree).size();
+  std::vector<std::vector<Quad>> rows;
+  for (std::size_t k = 0; k < count; ++k)
+    if (!span.is_pivot(k)) rows.emplace_back(count);
+  for (std::size_t j = 0; j < count; ++j) {
+    std::vector<Quad> column(count);
+    column[j] = Quad(1);
+    span.reduce(column);
+    for (std::size_t k = 0, row = 0; k < count; ++k)
+      if (!span.is_pivot(k)) rows[row++][j] = column[k];
+  }
+  return rows;
+}
+
 std::vector<OrderCondition> near_integrable_conditions(const std::vector<PartialFlow>& flows,
                                                        const std::vector<int>& orders) {
   const int largest = orders.front();

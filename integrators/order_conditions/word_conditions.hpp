@@ -42,6 +42,11 @@ inline constexpr int largest_degree = 12;
 std::vector<OrderCondition> splitting_conditions(const std::vector<PartialFlow>& flows, int order,
                                                  Parts parts = Parts::general);
 
+/// The rows of the matrix that takes the coefficients of the Lyndon words of a degree, of a logarithm's part
+/// of that degree, to the conditions of that degree: to what is left of them where all that vanishes for such
+/// parts is divided out.
+std::vector<std::vector<Quad>> condition_rows(int degree, Parts parts);
+
 /// The conditions of generalised order of a splitting for H = A + eps B (near_integrable_schemes.hpp): those
 /// of the words with k letters B up to the degree orders[k - 1], of words with more than orders.size()
 /// letters B up to the last of them, and of the word A. No entry may be larger than largest_degree or than

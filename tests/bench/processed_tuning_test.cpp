@@ -183,9 +183,9 @@ TEST(ProcessedTuning, HasItsOrderByTheProcessorAndGainsByIt) {
 }
 
 TEST(ProcessedTuning, Refusals) {
-  EXPECT_EQ(free_coefficients(4, 3, true), 1);
-  EXPECT_EQ(free_coefficients(4, 2, true), 0);
-  EXPECT_EQ(free_coefficients(6, 6, true), 1);
+  EXPECT_EQ(free_coefficients({.order = 4, .stages = 3, .processor = 1}), 1);
+  EXPECT_EQ(free_coefficients({.order = 4, .stages = 2, .processor = 1}), 0);
+  EXPECT_EQ(free_coefficients({.order = 6, .stages = 6, .processor = 1}), 1);
   EXPECT_EQ(fewest_kicks_of_a_processor(2), 2);
   EXPECT_EQ(fewest_kicks_of_a_processor(4), 3);
   EXPECT_EQ(fewest_kicks_of_a_processor(6), 8);
