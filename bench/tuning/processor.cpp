@@ -35,15 +35,6 @@ std::vector<PartialFlow> alternating(const std::vector<Quad>& x) {
   return flows;
 }
 
-std::vector<PartialFlow> processed_step(const std::vector<PartialFlow>& pre,
-                                        const std::vector<PartialFlow>& kernel) {
-  std::vector<PartialFlow> step = pre;
-  const std::vector<PartialFlow> post = inverse(pre);
-  step.insert(step.end(), kernel.begin(), kernel.end());
-  step.insert(step.end(), post.begin(), post.end());
-  return step;
-}
-
 int fewest_kicks_of_a_processor(int order) {
   const Words words({1, 1}, order);
   return static_cast<int>(given_words(words, order).size()) / 2 + 1;

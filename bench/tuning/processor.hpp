@@ -12,10 +12,6 @@ namespace pfaff {
 /// The flows of these lengths in turn, a drift first.
 std::vector<PartialFlow> alternating(const std::vector<Quad>& x);
 
-/// A whole step: pre, kernel and the inverse of pre.
-std::vector<PartialFlow> processed_step(const std::vector<PartialFlow>& pre,
-                                        const std::vector<PartialFlow>& kernel);
-
 /// The fewest kicks, with as many drifts, of which the conditions on a processor for this order leave
 /// something free: its logarithm is given up to degree order - 1.
 int fewest_kicks_of_a_processor(int order);

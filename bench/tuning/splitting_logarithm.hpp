@@ -24,6 +24,7 @@ enum class Degrees {
 /// Of splittings of one even order.
 class SplittingLogarithm {
  public:
+  /// The conditions are those for such parts; the brackets are all.
   explicit SplittingLogarithm(int order, Degrees degrees = Degrees::odd, Parts parts = Parts::general);
 
   struct Coordinates {

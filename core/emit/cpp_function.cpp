@@ -204,24 +204,25 @@ class FunctionWriter {
 
   [[nodiscard]] std::string statement(int slot) const {
     const Instruction& i = tape_.code[at(slot)];
-    const std::string &name = names_[at(slot)], &number = interface_.number;
+    const std::string& name = names_[at(slot)];
     if (i.operation != Operation::solve)
-      return "  const " + number + " " + name + " = " + as_number(expressions_.definition(slot).text) + ";\n";
+      return "  const " + interface_.number + " " + name + " = " +
+             as_number(expressions_.definition(slot).text) + ";\n";
     const LinearSystem& system = tape_.solves[at(i.a)];
     const std::vector<Phrase> entries = expressions_.entries(system);
     const auto size = static_cast<std::size_t>(system.size);
     const auto list = [&](std::size_t begin, std::size_t end) {
       std::string text;
-      for (std::size_t k = begin; k < end; ++k) text += (k == begin ? "" : ", ") + as_number(entries[k].text);
+      for (std::size_t k = begin; k < end; ++k) text += (k == begin ? "" : ", ") + entries[k].text;
       return text;
     };
     const std::string of = "_of_" + name;
-    std::string text = "  " + number + " matrix" + of + "[] = {" + list(0, size * size) + "};\n";
-    text += "  const " + number + " right" + of + "[] = {" + list(size * size, entries.size()) + "};\n";
-    text += "  " + number + " solution" + of + "[" + std::to_string(size) + "];\n";
+    std::string text = "  double matrix" + of + "[] = {" + list(0, size * size) + "};\n";
+    text += "  const double right" + of + "[] = {" + list(size * size, entries.size()) + "};\n";
+    text += "  double solution" + of + "[" + std::to_string(size) + "];\n";
     text += "  solve<" + std::to_string(size) + ">(matrix" + of + ", right" + of + ", solution" + of + ");\n";
     for (std::size_t k = 0; k < size; ++k)
-      text += "  [[maybe_unused]] const " + number + " " + names_[at(slot) + k] + " = solution" + of + "[" +
+      text += "  [[maybe_unused]] const double " + names_[at(slot) + k] + " = solution" + of + "[" +
               std::to_string(k) + "];\n";
     return text;
   }

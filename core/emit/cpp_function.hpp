@@ -23,7 +23,8 @@ struct CppInterface {
   std::string part_arguments;             // and how it is handed on
   std::vector<std::string> input_names;   // of the tape's inputs, as local variables
   std::vector<std::string> input_values;  // what these are set to, such as "state[0]"
-  /// The type of all numbers, to which others than double are converted by as_lanes<number>(...).
+  /// The type of all numbers, to which others than double are converted by as_lanes<number>(...). Tapes with
+  /// linear systems are written for double alone.
   std::string number = "double";
 };
 

@@ -56,7 +56,8 @@ bool is_in_lanes(Formula formula, const Tape& tape) {
 }
 
 // Vectors of doubles with the operations of formulas. Each lane has the bits of a double: functions are
-// called for one lane after the other.
+// called for one lane after the other, and once for lanes in a row with the same number, with which packs are
+// filled up. Zeros of either sign are equal, and functions of them are not.
 constexpr const char* lanes_prelude = R"(typedef double lanes4 __attribute__((vector_size(32), aligned(8)));
 typedef double lanes8 __attribute__((vector_size(64), aligned(8)));
 template <class P> constexpr unsigned lane_count = sizeof(P) / sizeof(double);

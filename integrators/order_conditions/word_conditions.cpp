@@ -233,4 +233,13 @@ std::vector<PartialFlow> inverse(std::vector<PartialFlow> flows) {
   return flows;
 }
 
+std::vector<PartialFlow> processed_step(const std::vector<PartialFlow>& pre,
+                                        const std::vector<PartialFlow>& kernel) {
+  std::vector<PartialFlow> step = pre;
+  const std::vector<PartialFlow> post = inverse(pre);
+  step.insert(step.end(), kernel.begin(), kernel.end());
+  step.insert(step.end(), post.begin(), post.end());
+  return step;
+}
+
 }  // namespace pfaff

@@ -63,5 +63,9 @@ std::vector<OrderCondition> effective_conditions(const std::vector<PartialFlow>&
 
 /// The flows of the inverse: the same in the opposite order, with the opposite lengths.
 std::vector<PartialFlow> inverse(std::vector<PartialFlow> flows);
+/// The flows of pre, of the kernel and of the inverse of pre, each as it stands: neighbours of one part are
+/// not joined, because kernels in a row have no processor between them.
+std::vector<PartialFlow> processed_step(const std::vector<PartialFlow>& pre,
+                                        const std::vector<PartialFlow>& kernel);
 
 }  // namespace pfaff

@@ -101,16 +101,13 @@ std::vector<PartialFlow> processor(int order) {
   return flows;
 }
 
-// The flows of A on both sides of the kernel's ends are not one, because kernels in a row have no processor
-// between them.
 NearIntegrableScheme corrected(int order) {
-  const std::vector<PartialFlow> before = processor(order), after = inverse(before);
-  NearIntegrableScheme scheme{
-      "corrected-" + std::to_string(order), {order + 1, 2}, before, false, before.size()};
-  const std::vector<PartialFlow> kernel = palindromic_flows({Quad(1) / Quad(2)}, {Quad(1)});
-  scheme.flows.insert(scheme.flows.end(), kernel.begin(), kernel.end());
-  scheme.flows.insert(scheme.flows.end(), after.begin(), after.end());
-  return scheme;
+  const std::vector<PartialFlow> before = processor(order);
+  return {"corrected-" + std::to_string(order),
+          {order + 1, 2},
+          processed_step(before, palindromic_flows({Quad(1) / Quad(2)}, {Quad(1)})),
+          false,
+          before.size()};
 }
 
 // The published digits of the schemes of order (8, 4) of mclachlan1995small and (10, 4), (8, 6, 4) and (10,

@@ -149,11 +149,9 @@ Step read_step(TableDocument& document) {
   } else if (parts != "general") {
     document.refuse("parts", unknown_name("kind of parts", parts, {"general", "quadratic-kinetic"}));
   }
-  step.flows = read_flows(document, "pre.");
-  step.processor = step.flows.size();
-  const std::vector<PartialFlow> kernel = read_flows(document, "kernel."), post = inverse(step.flows);
-  step.flows.insert(step.flows.end(), kernel.begin(), kernel.end());
-  step.flows.insert(step.flows.end(), post.begin(), post.end());
+  const std::vector<PartialFlow> pre = read_flows(document, "pre.");
+  step.processor = pre.size();
+  step.flows = processed_step(pre, read_flows(document, "kernel."));
   return step;
 }
 

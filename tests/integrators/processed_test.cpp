@@ -1,10 +1,8 @@
 // Processed methods: n steps at once take the processor at their ends alone, and end where n single steps do.
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <fstream>
-#include <functional>
 
 #include <pfaff/core/facets/static_problem.hpp>
 
