@@ -6,18 +6,16 @@
 Each figure is the fastest of five interleaved repetitions. The exponent p of ns ~ K^p is a least-squares line through the
 logarithms. Also where the dense solver and the recursion over vectors cross.
 """
-import json
 import math
 import subprocess
 import sys
 
+from ratios import time_benchmarks
+
 
 def measure(program):
-    command = [program, "--benchmark_filter=^dirac-", "--benchmark_format=json", "--benchmark_repetitions=5",
-               "--benchmark_enable_random_interleaving=true", "--benchmark_min_time=0.05"]
-    output = subprocess.run(command, check=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL).stdout
     times = {}
-    for run in json.loads(output)["benchmarks"]:
+    for run in time_benchmarks(program, "^dirac-", repetitions=5, seconds=0.05):
         if run["run_type"] != "iteration":
             continue
         case, solver = run["run_name"].split("/")[:2]
@@ -41,7 +39,11 @@ def main():
     if len(sys.argv) != 2 or sys.argv[1].startswith("-"):
         print(__doc__.strip(), file=sys.stderr)
         return 2
-    times = measure(sys.argv[1])
+    try:
+        times = measure(sys.argv[1])
+    except (OSError, subprocess.CalledProcessError, ValueError) as error:
+        print(f"dirac_sharp.py: {sys.argv[1]}: {error}", file=sys.stderr)
+        return 2
     counts = sorted({k for points in times.values() for k in points})
     print(f"{'ns, K =':30}" + "".join(f"{k:>9}" for k in counts) + f"{'p':>6}")
     for (kind, solver), points in times.items():

@@ -3,6 +3,8 @@
 
     bench/micro/ratios.py build/bench/bench/micro/pfaff_micro [--repetitions N] [--json FILE]
     bench/micro/ratios.py --times FILE        the same for the times that --json left, without measuring
+    bench/micro/ratios.py PROGRAM --check     runs each benchmark once and compares no times: whether every run
+                                              reaches its error and every benchmark is there
 
 Paths: a loop by hand; static and registered path, each also with forces derived from the energies; Boost.Odeint. psi-m
 is one gradient of the generating function truncated at degree m, compiled or interpreted, in nanoseconds each.
@@ -13,9 +15,9 @@ Repetitions are interleaved at random, so that a disturbance does not fall on on
 is taken, which other programs disturb least.
 
 Exit status 1 when a ratio exceeds its target by more than a quarter, when a whole run does not reach its error, or when one of
-these was not measured;
-2 for wrong usage. A ratio between the target and that bound is marked `missed`. Times a rod have limits too, but those
-hold for one machine, so that they are marked and decide nothing.
+these was not measured; 2 for wrong usage, which includes the times of a program that was built without optimisation. A ratio
+between the target and that bound is marked `missed`. Times a rod have limits too, but those hold for one machine, so that they
+are marked and decide nothing.
 """
 import argparse
 import json
@@ -64,27 +66,39 @@ WHOLE_RUNS += [(registered(system, method), error, registered(system, rival), li
     ("lotka-volterra", "generating-function-8+4-h0.37037", 1e-6, "gauss-8-h0.4", 1.0),
     ("lotka-volterra", "generating-function-8+4-h0.37037", 1e-6, "gauss-16-h1", 1.0),
     ("lotka-volterra", "generating-function-8+4-h0.2", 1e-9, "gauss-12-h0.689655", 1.2))]
+UNITS = ["ns_per_rod", "ns_per_row", "ns_per_step", "ns_per_run"]  # counters
 ERRORS = {"energy_error": "energy-error", "state_error": "state-error"}  # counters, and what stands for the path
 
 
 def measure(program, repetitions, seconds):
-    """{(system, method, path): fastest ns a step}, or a row of a matrix, or a rod."""
+    """{(system, method, path): fastest ns a step}, or a row of a matrix, or a rod; with the errors of whole runs."""
     # Dirac brackets have a script of their own, dirac_sharp.py.
-    command = [program, "--benchmark_filter=-^dirac-", "--benchmark_format=json",
-               f"--benchmark_repetitions={repetitions}", "--benchmark_enable_random_interleaving=true",
-               f"--benchmark_min_time={seconds}"]
-    output = subprocess.run(command, check=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL).stdout
-    return fastest(output)
+    return fastest(time_benchmarks(program, "-^dirac-", repetitions, seconds))
 
 
-def fastest(output):
-    """The same from what Google Benchmark printed."""
+def time_benchmarks(program, pattern, repetitions, seconds):
+    """The runs of the benchmarks whose names match, in random order; ValueError where their times would say nothing."""
+    found = run_benchmarks(program, f"--benchmark_filter={pattern}", f"--benchmark_repetitions={repetitions}",
+                           "--benchmark_enable_random_interleaving=true", f"--benchmark_min_time={seconds}")
+    if found["context"].get("optimised") == "no":
+        raise ValueError("built without optimisation, so that its times say nothing")
+    return found["benchmarks"]
+
+
+def run_benchmarks(program, *options):
+    """What Google Benchmark says of the runs and of the machine."""
+    command = [program, "--benchmark_format=json", *options]
+    return json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL).stdout)
+
+
+def fastest(runs):
+    """{(system, method, path): fastest ns} of the runs that Google Benchmark lists, and the errors that they reach."""
     times = {}
-    for run in json.loads(output)["benchmarks"]:
+    for run in runs:
         if run["run_type"] == "iteration":
             key = tuple(run["run_name"].split("/")[:3])
-            time = next(run[unit] for unit in ("ns_per_rod", "ns_per_row", "ns_per_step", "ns_per_run") if unit in run)
-            times[key] = min(times.get(key, float("inf")), time)
+            unit = next((unit for unit in UNITS if unit in run), "real_time")
+            times[key] = min(times.get(key, float("inf")), run.get(unit, float("inf")))
             for counter, name in ERRORS.items():
                 if counter in run:
                     times[error_of(key, name)] = run[counter]
@@ -180,6 +194,10 @@ def print_runs(times):
         if found:
             ratio = f"{time / times[REFERENCE_RUN]:>10.2f}" if key[0] == REFERENCE_RUN[0] and REFERENCE_RUN in times else " " * 10
             print(f"{' '.join(key):<64}{time / 1e3:>10.1f}{ratio}{found[0]:>10.1e}")
+    return print_inaccurate(times)
+
+
+def print_inaccurate(times):
     failed = 0
     for run, error in dict((run, error) for run, error, _, _ in WHOLE_RUNS).items():
         reached = next((times[key] for name in ERRORS.values() if (key := error_of(run, name)) in times), None)
@@ -245,18 +263,44 @@ def print_rods(rows):
         print(f"{what:<64}{time:>10.2f}" + ("" if limit is None else f"{limit:>10.2f}{verdict(time, limit)}"))
 
 
+def print_missing(rows, times):
+    """The number of benchmarks that ratios with a target need and that were not run."""
+    needed = {key for _, *pair, limit in rows if limit is not None for key in pair}
+    missing = sorted("/".join(key) for key in needed if key not in times)
+    for name in missing:
+        print(f"{name}: expected a benchmark of this name")
+    return len(missing)
+
+
+def check(program):
+    """The exit status of --check."""
+    runs = run_benchmarks(program, "--benchmark_min_time=1e-9")["benchmarks"]
+    stopped = [run for run in runs if run.get("error_occurred")]
+    for run in stopped:
+        print(f"{run['run_name']}: {run['error_message']}")
+    times = fastest(run for run in runs if run not in stopped)
+    failed = len(stopped) + print_missing(targets(), times) + print_inaccurate(times)
+    print(f"{len(runs)} benchmarks ran" if not failed else f"{failed} faults in {len(runs)} benchmarks")
+    return 1 if failed else 0
+
+
 def main(arguments=None):
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("program", nargs="?", help="the built pfaff_micro")
     parser.add_argument("--times", help="check the times in this file, which --json wrote, and measure nothing")
+    parser.add_argument("--check", action="store_true", help="run each benchmark once and compare no times")
     parser.add_argument("--repetitions", type=int, default=15)
     parser.add_argument("--seconds", type=float, default=0.01, help="least duration of a repetition")
     parser.add_argument("--json", help="also write the times here")
     options = parser.parse_args(arguments)
     if (options.program is None) == (options.times is None):
         parser.error("expected the program or --times FILE")
+    if options.check and options.program is None:
+        parser.error("--check: expected the program")
     source = options.times or options.program
     try:
+        if options.check:
+            return check(options.program)
         if options.times:
             with open(options.times, encoding="utf-8") as file:
                 times = {tuple(name.split("/")): float(time) for name, time in json.load(file).items()}

@@ -40,30 +40,40 @@ double unit_of_tolerance(const Model& model) {
   return std::min(1.0, *std::max_element(scales.begin(), scales.end()));
 }
 
-// One run from the generic state to `elapsed` later at a tolerance relative to the state, whose unit is
-// `unit`. Fills `error`, in units of the tolerance, and returns what is wrong, or nothing.
+// The motion from the generic state and time of a model to a later or earlier time, as T has them.
 template <class T>
-std::string run_wrong(const MethodOnModel& on, const Model& motion, const T& elapsed, double tolerance,
-                      double unit, double& error) {
+struct Stretch {
+  Stretch(const MethodOnModel& on, const T& elapsed) : begin(on.time()), end(begin + elapsed) {
+    for (const Real& x : generic_state(*on.model())) start.push_back(T(x));
+    exact.assign(start.begin(), start.end());
+    taylor_flow(*motion_of(on.model()), Quad(begin), Quad(end) - Quad(begin), exact);
+  }
+  T begin, end;
+  std::vector<T> start;
+  std::vector<Quad> exact;  // the state at the end
+};
+
+// One run at a tolerance relative to the state, whose unit is `unit`. Fills `error`, in units of the
+// tolerance, and returns what is wrong, or nothing.
+template <class T>
+std::string run_wrong(const MethodOnModel& on, const Stretch<T>& stretch, double tolerance, double unit,
+                      double& error) {
   const auto stepper = on.method().stepper(on.model(), T());
-  std::vector<T> z;
-  for (const Real& x : generic_state(*on.model())) z.push_back(T(x));
-  std::vector<Quad> exact(z.begin(), z.end());
-  const T begin(on.time()), end = begin + elapsed, allowed(tolerance * unit);
-  T t = begin;
+  std::vector<T> z = stretch.start;
+  const T allowed(tolerance * unit);
+  T t = stretch.begin;
   // In two parts, so that the step with which the second begins is that with which the first ended.
-  for (const T& to : {begin + elapsed / T(3), end}) {
+  for (const T& to : {stretch.begin + (stretch.end - stretch.begin) / T(3), stretch.end}) {
     const Status status = stepper->advance_to(t, to, allowed, z);
     if (status != Status::converged) return "ended with '" + std::string(to_string(status)) + "'";
     if (t != to) return "went to " + to_string(Quad(t), 17) + " instead of " + to_string(Quad(to), 17);
   }
   const auto steps = static_cast<double>(stepper->counters().steps);
   if (!(steps >= 1 && steps <= most_steps)) return "took " + std::to_string(steps) + " steps";
-  taylor_flow(motion, Quad(begin), Quad(end) - Quad(begin), exact);
   Quad difference(0), size(0);
   for (std::size_t k = 0; k < z.size(); ++k) {
-    difference = std::max(difference, abs(Quad(z[k]) - exact[k]));
-    size = std::max(size, abs(exact[k]));
+    difference = std::max(difference, abs(Quad(z[k]) - stretch.exact[k]));
+    size = std::max(size, abs(stretch.exact[k]));
     if (isnan(Quad(z[k]))) return "ended at a state that is not a number";
   }
   error = static_cast<double>(difference / size / Quad(tolerance));
@@ -72,7 +82,6 @@ std::string run_wrong(const MethodOnModel& on, const Model& motion, const T& ela
 
 template <class T>
 void check_in(const MethodOnModel& on, std::vector<Check>& checks) {
-  const auto motion = motion_of(on.model());
   const T time(on.step_size() / check_step);
   const double unit = unit_of_tolerance(*on.model());
   for (const int direction : {1, -1}) {
@@ -80,9 +89,10 @@ void check_in(const MethodOnModel& on, std::vector<Check>& checks) {
                            Tolerances<T>::precision);
     check.tolerance = most_errors;
     check.result = CheckResult::pass;
+    const Stretch<T> stretch(on, T(direction) * time);
     for (const double tolerance : Tolerances<T>::values) {
       double error = 0;
-      check.reason = run_wrong<T>(on, *motion, T(direction) * time, tolerance, unit, error);
+      check.reason = run_wrong<T>(on, stretch, tolerance, unit, error);
       check.measured = std::max(check.measured, error);
       const bool right = check.reason.empty() && error <= most_errors;
       if (right) continue;

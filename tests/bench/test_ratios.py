@@ -69,7 +69,7 @@ class Ratios(unittest.TestCase):
 
     def test_errors_are_read_beside_times(self):
         run = {"run_type": "iteration", "run_name": "kepler-run/m-h1/static", "ns_per_run": 5.0, "energy_error": 1e-9}
-        found = ratios.fastest(json.dumps({"benchmarks": [run, run | {"ns_per_run": 4.0}]}))
+        found = ratios.fastest([run, run | {"ns_per_run": 4.0}])
         self.assertEqual(found, {("kepler-run", "m-h1", "static"): 4.0,
                                  ("kepler-run", "m-h1", "static-energy-error"): 1e-9})
 
@@ -97,12 +97,56 @@ class Ratios(unittest.TestCase):
         runs = [{"run_type": "iteration", "run_name": "kepler/verlet/static", "ns_per_step": time} for time in (3.0, 2.0)]
         runs += [{"run_type": "aggregate", "run_name": "kepler/verlet/static_mean", "ns_per_step": 1.0},
                  {"run_type": "iteration", "run_name": "tree-12/solve/library", "ns_per_row": 5.0}]
-        self.assertEqual(ratios.fastest(json.dumps({"benchmarks": runs})),
+        self.assertEqual(ratios.fastest(runs),
                          {("kepler", "verlet", "static"): 2.0, ("tree-12", "solve", "library"): 5.0})
+
+    def program(self, runs, context):
+        """A program that prints these runs as Google Benchmark does."""
+        program = self.file.with_name("program")
+        printed = json.dumps({"context": context, "benchmarks": runs})
+        program.write_text(f"#!/bin/sh\ncat <<'END'\n{printed}\nEND\n", encoding="utf-8")
+        program.chmod(0o755)
+        return str(program)
+
+    def runs(self):
+        """One run of each benchmark that is needed."""
+        errors = {"/".join(run): {"energy_error": error} for run, error, _, _ in ratios.WHOLE_RUNS}
+        names = sorted({"/".join(key) for row in LIMITED for key in row[1:3]})
+        return [{"run_type": "iteration", "run_name": name, "ns_per_step": 1.0} | errors.get(name, {}) for name in names]
+
+    def test_a_check_compares_no_times(self):
+        for context in ({}, {"optimised": "no"}):
+            status, told, _ = self.run_with(self.program(self.runs(), context), "--check")
+            self.assertEqual(status, 0, told)
+
+    def test_a_check_finds_what_is_missing_inaccurate_or_stopped(self):
+        def without(runs):
+            runs.pop()
+
+        def inaccurate(runs):
+            next(run for run in runs if "energy_error" in run)["energy_error"] *= 1.01
+
+        def stopped(runs):
+            runs[0].update(error_occurred=True, error_message="the step did not converge")
+
+        for fault, said in ((without, "expected a benchmark of this name"), (inaccurate, "expected an error of at most"),
+                            (stopped, "the step did not converge")):
+            runs = self.runs()
+            fault(runs)
+            status, told, _ = self.run_with(self.program(runs, {}), "--check")
+            self.assertEqual(status, 1)
+            self.assertIn(said, told)
+
+    def test_times_of_a_program_without_optimisation_are_refused(self):
+        status, _, complained = self.run_with(self.program(self.runs(), {"optimised": "no"}))
+        self.assertEqual(status, 2)
+        self.assertIn("built without optimisation", complained)
+        self.assertNotIn("optimisation", self.run_with(self.program(self.runs(), {}))[2])
 
     def test_wrong_usage(self):
         self.assertEqual(self.run_with()[0], 2)
         self.assertEqual(self.run_with("program", "--times", "file")[0], 2)
+        self.assertEqual(self.run_with("--check", "--times", "file")[0], 2)
         status, _, complained = self.run_with("--times", str(self.file.with_name("none.json")))
         self.assertEqual(status, 2)
         self.assertIn("none.json", complained)
