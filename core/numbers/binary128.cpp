@@ -10,6 +10,9 @@ namespace pfaff {
 
 namespace {
 
+// The parts of an operation are inlined without optimisation too: under the sanitizers most of the tests'
+// time is arithmetic in quad.
+
 // A binary128 number: sign, 15 bits of exponent, 112 bits of fraction, in two halves.
 using Half = std::uint64_t;
 __extension__ typedef unsigned __int128 Whole;  // NOLINT(modernize-use-using): `using` takes no __extension__
@@ -23,23 +26,27 @@ constexpr Half leading_bit = Half{1} << 48;  // of a significand, not stored
 constexpr Half fraction_of_high = leading_bit - 1;
 
 // Between registers, because a load of sixteen bytes waits for two stores of eight.
-Encoded encoded(__float128 x) {
+[[gnu::always_inline]] inline Encoded encoded(__float128 x) {
   const auto halves = std::bit_cast<__m128i>(x);
   return {static_cast<Half>(_mm_cvtsi128_si64(_mm_unpackhi_epi64(halves, halves))),
           static_cast<Half>(_mm_cvtsi128_si64(halves))};
 }
-__float128 decoded(Half high, Half low) {
+[[gnu::always_inline]] inline __float128 decoded(Half high, Half low) {
   return std::bit_cast<__float128>(_mm_unpacklo_epi64(_mm_cvtsi64_si128(static_cast<long long>(low)),
                                                       _mm_cvtsi64_si128(static_cast<long long>(high))));
 }
 
-unsigned exponent_of(Half high) { return static_cast<unsigned>(high >> 48) & special_exponent; }
-bool is_normal(int exponent) { return static_cast<unsigned>(exponent - 1) < special_exponent - 1; }
+[[gnu::always_inline]] inline unsigned exponent_of(Half high) {
+  return static_cast<unsigned>(high >> 48) & special_exponent;
+}
+[[gnu::always_inline]] inline bool is_normal(int exponent) {
+  return static_cast<unsigned>(exponent - 1) < special_exponent - 1;
+}
 
-bool is_zero(Encoded x) { return ((x.high & ~sign_bit) | x.low) == 0; }
+[[gnu::always_inline]] inline bool is_zero(Encoded x) { return ((x.high & ~sign_bit) | x.low) == 0; }
 
 // The significand of a normal number as an integer of 113 bits, times 2^shift, shift in 1...15.
-Encoded significand(Encoded x, int shift) {
+[[gnu::always_inline]] inline Encoded significand(Encoded x, int shift) {
   return {(((x.high & fraction_of_high) | leading_bit) << shift) | (x.low >> (64 - shift)), x.low << shift};
 }
 
@@ -47,7 +54,7 @@ Encoded significand(Encoded x, int shift) {
 struct Product {
   Whole upper, lower;
 };
-Product product_of(Encoded m, Encoded n) {
+[[gnu::always_inline]] inline Product product_of(Encoded m, Encoded n) {
   const Whole lowest = Whole{m.low} * n.low;
   const Whole middle = Whole{m.low} * n.high + static_cast<Half>(lowest >> 64);
   const Whole also_middle = Whole{m.high} * n.low + static_cast<Half>(middle);
@@ -57,7 +64,7 @@ Product product_of(Encoded m, Encoded n) {
 
 // The number nearest to m 2^(exponent - exponent_bias - 127), the even one of two, for 2^127 <= m < 2^128. A
 // carry out of the fraction raises the exponent by itself, to that of infinity if need be.
-__float128 rounded(Half sign, int exponent, Encoded m) {
+[[gnu::always_inline]] inline __float128 rounded(Half sign, int exponent, Encoded m) {
   const Half up = ((m.low & 0x7fff) + 0x3fff + ((m.low >> 15) & 1)) >> 15;
   const Half low = ((m.high << 49) | (m.low >> 15)) + up;
   const Half high = (m.high >> 15) + (static_cast<Half>(exponent - 1) << 48) + static_cast<Half>(low < up);
@@ -146,7 +153,7 @@ struct Exponents {
   unsigned largest = 0;  // the sum of both
   bool finite_and_not_subnormal = true;
 
-  void look_at(Encoded x, Encoded y) {
+  [[gnu::always_inline]] void look_at(Encoded x, Encoded y) {
     const unsigned x_exponent = exponent_of(x.high), y_exponent = exponent_of(y.high);
     if (is_normal(static_cast<int>(x_exponent)) && is_normal(static_cast<int>(y_exponent))) [[likely]] {
       largest = std::max(largest, x_exponent + y_exponent);
@@ -165,7 +172,7 @@ class Accumulator {
   // Adds x y. The largest product that is added lies between 2^240 and 2^242, this one is 2^below times
   // smaller than by its significands; so there is room for 2^13 products, and what is dropped of each is less
   // than 2^-240 of the largest.
-  void add(Encoded x, Encoded y) {
+  [[gnu::always_inline]] void add(Encoded x, Encoded y) {
     const unsigned x_exponent = exponent_of(x.high), y_exponent = exponent_of(y.high);
     const unsigned below = largest_ - x_exponent - y_exponent;
     if (x_exponent == 0 || y_exponent == 0 || below >= 256) return;
@@ -185,7 +192,7 @@ class Accumulator {
 
   // The number nearest to the sum, where products of the exponent `largest` lie between 2^240 and 2^242.
   // False where that is not a normal number.
-  bool rounded_to(__float128& result) const {
+  [[gnu::always_inline]] bool rounded_to(__float128& result) const {
     const Product &plus = sums_[0], &minus = sums_[1];
     const bool negative = plus.upper < minus.upper || (plus.upper == minus.upper && plus.lower < minus.lower);
     const Product &more = sums_[negative], &less = sums_[!negative];
