@@ -87,15 +87,20 @@ class WordSeries {
     return *this;
   }
   friend WordSeries operator*(const WordSeries& a, const WordSeries& b) {
-    const Words& words = *a.words_;
+    return a.times(b, a.words_->largest_degree());
+  }
+  /// This times another one, without the words beyond a degree.
+  [[nodiscard]] WordSeries times(const WordSeries& b, int degree) const {
+    const WordSeries& a = *this;
+    const Words& words = *words_;
     WordSeries product(words);
     std::vector<std::size_t> joined(words.size());
-    for (std::size_t v = 0; v < words.size(); ++v) {
+    for (std::size_t v = 0; v < words.size() && words.degree(v) <= degree; ++v) {
       if (a[v] == T(0)) continue;
       joined[0] = v;
       product[v] = product[v] + a[v] * b[0];
       for (std::size_t w = 1; w < words.size(); ++w) {
-        if (words.degree(v) + words.degree(w) > words.largest_degree()) break;
+        if (words.degree(v) + words.degree(w) > degree) break;
         joined[w] = words.extended(joined[words.beginning(w)], words.last(w));
         product[joined[w]] = product[joined[w]] + a[v] * b[w];
       }
@@ -139,12 +144,15 @@ WordSeries<T> commutator(const WordSeries<T>& a, const WordSeries<T>& b) {
   return bracket;
 }
 
+// What stands within k factors x is needed without the k highest degrees, because x has no empty word.
+
 /// exp(x) of a series without the empty word.
 template <class T>
 WordSeries<T> exponential(const WordSeries<T>& x) {
+  const int degree = x.words().largest_degree();
   WordSeries<T> sum = WordSeries<T>::one(x.words());
-  for (int k = x.words().largest_degree(); k > 0; --k) {  // 1 + x/1 (1 + x/2 (1 + x/3 ...))
-    sum = x * sum;
+  for (int k = degree; k > 0; --k) {  // 1 + x/1 (1 + x/2 (1 + x/3 ...))
+    sum = x.times(sum, degree - k + 1);
     sum *= T(1) / T(k);
     sum[0] = sum[0] + T(1);
   }
@@ -155,12 +163,13 @@ WordSeries<T> exponential(const WordSeries<T>& x) {
 template <class T>
 WordSeries<T> logarithm(WordSeries<T> x) {
   x[0] = x[0] - T(1);
+  const int degree = x.words().largest_degree();
   WordSeries<T> sum(x.words());
-  for (int k = x.words().largest_degree(); k > 0; --k) {  // x (1 - x (1/2 - x (1/3 - ...)))
+  for (int k = degree; k > 0; --k) {  // x (1 - x (1/2 - x (1/3 - ...)))
     WordSeries<T> inner(x.words());
     inner[0] = T(1) / T(k);
     inner -= sum;
-    sum = x * inner;
+    sum = x.times(inner, degree - k + 1);
   }
   return sum;
 }
