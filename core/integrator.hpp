@@ -132,8 +132,10 @@ class MethodInstance : public Maker<StepperPointer, StepScalars, std::shared_ptr
   [[nodiscard]] virtual std::size_t coefficient_count() const = 0;
   [[nodiscard]] virtual std::unique_ptr<MethodInstance> with_changed_coefficient(std::size_t index,
                                                                                  Quad amount) const = 0;
-  /// The composition of sub-steps of the lengths weights[i] h; null where M has no Composed.
-  [[nodiscard]] virtual std::unique_ptr<MethodInstance> composed(std::vector<Quad> weights) const = 0;
+  /// The composition of sub-steps of the lengths weights[i] h, of which the first `processor` are those of a
+  /// processor and as many at the end undo them; null where M has no Composed.
+  [[nodiscard]] virtual std::unique_ptr<MethodInstance> composed(std::vector<Quad> weights,
+                                                                 std::size_t processor) const = 0;
 
   /// The method on one model, in the scalar T.
   template <class T>
@@ -286,12 +288,14 @@ class Instance final : public MakerOf<Instance<M>, MethodInstance> {
     if constexpr (requires(M m) { m.coefficients(); }) copy.coefficients()[index] += amount;
     return std::make_unique<Instance>(plugin_, std::move(copy));
   }
-  [[nodiscard]] std::unique_ptr<MethodInstance> composed(std::vector<Quad> weights) const override {
+  [[nodiscard]] std::unique_ptr<MethodInstance> composed(std::vector<Quad> weights,
+                                                         std::size_t processor) const override {
     if constexpr (requires { typename M::Composed; }) {
       typename M::Composed composition;
       assign_all(parameters_of<typename M::Composed>(), &composition, parameters(),
                  "composed integrator " + plugin_.name());
       composition.weights = std::move(weights);
+      composition.processor = processor;
       return std::make_unique<Instance<typename M::Composed>>(plugin_, std::move(composition));
     } else {
       return nullptr;

@@ -88,8 +88,9 @@ class AliasInstance final : public MakerOf<AliasInstance, MethodInstance> {
     return std::make_unique<AliasInstance>(alias_, shortened_,
                                            instance_->with_changed_coefficient(index, amount));
   }
-  [[nodiscard]] std::unique_ptr<MethodInstance> composed(std::vector<Quad> weights) const override {
-    return instance_->composed(std::move(weights));
+  [[nodiscard]] std::unique_ptr<MethodInstance> composed(std::vector<Quad> weights,
+                                                         std::size_t processor) const override {
+    return instance_->composed(std::move(weights), processor);
   }
   template <class T>
   [[nodiscard]] StepperPointer<T> made(std::shared_ptr<const Model> model) const {

@@ -31,7 +31,8 @@ class ManySteps final : public MakerOf<ManySteps, MethodInstance> {
                                                                          Quad /*amount*/) const override {
     return nullptr;
   }
-  [[nodiscard]] std::unique_ptr<MethodInstance> composed(std::vector<Quad> /*weights*/) const override {
+  [[nodiscard]] std::unique_ptr<MethodInstance> composed(std::vector<Quad> /*weights*/,
+                                                         std::size_t /*processor*/) const override {
     return nullptr;
   }
 

@@ -1,4 +1,5 @@
-// Where the program is built without optimisation, what it prints says so, because its times then say nothing.
+// Where the program is built without optimisation, what it prints says so, because its times then say
+// nothing.
 #include <benchmark/benchmark.h>
 
 #ifndef __OPTIMIZE__

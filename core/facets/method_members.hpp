@@ -105,6 +105,8 @@ concept WritesComposed = requires(typename M::Composed& composed, const TriedPro
   requires std::default_initializable<typename M::Composed>;
   requires std::same_as < decltype((composed.weights)), std::vector<Quad>
   & > ;
+  requires std::same_as<decltype((composed.processor)), std::size_t&>;
+  requires WritesProcessor<typename M::Composed, TriedProblem, Work<typename M::Composed, TriedProblem>>;
   { std::as_const(composed).step(p, t, t, z, w) } -> std::same_as<Status>;
 };
 template <class W>
@@ -166,7 +168,8 @@ constexpr void check_method_members() {
   static_assert(
       WritesComposed<M> || !method::has_Composed<M>,
       "Composed: expected using Composed = Composition<the method without Composed>, or another method "
-      "that steps and has std::vector<Quad> weights");
+      "that steps, as a whole and by the parts of a processed step, and has std::vector<Quad> weights and "
+      "std::size_t processor");
   check_work_members<Work<M, TriedProblem>>();
 }
 

@@ -56,7 +56,8 @@ class ComposedInstance final : public MakerOf<ComposedInstance, MethodInstance> 
     return std::make_unique<ComposedInstance>(statement_, composed_->with_changed_coefficient(index, amount));
   }
   /// Null, because the weights of compositions are made for bases of order 2.
-  [[nodiscard]] std::unique_ptr<MethodInstance> composed(std::vector<Quad> /*weights*/) const override {
+  [[nodiscard]] std::unique_ptr<MethodInstance> composed(std::vector<Quad> /*weights*/,
+                                                         std::size_t /*processor*/) const override {
     return nullptr;
   }
   template <class T>

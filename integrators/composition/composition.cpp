@@ -37,7 +37,7 @@ bool symmetric(const MethodPlugin& method) {
 // Why a method cannot be a base; empty when it can.
 std::string unfit(const MethodPlugin& plugin, const MethodInstance& method) {
   if (method.adaptive()) return "it chooses its steps itself";
-  const bool composable = method.composed({Quad(1)}) != nullptr;
+  const bool composable = method.composed({Quad(1)}, 0) != nullptr;
   if (!symmetric(plugin) && (composable || !plugin.descriptor().preserves.empty()))
     return "it is not symmetric";
   if (!composable) return "it does not say how it is composed";
@@ -122,7 +122,7 @@ class CompositionPlugin final : public MethodPlugin {
                           .parameters = resolved(parameters(), &settings),
                           .called = name() + " of " + settings.base.name,
                           .order = order},
-        base->composed(scheme_of(settings).weights(order)));
+        base->composed(scheme_of(settings).weights(order), 0));
   }
 
   [[nodiscard]] std::vector<Assignments> instances(bool full) const override {

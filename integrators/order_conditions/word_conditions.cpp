@@ -161,51 +161,56 @@ std::vector<OrderCondition> near_integrable_conditions(const std::vector<Partial
   return conditions;
 }
 
-std::vector<OrderCondition> composition_conditions(const std::vector<Quad>& weights, int order) {
-  std::vector<int> degrees;
-  std::vector<std::string> letters;
-  for (int degree = 1; degree <= order; degree += 2) {
-    degrees.push_back(degree);
-    letters.push_back("Y" + std::to_string(degree));
-  }
-  const Words words(degrees, order);
-  Series product = Series::one(words), sizes = product;
-  for (const Quad& weight : weights) {
-    std::vector<Quad> powers, positive;
-    for (const int degree : degrees) {
-      Quad power(1);
-      for (int k = 0; k < degree; ++k) power *= weight;
-      powers.push_back(power);
-      positive.push_back(abs(power));
-    }
-    product.times_exponential_of_sum(powers);
-    sizes.times_exponential_of_sum(positive);
-  }
-  const Series log = logarithm(product);
-  std::vector<OrderCondition> conditions;
-  for (int degree = 1; degree <= order; ++degree)
-    append_conditions(conditions, log, sizes, ReducedSpan<Quad>(words.lyndon(degree).size()), 0, degree,
-                      letters, "the Lie word ");
-  return conditions;
-}
+namespace {
 
-std::vector<OrderCondition> effective_conditions(const std::vector<PartialFlow>& kernel, int order,
-                                                 Parts parts) {
-  const Words words({1, 1}, order);
-  const Ideal ideal(words, parts);
-  Series whole = ideal.letter(drift);
-  whole += ideal.letter(kick);
-  const Series sizes = product_of(words, kernel, true);
-  Series product = product_of(words, kernel);
+// Words in the letters Y1, Y3, ... of a symmetric base, and the compositions of its steps as series of them.
+class Compositions {
+ public:
+  explicit Compositions(int order) : words_(degrees_up_to(order), order) {
+    for (std::size_t letter = 0; letter < words_.letters(); ++letter)
+      letters_.push_back("Y" + std::to_string(words_.degree_of_letter(letter)));
+  }
+  [[nodiscard]] const Words& words() const { return words_; }
+  [[nodiscard]] const std::vector<std::string>& letters() const { return letters_; }
+  [[nodiscard]] Series of(const std::vector<Quad>& weights, bool magnitudes = false) const {
+    Series product = Series::one(words_);
+    for (const Quad& weight : weights) {
+      std::vector<Quad> powers;
+      for (std::size_t letter = 0; letter < words_.letters(); ++letter) {
+        Quad power(1);
+        for (int k = 0; k < words_.degree_of_letter(letter); ++k) power *= weight;
+        powers.push_back(magnitudes ? abs(power) : power);
+      }
+      product.times_exponential_of_sum(powers);
+    }
+    return product;
+  }
+
+ private:
+  static std::vector<int> degrees_up_to(int order) {
+    std::vector<int> degrees;
+    for (int degree = 1; degree <= order; degree += 2) degrees.push_back(degree);
+    return degrees;
+  }
+  Words words_;
+  std::vector<std::string> letters_;
+};
+
+// The conditions that the logarithm of a kernel be `whole`, the sum of the letters of degree 1, transformed
+// by the exponential of a Lie series. `divided_out(degree, beyond)` is the span of what vanishes.
+template <class Span>
+std::vector<OrderCondition> effective(Series product, const Series& sizes, const Series& whole,
+                                      const std::vector<std::string>& letters, const Span& divided_out) {
+  const Words& words = product.words();
   std::vector<OrderCondition> conditions;
-  for (int degree = 1; degree <= order; ++degree) {
-    // exp(Q) K exp(-Q) with Q of the degree before changes the logarithm by [Q, A + B] at this degree.
+  for (int degree = 1; degree <= words.largest_degree(); ++degree) {
+    // exp(Q) K exp(-Q) with Q of the degree before changes the logarithm by [Q, whole] at this degree.
     const std::vector<std::size_t> lyndon = words.lyndon(degree);
     std::vector<Series> processors;
     if (degree > 1)
       for (const std::size_t word : words.lyndon(degree - 1))
         processors.push_back(bracketing<Quad>(words, word));
-    ReducedSpan<Quad> span = ideal.span(degree, processors.size());
+    ReducedSpan<Quad> span = divided_out(degree, processors.size());
     for (std::size_t k = 0; k < processors.size(); ++k) {
       std::vector<Quad> vector = coordinates(commutator(processors[k], whole), lyndon);
       vector.resize(lyndon.size() + processors.size());
@@ -213,7 +218,7 @@ std::vector<OrderCondition> effective_conditions(const std::vector<PartialFlow>&
       span.add(std::move(vector), rounding_of_integers);
     }
     std::vector<Quad> factors;
-    append_conditions(conditions, logarithm(product), sizes, span, processors.size(), degree, parts_named(),
+    append_conditions(conditions, logarithm(product), sizes, span, processors.size(), degree, letters,
                       "whatever the processor, the Lie word ", &factors);
     Series processor(words);
     for (std::size_t k = 0; k < processors.size(); ++k) {
@@ -225,6 +230,46 @@ std::vector<OrderCondition> effective_conditions(const std::vector<PartialFlow>&
     product = exponential(processor) * product * exponential(back);
   }
   return conditions;
+}
+
+}  // namespace
+
+std::vector<OrderCondition> composition_conditions(const std::vector<Quad>& weights, int order) {
+  const Compositions compositions(order);
+  const Words& words = compositions.words();
+  const Series sizes = compositions.of(weights, true), log = logarithm(compositions.of(weights));
+  std::vector<OrderCondition> conditions;
+  for (int degree = 1; degree <= order; ++degree)
+    append_conditions(conditions, log, sizes, ReducedSpan<Quad>(words.lyndon(degree).size()), 0, degree,
+                      compositions.letters(), "the Lie word ");
+  return conditions;
+}
+
+std::vector<OrderCondition> effective_composition_conditions(const std::vector<Quad>& kernel, int order) {
+  const Compositions compositions(order);
+  const Words& words = compositions.words();
+  Series whole(words);
+  whole[words.extended(0, 0)] = Quad(1);
+  return effective(
+      compositions.of(kernel), compositions.of(kernel, true), whole, compositions.letters(),
+      [&](int degree, std::size_t /*beyond*/) { return ReducedSpan<Quad>(words.lyndon(degree).size()); });
+}
+
+std::vector<OrderCondition> effective_conditions(const std::vector<PartialFlow>& kernel, int order,
+                                                 Parts parts) {
+  const Words words({1, 1}, order);
+  const Ideal ideal(words, parts);
+  Series whole = ideal.letter(drift);
+  whole += ideal.letter(kick);
+  return effective(product_of(words, kernel), product_of(words, kernel, true), whole, parts_named(),
+                   [&](int degree, std::size_t beyond) { return ideal.span(degree, beyond); });
+}
+
+std::vector<Quad> processed_weights(const std::vector<Quad>& pre, const std::vector<Quad>& kernel) {
+  std::vector<Quad> weights = pre;
+  weights.insert(weights.end(), kernel.begin(), kernel.end());
+  for (std::size_t k = pre.size(); k-- > 0;) weights.push_back(-pre[k]);
+  return weights;
 }
 
 std::vector<PartialFlow> inverse(std::vector<PartialFlow> flows) {

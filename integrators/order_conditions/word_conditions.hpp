@@ -61,6 +61,13 @@ std::vector<OrderCondition> composition_conditions(const std::vector<Quad>& weig
 std::vector<OrderCondition> effective_conditions(const std::vector<PartialFlow>& kernel, int order,
                                                  Parts parts = Parts::general);
 
+/// The same for a kernel that is a composition of a symmetric base of order 2, as its processor is.
+std::vector<OrderCondition> effective_composition_conditions(const std::vector<Quad>& kernel, int order);
+
+/// The weights of pre, of the kernel and of the inverse of pre: a symmetric base undoes its step of length
+/// gamma h by that of length -gamma h.
+std::vector<Quad> processed_weights(const std::vector<Quad>& pre, const std::vector<Quad>& kernel);
+
 /// The flows of the inverse: the same in the opposite order, with the opposite lengths.
 std::vector<PartialFlow> inverse(std::vector<PartialFlow> flows);
 /// The flows of pre, of the kernel and of the inverse of pre, each as it stands: neighbours of one part are

@@ -9,7 +9,7 @@ using namespace pfaff;
 
 struct GaussDarboux : InDarbouxChart<Gauss> {};
 struct MidpointDarboux : InDarbouxChart<ImplicitMidpoint> {
-  using Composed = InDarbouxChart<Composition<ImplicitMidpoint>>;  // sub-steps stay in the chart
+  using Composed = ProcessedInDarbouxChart<Composition<ImplicitMidpoint>>;  // sub-steps stay in the chart
 };
 
 const Method<GaussDarboux> gauss_darboux{

@@ -67,18 +67,61 @@ struct InDarbouxChart : Base {
   requires Steps<Base, InChart<P>> Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h,
                                                State<P>& z, Work<P>& w)
   const {
+    return moved(p, t, t + h, h, z, w,
+                 [&](const InChart<P>& chart, State<P>& y) { return Base::step(chart, t, h, y, w.inner); });
+  }
+
+ protected:
+  // Moves z, at time t, by `part` of a step in the chart, after which the time is `end`.
+  template <class P, class Part>
+  Status moved(const P& p, const Scalar<P>& t, const Scalar<P>& end, const Scalar<P>& h, State<P>& z,
+               Work<P>& w, const Part& part) const {
     if (!w.continuation.holds(t, h, z)) {
       p.chart(t, z, w.y);
       w.inner.restart();
     }
-    const Status status = Base::step(InChart<P>(p), t, h, w.y, w.inner);
+    const Status status = part(InChart<P>(p), w.y);
     if (status != Status::converged) {
       w.continuation.forget();
       return status;
     }
-    p.chart_inverse(t + h, w.y, z);
-    w.continuation.remember(t + h, h, z);
+    p.chart_inverse(end, w.y, z);
+    w.continuation.remember(end, h, z);
     return Status::converged;
+  }
+};
+
+/// The same for a base whose step has a processor, whose parts are taken in the chart too. What surrounds the
+/// processor sees the chart at the time at which steps begin and end, so that the next part finds the same
+/// point in it.
+template <class Base>
+struct ProcessedInDarbouxChart : InDarbouxChart<Base> {
+  template <class P>
+  using Work = typename InDarbouxChart<Base>::template Work<P>;
+
+  template <HasDarbouxChart P>
+  requires Steps<Base, InChart<P>> Status preprocess(const P& p, const Scalar<P>& t, const Scalar<P>& h,
+                                                     State<P>& z, Work<P>& w)
+  const {
+    return this->moved(p, t, t, h, z, w, [&](const InChart<P>& chart, State<P>& y) {
+      return Base::preprocess(chart, t, h, y, w.inner);
+    });
+  }
+  template <HasDarbouxChart P>
+  requires Steps<Base, InChart<P>> Status kernel(const P& p, const Scalar<P>& t, const Scalar<P>& h,
+                                                 State<P>& z, Work<P>& w)
+  const {
+    return this->moved(p, t, t + h, h, z, w, [&](const InChart<P>& chart, State<P>& y) {
+      return Base::kernel(chart, t, h, y, w.inner);
+    });
+  }
+  template <HasDarbouxChart P>
+  requires Steps<Base, InChart<P>> Status postprocess(const P& p, const Scalar<P>& t, const Scalar<P>& h,
+                                                      State<P>& z, Work<P>& w)
+  const {
+    return this->moved(p, t, t, h, z, w, [&](const InChart<P>& chart, State<P>& y) {
+      return Base::postprocess(chart, t, h, y, w.inner);
+    });
   }
 };
 

@@ -1,6 +1,7 @@
 // Tables of the kind "composition": `weights` gamma_i of a composition S(gamma_s h) ... S(gamma_1 h) of a
 // symmetric method S of order 2, and its `base`, the name of a registered method such as "verlet", with
-// parameters where they are wanted, "verlet(compensated=no)".
+// parameters where they are wanted, "verlet(compensated=no)". Where there is a list `pre` of more weights, a
+// step is pre, the weights and the inverse of pre, and n steps in a row take pre and its inverse once.
 #include <algorithm>
 
 #include <pfaff/integrators/composition/composed_instance.hpp>
@@ -17,9 +18,10 @@ bool contains(const std::vector<Claim>& claims, Claim claim) {
 class CompositionTable final : public MethodTable {
  public:
   CompositionTable(MethodDescriptor descriptor, const TableDocument& document, OrderTheory theory,
-                   PluginValue base)
+                   PluginValue base, std::size_t processor)
       : MethodTable(std::move(descriptor), {}, typeid(CompositionTable), document, std::move(theory)),
         base_(std::move(base)),
+        processor_(processor),
         palindrome_(symmetric(weights())) {}
 
   [[nodiscard]] std::unique_ptr<MethodInstance> make(const Assignments& assignments) const override {
@@ -30,7 +32,7 @@ class CompositionTable final : public MethodTable {
                                                                 .called = name(),
                                                                 .order = descriptor().order,
                                                                 .palindrome = palindrome_},
-                                              base->composed(weights()));
+                                              base->composed(weights(), processor_));
   }
   [[nodiscard]] std::vector<Assignments> instances(bool /*full*/) const override { return {{}}; }
   [[nodiscard]] std::vector<std::pair<const Plugin*, Assignments>> rests_on() const override {
@@ -44,6 +46,7 @@ class CompositionTable final : public MethodTable {
   }
 
   PluginValue base_;
+  std::size_t processor_;
   bool palindrome_;
 };
 
@@ -53,7 +56,7 @@ PluginValue read_base(TableDocument& document) {
   const MethodPlugin& plugin = integrators().get(base.name, "integrator");
   const auto instance = plugin.make(base.settings);
   if (!contains(plugin.descriptor().preserves, Claim::symmetric) || plugin.descriptor().order != 2 ||
-      instance->adaptive() || instance->composed({Quad(1)}) == nullptr)
+      instance->adaptive() || instance->composed({Quad(1)}, 0) == nullptr)
     document.refuse("base", base.name +
                                 " cannot be composed; expected a symmetric method of order 2, such as "
                                 "verlet, midpoint-darboux or rattle");
@@ -66,7 +69,8 @@ namespace pfaff {
 
 std::unique_ptr<const MethodTable> read_composition_table(TableDocument& document, TableHead head) {
   PluginValue base = read_base(document);
-  const std::vector<Quad> weights = document.numbers("weights");
+  const std::vector<Quad> kernel = document.numbers("weights"),
+                          pre = document.has("pre") ? document.numbers("pre") : std::vector<Quad>();
   const int order = head.descriptor.order;
   if (order > largest_degree)
     document.refuse("order", "expected at most " + std::to_string(largest_degree) +
@@ -74,13 +78,18 @@ std::unique_ptr<const MethodTable> read_composition_table(TableDocument& documen
   if (document.has("preserves"))
     document.refuse("preserves", "follows from the base; expected no such key in a composition");
   document.finish();
-  require_order(document, head, composition_conditions(weights, std::min(order + 1, largest_degree)));
+  const std::vector<Quad> weights = processed_weights(pre, kernel);
+  const auto conditions = composition_conditions(weights, std::min(order + 1, largest_degree));
+  if (!pre.empty() && first_violated(conditions, order, head.precision) != nullptr)
+    require_effective_order(document, head, "weights", effective_composition_conditions(kernel, order));
+  require_order(document, head, conditions);
   OrderTheory theory{"words", order, weights, {}, head.precision};
   theory.conditions = [order](const std::vector<Quad>& others) {
     return composition_conditions(others, order);
   };
   theory.next_order = 3;
-  return std::make_unique<CompositionTable>(head.descriptor, document, std::move(theory), std::move(base));
+  return std::make_unique<CompositionTable>(head.descriptor, document, std::move(theory), std::move(base),
+                                            pre.size());
 }
 
 }  // namespace pfaff

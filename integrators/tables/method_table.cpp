@@ -87,6 +87,15 @@ void require_order(const TableDocument& document, const TableHead& head,
                                  std::to_string(shown) + " hold; expected that order");
 }
 
+void require_effective_order(const TableDocument& document, const TableHead& head, const std::string& key,
+                             const std::vector<OrderCondition>& conditions) {
+  const int order = head.descriptor.order;
+  if (const OrderCondition* first = first_violated(conditions, order, head.precision))
+    document.refuse(key, "is not of effective order " + std::to_string(order) + ": " + first->name +
+                             ", a condition of order " + std::to_string(first->order) + ", " +
+                             residual_in_words(*first, head.precision));
+}
+
 std::vector<Claim> kept_claims(TableDocument& document, std::vector<Claim> kept,
                                const std::function<std::string(Claim)>& why) {
   if (!document.has("preserves")) return kept.empty() ? std::vector<Claim>{Claim::none} : kept;

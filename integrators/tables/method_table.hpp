@@ -70,6 +70,10 @@ struct TableHead {
 void require_order(const TableDocument& document, const TableHead& head,
                    const std::vector<OrderCondition>& conditions);
 
+/// Checks that a processor could lift the kernel, which is under `key`, to the order that the table states.
+void require_effective_order(const TableDocument& document, const TableHead& head, const std::string& key,
+                             const std::vector<OrderCondition>& conditions);
+
 /// What the numbers keep, `kept`, unless the table has a list `preserves`. InputError for a claim in that
 /// list that the numbers do not bear out; `why` says for a claim which condition fails and by how much.
 std::vector<Claim> kept_claims(TableDocument& document, std::vector<Claim> kept,

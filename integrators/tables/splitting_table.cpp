@@ -174,15 +174,9 @@ std::unique_ptr<const MethodTable> read_splitting_table(TableDocument& document,
   });
   document.finish();
   const auto conditions = splitting_conditions(step.flows, std::min(order + 1, largest_degree), step.parts);
-  if (const OrderCondition* first = first_violated(conditions, order, head.precision);
-      first != nullptr && document.has("kernel")) {
-    // Whether the kernel or the processor is to blame.
-    const auto of_kernel = effective_conditions(read_flows(document, "kernel."), order, step.parts);
-    if (const OrderCondition* blamed = first_violated(of_kernel, order, head.precision))
-      document.refuse("kernel", "is not of effective order " + std::to_string(order) + ": " + blamed->name +
-                                    ", a condition of order " + std::to_string(blamed->order) + ", " +
-                                    residual_in_words(*blamed, head.precision));
-  }
+  if (document.has("kernel") && first_violated(conditions, order, head.precision) != nullptr)
+    require_effective_order(document, head, "kernel",
+                            effective_conditions(read_flows(document, "kernel."), order, step.parts));
   require_order(document, head, conditions);
 
   SplittingTable method;
