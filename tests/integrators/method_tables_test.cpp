@@ -210,6 +210,9 @@ TEST(MethodTables, BadFilesAreRefusedInOneLine) {
       {"have the same sum"});
   expect_table_refused("name = \"table\"\nkind = \"composition\"\nbase = \"rk4\"\norder = 2\nweights = [1]\n",
                        {"rk4 cannot be composed; expected a symmetric method of order 2"});
+  expect_table_refused(
+      "name = \"table\"\nkind = \"composition\"\nbase = \"a\\nb\"\norder = 2\nweights = [1]\n",
+      {"key 'base': expected NAME or NAME(key=value, key=value), got 'a b'"});
   EXPECT_THROW((void)read_method_table("no-such-file.toml"), InputError);
 }
 
