@@ -2,7 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/QR>
-#include <functional>
+#include <algorithm>
+#include <array>
 
 #include <pfaff/integrators/order_conditions/word_conditions.hpp>
 #include <pfaff/integrators/tables/table_document.hpp>
