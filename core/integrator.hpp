@@ -51,11 +51,11 @@
 #include <memory>
 #include <utility>
 
-#include <pfaff/core/facets/advance.hpp>
 #include <pfaff/core/facets/claims.hpp>
 #include <pfaff/core/facets/composition.hpp>
 #include <pfaff/core/facets/method_members.hpp>
 #include <pfaff/core/facets/scalars.hpp>
+#include <pfaff/core/facets/stepper.hpp>
 #include <pfaff/core/registry/plugin.hpp>
 #include <pfaff/core/registry/registry.hpp>
 #include <pfaff/core/solve/summation.hpp>
@@ -72,24 +72,6 @@ struct MethodDescriptor {
   std::vector<Claim> preserves{};
   bool double_coefficients = false;  // third-party methods whose coefficients are doubles: no claims in quad
 };
-
-/// One integration of one model. The caller keeps the state, the stepper the history of past steps.
-template <class T>
-class Stepper {
- public:
-  virtual ~Stepper() = default;
-  /// Steps first … first + count - 1 of size h (of either sign) from t0; see pfaff::advance.
-  virtual Status advance(const T& t0, std::int64_t first, const T& h, std::int64_t count, std::span<T> z,
-                         std::int64_t& completed) = 0;
-  /// From t to `end` with steps of the method's choosing at `tolerance`; t is left where it got to.
-  virtual Status advance_to(T& t, const T& end, const T& tolerance, std::span<T> z) = 0;
-  /// Drops history and compensation: the next step depends on its state alone.
-  virtual void forget() = 0;
-  [[nodiscard]] virtual const Counters& counters() const = 0;
-};
-
-template <class T>
-using StepperPointer = std::unique_ptr<Stepper<T>>;
 
 /// A method with its parameters fixed.
 class MethodInstance : public Maker<StepperPointer, StepScalars, std::shared_ptr<const Model>> {
@@ -160,53 +142,6 @@ class MethodPlugin : public Plugin {
 };
 
 namespace detail {
-
-template <class M, class P>
-class SteppingOn final : public Stepper<Scalar<P>> {
- public:
-  using T = Scalar<P>;
-  SteppingOn(const M& method, std::shared_ptr<const Model> model)
-      : method_(method),
-        problem_(std::move(model)),
-        state_(problem_.make_state()),
-        work_(std::make_unique<Work<M, P>>(method_, problem_)) {}
-
-  Status advance(const T& t0, std::int64_t first, const T& h, std::int64_t count, std::span<T> z,
-                 std::int64_t& completed) override {
-    std::copy(z.begin(), z.end(), state_.begin());
-    const Status status = pfaff::advance(method_, problem_, t0, first, h, count, state_, *work_, completed);
-    std::copy(state_.begin(), state_.end(), z.begin());
-    problem_.counters().steps += completed;
-    return status == Status::converged ? finite(z) : status;
-  }
-
-  Status advance_to(T& t, const T& end, const T& tolerance, std::span<T> z) override {
-    if constexpr (requires { method_.advance_to(problem_, t, end, tolerance, state_, *work_); }) {
-      std::copy(z.begin(), z.end(), state_.begin());
-      const Status status = method_.advance_to(problem_, t, end, tolerance, state_, *work_);
-      std::copy(state_.begin(), state_.end(), z.begin());
-      return status == Status::converged ? finite(z) : status;
-    } else {
-      (void)t, (void)end, (void)tolerance, (void)z;
-      throw InputError("this integrator takes fixed steps only; give --step");
-    }
-  }
-
-  void forget() override { work_ = std::make_unique<Work<M, P>>(method_, problem_); }
-  [[nodiscard]] const Counters& counters() const override { return problem_.counters(); }
-
- private:
-  static Status finite(std::span<const T> z) {
-    for (const T& x : z)
-      if (!isfinite(value_of(x))) return Status::non_finite;
-    return Status::converged;
-  }
-
-  M method_;
-  P problem_;
-  State<P> state_;
-  std::unique_ptr<Work<M, P>> work_;
-};
 
 // A facet is needed when the method cannot step on problems that have every facet but this one.
 template <class M, unsigned K>
