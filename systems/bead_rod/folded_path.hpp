@@ -14,10 +14,8 @@
 #include <cstdint>
 #include <vector>
 
-#include <pfaff/core/errors/status.hpp>
-#include <pfaff/core/numbers/functions.hpp>
-#include <pfaff/core/numbers/pack.hpp>
 #include <pfaff/systems/bead_rod/description.hpp>
+#include <pfaff/systems/bead_rod/folded_rows.hpp>
 #include <pfaff/systems/bead_rod/graph.hpp>
 
 namespace pfaff {
@@ -81,7 +79,7 @@ class FoldedPath {
   bool dirac(const double* q, const double* p, double* rate_q, double* rate_p) {
     const L usable = eliminate<true>(q, p);
     Row& last = work_[half_ - 1];
-    const Middle middle(*this, last);
+    const Middle middle(middle_mass_, last);
     const double a =
         middle_mass_ * (across(last.turning, last.direction) - across(last.direction, last.turning));
     L mu = middle.solve(last.hidden);
@@ -120,7 +118,7 @@ class FoldedPath {
   bool multipliers(const double* q, const double* p, double* rate_q, double* rate_p) {
     const L usable = eliminate<false>(q, p);
     const Row& last = work_[half_ - 1];
-    middle_ = Middle(*this, last);
+    middle_ = Middle(middle_mass_, last);
     L x = middle_.solve(last.rate);
     const Vec none{};
     Vec push = x * last.direction;
@@ -177,69 +175,17 @@ class FoldedPath {
   }
 
  protected:
-  using L = Pack<2>;
+  using L = FoldedLanes;
+  using Vec = FoldedVector<D>;
+  using Row = FoldedRow<D>;
+  using Middle = FoldedMiddle<D>;
   static constexpr std::uint32_t fixed = ~0U;  // instead of an offset: an anchor, or the additional point
 
-  /// D numbers in each lane.
-  struct Vec {
-    std::array<L, D> x{};
-    L& operator[](std::size_t k) { return x[k]; }
-    const L& operator[](std::size_t k) const { return x[k]; }
-    friend Vec operator-(const Vec& a, const Vec& b) {
-      Vec r;
-      for (std::size_t k = 0; k < D; ++k) r[k] = a[k] - b[k];
-      return r;
-    }
-    friend Vec operator*(const L& s, const Vec& a) {
-      Vec r;
-      for (std::size_t k = 0; k < D; ++k) r[k] = s * a[k];
-      return r;
-    }
-    friend L dot(const Vec& a, const Vec& b) {
-      L sum = a[0] * b[0];
-      for (std::size_t k = 1; k < D; ++k) sum = sum + a[k] * b[k];
-      return sum;
-    }
-  };
-  /// Row j is that of the rods between points j and j + 1 of the lanes; lower and skew couple it with row j
-  /// - 1.
-  struct Row {
-    Vec direction, turning;
-    L lower, inverse, skew, hidden, rate, multiplier, reduced;
-    L border;  // of rings: the closing rod's column
-  };
   struct Offsets {
     std::uint32_t left, right;
   };
 
-  /// Where the halves meet: both last rods point at the same bead, and couple with each other.
-  class Middle {
-   public:
-    Middle() = default;
-    Middle(const FoldedPath& path, const Row& last)
-        : left_(1 / last.inverse[0]),
-          right_(1 / last.inverse[1]),
-          coupling_(path.middle_mass_ * across(last.direction, last.direction)),
-          scale_(1 / (left_ * right_ - coupling_ * coupling_)) {}
-    [[nodiscard]] L solve(const L& y) const {
-      return {(y[0] * right_ - coupling_ * y[1]) * scale_, (y[1] * left_ - coupling_ * y[0]) * scale_};
-    }
-    /// True where all pivots were usable. `products` is the sum of zero times the reciprocal of each: 0 where
-    /// all reciprocals are finite, and otherwise not-a-number.
-    [[nodiscard]] bool usable(const L& products) const {
-      return products[0] == 0 && products[1] == 0 && scale_ * 0 == 0;
-    }
-
-   private:
-    double left_ = 0, right_ = 0, coupling_ = 0, scale_ = 0;
-  };
-
   [[nodiscard]] std::size_t mirrored(std::size_t j) const { return rods_ + (odd_ ? 1 : 0) - j; }
-  static double across(const Vec& a, const Vec& b) {
-    double sum = 0;
-    for (std::size_t k = 0; k < D; ++k) sum += a[k][0] * b[k][1];
-    return sum;
-  }
   [[nodiscard]] static Vec load(const Offsets& at, const double* x) {
     Vec r;
     for (std::size_t k = 0; k < D; ++k) r[k] = L(x[at.left + k], x[at.right + k]);

@@ -34,7 +34,7 @@ class FoldedRing : private FoldedPath<D> {
     close(q, p);
     const std::size_t half = this->half_;
     Row& last = this->work_[half - 1];
-    const Middle middle(*this, last);
+    const Middle middle(this->middle_mass_, last);
     const double a =
         this->middle_mass_ * (across(last.turning, last.direction) - across(last.direction, last.turning));
     last.multiplier = middle.solve(last.hidden);
@@ -93,7 +93,7 @@ class FoldedRing : private FoldedPath<D> {
     close(q, p);
     const std::size_t half = this->half_;
     Row& last = this->work_[half - 1];
-    const Middle middle(*this, last);
+    const Middle middle(this->middle_mass_, last);
     last.multiplier = middle.solve(last.rate);
     last.border = middle.solve(last.border);
     for (std::size_t j = half - 1; j-- > 0;) {
@@ -119,8 +119,6 @@ class FoldedRing : private FoldedPath<D> {
   }
 
  private:
-  using Path::across;
-
   // The row where the right lane's end touches the closing rod. Where a rod was added to make the halves
   // equally long, it is row 0 there, and no part of the ring.
   [[nodiscard]] std::size_t right_end() const { return this->odd_ ? 1 : 0; }

@@ -13,7 +13,7 @@
 
 #include <pfaff/core/facets/holonomic.hpp>
 #include <pfaff/core/linear/structured_ldlt.hpp>
-#include <pfaff/systems/bead_rod/folded_ring.hpp>
+#include <pfaff/systems/bead_rod/folded_rods.hpp>
 #include <pfaff/systems/bead_rod/potentials.hpp>
 #include <pfaff/systems/bead_rod/rod_maps.hpp>
 
@@ -38,7 +38,8 @@ class RodConstraints final : public HolonomicConstraints<T>, public DescribedByR
         hidden_rates_(inverse_masses_of_rod_),
         multipliers_(inverse_masses_of_rod_),
         directions_(description_->rods.size()),
-        turnings_(directions_) {
+        turnings_(directions_),
+        folded_(*description_, *graph_) {
     const BeadRodDescription& d = *description_;
     for (std::size_t k = 0; k < d.rods.size(); ++k) {
       const Rod& rod = d.rods[k];
@@ -54,7 +55,11 @@ class RodConstraints final : public HolonomicConstraints<T>, public DescribedByR
       for (const Real& lambda : d.friction) friction_.insert(friction_.end(), D, T(lambda));
       friction_s_ = std::make_unique<StructuredLDLT<T>>(graph_->pattern());
     }
-    fold();
+    if constexpr (folds)
+      if (folded_.holds_all() && potentials_.constant()) {
+        set_forces({});
+        folded_.set_forces(forces_);
+      }
   }
 
   [[nodiscard]] const BeadRodDescription& description() const override { return *description_; }
@@ -121,7 +126,7 @@ class RodConstraints final : public HolonomicConstraints<T>, public DescribedByR
   }
   // Folded rings do not tell how they respond.
   [[nodiscard]] IdealRates<T>* ideal_rates() override {
-    return folded_ && !rings_.empty() ? nullptr : &ideal_;
+    return folds && !folded_.responds() ? nullptr : &ideal_;
   }
 
   [[nodiscard]] std::span<const T> friction() const override { return friction_; }
@@ -174,10 +179,7 @@ class RodConstraints final : public HolonomicConstraints<T>, public DescribedByR
 
   Status hamiltonian_rates(In<T> q, In<T> p, Out<T> q_rate, Out<T> p_rate) {
     if constexpr (folds)
-      if (folded_)
-        return folded_rates(q, p, q_rate, p_rate, [&](auto& path) {
-          return path.dirac(q.data(), p.data(), q_rate.data(), p_rate.data());
-        });
+      if (folded_.holds_all()) return folded_rates(&Folded::dirac, q, p, q_rate, p_rate);
     const Status status = prepare<true>(q, p);
     s_.solve(hidden_.data(), multipliers_.data());  // mu
     const auto& couplings = graph_->couplings();
@@ -212,10 +214,7 @@ class RodConstraints final : public HolonomicConstraints<T>, public DescribedByR
   }
   Status rates_by_multipliers(In<T> q, In<T> p, Out<T> q_rate, Out<T> p_rate) {
     if constexpr (folds)
-      if (folded_)
-        return folded_rates(q, p, q_rate, p_rate, [&](auto& path) {
-          return path.multipliers(q.data(), p.data(), q_rate.data(), p_rate.data());
-        });
+      if (folded_.holds_all()) return folded_rates(&Folded::multipliers, q, p, q_rate, p_rate);
     const Status status = prepare<false>(q, p);
     s_.solve(hidden_rates_.data(), hidden_rates_.data());
     std::copy_n(maps_.velocities().begin(), degrees_, q_rate.begin());
@@ -234,63 +233,22 @@ class RodConstraints final : public HolonomicConstraints<T>, public DescribedByR
   // With the factors that rates_by_multipliers has left.
   void respond(In<T> f, Out<T> rest) {
     if constexpr (folds)
-      if (folded_) {
-        for (auto& path : paths_) path.respond(f.data(), rest.data());
-        for (const std::size_t i : lone_)
-          for (std::size_t at = i * D; at < i * D + D; ++at) rest[at] = f[at];
-        return;
-      }
+      if (folded_.holds_all()) return folded_.respond(f, rest);
     hidden_by_momentum(f, multipliers_);
     s_.solve(multipliers_.data(), multipliers_.data());
     apply_transpose(multipliers_, rest);
     for (std::size_t k = 0; k < degrees_; ++k) rest[k] = f[k] - rest[k];
   }
 
+  // Rates in doubles, where all rods are parts of paths and rings that can be folded.
   static constexpr bool folds = std::is_same_v<T, double>;
-  // Makes the folded paths and rings that compute rates in doubles, where all rods are parts of such.
-  void fold() {
-    if constexpr (folds) {
-      const BeadRodDescription& d = *description_;
-      const auto& paths = graph_->paths();
-      if (!std::all_of(paths.begin(), paths.end(),
-                       [&](const RodPath& path) { return FoldedPath<D>::fits(d, path); }))
-        return;
-      std::vector<bool> joined(d.beads(), false);
-      for (const RodPath& path : paths) {
-        paths_.emplace_back(d, path);
-        for (const std::size_t point : path.points)
-          if (point < d.beads()) joined[point] = true;
-      }
-      for (const RodPath& ring : graph_->rings()) {
-        rings_.emplace_back(d, ring);
-        for (const std::size_t point : ring.points) joined[point] = true;
-      }
-      folded_ = !paths_.empty() || !rings_.empty();
-      for (std::size_t i = 0; i < d.beads(); ++i)
-        if (!joined[i]) lone_.push_back(i);
-      if (!potentials_.constant()) return;
-      set_forces({});
-      give_forces();
-    }
-  }
-  template <class Use>
-  Status folded_rates(In<T> q, In<T> p, Out<T> q_rate, Out<T> p_rate, const Use& use) {
-    Status status = set_forces(q);
-    if (!potentials_.constant()) give_forces();
-    bool regular = true;
-    for (auto& path : paths_) regular &= use(path);
-    for (auto& ring : rings_) regular &= use(ring);
-    if (!regular && status == Status::converged) status = Status::singular;
-    for (const std::size_t i : lone_)
-      for (std::size_t at = i * D; at < i * D + D; ++at) {
-        q_rate[at] = maps_.inverse_mass(i) * p[at];
-        p_rate[at] = forces_[at];
-      }
-    return status;
-  }
-  void give_forces() {
-    for (auto& path : paths_) path.set_forces(forces_.data());
-    for (auto& ring : rings_) ring.set_forces(forces_.data());
+  using Folded = FoldedRods<D>;
+  Status folded_rates(bool (Folded::*rates)(In<double>, In<double>, Out<double>, Out<double>), In<T> q,
+                      In<T> p, Out<T> q_rate, Out<T> p_rate) {
+    const Status status = set_forces(q);
+    if (!potentials_.constant()) folded_.set_forces(forces_);
+    const bool regular = (folded_.*rates)(q, p, q_rate, p_rate);
+    return regular || status != Status::converged ? status : Status::singular;
   }
   // Forces and accelerations of the beads; where they are constant, only when there are none yet.
   Status set_forces(In<T> q) {
@@ -344,10 +302,7 @@ class RodConstraints final : public HolonomicConstraints<T>, public DescribedByR
   std::vector<T> skew_;      // A, as S in the order of couplings
   std::vector<T> coupling_;  // 1/m of the shared bead with the sign of the coupling
   std::vector<T> friction_;
-  bool folded_ = false;  // rates are made by paths and rings
-  std::vector<FoldedPath<D>> paths_;
-  std::vector<FoldedRing<D>> rings_;
-  std::vector<std::size_t> lone_;  // beads without rods
+  Folded folded_;
   HamiltonianRates hamiltonian_{*this};
   Multipliers ideal_{*this};
 };
