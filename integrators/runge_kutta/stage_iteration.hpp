@@ -2,10 +2,8 @@
 // L_i = rates(S_i) of m components with
 //   S_i = line_i + sum_j m_ij L_j.
 //
-// Stages are lanes: those of one component lie side by side, several to a pack in double, so that the sums
-// over j are formed for all of them together. Lanes beyond the last stage are copies of it, so that rates
-// evaluated in lanes are evaluated at stages only; their own rates are zero and add nothing. The first stages
-// of a step are extrapolated from the rates of the step before, by the polynomial through them. A
+// Stages are lanes (stage_lanes.hpp), so that the sums over j are formed for all of them together. The first
+// stages of a step are extrapolated from the rates of the step before, by the polynomial through them. A
 // fixed-point iteration goes on until the rates are known (stage_convergence.hpp); where it contracts slowly,
 // simplified Newton iteration can take over. The rates that remain are those at the last stages: an update by
 // rates from one iteration earlier makes conserved quantities drift.
@@ -29,73 +27,36 @@
 
 namespace pfaff {
 
-/// a b, where both are known to the compiler.
-constexpr int product_of_sizes(int a, int b) { return a == dynamic || b == dynamic ? dynamic : a * b; }
-
 /// `Components` and `Stages` may be dynamic.
 template <class T, int Components, int Stages>
-class StageIteration {
-  using Lanes = detail::StageLanes<T, Stages>;
-  static constexpr std::size_t width = Lanes::width, parts = Sizes<T>::parts;
-  static constexpr int blocks_known =
-      Stages == dynamic ? dynamic : (Stages + static_cast<int>(width) - 1) / static_cast<int>(width);
+class StageIteration : private StageLayout<T, Components, Stages> {
+  using Layout = StageLayout<T, Components, Stages>;
+  using Layout::at, Layout::of_stages, Layout::width;
+  using typename Layout::Lanes, typename Layout::Matrix;
+  static constexpr std::size_t parts = Sizes<T>::parts;
 
  public:
-  using Number = Value<T>;
-  using Lane = typename Lanes::type;
-  using Row = Vector<Lane, blocks_known>;                                  // a number for every stage
-  using Table = Vector<Lane, product_of_sizes(Components, blocks_known)>;  // [component][block of stages]
+  using Layout::blocks, Layout::components, Layout::filled_row_of, Layout::row_of, Layout::stages;
+  using typename Layout::Lane, typename Layout::Number, typename Layout::Row, typename Layout::Table;
 
   /// The matrix m and the one that extrapolates the rates of the last step, row-major. `in_turns`: see
   /// StageConvergence. `newton`: whether to make room for solve_by_newton.
-  StageIteration(std::size_t components, std::size_t stages, const std::vector<Number>& matrix,
+  StageIteration(std::size_t component_count, std::size_t stage_count, const std::vector<Number>& matrix,
                  const std::vector<Number>& extrapolation, bool in_turns, bool newton)
-      : stages_(stages),
-        components_(components),
-        matrix_(stages * blocks()),
-        extrapolation_(stages * blocks()),
-        line_(components * blocks()),
+      : Layout(component_count, stage_count),
+        matrix_(this->matrix_of(matrix, true)),
+        extrapolation_(this->matrix_of(extrapolation, false)),
+        line_(components() * blocks()),
         stage_(line_),
         rate_(line_),
         before_(line_),
         expected_(line_),
-        moved_(components),
-        small_(components),
-        scale_(components),
-        missed_(stages * components, levels()),
+        moved_(components()),
+        small_(components()),
+        scale_(components()),
+        missed_(stages() * components(), levels()),
         in_turns_(in_turns),
-        used_(row_of(std::vector<Number>(stages, Number(1)))),
-        newton_(newton ? stages * components : 0) {
-    for (std::size_t lane = 0; lane < blocks() * width; ++lane)
-      for (std::size_t j = 0; j < stages; ++j) {
-        const std::size_t i = std::min(lane, stages - 1);
-        Lanes::set(matrix_[j * blocks() + lane / width], lane % width, T(matrix[i * stages + j]));
-        if (lane == i)
-          Lanes::set(extrapolation_[j * blocks() + i / width], i % width, T(extrapolation[i * stages + j]));
-      }
-  }
-
-  [[nodiscard]] std::size_t stages() const {
-    return Stages == dynamic ? stages_ : static_cast<std::size_t>(Stages);
-  }
-  [[nodiscard]] std::size_t components() const {
-    return Components == dynamic ? components_ : static_cast<std::size_t>(Components);
-  }
-  /// Blocks of lanes that hold all stages of a component.
-  [[nodiscard]] std::size_t blocks() const { return (stages() + width - 1) / width; }
-  /// One number for each stage, in lanes; zero beyond the last stage.
-  [[nodiscard]] Row row_of(const std::vector<Number>& numbers) const {
-    Row row(blocks());
-    for (std::size_t i = 0; i < stages(); ++i) Lanes::set(row[i / width], i % width, T(numbers[i]));
-    return row;
-  }
-  /// The same with copies of the last number there.
-  [[nodiscard]] Row filled_row_of(std::vector<Number> numbers) const {
-    Row row(blocks());
-    for (std::size_t lane = 0; lane < blocks() * width; ++lane)
-      Lanes::set(row[lane / width], lane % width, T(numbers[std::min(lane, stages() - 1)]));
-    return row;
-  }
+        newton_(newton ? stages() * components() : 0) {}
 
   /// What a step sets before it solves: the lines of component k, block by block and filled with copies of
   /// the last, and a size that its rates are measured against where they vanish.
@@ -114,14 +75,14 @@ class StageIteration {
   }
 
   /// Component k of stage i among those that a function is given that evaluates rates, and of the rate there.
-  [[nodiscard]] T stage(const Table& stages, std::size_t i, std::size_t k) const {
-    return Lanes::get(at(stages, i, k), i % width);
+  [[nodiscard]] T stage(const Table& table, std::size_t i, std::size_t k) const {
+    return Lanes::get(at(table, i, k), i % width);
   }
   void set_rate(std::size_t i, std::size_t k, const T& x) { Lanes::set(at(rate_, i, k), i % width, x); }
 
   /// The same for all stages in a block of lanes, for a function that evaluates them together.
-  [[nodiscard]] const Lane& stages_in(const Table& stages, std::size_t block, std::size_t k) const {
-    return stages[k * blocks() + block];
+  [[nodiscard]] const Lane& stages_in(const Table& table, std::size_t block, std::size_t k) const {
+    return table[k * blocks() + block];
   }
   void set_rates(std::size_t block, std::size_t k, const Lane& x) {
     rate_[k * blocks() + block] = of_stages(block, x);
@@ -210,8 +171,6 @@ class StageIteration {
   }
 
  private:
-  using Matrix = Vector<Lane, product_of_sizes(Stages, blocks_known)>;  // [column][block of rows]
-
   struct Newton {
     explicit Newton(std::size_t n) : matrix(n), unknowns(n), reference(n), residual(n), correction(n) {}
     LU<Number> matrix;
@@ -229,22 +188,6 @@ class StageIteration {
     } else {
       for (std::size_t k = 0; k < components(); ++k) f(k);
     }
-  }
-
-  // x in the lanes of stages, zero beyond the last one.
-  [[nodiscard]] Lane of_stages([[maybe_unused]] std::size_t block, const Lane& x) const {
-    if constexpr (width == 1 || (Stages != dynamic && Stages % static_cast<int>(width) == 0))
-      return x;
-    else
-      return select(used_[block], x, Lane(0));
-  }
-
-  // The pack that holds component k of stage i.
-  [[nodiscard]] const Lane& at(const Table& table, std::size_t i, std::size_t k) const {
-    return table[k * blocks() + i / width];
-  }
-  [[nodiscard]] Lane& at(Table& table, std::size_t i, std::size_t k) const {
-    return table[k * blocks() + i / width];
   }
 
   // The rate of component k at stage i, in every lane.
@@ -312,11 +255,11 @@ class StageIteration {
       for (std::size_t b = 0; b < Count; ++b) sum[b] = sum[b] + matrix_[j * blocks() + block + b] * rate;
     }
     for (std::size_t b = 0; b < Count; ++b) {
-      const std::size_t at = k * blocks() + block + b;
-      const Lane next = line_[at] + sum[b];
-      moved_[k].add(of_stages(block + b, next - stage_[at]));
-      stage_[at] = next;
-      table[at] = next;
+      const std::size_t place = k * blocks() + block + b;
+      const Lane next = line_[place] + sum[b];
+      moved_[k].add(of_stages(block + b, next - stage_[place]));
+      stage_[place] = next;
+      table[place] = next;
     }
   }
 
@@ -357,7 +300,7 @@ class StageIteration {
   // Takes the rates that have been evaluated, and judges how far they have moved. Where they have changed
   // much, what they are measured against has, too.
   [[gnu::always_inline]] void compare(StageConvergence<T>& convergence, bool together) {
-    std::array<Number, parts> stages{}, rates{};
+    std::array<Number, parts> moves{}, changes{};
     for_components([&](std::size_t k) __attribute__((always_inline)) {
       Sizes<Lane> changed;
       for (std::size_t b = 0; b < blocks(); ++b) {
@@ -370,19 +313,18 @@ class StageIteration {
         const Number moved = moved_[k].part(part) * scale_[k][part],
                      change = changed.part(part) * scale_[k][part];
         if (together) {
-          stages[part] = stages[part] + moved;
-          rates[part] = rates[part] + change;
+          moves[part] = moves[part] + moved;
+          changes[part] = changes[part] + change;
         } else {
           convergence.add(part, moved, change);
         }
       }
     });
     for (std::size_t part = 0; part < parts; ++part)
-      if (together) convergence.add(part, stages[part], rates[part]);
+      if (together) convergence.add(part, moves[part], changes[part]);
     if (convergence.changed_by_more_than(Number(0x1p-4))) measure(together);
   }
 
-  std::size_t stages_, components_;
   Matrix matrix_, extrapolation_;
   Table line_, stage_, rate_, before_, expected_;
   Vector<Sizes<Lane>, Components> moved_;
@@ -390,7 +332,6 @@ class StageIteration {
   Vector<std::array<Number, parts>, Components> scale_;  // the reciprocal
   DifferencePredictor<T, dynamic, dynamic> missed_;
   bool in_turns_, known_ = false;
-  Row used_;  // 1 in the lanes of stages
   Newton newton_;
 };
 
