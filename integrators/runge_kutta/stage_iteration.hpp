@@ -31,7 +31,7 @@ namespace pfaff {
 template <class T, int Components, int Stages>
 class StageIteration : private StageLayout<T, Components, Stages> {
   using Layout = StageLayout<T, Components, Stages>;
-  using Layout::at, Layout::of_stages, Layout::width;
+  using Layout::at, Layout::blocks_known, Layout::of_stages, Layout::width;
   using typename Layout::Lanes, typename Layout::Matrix;
   static constexpr std::size_t parts = Sizes<T>::parts;
 
@@ -96,12 +96,13 @@ class StageIteration : private StageLayout<T, Components, Stages> {
     if (extrapolated) extrapolate();
     known_ = false;
     StageConvergence<T> convergence(in_turns_);
-    evaluate_at_stages(evaluate);
+    const KeptMatrix matrix = matrix_;
+    evaluate_at_stages(evaluate, matrix);
     before_ = rate_;
     measure(together);
     do {
       convergence.begin_iteration();
-      evaluate_at_stages(evaluate);
+      evaluate_at_stages(evaluate, matrix);
       if constexpr (Stages == dynamic)
         compare_apart(convergence, together);
       else
@@ -171,6 +172,11 @@ class StageIteration : private StageLayout<T, Components, Stages> {
   }
 
  private:
+  // While a step is solved, a matrix whose columns are a register each is a local variable, which the
+  // compiler keeps in registers; a member it would read again after every number that is written. A matrix of
+  // twice as many registers does not fit, and a copy of it would only cost time.
+  using KeptMatrix = std::conditional_t<blocks_known == 1 && Lanes::in_one_register, Matrix, const Matrix&>;
+
   struct Newton {
     explicit Newton(std::size_t n) : matrix(n), unknowns(n), reference(n), residual(n), correction(n) {}
     LU<Number> matrix;
@@ -226,33 +232,34 @@ class StageIteration : private StageLayout<T, Components, Stages> {
   // Makes the stages and evaluates rates there. A local table of known size stays in registers on the way,
   // where one in memory would have to be stored before it could be read.
   template <class Evaluate>
-  [[gnu::always_inline]] void evaluate_at_stages(const Evaluate& evaluate) {
+  [[gnu::always_inline]] void evaluate_at_stages(const Evaluate& evaluate, const Matrix& matrix) {
     if constexpr (std::is_same_v<Table, Vector<Lane, dynamic>>) {
       combine_apart(stage_);
       evaluate(stage_);
     } else {
       Table table;
-      combine(table);
+      combine(matrix, table);
       evaluate(table);
     }
   }
   // The stages that the rates make, and how far they have moved.
-  [[gnu::always_inline]] void combine(Table& table) {
+  [[gnu::always_inline]] void combine(const Matrix& matrix, Table& table) {
     for_components([&](std::size_t k) __attribute__((always_inline)) {
       moved_[k] = {};
       std::size_t block = 0;
-      for (; block + 1 < blocks(); block += 2) combine_blocks<2>(table, k, block);
-      if (block < blocks()) combine_blocks<1>(table, k, block);
+      for (; block + 1 < blocks(); block += 2) combine_blocks<2>(matrix, table, k, block);
+      if (block < blocks()) combine_blocks<1>(matrix, table, k, block);
     });
   }
   template <std::size_t Count>
-  [[gnu::always_inline]] void combine_blocks(Table& table, std::size_t k, std::size_t block) {
+  [[gnu::always_inline]] void combine_blocks(const Matrix& matrix, Table& table, std::size_t k,
+                                             std::size_t block) {
     std::array<Lane, Count> sum;
     const Lane first = rate_of(0, k);
-    for (std::size_t b = 0; b < Count; ++b) sum[b] = matrix_[block + b] * first;
+    for (std::size_t b = 0; b < Count; ++b) sum[b] = matrix[block + b] * first;
     for (std::size_t j = 1; j < stages(); ++j) {
       const Lane rate = rate_of(j, k);
-      for (std::size_t b = 0; b < Count; ++b) sum[b] = sum[b] + matrix_[j * blocks() + block + b] * rate;
+      for (std::size_t b = 0; b < Count; ++b) sum[b] = sum[b] + matrix[j * blocks() + block + b] * rate;
     }
     for (std::size_t b = 0; b < Count; ++b) {
       const std::size_t place = k * blocks() + block + b;
@@ -264,7 +271,7 @@ class StageIteration : private StageLayout<T, Components, Stages> {
   }
 
   // Where the number of stages is not known, one copy serves all.
-  [[gnu::noinline]] void combine_apart(Table& table) { combine(table); }
+  [[gnu::noinline]] void combine_apart(Table& table) { combine(matrix_, table); }
   [[gnu::noinline]] void compare_apart(StageConvergence<T>& convergence, bool together) {
     compare(convergence, together);
   }

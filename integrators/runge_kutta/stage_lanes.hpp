@@ -23,6 +23,7 @@ template <class T, int Stages>
 struct StageLanes {
   using type = T;
   static constexpr std::size_t width = 1;
+  static constexpr bool in_one_register = false;
   static T get(const T& lanes, std::size_t /*lane*/) { return lanes; }
   static void set(T& lanes, std::size_t /*lane*/, const T& x) { lanes = x; }
 };
@@ -31,6 +32,7 @@ template <int Stages>
 struct StageLanes<double, Stages> {
   static constexpr std::size_t width = Stages > 4 && Stages <= 8 ? 8 : 4;
   using type = Pack<static_cast<int>(width)>;
+  static constexpr bool in_one_register = type::count == 1;
   static double get(const type& lanes, std::size_t lane) { return lanes[lane]; }
   static void set(type& lanes, std::size_t lane, double x) { lanes.set(lane, x); }
 };
