@@ -63,7 +63,8 @@ class FirstOrderForm final : public CollocationForm<P> {
   Status step(const P& p, const T& t, const T& h, State<P>& z, bool compensated) override {
     begin(p, t, h, z);
     const auto evaluate = [&](const Table& stages) { evaluate_rates(p, t, h, z, stages); };
-    Status status = iteration_.solve(evaluate, on_constraints(p), p.counters().iterations);
+    Status status =
+        iteration_.template solve<Field::inlined>(evaluate, on_constraints(p), p.counters().iterations);
     if constexpr (HasFieldJacobian<P>)
       if (status == Status::not_converged) {
         p.field_jacobian(t + h / T(2), z, jacobian_);

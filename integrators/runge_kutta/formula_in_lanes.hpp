@@ -45,19 +45,19 @@ constexpr bool asked_in_lanes() {
 /// Formula F, one of field, force and velocity, of a problem of type P with the scalar L.
 template <Formula F, class P, class L>
 class FormulaInLanes {
-  static constexpr bool written = detail::written_in_lanes<F, P, L>();
-
  public:
+  /// Is it a member of the problem, whose code is inlined?
+  static constexpr bool inlined = detail::written_in_lanes<F, P, L>();
   /// Can a problem of this type offer it?
-  static constexpr bool possible = written || detail::asked_in_lanes<P, L>();
+  static constexpr bool possible = inlined || detail::asked_in_lanes<P, L>();
 
   FormulaInLanes(const P& p, std::size_t stages) : several_(stages > 1) {
-    if constexpr (!written && possible)
+    if constexpr (!inlined && possible)
       if (several_) found_ = p.template in_lanes<detail::lanes_of<L>>(F);
   }
   /// Does the problem offer it, and are there several stages?
   [[nodiscard]] bool offered() const {
-    if constexpr (written)
+    if constexpr (inlined)
       return several_;
     else if constexpr (possible)
       return found_.call != nullptr;
@@ -66,7 +66,7 @@ class FormulaInLanes {
   }
   [[gnu::always_inline]] void operator()(const P& p, const L& t, In<L> x,
                                          Out<L> out) const requires possible {
-    if constexpr (!written) {
+    if constexpr (!inlined) {
       found_.call(found_.context, t, x.data(), out.data());
     } else if constexpr (F == Formula::force) {
       p.force(t, x, out);
@@ -80,7 +80,7 @@ class FormulaInLanes {
  private:
   struct Nothing {};
   bool several_;
-  std::conditional_t<!written && possible, Evaluator<L>, Nothing> found_;
+  std::conditional_t<!inlined && possible, Evaluator<L>, Nothing> found_;
 };
 
 }  // namespace pfaff

@@ -44,8 +44,11 @@ std::unique_ptr<CollocationForm<P>> sized_form(const CollocationCoefficients<Val
   };
   if constexpr (Stages == dynamic && P::extent == dynamic && asked_in_lanes<P, Pack<8>>()) {
     if constexpr (sizeof...(Arguments) != 0)
-      if (p.size() == 4 && (c.stages == 6 || c.stages == 8))
-        return c.stages == 6 ? made.template operator()<6, 4>() : made.template operator()<8, 4>();
+      if (p.size() == 4) {
+        if (c.stages == 6) return made.template operator()<6, 4>();
+        if (c.stages == 8) return made.template operator()<8, 4>();
+        if (c.stages == 12) return made.template operator()<12, 4>();
+      }
     switch (c.stages) {
       case 2:
         return made.template operator()<2, dynamic>();
@@ -57,6 +60,8 @@ std::unique_ptr<CollocationForm<P>> sized_form(const CollocationCoefficients<Val
         return made.template operator()<6, dynamic>();
       case 8:
         return made.template operator()<8, dynamic>();
+      case 12:
+        return made.template operator()<12, dynamic>();
       default:
         break;
     }

@@ -94,7 +94,7 @@ class NystromForm final : public CollocationForm<P> {
     const auto evaluate = [&](const Table& stages) __attribute__((always_inline)) {
       evaluate_rates(p, z, stages);
     };
-    Status status = iteration_.solve(evaluate, false, p.counters().iterations);
+    Status status = iteration_.template solve<Force::inlined>(evaluate, false, p.counters().iterations);
     if constexpr (HasFieldJacobian<P>)
       if (status == Status::not_converged) status = correct_by_newton(p, t, h, z, evaluate);
     if (status != Status::converged) {

@@ -89,14 +89,19 @@ class StageIteration : private StageLayout<T, Components, Stages> {
   }
 
   /// Solves for the rates. evaluate(stages) calls set_rate for every stage and component. All components are
-  /// judged together where `together`.
-  template <class Evaluate>
+  /// judged together where `together`. `Inlined` says whether that code becomes part of this function, where
+  /// numbers stay in registers while it runs, or calls others.
+  template <bool Inlined, class Evaluate>
   Status solve(const Evaluate& evaluate, bool together, auto&& iterations) {
     const bool extrapolated = known_;
     if (extrapolated) extrapolate();
     known_ = false;
     StageConvergence<T> convergence(in_turns_);
-    const KeptMatrix matrix = matrix_;
+    // A local matrix whose columns are a register each is kept in registers by the compiler; a member it
+    // would read again after every number that is written. A matrix of twice as many registers does not fit,
+    // and a copy of it would only cost time.
+    constexpr bool fits = Inlined && blocks_known == 1 && Lanes::in_one_register;
+    const std::conditional_t<fits, Matrix, const Matrix&> matrix = matrix_;
     evaluate_at_stages(evaluate, matrix);
     before_ = rate_;
     measure(together);
@@ -172,11 +177,6 @@ class StageIteration : private StageLayout<T, Components, Stages> {
   }
 
  private:
-  // While a step is solved, a matrix whose columns are a register each is a local variable, which the
-  // compiler keeps in registers; a member it would read again after every number that is written. A matrix of
-  // twice as many registers does not fit, and a copy of it would only cost time.
-  using KeptMatrix = std::conditional_t<blocks_known == 1 && Lanes::in_one_register, Matrix, const Matrix&>;
-
   struct Newton {
     explicit Newton(std::size_t n) : matrix(n), unknowns(n), reference(n), residual(n), correction(n) {}
     LU<Number> matrix;

@@ -167,19 +167,24 @@ TEST(StaticPath, ForcesAtSeveralStagesTogetherAreTheSameBits) {
   expect_same_bits_in_lanes(gauss);
 }
 
-// Sums over stages have one order whether those lie in packs of four or of eight.
-TEST(StaticPath, LanesOfFourAndOfEightAreTheSameBits) {
+// Sums over stages have one order whether those lie in packs of four or of eight, and whether their number
+// and that of the coordinates are known to the compiler or not.
+template <int Stages>
+void expect_one_order_of_sums() {
   Gauss gauss;
-  for (const int stages : {5, 6, 8}) {
-    gauss.stages = stages;
-    gauss.validate();
-    const std::vector<double> four = run_static(gauss, Kepler(), kepler_start, 0.1, 200);
-    EXPECT_EQ(stages == 5   ? run_static(Collocation<5>(), Kepler(), kepler_start, 0.1, 200)
-              : stages == 6 ? run_static(Collocation<6>(), Kepler(), kepler_start, 0.1, 200)
-                            : run_static(Collocation<8>(), Kepler(), kepler_start, 0.1, 200),
-              four)
-        << stages;
-  }
+  gauss.stages = Stages;
+  gauss.validate();
+  const std::vector<double> four = run_static(gauss, Kepler(), kepler_start, 0.1, 200);
+  EXPECT_EQ(run_static(Collocation<Stages>(), Kepler(), kepler_start, 0.1, 200), four) << Stages;
+  EXPECT_EQ(run_registered("gauss", {{"stages", std::to_string(Stages)}}, "kepler", kepler_start, 0.1, 200),
+            four)
+      << Stages;
+}
+TEST(StaticPath, LanesOfFourAndOfEightAreTheSameBits) {
+  expect_one_order_of_sums<5>();
+  expect_one_order_of_sums<6>();
+  expect_one_order_of_sums<8>();
+  expect_one_order_of_sums<12>();
 }
 
 TEST(StaticPath, StagesKnownAtRunTimeTakeTheSameSteps) {
