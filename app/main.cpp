@@ -77,10 +77,7 @@ void load_plugins(const Common& common) {
 }
 
 // Says what is wrong in one line on stderr.
-void complain(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  std::cerr << "pfaff: " << printable(text) << '\n';
-}
+void complain(std::string_view text) { std::cerr << "pfaff: " << printable(on_one_line(text)) << '\n'; }
 
 // CLI11 takes what follows an option for its value even where that is an option itself: `--out -h` would
 // write to a directory of this name. Says so; empty where no option stands in the place of a value.
@@ -128,10 +125,7 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& error, int a
     if (option == nullptr) return unknown_name("option", name, options) + " (of pfaff " + command + ")";
     if (option->get_items_expected_min() > 0 && name == argument) ++k;
   }
-  std::string text = error.what();
-  for (char& c : text)
-    if (c == '\n') c = ' ';
-  return text + " (see pfaff " + command + " --help)";
+  return on_one_line(error.what()) + " (see pfaff " + command + " --help)";
 }
 
 // Does the work and sees to it that all of its output was written; the exit status. Whatever is thrown ends

@@ -9,16 +9,19 @@
 
 namespace pfaff {
 
+/// The text with a space for every line break, which may stand in what it quotes of the user's input.
+std::string on_one_line(std::string_view text);
+
 /// Wrong usage or input (exit status 2): found before work starts.
 class InputError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit InputError(std::string_view text) : std::runtime_error(on_one_line(text)) {}
 };
 
 /// Something went wrong while working (exit status 1), such as a disk that is full.
 class RunError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit RunError(std::string_view text) : std::runtime_error(on_one_line(text)) {}
 };
 
 /// The exception that is being handled, in words: what it says or, where it is none of the standard

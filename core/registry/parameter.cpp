@@ -78,15 +78,12 @@ int depth_of(std::string_view text) {
 }  // namespace
 
 PluginValue parse_plugin_value(const std::string& text, const std::string& what) {
-  // Messages are one line, also about a text that has several.
-  std::string shown = text;
-  std::replace(shown.begin(), shown.end(), '\n', ' ');
   // Each level is made by a call within that of the level around it.
   constexpr int deepest = 8;
   if (depth_of(text) > deepest)
     throw InputError(what + ": expected at most " + std::to_string(deepest) +
-                     " plug-ins inside one another, got '" + shown.substr(0, 60) + "...'");
-  const std::string refused = what + ": expected NAME or NAME(key=value, key=value), got '" + shown + "'";
+                     " plug-ins inside one another, got '" + text.substr(0, 60) + "...'");
+  const std::string refused = what + ": expected NAME or NAME(key=value, key=value), got '" + text + "'";
   const std::string_view whole = trimmed(text);
   const std::size_t open = whole.find('(');
   PluginValue value{std::string(trimmed(whole.substr(0, open)))};

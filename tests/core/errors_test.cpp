@@ -37,6 +37,12 @@ TEST(Errors, UnknownNameSuggestsOrLists) {
   EXPECT_EQ(unknown_name("parameter", "mass", {}), "unknown parameter 'mass'; there is none to choose from");
 }
 
+TEST(Errors, AreOneLineAlsoWhereTheyQuoteSeveral) {
+  EXPECT_STREQ(InputError(unknown_name("system", "kep\nler", system_names)).what(),
+               "unknown system 'kep ler'; did you mean 'kepler'?");
+  EXPECT_STREQ(RunError("cannot write 'a\r\nb'").what(), "cannot write 'a  b'");
+}
+
 TEST(Errors, RegistriesNameTheNearestPlugin) {
   EXPECT_EQ(systems().get("kepler", "system").name(), "kepler");
   EXPECT_EQ(systems().find("keppler"), nullptr);
