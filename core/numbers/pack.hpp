@@ -11,6 +11,7 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <cstring>
 
 #include <pfaff/core/numbers/functions.hpp>
 
@@ -74,6 +75,14 @@ class Pack {
   }
 
   explicit Pack(const Real& x) : Pack(x.value()) {}
+
+  /// W numbers in a row, and the other way round.
+  [[nodiscard]] static Pack load(const double* from) {
+    Pack r;
+    std::memcpy(&r.registers_, from, W * sizeof(double));
+    return r;
+  }
+  void store(double* to) const { std::memcpy(to, &registers_, W * sizeof(double)); }
 
   /// One number in each lane, put together in registers, where set() may go through memory.
   Pack(double first, double second) requires(W == 2) : registers_{{Register{first, second}}} {}

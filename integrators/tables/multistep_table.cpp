@@ -88,8 +88,9 @@ struct MultistepTable {
   template <class P>
   Status recur(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
     const std::size_t n = z.size();
-    for (std::size_t k = 0; k < n; ++k)
-      w.increment[k] = h * w.rates.weighted(w.sigma, k) - w.increments.weighted(w.r, k);
+    w.rates.weighted(w.sigma, w.rate);
+    w.increments.weighted(w.r, w.increment);
+    for (std::size_t k = 0; k < n; ++k) w.increment[k] = h * w.rate[k] - w.increment[k];
     if (!structurally_explicit())
       if (const Status status = solve(p, t, h, z, w); status != Status::converged) return status;
     for (std::size_t k = 0; k < n; ++k) add_to(z[k], w.carry[k], w.increment[k], compensated);

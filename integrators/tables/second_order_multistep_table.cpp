@@ -63,6 +63,23 @@ std::vector<Quad> increment_weights(std::size_t k, std::size_t middle) {
   return sums;
 }
 
+// 1/m of every component of a problem whose velocities are momenta over masses; empty for other problems.
+// Where velocities are linear in the momenta, those at generic momenta tell.
+template <class P>
+std::vector<Scalar<P>> inverse_masses(const P& p) {
+  using T = Scalar<P>;
+  const std::size_t half = p.size() / 2;
+  std::vector<T> momentum(half, T(1)), inverse(half), velocity(half);
+  p.velocity(T(0), momentum, inverse);
+  for (std::size_t k = 0; k < half; ++k) momentum[k] = T(1) + sin(T(static_cast<double>(k + 1))) / T(2);
+  p.velocity(T(0), momentum, velocity);
+  for (std::size_t k = 0; k < half; ++k) {
+    const Value<T> found = value_of(velocity[k]), expected = value_of(inverse[k] * momentum[k]);
+    if (!(abs(found - expected) <= Value<T>(4) * unit_roundoff<T>() * abs(expected))) return {};
+  }
+  return inverse;
+}
+
 struct SecondOrderMultistepTable {
   static constexpr bool fixed_sizes = false;
   std::size_t steps = 2;      // k
@@ -88,8 +105,9 @@ struct SecondOrderMultistepTable {
     std::vector<T> momentum;  // the weights c_j, oldest first
     std::vector<std::vector<T>> starting_increments;
     MultistepHistory<T> forces, increments;  // of the last k states and k - 2 pairs of steps
-    std::vector<T> increment, mean, velocity, carry_position, carry_momentum;
-    std::size_t known = 0;  // forces in a row
+    std::vector<T> sum, increment, mean, velocity, carry_position, carry_momentum;
+    std::vector<T> inverse_mass;  // empty where velocities are not momenta over masses
+    std::size_t known = 0;        // forces in a row
     Continuation<P> continuation;
     pfaff::Work<Collocation<>, P> starting;
 
@@ -105,8 +123,9 @@ struct SecondOrderMultistepTable {
       momentum = converted(momentum_weights(k));
       for (std::size_t j = 0; j + 2 < k; ++j)
         starting_increments.push_back(converted(increment_weights(k, j + 1)));
-      for (std::vector<T>* row : {&increment, &mean, &velocity, &carry_position, &carry_momentum})
+      for (std::vector<T>* row : {&sum, &increment, &mean, &velocity, &carry_position, &carry_momentum})
         row->assign(half, T(0));
+      if constexpr (HasSeparable<P>) inverse_mass = inverse_masses(p);
     }
     static std::vector<T> converted(const std::vector<Quad>& numbers) {
       std::vector<T> list;
@@ -136,8 +155,8 @@ struct SecondOrderMultistepTable {
     } else {
       recur(p, h, z, w);
       add_force(p, t + h, z, w);
-      for (std::size_t c = 0; c < half; ++c)
-        z[half + c] = w.mean[c] + (w.carry_momentum[c] + h * w.forces.weighted(w.momentum, c));
+      w.forces.weighted(w.momentum, w.sum);
+      for (std::size_t c = 0; c < half; ++c) z[half + c] = w.mean[c] + (w.carry_momentum[c] + h * w.sum[c]);
     }
     w.continuation.remember(t + h, h, z);
     return Status::converged;
@@ -157,11 +176,14 @@ struct SecondOrderMultistepTable {
   void begin(const Scalar<P>& h, const State<P>& z, Work<P>& w) const {
     using T = Scalar<P>;
     const std::size_t half = z.size() / 2;
+    w.forces.weighted(w.momentum, w.sum);
     for (std::size_t c = 0; c < half; ++c) {
-      w.mean[c] = z[half + c] - h * w.forces.weighted(w.momentum, c);
+      w.mean[c] = z[half + c] - h * w.sum[c];
       w.carry_position[c] = w.carry_momentum[c] = T(0);
-      for (std::size_t j = 0; j + 2 < steps; ++j)
-        w.increments[j][c] = h * w.forces.weighted(w.starting_increments[j], c);
+    }
+    for (std::size_t j = 0; j + 2 < steps; ++j) {
+      w.forces.weighted(w.starting_increments[j], w.sum);
+      for (std::size_t c = 0; c < half; ++c) w.increments[j][c] = h * w.sum[c];
     }
   }
 
@@ -170,12 +192,16 @@ struct SecondOrderMultistepTable {
   void recur(const P& p, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
     using T = Scalar<P>;
     const std::size_t half = z.size() / 2;
-    for (std::size_t c = 0; c < half; ++c)
-      w.increment[c] = h * w.forces.weighted(w.sigma, c) - w.increments.weighted(w.r, c);
+    w.forces.weighted(w.sigma, w.sum);
+    w.increments.weighted(w.r, w.increment);
+    for (std::size_t c = 0; c < half; ++c) w.increment[c] = h * w.sum[c] - w.increment[c];
     if (!w.increments.empty()) std::copy(w.increment.begin(), w.increment.end(), w.increments.next().begin());
     for (std::size_t c = 0; c < half; ++c)
       add_to(w.mean[c], w.carry_momentum[c], w.increment[c], compensated);
-    p.velocity(T(0), w.mean, w.velocity);
+    if (w.inverse_mass.empty())
+      p.velocity(T(0), w.mean, w.velocity);
+    else
+      for (std::size_t c = 0; c < half; ++c) w.velocity[c] = w.inverse_mass[c] * w.mean[c];
     for (std::size_t c = 0; c < half; ++c) add_to(z[c], w.carry_position[c], h * w.velocity[c], compensated);
   }
 };

@@ -113,6 +113,46 @@ TEST(SecondOrderMultistep, EnergiesStayBounded) {
   EXPECT_GE(adams_late, 10 * adams_early);
 }
 
+// Velocities that are momenta over masses, and velocities that are not: with a coupling both momenta add to
+// both of them, which momenta of the same size do not show.
+struct TwoSprings {
+  static constexpr int dimension = 4;
+  Real coupling = 0;
+  template <class T>
+  T kinetic(const T& /*t*/, In<T> p) const {
+    return p[0] * p[0] + p[1] * p[1] / 6 + T(coupling) * (p[0] * p[1]);
+  }
+  template <class T>
+  T potential(const T& /*t*/, In<T> q) const {
+    return q[0] * q[0] / 2 + q[1] * q[1] * q[1] * q[1] / 4;
+  }
+};
+
+TEST(SecondOrderMultistep, MassesMayBeOneForEachCoordinateOrAMatrix) {
+  const auto method = read_method_table(shipped_tables + "quinlan-tremaine-8.toml")->make({});
+  const auto gauss = integrators().get("gauss", "integrator").make({{"stages", "8"}});
+  std::vector<std::vector<Quad>> ends;
+  for (const Real& coupling : {Real(0), Real::fraction(1, 4)}) {
+    TwoSprings springs;
+    springs.coupling = coupling;
+    const auto model = make_model(
+        {.name = "two-springs", .title = "", .reference = "", .initial = {1, 0.5_r, 0.2_r, 0.3_r}}, springs);
+    const auto end_of = [&](const MethodInstance& instance) {
+      std::vector<Quad> z;
+      for (const Real& x : model->initial()) z.push_back(x.quad());
+      std::int64_t completed = 0;
+      EXPECT_EQ(instance.stepper(model, Quad())->advance(Quad(0), 0, Quad(1) / Quad(64), 128, z, completed),
+                Status::converged);
+      return z;
+    };
+    const std::vector<Quad> ours = end_of(*method), theirs = end_of(*gauss);
+    for (std::size_t k = 0; k < 4; ++k)  // the error of order 8 at this step
+      EXPECT_LT(static_cast<double>(abs(ours[k] - theirs[k])), 1e-12) << k;
+    ends.push_back(ours);
+  }
+  EXPECT_GT(static_cast<double>(abs(ends[0][0] - ends[1][0])), 1e-2);  // the two are different motions
+}
+
 std::string multistep_table(const std::string& numbers) {
   return "name = \"table\"\nkind = \"second-order-multistep\"\nreference = \"none\"\n" + numbers + "\n";
 }
