@@ -11,7 +11,6 @@
 #include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 #include <cmath>
-#include <cstdio>
 #include <memory>
 
 #include <pfaff/core/facets/advance.hpp>
@@ -21,6 +20,7 @@
 #include <pfaff/integrators/runge_kutta/gauss.hpp>
 
 #include "cases.hpp"
+#include "whole_runs.hpp"
 
 namespace {
 using namespace pfaff;
@@ -41,12 +41,6 @@ struct ChartCase {
 const ChartCase pendulum{"damped-pendulum", {{"nu", "0.1"}}, {2, 0}, 40};
 const ChartCase predators{"lotka-volterra", {}, {3, 1}, 20};
 
-std::string step_name(double h) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%g", h);
-  return text.data();
-}
-
 // The largest relative error of the energy, of the states that it is shown.
 class EnergyError {
  public:
@@ -61,28 +55,8 @@ class EnergyError {
   double initial_, largest_ = 0;
 };
 
-// Adds the benchmark of run(z), which goes from z to the end of the run.
-template <class Start, class Run>
-void add_run([[maybe_unused]] const std::string& name, const Start& start, const char* counter, double error,
-             Run run) {
-  [[maybe_unused]] const auto measured = [=](benchmark::State& state) mutable {
-    for (auto _ : state) {
-      Start z = start;
-      benchmark::DoNotOptimize(z.data());
-      run(z);
-      benchmark::DoNotOptimize(z.data());
-    }
-    state.counters["ns_per_run"] =
-        benchmark::Counter(1e-9 * static_cast<double>(state.iterations()),
-                           benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
-    state.counters[counter] = error;
-  };
-#ifndef __clang_analyzer__  // which sees a leak inside Google Benchmark
-  benchmark::RegisterBenchmark(name.c_str(), measured);
-#endif
-}
-
-// A run of fixed steps: steps(z, h, count) takes some of them on end.
+// A run of fixed steps: steps(z, h, first, count) takes some of them on end, of which `first` is the first
+// one's number. A method that carries more than the state from step to step goes on from there.
 template <class Steps>
 void add_orbit(const std::string& method, const std::string& path, double h, Steps steps) {
   const Orbit start = Case<Kepler>::start;
@@ -90,16 +64,16 @@ void add_orbit(const std::string& method, const std::string& path, double h, Ste
   EnergyError error(start);
   Orbit z = start;
   for (std::int64_t k = 0; k < count; ++k) {
-    steps(z, h, 1);
+    steps(z, h, k, 1);
     error(z);
   }
   const volatile double unknown = h;  // the compiler is to compute nothing beforehand
   add_run("kepler-run/" + method + "-h" + step_name(h) + "/" + path, start, "energy_error", error.largest(),
-          [=](Orbit& end) mutable { steps(end, unknown, count); });
+          [=](Orbit& end) mutable { steps(end, unknown, 0, count); });
 }
 
 // Verlet's method with the drifts of neighbouring steps merged, without compensation.
-void verlet_by_hand(Orbit& z, double h, std::int64_t count) {
+void verlet_by_hand(Orbit& z, double h, std::int64_t /*first*/, std::int64_t count) {
   double x = z[0] + h / 2 * z[2], y = z[1] + h / 2 * z[3], u = z[2], v = z[3];
   const auto kick = [&] {
     const double square = x * x + y * y, scale = -h / (square * std::sqrt(square));
@@ -122,13 +96,13 @@ void add_gauss(double h) {
   const P problem;
   const M method;
   add_orbit("gauss-" + std::to_string(2 * Stages), "static", h,
-            [=, work = std::make_shared<Work<M, P>>(method, problem)](Orbit& start, double step,
-                                                                      std::int64_t count) {
-              if (start == Case<Kepler>::start) work->restart();
+            [=, work = std::make_shared<Work<M, P>>(method, problem)](
+                Orbit& start, double step, std::int64_t first, std::int64_t count) {
+              if (first == 0) work->restart();
               State<P> z;
               std::copy(start.begin(), start.end(), z.begin());
               std::int64_t completed = 0;
-              advance(method, problem, 0.0, 0, step, count, z, *work, completed);
+              advance(method, problem, 0.0, first, step, count, z, *work, completed);
               std::copy(z.begin(), z.end(), start.begin());
             });
 }
@@ -143,9 +117,9 @@ void add_registered(const std::string& name, const std::string& integrator, cons
                     double h) {
   const auto stepper =
       stepper_of(systems().get("kepler", "system").make({{"eccentricity", "0.6"}}), integrator, parameters);
-  add_orbit(name, "registered", h, [=](Orbit& z, double step, std::int64_t count) {
+  add_orbit(name, "registered", h, [=](Orbit& z, double step, std::int64_t first, std::int64_t count) {
     std::int64_t completed = 0;
-    stepper->advance(0, 0, step, count, z, completed);
+    stepper->advance(0, first, step, count, z, completed);
   });
 }
 
@@ -187,11 +161,15 @@ void add_in_chart(const ChartCase& which, const std::string& name, const std::st
 bool add_runs() {
   add_orbit("verlet", "by-hand", 0.02, verlet_by_hand);
   add_gauss<6>(0.2);
-  add_gauss<8>(0.2);
-  add_gauss<8>(0.1);
   add_registered("gauss-12", "gauss", {{"stages", "6"}}, 0.2);
-  add_registered("gauss-16", "gauss", {{"stages", "8"}}, 0.2);
-  add_registered("gauss-16", "gauss", {{"stages", "8"}}, 0.1);
+  for (const double h : {0.2, 0.1}) {
+    add_gauss<8>(h);
+    add_registered("gauss-16", "gauss", {{"stages", "8"}}, h);
+  }
+  for (const double h : {0.5, duration / 560, 0.25}) {
+    add_gauss<12>(h);
+    add_registered("gauss-24", "gauss", {{"stages", "12"}}, h);
+  }
   for (const double h : {0.1, 0.05, 0.025})
     add_registered("kahan-li-8", "kahan-li-verlet", {{"order", "8"}}, h);
   for (const double h : {0.1, 0.05}) {
@@ -208,25 +186,26 @@ bool add_runs() {
     });
     add_adaptive("bulirsch-stoer", tolerance, [](double e) { return odeint::bulirsch_stoer<Orbit>(e, e); });
   }
-  for (const double h : {0.4, 0.8})
-    add_in_chart(pendulum, "generating-function-8", "generating-function", {{"order", "8"}, {"extra", "0"}},
-                 h);
-  // Nearly the longest steps that reach 1e-6 and 1e-9.
-  const auto add_gauss_in_chart = [](const ChartCase& which, int stages, double h) {
+  // Nearly the fewest steps with which a method reaches 1e-6 or 1e-9: the fastest methods of each kind, and
+  // Gauss collocation of the orders that the generating functions have.
+  const auto add_gauss_in_chart = [](const ChartCase& which, int stages, int steps) {
     add_in_chart(which, "gauss-" + std::to_string(2 * stages), "gauss-darboux",
-                 {{"stages", std::to_string(stages)}}, h);
+                 {{"stages", std::to_string(stages)}}, which.duration / steps);
   };
-  for (const double h : {0.4, 1.6}) add_gauss_in_chart(pendulum, 8, h);
-  add_gauss_in_chart(pendulum, 4, 0.8);
-  add_gauss_in_chart(predators, 4, 0.4);
-  add_gauss_in_chart(predators, 8, 1.0);
-  add_gauss_in_chart(pendulum, 6, 0.8);
-  add_gauss_in_chart(predators, 6, 20.0 / 29);
-  const Assignments more{{"order", "8"}, {"extra", "4"}}, twelve{{"order", "12"}, {"extra", "0"}};
-  add_in_chart(pendulum, "generating-function-8+4", "generating-function", more, 0.8);
-  for (const double h : {20.0 / 54, 0.2})
-    add_in_chart(predators, "generating-function-8+4", "generating-function", more, h);
-  add_in_chart(pendulum, "generating-function-12", "generating-function", twelve, 0.5);
+  const auto add_generating = [](const ChartCase& which, const std::string& order, const std::string& extra,
+                                 int steps) {
+    add_in_chart(which, "generating-function-" + order + "+" + extra, "generating-function",
+                 {{"order", order}, {"extra", extra}}, which.duration / steps);
+  };
+  for (const int steps : {19, 30}) add_gauss_in_chart(pendulum, 8, steps);
+  add_gauss_in_chart(pendulum, 4, 48);
+  add_gauss_in_chart(pendulum, 6, 46);
+  for (const int steps : {17, 19}) add_gauss_in_chart(predators, 8, steps);
+  add_gauss_in_chart(predators, 4, 46);
+  add_gauss_in_chart(predators, 6, 29);
+  add_generating(pendulum, "8", "0", 62);
+  add_generating(pendulum, "12", "0", 75);
+  for (const int steps : {53, 99}) add_generating(predators, "8", "4", steps);
   return true;
 }
 
