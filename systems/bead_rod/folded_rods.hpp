@@ -15,6 +15,8 @@ namespace pfaff {
 template <int D>
 class FoldedRods {
  public:
+  /// Holds no rods.
+  FoldedRods() = default;
   FoldedRods(const BeadRodDescription& d, const RodGraph& graph) {
     const auto fits = [&](const RodPath& path) { return FoldedPath<D>::fits(d, path); };
     if (!std::ranges::all_of(graph.paths(), fits)) return;

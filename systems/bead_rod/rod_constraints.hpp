@@ -38,8 +38,7 @@ class RodConstraints final : public HolonomicConstraints<T>, public DescribedByR
         hidden_rates_(inverse_masses_of_rod_),
         multipliers_(inverse_masses_of_rod_),
         directions_(description_->rods.size()),
-        turnings_(directions_),
-        folded_(*description_, *graph_) {
+        turnings_(directions_) {
     const BeadRodDescription& d = *description_;
     for (std::size_t k = 0; k < d.rods.size(); ++k) {
       const Rod& rod = d.rods[k];
@@ -55,11 +54,13 @@ class RodConstraints final : public HolonomicConstraints<T>, public DescribedByR
       for (const Real& lambda : d.friction) friction_.insert(friction_.end(), D, T(lambda));
       friction_s_ = std::make_unique<StructuredLDLT<T>>(graph_->pattern());
     }
-    if constexpr (folds)
+    if constexpr (folds) {
+      folded_ = Folded(d, *graph_);
       if (folded_.holds_all() && potentials_.constant()) {
         set_forces({});
         folded_.set_forces(forces_);
       }
+    }
   }
 
   [[nodiscard]] const BeadRodDescription& description() const override { return *description_; }
@@ -125,9 +126,7 @@ class RodConstraints final : public HolonomicConstraints<T>, public DescribedByR
     return reactions == Reactions::ideal ? &ideal_ : nullptr;
   }
   // Folded rings do not tell how they respond.
-  [[nodiscard]] IdealRates<T>* ideal_rates() override {
-    return folds && !folded_.responds() ? nullptr : &ideal_;
-  }
+  [[nodiscard]] IdealRates<T>* ideal_rates() override { return folded_.responds() ? &ideal_ : nullptr; }
 
   [[nodiscard]] std::span<const T> friction() const override { return friction_; }
   Status factor_friction() override {
@@ -302,7 +301,7 @@ class RodConstraints final : public HolonomicConstraints<T>, public DescribedByR
   std::vector<T> skew_;      // A, as S in the order of couplings
   std::vector<T> coupling_;  // 1/m of the shared bead with the sign of the coupling
   std::vector<T> friction_;
-  Folded folded_;
+  Folded folded_;  // without rods where rates are not made in doubles
   HamiltonianRates hamiltonian_{*this};
   Multipliers ideal_{*this};
 };
