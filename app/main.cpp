@@ -125,7 +125,7 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& error, int a
     if (option == nullptr) return unknown_name("option", name, options) + " (of pfaff " + command + ")";
     if (option->get_items_expected_min() > 0 && name == argument) ++k;
   }
-  return on_one_line(error.what()) + " (see pfaff " + command + " --help)";
+  return std::string(error.what()) + " (see pfaff " + command + " --help)";
 }
 
 // Does the work and sees to it that all of its output was written; the exit status. Whatever is thrown ends
