@@ -72,16 +72,7 @@ class RecordedSeries {
   friend RecordedSeries sin(const RecordedSeries& a) { return circular(a).first; }
   friend RecordedSeries cos(const RecordedSeries& a) { return circular(a).second; }
   friend RecordedSeries pow(const RecordedSeries& a, const Real& y) {
-    return made(a, a, [&](std::size_t l, const Numbers& p) {
-      if (l == 0) return pow(a[0], y);
-      Recorded sum(0);
-      for (std::size_t i = 1; i <= l; ++i) {
-        const Real factor =
-            (y * Real(static_cast<int>(i)) - Real(static_cast<int>(l - i))) / Real(static_cast<int>(l));
-        sum = sum + Recorded(factor) * a[i] * p[l - i];
-      }
-      return sum / a[0];
-    });
+    return made(a, a, [&](std::size_t l, const Numbers&) { return power_coefficient(a, y, l); });
   }
   /// The branch that is taken at tau = 0.
   friend RecordedSeries select(const RecordedSeries& condition, const RecordedSeries& positive,
@@ -92,6 +83,14 @@ class RecordedSeries {
   }
 
  private:
+  // Coefficient l of a^y, from those of a^(y - 1), without a division by a_0, which may be 0.
+  static Recorded power_coefficient(const RecordedSeries& a, const Real& y, std::size_t l) {
+    if (l == 0) return pow(a[0], y);
+    Recorded sum(0);
+    for (std::size_t i = 1; i <= l; ++i)
+      sum = sum + y * weight(i, l) * a[i] * power_coefficient(a, y - Real(1), l - i);
+    return sum;
+  }
   // The series whose coefficient l is rule(l, those before it).
   template <class Rule>
   static RecordedSeries made(const RecordedSeries& a, const RecordedSeries& b, Rule&& rule) {

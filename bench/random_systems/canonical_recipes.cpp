@@ -161,13 +161,26 @@ PolynomialSystem detail::transcendental_system(const Recipe& recipe) {
 }
 
 std::string_view to_string(SystemKind kind) {
-  constexpr std::array<std::string_view, system_kinds.size()> names{
-      "separable",    "driven",       "nonseparable",
-      "damped",       "central",      "central-nonseparable",
-      "scaled-form",  "sheared-form", "casimir-bracket",
-      "metriplectic", "field",        "skew-field",
-      "surface",      "revolution",   "rods",
-      "second-class", "rolling",      "transcendental"};
+  constexpr std::array<std::string_view, system_kinds.size()> names{"separable",
+                                                                    "driven",
+                                                                    "nonseparable",
+                                                                    "damped",
+                                                                    "central",
+                                                                    "central-nonseparable",
+                                                                    "scaled-form",
+                                                                    "sheared-form",
+                                                                    "casimir-bracket",
+                                                                    "metriplectic",
+                                                                    "field",
+                                                                    "skew-field",
+                                                                    "surface",
+                                                                    "revolution",
+                                                                    "rods",
+                                                                    "second-class",
+                                                                    "rolling",
+                                                                    "transcendental",
+                                                                    "breathing",
+                                                                    "breathing-surface"};
   return names[static_cast<std::size_t>(kind)];
 }
 
@@ -178,6 +191,7 @@ PolynomialSystem system_of(const Recipe& recipe) {
     case SystemKind::driven:
     case SystemKind::nonseparable:
     case SystemKind::damped:
+    case SystemKind::breathing:
       system = detail::canonical_system(recipe);
       break;
     case SystemKind::central:
@@ -204,6 +218,7 @@ PolynomialSystem system_of(const Recipe& recipe) {
     case SystemKind::rods:
     case SystemKind::second_class:
     case SystemKind::rolling:
+    case SystemKind::breathing_surface:
       system = detail::constrained_system(recipe);
       break;
   }

@@ -152,7 +152,14 @@ PolynomialSystem detail::constrained_system(const Recipe& recipe) {
     make_second_class(system, recipe);
     return system;
   }
-  system.formulas[Formula::kinetic] = {kinetic_of(recipe.masses)};
+  SparsePolynomial kinetic = kinetic_of(recipe.masses);
+  if (recipe.kind == SystemKind::breathing_surface) {
+    // A factor leaves momenta tangent that are tangent at time 0.
+    const std::size_t d = kinetic.variables(), time = d;
+    kinetic =
+        (SparsePolynomial::constant(d, 1) + recipe.rate * SparsePolynomial::variable(d, time)) * kinetic;
+  }
+  system.formulas[Formula::kinetic] = {kinetic};
   if (recipe.kind == SystemKind::rods) {
     make_rods(system, recipe);
   } else if (recipe.kind == SystemKind::revolution) {

@@ -22,6 +22,7 @@ class Drawing {
       case SystemKind::separable:
       case SystemKind::driven:
       case SystemKind::damped:
+      case SystemKind::breathing:
         energies(degrees());
         break;
       case SystemKind::nonseparable:
@@ -134,7 +135,9 @@ class Drawing {
     SparsePolynomial kinetic = squares(d), potential = terms(d, 2, 4, 2 + size_);
     if (d > 1 && below(2) == 0) kinetic.add({1, 1, 0}, Real::fraction(1, 3));
     if (size_ > 0 && below(2) == 0) kinetic = kinetic + Real::fraction(1, 4) * terms(d, 3, 4, 1);
-    if (recipe_.kind == SystemKind::driven) potential = driven(potential, 1, 3);
+    const bool breathing = recipe_.kind == SystemKind::breathing;
+    if (breathing) kinetic = driven(kinetic, 2, 3);
+    if (breathing || recipe_.kind == SystemKind::driven) potential = driven(potential, 1, 3);
     recipe_.parts = {{kinetic}, {potential}};
   }
   // One function of a momentum and, with the size, more of positions, each in a term of its own beside those
@@ -213,10 +216,12 @@ class Drawing {
       for (int k = 0; k < 2; ++k) recipe_.parts.push_back({without_last_pair(n)});
       return;
     }
-    const std::size_t d = recipe_.kind == SystemKind::surface && size_ == 0 ? 2 : 3;
+    const bool surfaces =
+        recipe_.kind == SystemKind::surface || recipe_.kind == SystemKind::breathing_surface;
+    const std::size_t d = surfaces && size_ == 0 ? 2 : 3;
     dimension(2 * d);
     for (std::size_t k = 0; k < d; ++k) recipe_.masses.push_back(pick({1, 2, Real::fraction(1, 2)}));
-    if (recipe_.kind == SystemKind::surface) {
+    if (surfaces) {
       recipe_.parts = {{terms(d, 1, 3, 2)}, {squares(d)}};
       SparsePolynomial& surface = recipe_.parts[1][0];
       surface = surface + Real::fraction(1, 3) * terms(d, 3, 3, 1 + size_);

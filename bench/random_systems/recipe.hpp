@@ -34,15 +34,30 @@ enum class SystemKind {
   rods,                  // beads on a plane and rods between them, or to the origin
   second_class,          // q_d + f = const and p_d + g = const, f and g functions of the other variables
   rolling,               // velocity constraints A(q) v = 0
-  transcendental         // T(p) + V(q), polynomials of p and q and of functions of single components
+  transcendental,        // T(p) + V(q), polynomials of p and q and of functions of single components
+  breathing,             // H = T(p, t) + V(q, t)
+  breathing_surface      // a surface with T = (1 + r t) |p|^2/(2 m)
 };
-inline constexpr std::array system_kinds{
-    SystemKind::separable,    SystemKind::driven,       SystemKind::nonseparable,
-    SystemKind::damped,       SystemKind::central,      SystemKind::central_nonseparable,
-    SystemKind::scaled_form,  SystemKind::sheared_form, SystemKind::casimir_bracket,
-    SystemKind::metriplectic, SystemKind::field,        SystemKind::skew_field,
-    SystemKind::surface,      SystemKind::revolution,   SystemKind::rods,
-    SystemKind::second_class, SystemKind::rolling,      SystemKind::transcendental};
+inline constexpr std::array system_kinds{SystemKind::separable,
+                                         SystemKind::driven,
+                                         SystemKind::nonseparable,
+                                         SystemKind::damped,
+                                         SystemKind::central,
+                                         SystemKind::central_nonseparable,
+                                         SystemKind::scaled_form,
+                                         SystemKind::sheared_form,
+                                         SystemKind::casimir_bracket,
+                                         SystemKind::metriplectic,
+                                         SystemKind::field,
+                                         SystemKind::skew_field,
+                                         SystemKind::surface,
+                                         SystemKind::revolution,
+                                         SystemKind::rods,
+                                         SystemKind::second_class,
+                                         SystemKind::rolling,
+                                         SystemKind::transcendental,
+                                         SystemKind::breathing,
+                                         SystemKind::breathing_surface};
 /// "separable", "second-class", ...
 std::string_view to_string(SystemKind kind);
 
@@ -59,7 +74,7 @@ struct Recipe {
   std::vector<Real> masses;  // of positions, or of beads, where constraints restrict them
   /// Of the variables of each part, those that stand in its polynomials behind them; of kind transcendental.
   std::vector<std::vector<AppliedFunction>> applied;
-  Real rate;                                              // of friction, or the strength of a relaxation
+  Real rate;  // of friction or of a growing kinetic energy, or the strength of a relaxation
   std::vector<std::pair<std::size_t, std::size_t>> rods;  // between beads; the last index is the origin
 };
 

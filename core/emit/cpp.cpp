@@ -1,7 +1,10 @@
 // Equations as a C++ function.
+#include <algorithm>
+
 #include <pfaff/core/emit/cpp_function.hpp>
 #include <pfaff/core/emit/emitter.hpp>
 #include <pfaff/core/emit/names.hpp>
+#include <pfaff/core/numbers/functions.hpp>
 
 namespace pfaff {
 
@@ -48,8 +51,14 @@ std::string write_cpp(const Equations& equations) {
       "//\n// Results may lie where the state does. Compile with -ffp-contract=off for the numbers of "
       "Pfaff.\n";
   text += "#include <cmath>\n\n";
-  if (const std::string solver = cpp_solver(equations.tape); !solver.empty())
-    text += "namespace {\n\n" + solver + "}  // namespace\n\n";
+  std::string helpers = cpp_solver(equations.tape);
+  const Tape& tape = equations.tape;
+  if (std::any_of(tape.code.begin(), tape.code.end(), [&tape](const Instruction& i) {
+        return i.operation == Operation::power &&
+               is_small_half_integer(tape.constants[static_cast<std::size_t>(i.b)]);
+      }))
+    helpers += cpp_half_power("std::");
+  if (!helpers.empty()) text += "namespace {\n\n" + helpers + "}  // namespace\n\n";
   return text + cpp_function(equations.tape, plan, language, interface, text_name.slots);
 }
 

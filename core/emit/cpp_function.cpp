@@ -16,7 +16,7 @@ const std::string_view cpp_reserved =
     "unsigned "
     "using virtual void volatile wchar_t while xor xor_eq std NAN INFINITY EOF errno assert linux unix "
     "sqrt exp log sin cos pow abs fabs state parameters results shared arguments solve main as_lanes "
-    "choose_lanes each_lane lane_of lane_count lanes4 lanes8";
+    "choose_lanes each_lane lane_of lane_count lanes4 lanes8 half_power";
 
 Phrase Cpp::number(const Real& value) const {
   const double x = value.value();
@@ -30,6 +30,8 @@ Phrase Cpp::function(Operation operation, const Phrase& argument) const {
   return {prefix_ + std::string(usual_name(operation)) + "(" + argument.text + ")", Strength::atom};
 }
 Phrase Cpp::power(const Phrase& base, const Real& exponent) const {
+  if (is_small_half_integer(exponent))
+    return {"half_power(" + base.text + ", " + std::to_string(exponent.numerator()) + ")", Strength::atom};
   return {prefix_ + "pow(" + base.text + ", " + double_text(exponent) + ")", Strength::atom};
 }
 Phrase Cpp::choice(const Phrase& condition, const Phrase& positive, const Phrase& otherwise) const {
@@ -47,6 +49,22 @@ Plan cpp_plan(const Tape& tape, const Cpp& language) {
   PlanRules rules = language.rules();
   rules.name_outputs = cut_into_parts(tape);
   return {tape, rules};
+}
+
+std::string cpp_half_power(const std::string& prefix) {
+  return R"(// x^(n/2) for odd n, by products and a root.
+template <class N>
+inline N half_power(const N& x, int n) {
+  N result = )" +
+         prefix + R"(sqrt(x), square = x;
+  for (int whole = (n < 0 ? -n : n) / 2; whole > 0; whole /= 2) {
+    if (whole % 2 == 1) result = result * square;
+    if (whole > 1) square = square * square;
+  }
+  return n < 0 ? 1.0 / result : result;
+}
+
+)";
 }
 
 std::string cpp_solver(const Tape& tape) {

@@ -63,6 +63,9 @@ Plan cpp_plan(const Tape& tape, const Cpp& language);
 std::string cpp_function(const Tape& tape, const Plan& plan, const Cpp& language,
                          const CppInterface& interface, std::vector<std::string> names);
 
+/// The function template half_power, with which powers of half an integer are written.
+std::string cpp_half_power(const std::string& prefix);
+
 /// The function template that solves linear systems; empty where the tape has none.
 std::string cpp_solver(const Tape& tape);
 

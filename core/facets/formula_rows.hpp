@@ -52,8 +52,8 @@
 
 PFAFF_FACET(vector_field, "vector-field", "dz/dt = X(z, t)")
 PFAFF_FACET(hamiltonian, "hamiltonian", "an energy and the bracket that makes X of it")
-PFAFF_FACET(separable, "separable", "canonical, H = T(p) + V(q, t)")
-PFAFF_FACET(conformal, "conformal", "q' = T_p(p), p' = -V_q(q, t) - nu p: the canonical structure times e^{nu t} is kept")
+PFAFF_FACET(separable, "separable", "canonical, H = T(p, t) + V(q, t)")
+PFAFF_FACET(conformal, "conformal", "q' = T_p(p, t), p' = -V_q(q, t) - nu p: the canonical structure times e^{nu t} is kept")
 PFAFF_FACET(structure, "structure", "K(z, t) zdot + D(z, t) = 0, self-adjoint: K skew and closed, d_t K = D_z - D_z^T")
 PFAFF_FACET(birkhoffian, "birkhoffian", "that of the action of F(z, t).dz - B(z, t) dt: K = dF, D = -(grad B + F_t)")
 PFAFF_FACET(darboux_chart, "darboux-chart", "coordinates y in which the structure is constant and canonical")
@@ -80,7 +80,7 @@ PFAFF_BRACKET(poisson_tensor, bracket, BracketMatrix, n * n, .offered_by = facet
 // What the bracket keeps whatever the energy: Pi grad C = 0. Where it says how many, casimir_count(), and which,
 // casimirs(t, z, values).
 PFAFF_BRACKET(casimirs, bracket, BracketCasimirs, casimirs, .part_of = facets(Facet::hamiltonian))
-// H = T(p) + V(q, t), the force -dV/dq and the velocity dT/dp.
+// H = T(p, t) + V(q, t), the force -dV/dq and the velocity dT/dp.
 PFAFF_VALUE(kinetic, p, n / 2, .part_of = facets(Facet::separable, Facet::conformal))
 PFAFF_VALUE(potential, q, n / 2, .part_of = facets(Facet::separable, Facet::conformal))
 PFAFF_MAP(force, q, n / 2, f, n / 2, .compiled = true, .in_lanes = true, .offered_by = facets(Facet::separable), .part_of = facets(Facet::conformal), .counts = Counts::field)

@@ -162,7 +162,7 @@ class Model {
   /// True where there is an energy H(z, t), tape(Formula::hamiltonian), whatever else takes part in the
   /// motion.
   [[nodiscard]] bool has_energy() const { return content_.has(Facet::hamiltonian); }
-  /// True for an H = T(p) + V(q, t) in canonical coordinates, constrained or not.
+  /// True for an H = T(p, t) + V(q, t) in canonical coordinates, constrained or not.
   [[nodiscard]] bool separable_energy() const { return content_.has(Facet::separable); }
   /// True where no coefficient of friction can differ from zero.
   [[nodiscard]] bool frictionless() const;

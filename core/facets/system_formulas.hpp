@@ -36,7 +36,7 @@ constexpr void check_formulas() {
   constexpr bool separable = names<S, kinetic> && !NamedDamping::named<S>;
   constexpr bool canonical = separable || (names<S, hamiltonian> && !names<S, poisson_tensor>);
   static_assert(names<S, kinetic> == names<S, potential>,
-                "kinetic and potential belong together, H = T(p) + V(q, t): one of them is missing");
+                "kinetic and potential belong together, H = T(p, t) + V(q, t): one of them is missing");
   static_assert(names<S, birkhoffian> == names<S, one_form>,
                 "birkhoffian and one_form belong together, F.dz - B dt: one of them is missing");
   static_assert(names<S, structure> == names<S, covector>,

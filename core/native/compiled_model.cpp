@@ -153,7 +153,7 @@ NativeText text_of(const Model& model) {
       "noexcept;\n"
       "double sin(double) noexcept;\ndouble cos(double) noexcept;\ndouble pow(double, double) "
       "noexcept;\n}\n\n" +
-      in_lanes + solver + functions + result.series.text;
+      in_lanes + cpp_half_power("") + solver + functions + result.series.text;
   return result;
 }
 

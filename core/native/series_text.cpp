@@ -37,6 +37,16 @@ template <class P> INLINE double total(const P& x) {
   for (unsigned lane = 1; lane < sizeof(P) / sizeof(double); ++lane) sum += x[lane];
   return sum;
 }
+INLINE bool nothing(double x) { return x == 0.0; }
+template <class P> INLINE bool nothing(const P& x) {
+  bool all = true;
+  for (unsigned lane = 0; lane < sizeof(P) / sizeof(double); ++lane) all = all && x[lane] == 0.0;
+  return all;
+}
+INLINE double number_power(double x, double e) {
+  const int n = e > -17.0 && e < 17.0 ? static_cast<int>(2.0 * e) : 0;
+  return n % 2 != 0 && n == 2.0 * e ? half_power(x, n) : pow(x, e);
+}
 template <class P, class L> INLINE P constant(double c, L l) { return P{} + (l == 0 ? c : 0.0); }
 template <class P, class L> INLINE P shifted(double c, const P* a, L l) { return l == 0 ? c + a[0] : a[l]; }
 template <class P, class L> INLINE P reflected(double c, const P* a, L l) { return l == 0 ? c - a[0] : -a[l]; }
@@ -76,7 +86,12 @@ template <class P, class L> INLINE P logarithm(const P* a, const P* r, L l) {
   return (a[l] - sum * (1.0 / l)) / a[0];
 }
 template <class P, class L> INLINE P power(const P* a, double e, const P* r, L l) {
-  if (l == 0) return each(a[0], [e](double x) { return pow(x, e); });
+  if (l == 0) return each(a[0], [e](double x) { return number_power(x, e); });
+  if (nothing(a[0])) {
+    int m = 1;
+    while (m <= l && nothing(a[m])) ++m;
+    if (m * e > l) return P{};
+  }
   P sum = P{};
   for (int i = 1; i <= l; ++i) sum = sum + (i * e - (l - i)) * a[i] * r[l - i];
   return sum / ((1.0 * l) * a[0]);

@@ -75,6 +75,9 @@ Value<T> value_of(const Dual<T, N>& x) {
   return value_of(x.value);
 }
 
+template <class T, int N>
+inline constexpr int derivative_depth<Dual<T, N>> = 1 + derivative_depth<T>;
+
 /// f(x) with f and f' at the value given: the chain rule.
 template <class T, int N>
 Dual<T, N> chain(const Dual<T, N>& x, const T& f, const T& slope) {

@@ -44,9 +44,28 @@ using std::pow;
 using std::sin;
 using std::sqrt;
 
+/// True for the exponents n/2 with odd n that are taken by products and a root.
+inline bool is_small_half_integer(const Real& y) {
+  return y.is_fraction() && y.denominator() == 2 && y.numerator() <= 32 && y.numerator() >= -32;
+}
+/// x^(n/2) for odd n. Emitted code has the same (core/emit/cpp_function.cpp).
+template <class T>
+T half_power(const T& x, int n) {
+  T result = sqrt(x), square = x;
+  for (int whole = (n < 0 ? -n : n) / 2; whole > 0; whole /= 2) {
+    if (whole % 2 == 1) result = result * square;
+    if (whole > 1) square = square * square;
+  }
+  return n < 0 ? T(1) / result : result;
+}
+
 /// x^y for a constant exponent; the form every scalar offers.
-inline double pow(double x, const Real& y) { return std::pow(x, y.value()); }
-inline Quad pow(Quad x, const Real& y) { return pow(x, y.quad()); }
+inline double pow(double x, const Real& y) {
+  return is_small_half_integer(y) ? half_power(x, static_cast<int>(y.numerator())) : std::pow(x, y.value());
+}
+inline Quad pow(Quad x, const Real& y) {
+  return is_small_half_integer(y) ? half_power(x, static_cast<int>(y.numerator())) : pow(x, y.quad());
+}
 
 /// The branch of a formula: `positive` where condition > 0, `otherwise` elsewhere (both are evaluated).
 inline double select(double condition, double positive, double otherwise) {
@@ -82,6 +101,10 @@ struct ValueOf {
 };
 template <class T>
 using Value = typename ValueOf<T>::type;
+
+/// The highest derivative that a scalar carries along: 0 for plain numbers.
+template <class T>
+inline constexpr int derivative_depth = 0;
 
 /// The number under a scalar, derivatives dropped.
 inline double value_of(double x) { return x; }

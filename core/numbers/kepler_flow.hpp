@@ -18,12 +18,14 @@
 //
 // The equation for s has one root, since dh/ds = r > 0. Laguerre's method of degree 5 finds it (conway1986),
 // inside a bracket that halves where a step would leave it, so that it converges from any state and time. Of
-// ellipses whole periods are taken off the time first. The last digits are Newton's, in the scalar itself,
-// which for a dual number gives the derivative of the root.
+// ellipses whole periods are taken off the time first, N of them with N times the error of the period, which
+// is therefore computed with twice the digits. The last digits are Newton's, in the scalar itself, which for
+// a dual number gives the derivative of the root.
 //
-// Limits: the phase after many periods is as good as the period, which is wrong by some round-off in each. A
-// hyperbola of several times the speed of escape that comes in from afar and goes out again in one flow loses
-// digits, as the product of both distances over the square of the smallest one.
+// Limits: a state that is rounded has another period, so that flows of N periods one after another, or of
+// coordinates that were transformed, have phases wrong by N round-offs and more. A hyperbola of several times
+// the speed of escape that comes in from afar and goes out again in one flow loses digits, as the product of
+// both distances over the square of the smallest one.
 #pragma once
 
 #include <array>
@@ -33,6 +35,7 @@
 
 #include <pfaff/core/errors/status.hpp>
 #include <pfaff/core/numbers/functions.hpp>
+#include <pfaff/core/numbers/two_terms.hpp>
 
 namespace pfaff {
 
@@ -139,13 +142,28 @@ V universal_anomaly(const V& r0, const V& eta, const V& zeta, const V& mu, const
 
 }  // namespace detail
 
+/// h less `turns` periods of the ellipse through (q, v), rounded once.
+template <class V>
+V time_after_turns(const TwoTerms<V>& mu, const V& h, std::span<const TwoTerms<V>> q,
+                   std::span<const TwoTerms<V>> v, const V& turns) {
+  TwoTerms<V> distance, speed;
+  for (std::size_t x = 0; x < q.size(); ++x) {
+    distance = distance + q[x] * q[x];
+    speed = speed + v[x] * v[x];
+  }
+  const TwoTerms<V> two(V(2)), beta = two * mu / sqrt(distance) - speed;
+  const TwoTerms<V> period = two * TwoTerms<V>::pi() * mu / (beta * sqrt(beta));
+  return (TwoTerms<V>(h) - TwoTerms<V>(turns) * period).high;
+}
+
 /// The flow of q'' = -mu q/|q|^3, mu >= 0, for the time h of either sign, in as many dimensions as q has: dq
 /// and dv are the changes of q and v, and bend is what dq has beyond the uniform motion, dq - h v. The status
 /// is `not_converged` where the root was not found or the time is more periods than a double counts, and
-/// `non_finite` where the state has no orbit or ends in a collision.
-template <class T>
+/// `non_finite` where the state has no orbit or ends in a collision. after_turns(N) is h less N periods as
+/// rounded once; who has rounded mu, q or v itself knows the period better than these tell.
+template <class T, class AfterTurns>
 Status kepler_change(const T& mu, const T& h, std::span<const T> q, std::span<const T> v, std::span<T> dq,
-                     std::span<T> bend, std::span<T> dv) {
+                     std::span<T> bend, std::span<T> dv, const AfterTurns& after_turns) {
   using V = Value<T>;
   static const V pi(3.14159265358979323846264338327950288_r);
   T distance(0), eta(0), speed(0);
@@ -168,6 +186,7 @@ Status kepler_change(const T& mu, const T& h, std::span<const T> q, std::span<co
       // More turns than a double counts leave no phase.
       if (!(std::abs(turns) < 0x1p52)) return Status::not_converged;
       time = h - T(V(turns)) * period;
+      time = time + T(after_turns(V(turns)) - value_of(time));
       periods_off = true;
     }
     largest = V(2) * pi / value_of(root);
@@ -219,6 +238,22 @@ Status kepler_change(const T& mu, const T& h, std::span<const T> q, std::span<co
   for (std::size_t x = 0; x < q.size(); ++x)
     if (!isfinite(value_of(bend[x])) || !isfinite(value_of(dv[x]))) return Status::non_finite;
   return Status::converged;
+}
+
+/// The same where mu, q and v, in up to three dimensions, are what is meant to the last digit.
+template <class T>
+Status kepler_change(const T& mu, const T& h, std::span<const T> q, std::span<const T> v, std::span<T> dq,
+                     std::span<T> bend, std::span<T> dv) {
+  using V = Value<T>;
+  return kepler_change(mu, h, q, v, dq, bend, dv, [&](const V& turns) {
+    std::array<TwoTerms<V>, 3> place, speed;
+    for (std::size_t x = 0; x < q.size(); ++x) {
+      place[x] = value_of(q[x]);
+      speed[x] = value_of(v[x]);
+    }
+    return time_after_turns<V>(value_of(mu), value_of(h), std::span<const TwoTerms<V>>(place),
+                               std::span<const TwoTerms<V>>(speed), turns);
+  });
 }
 
 }  // namespace pfaff

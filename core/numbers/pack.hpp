@@ -185,6 +185,7 @@ class Pack {
   }
   /// x^y for a constant exponent.
   friend Pack pow(const Pack& a, const Real& y) {
+    if (is_small_half_integer(y)) return half_power(a, static_cast<int>(y.numerator()));
     return a.each([e = y.value()](double x) { return std::pow(x, e); });
   }
 

@@ -156,17 +156,17 @@ class OnlineSeries {
   /// a^y for a constant exponent.
   friend OnlineSeries pow(const OnlineSeries& a, const Real& y) {
     const double e = y.value();
-    if (a.is_constant()) return number(std::pow(a.constant_, e));
+    if (a.is_constant()) return number(pow(a.constant_, y));
     const OnlineSeries r = a.same_kind();
     if (!r.active()) return r;
     const int l = a.level();
     if (l == 0) {
-      r.store(a.first([e](double x) { return std::pow(x, e); }));
+      r.store(a.first([&y](double x) { return pow(x, y); }));
       return r;
     }
     P sum(0);
     for (int i = 1; i <= l; ++i) sum = sum + P(i * e - (l - i)) * a.at(i) * r.at(l - i);
-    r.store(sum / (P(l) * a.at(0)));
+    r.store(a.flat(l, e) ? P(0) : sum / (P(l) * a.at(0)));
     return r;
   }
   friend OnlineSeries sin(const OnlineSeries& a) {
@@ -233,6 +233,18 @@ class OnlineSeries {
   [[nodiscard]] OnlineSeries same_kind() const { return next_slot(of_time_); }
   [[nodiscard]] OnlineSeries kind_with(const OnlineSeries& o) const {
     return next_slot(of_time_ && o.of_time());
+  }
+  // True where coefficient l of this to the power e is 0 because the series begins with 0 (series.hpp).
+  [[nodiscard]] bool flat(int l, double e) const {
+    if (at(0)[0] != 0) return false;
+    int m = 1;
+    const auto zero = [](const P& x) {
+      bool all = true;
+      for (std::size_t lane = 0; lane < W; ++lane) all = all && x[lane] == 0;
+      return all;
+    };
+    while (m <= l && zero(at(m))) ++m;
+    return m * e > l;
   }
   // f at level 0, where all lanes have the same number.
   template <class F>

@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <utility>
+
+#include <pfaff/core/tape/operands.hpp>
 
 namespace pfaff {
 
@@ -91,11 +95,13 @@ Recorded cos(const Recorded& x) {
 
 Recorded pow(const Recorded& x, const Real& y) {
   if (x.is_constant()) return Recorded(pow(x.constant(), y));
-  const bool small = y.is_fraction() && y.denominator() <= 2 && std::abs(y.numerator()) <= 32;
+  if (y == Real::fraction(1, 2)) return sqrt(x);
+  const bool small = y.is_fraction() && y.denominator() == 1 && std::abs(y.numerator()) <= 32;
+  // Powers that are no products stay powers, also those of half an integer: the derivative of x^2 sqrt x, as
+  // that of a product with a root, is 0/0 at 0, where that of x^(5/2) is 0.
   if (!small) return x.recorder()->append({Operation::power, x.slot(), x.recorder()->constant_index(y), 0});
-  const auto magnitude = std::abs(y.numerator());
-  auto whole = y.denominator() == 1 ? magnitude : magnitude / 2;
-  Recorded result = y.denominator() == 1 ? Recorded(1) : sqrt(x);
+  auto whole = std::abs(y.numerator());
+  Recorded result(1);
   for (Recorded square = x; whole > 0; whole /= 2, square = whole > 0 ? square * square : square)
     if (whole % 2 == 1) result = result * square;
   return y.numerator() < 0 ? Recorded(1) / result : result;
@@ -171,6 +177,45 @@ std::vector<Recorded> solve(std::span<const Recorded> matrix, std::span<const Re
   return recorder->append_solve(std::move(system));
 }
 
+namespace {
+// True where the formula of a slot has a value for every time and state: it is made of operations that have
+// one for every argument.
+bool defined_everywhere(const std::vector<Instruction>& code, int slot) {
+  std::vector<char> seen(static_cast<std::size_t>(slot) + 1, 0);
+  std::vector<int> open{slot};
+  while (!open.empty()) {
+    const auto k = static_cast<std::size_t>(open.back());
+    open.pop_back();
+    if (std::exchange(seen[k], 1) != 0) continue;
+    const Instruction& i = code[k];
+    switch (i.operation) {
+      case Operation::divide:
+        if (code[static_cast<std::size_t>(i.b)].operation != Operation::constant) return false;
+        open.push_back(i.a);
+        break;
+      case Operation::square_root:
+      case Operation::logarithm:
+      case Operation::power:
+      case Operation::solve:
+      case Operation::solve_next:
+        return false;
+      default:
+        operands(i, {}, [&](int operand) { open.push_back(operand); });
+    }
+  }
+  return true;
+}
+}  // namespace
+
+Recorded nothing_of(const Recorded& x) {
+  return x.is_constant() ? Recorded(0) : x.recorder()->append_nothing_of(x.slot());
+}
+
+Recorded Recorder::append_nothing_of(int slot) {
+  if (defined_everywhere(code_, slot)) return Recorded(0);
+  return append({Operation::multiply, slot_of(Recorded(0)), slot, 0});
+}
+
 Recorder::Recorder(int inputs) : inputs_(inputs) {
   // Room for what the formulas of many variables record, some tens of instructions for each. What is not used
   // of it costs nothing, while moving the code of a long chain to larger and larger memory takes a third of
@@ -188,12 +233,19 @@ std::vector<Recorded> Recorder::inputs() {
   return z;
 }
 
+std::size_t Recorder::ConstantHash::operator()(const Real& x) const {
+  // Equal constants have equal doubles, of zeros up to the sign.
+  return std::hash<double>()(x.value() == 0 ? 0.0 : x.value());
+}
+bool Recorder::SameConstant::operator()(const Real& a, const Real& b) const {
+  return a == b && a.is_fraction() == b.is_fraction();
+}
+
 int Recorder::constant_index(const Real& value) {
-  for (std::size_t k = 0; k < constants_.size(); ++k)
-    if (constants_[k] == value && constants_[k].is_fraction() == value.is_fraction())
-      return static_cast<int>(k);
-  constants_.push_back(value);
-  return static_cast<int>(constants_.size()) - 1;
+  // A NaN equals nothing, itself included, and so is a new constant each time.
+  const auto [found, added] = constant_places_.try_emplace(value, static_cast<int>(constants_.size()));
+  if (added) constants_.push_back(value);
+  return found->second;
 }
 
 int Recorder::slot_of(const Recorded& x) {

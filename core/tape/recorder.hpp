@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -113,11 +114,15 @@ Recorded exp(const Recorded& x);
 Recorded log(const Recorded& x);
 Recorded sin(const Recorded& x);
 Recorded cos(const Recorded& x);
-/// x^y: small integer and half-integer powers become products and a square root.
+/// x^y: small integer powers become products, the power 1/2 a square root.
 Recorded pow(const Recorded& x, const Real& y);
 Recorded pow(const Recorded& x, const Recorded& y);
 Recorded select(const Recorded& condition, const Recorded& positive, const Recorded& otherwise);
 inline bool structurally_zero(const Recorded& x) { return x.is(0); }
+/// 0, with the domain of x: where x has no value the product 0 x is recorded, and so has none either. A
+/// product with a zero is a plain 0, as sparse matrices and their derivatives are made of such products; who
+/// takes the words of an author, who may mean a domain by them, asks for this one.
+Recorded nothing_of(const Recorded& x);
 
 /// Solves the n x n system `matrix` (row-major) x = `right_hand_side`; a matrix with one entry in every row
 /// and column becomes divisions, everything else one pivoted solve when the tape is replayed.
@@ -138,6 +143,7 @@ class Recorder {
   /// The slot of an instruction, shared with an equal earlier one.
   Recorded append(const Instruction& instruction);
   Recorded append_sine(int argument, bool cosine);
+  Recorded append_nothing_of(int slot);
   std::vector<Recorded> append_solve(LinearSystem system);
   int constant_index(const Real& value);
 
@@ -145,10 +151,18 @@ class Recorder {
   Tape finish(std::span<const Recorded> outputs);
 
  private:
+  struct ConstantHash {
+    std::size_t operator()(const Real& x) const;
+  };
+  struct SameConstant {
+    bool operator()(const Real& a, const Real& b) const;
+  };
+
   int inputs_;
   int time_slot_ = 0;
   std::vector<Instruction> code_;
   std::vector<Real> constants_;
+  std::unordered_map<Real, int, ConstantHash, SameConstant> constant_places_;
   std::vector<LinearSystem> solves_;
   InstructionIndex known_;
 };

@@ -136,6 +136,13 @@ class Replay {
     return false;
   }
 
+  // A product with a zero that is recorded says that its domain counts, and is recorded anew.
+  T product(const ScheduledInstruction& i, const T* x) const {
+    if constexpr (std::is_same_v<T, Recorded>)
+      if (i.a < tape_->time_begin && x[i.a].is(0)) return nothing_of(x[i.b]);
+    return x[i.a] * x[i.b];
+  }
+
   void run(const Schedule& schedule, const T* z) {
     T* x = slots_.data();
     for (const OperationRun& of_one : schedule.runs) {
@@ -162,7 +169,7 @@ class Replay {
           for (; i != end; ++i) x[i->slot] = x[i->a] - x[i->b];
           break;
         case Operation::multiply:
-          for (; i != end; ++i) x[i->slot] = x[i->a] * x[i->b];
+          for (; i != end; ++i) x[i->slot] = product(*i, x);
           break;
         case Operation::divide:
           for (; i != end; ++i) x[i->slot] = x[i->a] / x[i->b];

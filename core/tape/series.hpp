@@ -9,6 +9,9 @@
 // Recurrences at level l, sums over i: product sum a_i b_{l-i}; quotient (a_l - sum_{i>=1} b_i q_{l-i}) /
 // b_0; exp (1/l) sum i a_i e_{l-i}; sine and cosine coupled; log, sqrt; a^r: sum (i r - (l - i)) a_i p_{l-i}
 // / (l a_0); linear solve A_0 x_l = b_l - sum_{i>=1} A_i x_{l-i} with one factorisation of A_0.
+//
+// Where a_0 = 0 and a_m is the first coefficient that is not, a^r is of degree m r: its coefficients below
+// are 0, and others are given only where a_0 is not 0.
 #pragma once
 
 #include <cstddef>
@@ -21,6 +24,16 @@
 #include <pfaff/core/tape/tape.hpp>
 
 namespace pfaff {
+
+/// True where coefficient l of a^r is 0 because a_0 is, whatever the coefficients of a are that are not zero,
+/// a_i = a[i step]. The derivatives that a scalar carries are coefficients of r a^(r - 1), and so on.
+template <class T>
+bool flat_power(const T* a, std::size_t step, std::size_t l, double r) {
+  if (value_of(a[0]) != Value<T>(0)) return false;
+  std::size_t m = 1;
+  while (m <= l && value_of(a[m * step]) == Value<T>(0)) ++m;
+  return static_cast<double>(m) * (r - derivative_depth<T>) > static_cast<double>(l);
+}
 
 template <class T>
 class SeriesReplay {
@@ -262,7 +275,11 @@ class SeriesReplay {
         const T r(tape_->constants[static_cast<std::size_t>(i.b)]);
         each([](std::size_t) { return T(0); });
         convolve(x, a, x0, l, 1, l, [&](std::size_t n) { return index(n) * r - index(l - n); });
-        each([&, order = index(l)](std::size_t n) { return x[n] / (order * a[n]); });
+        each([&, order = index(l)](std::size_t n) {
+          return flat_power(a + n, lanes_, l, tape_->constants[static_cast<std::size_t>(i.b)].value())
+                     ? T(0)
+                     : x[n] / (order * a[n]);
+        });
         break;
       }
       case Operation::select: {

@@ -153,6 +153,8 @@ Recorded Scope::sum(const Expression& of, const Node& node) {
   for (std::size_t k = 1; k < node.operands.size(); ++k) {
     const Recorded term = value(of, node.operands[k]);
     total = node.inverted[k] ? total - term : total + term;
+    // x - x
+    if (structurally_zero(total) && !term.is_constant()) total = nothing_of(term);
   }
   return total;
 }
@@ -163,7 +165,13 @@ Recorded Scope::product(const Expression& of, const Node& node) {
     const Recorded factor = value(of, node.operands[k]);
     if (node.inverted[k] && structurally_zero(factor))
       fail(of, node.operands[k], "division by what is always zero");
-    total = node.inverted[k] ? total / factor : total * factor;
+    if (structurally_zero(total)) {
+      total = nothing_of(node.inverted[k] ? Recorded(1) / factor : factor);
+    } else if (structurally_zero(factor)) {
+      total = nothing_of(total);
+    } else {
+      total = node.inverted[k] ? total / factor : total * factor;
+    }
     if (total.is_constant() && !isfinite(total.constant().quad()))
       fail(of, node.operands[k], "this constant is not finite");
   }
@@ -180,6 +188,8 @@ Recorded Scope::power(const Expression& of, std::size_t node, const Recorded& ba
     return Recorded(result);
   }
   if (structurally_zero(base)) fail(of, node, "a power of what is always zero");
+  if (exponent.is(0)) return Recorded(1) + nothing_of(base);
+  if (base.is(1)) return Recorded(1) + nothing_of(exponent);
   return pow(base, exponent);
 }
 

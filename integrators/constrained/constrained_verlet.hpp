@@ -1,6 +1,6 @@
 // What the Stoermer-Verlet methods on a constraint surface share: half a kick, a drift and half a kick,
 //
-//   p' = p0 + h/2 (-V_q(q0, t0)) + reactions,   q1 = q0 + h T_p(p') + reactions,
+//   p' = p0 + h/2 (-V_q(q0, t0)) + reactions,   q1 = q0 + h T_p(p', t0 + h/2) + reactions,
 //   p1 = p' + h/2 (-V_q(q1, t1)) + reactions
 //
 // (hairer-lubich-wanner2006 VII.1.4). RATTLE, SHAKE and LINCS differ in how they find the reactions and in
@@ -29,10 +29,10 @@ struct ConstrainedVerlet {
 
   std::span<Quad> coefficients() { return lengths; }
 
-  /// The energy has to be H = T(p) + V(q, t), without friction.
+  /// The energy has to be H = T(p, t) + V(q, t), without friction.
   [[nodiscard]] std::string refuses(const Model& model) const {
     if (!model.separable_energy())
-      return "needs a constrained H = T(p) + V(q, t); the Hamiltonian of " + model.name() +
+      return "needs a constrained H = T(p, t) + V(q, t); the Hamiltonian of " + model.name() +
              " is not written as kinetic and potential energy";
     if (!model.frictionless())
       return "keeps energies and needs a system without friction; " + model.name() + " has friction";

@@ -14,6 +14,18 @@
 
 namespace pfaff {
 
+/// A time and positions at which nothing vanishes that is zero at the origin only.
+template <class T>
+T generic_time() {
+  return T(Real::fraction(5, 8));
+}
+template <class T>
+std::vector<T> generic_positions(std::size_t n) {
+  std::vector<T> q(n);
+  for (std::size_t k = 0; k < n; ++k) q[k] = T(Real::fraction(static_cast<std::int64_t>(1 + k % 7), 16));
+  return q;
+}
+
 /// True where H_p at (t, q) is linear in p, to round-off and over scales from 1 to a million: one solve then
 /// satisfies the constraints of velocities.
 template <class T, class Constraints>
@@ -39,6 +51,20 @@ bool velocity_is_linear(Constraints& constraints, const T& t, In<T> q) {
     if (!(difference.get() <= Value<T>(64) * unit_roundoff<T>() * largest.get())) return false;
   }
   return true;
+}
+
+/// True where H_p does not depend on time, as is seen at two times.
+template <class T, class Constraints>
+bool velocity_is_steady(Constraints& constraints) {
+  const std::size_t n = constraints.degrees();
+  const std::vector<T> q = generic_positions<T>(n);
+  std::vector<T> p(n), now(n), later(n);
+  for (std::size_t k = 0; k < n; ++k) p[k] = T(1) + q[k];
+  constraints.velocity(generic_time<T>(), q, p, now);
+  constraints.velocity(T(2) * generic_time<T>(), q, p, later);
+  bool same = true;
+  for (std::size_t k = 0; k < n; ++k) same = same && value_of(now[k]) == value_of(later[k]);
+  return same;
 }
 
 namespace detail {

@@ -1,5 +1,5 @@
-// LINCS for H = T(p) + V(q, t) with constraints phi(q, t) = 0: the kicks and drifts of Stoermer-Verlet, with
-// constraint forces from a truncated series instead of a solve,
+// LINCS for H = T(p, t) + V(q, t) with constraints phi(q, t) = 0: the kicks and drifts of Stoermer-Verlet,
+// with constraint forces from a truncated series instead of a solve,
 //
 //   S^-1 ~ (1 + A + A^2 + ... + A^k) D^-1,   A = 1 - D^-1 S,   D the diagonal of S
 //
@@ -107,7 +107,7 @@ struct Lincs : ConstrainedVerlet {
       w.impulse[k] = kick * w.force[k];
       w.momentum[k] = z[n + k] + (w.impulse[k] + w.carry[n + k]);
     }
-    c.velocity(t, q, w.momentum, w.displacement);
+    c.velocity(t + kick, q, w.momentum, w.displacement);
     for (T& x : w.displacement) x = length * x;
     for (int correction = 0; correction <= iterations; ++correction) {
       if (correction == 0) {

@@ -1,7 +1,7 @@
-// RATTLE for H = T(p) + V(q, t) with constraints phi(q, t) = 0, B = dphi/dq:
+// RATTLE for H = T(p, t) + V(q, t) with constraints phi(q, t) = 0, B = dphi/dq:
 //
-//   p' = p0 + h/2 (-V_q(q0, t0)) - B(q0)^T nu,  q1 = q0 + h T_p(p'),        phi(q1, t1) = 0
-//   p1 = p' + h/2 (-V_q(q1, t1)) - B(q1)^T mu,                              phi~(q1, p1, t1) = 0
+//   p' = p0 + h/2 (-V_q(q0, t0)) - B(q0)^T nu,  q1 = q0 + h T_p(p', t0 + h/2),  phi(q1, t1) = 0
+//   p1 = p' + h/2 (-V_q(q1, t1)) - B(q1)^T mu,                                  phi~(q1, p1, t1) = 0
 //
 // (hairer-lubich-wanner2006 VII.1.4): order 2, symmetric, symplectic on the constraint surface, one force a
 // step. Both levels of constraints hold to round-off after every step.
@@ -47,6 +47,7 @@ struct Rattle : ConstrainedVerlet {
     using Sums::carry, Sums::force, Sums::position, Sums::n;
     static constexpr int oldest_contraction = 16;
     bool linear;                        // H_p is linear in p
+    bool steady;                        // H_p does not depend on time
     std::vector<T> velocity, reaction;  // of the n positions
     std::vector<T> multiplier, residual, correction;
     DifferencePredictor<T, dynamic, dynamic> predictor;
@@ -66,7 +67,8 @@ struct Rattle : ConstrainedVerlet {
           predictor(multiplier.size(), static_cast<std::size_t>(difference_levels<T>)),
           onto_hidden(p.holonomic()),
           continuation(p) {
-      linear = velocity_is_linear<T>(p.holonomic(), T(0), position);
+      linear = velocity_is_linear<T>(p.holonomic(), generic_time<T>(), generic_positions<T>(n()));
+      steady = velocity_is_steady<T>(p.holonomic());
     }
 
     /// Forgets the past, round-off included: the next step depends on its state alone.
@@ -160,7 +162,8 @@ struct Rattle : ConstrainedVerlet {
       w.impulse[k] = kick * w.force[k] - w.reaction[k];
       w.momentum[k] = z[n + k] + (w.impulse[k] + w.carry[n + k]);
     }
-    c.velocity(t, q, w.momentum, w.velocity);
+    const T middle = t + kick;  // the time of T that the kick has reached
+    c.velocity(middle, q, w.momentum, w.velocity);
     Largest<T> positions;
     for (std::size_t k = 0; k < n; ++k) {
       w.displacement[k] = length * w.velocity[k];
@@ -174,7 +177,7 @@ struct Rattle : ConstrainedVerlet {
     do {
       c.values(t + h, w.position, w.residual);
       c.solve(w.residual, w.residual);
-      const T moved = w.linear ? move<P>(c, z, w) : kick_back<P>(c, t, length, z, w);
+      const T moved = w.linear && w.steady ? move<P>(c, z, w) : kick_back<P>(c, middle, length, z, w);
       convergence.begin_iteration();
       convergence.add(moved, reference, reference);
       ++p.counters().iterations;
@@ -199,8 +202,9 @@ struct Rattle : ConstrainedVerlet {
     return Status::converged;
   }
 
-  // Corrects the positions where H_p is linear in p: by H_pp B^T times the solution x of S x = phi, which
-  // stands in `residual`. Returns the largest component of the correction.
+  // Corrects the positions where H_p is linear in p and steady, so that H_pp is that of the point where the
+  // constraints are placed: by H_pp B^T times the solution x of S x = phi, which stands in `residual`.
+  // Returns the largest component of the correction.
   template <class P, class T = Scalar<P>>
   static T move(PositionConstraints<T>& c, const State<P>& z, Work<P>& w) {
     c.hidden_by_momentum_transpose(w.residual, w.reaction);
@@ -213,10 +217,12 @@ struct Rattle : ConstrainedVerlet {
     }
     return largest.get();
   }
-  // Corrects the positions where H_p is not linear: the multipliers change p', and the positions follow from
-  // a new drift with H_p at this p'. Returns the largest component of the correction.
+  // Corrects the positions where H_p is anything else: the multipliers change p', and the positions follow
+  // from a new drift with H_p at this p' and the time `middle`. Returns the largest component of the
+  // correction.
   template <class P, class T = Scalar<P>>
-  static T kick_back(PositionConstraints<T>& c, const T& t, const T& length, const State<P>& z, Work<P>& w) {
+  static T kick_back(PositionConstraints<T>& c, const T& middle, const T& length, const State<P>& z,
+                     Work<P>& w) {
     const std::size_t n = w.n();
     for (std::size_t i = 0; i < w.residual.size(); ++i) {
       w.correction[i] = w.correction[i] + w.residual[i];
@@ -225,7 +231,7 @@ struct Rattle : ConstrainedVerlet {
     c.apply_transpose(w.residual, w.reaction);
     for (std::size_t k = 0; k < n; ++k)
       w.momentum[k] = z[n + k] + ((w.impulse[k] - w.reaction[k]) + w.carry[n + k]);
-    c.velocity(t, In<T>(z.data(), n), w.momentum, w.velocity);
+    c.velocity(middle, In<T>(z.data(), n), w.momentum, w.velocity);
     Largest<T> largest;
     for (std::size_t k = 0; k < n; ++k) {
       const T displacement = length * w.velocity[k];

@@ -1,8 +1,8 @@
-// SHAKE for H = T(p) + V(q, t) with constraints phi(q, t) = 0: the positions of RATTLE, with the momenta of
-// central differences,
+// SHAKE for H = T(p, t) + V(q, t) with constraints phi(q, t) = 0: the positions of RATTLE, with the momenta
+// of central differences,
 //
-//   p1 = p' + h/2 (-V_q(q1, t1)) - B(q1)^T nu,  q2 = q1 + h T_p(p1 + h/2 (-V_q(q1, t1)) - B(q1)^T nu),
-//   phi(q2, t2) = 0
+//   p1 = p' + h/2 (-V_q(q1, t1)) - B(q1)^T nu,
+//   q2 = q1 + h T_p(p1 + h/2 (-V_q(q1, t1)) - B(q1)^T nu, t1 + h/2),   phi(q2, t2) = 0
 //
 // (ryckaert1977; hairer-lubich-wanner2006 VII.1.4). With quadratic T this is p1 = M (q2 - q0) / (2 h). Since
 // p1 contains the multiplier nu that leads the next drift onto phi(q2, t2) = 0, this step already solves for
@@ -58,7 +58,7 @@ struct Shake : Rattle {
     }
     Convergence<T> convergence;
     do {
-      c.velocity(t, w.position, w.next_momentum, w.velocity);
+      c.velocity(t + first, w.position, w.next_momentum, w.velocity);
       Largest<T> correction, reference;
       for (std::size_t k = 0; k < n; ++k) {
         const T next = w.position[k] + length * w.velocity[k];

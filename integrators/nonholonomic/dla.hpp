@@ -64,7 +64,7 @@ struct DiscreteLagrangeDAlembert {
           middle(p.model(), p.nonholonomic().count()),
           onto_velocities(p.nonholonomic()),
           continuation(p) {
-      linear = velocity_is_linear<T>(p.nonholonomic(), T(0), position);
+      linear = velocity_is_linear<T>(p.nonholonomic(), generic_time<T>(), generic_positions<T>(n()));
     }
     [[nodiscard]] std::size_t n() const { return carry.size() / 2; }
     /// Forgets the past, round-off included: the next step depends on its state alone.

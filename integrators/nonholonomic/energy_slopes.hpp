@@ -1,7 +1,7 @@
 // The slopes of an energy H(q, p, t): the velocity v = H_p and the force f = -H_q, without reactions of
 // constraints.
 //
-// Where H = T(p) + V(q, t) the two are formulas of their own, in double the author's code, and each is
+// Where H = T(p, t) + V(q, t) the two are formulas of their own, in double the author's code, and each is
 // evaluated by itself. Any other H has one formula for both.
 #pragma once
 

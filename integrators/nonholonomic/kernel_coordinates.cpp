@@ -244,7 +244,8 @@ std::string no_kernel_coordinates(const Model& model) {
            " has too many";
   if (!recording.dependent(model))
     return "needs one basis of ker A that serves everywhere; the minors of " + model.name() + " make none";
-  if (!velocity_is_linear<double>(*model.velocity_constraints<double>(), 0.0, initial_positions(model)))
+  if (!velocity_is_linear<double>(*model.velocity_constraints<double>(), generic_time<double>(),
+                                  initial_positions(model)))
     return "needs an energy that is quadratic in p; that of " + model.name() + " is not";
   return {};
 }

@@ -1,5 +1,5 @@
-// The reversible method of McLachlan and Perlmutter for H = T(p) + V(q, t) with constraints A(q, t) v + b(q,
-// t) = 0:
+// The reversible method of McLachlan and Perlmutter for H = T(p, t) + V(q, t) with constraints A(q, t) v +
+// b(q, t) = 0:
 //
 //   qm = q0 + h/2 T_p(p0),   p1 = p0 + h (-V_q(qm)) - A(qm)^T lambda,   q1 = qm + h/2 T_p(p1)
 //   A(qm) (v0 + v1)/2 + b(qm) = 0 with v = T_p,   V, A and b at the time of the middle
@@ -36,7 +36,7 @@ struct McLachlanPerlmutter {
   std::span<Quad> coefficients() { return lengths; }
   [[nodiscard]] std::string refuses(const Model& model) const {
     if (model.separable_energy()) return {};
-    return "needs H = T(p) + V(q, t); the Hamiltonian of " + model.name() +
+    return "needs H = T(p, t) + V(q, t); the Hamiltonian of " + model.name() +
            " is not written as kinetic and potential energy: take dla or gni";
   }
 
@@ -64,7 +64,7 @@ struct McLachlanPerlmutter {
           residual(before.size()),
           reaction(n()),
           slopes(p.model()) {
-      linear = velocity_is_linear<T>(p.nonholonomic(), T(0), position);
+      linear = velocity_is_linear<T>(p.nonholonomic(), generic_time<T>(), generic_positions<T>(n()));
     }
     [[nodiscard]] std::size_t n() const { return carry.size() / 2; }
   };
@@ -133,13 +133,14 @@ const Method<McLachlanPerlmutter> registered{
     {.name = "mclachlan-perlmutter",
      .title = "reversible method of McLachlan and Perlmutter for velocity constraints",
      .reference = "mclachlan-perlmutter2006",
-     .description = "A drift, a kick that reflects the momentum by the velocity constraints in the middle of "
-                    "the step, and "
-                    "a drift: order 2, symmetric and reversible, with one force and one factorisation a "
-                    "step. Take it for "
-                    "long runs of systems with H = T(p) + V(q, t), which it needs, where constraints have to "
-                    "hold at the "
-                    "middles of steps only: at the ends they are off by a bounded error of order h^2.",
+     .description =
+         "A drift, a kick that reflects the momentum by the velocity constraints in the middle of "
+         "the step, and "
+         "a drift: order 2, symmetric and reversible, with one force and one factorisation a "
+         "step. Take it for "
+         "long runs of systems with H = T(p, t) + V(q, t), which it needs, where constraints have to "
+         "hold at the "
+         "middles of steps only: at the ends they are off by a bounded error of order h^2.",
      .order = 2,
      .preserves = {Claim::symmetric, Claim::reversible, Claim::nonholonomic_momentum}}};
 }  // namespace

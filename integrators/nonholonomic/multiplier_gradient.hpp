@@ -265,8 +265,8 @@ struct MultiplierDiscreteGradient {
     average(z, w, w.slopes, [&](const T* at, T* slopes) { w.weighted(time, at, slopes); });
   }
 
-  // Moves the positions of `next` with the velocity at the new middle of its momenta. Where H = T(p) + V(q,
-  // t) this costs little, and corrections then contract by h^2 and not by h.
+  // Moves the positions of `next` with the velocity at the new middle of its momenta. Where H = T(p, t) +
+  // V(q, t) this costs little, and corrections then contract by h^2 and not by h.
   template <class T>
   static void follow(const VelocityConstraints<T>& c, const T& time, const T& h, const auto& z, auto& w) {
     const std::size_t n = w.n();

@@ -1,8 +1,8 @@
-// The nonholonomic leap-frog for H = T(p) + V(q, t) with constraints A(q, t) v + b(q, t) = 0. With the
+// The nonholonomic leap-frog for H = T(p, t) + V(q, t) with constraints A(q, t) v + b(q, t) = 0. With the
 // momentum p_{k+1/2} between q_k and q_{k+1} it is
 //
 //   p_{k+1/2} = p_{k-1/2} + h (-V_q(q_k)) - A(q_k)^T lambda,   A(q_k) (v_{k-1/2} + v_{k+1/2})/2 + b(q_k) = 0
-//   q_{k+1} = q_k + h T_p(p_{k+1/2})
+//   q_{k+1} = q_k + h T_p(p_{k+1/2}, t_{k+1/2})
 //
 // (mclachlan-perlmutter2006): Stoermer-Verlet between reflections of the momentum (reflected_momentum.hpp),
 // p^+ = p_{k+1/2} + h/2 V_q(q_k) and p^- = p_{k+1/2} - h/2 V_q(q_{k+1}). Order 2, explicit with one force and
@@ -23,7 +23,7 @@ struct NonholonomicLeapFrog : ReflectedMomentum {
   }
   [[nodiscard]] std::string refuses(const Model& model) const {
     if (model.separable_energy()) return {};
-    return "needs H = T(p) + V(q, t); the Hamiltonian of " + model.name() +
+    return "needs H = T(p, t) + V(q, t); the Hamiltonian of " + model.name() +
            " is not written as kinetic and potential energy: take dla or gni";
   }
 
@@ -73,7 +73,7 @@ const Method<NonholonomicLeapFrog> registered{
          "Stoermer-Verlet between reflections of the momentum by the velocity constraints, of order 2, "
          "explicit "
          "and the cheapest of its kind: one force and one factorisation a step. Take it for long runs of "
-         "systems with H = T(p) + V(q, t), which it needs. It remembers the reaction of the last step, so "
+         "systems with H = T(p, t) + V(q, t), which it needs. It remembers the reaction of the last step, so "
          "that "
          "it cannot be composed, and starts without one.",
      .order = 2,

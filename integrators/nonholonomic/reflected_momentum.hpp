@@ -70,7 +70,7 @@ struct ReflectedMomentum {
           momentum(n()),
           onto_velocities(p.nonholonomic()),
           end_(n()) {
-      linear = velocity_is_linear<T>(p.nonholonomic(), T(0), position);
+      linear = velocity_is_linear<T>(p.nonholonomic(), generic_time<T>(), generic_positions<T>(n()));
     }
     [[nodiscard]] std::size_t n() const { return carry.size() / 2; }
     /// True where the last step ended at these positions at t.

@@ -19,8 +19,8 @@
 
 #include <pfaff/core/linear/lu.hpp>
 #include <pfaff/core/linear/vector.hpp>
+#include <pfaff/core/numbers/sum_of_two.hpp>
 #include <pfaff/core/solve/newton.hpp>
-#include <pfaff/core/solve/sum_of_two.hpp>
 #include <pfaff/integrators/runge_kutta/stage_convergence.hpp>
 #include <pfaff/integrators/runge_kutta/stage_lanes.hpp>
 #include <pfaff/integrators/support/difference_predictor.hpp>

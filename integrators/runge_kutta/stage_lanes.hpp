@@ -13,7 +13,7 @@
 #include <pfaff/core/linear/vector.hpp>
 #include <pfaff/core/numbers/functions.hpp>
 #include <pfaff/core/numbers/pack.hpp>
-#include <pfaff/core/solve/sum_of_two.hpp>
+#include <pfaff/core/numbers/sum_of_two.hpp>
 
 namespace pfaff {
 namespace detail {

@@ -1,4 +1,4 @@
-// Conformal splitting for q' = T_p(p), p' = -V_q(q, t) - nu p:
+// Conformal splitting for q' = T_p(p, t), p' = -V_q(q, t) - nu p:
 //
 //   step(h) = D(h/2) S(h) D(h/2),   D(h): p -> e^{-nu h} p,   S: Stoermer-Verlet for T + V
 //

@@ -1,10 +1,18 @@
-// Explicit splitting methods for H = T(p) + V(q, t): alternating drifts q += d h T_p and kicks p += k h
+// Explicit splitting methods for H = T(p, t) + V(q, t): alternating drifts q += d h T_p and kicks p += k h
 // (-V_q).
 //
 // Stoermer-Verlet in its position form (drift h/2, kick h, drift h/2; hairer-lubich-wanner2006 (I.1.17)):
 // order 2, symplectic, symmetric, one force a step, no force kept between steps. Symplectic Euler (kick,
-// drift; (I.1.9)): order 1, symplectic. Only drifts advance the time: the force of a time-dependent potential
-// is taken at the time that the drifts so far have reached.
+// drift; (I.1.9)): order 1, symplectic.
+//
+// Time is split as the state is. A drift moves the positions and with them the time s of the potential, a
+// kick the momenta and with them the time u of the kinetic energy:
+//
+//   (q, s)' = (T_p(p, u), 1),   (p, u)' = (-V_q(q, s), 1)
+//
+// are two fields, each of which is constant along its own flow, and their sum is the motion wherever s = u =
+// t. Every splitting so has its order, its symmetry and its structure on energies that depend on time, but
+// for those that are made for T quadratic in p: u is one more momentum, in which T is not quadratic.
 #pragma once
 
 #include <array>
@@ -51,21 +59,23 @@ struct Splitting {
   template <std::size_t... K, class P>
   void act_all(std::index_sequence<K...>, const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z,
                Work<P>& w) const {
-    Scalar<P> time = t;
-    (act<K>(p, time, w.a[K] * h, z, w), ...);
+    Scalar<P> drifted = t, kicked = t;
+    (act<K>(p, drifted, kicked, w.a[K] * h, z, w), ...);
   }
 
   template <std::size_t K, class P>
-  void act(const P& p, Scalar<P>& time, const Scalar<P>& length, State<P>& z, Work<P>& w) const {
+  void act(const P& p, Scalar<P>& drifted, Scalar<P>& kicked, const Scalar<P>& length, State<P>& z,
+           Work<P>& w) const {
     using T = Scalar<P>;
     constexpr bool drift = (K % 2 == 0) == (First == Part::drift);
     const std::size_t half = z.size() / 2;
     const Out<T> q(z.data(), half), momentum(z.data() + half, half), slope(w.slope.data(), half);
     if constexpr (drift) {
-      p.velocity(time, momentum, slope);
-      time = time + length;
+      p.velocity(kicked, momentum, slope);
+      drifted = drifted + length;
     } else {
-      p.force(time, q, slope);
+      p.force(drifted, q, slope);
+      kicked = kicked + length;
     }
     const std::size_t offset = drift ? 0 : half;
     for (std::size_t i = 0; i < half; ++i)

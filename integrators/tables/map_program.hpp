@@ -2,7 +2,7 @@
 // before it have made.
 //
 //   z = z + h*field(t + h/2, z + h/2*field(t, z))                      of any system with a vector field
-//   p = p + h/2*force(t, q);  q = q + h*velocity(t + h/2, p);  ...     of one with T(p) + V(q, t)
+//   p = p + h/2*force(t, q);  q = q + h*velocity(t + h/2, p);  ...     of one with T(p, t) + V(q, t)
 //   p = (p - h*sin(r))/(1 + h*nu);  r = r + h*p                        of one system, by its coordinates
 //
 // A name stands for one number, for the numbers of half of the state or of all of it. What is written holds

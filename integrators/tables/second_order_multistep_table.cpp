@@ -92,10 +92,11 @@ struct SecondOrderMultistepTable {
   }
   std::span<Quad> coefficients() { return numbers; }
   [[nodiscard]] std::string refuses(const Model& model) const {
-    return quadratic_in_momenta(model)
+    // With masses that depend on time accelerations contain velocities.
+    return quadratic_in_momenta(model) && steady_kinetic_energy(model)
                ? ""
                : "steps accelerations and needs a kinetic energy that is quadratic in "
-                 "the momenta";
+                 "the momenta and does not depend on time";
   }
 
   template <class P>

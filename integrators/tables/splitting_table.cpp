@@ -1,15 +1,18 @@
-// Tables of the kinds "splitting", "rkn-splitting" and "processed", for H = T(p) + V(q, t).
+// Tables of the kinds "splitting", "rkn-splitting" and "processed", for H = T(p, t) + V(q, t).
 //
 // - splitting: the lists `drift` and `kick` of lengths in units of the step, of which `first` (drift or kick)
 //   says which acts first; they act in turn.
-// - rkn-splitting: the same for energies T quadratic in p, for which fewer order conditions are needed.
+// - rkn-splitting: the same for energies T(p) quadratic in p, for which fewer order conditions are needed.
+//   Some of these are left out because T has no third derivative, which is not true of a T that depends on
+//   time: the kicks advance its time (splitting.hpp).
 // - processed: the tables `kernel` and `pre`, each with lists `drift` and `kick` and with `first`; a step is
 //   pre, kernel and the inverse of pre, and n steps in a row are pre, n kernels and the inverse of pre.
 //   `parts = "quadratic-kinetic"` asks for the conditions of rkn-splitting.
 //
-// Only drifts advance the time. Splittings are symplectic whatever their numbers are, and symmetric where
-// they read the same from both ends.
+// Drifts advance the time of V and kicks that of T. Splittings are symplectic whatever their numbers are, and
+// symmetric where they read the same from both ends.
 #include <algorithm>
+#include <array>
 
 #include <pfaff/core/facets/quadratic_energy.hpp>
 #include <pfaff/integrators/order_conditions/word_conditions.hpp>
@@ -34,9 +37,12 @@ struct SplittingTable {
   }
   std::span<Quad> coefficients() { return lengths; }
   [[nodiscard]] std::string refuses(const Model& model) const {
-    return quadratic_kinetic && !quadratic_in_momenta(model)
-               ? "is of its order for kinetic energies that are quadratic in the momenta only"
-               : "";
+    if (!quadratic_kinetic) return "";
+    if (!quadratic_in_momenta(model))
+      return "is of its order for kinetic energies that are quadratic in the momenta only";
+    return steady_kinetic_energy(model) ? ""
+                                        : "is of its order for kinetic energies that do not depend on time "
+                                          "only";
   }
 
   [[nodiscard]] bool processed() const { return processor > 0; }
@@ -45,39 +51,39 @@ struct SplittingTable {
   struct Work {
     using T = Scalar<P>;
     std::vector<T> length;
-    T drifted;  // of the processor, the time by which it is ahead of a step, in units of the step
+    T drifted, kicked;  // by the processor: how far the times of V and of T are ahead, in units of the step
     State<P> carry, slope;
     Work(const SplittingTable& method, const P& p) : carry(p.make_state()), slope(p.make_state()) {
       for (const Quad& x : method.lengths) length.push_back(T(Real(x)));
-      Quad sum(0);
-      for (std::size_t k = 0; k < method.processor; ++k)
-        if (method.parts[k] == drift) sum += method.lengths[k];
-      drifted = T(Real(sum));
+      std::array<Quad, 2> sums{};
+      for (std::size_t k = 0; k < method.processor; ++k) sums[method.parts[k]] += method.lengths[k];
+      drifted = T(Real(sums[drift]));
+      kicked = T(Real(sums[kick]));
     }
   };
 
   template <HasSeparable P>
   Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
-    return flows(p, t, h, 0, parts.size(), z, w);
+    return flows(p, t, t, h, 0, parts.size(), z, w);
   }
   template <HasSeparable P>
   Status preprocess(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
-    return flows(p, t, h, 0, processor, z, w);
+    return flows(p, t, t, h, 0, processor, z, w);
   }
   template <HasSeparable P>
   Status kernel(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
-    return flows(p, t + w.drifted * h, h, processor, parts.size() - processor, z, w);
+    return flows(p, t + w.drifted * h, t + w.kicked * h, h, processor, parts.size() - processor, z, w);
   }
   template <HasSeparable P>
   Status postprocess(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
-    return flows(p, t + w.drifted * h, h, parts.size() - processor, parts.size(), z, w);
+    return flows(p, t + w.drifted * h, t + w.kicked * h, h, parts.size() - processor, parts.size(), z, w);
   }
 
  private:
-  // The flows begin, ..., end - 1 of a step, from the time that those before them have reached.
+  // The flows begin, ..., end - 1 of a step, from the times that those before them have reached.
   template <class P>
-  Status flows(const P& p, Scalar<P> time, const Scalar<P>& h, std::size_t begin, std::size_t end,
-               State<P>& z, Work<P>& w) const {
+  Status flows(const P& p, Scalar<P> drifted, Scalar<P> kicked, const Scalar<P>& h, std::size_t begin,
+               std::size_t end, State<P>& z, Work<P>& w) const {
     using T = Scalar<P>;
     const std::size_t half = z.size() / 2;
     const Out<T> q(z.data(), half), momentum(z.data() + half, half), slope(w.slope.data(), half);
@@ -85,10 +91,11 @@ struct SplittingTable {
       const T length = w.length[k] * h;
       const std::size_t offset = parts[k] == drift ? 0 : half;
       if (parts[k] == drift) {
-        p.velocity(time, momentum, slope);
-        time = time + length;
+        p.velocity(kicked, momentum, slope);
+        drifted = drifted + length;
       } else {
-        p.force(time, q, slope);
+        p.force(drifted, q, slope);
+        kicked = kicked + length;
       }
       for (std::size_t i = 0; i < half; ++i)
         add_to(z[offset + i], w.carry[offset + i], length * slope[i], compensated);

@@ -38,19 +38,48 @@ namespace pfaff {
 namespace planetary {
 inline constexpr std::size_t kepler = 0, interaction = 1;
 
-/// The flow of the Kepler part: writes the change of all positions and momenta, which stand by direction as
-/// in Gravitation. `mass(i)` is the mass of body i, `constant` that of gravitation.
-template <class T, class Mass>
-Status kepler_part(const Mass& mass, const T& constant, std::size_t n, std::size_t d, const T& h, In<T> z,
-                   Out<T> change) {
+/// The time h less `turns` periods of body i about the bodies before it, whose coordinates are made again
+/// with twice the digits: what they round off moves the phase of every turn.
+template <class T, class Mass, class V = Value<T>>
+V time_after_turns(const Mass& mass, const T& constant, std::size_t n, std::size_t d, const T& h, In<T> z,
+                   std::size_t i, const V& turns) {
+  using Number = TwoTerms<V>;
   const std::size_t half = n * d;
-  std::array<T, 3> centre{}, total{};  // R_(i-1) and P_(i-1)
-  T inner = mass(0);                   // M_(i-1)
+  const auto value = [](const T& x) { return Number(value_of(x)); };
+  std::array<Number, 3> centre, total, r, v;
+  for (std::size_t x = 0; x < d; ++x) {
+    centre[x] = value(z[x * n]);
+    total[x] = value(z[half + x * n]);
+  }
+  Number outer = value(mass(0));
+  for (std::size_t j = 1; j <= i; ++j) {
+    const Number own = value(mass(j)), inner = outer;
+    outer = inner + own;
+    for (std::size_t x = 0; x < d; ++x) {
+      const Number momentum = value(z[half + x * n + j]);
+      r[x] = value(z[x * n + j]) - centre[x];
+      v[x] = momentum / own - total[x] / inner;
+      centre[x] = centre[x] + own / outer * r[x];
+      total[x] = total[x] + momentum;
+    }
+  }
+  return pfaff::time_after_turns<V>(value(constant) * outer, value_of(h), std::span<const Number>(r),
+                                    std::span<const Number>(v), turns);
+}
+
+/// Outwards from body 1: the change of Jacobi's coordinates of each body, left where its own change will
+/// stand, and of all bodies together the mass and the momentum. Of positions it is the whole change or,
+/// unless `whole`, what it has beyond the uniform motion. `turned` tells that a body has gone round.
+template <class T, class Mass>
+Status jacobi_changes(const Mass& mass, const T& constant, std::size_t n, std::size_t d, const T& h, In<T> z,
+                      bool whole, Out<T> change, T& inner, std::array<T, 3>& total, bool& turned) {
+  const std::size_t half = n * d;
+  std::array<T, 3> centre{};  // R_(i-1), as `total` is P_(i-1) and `inner` M_(i-1)
+  inner = mass(0);
   for (std::size_t x = 0; x < d; ++x) {
     centre[x] = z[x * n];
     total[x] = z[half + x * n];
   }
-  // Outwards: the change of Jacobi's coordinates of each body, left where its own change will stand.
   for (std::size_t i = 1; i < n; ++i) {
     const T own = mass(i), outer = inner + own;
     std::array<T, 3> r{}, v{}, dr{}, bend{}, dv{};  // zero beyond direction d
@@ -58,39 +87,66 @@ Status kepler_part(const Mass& mass, const T& constant, std::size_t n, std::size
       r[x] = z[x * n + i] - centre[x];
       v[x] = z[half + x * n + i] / own - total[x] / inner;
     }
+    const auto after_turns = [&](const Value<T>& turns) {
+      turned = true;
+      return time_after_turns<T>(mass, constant, n, d, h, z, i, turns);
+    };
     const Status status =
         kepler_change<T>(T(constant * outer), h, std::span<const T>(r), std::span<const T>(v),
-                         std::span<T>(dr), std::span<T>(bend), std::span<T>(dv));
+                         std::span<T>(dr), std::span<T>(bend), std::span<T>(dv), after_turns);
     if (status != Status::converged) return status;
     const T share = own / outer, reduced = own * inner / outer;
     for (std::size_t x = 0; x < d; ++x) {
-      change[x * n + i] = bend[x];
+      change[x * n + i] = whole ? dr[x] : bend[x];
       change[half + x * n + i] = reduced * dv[x];
       centre[x] = centre[x] + share * r[x];
       total[x] = total[x] + z[half + x * n + i];
     }
     inner = outer;
   }
+  return Status::converged;
+}
+
+/// The flow of the Kepler part: writes the change of all positions and momenta, which stand by direction as
+/// in Gravitation. `mass(i)` is the mass of body i, `constant` that of gravitation.
+template <class T, class Mass>
+Status kepler_part(const Mass& mass, const T& constant, std::size_t n, std::size_t d, const T& h, In<T> z,
+                   Out<T> change) {
+  const std::size_t half = n * d;
+  T inner(0);
+  std::array<T, 3> moved{}, pushed{}, total{};
+  bool turned = false;
+  const auto outwards = [&](bool whole) {
+    return jacobi_changes(mass, constant, n, d, h, z, whole, change, inner, total, turned);
+  };
+  Status status = outwards(false);
+  // The uniform motion of a body that goes round is longer than its orbit and would cancel.
+  const bool whole = turned;
+  if (status == Status::converged && whole) status = outwards(true);
+  if (status != Status::converged) return status;
   // Inwards: the changes of R_i and P_i, and from them those of body i. The uniform motions of Jacobi's
   // coordinates are together those of the bodies, which move by themselves: added up for the heavy body,
-  // whose own is small, they would cancel.
-  std::array<T, 3> moved, pushed;
-  moved.fill(T(0));
-  pushed.fill(T(0));
+  // whose own is small, they would cancel. Where the changes are whole, the uniform motion of the centre of
+  // all masses is the only one.
+  const auto uniform = [&](std::size_t i, std::size_t x) {
+    return whole ? T(0) : h * (z[half + x * n + i] / mass(i));
+  };
+  if (whole)
+    for (std::size_t x = 0; x < d; ++x) moved[x] = h * (total[x] / inner);
   for (std::size_t i = n; i-- > 1;) {
     const T outer = inner, own = mass(i), share = own / outer;
     inner = inner - own;
     const T rest = inner / outer;
     for (std::size_t x = 0; x < d; ++x) {
-      const T bend = change[x * n + i], dp = change[half + x * n + i];
-      change[x * n + i] = h * (z[half + x * n + i] / own) + (moved[x] + rest * bend);
-      moved[x] = moved[x] - share * bend;
+      const T dr = change[x * n + i], dp = change[half + x * n + i];
+      change[x * n + i] = uniform(i, x) + (moved[x] + rest * dr);
+      moved[x] = moved[x] - share * dr;
       change[half + x * n + i] = dp + share * pushed[x];
       pushed[x] = rest * pushed[x] - dp;
     }
   }
   for (std::size_t x = 0; x < d; ++x) {
-    change[x * n] = h * (z[half + x * n] / mass(0)) + moved[x];
+    change[x * n] = uniform(0, x) + moved[x];
     change[half + x * n] = pushed[x];
   }
   return Status::converged;

@@ -55,6 +55,7 @@ TEST(RandomSystems, OfferWhatTheirKindSays) {
       case SystemKind::driven:
       case SystemKind::central:
       case SystemKind::transcendental:
+      case SystemKind::breathing:
         return Facet::separable;
       case SystemKind::nonseparable:
       case SystemKind::central_nonseparable:
@@ -70,6 +71,7 @@ TEST(RandomSystems, OfferWhatTheirKindSays) {
       case SystemKind::surface:
       case SystemKind::revolution:
       case SystemKind::rods:
+      case SystemKind::breathing_surface:
         return Facet::holonomic;
       case SystemKind::second_class:
         return Facet::constraints;
@@ -164,7 +166,7 @@ TEST(RandomSystems, StartOnTheirConstraints) {
       worst = std::max(worst, abs(x));
     EXPECT_GT(static_cast<double>(worst), 1e-6);
   });
-  EXPECT_EQ(restricted, 5 * static_cast<int>(seeds) * 3);
+  EXPECT_EQ(restricted, 6 * static_cast<int>(seeds) * 3);
 }
 
 TEST(RandomSystems, SimplerRecipesAreSimplerAndOfTheirKind) {
@@ -234,6 +236,20 @@ TEST(RandomSystems, ConstraintsAreSetInMotion) {
     EXPECT_TRUE(still->tape(Formula::constraints)->autonomous());
     EXPECT_FALSE(moving->tape(Formula::constraints)->autonomous());
   }
+}
+
+// Kinetic energies of two kinds depend on time, and those of no other.
+TEST(RandomSystems, KineticEnergiesBreathe) {
+  int timed = 0;
+  every_recipe([&](const Recipe& recipe) {
+    const auto model = model_of(system_of(recipe));
+    if (!model->given(Formula::kinetic)) return;
+    const bool breathes =
+        recipe.kind == SystemKind::breathing || recipe.kind == SystemKind::breathing_surface;
+    EXPECT_EQ(model->tape(Formula::velocity)->autonomous(), !breathes);
+    timed += breathes ? 1 : 0;
+  });
+  EXPECT_EQ(timed, 2 * static_cast<int>(seeds) * 3);
 }
 
 TEST(RandomSystems, PolynomialsAreDifferentiatedAndComposed) {

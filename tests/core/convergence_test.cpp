@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include <pfaff/core/numbers/sum_of_two.hpp>
 #include <pfaff/core/solve/convergence.hpp>
-#include <pfaff/core/solve/sum_of_two.hpp>
 #include <pfaff/core/solve/summation.hpp>
 
 namespace {

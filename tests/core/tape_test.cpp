@@ -204,11 +204,9 @@ TEST(Recording, SmallPowersAreProductsAndRoots) {
     EXPECT_EQ(count(power_of(Real(n)), Operation::divide), n < 0 ? 1 : 0) << n;
   }
   EXPECT_EQ(count(power_of(Real(8)), Operation::multiply), 3);
-  for (const int n : {1, 3, -1, -5}) {
-    const Tape tape = power_of(Real::fraction(n, 2));
-    EXPECT_EQ(count(tape, Operation::square_root), 1) << n;
-    EXPECT_EQ(count(tape, Operation::power), 0) << n;
-  }
+  EXPECT_EQ(count(power_of(Real::fraction(1, 2)), Operation::square_root), 1);
+  // Of others than the root itself the derivative is right at 0 where they stay powers.
+  for (const int n : {3, -1, -5}) EXPECT_EQ(power_of(Real::fraction(n, 2)).code.size(), 2U) << n;
   for (const Real& y : {Real(33), Real::fraction(1, 3), 0.1_r, Real(Quad(1) / Quad(7))})
     EXPECT_EQ(count(power_of(y), Operation::power), 1);
   // A recorded exponent that is a constant counts as one; another goes through the logarithm.
