@@ -10,7 +10,9 @@
 #include <pfaff/app/terminal.hpp>
 #include <pfaff/bench/falsification/falsify.hpp>
 #include <pfaff/bench/runner/files.hpp>
+#include <pfaff/bench/runner/interruption.hpp>
 #include <pfaff/bench/runner/settings.hpp>
+#include <pfaff/bench/verification/check_budget.hpp>
 #include <pfaff/bench/verification/random_checks.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/integrators/tables/method_table.hpp>
@@ -134,6 +136,7 @@ int search(const FalsifyOptions& options, const Common& common) {
   settings.budget = options.budget.value_or(options.all ? budget_of_all : settings.budget);
   std::vector<FalsificationResult> results;
   {
+    const Interruption interruption;
     ProgressLine line(common.quiet);
     results = falsify(std::move(tests), settings,
                       [&](const std::string& what, double fraction) { line.show(what, fraction); });
@@ -172,6 +175,8 @@ int show(const FalsifyOptions& options, const Common& common) {
     throw InputError("--system: " + options.system + " does not fit " + method->called() +
                      " or is not in the scope of " + options.claim +
                      ", which is: " + std::string(claim_row(claim).scope));
+  const Interruption interruption;
+  const Budget budget(limits_of_check);
   const Judgement judgement = judge(*method, claim, at);
   if (common.json) {
     std::cout << json_text({{"schema", 1},

@@ -14,6 +14,7 @@
 #include <pfaff/app/help_formatter.hpp>
 #include <pfaff/app/terminal.hpp>
 #include <pfaff/core/bracket.hpp>
+#include <pfaff/core/errors/budget.hpp>
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/registry/version.hpp>
 #include <pfaff/core/system.hpp>
@@ -145,6 +146,9 @@ int run(const Action& work) {
     return 2;
   } catch (const std::bad_alloc&) {
     complain("out of memory");
+    return 1;
+  } catch (const BudgetSpent& spent) {
+    complain(spent.stopped() ? "interrupted before anything was made" : spent.what());
     return 1;
   } catch (...) {
     complain(words_of_current_exception());

@@ -7,6 +7,7 @@
 #include <pfaff/app/command.hpp>
 #include <pfaff/app/terminal.hpp>
 #include <pfaff/bench/reproduce/coverage/coverage.hpp>
+#include <pfaff/bench/runner/interruption.hpp>
 #include <pfaff/core/errors/errors.hpp>
 
 namespace pfaff::app {
@@ -144,9 +145,12 @@ int run(const ReproduceOptions& options, const Common& common) {
     }
     return 0;
   }
+  const Interruption interruption;
   bool good = true;
   nlohmann::json all = nlohmann::json::array();
-  for (const std::string& paper : options.chosen()) {
+  const std::vector<std::string> chosen = options.chosen();
+  std::size_t done = 0;
+  for (const std::string& paper : chosen) {
     if (options.coverage) {
       const Coverage coverage = coverage_of(paper);
       good = good && coverage.faults.empty();
@@ -157,7 +161,14 @@ int run(const ReproduceOptions& options, const Common& common) {
       }
       continue;
     }
-    const auto rows = reproduce(paper, options.section);
+    std::vector<ReproducedRow> rows;
+    try {
+      rows = reproduce(paper, options.section);
+    } catch (const BudgetSpent& spent) {
+      end_interrupted(spent, std::to_string(done) + " of " + std::to_string(chosen.size()) +
+                                 " papers were reproduced, and " + paper + " was not finished");
+    }
+    ++done;
     good = good && ok(rows);
     if (common.json) {
       all.push_back(to_json(paper, rows));

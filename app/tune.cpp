@@ -7,6 +7,7 @@
 #include <pfaff/app/command.hpp>
 #include <pfaff/app/terminal.hpp>
 #include <pfaff/bench/runner/files.hpp>
+#include <pfaff/bench/runner/interruption.hpp>
 #include <pfaff/bench/tuning/tuned_splitting.hpp>
 #include <pfaff/bench/verification/check.hpp>
 #include <pfaff/core/facets/quadratic_energy.hpp>
@@ -62,6 +63,7 @@ Parts parts_for(const Model& model, const TuningSettings& settings) {
 int tune(const TuneOptions& options, const Common& common) {
   if (!(options.step > 0))
     throw InputError("--step: expected the step that the method is tuned for, above 0");
+  const Interruption interruption;
   const std::string name = options.name.empty() ? "tuned-splitting" : options.name;
   if (!is_kebab_case(name))
     throw InputError("--name '" + name + "': expected kebab-case, such as 'tuned-pendulum'");

@@ -7,8 +7,9 @@
 
 #include <pfaff/app/command.hpp>
 #include <pfaff/app/terminal.hpp>
+#include <pfaff/bench/runner/interruption.hpp>
 #include <pfaff/bench/runner/settings.hpp>
-#include <pfaff/bench/verification/check.hpp>
+#include <pfaff/bench/verification/check_budget.hpp>
 
 namespace pfaff::app {
 
@@ -31,6 +32,7 @@ void print(const std::vector<Check>& checks) {
   std::vector<std::array<std::string, 3>> order;
   std::vector<std::vector<std::string>> controls{{"control", "system", "measured", "claimed", "result"}};
   std::vector<std::vector<std::string>> failures{{"  plug-in", "claim", "system", "precision", "found"}};
+  std::vector<std::vector<std::string>> unjudged{{"  plug-in", "claim", "system", "precision", "reason"}};
   for (const Check& c : checks) {
     if (!good(c))
       failures.push_back({"  " + called(c.plugin, c.parameters), c.claim, c.system, c.precision,
@@ -44,7 +46,11 @@ void print(const std::vector<Check>& checks) {
            std::string(to_string(c.result))});
       continue;
     }
-    if (c.result == CheckResult::skipped && !c.in_scope) continue;
+    if (c.result == CheckResult::skipped && !c.in_scope) {
+      if (ran_out(c))
+        unjudged.push_back({"  " + called(c.plugin, c.parameters), c.claim, c.system, c.precision, c.reason});
+      continue;
+    }
     const std::array<std::string, 3> key{c.claim, c.system, c.precision};
     const auto [where, added] = counts.try_emplace(key);
     if (added) order.push_back(key);
@@ -84,12 +90,14 @@ void print(const std::vector<Check>& checks) {
     }
     std::cout << table(some) << rejected << " of " << controls.size() - 1 << " controls rejected\n";
   }
+  if (unjudged.size() > 1) std::cout << "\nneither passed nor failed\n" << table(unjudged);
   if (failures.size() > 1) std::cout << "\nfailed\n" << table(failures);
 }
 
 int run(const VerificationSettings& settings, const Common& common) {
   std::vector<Check> checks;
   {
+    const Interruption interruption;
     ProgressLine line(common.quiet);
     checks = verify(settings, [&](const std::string& what, std::size_t done, std::size_t all) {
       line.show(what, static_cast<double>(done) / static_cast<double>(all));

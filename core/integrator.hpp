@@ -26,7 +26,9 @@
 //   coefficients()               a mutable span over the numbers that define the method: the control that
 //                                changes one of them by 1e-6 needs it
 //   static instances(full)       the parameters that verification runs through
-//   advance_to(p, t, end, tolerance, z, work)   for methods that choose their steps
+//   advance_to(p, t, end, tolerance, z, work)   for methods that choose their steps. Before each it asks
+//                                AllowedSteps (core/facets/allowed_steps.hpp), and where it may take no more
+//                                it returns `converged` with z and t as they are
 //   bool compensated             the loop over steps is compiled once for each of its two values
 //   static constexpr bool fixed_sizes = false   for methods that gain nothing from a known dimension: the
 //                                loop is then not compiled for the dimensions 2, 4 and 6 separately

@@ -1,7 +1,5 @@
 #include <pfaff/bench/experiment/automatic_steps.hpp>
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +8,7 @@
 
 #include <pfaff/bench/experiment/cells.hpp>
 #include <pfaff/bench/experiment/error_measure.hpp>
+#include <pfaff/bench/runner/parallel.hpp>
 #include <pfaff/bench/runner/steps.hpp>
 
 namespace pfaff {
@@ -143,34 +142,31 @@ std::string step_of_count(const ExperimentRun& run, std::int64_t count) {
   return as_text(run.resolved.time.value() / static_cast<double>(count), "%.12g");
 }
 
-std::optional<std::vector<std::vector<std::int64_t>>> automatic_step_counts(
-    const Experiment& experiment, const std::vector<const ExperimentRun*>& runs, References& references,
-    const std::atomic<bool>* stop) {
-  const auto stopped = [&] { return stop != nullptr && *stop; };
+std::vector<std::vector<std::int64_t>> automatic_step_counts(const Experiment& experiment,
+                                                             const std::vector<const ExperimentRun*>& runs,
+                                                             References& references) {
   std::vector<std::vector<std::int64_t>> counts(runs.size());
-  oneapi::tbb::parallel_for(std::size_t{0}, runs.size(), [&](std::size_t k) {
+  in_parallel(runs.size(), [&](std::size_t k) {
     const ExperimentRun& like = *runs[k];
     const auto trial = [&](std::int64_t count, std::int64_t taken) {
-      if (stopped()) return StepTrial{infinity, infinity};
       ResolvedRun run = like.resolved;
       run.settings.structure_residuals = false;
       run.step = finite_number(step_of_count(like, count), "--step");
       run.steps = taken;
       run.every = (taken + 63) / 64;
       const ReferenceSolution* solution = like.which->error.empty() ? references.of(like) : nullptr;
-      const RunRecord record = execute(run, solution, {}, stop);
-      const bool whole = record.status == Status::converged && !record.interrupted;
+      const RunRecord record = execute(run, solution);
+      if (record.interrupted) spend(0, 0);
       return StepTrial{static_cast<double>(record.counters.fields + record.counters.jacobians),
-                       whole ? error_of(*like.which, run, record) : infinity};
+                       record.status == Status::converged ? error_of(*like.which, run, record) : infinity};
     };
     const double evaluations = like.which->evaluations.value_or(default_evaluations);
     counts[k] = step_counts(trial, evaluations);
-    if (counts[k].empty() && !stopped())
+    if (counts[k].empty())
       throw InputError(experiment.name + ", case " + like.which->name + ", method " + like.method->label +
                        ": key 'evaluations': " + as_text(evaluations, "%.6g") +
                        " are too few to choose steps by; expected more");
   });
-  if (stopped()) return std::nullopt;
   return counts;
 }
 

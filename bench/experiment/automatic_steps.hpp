@@ -45,11 +45,11 @@ std::vector<std::int64_t> step_counts(const StepTrials& trial, double evaluation
 /// stands for those to be chosen: the first run of each pair among `runs`.
 std::vector<const ExperimentRun*> runs_with_automatic_steps(const std::vector<ExperimentRun>& runs);
 
-/// The numbers of steps for each of these runs. Nothing where `stop`, which may be null, became true.
-/// InputError, which names case and method, where the evaluations of the case do not suffice.
-std::optional<std::vector<std::vector<std::int64_t>>> automatic_step_counts(
-    const Experiment& experiment, const std::vector<const ExperimentRun*>& runs, References& references,
-    const std::atomic<bool>* stop);
+/// The numbers of steps for each of these runs. InputError, which names case and method, where the
+/// evaluations of the case do not suffice.
+std::vector<std::vector<std::int64_t>> automatic_step_counts(const Experiment& experiment,
+                                                             const std::vector<const ExperimentRun*>& runs,
+                                                             References& references);
 
 /// The step that divides the duration of the run into `count`.
 std::string step_of_count(const ExperimentRun& run, std::int64_t count);

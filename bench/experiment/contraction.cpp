@@ -1,7 +1,5 @@
 #include <pfaff/bench/experiment/contraction.hpp>
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -9,6 +7,7 @@
 
 #include <pfaff/bench/experiment/carried_states.hpp>
 #include <pfaff/bench/experiment/cells.hpp>
+#include <pfaff/bench/runner/parallel.hpp>
 
 namespace pfaff {
 
@@ -68,7 +67,7 @@ std::string contraction_csv(const std::vector<ExperimentRun>& runs,
   const auto largest = runs_at_largest_steps(runs, summaries, contracts);
   if (largest.empty()) return {};
   std::vector<std::string> rows(largest.size());
-  oneapi::tbb::parallel_for(std::size_t{0}, largest.size(), [&](std::size_t m) {
+  in_parallel(largest.size(), [&](std::size_t m) {
     const ExperimentRun& run = *largest[m];
     const std::vector<CarriedDisc> discs = carry_disc(run.resolved, samples);
     const std::size_t last = discs.size() - 1;

@@ -37,9 +37,9 @@ void keep_costs(const std::filesystem::path& directory, const std::vector<Experi
 
 /// Times every run that cost.csv does not hold yet, one after another, and writes cost.csv, with the name of
 /// the machine at the end of each row. The runs of an ensemble differ only in their seed, so that only the
-/// first of them is timed. False where `stop`, which may be null, became true before all were timed; rows
-/// that are written by then are kept. Each run is timed for about `seconds`.
-bool write_costs(const std::filesystem::path& directory, const std::vector<ExperimentRun>& runs,
-                 double seconds, const ExperimentProgress& progress, const std::atomic<bool>* stop = nullptr);
+/// first of them is timed. Where it is asked to stop before all were timed, rows that are written by then are
+/// kept. Each run is timed for about `seconds`.
+void write_costs(const std::filesystem::path& directory, const std::vector<ExperimentRun>& runs,
+                 double seconds, const ExperimentProgress& progress);
 
 }  // namespace pfaff

@@ -1,7 +1,5 @@
 #include <pfaff/bench/experiment/equal_cost.hpp>
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,6 +14,7 @@
 #include <pfaff/bench/runner/checksum.hpp>
 #include <pfaff/bench/runner/config_file.hpp>
 #include <pfaff/bench/runner/files.hpp>
+#include <pfaff/bench/runner/parallel.hpp>
 #include <pfaff/bench/runner/run_directory.hpp>
 
 namespace pfaff {
@@ -143,10 +142,9 @@ void tell_apart(std::vector<ExperimentRun>& runs) {
     if (sharing.at(runs[k].slug).size() > 1) runs[k].slug += "-" + sha1_of(settings[k]).substr(0, digits);
 }
 
-bool write_equal_cost(const fs::path& directory, const Experiment& experiment,
+void write_equal_cost(const fs::path& directory, const Experiment& experiment,
                       const std::vector<ExperimentRun>& runs, const std::vector<nlohmann::json>& summaries,
-                      References& references, const ExperimentProgress& progress,
-                      const std::atomic<bool>* stop) {
+                      References& references, const ExperimentProgress& progress) {
   const Costs costs = read_costs(directory / "cost.csv", runs);
   std::vector<Chosen> chosen;
   for (const ExperimentCase& one : experiment.cases)
@@ -162,20 +160,16 @@ bool write_equal_cost(const fs::path& directory, const Experiment& experiment,
   std::error_code error;
   fs::create_directories(directory / made_in, error);
   if (progress && !open.empty()) progress({2, "runs at equal cost", 0, open.size()});
-  std::atomic<bool> whole = true;
-  oneapi::tbb::parallel_for(std::size_t{0}, open.size(), [&](std::size_t k) {
+  in_parallel(open.size(), [&](std::size_t k) {
     const ExperimentRun& run = *open[k];
-    const RunRecord record = execute(run.resolved, references.of(run), {}, stop);
-    if (record.interrupted)
-      whole = false;
-    else
-      leave(directory / made_in / run.slug, run.resolved, record);
+    const RunRecord record = execute(run.resolved, references.of(run));
+    if (record.interrupted) spend(0, 0);
+    leave(directory / made_in / run.slug, run.resolved, record);
   });
-  if (!whole) return false;
   const fs::path path = directory / "equal_cost.csv";
   if (all.empty()) {
     fs::remove(path, error);
-    return true;
+    return;
   }
   std::istringstream lines(results_csv(all, read_summaries(directory, all, made_in)));
   std::string text, line;
@@ -184,7 +178,6 @@ bool write_equal_cost(const fs::path& directory, const Experiment& experiment,
   for (std::size_t k = 0; std::getline(lines, line); ++k)
     text += as_text(chosen[k].level, "%.6g") + "," + line + "\n";
   write_file(path, text);
-  return true;
 }
 
 }  // namespace pfaff

@@ -39,10 +39,9 @@ void tell_apart(std::vector<ExperimentRun>& runs);
 /// Chooses, from the timings of cost.csv, a level for each case without seeds and the step of each method
 /// there, makes the runs that `directory` does not hold, under equal-cost/, and writes equal_cost.csv: the
 /// columns of results.csv after the level in nanoseconds. Both follow from timings and differ from machine to
-/// machine. False where `stop` became true before everything was there; what is whole stays.
-bool write_equal_cost(const std::filesystem::path& directory, const Experiment& experiment,
+/// machine. Where it is asked to stop before everything is there, what is whole stays.
+void write_equal_cost(const std::filesystem::path& directory, const Experiment& experiment,
                       const std::vector<ExperimentRun>& runs, const std::vector<nlohmann::json>& summaries,
-                      References& references, const ExperimentProgress& progress,
-                      const std::atomic<bool>* stop);
+                      References& references, const ExperimentProgress& progress);
 
 }  // namespace pfaff

@@ -200,20 +200,22 @@ struct Preparation {
 };
 
 // Chooses the steps that an experiment leaves to the program and expands it anew. The leading process
-// chooses, and all processes take what it has chosen. False where `stop` became true before that.
+// chooses, and all processes take what it has chosen. False where it was asked to stop before that.
 bool choose_steps(Experiment& experiment, std::vector<ExperimentRun>& runs, References& references,
-                  Team& team, const ExperimentProgress& progress, const std::atomic<bool>* stop) {
+                  Team& team, const ExperimentProgress& progress) {
   const std::vector<const ExperimentRun*> pairs = runs_with_automatic_steps(runs);
   if (pairs.empty()) return true;
   // A list for all pairs: how many steps there are of each, and their numbers.
   const std::vector<std::size_t> list = team.agreed([&] {
     if (progress) progress({1, "choosing steps", 0, pairs.size()});
     std::vector<std::size_t> flat;
-    const auto counts = automatic_step_counts(experiment, pairs, references, stop);
-    if (!counts) return flat;
-    for (const std::vector<std::int64_t>& of_pair : *counts) {
-      flat.push_back(of_pair.size());
-      flat.insert(flat.end(), of_pair.begin(), of_pair.end());
+    try {
+      for (const std::vector<std::int64_t>& of_pair : automatic_step_counts(experiment, pairs, references)) {
+        flat.push_back(of_pair.size());
+        flat.insert(flat.end(), of_pair.begin(), of_pair.end());
+      }
+    } catch (const BudgetSpent& spent) {
+      if (!spent.stopped()) throw;  // an empty list says to all processes that it was
     }
     return flat;
   });
@@ -228,6 +230,80 @@ bool choose_steps(Experiment& experiment, std::vector<ExperimentRun>& runs, Refe
   }
   runs = expand(experiment);
   return true;
+}
+
+// Makes the run and leaves it in the directory; false where it was asked to stop before its end.
+bool made(const ExperimentRun& run, References& references, const fs::path& directory) try {
+  const RunRecord record = execute(run.resolved, references.of(run));
+  if (!record.interrupted) leave(directory / "runs" / run.slug, run.resolved, record);
+  return !record.interrupted;
+} catch (const BudgetSpent& spent) {
+  if (!spent.stopped()) throw;
+  return false;
+}
+
+// Makes all that belongs to the experiment and is not there yet. `done` is the number of runs that are there.
+// BudgetSpent where it was asked to stop; what is whole stays. `experiment` gets the steps that are chosen.
+void make_all(Experiment experiment, const fs::path& directory, const ExperimentProgress& progress,
+              const ExperimentOptions& options, ExperimentOutcome& outcome, std::size_t& done) {
+  std::vector<ExperimentRun> runs = expand(experiment, &outcome.left_out);
+  ThisProcess alone;
+  Team& team = options.team == nullptr ? alone : *options.team;
+  Preparation ready;
+  (void)team.agreed([&] {
+    ready.take(experiment, directory, runs, outcome.left_out);
+    return std::vector<std::size_t>();
+  });
+  References references;
+  if (!choose_steps(experiment, runs, references, team, progress)) {
+    outcome.interrupted = true;
+    return;
+  }
+  const std::vector<std::size_t> open =
+      team.agreed([&] { return ready.find(directory, runs, options.force); });
+  outcome.runs = runs.size();
+  done = outcome.resumed = runs.size() - open.size();
+
+  const auto report = [&](int phase, const std::string& what, std::size_t number) {
+    if (progress) progress({phase, what, number, runs.size()});
+  };
+  if (!team.several())  // all cores then share one solution; processes make their own when they need it
+    for (const std::size_t k : open) {
+      report(1, "reference solution of " + runs[k].which->name, outcome.resumed);
+      (void)references.of(runs[k]);
+    }
+  team.share(
+      open.size(),
+      [&](std::size_t k) {
+        const Budget of_this_thread({}, options.stop);
+        return made(runs[open[k]], references, directory);
+      },
+      [&](std::size_t k) { report(1, in_words(runs[open[k]]), ++done); });
+  outcome.interrupted = done < runs.size();
+  if (!team.leads() || outcome.interrupted) return;
+  write_costs(directory, runs, options.timing.value_or(experiment.quick ? 0.05 : 0.3), progress);
+
+  const std::vector<nlohmann::json> summaries = read_summaries(directory, runs);
+  for (const nlohmann::json& s : summaries)
+    if (s["status"] != "converged") ++outcome.failed;
+  write_file(directory / "results.csv", results_csv(runs, summaries));
+  write_or_remove(directory / "ensembles.csv", ensembles_csv(runs, summaries));
+  write_or_remove(directory / "contraction.csv", contraction_csv(runs, summaries));
+  report(ExperimentStage::phases, "loops of states", 0);
+  write_or_remove(directory / "loops.csv", loops_csv(runs, summaries));
+  write_or_remove(directory / "reversibility.csv", reversibility_csv(runs, summaries));
+  report(ExperimentStage::phases, "frequencies", 0);
+  write_or_remove(directory / "frequencies.csv", frequencies_csv(runs, summaries));
+  const std::vector<Finding> findings = findings_of(experiment, runs, summaries);
+  write_or_remove(directory / "findings.csv", findings.empty() ? "" : findings_csv(findings));
+  for (const Finding& finding : findings) outcome.findings.push_back(to_json(finding));
+  outcome.failed_claims = failed_claims(findings);
+  write_equal_cost(directory, experiment, runs, summaries, references, progress);
+  outcome.table = results_table(directory, experiment, runs, summaries) + findings_table(findings);
+  if (options.report) {
+    report(ExperimentStage::phases, "figures and report", 0);
+    outcome.report = make_report(directory);
+  }
 }
 }  // namespace
 
@@ -248,91 +324,25 @@ ProblemKey problem_of(const ExperimentRun& run) {
 
 ExperimentOutcome run_experiment(const Experiment& asked, const fs::path& directory,
                                  const ExperimentProgress& progress, const ExperimentOptions& options) {
-  Experiment experiment = asked;  // with the steps that are chosen
-  if (experiment.derivation) {
+  if (asked.derivation) {
     if (options.team != nullptr && !options.team->leads()) return {};  // one process makes all of it
     return run_derivation_study(
-        experiment, directory,
+        asked, directory,
         [&](const std::string& what, std::size_t done, std::size_t all) {
           if (progress) progress({1, what, done, all});
         },
         options);
   }
+  const Budget budget({}, options.stop);
   ExperimentOutcome outcome;
-  std::vector<ExperimentRun> runs = expand(experiment, &outcome.left_out);
-  ThisProcess alone;
-  Team& team = options.team == nullptr ? alone : *options.team;
-  Preparation ready;
-  (void)team.agreed([&] {
-    ready.take(experiment, directory, runs, outcome.left_out);
-    return std::vector<std::size_t>();
-  });
-  References references;
-  if (!choose_steps(experiment, runs, references, team, progress, options.stop)) {
+  std::size_t done = 0;
+  try {
+    make_all(asked, directory, progress, options, outcome, done);
+  } catch (const BudgetSpent& spent) {
+    if (!spent.stopped()) throw;
     outcome.interrupted = true;
-    return outcome;
   }
-  const std::vector<std::size_t> open =
-      team.agreed([&] { return ready.find(directory, runs, options.force); });
-  outcome.runs = runs.size();
-  outcome.resumed = runs.size() - open.size();
-
-  const auto report = [&](int phase, const std::string& what, std::size_t done) {
-    if (progress) progress({phase, what, done, runs.size()});
-  };
-  const auto stopped = [&] { return options.stop != nullptr && *options.stop; };
-  if (!team.several())  // all cores then share one solution; processes make their own when they need it
-    for (const std::size_t k : open) {
-      if (stopped()) break;
-      report(1, "reference solution of " + runs[k].which->name, outcome.resumed);
-      (void)references.of(runs[k]);
-    }
-  std::size_t done = outcome.resumed;
-  team.share(
-      open.size(),
-      [&](std::size_t k) {
-        const ExperimentRun& run = runs[open[k]];
-        if (stopped()) return false;
-        const RunRecord record = execute(run.resolved, references.of(run), {}, options.stop);
-        if (!record.interrupted) leave(directory / "runs" / run.slug, run.resolved, record);
-        return !record.interrupted;
-      },
-      [&](std::size_t k) { report(1, in_words(runs[open[k]]), ++done); });
-  outcome.interrupted = done < runs.size();
-  if (!team.leads()) return outcome;
-  if (!outcome.interrupted)
-    outcome.interrupted = !write_costs(
-        directory, runs, options.timing.value_or(experiment.quick ? 0.05 : 0.3), progress, options.stop);
-  if (outcome.interrupted) {
-    outcome.resumed = done;
-    return outcome;
-  }
-
-  const std::vector<nlohmann::json> summaries = read_summaries(directory, runs);
-  for (const nlohmann::json& s : summaries)
-    if (s["status"] != "converged") ++outcome.failed;
-  write_file(directory / "results.csv", results_csv(runs, summaries));
-  write_or_remove(directory / "ensembles.csv", ensembles_csv(runs, summaries));
-  write_or_remove(directory / "contraction.csv", contraction_csv(runs, summaries));
-  report(ExperimentStage::phases, "loops of states", 0);
-  write_or_remove(directory / "loops.csv", loops_csv(runs, summaries));
-  write_or_remove(directory / "reversibility.csv", reversibility_csv(runs, summaries));
-  report(ExperimentStage::phases, "frequencies", 0);
-  write_or_remove(directory / "frequencies.csv", frequencies_csv(runs, summaries));
-  const std::vector<Finding> findings = findings_of(experiment, runs, summaries);
-  write_or_remove(directory / "findings.csv", findings.empty() ? "" : findings_csv(findings));
-  for (const Finding& finding : findings) outcome.findings.push_back(to_json(finding));
-  outcome.failed_claims = failed_claims(findings);
-  if (!write_equal_cost(directory, experiment, runs, summaries, references, progress, options.stop)) {
-    outcome.interrupted = true;
-    outcome.resumed = done;
-    return outcome;
-  }
-  outcome.table = results_table(directory, experiment, runs, summaries) + findings_table(findings);
-  if (options.report) {
-    report(ExperimentStage::phases, "figures and report", 0);
-    outcome.report = make_report(directory);
-  }
+  if (outcome.interrupted) outcome.resumed = done;
   return outcome;
 }
 

@@ -1,7 +1,5 @@
 #include <pfaff/bench/experiment/frequencies.hpp>
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +9,7 @@
 
 #include <pfaff/bench/experiment/carried_states.hpp>
 #include <pfaff/bench/experiment/cells.hpp>
+#include <pfaff/bench/runner/parallel.hpp>
 #include <pfaff/core/tape/replay.hpp>
 #include <pfaff/core/text/scope.hpp>
 
@@ -132,7 +131,7 @@ std::string frequencies_csv(const std::vector<ExperimentRun>& runs,
     problem.solution = reference_of(shorter);
   }
   std::vector<std::string> rows(compared.size());
-  oneapi::tbb::parallel_for(std::size_t{0}, compared.size(), [&](std::size_t m) {
+  in_parallel(compared.size(), [&](std::size_t m) {
     const ExperimentRun& run = *compared[m];
     const ComparedMotion& problem = problems.at(problem_of(run));
     const std::vector<FoundFrequency> found = frequencies_of(run, *problem.solution, problem.time);

@@ -1,13 +1,12 @@
 #include <pfaff/bench/experiment/loop_invariant.hpp>
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include <pfaff/bench/experiment/carried_states.hpp>
 #include <pfaff/bench/experiment/cells.hpp>
+#include <pfaff/bench/runner/parallel.hpp>
 
 namespace pfaff {
 
@@ -116,7 +115,7 @@ std::vector<CarriedLoop> carry_loop(const ResolvedRun& run, int looks) {
 std::string loops_csv(const std::vector<ExperimentRun>& runs, const std::vector<nlohmann::json>& summaries) {
   const auto largest = runs_at_largest_steps(runs, summaries, has_loop_invariant);
   std::vector<std::string> rows(largest.size());
-  oneapi::tbb::parallel_for(std::size_t{0}, largest.size(), [&](std::size_t m) {
+  in_parallel(largest.size(), [&](std::size_t m) {
     const ExperimentRun& run = *largest[m];
     for (const CarriedLoop& loop : carry_loop(run.resolved, looks_at_loop))
       rows[m] += csv_quoted(run.which->name) + "," + csv_quoted(run.method->label) + "," +

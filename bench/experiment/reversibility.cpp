@@ -1,7 +1,5 @@
 #include <pfaff/bench/experiment/reversibility.hpp>
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +8,7 @@
 #include <pfaff/bench/experiment/carried_states.hpp>
 #include <pfaff/bench/experiment/cells.hpp>
 #include <pfaff/bench/measure/history.hpp>
+#include <pfaff/bench/runner/parallel.hpp>
 
 namespace pfaff {
 
@@ -152,7 +151,7 @@ std::string reversibility_csv(const std::vector<ExperimentRun>& runs,
   const auto largest =
       runs_at_largest_steps(runs, summaries, [](const ResolvedRun& run) { return !run.adaptive(); });
   std::vector<std::string> rows(largest.size());
-  oneapi::tbb::parallel_for(std::size_t{0}, largest.size(), [&](std::size_t m) {
+  in_parallel(largest.size(), [&](std::size_t m) {
     const ExperimentRun& run = *largest[m];
     const auto cell = [](double x) { return std::isfinite(x) ? as_text(x, "%.9g") : std::string(); };
     const Returns returns = returns_to_start(run.resolved);

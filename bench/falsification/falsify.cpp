@@ -1,7 +1,5 @@
 #include <pfaff/bench/falsification/falsify.hpp>
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -9,6 +7,8 @@
 
 #include <pfaff/bench/falsification/drawn_parameters.hpp>
 #include <pfaff/bench/falsification/trial.hpp>
+#include <pfaff/bench/runner/interruption.hpp>
+#include <pfaff/bench/runner/parallel.hpp>
 
 namespace pfaff {
 
@@ -124,15 +124,28 @@ Claim claim_named(const std::string& name) {
   throw InputError(unknown_name("claim", name, names));
 }
 
-std::vector<FalsificationResult> falsify(
-    std::vector<ClaimUnderTest> tests, const FalsificationSettings& settings,
-    const std::function<void(const std::string& what, double fraction)>& progress) {
+namespace {
+// What a search has done so far.
+std::string done_so_far(const std::vector<Search>& searches) {
+  int tried = 0;
+  std::size_t falsified = 0;
+  for (const Search& search : searches) {
+    tried += search.result.tried;
+    falsified += search.result.counterexample ? 1 : 0;
+  }
+  return std::to_string(searches.size()) + " claims were tried on " + std::to_string(tried) +
+         " random systems, and " + std::to_string(falsified) + " falsified";
+}
+
+// Fills in the results.
+void search_all(std::vector<Search>& searches, std::vector<ClaimUnderTest> tests,
+                const FalsificationSettings& settings,
+                const std::function<void(const std::string& what, double fraction)>& progress) {
   const auto begin = Clock::now();
   const auto spent = [&] {
     return std::chrono::duration<double>(Clock::now() - begin).count() / settings.budget;
   };
-  std::vector<Search> searches(tests.size());
-  oneapi::tbb::parallel_for(std::size_t{0}, tests.size(), [&](std::size_t k) {
+  in_parallel(tests.size(), [&](std::size_t k) {
     searches[k].result.test = std::move(tests[k]);
     // Computed again, since a test may come from elsewhere.
     searches[k].kinds = kinds_for(searches[k].result.test);
@@ -140,7 +153,7 @@ std::vector<FalsificationResult> falsify(
   // The first system is tried on every claim, whatever the budget.
   for (bool first = true; first || spent() < 1; first = false) {
     std::atomic<bool> open = false;
-    oneapi::tbb::parallel_for(std::size_t{0}, searches.size(), [&](std::size_t k) {
+    in_parallel(searches.size(), [&](std::size_t k) {
       Search& search = searches[k];
       if (!search.open() || search.next >= settings.systems || (!first && spent() >= 1)) return;
       open = true;
@@ -151,6 +164,18 @@ std::vector<FalsificationResult> falsify(
       try_next(search, settings.seed);
     });
     if (!open) break;
+  }
+}
+}  // namespace
+
+std::vector<FalsificationResult> falsify(
+    std::vector<ClaimUnderTest> tests, const FalsificationSettings& settings,
+    const std::function<void(const std::string& what, double fraction)>& progress) {
+  std::vector<Search> searches(tests.size());
+  try {
+    search_all(searches, std::move(tests), settings, progress);
+  } catch (const BudgetSpent& spent) {
+    end_interrupted(spent, done_so_far(searches));
   }
   std::vector<FalsificationResult> results;
   for (Search& search : searches) results.push_back(std::move(search.result));

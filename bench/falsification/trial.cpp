@@ -1,5 +1,6 @@
 #include <pfaff/bench/falsification/trial.hpp>
 
+#include <pfaff/bench/verification/check_budget.hpp>
 #include <pfaff/bench/verification/random_checks.hpp>
 
 namespace pfaff {
@@ -12,15 +13,22 @@ std::shared_ptr<const Model> model_under_test(const ClaimUnderTest& test,
 
 namespace {
 
-// The system judged at its initial state; nullopt where the claim holds or does not speak of it.
+// The system judged at its initial state; nullopt where the claim holds or does not speak of it, and where
+// the budget of a check is spent before that is known.
 std::optional<Counterexample> judged(const ClaimUnderTest& test, const Recipe& recipe,
                                      PolynomialSystem system, const JudgedStep& at) {
   const auto model = model_under_test(test, model_of(system));
   if (model == nullptr) return std::nullopt;
   const JudgedStep here{model, system.initial, at.time, at.step, at.count};
-  Judgement judgement = judge(*test.method, test.claim, here);
-  if (!judgement.falsified) return std::nullopt;
-  return Counterexample{recipe, std::move(system), here, std::move(judgement)};
+  const Budget budget(limits_of_check);
+  try {
+    Judgement judgement = judge(*test.method, test.claim, here);
+    if (!judgement.falsified) return std::nullopt;
+    return Counterexample{recipe, std::move(system), here, std::move(judgement)};
+  } catch (const BudgetSpent& spent) {
+    if (spent.stopped()) throw;
+    return std::nullopt;
+  }
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <pfaff/core/errors/budget.hpp>
+
 namespace pfaff {
 
 namespace {
@@ -39,6 +41,8 @@ bool keeps_history(const MethodInstance& method, const std::shared_ptr<const Mod
                    const std::vector<Quad>& z) {
   try {
     return remembers_steps(method, model, t, h, z);
+  } catch (const BudgetSpent&) {
+    throw;
   } catch (...) {
     return false;
   }

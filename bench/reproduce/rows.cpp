@@ -1,6 +1,6 @@
 #include <pfaff/bench/reproduce/rows.hpp>
 
-#include <pfaff/core/errors/errors.hpp>
+#include <pfaff/core/errors/budget.hpp>
 
 namespace pfaff {
 
@@ -16,6 +16,7 @@ std::string shown(double x) { return to_string(Quad(x), 4); }
 
 void Rows::add(const std::string& equation, const std::string& what, const Texts& texts, Evidence evidence,
                const std::string& entry) {
+  spend(0, 0);  // between any two rows it may have been asked to stop
   ReproducedRow row;
   row.id = equation + " " + what;
   row.section = section_;

@@ -17,7 +17,7 @@ void set_handler(int signal, struct sigaction& before) {
 }
 }  // namespace
 
-Interruption::Interruption() {
+Interruption::Interruption() : budget_({}, &asked_to_stop) {
   asked_to_stop.store(false);
   set_handler(SIGINT, interrupt_before_);
   set_handler(SIGTERM, terminate_before_);
@@ -29,5 +29,10 @@ Interruption::~Interruption() {
 }
 
 const std::atomic<bool>& Interruption::stop() { return asked_to_stop; }
+
+void end_interrupted(const BudgetSpent& spent, const std::string& done) {
+  if (!spent.stopped()) throw BudgetSpent(spent);
+  throw RunError("interrupted: " + done);
+}
 
 }  // namespace pfaff

@@ -1,13 +1,17 @@
-// Interruptions by the user: a run that is asked to stop ends after its step and keeps its samples.
+// Interruptions by the user: a run that is asked to stop ends after its step and keeps its samples, and other
+// work ends between two steps and says what was done by then.
 #pragma once
 
 #include <atomic>
 #include <csignal>
+#include <string>
+
+#include <pfaff/core/errors/budget.hpp>
 
 namespace pfaff {
 
-/// While it lives, the first SIGINT or SIGTERM only sets stop(); a second one ends the process as usual. At
-/// most one object at a time.
+/// While it lives, the first SIGINT or SIGTERM only sets stop(), which ends the budget that is in force on
+/// this thread as long; a second one ends the process as usual. At most one object at a time.
 class Interruption {
  public:
   Interruption();
@@ -20,6 +24,11 @@ class Interruption {
  private:
   struct sigaction interrupt_before_ {
   }, terminate_before_{};
+  Budget budget_;
 };
+
+/// To be called where BudgetSpent was caught: passes it on, and where somebody asked for the end throws a
+/// RunError instead that says what was done by then.
+[[noreturn]] void end_interrupted(const BudgetSpent& spent, const std::string& done);
 
 }  // namespace pfaff

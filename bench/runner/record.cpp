@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/bench/runner/observer.hpp>
+#include <pfaff/core/errors/budget.hpp>
 
 namespace pfaff {
 
@@ -25,13 +27,15 @@ bool ended_by(const std::string& not_finite, const T& t, std::int64_t step, RunR
   return true;
 }
 
-// Ends a run that has been asked to stop; true where it has.
+// Ends a run whose budget has ended after `step` steps, at time t. A failure that is known by then stays.
 template <class T>
-bool interrupted(const std::atomic<bool>* stop, const T& t, std::int64_t step, RunRecord& record) {
-  if (stop == nullptr || !stop->load(std::memory_order_relaxed)) return false;
-  record.interrupted = true;
-  record.message = "it was interrupted " + at(t, step);
-  return true;
+void end_by(const BudgetSpent& spent, const T& t, std::int64_t step, RunRecord& record) {
+  record.completed = step;
+  if (record.status != Status::converged) return;
+  record.interrupted = spent.stopped();
+  if (!spent.stopped()) record.status = Status::not_converged;
+  record.message = (spent.stopped() ? "it was interrupted" : std::string(spent.what())) + " " + at(t, step);
+  if (spent.reason() == BudgetSpent::Reason::steps) record.message += "; --max-steps sets it";
 }
 
 std::string failure(Status status, const std::string& when) {
@@ -71,8 +75,8 @@ std::string smaller_step(const ResolvedRun& run, const T& t, const T& h, const s
 }
 
 template <class T>
-void execute_fixed(const ResolvedRun& run, Observer<T>& observer, RunRecord& record, const Progress& progress,
-                   const std::atomic<bool>* stop) {
+void execute_fixed(const ResolvedRun& run, Observer<T>& observer, RunRecord& record,
+                   const Progress& progress) {
   const auto stepper = run.method->stepper(run.model, T());
   std::vector<T> z;
   for (const Real& x : run.initial) z.push_back(T(x));
@@ -85,76 +89,80 @@ void execute_fixed(const ResolvedRun& run, Observer<T>& observer, RunRecord& rec
                                   : std::min(run.every, std::max<std::int64_t>(1, run.steps / 2000000));
   const std::int64_t rows = run.steps / run.every + 1;
   const std::int64_t structure_rows = std::max<std::int64_t>(1, rows / 50);
-  std::int64_t row = 0;
-  bool ended = ended_by(observer.observe(time(0), z, true, true), time(0), 0, record);
-  for (std::int64_t k = 0; k < run.steps && !ended;) {
-    const std::int64_t next_row = std::min(run.steps, (k / run.every + 1) * run.every);
-    const std::int64_t count = std::min(stride, next_row - k);
-    std::int64_t completed = 0;
-    const Status status = stepper->advance(t0, k, h, count, z, completed);
-    record.completed = k + completed;
-    if (status != Status::converged) {
-      record.status = status;
-      const T reached = time(k + completed);
-      record.message = failure(status, at(reached, k + completed)) + smaller_step(run, reached, h, z);
-      break;
+  std::int64_t row = 0, k = 0, completed = 0;
+  try {
+    bool ended = ended_by(observer.observe(time(0), z, true, true), time(0), 0, record);
+    while (k < run.steps && !ended) {
+      const std::int64_t next_row = std::min(run.steps, (k / run.every + 1) * run.every);
+      const std::int64_t count = std::min(stride, next_row - k);
+      const Status status = stepper->advance(t0, k, h, count, z, completed);
+      record.completed = k + completed;
+      if (status != Status::converged) {
+        record.status = status;
+        const T reached = time(k + completed);
+        record.message = failure(status, at(reached, k + completed));
+        record.message += smaller_step(run, reached, h, z);
+        break;
+      }
+      const std::int64_t now = k + count;
+      const bool keep = now % run.every == 0 || now == run.steps;
+      if (keep) ++row;
+      const bool structure = keep && (row % structure_rows == 0 || now == run.steps);
+      completed = 0;
+      ended = ended_by(observer.observe(time(now), z, keep, structure), time(now), now, record);
+      if (ended) record.completed = k;  // the steps behind which all was finite
+      k = now;
+      if (progress && keep) progress(static_cast<double>(k) / static_cast<double>(run.steps));
     }
-    k += count;
-    const bool keep = k % run.every == 0 || k == run.steps;
-    if (keep) ++row;
-    const bool structure = keep && (row % structure_rows == 0 || k == run.steps);
-    const bool bad = ended_by(observer.observe(time(k), z, keep, structure), time(k), k, record);
-    if (bad) record.completed = k - count;  // the steps behind which all was finite
-    ended = bad || (k < run.steps && interrupted(stop, time(k), k, record));
-    if (progress && keep) progress(static_cast<double>(k) / static_cast<double>(run.steps));
+  } catch (const BudgetSpent& spent) {
+    end_by(spent, time(k + completed), k + completed, record);
   }
   record.counters = stepper->counters();
 }
 
 // The number of intervals between evenly spaced samples of a run whose method chooses its steps. Every sample
 // forces a step to end there and so shortens it. A trial run without samples counts the steps that the method
-// takes by itself; with one sample for every eight of them the shortening hardly matters.
+// takes by itself; with one sample for every eight of them the shortening hardly matters. A trial whose
+// budget ends has taken more steps than any number of samples needs, or the run ends at once, too.
 template <class T>
 int sample_intervals(const ResolvedRun& run) {
+  const Budget budget({.steps = run.settings.step_budget});
   const auto stepper = run.method->stepper(run.model, T());
   std::vector<T> z;
   for (const Real& x : run.initial) z.push_back(T(x));
   T t(run.t0);
-  (void)stepper->advance_to(t, t + T(run.time), T(run.tolerance), z);
+  try {
+    (void)stepper->advance_to(t, t + T(run.time), T(run.tolerance), z);
+  } catch (const BudgetSpent&) {
+  }
   return static_cast<int>(std::clamp<std::int64_t>(stepper->counters().steps / 8, 32, 200));
-}
-
-// Ends a run that has taken more steps than it may; true where it has.
-template <class T>
-bool beyond_budget(const ResolvedRun& run, const T& t, std::int64_t steps, RunRecord& record) {
-  if (steps <= run.settings.step_budget) return false;
-  record.status = Status::not_converged;
-  record.message = "more than " + std::to_string(run.settings.step_budget) +
-                   " steps (--max-steps) were taken " + at(t, steps);
-  return true;
 }
 
 template <class T>
 void execute_adaptive(const ResolvedRun& run, Observer<T>& observer, RunRecord& record,
-                      const Progress& progress, const std::atomic<bool>* stop) {
+                      const Progress& progress) {
   const int intervals = sample_intervals<T>(run);
+  const Budget budget({.steps = run.settings.step_budget});
   const auto stepper = run.method->stepper(run.model, T());
   std::vector<T> z;
   for (const Real& x : run.initial) z.push_back(T(x));
   T t(run.t0);
-  bool ended = ended_by(observer.observe(t, z, true, false), t, 0, record);
-  for (int k = 1; k <= intervals && !ended; ++k) {
-    const T end = T(run.t0) + T(run.time) * T(k) / T(intervals);
-    const Status status = stepper->advance_to(t, end, T(run.tolerance), z);
-    if (status != Status::converged) {
-      record.status = status;
-      record.message = "the step control gave up " + at(t, stepper->counters().steps);
-      break;
+  const auto steps = [&] { return stepper->counters().steps; };
+  try {
+    bool ended = ended_by(observer.observe(t, z, true, false), t, 0, record);
+    for (int k = 1; k <= intervals && !ended; ++k) {
+      const T end = T(run.t0) + T(run.time) * T(k) / T(intervals);
+      const Status status = stepper->advance_to(t, end, T(run.tolerance), z);
+      if (status != Status::converged) {
+        record.status = status;
+        record.message = "the step control gave up " + at(t, steps());
+        break;
+      }
+      ended = ended_by(observer.observe(t, z, true, false), t, steps(), record);
+      if (progress) progress(static_cast<double>(k) / intervals);
     }
-    const std::int64_t steps = stepper->counters().steps;
-    ended = ended_by(observer.observe(t, z, true, false), t, steps, record) ||
-            (k < intervals && (beyond_budget(run, t, steps, record) || interrupted(stop, t, steps, record)));
-    if (progress) progress(static_cast<double>(k) / intervals);
+  } catch (const BudgetSpent& spent) {
+    end_by(spent, t, steps(), record);
   }
   record.counters = stepper->counters();
   record.completed = record.counters.steps;
@@ -192,24 +200,32 @@ namespace {
                  ": thrown after t = " + to_string(reached, 10) + ": " + words);
 }
 
+// What is said where the samples of a run have used up the memory.
+RunError out_of_memory(const ResolvedRun& run, RunRecord& record) {
+  const std::size_t samples = std::exchange(record.samples, {}).size();
+  return RunError("integrator " + run.settings.integrator + " on system " + run.model->name() +
+                  ": the memory was used up after " + std::to_string(samples) +
+                  " samples; --every keeps fewer of them");
+}
+
 template <class T>
 void execute_in(const ResolvedRun& run, const ReferenceSolution* reference, const Progress& progress,
-                const std::atomic<bool>* stop, RunRecord& record) {
+                RunRecord& record) {
   Observer<T> observer(run, reference, record);
   if (run.adaptive()) {
-    execute_adaptive(run, observer, record, progress, stop);
+    execute_adaptive(run, observer, record, progress);
   } else {
-    execute_fixed(run, observer, record, progress, stop);
+    execute_fixed(run, observer, record, progress);
   }
   observer.finish();
 }
 
 void execute_into(const ResolvedRun& run, const ReferenceSolution* reference, const Progress& progress,
-                  const std::atomic<bool>* stop, RunRecord& record) {
+                  RunRecord& record) {
   if (run.settings.precision == Precision::quad) {
-    execute_in<Quad>(run, reference, progress, stop, record);
+    execute_in<Quad>(run, reference, progress, record);
   } else {
-    execute_in<double>(run, reference, progress, stop, record);
+    execute_in<double>(run, reference, progress, record);
   }
 }
 }  // namespace
@@ -217,10 +233,11 @@ void execute_into(const ResolvedRun& run, const ReferenceSolution* reference, co
 RunRecord execute(const ResolvedRun& run, const ReferenceSolution* reference, const Progress& progress,
                   const std::atomic<bool>* stop) {
   RunRecord record;
+  const Budget budget({}, stop);
   try {
-    execute_into(run, reference, progress, stop, record);
+    execute_into(run, reference, progress, record);
   } catch (const std::bad_alloc&) {
-    throw;
+    throw out_of_memory(run, record);
   } catch (const RunError&) {
     throw;
   } catch (const InputError&) {

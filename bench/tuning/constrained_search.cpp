@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include <pfaff/bench/runner/interruption.hpp>
 #include <pfaff/core/linear/lu.hpp>
 
 namespace pfaff {
@@ -25,6 +26,7 @@ class Search {
     Numbers x, conditions, residuals;
   };
   [[nodiscard]] Point at(Numbers x) const {
+    spend(0, 1);
     auto values = problem_.values(x);
     return {std::move(x), std::move(values.conditions), std::move(values.residuals)};
   }
@@ -254,14 +256,23 @@ std::optional<std::vector<Quad>> least_squares(const ConstrainedProblem& problem
   const Search search(problem);
   std::optional<std::vector<Quad>> best;
   double smallest = std::numeric_limits<double>::infinity();
-  for (int start = 0; start < starts; ++start) {
-    if (progress) progress(static_cast<double>(start) / starts);
+  int start = 0;
+  const auto next = [&] {
     const auto end = search.from(problem.start(random));
-    if (!end || !(norm_of(end->residuals) < smallest)) continue;
+    if (!end || !(norm_of(end->residuals) < smallest)) return;
     auto exact = search.in_quad(*end);
-    if (!exact) continue;
+    if (!exact) return;
     smallest = norm_of(problem.values(rounded(*exact)).residuals);
     best = std::move(exact);
+  };
+  try {
+    for (; start < starts; ++start) {
+      if (progress) progress(static_cast<double>(start) / starts);
+      next();
+    }
+  } catch (const BudgetSpent& spent) {
+    end_interrupted(spent, std::to_string(start) + " of " + std::to_string(starts) +
+                               " starts of a search were tried, and nothing is written");
   }
   return best;
 }

@@ -6,6 +6,7 @@
 
 #include <pfaff/bench/measure/chosen_steps.hpp>
 #include <pfaff/bench/measure/reference.hpp>
+#include <pfaff/bench/verification/check_budget.hpp>
 #include <pfaff/bench/verification/method_on_model.hpp>
 #include <pfaff/bench/verification/step_scale.hpp>
 
@@ -80,28 +81,34 @@ std::string run_wrong(const MethodOnModel& on, const Stretch<T>& stretch, double
   return {};
 }
 
+// Runs at every tolerance to the time `elapsed` after the generic one.
+template <class T>
+Check at_all_tolerances(const MethodOnModel& on, const T& elapsed, Check check) {
+  const double unit = unit_of_tolerance(*on.model());
+  check.tolerance = most_errors;
+  check.result = CheckResult::pass;
+  const Stretch<T> stretch(on, elapsed);
+  for (const double tolerance : Tolerances<T>::values) {
+    double error = 0;
+    check.reason = run_wrong<T>(on, stretch, tolerance, unit, error);
+    check.measured = std::max(check.measured, error);
+    const bool right = check.reason.empty() && error <= most_errors;
+    if (right) continue;
+    check.result = CheckResult::fail;
+    check.reason = "at a tolerance of 1e" + std::to_string(std::lround(std::log10(tolerance))) + ": " +
+                   (check.reason.empty() ? "the error exceeds it too far" : check.reason);
+    break;
+  }
+  return check;
+}
+
 template <class T>
 void check_in(const MethodOnModel& on, std::vector<Check>& checks) {
   const T time(on.step_size() / check_step);
-  const double unit = unit_of_tolerance(*on.model());
   for (const int direction : {1, -1}) {
-    Check check = on.check(direction > 0 ? "tolerance" : "tolerance, backwards", "every system",
-                           Tolerances<T>::precision);
-    check.tolerance = most_errors;
-    check.result = CheckResult::pass;
-    const Stretch<T> stretch(on, T(direction) * time);
-    for (const double tolerance : Tolerances<T>::values) {
-      double error = 0;
-      check.reason = run_wrong<T>(on, stretch, tolerance, unit, error);
-      check.measured = std::max(check.measured, error);
-      const bool right = check.reason.empty() && error <= most_errors;
-      if (right) continue;
-      check.result = CheckResult::fail;
-      check.reason = "at a tolerance of 1e" + std::to_string(std::lround(std::log10(tolerance))) + ": " +
-                     (check.reason.empty() ? "the error exceeds it too far" : check.reason);
-      break;
-    }
-    checks.push_back(std::move(check));
+    const Check check = on.check(direction > 0 ? "tolerance" : "tolerance, backwards", "every system",
+                                 Tolerances<T>::precision);
+    checks.push_back(within_budget(check, [&] { return at_all_tolerances(on, T(direction) * time, check); }));
   }
 }
 

@@ -20,7 +20,8 @@ namespace pfaff {
 /// - fail: the claim does not hold.
 /// - measured: the claim is not made here or out of its scope; the number is only shown.
 /// - rejected: the check is a control, a claim known to be false, and was found false, as it must be.
-/// - skipped: it was not measured, for the reason given.
+/// - skipped: it was not measured, for the reason given. Where that begins with "not judged", the budget of
+///   the check was spent (check_budget.hpp), which is neither a pass nor a failure.
 enum class CheckResult { pass, fail, measured, rejected, skipped };
 std::string_view to_string(CheckResult result);
 

@@ -24,14 +24,16 @@ MeasuredStep<T>::MeasuredStep(const MethodInstance& method, std::shared_ptr<cons
 template <class T>
 const std::optional<std::vector<T>>& MeasuredStep<T>::end() {
   if (taken_) return end_;
-  taken_ = true;
   stepper().forget();
   std::int64_t completed = 0;
+  start_ = begin_state_;
   status_ = stepper().advance(begin_, 0, h_, warm_up_, start_, completed);
-  if (status_ != Status::converged) return end_;
-  std::vector<T> z = start_;
-  status_ = stepper().advance(begin_, warm_up_, h_, 1, z, completed);
-  if (status_ == Status::converged) end_ = std::move(z);
+  if (status_ == Status::converged) {
+    std::vector<T> z = start_;
+    status_ = stepper().advance(begin_, warm_up_, h_, 1, z, completed);
+    if (status_ == Status::converged) end_ = std::move(z);
+  }
+  taken_ = true;  // not before, since the budget of a check may end in between
   return end_;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <pfaff/bench/runner/settings.hpp>
+#include <pfaff/bench/verification/check_budget.hpp>
 #include <pfaff/bench/verification/claim_checks.hpp>
 #include <pfaff/bench/verification/method_on_model.hpp>
 #include <pfaff/integrators/order_conditions/order_condition.hpp>
@@ -49,12 +50,15 @@ void check_claims(std::vector<Check>& checks, MethodOnModel& on, bool long_runs)
       checks.push_back(std::move(check));
       continue;
     }
-    const double value = residual_of(row, on.step<T>());
-    checks.push_back(on.residual(
-        std::string(claim.name), std::string(claim.scope), on.claims(row.claim), precision_name<T>(), value,
-        largest_allowed<T>(row) * (row.from_jacobian ? on.growth_of_round_off() : 1)));
-    if (row.of_rounding && std::isnan(value))
-      checks.back().reason = "a step did not converge, or truncation hides what rounding does";
+    const std::string name(claim.name), scope(claim.scope);
+    checks.push_back(within_budget(on.check(name, scope, precision_name<T>()), [&] {
+      const double value = residual_of(row, on.step<T>());
+      Check check = on.residual(name, scope, on.claims(row.claim), precision_name<T>(), value,
+                                largest_allowed<T>(row) * (row.from_jacobian ? on.growth_of_round_off() : 1));
+      if (row.of_rounding && std::isnan(value))
+        check.reason = "a step did not converge, or truncation hides what rounding does";
+      return check;
+    }));
   }
 }
 
@@ -64,22 +68,33 @@ namespace {
 std::vector<Check> checks_of(const MethodInstance& method, const Assignments& parameters,
                              const std::string& system, const std::shared_ptr<const Model>& model,
                              bool long_runs) {
-  MethodOnModel on(method, parameters, system, model);
-  std::vector<Check> checks{check_steps(on)};
-  if (!on.steps()) return checks;
-  auto conditions = check_order_conditions(on);
+  std::optional<MethodOnModel> made;
+  std::vector<Check> checks{
+      within_budget(check_named(method, parameters, system, "steps", "every system", "both"),
+                    [&] { return check_steps(made.emplace(method, parameters, system, model)); })};
+  if (!made || !made->steps()) return checks;
+  MethodOnModel& on = *made;
+  const auto within = [&](const char* claim, const char* scope, const char* precision, const auto& judge) {
+    return within_budget(on.check(claim, scope, precision), [&] { return judge(on); });
+  };
+  const char* const of_order = on.double_coefficients() ? "double" : "quad";
+  auto conditions = within("order conditions", "every system", of_order, check_order_conditions);
   // Of methods with history no conditions are measured; those of tables are evaluated by check_coefficients.
   const bool by_coefficients = on.history() && order_theory(method.descriptor().name, parameters).has_value();
   if (on.differentiable())
-    checks.push_back(check_order(on, by_coefficients || (conditions && conditions->in_scope)));
+    checks.push_back(within("order", "every system", of_order, [&](MethodOnModel& m) {
+      return check_order(m, by_coefficients || (conditions && conditions->in_scope));
+    }));
   if (conditions) checks.push_back(std::move(*conditions));
   for (Check& check : check_adaptive(on)) checks.push_back(std::move(check));
-  if (method.processed()) checks.push_back(check_steps_in_a_row(on));
+  if (method.processed())
+    checks.push_back(within("steps-in-a-row", "processed methods", "quad", check_steps_in_a_row));
   if (on.double_coefficients()) {
     exempt_from_quad(checks, on);
   } else {
-    checks.push_back(check_precisions(on));
-    if (on.differentiable() && !on.history()) checks.push_back(check_step_jacobian(on));
+    checks.push_back(within("double-is-quad-rounded", "every system", "double", check_precisions));
+    if (on.differentiable() && !on.history())
+      checks.push_back(within("step-jacobian", "every system", "quad", check_step_jacobian));
     check_claims<Quad>(checks, on, long_runs);
   }
   check_claims<double>(checks, on, long_runs);

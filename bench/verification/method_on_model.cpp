@@ -67,15 +67,20 @@ bool MethodOnModel::differentiable() const {
          (model_->restricted() && formulated ? most_differentiated_in_formulations : most_differentiated);
 }
 
-Check MethodOnModel::check(const std::string& claim, const std::string& scope, const char* precision) const {
+Check check_named(const MethodInstance& method, const Assignments& parameters, const std::string& system,
+                  const std::string& claim, const std::string& scope, const char* precision) {
   Check check;
-  check.plugin = method_.descriptor().name;
+  check.plugin = method.descriptor().name;
   check.claim = claim;
   check.scope = scope;
-  check.system = system_;
+  check.system = system;
   check.precision = precision;
-  check.parameters = parameters_;
+  check.parameters = parameters;
   return check;
+}
+
+Check MethodOnModel::check(const std::string& claim, const std::string& scope, const char* precision) const {
+  return check_named(method_, parameters_, system_, claim, scope, precision);
 }
 
 Check MethodOnModel::residual(const std::string& claim, const std::string& scope, bool claimed,

@@ -12,6 +12,10 @@
 
 namespace pfaff {
 
+/// A check of a method with these parameters on a system, with the names filled in and no result yet.
+Check check_named(const MethodInstance& method, const Assignments& parameters, const std::string& system,
+                  const std::string& claim, const std::string& scope, const char* precision);
+
 class MethodOnModel {
  public:
   /// Both must outlive the object. `system` is the name that the checks are listed under.

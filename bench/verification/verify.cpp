@@ -1,12 +1,13 @@
 // Runs the checks: collects the jobs, runs them in parallel and returns their results in a fixed order.
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <map>
 #include <mutex>
 
+#include <pfaff/bench/runner/interruption.hpp>
+#include <pfaff/bench/runner/parallel.hpp>
 #include <pfaff/bench/runner/settings.hpp>
 #include <pfaff/bench/verification/check.hpp>
+#include <pfaff/bench/verification/check_budget.hpp>
 #include <pfaff/bench/verification/formulation_checks.hpp>
 #include <pfaff/bench/verification/random_checks.hpp>
 #include <pfaff/bench/verification/random_constraints.hpp>
@@ -251,17 +252,29 @@ std::vector<Check> verify(const VerificationSettings& given,
   std::vector<std::vector<Check>> results(jobs.size());
   std::mutex mutex;
   std::size_t done = 0;
-  oneapi::tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t k) {
+  const auto run = [&](std::size_t k) {
+    Check whole;
+    whole.plugin = jobs[k].what;
+    whole.claim = "checks";
     try {
-      results[k] = jobs[k].run();
+      results[k] = within_budget(whole, jobs[k].run, {});
     } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const BudgetSpent&) {
       throw;
     } catch (...) {
       throw RunError(jobs[k].what + ": " + words_of_current_exception());
     }
     const std::lock_guard lock(mutex);
-    if (progress) progress(jobs[k].what, ++done, jobs.size());
-  });
+    ++done;
+    if (progress) progress(jobs[k].what, done, jobs.size());
+  };
+  try {
+    in_parallel(jobs.size(), run);
+  } catch (const BudgetSpent& spent) {
+    end_interrupted(spent, std::to_string(done) + " of " + std::to_string(jobs.size()) +
+                               " groups of checks were made, and none is shown");
+  }
   std::vector<Check> all;
   for (auto& part : results) all.insert(all.end(), part.begin(), part.end());
   return all;

@@ -1,9 +1,13 @@
 #include <pfaff/core/errors/budget.hpp>
 
+#include <algorithm>
+
 namespace pfaff {
 
 namespace {
-thread_local Budget* in_force = nullptr;
+// The library is loaded when the program starts, so that the address is found without a call: a step may take
+// no longer than ten such calls.
+[[gnu::tls_model("initial-exec")]] thread_local Budget* in_force = nullptr;
 
 std::string words(BudgetSpent::Reason reason, std::int64_t limit) {
   switch (reason) {
@@ -39,6 +43,23 @@ void Budget::spend(std::int64_t steps, std::int64_t evaluations) {
   if (evaluations_ > limits_.evaluations)
     throw BudgetSpent(BudgetSpent::Reason::evaluations, limits_.evaluations);
   if (around_ != nullptr) around_->spend(steps, evaluations);
+}
+
+std::int64_t Budget::take(std::int64_t steps, std::int64_t evaluations) noexcept {
+  for (Budget* b = this; b != nullptr; b = b->around_) {
+    b->evaluations_ += evaluations;
+    const bool ended = (b->stop_ != nullptr && b->stop_->load(std::memory_order_relaxed)) ||
+                       b->evaluations_ > b->limits_.evaluations;
+    steps = ended ? 0 : std::clamp<std::int64_t>(b->limits_.steps - b->steps_, 0, steps);
+  }
+  for (Budget* b = this; b != nullptr; b = b->around_) b->steps_ += steps;
+  return steps;
+}
+
+const std::atomic<bool>* Budget::stop() const noexcept {
+  for (const Budget* b = this; b != nullptr; b = b->around_)
+    if (b->stop_ != nullptr) return b->stop_;
+  return nullptr;
 }
 
 }  // namespace pfaff

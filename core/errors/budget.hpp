@@ -52,7 +52,14 @@ class Budget {
   /// Takes from this budget and from those around it. Throws BudgetSpent where one of them has run out or was
   /// asked to stop.
   void spend(std::int64_t steps, std::int64_t evaluations);
+  /// Takes `evaluations` and as many of `steps` (> 0) as are left, and says how many these are. 0 means that
+  /// spend(1, 0) throws: loops ask in this way that have to put away their state before they end.
+  [[nodiscard]] std::int64_t take(std::int64_t steps, std::int64_t evaluations) noexcept;
 
+  /// The flag that ends this budget or one around it; null where there is none. Budgets are of one thread, so
+  /// that tasks on other threads are given their own with this flag.
+  [[nodiscard]] const std::atomic<bool>* stop() const noexcept;
+  /// What was taken from this budget so far.
   [[nodiscard]] std::int64_t steps() const { return steps_; }
   [[nodiscard]] std::int64_t evaluations() const { return evaluations_; }
 

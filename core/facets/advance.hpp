@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include <pfaff/core/errors/status.hpp>
+#include <pfaff/core/facets/allowed_steps.hpp>
 #include <pfaff/core/facets/problem.hpp>
 #include <pfaff/core/facets/processed.hpp>
 
@@ -60,30 +61,25 @@ Status unswitched(const M& method, Loop&& loop) {
     return loop(method);
   }
 }
-}  // namespace detail
 
-/// Takes steps first, first + 1, … first + count - 1 of size h from time t0, in place. Stops at the first
-/// step that does not converge, leaving z as it was before that step; `completed` says how many were taken.
-/// Processed methods take their processor at the beginning and at the end alone (core/facets/processed.hpp).
+/// The steps of advance(), as many as the budget of this thread allows: fewer than `count` with the status
+/// converged where it has ended them. Where a step throws, `completed` is 0, and of the state nothing is
+/// known.
 template <class M, class P>
-requires Steps<M, P> Status advance(const M& method, const P& problem, const Scalar<P>& t0,
-                                    std::int64_t first, const Scalar<P>& h, std::int64_t count, State<P>& z,
-                                    Work<M, P>& work, std::int64_t& completed) {
+requires Steps<M, P> Status advance_as_allowed(const M& method, const P& problem, const Scalar<P>& t0,
+                                               std::int64_t first, const Scalar<P>& h, std::int64_t count,
+                                               State<P>& z, Work<M, P>& work, std::int64_t& completed) {
   using W = Work<M, P>;
+  completed = 0;
+  AllowedSteps<P> steps(problem);
   const auto loop = [&](State<P>& state, W& w) {
-    return detail::unswitched(method, [&](const M& m) {
-      if constexpr (detail::WritesProcessor<M, P, W>)
-        if (m.processed())
-          return detail::advance_kernel(m, problem, t0, first, h, count, state, w, completed);
-      std::int64_t taken = 0;
-      Status status = Status::converged;
-      for (; taken < count; ++taken) {
+    return unswitched(method, [&](const M& m) {
+      if constexpr (WritesProcessor<M, P, W>)
+        if (m.processed()) return advance_kernel(m, problem, t0, first, h, count, steps, state, w, completed);
+      return steps.repeat(count, completed, [&](std::int64_t taken) {
         const Scalar<P> t = t0 + Scalar<P>(static_cast<double>(first + taken)) * h;
-        status = m.step(problem, t, h, state, w);
-        if (status != Status::converged) break;
-      }
-      completed = taken;
-      return status;
+        return m.step(problem, t, h, state, w);
+      });
     });
   };
   if constexpr (std::is_trivially_copyable_v<State<P>> && std::is_trivially_copyable_v<W>) {
@@ -97,6 +93,21 @@ requires Steps<M, P> Status advance(const M& method, const P& problem, const Sca
   } else {
     return loop(z, work);
   }
+}
+}  // namespace detail
+
+/// Takes steps first, first + 1, … first + count - 1 of size h from time t0, in place. Stops at the first
+/// step that does not converge, leaving z as it was before that step; `completed` says how many were taken.
+/// Where the budget of this thread ends the loop, z and `completed` are what was reached, and BudgetSpent is
+/// thrown. Processed methods take their processor at the beginning and at the end alone
+/// (core/facets/processed.hpp).
+template <class M, class P>
+requires Steps<M, P> Status advance(const M& method, const P& problem, const Scalar<P>& t0,
+                                    std::int64_t first, const Scalar<P>& h, std::int64_t count, State<P>& z,
+                                    Work<M, P>& work, std::int64_t& completed) {
+  const Status status = detail::advance_as_allowed(method, problem, t0, first, h, count, z, work, completed);
+  if (status == Status::converged && completed < count) spend(1, 0);
+  return status;
 }
 
 }  // namespace pfaff

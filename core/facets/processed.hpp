@@ -12,6 +12,7 @@
 #include <cstdint>
 
 #include <pfaff/core/errors/status.hpp>
+#include <pfaff/core/facets/allowed_steps.hpp>
 #include <pfaff/core/facets/problem.hpp>
 
 namespace pfaff::detail {
@@ -47,10 +48,12 @@ struct WithBeginning : W {
 };
 
 /// The steps first, ..., first + count - 1 of size h from time t0. Where a kernel does not converge, z is the
-/// state after the steps before it. Where the processor does not, z is as it was and `completed` is 0.
+/// state after the steps before it. Where the processor does not, z is as it was and `completed` is 0. Fewer
+/// than `count` are completed with the status converged where `steps` allows no more.
 template <class M, class P, class W>
 Status advance_kernel(const M& method, const P& problem, const Scalar<P>& t0, std::int64_t first,
-                      const Scalar<P>& h, std::int64_t count, State<P>& z, W& work, std::int64_t& completed) {
+                      const Scalar<P>& h, std::int64_t count, AllowedSteps<P>& steps, State<P>& z, W& work,
+                      std::int64_t& completed) {
   const auto time = [&](std::int64_t taken) {
     return t0 + Scalar<P>(static_cast<double>(first + taken)) * h;
   };
@@ -59,10 +62,9 @@ Status advance_kernel(const M& method, const P& problem, const Scalar<P>& t0, st
   work.begin(z);
   Status status = method.preprocess(problem, time(0), h, z, work);
   std::int64_t taken = 0;
-  for (; status == Status::converged && taken < count; ++taken) {
-    status = method.kernel(problem, time(taken), h, z, work);
-    if (status != Status::converged) break;
-  }
+  if (status == Status::converged)
+    status = steps.repeat(count, taken,
+                          [&](std::int64_t k) { return method.kernel(problem, time(k), h, z, work); });
   Status ended = status;
   if (taken > 0) ended = method.postprocess(problem, time(taken), h, z, work);
   if (taken == 0 || ended != Status::converged) {

@@ -18,10 +18,12 @@ template <class T>
 class Stepper {
  public:
   virtual ~Stepper() = default;
-  /// Steps first … first + count - 1 of size h (of either sign) from t0; see pfaff::advance.
+  /// Steps first … first + count - 1 of size h (of either sign) from t0; see pfaff::advance. BudgetSpent from
+  /// within a step leaves z as it was before the call and `completed` 0.
   virtual Status advance(const T& t0, std::int64_t first, const T& h, std::int64_t count, std::span<T> z,
                          std::int64_t& completed) = 0;
-  /// From t to `end` with steps of the method's choosing at `tolerance`; t is left where it got to.
+  /// From t to `end` with steps of the method's choosing at `tolerance`; t is left where it got to, also
+  /// where BudgetSpent is thrown between two steps.
   virtual Status advance_to(T& t, const T& end, const T& tolerance, std::span<T> z) = 0;
   /// Drops history and compensation: the next step depends on its state alone.
   virtual void forget() = 0;
@@ -48,9 +50,11 @@ class SteppingOn final : public Stepper<Scalar<P>> {
   Status advance(const T& t0, std::int64_t first, const T& h, std::int64_t count, std::span<T> z,
                  std::int64_t& completed) override {
     std::copy(z.begin(), z.end(), state_.begin());
-    const Status status = pfaff::advance(method_, problem_, t0, first, h, count, state_, *work_, completed);
+    const Status status =
+        advance_as_allowed(method_, problem_, t0, first, h, count, state_, *work_, completed);
     std::copy(state_.begin(), state_.end(), z.begin());
     problem_.counters().steps += completed;
+    if (status == Status::converged && completed < count) spend(1, 0);
     return status == Status::converged ? finite(z) : status;
   }
 
@@ -59,6 +63,7 @@ class SteppingOn final : public Stepper<Scalar<P>> {
       std::copy(z.begin(), z.end(), state_.begin());
       const Status status = method_.advance_to(problem_, t, end, tolerance, state_, *work_);
       std::copy(state_.begin(), state_.end(), z.begin());
+      if (status == Status::converged && t != end) spend(1, 0);
       return status == Status::converged ? finite(z) : status;
     } else {
       (void)t, (void)end, (void)tolerance, (void)z;

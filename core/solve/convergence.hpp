@@ -5,13 +5,14 @@
 // coordinate) are all solved to their own round-off. Derivative parts of duals are judged in the same way, so
 // that a differentiated step is the derivative of the converged step. An iteration ends when every correction
 // is well below one unit of round-off, or will be after the next contraction, or when corrections stagnate
-// near round-off.
+// near round-off. Iterations that take long to converge ask in between whether the work was told to end.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <limits>
 
+#include <pfaff/core/errors/budget.hpp>
 #include <pfaff/core/errors/status.hpp>
 #include <pfaff/core/numbers/dual.hpp>
 
@@ -105,6 +106,7 @@ class Convergence {
       }
     }
     if (iterations_ >= limit) return stop(Status::not_converged);
+    if (iterations_ % 8 == 0) spend(0, 0);
     return false;
   }
   /// The last contraction ratio; 1 before two iterations are done.

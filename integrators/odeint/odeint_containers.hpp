@@ -44,7 +44,9 @@ Status controlled_steps(const P& p, double& t, double end, double& next_step, co
   double h = direction * next_step;
   constexpr std::int64_t budget = 1000000000;
   std::int64_t taken = 0;
+  detail::AllowedSteps<P> steps(p);
   for (int rejected = 0; direction * (end - t) > 0;) {
+    if (rejected == 0 && steps.next(1) == 0) break;
     const bool clipped = direction * (t + h - end) >= 0;
     if (clipped) h = end - t;
     const double last = h;

@@ -109,7 +109,9 @@ struct Extrapolation {
     if (!(tolerance >= std::numeric_limits<T>::epsilon())) return Status::not_converged;
     Status failure = Status::not_converged;
     int rejections = 0;
+    detail::AllowedSteps<P> steps(p);
     for (std::int64_t taken = 0; t != end;) {
+      if (rejections == 0 && steps.next(1) == 0) break;
       if (rejections == 0) p.field(t, z, w.rate);
       if (w.target == 0) begin(t, end, tolerance, z, w);
       const bool last = abs(end - t) <= w.next_step;

@@ -85,8 +85,10 @@ struct Taylor {
     if (!w.adaptive || w.adaptive->order() != static_cast<std::size_t>(degree))
       w.adaptive.emplace(p.field_tape(), degree);
     TaylorExpansion<T>& expansion = *w.adaptive;
+    detail::AllowedSteps<P> steps(p);
     for (std::int64_t taken = 0; t != end; ++taken) {
       if (taken == most_taylor_steps) return Status::not_converged;
+      if (steps.next(1) == 0) break;
       ++p.counters().fields;
       expansion.expand(t, z.data());
       const double longest = step_of(expansion);

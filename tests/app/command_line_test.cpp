@@ -79,7 +79,11 @@ TEST(CommandLine, MemoryThatIsNotThere) {
   const Arguments long_run{
       "run",  "--out",   "-", "--system", "harmonic-oscillator", "--integrator", "rk4", "--step",
       "1e-6", "--every", "1", "--time"};
-  expect_complaint(run_pfaff(long_run + Arguments{"10"}, little), 1, {"out of memory"}, "a million samples");
+  // Ten million samples are refused before any work; seven hundred thousand might fit, and do not.
+  expect_complaint(run_pfaff(long_run + Arguments{"10"}, little), 2,
+                   {"--every", "1e+07 samples", "do not fit into the memory"}, "ten million samples");
+  expect_complaint(run_pfaff(long_run + Arguments{"0.7"}, little), 1,
+                   {"harmonic-oscillator", "the memory was used up after ", "--every"}, "a million samples");
   EXPECT_EQ(run_pfaff(long_run + Arguments{"1e-3"}, little).status, 0);
 }
 

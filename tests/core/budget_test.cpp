@@ -64,4 +64,33 @@ TEST(Budget, EndsWhereItIsAskedTo) {
   }
 }
 
+TEST(Budget, TakesAsManyStepsAsAreLeft) {
+  Budget outer({.steps = 10});
+  {
+    Budget inner({.steps = 7});
+    EXPECT_EQ(inner.take(5, 0), 5);
+    EXPECT_EQ(inner.take(5, 0), 2);
+    EXPECT_EQ(inner.take(5, 0), 0);
+    EXPECT_THROW(spend(1, 0), BudgetSpent);
+  }
+  EXPECT_EQ(outer.steps(), 7);
+  EXPECT_EQ(outer.take(100, 0), 3);
+  EXPECT_EQ(outer.take(100, 0), 0);
+  // Evaluations are taken in any case: they have been made.
+  Budget evaluations({.evaluations = 4});
+  EXPECT_EQ(evaluations.take(0, 3), 0);
+  EXPECT_EQ(evaluations.evaluations(), 3);
+}
+
+TEST(Budget, TakesNothingWhereItIsAskedToStop) {
+  std::atomic<bool> stop{false};
+  Budget outer({}, &stop);
+  Budget inner({});
+  EXPECT_EQ(inner.stop(), &stop);
+  EXPECT_EQ(inner.take(100, 1), 100);
+  stop = true;
+  EXPECT_EQ(inner.take(100, 1), 0);
+  EXPECT_THROW(spend(1, 0), BudgetSpent);
+}
+
 }  // namespace

@@ -1,0 +1,35 @@
+// What a check may cost. A motion that blows up, or a method that takes smaller and smaller steps, would keep
+// a check busy for ever. A check that has used up its budget has seen neither that a claim holds nor that it
+// does not: it is not judged, and says so.
+#pragma once
+
+#include <pfaff/bench/verification/check.hpp>
+#include <pfaff/core/errors/budget.hpp>
+
+namespace pfaff {
+
+/// Five times as much as the longest check of a plug-in of the tree takes, the rounding in long runs: some
+/// two million steps.
+inline constexpr BudgetLimits limits_of_check{.steps = 10'000'000, .evaluations = 1'000'000'000};
+
+/// The check, whose names are filled in, as one that was not judged because its budget was spent. Passes the
+/// exception on where the work was asked to stop.
+Check not_judged(Check check, const BudgetSpent& spent);
+
+/// True where a check was not judged for that reason.
+bool ran_out(const Check& check);
+
+/// Returns judge(), a check, perhaps one or several; where it runs out of its budget `check`, whose names are
+/// filled in, not judged.
+template <class Judge>
+auto within_budget(const Check& check, Judge&& judge, const BudgetLimits& limits = limits_of_check)
+    -> decltype(judge()) {
+  const Budget budget(limits);
+  try {
+    return judge();
+  } catch (const BudgetSpent& spent) {
+    return {not_judged(check, spent)};
+  }
+}
+
+}  // namespace pfaff

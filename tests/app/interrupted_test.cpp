@@ -1,0 +1,63 @@
+// Ctrl-C and SIGTERM end every command that works for long, soon and in one line that says what was done by
+// then.
+#include <chrono>
+#include <thread>
+
+#include "command.hpp"
+
+namespace {
+
+using namespace pfaff::testing;
+using Arguments = std::vector<std::string>;
+
+// Sends a signal to the command when it has worked for a while. How long it takes to end is not measured:
+// what does not end at all is killed by the alarm of the program.
+Outcome interrupted(const Arguments& arguments, int signal) {
+  Program program(arguments);
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  EXPECT_FALSE(program.ended()) << joined(arguments);
+  program.send(signal);
+  return program.wait();
+}
+
+TEST(Interrupted, CommandsEndAndSayWhatWasDone) {
+  const std::vector<std::pair<Arguments, std::string>> commands{
+      {{"verify", "integrators", "--full"}, "groups of checks"},
+      {{"falsify", "--all", "--budget", "600"}, "random systems"},
+      {{"tune", "henon-heiles", "--step", "0.1", "--order", "4", "--stages", "9", "--starts", "1000000"},
+       "starts of a search"},
+      {{"reproduce"}, "papers were reproduced"}};
+  for (const auto& [command, said] : commands)
+    for (const int signal : {SIGINT, SIGTERM})
+      expect_complaint(interrupted(command, signal), 1, {"interrupted: ", said}, joined(command));
+}
+
+// The trial run that finds out how many samples are kept is as long as the run itself.
+TEST(Interrupted, ARunWhoseMethodChoosesItsStepsKeepsItsSamples) {
+  const TemporaryDirectory files;
+  const Arguments run{"run",    "kepler", "odeint-dopri5", "--tolerance", "1e-10",
+                      "--time", "1e8",    "--json",        "--out",       files / "run"};
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const Outcome outcome = interrupted(run, signal);
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_EQ(outcome.err.find('\n') + 1, outcome.err.size()) << outcome.err;
+    EXPECT_NE(outcome.err.find("interrupted at t = "), std::string::npos) << outcome.err;
+    EXPECT_EQ(json_of(outcome.out)["status"], "interrupted");
+    EXPECT_GE(rows_of(text_of(files / "run/series.csv")).size(), 2U);
+  }
+}
+
+// A reference solution over so long a time takes longer than anybody waits.
+TEST(Interrupted, AReferenceSolutionEnds) {
+  const TemporaryDirectory files;
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const Outcome outcome = interrupted({"run", "henon-heiles", "rk4", "--step", "1", "--time", "1e5",
+                                         "--reference", "solution", "--out", files / "run"},
+                                        signal);
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_EQ(outcome.err.find('\n') + 1, outcome.err.size()) << outcome.err;
+    EXPECT_NE(outcome.err.find("interrupted"), std::string::npos) << outcome.err;
+  }
+}
+
+}  // namespace
