@@ -78,7 +78,11 @@ void add_evaluate(CLI::App& app, Common& common, Action& action) {
       } else {
         std::cout << evaluation_text(j);
       }
-      return 0;
+      if (j["status"] == "converged") return 0;
+      const std::string what =
+          j["status"] == "singular" ? "is singular" : "is none where all of this is finite";
+      throw RunError("the state of " + j["system"].get<std::string>() + " " + what +
+                     (j.contains("reason") ? ": " + j["reason"].get<std::string>() : ""));
     };
   });
 }

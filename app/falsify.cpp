@@ -70,9 +70,7 @@ std::string model_of(const FalsificationResult& result, const Common& common) {
   return model_text_of(result.test, *result.counterexample, command_of(result, common));
 }
 
-std::string file_of(const FalsificationResult& result) {
-  return named_system(result.test, *result.counterexample).name + ".toml";
-}
+std::string file_of(const ClaimUnderTest& test) { return counterexample_name(test) + ".toml"; }
 
 nlohmann::json to_json(const FalsificationResult& result, const Common& common) {
   nlohmann::json parameters = nlohmann::json::object();
@@ -125,11 +123,14 @@ void print(const std::vector<FalsificationResult>& results, const Common& common
               << ": " << named_system(result.test, found).name << '\n';
   }
   for (const FalsificationResult& result : results)
-    if (result.counterexample) std::cout << '\n' << file_of(result) << ":\n\n" << model_of(result, common);
+    if (result.counterexample)
+      std::cout << '\n' << file_of(result.test) << ":\n\n" << model_of(result, common);
 }
 
 int search(const FalsifyOptions& options, const Common& common) {
   std::vector<ClaimUnderTest> tests = tests_of(options);
+  if (!options.out.empty())
+    for (const ClaimUnderTest& test : tests) check_new_file(fs::path(options.out) / file_of(test), "--out");
   FalsificationSettings settings;
   settings.seed = options.seed;
   settings.systems = options.systems;
@@ -142,13 +143,17 @@ int search(const FalsifyOptions& options, const Common& common) {
                       [&](const std::string& what, double fraction) { line.show(what, fraction); });
   }
   std::size_t falsified = 0, systems = 0;
+  std::string not_written;  // why; what was found is printed nevertheless
   nlohmann::json list = nlohmann::json::array();
   for (const FalsificationResult& result : results) {
     falsified += result.counterexample ? 1 : 0;
     systems += static_cast<std::size_t>(result.tried);
     if (common.json) list.push_back(to_json(result, common));
-    if (result.counterexample && !options.out.empty())
-      write_file(fs::path(options.out) / file_of(result), model_of(result, common));
+    if (result.counterexample && !options.out.empty()) try {
+        write_new_file(fs::path(options.out) / file_of(result.test), model_of(result, common));
+      } catch (const RunError& error) {
+        not_written = error.what();
+      }
   }
   if (common.json) {
     std::cout << json_text(
@@ -158,6 +163,7 @@ int search(const FalsifyOptions& options, const Common& common) {
     std::cout << (results.empty() ? "" : "\n") << results.size() << " claims on " << systems
               << " random systems, seed " << settings.seed << ": " << falsified << " falsified\n";
   }
+  if (!not_written.empty()) throw RunError(not_written);
   return falsified == 0 ? 0 : 1;
 }
 

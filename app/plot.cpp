@@ -4,8 +4,8 @@
 
 #include <pfaff/app/command.hpp>
 #include <pfaff/app/terminal.hpp>
+#include <pfaff/bench/experiment/experiment_directory.hpp>
 #include <pfaff/bench/experiment/results.hpp>
-#include <pfaff/bench/runner/directory_lock.hpp>
 #include <pfaff/bench/runner/run_directory.hpp>
 
 namespace pfaff::app {
@@ -17,6 +17,7 @@ int plot(const std::filesystem::path& directory, bool json) {
     if (std::error_code error; !std::filesystem::is_regular_file(directory / name, error))
       throw InputError("plot: '" + directory.string() + "' holds no " + name +
                        "; expected the directory of a run");
+  const auto experiment = take_experiment_of(directory, "pfaff plot");
   const DirectoryLock lock(directory, "pfaff plot");
   const std::filesystem::path page = make_run_figures(directory);
   if (json) {

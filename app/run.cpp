@@ -4,9 +4,9 @@
 #include <pfaff/app/command.hpp>
 #include <pfaff/app/state_file.hpp>
 #include <pfaff/app/terminal.hpp>
+#include <pfaff/bench/experiment/experiment_directory.hpp>
 #include <pfaff/bench/experiment/results.hpp>
 #include <pfaff/bench/runner/config_file.hpp>
-#include <pfaff/bench/runner/directory_lock.hpp>
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/bench/runner/interruption.hpp>
 #include <pfaff/bench/runner/motion.hpp>
@@ -147,8 +147,8 @@ int run(const RunOptions& options, const Common& common) {
   const std::filesystem::path directory = options.out;
   std::vector<std::string> ours = run_file_names();
   ours.emplace_back(run_figures_directory);
-  make_output_directory(directory, ours);
-  const DirectoryLock lock(directory, "pfaff run");
+  const auto experiment = take_experiment_of(directory, "pfaff run");
+  const auto held = take_output_directory(directory, "pfaff run", ours);
   const KeptRun kept = kept_run(directory, resolved);
   const std::string where = "output directory '" + options.out + "' holds ";
   if (kept.other)
@@ -157,6 +157,10 @@ int run(const RunOptions& options, const Common& common) {
   if (kept.outdated() && !options.force)
     throw InputError(where + "this run, but " + in_one_line(kept.changed) +
                      "; expected a new directory, or --force to run it anew");
+  if (!kept.current()) {  // figures of the run before would stand beside this one
+    std::error_code error;
+    std::filesystem::remove_all(directory / run_figures_directory, error);
+  }
   const nlohmann::json j =
       kept.current() ? kept.summary : write_run(directory, resolved, executed(resolved, common.quiet));
   if (common.quiet) return finish(j, "");

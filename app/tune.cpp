@@ -69,6 +69,7 @@ int tune(const TuneOptions& options, const Common& common) {
     throw InputError("--name '" + name + "': expected kebab-case, such as 'tuned-pendulum'");
   if (!options.out.empty() && fs::path(options.out).extension() != ".toml")
     throw InputError("--out '" + options.out + "': expected a file that ends in .toml");
+  if (!options.out.empty()) check_new_file(options.out, "--out");
   const SystemPlugin& system = system_named(options.system);
   const auto model = system.make(parse_settings(options.set));
   TuningSettings settings = options.tuning;
@@ -90,17 +91,20 @@ int tune(const TuneOptions& options, const Common& common) {
   }
   const std::string table_text = splitting_table(tuned, name, options.tuning.order, system.name());
   std::optional<bool> ok;
-  if (!options.out.empty()) {
-    write_file(options.out, table_text);
-    ok = verified(options.out, common);
-  }
+  std::string not_written;  // why; the table of a long search is then printed nevertheless
+  if (!options.out.empty()) try {
+      write_new_file(options.out, table_text);
+      ok = verified(options.out, common);
+    } catch (const RunError& error) {
+      not_written = error.what();
+    }
   if (common.json) {
     nlohmann::json beside = nlohmann::json::array();
     for (const auto& [method, error] : others)
       beside.push_back({{"method", method}, {"shadow_error", error}});
     std::cout << json_text(
         {{"schema", 1},
-         {"ok", ok.value_or(true)},
+         {"ok", ok.value_or(not_written.empty())},
          {"system", system.name()},
          {"order", options.tuning.order},
          {"stages", options.tuning.stages},
@@ -111,7 +115,9 @@ int tune(const TuneOptions& options, const Common& common) {
          {"beside", beside},
          {"verified", ok ? nlohmann::json(*ok) : nlohmann::json(nullptr)},
          {"table", table_text}});
-  } else if (!common.quiet) {
+  } else if (common.quiet) {
+    if (!not_written.empty()) std::cout << table_text;
+  } else {
     std::cout << table_text << '\n';
     TableRows rows{{"splitting", "shadow terms"}, {name, scientific(tuned.error)}};
     if (processed) rows.push_back({"what no processor removes of it", scientific(tuned.error_of_kernel)});
@@ -123,6 +129,7 @@ int tune(const TuneOptions& options, const Common& common) {
     if (ok)
       std::cout << options.out << (*ok ? ": verified\n" : ": NOT OK, see pfaff verify " + options.out + "\n");
   }
+  if (!not_written.empty()) throw RunError(not_written + "; the table is in the output");
   return ok.value_or(true) ? 0 : 1;
 }
 

@@ -1,10 +1,13 @@
 // Timing of runs. What has been timed is kept in cost.csv from one call to the next.
 #include <pfaff/bench/experiment/costs.hpp>
 
-#include <cstdlib>
+#include <charconv>
+#include <cmath>
 #include <sstream>
+#include <system_error>
 
 #include <pfaff/bench/experiment/cells.hpp>
+#include <pfaff/bench/experiment/experiment_directory.hpp>
 #include <pfaff/bench/experiment/machine.hpp>
 #include <pfaff/bench/runner/files.hpp>
 
@@ -36,13 +39,40 @@ std::string costs_csv(const std::vector<ExperimentRun>& runs, const Costs& costs
       text += row->second.text + "\n";
   return text;
 }
-// A row of cost.csv whose numbers begin at `begin`.
-CostRow row_of(const std::string& line, std::size_t begin) {
-  char* end = nullptr;
-  const double median = std::strtod(line.c_str() + begin, &end);
-  return {line, median, *end == ',' ? std::strtod(end + 1, nullptr) : median};
+// The cells behind the key, as numbers as long as they are such; the rest is the name of the host.
+std::vector<double> numbers_in(const std::string& line, std::size_t begin) {
+  std::vector<double> numbers;
+  for (const char *at = line.data() + begin, *const end = line.data() + line.size(); at < end;) {
+    double x = 0;
+    const auto [after, failure] = std::from_chars(at, end, x);
+    if (failure != std::errc() || after == end || *after != ',') break;
+    numbers.push_back(x);
+    at = after + 1;
+  }
+  return numbers;
+}
+
+// The row of cost.csv whose numbers begin at `begin`; nothing where no timing can have given them. A median
+// of 0 says that no step could be taken.
+std::optional<CostRow> row_of(const std::string& line, std::size_t begin) {
+  const std::vector<double> x = numbers_in(line, begin);
+  if (x.size() < 5) return std::nullopt;
+  const double median = x[0], least = x[1], most = x[2], repetitions = x[3], seconds = x[4];
+  constexpr double rounded = 1.01;  // the numbers have four digits at least
+  // Each repetition took a step at least, and all of them together took `seconds`.
+  const bool plausible = 0 <= least && least <= median && median <= most && repetitions >= 1 &&
+                         repetitions <= 1e6 && repetitions == std::floor(repetitions) &&
+                         plausible_seconds(seconds) &&
+                         1e-9 * (most + (repetitions - 1) * least) <= rounded * seconds;
+  if (!plausible) return std::nullopt;
+  return CostRow{line, median, least};
 }
 }  // namespace
+
+bool plausible_seconds(double seconds) {
+  constexpr double thirty_years = 1e9;
+  return seconds > 0 && seconds < thirty_years;
+}
 
 Costs read_costs(const fs::path& path, const std::vector<ExperimentRun>& runs) {
   Costs costs;
@@ -52,11 +82,11 @@ Costs read_costs(const fs::path& path, const std::vector<ExperimentRun>& runs) {
   std::istringstream stream(read_file(path));
   std::string line;
   std::getline(stream, line);
-  if (line != header(tolerances)) return costs;  // of a version with other columns
-  while (std::getline(stream, line))
+  if (line != header(tolerances)) return costs;        // of a version with other columns
+  while (std::getline(stream, line) && !stream.eof())  // the last line is cut where nothing ends it
     for (const ExperimentRun& run : runs)
       if (const std::string key = key_of(run, tolerances); line.starts_with(key + ","))
-        costs[key] = row_of(line, key.size() + 1);
+        if (const auto row = row_of(line, key.size() + 1)) costs[key] = *row;
   return costs;
 }
 
@@ -83,7 +113,11 @@ void write_costs(const fs::path& directory, const std::vector<ExperimentRun>& ru
                  const ExperimentProgress& progress) {
   const fs::path path = directory / "cost.csv";
   const bool tolerances = any_tolerance(runs);
-  Costs costs = read_costs(path, runs);
+  const fs::path of_machine = directory / "machine.json";
+  // Timings say something together with the machine that they were taken on. Those of a program that was
+  // interrupted have no such file yet.
+  std::error_code error;
+  Costs costs = !fs::exists(of_machine, error) || is_machine(of_machine) ? read_costs(path, runs) : Costs();
   std::size_t done = 0;
   bool timed = false;
   const double before = load();
@@ -97,6 +131,7 @@ void write_costs(const fs::path& directory, const std::vector<ExperimentRun>& ru
     ++done;
     const std::string key = key_of(run, tolerances);
     if (run.seed > 1 || costs.contains(key)) continue;
+    if (!timed) remove_derived(directory);
     timed = true;
     const StepTime time = time_steps(run.resolved, seconds);
     costs[key].text = key + "," + as_text(time.median, "%.6g") + "," + as_text(time.minimum, "%.6g") + "," +
@@ -109,7 +144,7 @@ void write_costs(const fs::path& directory, const std::vector<ExperimentRun>& ru
   write_file(
       path,
       costs_csv(runs, costs));  // also without new timings: rows of runs no longer asked for are dropped
-  if (timed) write_file(path.parent_path() / "machine.json", machine(before, load()).dump(1) + "\n");
+  if (timed) write_file(of_machine, machine(before, load()).dump(1) + "\n");
 }
 
 }  // namespace pfaff

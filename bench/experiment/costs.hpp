@@ -21,7 +21,11 @@ struct CostRow {
 /// Rows of cost.csv by their first cells: case, method, and step or tolerance.
 using Costs = std::map<std::string, CostRow>;
 
-/// The rows of cost.csv that belong to `runs`; none where the file does not exist.
+/// True where something can have taken so many seconds. A number that is read may have been edited.
+bool plausible_seconds(double seconds);
+
+/// The rows of cost.csv that belong to `runs`; none where the file does not exist. A row that is cut, or
+/// whose numbers no timing can have given, is left out as if the run had not been timed.
 Costs read_costs(const std::filesystem::path& path, const std::vector<ExperimentRun>& runs);
 
 /// Which of the repetitions of a timing is meant.
@@ -36,9 +40,9 @@ void keep_costs(const std::filesystem::path& directory, const std::vector<Experi
                 const std::function<bool(const ExperimentRun&)>& keeps);
 
 /// Times every run that cost.csv does not hold yet, one after another, and writes cost.csv, with the name of
-/// the machine at the end of each row. The runs of an ensemble differ only in their seed, so that only the
-/// first of them is timed. Where it is asked to stop before all were timed, rows that are written by then are
-/// kept. Each run is timed for about `seconds`.
+/// the machine at the end of each row. What is made of timings goes before the first new one. The runs of an
+/// ensemble differ only in their seed, so that only the first of them is timed. Where it is asked to stop
+/// before all were timed, rows that are written by then are kept. Each run is timed for about `seconds`.
 void write_costs(const std::filesystem::path& directory, const std::vector<ExperimentRun>& runs,
                  double seconds, const ExperimentProgress& progress);
 

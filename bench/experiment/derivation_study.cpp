@@ -7,10 +7,11 @@
 
 #include <pfaff/bench/derivation/derivation.hpp>
 #include <pfaff/bench/experiment/citations.hpp>
+#include <pfaff/bench/experiment/costs.hpp>
 #include <pfaff/bench/experiment/derived_sizes.hpp>
 #include <pfaff/bench/experiment/experiment.hpp>
+#include <pfaff/bench/experiment/experiment_directory.hpp>
 #include <pfaff/bench/experiment/results.hpp>
-#include <pfaff/bench/runner/directory_lock.hpp>
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/systems/text/text_system.hpp>
 
@@ -19,8 +20,6 @@ namespace pfaff {
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr const char* experiment_file = "experiment.json";
 
 nlohmann::json json_of_derived(const Derived& d) {
   nlohmann::json j{{"schema", 1},           {"method", d.method},         {"size", d.size},
@@ -61,14 +60,15 @@ Derived derived(const DerivationStudy& study, const std::string& method, const s
   return result;
 }
 
-// A derivation that the directory holds, whole.
+// A derivation that the directory holds, whole and with numbers that a derivation can have.
 std::optional<Derived> kept(const fs::path& file, const std::string& method, const std::string& size) {
   std::error_code error;
   if (!fs::exists(file, error)) return std::nullopt;
-  const nlohmann::json j = nlohmann::json::parse(read_file(file), nullptr, false);
-  if (!j.is_object() || j.value("method", "") != method || j.value("size", "") != size) return std::nullopt;
-  for (const char* key : {"constraints", "equations", "operations", "nodes", "seconds"})
-    if (!j.contains(key) || !j[key].is_number()) return std::nullopt;
+  nlohmann::json j = nlohmann::json::parse(read_file(file), nullptr, false);
+  if (!j.is_object() || j["method"] != method || j["size"] != size) return std::nullopt;
+  for (const char* key : {"constraints", "equations", "operations", "nodes"})
+    if (!j[key].is_number_unsigned()) return std::nullopt;
+  if (!j["seconds"].is_number() || !plausible_seconds(j["seconds"])) return std::nullopt;
   Derived d{.method = method, .size = size};
   d.rods = j["constraints"];
   d.equations = j["equations"];
@@ -147,12 +147,10 @@ ExperimentOutcome run_derivation_study(
         throw InputError(experiment.name + ": " + reason);
     }
   const nlohmann::json described = description(experiment);
-  std::error_code error;
-  if (!fs::exists(directory / experiment_file, error)) make_output_directory(directory, {experiment_file});
-  const DirectoryLock held(directory, "pfaff compare");
+  ExperimentOutcome outcome;
+  outcome.held = take_experiment_directory(directory, "pfaff compare");
   check_identity(directory, described, options.force);
   write_file(directory / experiment_file, described.dump(1) + "\n");
-  ExperimentOutcome outcome;
   std::vector<Derived> all;
   std::size_t done = 0;
   for (const DerivationSweep& sweep : study.sweeps)
@@ -166,6 +164,9 @@ ExperimentOutcome run_derivation_study(
       outcome.resumed += before.has_value() ? 1 : 0;
       all.push_back(before ? *before : derived(study, sweep.method, size));
       if (!before) {
+        std::error_code error;
+        remove_derived(directory);
+        fs::remove(directory / "cost.csv", error);
         fs::create_directories(run, error);
         write_file(file, json_of_derived(all.back()).dump(1) + "\n");
       }
@@ -179,7 +180,6 @@ ExperimentOutcome run_derivation_study(
   write_derivation_tables(directory, all, fits);
   judge_derivations(study, fits, outcome);
   outcome.table = derivation_table(study, all, fits);
-  if (outcome.resumed < outcome.runs) fs::remove(directory / "report.html", error);  // it is of other runs
   if (options.report) {
     if (progress) progress("figures and report", study.size(), study.size());
     outcome.report = make_report(directory);

@@ -7,6 +7,7 @@
 #include <pfaff/bench/experiment/contraction.hpp>
 #include <pfaff/bench/experiment/costs.hpp>
 #include <pfaff/bench/experiment/equal_cost.hpp>
+#include <pfaff/bench/experiment/experiment_directory.hpp>
 #include <pfaff/bench/experiment/experiment_findings.hpp>
 #include <pfaff/bench/experiment/frequencies.hpp>
 #include <pfaff/bench/experiment/loop_invariant.hpp>
@@ -14,7 +15,6 @@
 #include <pfaff/bench/experiment/results.hpp>
 #include <pfaff/bench/experiment/reversibility.hpp>
 #include <pfaff/bench/experiment/team.hpp>
-#include <pfaff/bench/runner/directory_lock.hpp>
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/bench/runner/run_directory.hpp>
 
@@ -23,8 +23,6 @@ namespace pfaff {
 namespace fs = std::filesystem;
 
 namespace {
-constexpr const char* experiment_file = "experiment.json";
-
 nlohmann::json description(const Experiment& experiment, const std::vector<ExperimentRun>& runs,
                            const std::vector<LeftOut>& left_out) {
   nlohmann::json j{{"schema", 1},
@@ -166,10 +164,7 @@ void remove_outdated(const fs::path& directory, const std::vector<ExperimentRun>
   keep_costs(directory, runs, [&](const ExperimentRun& run) {
     return kept_run(directory / "runs" / run.slug, run.resolved).same();
   });
-  std::error_code error;
-  for (const char* name : {"results.csv", "equal_cost.csv", "ensembles.csv", "contraction.csv", "loops.csv",
-                           "reversibility.csv", "frequencies.csv", "findings.csv", "report.html"})
-    fs::remove(directory / name, error);
+  remove_derived(directory);
 }
 
 // What the leading process does before runs are made: it takes the directory and finds what is missing.
@@ -180,9 +175,7 @@ struct Preparation {
   void take(const Experiment& experiment, const fs::path& directory, const std::vector<ExperimentRun>& runs,
             const std::vector<LeftOut>& left_out) {
     described = description(experiment, runs, left_out).dump(1) + "\n";
-    std::error_code error;
-    if (!fs::exists(directory / experiment_file, error)) make_output_directory(directory, {experiment_file});
-    held = std::make_unique<DirectoryLock>(directory, "pfaff compare");
+    held = take_experiment_directory(directory, "pfaff compare");
     check_identity(directory, nlohmann::json::parse(described));
   }
 
@@ -280,7 +273,10 @@ void make_all(Experiment experiment, const fs::path& directory, const Experiment
       },
       [&](std::size_t k) { report(1, in_words(runs[open[k]]), ++done); });
   outcome.interrupted = done < runs.size();
-  if (!team.leads() || outcome.interrupted) return;
+  if (!team.leads()) return;
+  // Whoever takes the outcome may go on to write into the directory.
+  outcome.held = std::move(ready.held);
+  if (outcome.interrupted) return;
   write_costs(directory, runs, options.timing.value_or(experiment.quick ? 0.05 : 0.3), progress);
 
   const std::vector<nlohmann::json> summaries = read_summaries(directory, runs);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -15,6 +16,7 @@
 
 #include <pfaff/bench/experiment/derivation_study.hpp>
 #include <pfaff/bench/experiment/parameter_grid.hpp>
+#include <pfaff/bench/runner/directory_lock.hpp>
 #include <pfaff/bench/runner/record.hpp>
 
 namespace pfaff {
@@ -138,7 +140,8 @@ struct ExperimentOutcome {
   nlohmann::json findings = nlohmann::json::array();  // of the experiment's claims, see findings_of
   std::string failed_claims;                          // one line; empty where every claim holds
   std::vector<LeftOut> left_out;
-  bool interrupted = false;  // it was asked to stop; `resumed` counts the runs that are there
+  bool interrupted = false;             // it was asked to stop; `resumed` counts the runs that are there
+  std::unique_ptr<DirectoryLock> held;  // keeps other processes out of the directory while it lives
 };
 
 /// What an experiment is at: one of its phases (runs, timings, report), and how much of that is done.

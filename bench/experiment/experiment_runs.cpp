@@ -169,9 +169,23 @@ std::vector<ExperimentRun> expand(const Experiment& experiment, std::vector<Left
     check_names(experiment, c, runs.back());
   }
   if (left_out != nullptr) *left_out = std::move(out);
-  // The slug names the directory of a run; two runs with the same slug would overwrite each other.
+  // The slug names the directory of a run, and that of the case its figures; two with the same slug would
+  // overwrite each other. Names of files have 255 letters at most, of which some are taken by what is put
+  // before and behind a slug.
+  constexpr std::size_t longest = 200;
+  std::map<std::string, std::string> cases;
+  for (const ExperimentCase& c : experiment.cases)
+    if (const auto [other, fresh] = cases.emplace(slug_of(c.name), c.name); !fresh)
+      throw InputError(experiment.name + ": cases '" + other->second + "' and '" + c.name +
+                       "' would share the names of their figures, " + other->first +
+                       "; expected names that differ in letters or digits");
   std::map<std::string, const ExperimentRun*> kept;
   for (const ExperimentRun& run : runs) {
+    if (run.slug.size() > longest)
+      throw InputError(experiment.name +
+                       ": the names of a case and a method are too long for the name of a " +
+                       "directory, runs/" + run.slug.substr(0, 40) + "...: expected " +
+                       std::to_string(longest) + " letters at most, got " + std::to_string(run.slug.size()));
     const auto [other, fresh] = kept.emplace(run.slug, &run);
     if (!fresh)
       throw InputError(experiment.name + ": " + in_words(*other->second) + " and " + in_words(run) +

@@ -44,6 +44,18 @@ std::string host_name() {
   return uname(&names) == 0 ? names.nodename : "";
 }
 
+bool is_machine(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  nlohmann::json found = nlohmann::json::parse(stream, nullptr, false);
+  if (!found.is_object()) return false;
+  const nlohmann::json like = machine(0, 0);
+  for (const auto& [key, value] : like.items())
+    if (found[key].is_string() != value.is_string() || found[key].is_number() != value.is_number() ||
+        found[key].is_array() != value.is_array())
+      return false;
+  return true;
+}
+
 nlohmann::json machine(double load_before, double load_after) {
   utsname names{};
   const bool named = uname(&names) == 0;

@@ -1,11 +1,15 @@
 // On which machine timings were taken.
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include <pfaff/bench/runner/json.hpp>
 
 namespace pfaff {
+
+/// True where the file holds what machine() gives.
+bool is_machine(const std::filesystem::path& file);
 
 /// The processes that were ready to run, as a mean over the last minute; negative where it is not known.
 double load();

@@ -1,15 +1,12 @@
 #include <pfaff/bench/experiment/results.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <sstream>
-
-#include <sys/wait.h>
 
 #include <pfaff/bench/experiment/cells.hpp>
 #include <pfaff/bench/experiment/error_measure.hpp>
+#include <pfaff/bench/runner/child_process.hpp>
 #include <pfaff/bench/runner/files.hpp>
 
 namespace pfaff {
@@ -127,21 +124,10 @@ void run_script(const std::string& name, const std::vector<std::string>& argumen
   // /usr/bin/python3 goes before any other.
   std::error_code error;
   const std::string python = fs::exists("/usr/bin/python3", error) ? "/usr/bin/python3" : "python3";
-  const auto shell_quoted = [](const std::string& path) {
-    std::string text = "'";
-    for (const char c : path) text += c == '\'' ? "'\\''" : std::string(1, c);
-    return text + "'";
-  };
-  std::string command = python + " " + shell_quoted(script.string());
-  for (const std::string& argument : arguments) command += " " + shell_quoted(argument);
-  command += " 2>&1";
-  FILE* pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) throw RunError("cannot start " + python + " for the report");
-  std::string output;
-  std::array<char, 256> buffer{};
-  while (std::fgets(buffer.data(), static_cast<int>(buffer.size()), pipe) != nullptr) output += buffer.data();
-  const int status = pclose(pipe);
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+  std::vector<std::string> command{python, script.string()};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  auto [status, output] = run_child(command);
+  if (status != 0) {
     while (!output.empty() && output.back() == '\n') output.pop_back();
     const std::size_t newline = output.rfind('\n');
     throw RunError(what + ": " + (newline == std::string::npos ? output : output.substr(newline + 1)));

@@ -32,14 +32,19 @@ std::string shell_word(const std::string& text) {
   return word + "'";
 }
 
+std::string counterexample_name(const ClaimUnderTest& test) {
+  std::string claim(to_string(test.claim));
+  std::transform(claim.begin(), claim.end(), claim.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return test.method->descriptor().name + "-not-" + claim;
+}
+
 PolynomialSystem named_system(const ClaimUnderTest& test, const Counterexample& counterexample) {
   PolynomialSystem system = counterexample.system;
   const std::string method = test.method->descriptor().name;
-  std::string claim(to_string(test.claim));
-  system.title = "a system on which " + method + " does not keep the claim " + claim;
-  std::transform(claim.begin(), claim.end(), claim.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  system.name = method + "-not-" + claim;
+  system.title =
+      "a system on which " + method + " does not keep the claim " + std::string(to_string(test.claim));
+  system.name = counterexample_name(test);
   return system;
 }
 

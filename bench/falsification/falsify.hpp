@@ -64,7 +64,10 @@ std::vector<FalsificationResult> falsify(
 /// The smallest counterexample that is reached from this one by leaving out and simplifying.
 Counterexample shrink(const ClaimUnderTest& test, Counterexample counterexample);
 
-/// The counterexample's system, named after the method and the claim: rk4-not-symplectic.
+/// The name of a system on which the claim does not hold: rk4-not-symplectic.
+std::string counterexample_name(const ClaimUnderTest& test);
+
+/// The counterexample's system, of that name.
 PolynomialSystem named_system(const ClaimUnderTest& test, const Counterexample& counterexample);
 
 /// The command, beginning with the name of the method, that judges the claim on the counterexample's text

@@ -9,7 +9,7 @@ x^y  x_k   raised and lowered: a name, a number or what is in braces
 [[a, b], [c, d]]  a matrix; sqrt(x) a root
 + - * / = < > <= >= , ( ) [ ] |  as they are; what stands side by side is multiplied
 
-What cannot be read as an equation is shown as it is written, and so is a dollar sign without another.
+What cannot be read as an equation, such as brackets in brackets more than 40 deep, is shown as it is written, and so is a dollar sign without another.
 """
 import html
 import re
@@ -21,6 +21,7 @@ GREEK |= dict(zip("Gamma Delta Theta Lambda Xi Pi Sigma Phi Psi Omega".split(), 
 FUNCTIONS = ("sin", "cos", "tan", "exp", "log", "sinh", "cosh", "det", "grad")
 SIGNS = {"-": "−", "*": "⋅", "<=": "≤", ">=": "≥"}
 TOKEN = re.compile(r"\s*([0-9]+(?:\.[0-9]+)?|[A-Za-z]+|<=|>=|'+|[-+*/=<>,()\[\]{}|^_])")
+DEEPEST = 40  # levels of brackets, beyond which no equation is meant
 TIMES, APPLIED = "<mo>&#8290;</mo>", "<mo>&#8289;</mo>"
 
 
@@ -38,7 +39,7 @@ class Reader:
                 raise NotRead(source)
             self.tokens.append(found[1])
             end = found.end()
-        self.at = 0
+        self.at = self.depth = 0
 
     def peek(self, ahead=0):
         return self.tokens[self.at + ahead] if self.at + ahead < len(self.tokens) else ""
@@ -53,6 +54,9 @@ class Reader:
     def row(self, *ends):
         """A row of terms and signs up to one of `ends`, which is not taken."""
         out, before = [], ""
+        self.depth += 1
+        if self.depth > DEEPEST:
+            raise NotRead("brackets too deep")
         while self.peek() not in ends:
             term, kind = self.item()
             if before and kind != "sign":
@@ -61,6 +65,7 @@ class Reader:
             before = kind
         if not out:
             raise NotRead("")
+        self.depth -= 1
         return f"<mrow>{''.join(out)}</mrow>"
 
     def item(self):

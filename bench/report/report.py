@@ -19,11 +19,13 @@ from files import InputError
 def write(path, content):
     """Write to a temporary name beside `path`, then rename: a reader never sees half a file."""
     temporary = path.with_name(f".{path.name}.{os.getpid()}")
-    try:
-        temporary.write_bytes(content.encode("utf-8") if isinstance(content, str) else content)
-        temporary.replace(path)
-    finally:
-        temporary.unlink(missing_ok=True)
+    with open(temporary, "xb") as file:  # a new file: what a link of this name leads to is not ours
+        try:
+            file.write(content.encode("utf-8") if isinstance(content, str) else content)
+            file.flush()
+            temporary.replace(path)
+        finally:
+            temporary.unlink(missing_ok=True)
 
 
 def report(folder):

@@ -13,8 +13,8 @@ class DirectoryLock {
   static constexpr const char* file_name = ".lock";
 
   /// Locks an existing directory for `work`, a few words such as "pfaff run". InputError, saying which
-  /// process works there and since when, where another one holds it, and where the directory cannot be
-  /// written to.
+  /// process works there and since when, where another one holds it, where the directory cannot be written
+  /// to, and where something stands under the name of the file that no lock has left.
   DirectoryLock(const std::filesystem::path& directory, const std::string& work);
   /// Removes the file and lets go.
   ~DirectoryLock();

@@ -9,7 +9,6 @@
 #include <fstream>
 #include <sstream>
 
-#include <pfaff/bench/runner/directory_lock.hpp>
 #include <pfaff/core/errors/errors.hpp>
 
 namespace pfaff {
@@ -38,24 +37,56 @@ bool written(int file, const std::string& text) {
   }
   return brought_to_disk(file);
 }
+
+// Opens a file that is not there yet; negative where there is anything of this name, or none can be made.
+int new_file(const fs::path& path) {
+  return open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+}
 }  // namespace
+
+void check_new_file(const fs::path& path, const std::string& option) {
+  const std::string where = option + " '" + path.string() + "': ";
+  const int file = new_file(path);
+  if (file < 0 && errno == EEXIST) throw InputError(where + "exists already; expected a new file");
+  if (file < 0) throw InputError(where + "cannot be made: " + std::strerror(errno));
+  close(file);
+  unlink(path.c_str());
+}
+
+void write_new_file(const fs::path& path, const std::string& text) {
+  const auto fail = [&](int reason) {
+    throw RunError("cannot write " + path.string() + ": " + std::strerror(reason));
+  };
+  const int file = new_file(path);
+  if (file < 0) fail(errno);
+  int reason = written(file, text) ? 0 : errno;
+  if (close(file) != 0 && reason == 0) reason = errno;
+  if (reason == 0) return;
+  unlink(path.c_str());
+  fail(reason);
+}
 
 void write_file(const fs::path& path, const std::string& text) {
   const fs::path temporary = path.string() + ".part";
   const auto fail = [&](const std::string& reason) {
-    std::error_code ignored;
-    fs::remove(temporary, ignored);
     throw RunError("cannot write " + path.string() + ": " + reason);
   };
-  const int file = open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  // What a program that was killed has left goes first. A link is removed, never followed: what it leads to
+  // is not ours.
+  unlink(temporary.c_str());
+  const int file = new_file(temporary);
   if (file < 0) fail(std::strerror(errno));
+  const auto give_up = [&](const std::string& reason) {
+    unlink(temporary.c_str());
+    fail(reason);
+  };
   const bool whole = written(file, text);
   const int reason = errno;
-  if (close(file) != 0 && whole) fail(std::strerror(errno));
-  if (!whole) fail(std::strerror(reason));
+  if (close(file) != 0 && whole) give_up(std::strerror(errno));
+  if (!whole) give_up(std::strerror(reason));
   std::error_code error;
   fs::rename(temporary, path, error);
-  if (error) fail(error.message());
+  if (error) give_up(error.message());
   if (!directory_brought_to_disk(path.parent_path())) fail(std::strerror(errno));
 }
 
@@ -74,29 +105,41 @@ std::string read_file(const fs::path& path) {
   return text.str();
 }
 
-void make_output_directory(const fs::path& path, const std::vector<std::string>& ours) {
+namespace {
+// True where the path is anything but a directory that may be taken for output of ours: one that is new,
+// holds the file `sign`, or holds nothing but `ours` and what an interrupted program leaves.
+bool taken(const fs::path& path, const std::vector<std::string>& ours, const std::string& sign) {
   std::error_code error;
-  const fs::path probe = path / ".probe";
+  if (!fs::is_directory(path, error)) return fs::exists(fs::symlink_status(path, error));
+  if (!sign.empty() && fs::exists(path / sign, error)) return false;
   const auto is_ours = [&](const fs::path& file) {
     const fs::path whole = file.extension() == ".part" ? file.stem() : file;
-    return whole == probe.filename() || whole == DirectoryLock::file_name ||
-           std::find(ours.begin(), ours.end(), whole) != ours.end();
+    return file == DirectoryLock::file_name || std::find(ours.begin(), ours.end(), whole) != ours.end();
   };
-  bool taken = fs::exists(path, error) && !fs::is_directory(path, error);
-  if (fs::is_directory(path, error))
-    for (const auto& entry : fs::directory_iterator(path, error))
-      taken = taken || !is_ours(entry.path().filename());
-  if (taken)
-    throw InputError("output directory '" + path.string() +
-                     "' exists already; expected a new or an empty one");
+  fs::directory_iterator entries(path, error);
+  return error || !std::all_of(begin(entries), end(entries),
+                               [&](const auto& entry) { return is_ours(entry.path().filename()); });
+}
+}  // namespace
+
+std::unique_ptr<DirectoryLock> take_output_directory(const fs::path& path, const std::string& work,
+                                                     const std::vector<std::string>& ours,
+                                                     const std::string& sign) {
+  const auto refuse_what_is_taken = [&] {
+    if (taken(path, ours, sign))
+      throw InputError("output directory '" + path.string() +
+                       "' exists already; expected a new or an empty one");
+  };
+  std::error_code error;
+  // Whoever works in a directory has filled it, too, and says more than that it is there.
+  if (fs::is_regular_file(fs::symlink_status(path / DirectoryLock::file_name, error)))
+    (void)DirectoryLock(path, work);
+  refuse_what_is_taken();
   fs::create_directories(path, error);
   if (error) throw InputError("output directory '" + path.string() + "' cannot be made: " + error.message());
-  try {
-    write_file(probe, "\n");
-  } catch (const RunError&) {
-    throw InputError("output directory '" + path.string() + "' cannot be written to");
-  }
-  fs::remove(probe, error);
+  auto lock = std::make_unique<DirectoryLock>(path, work);
+  refuse_what_is_taken();  // by one who held the lock before
+  return lock;
 }
 
 fs::path program_path() {

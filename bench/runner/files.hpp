@@ -3,14 +3,25 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include <pfaff/bench/runner/directory_lock.hpp>
+
 namespace pfaff {
 
-/// Writes `text` to `path` by way of a temporary file beside it. RunError when the disk is full or not
-/// writable.
+/// Writes `text` to `path`, in a directory of ours, by way of a temporary file beside it, `path`.part, which
+/// is a new one whatever stands there. RunError when the disk is full or not writable.
 void write_file(const std::filesystem::path& path, const std::string& text);
+
+/// Refuses a path at which `option` is to leave a file where something stands there already, or where no file
+/// can be made (InputError). Leaves nothing there.
+void check_new_file(const std::filesystem::path& path, const std::string& option);
+
+/// Writes `text` to a new file of the user's, and never over one that is there or into what a link leads to.
+/// RunError where something stands there, or the disk is full or not writable; no half file is left.
+void write_new_file(const std::filesystem::path& path, const std::string& text);
 
 /// Renames a directory whose files are written already. RunError where that fails.
 void rename_directory(const std::filesystem::path& from, const std::filesystem::path& to);
@@ -18,10 +29,14 @@ void rename_directory(const std::filesystem::path& from, const std::filesystem::
 /// The text of a file. InputError when it cannot be read.
 std::string read_file(const std::filesystem::path& path);
 
-/// Makes a new directory that can be written to. An existing one is taken where it holds nothing but files
-/// named in `ours` and what an interrupted program leaves: their unfinished forms and a lock. InputError when
-/// `path` exists with anything else in it, or cannot be made or written.
-void make_output_directory(const std::filesystem::path& path, const std::vector<std::string>& ours = {});
+/// Makes a new directory, or takes an existing one, and holds it for `work`, a few words such as "pfaff run".
+/// An existing one is taken where it holds the file `sign`, or nothing but files named in `ours` and what an
+/// interrupted program leaves: their unfinished forms and a lock. InputError when `path` exists with anything
+/// else in it, is held by another process, or cannot be made or written to.
+std::unique_ptr<DirectoryLock> take_output_directory(const std::filesystem::path& path,
+                                                     const std::string& work,
+                                                     const std::vector<std::string>& ours = {},
+                                                     const std::string& sign = {});
 
 /// The file of the running program; empty where the system does not tell.
 std::filesystem::path program_path();

@@ -74,6 +74,37 @@ std::string smaller_step(const ResolvedRun& run, const T& t, const T& h, const s
   return "; from there a step of " + to_string(Quad(good), 3) + " works";
 }
 
+// The blocks of steps that a run takes between two looks at its state.
+struct Blocks {
+  std::int64_t steps, every, stride;
+  // The size of the block that begins with step k.
+  [[nodiscard]] std::int64_t at(std::int64_t k) const {
+    const std::int64_t next_row = std::min(steps, (k / every + 1) * every);
+    return std::min(stride, next_row - k);
+  }
+};
+
+// A block of several steps that ends in a state that is not finite is left as it began. Here its steps are
+// taken one by one, after all blocks before it in the same calls, so that history and rounding are those of
+// the run. z is left in the last finite state, and `completed` says how many steps of the block lead there.
+template <class T>
+Status up_to_the_failure(const ResolvedRun& run, const Blocks& blocks, std::int64_t block, const T& h,
+                         std::vector<T>& z, std::int64_t& completed) {
+  const auto stepper = run.method->stepper(run.model, T());
+  std::vector<T> state;
+  for (const Real& x : run.initial) state.push_back(T(x));
+  const T t0(run.t0);
+  std::int64_t taken = 0;
+  for (std::int64_t k = 0; k < block; k += blocks.at(k))
+    (void)stepper->advance(t0, k, h, blocks.at(k), state, taken);
+  for (completed = 0; completed + 1 < blocks.at(block); ++completed) {
+    const Status status = stepper->advance(t0, block + completed, h, 1, state, taken);
+    if (status != Status::converged) return status;
+    z = state;
+  }
+  return Status::non_finite;
+}
+
 template <class T>
 void execute_fixed(const ResolvedRun& run, Observer<T>& observer, RunRecord& record,
                    const Progress& progress) {
@@ -87,15 +118,17 @@ void execute_fixed(const ResolvedRun& run, Observer<T>& observer, RunRecord& rec
   const std::int64_t stride = run.method->processed()
                                   ? run.every
                                   : std::min(run.every, std::max<std::int64_t>(1, run.steps / 2000000));
+  const Blocks blocks{run.steps, run.every, stride};
   const std::int64_t rows = run.steps / run.every + 1;
   const std::int64_t structure_rows = std::max<std::int64_t>(1, rows / 50);
   std::int64_t row = 0, k = 0, completed = 0;
   try {
     bool ended = ended_by(observer.observe(time(0), z, true, true), time(0), 0, record);
     while (k < run.steps && !ended) {
-      const std::int64_t next_row = std::min(run.steps, (k / run.every + 1) * run.every);
-      const std::int64_t count = std::min(stride, next_row - k);
-      const Status status = stepper->advance(t0, k, h, count, z, completed);
+      const std::int64_t count = blocks.at(k);
+      Status status = stepper->advance(t0, k, h, count, z, completed);
+      if (status == Status::non_finite && completed == 0 && count > 1)
+        status = up_to_the_failure(run, blocks, k, h, z, completed);
       record.completed = k + completed;
       if (status != Status::converged) {
         record.status = status;
@@ -274,16 +307,22 @@ StepTime time_in(const ResolvedRun& run, double seconds) {
     if (run.adaptive()) completed = stepper->counters().steps - before;
     return completed > 0 ? time.count() / static_cast<double>(completed) : 0.0;
   };
+  // Nothing is timed where the steps leave the range of numbers; fewer of them may not.
+  const auto shortened = [&](std::int64_t& count) {
+    double time = elapsed(count);
+    while (!(time > 0) && count > 1 && !run.adaptive()) time = elapsed(count /= 2);
+    return time;
+  };
   std::int64_t count = std::min<std::int64_t>(run.steps, 200);
-  const double rough = elapsed(count);  // warm-up
+  const double rough = shortened(count);  // warm-up
   constexpr int repetitions = 7;
   if (rough > 0 && !run.adaptive())
     count = std::clamp<std::int64_t>(static_cast<std::int64_t>(seconds / repetitions / rough), 1, run.steps);
   StepTime result;
   result.repetitions = repetitions;
-  std::vector<double> times;
   const auto begin = Clock::now();
-  for (int k = 0; k < repetitions; ++k) times.push_back(elapsed(count) * 1e9);
+  std::vector<double> times{shortened(count) * 1e9};
+  while (times.size() < repetitions) times.push_back(elapsed(count) * 1e9);
   result.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   std::sort(times.begin(), times.end());
   result.median = times[repetitions / 2];

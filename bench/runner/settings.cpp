@@ -236,6 +236,29 @@ void note_origins(ResolvedRun& run, const SystemPlugin& system, const MethodPlug
 }
 }  // namespace
 
+namespace {
+// Refuses a state outside the domain of the formulas, or beyond the range of the run's numbers, which would
+// otherwise show as NaN in the run.
+template <class T>
+void check_domain(const ResolvedRun& run, const std::string& system) {
+  const Problem<T> problem(run.model);
+  const T t(run.t0);
+  std::vector<T> z, rate(run.initial.size()), values(run.model->invariants().size());
+  for (const Real& x : run.initial) z.push_back(T(x));
+  const auto expect_finite = [&](const T& x, const std::string& what) {
+    if (!isfinite(x)) throw InputError("initial state of " + system + ": " + what + " is not finite there");
+  };
+  if (run.model->moves()) {
+    problem.field(t, z, rate);
+    for (const T& x : rate) expect_finite(x, "the vector field");
+  }
+  if (values.empty()) return;
+  problem.invariants(t, z, values);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    expect_finite(values[i], "the invariant " + run.model->invariants()[i].name);
+}
+}  // namespace
+
 ResolvedRun resolve(const RunSettings& settings) {
   ResolvedRun run;
   run.settings = settings;
@@ -275,15 +298,10 @@ ResolvedRun resolve(const RunSettings& settings) {
   run.given_initial = run.initial;
   check_independence(*whole, run);
   check_consistency(settings, run);
-  // A state outside the domain of the formulas is refused here, not discovered as NaN later.
-  if (run.model->moves()) {
-    const Problem<double> problem(run.model);
-    std::vector<double> z, rate(run.initial.size());
-    for (const Real& x : run.initial) z.push_back(x.value());
-    problem.field(run.t0.value(), z, rate);
-    for (const double x : rate)
-      if (!std::isfinite(x))
-        throw InputError("initial state of " + system.name() + ": the vector field is not finite there");
+  if (settings.precision == Precision::quad) {
+    check_domain<Quad>(run, system.name());
+  } else {
+    check_domain<double>(run, system.name());
   }
   resolve_steps(run);
   return run;

@@ -18,12 +18,16 @@ template <class T>
 class Stepper {
  public:
   virtual ~Stepper() = default;
-  /// Steps first … first + count - 1 of size h (of either sign) from t0; see pfaff::advance. BudgetSpent from
-  /// within a step leaves z as it was before the call and `completed` 0.
+  /// Steps first … first + count - 1 of size h (of either sign) from t0; see pfaff::advance. Where the state
+  /// that they reach is not finite, the status is non_finite, z is as it was before the call, `completed` is
+  /// 0, and the history is dropped: which of several steps left the range of numbers is known to whoever
+  /// takes them one by one. BudgetSpent from within a step leaves z as it was before the call and `completed`
+  /// 0.
   virtual Status advance(const T& t0, std::int64_t first, const T& h, std::int64_t count, std::span<T> z,
                          std::int64_t& completed) = 0;
   /// From t to `end` with steps of the method's choosing at `tolerance`; t is left where it got to, also
-  /// where BudgetSpent is thrown between two steps.
+  /// where BudgetSpent is thrown between two steps. Where the state there is not finite, the status is
+  /// non_finite, and t, z and the counted steps are as they were.
   virtual Status advance_to(T& t, const T& end, const T& tolerance, std::span<T> z) = 0;
   /// Drops history and compensation: the next step depends on its state alone.
   virtual void forget() = 0;
@@ -52,19 +56,30 @@ class SteppingOn final : public Stepper<Scalar<P>> {
     std::copy(z.begin(), z.end(), state_.begin());
     const Status status =
         advance_as_allowed(method_, problem_, t0, first, h, count, state_, *work_, completed);
+    if (!finite()) {
+      completed = 0;
+      return left_as_it_was();
+    }
     std::copy(state_.begin(), state_.end(), z.begin());
     problem_.counters().steps += completed;
     if (status == Status::converged && completed < count) spend(1, 0);
-    return status == Status::converged ? finite(z) : status;
+    return status;
   }
 
   Status advance_to(T& t, const T& end, const T& tolerance, std::span<T> z) override {
     if constexpr (requires { method_.advance_to(problem_, t, end, tolerance, state_, *work_); }) {
       std::copy(z.begin(), z.end(), state_.begin());
+      const T begin = t;
+      const auto steps = problem_.counters().steps;
       const Status status = method_.advance_to(problem_, t, end, tolerance, state_, *work_);
+      if (!finite()) {
+        t = begin;
+        problem_.counters().steps = steps;
+        return left_as_it_was();
+      }
       std::copy(state_.begin(), state_.end(), z.begin());
       if (status == Status::converged && t != end) spend(1, 0);
-      return status == Status::converged ? finite(z) : status;
+      return status;
     } else {
       (void)t, (void)end, (void)tolerance, (void)z;
       throw InputError("this integrator takes fixed steps only; give --step");
@@ -75,10 +90,15 @@ class SteppingOn final : public Stepper<Scalar<P>> {
   [[nodiscard]] const Counters& counters() const override { return problem_.counters(); }
 
  private:
-  static Status finite(std::span<const T> z) {
-    for (const T& x : z)
-      if (!isfinite(value_of(x))) return Status::non_finite;
-    return Status::converged;
+  [[nodiscard]] bool finite() const {
+    for (const T& x : state_)
+      if (!isfinite(value_of(x))) return false;
+    return true;
+  }
+  // Explicit methods do not look at what they make, so that their history is no more finite than the state.
+  Status left_as_it_was() {
+    forget();
+    return Status::non_finite;
   }
 
   M method_;

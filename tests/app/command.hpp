@@ -155,11 +155,12 @@ inline std::vector<std::string> operator+(std::vector<std::string> a, const std:
   return a;
 }
 
-/// What `evaluate` says of a system, with arguments after its name.
-inline nlohmann::json evaluated(const std::vector<std::string>& more) {
+/// What `evaluate` says of a system, with arguments after its name. The exit status is 1 where the state is
+/// singular.
+inline nlohmann::json evaluated(const std::vector<std::string>& more, int status = 0) {
   const Outcome outcome = run_pfaff(std::vector<std::string>{"evaluate", "--json", "--system"} + more);
-  EXPECT_EQ(outcome.status, 0) << joined(more) << outcome.err;
-  EXPECT_EQ(outcome.err, "");
+  EXPECT_EQ(outcome.status, status) << joined(more) << outcome.err;
+  EXPECT_EQ(outcome.err.empty(), status == 0) << outcome.err;
   const auto j = json_of(outcome.out);
   EXPECT_EQ(j["schema"], 1);
   return j;

@@ -93,7 +93,7 @@ TEST(EvaluateConstraints, EverySolverAgreesOffTheSurfaceToo) {
 
 TEST(EvaluateConstraints, NamesWhatIsNotSecondClass) {
   // b = b0 + b2 r^2 vanishes at r^2 = 5/4.
-  const auto j = evaluated({"guiding-centre", "--set", "b0=-1.25", "--set", "b2=1"});
+  const auto j = evaluated({"guiding-centre", "--set", "b0=-1.25", "--set", "b2=1"}, 1);
   EXPECT_EQ(j["status"], "singular");
   EXPECT_EQ(j["rank"], 0);
   EXPECT_EQ(j["first_class"], (nlohmann::json{"p_x - A_x", "p_y - A_y"}));
@@ -104,12 +104,12 @@ TEST(EvaluateConstraints, NamesWhatIsNotSecondClass) {
   EXPECT_NE(reason.find("p_x - A_x"), std::string::npos) << reason;
   EXPECT_EQ(reason.find('\n'), std::string::npos) << reason;
   // The constraint has no gradient at the origin.
-  const auto origin = evaluated({"spherical-pendulum", "--set", "initial=0,0,0,1,0,0"});
+  const auto origin = evaluated({"spherical-pendulum", "--set", "initial=0,0,0,1,0,0"}, 1);
   EXPECT_EQ(origin["status"], "singular");
   EXPECT_FALSE(origin["redundant"].empty());
   EXPECT_TRUE(origin["rhs"].is_null());
   // The gradient is not finite on the axis.
-  const auto axis = evaluated({"torus-particle", "--set", "initial=0,0,1,1,0,0"});
+  const auto axis = evaluated({"torus-particle", "--set", "initial=0,0,1,1,0,0"}, 1);
   EXPECT_EQ(axis["status"], "non_finite");
   EXPECT_FALSE(axis.contains("solvers"));
 }

@@ -99,17 +99,17 @@ TEST(Evaluate, EquationsWithoutAnActionFormHaveOneAboutACentre) {
 }
 
 TEST(Evaluate, AStateOutsideTheDomainIsShownNotRefused) {
-  const auto j = evaluated({"lotka-volterra", "--set", "initial=-1,2"});
+  const auto j = evaluated({"lotka-volterra", "--set", "initial=-1,2"}, 1);
   EXPECT_EQ(j["status"], "non_finite");
   EXPECT_TRUE(j["B"].is_null());
   EXPECT_EQ(j["state"], (nlohmann::json{-1.0, 2.0}));
-  EXPECT_EQ(evaluated({"lotka-volterra", "--set", "initial=0,1"})["status"], "non_finite");
-  EXPECT_EQ(evaluated({"kepler", "--set", "initial=0,0,1,0"})["status"], "non_finite");
+  EXPECT_EQ(evaluated({"lotka-volterra", "--set", "initial=0,1"}, 1)["status"], "non_finite");
+  EXPECT_EQ(evaluated({"kepler", "--set", "initial=0,0,1,0"}, 1)["status"], "non_finite");
 }
 
 TEST(Evaluate, ADegenerateStructureNamesItsDirections) {
   const Arguments where{"degenerate", "--plugin", PFAFF_TEST_PLUGINS "/degenerate.so"};
-  const auto j = evaluated(where);
+  const auto j = evaluated(where, 1);
   EXPECT_EQ(j["regular"], false);
   EXPECT_EQ(j["status"], "singular");
   EXPECT_TRUE(j["rhs"].is_null());

@@ -74,6 +74,25 @@ TEST(Falsify, OneSystem) {
   EXPECT_GT(falsified(plain, 1)["residuals"][0], 1.3);
 }
 
+TEST(Falsify, WritesOverNothing) {
+  const TemporaryDirectory files;
+  const auto search = [&](const std::string& budget) {
+    return run_pfaff({"falsify", "rk4", "--claim", "symplectic", "--systems", "200", "--budget", budget,
+                      "--out", files.path().string()});
+  };
+  const std::string file = files / "rk4-not-symplectic.toml";
+  write(file, "mine");
+  expect_complaint(search("1000000"), 2, {"--out", "rk4-not-symplectic.toml", "exists already"}, "a file");
+  EXPECT_EQ(text_of(file), "mine");
+  fs::rename(file, files / "victim");
+  fs::create_symlink(files / "victim", file);
+  expect_complaint(search("1000000"), 2, {"--out", "exists already"}, "a link");
+  EXPECT_EQ(text_of(files / "victim"), "mine");
+  fs::remove(file);
+  EXPECT_EQ(search("60").status, 1);
+  EXPECT_NE(text_of(file).find("coordinates"), std::string::npos);
+}
+
 TEST(Falsify, Refusals) {
   const auto refused = [](std::vector<std::string> arguments, const std::string& said) {
     arguments.insert(arguments.begin(), "falsify");

@@ -84,12 +84,13 @@ TEST_F(Files, AreWholeOrWereNeverThere) {
 }
 
 TEST_F(Files, OutputDirectories) {
-  make_output_directory(directory / "new/deep");
+  const auto take = [&](const fs::path& path) { (void)take_output_directory(path, "a test"); };
+  take(directory / "new/deep");
   EXPECT_TRUE(fs::is_empty(directory / "new/deep"));
-  make_output_directory(directory / "new/deep");
+  take(directory / "new/deep");
   write_file(directory / "new/deep/a", "kept");
-  EXPECT_THROW(make_output_directory(directory / "new/deep"), InputError);
-  EXPECT_THROW(make_output_directory(directory / "new/deep/a"), InputError);
+  EXPECT_THROW(take(directory / "new/deep"), InputError);
+  EXPECT_THROW(take(directory / "new/deep/a"), InputError);
   EXPECT_EQ(read_file(directory / "new/deep/a"), "kept");
 }
 

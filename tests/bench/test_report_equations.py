@@ -50,6 +50,15 @@ class Equations(unittest.TestCase):
         self.assertEqual(words(found(math, "msqrt")[0]), "x")
         self.assertEqual(words(math), "sinr+x<1")
 
+    def test_deep_brackets_are_shown_as_they_are_written(self):
+        for before, after in (("(", ")"), ("{", "}"), ("sqrt(", ")"), ("x^{", "}"), ("[[", "]]")):
+            for depth in (41, 1000, 20000):
+                source = f"${before * depth}x{after * depth}$"
+                with self.subTest(before=before, depth=depth):
+                    self.assertEqual(equation.prose(source), source)
+            self.assertIn("<math", equation.prose(f"${before * 20}x{after * 20}$"))
+        self.assertEqual(equation.prose("(" * 20000 + "{"), "(" * 20000 + "{")
+
     def test_what_is_no_equation_is_shown_as_it_is_written(self):
         for source in ("", "x^", "x^-1", "(x", "x)", "[[1, 2], [3]]", "[[1, 2]", "x # y", "sqrt x", "x^2^3", "'", "{}", "<b>é"):
             with self.subTest(source=source):
