@@ -5,6 +5,7 @@
 
 #include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/bench/runner/observer.hpp>
+#include <pfaff/bench/runner/steps.hpp>
 
 namespace pfaff {
 
@@ -78,6 +79,7 @@ void execute_fixed(const ResolvedRun& run, Observer<T>& observer, RunRecord& rec
   for (const Real& x : run.initial) z.push_back(T(x));
   const T t0(run.t0), h(run.step);
   const auto time = [&](std::int64_t k) { return t0 + T(static_cast<double>(k)) * h; };
+  const auto exact = [&](std::int64_t k) { return Quad(t0) + Quad(static_cast<double>(k)) * Quad(h); };
   // Drift is measured at every step in runs of up to two million steps, and at evenly spaced ones in longer
   // runs. A processed method is looked at where states are kept alone, since every look takes its processor.
   const std::int64_t stride = run.method->processed()
@@ -86,7 +88,7 @@ void execute_fixed(const ResolvedRun& run, Observer<T>& observer, RunRecord& rec
   const std::int64_t rows = run.steps / run.every + 1;
   const std::int64_t structure_rows = std::max<std::int64_t>(1, rows / 50);
   std::int64_t row = 0;
-  bool ended = ended_by(observer.observe(time(0), z, true, true), time(0), 0, record);
+  bool ended = ended_by(observer.observe(time(0), exact(0), z, true, true), time(0), 0, record);
   for (std::int64_t k = 0; k < run.steps && !ended;) {
     const std::int64_t next_row = std::min(run.steps, (k / run.every + 1) * run.every);
     const std::int64_t count = std::min(stride, next_row - k);
@@ -103,7 +105,7 @@ void execute_fixed(const ResolvedRun& run, Observer<T>& observer, RunRecord& rec
     const bool keep = k % run.every == 0 || k == run.steps;
     if (keep) ++row;
     const bool structure = keep && (row % structure_rows == 0 || k == run.steps);
-    const bool bad = ended_by(observer.observe(time(k), z, keep, structure), time(k), k, record);
+    const bool bad = ended_by(observer.observe(time(k), exact(k), z, keep, structure), time(k), k, record);
     if (bad) record.completed = k - count;  // the steps behind which all was finite
     ended = bad || (k < run.steps && interrupted(stop, time(k), k, record));
     if (progress && keep) progress(static_cast<double>(k) / static_cast<double>(run.steps));
@@ -120,8 +122,9 @@ int sample_intervals(const ResolvedRun& run) {
   std::vector<T> z;
   for (const Real& x : run.initial) z.push_back(T(x));
   T t(run.t0);
-  (void)stepper->advance_to(t, t + T(run.time), T(run.tolerance), z);
-  return static_cast<int>(std::clamp<std::int64_t>(stepper->counters().steps / 8, 32, 200));
+  const std::vector<T> absolute = absolute_tolerances<T>(run);
+  (void)stepper->advance_to(t, t + T(run.time), {T(run.tolerance), absolute}, z);
+  return static_cast<int>(std::clamp<std::int64_t>(stepper->counters().steps / 8, 32, most_intervals));
 }
 
 // Ends a run that has taken more steps than it may; true where it has.
@@ -141,18 +144,21 @@ void execute_adaptive(const ResolvedRun& run, Observer<T>& observer, RunRecord& 
   const auto stepper = run.method->stepper(run.model, T());
   std::vector<T> z;
   for (const Real& x : run.initial) z.push_back(T(x));
+  const std::vector<T> absolute = absolute_tolerances<T>(run);
   T t(run.t0);
-  bool ended = ended_by(observer.observe(t, z, true, false), t, 0, record);
+  bool ended = ended_by(observer.observe(t, Quad(t), z, true, false), t, 0, record);
   for (int k = 1; k <= intervals && !ended; ++k) {
     const T end = T(run.t0) + T(run.time) * T(k) / T(intervals);
-    const Status status = stepper->advance_to(t, end, T(run.tolerance), z);
+    const Status status = stepper->advance_to(t, end, {T(run.tolerance), absolute}, z);
     if (status != Status::converged) {
       record.status = status;
-      record.message = "the step control gave up " + at(t, stepper->counters().steps);
+      record.message = "the step control gave up " + at(t, stepper->counters().steps) +
+                       ": no step meets the tolerance in every coordinate (what counts in small ones, "
+                       "--absolute says)";
       break;
     }
     const std::int64_t steps = stepper->counters().steps;
-    ended = ended_by(observer.observe(t, z, true, false), t, steps, record) ||
+    ended = ended_by(observer.observe(t, Quad(t), z, true, false), t, steps, record) ||
             (k < intervals && (beyond_budget(run, t, steps, record) || interrupted(stop, t, steps, record)));
     if (progress) progress(static_cast<double>(k) / intervals);
   }
@@ -237,6 +243,7 @@ template <class T>
 StepTime time_in(const ResolvedRun& run, double seconds) {
   using Clock = std::chrono::steady_clock;
   const auto stepper = run.method->stepper(run.model, T());
+  const std::vector<T> absolute = absolute_tolerances<T>(run);
   // Seconds per step over the first `count` steps, or, for a run that chooses its steps, over a tenth of the
   // run.
   const auto elapsed = [&](std::int64_t count) {
@@ -249,7 +256,7 @@ StepTime time_in(const ResolvedRun& run, double seconds) {
     if (run.adaptive()) {
       T t(run.t0);
       const T end = t + T(run.time) / T(10);
-      (void)stepper->advance_to(t, end, T(run.tolerance), z);
+      (void)stepper->advance_to(t, end, {T(run.tolerance), absolute}, z);
     } else {
       (void)stepper->advance(T(run.t0), 0, T(run.step), count, z, completed);
     }

@@ -10,6 +10,7 @@
 #include <pfaff/core/errors/errors.hpp>
 #include <pfaff/core/facets/advance.hpp>
 #include <pfaff/core/facets/problem.hpp>
+#include <pfaff/core/facets/tolerance.hpp>
 
 namespace pfaff {
 
@@ -21,8 +22,9 @@ class Stepper {
   /// Steps first … first + count - 1 of size h (of either sign) from t0; see pfaff::advance.
   virtual Status advance(const T& t0, std::int64_t first, const T& h, std::int64_t count, std::span<T> z,
                          std::int64_t& completed) = 0;
-  /// From t to `end` with steps of the method's choosing at `tolerance`; t is left where it got to.
-  virtual Status advance_to(T& t, const T& end, const T& tolerance, std::span<T> z) = 0;
+  /// From t to `end` with steps of the method's choosing at `tolerance`, of which a number is the relative
+  /// part; t is left where it got to. InputError for a start at rest in zero without absolute tolerances.
+  virtual Status advance_to(T& t, const T& end, const Tolerance<T>& tolerance, std::span<T> z) = 0;
   /// Drops history and compensation: the next step depends on its state alone.
   virtual void forget() = 0;
   [[nodiscard]] virtual const Counters& counters() const = 0;
@@ -54,7 +56,7 @@ class SteppingOn final : public Stepper<Scalar<P>> {
     return status == Status::converged ? finite(z) : status;
   }
 
-  Status advance_to(T& t, const T& end, const T& tolerance, std::span<T> z) override {
+  Status advance_to(T& t, const T& end, const Tolerance<T>& tolerance, std::span<T> z) override {
     if constexpr (requires { method_.advance_to(problem_, t, end, tolerance, state_, *work_); }) {
       std::copy(z.begin(), z.end(), state_.begin());
       const Status status = method_.advance_to(problem_, t, end, tolerance, state_, *work_);
