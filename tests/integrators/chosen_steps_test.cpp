@@ -15,7 +15,7 @@ namespace pfaff {
 namespace {
 
 using testing::sample_of;
-using Numbers = std::vector<double>;
+using Doubles = std::vector<double>;
 
 struct Spring {  // q'' = -(k/m) q
   static constexpr int dimension = 2;
@@ -51,7 +51,7 @@ struct Springs {  // q1'' = -25 q1, q2'' = -q2 / 100
     return 25 * q[0] * q[0] / 2 + q[1] * q[1] / 200;
   }
 };
-struct Driven {  // q1'' = -q1 drives q2'' = -4 q2 + q1; q3'' = -q3 stays where it is
+struct DrivenPair {  // q1'' = -q1 drives q2'' = -4 q2 + q1; q3'' = -q3 stays where it is
   static constexpr int dimension = 6;
   template <class T>
   void field(const T& /*t*/, In<T> z, Out<T> rate) const {
@@ -72,7 +72,7 @@ struct Dropped {  // q'' = -1 - q
     return q[0] + q[0] * q[0] / 2;
   }
 };
-struct Shaken {  // q'' = -q + sin t
+struct ShakenSpring {  // q'' = -q + sin t
   static constexpr int dimension = 2;
   template <class T>
   void field(const T& t, In<T> z, Out<T> rate) const {
@@ -100,16 +100,16 @@ struct Chain {  // 32 masses between springs of unit stiffness, q then p
   }
 };
 
-struct Motion {
-  Numbers end;
+struct ChosenRun {
+  Doubles end;
   double steps = 0;
   Status status = Status::converged;
 };
 template <class S>
-Motion motion(const std::string& method, const S& system, const Numbers& z, double time, double tolerance,
-              const Numbers& absolute = {}) {
+ChosenRun chosen_run(const std::string& method, const S& system, const Doubles& z, double time,
+                     double tolerance, const Doubles& absolute = {}) {
   const auto stepper = integrators().get(method, "integrator").make({})->stepper(sample_of(system), double());
-  Motion result{z};
+  ChosenRun result{z};
   double t = 0;
   result.status = stepper->advance_to(t, time, {tolerance, absolute}, result.end);
   result.steps = static_cast<double>(stepper->counters().steps);
@@ -129,10 +129,10 @@ class ChosenSteps : public ::testing::TestWithParam<std::string> {};
 // roots from which `taylor` takes its steps are rounded differently, by some units of round-off.
 TEST_P(ChosenSteps, AreTheSameInAllUnits) {
   for (const double tolerance : {1e-5, 1e-10}) {
-    const Motion one = motion(GetParam(), Spring{1, 1}, {1, 0.5}, 50, tolerance);
+    const ChosenRun one = chosen_run(GetParam(), Spring{1, 1}, {1, 0.5}, 50, tolerance);
     for (const double size : {0x1p-33, 0x1p40}) {
-      const Motion other =
-          motion(GetParam(), Spring{0x1p-86, 0x1p-14}, {size, size * 0x1p-51}, 50 * 0x1p-36, tolerance);
+      const ChosenRun other =
+          chosen_run(GetParam(), Spring{0x1p-86, 0x1p-14}, {size, size * 0x1p-51}, 50 * 0x1p-36, tolerance);
       ASSERT_EQ(other.status, Status::converged);
       EXPECT_EQ(one.steps, other.steps);
       const double allowed = GetParam() == "taylor" ? 1e-13 : 0;
@@ -150,12 +150,12 @@ TEST_P(ChosenSteps, OfSmallAndLargeOscillatorsAreAsGoodAsOfOne) {
     double m, k, q;
   };
   const auto run = [&](const Case& c) {
-    return motion(GetParam(), Spring{c.m, c.k}, {c.q, 0}, 2000 * std::numbers::pi / std::sqrt(c.k / c.m),
-                  1e-10);
+    return chosen_run(GetParam(), Spring{c.m, c.k}, {c.q, 0}, 2000 * std::numbers::pi / std::sqrt(c.k / c.m),
+                      1e-10);
   };
-  const Motion one = run({1, 1, 1});
+  const ChosenRun one = run({1, 1, 1});
   for (const Case& c : {Case{1e-26, 1e-4, 1e-10}, Case{1e24, 1e3, 1e-4}, Case{1e-31, 7e-2, 3e-12}}) {
-    const Motion other = run(c);
+    const ChosenRun other = run(c);
     ASSERT_EQ(other.status, Status::converged);
     EXPECT_NEAR(other.steps, one.steps, one.steps / 100) << c.q;
     EXPECT_NEAR(other.end[0] / c.q, 1, 1e-6) << c.q;
@@ -166,7 +166,7 @@ TEST_P(ChosenSteps, OfSmallAndLargeOscillatorsAreAsGoodAsOfOne) {
 // A pendulum of small amplitude a has the frequency 1 - a^2/16 (and a third harmonic of a^2/192 beside it).
 TEST_P(ChosenSteps, OfSmallSwings) {
   for (const double a : {1e-7, 1e-9, 3e-12}) {
-    const Motion swing = motion(GetParam(), Swinging{}, {a, 0}, 10, 1e-8);
+    const ChosenRun swing = chosen_run(GetParam(), Swinging{}, {a, 0}, 10, 1e-8);
     ASSERT_EQ(swing.status, Status::converged);
     EXPECT_NEAR(swing.end[0] / a, std::cos(10 * (1 - a * a / 16)), 1e-6) << a;
   }
@@ -175,7 +175,7 @@ TEST_P(ChosenSteps, OfSmallSwings) {
 // Small coordinates beside large ones: each is right to its own digits.
 TEST_P(ChosenSteps, JudgeEveryCoordinateByItself) {
   for (const auto& [small, large] : {std::pair{1e-3, 1e6}, std::pair{1e-8, 1e3}, std::pair{1e6, 1e-6}}) {
-    const Motion both = motion(GetParam(), Springs{}, {small, large, 0, 0}, 10, 1e-10);
+    const ChosenRun both = chosen_run(GetParam(), Springs{}, {small, large, 0, 0}, 10, 1e-10);
     ASSERT_EQ(both.status, Status::converged);
     EXPECT_NEAR(both.end[0] / small, std::cos(50), 1e-7) << small;
     EXPECT_NEAR(both.end[1] / large, std::cos(1), 1e-8) << large;
@@ -187,19 +187,19 @@ TEST_P(ChosenSteps, JudgeEveryCoordinateByItself) {
 // Coordinates that begin at zero, are driven from there on, or stay there; states of any size.
 TEST_P(ChosenSteps, OfCoordinatesThatBeginAtZero) {
   for (const double size : {1.0, 1e-9, 1e7}) {
-    const Motion cosine = motion(GetParam(), Driven{}, {size, 0, 0, 0, 0, 0}, 20, 1e-10);
+    const ChosenRun cosine = chosen_run(GetParam(), DrivenPair{}, {size, 0, 0, 0, 0, 0}, 20, 1e-10);
     ASSERT_EQ(cosine.status, Status::converged);
     EXPECT_NEAR(cosine.end[0] / size, std::cos(20), 1e-7);
     EXPECT_NEAR(cosine.end[1] / size, (std::cos(20) - std::cos(40)) / 3, 1e-7);
     EXPECT_EQ(cosine.end[2], 0);
     // Here nothing drives the second oscillator at the start, but later on.
-    const Motion sine = motion(GetParam(), Driven{}, {0, 0, 0, size, 0, 0}, 20, 1e-10);
+    const ChosenRun sine = chosen_run(GetParam(), DrivenPair{}, {0, 0, 0, size, 0, 0}, 20, 1e-10);
     ASSERT_EQ(sine.status, Status::converged);
     EXPECT_NEAR(sine.end[0] / size, std::sin(20), 1e-7);
     EXPECT_NEAR(sine.end[1] / size, (std::sin(20) - std::sin(40) / 2) / 3, 1e-7);
     EXPECT_LE(sine.steps, 3000);
   }
-  const Motion drop = motion(GetParam(), Dropped{}, {0, 0}, 10, 1e-10);
+  const ChosenRun drop = chosen_run(GetParam(), Dropped{}, {0, 0}, 10, 1e-10);
   ASSERT_EQ(drop.status, Status::converged);
   EXPECT_NEAR(drop.end[0], std::cos(10) - 1, 1e-8);
   EXPECT_NEAR(drop.end[1], -std::sin(10), 1e-8);
@@ -209,7 +209,7 @@ TEST_P(ChosenSteps, OfCoordinatesThatBeginAtZero) {
 // thirty units of time nothing counts any more. Stiffness bounds the steps of explicit methods.
 TEST_P(ChosenSteps, OfDecayAreThoseOfItsBeginning) {
   for (const double size : {1.0, 1e-12}) {
-    const Motion decay = motion(GetParam(), Decaying{}, {size}, 30, 1e-10);
+    const ChosenRun decay = chosen_run(GetParam(), Decaying{}, {size}, 30, 1e-10);
     ASSERT_EQ(decay.status, Status::converged);
     EXPECT_NEAR(decay.end[0] / size, std::exp(-30), 1e-8);
     EXPECT_LE(decay.steps, 150);
@@ -219,9 +219,9 @@ TEST_P(ChosenSteps, OfDecayAreThoseOfItsBeginning) {
 // The first traces of a wave through a chain at rest are of no account. An eigenvector expansion of the chain
 // gives q_1(t) = (2/33) sum_j sin^2(j pi/33) cos(2 t sin(j pi/66)).
 TEST_P(ChosenSteps, OfAWaveThroughAChainAtRest) {
-  Numbers z(64);
+  Doubles z(64);
   z[0] = 1e-6;
-  const Motion wave = motion(GetParam(), Chain{}, z, 10, 1e-8);
+  const ChosenRun wave = chosen_run(GetParam(), Chain{}, z, 10, 1e-8);
   ASSERT_EQ(wave.status, Status::converged);
   double expected = 0;
   for (int j = 1; j <= 32; ++j)
@@ -233,7 +233,7 @@ TEST_P(ChosenSteps, OfAWaveThroughAChainAtRest) {
 
 // At the upper equilibrium sin q is what rounding leaves of pi, and no step makes that right.
 TEST_P(ChosenSteps, OfAPendulumAtItsUpperEquilibrium) {
-  const Motion upright = motion(GetParam(), Swinging{}, {std::numbers::pi, 0}, 5, 1e-10);
+  const ChosenRun upright = chosen_run(GetParam(), Swinging{}, {std::numbers::pi, 0}, 5, 1e-10);
   ASSERT_EQ(upright.status, Status::converged);
   EXPECT_NEAR(upright.end[0], std::numbers::pi, 1e-13 * std::exp(5));
   EXPECT_LE(upright.steps, 200);
@@ -241,14 +241,14 @@ TEST_P(ChosenSteps, OfAPendulumAtItsUpperEquilibrium) {
 
 TEST_P(ChosenSteps, OfAStartAtRestInZeroNeedAnAbsoluteTolerance) {
   for (const double time : {10.0, -10.0}) {
-    EXPECT_THROW((void)motion(GetParam(), Shaken{}, {0, 0}, time, 1e-10), InputError);
-    const Motion shaken = motion(GetParam(), Shaken{}, {0, 0}, time, 1e-10, {1e-10, 1e-10});
+    EXPECT_THROW((void)chosen_run(GetParam(), ShakenSpring{}, {0, 0}, time, 1e-10), InputError);
+    const ChosenRun shaken = chosen_run(GetParam(), ShakenSpring{}, {0, 0}, time, 1e-10, {1e-10, 1e-10});
     ASSERT_EQ(shaken.status, Status::converged);
     EXPECT_NEAR(shaken.end[0], (std::sin(time) - time * std::cos(time)) / 2, 1e-7);
   }
   // A hundred thousand times as much allowed in both coordinates is made use of.
-  const Motion careless = motion(GetParam(), Shaken{}, {0, 0}, 10, 1e-10, {1e-5, 1e-5});
-  EXPECT_LT(careless.steps, motion(GetParam(), Shaken{}, {0, 0}, 10, 1e-10, {1e-10, 1e-10}).steps);
+  const ChosenRun careless = chosen_run(GetParam(), ShakenSpring{}, {0, 0}, 10, 1e-10, {1e-5, 1e-5});
+  EXPECT_LT(careless.steps, chosen_run(GetParam(), ShakenSpring{}, {0, 0}, 10, 1e-10, {1e-10, 1e-10}).steps);
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, ChosenSteps, ::testing::ValuesIn(adaptive_methods()), [](const auto& each) {
