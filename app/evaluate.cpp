@@ -1,6 +1,5 @@
 // pfaff evaluate: shows everything the formulas of a system give at one state and time.
 #include <iostream>
-#include <sstream>
 
 #include <pfaff/app/command.hpp>
 #include <pfaff/app/evaluation_text.hpp>
@@ -36,13 +35,8 @@ EvaluationSettings settings_of(const EvaluateOptions& options) {
   EvaluationSettings settings;
   if (!options.precision.empty()) settings.precision = parse_precision(options.precision);
   settings.at = resolve_state(run);
-  if (!options.centre.empty()) {
-    std::vector<std::string> texts;
-    std::stringstream stream(options.centre +
-                             ',');  // getline drops an empty last number unless a comma ends it
-    for (std::string text; std::getline(stream, text, ',');) texts.push_back(text);
-    settings.centre = state_numbers(*settings.at.model, texts, "centre");
-  }
+  if (!options.centre.empty())
+    settings.centre = state_numbers(*settings.at.model, split_commas(options.centre), "centre");
   return settings;
 }
 

@@ -19,7 +19,7 @@ namespace {
 struct RunOptions {
   RunSettings settings;
   std::vector<std::string> set;
-  std::string every, precision, out, state, config, reference, max_steps;
+  std::string every, absolute, precision, out, state, config, reference, max_steps;
   bool force = false;
 };
 
@@ -30,9 +30,10 @@ RunConfig config_of(const RunOptions& options) {
   RunConfig config{options.settings, {}};
   RunSettings& settings = config.settings;
   if (!options.config.empty()) {
-    for (const std::string& other : {settings.system, settings.formulation, settings.integrator,
-                                     settings.time, settings.step, settings.tolerance, options.every,
-                                     options.precision, options.state, options.reference, options.max_steps})
+    for (const std::string& other :
+         {settings.system, settings.formulation, settings.integrator, settings.time, settings.step,
+          settings.tolerance, options.absolute, options.every, options.precision, options.state,
+          options.reference, options.max_steps})
       if (!other.empty() || !options.set.empty() || settings.compile || settings.project_initial ||
           settings.allow_inconsistent)
         throw InputError("--config holds the whole run; expected no other settings beside it");
@@ -45,6 +46,7 @@ RunConfig config_of(const RunOptions& options) {
   if (settings.time.empty()) throw InputError("--time is missing: the duration of the run");
   settings.set = parse_settings(options.set);
   if (!options.precision.empty()) settings.precision = parse_precision(options.precision);
+  if (!options.absolute.empty()) settings.absolute = split_commas(options.absolute);
   if (!options.every.empty()) settings.every = parse_every(options.every, "--every");
   if (!options.reference.empty()) settings.reference = parse_errors_against(options.reference, "--reference");
   if (!options.max_steps.empty()) settings.step_budget = parse_every(options.max_steps, "--max-steps");
@@ -185,8 +187,13 @@ void add_run(CLI::App& app, Common& common, Action& action) {
                       nonholonomic_formulation().name() + ")")
       ->type_name("FORMULATION");
   sub->add_option("--step", s.step, "Step h > 0")->type_name("h");
-  sub->add_option("--tolerance", s.tolerance, "Instead of --step, for methods that choose their steps")
+  sub->add_option("--tolerance", s.tolerance,
+                  "Instead of --step, for methods that choose their steps: error per step, relative to the "
+                  "scale of each coordinate along the motion")
       ->type_name("e");
+  sub->add_option("--absolute", options->absolute,
+                  "Error to allow beside --tolerance in every coordinate, or one for each")
+      ->type_name("a[,a...]");
   sub->add_option("--time", s.time, "Duration of the run; the last whole step ends within it")
       ->type_name("T");
   sub->add_option("--every", options->every,

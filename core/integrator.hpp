@@ -26,9 +26,12 @@
 //   coefficients()               a mutable span over the numbers that define the method: the control that
 //                                changes one of them by 1e-6 needs it
 //   static instances(full)       the parameters that verification runs through
-//   advance_to(p, t, end, tolerance, z, work)   for methods that choose their steps. Before each it asks
-//                                AllowedSteps (core/facets/allowed_steps.hpp), and where it may take no more
-//                                it returns `converged` with z and t as they are
+//   advance_to(p, t, end, tolerance, z, work)   for methods that choose their steps, from t to `end` with
+//                                what a Tolerance allows of each (core/facets/tolerance.hpp): a member
+//                                CoordinateScales<P> of Work finds the scales that it is relative to, judges
+//                                the errors of a step by them, and proposes the first step. Before each step
+//                                it asks AllowedSteps (core/facets/allowed_steps.hpp), and where it may take
+//                                no more it returns `converged` with z and t as they are
 //   bool compensated             the loop over steps is compiled once for each of its two values
 //   static constexpr bool fixed_sizes = false   for methods that gain nothing from a known dimension: the
 //                                loop is then not compiled for the dimensions 2, 4 and 6 separately
@@ -203,8 +206,8 @@ class Instance final : public MakerOf<Instance<M>, MethodInstance> {
   }
   [[nodiscard]] bool adaptive() const override {
     using P = Problem<double>;
-    return requires(const P& p, double& t, State<P>& z, Work<M, P>& w) {
-      method_.advance_to(p, t, t, t, z, w);
+    return requires(const P& p, double& t, const Tolerance<double>& tolerance, State<P>& z, Work<M, P>& w) {
+      method_.advance_to(p, t, t, tolerance, z, w);
     };
   }
   [[nodiscard]] bool processed() const override {

@@ -101,6 +101,7 @@ nlohmann::json description(const Experiment& experiment, const std::vector<Exper
     j["methods"].push_back(
         {{"label", m.label}, {"integrator", m.integrator}, {"parameters", parameters}, {"systems", systems}});
     if (!m.tolerances.empty()) j["methods"].back()["tolerances"] = m.tolerances;
+    if (!m.absolute.empty()) j["methods"].back()["absolute"] = m.absolute;
     if (!run->resolved.settings.formulation.empty()) {
       j["methods"].back()["formulation"] = run->resolved.settings.formulation;
       for (const auto& [key, value] : run->resolved.model->source().formulation_parameters)

@@ -28,6 +28,7 @@ struct ExperimentMethod {
   Assignments set;        // parameters of the integrator, or of the formulation as formulation.KEY
   std::vector<std::string>
       tolerances;  // of a method that chooses its steps; such a method ignores the case's steps
+  std::vector<std::string> absolute;  // beside each of them: none, one for all coordinates, or one for each
 };
 
 /// A vector in a plane whose frequency is measured (frequencies.hpp): two expressions of the coordinates, and

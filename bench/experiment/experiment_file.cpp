@@ -133,6 +133,7 @@ void read_method(const toml::table& table, const Part& part, Experiment& experim
     method.integrator = text::beside(method.integrator, part.path.string());
   method.formulation = m.text("formulation", "");
   method.tolerances = m.one_or_more("tolerance");
+  method.absolute = m.one_or_more("absolute");
   const std::vector<GridPoint> points = points_of(m.assignment_lists("set"));
   m.finish();
   for (const GridPoint& point : points) {

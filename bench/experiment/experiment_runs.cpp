@@ -44,6 +44,7 @@ ResolvedRun resolved(const Experiment& experiment, const ExperimentRun& run) {
   settings.compile = experiment.compile;
   settings.step = run.step;
   settings.tolerance = run.tolerance;
+  settings.absolute = m.absolute;
   settings.time = c.time;
   settings.precision = c.precision;
   settings.reference = c.reference ? ErrorsAgainst::solution : ErrorsAgainst::none;

@@ -53,7 +53,8 @@ class ManySteps final : public MakerOf<ManySteps, MethodInstance> {
       completed /= count_;
       return status;
     }
-    Status advance_to(T& /*t*/, const T& /*end*/, const T& /*tolerance*/, std::span<T> /*z*/) override {
+    Status advance_to(T& /*t*/, const T& /*end*/, const Tolerance<T>& /*tolerance*/,
+                      std::span<T> /*z*/) override {
       throw InputError("several steps as one are of a fixed size");
     }
     void forget() override { stepper_->forget(); }

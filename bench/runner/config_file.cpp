@@ -29,6 +29,12 @@ std::string settings_text(const ResolvedRun& run) {
   const auto line = [&](const char* key, std::string_view value) {
     text << key << " = " << quoted(std::string(value)) << '\n';
   };
+  const auto list = [&](const char* key, const std::vector<Real>& numbers) {
+    text << key << " = [";
+    for (std::size_t k = 0; k < numbers.size(); ++k)
+      text << (k == 0 ? "" : ", ") << quoted(to_string(numbers[k]));
+    text << "]\n";
+  };
   if (!s.of_case.empty()) line("case", s.of_case);
   if (!s.of_method.empty()) line("method", s.of_method);
   line("system", s.system);  // of a text model the path, which is absolute
@@ -39,6 +45,7 @@ std::string settings_text(const ResolvedRun& run) {
   line("time", to_string(run.time));
   if (run.adaptive()) {
     line("tolerance", to_string(run.tolerance));
+    if (!run.absolute.empty()) list("absolute", run.absolute);
   } else {
     line("step", to_string(run.step));
     text << "every = " << run.every << '\n';
@@ -49,11 +56,7 @@ std::string settings_text(const ResolvedRun& run) {
   if (s.compile) line("compile", "yes");
   if (s.project_initial) line("project_initial", "yes");
   if (s.allow_inconsistent) line("allow_inconsistent", "yes");
-  text << "initial = [";
-  const std::vector<Real>& initial = s.project_initial ? run.given_initial : run.initial;
-  for (std::size_t k = 0; k < initial.size(); ++k)
-    text << (k == 0 ? "" : ", ") << quoted(to_string(initial[k]));
-  text << "]\n";
+  list("initial", s.project_initial ? run.given_initial : run.initial);
   Assignments set;
   for (const auto& [key, value] : run.model->parameters()) set.emplace_back("system." + key, value);
   for (const auto& [key, value] : run.model->source().formulation_parameters)
@@ -96,6 +99,7 @@ RunConfig read_config(const std::string& path) {
   settings.time = keys.required("time");
   settings.step = keys.text("step", "");
   settings.tolerance = keys.text("tolerance", "");
+  settings.absolute = keys.one_or_more("absolute");
   if (const std::string every = keys.text("every", ""); !every.empty())
     settings.every = parse_every(every, path + ": key 'every'");
   if (const std::string most = keys.text("max_steps", ""); !most.empty())

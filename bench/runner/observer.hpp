@@ -74,7 +74,10 @@ class Observer {
   /// Takes the state at time t. Every call counts for drift, setbacks and constraint residuals; `keep` also
   /// adds a row to the series, and `structure` a structure residual to that row. Says what is not finite, or
   /// nothing. A row is kept where state and invariants are finite, without the error where that is not.
-  [[nodiscard]] std::string observe(const T& t, const std::vector<T>& z, bool keep, bool structure) {
+  /// `exact` is the time without rounding, at which the error is measured: n steps lead to t0 + n h, and the
+  /// solution moves on in half a unit in the last place of t.
+  [[nodiscard]] std::string observe(const T& t, const Quad& exact, const std::vector<T>& z, bool keep,
+                                    bool structure) {
     const auto& invariants = run_.model->invariants();
     if (!values_.empty()) problem_.invariants(t, z, values_);
     for (std::size_t i = 0; i < values_.size(); ++i)
@@ -93,7 +96,7 @@ class Observer {
     for (std::size_t i = 0; i < residuals_.size(); ++i)
       if (!constraint_drift_[i].add(static_cast<double>(t), static_cast<double>(residuals_[i])))
         return "the residual " + constraint_residual_names(*run_.model)[i] + " is not finite";
-    return keep ? observe_sample(t, z, structure) : std::string();
+    return keep ? observe_sample(t, exact, z, structure) : std::string();
   }
 
   /// Puts into the record what follows from all that was observed.
@@ -128,7 +131,7 @@ class Observer {
     return keeps_history(*run.method, run.model, run.t0.quad(), run.step.quad(), z);
   }
 
-  std::string observe_sample(const T& t, const std::vector<T>& z, bool structure) {
+  std::string observe_sample(const T& t, const Quad& exact_time, const std::vector<T>& z, bool structure) {
     Sample sample{Quad(t),
                   {z.begin(), z.end()},
                   {values_.begin(), values_.end()},
@@ -142,8 +145,8 @@ class Observer {
     }
     std::string not_finite;
     if (reference_ != nullptr) {
-      const std::vector<Quad> exact = reference_->at(sample.t);
-      if (exact_) sample.invariant_errors = errors_of_invariants(sample, exact);
+      const std::vector<Quad> exact = reference_->at(exact_time);
+      if (exact_) sample.invariant_errors = errors_of_invariants(sample, exact_time, exact);
       const Quad error = relative_error(sample, exact);
       if (std::isfinite(static_cast<double>(error))) {
         sample.error = error;
@@ -169,9 +172,10 @@ class Observer {
   static void worst(std::optional<double>& slot, double value) {
     if (!slot || value > *slot) slot = value;
   }
-  [[nodiscard]] std::vector<Quad> errors_of_invariants(const Sample& sample, const std::vector<Quad>& exact) {
+  [[nodiscard]] std::vector<Quad> errors_of_invariants(const Sample& sample, const Quad& exact_time,
+                                                       const std::vector<Quad>& exact) {
     std::vector<Quad> off, values(sample.invariants.size());
-    exact_->invariants(sample.t, exact, values);
+    exact_->invariants(exact_time, exact, values);
     for (std::size_t i = 0; i < values.size(); ++i)
       if (run_.model->invariants()[i].behaviour != Behaviour::conserved)
         off.push_back(sample.invariants[i] - values[i]);

@@ -6,6 +6,7 @@
 
 #include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/bench/runner/observer.hpp>
+#include <pfaff/bench/runner/steps.hpp>
 #include <pfaff/core/errors/budget.hpp>
 
 namespace pfaff {
@@ -113,6 +114,7 @@ void execute_fixed(const ResolvedRun& run, Observer<T>& observer, RunRecord& rec
   for (const Real& x : run.initial) z.push_back(T(x));
   const T t0(run.t0), h(run.step);
   const auto time = [&](std::int64_t k) { return t0 + T(static_cast<double>(k)) * h; };
+  const auto exact = [&](std::int64_t k) { return Quad(t0) + Quad(static_cast<double>(k)) * Quad(h); };
   // Drift is measured at every step in runs of up to two million steps, and at evenly spaced ones in longer
   // runs. A processed method is looked at where states are kept alone, since every look takes its processor.
   const std::int64_t stride = run.method->processed()
@@ -123,7 +125,7 @@ void execute_fixed(const ResolvedRun& run, Observer<T>& observer, RunRecord& rec
   const std::int64_t structure_rows = std::max<std::int64_t>(1, rows / 50);
   std::int64_t row = 0, k = 0, completed = 0;
   try {
-    bool ended = ended_by(observer.observe(time(0), z, true, true), time(0), 0, record);
+    bool ended = ended_by(observer.observe(time(0), exact(0), z, true, true), time(0), 0, record);
     while (k < run.steps && !ended) {
       const std::int64_t count = blocks.at(k);
       Status status = stepper->advance(t0, k, h, count, z, completed);
@@ -142,7 +144,7 @@ void execute_fixed(const ResolvedRun& run, Observer<T>& observer, RunRecord& rec
       if (keep) ++row;
       const bool structure = keep && (row % structure_rows == 0 || now == run.steps);
       completed = 0;
-      ended = ended_by(observer.observe(time(now), z, keep, structure), time(now), now, record);
+      ended = ended_by(observer.observe(time(now), exact(now), z, keep, structure), time(now), now, record);
       if (ended) record.completed = k;  // the steps behind which all was finite
       k = now;
       if (progress && keep) progress(static_cast<double>(k) / static_cast<double>(run.steps));
@@ -164,11 +166,12 @@ int sample_intervals(const ResolvedRun& run) {
   std::vector<T> z;
   for (const Real& x : run.initial) z.push_back(T(x));
   T t(run.t0);
+  const std::vector<T> absolute = absolute_tolerances<T>(run);
   try {
-    (void)stepper->advance_to(t, t + T(run.time), T(run.tolerance), z);
+    (void)stepper->advance_to(t, t + T(run.time), {T(run.tolerance), absolute}, z);
   } catch (const BudgetSpent&) {
   }
-  return static_cast<int>(std::clamp<std::int64_t>(stepper->counters().steps / 8, 32, 200));
+  return static_cast<int>(std::clamp<std::int64_t>(stepper->counters().steps / 8, 32, most_intervals));
 }
 
 template <class T>
@@ -179,19 +182,22 @@ void execute_adaptive(const ResolvedRun& run, Observer<T>& observer, RunRecord& 
   const auto stepper = run.method->stepper(run.model, T());
   std::vector<T> z;
   for (const Real& x : run.initial) z.push_back(T(x));
+  const std::vector<T> absolute = absolute_tolerances<T>(run);
   T t(run.t0);
   const auto steps = [&] { return stepper->counters().steps; };
   try {
-    bool ended = ended_by(observer.observe(t, z, true, false), t, 0, record);
+    bool ended = ended_by(observer.observe(t, Quad(t), z, true, false), t, 0, record);
     for (int k = 1; k <= intervals && !ended; ++k) {
       const T end = T(run.t0) + T(run.time) * T(k) / T(intervals);
-      const Status status = stepper->advance_to(t, end, T(run.tolerance), z);
+      const Status status = stepper->advance_to(t, end, {T(run.tolerance), absolute}, z);
       if (status != Status::converged) {
         record.status = status;
-        record.message = "the step control gave up " + at(t, steps());
+        record.message = "the step control gave up " + at(t, steps()) +
+                         ": no step meets the tolerance in every coordinate (what counts in small ones, "
+                         "--absolute says)";
         break;
       }
-      ended = ended_by(observer.observe(t, z, true, false), t, steps(), record);
+      ended = ended_by(observer.observe(t, Quad(t), z, true, false), t, steps(), record);
       if (progress) progress(static_cast<double>(k) / intervals);
     }
   } catch (const BudgetSpent& spent) {
@@ -287,6 +293,7 @@ template <class T>
 StepTime time_in(const ResolvedRun& run, double seconds) {
   using Clock = std::chrono::steady_clock;
   const auto stepper = run.method->stepper(run.model, T());
+  const std::vector<T> absolute = absolute_tolerances<T>(run);
   // Seconds per step over the first `count` steps, or, for a run that chooses its steps, over a tenth of the
   // run.
   const auto elapsed = [&](std::int64_t count) {
@@ -299,7 +306,7 @@ StepTime time_in(const ResolvedRun& run, double seconds) {
     if (run.adaptive()) {
       T t(run.t0);
       const T end = t + T(run.time) / T(10);
-      (void)stepper->advance_to(t, end, T(run.tolerance), z);
+      (void)stepper->advance_to(t, end, {T(run.tolerance), absolute}, z);
     } else {
       (void)stepper->advance(T(run.t0), 0, T(run.step), count, z, completed);
     }

@@ -43,7 +43,6 @@ std::string called(std::string name, const Assignments& parameters) {
   return name;
 }
 
-namespace {
 std::vector<std::string> split_commas(const std::string& text) {
   std::vector<std::string> parts;
   std::stringstream stream(text + ',');  // getline drops an empty last part unless a comma ends it
@@ -54,6 +53,7 @@ std::vector<std::string> split_commas(const std::string& text) {
   return parts;
 }
 
+namespace {
 bool knows(const Plugin& plugin, const std::string& key) {
   return std::any_of(plugin.parameters().begin(), plugin.parameters().end(),
                      [&](const Parameter& p) { return p.takes(key); });

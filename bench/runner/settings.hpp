@@ -41,7 +41,8 @@ struct RunSettings {
   Assignments set;          // nu=0.3, system.nu=0.3, integrator.order=4, initial=1,0.5
   std::vector<std::string> initial;  // empty: the system's own initial state
   std::string t0 = "0", step, tolerance, time;
-  std::int64_t every = 0;  // 0: chosen for about a thousand samples, 200 of processed methods
+  std::vector<std::string> absolute;  // beside the tolerance: none, one for all coordinates, or one for each
+  std::int64_t every = 0;             // 0: chosen for about a thousand samples, 200 of processed methods
   Precision precision = Precision::double_precision;
   bool compile = false;  // compile the formulas that are not (core/native/compiled_model.hpp), in double
   bool project_initial = false;     // move the initial state onto the constraints
@@ -51,6 +52,9 @@ struct RunSettings {
   std::int64_t step_budget = default_step_budget;  // more steps are refused, or end the run
   std::string of_case, of_method;                  // what an experiment calls the run; otherwise empty
 };
+
+/// The parts of a list "a,b,c" of numbers.
+std::vector<std::string> split_commas(const std::string& text);
 
 /// A plug-in with its parameters, as texts for the reader call it: "gauss stages=2".
 std::string called(std::string name, const Assignments& parameters);
@@ -64,11 +68,20 @@ struct ResolvedRun {
   std::vector<Real> given_initial;  // `initial` before it was moved onto the constraints
   double projected = 0;  // the relative change of the initial state where it was moved onto the constraints
   Real t0, step, tolerance, time;
-  std::int64_t steps = 0;  // fixed steps only
+  std::vector<Real> absolute;  // absolute tolerances: none, or one for each coordinate
+  std::int64_t steps = 0;      // fixed steps only
   std::int64_t every = 1;
   Origins origins;  // the files and builds that it was made from
   [[nodiscard]] bool adaptive() const { return !settings.tolerance.empty(); }
 };
+
+/// The absolute tolerances of a run in its scalar, for a Tolerance of it.
+template <class T>
+std::vector<T> absolute_tolerances(const ResolvedRun& run) {
+  std::vector<T> numbers;
+  for (const Real& x : run.absolute) numbers.push_back(T(x));
+  return numbers;
+}
 
 /// Settings sorted by the plug-in they belong to. A bare key that two of the plug-ins know must be given as
 /// system.KEY, formulation.KEY or integrator.KEY (InputError otherwise). `initial` belongs to none of them

@@ -21,20 +21,35 @@ Real finite_number(const std::string& text, const std::string& what) {
 }
 
 namespace {
-// Refuses times and steps of which nothing is left in the scalar T of the run: a step or a duration that
-// rounds to zero, and one that is lost when it is added to a time of the run (t + h = t).
+// Refuses steps of which too little is left in the scalar T of the run: one that rounds to zero, and one for
+// which t + h is off by more than a millionth of h at a time of the run. Forces that depend on time would be
+// taken at wrong times, and samples be given wrong ones. Where the start and the step are multiples of the
+// spacing of numbers at the latest time, nothing is off. `step_text` and `option` are the step as it was
+// asked for.
 template <class T>
-void check_times(const ResolvedRun& run, const std::string& step_text, const std::string& option) {
-  const T t0(run.t0), end = t0 + T(run.time), step(run.adaptive() ? run.time : run.step);
+void check_times(const ResolvedRun& run, const T& step, const std::string& step_text,
+                 const std::string& option) {
+  const T t0(run.t0), end = t0 + T(run.time);
   const T latest = std::max(abs(t0), abs(end));
   const std::string in = " in " + std::string(to_string(run.settings.precision)) + " precision";
   const std::string expected = std::is_same_v<T, Quad> ? "" : ", or --precision quad";
   if (!(step > T(0)))
     throw InputError(option + ": " + step_text + " rounds to 0" + in + "; expected a larger number" +
                      expected);
-  if (!(latest + step > latest))
-    throw InputError(option + ": " + step_text + " vanishes beside the time " + to_string(Quad(latest), 6) +
-                     in + " (t + h = t); expected a larger number" + expected);
+  const T unit = std::numeric_limits<T>::epsilon();
+  const T spacing = (latest + T(3) / T(4) * unit * latest) - latest;
+  const auto multiple = [&](const T& x) {
+    const T whole = T(1) / unit;  // numbers from here on have no fraction, and sums with it lose theirs
+    const T parts = abs(x) / spacing;
+    return parts >= whole || (parts + whole) - whole == parts;
+  };
+  if ((multiple(t0) && multiple(step)) || spacing <= T(2) / T(1000000) * step) return;
+  throw InputError(option + ": " + step_text + " is too little beside the time " +
+                   to_string(Quad(latest), 6) + in + ", where t + h is off by up to " +
+                   to_string(Quad(spacing / T(2)), 3) +
+                   " and a millionth of h is allowed; expected a larger "
+                   "number, an origin of time that is nearer to the run" +
+                   expected);
 }
 
 // Refuses a tolerance that no step can meet in the scalar T of the run.
@@ -49,7 +64,43 @@ void check_tolerance(const ResolvedRun& run) {
                           : ""));
 }
 
-// For a run that chooses its steps: fills in its tolerance.
+// Refuses a start at rest in zero to which no absolute tolerance gives a scale.
+template <class T>
+void check_scales(const ResolvedRun& run) {
+  if (!run.model->moves()) return;
+  const Problem<T> problem(run.model);
+  std::vector<T> z, rate(run.initial.size());
+  for (const Real& x : run.initial) z.push_back(T(x));
+  problem.field(T(run.t0), z, rate);
+  const std::vector<T> absolute = absolute_tolerances<T>(run);
+  CoordinateScales<Problem<T>>(problem).find({T(run.tolerance), absolute}, z, rate, T(0));
+}
+
+template <class T>
+void check_adaptive(const ResolvedRun& run) {
+  check_tolerance<T>(run);
+  // Samples are that far apart at least.
+  check_times(run, T(run.time) / T(most_intervals), run.settings.time, "--time");
+  check_scales<T>(run);
+}
+
+// Fills in the absolute tolerances of a run.
+void resolve_absolute(ResolvedRun& run) {
+  const std::vector<std::string>& texts = run.settings.absolute;
+  const std::size_t n = run.initial.size();
+  if (texts.empty()) return;
+  if (texts.size() != 1 && texts.size() != n)
+    throw InputError("--absolute: expected one number, or one for each of the " + std::to_string(n) +
+                     " coordinates of " + run.model->name() + ", got " + std::to_string(texts.size()));
+  for (const std::string& text : texts) {
+    run.absolute.push_back(finite_number(text, "--absolute"));
+    if (run.absolute.back() < Real(0))
+      throw InputError("--absolute: expected numbers >= 0, got '" + text + "'");
+  }
+  if (texts.size() < n) run.absolute.assign(n, Real(run.absolute.front()));
+}
+
+// For a run that chooses its steps: fills in its tolerances.
 void resolve_tolerance(ResolvedRun& run) {
   const RunSettings& settings = run.settings;
   if (!settings.step.empty()) throw InputError("--step and --tolerance exclude each other");
@@ -59,17 +110,16 @@ void resolve_tolerance(ResolvedRun& run) {
   if (settings.every > 0)
     throw InputError(
         "--every counts steps of one length; with --tolerance samples are evenly spaced in time");
+  resolve_absolute(run);
   if (!run.method->adaptive())
     throw InputError(run.method->called() +
                      " takes fixed steps only; expected --step instead of --tolerance");
   if (settings.precision == Precision::quad && !adaptive_in_quad(*run.method, run.model))
     throw InputError(run.method->called() + " chooses its steps in double only; expected --precision double");
   if (settings.precision == Precision::quad) {
-    check_tolerance<Quad>(run);
-    check_times<Quad>(run, settings.time, "--time");
+    check_adaptive<Quad>(run);
   } else {
-    check_tolerance<double>(run);
-    check_times<double>(run, settings.time, "--time");
+    check_adaptive<double>(run);
   }
 }
 
@@ -110,9 +160,9 @@ void resolve_fixed_steps(ResolvedRun& run) {
     throw InputError("--step: expected at most the duration " + settings.time + ", got '" + settings.step +
                      "'");
   if (settings.precision == Precision::quad) {
-    check_times<Quad>(run, settings.step, "--step");
+    check_times(run, Quad(run.step), settings.step, "--step");
   } else {
-    check_times<double>(run, settings.step, "--step");
+    check_times(run, double(run.step), settings.step, "--step");
   }
   const double ratio = (run.time / run.step).value();
   if (!(ratio <= static_cast<double>(settings.step_budget)))
@@ -134,6 +184,8 @@ void resolve_fixed_steps(ResolvedRun& run) {
 void resolve_steps(ResolvedRun& run) {
   if (run.adaptive()) {
     resolve_tolerance(run);
+  } else if (!run.settings.absolute.empty()) {
+    throw InputError("--absolute goes with --tolerance, which is missing");
   } else {
     resolve_fixed_steps(run);
   }

@@ -103,6 +103,7 @@ nlohmann::json summary(const ResolvedRun& run, const RunRecord& record) {
   j["time"] = to_string(run.time);
   if (run.adaptive()) {
     j["tolerance"] = to_string(run.tolerance);
+    for (const Real& x : run.absolute) j["absolute"].push_back(to_string(x));
   } else {
     j["step"] = to_string(run.step);
     j["steps"] = run.steps;

@@ -33,14 +33,6 @@ constexpr double most_errors = 1000;
 // Steps at the smallest tolerance over the system's own time; a method of order 2 needs about 1e5 for 1e-10.
 constexpr double most_steps = 1e6;
 
-// What a relative tolerance of one is in the units of the system. A method allows an error of its tolerance
-// in every coordinate, and that part of a coordinate besides, so that for states far below one a tolerance
-// without regard to the unit would allow errors of many times the state.
-double unit_of_tolerance(const Model& model) {
-  const std::vector<double> scales = coordinate_scales(model);
-  return std::min(1.0, *std::max_element(scales.begin(), scales.end()));
-}
-
 // The motion from the generic state and time of a model to a later or earlier time, as T has them.
 template <class T>
 struct Stretch {
@@ -54,18 +46,15 @@ struct Stretch {
   std::vector<Quad> exact;  // the state at the end
 };
 
-// One run at a tolerance relative to the state, whose unit is `unit`. Fills `error`, in units of the
-// tolerance, and returns what is wrong, or nothing.
+// One run at a tolerance. Fills `error`, in units of the tolerance, and returns what is wrong, or nothing.
 template <class T>
-std::string run_wrong(const MethodOnModel& on, const Stretch<T>& stretch, double tolerance, double unit,
-                      double& error) {
+std::string run_wrong(const MethodOnModel& on, const Stretch<T>& stretch, double tolerance, double& error) {
   const auto stepper = on.method().stepper(on.model(), T());
   std::vector<T> z = stretch.start;
-  const T allowed(tolerance * unit);
   T t = stretch.begin;
   // In two parts, so that the step with which the second begins is that with which the first ended.
   for (const T& to : {stretch.begin + (stretch.end - stretch.begin) / T(3), stretch.end}) {
-    const Status status = stepper->advance_to(t, to, allowed, z);
+    const Status status = stepper->advance_to(t, to, T(tolerance), z);
     if (status != Status::converged) return "ended with '" + std::string(to_string(status)) + "'";
     if (t != to) return "went to " + to_string(Quad(t), 17) + " instead of " + to_string(Quad(to), 17);
   }
@@ -84,13 +73,12 @@ std::string run_wrong(const MethodOnModel& on, const Stretch<T>& stretch, double
 // Runs at every tolerance to the time `elapsed` after the generic one.
 template <class T>
 Check at_all_tolerances(const MethodOnModel& on, const T& elapsed, Check check) {
-  const double unit = unit_of_tolerance(*on.model());
   check.tolerance = most_errors;
   check.result = CheckResult::pass;
   const Stretch<T> stretch(on, elapsed);
   for (const double tolerance : Tolerances<T>::values) {
     double error = 0;
-    check.reason = run_wrong<T>(on, stretch, tolerance, unit, error);
+    check.reason = run_wrong<T>(on, stretch, tolerance, error);
     check.measured = std::max(check.measured, error);
     const bool right = check.reason.empty() && error <= most_errors;
     if (right) continue;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <pfaff/core/facets/advance.hpp>
+#include <pfaff/core/facets/tolerance.hpp>
 #include <pfaff/core/registry/member_names.hpp>
 #include <pfaff/core/registry/parameter.hpp>
 
@@ -83,8 +84,9 @@ concept WritesInstances = requires(bool full) {
 };
 template <class M>
 concept WritesAdvanceTo = requires(const M& m, const TriedProblem& p, double& t, double end,
-                                   State<TriedProblem>& z, Work<M, TriedProblem>& w) {
-  { m.advance_to(p, t, end, end, z, w) } -> std::same_as<Status>;
+                                   const Tolerance<double>& tolerance, State<TriedProblem>& z,
+                                   Work<M, TriedProblem>& w) {
+  { m.advance_to(p, t, end, tolerance, z, w) } -> std::same_as<Status>;
 };
 template <class M>
 constexpr bool names_processor() {
@@ -155,7 +157,9 @@ constexpr void check_method_members() {
   static_assert(
       WritesAdvanceTo<M> || !method::has_advance_to<M>,
       "advance_to: expected template <class P> Status advance_to(const P& p, double& t, double end, "
-      "double tolerance, State<P>& z, Work<P>& work) const");
+      "const Tolerance<double>& tolerance, State<P>& z, Work<P>& work) const, with Scalar<P> for double "
+      "where "
+      "it chooses steps in every scalar");
   static_assert(
       WritesProcessor<M, TriedProblem, Work<M, TriedProblem>> || !names_processor<M>(),
       "processed, preprocess, kernel, postprocess: expected bool processed() const and, all three of them, "

@@ -10,6 +10,7 @@
 #include <pfaff/core/errors/errors.hpp>
 #include <pfaff/core/facets/advance.hpp>
 #include <pfaff/core/facets/problem.hpp>
+#include <pfaff/core/facets/tolerance.hpp>
 
 namespace pfaff {
 
@@ -25,10 +26,11 @@ class Stepper {
   /// 0.
   virtual Status advance(const T& t0, std::int64_t first, const T& h, std::int64_t count, std::span<T> z,
                          std::int64_t& completed) = 0;
-  /// From t to `end` with steps of the method's choosing at `tolerance`; t is left where it got to, also
-  /// where BudgetSpent is thrown between two steps. Where the state there is not finite, the status is
-  /// non_finite, and t, z and the counted steps are as they were.
-  virtual Status advance_to(T& t, const T& end, const T& tolerance, std::span<T> z) = 0;
+  /// From t to `end` with steps of the method's choosing at `tolerance`, of which a number is the relative
+  /// part; t is left where it got to, also where BudgetSpent is thrown between two steps. Where the state
+  /// there is not finite, the status is non_finite, and t, z and the counted steps are as they were.
+  /// InputError for a start at rest in zero without absolute tolerances.
+  virtual Status advance_to(T& t, const T& end, const Tolerance<T>& tolerance, std::span<T> z) = 0;
   /// Drops history and compensation: the next step depends on its state alone.
   virtual void forget() = 0;
   [[nodiscard]] virtual const Counters& counters() const = 0;
@@ -66,7 +68,7 @@ class SteppingOn final : public Stepper<Scalar<P>> {
     return status;
   }
 
-  Status advance_to(T& t, const T& end, const T& tolerance, std::span<T> z) override {
+  Status advance_to(T& t, const T& end, const Tolerance<T>& tolerance, std::span<T> z) override {
     if constexpr (requires { method_.advance_to(problem_, t, end, tolerance, state_, *work_); }) {
       std::copy(z.begin(), z.end(), state_.begin());
       const T begin = t;

@@ -3,8 +3,8 @@
 // Traps of that library that do not arise here, because Pfaff drives the steps itself: its steppers are
 // copied into the integrate functions (state and history with them), and integrate_times and
 // integrate_adaptive shorten steps to hit output times, which breaks the structure of fixed-step methods.
-// Coefficients are doubles, so no claims are made in quad. The adaptive step is the controlled dopri5 with
-// absolute and relative tolerance alike.
+// Coefficients are doubles, so no claims are made in quad. The adaptive step is the controlled dopri5, whose
+// errors are weighed by the scales of the coordinates (core/facets/tolerance.hpp).
 #include <algorithm>
 #include <boost/numeric/odeint/algebra/algebra_dispatcher.hpp>
 #include <boost/numeric/odeint/algebra/range_algebra.hpp>
@@ -27,7 +27,6 @@ struct FieldStepper {
     using T = Scalar<P>;
     OdeintStepper<ContainerOf<P>, double, ContainerOf<P>, T, odeint::range_algebra> stepper;
     ContainerOf<P> state;
-    double next_step = 0.01;  // of an adaptive run, from one call to the next
     Work(const FieldStepper& /*method*/, const P& p) : state(sized<ContainerOf<P>>(p.size())) {}
   };
 
@@ -46,11 +45,17 @@ template <class... A>
 using Rk4Stepper = odeint::runge_kutta4<A...>;
 struct OdeintRk4 : FieldStepper<Rk4Stepper> {};
 
-// dopri5 keeps its last slope (FSAL) between steps; here every step starts from its own state, so that a step
-// is a function of (t, z, h) alone.
+// dopri5 keeps its last slope (FSAL) between steps; here every step of a given size starts from its own
+// state, so that it is a function of (t, z, h) alone.
 template <class... A>
 using Dopri5Stepper = odeint::runge_kutta_dopri5<A...>;
 struct OdeintDopri5 : FieldStepper<Dopri5Stepper> {
+  template <class P>
+  struct Work : FieldStepper::Work<P> {
+    ControlledWork<P> controlled;
+    Work(const OdeintDopri5& method, const P& p) : FieldStepper::Work<P>(method, p), controlled(p) {}
+  };
+
   template <HasVectorField P>
   Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
     w.stepper.reset();
@@ -59,21 +64,19 @@ struct OdeintDopri5 : FieldStepper<Dopri5Stepper> {
 
   template <HasVectorField P>
   requires std::is_same_v < Scalar<P>,
-  double >
-      Status advance_to(const P& p, double& t, double end, double tolerance, State<P>& z, Work<P>& w) const {
-    using Stepper = decltype(w.stepper);
-    using Checker = odeint::default_error_checker<double, typename Stepper::algebra_type,
-                                                  typename Stepper::operations_type>;
-    odeint::controlled_runge_kutta<Stepper, Checker> controlled(Checker(tolerance, tolerance));
-    std::copy(z.begin(), z.end(), w.state.begin());
-    const auto system = [&](const ContainerOf<P>& x, ContainerOf<P>& rate, double time) {
-      p.field(time, x, rate);
-    };
-    const Status status = controlled_steps(p, t, end, w.next_step, [&](double& h) {
-      return controlled.try_step(system, w.state, t, h) == odeint::success;
-    });
-    std::copy(w.state.begin(), w.state.end(), z.begin());
-    return status;
+  double > Status advance_to(const P& p, double& t, double end, const Tolerance<double>& tolerance,
+                             State<P>& z, Work<P>& w) const {
+    using C = ContainerOf<P>;
+    using Pair = Dopri5Stepper<C, double, C, double, OwnScaleAlgebra, OwnScaleOperations>;
+    odeint::controlled_runge_kutta<Pair> controlled;
+    ControlledWork<P>& c = w.controlled;
+    const auto system = [&](const C& x, C& rate, double time) { p.field(time, x, rate); };
+    return controlled_steps(
+        p, t, end, tolerance, z, c,
+        [&](double& h) {
+          return controlled.try_step(system, c.from, c.rate, t, c.end, c.end_rate, h) == odeint::success;
+        },
+        [&] { std::swap(c.rate, c.end_rate); });
   }
 };
 

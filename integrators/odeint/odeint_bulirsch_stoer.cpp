@@ -34,9 +34,9 @@ struct OdeintBulirschStoer {
     odeint::modified_midpoint<ContainerOf<P>, double, ContainerOf<P>, T, odeint::range_algebra> midpoint;
     ContainerOf<P> state, rate;
     std::array<ContainerOf<P>, rows> table;
-    double next_step = 0.01;  // of an adaptive run, from one call to the next
+    ControlledWork<P> controlled;
     Work(const OdeintBulirschStoer& /*method*/, const P& p)
-        : state(sized<ContainerOf<P>>(p.size())), rate(state) {
+        : state(sized<ContainerOf<P>>(p.size())), rate(state), controlled(p) {
       table.fill(state);
     }
   };
@@ -65,19 +65,16 @@ struct OdeintBulirschStoer {
 
   template <HasVectorField P>
   requires std::is_same_v < Scalar<P>,
-  double >
-      Status advance_to(const P& p, double& t, double end, double tolerance, State<P>& z, Work<P>& w) const {
-    odeint::bulirsch_stoer<ContainerOf<P>, double, ContainerOf<P>, double, odeint::range_algebra> stepper(
-        tolerance, tolerance);
-    const auto system = [&](const ContainerOf<P>& x, ContainerOf<P>& rate, double time) {
-      p.field(time, x, rate);
-    };
-    std::copy(z.begin(), z.end(), w.state.begin());
-    const Status status = controlled_steps(p, t, end, w.next_step, [&](double& h) {
-      return stepper.try_step(system, w.state, t, h) == odeint::success;
-    });
-    std::copy(w.state.begin(), w.state.end(), z.begin());
-    return status;
+  double > Status advance_to(const P& p, double& t, double end, const Tolerance<double>& tolerance,
+                             State<P>& z, Work<P>& w) const {
+    using C = ContainerOf<P>;
+    odeint::bulirsch_stoer<C, double, C, double, OwnScaleAlgebra, OwnScaleOperations> stepper;
+    ControlledWork<P>& c = w.controlled;
+    const auto system = [&](const C& x, C& rate, double time) { p.field(time, x, rate); };
+    return controlled_steps(
+        p, t, end, tolerance, z, c,
+        [&](double& h) { return stepper.try_step(system, c.from, c.rate, t, c.end, h) == odeint::success; },
+        [&] { p.field(t, c.from, c.rate); });
   }
 };
 

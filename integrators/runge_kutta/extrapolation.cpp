@@ -11,8 +11,8 @@
 //
 // With a tolerance, step and number of columns are chosen together, by the work per unit of time that each
 // number of columns is expected to take (the same, II.9, "order and step size control"). The error of a step
-// is estimated by T_kk - T_{k,k-1}; each component has to be within tolerance * (1 + |component|). Where
-// round-off leaves no step that is good enough the status says so. No structure is kept.
+// is estimated by T_kk - T_{k,k-1}, and judged by the scales of the coordinates (core/facets/tolerance.hpp).
+// Where round-off leaves no step that is good enough the status says so. No structure is kept.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -77,6 +77,7 @@ struct Extrapolation {
     std::array<State<P>, most_columns> table;  // row by row, the newest diagonal
     State<P> rate, slope, point, older, newer, carry;
     std::vector<T> weights;
+    CoordinateScales<P> scales;
     // What the choice of steps keeps from one step to the next and, for each number of columns, makes of one.
     T next_step{0};
     int target = 0;
@@ -88,7 +89,8 @@ struct Extrapolation {
           point(p.make_state()),
           older(p.make_state()),
           newer(p.make_state()),
-          carry(p.make_state()) {
+          carry(p.make_state()),
+          scales(p) {
       for (State<P>& row : table) row = p.make_state();
       for (const Quad& x : method.weights) weights.push_back(T(Real(x)));
     }
@@ -103,26 +105,27 @@ struct Extrapolation {
   }
 
   template <HasPlainField P>
-  Status advance_to(const P& p, Scalar<P>& t, const Scalar<P>& end, const Scalar<P>& tolerance, State<P>& z,
-                    Work<P>& w) const {
+  Status advance_to(const P& p, Scalar<P>& t, const Scalar<P>& end, const Tolerance<Scalar<P>>& tolerance,
+                    State<P>& z, Work<P>& w) const {
     using T = Scalar<P>;
-    if (!(tolerance >= std::numeric_limits<T>::epsilon())) return Status::not_converged;
+    if (!(tolerance.relative >= std::numeric_limits<T>::epsilon())) return Status::not_converged;
     Status failure = Status::not_converged;
     int rejections = 0;
     detail::AllowedSteps<P> steps(p);
     for (std::int64_t taken = 0; t != end;) {
       if (rejections == 0 && steps.next(1) == 0) break;
       if (rejections == 0) p.field(t, z, w.rate);
-      if (w.target == 0) begin(t, end, tolerance, z, w);
+      if (w.target == 0) begin(p, t, end, tolerance, z, w);
       const bool last = abs(end - t) <= w.next_step;
       const T after = last ? end : end < t ? t - w.next_step : t + w.next_step;
       const T h = after - t;  // what rounding leaves of the step
       if (h == T(0) || rejections > most_rejections || taken == most_steps) return failure;
       const int accepted = attempt(p, t, h, tolerance, z, w, failure);
       if (accepted == 0) {
-        ++rejections;
+        if (++rejections == rejections_in_doubt) w.scales.find_noise(p, t, z, w.rate);
         continue;
       }
+      w.scales.keep();
       for (std::size_t k = 0; k < z.size(); ++k) add_to(z[k], w.carry[k], w.table[0][k], compensated);
       t = after;
       choose_next(accepted, last, rejections > 0, w);
@@ -166,48 +169,42 @@ struct Extrapolation {
     }
   }
 
-  // The first step and number of columns: a step over which the state changes by a hundredth of its size, and
-  // about as many columns as the tolerance has digits for (hairer-norsett-wanner1993, II.4 and II.9).
+  // The first step, and about as many columns as the tolerance has digits for (hairer-norsett-wanner1993,
+  // II.9).
   template <class P>
-  static void begin(const Scalar<P>& t, const Scalar<P>& end, const Scalar<P>& tolerance, const State<P>& z,
-                    Work<P>& w) {
-    using T = Scalar<P>;
-    T fastest(0);
-    for (std::size_t k = 0; k < z.size(); ++k)
-      fastest = std::max(fastest, abs(w.rate[k]) / (T(1) + abs(z[k])));
-    const T distance = abs(end - t), hundredth = T(1) / T(100);
-    w.next_step = fastest * distance > hundredth ? hundredth / fastest : distance;
-    const double digits = -std::log10(static_cast<double>(tolerance));
-    w.target = std::clamp(static_cast<int>(0.6 * digits + 1.5), 2, most_useful<T> - 1);
+  static void begin(const P& p, const Scalar<P>& t, const Scalar<P>& end,
+                    const Tolerance<Scalar<P>>& tolerance, const State<P>& z, Work<P>& w) {
+    w.next_step = w.scales.first_step(p, tolerance, t, end, z, w.rate);
+    const double digits = -std::log10(static_cast<double>(tolerance.relative));
+    w.target = std::clamp(static_cast<int>(0.6 * digits + 1.5), 2, most_useful<Scalar<P>> - 1);
   }
 
-  // The estimated error with the rows so far, relative to what is allowed; NaN where it is not finite.
+  // The estimated error of a step of size h with the rows so far, relative to what is allowed; infinite where
+  // it is not finite.
   template <class P>
-  static double error_of(const Scalar<P>& tolerance, const State<P>& z, const Work<P>& w) {
-    using T = Scalar<P>;
-    T largest(0), sum(0);
+  static double error_of(const Tolerance<Scalar<P>>& tolerance, const State<P>& z, const Scalar<P>& h,
+                         Work<P>& w) {
     for (std::size_t k = 0; k < z.size(); ++k) {
-      const T size = std::max(abs(z[k]), abs(z[k] + w.table[0][k]));
-      const T error = abs(w.table[0][k] - w.table[1][k]) / (tolerance * (T(1) + size));
-      largest = std::max(largest, error);
-      sum = sum + error;  // NaN and infinities pass through it
+      w.point[k] = z[k] + w.table[0][k];
+      w.slope[k] = w.table[0][k] - w.table[1][k];
     }
-    return isfinite(sum) ? static_cast<double>(largest) : std::numeric_limits<double>::quiet_NaN();
+    w.scales.find(tolerance, z, w.rate, h, w.point);
+    return w.scales.judge(tolerance, w.slope);
   }
 
   // One step of size h, in table[0]: the number of columns with which it is good enough, or 0, with the size
   // for the next attempt in next_step, and `failure` where it is not finite.
   template <class P>
-  static int attempt(const P& p, const Scalar<P>& t, const Scalar<P>& h, const Scalar<P>& tolerance,
-                     const State<P>& z, Work<P>& w, Status& failure) {
+  static int attempt(const P& p, const Scalar<P>& t, const Scalar<P>& h,
+                     const Tolerance<Scalar<P>>& tolerance, const State<P>& z, Work<P>& w, Status& failure) {
     using T = Scalar<P>;
     const double size = static_cast<double>(T(abs(h)));
     int j = 1;
     add_row(p, t, h, z, w, j);
     while (j <= w.target) {
       add_row(p, t, h, z, w, ++j);
-      const double error = error_of<P>(tolerance, z, w);
-      if (std::isnan(error)) {
+      const double error = error_of<P>(tolerance, z, h, w);
+      if (!std::isfinite(error)) {
         failure = Status::non_finite;
         w.next_step = T(least_factor) * abs(h);
         return 0;

@@ -129,9 +129,9 @@ TEST(BadSettings, Step) {
   expect_refused(refused_pendulum({"--time", "1", "--step", "2"}),
                  {"--step: expected at most the duration 1", "'2'"});
   expect_refused(refused_pendulum({"--time", "1", "--step", "1e-30"}),
-                 {"--step: 1e-30 vanishes beside the time 1", "t + h = t"});
-  expect_refused(refused_pendulum({"--time", "1", "--step", "1e-13"}),
-                 {"--step: 1e-13 is too small", "--max-steps"});
+                 {"--step: 1e-30 is too little beside the time 1", "t + h is off"});
+  expect_refused(refused_pendulum({"--time", "2147483648", "--step", "1/1024"}),
+                 {"--step: 1/1024 is too small", "--max-steps"});
 }
 
 TEST(BadSettings, Time) {
@@ -156,6 +156,8 @@ TEST(BadSettings, Tolerance) {
     expect_refused(dopri({"--tolerance", bad}),
                    {"--tolerance: expected a number in (0, 1]", "'" + bad + "'"});
   expect_refused(dopri({"--tolerance", "small"}), {"--tolerance: expected a finite", "'small'"});
+  expect_refused(dopri({"--tolerance", "1e-6", "--absolute", "1,2,3"}), {"--absolute: expected one number"});
+  expect_refused(dopri({"--tolerance", "1e-6", "--set", "initial=0,0"}), {"at rest in zero", "--absolute"});
 }
 
 TEST(BadSettings, QuadNeedsCoefficientsInQuad) {

@@ -27,8 +27,9 @@ TEST(Rerun, GivesTheSameBytes) {
                           "--every",      "7",
                           "--set",        "order=6",
                           "--set",        "initial=0.1,2"};
-  const Arguments adaptive{"--system", "kepler", "--integrator", "odeint-dopri5", "--tolerance",
-                           "1e-9",     "--time", "20",           "--set",         "eccentricity=0.3"};
+  const Arguments adaptive{
+      "--system", "kepler", "--integrator", "odeint-dopri5",    "--tolerance", "1e-9",
+      "--time",   "20",     "--set",        "eccentricity=0.3", "--absolute",  "1e-9,1/3,0,1e-10"};
   const Arguments by_default{"--system", "henon-heiles", "--integrator", "verlet",
                              "--step",   "0.1",          "--time",       "50"};
   for (const Arguments& arguments : {quad, shorter, adaptive, by_default}) {

@@ -218,11 +218,11 @@ template <Fault fault>
 struct Adaptive : ClassicalInScalar {
   template <HasVectorField P>
   requires std::is_same_v < Scalar<P>,
-  double >
-      Status advance_to(const P& p, double& t, double end, double tolerance, State<P>& z, Work<P>& w) const {
+  double > Status advance_to(const P& p, double& t, double end, const Tolerance<double>& tolerance,
+                             State<P>& z, Work<P>& w) const {
     const double goal = fault == Fault::overshoots ? end + 1e-9 * (end - t) : end;
     const auto steps =
-        fault == Fault::careless ? std::int64_t{10} : std::llround(10 / std::pow(tolerance, 0.25));
+        fault == Fault::careless ? std::int64_t{10} : std::llround(10 / std::pow(tolerance.relative, 0.25));
     const double begin = t, h = (goal - t) / static_cast<double>(steps);
     if (fault != Fault::skips)
       for (std::int64_t k = 0; k < steps; ++k) (void)step(p, begin + static_cast<double>(k) * h, h, z, w);
@@ -237,16 +237,15 @@ struct Adaptive : ClassicalInScalar {
 template <bool careless>
 struct AdaptiveInQuad : ClassicalInScalar {
   template <HasVectorField P>
-  requires std::is_same_v<Scalar<P>, Value<Scalar<P>>> Status advance_to(const P& p, Scalar<P>& t,
-                                                                         const Scalar<P>& end,
-                                                                         const Scalar<P>& tolerance,
-                                                                         State<P>& z, Work<P>& /*w*/)
+  requires std::is_same_v<Scalar<P>, Value<Scalar<P>>> Status
+  advance_to(const P& p, Scalar<P>& t, const Scalar<P>& end, const Tolerance<Scalar<P>>& tolerance,
+             State<P>& z, Work<P>& /*w*/)
   const {
     using T = Scalar<P>;
     const auto method = integrators().get("extrapolation", "integrator").make({});
     const auto stepper = method->stepper(p.model(), T());
     std::vector<T> state(z.begin(), z.end());
-    const T allowed = careless ? std::max(tolerance, T(1e-10)) : tolerance;
+    const T allowed = careless ? std::max(tolerance.relative, T(1e-10)) : tolerance.relative;
     const Status status = stepper->advance_to(t, end, allowed, state);
     std::copy(state.begin(), state.end(), z.begin());
     p.counters().steps += stepper->counters().steps;

@@ -29,26 +29,95 @@ TEST(Nonsense, AStepThatRoundsToZero) {
   EXPECT_EQ(complaint(s), "");
 }
 
-TEST(Nonsense, AStepThatVanishesBesideTheTime) {
-  RunSettings s = settings_of("kepler", "1e-13", "1e-11");
-  s.t0 = "1e4";  // where neighbouring doubles are 1.8e-12 apart
-  expect_said(complaint(s), {"--step: 1e-13", "vanishes beside the time 10000", "t + h = t"});
-  s.t0 = "-1e4";
-  expect_said(complaint(s), {"vanishes beside the time 10000"});
-  s.precision = Precision::quad;
-  EXPECT_EQ(complaint(s), "");
-  s.precision = Precision::double_precision;
-  s.t0 = "1";
-  EXPECT_EQ(complaint(s), "");
-  // The end counts as well as the start.
-  s = settings_of("kepler", "1e-4", "1");
-  s.t0 = "1e13";
-  expect_said(complaint(s), {"vanishes"});
-  s.step.clear();
+// Doubles are 2^-3 apart at 1e15 and 2^-23 at 1e9: times t + h there are off by half of that.
+TEST(Nonsense, AStepThatIsTooLittleBesideTheTime) {
+  const auto of = [](const char* t0, const char* step, const char* time) {
+    RunSettings s = settings_of("kepler", step, time);
+    s.t0 = t0;
+    return s;
+  };
+  for (const RunSettings& s : {of("1e15", "0.1", "10"), of("-1e15", "0.1", "10"), of("1e10", "0.1", "1"),
+                               of("1e4", "1e-13", "1e-11"), of("-1e4", "1e-7", "1e-5"),
+                               of("0", "1e-3", "1e8"), of("1e9", "0.05", "1")}) {
+    expect_said(complaint(s),
+                {"--step: " + s.step, "is too little beside the time", "in double precision",
+                 "t + h is off by up to", "an origin of time that is nearer to the run", "--precision quad"});
+    RunSettings quad = s;
+    quad.precision = Precision::quad;
+    EXPECT_EQ(complaint(quad), "");
+  }
+  expect_said(complaint(of("1e15", "0.1", "10")), {"the time 1e+15", "off by up to 0.0625"});
+  // A millionth of h is allowed: 2^-24 beside 0.06 and more. Where times are multiples of the spacing,
+  // nothing is off.
+  for (const RunSettings& s : {of("1e9", "0.06", "1"), of("1e9", "0.1", "10"), of("1e15", "1", "10"),
+                               of("1e15", "0.125", "10"), of("1", "1e-9", "1e-7"), of("0", "0.1", "1e6")})
+    EXPECT_EQ(complaint(s), "") << s.t0 << ' ' << s.step;
+  expect_said(complaint(of("1000000000000000.25", "0.1875", "1.5")), {"is too little beside the time"});
+}
+
+// The error of a run is that of its state at t0 + n h, and not at the double next to it: at t = 1e9 that is
+// off by up to 6e-8, and so would the error be.
+TEST(Nonsense, ErrorsAreMeasuredAtTheTimeOfTheState) {
+  RunSettings s = settings_of("harmonic-oscillator", "0.1", "20");
+  s.integrator = "gauss";
+  s.set = {{"stages", "6"}};
+  s.reference = ErrorsAgainst::solution;
+  s.t0 = "1e9";
+  const RunRecord record = executed(s);
+  ASSERT_TRUE(record.error_max.has_value());
+  EXPECT_LE(record.error_max.value_or(1), 1e-13);
+}
+
+// Runs that choose their steps have samples at 32 to 200 times, which have to be told apart as well.
+TEST(Nonsense, ADurationThatIsTooLittleBesideTheTime) {
+  RunSettings s = settings_of("kepler", "", "1e-4");
   s.integrator = "odeint-dopri5";
   s.tolerance = "1e-6";
-  s.time = "1e-4";
-  expect_said(complaint(s), {"--time: 1e-4", "vanishes beside the time"});
+  for (const char* t0 : {"1e13", "-1e13", "1e5"}) {
+    s.t0 = t0;
+    expect_said(complaint(s), {"--time: 1e-4 is too little beside the time"});
+  }
+  s.t0 = "1";
+  EXPECT_EQ(complaint(s), "");
+}
+
+// A tolerance is relative, so that a start at rest in zero says nothing of what counts.
+TEST(Nonsense, AStartAtRestInZeroWithoutAbsoluteTolerance) {
+  for (const char* method : {"odeint-dopri5", "odeint-bulirsch-stoer", "taylor", "extrapolation"}) {
+    RunSettings s = settings_of("harmonic-oscillator", "", "1");
+    s.integrator = method;
+    s.tolerance = "1e-6";
+    s.initial = {"0", "0"};
+    expect_said(complaint(s), {"at rest in zero", "expected --absolute"});
+    s.absolute = {"0"};
+    expect_said(complaint(s), {"at rest in zero"});
+    for (const std::vector<std::string>& enough : {std::vector<std::string>{"1e-9"}, {"0", "1e-9"}}) {
+      s.absolute = enough;
+      EXPECT_EQ(complaint(s), "");
+    }
+    s.absolute.clear();
+    s.initial = {"0", "1e-200"};
+    EXPECT_EQ(complaint(s), "");
+  }
+}
+
+TEST(Nonsense, AbsoluteTolerances) {
+  RunSettings s = settings_of("kepler", "", "1");
+  s.integrator = "odeint-dopri5";
+  s.tolerance = "1e-6";
+  for (const auto& [wrong, said] : {std::pair<std::vector<std::string>, std::string>{
+                                        {"1e-9", "1e-9"}, "one for each of the 4 coordinates"},
+                                    {{"-1e-9"}, "expected numbers >= 0, got '-1e-9'"},
+                                    {{"1e-9", "0", "", "0"}, "expected a finite decimal number"},
+                                    {{"nan"}, "expected a finite decimal number"}}) {
+    s.absolute = wrong;
+    expect_said(complaint(s), {"--absolute: ", said});
+  }
+  s.absolute = {"1e-9"};
+  EXPECT_EQ(complaint(s), "");
+  s.tolerance.clear();
+  s.step = "0.1";
+  expect_said(complaint(s), {"--absolute goes with --tolerance"});
 }
 
 TEST(Nonsense, AToleranceBelowRoundOff) {

@@ -90,6 +90,8 @@ std::string random_configuration(Choices& choices) {
   text << "time = " << quoted(duration(choices)) << '\n';
   if (method == "odeint-dopri5" && choices.once_in(2)) {
     text << "tolerance = " << choices.one_of({"1e-6", "1.0e-9", "\"1/1000\"", "0.5"}) << '\n';
+    if (choices.once_in(3))
+      text << "absolute = " << choices.one_of({"1e-9", "[1e-9, 0]", "[\"1/3\"]", "[]", "-1"}) << '\n';
   } else {
     text << "step = " << quoted(positive_number(choices)) << '\n';
     if (choices.once_in(4)) text << "every = " << 1 + choices.below(3) << '\n';
@@ -132,7 +134,10 @@ std::string random_experiment(Choices& choices) {
     text << "\n[[method]]\nlabel = " << quoted(labels.back()) << "\nintegrator = " << quoted(method) << '\n';
     if (choices.once_in(2))
       text << "set = " << inline_table(random_settings(choices, "integrator", method, "")) << '\n';
-    if (method == "odeint-dopri5" && choices.once_in(2)) text << "tolerance = [1e-6, \"1e-8\"]\n";
+    if (method == "odeint-dopri5" && choices.once_in(2)) {
+      text << "tolerance = [1e-6, \"1e-8\"]\n";
+      if (choices.once_in(2)) text << "absolute = " << choices.one_of({"1e-9", "[1e-9, 0]"}) << '\n';
+    }
   }
   std::vector<std::string> names;
   for (std::size_t k = 0, count = 1 + choices.below(2); k < count; ++k) {

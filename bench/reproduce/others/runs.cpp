@@ -42,7 +42,7 @@ Numbers state_at_end(const std::string& system, const std::string& integrator, c
   for (const Real& x : run.initial) z.push_back(x.value());
   double t = 0;
   const auto stepper = run.method->stepper(run.model, double());
-  const Status status = stepper->advance_to(t, run.time.value(), run.tolerance.value(), z);
+  const Status status = stepper->advance_to(t, run.time.value(), {run.tolerance.value()}, z);
   if (status != Status::converged)
     throw RunError(integrator + " on " + run.model->name() + ": " + std::string(to_string(status)));
   return {z.begin(), z.end()};

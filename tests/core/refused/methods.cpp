@@ -54,10 +54,11 @@ struct InstancesOfAnObject : Euler {
   [[nodiscard]] std::vector<Assignments> instances(bool /*full*/) const { return {{}}; }
 };
 // refused: advance_to: expected template <class P> Status advance_to(const P& p, double& t, double end,
-// double
-struct AdvanceToWithoutTolerance : Euler {
+// const Tolerance<double>& tolerance,
+struct AdvanceToANumber : Euler {
   template <class P>
-  Status advance_to(const P& /*p*/, double& /*t*/, double /*end*/, State<P>& /*z*/, Work<P>& /*w*/) const {
+  Status advance_to(const P& /*p*/, double& /*t*/, double /*end*/, double /*tolerance*/, State<P>& /*z*/,
+                    Work<P>& /*w*/) const {
     return Status::converged;
   }
 };
