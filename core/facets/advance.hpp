@@ -62,8 +62,10 @@ Status unswitched(const M& method, Loop&& loop) {
 }
 }  // namespace detail
 
-/// Takes steps first, first + 1, … first + count - 1 of size h from time t0, in place. Stops at the first
-/// step that does not converge, leaving z as it was before that step; `completed` says how many were taken.
+/// Takes steps first, first + 1, … first + count - 1 of size h from time t0, in place. A step that does not
+/// converge is tried once more: a method forgets the past when its step fails, and what it extrapolated from
+/// it may lead away from a solution that is found from the state alone. Stops at the first step that fails
+/// nevertheless, leaving z as it was before that step; `completed` says how many were taken.
 /// Processed methods take their processor at the beginning and at the end alone (core/facets/processed.hpp).
 template <class M, class P>
 requires Steps<M, P> Status advance(const M& method, const P& problem, const Scalar<P>& t0,
@@ -77,10 +79,18 @@ requires Steps<M, P> Status advance(const M& method, const P& problem, const Sca
           return detail::advance_kernel(m, problem, t0, first, h, count, state, w, completed);
       std::int64_t taken = 0;
       Status status = Status::converged;
-      for (; taken < count; ++taken) {
+      bool again = false;
+      while (taken < count) {
         const Scalar<P> t = t0 + Scalar<P>(static_cast<double>(first + taken)) * h;
         status = m.step(problem, t, h, state, w);
-        if (status != Status::converged) break;
+        if (status == Status::converged) {
+          ++taken;
+          again = false;
+        } else if (status == Status::not_converged && !again) {
+          again = true;
+        } else {
+          break;
+        }
       }
       completed = taken;
       return status;
