@@ -1,4 +1,5 @@
-// Counts the allocations of a test program: its global operator new counts while counting is switched on.
+// Counts the allocations of a test program and their bytes: its global operator new counts while counting is
+// switched on.
 //
 // Include it in one source of a program only, since it defines the global operators.
 #pragma once
@@ -10,10 +11,13 @@
 
 namespace pfaff::testing {
 inline std::atomic<bool> counting = false;
-inline std::atomic<long> allocations = 0;
+inline std::atomic<long> allocations = 0, bytes = 0;
 
 inline void* allocate_or_null(std::size_t size, std::size_t alignment) noexcept {
-  if (counting) ++allocations;
+  if (counting) {
+    ++allocations;
+    bytes += static_cast<long>(size);
+  }
   const std::size_t whole = (size + alignment - 1) / alignment * alignment;
   return alignment <= alignof(std::max_align_t) ? std::malloc(size == 0 ? 1 : size)
                                                 : std::aligned_alloc(alignment, whole);
@@ -32,6 +36,13 @@ long allocations_of(Work&& work) {
   work();
   counting = false;
   return allocations;
+}
+/// The bytes that work() asks for, those that it gives back included.
+template <class Work>
+long bytes_of(Work&& work) {
+  bytes = 0;
+  allocations_of(work);
+  return bytes;
 }
 }  // namespace pfaff::testing
 

@@ -11,6 +11,7 @@
 #include <pfaff/bench/measure/constraints.hpp>
 #include <pfaff/bench/measure/growth.hpp>
 #include <pfaff/bench/measure/history.hpp>
+#include <pfaff/bench/measure/rank_watch.hpp>
 #include <pfaff/bench/measure/setback.hpp>
 #include <pfaff/bench/measure/structure.hpp>
 #include <pfaff/bench/measure/term_magnitudes.hpp>
@@ -59,6 +60,7 @@ class Observer {
         record_(record),
         problem_(run.model),
         constraints_(*run.model),
+        rank_(run.model, [this](const T& t, const T& span, std::vector<T>& z) { return move(t, span, z); }),
         values_(run.model->invariants().size()),
         in_double_(static_cast<std::size_t>(run.model->dimension())) {
     if (run.settings.structure_residuals && StructureResidual<T>::applies(*run.model) && !run.adaptive() &&
@@ -72,12 +74,16 @@ class Observer {
   }
 
   /// Takes the state at time t. Every call counts for drift, setbacks and constraint residuals; `keep` also
-  /// adds a row to the series, and `structure` a structure residual to that row. Says what is not finite, or
-  /// nothing. A row is kept where state and invariants are finite, without the error where that is not.
-  /// `exact` is the time without rounding, at which the error is measured: n steps lead to t0 + n h, and the
-  /// solution moves on in half a unit in the last place of t.
+  /// adds a row to the series, and `structure` a structure residual to that row. Says what is not finite or
+  /// was singular on the way here, or nothing. A row is kept where state and invariants are finite, without
+  /// the error where that is not. `exact` is the time without rounding, at which the error is measured: n
+  /// steps lead to t0 + n h, and the solution moves on in half a unit in the last place of t.
   [[nodiscard]] std::string observe(const T& t, const Quad& exact, const std::vector<T>& z, bool keep,
                                     bool structure) {
+    if (const std::string singular = rank_.observe(t, z); !singular.empty()) {
+      singular_ = true;
+      return singular + "; this was seen";
+    }
     const auto& invariants = run_.model->invariants();
     if (!values_.empty()) problem_.invariants(t, z, values_);
     for (std::size_t i = 0; i < values_.size(); ++i)
@@ -101,6 +107,7 @@ class Observer {
 
   /// Puts into the record what follows from all that was observed.
   void finish() {
+    if (singular_) record_.status = Status::singular;
     const double unit = std::is_same_v<T, Quad> ? 0x1p-113 : 0x1p-53;
     if (magnitudes_) record_.scales = magnitudes_->largest();
     for (std::size_t i = 0; i < drift_.size(); ++i)
@@ -119,6 +126,19 @@ class Observer {
   }
 
  private:
+  // Moves z from t over a span that is at most a few steps long, without the history of the run.
+  Status move(const T& t, const T& span, std::vector<T>& z) {
+    if (!apart_) apart_ = run_.method->stepper(run_.model, T());
+    apart_->forget();
+    if (run_.adaptive()) {
+      T from = t;
+      return apart_->advance_to(from, t + span, T(run_.tolerance), z);
+    }
+    const double steps = std::ceil(std::abs(static_cast<double>(span / T(run_.step))) - 1e-9);
+    const std::int64_t count = std::max<std::int64_t>(1, static_cast<std::int64_t>(steps));
+    std::int64_t completed = 0;
+    return apart_->advance(t, 0, span / T(static_cast<double>(count)), count, z, completed);
+  }
   static bool changes(const ResolvedRun& run) {
     const auto& invariants = run.model->invariants();
     return std::any_of(invariants.begin(), invariants.end(),
@@ -198,6 +218,9 @@ class Observer {
   std::optional<Problem<Quad>> exact_;  // of invariants that change, where there is a reference solution
   std::optional<StructureResidual<T>> residual_;
   ConstraintResiduals<T> constraints_;
+  RankWatch<T> rank_;
+  StepperPointer<T> apart_;  // for steps that are not the run's own
+  bool singular_ = false;
   std::optional<TermMagnitudes> magnitudes_;
   std::vector<T> values_, initial_, residuals_;
   std::vector<double> in_double_;  // the state

@@ -63,8 +63,9 @@ Status unswitched(const M& method, Loop&& loop) {
 }
 
 /// The steps of advance(), as many as the budget of this thread allows: fewer than `count` with the status
-/// converged where it has ended them. Where a step throws, `completed` is 0, and of the state nothing is
-/// known.
+/// converged where it has ended them. A step that does not converge is tried once more: a method forgets the
+/// past when its step fails, and what it extrapolated from it may lead away from a solution that is found
+/// from the state alone. Where a step throws, `completed` is 0, and of the state nothing is known.
 template <class M, class P>
 requires Steps<M, P> Status advance_as_allowed(const M& method, const P& problem, const Scalar<P>& t0,
                                                std::int64_t first, const Scalar<P>& h, std::int64_t count,
@@ -78,7 +79,8 @@ requires Steps<M, P> Status advance_as_allowed(const M& method, const P& problem
         if (m.processed()) return advance_kernel(m, problem, t0, first, h, count, steps, state, w, completed);
       return steps.repeat(count, completed, [&](std::int64_t taken) {
         const Scalar<P> t = t0 + Scalar<P>(static_cast<double>(first + taken)) * h;
-        return m.step(problem, t, h, state, w);
+        const Status status = m.step(problem, t, h, state, w);
+        return status == Status::not_converged ? m.step(problem, t, h, state, w) : status;
       });
     });
   };

@@ -48,8 +48,9 @@ Value<T> relative_size(const Dual<T, N>& delta, const Dual<T, N>& reference, con
 enum class Corrections {
   /// By about the same ratio each time: one forecast that the next correction is lost in rounding is enough.
   even,
-  /// By ratios that vary: a small one may be followed by one that is a thousand times larger. Two forecasts
-  /// in turn are needed.
+  /// By ratios that vary: a small one may be followed by one that is a thousand times larger, and corrections
+  /// may stall and shrink in turns. Two forecasts in turn are needed: of the last ratio, or of what two
+  /// iterations gain together.
   uneven,
   /// By stalling and contracting in turns, as where one unknown lags an iteration behind another: no forecast
   /// ends the iteration.
@@ -67,6 +68,8 @@ class Convergence {
 
   /// Call before the corrections of an iteration are added.
   void begin_iteration() {
+    oldest_ = older_;
+    older_ = previous_;
     previous_ = size_;
     size_ = Number(0);
     finite_ = true;
@@ -98,8 +101,9 @@ class Convergence {
       if (foretold &&
           (corrections_ == Corrections::even || (corrections_ == Corrections::uneven && foretold_)))
         return stop(Status::converged);
+      if (corrections_ == Corrections::uneven && foretold_by_pairs()) return stop(Status::converged);
       foretold_ = foretold;
-      if (!(size_ < previous_)) {
+      if (stalls()) {
         // Round-off noise of a converged iteration, amplified by the sums it passes through.
         if (size_ <= Number(256) * u || (++stalls_ >= 3 && size_ <= Number(65536) * u))
           return stop(Status::converged);
@@ -122,7 +126,22 @@ class Convergence {
     status_ = status;
     return true;
   }
-  Number size_{0}, previous_{0}, contraction_{0};
+  // What two iterations gain, in this one and in the one before, leaves nothing of the next correction.
+  // Whether the correction is one of those that stall makes no difference to it.
+  [[nodiscard]] bool foretold_by_pairs() const {
+    if (iterations_ < 4 || !(oldest_ < std::numeric_limits<Number>::infinity())) return false;
+    const Number gain = std::max(Number(size_ / older_), Number(previous_ / oldest_));
+    return gain < Number(0.5) && gain * std::max(size_, previous_) <= unit_roundoff<T>() / Number(64);
+  }
+  // Corrections that shrink no more. Where they stall and shrink in turns, each is smaller than the one two
+  // iterations before it; such a stall is none, however often it comes, except among a few units of
+  // round-off.
+  [[nodiscard]] bool stalls() const {
+    if (size_ < previous_) return false;
+    return size_ <= Number(4) * unit_roundoff<T>() || (iterations_ > 2 && !(size_ < older_));
+  }
+  Number size_{0}, previous_{0}, older_{0}, oldest_{0};  // of the corrections, the last one first
+  Number contraction_{0};
   int iterations_ = 0, stalls_ = 0;
   bool finite_ = true, foretold_ = false;
   Corrections corrections_ = Corrections::even;

@@ -9,10 +9,11 @@
 // The last column of IIIB is zero, so that L_s stands in p1 alone, where the hidden constraints determine it.
 // Everything else is iterated to round-off: the stages by fixed-point iteration from extrapolated slopes, the
 // multipliers by a simplified Newton method. In place of the products B(Q_i) H_pp B(Q_j)^T its matrix has S
-// at q0, so that an iteration solves with S once for each stage. The positions are at last those to which the
-// velocities of the last momenta lead, so that both halves of the update are made of the same rates; their
-// projections onto the constraints, which are down to round-off by then, would bias the energy. The update is
-// compensated.
+// at q0, so that an iteration solves with S once for each stage. Where the mass matrix depends on the
+// positions, the multipliers lag an iteration behind these, and corrections stall and shrink in turns. The
+// positions are at last those to which the velocities of the last momenta lead, so that both halves of the
+// update are made of the same rates; their projections onto the constraints, which are down to round-off by
+// then, would bias the energy. The update is compensated.
 #pragma once
 
 #include <memory>
@@ -91,7 +92,7 @@ struct LobattoSpark {
     const std::size_t n = w.n(), s = w.s();
     if (const Status status = w.begin(p, *w.at[0], t, h, z); status != Status::converged) return status;
     for (std::size_t k = 0; k < n; ++k) w.position[k] = z[k] + w.carry[k];
-    Convergence<T> convergence;
+    Convergence<T> convergence(Corrections::uneven);
     bool first = true;
     do {
       Largest<T> moved, positions;

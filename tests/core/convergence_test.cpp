@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include <pfaff/core/numbers/sum_of_two.hpp>
 #include <pfaff/core/solve/convergence.hpp>
@@ -44,13 +45,37 @@ TEST(Convergence, TakesTwoForecastsOfCorrectionsThatShrinkUnevenly) {
   const auto two = watch(uneven, 60, Corrections::uneven);
   EXPECT_EQ(two.first, Status::converged);
   EXPECT_EQ(two.second, 4);  // 1e-13, of which 1e-15 is expected, then 1e-22
-  // Even ones are iterated once more than they have to be, and slow ones are not affected.
+  // Even ones that end before there are four are iterated once more than they have to be; slower ones are not
+  // affected.
+  const auto fast = [](int k) { return std::pow(1e-6, k); };
+  EXPECT_EQ(watch(fast, 60, Corrections::uneven).second, watch(fast).second + 1);
   const auto even = [](int k) { return std::pow(1e-3, k); };
-  EXPECT_EQ(watch(even, 60, Corrections::uneven).second, watch(even).second + 1);
+  EXPECT_EQ(watch(even, 60, Corrections::uneven), watch(even));
   const auto slow = [](int k) { return std::ldexp(1.0, -k); };
   EXPECT_EQ(watch(slow, 60, Corrections::uneven), watch(slow));
   // Where no forecast counts, corrections have to be lost in rounding themselves.
   EXPECT_EQ(watch(even, 60, Corrections::in_turns).second, 6);
+}
+
+// Corrections of Lobatto stages as they were measured, in units of round-off: every other one stalls, five
+// times in all, and the last one is still thousands of units large.
+const std::vector<double> lobatto_corrections{3.4e13, 3.0e9, 2.8e9, 1.6e8, 1.6e8, 4.2e6, 4.3e6, 7.9e4, 1.0e5,
+                                              2.8e3,  3.0e3, 1.1e2, 1.2e2, 3.6,   2.9,   0.1,   0.1,   0.01};
+TEST(Convergence, DoesNotTakeStallsForRoundOffWhileEverySecondCorrectionShrinks) {
+  const auto measured = [](int k) { return lobatto_corrections.at(static_cast<std::size_t>(k)) * 0x1p-53; };
+  for (const Corrections kind : {Corrections::even, Corrections::uneven, Corrections::in_turns}) {
+    const auto [status, taken] = watch(measured, 60, kind);
+    EXPECT_EQ(status, Status::converged);
+    EXPECT_GE(taken, 14) << "3.6 units, the first that is round-off";
+    EXPECT_LE(taken, 16);
+  }
+  // Faster ones in turns are ended by what two iterations gain together, before they are round-off.
+  const auto pairs = [](int k) { return std::pow(1e-7, k / 2); };  // 1, 1e-7, 1e-7, 1e-14, 1e-14, 1e-21
+  EXPECT_EQ(watch(pairs, 60, Corrections::uneven), (std::pair{Status::converged, 5}));
+  EXPECT_EQ(watch(pairs, 60, Corrections::in_turns).second, 6);
+  // The control: corrections that shrink no more, not even by pairs, are round-off that sums amplify.
+  const auto amplified = [](int k) { return k < 4 ? std::pow(1e-3, k) : 1e-12 * (1 + k % 3 / 8.0); };
+  EXPECT_EQ(watch(amplified).first, Status::converged);
 }
 
 // Where the contraction is known from before, one correction may do, and must not where it would not.

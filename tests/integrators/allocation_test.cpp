@@ -6,6 +6,7 @@
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/integrators/tables/method_table.hpp>
+#include <pfaff/systems/text/text_system.hpp>
 
 #include <pfaff/tests/integrators/nonholonomic_samples.hpp>
 
@@ -120,6 +121,26 @@ TEST(Allocation, NeitherDoStagesOneAfterTheOther) {
           integrators().get(name, "integrator").make({{"stages", stages}})->stepper(model, 0.0);
       EXPECT_EQ(allocations_of_steps(*stepper, *model, 0.1, 4), 0) << name << ' ' << stages;
     }
+}
+
+// A lattice of n particles has n forces of three particles each: setting up and stepping take memory, and
+// with it time, in proportion to n where no matrix is made. A matrix that is made in vain takes n^2.
+TEST(Allocation, OfCollocationIsLinearInTheSizeOfALattice) {
+  const auto bytes_for = [](const char* method, const std::string& system, const char* size) {
+    return static_cast<double>(testing::bytes_of([&] {
+      const auto model = system_named(system).make({{"n", size}});
+      const auto stepper = integrators().get(method, "integrator").make({})->stepper(model, 0.0);
+      std::vector<double> z;
+      for (const Real& x : model->initial()) z.push_back(double(x));
+      std::int64_t completed = 0;
+      EXPECT_EQ(stepper->advance(0.0, 0, 0.1, 4, z, completed), Status::converged) << method;
+    }));
+  };
+  for (const std::string& system : {std::string("fermi-pasta-ulam-tsingou"),
+                                    std::string(PFAFF_GOLDEN) + "/../../examples/models/lattice.toml"})
+    for (const char* method : {"verlet", "gauss", "implicit-midpoint"})
+      EXPECT_LE(bytes_for(method, system, "800"), 2.5 * bytes_for(method, system, "400"))
+          << method << " on " << system;
 }
 
 // What the counter must see: a method that makes a vector in each step.
