@@ -267,7 +267,7 @@ ExperimentOutcome run_experiment(const Experiment& asked, const fs::path& direct
     ready.take(experiment, directory, runs, outcome.left_out);
     return std::vector<std::size_t>();
   });
-  References references;
+  References references(options.stop);
   if (!choose_steps(experiment, runs, references, team, progress, options.stop)) {
     outcome.interrupted = true;
     return outcome;

@@ -5,14 +5,16 @@
 // where accuracy is asked for.
 //
 // With a tolerance e the order is chosen first, p = ceil(-ln(e) / 2 + 1), and then, at every step, the step
-// (jorba-zou2005, 3.2). The radius of convergence is seen from the last two coefficients, rho_m =
-// (size / |z_m|)^{1/m} for m = p - 1 and p, with size = max(1, |z_0|). The step
+// (jorba-zou2005, 3.2),
 //
-//   h = min(rho_{p-1}, rho_p) e^{-2 - 0.7/(p-1)}
+//   h = rho e^{-2 - 0.7/(p-1)},
 //
-// is the one at which the work per unit of time is least for that order, and the terms left out are about e
-// times the size. No step is ever rejected. Where the solution runs into a singularity the steps
-// shrink until they no longer move the time, and the status says so. No structure is kept.
+// at which the work per unit of time is least for that order; rho is the radius of convergence that the last
+// degrees show. The terms left out are then about e times the size, which is max(1, |z_0|). Where the last
+// degrees vanish for a reason of their own, or say less than the truth, the defect of the series at the end
+// of the step does not, and the step is shortened before it is taken (core/tape/taylor_steps.hpp). Where the
+// solution runs into a singularity the steps shrink until they no longer move the time, and the status says
+// so. No structure is kept.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -20,8 +22,9 @@
 #include <optional>
 #include <vector>
 
+#include <pfaff/core/errors/budget.hpp>
 #include <pfaff/core/integrator.hpp>
-#include <pfaff/core/tape/taylor_expansion.hpp>
+#include <pfaff/core/tape/taylor_steps.hpp>
 
 namespace {
 using namespace pfaff;
@@ -59,11 +62,12 @@ struct Taylor {
     using T = Scalar<P>;
     TaylorExpansion<T> expansion;
     // Made when a tolerance is first given, since its degree follows from that.
-    std::optional<TaylorExpansion<T>> adaptive;
+    std::optional<TaylorSteps<T>> adaptive;
     State<P> carry;
+    std::vector<T> sizes;  // of coordinates
 
     Work(const Taylor& method, const P& p)
-        : expansion(p.field_tape(), method.truncation), carry(p.make_state()) {}
+        : expansion(p.field_tape(), method.truncation), carry(p.make_state()), sizes(carry.size()) {}
   };
 
   template <HasFieldTape P>
@@ -82,20 +86,21 @@ struct Taylor {
     if (!(tolerance >= std::numeric_limits<T>::epsilon())) return Status::not_converged;
     const int degree = std::clamp(
         static_cast<int>(std::ceil(1 - std::log(static_cast<double>(tolerance)) / 2)), 4, most_order);
-    if (!w.adaptive || w.adaptive->order() != static_cast<std::size_t>(degree))
-      w.adaptive.emplace(p.field_tape(), degree);
-    TaylorExpansion<T>& expansion = *w.adaptive;
+    if (!w.adaptive || w.adaptive->expansion().order() != static_cast<std::size_t>(degree))
+      w.adaptive.emplace(p.field_tape(), degree, std::exp(-2 - 0.7 / (degree - 1)));
+    TaylorSteps<T>& steps = *w.adaptive;
     for (std::int64_t taken = 0; t != end; ++taken) {
       if (taken == most_taylor_steps) return Status::not_converged;
+      spend(1, 1);
       ++p.counters().fields;
-      expansion.expand(t, z.data());
-      const double longest = step_of(expansion);
-      if (!(longest > 0)) return Status::non_finite;
-      const T after = abs(end - t) <= T(longest) ? end : end < t ? t - T(longest) : t + T(longest);
+      if (!steps.expand(t, z.data())) return Status::non_finite;
+      take_sizes(z, w.sizes);
+      const T longest = steps.step(end - t, tolerance, w.sizes);
+      const T after = abs(end - t) <= abs(longest) ? end : t + longest;
       const T h = after - t;  // what rounding leaves of the step
       if (h == T(0)) return Status::not_converged;
       for (std::size_t k = 0; k < z.size(); ++k)
-        add_to(z[k], w.carry[k], expansion.increment(h, k), compensated);
+        add_to(z[k], w.carry[k], steps.expansion().increment(h, k), compensated);
       t = after;
       ++p.counters().steps;
     }
@@ -103,23 +108,12 @@ struct Taylor {
   }
 
  private:
-  // The step that the last two coefficients allow; 0 where they are not finite, and the most there is where
-  // they vanish, since the solution then is a polynomial of a lower degree.
-  template <class T>
-  static double step_of(const TaylorExpansion<T>& expansion) {
-    for (const T& x : expansion.coefficients())  // since the largest of a degree says nothing of NaN
-      if (!isfinite(x)) return 0;
-    const std::size_t p = expansion.order();
-    const double size = std::max(1.0, static_cast<double>(expansion.largest(0)));
-    double radius = std::numeric_limits<double>::max();
-    for (const std::size_t degree : {p - 1, p}) {
-      // In logarithms, since the coefficients of a fast motion in quad are beyond the range of doubles.
-      const T last = expansion.largest(degree);
-      if (last > T(0))
-        radius = std::min(radius, std::exp((std::log(size) - static_cast<double>(log(last))) /
-                                           static_cast<double>(degree)));
-    }
-    return radius * std::exp(-2 - 0.7 / static_cast<double>(p - 1));
+  // The sizes by which the tolerance is measured.
+  template <class State, class T>
+  static void take_sizes(const State& z, std::vector<T>& sizes) {
+    T largest(1);
+    for (std::size_t k = 0; k < z.size(); ++k) largest = std::max(largest, T(abs(z[k])));
+    std::fill(sizes.begin(), sizes.end(), largest);
   }
 };
 
