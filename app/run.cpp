@@ -11,6 +11,7 @@
 #include <pfaff/bench/runner/interruption.hpp>
 #include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/bench/runner/run_directory.hpp>
+#include <pfaff/core/errors/budget.hpp>
 
 namespace pfaff::app {
 
@@ -80,6 +81,12 @@ std::string of_the_last_step(const ResolvedRun& run) {
          to_string(run.step) + ", and none is shortened";
 }
 
+// What is said of a reference solution that ends before the run.
+std::string of_the_reference(const nlohmann::json& j) {
+  return (j["error_max"].is_null() ? "no reference: " : "errors end early: ") +
+         j["reference_ended"].get<std::string>();
+}
+
 // A summary for the terminal.
 std::string summary_table(const nlohmann::json& j, const std::string& written, const std::string& out) {
   const auto number = [&](const nlohmann::json& x) {
@@ -90,6 +97,7 @@ std::string summary_table(const nlohmann::json& j, const std::string& written, c
                      std::to_string(j["completed"].get<std::int64_t>()) + " steps"}};
   if (!j["error_max"].is_null())
     rows.push_back({"error", "max " + number(j["error_max"]) + ", final " + number(j["error_final"])});
+  if (j.contains("reference_ended")) rows.push_back({"reference", of_the_reference(j)});
   const int failures = j.value("structure_failures", 0);
   if (!j["structure_residual"].is_null() || failures > 0)
     rows.push_back({"structure", "residual " + number(j["structure_residual"]) +
@@ -125,7 +133,10 @@ int finish(const nlohmann::json& j, const std::string& text) {
 
 RunRecord executed(const ResolvedRun& resolved, bool quiet) {
   const Interruption interruption;
-  const auto reference = reference_asked_for(resolved);
+  const auto reference = [&] {
+    const Budget budget({}, &Interruption::stop());
+    return reference_asked_for(resolved);
+  }();
   ProgressLine line(quiet);
   return execute(
       resolved, reference.get(),
@@ -144,7 +155,9 @@ int run(const RunOptions& options, const Common& common) {
     const std::string series = series_csv(resolved, record);
     std::cout << series << std::flush;
     if (!std::cout) throw RunError("cannot write to standard output");
-    return finish(summary(resolved, record), "");
+    const nlohmann::json j = summary(resolved, record);
+    if (j.contains("reference_ended") && !common.quiet) std::cerr << "pfaff: " << of_the_reference(j) << '\n';
+    return finish(j, "");
   }
   const std::filesystem::path directory = options.out;
   std::vector<std::string> ours = run_file_names();

@@ -91,16 +91,16 @@ std::vector<FoundFrequency> frequencies_of(const ExperimentRun& run, const Refer
   std::vector<std::vector<TurningVector>> of_method, of_solution;
   carry(resolved, states, steps, looks_at_vectors, [&](std::int64_t step) {
     const double elapsed = static_cast<double>(step) * h;
+    const Quad at = resolved.t0.quad() + Quad(static_cast<double>(step)) * resolved.step.quad();
+    if (!solution.covers(at)) return false;
     times.push_back(elapsed);
     vectors.append(t0 + elapsed, states[0], of_method);
     std::vector<double> exact;
-    for (const Quad& x :
-         solution.at(resolved.t0.quad() + Quad(static_cast<double>(step)) * resolved.step.quad()))
-      exact.push_back(static_cast<double>(x));
+    for (const Quad& x : solution.at(at)) exact.push_back(static_cast<double>(x));
     vectors.append(t0 + elapsed, exact, of_solution);
     return true;
   });
-  const bool whole = times.back() >= static_cast<double>(steps) * h * (1 - 1e-9);
+  const bool whole = !times.empty() && times.back() >= static_cast<double>(steps) * h * (1 - 1e-9);
   std::vector<FoundFrequency> found;
   for (std::size_t k = 0; k < of_method.size(); ++k) {
     const std::vector<double> angles = angles_of(of_solution[k]);

@@ -32,7 +32,8 @@ Real time_of_frequencies(const std::vector<const ExperimentRun*>& of_case);
 
 /// Carries the initial state of a run along with its method and step for the time, and compares each of the
 /// vectors with that of the solution at four thousand times at most. Not a number where the vector of the
-/// solution turns by more than a third of a turn between two of them, and where the run fails.
+/// solution turns by more than a third of a turn between two of them, where the solution ends before the
+/// time, and where the run fails.
 std::vector<FoundFrequency> frequencies_of(const ExperimentRun& run, const ReferenceSolution& solution,
                                            const Real& time);
 

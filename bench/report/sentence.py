@@ -256,7 +256,7 @@ def holds(verdict):
     parts = [text(heading(case)) + (f" to t = {text(case['time'])} {text(unit)}".rstrip() if "time" in case else ""),
              f"{case['precision']} precision"]
     if verdict.measure:
-        which = {"exact": "the exact solution", "30-digit": "a solution of 30 digits"}.get(
+        which = {"exact": "the exact solution", "30-digit": "a solution of up to 30 digits"}.get(
             case.get("reference_solution") or "", "the reference solution")
         parts.append(text(verdict.measure.defined(which)))
     steps = sorted({r.step for r in runs if not r.tolerance}, reverse=True)

@@ -63,6 +63,10 @@ class Observer {
         rank_(run.model, [this](const T& t, const T& span, std::vector<T>& z) { return move(t, span, z); }),
         values_(run.model->invariants().size()),
         in_double_(static_cast<std::size_t>(run.model->dimension())) {
+    if (reference != nullptr) {
+      record.reference = reference->kind();
+      record.reference_ended = reference->ended();
+    }
     if (run.settings.structure_residuals && StructureResidual<T>::applies(*run.model) && !run.adaptive() &&
         run.model->dimension() <= most_differentiated_in_runs && !remembers(run))
       residual_.emplace(*run.method, run.model);
@@ -108,6 +112,12 @@ class Observer {
   /// Puts into the record what follows from all that was observed.
   void finish() {
     if (singular_) record_.status = Status::singular;
+    // Of a solution that reaches no sample but the first, the error there says nothing of the method.
+    if (compared_ == 1 && record_.samples.size() > 1) {
+      record_.error_max = record_.error_final = std::nullopt;
+      record_.samples.front().error.reset();
+      record_.samples.front().invariant_errors.clear();
+    }
     const double unit = std::is_same_v<T, Quad> ? 0x1p-113 : 0x1p-53;
     if (magnitudes_) record_.scales = magnitudes_->largest();
     for (std::size_t i = 0; i < drift_.size(); ++i)
@@ -164,7 +174,8 @@ class Observer {
       magnitudes_->add(static_cast<double>(t), in_double_);
     }
     std::string not_finite;
-    if (reference_ != nullptr) {
+    if (reference_ != nullptr && reference_->covers(exact_time)) {
+      ++compared_;
       const std::vector<Quad> exact = reference_->at(exact_time);
       if (exact_) sample.invariant_errors = errors_of_invariants(sample, exact_time, exact);
       const Quad error = relative_error(sample, exact);
@@ -215,6 +226,7 @@ class Observer {
   const ReferenceSolution* reference_;
   RunRecord& record_;
   Problem<T> problem_;
+  std::size_t compared_ = 0;            // samples, with the reference solution
   std::optional<Problem<Quad>> exact_;  // of invariants that change, where there is a reference solution
   std::optional<StructureResidual<T>> residual_;
   ConstraintResiduals<T> constraints_;

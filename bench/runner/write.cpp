@@ -168,6 +168,8 @@ nlohmann::json summary(const ResolvedRun& run, const RunRecord& record) {
     }
   }
   if (nlohmann::json links = links_in(run); !links.empty()) j["links"] = std::move(links);
+  if (!record.reference.empty()) j["reference"] = record.reference;
+  if (!record.reference_ended.empty()) j["reference_ended"] = record.reference_ended;
   j["error_max"] = optional(record.error_max);
   j["error_final"] = optional(record.error_final);
   j["structure_residual"] = optional(record.structure_residual);

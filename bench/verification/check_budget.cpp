@@ -4,6 +4,13 @@ namespace pfaff {
 
 namespace {
 constexpr const char* unjudged = "not judged: ";
+
+Check without_a_judgement(Check check, const std::string& why) {
+  check.in_scope = false;
+  check.result = CheckResult::skipped;
+  check.reason = unjudged + why;
+  return check;
+}
 }  // namespace
 
 bool ran_out(const Check& check) {
@@ -12,10 +19,11 @@ bool ran_out(const Check& check) {
 
 Check not_judged(Check check, const BudgetSpent& spent) {
   if (spent.stopped()) throw BudgetSpent(spent);
-  check.in_scope = false;
-  check.result = CheckResult::skipped;
-  check.reason = unjudged + std::string(spent.what());
-  return check;
+  return without_a_judgement(std::move(check), spent.what());
+}
+
+Check not_judged(Check check, const SolutionEnds& ends) {
+  return without_a_judgement(std::move(check), ends.what());
 }
 
 }  // namespace pfaff

@@ -3,6 +3,7 @@
 // does not: it is not judged, and says so.
 #pragma once
 
+#include <pfaff/bench/measure/reference.hpp>
 #include <pfaff/bench/verification/check.hpp>
 #include <pfaff/core/errors/budget.hpp>
 
@@ -15,12 +16,14 @@ inline constexpr BudgetLimits limits_of_check{.steps = 10'000'000, .evaluations 
 /// The check, whose names are filled in, as one that was not judged because its budget was spent. Passes the
 /// exception on where the work was asked to stop.
 Check not_judged(Check check, const BudgetSpent& spent);
+/// The same where the solution that it compares with ends before it is needed.
+Check not_judged(Check check, const SolutionEnds& ends);
 
 /// True where a check was not judged for that reason.
 bool ran_out(const Check& check);
 
-/// Returns judge(), a check, perhaps one or several; where it runs out of its budget `check`, whose names are
-/// filled in, not judged.
+/// Returns judge(), a check, perhaps one or several; where it runs out of its budget, or of the solution that
+/// it compares with, `check`, whose names are filled in, not judged.
 template <class Judge>
 auto within_budget(const Check& check, Judge&& judge, const BudgetLimits& limits = limits_of_check)
     -> decltype(judge()) {
@@ -29,6 +32,8 @@ auto within_budget(const Check& check, Judge&& judge, const BudgetLimits& limits
     return judge();
   } catch (const BudgetSpent& spent) {
     return {not_judged(check, spent)};
+  } catch (const SolutionEnds& ends) {
+    return {not_judged(check, ends)};
   }
 }
 

@@ -5,25 +5,25 @@
 // where accuracy is asked for.
 //
 // With a tolerance e the order is chosen first, p = ceil(-ln(e) / 2 + 1), and then, at every step, the step
-// (jorba-zou2005, 3.2). The radius of convergence is seen from the last two coefficients, rho_m =
-// min_k (s_k / |z_{m,k}|)^{1/m} for m = p - 1 and p, with the scale s_k of each coordinate
-// (core/facets/tolerance.hpp). The step
+// (jorba-zou2005, 3.2),
 //
-//   h = min(rho_{p-1}, rho_p) e^{-2 - 0.7/(p-1)}
+//   h = rho e^{-2 - 0.7/(p-1)},
 //
-// is the one at which the work per unit of time is least for that order, and the terms left out are about e
-// times the scale in each coordinate. No step is ever rejected. Where the solution runs into a singularity
-// the steps shrink until they no longer move the time, and the status says so. No structure is kept.
+// at which the work per unit of time is least for that order; rho is the radius of convergence that the last
+// degrees show. The terms left out are then about e times the scale in each coordinate
+// (core/facets/tolerance.hpp). Where the last degrees vanish for a reason of their own, or say less than the
+// truth, the defect of the series at the end of the step does not, and the step is shortened before it is
+// taken (core/tape/taylor_steps.hpp). Where the solution runs into a singularity the steps shrink until they
+// no longer move the time, and the status says so. No structure is kept.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include <pfaff/core/integrator.hpp>
-#include <pfaff/core/tape/taylor_expansion.hpp>
+#include <pfaff/core/tape/taylor_steps.hpp>
 
 namespace {
 using namespace pfaff;
@@ -61,16 +61,18 @@ struct Taylor {
     using T = Scalar<P>;
     TaylorExpansion<T> expansion;
     // Made when a tolerance is first given, since its degree follows from that.
-    std::optional<TaylorExpansion<T>> adaptive;
+    std::optional<TaylorSteps<T>> adaptive;
     State<P> carry, rate;
     CoordinateScales<P> scales;
-    double last_step = 0;  // of a run with a tolerance
+    std::vector<T> sizes;  // the scales for the step that is looked for
+    T last_step{0};        // of a run with a tolerance
 
     Work(const Taylor& method, const P& p)
         : expansion(p.field_tape(), method.truncation),
           carry(p.make_state()),
           rate(p.make_state()),
-          scales(p) {}
+          scales(p),
+          sizes(p.size()) {}
   };
 
   template <HasFieldTape P>
@@ -90,25 +92,24 @@ struct Taylor {
     const int degree =
         std::clamp(static_cast<int>(std::ceil(1 - std::log(static_cast<double>(tolerance.relative)) / 2)), 4,
                    most_order);
-    if (!w.adaptive || w.adaptive->order() != static_cast<std::size_t>(degree))
-      w.adaptive.emplace(p.field_tape(), degree);
-    TaylorExpansion<T>& expansion = *w.adaptive;
+    if (!w.adaptive || w.adaptive->expansion().order() != static_cast<std::size_t>(degree))
+      w.adaptive.emplace(p.field_tape(), degree, std::exp(-2 - 0.7 / (degree - 1)));
+    TaylorSteps<T>& series = *w.adaptive;
     detail::AllowedSteps<P> steps(p);
     for (std::int64_t taken = 0; t != end; ++taken) {
       if (taken == most_taylor_steps) return Status::not_converged;
       if (steps.next(1) == 0) break;
       ++p.counters().fields;
-      expansion.expand(t, z.data());
-      const double longest = longest_step(p, expansion, tolerance, z, T(abs(end - t)), w);
-      if (!(longest > 0)) return Status::non_finite;
-      const T after = abs(end - t) <= T(longest) ? end : end < t ? t - T(longest) : t + T(longest);
+      if (!series.expand(t, z.data())) return Status::non_finite;
+      const T longest = longest_step(p, tolerance, z, T(end - t), w);
+      const T after = abs(end - t) <= abs(longest) ? end : t + longest;
       const T h = after - t;  // what rounding leaves of the step
       if (h == T(0)) return Status::not_converged;
       w.scales.find(tolerance, z, w.rate, h);
       w.scales.keep();
-      w.last_step = static_cast<double>(T(abs(h)));
+      w.last_step = abs(h);
       for (std::size_t k = 0; k < z.size(); ++k)
-        add_to(z[k], w.carry[k], expansion.increment(h, k), compensated);
+        add_to(z[k], w.carry[k], series.expansion().increment(h, k), compensated);
       t = after;
       ++p.counters().steps;
     }
@@ -116,44 +117,22 @@ struct Taylor {
   }
 
  private:
-  // The step from z that the series allows, at most `distance`. The scales of coordinates that begin at zero
-  // follow from the step, and the step from its p-th root of them, so that a few rounds suffice.
+  // The step from z that the series allows, at most `limit` and in its direction. The scale of a coordinate
+  // that begins at zero follows from the step, which at the start of a motion is therefore looked for twice.
   template <class P>
-  static double longest_step(const P& p, const TaylorExpansion<Scalar<P>>& expansion,
-                             const Tolerance<Scalar<P>>& tolerance, const State<P>& z,
-                             const Scalar<P>& distance, Work<P>& w) {
+  static Scalar<P> longest_step(const P& p, const Tolerance<Scalar<P>>& tolerance, const State<P>& z,
+                                const Scalar<P>& limit, Work<P>& w) {
     using T = Scalar<P>;
-    const auto most = static_cast<double>(distance);
-    const T* coefficients = expansion.coefficients().data();
+    const T* coefficients = w.adaptive->expansion().coefficients().data();
     for (std::size_t k = 0; k < p.size(); ++k) w.rate[k] = coefficients[p.size() + k];
-    double step = w.last_step;
-    for (int round = 0; round < 3; ++round) {
-      w.scales.find(tolerance, z, w.rate, T(step));
-      step = step_of(expansion, w.scales.get());
-      if (!(step < most)) step = most;
-    }
-    return step;
-  }
-
-  // The step that the last two coefficients allow beside the scales; 0 where they are not finite, and the
-  // most there is where they vanish, since the solution then is a polynomial of a lower degree. A coordinate
-  // without a scale, in a group in which nothing moves, says nothing.
-  template <class T>
-  static double step_of(const TaylorExpansion<T>& expansion, std::span<const T> scales) {
-    for (const T& x : expansion.coefficients())  // since the largest of a degree says nothing of NaN
-      if (!isfinite(x)) return 0;
-    const std::size_t p = expansion.order(), n = scales.size();
-    double radius = std::numeric_limits<double>::max();
-    for (const std::size_t degree : {p - 1, p}) {
-      T largest(0);
-      for (std::size_t k = 0; k < n; ++k)
-        if (scales[k] > T(0))
-          largest = std::max(largest, T(abs(expansion.coefficients()[degree * n + k]) / scales[k]));
-      // In logarithms, since the coefficients of a fast motion in quad are beyond the range of doubles.
-      if (largest > T(0))
-        radius = std::min(radius, std::exp(-static_cast<double>(log(largest)) / static_cast<double>(degree)));
-    }
-    return radius * std::exp(-2 - 0.7 / static_cast<double>(p - 1));
+    const auto at_scales_of = [&](const T& step) {
+      w.scales.find(tolerance, z, w.rate, step);
+      const auto scales = w.scales.get();
+      std::copy(scales.begin(), scales.end(), w.sizes.begin());
+      return w.adaptive->step(limit, tolerance.relative, w.sizes);
+    };
+    if (w.last_step == T(0)) w.last_step = abs(at_scales_of(T(0)));
+    return at_scales_of(w.last_step);
   }
 };
 
