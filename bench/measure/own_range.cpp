@@ -28,7 +28,12 @@ class Descent {
     double now = begin, length = 0.1 / norm(slope);
     if (!std::isfinite(begin) || !std::isfinite(length)) return std::nullopt;
     for (int k = 0; k < most_steps; ++k) {
-      if (k > 0 && left(z, slope) <= precision * (begin - now)) return begin - now;
+      if (k > 0 && left(z, slope) <= precision * (begin - now)) {
+        if (!leave_saddle(z, sign, now - precision * (begin - now))) return begin - now;
+        slope = gradient(z, sign);
+        now = sign * value(z);
+        length = 0.1 / norm(slope);
+      }
       length = std::min(length, 1 / norm(slope));  // no step is longer than the motion
       double reached = now;
       for (int halving = 0; halving < 60; ++halving, length /= 2) {
@@ -68,6 +73,19 @@ class Descent {
       if (entries[e].output == output_)
         slope[entries[e].input] = sign * slopes[e] * extents_[entries[e].input];
     return slope;
+  }
+  // Moves z along one coordinate to where sign * output is below `lower`, which there is beside a saddle and
+  // not beside a minimum; false where there is no such place. A motion that starts at rest has no momenta to
+  // lead away from the one above it.
+  bool leave_saddle(std::vector<double>& z, double sign, double lower) {
+    for (std::size_t i = 0; i < z.size(); ++i)
+      for (const double part : {0.5, -0.5}) {
+        const double before = z[i];
+        z[i] += part * extents_[i];
+        if (sign * value(z) < lower) return true;
+        z[i] = before;
+      }
+    return false;
   }
   static double norm(const std::vector<double>& x) {
     double sum = 0;
