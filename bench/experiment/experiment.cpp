@@ -40,7 +40,8 @@ nlohmann::json description(const Experiment& experiment, const std::vector<Exper
     j["drift_classes"].push_back({{"name", entry.name},
                                   {"meaning", entry.meaning},
                                   {"measure", entry.measure},
-                                  {"grows", entry.grows}});
+                                  {"grows", entry.grows},
+                                  {"keeps", entry.keeps}});
   j["citation"] = nlohmann::json::array();
   for (const std::string& key : experiment.reference) j["citation"].push_back(citation(key));
   for (const ExperimentCase& c : experiment.cases) {

@@ -44,6 +44,8 @@ void DriftAccumulator::add(double t, double error) {
     return;
   }
   if (blocks_.size() == capacity_) {
+    starts_.emplace_back(blocks_.begin(),
+                         blocks_.begin() + std::ptrdiff_t(std::min(most_at_start, capacity_)));
     for (std::size_t i = 0; i < capacity_ / 2; ++i) blocks_[i] = merged(blocks_[2 * i], blocks_[2 * i + 1]);
     blocks_.resize(capacity_ / 2);
     block_length_ *= 2;
@@ -72,20 +74,19 @@ Drift DriftAccumulator::result(const RoundOff& round_off) const {
   drift.oscillation_rms =
       std::sqrt(std::max(moments_.error_error - line * moments_.time_error, 0.0) / double(samples_));
 
-  drift_rules::Observed observed{{},       values_, rises_, falls_, drift.maximum, drift.non_finite_time,
-                                 round_off};
+  drift_rules::Observed observed{
+      {}, starts_, values_, rises_, falls_, drift.maximum, drift.non_finite_time, round_off};
   if (samples_ > 1 && moments_.time_time > 0)
     observed.series = windows::on_scaled_time(blocks_, first_time_, last_time_);
   const drift_rules::Verdict verdict = drift_rules::judge(observed);
   drift.drift_class = verdict.drift_class;
   drift.evidence = verdict.evidence;
   drift.exponent = verdict.exponent;
-  const double span = observed.series.span;
-  const auto per_time = [span](const windows::Estimate& x) {
+  double span = observed.series.span;
+  const auto per_time = [&span](const windows::Estimate& x) {
     return windows::Estimate{x.value / span, std::min(x.low / span, x.high / span),
                              std::max(x.low / span, x.high / span)};
   };
-  if (verdict.rate) drift.rate = per_time(*verdict.rate);
   if (verdict.slope) {
     const windows::Estimate slope = per_time({verdict.slope->value, verdict.slope->low, verdict.slope->high});
     drift.slope = slope.value, drift.slope_low = slope.low, drift.slope_high = slope.high;
@@ -97,6 +98,13 @@ Drift DriftAccumulator::result(const RoundOff& round_off) const {
     below = std::min(below, block.minimum - trend);
   }
   drift.oscillation_amplitude = (above - below) / 2;
+  if (verdict.of_start) {
+    span = verdict.of_start->span;
+    const windows::Slope& s = verdict.of_start->slope;
+    const windows::Estimate slope = per_time({s.value, s.low, s.high});
+    drift.slope = slope.value, drift.slope_low = slope.low, drift.slope_high = slope.high;
+  }
+  if (verdict.rate) drift.rate = per_time(*verdict.rate);
   return drift;
 }
 

@@ -3,6 +3,8 @@
 // Input: e_k = I(t_k) - I(t_0), or the relative error if the caller prefers (slopes and amplitudes then have
 // its units), at times t_k that increase or decrease and are equally spaced or nearly so. Samples are
 // averaged in at most `capacity` blocks of equal length; when full, neighbours merge and the length doubles.
+// The first 128 blocks of each length are kept, so that what happens at the start of a run of any length is
+// seen in 64 blocks at least, or sample by sample.
 //
 // Numbers that need no model, from all samples:
 //     maximum = max |e_k|,   rms = sqrt(mean e_k^2),   final_value = the last e_k.
@@ -28,12 +30,20 @@
 
 namespace pfaff {
 
-/// What round-off means for a series.
+/// What round-off, and what loss, mean for a series.
 struct RoundOff {
-  double unit = 0;  // of the number format: 2^-53 in double, 2^-113 in quad
-  double scale =
-      0;  // of the quantity: the largest sum of the magnitudes of its terms, [e]; 0 where it is unknown
+  double unit = 0;   // of the number format: 2^-53 in double, 2^-113 in quad
+  double scale = 0;  // the largest sum of the magnitudes of the quantity's terms, [e]; 0 where it is unknown
   std::int64_t steps = 0;  // of the run
+  /// The largest sum_i |dI/dz_i z_i| of the quantity I in the state z, [e]: what the roundings of a step
+  /// change, in units of round-off (output_gradients.hpp). Where it is unknown, `scale` stands for it.
+  std::optional<double> propagated = std::nullopt;
+  /// How much of the quantity can be lost, [e]: its distance from the equilibrium, or |I(0)|. Where it is
+  /// unknown, `scale` stands for it.
+  std::optional<double> range = std::nullopt;
+
+  [[nodiscard]] double walk() const { return propagated.value_or(scale); }
+  [[nodiscard]] double own_range() const { return range.value_or(scale); }
 };
 
 /// Units: [e] of the errors, [t] of the times.
@@ -54,14 +64,15 @@ struct Drift {
 
   /// Linear trend and its 95 % interval, [e/t]. Below 32 samples the slope is that of least squares and the
   /// interval infinite (null in JSON); below 2 the slope is 0. For polynomial and exponential growth the
-  /// slope is a mean rate and the interval wide, because a line does not fit.
+  /// slope is a mean rate and the interval wide, because a line does not fit. Where the quantity is lost and
+  /// the class is that of a part of the run, so are slope, exponent and rate.
   double slope = 0, slope_low = 0, slope_high = 0;
 
   double oscillation_amplitude = 0;  // half peak-to-peak about the trend, [e]
   double oscillation_rms = 0;        // rms about the least-squares line, [e]; amplitude / sqrt(2) for a sine
 
-  /// Exponent of |e| ~ t^exponent and its interval: 0 for bounded errors, 1/2 for a random walk, both without
-  /// an interval; absent for other classes that do not grow as a power.
+  /// Exponent of |e| ~ t^exponent and its interval: 0 for bounded errors, without an interval; absent for
+  /// other classes that do not grow as a power.
   std::optional<windows::Estimate> exponent;
   /// lambda of |e| ~ exp(lambda t), [1/t], and its interval; only for exponential. Negative if time runs
   /// backwards.
@@ -74,7 +85,8 @@ class DriftAccumulator {
   /// `capacity`: most blocks kept, made even and at least 64.
   explicit DriftAccumulator(std::size_t capacity = 2048);
 
-  /// Takes the next sample, also one that is not finite. Allocates nothing, except in a copy.
+  /// Takes the next sample, also one that is not finite. Allocates where blocks merge, which is each time
+  /// that the number of samples has doubled, and in a copy.
   void add(double t, double error);
 
   [[nodiscard]] Drift result(const RoundOff& round_off = {}) const;
@@ -85,6 +97,9 @@ class DriftAccumulator {
   /// Most different values of which count is kept.
   static constexpr std::size_t most_values = 40;
 
+  /// Most blocks of each length that are kept of the start of a run.
+  static constexpr std::size_t most_at_start = 128;
+
  private:
   /// Sums about the means of all samples [welford1962].
   struct Moments {
@@ -93,7 +108,8 @@ class DriftAccumulator {
 
   std::size_t capacity_, block_length_ = 1;
   std::vector<windows::Block> blocks_;
-  std::vector<double> values_;  // different values, one more than most_values at most
+  std::vector<std::vector<windows::Block>> starts_;  // of shorter blocks, the shortest first
+  std::vector<double> values_;                       // different values, one more than most_values at most
   std::size_t samples_ = 0, non_finite_ = 0, rises_ = 0, falls_ = 0;
   double first_time_ = 0, last_time_ = 0, last_error_ = 0, non_finite_time_ = 0;
   Moments moments_;

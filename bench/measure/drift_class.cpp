@@ -10,25 +10,27 @@ namespace pfaff {
 
 const std::vector<DriftClassEntry>& drift_classes() {
   static const std::vector<DriftClassEntry> entries{
-      {DriftClass::exact, "exact", "every error is zero", "", false},
+      {DriftClass::exact, "exact", "every error is zero", "", false, true},
       {DriftClass::round_off, "round-off",
-       "the error is no larger than the roundings of as many steps add up to by chance", "max", false},
+       "the error is no larger than the roundings of as many steps add up to by chance", "max", false, true},
       {DriftClass::biased_round_off, "biased-round-off",
-       "roundings that add up in one direction, by less than one unit of round-off a step", "slope", true},
-      {DriftClass::bounded, "bounded", "noise or oscillation about one level, without a trend", "max", false},
+       "roundings that add up in one direction, by less than one unit of round-off a step", "slope", true,
+       false},
+      {DriftClass::bounded, "bounded", "noise or oscillation about one level, without a trend", "max", false,
+       true},
       {DriftClass::random_walk, "random-walk",
        "no trend, but the error wanders off with a power of time: the power 1/2 for independent roundings",
-       "exponent", true},
-      {DriftClass::linear, "linear", "a trend in proportion to time", "slope", true},
+       "exponent", true, false},
+      {DriftClass::linear, "linear", "a trend in proportion to time", "slope", true, false},
       {DriftClass::polynomial, "polynomial", "a trend that grows with a higher power of time", "exponent",
-       true},
+       true, false},
       {DriftClass::exponential, "exponential", "the error grows by the same factor in equal times", "max",
-       true},
+       true, false},
       {DriftClass::undetermined, "undetermined",
        "the samples do not tell: there are too few, one is not finite, or the error follows none of the "
        "other "
        "classes",
-       "max", false}};
+       "max", false, false}};
   return entries;
 }
 

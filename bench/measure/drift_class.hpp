@@ -27,6 +27,7 @@ struct DriftClassEntry {
   std::string_view meaning;  // what such an error does: a phrase for the report, without a full stop
   std::string_view measure;  // the drift number that says how much: max, slope or exponent; empty for none
   bool grows;                // true where such an error is larger at the end of a longer run
+  bool keeps;                // true where it is known not to be: of what is undetermined neither is known
 };
 
 /// Every class, from the one that keeps a quantity best to the one that loses it fastest; undetermined comes

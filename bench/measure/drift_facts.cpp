@@ -16,6 +16,10 @@ using windows::Shape;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t twentieths = 20;
+/// Shapes have the parameters of a grid: what they leave of the means is no smaller than this part of their
+/// range, in which a power between two of the grid would be taken for an oscillation. The slope of a line has
+/// no grid, and is as precise as the means.
+constexpr double shape_resolution = 2e-3;
 
 /// Least and largest of some values.
 struct Range {
@@ -100,6 +104,19 @@ void ranges_of(const Series& series, const std::vector<double>& means, Facts& fa
   facts.settled_range_of_means = settled_means.size();
 }
 
+/// How far the series is away from zero in its last eighth: the smallest window mean there. 0 where means are
+/// on both sides, or where a sample comes as near as `near`: an oscillation returns, what is lost does not.
+double away_at_last(const Series& series, const std::vector<double>& means, double near) {
+  const double side = means.back() > 0 ? 1 : -1;
+  double away = infinity, nearest = infinity;
+  for (std::size_t j = means.size() - means.size() / 8; j < means.size(); ++j)
+    away = std::min(away, side * means[j]);
+  for (std::size_t i = 0; i < series.blocks.size(); ++i)
+    if (series.s[i] > 0.875)
+      nearest = std::min(nearest, side > 0 ? series.blocks[i].minimum : -series.blocks[i].maximum);
+  return nearest > near ? std::max(away, 0.0) : 0;
+}
+
 /// The best trend and what it has to beat, with handicaps: a line is likelier than a power, and an
 /// exponential less likely; a smooth wander is taken for noise only where it is clearly better, since a power
 /// is smooth too.
@@ -119,7 +136,7 @@ void compare(const windows::Scores& scores, const Series& series, Facts& facts) 
       best = e;
     }
   facts.shape = best.shape;
-  facts.slope = scores.slope();
+  facts.arc = scores.arc();
   const Shape& shape = facts.shapes[facts.shape];
   const windows::Scores::Fit fit = scores.fit(best);
   facts.jump = std::abs(fit.shape * (shape(1) - shape(0)));
@@ -143,11 +160,12 @@ Facts facts_of(const Observed& observed) {
       series, facts.samples < few_samples ? windows::few_windows : windows::many_windows);
   const auto spreads = windows::over_windows(series, windows::few_windows);
   if (windows.mean.empty() || spreads.mean.empty()) return facts;
-  facts.means = true;
+  facts.means = windows.mean;
   const double resolution = observed.round_off.scale > 0
                                 ? 0.3 * observed.round_off.unit * observed.round_off.scale
                                 : std::numeric_limits<double>::epsilon() / 2 * observed.maximum;
-  compare(windows::Scores(windows.mean, resolution), series, facts);
+  facts.slope = windows::Scores(windows.mean, resolution, 0).slope();
+  compare(windows::Scores(windows.mean, resolution, shape_resolution), series, facts);
   ranges_of(series, windows.mean, facts);
   maxima_of(series, facts);
   facts.spreads = spreads.spread;
@@ -156,11 +174,8 @@ Facts facts_of(const Observed& observed) {
   facts.curve = facts.turns < 16 && !(facts.slowest >= 2);
   const auto steps = double(observed.rises + observed.falls);
   facts.one_sided = double(std::max(observed.rises, observed.falls)) >= 0.85 * steps;
-  const std::vector<double>& m = windows.mean;
-  const double half = 0.5 * observed.round_off.scale;
-  facts.lost = half > 0 && std::all_of(m.end() - std::ptrdiff_t(m.size() / 4), m.end(), [&](double x) {
-                 return std::abs(x) >= half && (x > 0) == (m.back() > 0);
-               });
+  if (const double range = observed.round_off.own_range(); range > 0)
+    facts.lost = away_at_last(series, windows.mean, 0.25 * range) / range;
   return facts;
 }
 

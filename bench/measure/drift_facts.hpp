@@ -10,14 +10,15 @@ namespace pfaff::drift_rules {
 /// Numbers about a series of at least 32 samples; scores are log evidences (window_scores.hpp).
 struct Facts {
   std::size_t samples = 0;
-  double maximum = 0;  // max |e|
-  bool means = false;  // there are window means; without them only what stands above this line is meant
+  std::vector<double> means;  // of the windows; where there are none, only `samples` is known
+  double maximum = 0;         // max |e|
   double white = 0, walk = 0, smooth = 0;
   std::vector<double> shape_scores;    // of every shape of the models
   std::vector<windows::Shape> shapes;  // the models' shapes
   windows::Slope slope;                // per unit of scaled time
   double trend = 0, noise = 0;         // scores with handicaps: of the best trend, of what it has to beat
   std::size_t shape = 0;               // of the best trend
+  double arc = 0;                      // score of the best arc of an oscillation
   double jump = 0, rest = 0;           // its change over the run, and half the range of e beside it
   double oscillation = 0;              // half the range of e beside the line
   double slowest = 0;                  // f, 0 for none
@@ -30,7 +31,7 @@ struct Facts {
   bool curve = false, one_sided = false;
   windows::ExponentialFit maxima;  // of twentieths
   std::vector<double> spreads;     // in few_windows windows
-  bool lost = false;               // at last half of the quantity or more is lost, on one side
+  double lost = 0;                 // share of the quantity's own range by which the last eighth is away
 
   [[nodiscard]] bool accepted() const { return trend > noise + 4; }
   [[nodiscard]] double evidence() const { return trend - noise; }

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include <pfaff/bench/measure/drift_facts.hpp>
+#include <pfaff/bench/measure/walk_exponent.hpp>
 
 namespace pfaff::drift_rules {
 
@@ -23,11 +24,9 @@ std::string told(const char* format, A... numbers) {
   return line.data();
 }
 
-Verdict undetermined(std::string evidence) {
-  return {DriftClass::undetermined, std::move(evidence), {}, {}, {}};
-}
+Verdict undetermined(std::string evidence) { return {DriftClass::undetermined, std::move(evidence)}; }
 Verdict bounded(std::string evidence) {
-  return {DriftClass::bounded, std::move(evidence), Estimate{0, 0, 0}, {}, {}};
+  return {DriftClass::bounded, std::move(evidence), Estimate{0, 0, 0}};
 }
 /// Bounded, unless the first half of the run covers less than half of the range.
 Verdict bounded_throughout(const Facts& facts, std::string evidence) {
@@ -36,14 +35,10 @@ Verdict bounded_throughout(const Facts& facts, std::string evidence) {
   return bounded(std::move(evidence));
 }
 Verdict of_power(const Estimate& exponent, std::string evidence) {
-  return {exponent.value > 1.3 ? DriftClass::polynomial : DriftClass::linear,
-          std::move(evidence),
-          exponent,
-          {},
-          {}};
+  return {exponent.value > 1.3 ? DriftClass::polynomial : DriftClass::linear, std::move(evidence), exponent};
 }
 Verdict of_rate(const Estimate& rate, std::string evidence) {
-  return {DriftClass::exponential, std::move(evidence), {}, rate, {}};
+  return {DriftClass::exponential, std::move(evidence), {}, rate};
 }
 
 /// The likelihood's interval of a rate, widened by a tenth on both sides: it does not know of the shape of a
@@ -58,21 +53,25 @@ Estimate rate_of_maxima(const Facts& facts) {
   return of_means && !rate.at_end ? widened(rate.estimate) : facts.maxima.rate;
 }
 
-std::optional<Verdict> round_off(const Observed& observed) {
-  const RoundOff& r = observed.round_off;
-  const double step = r.unit * r.scale;
-  if (!(step > 0)) return {};
-  const double walk = step * std::sqrt(double(std::max<std::int64_t>(r.steps, 1)));
-  if (observed.maximum <= 8 * walk)
-    return Verdict{
-        DriftClass::round_off, told("max is %.2g u|I| sqrt(steps)", observed.maximum / walk), {}, {}, {}};
-  const std::size_t n = observed.series.samples;
-  if (observed.values.size() > std::min<std::size_t>(n / 4, DriftAccumulator::most_values)) return {};
+/// What roundings can add up to: u times the terms once, for the evaluation, and u times what each step
+/// propagates, `steps` times.
+double allowance(const RoundOff& r, double steps) { return r.unit * (r.scale + steps * r.walk()); }
+
+/// The number of steps, or what a walk of as many comes to: 3 u a step reach 8 sqrt(N) u at 2.5 standard
+/// deviations.
+double steps_of(const RoundOff& r) { return double(std::max<std::int64_t>(r.steps, 1)); }
+double walk_of(const RoundOff& r) { return 8 * std::sqrt(steps_of(r)); }
+
+/// The number of different values of e where these are few and next to each other, as the roundings of an
+/// evaluation are; otherwise 0.
+std::size_t levels_of_rounding(const Observed& observed) {
+  const std::size_t n = observed.series.samples, count = observed.values.size();
+  if (count > std::min<std::size_t>(n / 4, DriftAccumulator::most_values)) return 0;
   std::vector<double> levels = observed.values;
   std::sort(levels.begin(), levels.end());
   for (std::size_t k = 1; k < levels.size(); ++k)
-    if (levels[k] - levels[k - 1] > 4 * step) return {};
-  return Verdict{DriftClass::round_off, told("%zu different values among %zu", levels.size(), n), {}, {}, {}};
+    if (levels[k] - levels[k - 1] > 4 * observed.round_off.unit * observed.round_off.scale) return 0;
+  return count;
 }
 
 /// Growth of the spread of e about its local mean; nothing where it does not grow or a trend hides it.
@@ -102,8 +101,8 @@ std::optional<Verdict> accepted_trend(const Facts& facts) {
   const std::string moves = told("moves by %.2g = %.2g x oscillation; log evidence %.2g", facts.jump,
                                  facts.jump / facts.rest, facts.evidence());
   const bool bent = facts.curve && facts.rest > (kind == Shape::Kind::line ? 0.12 : 0.03) * facts.jump;
-  if (kind == Shape::Kind::exponential) {
-    Parameter rate = parameter_of(facts, kind);
+  const Parameter rate = parameter_of(facts, Shape::Kind::exponential);
+  if (kind == Shape::Kind::exponential && rate.estimate.value >= 2) {
     if (rate.estimate.value > 16 && !facts.maxima.steady) return {};
     if (rate.at_end || (facts.curve && facts.maxima.scatter >= 0.25))
       return undetermined("grows like no power and no exponential; " + moves);
@@ -143,6 +142,9 @@ Verdict decide(const Facts& facts) {
     return undetermined(told("only %.3g periods of a slow oscillation", facts.slowest));
   const bool straight =
       facts.shape == 0 && facts.jump > 20 * facts.rest && facts.trend > std::max(facts.white, facts.walk) + 4;
+  if (facts.accepted() && facts.arc > facts.trend + 2)
+    return undetermined(
+        told("less than a period of a slow oscillation; log evidence %.2g", facts.arc - facts.trend));
   if (facts.accepted() || straight)
     if (auto verdict = accepted_trend(facts)) return *verdict;
   if (facts.range_of_means < 0.1 * facts.range)
@@ -167,11 +169,8 @@ Verdict decide(const Facts& facts) {
     return bounded_throughout(facts,
                               told("halves of the run share %.0f %% of the range", 100 * facts.shared));
   if (facts.walk >= facts.smooth - 2)
-    return {DriftClass::random_walk,
-            told("no trend; log evidence of a walk %.2g", facts.walk - facts.white),
-            Estimate{0.5, 0.5, 0.5},
-            {},
-            {}};
+    return {DriftClass::random_walk, told("no trend; log evidence of a walk %.2g", facts.walk - facts.white),
+            windows::walk_exponent(facts.means)};
   return undetermined("wanders smoothly: an oscillation that is longer than the run or a trend");
 }
 
@@ -179,20 +178,54 @@ bool is_trend(DriftClass c) {
   return c == DriftClass::linear || c == DriftClass::polynomial || c == DriftClass::exponential;
 }
 
-/// The series up to the block in which half of the quantity is lost.
-Observed until_half_is_lost(const Observed& observed) {
-  Observed part = observed;
-  const double half = 0.5 * observed.round_off.scale;
-  std::vector<windows::Block> blocks;
-  part.maximum = 0;
-  for (const windows::Block& block : observed.series.blocks) {
-    if (std::abs(block.mean) >= half) break;
-    blocks.push_back(block);
-    part.maximum = std::max({part.maximum, std::abs(block.minimum), std::abs(block.maximum)});
+/// The series up to the block whose mean is `limit` away, in the longest blocks of which there are 64, or in
+/// the shortest.
+Observed until_away_by(double limit, const Observed& observed) {
+  constexpr std::size_t enough = 64;
+  const auto away = [limit](const windows::Block& block) { return std::abs(block.mean) >= limit; };
+  const std::vector<windows::Block>* blocks = &observed.series.blocks;
+  auto end = std::find_if(blocks->begin(), blocks->end(), away);
+  for (auto start = observed.starts.rbegin();
+       start != observed.starts.rend() && std::size_t(end - blocks->begin()) < enough; ++start) {
+    blocks = &*start;
+    end = std::find_if(blocks->begin(), blocks->end(), away);
   }
-  part.series = blocks.size() < 2 ? windows::Series{}
-                                  : windows::on_scaled_time(blocks, blocks.front().time, blocks.back().time);
+  Observed part = observed;
+  std::vector<windows::Block> before(blocks->begin(), end);
+  part.maximum = 0;
+  for (const windows::Block& block : before)
+    part.maximum = std::max({part.maximum, std::abs(block.minimum), std::abs(block.maximum)});
+  const double first = before.empty() ? 0 : before.front().time,
+               last = before.empty() ? 0 : before.back().time;
+  part.series = before.size() < fewest_samples ? windows::Series{}
+                                               : windows::on_scaled_time(std::move(before), first, last);
   return part;
+}
+
+/// A quantity that is lost levels off, for which no method deserves the word bounded. What it did before
+/// tells: up to where half of it was lost, and where that is no trend, as of a loss that slows down, up to
+/// where a tenth was.
+Verdict of_lost(Verdict verdict, const Facts& facts, const Observed& observed) {
+  const std::string loses = told("loses %.3g %% of the quantity; ", 100 * facts.lost);
+  for (const auto& [share, words] : {std::pair{0.5, "until half of it "}, {0.1, "until a tenth of it "}}) {
+    const Observed before = until_away_by(share * observed.round_off.own_range(), observed);
+    if (before.series.samples < fewest_samples) continue;
+    Facts early = facts_of(before);
+    if (early.means.empty()) continue;
+    early.slowest = 0, early.arc = -HUGE_VAL;  // what is used up stays away: its curve is no arc
+    Verdict first = decide(early);
+    if (!is_trend(first.drift_class)) continue;
+    first.evidence = loses + words + first.evidence;
+    first.slope = verdict.slope;
+    first.of_start = StartOfRun{early.slope, before.series.span};
+    return first;
+  }
+  if (verdict.drift_class == DriftClass::bounded) {
+    verdict.drift_class = DriftClass::undetermined;
+    verdict.exponent.reset();
+  }
+  verdict.evidence = loses + verdict.evidence;
+  return verdict;
 }
 
 }  // namespace
@@ -204,45 +237,38 @@ Verdict judge(const Observed& observed) {
   if (series.samples < fewest_samples)
     return undetermined(told("%zu samples; %zu are needed", series.samples, fewest_samples));
   const Facts facts = facts_of(observed);
-  if (!facts.means) return undetermined("the samples are too uneven in time");
-  std::optional<Verdict> at_once = observed.non_finite_time ? std::nullopt : round_off(observed);
-  Verdict verdict = at_once ? *at_once : decide(facts);
-  verdict.slope = facts.slope;
-  if (at_once) return verdict;
+  if (facts.means.empty()) return undetermined("the samples are too uneven in time");
   const RoundOff& r = observed.round_off;
-  const double lost = r.scale > 0 ? observed.maximum / r.scale : 0;
-  if (observed.non_finite_time || (lost > 1000 && !is_trend(verdict.drift_class))) {
+  const bool rounded = r.unit > 0 && r.scale > 0 && !observed.non_finite_time;
+  const auto finished = [&](Verdict verdict) {
+    verdict.slope = facts.slope;
+    return verdict;
+  };
+  if (const double walk = rounded ? allowance(r, walk_of(r)) : 0; rounded && observed.maximum <= walk)
+    return finished({DriftClass::round_off,
+                     told("max is %.2g of what roundings may add up to", observed.maximum / walk)});
+  Verdict verdict = finished(decide(facts));
+  if (const std::size_t levels = rounded ? levels_of_rounding(observed) : 0;
+      levels > 0 && (levels <= 4 || !is_trend(verdict.drift_class)))
+    return finished({DriftClass::round_off, told("%zu different values among %zu", levels, series.samples)});
+  if (observed.non_finite_time || (facts.lost > 1000 && !is_trend(verdict.drift_class))) {
     // What blows up seldom does so at one rate: the rate is left out.
     verdict.drift_class = facts.maxima.growth > 1000 && facts.first_half < 0.5 ? DriftClass::exponential
                                                                                : DriftClass::undetermined;
     verdict.evidence = observed.non_finite_time
                            ? told("blows up: not finite from t = %.6g on", *observed.non_finite_time)
-                           : told("blows up: to %.2g times the quantity", lost);
+                           : told("blows up: to %.2g times the quantity", facts.lost);
     verdict.exponent.reset(), verdict.rate.reset();
     return verdict;
   }
-  if (r.unit > 0 && r.scale > 0 && is_trend(verdict.drift_class) &&
-      observed.maximum <= r.unit * r.scale * double(r.steps)) {
-    verdict.evidence = told("%.2g u|I| a step; ", observed.maximum / (r.unit * r.scale * double(r.steps))) +
+  if (const double biased = rounded ? allowance(r, steps_of(r)) : 0;
+      rounded && is_trend(verdict.drift_class) && observed.maximum <= biased) {
+    verdict.evidence = told("%.2g units of round-off a step; ", observed.maximum / biased) +
                        std::string(to_string(verdict.drift_class)) + ": " + verdict.evidence;
     verdict.drift_class = DriftClass::biased_round_off;
     return verdict;
   }
-  if (facts.lost && !is_trend(verdict.drift_class)) {
-    const Observed before = until_half_is_lost(observed);
-    std::string evidence = told("loses %.0f %% of the quantity; ", 100 * lost);
-    if (before.series.samples >= fewest_samples && before.series.blocks.size() >= fewest_samples) {
-      Facts early = facts_of(before);
-      early.slowest = 0;  // what is used up stays away: its curve is no arc of an oscillation
-      const Verdict first = early.means ? decide(early) : undetermined("");
-      if (is_trend(first.drift_class)) {
-        verdict.drift_class = first.drift_class;
-        verdict.evidence = evidence + "until half of it " + first.evidence;
-        verdict.exponent = first.exponent;
-        return verdict;
-      }
-    }
-  }
+  if (facts.lost >= 0.5 && !is_trend(verdict.drift_class)) return of_lost(verdict, facts, observed);
   return verdict;
 }
 

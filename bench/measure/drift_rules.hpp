@@ -61,7 +61,9 @@ namespace pfaff::drift_rules {
 
 /// What is known of a series.
 struct Observed {
-  windows::Series series;      // on scaled time; without blocks where there are less than two samples
+  windows::Series series;  // on scaled time; without blocks where there are less than two samples
+  /// The start of the series in blocks that are shorter, the shortest first.
+  std::vector<std::vector<windows::Block>> starts;
   std::vector<double> values;  // the different values, as many as are kept
   std::size_t rises = 0, falls = 0;
   double maximum = 0;  // max |e|
@@ -69,12 +71,19 @@ struct Observed {
   RoundOff round_off;
 };
 
-/// Slope and rate are per unit of scaled time.
+/// The part of a run before a quantity was lost: its slope per unit of scaled time, and that in time.
+struct StartOfRun {
+  windows::Slope slope;
+  double span = 1;
+};
+
+/// Slope and rate are per unit of scaled time: the rate per unit of that of the start, where there is one.
 struct Verdict {
   DriftClass drift_class = DriftClass::undetermined;
   std::string evidence;
-  std::optional<windows::Estimate> exponent, rate;
-  std::optional<windows::Slope> slope;
+  std::optional<windows::Estimate> exponent = {}, rate = {};
+  std::optional<windows::Slope> slope = {};
+  std::optional<StartOfRun> of_start = {};
 };
 
 Verdict judge(const Observed& observed);

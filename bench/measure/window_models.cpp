@@ -1,5 +1,6 @@
 #include <pfaff/bench/measure/window_models.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -136,8 +137,9 @@ std::vector<Vector> raw_columns(const WindowModels& models, const WindowMatrix& 
 
 Covariance seen_through(Noise noise, const WindowMatrix& c, const std::vector<Vector>& raw) {
   const std::size_t n = c.rows;
-  Covariance result{noise, 0, {}, {}, 0, {}, {}, {}};
+  Covariance result{noise, 0, 0, {}, {}, 0, {}, {}, {}};
   result.whitener = whitener_of(c, result.log_determinant);
+  result.stiffness = dot(result.whitener.data(), result.whitener.data(), n * n);
   result.constant = times(result.whitener, Vector(n, 1.0));
   result.constant_norm = std::sqrt(dot(result.constant.data(), result.constant.data(), n));
   for (double& x : result.constant) x /= result.constant_norm;
@@ -156,13 +158,15 @@ Covariance seen_through(Noise noise, const WindowMatrix& c, const std::vector<Ve
 }
 
 WindowModels make_models(std::size_t windows) {
-  WindowModels models{windows, {}, {}, {}};
+  WindowModels models{windows, {}, {}, 0, {}};
   models.shapes.push_back({Shape::Kind::line, 1});
   for (std::size_t k = 0; k < power_count; ++k)
-    models.shapes.push_back({Shape::Kind::power, std::pow(power_ratio, double(k) - 8)});
+    models.shapes.push_back({Shape::Kind::power, std::pow(power_ratio, double(k) - 16)});
   for (std::size_t k = 0; k < exponential_count; ++k)
-    models.shapes.push_back({Shape::Kind::exponential, 2 * std::pow(exponential_ratio, double(k))});
+    models.shapes.push_back({Shape::Kind::exponential, 2 * std::pow(exponential_ratio, double(k) - 12)});
   const double fastest = windows == few_windows ? 6 : 12;
+  for (double frequency = 0.25; frequency < 1; frequency += 0.125) models.frequencies.push_back(frequency);
+  models.arcs = models.frequencies.size();
   for (double frequency = 1; frequency <= fastest; frequency += 0.25) models.frequencies.push_back(frequency);
 
   const WindowMatrix f = filter(windows), summed = of_running_sum(f);
@@ -175,6 +179,8 @@ WindowModels make_models(std::size_t windows) {
   for (const double share : {0.0, 0.8, 0.96}) add(Noise::white, mixed(share, white, blue));
   for (int k = 0; k < 10; ++k) add(Noise::walk, mixed(0.02 * std::pow(50.0, double(k) / 9), white, walk));
   for (const double share : {0.5, 0.8, 0.95, 0.99, 1.0}) add(Noise::smooth, mixed(share, white, smooth));
+  const double of_white = models.covariances.front().stiffness;
+  for (Covariance& c : models.covariances) c.stiffness = std::max(1.0, c.stiffness / of_white);
   return models;
 }
 

@@ -36,6 +36,7 @@ struct Shape {
 struct Covariance {
   Noise noise;
   double log_determinant;        // of C
+  double stiffness;              // the trace of its inverse over that of white noise, at least 1
   std::vector<double> whitener;  // the inverse of L, row by row
   std::vector<double> constant;  // the whitened constant, of unit length
   double constant_norm;          // the length of it before
@@ -48,7 +49,8 @@ struct Covariance {
 struct WindowModels {
   std::size_t windows;
   std::vector<Shape> shapes;        // columns 0 .. shapes.size() - 1: the line, the powers, the exponentials
-  std::vector<double> frequencies;  // then a cosine and a sine for each, in periods a run
+  std::vector<double> frequencies;  // then a cosine and a sine for each, in periods a run, rising
+  std::size_t arcs;                 // how many of the frequencies are below one period a run
   std::vector<Covariance> covariances;
 
   [[nodiscard]] std::size_t column_count() const { return shapes.size() + 2 * frequencies.size(); }
@@ -56,8 +58,8 @@ struct WindowModels {
 };
 
 inline constexpr std::size_t few_windows = 15, many_windows = 31;
-inline constexpr std::size_t power_count = 33, exponential_count = 27;
-inline constexpr double power_ratio = 1.08, exponential_ratio = 1.12;
+inline constexpr std::size_t power_count = 65, exponential_count = 39;
+inline constexpr double power_ratio = 1.04, exponential_ratio = 1.12;
 
 /// The models for few_windows or many_windows.
 const WindowModels& window_models(std::size_t windows);

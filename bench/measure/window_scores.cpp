@@ -54,7 +54,8 @@ void solve(std::vector<double>& a, std::vector<double>& b) {
 
 }  // namespace
 
-Scores::Scores(const std::vector<double>& means, double resolution) : models_(window_models(means.size())) {
+Scores::Scores(const std::vector<double>& means, double resolution, double shape_resolution)
+    : models_(window_models(means.size())), shape_square_(shape_resolution * shape_resolution) {
   const std::size_t n = means.size(), columns = models_.column_count();
   const auto [low, high] = std::minmax_element(means.begin(), means.end());
   scale_ = *high > *low ? *high - *low : 1;
@@ -82,8 +83,8 @@ Scores::Scores(const std::vector<double>& means, double resolution) : models_(wi
     const double before = best();
     double top = -infinity;
     std::size_t line = 0;
-    for (std::size_t f = 0; f < models_.frequencies.size(); ++f)
-      if (const double with = best_with_line(f); with > top) top = with, line = f;
+    for (std::size_t f = models_.arcs; f < models_.frequencies.size(); ++f)
+      if (const double with = best_with_line(f, true); with > top) top = with, line = f;
     if (!(top > before + line_gain)) break;
     join(line);
     rank_explanations();
@@ -92,7 +93,9 @@ Scores::Scores(const std::vector<double>& means, double resolution) : models_(wi
 
 double Scores::score(std::size_t covariance, double square, double parameters) const {
   const double b = double(models_.windows);
-  const double v = std::max(square / b, least_square_of(covariance));
+  // White noise of the shapes' resolution is a part of every covariance, also of one that has none.
+  const double v = std::max(
+      {square / b, least_square_of(covariance), shape_square_ * models_.covariances[covariance].stiffness});
   return -0.5 * models_.covariances[covariance].log_determinant - 0.5 * b * std::log(v) -
          0.5 * std::max(square, 0.0) / v - 0.5 * std::log(b) * (parameters + total_);
 }
@@ -141,7 +144,7 @@ double Scores::best() const {
 }
 
 // Every second power and every third exponential are tried beside a new line; all of them once it has joined.
-double Scores::best_with_line(std::size_t frequency) const {
+double Scores::best_with_line(std::size_t frequency, bool beside_shapes) const {
   const std::size_t columns = models_.column_count(), c = models_.cosine(frequency), s = c + 1;
   double top = -infinity;
   for (std::size_t k = 0; k < seen_.size(); ++k) {
@@ -156,8 +159,8 @@ double Scores::best_with_line(std::size_t frequency) const {
     const double yc = seen.data[c], ys = seen.data[s], square = seen.square - taken(yc, ys, yc, ys);
     const Noise noise = models_.covariances[k].noise;
     const double parameters = walk_parameter(noise) + line_parameters;
-    top = std::max(top, score(k, square, parameters));
-    if (noise == Noise::smooth) continue;
+    if (beside_shapes || noise != Noise::smooth) top = std::max(top, score(k, square, parameters));
+    if (!beside_shapes || noise == Noise::smooth) continue;
     for (std::size_t a = 0; a<models_.shapes.size(); a += a> power_count ? 3 : (a == 0 ? 1 : 2)) {
       const double xc = product(a, c), xs = product(a, s);
       const double pivot = product(a, a) - taken(xc, xs, xc, xs);
@@ -167,6 +170,12 @@ double Scores::best_with_line(std::size_t frequency) const {
           std::max(top, score(k, square - xy * xy / pivot, parameters + shape_parameters(models_.shapes[a])));
     }
   }
+  return top;
+}
+
+double Scores::arc() const {
+  double top = -infinity;
+  for (std::size_t f = 0; f < models_.arcs; ++f) top = std::max(top, best_with_line(f, false));
   return top;
 }
 

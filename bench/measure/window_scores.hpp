@@ -41,8 +41,8 @@ struct Slope {
 class Scores {
  public:
   /// `means`: those of few_windows or many_windows; `resolution` > 0: the size below which nothing counts as
-  /// evidence.
-  Scores(const std::vector<double>& means, double resolution);
+  /// evidence; `shape_resolution`: the same, as a part of the range of the means.
+  Scores(const std::vector<double>& means, double resolution, double shape_resolution);
 
   /// The best explanation without a trend, by kind of noise.
   [[nodiscard]] const Explanation& without_trend(Noise noise) const { return plain_[std::size_t(noise)]; }
@@ -50,6 +50,8 @@ class Scores {
   [[nodiscard]] const Explanation& with_trend(Shape::Kind kind) const { return trend_[std::size_t(kind)]; }
   /// The best score of every shape, in the order of the models.
   [[nodiscard]] const std::vector<double>& shape_scores() const { return shape_scores_; }
+  /// The best score of an arc, of less than one period of an oscillation, in white noise or a walk.
+  [[nodiscard]] double arc() const;
   /// The slow lines that joined: their frequencies in periods a run.
   [[nodiscard]] std::vector<double> frequencies() const;
   [[nodiscard]] const WindowModels& models() const { return models_; }
@@ -78,10 +80,11 @@ class Scores {
   [[nodiscard]] double least_square_of(std::size_t covariance) const;
   void rank_explanations();
   [[nodiscard]] double best() const;
-  [[nodiscard]] double best_with_line(std::size_t frequency) const;
+  [[nodiscard]] double best_with_line(std::size_t frequency, bool beside_shapes) const;
   void join(std::size_t frequency);
 
   const WindowModels& models_;
+  double shape_square_;
   double scale_ = 1, least_square_ = 0, total_ = 0;  // unit of the data; smallest v; parameters of the lines
   std::vector<Seen> seen_;
   std::vector<std::size_t> joined_;  // slow lines, as indices of frequencies

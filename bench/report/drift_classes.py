@@ -17,6 +17,7 @@ class DriftClass:
     meaning: str
     measure: str  # which of SIZES says how much a quantity drifts; empty for none
     grows: bool  # whether such an error is larger at the end of a longer run
+    keeps: bool  # whether it is known not to be
 
 
 def read(entries):
@@ -24,13 +25,14 @@ def read(entries):
     classes = {}
     for i, entry in enumerate(entries):
         where = f"experiment.json, drift class {i + 1}"
-        require(entry, where, name=str, meaning=str, measure=str, grows=bool)
+        require(entry, where, name=str, meaning=str, measure=str, grows=bool, keeps=bool)
         if entry["measure"] and entry["measure"] not in SIZES:
             raise InputError(f"{where}: expected 'measure' to be empty or one of {', '.join(SIZES)}, got "
                              f"'{entry['measure']}'")
         if entry["name"] in classes:
             raise InputError(f"experiment.json: drift class '{entry['name']}' appears 2 times, expected once")
-        classes[entry["name"]] = DriftClass(entry["name"], entry["meaning"], entry["measure"], entry["grows"])
+        classes[entry["name"]] = DriftClass(entry["name"], entry["meaning"], entry["measure"], entry["grows"],
+                                            entry["keeps"])
     return classes
 
 

@@ -241,8 +241,14 @@ def drifting(verdict):
         return ""
     out = trends(verdict)
     begin = f"At equal cost, {with_work(verdict, verdict.level)}, " if verdict.level > 0 else ""
-    quiet = [r for r in verdict.rows if r.curve.kept is False and r.drift_class and not verdict.loses(r)]
-    said = [begin + (out or f"no method lets {quantity(verdict)} drift away") + "."]
+    quiet = [r for r in verdict.rows if r.curve.kept is False and r.drift_class and not verdict.loses(r)
+             and not verdict.untold(r)]
+    untold = [r for r in verdict.rows if verdict.untold(r)]
+    nobody = f"no method {'is seen to let' if untold else 'lets'} {quantity(verdict)} drift away"
+    said = [begin + (out or nobody) + "."]
+    if untold:
+        said.append(f"Whether {some(untold)} {'does' if len(untold) == 1 else 'do'} is "
+                    f"{listed(text(k) for k in dict.fromkeys(r.drift_class for r in untold))}.")
     if quiet:
         said.append(f"{some(quiet)} {'does' if len(quiet) == 1 else 'do'} not keep the structure but "
                     f"{'shows' if len(quiet) == 1 else 'show'} no trend.")

@@ -133,6 +133,12 @@ class Verdict:
         classes = self.experiment.drift_classes
         return bool(row.drift_class) and self.expected not in DIRECTIONS and classes[row.drift_class].grows
 
+    def untold(self, row):
+        """Whether it is not known if the conserved quantity drifts away at equal cost."""
+        classes = self.experiment.drift_classes
+        return (bool(row.drift_class) and self.expected not in DIRECTIONS and not classes[row.drift_class].grows
+                and not classes[row.drift_class].keeps)
+
     @property
     def structured(self):
         return any(r.curve.kept is not None for r in self.rows)

@@ -11,6 +11,8 @@
 #include <pfaff/bench/measure/constraints.hpp>
 #include <pfaff/bench/measure/growth.hpp>
 #include <pfaff/bench/measure/history.hpp>
+#include <pfaff/bench/measure/output_gradients.hpp>
+#include <pfaff/bench/measure/own_range.hpp>
 #include <pfaff/bench/measure/rank_watch.hpp>
 #include <pfaff/bench/measure/setback.hpp>
 #include <pfaff/bench/measure/structure.hpp>
@@ -50,6 +52,35 @@ class WatchedError {
   double largest_ = 0, last_ = 0;
 };
 
+/// What roundings do to the outputs of a tape along a run: the magnitudes of their terms, and what steps
+/// propagate of the roundings of the state, where that is not too dear to find.
+class RoundingSizes {
+ public:
+  explicit RoundingSizes(std::shared_ptr<const Tape> tape) : terms_(tape) {
+    if (OutputGradients::applies(*tape)) propagated_.emplace(*tape);
+  }
+  void add(double t, const std::vector<double>& z) {
+    terms_.add(t, z);
+    if (propagated_) propagated_->add(t, z);
+  }
+  [[nodiscard]] const std::vector<double>& terms() const { return terms_.largest(); }
+  /// Of the outputs first, first + stride, ...: the largest of each.
+  [[nodiscard]] RoundOff largest(double unit, std::int64_t steps, std::size_t first,
+                                 std::size_t stride) const {
+    RoundOff result{unit, 0, steps};
+    if (propagated_) result.propagated = 0;
+    for (std::size_t k = first; k < terms().size(); k += stride) {
+      result.scale = std::max(result.scale, terms()[k]);
+      if (propagated_) result.propagated = std::max(*result.propagated, propagated_->largest()[k]);
+    }
+    return result;
+  }
+
+ private:
+  TermMagnitudes terms_;
+  std::optional<PropagatedRoundings> propagated_;
+};
+
 /// Measures a run computed in the scalar T as it goes, into `record`.
 template <class T>
 class Observer {
@@ -70,7 +101,8 @@ class Observer {
     if (run.settings.structure_residuals && StructureResidual<T>::applies(*run.model) && !run.adaptive() &&
         run.model->dimension() <= most_differentiated_in_runs && !remembers(run))
       residual_.emplace(*run.method, run.model);
-    if (!values_.empty()) magnitudes_.emplace(run.model->tape(Formula::invariants));
+    if (!values_.empty()) roundings_.emplace(run.model->tape(Formula::invariants));
+    if (run.model->restricted()) constraint_roundings_.emplace(run.model->tape(Formula::constraints));
     if (reference != nullptr && changes(run)) exact_.emplace(run.model);
     drift_.resize(values_.size());
     constraint_drift_.resize(constraint_residual_names(*run.model).size());
@@ -119,11 +151,18 @@ class Observer {
       record_.samples.front().invariant_errors.clear();
     }
     const double unit = std::is_same_v<T, Quad> ? 0x1p-113 : 0x1p-53;
-    if (magnitudes_) record_.scales = magnitudes_->largest();
-    for (std::size_t i = 0; i < drift_.size(); ++i)
-      record_.drift.push_back(drift_[i].result({unit, record_.scales[i], record_.completed}));
+    const std::vector<double> ranges = ranges_of_invariants();
+    for (std::size_t i = 0; i < drift_.size(); ++i) {
+      RoundOff round_off = roundings_->largest(unit, record_.completed, i, drift_.size());
+      if (i < ranges.size()) round_off.range = ranges[i];
+      record_.drift.push_back(drift_[i].result(round_off));
+      record_.round_off.push_back(round_off);
+    }
     for (const Setback<T>& s : setbacks_) record_.setback.push_back(s.largest());
-    for (const WatchedError& d : constraint_drift_) record_.constraints.push_back(d.result({}));
+    // Constraints and hidden ones stand by turns.
+    for (std::size_t i = 0; i < constraint_drift_.size(); ++i)
+      record_.constraints.push_back(constraint_drift_[i].result(
+          constraint_roundings_->largest(unit, record_.completed, i, constraint_drift_.size())));
     std::vector<double> times, values;
     for (const Sample& sample : record_.samples)
       times.push_back(static_cast<double>(sample.t - run_.t0.quad()));
@@ -169,10 +208,11 @@ class Observer {
                   {},
                   {},
                   {}};
-    if (magnitudes_) {
-      for (std::size_t k = 0; k < z.size(); ++k) in_double_[k] = static_cast<double>(z[k]);
-      magnitudes_->add(static_cast<double>(t), in_double_);
-    }
+    for (std::size_t k = 0; k < z.size(); ++k) in_double_[k] = static_cast<double>(z[k]);
+    for (auto* roundings : {&roundings_, &constraint_roundings_})
+      if (*roundings) (*roundings)->add(static_cast<double>(t), in_double_);
+    if (record_.samples.empty()) first_state_ = in_double_;
+    if (record_.samples.empty() && roundings_) first_terms_ = roundings_->terms();
     std::string not_finite;
     if (reference_ != nullptr && reference_->covers(exact_time)) {
       ++compared_;
@@ -199,6 +239,25 @@ class Observer {
     }
     record_.samples.push_back(std::move(sample));
     return not_finite;
+  }
+  // What there is of each invariant to lose; the extents are those of the first tenth of the motion, since
+  // what is lost or blows up changes them.
+  [[nodiscard]] std::vector<double> ranges_of_invariants() const {
+    if (record_.samples.empty() || !roundings_) return {};
+    const Sample& first = record_.samples.front();
+    StartOfMotion start{static_cast<double>(first.t),
+                        first_state_,
+                        std::vector<double>(first_state_.size()),
+                        {},
+                        first_terms_};
+    for (const Quad& value : first.invariants) start.values.push_back(static_cast<double>(value));
+    const std::size_t early =
+        std::min(record_.samples.size(), std::max<std::size_t>(8, record_.samples.size() / 10));
+    for (std::size_t k = 0; k < early; ++k)
+      for (std::size_t i = 0; i < start.extents.size(); ++i)
+        start.extents[i] =
+            std::max(start.extents[i], std::abs(static_cast<double>(record_.samples[k].state[i])));
+    return own_ranges(*run_.model, start);
   }
   static void worst(std::optional<double>& slot, double value) {
     if (!slot || value > *slot) slot = value;
@@ -233,9 +292,10 @@ class Observer {
   RankWatch<T> rank_;
   StepperPointer<T> apart_;  // for steps that are not the run's own
   bool singular_ = false;
-  std::optional<TermMagnitudes> magnitudes_;
+  std::optional<RoundingSizes> roundings_, constraint_roundings_;  // of invariants, and of constraints
   std::vector<T> values_, initial_, residuals_;
-  std::vector<double> in_double_;  // the state
+  std::vector<double> in_double_, first_state_;  // the state
+  std::vector<double> first_terms_;              // of the invariants: the magnitudes of their terms at first
   std::vector<Setback<T>> setbacks_;
   std::vector<WatchedError> drift_, constraint_drift_;
 };

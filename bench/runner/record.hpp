@@ -37,8 +37,8 @@ struct RunRecord {
   std::vector<Sample> samples;
   std::vector<Drift>
       drift;  // of every invariant, in the model's order; meaningful for those expected to be conserved
-  std::vector<double> scales;      // of the invariants: the largest sums of the magnitudes of their terms
-  std::vector<Drift> constraints;  // of the residuals, in the order of constraint_residual_names
+  std::vector<RoundOff> round_off;            // of the invariants: what round-off and loss mean for them
+  std::vector<Drift> constraints;             // of the residuals, in the order of constraint_residual_names
   std::vector<std::optional<Growth>> growth;  // of the same residuals
   std::vector<double> setback;  // the largest move of each invariant against its expected direction
   std::optional<double> error_max, error_final, structure_residual;

@@ -139,7 +139,9 @@ nlohmann::json summary(const ResolvedRun& run, const RunRecord& record) {
       entry["rate_interval"] = interval_of(d.rate);
       entry["class"] = to_string(d.drift_class);
       entry["evidence"] = d.evidence;
-      entry["scale"] = record.scales[i];
+      entry["scale"] = record.round_off[i].scale;
+      entry["propagated"] = optional(record.round_off[i].propagated);
+      entry["range"] = optional(record.round_off[i].range);
       entry["samples"] = d.samples;
     } else if (const auto words = setback_words(invariant.behaviour)) {
       entry[setback_key(*words)] = record.setback[i];

@@ -22,11 +22,11 @@ COLUMNS = ("case,system,method,integrator,parameters,step,time,steps,precision,s
            "structure_residual,rhs_per_step,jacobians_per_step,iterations_per_step,factorisations_per_step").split(",")
 U = 2.0**-53
 # Classes of drift of a program that nobody has written: the report knows those that experiment.json lists, no others.
-CLASSES = [{"name": "still", "meaning": "does not move & never will", "measure": "", "grows": False},
-           {"name": "near", "meaning": "stays near", "measure": "max", "grows": False},
-           {"name": "drifting", "meaning": "drifts along", "measure": "slope", "grows": True},
-           {"name": "spread-out", "meaning": "spreads out", "measure": "exponent", "grows": True},
-           {"name": "unused", "meaning": "is in no run", "measure": "max", "grows": False}]
+CLASSES = [{"name": "still", "meaning": "does not move & never will", "measure": "", "grows": False, "keeps": True},
+           {"name": "near", "meaning": "stays near", "measure": "max", "grows": False, "keeps": True},
+           {"name": "drifting", "meaning": "drifts along", "measure": "slope", "grows": True, "keeps": False},
+           {"name": "spread-out", "meaning": "spreads out", "measure": "exponent", "grows": True, "keeps": False},
+           {"name": "unused", "meaning": "is in no run", "measure": "max", "grows": False, "keeps": False}]
 
 
 def synthetic(folder, steps=(0.4, 0.2, 0.1), extra_methods=0):

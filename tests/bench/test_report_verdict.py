@@ -297,6 +297,23 @@ class Said(Fresh):
         for told in ("are cheapest, 16 µs", "At equal cost, 10 µs", "Holds for Oscillator to t = 40 s"):
             self.assertIn(told, head)
 
+    def test_no_method_keeps_a_quantity_of_which_it_is_not_known(self):
+        synthetic(self.folder)
+
+        def told():
+            return wording.plain_text(sentence.drifting(self.verdict()))
+        self.edit("results.csv", "energy:class", lambda x: "near" if x else x)
+        self.assertIn("no method lets the energy drift away.", told())
+        self.edit("results.csv", "energy:class", lambda x: "unused" if x else x, lambda row: row[2] == "rk")
+        said = told()
+        self.assertNotIn("no method lets", said)
+        self.assertIn("no method is seen to let the energy drift away. Whether rk does is unused.", said)
+        self.assertNotIn("rk does not keep the structure but shows no trend", said)
+        # What others are known to do is said beside it.
+        self.edit("results.csv", "energy:class", lambda x: "drifting" if x else x, lambda row: row[2] == "bad")
+        said = told()
+        self.assertIn("bad lets the energy drift (drifting). Whether rk does is unused.", said)
+
     def test_every_class_stands_in_the_table(self):
         synthetic(self.folder)
         for name in [c["name"] for c in json.loads((self.folder / "experiment.json").read_text())["drift_classes"]]:
