@@ -140,7 +140,7 @@ std::vector<const ExperimentRun*> runs_with_automatic_steps(const std::vector<Ex
 }
 
 std::string step_of_count(const ExperimentRun& run, std::int64_t count) {
-  return as_text(run.resolved.time.value() / static_cast<double>(count), "%.12g");
+  return formatted("%.12g", run.resolved.time.value() / static_cast<double>(count));
 }
 
 std::optional<std::vector<std::vector<std::int64_t>>> automatic_step_counts(
@@ -167,7 +167,7 @@ std::optional<std::vector<std::vector<std::int64_t>>> automatic_step_counts(
     counts[k] = step_counts(trial, evaluations);
     if (counts[k].empty() && !stopped())
       throw InputError(experiment.name + ", case " + like.which->name + ", method " + like.method->label +
-                       ": key 'evaluations': " + as_text(evaluations, "%.6g") +
+                       ": key 'evaluations': " + formatted("%.6g", evaluations) +
                        " are too few to choose steps by; expected more");
   });
   if (stopped()) return std::nullopt;

@@ -1,7 +1,7 @@
 // Timing of runs. What has been timed is kept in cost.csv from one call to the next.
 #include <pfaff/bench/experiment/costs.hpp>
 
-#include <cstdlib>
+#include <charconv>
 #include <sstream>
 
 #include <pfaff/bench/experiment/cells.hpp>
@@ -38,9 +38,11 @@ std::string costs_csv(const std::vector<ExperimentRun>& runs, const Costs& costs
 }
 // A row of cost.csv whose numbers begin at `begin`.
 CostRow row_of(const std::string& line, std::size_t begin) {
-  char* end = nullptr;
-  const double median = std::strtod(line.c_str() + begin, &end);
-  return {line, median, *end == ',' ? std::strtod(end + 1, nullptr) : median};
+  const char* const last = line.data() + line.size();
+  double median = 0, minimum = 0;
+  const char* const end = std::from_chars(line.data() + begin, last, median).ptr;
+  const bool two = end != last && std::from_chars(end + 1, last, minimum).ec == std::errc();
+  return {line, median, two ? minimum : median};
 }
 }  // namespace
 
@@ -99,9 +101,9 @@ bool write_costs(const fs::path& directory, const std::vector<ExperimentRun>& ru
     if (run.seed > 1 || costs.contains(key)) continue;
     timed = true;
     const StepTime time = time_steps(run.resolved, seconds);
-    costs[key].text = key + "," + as_text(time.median, "%.6g") + "," + as_text(time.minimum, "%.6g") + "," +
-                      as_text(time.maximum, "%.6g") + "," + std::to_string(time.repetitions) + "," +
-                      as_text(time.seconds, "%.4g") + "," + csv_quoted(host_name());
+    costs[key].text = key + "," + formatted("%.6g", time.median) + "," + formatted("%.6g", time.minimum) +
+                      "," + formatted("%.6g", time.maximum) + "," + std::to_string(time.repetitions) + "," +
+                      formatted("%.4g", time.seconds) + "," + csv_quoted(host_name());
     write_file(
         path,
         costs_csv(runs, costs));  // after each run, so that no timing is lost when the program is killed
