@@ -7,6 +7,7 @@
 
 #include <pfaff/app/command.hpp>
 #include <pfaff/core/errors/errors.hpp>
+#include <pfaff/core/numbers/formatted.hpp>
 
 namespace pfaff::app {
 
@@ -84,7 +85,7 @@ std::string reply_in_bash(const Values& values) {
 }
 
 std::string bash_completion(const CLI::App& app) {
-  std::ostringstream script;
+  TextStream script;
   script << "# bash completion for pfaff, as `pfaff completion bash` prints it\n"
             "_pfaff() {\n"
             "  local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]} words='' at=0 k\n"
@@ -171,7 +172,7 @@ std::string action_in_zsh(const Values& values) {
 }
 
 std::string zsh_completion(const CLI::App& app) {
-  std::ostringstream script;
+  TextStream script;
   script << "#compdef pfaff\n"
             "# zsh completion for pfaff, as `pfaff completion zsh` prints it\n"
             "_pfaff_names() {\n"

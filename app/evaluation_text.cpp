@@ -1,10 +1,11 @@
 #include <pfaff/app/evaluation_text.hpp>
 
-#include <cstdio>
-#include <cstdlib>
+#include <limits>
 #include <vector>
 
 #include <pfaff/app/terminal.hpp>
+#include <pfaff/core/numbers/formatted.hpp>
+#include <pfaff/core/numbers/quad.hpp>
 
 namespace pfaff::app {
 
@@ -12,13 +13,16 @@ namespace {
 using nlohmann::json;
 using Rows = TableRows;
 
+// What a text of this program says; NaN where it is no number, as "nan" and "-".
+double number_in(const std::string& text) {
+  Quad x;
+  return parse(text, x) ? static_cast<double>(x) : std::numeric_limits<double>::quiet_NaN();
+}
+
 std::string shown_value(const json& value) {
   if (value.is_null()) return "-";
-  const double x =
-      value.is_string() ? std::strtod(value.get<std::string>().c_str(), nullptr) : value.get<double>();
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", x + 0.0);  // adding 0 turns -0 into 0
-  return text;
+  const double x = value.is_string() ? number_in(value.get<std::string>()) : value.get<double>();
+  return formatted("%.6g", x + 0.0);  // adding 0 turns -0 into 0
 }
 std::string joined(const json& list) {
   std::string text;
@@ -112,7 +116,7 @@ void add_bracket_facts(const json& bracket, Rows& facts) {
       {"Jacobi", "largest sum " + shown_value(jacobiator["value"]) + ", of " + joined(jacobiator["of"])});
   if (bracket["flow_difference"].is_null()) return;
   const std::string difference = shown_value(bracket["flow_difference"]);
-  const bool same = std::strtod(difference.c_str(), nullptr) < 1e-8;
+  const bool same = number_in(difference) < 1e-8;
   facts.push_back({"flow", same ? "{z, H}_nh is the rhs, to " + difference
                                 : "{z, H}_nh is not the rhs, which differs by " + difference});
 }

@@ -1,6 +1,5 @@
 // pfaff falsify: searches for the smallest system on which a claim of a method fails, or judges a claim on a
 // system by name.
-#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -14,6 +13,7 @@
 #include <pfaff/bench/runner/settings.hpp>
 #include <pfaff/bench/verification/check_budget.hpp>
 #include <pfaff/bench/verification/random_checks.hpp>
+#include <pfaff/core/numbers/formatted.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/integrators/tables/method_table.hpp>
 #include <pfaff/systems/text/text_system.hpp>
@@ -108,13 +108,12 @@ void print(const std::vector<FalsificationResult>& results, const Common& common
       std::cout << name << '\n';
       last = name;
     }
-    std::array<char, 80> line{};
-    std::snprintf(line.data(), line.size(), "  %-24s%6d systems  %s",
-                  std::string(to_string(result.test.claim)).c_str(), result.tried,
-                  result.counterexample ? "FALSIFIED"
-                  : result.tried > 0    ? "held"
-                                        : "untested: nothing in its scope");
-    std::cout << line.data() << (result.test.made ? "" : " (not claimed)") << '\n';
+    const char* verdict = result.counterexample ? "FALSIFIED"
+                          : result.tried > 0    ? "held"
+                                                : "untested: nothing in its scope";
+    std::cout << formatted("  %-24s%6d systems  %s", std::string(to_string(result.test.claim)).c_str(),
+                           result.tried, verdict)
+              << (result.test.made ? "" : " (not claimed)") << '\n';
     if (!result.counterexample) continue;
     const Counterexample& found = *result.counterexample;
     std::cout << "    " << found.recipe.dimension

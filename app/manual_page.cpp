@@ -5,6 +5,7 @@
 #include <sstream>
 #include <vector>
 
+#include <pfaff/core/numbers/formatted.hpp>
 #include <pfaff/core/registry/version.hpp>
 
 namespace pfaff::app {
@@ -72,7 +73,7 @@ void add_command(std::ostream& page, const CLI::App& app, const CLI::App& comman
 }  // namespace
 
 std::string manual_page(const CLI::App& app) {
-  std::ostringstream page;
+  TextStream page;
   page << ".TH PFAFF 1 \"\" \"pfaff " << PFAFF_VERSION_TEXT << "\" \"User Commands\"\n"
        << ".SH NAME\npfaff \\- " << plain(app.get_description().substr(app.get_description().find(' ') + 1))
        << "\n.SH SYNOPSIS\n"

@@ -9,6 +9,7 @@
 #include <pfaff/bench/reproduce/coverage/coverage.hpp>
 #include <pfaff/bench/runner/interruption.hpp>
 #include <pfaff/core/errors/errors.hpp>
+#include <pfaff/core/numbers/formatted.hpp>
 
 namespace pfaff::app {
 
@@ -39,12 +40,11 @@ void print_rows(const std::string& paper, const std::vector<ReproducedRow>& rows
         std::count_if(rows.begin(), rows.end(), [&](const ReproducedRow& r) { return r.status == status; }));
   };
   for (const ReproducedRow& r : rows) {
-    std::array<char, 32> difference{};
-    std::snprintf(difference.data(), difference.size(), "%.1e", r.difference);
+    const std::string difference = formatted("%.1e", r.difference);
     if (r.id.size() > widest_id || r.printed.size() > widest_value || r.ours.size() > widest_value) {
-      blocks += block(r, difference.data());
+      blocks += block(r, difference);
     } else {
-      lines.push_back({r.id, r.printed, r.ours, difference.data(), r.status});
+      lines.push_back({r.id, r.printed, r.ours, difference, r.status});
     }
   }
   std::cout << paper << '\n' << (lines.size() > 1 ? table(lines) : std::string()) << blocks;

@@ -63,7 +63,7 @@ RunConfig config_of(const RunOptions& options) {
 // than then, unless that is forced.
 ResolvedRun resolved_run(const RunOptions& options) {
   const RunConfig config = config_of(options);
-  load_missing_plugins(config.origins, options.config);
+  require_plugins(config.origins, options.config);
   ResolvedRun run = resolve(config.settings);
   if (const auto changed = differences(config.origins, run.origins); !changed.empty() && !options.force)
     throw InputError(options.config + ": " + in_one_line(changed) +

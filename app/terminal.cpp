@@ -3,8 +3,9 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
+
+#include <pfaff/core/numbers/formatted.hpp>
 
 namespace pfaff::app {
 
@@ -12,11 +13,7 @@ std::string json_text(const nlohmann::json& document) {
   return document.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
 }
 
-std::string scientific(double x) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.3g", x);
-  return text.data();
-}
+std::string scientific(double x) { return formatted("%.3g", x); }
 
 ProgressLine::ProgressLine(bool quiet)
     : terminal_(!quiet && isatty(STDERR_FILENO) != 0),
@@ -35,7 +32,8 @@ void ProgressLine::show(const std::string& what, double fraction) {
   shown_ = true;
   // What passes the end of the line would be left on the screen.
   const int room = static_cast<int>(std::min<std::size_t>(terminal_columns(), 90)) - 10;
-  std::fprintf(stderr, "\r\033[K%3.0f %%  %.*s", 100 * fraction, room, printable(what).c_str());
+  std::fputs(formatted("\r\033[K%3.0f %%  %.*s", 100 * fraction, room, printable(what).c_str()).c_str(),
+             stderr);
   std::fflush(stderr);
 }
 

@@ -3,6 +3,7 @@ include(CMakePackageConfigHelpers)
 
 install(TARGETS pfaff pfaff_bench EXPORT PfaffTargets
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS pfaff_trial_load RUNTIME DESTINATION ${CMAKE_INSTALL_LIBDIR})  # beside the library, which starts it
 install(TARGETS pfaff_app RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY core brackets formulations systems integrators DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pfaff
         FILES_MATCHING PATTERN "*.hpp")

@@ -139,7 +139,7 @@ std::vector<const ExperimentRun*> runs_with_automatic_steps(const std::vector<Ex
 }
 
 std::string step_of_count(const ExperimentRun& run, std::int64_t count) {
-  return as_text(run.resolved.time.value() / static_cast<double>(count), "%.12g");
+  return formatted("%.12g", run.resolved.time.value() / static_cast<double>(count));
 }
 
 std::vector<std::vector<std::int64_t>> automatic_step_counts(const Experiment& experiment,
@@ -164,7 +164,7 @@ std::vector<std::vector<std::int64_t>> automatic_step_counts(const Experiment& e
     counts[k] = step_counts(trial, evaluations);
     if (counts[k].empty())
       throw InputError(experiment.name + ", case " + like.which->name + ", method " + like.method->label +
-                       ": key 'evaluations': " + as_text(evaluations, "%.6g") +
+                       ": key 'evaluations': " + formatted("%.6g", evaluations) +
                        " are too few to choose steps by; expected more");
   });
   return counts;

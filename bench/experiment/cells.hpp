@@ -1,18 +1,11 @@
 // The text of cells in CSV files.
 #pragma once
 
-#include <array>
-#include <cstdio>
 #include <string>
 
-namespace pfaff {
+#include <pfaff/core/numbers/formatted.hpp>
 
-/// A number by a format of printf.
-inline std::string as_text(double x, const char* format) {
-  std::array<char, 40> text{};
-  const int length = std::snprintf(text.data(), text.size(), format, x);
-  return {text.data(), static_cast<std::size_t>(length)};
-}
+namespace pfaff {
 
 /// The text as a CSV cell, quoted where it contains a comma, a quotation mark or a line break.
 inline std::string csv_quoted(const std::string& text) {

@@ -76,11 +76,11 @@ std::string contraction_csv(const std::vector<ExperimentRun>& runs,
       bool shown = false;
       for (std::size_t j = 0; j < outlines; ++j) shown = shown || k == j * last / (outlines - 1);
       for (std::size_t i = 0; shown && i < discs[k].first.size(); ++i)
-        outline += (outline.empty() ? "" : ";") + as_text(discs[k].first[i], "%.6g") + " " +
-                   as_text(discs[k].second[i], "%.6g");
+        outline += (outline.empty() ? "" : ";") + formatted("%.6g", discs[k].first[i]) + " " +
+                   formatted("%.6g", discs[k].second[i]);
       rows[m] += csv_quoted(run.which->name) + "," + csv_quoted(run.method->label) + "," +
-                 csv_quoted(run.step) + "," + as_text(discs[k].t, "%.12g") + "," +
-                 as_text(discs[k].area, "%.17g") + "," + as_text(discs[k].law, "%.17g") + "," + outline +
+                 csv_quoted(run.step) + "," + formatted("%.12g", discs[k].t) + "," +
+                 formatted("%.17g", discs[k].area) + "," + formatted("%.17g", discs[k].law) + "," + outline +
                  "\n";
     }
   });

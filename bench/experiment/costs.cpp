@@ -134,9 +134,9 @@ void write_costs(const fs::path& directory, const std::vector<ExperimentRun>& ru
     if (!timed) remove_derived(directory);
     timed = true;
     const StepTime time = time_steps(run.resolved, seconds);
-    costs[key].text = key + "," + as_text(time.median, "%.6g") + "," + as_text(time.minimum, "%.6g") + "," +
-                      as_text(time.maximum, "%.6g") + "," + std::to_string(time.repetitions) + "," +
-                      as_text(time.seconds, "%.4g") + "," + csv_quoted(host_name());
+    costs[key].text = key + "," + formatted("%.6g", time.median) + "," + formatted("%.6g", time.minimum) +
+                      "," + formatted("%.6g", time.maximum) + "," + std::to_string(time.repetitions) + "," +
+                      formatted("%.4g", time.seconds) + "," + csv_quoted(host_name());
     write_file(
         path,
         costs_csv(runs, costs));  // after each run, so that no timing is lost when the program is killed

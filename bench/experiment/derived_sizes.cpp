@@ -1,14 +1,12 @@
 #include <pfaff/bench/experiment/derived_sizes.hpp>
 
 #include <algorithm>
-#include <array>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
-#include <cstdio>
-#include <sstream>
 
 #include <pfaff/bench/experiment/cells.hpp>
 #include <pfaff/bench/runner/files.hpp>
+#include <pfaff/core/numbers/formatted.hpp>
 
 namespace pfaff {
 
@@ -97,14 +95,15 @@ void write_derivation_tables(const std::filesystem::path& directory, const std::
   for (const Derived& d : all) {
     const std::string begin = d.method + "," + csv_quoted(d.size) + "," + std::to_string(d.rods) + ",";
     results += begin + std::to_string(d.equations) + "," + std::to_string(d.operations) + "," +
-               std::to_string(d.nodes) + "," + (std::isfinite(d.tree) ? as_text(d.tree, "%.17g") : "") + "\n";
-    costs += begin + as_text(d.seconds, "%.9g") + "\n";
+               std::to_string(d.nodes) + "," + (std::isfinite(d.tree) ? formatted("%.17g", d.tree) : "") +
+               "\n";
+    costs += begin + formatted("%.9g", d.seconds) + "\n";
   }
   std::string slopes = "method,quantity,law,points,from,to,exponent,low,high\n";
   for (const Fit& fit : fits) {
     slopes += fit.method + "," + fit.quantity + "," + fit.law + "," + std::to_string(fit.slope.points);
     for (const double x : {fit.from, fit.to, fit.slope.slope, fit.slope.low, fit.slope.high})
-      slopes += "," + as_text(x, "%.9g");
+      slopes += "," + formatted("%.9g", x);
     slopes += "\n";
   }
   write_file(directory / "results.csv", results);
@@ -114,13 +113,10 @@ void write_derivation_tables(const std::filesystem::path& directory, const std::
 
 std::string derivation_table(const DerivationStudy& study, const std::vector<Derived>& all,
                              const std::vector<Fit>& fits) {
-  std::ostringstream text;
-  std::array<char, 160> line{};
+  TextStream text;
   const auto put = [&](const char* method, const char* rods, const char* operations, const char* seconds,
                        const char* a, const char* b, const char* c) {
-    (void)std::snprintf(line.data(), line.size(), "%-18s %5s %11s %9s  %-17s %-17s %s\n", method, rods,
-                        operations, seconds, a, b, c);
-    text << line.data();
+    text << formatted("%-18s %5s %11s %9s  %-17s %-17s %s\n", method, rods, operations, seconds, a, b, c);
   };
   text << "\nall equations of " << study.system << " with K constraints, and how they grow with K\n";
   put("method", "K", "operations", "seconds", "operations", "seconds", "without sharing");
@@ -132,14 +128,12 @@ std::string derivation_table(const DerivationStudy& study, const std::vector<Der
     const auto growth = [&](const char* quantity) -> std::string {
       const Fit* fit = found_fit(fits, sweep.method, quantity);
       if (fit == nullptr) return "-";
-      std::array<char, 60> cell{};
-      (void)std::snprintf(cell.data(), cell.size(),
-                          fit->law == "power" ? "K^(%.2f+-%.2f)" : "e^(%.3f+-%.3f K)", fit->slope.slope,
-                          (fit->slope.high - fit->slope.low) / 2);
-      return cell.data();
+      const double spread = (fit->slope.high - fit->slope.low) / 2;
+      return fit->law == "power" ? formatted("K^(%.2f+-%.2f)", fit->slope.slope, spread)
+                                 : formatted("e^(%.3f+-%.3f K)", fit->slope.slope, spread);
     };
     put(sweep.method.c_str(), std::to_string(last->rods).c_str(), std::to_string(last->operations).c_str(),
-        as_text(last->seconds, "%.2g").c_str(), growth("operations").c_str(), growth("seconds").c_str(),
+        formatted("%.2g", last->seconds).c_str(), growth("operations").c_str(), growth("seconds").c_str(),
         growth("tree").c_str());
   }
   return text.str();
@@ -160,8 +154,8 @@ void judge_derivations(const DerivationStudy& study, const std::vector<Fit>& fit
     if (!holds)
       outcome.failed_claims +=
           (outcome.failed_claims.empty() ? "" : "; ") +
-          ("operations of " + sweep.method + " grow like K^" + as_text(fit->slope.slope, "%.2f") +
-           ", expected below K^" + as_text(sweep.exponent_below, "%.2f"));
+          ("operations of " + sweep.method + " grow like K^" + formatted("%.2f", fit->slope.slope) +
+           ", expected below K^" + formatted("%.2f", sweep.exponent_below));
   }
 }
 

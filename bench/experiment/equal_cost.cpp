@@ -11,11 +11,11 @@
 #include <pfaff/bench/experiment/costs.hpp>
 #include <pfaff/bench/experiment/error_measure.hpp>
 #include <pfaff/bench/experiment/results.hpp>
-#include <pfaff/bench/runner/checksum.hpp>
 #include <pfaff/bench/runner/config_file.hpp>
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/bench/runner/parallel.hpp>
 #include <pfaff/bench/runner/run_directory.hpp>
+#include <pfaff/core/process/checksum.hpp>
 
 namespace pfaff {
 
@@ -47,7 +47,7 @@ double size_of(const ExperimentRun& run) {
 // A step that divides the duration into whole steps, with digits enough to be read as such.
 std::string step_text(const ExperimentRun& like, double step) {
   const double time = like.resolved.time.value();
-  return as_text(time / std::max(1.0, std::round(time / step)), "%.12g");
+  return formatted("%.12g", time / std::max(1.0, std::round(time / step)));
 }
 
 struct Chosen {
@@ -78,9 +78,9 @@ std::vector<Chosen> chosen_runs(const Experiment& experiment, const ExperimentCa
   for (std::size_t m = 0; level > 0 && m < priced.size(); ++m) {
     const double size = size_at_cost(priced[m], level);
     if (size > 0)
-      chosen.push_back(
-          {level, at_size(experiment, *first[m],
-                          first[m]->tolerance.empty() ? step_text(*first[m], size) : as_text(size, "%.6g"))});
+      chosen.push_back({level, at_size(experiment, *first[m],
+                                       first[m]->tolerance.empty() ? step_text(*first[m], size)
+                                                                   : formatted("%.6g", size))});
   }
   return chosen;
 }
@@ -176,7 +176,7 @@ void write_equal_cost(const fs::path& directory, const Experiment& experiment,
   std::getline(lines, line);
   text = "level_ns," + line + "\n";
   for (std::size_t k = 0; std::getline(lines, line); ++k)
-    text += as_text(chosen[k].level, "%.6g") + "," + line + "\n";
+    text += formatted("%.6g", chosen[k].level) + "," + line + "\n";
   write_file(path, text);
 }
 

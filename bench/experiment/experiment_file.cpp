@@ -260,8 +260,10 @@ bool takes(const ExperimentCase& one, const ExperimentMethod& method) {
 
 std::vector<std::string> experiment_names() {
   std::vector<std::string> names;
+  const auto data = find_data_directory();
+  if (!data) return names;
   std::error_code error;
-  for (const auto& entry : fs::directory_iterator(data_directory() / "experiments", error))
+  for (const auto& entry : fs::directory_iterator(*data / "experiments", error))
     if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
   std::sort(names.begin(), names.end());
   return names;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include <pfaff/bench/experiment/cells.hpp>
 #include <pfaff/bench/measure/constraints.hpp>
@@ -106,7 +105,7 @@ Spread spread_over_seeds(const ExperimentRun& of, const std::string& measure,
 
 std::string ensembles_csv(const std::vector<ExperimentRun>& runs,
                           const std::vector<nlohmann::json>& summaries) {
-  std::ostringstream text;
+  TextStream text;
   for (const ExperimentRun& run : runs) {
     if (run.seed != 1) continue;
     for (const std::string& measure : measures_of(*run.resolved.model, run.which->reference)) {
@@ -115,7 +114,7 @@ std::string ensembles_csv(const std::vector<ExperimentRun>& runs,
            << run.tolerance << ',' << s.runs << ',' << s.finished << ',' << csv_quoted(measure) << ','
            << s.measured;
       for (const double x : {s.median, s.low, s.high})
-        text << ',' << (s.measured == 0 ? "" : as_text(x, "%.17g"));
+        text << ',' << (s.measured == 0 ? "" : formatted("%.17g", x));
       text << '\n';
     }
   }
@@ -172,26 +171,26 @@ std::vector<Finding> findings_of(const Experiment& experiment, const std::vector
 
 std::string in_words(const Finding& finding) {
   const ExperimentClaim& claim = *finding.claim;
-  const std::string times = claim.factor == 1 ? "" : as_text(claim.factor, "%g") + " times ";
+  const std::string times = claim.factor == 1 ? "" : formatted("%g", claim.factor) + " times ";
   return claim.measure + " of " + claim.first + (claim.step.empty() ? "" : " at " + claim.step) +
          (claim.relation == "exceeds" ? " exceeds " : " stays below ") + times +
-         (claim.second.empty() ? as_text(claim.bound, "%g") : "that of " + claim.second) + " in " +
+         (claim.second.empty() ? formatted("%g", claim.bound) : "that of " + claim.second) + " in " +
          std::to_string(finding.holding) + " of " + std::to_string(finding.pairs) +
          (finding.pairs == 1 ? " run" : " runs");
 }
 
 std::string findings_csv(const std::vector<Finding>& findings) {
-  std::ostringstream text;
+  TextStream text;
   text << "case,measure,method,relation,factor,than,bound,step,runs,holding,needed,holds,median,than_median,"
           "ratio_median\n";
   for (const Finding& f : findings) {
     const ExperimentClaim& c = *f.claim;
     text << csv_quoted(c.of) << ',' << csv_quoted(c.measure) << ',' << csv_quoted(c.first) << ','
-         << c.relation << ',' << as_text(c.factor, "%.17g") << ',' << csv_quoted(c.second) << ','
-         << (c.second.empty() ? as_text(c.bound, "%.17g") : "") << ',' << c.step << ',' << f.pairs << ','
+         << c.relation << ',' << formatted("%.17g", c.factor) << ',' << csv_quoted(c.second) << ','
+         << (c.second.empty() ? formatted("%.17g", c.bound) : "") << ',' << c.step << ',' << f.pairs << ','
          << f.holding << ',' << f.needed << ',' << (f.holds() ? "yes" : "no") << ','
-         << as_text(f.first_median, "%.17g") << ',' << as_text(f.second_median, "%.17g") << ','
-         << as_text(f.ratio_median, "%.17g") << '\n';
+         << formatted("%.17g", f.first_median) << ',' << formatted("%.17g", f.second_median) << ','
+         << formatted("%.17g", f.ratio_median) << '\n';
   }
   return text.str();
 }
@@ -201,7 +200,7 @@ std::string findings_table(const std::vector<Finding>& findings) {
   TableRows rows;
   for (const Finding& f : findings)
     rows.push_back({f.holds() ? "  holds" : "  FAILS",
-                    in_words(f) + " (median ratio " + as_text(f.ratio_median, "%.2g") +
+                    in_words(f) + " (median ratio " + formatted("%.2g", f.ratio_median) +
                         (f.needed == f.pairs ? "" : ", expected in " + std::to_string(f.needed)) + ")"});
   return "\nfindings\n" + facts(rows);
 }

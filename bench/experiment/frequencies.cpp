@@ -138,8 +138,8 @@ std::string frequencies_csv(const std::vector<ExperimentRun>& runs,
     for (std::size_t k = 0; k < found.size(); ++k)
       rows[m] += csv_quoted(run.which->name) + "," + csv_quoted(run.method->label) + "," +
                  csv_quoted(run.step) + "," + csv_quoted(run.which->frequencies[k].name) + "," +
-                 as_text(found[k].of_reference, "%.12g") + "," + as_text(found[k].error, "%.6g") + "," +
-                 as_text(found[k].change, "%.3g") + "\n";
+                 formatted("%.12g", found[k].of_reference) + "," + formatted("%.6g", found[k].error) + "," +
+                 formatted("%.3g", found[k].change) + "\n";
   });
   std::string text;
   for (const std::string& row : rows) text += row;

@@ -119,8 +119,8 @@ std::string loops_csv(const std::vector<ExperimentRun>& runs, const std::vector<
     const ExperimentRun& run = *largest[m];
     for (const CarriedLoop& loop : carry_loop(run.resolved, looks_at_loop))
       rows[m] += csv_quoted(run.which->name) + "," + csv_quoted(run.method->label) + "," +
-                 csv_quoted(run.step) + "," + as_text(loop.t, "%.12g") + "," +
-                 as_text(loop.integral, "%.17g") + "," + as_text(loop.uncertainty, "%.3g") + "\n";
+                 csv_quoted(run.step) + "," + formatted("%.12g", loop.t) + "," +
+                 formatted("%.17g", loop.integral) + "," + formatted("%.3g", loop.uncertainty) + "\n";
   });
   std::string text;
   for (const std::string& row : rows) text += row;

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include <pfaff/bench/experiment/cells.hpp>
 #include <pfaff/bench/experiment/error_measure.hpp>
-#include <pfaff/bench/runner/child_process.hpp>
 #include <pfaff/bench/runner/files.hpp>
+#include <pfaff/core/process/child_program.hpp>
 
 namespace pfaff {
 
@@ -17,7 +16,7 @@ namespace {
 std::string cell(const nlohmann::json& value) {
   if (value.is_null()) return {};
   if (value.is_string()) return value.get<std::string>();
-  return as_text(value.get<double>(), "%.17g");
+  return formatted("%.17g", value.get<double>());
 }
 std::string parameters_of(const ExperimentRun& run) {
   std::string text;
@@ -36,7 +35,7 @@ std::string drift_cells(const nlohmann::json* found) {
   for (const char* m : {"oscillation", "exponent", "class"}) text += "," + (found ? cell((*found)[m]) : "");
   return text;
 }
-std::string measured(double number) { return std::isfinite(number) ? as_text(number, "%.17g") : ""; }
+std::string measured(double number) { return std::isfinite(number) ? formatted("%.17g", number) : ""; }
 const nlohmann::json* entry(const nlohmann::json& summary, const char* list, const std::string& name) {
   if (!summary.contains(list)) return nullptr;
   for (const nlohmann::json& e : summary[list])
@@ -76,7 +75,7 @@ std::string results_csv(const std::vector<ExperimentRun>& runs,
     return !r.resolved.settings.formulation.empty();
   });
 
-  std::ostringstream text;
+  TextStream text;
   text << "case,system,method,integrator,parameters,step,time,steps,precision,status,message,error_max,error_"
           "final,"
           "structure_residual,rhs_per_step,jacobians_per_step,iterations_per_step,factorisations_per_step";
@@ -100,7 +99,7 @@ std::string results_csv(const std::vector<ExperimentRun>& runs,
          << ',' << s["status"].get<std::string>() << ',' << csv_quoted(s["message"]) << ','
          << cell(s["error_max"]) << ',' << cell(s["error_final"]) << ',' << cell(s["structure_residual"]);
     for (const char* count : {"right_hand_sides", "jacobians", "iterations", "factorisations"})
-      text << ',' << as_text(s["counts"][count].get<double>() / steps, "%.6g");
+      text << ',' << formatted("%.6g", s["counts"][count].get<double>() / steps);
     for (const std::string& name : invariants) text << drift_cells(entry(s, "invariants", name));
     for (const std::string& name : residuals) {
       const nlohmann::json* found = entry(s, "constraints", name);
@@ -118,38 +117,49 @@ std::string results_csv(const std::vector<ExperimentRun>& runs,
 
 namespace {
 // A report script, run with these arguments. RunError begins with `what` when it fails.
+//
+// Python runs apart from what surrounds it: -I leaves out its environment variables, the user's packages and
+// the current directory, from which matplotlib would take its settings too. Paths among the arguments are
+// absolute.
 void run_script(const std::string& name, const std::vector<std::string>& arguments, const std::string& what) {
-  const fs::path script = data_directory() / "report" / name;
+  const fs::path folder = data_directory() / "report";
   // matplotlib is installed as a package of the operating system and is seen by its own Python only, so that
   // /usr/bin/python3 goes before any other.
   std::error_code error;
   const std::string python = fs::exists("/usr/bin/python3", error) ? "/usr/bin/python3" : "python3";
-  std::vector<std::string> command{python, script.string()};
-  command.insert(command.end(), arguments.begin(), arguments.end());
-  auto [status, output] = run_child(command);
-  if (status != 0) {
-    while (!output.empty() && output.back() == '\n') output.pop_back();
-    const std::size_t newline = output.rfind('\n');
-    throw RunError(what + ": " + (newline == std::string::npos ? output : output.substr(newline + 1)));
-  }
+  ChildProgram program{.words = {python, "-I", (folder / name).string()},
+                       .without = {"MPLBACKEND=", "MATPLOTLIBRC="},
+                       .directory = folder};
+  program.words.insert(program.words.end(), arguments.begin(), arguments.end());
+  ChildEnding ending = run_program(program);
+  if (ending.succeeded()) return;
+  std::string& said = ending.output;
+  while (!said.empty() && said.back() == '\n') said.pop_back();
+  if (said.empty()) said = python + " " + ending.in_words();
+  const std::size_t newline = said.rfind('\n');
+  throw RunError(what + ": " + (newline == std::string::npos ? said : said.substr(newline + 1)));
 }
 }  // namespace
 
 fs::path make_report(const fs::path& directory) {
-  run_script("report.py", {directory.string()},
+  run_script("report.py", {fs::absolute(directory).string()},
              "the report could not be made (results.csv and cost.csv are complete)");
   return directory / "report.html";
 }
 
 fs::path make_paper_figures(const fs::path& directory, const PaperFigures& wanted) {
-  std::vector<std::string> arguments{directory.string(), "--figures", wanted.kinds, "--width", wanted.width};
-  if (!wanted.style.empty()) arguments.insert(arguments.end(), {"--style", wanted.style});
+  std::vector<std::string> arguments{fs::absolute(directory).string(), "--figures", wanted.kinds, "--width",
+                                     wanted.width};
+  if (!wanted.style.empty()) {
+    (void)read_file(wanted.style);  // which refuses what Python would wait for
+    arguments.insert(arguments.end(), {"--style", fs::absolute(wanted.style).string()});
+  }
   run_script("report.py", arguments, "the figures for papers could not be made");
   return directory / "figures" / "paper";
 }
 
 fs::path make_run_figures(const fs::path& directory) {
-  run_script("plot.py", {directory.string()}, "the figures of the run could not be made");
+  run_script("plot.py", {fs::absolute(directory).string()}, "the figures of the run could not be made");
   return directory / run_figures_directory / "plot.html";
 }
 

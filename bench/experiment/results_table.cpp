@@ -1,8 +1,6 @@
 // The terminal's table of an experiment.
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 #include <pfaff/bench/experiment/cells.hpp>
 #include <pfaff/bench/experiment/costs.hpp>
@@ -11,21 +9,15 @@
 #include <pfaff/bench/experiment/results.hpp>
 #include <pfaff/bench/measure/constraints.hpp>
 #include <pfaff/bench/runner/text_table.hpp>
+#include <pfaff/core/numbers/formatted.hpp>
 
 namespace pfaff {
 
 namespace fs = std::filesystem;
 
 namespace {
-template <class... A>
-std::string formatted(const char* format, A... arguments) {
-  std::array<char, 200> line{};
-  std::snprintf(line.data(), line.size(), format, arguments...);
-  return line.data();
-}
-
 std::string scientific(const nlohmann::json& value) {
-  return value.is_null() ? "-" : as_text(value.get<double>(), "%.1e");
+  return value.is_null() ? "-" : formatted("%.1e", value.get<double>());
 }
 
 // True for an invariant whose drift is classed as growing although its slope is less, per step, than one unit
@@ -53,7 +45,7 @@ struct Runs {
   }
   [[nodiscard]] std::string cost(const ExperimentRun& run) const {
     const auto nanoseconds = cost_of(run, costs, runs);
-    return nanoseconds ? as_text(*nanoseconds, "%.0f") : "-";
+    return nanoseconds ? formatted("%.0f", *nanoseconds) : "-";
   }
 
   [[nodiscard]] std::vector<std::string> drift(const nlohmann::json& summary);
@@ -68,7 +60,7 @@ std::vector<std::string> Runs::drift(const nlohmann::json& summary) {
     if (i.contains("max")) {
       const bool mark = below_round_off(i, summary);
       marked = marked || mark;
-      return {scientific(i["max"]), as_text(i["slope"].get<double>(), "%+.1e"),
+      return {scientific(i["max"]), formatted("%+.1e", i["slope"].get<double>()),
               i["class"].get<std::string>() + (mark ? "*" : "")};
     }
     if (const auto setback = setback_in(i))
@@ -83,7 +75,7 @@ std::vector<std::string> Runs::drift(const nlohmann::json& summary) {
 std::vector<std::string> residual(const nlohmann::json& summary, std::size_t level) {
   if (!summary.contains("constraints") || summary["constraints"].size() <= level) return {"-", "-"};
   const nlohmann::json& c = summary["constraints"][level];
-  return {scientific(c["max"]), c["growth"].is_null() ? "-" : as_text(c["growth"].get<double>(), "%.1f")};
+  return {scientific(c["max"]), c["growth"].is_null() ? "-" : formatted("%.1f", c["growth"].get<double>())};
 }
 
 // A row for each run. `restricted` where systems have constraints: then the residuals of these take the place
@@ -111,7 +103,7 @@ std::string Runs::motion(bool restricted) {
       continue;
     }
     const std::vector<std::string> found = drift(s);
-    add(row, {which.error.empty() ? scientific(s["error_max"]) : as_text(error_of(which, s), "%.1e")});
+    add(row, {which.error.empty() ? scientific(s["error_max"]) : formatted("%.1e", error_of(which, s))});
     if (restricted) {
       add(row, {found[0], found[2]});
       add(row, residual(s, 0));

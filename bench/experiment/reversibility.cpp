@@ -153,11 +153,11 @@ std::string reversibility_csv(const std::vector<ExperimentRun>& runs,
   std::vector<std::string> rows(largest.size());
   in_parallel(largest.size(), [&](std::size_t m) {
     const ExperimentRun& run = *largest[m];
-    const auto cell = [](double x) { return std::isfinite(x) ? as_text(x, "%.9g") : std::string(); };
+    const auto cell = [](double x) { return std::isfinite(x) ? formatted("%.9g", x) : std::string(); };
     const Returns returns = returns_to_start(run.resolved);
     for (const Return& one : returns.looks)
       rows[m] += csv_quoted(run.which->name) + "," + csv_quoted(run.method->label) + "," +
-                 csv_quoted(run.step) + "," + as_text(one.t, "%.12g") + "," + cell(one.distance) + "," +
+                 csv_quoted(run.step) + "," + formatted("%.12g", one.t) + "," + cell(one.distance) + "," +
                  cell(one.rounding) + "," +
                  (returns.by == WayBack::reversal ? "reversal" : "negative steps") + "\n";
   });

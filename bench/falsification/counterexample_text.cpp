@@ -1,22 +1,17 @@
 // Counterexamples as text: the model and the command that shows it.
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <cstdio>
 
 #include <pfaff/bench/falsification/falsify.hpp>
+#include <pfaff/core/numbers/formatted.hpp>
 
 namespace pfaff {
 
 namespace {
 
-std::string short_number(double x) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.3g", x);
-  return text.data();
-}
+std::string short_number(double x) { return formatted("%.3g", x); }
 
-std::string settings_text(const ClaimUnderTest& test) {
+std::string set_options(const ClaimUnderTest& test) {
   std::string text;
   for (const auto& [key, value] : test.parameters) text += " --set " + shell_word(key + "=" + value);
   return text;
@@ -50,7 +45,7 @@ PolynomialSystem named_system(const ClaimUnderTest& test, const Counterexample& 
 
 std::string showing_arguments(const ClaimUnderTest& test, const Counterexample& counterexample) {
   const JudgedStep& at = counterexample.at;
-  std::string text = test.method->descriptor().name + settings_text(test) + " --claim " +
+  std::string text = test.method->descriptor().name + set_options(test) + " --claim " +
                      std::string(to_string(test.claim)) + " --system " +
                      named_system(test, counterexample).name + ".toml --step " + to_string(at.step);
   if (at.count > 1) text += " --steps " + std::to_string(at.count);

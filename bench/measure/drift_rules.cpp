@@ -1,12 +1,11 @@
 #include <pfaff/bench/measure/drift_rules.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 #include <pfaff/bench/measure/drift_facts.hpp>
 #include <pfaff/bench/measure/walk_exponent.hpp>
+#include <pfaff/core/numbers/formatted.hpp>
 
 namespace pfaff::drift_rules {
 
@@ -19,9 +18,7 @@ constexpr std::size_t fewest_samples = 32;
 
 template <class... A>
 std::string told(const char* format, A... numbers) {
-  std::array<char, 200> line{};
-  std::snprintf(line.data(), line.size(), format, numbers...);
-  return line.data();
+  return formatted(format, numbers...);
 }
 
 Verdict undetermined(std::string evidence) { return {DriftClass::undetermined, std::move(evidence)}; }

@@ -8,6 +8,8 @@ and plot.html, a self-contained page of them all. Exit status: 0 fine, 2 wrong u
 import pathlib
 import sys
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))  # which python3 -I leaves out
+
 from files import InputError
 
 

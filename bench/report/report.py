@@ -11,6 +11,8 @@ matplotlib and nothing else; pgf needs LaTeX. Exit status: 0 fine, 2 wrong usage
 import os
 import sys
 
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))  # which python3 -I leaves out
+
 import derivation
 from experiment import Experiment
 from files import InputError

@@ -3,13 +3,14 @@
 #include <sstream>
 
 #include <pfaff/bench/runner/toml_keys.hpp>
+#include <pfaff/core/numbers/formatted.hpp>
 
 namespace pfaff {
 
 namespace {
 // The text as a TOML string on one line, with quotation marks, backslashes and control characters escaped.
 std::string quoted(const std::string& text) {
-  std::ostringstream stream;
+  TextStream stream;
   const toml::value<std::string> value(text);
   stream << toml::toml_formatter(value, toml::format_flags::allow_unicode_strings);
   return stream.str();
@@ -24,7 +25,7 @@ void write_table(std::ostream& text, const std::string& name, const Assignments&
 
 std::string settings_text(const ResolvedRun& run) {
   const RunSettings& s = run.settings;
-  std::ostringstream text;
+  TextStream text;
   text << "schema = 1\n";
   const auto line = [&](const char* key, std::string_view value) {
     text << key << " = " << quoted(std::string(value)) << '\n';
@@ -67,7 +68,7 @@ std::string settings_text(const ResolvedRun& run) {
 }
 
 std::string config_text(const ResolvedRun& run) {
-  std::ostringstream text;
+  TextStream text;
   text << settings_text(run);
   write_table(text, "files", run.origins.files);
   write_table(text, "plugins", run.origins.plugins);

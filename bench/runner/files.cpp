@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
-#include <sstream>
 
 #include <pfaff/core/errors/errors.hpp>
 
@@ -97,14 +95,6 @@ void rename_directory(const fs::path& from, const fs::path& to) {
   if (error) throw RunError("cannot write " + to.string() + ": " + error.message());
 }
 
-std::string read_file(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file || fs::is_directory(path)) throw InputError("cannot read " + path.string());
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
 namespace {
 // True where the path is anything but a directory that may be taken for output of ours: one that is new,
 // holds the file `sign`, or holds nothing but `ours` and what an interrupted program leaves.
@@ -147,13 +137,36 @@ fs::path program_path() {
   return fs::read_symlink("/proc/self/exe", error);
 }
 
-fs::path data_directory() {
+namespace {
+fs::path installed_data() { return program_path().parent_path().parent_path() / PFAFF_INSTALLED_DATA; }
+
+// True of a program in a build tree of the source tree, which is known by its cache.
+bool stands_in_build_tree() {
+  const std::string line = "\nCMAKE_HOME_DIRECTORY:INTERNAL=" PFAFF_SOURCE_DIRECTORY "\n";
   std::error_code error;
-  if (const fs::path program = program_path(); !program.empty()) {
-    fs::path installed = program.parent_path().parent_path() / PFAFF_INSTALLED_DATA;
-    if (fs::exists(installed / "experiments", error)) return installed;
+  for (fs::path folder = program_path().parent_path();; folder = folder.parent_path()) {
+    if (const fs::path cache = folder / "CMakeCache.txt"; fs::is_regular_file(cache, error))
+      return read_file(cache).find(line) != std::string::npos;
+    if (!folder.has_relative_path()) return false;
   }
-  return fs::path(PFAFF_SOURCE_DIRECTORY) / "bench";
+}
+}  // namespace
+
+std::optional<fs::path> find_data_directory() {
+  static const std::optional<fs::path> found = []() -> std::optional<fs::path> {
+    std::error_code error;
+    if (fs::exists(installed_data() / "experiments", error)) return installed_data();
+    // Scripts are run from there. Elsewhere the path of the source tree may be anybody's.
+    if (stands_in_build_tree()) return fs::path(PFAFF_SOURCE_DIRECTORY) / "bench";
+    return std::nullopt;
+  }();
+  return found;
+}
+
+fs::path data_directory() {
+  if (const auto found = find_data_directory()) return *found;
+  throw InputError("the experiments and the scripts of reports are missing; expected them in '" +
+                   installed_data().string() + "', as they are installed with the program");
 }
 
 }  // namespace pfaff

@@ -4,10 +4,12 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <pfaff/bench/runner/directory_lock.hpp>
+#include <pfaff/core/process/input_file.hpp>
 
 namespace pfaff {
 
@@ -26,9 +28,6 @@ void write_new_file(const std::filesystem::path& path, const std::string& text);
 /// Renames a directory whose files are written already. RunError where that fails.
 void rename_directory(const std::filesystem::path& from, const std::filesystem::path& to);
 
-/// The text of a file. InputError when it cannot be read.
-std::string read_file(const std::filesystem::path& path);
-
 /// Makes a new directory, or takes an existing one, and holds it for `work`, a few words such as "pfaff run".
 /// An existing one is taken where it holds the file `sign`, or nothing but files named in `ours` and what an
 /// interrupted program leaves: their unfinished forms and a lock. InputError when `path` exists with anything
@@ -41,8 +40,11 @@ std::unique_ptr<DirectoryLock> take_output_directory(const std::filesystem::path
 /// The file of the running program; empty where the system does not tell.
 std::filesystem::path program_path();
 
-/// Where the experiments, the report scripts and references.bib are: beside the installed program, or in the
-/// tree the program was built from.
+/// Where the experiments, the report scripts and references.bib are: beside the installed program or, of a
+/// program that stands in its build tree, in the tree that it was built from. Empty for a program that was
+/// copied without them.
+std::optional<std::filesystem::path> find_data_directory();
+/// The same; InputError where there is none.
 std::filesystem::path data_directory();
 
 }  // namespace pfaff

@@ -9,8 +9,8 @@
 #include <functional>
 #include <stdexcept>
 
-#include <pfaff/bench/runner/checksum.hpp>
 #include <pfaff/bench/runner/files.hpp>
+#include <pfaff/core/process/checksum.hpp>
 
 namespace pfaff {
 

@@ -1,17 +1,21 @@
 #include <pfaff/bench/runner/origins.hpp>
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
 #include <filesystem>
 
 #include <pfaff/bench/runner/json.hpp>
 
-#include <pfaff/bench/runner/checksum.hpp>
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/bench/runner/loaded_objects.hpp>
 #include <pfaff/core/bracket.hpp>
 #include <pfaff/core/formulation.hpp>
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/native/compiler.hpp>
+#include <pfaff/core/numbers/formatted.hpp>
+#include <pfaff/core/process/checksum.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/integrators/tables/method_table.hpp>
 
@@ -20,6 +24,8 @@ namespace pfaff {
 namespace fs = std::filesystem;
 
 namespace {
+constexpr const char* libm_values = "values of libm";
+
 std::string file_name(const std::string& path) { return fs::path(path).filename().string(); }
 
 void add(Assignments& list, const std::string& name, const std::string& hash) {
@@ -111,6 +117,29 @@ void add_origins(const Plugin& plugin, const Assignments& values, Origins& origi
     }
 }
 
+namespace {
+// A number that tells apart what the functions of formulas give at fixed points. Builds of the C library have
+// several variants of them, of which the machine and settings such as GLIBC_TUNABLES choose one. Two variants
+// give different last digits at about one point in 1500 for sin, cos, exp and pow.
+std::string values_of_libm() {
+  // Read again at every use, so that it is the library that computes and not the compiler.
+  double (*volatile const sine)(double) = std::sin;
+  double (*volatile const cosine)(double) = std::cos;
+  double (*volatile const exponential)(double) = std::exp;
+  double (*volatile const logarithm)(double) = std::log;
+  double (*volatile const power)(double, double) = std::pow;
+  std::uint64_t hash = 14695981039346656037U;  // FNV-1a, by words
+  const auto add_value = [&](double x) { hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 1099511628211U; };
+  constexpr int points = 8192;
+  for (int k = 1; k <= points; ++k) {
+    const double x = k * 7e-4;
+    for (const double value : {sine(x), cosine(x), exponential(x), logarithm(x), power(x, 1.7)})
+      add_value(value);
+  }
+  return "fnv-" + formatted("%016llx", static_cast<unsigned long long>(hash));
+}
+}  // namespace
+
 const Assignments& libraries() {
   static const Assignments list = [] {
     Assignments found;
@@ -119,6 +148,7 @@ const Assignments& libraries() {
       if (is_own(object) || name.starts_with("libm.so") || name.starts_with("libquadmath.so"))
         add(found, name, object.build);
     }
+    add(found, libm_values, values_of_libm());
     return found;
   }();
   return list;
@@ -132,7 +162,7 @@ std::vector<std::string> differences(const Origins& before, const Origins& now) 
       if (const std::string* found = hash_of(present, name); found == nullptr) {
         phrases.push_back(name + " is no longer a part of it");
       } else if (*found != hash) {
-        phrases.push_back(name + changed);
+        phrases.push_back(name + (name == libm_values ? " are others" : changed));
       }
     for (const auto& [name, hash] : present)
       if (hash_of(old, name) == nullptr) phrases.push_back(name + " has become a part of it");
@@ -157,20 +187,14 @@ std::string in_one_line(const std::vector<std::string>& phrases) {
   return text;
 }
 
-void load_missing_plugins(const Origins& origins, const std::string& where) {
-  for (const auto& [path, build] : origins.plugins) {
-    const std::vector<LoadedObject> objects = loaded_objects();
-    const bool loaded =
-        std::any_of(objects.begin(), objects.end(), [&id = build, &file = path](const LoadedObject& object) {
+void require_plugins(const Origins& origins, const std::string& where) {
+  const std::vector<LoadedObject> objects = loaded_objects();
+  for (const auto& [path, build] : origins.plugins)
+    if (std::none_of(objects.begin(), objects.end(), [&id = build, &file = path](const LoadedObject& object) {
           return object.build == id || file_name(object.path) == file_name(file);
-        });
-    if (loaded) continue;
-    try {
-      load_plugin(path);
-    } catch (const InputError& error) {
-      throw InputError(where + ": " + error.what() + " (or --plugin with the file where it is now)");
-    }
-  }
+        }))
+      throw InputError(where + ": the plug-in '" + path + "' is not loaded, and a file does not load code; " +
+                       "expected --plugin " + path + ", if you trust it, or where it is now");
 }
 
 }  // namespace pfaff

@@ -13,8 +13,9 @@ namespace pfaff {
 struct Origins {
   Assignments files;    // absolute paths of model files, and the SHA-1 of their contents
   Assignments plugins;  // absolute paths of plug-ins' shared objects, and their builds (LoadedObject::build)
-  // File names of Pfaff's and of mathematical libraries, and their builds; of a run whose formulas are
-  // compiled also "native", and which compiler makes the code.
+  // File names of Pfaff's and of mathematical libraries, and their builds; "values of libm", a checksum of
+  // what its functions give at fixed points; of a run whose formulas are compiled also "native", and which
+  // compiler makes the code.
   Assignments libraries;
 };
 
@@ -37,7 +38,7 @@ void add_compiler(Origins& origins);
 /// and not added.
 void add_origins(const Plugin& plugin, const Assignments& values, Origins& origins);
 
-/// The libraries that compute every run: Pfaff's own, libm and libquadmath.
+/// The libraries that compute every run: Pfaff's own, libm, with its values at fixed points, and libquadmath.
 const Assignments& libraries();
 
 /// What has become of the origins `before`, a phrase for each that is another now, such as "/a/model.toml has
@@ -47,8 +48,8 @@ std::vector<std::string> differences(const Origins& before, const Origins& now);
 /// Phrases in one line, of which at most three are spelt out.
 std::string in_one_line(const std::vector<std::string>& phrases);
 
-/// Loads the plug-ins of a run that was made before, unless they, or others of the same file names, are
-/// loaded already. InputError, beginning with `where`, for one that cannot be loaded.
-void load_missing_plugins(const Origins& origins, const std::string& where);
+/// InputError, beginning with `where`, unless every plug-in of a run that was made before, or another of its
+/// file name, is loaded. None is loaded here: a file that somebody else wrote names them.
+void require_plugins(const Origins& origins, const std::string& where);
 
 }  // namespace pfaff

@@ -2,9 +2,9 @@
 
 #include <optional>
 
-#include <pfaff/bench/runner/checksum.hpp>
 #include <pfaff/bench/runner/config_file.hpp>
 #include <pfaff/bench/runner/files.hpp>
+#include <pfaff/core/process/checksum.hpp>
 
 namespace pfaff {
 
@@ -27,7 +27,7 @@ std::optional<std::string> text_in(const fs::path& path) {
   std::error_code error;
   if (!fs::is_regular_file(path, error)) return std::nullopt;
   try {
-    return read_file(path);
+    return read_file(path, std::numeric_limits<std::uint64_t>::max());  // as long as the run was
   } catch (const InputError&) {
     return std::nullopt;
   }

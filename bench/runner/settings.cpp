@@ -6,10 +6,11 @@
 #include <sstream>
 
 #include <pfaff/bench/measure/constraints.hpp>
-#include <pfaff/bench/runner/checksum.hpp>
 #include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/bench/runner/steps.hpp>
 #include <pfaff/core/native/compiled_model.hpp>
+#include <pfaff/core/numbers/formatted.hpp>
+#include <pfaff/core/process/checksum.hpp>
 #include <pfaff/integrators/tables/method_table.hpp>
 #include <pfaff/systems/text/text_system.hpp>
 
@@ -170,11 +171,10 @@ void check_consistency(const RunSettings& settings, ResolvedRun& run) {
   std::vector<Quad> z;
   for (const Real& x : run.initial) z.push_back(x.quad());
   const ProjectionOntoConstraints projection = project_onto_constraints(*run.model, run.t0.quad(), z);
-  std::array<char, 40> residual{}, change{};
-  std::snprintf(residual.data(), residual.size(), "%.2g", projection.worst_residual);
-  std::snprintf(change.data(), change.size(), "%.2g", projection.change);
-  const std::string where = "initial state of " + run.model->name() + ": constraint " + projection.worst +
-                            " is off by " + residual.data();
+  const std::string residual = formatted("%.2g", projection.worst_residual),
+                    change = formatted("%.2g", projection.change);
+  const std::string where =
+      "initial state of " + run.model->name() + ": constraint " + projection.worst + " is off by " + residual;
   if (projection.status != Status::converged)
     throw InputError(where + " and the state cannot be moved onto the constraints (" +
                      std::string(to_string(projection.status)) + ")");
@@ -186,7 +186,7 @@ void check_consistency(const RunSettings& settings, ResolvedRun& run) {
   } else if (projection.change > round_off) {
     throw InputError(where +
                      "; expected a state on the constraints, or --project-initial (which changes it by " +
-                     change.data() + ", relatively), or --allow-inconsistent");
+                     change + ", relatively), or --allow-inconsistent");
   }
 }
 

@@ -1,11 +1,11 @@
 // The texts of a run's files.
 #include <boost/version.hpp>
-#include <sstream>
 
 #include <pfaff/bench/measure/constraints.hpp>
 #include <pfaff/bench/measure/links.hpp>
 #include <pfaff/bench/measure/setback.hpp>
 #include <pfaff/bench/runner/record.hpp>
+#include <pfaff/core/numbers/formatted.hpp>
 
 namespace pfaff {
 
@@ -49,7 +49,7 @@ std::optional<SetbackInSummary> setback_in(const nlohmann::json& invariant) {
 std::string series_csv(const ResolvedRun& run, const RunRecord& record) {
   const bool error = !record.samples.empty() && record.samples.front().error.has_value();
   const bool structure = record.structure_residual.has_value();
-  std::ostringstream text;
+  TextStream text;
   text << header("t", run.model->time_unit());
   for (const Coordinate& c : run.model->coordinates()) text << ',' << header(c.name, c.unit);
   for (const Invariant& i : run.model->invariants()) text << ',' << header(i.name, i.unit);

@@ -1,9 +1,6 @@
 // The system's C++ compiler: which one it is, and shared libraries made by it of texts.
 //
-// A library is kept in a directory of the user's own, $XDG_CACHE_HOME/pfaff-native or ~/.cache/pfaff-native,
-// under a name made of its text, of the compiler's version and of the flags, with the whole of which it is
-// compared before it is loaded. Files are written under other names and renamed, so that programs may share
-// the directory. Nothing goes through a shell.
+// Libraries are kept in a cache (core/native/library_cache.hpp), and nothing goes through a shell.
 #pragma once
 
 #include <memory>

@@ -3,6 +3,8 @@
 #include <array>
 #include <cctype>
 
+#include <pfaff/core/numbers/formatted.hpp>
+
 extern "C" {
 int quadmath_snprintf(char*, std::size_t, const char*, ...) noexcept;  // NOLINT: libquadmath's own signature
 __float128 strtoflt128(const char*, char**) noexcept;
@@ -12,6 +14,7 @@ namespace pfaff {
 
 bool parse(std::string_view text, Quad& result) {
   if (text.empty() || std::isspace(static_cast<unsigned char>(text.front())) != 0) return false;
+  const ClassicLocale locale;
   const std::string buffer(text);
   char* end = nullptr;
   const __float128 value = strtoflt128(buffer.c_str(), &end);
@@ -21,14 +24,15 @@ bool parse(std::string_view text, Quad& result) {
 }
 
 namespace {
-std::string printed(const char* format, int digits, Quad x) {
+std::string with_digits(const char* format, int digits, Quad x) {
+  const ClassicLocale locale;
   std::array<char, 128> buffer{};
   quadmath_snprintf(buffer.data(), buffer.size(), format, digits, x.native());
   return buffer.data();
 }
 }  // namespace
 
-std::string to_string(Quad x, int digits) { return printed("%.*Qg", digits, x); }
-std::string to_scientific(Quad x, int digits) { return printed("%.*Qe", digits - 1, x); }
+std::string to_string(Quad x, int digits) { return with_digits("%.*Qg", digits, x); }
+std::string to_scientific(Quad x, int digits) { return with_digits("%.*Qe", digits - 1, x); }
 
 }  // namespace pfaff

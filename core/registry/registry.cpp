@@ -3,8 +3,8 @@
 #include <dlfcn.h>
 
 #include <algorithm>
-#include <cfenv>
 
+#include <pfaff/core/process/shared_object.hpp>
 #include <pfaff/core/registry/abi.hpp>
 #include <pfaff/core/registry/trial_load.hpp>
 
@@ -39,13 +39,8 @@ void load_plugin(const std::string& path) {
   const std::string local = path.find('/') == std::string::npos ? "./" + path : path;
   if (const std::string reason = trial_load(local); !reason.empty())
     throw InputError("plug-in '" + path + "': " + reason);
-  // The file's start-up code may change the rounding and the treatment of subnormals, as code built with
-  // -ffast-math does; this is undone.
-  std::fenv_t arithmetic;
-  std::fegetenv(&arithmetic);
-  const void* handle = dlopen(local.c_str(), RTLD_NOW | RTLD_LOCAL);
-  std::fesetenv(&arithmetic);
-  if (handle == nullptr) throw InputError("plug-in '" + path + "': " + dlerror());
+  if (load_shared_object(local, "plug-in '" + path + "'") == nullptr)
+    throw InputError("plug-in '" + path + "': " + dlerror());
   std::string twice;
   for (const std::string& name : registered_twice()) twice += (twice.empty() ? "" : "; ") + name;
   if (!twice.empty()) throw InputError("registered twice: " + twice);

@@ -1,11 +1,10 @@
 #include <pfaff/core/text/document.hpp>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include <toml++/toml.h>
+
+#include <pfaff/core/process/input_file.hpp>
 
 namespace pfaff::text {
 
@@ -115,11 +114,7 @@ class Reader {
 }  // namespace
 
 Document read_document(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path)) throw InputError("cannot read " + path);
-  std::ostringstream buffer;
-  buffer << file.rdbuf();
-  Document document{path, buffer.str(), {}};
+  Document document{path, read_file(path), {}};
   const Lines lines(document.contents);
   try {
     const toml::table root = toml::parse(document.contents, path);

@@ -1,8 +1,9 @@
 #include <pfaff/core/text/plugin_files.hpp>
 
 #include <filesystem>
-#include <fstream>
-#include <sstream>
+
+#include <pfaff/core/errors/errors.hpp>
+#include <pfaff/core/process/input_file.hpp>
 
 namespace pfaff::text {
 
@@ -12,10 +13,11 @@ std::string absolute_path(const std::string& path) {
 
 bool unchanged(const FileContents& files) {
   return std::all_of(files.begin(), files.end(), [](const auto& file) {
-    std::ifstream stream(file.first, std::ios::binary);
-    std::ostringstream now;
-    now << stream.rdbuf();
-    return stream && now.str() == file.second;
+    try {
+      return read_file(file.first) == file.second;
+    } catch (const InputError&) {
+      return false;
+    }
   });
 }
 

@@ -1,18 +1,14 @@
 #include <pfaff/integrators/generating/lagrangian_transformation.hpp>
 
-#include <array>
 #include <cmath>
-#include <cstdio>
+
+#include <pfaff/core/numbers/formatted.hpp>
 
 namespace pfaff {
 
 namespace {
 
-std::string shown(double x) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.3g", x);
-  return text.data();
-}
+std::string shown(double x) { return formatted("%.3g", x); }
 
 // max |entries of |A|^T |S| |A||: the size of what is summed, and so the unit of its rounding errors.
 template <class T>

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include <toml++/toml.h>
 #include <nlohmann/json.hpp>
 
 #include <pfaff/core/errors/errors.hpp>
+#include <pfaff/core/process/input_file.hpp>
 #include <pfaff/core/registry/source_text.hpp>
 
 namespace pfaff {
@@ -120,11 +119,7 @@ class JsonReader : public nlohmann::json_sax<nlohmann::json> {
 }  // namespace
 
 DocumentNode read_document(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path)) throw InputError("cannot read " + path);
-  std::ostringstream buffer;
-  buffer << file.rdbuf();
-  const std::string text = buffer.str();
+  const std::string text = read_file(path);
   if (std::filesystem::path(path).extension() == ".json") {
     JsonReader reader(path, text);
     nlohmann::json::sax_parse(text, &reader);

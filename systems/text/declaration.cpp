@@ -88,19 +88,16 @@ Behaviour read_behaviour(const Item& value) {
 
 TextInvariant read_invariant(const Member& member) {
   const std::string what = "invariant '" + member.key + "'";
-  if (member.value.kind != Kind::table)
-    return {{member.key, "", Behaviour::conserved, false}, expression_of(member.value, what)};
+  Invariant invariant = conserved(member.key, "");
+  if (member.value.kind != Kind::table) return {std::move(invariant), expression_of(member.value, what)};
   Table table(member.value, what);
-  const Item* unit = table.find("unit");
-  TextInvariant result{
-      {member.key, unit == nullptr ? "" : label_of(*unit, "unit"), Behaviour::conserved, false},
-      expression_of(table.required("of"), what)};
+  if (const Item* unit = table.find("unit")) invariant.unit = label_of(*unit, "unit");
+  Expression of = expression_of(table.required("of"), what);
   if (const Item* quadratic = table.find("quadratic"))
-    result.invariant.quadratic = truth_of(*quadratic, "quadratic");
-  if (const Item* behaviour = table.find("behaviour"))
-    result.invariant.behaviour = read_behaviour(*behaviour);
+    invariant.quadratic = truth_of(*quadratic, "quadratic");
+  if (const Item* behaviour = table.find("behaviour")) invariant.behaviour = read_behaviour(*behaviour);
   table.finish();
-  return result;
+  return {std::move(invariant), std::move(of)};
 }
 
 std::vector<TextVelocityConstraint> read_velocity_constraints(const Item& value) {

@@ -97,7 +97,8 @@ TEST(Identity, ARebuiltPluginIsNoticed) {
   EXPECT_NE(text_of(files / "run/config.toml").find("spring.so\" = \""), std::string::npos);
   build("2");
   expect_complaint(run_pfaff(run("run")), 2, {"spring.so is another build", "--force"}, "rebuilt");
-  const Arguments again{"run", "--out", files / "new", "--config", files / "run/config.toml"};
+  const Arguments again{
+      "run", "--out", files / "new", "--config", files / "run/config.toml", "--plugin", files / "spring.so"};
   expect_complaint(run_pfaff(again), 2, {"spring.so is another build", "--force"},
                    "rebuilt, from its config");
   EXPECT_EQ(run_pfaff(again + Arguments{"--force"}).status, 0);
@@ -129,9 +130,10 @@ TEST(Identity, ARebuiltPluginThatAFileNamesIsNoticed) {
     const Arguments run = short_run_to(files / "run", named + plugin);
     const Outcome first = run_pfaff(run);
     ASSERT_EQ(first.status, 0) << first.err;
-    // From the configuration alone, which says where the plug-in is.
+    // From the configuration, which says where the plug-in is and does not load it.
     const Arguments again{"run", "--out", files / "new", "--config", files / "run/config.toml"};
-    EXPECT_EQ(run_pfaff(again).status, 0) << joined(named);
+    expect_complaint(run_pfaff(again), 2, {"--plugin " + (files / "spring.so")}, joined(named));
+    EXPECT_EQ(run_pfaff(again + plugin).status, 0) << joined(named);
     EXPECT_EQ(run_pfaff(run).status, 0) << joined(named);
     build("2");
     expect_complaint(run_pfaff(run), 2, {"spring.so is another build", "--force"}, joined(named));
@@ -155,8 +157,9 @@ TEST(Identity, ConfigRepeatsARunFromAnywhere) {
                            "initial=0.6,0,-0.9,0,0.5,0", "--project-initial"});
   for (const Arguments& run : {with_model, with_plugin, projected}) {
     ASSERT_EQ(run_pfaff(run, in(files.path())).status, 0) << joined(run);
-    const Outcome again = run_pfaff({"run", "--out", "again", "--config", "../run/config.toml"},
-                                    in(files.path() / "elsewhere"));
+    Arguments repeated{"run", "--out", "again", "--config", "../run/config.toml"};
+    if (run == with_plugin) repeated = repeated + Arguments{"--plugin", "../models/spring.so"};
+    const Outcome again = run_pfaff(repeated, in(files.path() / "elsewhere"));
     EXPECT_EQ(again.status, 0) << again.err;
     expect_same_run(files.path() / "run", files.path() / "elsewhere/again");
     fs::remove_all(files.path() / "run");
@@ -165,7 +168,33 @@ TEST(Identity, ConfigRepeatsARunFromAnywhere) {
   ASSERT_EQ(run_pfaff(with_plugin, in(files.path())).status, 0);
   fs::remove(files.path() / "models/spring.so");
   expect_complaint(run_pfaff({"run", "--out", files / "lost", "--config", files / "run/config.toml"}), 2,
-                   {"run/config.toml", "spring.so", "cannot be read", "--plugin"}, "a plug-in that is gone");
+                   {"run/config.toml", "spring.so' is not loaded", "--plugin"}, "a plug-in that is gone");
+}
+
+// The C library has several variants of its functions, of which a setting chooses; the file is the same.
+TEST(Identity, AnotherVariantOfLibmIsNoticed) {
+#ifdef __x86_64__
+  if (__builtin_cpu_supports("fma") == 0) GTEST_SKIP() << "this machine has one variant";
+  const TemporaryDirectory files;
+  const auto run = [&](const std::string& out) {
+    return short_run_to(files / out, {"--system", "pendulum", "--integrator", "verlet"});
+  };
+  const Arguments again{"run", "--out", files / "again", "--config", files / "run/config.toml"};
+  ASSERT_EQ(run_pfaff(run("run")).status, 0);
+  EXPECT_NE(text_of(files / "run/config.toml").find("\"values of libm\" = \"fnv-"), std::string::npos);
+  for (const char* variant : {"glibc.cpu.hwcaps=-FMA,-AVX2", "glibc.cpu.hwcaps=-FMA,-AVX2,-AVX"}) {
+    setenv("GLIBC_TUNABLES", variant, 1);
+    expect_complaint(run_pfaff(again), 2, {"values of libm are others", "--force"}, variant);
+    expect_complaint(run_pfaff(run("run")), 2, {"values of libm are others", "--force"}, variant);
+    // The control: a run that was made with the variant is repeated with it.
+    ASSERT_EQ(run_pfaff(run("other")).status, 0);
+    EXPECT_EQ(run_pfaff({"run", "--out", files / "same", "--config", files / "other/config.toml"}).status, 0);
+    EXPECT_NE(text_of(files / "other/config.toml"), text_of(files / "run/config.toml"));
+    for (const char* made : {"other", "same"}) fs::remove_all(files.path() / made);
+  }
+  unsetenv("GLIBC_TUNABLES");
+  EXPECT_EQ(run_pfaff(again).status, 0);
+#endif
 }
 
 // An experiment with one case, of a model file.

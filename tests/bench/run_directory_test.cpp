@@ -3,12 +3,12 @@
 
 #include <fstream>
 
-#include <pfaff/bench/runner/checksum.hpp>
 #include <pfaff/bench/runner/config_file.hpp>
 #include <pfaff/bench/runner/directory_lock.hpp>
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/bench/runner/loaded_objects.hpp>
 #include <pfaff/bench/runner/run_directory.hpp>
+#include <pfaff/core/process/checksum.hpp>
 #include "../temporary_directory.hpp"
 
 namespace pfaff {

@@ -130,7 +130,7 @@ std::string random_experiment(Choices& choices) {
   std::vector<std::string> labels;
   for (std::size_t k = 0, count = 1 + choices.below(2); k < count; ++k) {
     const std::string method = choices.one_of(some_methods());
-    labels.push_back(method + " " + std::to_string(k));
+    labels.push_back(method + " " + std::to_string(k) + (choices.once_in(2) ? " with a long label" : ""));
     text << "\n[[method]]\nlabel = " << quoted(labels.back()) << "\nintegrator = " << quoted(method) << '\n';
     if (choices.once_in(2))
       text << "set = " << inline_table(random_settings(choices, "integrator", method, "")) << '\n';
@@ -142,7 +142,7 @@ std::string random_experiment(Choices& choices) {
   std::vector<std::string> names;
   for (std::size_t k = 0, count = 1 + choices.below(2); k < count; ++k) {
     const std::string system = choices.one_of(small_systems());
-    names.push_back("case " + std::to_string(k));
+    names.push_back("case " + std::to_string(k) + (choices.once_in(2) ? " with a long name" : ""));
     text << "\n[[case]]\nname = " << quoted(names.back()) << "\nsystem = " << quoted(system)
          << "\ntime = " << quoted(duration(choices)) << "\nsteps = ";
     if (choices.once_in(6)) {
@@ -245,7 +245,8 @@ std::string made_odd(std::string text, Choices& choices) {
         begin + 1, end - begin - 1,
         choices.one_of({"", "a", "\\u0000", "\\u001b[31m", "composition(base=composition(base=verlet))",
                         "verlet(", "verlet(a=1,a=2)", "verlet(,)", "..", "initial", "1,2", "/", "\xC3\xA9",
-                        "gauss(stages=2, compensated=no)", "\xFF", "system.system.nu"}));
+                        "gauss(stages=2, compensated=no)", "\xFF", "system.system.nu",
+                        "a text of more than sixteen characters", "a-name-of-more-than-sixteen-characters"}));
   };
   const auto change_line = [&] {
     std::vector<std::string> lines;

@@ -21,7 +21,8 @@ class Description {
     if (charged_) add("charges", each_bead([&] { return small(); }));
     if (choices.once_in(3)) add("gravity", choices.once_in(2) ? small() : vector());
     anchored_ = choices.once_in(2);
-    if (anchored_) add("anchors", "{" + key("origin") + list(axes_, [](std::size_t) { return "0.0"; }) + "}");
+    if (choices.once_in(2)) anchor_ += "-of-the-whole-model";
+    if (anchored_) add("anchors", "{" + key(anchor_) + list(axes_, [](std::size_t) { return "0.0"; }) + "}");
     add_rods();
     // Beads far enough from each other that no two are at one place.
     add("positions", list(beads_, [&](std::size_t k) {
@@ -60,7 +61,7 @@ class Description {
   }
 
   void add_rods() {
-    std::string rods = anchored_ ? "[0, \"origin\"]" : "";
+    std::string rods = anchored_ ? "[0, \"" + anchor_ + "\"]" : "";
     std::size_t count = anchored_ ? 1 : 0;
     const bool star = choices_.once_in(2);
     for (std::size_t k = 1; k < beads_; ++k, ++count)
@@ -105,6 +106,7 @@ class Description {
   const char* is_;
   std::size_t axes_ = 2, beads_ = 1;
   bool charged_ = false, anchored_ = false;
+  std::string anchor_ = "origin";
   std::vector<std::pair<std::string, std::string>> entries_;
 };
 }  // namespace

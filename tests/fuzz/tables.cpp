@@ -73,8 +73,9 @@ std::string random_map(Choices& choices) {
 std::string random_table(Choices& choices) {
   if (choices.once_in(3)) return random_map(choices);
   const Sample& sample = choices.one_of(samples);
-  std::string text =
-      "name = \"fuzz-table\"\nkind = \"" + std::string(sample.kind) + "\"\norder = " + sample.order + '\n';
+  std::string text = std::string("name = \"") +
+                     choices.one_of({"fuzz-table", "fuzz-table-with-a-long-name"}) + "\"\nkind = \"" +
+                     std::string(sample.kind) + "\"\norder = " + sample.order + '\n';
   if (choices.once_in(4))
     text += "title = \"A table\"\nreference = \"none\"\ndescription = \"Of numbers.\"\n";
   if (choices.once_in(8)) text += "precision = \"double\"\n";

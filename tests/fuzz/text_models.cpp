@@ -80,12 +80,16 @@ class TextModel {
     if (choices_.once_in(2))
       add("let", "{ r = " + quoted(expression("a")) + ", s = " + quoted("r + " + expression("t")) + " }");
     add_motion();
-    if (choices_.once_in(3)) add("invariants", "{ H = { of = " + quoted(both()) + ", quadratic = true } }");
+    if (choices_.once_in(3)) add("invariants", "{ " + invariant() + " }");
     if (choices_.once_in(4)) add("reversal", list(q(), "-" + p()));
     if (choices_.once_in(5))
-      add("holonomic",
-          choices_.once_in(2) ? "[" + quoted(positions()) + "]" : "{ rod = " + quoted(positions()) + " }");
-    if (choices_.once_in(6)) add("velocity_constraints", "[{ row = [" + quoted(positions()) + "], b = 1 }]");
+      add("holonomic", choices_.once_in(2) ? "[" + quoted(positions()) + "]"
+                                           : "{ " + name("rod") + " = " + quoted(positions()) + " }");
+    if (choices_.once_in(6))
+      add("velocity_constraints",
+          "[{ row = [" + quoted(positions()) + "], b = 1, name = " + quoted(name("blade")) + " }]");
+    if (choices_.once_in(12))
+      add("parts", "[{ name = " + quoted(name("whole")) + ", change = " + list(both(), both()) + " }]");
     if (choices_.once_in(12)) add("friction", "[" + quoted(both() + "^2") + "]");
     if (choices_.once_in(12)) add("exact_solution", list(q() + " + " + p() + "*elapsed", p() + " - t0"));
     if (choices_.once_in(12)) add("constraints", list(q(), p()));
@@ -103,6 +107,31 @@ class TextModel {
   std::string positions() { return expression(q()); }
   std::string momenta() { return p() + "^2/2 + " + expression(p()); }
   std::string both() { return expression(q()) + " + " + expression(p()); }
+
+  // A name, every other one too long for the memory of a string itself, which holds 15 characters.
+  std::string name(const std::string& text) {
+    return choices_.once_in(2) ? text + "-of-the-whole-model" : text;
+  }
+  // Of one value, or of a table in which something may be missing or of another kind.
+  std::string invariant() {
+    const std::string what = name(choices_.one_of({"H", "angular-momentum"})) + " = ";
+    switch (choices_.below(6)) {
+      case 0:
+        return what + quoted(both());
+      case 1:
+        return what + quoted(both() + choices_.one_of({" +", ")", "", "[1]", "*sin"}));
+      case 2:
+        return what + "{ unit = " + quoted(name("kg m^2/s")) + " }";
+      case 3:
+        return what +
+               choices_.one_of({"true", "[]", "{ of = true }", "{ of = {} }", "{ of = \"q\", unit = 1 }"});
+      case 4:
+        return what + "{ of = " + quoted(both()) + ", unit = " + quoted(name("J")) + ", behaviour = " +
+               quoted(choices_.one_of({"conserved", "free", "decreasing", "is-no-behaviour-at-all"})) + " }";
+      default:
+        return what + "{ of = " + quoted(both()) + ", quadratic = true }";
+    }
+  }
 
   void add_motion() {
     switch (choices_.below(7)) {

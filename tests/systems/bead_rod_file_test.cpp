@@ -136,7 +136,7 @@ TEST(BeadRodFile, SaysTheLineWhereItIsNoFileOfItsKind) {
     systems().get("bead-rod", "system").make({{"model", "no-such-file.toml"}});
     FAIL();
   } catch (const InputError& e) {
-    EXPECT_STREQ(e.what(), "cannot read no-such-file.toml");
+    EXPECT_STREQ(e.what(), "cannot read no-such-file.toml: No such file or directory");
   }
 }
 
