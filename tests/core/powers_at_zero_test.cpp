@@ -27,7 +27,7 @@ Tape derivative(Tape tape, int n) {
   return tape;
 }
 template <class T>
-T value_at(const Tape& tape, const T& x) {
+T tape_value_at(const Tape& tape, const T& x) {
   Replay<T> replay(shared(tape));
   T y(0);
   replay(T(0), &x, &y);
@@ -50,9 +50,9 @@ TEST(PowersAtZero, TapesHaveTheDerivativesThatExist) {
     for (int n = 0; n < 4; ++n) {
       const Tape tape = derivative(power_of(r), n);
       const double expected = n < r.value() ? 0 : std::numeric_limits<double>::infinity();
-      EXPECT_EQ(std::abs(value_at(tape, 0.0)), expected) << to_string(r) << " " << n;
-      EXPECT_EQ(abs(value_at(tape, Quad(0))), Quad(expected)) << to_string(r) << " " << n;
-      const auto pack = value_at(tape, Pack<4>(0.0));
+      EXPECT_EQ(std::abs(tape_value_at(tape, 0.0)), expected) << to_string(r) << " " << n;
+      EXPECT_EQ(abs(tape_value_at(tape, Quad(0))), Quad(expected)) << to_string(r) << " " << n;
+      const auto pack = tape_value_at(tape, Pack<4>(0.0));
       EXPECT_EQ(std::abs(pack[3]), expected) << to_string(r) << " " << n;
       if (n > r.value()) break;
     }
@@ -68,7 +68,8 @@ TEST(PowersAtZero, DerivativesElsewhereAreWhatTheyWere) {
       for (int n = 0; n < 4; ++n) {
         const double expected = factor * std::pow(x, r.value() - n);
         // A dozen roundings.
-        EXPECT_NEAR(value_at(derivative(power_of(r), n), x) / expected, 1, 4e-15) << to_string(r) << " " << n;
+        EXPECT_NEAR(tape_value_at(derivative(power_of(r), n), x) / expected, 1, 4e-15)
+            << to_string(r) << " " << n;
         factor *= r.value() - n;
       }
     }
@@ -77,18 +78,18 @@ TEST(PowersAtZero, DerivativesElsewhereAreWhatTheyWere) {
 TEST(PowersAtZero, NegativeOnesAreInfinite) {
   const double infinite = std::numeric_limits<double>::infinity();
   for (const Real& r : {Real::fraction(-1, 2), Real::fraction(-3, 2), Real::fraction(-7, 2)}) {
-    EXPECT_EQ(value_at(power_of(r), 0.0), infinite) << to_string(r);
-    EXPECT_EQ(value_at(derivative(power_of(r), 1), 0.0), -infinite) << to_string(r);
-    EXPECT_EQ(value_at(derivative(power_of(r), 2), 0.0), infinite) << to_string(r);
+    EXPECT_EQ(tape_value_at(power_of(r), 0.0), infinite) << to_string(r);
+    EXPECT_EQ(tape_value_at(derivative(power_of(r), 1), 0.0), -infinite) << to_string(r);
+    EXPECT_EQ(tape_value_at(derivative(power_of(r), 2), 0.0), infinite) << to_string(r);
   }
-  EXPECT_TRUE(std::isnan(value_at(power_of(Real::fraction(5, 2)), -1.0)));  // beyond the domain
+  EXPECT_TRUE(std::isnan(tape_value_at(power_of(Real::fraction(5, 2)), -1.0)));  // beyond the domain
 }
 
 // Values have the bits of products and a root, in every scalar.
 TEST(PowersAtZero, ValuesAreProductsAndRoots) {
   for (const double x : {0.1, 2.0 / 3, 17.3}) {
     const double five = x * x * std::sqrt(x), three = std::sqrt(x) * x;
-    EXPECT_EQ(value_at(power_of(Real::fraction(5, 2)), x), five);
+    EXPECT_EQ(tape_value_at(power_of(Real::fraction(5, 2)), x), five);
     EXPECT_EQ(pow(x, Real::fraction(3, 2)), three);
     EXPECT_EQ(pow(x, Real::fraction(-3, 2)), 1 / three);
     EXPECT_EQ(pow(Pack<4>(x), Real::fraction(5, 2))[2], five);
