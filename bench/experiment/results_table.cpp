@@ -21,15 +21,16 @@ std::string scientific(const nlohmann::json& value) {
 }
 
 // True for an invariant whose drift is classed as growing although its slope is less, per step, than one unit
-// of round-off of the invariant's initial value.
+// of round-off of what steps propagate; of the sum of its terms where that is not known.
 bool below_round_off(const nlohmann::json& invariant, const nlohmann::json& summary) {
   if (!drift_class_named(invariant["class"].get<std::string>()).grows) return false;
   if (!summary.contains("step")) return false;
   const auto text = [](const nlohmann::json& x) { return x.is_string() ? x.get<std::string>() : x.dump(); };
-  const auto initial = Real::parse(text(invariant["initial"])), step = Real::parse(text(summary["step"]));
+  const auto step = Real::parse(text(summary["step"]));
   const double unit = summary["precision"] == "quad" ? 9.6e-35 : 1.1e-16;
-  return initial && step &&
-         std::abs(invariant["slope"].get<double>() * step->value()) < unit * std::abs(initial->value());
+  const bool known = invariant.contains("propagated") && invariant["propagated"].is_number();
+  const double size = invariant[known ? "propagated" : "scale"].get<double>();
+  return step && std::abs(invariant["slope"].get<double>() * step->value()) < unit * size;
 }
 
 // The runs of one case, their summaries, and what their steps cost.

@@ -122,7 +122,7 @@ std::optional<Verdict> accepted_trend(const Facts& facts) {
 /// Whether what moves at first stays where it is: means move little in the second half, or little enough
 /// after the first quarter too, which an arc of a slow oscillation does not.
 bool settles(const Facts& facts) {
-  return facts.late_range_of_means < 0.15 * facts.range_of_means ||
+  return facts.late_range_of_means < 0.18 * facts.range_of_means ||
          (facts.late_range_of_means < 0.22 * facts.range_of_means &&
           facts.settled_range_of_means < 0.35 * facts.range_of_means);
 }
@@ -148,13 +148,16 @@ Verdict decide(const Facts& facts) {
     return bounded_throughout(
         facts, told("means wander by %.2g %% of the range", 100 * facts.range_of_means / facts.range));
   if (facts.samples >= few_samples && settles(facts)) return bounded("levels off");
+  if (facts.arc > std::max(facts.trend, facts.noise) + 6)
+    return undetermined(told("less than a period of a slow oscillation; log evidence %.2g",
+                             facts.arc - std::max(facts.trend, facts.noise)));
   if (facts.accepted() && facts.shapes[facts.shape].kind == Shape::Kind::power &&
       facts.shapes[facts.shape].parameter < 0.75)
     return undetermined(told("sublinear: like t^%.2g", facts.shapes[facts.shape].parameter));
   if (facts.white > std::max(facts.walk, facts.smooth - 5) - 6)
     return bounded_throughout(facts, told("no trend: %.2g +- %.2g; oscillation %.2g", facts.slope.value,
                                           (facts.slope.high - facts.slope.low) / 2, facts.oscillation));
-  if (facts.slowest >= 2 && facts.shared >= 0.8)
+  if (facts.slowest >= 2 && facts.shared >= 0.75)
     return bounded_throughout(facts,
                               told("halves of the run share %.0f %% of the range", 100 * facts.shared));
   if (facts.samples < few_samples) return undetermined("too few samples to tell a walk from an oscillation");

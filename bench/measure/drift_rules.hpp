@@ -5,30 +5,35 @@
 // white (W), a walk (R) or a smooth wander (S), and of the best line (L), power (P) and exponential (E) in
 // noise; f, the lowest slow oscillation, in periods a run, of at least 5 % of the oscillation; the trend's
 // change over the run ("jump") and half the range of what is left beside it ("rest"); turns of e by more than
-// 2 % of its range. A series that turns less than 16 times and shows no two periods of an oscillation is a
-// "curve". u is the unit of round-off, |I| the scale of the quantity, N the number of steps; n the number of
-// samples.
+// 2 % of its range; A, the log evidence of an arc of less than one period of an oscillation. A series that
+// turns less than 16 times and shows no two periods of an oscillation is a "curve". u is the unit of
+// round-off, M the largest sum of the magnitudes of the quantity's terms, R what each step propagates of the
+// roundings of the state (output_gradients.hpp; M where it is unknown), N the number of steps; n the number
+// of samples.
 //
 // The first rule that applies decides:
 //     e = 0 throughout                                         exact
 //     n < 32                                                   undetermined
-//     max <= 8 u|I| sqrt(N)                                    round-off
-//     at most min(n/4, 40) values, 4 u|I| apart or less        round-off
+//     max <= u M + 8 u R sqrt(N)                               round-off
+//     at most min(n/4, 40) values, 4 u M apart or less         round-off        no trend, or at most 4 values
 //     maxima of twentieths of the run grow exponentially       exponential
 //     the spread grows threefold and exceeds jump/4            exponential, linear, polynomial, by its fit
 //     means move < 10 % in the second half                     bounded          levels off; n >= 96
 //     0 < f < 2, jump < 50 times the oscillation               undetermined     too few periods
 //     a trend beats noise by more than 4:
+//         A beats the trend by more than 2                     undetermined     less than a period
 //         jump < 1 % of rest, 1/f of it for f < 8              bounded
 //         line, or power .75 ... 1.3                           linear           no curve, rest > 12 % of jump
 //         power > 1.3                                          polynomial       not at its search's end
-//         exponential, rate <= 16 a run                        exponential      not at its search's end
+//         exponential, rate 2 ... 16 a run                     exponential      not at its search's end
+//         exponential, rate < 2 a run                          linear, polynomial, by the best power
 //     range of means < 10 % of the range of e                  bounded *
-//     means move < 15 % in the second half                     bounded          levels off; n >= 96
+//     means move < 18 % in the second half                     bounded          levels off; n >= 96
 //     ... or < 22 %, and < 35 % after the first quarter        bounded          levels off; n >= 96
+//     A beats every trend and noise by more than 6             undetermined     less than a period
 //     a trend of power < .75                                   undetermined     sublinear
 //     W > max(R, S - 5) - 6                                    bounded *
-//     f >= 2, halves of the run share >= 80 % of the range     bounded *
+//     f >= 2, halves of the run share >= 75 % of the range     bounded *
 //     n < 96, or 85 % of the steps of one sign, or a curve     undetermined
 //     first half covers < 10 % of the range                    undetermined     an event
 //     R < S - 5, means turn 5 times, halves share >= 70 %      bounded *
@@ -36,18 +41,25 @@
 // * undetermined if the first half of the run covers less than half of the range: bursts, events.
 // Every class that grows as a power excludes no growth: its slope's interval, or that of its exponent for a
 // growing spread, does not contain 0; if it does, the class is undetermined.
-// A trend within one unit of round-off a step, max <= u|I| N, is biased-round-off.
-// A line within 5 % of the change over the run needs to beat W and R only. Where nothing that grows was found
-// and at last at least half of the quantity is lost, the run is judged anew up to where that happens: a
-// quantity that is used up levels off, for which no method deserves the word bounded. A run that ends in
-// numbers that are not finite, or a thousand times the quantity, after growing a thousandfold, is
-// exponential.
+// A trend within one unit of round-off a step, max <= u M + u R N, is biased-round-off.
+// A line within 5 % of the change over the run needs to beat W and R only. A walk has the exponent that its
+// means have (walk_exponent.hpp).
+//
+// What is lost is never bounded. A quantity is lost where the means of the last eighth of the run are away by
+// half of its own range (own_range.hpp) or more, to one side, and no sample there comes back to a quarter of
+// it, as an oscillation would. Having nothing left to lose it levels off, which says nothing for the method.
+// Where nothing that grows was found in the whole run, the run is judged anew up to where half was lost, and,
+// since a loss that slows down is no line, up to where a tenth was: the first of them with a trend gives the
+// class, the exponent, the rate and the slope. Without one, as where less than 32 samples were taken before,
+// it is undetermined in place of bounded. A run that ends in numbers that are not finite, or a thousand times
+// the range, after growing a thousandfold, is exponential.
 //
 // Constants. 8 sqrt(N) u: walks of at most 3 u a step reach it at 2.5 standard deviations. 1 %: invisible
 // beside the oscillation. Log evidences of 4, 6, 8: odds of 50, 400, 3000. Of a line 2 are added and of an
 // exponential 2 taken; a walk rarely scores below 10 while what fast oscillations leave often has 3 to 5. 5
-// on S: a power is smooth too. 16 turns: 1 % of walks of 100 samples turn less than 23 times, a single swing
-// less than 15.
+// on S: a power is smooth too. 2 on A beside a trend: an
+// arc fits many a line by chance; 6 beside noise: many a walk. 16 turns: 1 % of walks of 100
+// samples turn less than 23 times, a single swing less than 15.
 #pragma once
 
 #include <optional>

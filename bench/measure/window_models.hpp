@@ -10,9 +10,10 @@
 //     smooth   white, mixed with the share .5 ... 1 of the running sum of a running sum (5 values): a wander
 //     as
 //              smooth as an oscillation of which the run shows less than a period.
-// Shapes of a trend, on scaled time s in (0, 1), filtered in the same way: s; s^p with p = 1.08^k, k = -8 ..
-// 24; exp(lambda (s - 1)) with lambda = 2 1.12^k, k = 0 .. 26. Slow lines: cos and sin of 1 .. 12 periods a
-// run (1 .. 6 for 15 windows, which see no faster ones) in steps of a quarter.
+// Shapes of a trend, on scaled time s in (0, 1), filtered in the same way: s; s^p with p = 1.04^k, k = -16 ..
+// 48; exp(lambda (s - 1)) with lambda = 2 1.12^k, k = -12 .. 26. Slow lines: cos and sin of 1 .. 12 periods a
+// run (1 .. 6 for 15 windows, which see no faster ones) in steps of a quarter. Arcs: those of 1/4 .. 7/8 in
+// steps of an eighth.
 //
 // For each covariance the columns (shapes, cosines and sines) are whitened, freed of the constant, and scaled
 // to unit length; `products` are their inner products. Every regression is then elimination in a small table.

@@ -4,6 +4,8 @@
 // For the means m of B windows, a covariance C of window_models.hpp and columns X (the constant, a shape or
 // none, slow lines), the residual square r is the least of (m - X b)' C^(-1) (m - X b), and
 //     log L = -1/2 log|C| - B/2 log v - r/(2 v),    v = r/B, but not below the square of the resolution.
+// Nor is v, as white noise, below the square of a part of the means' range that is given: shapes have the
+// parameters of a grid, and what a power between two of them leaves is no oscillation.
 // score = log L - 1/2 log B for each parameter besides the constant [schwarz1978]: an amplitude, an exponent
 // or a rate, the share of a walk, and three for a slow line. Scores of one series are comparable, and a
 // difference is the logarithm of the odds.

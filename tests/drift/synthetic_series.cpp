@@ -148,6 +148,12 @@ SyntheticSeries make_series(std::size_t kind, std::uint64_t seed, std::size_t fe
       walk(1, [&] { return series.unit * size * random.uniform(-most_units, most_units); });
       break;
     }
+    case 12: {
+      const double periods = random.uniform(0.6, 1.2), phase = random.uniform(0, 2 * pi);
+      const double a = random.log_uniform(0.1, 1);
+      fill([=](double s) { return std::sin(2 * pi * periods * s + phase); }, a, fast());
+      break;
+    }
     default: {
       const double periods = random.uniform(0.15, 1.2), phase = random.uniform(0, 2 * pi);
       fill([=](double s) { return std::sin(2 * pi * periods * s + phase); }, 1, {});
