@@ -24,7 +24,7 @@ struct Trap {
 /// A quantity of this range, of which nothing is known of its rounding.
 RoundOff of_range(double range, double scale) { return {u, scale, 1, {}, range}; }
 
-Drift measure(const Trap& trap) {
+Drift drift_of(const Trap& trap) {
   DriftAccumulator drift;
   for (std::size_t k = 0; k < trap.samples; ++k)
     drift.add(double(k), trap.error(double(k) / double(trap.samples)));
@@ -33,7 +33,7 @@ Drift measure(const Trap& trap) {
 
 void expect_admitted(const std::vector<Trap>& traps) {
   for (const Trap& trap : traps) {
-    const Drift drift = measure(trap);
+    const Drift drift = drift_of(trap);
     EXPECT_TRUE(trap.classes.contains(to_string(drift.drift_class)))
         << trap.name << ": " << to_string(drift.drift_class) << ": " << drift.evidence;
   }
