@@ -88,6 +88,8 @@ class Convergence {
   bool finished(int limit, const Number& known_contraction = Number(1)) {
     const Number u = unit_roundoff<T>();
     if (!finite_) return stop(Status::non_finite);
+    idle_ = size_ < smallest_ ? 0 : idle_ + 1;
+    smallest_ = std::min(smallest_, size_);
     if (size_ <= u / Number(8)) return stop(Status::converged);
     if (iterations_ == 1 && Number(100) * known_contraction * size_ <= u / Number(64))
       return stop(Status::converged);
@@ -103,11 +105,7 @@ class Convergence {
         return stop(Status::converged);
       if (corrections_ == Corrections::uneven && foretold_by_pairs()) return stop(Status::converged);
       foretold_ = foretold;
-      if (stalls()) {
-        // Round-off noise of a converged iteration, amplified by the sums it passes through.
-        if (size_ <= Number(256) * u || (++stalls_ >= 3 && size_ <= Number(65536) * u))
-          return stop(Status::converged);
-      }
+      if (lost_in_rounding()) return stop(Status::converged);
     }
     if (iterations_ >= limit) return stop(Status::not_converged);
     if (iterations_ % 8 == 0) spend(0, 0);
@@ -133,16 +131,17 @@ class Convergence {
     const Number gain = std::max(Number(size_ / older_), Number(previous_ / oldest_));
     return gain < Number(0.5) && gain * std::max(size_, previous_) <= unit_roundoff<T>() / Number(64);
   }
-  // Corrections that shrink no more. Where they stall and shrink in turns, each is smaller than the one two
-  // iterations before it; such a stall is none, however often it comes, except among a few units of
-  // round-off.
-  [[nodiscard]] bool stalls() const {
-    if (size_ < previous_) return false;
-    return size_ <= Number(4) * unit_roundoff<T>() || (iterations_ > 2 && !(size_ < older_));
+  // Round-off noise of a converged iteration, amplified by the sums it passes through, brings no correction
+  // that is smaller than the smallest so far. Corrections that stall and shrink in turns do every few
+  // iterations, and the longer the wait is the larger the noise may be.
+  [[nodiscard]] bool lost_in_rounding() const {
+    const Number u = unit_roundoff<T>();
+    return (idle_ >= 1 && size_ <= Number(4) * u) || (idle_ >= 3 && size_ <= Number(256) * u) ||
+           (idle_ >= 6 && size_ <= Number(65536) * u);
   }
   Number size_{0}, previous_{0}, older_{0}, oldest_{0};  // of the corrections, the last one first
-  Number contraction_{0};
-  int iterations_ = 0, stalls_ = 0;
+  Number smallest_ = std::numeric_limits<Number>::infinity(), contraction_{0};
+  int iterations_ = 0, idle_ = 0;  // idle: without a correction smaller than all before it
   bool finite_ = true, foretold_ = false;
   Corrections corrections_ = Corrections::even;
   Status status_ = Status::not_converged;

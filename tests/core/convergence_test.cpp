@@ -69,6 +69,14 @@ TEST(Convergence, DoesNotTakeStallsForRoundOffWhileEverySecondCorrectionShrinks)
     EXPECT_GE(taken, 14) << "3.6 units, the first that is round-off";
     EXPECT_LE(taken, 16);
   }
+  // Corrections of a pair of complex unknowns turn and shrink: most of a period passes without a smaller one.
+  // Below 256 units three of them in turn are taken for rounding.
+  const auto turning = [](int k) { return std::pow(0.75, k) * (0.2 + std::abs(std::cos(0.52 * k))); };
+  for (const Corrections kind : {Corrections::even, Corrections::uneven, Corrections::in_turns}) {
+    const auto [status, taken] = watch(turning, 300, kind);
+    EXPECT_EQ(status, Status::converged);
+    EXPECT_LE(turning(taken), 64 * 0x1p-53);
+  }
   // Faster ones in turns are ended by what two iterations gain together, before they are round-off.
   const auto pairs = [](int k) { return std::pow(1e-7, k / 2); };  // 1, 1e-7, 1e-7, 1e-14, 1e-14, 1e-21
   EXPECT_EQ(watch(pairs, 60, Corrections::uneven), (std::pair{Status::converged, 5}));
