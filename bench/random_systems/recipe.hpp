@@ -38,8 +38,10 @@ enum class SystemKind {
   breathing,             // H = T(p, t) + V(q, t)
   breathing_surface      // a surface with T = (1 + r t) |p|^2/(2 m)
 };
+/// In the order in which verification chooses among those that fit: the first, one in the middle, the last.
 inline constexpr std::array system_kinds{SystemKind::separable,
                                          SystemKind::driven,
+                                         SystemKind::breathing,
                                          SystemKind::nonseparable,
                                          SystemKind::damped,
                                          SystemKind::central,
@@ -52,12 +54,11 @@ inline constexpr std::array system_kinds{SystemKind::separable,
                                          SystemKind::skew_field,
                                          SystemKind::surface,
                                          SystemKind::revolution,
+                                         SystemKind::breathing_surface,
                                          SystemKind::rods,
                                          SystemKind::second_class,
                                          SystemKind::rolling,
-                                         SystemKind::transcendental,
-                                         SystemKind::breathing,
-                                         SystemKind::breathing_surface};
+                                         SystemKind::transcendental};
 /// "separable", "second-class", ...
 std::string_view to_string(SystemKind kind);
 
