@@ -127,6 +127,7 @@ void print(const std::vector<FalsificationResult>& results, const Common& common
 }
 
 int search(const FalsifyOptions& options, const Common& common) {
+  const Interruption interruption;
   std::vector<ClaimUnderTest> tests = tests_of(options);
   if (!options.out.empty())
     for (const ClaimUnderTest& test : tests) check_new_file(fs::path(options.out) / file_of(test), "--out");
@@ -136,7 +137,6 @@ int search(const FalsifyOptions& options, const Common& common) {
   settings.budget = options.budget.value_or(options.all ? budget_of_all : settings.budget);
   std::vector<FalsificationResult> results;
   {
-    const Interruption interruption;
     ProgressLine line(common.quiet);
     results = falsify(std::move(tests), settings,
                       [&](const std::string& what, double fraction) { line.show(what, fraction); });

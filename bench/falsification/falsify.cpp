@@ -98,6 +98,7 @@ std::vector<ClaimUnderTest> claims_under_test(const MethodPlugin& plugin, const 
     const std::shared_ptr<const MethodInstance> method = plugin.make(assignments);
     // What a method claims may depend on the system: all that it claims on some system is put to the test.
     for (const ClaimRow& row : claim_table) {
+      spend(0, 0);
       if (claim && *claim != row.claim) continue;
       const ClaimUnderTest made{method, assignments, row.claim, true};
       const bool makes = !kinds_for(made).empty();

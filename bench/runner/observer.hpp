@@ -18,6 +18,7 @@
 #include <pfaff/bench/measure/structure.hpp>
 #include <pfaff/bench/measure/term_magnitudes.hpp>
 #include <pfaff/bench/runner/record.hpp>
+#include <pfaff/core/errors/budget.hpp>
 
 namespace pfaff {
 
@@ -194,10 +195,24 @@ class Observer {
                        [](const Invariant& i) { return i.behaviour != Behaviour::conserved; });
   }
   // The Jacobian of a single step says nothing about the map of several states that a method with history is.
-  static bool remembers(const ResolvedRun& run) {
+  // A run that is told to end before that is known ends before its first step.
+  static bool remembers(const ResolvedRun& run) try {
     std::vector<Quad> z;
     for (const Real& x : run.initial) z.push_back(x.quad());
     return keeps_history(*run.method, run.model, run.t0.quad(), run.step.quad(), z);
+  } catch (const BudgetSpent&) {
+    return true;
+  }
+  // A run that is told to end meanwhile keeps the sample without its residual, and ends at its next step.
+  void measure_structure(const T& t, const std::vector<T>& z, Sample& sample) try {
+    const T r = (*residual_)(t, T(run_.step), z);
+    if (std::isfinite(static_cast<double>(r))) {
+      sample.structure = Quad(r);
+      worst(record_.structure_residual, static_cast<double>(r));
+    } else {
+      ++record_.structure_failures;
+    }
+  } catch (const BudgetSpent&) {
   }
 
   std::string observe_sample(const T& t, const Quad& exact_time, const std::vector<T>& z, bool structure) {
@@ -228,15 +243,7 @@ class Observer {
                      " solution (--reference none leaves it out) is not finite";
       }
     }
-    if (structure && residual_) {
-      const T r = (*residual_)(t, T(run_.step), z);
-      if (std::isfinite(static_cast<double>(r))) {
-        sample.structure = Quad(r);
-        worst(record_.structure_residual, static_cast<double>(r));
-      } else {
-        ++record_.structure_failures;
-      }
-    }
+    if (structure && residual_) measure_structure(t, z, sample);
     record_.samples.push_back(std::move(sample));
     return not_finite;
   }

@@ -36,14 +36,29 @@ class Errors {
     std::int64_t completed = 0;
     const Quad h = elapsed / Quad(static_cast<double>(steps));
     if (stepper->advance(begin_.quad(), 0, h, steps, z, completed) != Status::converged) return Quad(-1);
-    if (exact_.empty() || elapsed != exact_after_) {
-      exact_ = start_;
-      exact_after_ = elapsed;
-      taylor_flow(*motion_, begin_.quad(), elapsed, exact_);
-    }
+    find_solution(elapsed);
     std::vector<Quad> difference(z.size());
     for (std::size_t k = 0; k < z.size(); ++k) difference[k] = z[k] - exact_[k];
     return norm(difference) / norm(start_);
+  }
+
+  /// The same of one step. One that leads over the end of the motion is too long, and fails too.
+  [[nodiscard]] Quad after_one(Quad h) {
+    try {
+      return after(h, 1);
+    } catch (const SolutionEnds&) {
+      return Quad(-1);
+    }
+  }
+
+  /// Finds the state after that time. SolutionEnds where the motion ends before: no method can follow it, and
+  /// its steps say nothing.
+  void find_solution(const Quad& elapsed) {
+    if (!exact_.empty() && elapsed == exact_after_) return;
+    std::vector<Quad> z = start_;
+    taylor_flow(*motion_, begin_.quad(), elapsed, z);
+    exact_ = std::move(z);
+    exact_after_ = elapsed;
   }
 
   /// The root mean square of the errors after the last quarter of so many equal steps, at eight times;
@@ -153,18 +168,22 @@ MeasuredOrder measure_order(const MethodInstance& method, const std::shared_ptr<
     return doubles ? std::max(Quad(1e-32), Quad(1e-15) * rate * elapsed) : Quad(1e-32);
   };
   // What constrained motion remembers is a reaction, which is its own after a step.
-  if (history && !model->restricted())
+  if (history && !model->restricted()) {
+    errors.find_solution(long_interval * time);
     return settle([&](int k) { return errors.late(long_interval * time, fewest_steps << k); }, 10,
                   [&](int k) {
                     // Roundings of n steps of a recurrence of second order add up to n^2 / 2 of them.
                     const Quad n(static_cast<double>(fewest_steps << k));
                     return std::max(Quad(100) * floor_after(long_interval * time), Quad(1e-35) * n * n);
                   });
-  if (method.needs_constraints() || history)
+  }
+  if (method.needs_constraints() || history) {
+    errors.find_solution(interval * time);
     return settle([&](int k) { return errors.after(interval * time, std::int64_t{1} << k); }, 10,
                   [&](int) { return Quad(100) * floor_after(interval * time); });
+  }
   const auto step = [&](int k) { return time / Quad(std::ldexp(1.0, k + 1)); };
-  MeasuredOrder order = settle([&](int k) { return errors.after(step(k), 1); }, 40,
+  MeasuredOrder order = settle([&](int k) { return errors.after_one(step(k)); }, 40,
                                [&](int k) { return floor_after(step(k)); });
   order.slope -= 1;
   return order;

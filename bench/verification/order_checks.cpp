@@ -1,8 +1,8 @@
 // The claims of order: measured as claimed, and lost when a coefficient is changed.
 #include <cmath>
 
-#include <pfaff/bench/measure/reference.hpp>
 #include <pfaff/bench/runner/settings.hpp>
+#include <pfaff/bench/verification/check_budget.hpp>
 #include <pfaff/bench/verification/claim_checks.hpp>
 #include <pfaff/bench/verification/method_on_model.hpp>
 
@@ -29,14 +29,7 @@ Check check_order(MethodOnModel& on, bool conditions_judge) {
     check.reason = "the order claimed is not positive: the descriptor's, or that of order(model)";
     return check;
   }
-  MeasuredOrder order;
-  try {
-    order = measure_order(method, on.model(), on.history());
-  } catch (const SolutionEnds& ends) {
-    check.in_scope = false;
-    check.reason = std::string("not judged: ") + ends.what();
-    return check;
-  }
+  const MeasuredOrder order = measure_order(method, on.model(), on.history());
   check.measured = order.slope;
   const bool low = !(order.slope >= check.expected - check.tolerance);
   if (low && order.exact) {
@@ -93,10 +86,11 @@ std::vector<Check> check_changed_coefficient(const MethodPlugin& plugin, const A
     check.control = true;
     check.expected = method->order(*model);
     check.tolerance = 0.1;
-    try {
+    check = within_budget(check, [&] {
       check.measured = order_at_small_steps(*changed, model, history);
-    } catch (const SolutionEnds& ends) {
-      check.reason = std::string("not judged: ") + ends.what();
+      return check;
+    });
+    if (ran_out(check)) {
       checks.push_back(std::move(check));
       continue;
     }

@@ -196,6 +196,7 @@ class Jobs {
     const auto model = system.make(parameters_of(system));
     const auto instances = parameters(method.name(), method.instances(settings_.full));
     for (const Assignments& p : instances) {
+      spend(0, 0);  // there are thousands of pairs, and somebody may not want to wait for their list
       const auto instance = method.make(p);
       const auto motion = motion_for(*instance, model);
       if (!instance->refuses(*motion).empty()) continue;

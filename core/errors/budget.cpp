@@ -35,14 +35,14 @@ Budget::~Budget() { in_force = around_; }
 Budget* Budget::current() noexcept { return in_force; }
 
 void Budget::spend(std::int64_t steps, std::int64_t evaluations) {
-  steps_ += steps;
   evaluations_ += evaluations;
   if (stop_ != nullptr && stop_->load(std::memory_order_relaxed))
     throw BudgetSpent(BudgetSpent::Reason::stop, 0);
-  if (steps_ > limits_.steps) throw BudgetSpent(BudgetSpent::Reason::steps, limits_.steps);
+  if (steps > limits_.steps - steps_) throw BudgetSpent(BudgetSpent::Reason::steps, limits_.steps);
   if (evaluations_ > limits_.evaluations)
     throw BudgetSpent(BudgetSpent::Reason::evaluations, limits_.evaluations);
   if (around_ != nullptr) around_->spend(steps, evaluations);
+  steps_ += steps;  // no step that was refused
 }
 
 std::int64_t Budget::take(std::int64_t steps, std::int64_t evaluations) noexcept {

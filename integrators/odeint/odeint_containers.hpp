@@ -93,6 +93,7 @@ template <class P, class TryStep, class NextSlope>
 Status controlled_steps(const P& p, double& t, double end, const Tolerance<double>& tolerance, State<P>& z,
                         ControlledWork<P>& w, const TryStep& try_step, const NextSlope& next_slope) {
   if (t == end) return Status::converged;
+  detail::AllowedSteps<P> steps(p);
   w.from.scales = &w.scales;
   w.from.tolerance = &tolerance;
   w.from.reached = &w.end;
@@ -104,7 +105,6 @@ Status controlled_steps(const P& p, double& t, double end, const Tolerance<doubl
   constexpr std::int64_t budget = 1000000000;
   std::int64_t taken = 0;
   Status failure = Status::not_converged;
-  detail::AllowedSteps<P> steps(p);
   for (int rejected = 0; direction * (end - t) > 0;) {
     if (rejected == 0 && steps.next(1) == 0) break;
     const bool clipped = direction * (t + h - end) >= 0;

@@ -22,14 +22,16 @@ Outcome interrupted(const Arguments& arguments, int signal) {
 
 TEST(Interrupted, CommandsEndAndSayWhatWasDone) {
   const std::vector<std::pair<Arguments, std::string>> commands{
-      {{"verify", "integrators", "--full"}, "groups of checks"},
-      {{"falsify", "--all", "--budget", "600"}, "random systems"},
+      {{"verify", "gauss", "--full"}, "groups of checks"},
+      {{"falsify", "gauss", "--budget", "600"}, "random systems"},
       {{"tune", "henon-heiles", "--step", "0.1", "--order", "4", "--stages", "9", "--starts", "1000000"},
        "starts of a search"},
-      {{"reproduce"}, "papers were reproduced"}};
-  for (const auto& [command, said] : commands)
-    for (const int signal : {SIGINT, SIGTERM})
-      expect_complaint(interrupted(command, signal), 1, {"interrupted: ", said}, joined(command));
+      {{"reproduce", "--json"}, "papers were reproduced"}};
+  int signal = SIGINT;
+  for (const auto& [command, said] : commands) {
+    expect_complaint(interrupted(command, signal), 1, {"interrupted: ", said}, joined(command));
+    signal = signal == SIGINT ? SIGTERM : SIGINT;
+  }
 }
 
 // The trial run that finds out how many samples are kept is as long as the run itself.

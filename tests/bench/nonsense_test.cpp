@@ -149,7 +149,9 @@ TEST(Nonsense, MoreStepsThanTheBudget) {
   expect_said(complaint(s), {"--step: 0.01 is too small", "1e+03 steps", "at most 999", "--max-steps"});
   s.step_budget = 1000;
   EXPECT_EQ(complaint(s), "");
-  expect_said(complaint(settings_of("kepler", "1e-9", "1e6")), {"1e+15 steps", "1000000000000"});
+  RunSettings many = settings_of("kepler", "1e-9", "1e6");
+  many.precision = Precision::quad;  // in double nothing is left of such a step beside the time
+  expect_said(complaint(many), {"1e+15 steps", "1000000000000"});
   // Where the method chooses its steps, the run ends.
   s = settings_of("kepler", "", "1000");
   s.integrator = "odeint-dopri5";
