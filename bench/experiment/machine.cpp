@@ -9,6 +9,8 @@
 
 #include <sys/utsname.h>
 
+#include <pfaff/core/process/input_file.hpp>
+
 namespace pfaff {
 
 namespace {
@@ -45,8 +47,9 @@ std::string host_name() {
 }
 
 bool is_machine(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  nlohmann::json found = nlohmann::json::parse(stream, nullptr, false);
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return false;
+  nlohmann::json found = nlohmann::json::parse(read_file(file), nullptr, false);
   if (!found.is_object()) return false;
   const nlohmann::json like = machine(0, 0);
   for (const auto& [key, value] : like.items())
