@@ -169,6 +169,10 @@ std::string RankWatch<T>::observe(const T& t, const std::vector<T>& z) {
     T size(0);
     for (std::size_t j = skew_ ? 0 : i; j < (skew_ ? count_ : i + 1); ++j)
       size = std::max(size, T(abs(entries_[i * count_ + j])));
+    if (!(size <= std::numeric_limits<T>::max())) {  // out of the range of numbers, which is no loss of rank
+      matrix_.clear();
+      return {};
+    }
     if (known_ == 0) scales_[i] = size;
     largest_[i] = std::max(scales_[i], size);
   }

@@ -133,6 +133,12 @@ TEST_F(RankAlongRuns, EndsRunsThroughConstraintsThatStopBeingSecondClass) {
   }
 }
 
+// K = e^{nu t} J leaves the range of doubles at t = 2365, where it is as regular as before.
+TEST_F(RankAlongRuns, DoesNotTakeALargeStructureForASingularOne) {
+  const RunRecord record = run_named("damped-pendulum", "rk4", "0.5", "3000");
+  EXPECT_EQ(record.completed, 6000) << record.message;
+}
+
 // The blade turns by 2 radians in a step: its row points back and forth, and is never zero.
 TEST_F(RankAlongRuns, DoesNotTakeATurnForASingularRow) {
   const RunRecord record = run_of(planar("0, 0, 0, 1, 0, 20", R"row(row = ["-sin(z)", "cos(z)", "0"])row"),
