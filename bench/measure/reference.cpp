@@ -172,6 +172,7 @@ void ReferenceSolution::solve(Quad duration) {
       end_ = solution.time();
     }
   } catch (const BudgetSpent& spent) {
+    if (spent.stopped()) throw;
     reason = spent.what();
   }
   if (end_ < t0_ + duration) ended_ = solution_found_up_to(end_, reason);

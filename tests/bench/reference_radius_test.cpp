@@ -115,7 +115,7 @@ TEST(ReferenceRadius, LongerGaps) {
 }
 // (atan v + atanh v) / 2 = t, and the same with acoth from 10.
 TEST(ReferenceRadius, Saturation) {
-  expect_solution(sample_motion(Saturating{}, {0}), 1, "0.8591788791773327554208284372703610400621");
+  expect_solution(sample_motion(Saturating{}, {0}), 1, "0.8591791788773327554208284372703610400621");
   expect_solution(sample_motion(Saturating{}, {10}), 10,
                   "1.000000000000000001763938577872213750256575546324936");
 }
