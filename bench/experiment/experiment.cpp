@@ -1,6 +1,7 @@
 #include <pfaff/bench/experiment/experiment.hpp>
 
 #include <algorithm>
+#include <map>
 
 #include <pfaff/bench/experiment/automatic_steps.hpp>
 #include <pfaff/bench/experiment/citations.hpp>
@@ -227,6 +228,20 @@ bool choose_steps(Experiment& experiment, std::vector<ExperimentRun>& runs, Refe
   return true;
 }
 
+// A line for each reference solution that ends before its runs.
+std::string ended_references(const std::vector<ExperimentRun>& runs,
+                             const std::vector<nlohmann::json>& summaries) {
+  std::map<ProblemKey, std::string> lines;
+  for (std::size_t k = 0; k < runs.size(); ++k)
+    if (summaries[k].contains("reference_ended"))
+      lines[problem_of(runs[k])] = "reference of " + runs[k].which->name + ": " +
+                                   summaries[k]["reference_ended"].get<std::string>() +
+                                   "; errors are measured up to there\n";
+  std::string text;
+  for (const auto& [problem, line] : lines) text += line;
+  return text;
+}
+
 // Makes the run and leaves it in the directory; false where it was asked to stop before its end.
 bool made(const ExperimentRun& run, References& references, const fs::path& directory) try {
   const RunRecord record = execute(run.resolved, references.of(run));
@@ -297,7 +312,8 @@ void make_all(Experiment experiment, const fs::path& directory, const Experiment
   for (const Finding& finding : findings) outcome.findings.push_back(to_json(finding));
   outcome.failed_claims = failed_claims(findings);
   write_equal_cost(directory, experiment, runs, summaries, references, progress);
-  outcome.table = results_table(directory, experiment, runs, summaries) + findings_table(findings);
+  outcome.table = results_table(directory, experiment, runs, summaries) + findings_table(findings) +
+                  ended_references(runs, summaries);
   if (options.report) {
     report(ExperimentStage::phases, "figures and report", 0);
     outcome.report = make_report(directory);

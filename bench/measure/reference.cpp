@@ -48,7 +48,8 @@ class SeriesOfSolution {
       return std::to_string(most_reference_steps) + " steps have been taken";
     if (taken_ % steps_of_pace == 0) {
       if (abs(goal - t_) > abs(t_ - paced_) * Quad(static_cast<double>(most_at_pace / steps_of_pace)))
-        return "at the pace of its last steps the end takes more than " + std::to_string(most_at_pace);
+        return "at the pace of its last " + std::to_string(steps_of_pace) + " steps the end is more than " +
+               std::to_string(most_at_pace) + " steps away";
       paced_ = t_;
     }
     if (!steps_.expand(t_, z_.data())) return out_of_the_domain;
@@ -172,6 +173,7 @@ void ReferenceSolution::solve(Quad duration) {
       end_ = solution.time();
     }
   } catch (const BudgetSpent& spent) {
+    if (spent.stopped()) throw;
     reason = spent.what();
   }
   if (end_ < t0_ + duration) ended_ = solution_found_up_to(end_, reason);

@@ -41,7 +41,7 @@ class ReferenceSolution {
   /// Solves from `initial` at `t0` to t0 + `duration` (> 0), or to where the first of these is: the end of
   /// the domain of the formulas, a singularity, the time from which the two series agree in less than 20
   /// digits, a million steps, 2^26 stored numbers (a gigabyte), the end of the budget of the thread, of which
-  /// a step of either series spends one.
+  /// a step of either series spends one. BudgetSpent where that was asked to stop.
   ReferenceSolution(std::shared_ptr<const Model> model, Quad t0, std::vector<Quad> initial, Quad duration);
 
   /// "exact" for a closed form; of Taylor series, in how many digits of each coordinate the two agree,

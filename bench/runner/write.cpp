@@ -69,7 +69,8 @@ std::string series_csv(const ResolvedRun& run, const RunRecord& record) {
     for (const Quad& x : sample.invariants) text << ',' << number(x, p);
     for (const Quad& x : sample.constraints) text << ',' << to_string(x, 6);
     if (error) text << ',' << (sample.error ? to_string(*sample.error, 6) : "");
-    for (const Quad& x : sample.invariant_errors) text << ',' << to_string(x, 6);
+    for (std::size_t i = 0; i < errors; ++i)  // none where the reference solution has ended
+      text << ',' << (sample.invariant_errors.empty() ? "" : to_string(sample.invariant_errors[i], 6));
     if (structure) text << ',' << (sample.structure ? to_string(*sample.structure, 6) : "");
     text << '\n';
   }

@@ -47,6 +47,7 @@ class TaylorSteps {
         rounded_field_(field),
         low_(expansion_.order() - std::max<std::size_t>(2, expansion_.order() / 4) + 1),
         reach_(reach),
+        logarithms_(expansion_.size() * (expansion_.order() + 1 - low_)),
         sizes_(expansion_.size()),
         unsized_(expansion_.size()),
         state_(expansion_.size()),
@@ -54,7 +55,10 @@ class TaylorSteps {
         rate_(expansion_.size()),
         rounding_(expansion_.size()),
         rounded_state_(expansion_.size()),
-        rounded_rate_(expansion_.size()) {}
+        rounded_rate_(expansion_.size()) {
+    for (std::size_t m = low_; m <= expansion_.order(); ++m)
+      of_degrees_.push_back(std::log(static_cast<double>(expansion_.order()) / static_cast<double>(m)));
+  }
 
   /// Expands the solution that is at z at time t. False where a coefficient is not finite.
   [[nodiscard]] bool expand(const T& t, const T* z) {
@@ -128,6 +132,11 @@ class TaylorSteps {
 
   // The largest step that the last degrees allow; infinite where they vanish.
   [[nodiscard]] double guessed(const T& whole, const std::vector<T>& least) {
+    const std::vector<T>& c = expansion_.coefficients();
+    for (std::size_t i = 0; i < logarithms_.size(); ++i) {
+      const T coefficient = abs(c[low_ * sizes_.size() + i]);
+      logarithms_[i] = coefficient > T(0) ? logarithm(coefficient) : -std::numeric_limits<double>::infinity();
+    }
     // The sizes of coordinates depend on the step. A first estimate of the radius takes the lowest term of
     // each, whose size hardly matters for a root of high degree.
     const double first = radius([&](std::size_t k) { return lowest(k, least[k]); });
@@ -148,19 +157,17 @@ class TaylorSteps {
     return {0, T(0)};
   }
   template <class TermOf>
-  [[nodiscard]] double radius(TermOf&& term_of) {
-    const std::vector<T>& c = expansion_.coefficients();
-    const std::size_t n = sizes_.size(), p = expansion_.order();
+  [[nodiscard]] double radius(TermOf&& term_of) const {
+    const std::size_t n = sizes_.size();
     double smallest = std::numeric_limits<double>::infinity();  // a logarithm
     for (std::size_t k = 0; k < n; ++k) {
       const Term term = term_of(k);
       if (!(term.size > T(0))) continue;
       const double size = logarithm(term.size);
-      for (std::size_t m = low_; m <= p; ++m) {
-        const T coefficient = abs(c[m * n + k]);
-        if (!(coefficient > T(0))) continue;
-        smallest = std::min(smallest, (size - logarithm(coefficient)) / static_cast<double>(m - term.degree) +
-                                          std::log(static_cast<double>(p) / static_cast<double>(m)));
+      for (std::size_t i = 0; i < of_degrees_.size(); ++i) {
+        const double of_coefficient =
+            (size - logarithms_[i * n + k]) / static_cast<double>(low_ + i - term.degree);
+        smallest = std::min(smallest, of_coefficient + of_degrees_[i]);
       }
     }
     return std::exp(smallest);
@@ -221,6 +228,7 @@ class TaylorSteps {
   Replay<WithRounding<T>> rounded_field_;
   std::size_t low_;  // the first of the last degrees
   double reach_;
+  std::vector<double> of_degrees_, logarithms_;  // of p/m, and of the last coefficients, [degree][coordinate]
   T time_{};
   std::vector<T> sizes_, unsized_;                  // of coordinates; of those that have none
   std::vector<T> state_, slope_, rate_, rounding_;  // where the defect is measured

@@ -78,6 +78,22 @@ struct Switched {  // x' = 1 until t = 1, then 2
   }
 };
 
+struct SmallSpring {  // a mass of 1e-26 kg on a spring of 1e-4 N/m, which moves by 1e-10 m in 1e-11 s
+  static constexpr int dimension = 2;
+  template <class T>
+  void field(const T& /*t*/, In<T> z, Out<T> rate) const {
+    rate[0] = z[1] * whole_power(T(10), 26);
+    rate[1] = -z[0] / whole_power(T(10), 4);
+  }
+};
+struct Driven {  // v' = cos t
+  static constexpr int dimension = 1;
+  template <class T>
+  void field(const T& t, In<T> /*z*/, Out<T> rate) const {
+    rate[0] = cos(t);
+  }
+};
+
 // Coordinate k of both, relative; quad has 34 digits, of which the motions here lose four at most.
 void expect_solution(const std::shared_ptr<const Model>& model, int time, const char* expected,
                      std::size_t k = 0) {
@@ -115,7 +131,7 @@ TEST(ReferenceRadius, LongerGaps) {
 }
 // (atan v + atanh v) / 2 = t, and the same with acoth from 10.
 TEST(ReferenceRadius, Saturation) {
-  expect_solution(sample_motion(Saturating{}, {0}), 1, "0.8591788791773327554208284372703610400621");
+  expect_solution(sample_motion(Saturating{}, {0}), 1, "0.8591791788773327554208284372703610400621");
   expect_solution(sample_motion(Saturating{}, {10}), 10,
                   "1.000000000000000001763938577872213750256575546324936");
 }
@@ -138,6 +154,23 @@ TEST(ReferenceRadius, PolynomialBesideAnother) {
   const auto throwing = sample_motion(Throwing{}, {0, 7, 1});
   expect_solution(throwing, 30, "-240");
   expect_solution(throwing, 30, "0.032258064516129032258064516129032258064516129", 2);
+}
+// A second's hundred millionth part is 1000 radians; each coordinate counts by its own size.
+TEST(ReferenceRadius, SmallUnits) {
+  const Quad mass = digits_of("1e-26"), stiffness = digits_of("1e-4"), amplitude = digits_of("1e-10"),
+             time = digits_of("1e-8"), rate = sqrt(stiffness / mass);
+  const auto model = sample_motion(SmallSpring{}, {*Real::parse("1e-10"), 0});
+  const std::vector<Quad> z = ReferenceSolution(model, Quad(0), start_of_sample(*model), time).at(time),
+                          exact{amplitude * cos(rate * time), -mass * rate * amplitude * sin(rate * time)};
+  for (std::size_t k = 0; k < 2; ++k)
+    EXPECT_LE(static_cast<double>(abs(z[k] / exact[k] - Quad(1))), 1e-28) << k;  // 2e3 radians of u each
+}
+// The times of steps are rounded, and the force is that of the time which is left.
+TEST(ReferenceRadius, LateTimes) {
+  const auto model = sample_motion(Driven{}, {0});
+  const Quad late(1000000), after = late + Quad(10);
+  const ReferenceSolution solution(model, late, {Quad(0)}, Quad(10));
+  EXPECT_LE(static_cast<double>(abs(solution.at(after)[0] - (sin(after) - sin(late)))), 1e-32);
 }
 // The series before a jump of the field knows nothing of it.
 TEST(ReferenceRadius, JumpOfTheField) { expect_solution(sample_motion(Switched{}, {0}), 3, "5"); }

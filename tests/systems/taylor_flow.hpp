@@ -31,13 +31,17 @@ inline std::vector<Quad> taylor_flow(const std::shared_ptr<const Tape>& field, Q
         x[(l + 1) * n + k] = *series.output(k, l) / Quad(static_cast<int>(l + 1));
     }
     Quad size(0), last(0);
-    for (std::size_t k = 0; k < n; ++k) {
-      size = std::max(size, abs(z[k]));
-      last = std::max({last, abs(x[order * n + k]), abs(x[(order - 1) * n + k])});
+    for (std::size_t k = 0; k < n; ++k) size = std::max(size, abs(z[k]));
+    // The highest pair of degrees that does not vanish, of the last ten: some series have gaps.
+    std::size_t degree = order + 2;
+    while (last == Quad(0) && degree > order - 8) {
+      degree -= 2;
+      for (std::size_t k = 0; k < n; ++k)
+        last = std::max({last, abs(x[degree * n + k]), abs(x[(degree - 1) * n + k])});
     }
     Quad step = end - done;
     if (last > Quad(0))
-      step = std::min(step, exp(log(size / last) / Quad(static_cast<int>(order))) / Quad(10));
+      step = std::min(step, exp(log(size / last) / Quad(static_cast<int>(degree))) / Quad(10));
     for (std::size_t k = 0; k < n; ++k) {
       z[k] = Quad(0);
       for (std::size_t l = order + 1; l-- > 0;) z[k] = z[k] * (sign * step) + x[l * n + k];
