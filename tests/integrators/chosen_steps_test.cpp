@@ -241,14 +241,14 @@ TEST_P(ChosenSteps, OfAWaveThroughAChainAtRest) {
 }
 
 // The rate of the third coordinate is zero but for rounding errors, which no step makes right, whatever its
-// scale: (q + 1)^2 - q^2 - 2 q - 1.
+// scale: (q + 1)^2 - q^2 - 2 q - 1. Without the noise that is allowed the run does not end.
 TEST_P(ChosenSteps, OfACoordinateThatOnlyRoundingMoves) {
   const ChosenRun one = chosen_run(GetParam(), Spring{}, {1, 0}, 20, 1e-10);
   const ChosenRun both = chosen_run(GetParam(), RoundedRate{}, {1, 0, 0}, 20, 1e-10);
   ASSERT_EQ(both.status, Status::converged);
   EXPECT_NEAR(both.end[0], std::cos(20), 1e-8);
   EXPECT_NEAR(both.end[2], 0, 1e-13);
-  EXPECT_LE(both.steps, 5 * one.steps);
+  EXPECT_LE(both.steps, 20 * one.steps);
 }
 
 // At the upper equilibrium sin q is what rounding leaves of pi, and no step makes that right.
