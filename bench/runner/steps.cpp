@@ -47,9 +47,8 @@ void check_times(const ResolvedRun& run, const T& step, const std::string& step_
   throw InputError(option + ": " + step_text + " is too little beside the time " +
                    to_string(Quad(latest), 6) + in + ", where t + h is off by up to " +
                    to_string(Quad(spacing / T(2)), 3) +
-                   " and a millionth of h is allowed; expected a larger "
-                   "number, an origin of time that is nearer to the run" +
-                   expected);
+                   " and a millionth of h is allowed; expected a larger number" +
+                   (t0 == T(0) ? "" : ", an origin of time that is nearer to the run") + expected);
 }
 
 // Refuses a tolerance that no step can meet in the scalar T of the run.
@@ -159,16 +158,16 @@ void resolve_fixed_steps(ResolvedRun& run) {
   if (run.step > run.time)
     throw InputError("--step: expected at most the duration " + settings.time + ", got '" + settings.step +
                      "'");
-  if (settings.precision == Precision::quad) {
-    check_times(run, Quad(run.step), settings.step, "--step");
-  } else {
-    check_times(run, double(run.step), settings.step, "--step");
-  }
   const double ratio = (run.time / run.step).value();
   if (!(ratio <= static_cast<double>(settings.step_budget)))
     throw InputError("--step: " + settings.step + " is too small for a duration of " + settings.time +
                      ": that takes " + to_string(Quad(ratio), 3) + " steps; expected at most " +
                      std::to_string(settings.step_budget) + " (--max-steps)");
+  if (settings.precision == Precision::quad) {
+    check_times(run, Quad(run.step), settings.step, "--step");
+  } else {
+    check_times(run, double(run.step), settings.step, "--step");
+  }
   // A run has a whole number of steps; a duration that is not a multiple of the step is shortened to one.
   const double nearest = std::round(ratio);
   run.steps =

@@ -129,7 +129,7 @@ Status controlled_steps(const P& p, double& t, double end, const Tolerance<doubl
     } else {
       failure = std::isfinite(w.from.error) ? Status::not_converged : Status::non_finite;
       if (++rejected > 100 || !(std::abs(h) > 1e-14 * std::abs(t))) return failure;
-      if (rejected == rejections_in_doubt) w.scales.find_noise(p, t, w.from, w.rate);
+      if (rejected < rejections_in_doubt) w.scales.find_noise(p, t, w.from, w.rate);
     }
   }
   return Status::converged;

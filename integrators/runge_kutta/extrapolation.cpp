@@ -122,7 +122,7 @@ struct Extrapolation {
       if (h == T(0) || rejections > most_rejections || taken == most_steps) return failure;
       const int accepted = attempt(p, t, h, tolerance, z, w, failure);
       if (accepted == 0) {
-        if (++rejections == rejections_in_doubt) w.scales.find_noise(p, t, z, w.rate);
+        if (++rejections < rejections_in_doubt) w.scales.find_noise(p, t, z, w.rate);
         continue;
       }
       w.scales.keep();

@@ -87,6 +87,15 @@ struct Decaying {
     rate[0] = -z[0];
   }
 };
+struct RoundedRate {
+  static constexpr int dimension = 3;
+  template <class T>
+  void field(const T& /*t*/, In<T> z, Out<T> rate) const {
+    rate[0] = z[1];
+    rate[1] = -z[0];
+    rate[2] = (z[0] + 1) * (z[0] + 1) - z[0] * z[0] - 2 * z[0] - 1;
+  }
+};
 struct Chain {  // 32 masses between springs of unit stiffness, q then p
   static constexpr int dimension = 64;
   template <class T>
@@ -229,6 +238,17 @@ TEST_P(ChosenSteps, OfAWaveThroughAChainAtRest) {
                 std::cos(20 * std::sin(j * std::numbers::pi / 66));
   EXPECT_NEAR(wave.end[0] / 1e-6, expected, 1e-6);
   EXPECT_LE(wave.steps, 3000);
+}
+
+// The rate of the third coordinate is zero but for rounding errors, which no step makes right, whatever its
+// scale: (q + 1)^2 - q^2 - 2 q - 1. Without the noise that is allowed the run does not end.
+TEST_P(ChosenSteps, OfACoordinateThatOnlyRoundingMoves) {
+  const ChosenRun one = chosen_run(GetParam(), Spring{}, {1, 0}, 20, 1e-10);
+  const ChosenRun both = chosen_run(GetParam(), RoundedRate{}, {1, 0, 0}, 20, 1e-10);
+  ASSERT_EQ(both.status, Status::converged);
+  EXPECT_NEAR(both.end[0], std::cos(20), 1e-8);
+  EXPECT_NEAR(both.end[2], 0, 1e-13);
+  EXPECT_LE(both.steps, 20 * one.steps);
 }
 
 // At the upper equilibrium sin q is what rounding leaves of pi, and no step makes that right.
