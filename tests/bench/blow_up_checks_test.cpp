@@ -17,11 +17,11 @@ namespace {
 using testing::bad;
 using testing::TemporaryDirectory;
 
-struct Motion {
+struct EndingMotion {
   std::string name, text, judged_without;  // a claim that some method cannot be judged by on it
 };
-const std::vector<Motion>& motions_that_end() {
-  static const std::vector<Motion> list{
+const std::vector<EndingMotion>& motions_that_end() {
+  static const std::vector<EndingMotion> list{
       {"saddle",
        "coordinates = [\"q\", \"p\"]\ninitial = [1, 0]\nkinetic = \"p^2/2 + p^3/6\"\n"
        "potential = \"q^2/2 + q^3/5 - cos(q)/4\"\n",
@@ -57,7 +57,7 @@ const std::vector<Named>& methods() {
 
 TEST(BlowUpChecks, NoMethodIsToBlameForTheEndOfAMotion) {
   const TemporaryDirectory files;
-  for (const Motion& motion : motions_that_end()) {
+  for (const EndingMotion& motion : motions_that_end()) {
     const std::string file = files / (motion.name + ".toml");
     std::ofstream(file) << motion.text;
     const auto model = system_named(file).make({});
@@ -84,7 +84,7 @@ TEST(BlowUpChecks, NoMethodIsToBlameForTheEndOfAMotion) {
 // Negative control: a method that is wrong is found out on them, too.
 TEST(BlowUpChecks, AWrongMethodFailsOnThemToo) {
   const TemporaryDirectory files;
-  for (const Motion& motion : motions_that_end()) {
+  for (const EndingMotion& motion : motions_that_end()) {
     const std::string file = files / (motion.name + ".toml");
     std::ofstream(file) << motion.text;
     const auto model = system_named(file).make({});

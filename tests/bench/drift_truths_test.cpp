@@ -58,7 +58,7 @@ void expect_right(const Kind& kind, const pfaff::RoundOff& round_off = {}) {
   }
 }
 
-TEST(DriftTruths, Bounded) {
+TEST(DriftTruths, BoundedOnes) {
   expect_right({"fast", {"bounded"}, [](const Setting&, double, double fast, Noise&) { return fast; }});
   expect_right({"slow", {"bounded"}, [](const Setting&, double s, double fast, Noise&) {
                   return 0.8 * std::sin(2 * pi * 6.3 * s) + 0.5 * std::cos(2 * pi * 11.9 * s) + 0.1 * fast;
@@ -72,7 +72,7 @@ TEST(DriftTruths, Bounded) {
                 }});
 }
 
-TEST(DriftTruths, Walks) {
+TEST(DriftTruths, WalksOfManySteps) {
   double walk = 0;
   expect_right(
       {"random walk", {"random-walk", "undetermined"}, [&](const Setting&, double s, double, Noise& noise) {

@@ -71,17 +71,17 @@ std::shared_ptr<const Model> model_of(const S& system, std::vector<Real> initial
 std::shared_ptr<const Model> growing_mass() { return model_of(GrowingMass(), {1, 0.3_r}); }
 
 // A motion and where it is at t = 2.
-struct Known {
+struct KnownMotion {
   std::shared_ptr<const Model> model;
   std::vector<Quad> end;
 };
-const std::vector<Known>& known_motions() {
+const std::vector<KnownMotion>& known_motions() {
   static const auto digits = [](std::initializer_list<const char*> numbers) {
     std::vector<Quad> z;
     for (const char* x : numbers) z.push_back(Real::parse(x)->quad());
     return z;
   };
-  static const std::vector<Known> all{
+  static const std::vector<KnownMotion> all{
       {growing_mass(),
        digits({"-0.275233063146561574521685039857987", "-1.42286503867135999508668253392635"})},
       {model_of(ShakenQuartic(), {0.7_r, Real::fraction(-2, 5)}),
@@ -93,14 +93,14 @@ const std::vector<Known>& known_motions() {
 }
 
 // The error at t = 2 after so many steps.
-double error_after(const MethodInstance& method, const Known& known, int steps) {
+double error_after(const MethodInstance& method, const KnownMotion& known, int steps) {
   const auto z = after_steps<Quad>(method, known.model, Quad(2) / Quad(steps), steps);
   Quad worst(0);
   for (std::size_t k = 0; k < z.size(); ++k) worst = std::max(worst, abs(z[k] - known.end[k]));
   return static_cast<double>(worst);
 }
 // The exponent with which the error falls from `steps` to twice as many steps.
-double slope_of(const MethodInstance& method, const Known& known, int steps) {
+double slope_of(const MethodInstance& method, const KnownMotion& known, int steps) {
   return std::log2(error_after(method, known, steps) / error_after(method, known, 2 * steps));
 }
 // How far a step of h and one of -h are from the start.
@@ -129,7 +129,7 @@ const std::vector<Named> splittings{{"verlet", {}, 2, 64},
 // Slopes of errors at 64 steps and more are within .3 of the order: what follows the leading term is an h or
 // h^2 smaller, and the coefficients of these motions are of order one.
 TEST(TimedKineticEnergy, SplittingsHaveTheirOrder) {
-  for (const Known& known : known_motions())
+  for (const KnownMotion& known : known_motions())
     for (const Named& m : splittings) {
       const auto method = method_named(m.name, m.parameters);
       EXPECT_NEAR(slope_of(*method, known, m.steps), m.order, 0.3) << method->called();
@@ -140,7 +140,7 @@ TEST(TimedKineticEnergy, SplittingsHaveTheirOrder) {
 
 TEST(TimedKineticEnergy, HasTheRightEnd) {
   // Order 8 with 128 steps of 1/64 leaves 1e-12 and less.
-  const Known& known = known_motions().front();
+  const KnownMotion& known = known_motions().front();
   const auto method = method_named("kahan-li-verlet", {{"order", "8"}});
   const auto z = after_steps<double>(*method, known.model, 1.0 / 64, 128);
   EXPECT_NEAR(z[0], -0.27523306314656157, 1e-12);
@@ -158,13 +158,13 @@ TEST(TimedKineticEnergy, OneTimeForBothPartsHasOrderOne) {
                                       << second << ", p)\"]\n";
     return read_method_table(files / "map.toml")->make({});
   };
-  const Known& known = known_motions().front();
+  const KnownMotion& known = known_motions().front();
   EXPECT_NEAR(slope_of(*map("h/2"), known, 64), 1, 0.1);
   EXPECT_NEAR(slope_of(*map("h"), known, 64), 2, 0.1);
 }
 
 TEST(TimedKineticEnergy, TablesHaveTheirOrderOrRefuse) {
-  const Known& known = known_motions().front();
+  const KnownMotion& known = known_motions().front();
   struct Table {
     const char* file;
     double order;
@@ -198,9 +198,9 @@ TEST(TimedKineticEnergy, TablesHaveTheirOrderOrRefuse) {
 
 // Friction beside it: the same motion with p' = ... - .3 p.
 TEST(TimedKineticEnergy, ConformalSplittingHasItsOrder) {
-  const Known known{model_of(DampedGrowingMass(), {1, 0.3_r}),
-                    {Real::parse("-0.0835885767076678784730675766722058")->quad(),
-                     Real::parse("-1.0431399520164671621740169802707")->quad()}};
+  const KnownMotion known{model_of(DampedGrowingMass(), {1, 0.3_r}),
+                          {Real::parse("-0.0835885767076678784730675766722058")->quad(),
+                           Real::parse("-1.0431399520164671621740169802707")->quad()}};
   EXPECT_NEAR(slope_of(*method_named("conformal-splitting"), known, 64), 2, 0.1);
   EXPECT_NEAR(
       slope_of(*method_named("composition", {{"base", "conformal-splitting"}, {"order", "4"}}), known, 64), 4,
@@ -209,7 +209,7 @@ TEST(TimedKineticEnergy, ConformalSplittingHasItsOrder) {
 
 // Methods that were right before: collocation, whose form of second order is for steady masses alone.
 TEST(TimedKineticEnergy, CollocationHasItsOrder) {
-  for (const Known& known : known_motions()) {
+  for (const KnownMotion& known : known_motions()) {
     EXPECT_NEAR(slope_of(*method_named("gauss", {{"stages", "2"}}), known, 32), 4, 0.3);
     EXPECT_LT(error_after(*method_named("gauss", {{"stages", "8"}}), known, 64), 1e-22);
   }

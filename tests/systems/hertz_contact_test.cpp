@@ -16,9 +16,9 @@
 namespace pfaff {
 namespace {
 
-std::vector<Quad> after(const std::string& name, const Assignments& parameters,
-                        const std::shared_ptr<const Model>& model, const Quad& h, int count,
-                        std::vector<Quad> z) {
+std::vector<Quad> state_after(const std::string& name, const Assignments& parameters,
+                              const std::shared_ptr<const Model>& model, const Quad& h, int count,
+                              std::vector<Quad> z) {
   const auto stepper = integrators().get(name, "integrator").make(parameters)->stepper(model, Quad());
   std::int64_t completed = 0;
   EXPECT_EQ(stepper->advance(Quad(0), 0, h, count, z, completed), Status::converged) << name;
@@ -48,7 +48,7 @@ TEST(HertzContact, StartsAtOverlapZeroAsText) {
     const auto model = system_named(path).make({});
     const Quad time = Real::parse(c.time)->quad();
     for (const char* name : {"yoshida-verlet", "gauss"}) {
-      const auto z = after(name, {}, model, time / Quad(512), 512, {Quad(0), Quad(1)});
+      const auto z = state_after(name, {}, model, time / Quad(512), 512, {Quad(0), Quad(1)});
       EXPECT_NEAR(static_cast<double>(z[0] - Real::parse(c.q)->quad()), 0, error_of_start) << name;
       EXPECT_NEAR(static_cast<double>(z[1] - Real::parse(c.p)->quad()), 0, error_of_start) << name;
     }
@@ -76,7 +76,7 @@ TEST(HertzContact, BouncesWrittenInCode) {
   // In contact for 2 (5/4)^(2/5) sqrt(pi) Gamma(7/5)/Gamma(9/10), and away from there with the velocity -1.
   const Quad contact = Real::parse("3.218065459719043084535930045617")->quad();
   for (const char* name : {"yoshida-verlet", "gauss"}) {
-    const auto z = after(name, {}, model, Quad(4) / Quad(2048), 2048, {Quad(0), Quad(1)});
+    const auto z = state_after(name, {}, model, Quad(4) / Quad(2048), 2048, {Quad(0), Quad(1)});
     EXPECT_NEAR(static_cast<double>(z[0] + (Quad(4) - contact)), 0, error_of_start) << name;
     EXPECT_NEAR(static_cast<double>(z[1]), -1, error_of_start) << name;
   }
