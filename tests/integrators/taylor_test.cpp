@@ -55,8 +55,8 @@ TEST(Taylor, StepsArePartialSumsOfTheExponential) {
 }
 
 // e^t over ten time units, forwards and backwards. The terms left out of a step are below the tolerance times
-// the scale of the motion so far; growing, e^t carries the errors of about ten steps on without amplifying them
-// relatively, and decaying, what is allowed is relative to the beginning.
+// the scale of the motion so far; growing, e^t carries the errors of about ten steps on without amplifying
+// them relatively, and decaying, what is allowed is relative to the beginning.
 template <class T>
 void taylor_meets_tolerances(std::initializer_list<double> tolerances) {
   for (const double tolerance : tolerances)
