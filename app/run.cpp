@@ -1,4 +1,5 @@
 // pfaff run: makes one run and writes it to a directory or to standard output.
+#include <cmath>
 #include <iostream>
 
 #include <pfaff/app/command.hpp>
@@ -90,7 +91,7 @@ std::string of_the_reference(const nlohmann::json& j) {
 // A summary for the terminal.
 std::string summary_table(const nlohmann::json& j, const std::string& written, const std::string& out) {
   const auto number = [&](const nlohmann::json& x) {
-    return x.is_number() ? scientific(x.get<double>()) : std::string("not finite");
+    return x.is_number() && std::isfinite(x.get<double>()) ? scientific(x.get<double>()) : "not finite";
   };
   std::vector<std::vector<std::string>> rows{
       {"status", j["status"].get<std::string>() + " after " +
