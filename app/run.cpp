@@ -12,7 +12,6 @@
 #include <pfaff/bench/runner/interruption.hpp>
 #include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/bench/runner/run_directory.hpp>
-#include <pfaff/core/errors/budget.hpp>
 
 namespace pfaff::app {
 
@@ -134,10 +133,7 @@ int finish(const nlohmann::json& j, const std::string& text) {
 
 RunRecord executed(const ResolvedRun& resolved, bool quiet) {
   const Interruption interruption;
-  const auto reference = [&] {
-    const Budget budget({}, &Interruption::stop());
-    return reference_asked_for(resolved);
-  }();
+  const auto reference = reference_asked_for(resolved);
   ProgressLine line(quiet);
   return execute(
       resolved, reference.get(),
