@@ -165,14 +165,15 @@ std::string RankWatch<T>::observe(const T& t, const std::vector<T>& z) {
   now.t = t;
   now.z = z;
   fill(t, z);
+  // What is beyond the range of numbers has not lost its rank, and can no longer be watched.
+  if (!std::all_of(entries_.begin(), entries_.end(), [](const T& x) { return isfinite(x); })) {
+    matrix_.clear();
+    return {};
+  }
   for (std::size_t i = 0; i < count_; ++i) {
     T size(0);
     for (std::size_t j = skew_ ? 0 : i; j < (skew_ ? count_ : i + 1); ++j)
       size = std::max(size, T(abs(entries_[i * count_ + j])));
-    if (!(size <= std::numeric_limits<T>::max())) {  // out of the range of numbers, which is no loss of rank
-      matrix_.clear();
-      return {};
-    }
     if (known_ == 0) scales_[i] = size;
     largest_[i] = std::max(scales_[i], size);
   }

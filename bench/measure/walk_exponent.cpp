@@ -13,7 +13,6 @@ namespace {
 
 using Vector = std::vector<double>;
 
-constexpr std::size_t points_in_half = 16;  // of a window: neighbours are so many points apart
 constexpr double exponent_step = 0.025;
 constexpr std::size_t exponent_count = 38;  // .05 ... .975
 

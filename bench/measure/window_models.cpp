@@ -13,9 +13,6 @@ namespace {
 
 using Vector = std::vector<double>;
 
-/// Points of the fine grid in half a window.
-constexpr std::size_t points_in_half = 16;
-
 /// A square matrix, or one of window responses, row by row.
 struct WindowMatrix {
   std::size_t rows, columns;

@@ -3,13 +3,11 @@
 //
 // Noise. The means of B windows have a covariance C that is that of a process on a fine grid, filtered by the
 // windows, and scaled so that the trace of C without mean and line is B:
-//     white    independent values, mixed with the share 0, .8 or .96 of differences of independent values,
-//     which
-//              are what fast oscillations leave;
+//     white    independent values, mixed with the share 0, .8 or .96 of differences of independent values:
+//              these are what fast oscillations leave;
 //     walk     white, mixed with the share .02 ... 1 of their running sum (10 values);
-//     smooth   white, mixed with the share .5 ... 1 of the running sum of a running sum (5 values): a wander
-//     as
-//              smooth as an oscillation of which the run shows less than a period.
+//     smooth   white, mixed with the share .5 ... 1 of the running sum of a running sum (5 values), which
+//              wanders as smoothly as an oscillation of which the run shows less than a period.
 // Shapes of a trend, on scaled time s in (0, 1), filtered in the same way: s; s^p with p = 1.04^k, k = -16 ..
 // 48; exp(lambda (s - 1)) with lambda = 2 1.12^k, k = -12 .. 26. Slow lines: cos and sin of 1 .. 12 periods a
 // run (1 .. 6 for 15 windows, which see no faster ones) in steps of a quarter. Arcs: those of 1/4 .. 7/8 in

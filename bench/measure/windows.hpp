@@ -44,6 +44,10 @@ struct Windows {
 };
 Windows over_windows(const Series& series, std::size_t count);
 
+/// Points of the grid on which the weights of windows are tabulated, in half a window: so many lie between
+/// the centres of neighbours.
+inline constexpr std::size_t points_in_half = 16;
+
 /// Hann's weight at the scaled time s in the window of that centre, one of `count`.
 double hann(double s, double centre, std::size_t count);
 

@@ -69,7 +69,7 @@ class Rational {
     for (int part = 0; part < 4; ++part) {
       const auto nearest = rest.convert_to<double>();
       sum += Quad(nearest);
-      rest -= nearest;
+      rest -= Number(nearest);
     }
     return sum;
   }
