@@ -63,16 +63,24 @@ class Rational {
   }
 
   explicit operator double() const { return value_.convert_to<double>(); }
+// GCC's 12th version takes limbs of Boost's temporary for uninitialised where all of this is inlined.
+#ifndef __clang__
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
   explicit operator Quad() const {
     Quad sum(0);
     Number rest = value_;
     for (int part = 0; part < 4; ++part) {
       const auto nearest = rest.convert_to<double>();
       sum += Quad(nearest);
-      rest -= Number(nearest);
+      rest -= nearest;
     }
     return sum;
   }
+#ifndef __clang__
+#pragma GCC diagnostic pop
+#endif
   [[nodiscard]] const Number& number() const { return value_; }
 
   Rational& operator+=(const Rational& o) { return *this = *this + o; }
