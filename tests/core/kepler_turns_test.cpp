@@ -13,7 +13,7 @@ namespace {
 using namespace pfaff;
 
 template <class T>
-std::array<T, 4> flow(const T& mu, const T& h, const std::array<T, 4>& z) {
+std::array<T, 4> kepler_flow_of(const T& mu, const T& h, const std::array<T, 4>& z) {
   std::array<T, 4> change;
   std::array<T, 2> bend;
   EXPECT_EQ(kepler_change<T>(mu, h, std::span<const T>(z.data(), 2), std::span<const T>(&z[2], 2),
@@ -55,7 +55,7 @@ template <class T>
 double error_in_units(const Flight& flight) {
   std::array<T, 4> z;
   for (std::size_t k = 0; k < 4; ++k) z[k] = T(flight.start[k]);
-  z = flow(T(flight.mu), T(flight.h), z);
+  z = kepler_flow_of(T(flight.mu), T(flight.h), z);
   double worst = 0;
   for (const std::size_t first : {std::size_t{0}, std::size_t{2}}) {
     std::array<Quad, 2> end{Real::parse(flight.end[first])->quad(),
@@ -83,7 +83,7 @@ TEST(KeplerTurns, HaveTheDerivativesOfTheirDifferences) {
   const std::array<double, 4>& start = flights[1].start;
   std::array<D, 4> z;
   for (std::size_t k = 0; k < 4; ++k) z[k] = D::variable(Quad(start[k]), static_cast<int>(k));
-  const auto end = flow(D(1), D(Quad(7000.25)), z);
+  const auto end = kepler_flow_of(D(1), D(Quad(7000.25)), z);
   const Quad shift(1e-17);
   for (std::size_t j = 0; j < 4; ++j) {
     std::array<Quad, 4> above, below;
@@ -91,8 +91,8 @@ TEST(KeplerTurns, HaveTheDerivativesOfTheirDifferences) {
       above[k] = Quad(start[k]) + (k == j ? shift : Quad(0));
       below[k] = Quad(start[k]) - (k == j ? shift : Quad(0));
     }
-    above = flow(Quad(1), Quad(7000.25), above);
-    below = flow(Quad(1), Quad(7000.25), below);
+    above = kepler_flow_of(Quad(1), Quad(7000.25), above);
+    below = kepler_flow_of(Quad(1), Quad(7000.25), below);
     for (std::size_t k = 0; k < 4; ++k) {
       const Quad slope = (above[k] - below[k]) / (Quad(2) * shift);
       EXPECT_LT(static_cast<double>(abs(end[k].derivative[j] - slope)), 1e-11) << j << k;
