@@ -51,7 +51,7 @@ struct Springs {  // q1'' = -25 q1, q2'' = -q2 / 100
     return 25 * q[0] * q[0] / 2 + q[1] * q[1] / 200;
   }
 };
-struct DrivenPair {  // q1'' = -q1 drives q2'' = -4 q2 + q1; q3'' = -q3 stays where it is
+struct TimedPair {  // q1'' = -q1 drives q2'' = -4 q2 + q1; q3'' = -q3 stays where it is
   static constexpr int dimension = 6;
   template <class T>
   void field(const T& /*t*/, In<T> z, Out<T> rate) const {
@@ -196,13 +196,13 @@ TEST_P(ChosenSteps, JudgeEveryCoordinateByItself) {
 // Coordinates that begin at zero, are driven from there on, or stay there; states of any size.
 TEST_P(ChosenSteps, OfCoordinatesThatBeginAtZero) {
   for (const double size : {1.0, 1e-9, 1e7}) {
-    const ChosenRun cosine = chosen_run(GetParam(), DrivenPair{}, {size, 0, 0, 0, 0, 0}, 20, 1e-10);
+    const ChosenRun cosine = chosen_run(GetParam(), TimedPair{}, {size, 0, 0, 0, 0, 0}, 20, 1e-10);
     ASSERT_EQ(cosine.status, Status::converged);
     EXPECT_NEAR(cosine.end[0] / size, std::cos(20), 1e-7);
     EXPECT_NEAR(cosine.end[1] / size, (std::cos(20) - std::cos(40)) / 3, 1e-7);
     EXPECT_EQ(cosine.end[2], 0);
     // Here nothing drives the second oscillator at the start, but later on.
-    const ChosenRun sine = chosen_run(GetParam(), DrivenPair{}, {0, 0, 0, size, 0, 0}, 20, 1e-10);
+    const ChosenRun sine = chosen_run(GetParam(), TimedPair{}, {0, 0, 0, size, 0, 0}, 20, 1e-10);
     ASSERT_EQ(sine.status, Status::converged);
     EXPECT_NEAR(sine.end[0] / size, std::sin(20), 1e-7);
     EXPECT_NEAR(sine.end[1] / size, (std::sin(20) - std::sin(40) / 2) / 3, 1e-7);
