@@ -4,6 +4,8 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <map>
+#include <mutex>
 #include <sstream>
 #include <vector>
 
@@ -61,9 +63,14 @@ std::string version_of(std::vector<std::string> words) {
 Library::~Library() { dlclose(handle_); }
 void* Library::symbol(const std::string& name) const { return dlsym(handle_, name.c_str()); }
 
-const std::string& compiler_version() {
-  static const std::string version = version_of(compiler());
-  return version;
+std::string compiler_version() {
+  // Asked once of each compiler: the process may set CXX anew.
+  static std::mutex mutex;
+  static std::map<std::vector<std::string>, std::string> versions;
+  const std::vector<std::string> words = compiler();
+  const std::lock_guard lock(mutex);
+  const auto known = versions.find(words);
+  return known != versions.end() ? known->second : versions.emplace(words, version_of(words)).first->second;
 }
 
 std::string compiler_identity() {

@@ -24,7 +24,7 @@ class Library {
 
 /// The first line of what the compiler says of its version; empty where there is no compiler. The compiler is
 /// $CXX, in which words are separated by spaces, or c++.
-const std::string& compiler_version();
+std::string compiler_version();
 
 /// Which code is made of formulas here: the compiler's version, its words and the flags, in one line, or
 /// "interpreted: no compiler".

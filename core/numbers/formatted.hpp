@@ -2,8 +2,7 @@
 // plug-in, may have set one in which decimals have a comma and thousands a point.
 #pragma once
 
-#include <locale.h>
-
+#include <clocale>
 #include <locale>
 #include <sstream>
 #include <string>

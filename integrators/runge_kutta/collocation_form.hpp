@@ -27,4 +27,12 @@ class CollocationForm {
   virtual void hand_over(CollocationForm& next) = 0;
 };
 
+/// Whether a form makes the Jacobian of the field and Newton's matrix at once, so that no step allocates.
+/// They grow with the square of the number of coordinates, and most runs need none: forms for larger systems
+/// make them when a step asks for the first time.
+template <class P>
+bool prepares_newton(const P& p) {
+  return p.size() <= 128;
+}
+
 }  // namespace pfaff

@@ -27,7 +27,8 @@ class FirstOrderForm final : public CollocationForm<P> {
   using Number = Value<T>;
 
   FirstOrderForm(const CollocationCoefficients<Number>& c, const P& p)
-      : iteration_(p.size(), c.stages, c.mu, c.extrapolation, true),
+      : iteration_(p.size(), c.stages, c.mu, c.extrapolation, true,
+                   HasFieldJacobian<P> && prepares_newton(p)),
         counted_(iteration_.row_of(c.counted)),
         nodes_(iteration_.filled_row_of(c.nodes)),
         weights_(iteration_.row_of(c.scale)),
@@ -46,6 +47,11 @@ class FirstOrderForm final : public CollocationForm<P> {
       node_[i] = T(c.nodes[i]);
       weight_[i] = T(c.scale[i]);
     }
+    if constexpr (HasFieldJacobian<P>)
+      if (prepares_newton(p)) {
+        p.prepare(Formula::field_jacobian);
+        jacobian_.resize(p.size() * p.size());
+      }
   }
 
   void restart() override {
@@ -63,7 +69,7 @@ class FirstOrderForm final : public CollocationForm<P> {
         iteration_.template solve<Field::inlined>(evaluate, on_constraints(p), p.counters().iterations);
     if constexpr (HasFieldJacobian<P>)
       if (status == Status::not_converged) {
-        jacobian_.resize(p.size() * p.size());  // made when it is first used, as its formula is
+        jacobian_.resize(p.size() * p.size());  // of a large system, at the first use
         p.field_jacobian(t + h / T(2), z, jacobian_);
         ++p.counters().factorisations;
         status = iteration_.solve_by_newton(

@@ -49,7 +49,8 @@ class NystromForm final : public CollocationForm<P> {
   NystromForm(const CollocationCoefficients<Number>& c, const P& p, const Tape& velocity)
       : unit_mass_(identity(velocity)),
         degrees_(p.size() / 2),
-        iteration_(degrees_, c.stages, c.nu, c.extrapolation, false),
+        iteration_(degrees_, c.stages, c.nu, c.extrapolation, false,
+                   HasFieldJacobian<P> && prepares_newton(p)),
         nodes_(iteration_.filled_row_of(c.nodes)),
         beta_(iteration_.row_of(c.beta)),
         counted_(iteration_.row_of(c.counted)),
@@ -78,6 +79,12 @@ class NystromForm final : public CollocationForm<P> {
     }
     p.prepare(Formula::force);
     if (!unit_mass_) p.prepare(Formula::velocity);
+    if constexpr (HasFieldJacobian<P>)
+      if (prepares_newton(p)) {
+        p.prepare(Formula::field_jacobian);
+        jacobian_.resize(4 * degrees_ * degrees_);
+        slopes_.resize(degrees_ * degrees_);
+      }
   }
 
   void restart() override { continuation_.forget(); }
@@ -202,7 +209,7 @@ class NystromForm final : public CollocationForm<P> {
   [[gnu::noinline]] Status correct_by_newton(const P& p, const T& t, const T& h, const State<P>& z,
                                              const Evaluate& evaluate) {
     const std::size_t m = degrees(), n = 2 * m;
-    jacobian_.resize(n * n);  // made when it is first used, as its formula is
+    jacobian_.resize(n * n);  // of a large system, at the first use
     slopes_.resize(m * m);
     p.field_jacobian(t + h / T(2), z, Out<T>(jacobian_.data(), n * n));
     for (std::size_t i = 0; i < m; ++i)

@@ -41,9 +41,9 @@ class StageIteration : private StageLayout<T, Components, Stages> {
   using typename Layout::Lane, typename Layout::Number, typename Layout::Row, typename Layout::Table;
 
   /// The matrix m and the one that extrapolates the rates of the last step, row-major. `in_turns`: see
-  /// StageConvergence.
+  /// StageConvergence. `newton`: whether to make room for solve_by_newton now, so that no step allocates.
   StageIteration(std::size_t component_count, std::size_t stage_count, const std::vector<Number>& matrix,
-                 const std::vector<Number>& extrapolation, bool in_turns)
+                 const std::vector<Number>& extrapolation, bool in_turns, bool newton)
       : Layout(component_count, stage_count),
         matrix_(this->matrix_of(matrix, true)),
         extrapolation_(this->matrix_of(extrapolation, false)),
@@ -56,7 +56,8 @@ class StageIteration : private StageLayout<T, Components, Stages> {
         small_(components()),
         scale_(components()),
         missed_(stages() * components(), levels()),
-        in_turns_(in_turns) {}
+        in_turns_(in_turns),
+        newton_(newton ? std::make_unique<Newton>(stages() * components()) : nullptr) {}
 
   /// What a step sets before it solves: the lines of component k, block by block and filled with copies of
   /// the last, and a size that its rates are measured against where they vanish.
@@ -126,7 +127,6 @@ class StageIteration : private StageLayout<T, Components, Stages> {
   [[gnu::noinline]] Status solve_by_newton(const Evaluate& evaluate, const std::vector<T>& slopes,
                                            const T* scale, const Size& size, auto&& iterations) {
     const std::size_t s = stages(), m = components();
-    // The matrix grows with the square of the number of components, and most runs need none.
     if (!newton_) newton_ = std::make_unique<Newton>(s * m);
     Newton& w = *newton_;
     for (std::size_t row = 0; row < s * m; ++row)
@@ -341,7 +341,7 @@ class StageIteration : private StageLayout<T, Components, Stages> {
   Vector<std::array<Number, parts>, Components> scale_;  // the reciprocal
   DifferencePredictor<T, dynamic, dynamic> missed_;
   bool in_turns_, known_ = false;
-  std::unique_ptr<Newton> newton_;  // made when it is first used
+  std::unique_ptr<Newton> newton_;
 };
 
 }  // namespace pfaff

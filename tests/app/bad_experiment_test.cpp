@@ -168,7 +168,8 @@ TEST(BadExperiment, RunsWithTheSameName) {
   const std::string second = "[[method]]\nlabel = \"rk4\"\nintegrator = \"gauss\"\n";
   refused("[[case]]", second + "[[case]]", {"would share the directory runs/short-rk4-h0.5"});
   refused("[\"0.5\"]", "[\"0.5\", \"0.5\"]", {"would share the directory runs/short-rk4-h0.5"});
-  refused("", good.substr(good.find("[[case]]")), {"would share the directory runs/short-rk4-h0.5"});
+  refused("", good.substr(good.find("[[case]]")),
+          {"cases 'short' and 'short' would share the names of their figures"});
 }
 
 }  // namespace

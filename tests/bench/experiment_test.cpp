@@ -154,6 +154,7 @@ TEST_F(Experiments, TheTableMarksTrendsBelowRoundOff) {
     auto& invariant = summaries[0]["invariants"][0];  // 1/2 at the start, in steps of 1/2
     invariant["class"] = kind;
     invariant["slope"] = slope;
+    invariant["propagated"] = 0.5;
     return results_table(directory / "out", experiment, runs, summaries);
   };
   EXPECT_NE(table("linear", 1.0e-16).find("linear* "), std::string::npos);
