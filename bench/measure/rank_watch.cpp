@@ -178,7 +178,7 @@ std::string RankWatch<T>::observe(const T& t, const std::vector<T>& z) {
   }
   now.pivot = pivot_of_filled();
   if (++known_ == 1 && !(now.pivot.size > round_off())) matrix_.clear();
-  const std::string found = verdict();
+  std::string found = verdict();
   scales_ = largest_;  // sizes that a run leaps to are no measure of the states before the leap
   return found;
 }

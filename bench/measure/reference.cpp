@@ -47,7 +47,8 @@ class SeriesOfSolution {
     if (++taken_ > most_reference_steps)
       return std::to_string(most_reference_steps) + " steps have been taken";
     if (taken_ % steps_of_pace == 0) {
-      if (abs(goal - t_) > abs(t_ - paced_) * Quad(static_cast<double>(most_at_pace / steps_of_pace)))
+      if (abs(goal - t_) > abs(t_ - paced_) * Quad(static_cast<double>(most_at_pace)) /
+                               Quad(static_cast<double>(steps_of_pace)))
         return "at the pace of its last " + std::to_string(steps_of_pace) + " steps the end is more than " +
                std::to_string(most_at_pace) + " steps away";
       paced_ = t_;

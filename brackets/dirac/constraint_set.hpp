@@ -12,6 +12,7 @@
 
 #include <pfaff/core/errors/errors.hpp>
 #include <pfaff/core/numbers/dual.hpp>
+#include <pfaff/core/numbers/formatted.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 
 namespace pfaff {
@@ -84,8 +85,9 @@ void check_gradients(const C& constraints, double t, std::span<const double> z,
     for (std::size_t a = 0; a < n; ++a)
       if (!(abs(written[i * n + a] - derived[i * n + a]) <= 1e-9 * largest))
         throw InputError("constraint " + names[i] + ": the gradient written for coordinate " +
-                         std::to_string(a + 1) + " is " + std::to_string(written[i * n + a]) + "; expected " +
-                         std::to_string(derived[i * n + a]) + ", the derivative of the constraint");
+                         std::to_string(a + 1) + " is " + formatted("%.9g", written[i * n + a]) +
+                         "; expected " + formatted("%.9g", derived[i * n + a]) +
+                         ", the derivative of the constraint");
   }
 }
 

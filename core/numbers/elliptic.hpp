@@ -133,9 +133,9 @@ JacobiFlow<T> jacobi_flow(const T& t, const JacobiState<T>& start) {
   const T at_small = choose(y * f.cn - x * z * f.sn * f.dn, small);
   const T at_large = choose(z * f.dn - x * y * f.sn * f.cn, large);
   const T revolving = difference / (r * r) - T(smallest_complement());
-  return {{at, select(difference, at_large, at_small), select(difference, at_small, at_large)},
-          revolving,
-          select(revolving, select(start.y, f.mean, -f.mean), T(0))};
+  const JacobiState<T> moved{at, select(difference, at_large, at_small),
+                             select(difference, at_small, at_large)};
+  return {moved, revolving, select(revolving, select(start.y, f.mean, -f.mean), T(0))};
 }
 
 }  // namespace pfaff

@@ -53,7 +53,7 @@ struct Tried : ContainerOf<P> {
 /// of the step alone.
 struct OwnScaleOperations : boost::numeric::odeint::default_operations {
   template <class T>
-  struct rel_error {
+  struct rel_error {  // NOLINT(readability-identifier-naming): odeint's name for it
     rel_error(T /*absolute*/, T /*relative*/, T /*of_state*/, T h) : step(h) {}
     T step;
   };
