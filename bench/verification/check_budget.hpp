@@ -9,8 +9,8 @@
 
 namespace pfaff {
 
-/// Five times as much as the longest check of a plug-in of the tree takes, the rounding in long runs: some
-/// two million steps.
+/// Some five times what the longest check of a plug-in of the tree is estimated to take, the rounding in long
+/// runs: two million steps.
 inline constexpr BudgetLimits limits_of_check{.steps = 10'000'000, .evaluations = 1'000'000'000};
 
 /// The check, whose names are filled in, as one that was not judged because its budget was spent. Passes the
