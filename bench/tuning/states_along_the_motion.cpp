@@ -3,6 +3,7 @@
 #include <pfaff/bench/tuning/tuned_splitting.hpp>
 #include <pfaff/core/facets/problem.hpp>
 #include <pfaff/core/integrator.hpp>
+#include <pfaff/core/numbers/formatted.hpp>
 
 namespace pfaff {
 
@@ -38,7 +39,8 @@ std::vector<std::vector<double>> states_along_the_motion(const std::shared_ptr<c
     const Status status = stepper->advance(0, static_cast<std::int64_t>(k) * steps, h, steps, z, completed);
     if (status != Status::converged)
       throw RunError("system " + model->name() + ": the motion cannot be followed, " +
-                     std::string(to_string(status)) + " at t = " + std::to_string(h * steps * k));
+                     std::string(to_string(status)) +
+                     " at t = " + formatted("%.9g", h * static_cast<double>(steps) * static_cast<double>(k)));
   }
   return states;
 }

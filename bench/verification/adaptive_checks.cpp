@@ -9,6 +9,7 @@
 #include <pfaff/bench/verification/check_budget.hpp>
 #include <pfaff/bench/verification/method_on_model.hpp>
 #include <pfaff/bench/verification/step_scale.hpp>
+#include <pfaff/core/numbers/formatted.hpp>
 
 namespace pfaff {
 
@@ -59,7 +60,7 @@ std::string run_wrong(const MethodOnModel& on, const Stretch<T>& stretch, double
     if (t != to) return "went to " + to_string(Quad(t), 17) + " instead of " + to_string(Quad(to), 17);
   }
   const auto steps = static_cast<double>(stepper->counters().steps);
-  if (!(steps >= 1 && steps <= most_steps)) return "took " + std::to_string(steps) + " steps";
+  if (!(steps >= 1 && steps <= most_steps)) return "took " + formatted("%.0f", steps) + " steps";
   Quad difference(0), size(0);
   for (std::size_t k = 0; k < z.size(); ++k) {
     difference = std::max(difference, abs(Quad(z[k]) - stretch.exact[k]));
