@@ -54,6 +54,7 @@ struct Commas : std::numpunct<char> {
   [[nodiscard]] char do_thousands_sep() const override { return '.'; }
   [[nodiscard]] std::string do_grouping() const override { return "\3"; }
 };
+locale_t comma_locale = nullptr;
 // Everything that a program may have one of.
 [[maybe_unused]] void change_the_process() {
   const std::locale commas(std::locale::classic(), new Commas);
@@ -61,7 +62,8 @@ struct Commas : std::numpunct<char> {
   std::cout.imbue(commas);
   std::cout << std::hex << std::showbase;
   if (std::setlocale(LC_NUMERIC, "comma") == nullptr) std::abort();
-  uselocale(newlocale(LC_NUMERIC_MASK, "comma", nullptr));
+  comma_locale = newlocale(LC_NUMERIC_MASK, "comma", nullptr);
+  uselocale(comma_locale);
   std::fesetround(FE_TOWARDZERO);
   _mm_setcsr(_mm_getcsr() | 0x8040U);  // subnormals are flushed to zero, and taken for zero
   umask(0);
@@ -75,6 +77,11 @@ struct Commas : std::numpunct<char> {
 
 struct Initialiser {
   Initialiser() { MISBEHAVES(); }
+  Initialiser(const Initialiser&) = delete;
+  Initialiser& operator=(const Initialiser&) = delete;
+  ~Initialiser() {
+    if (comma_locale != nullptr) freelocale(comma_locale);
+  }
 };
 const Initialiser initialiser;
 }  // namespace
