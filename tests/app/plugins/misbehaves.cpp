@@ -62,7 +62,7 @@ locale_t comma_locale = nullptr;
   std::cout.imbue(commas);
   std::cout << std::hex << std::showbase;
   if (std::setlocale(LC_NUMERIC, "comma") == nullptr) std::abort();
-  comma_locale = newlocale(LC_NUMERIC_MASK, "comma", nullptr);
+  comma_locale = duplocale(LC_GLOBAL_LOCALE);  // newlocale would leak where it looks for locales, LOCPATH
   uselocale(comma_locale);
   std::fesetround(FE_TOWARDZERO);
   _mm_setcsr(_mm_getcsr() | 0x8040U);  // subnormals are flushed to zero, and taken for zero
