@@ -92,7 +92,7 @@ struct LobattoSpark {
     const std::size_t n = w.n(), s = w.s();
     if (const Status status = w.begin(p, *w.at[0], t, h, z); status != Status::converged) return status;
     for (std::size_t k = 0; k < n; ++k) w.position[k] = z[k] + w.carry[k];
-    Convergence<T> convergence(Corrections::uneven);
+    Convergence<T> convergence(Corrections::in_turns);
     bool first = true;
     do {
       Largest<T> moved, positions;
