@@ -99,7 +99,8 @@ requires Steps<M, P> Status advance_as_allowed(const M& method, const P& problem
 }  // namespace detail
 
 /// Takes steps first, first + 1, … first + count - 1 of size h from time t0, in place. Stops at the first
-/// step that does not converge, leaving z as it was before that step; `completed` says how many were taken.
+/// step that does not converge, also when it is tried once more, leaving z as it was before that step;
+/// `completed` says how many were taken.
 /// Where the budget of this thread ends the loop, z and `completed` are what was reached, and BudgetSpent is
 /// thrown. Processed methods take their processor at the beginning and at the end alone
 /// (core/facets/processed.hpp).
