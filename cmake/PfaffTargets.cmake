@@ -41,16 +41,25 @@ function(pfaff_cold_target target)
   target_compile_options(${target} PRIVATE ${pfaff_cold_options})
 endfunction()
 
+# Leaves of a list of sources those that are compiled in two units: those that register methods, formulations, systems
+# and kinds of tables, and those that instantiate something for the scalars of their unit.
+function(pfaff_made_in_two_units list)
+  set(made "")
+  foreach(source IN LISTS ${list})
+    file(STRINGS ${source} lines
+         REGEX "^const (Method|Formulation|System|TableKind)<|^template struct .*ScalarsHere")
+    if(lines)
+      list(APPEND made ${source})
+    endif()
+  endforeach()
+  set(${list} ${made} PARENT_SCOPE)
+endfunction()
+
 # Sources that are compiled together parse headers, instantiate templates and compile inline functions once for all of
-# them, `batch` at a time. Every plug-in calls what it registers `registered`; there each has a name of its own.
+# them, `batch` at a time. Plug-ins are not: each has to be compiled again in seconds.
 function(pfaff_joined target batch)
   if(PFAFF_JOINED)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch}
-      UNITY_BUILD_UNIQUE_ID PFAFF_SOURCE
-      UNITY_BUILD_CODE_BEFORE_INCLUDE
-"#define PFAFF_REGISTERED_IN(source) registered_##source
-#define PFAFF_REGISTERED(source) PFAFF_REGISTERED_IN(source)
-#define registered PFAFF_REGISTERED(PFAFF_SOURCE)")
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch})
     # A local variable may have the name of what only another source declares, and what is joined is no header,
     # whose types must not depend on unnamed namespaces.
     target_compile_options(${target} PRIVATE

@@ -126,16 +126,23 @@ struct FormulatedField {
   }
 };
 
+/// What two units leave each other of F.
+template <class F>
+void leave_code_of_formulation() {
+  if constexpr (!WritesHamiltonianTape<F>) Program<FormulatedField<F>>::leave_code();
+}
+
 }  // namespace detail
 
 /// Registers F when the library that holds it is loaded.
-template <class F>
+template <class F, class Unit = detail::ThisUnit>
 class Formulation final : public FormulationPlugin {
  public:
   explicit Formulation(FormulationDescriptor descriptor,
                        const std::source_location& where = std::source_location::current())
       : FormulationPlugin(std::move(descriptor), parameters_of<F>(), typeid(F), where) {
     detail::check_formulation_members<F>();
+    detail::leave_code_of_formulation<F>();
     formulations().add(this);
   }
   [[nodiscard]] Assignments resolve(const Assignments& assignments) const override {
@@ -203,6 +210,15 @@ class Formulation final : public FormulationPlugin {
     F object;
     assign_all(parameters(), &object, assignments, "formulation " + name());
     return object;
+  }
+};
+
+/// The registration in the unit that makes code in double (core/facets/scalar_units.hpp).
+template <class F>
+class Formulation<F, detail::InDouble> {
+ public:
+  explicit Formulation(const FormulationDescriptor& /*descriptor*/) {
+    detail::leave_code_of_formulation<F>();
   }
 };
 

@@ -59,7 +59,7 @@
 #include <pfaff/core/facets/claims.hpp>
 #include <pfaff/core/facets/composition.hpp>
 #include <pfaff/core/facets/method_members.hpp>
-#include <pfaff/core/facets/scalars.hpp>
+#include <pfaff/core/facets/scalar_units.hpp>
 #include <pfaff/core/facets/stepper.hpp>
 #include <pfaff/core/registry/plugin.hpp>
 #include <pfaff/core/registry/registry.hpp>
@@ -171,7 +171,7 @@ constexpr FacetSet needs_of() {
 namespace detail {
 
 template <class M>
-class Instance final : public MakerOf<Instance<M>, MethodInstance> {
+class Instance final : public MakerInUnits<Instance<M>, MethodInstance> {
  public:
   Instance(const MethodPlugin& plugin, M method) : plugin_(plugin), method_(std::move(method)) {}
 
@@ -266,16 +266,24 @@ class Instance final : public MakerOf<Instance<M>, MethodInstance> {
   M method_;
 };
 
+/// What two units leave each other of M.
+template <class M>
+void leave_code_of_method() {
+  leave_code_of<Instance<M>>();
+  if constexpr (requires { typename M::Composed; }) leave_code_of<Instance<typename M::Composed>>();
+}
+
 }  // namespace detail
 
 /// Registers M when the library that holds it is loaded.
-template <class M>
+template <class M, class Unit = detail::ThisUnit>
 class Method final : public MethodPlugin {
  public:
   explicit Method(MethodDescriptor descriptor,
                   const std::source_location& where = std::source_location::current())
       : MethodPlugin(std::move(descriptor), parameters_of<M>(), typeid(M), where) {
     detail::check_method_members<M>();
+    detail::leave_code_of_method<M>();
     integrators().add(this);
   }
   [[nodiscard]] std::unique_ptr<MethodInstance> make(const Assignments& assignments) const override {
@@ -296,6 +304,13 @@ class Method final : public MethodPlugin {
     if constexpr (requires { M::instances(full); }) return M::instances(full);
     return {{}};
   }
+};
+
+/// The registration in the unit that makes code in double (core/facets/scalar_units.hpp).
+template <class M>
+class Method<M, detail::InDouble> {
+ public:
+  explicit Method(const MethodDescriptor& /*descriptor*/) { detail::leave_code_of_method<M>(); }
 };
 
 }  // namespace pfaff

@@ -1,6 +1,6 @@
 #include <pfaff/core/method_alias.hpp>
 
-namespace pfaff {
+namespace pfaff::detail {
 
 namespace {
 
@@ -56,7 +56,7 @@ MethodDescriptor descriptor_of(const MethodPlugin& method, const std::string& na
 // An instance of the method under the alias's name and with the alias's parameters.
 class AliasInstance final : public MakerOf<AliasInstance, MethodInstance> {
  public:
-  AliasInstance(const MethodAlias& alias, const Assignments& shortened,
+  AliasInstance(const AliasPlugin& alias, const Assignments& shortened,
                 std::unique_ptr<MethodInstance> instance)
       : alias_(alias), shortened_(shortened), instance_(std::move(instance)) {}
 
@@ -98,23 +98,23 @@ class AliasInstance final : public MakerOf<AliasInstance, MethodInstance> {
   }
 
  private:
-  const MethodAlias& alias_;
+  const AliasPlugin& alias_;
   const Assignments& shortened_;  // the alias's, which lives as long as its plug-in
   std::unique_ptr<MethodInstance> instance_;
 };
 
 }  // namespace
 
-MethodAlias::MethodAlias(const MethodPlugin& method, const std::string& name, Assignments presets,
+AliasPlugin::AliasPlugin(const MethodPlugin& method, const std::string& name, Assignments presets,
                          Assignments shortened, const std::source_location& where)
-    : MethodPlugin(descriptor_of(method, name, presets), {}, typeid(MethodAlias), where),
+    : MethodPlugin(descriptor_of(method, name, presets), {}, typeid(AliasPlugin), where),
       method_(method),
       presets_(std::move(presets)),
       shortened_(std::move(shortened)) {
   integrators().add_alias(this);
 }
 
-const std::vector<Parameter>& MethodAlias::parameters() const {
+const std::vector<Parameter>& AliasPlugin::parameters() const {
   std::call_once(made_, [this] {
     std::vector<Parameter> own;
     for (const Parameter& p : method_.parameters())
@@ -128,7 +128,7 @@ const std::vector<Parameter>& MethodAlias::parameters() const {
   return parameters_;
 }
 
-std::unique_ptr<MethodInstance> MethodAlias::make(const Assignments& assignments) const {
+std::unique_ptr<MethodInstance> AliasPlugin::make(const Assignments& assignments) const {
   Assignments all = presets_;
   std::vector<std::string> names;
   for (const Parameter& p : parameters()) names.push_back(p.name);
@@ -143,7 +143,7 @@ std::unique_ptr<MethodInstance> MethodAlias::make(const Assignments& assignments
   return std::make_unique<AliasInstance>(*this, shortened_, method_.make(all));
 }
 
-std::vector<Assignments> MethodAlias::instances(bool full) const {
+std::vector<Assignments> AliasPlugin::instances(bool full) const {
   std::vector<Assignments> own;
   for (const Assignments& instance : method_.instances(full)) {
     const bool agrees = std::all_of(presets_.begin(), presets_.end(), [&](const auto& preset) {
@@ -158,4 +158,4 @@ std::vector<Assignments> MethodAlias::instances(bool full) const {
   return own.empty() ? std::vector<Assignments>{{}} : own;
 }
 
-}  // namespace pfaff
+}  // namespace pfaff::detail

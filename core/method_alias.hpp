@@ -13,13 +13,14 @@
 
 namespace pfaff {
 
-/// Registers an alias of `method`, which has to be defined above it in the same file so that it is
-/// constructed first. Parameters that `presets` sets are not parameters of the alias. `shortened` gives short
-/// names to settings of a plug-in that the presets choose, such as {"compensated", "base.compensated"}; under
-/// these names they are parameters of the alias.
-class MethodAlias final : public MethodPlugin {
+namespace detail {
+
+/// An alias of `method`. Parameters that `presets` sets are not parameters of the alias. `shortened` gives
+/// short names to settings of a plug-in that the presets choose, such as {"compensated", "base.compensated"};
+/// under these names they are parameters of the alias.
+class AliasPlugin final : public MethodPlugin {
  public:
-  MethodAlias(const MethodPlugin& method, const std::string& name, Assignments presets,
+  AliasPlugin(const MethodPlugin& method, const std::string& name, Assignments presets,
               Assignments shortened = {},
               const std::source_location& where = std::source_location::current());
 
@@ -35,5 +36,19 @@ class MethodAlias final : public MethodPlugin {
   mutable std::once_flag made_;
   mutable std::vector<Parameter> parameters_;
 };
+
+/// In its place in the unit that registers nothing (core/facets/scalar_units.hpp).
+struct NoAlias {
+  template <class Method>
+  NoAlias(const Method& /*method*/, std::string_view /*name*/, const Assignments& /*presets*/,
+          const Assignments& /*shortened*/ = {}) {}
+};
+
+}  // namespace detail
+
+/// Registers an alias of a method, which has to be defined above it in the same file so that it is
+/// constructed first.
+using MethodAlias = std::conditional_t<std::is_same_v<detail::ThisUnit, detail::InDouble>, detail::NoAlias,
+                                       detail::AliasPlugin>;
 
 }  // namespace pfaff

@@ -124,12 +124,13 @@ std::vector<Assignments> instances_of(bool full) {
 }
 
 /// Registers S when the library that holds it is loaded.
-template <class S>
+template <class S, class Unit = detail::ThisUnit>
 class System final : public SystemPlugin {
  public:
   explicit System(SystemDescriptor descriptor,
                   const std::source_location& where = std::source_location::current())
       : SystemPlugin(std::move(descriptor), parameters_of<S>(), typeid(S), where) {
+    detail::Collector<S>::leave_code();
     systems().add(this);
   }
   [[nodiscard]] bool constrained() const override {
@@ -144,6 +145,13 @@ class System final : public SystemPlugin {
     });
   }
   [[nodiscard]] std::vector<Assignments> instances(bool full) const override { return instances_of<S>(full); }
+};
+
+/// The registration in the unit that makes code in double (core/facets/scalar_units.hpp).
+template <class S>
+class System<S, detail::InDouble> {
+ public:
+  explicit System(const SystemDescriptor& /*descriptor*/) { detail::Collector<S>::leave_code(); }
 };
 
 }  // namespace pfaff

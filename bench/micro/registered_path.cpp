@@ -21,6 +21,22 @@ void add_registered(const std::string& name, const std::string& path, const Shar
          });
 }
 
+// The same with derivatives in four directions, by which tangent maps and Jacobians of steps are found.
+template <class S>
+void add_tangent(const std::string& name, const SharedModel& model, const std::string& integrator,
+                 const Assignments& parameters = {}) {
+  using D = StepDual<double>;
+  const auto method = integrators().get(integrator, "integrator").make(parameters);
+  add<S>(name, "tangent",
+         [stepper = std::shared_ptr<Stepper<D>>(method->stepper(model, D()))](auto& z, double h) {
+           std::array<D, std::tuple_size_v<std::decay_t<decltype(z)>>> moved;
+           for (std::size_t k = 0; k < z.size(); ++k) moved[k] = D::variable(z[k], static_cast<int>(k));
+           std::int64_t completed = 0;
+           stepper->advance(D(0), 0, D(h), chunk, moved, completed);
+           for (std::size_t k = 0; k < z.size(); ++k) z[k] = moved[k].value;
+         });
+}
+
 template <class S>
 void add_methods() {
   const SharedModel model = systems().get(Case<S>::name, "system").make({});
@@ -40,6 +56,10 @@ void add_methods() {
                     {{"order", "4"}, {"extra", "0"}});
   add_registered<S>("generating-function-8", "registered", model, "generating-function",
                     {{"order", "8"}, {"extra", "0"}});
+  add_tangent<S>("verlet", model, "verlet");
+  add_tangent<S>("rk4", model, "rk4");
+  add_tangent<S>("gauss-4", model, "gauss", {{"stages", "2"}});
+  add_tangent<S>("generating-function-4", model, "generating-function", {{"order", "4"}, {"extra", "0"}});
 }
 
 // Generating functions beside Gauss collocation of the same order in the chart, on systems where their

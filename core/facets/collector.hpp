@@ -1,28 +1,20 @@
 // Collects the formulas that a system's struct writes into the source of a model.
 //
 // Every formula is taken in the same way, as its row says (core/facets/formula_rows.hpp): it is recorded, or
-// made a program where the system is batched, and also kept compiled for doubles where the row asks for it.
-// Only what follows from several formulas together, such as H = T + V, is collected by hand.
+// made a program where the system is batched; what is also kept compiled for doubles is in
+// formulas_in_double.hpp. Only what follows from several formulas together, such as H = T + V, is collected
+// by hand.
 #pragma once
 
 #include <algorithm>
 #include <memory>
 
-#include <pfaff/core/facets/compiled_series.hpp>
 #include <pfaff/core/facets/exact_flows.hpp>
+#include <pfaff/core/facets/formulas_in_double.hpp>
 #include <pfaff/core/facets/model.hpp>
 #include <pfaff/core/facets/system_formulas.hpp>
 
 namespace pfaff::detail {
-
-template <class S>
-int dimension_of(const S& s) {
-  if constexpr (requires { s.dimension(); }) {
-    return s.dimension();
-  } else {
-    return S::dimension;
-  }
-}
 
 /// True for systems whose formulas are compiled for every scalar and recorded only when a tape is asked for
 /// (`static constexpr bool batched = true`): those of many bodies.
@@ -31,6 +23,23 @@ constexpr bool is_batched() {
   if constexpr (requires { S::batched; }) return S::batched;
   return false;
 }
+
+/// A formula as the function object f(system, t, arguments, results).
+template <Formula F>
+struct FormulaObject {
+  template <class S, class T>
+  void operator()(const S& system, const T& t, In<T> x, Out<T> out) const {
+    write<F>(system, t, x, out);
+  }
+};
+/// H = T + V as one.
+struct EnergyObject {
+  template <class S, class T>
+  void operator()(const S& system, const T& t, In<T> z, Out<T> out) const {
+    const std::size_t half = z.size() / 2;
+    out[0] = system.kinetic(t, z.subspan(half)) + system.potential(t, z.first(half));
+  }
+};
 
 /// A formula f(system, t, arguments, results) as a program.
 template <class S, class F>
@@ -85,23 +94,11 @@ class Collector {
 #define PFAFF_BRACKET(name, ...) take<name>();
 #include <pfaff/core/facets/formula_rows.hpp>
 
-    constexpr bool energies = writes<S, kinetic> && writes<S, potential>, damped = WritesDamping<S>;
-    if constexpr (energies && damped) source_.damping = s.damping();
-    source_.canonical = (energies && !damped) || (writes<S, hamiltonian> && !writes<S, poisson_tensor>);
+    constexpr bool energies = writes<S, kinetic> && writes<S, potential>;
+    if constexpr (energies && WritesDamping<S>) source_.damping = s.damping();
+    source_.canonical = is_canonical<S>();
     if constexpr (energies && is_batched<S>())
-      program(hamiltonian, {source_.dimension, 1}, [](const S& self, const auto& t, auto z, auto out) {
-        const std::size_t half = z.size() / 2;
-        out[0] = self.kinetic(t, z.subspan(half)) + self.potential(t, z.first(half));
-      });
-    // The field of the energy alone, which is not the motion where a second bracket takes part.
-    if constexpr (energies && !damped && !writes<S, symmetric_tensor> && writes<S, force> &&
-                  writes<S, velocity>)
-      compile<writes<S, force, Pack<8>> && writes<S, velocity, Pack<8>>>(
-          field, []<class T>(const S& self, const T& t, const T* z, T* o) {
-            const auto m = static_cast<std::size_t>(dimension_of(self) / 2);
-            self.velocity(t, In<T>(z + m, m), Out<T>(o, m));
-            self.force(t, In<T>(z, m), Out<T>(o + m, m));
-          });
+      program(hamiltonian, {source_.dimension, 1}, EnergyObject());
     if constexpr (WritesConstraintEvaluator<S>)
       source_.holonomic = std::make_shared<const HolonomicFactoryOf<S>>(system_);
     // A part count of zero means that with these parameters there are no parts to be solved exactly.
@@ -110,9 +107,9 @@ class Collector {
         source_.flows = std::make_shared<const ExactFlowsFactoryOf<S>>(system_);
         if constexpr (WritesSmallPart<S>) source_.small_part = S::small_part;
       }
-    if (source_.canonical && !writes<S, chart>) compile_identity_chart();
-    if constexpr (CompilesChartField<S>)
-      if (writes<S, chart_field> || !writes<S, chart>) compile_chart_field();
+    const FormulasInDouble in_double = formulas_in_double<S>();
+    source_.compiled = in_double.code;
+    source_.chart_field_series = in_double.chart_field_series;
     if constexpr (WritesInitial<S>)
       record_initial(
           source_,
@@ -122,15 +119,32 @@ class Collector {
           system_.get());
   }
 
+  /// What the two units that compile S leave each other.
+  static void leave_code() {
+    if constexpr (is_batched<S>()) {
+      using enum Formula;
+#define PFAFF_COUNT(...)
+#define PFAFF_FORMULA(name, ...) \
+  if constexpr (writes<S, name>) Program<BatchedFormula<S, FormulaObject<name>>>::leave_code();
+#define PFAFF_BRACKET(name, ...) PFAFF_FORMULA(name)
+#include <pfaff/core/facets/formula_rows.hpp>
+      if constexpr (writes<S, kinetic> && writes<S, potential>)
+        Program<BatchedFormula<S, EnergyObject>>::leave_code();
+    }
+    if constexpr (WritesConstraintEvaluator<S>) leave_code_of<HolonomicFactoryOf<S>>();
+    if constexpr (WritesPartFlow<S>) leave_code_of<ExactFlowsFactoryOf<S>>();
+    if constexpr (std::is_same_v<ThisUnit, InDouble>) leave<S, double>(&formulas_in_double<S>);
+  }
+
  private:
-  // Records one formula or makes a program of it, and keeps its double version where the row asks for it.
+  // Records one formula or makes a program of it.
   template <Formula F>
   void take() {
     if constexpr (writes<S, F>) {
       const FormulaSize size = size_of<F>(sizes_);
       if (size.outputs == 0 && row_of(F).origin == Origin::bracket) return;  // no Casimirs
       if constexpr (is_batched<S>()) {
-        program(F, size, [](const S& self, const auto& t, auto x, auto out) { write<F>(self, t, x, out); });
+        program(F, size, FormulaObject<F>());
       } else {
         record_into(source_, F, size,
                     {[](const void* object, const Recorded& t, In<Recorded> x, Out<Recorded> out) {
@@ -138,13 +152,6 @@ class Collector {
                      },
                      system_.get()});
       }
-      if constexpr (row_of(F).traits.compiled)
-        compile<row_of(F).traits.in_lanes && writes<S, F, Pack<8>>>(
-            F, []<class T>(const S& self, const T& t, const T* x, T* out) {
-              const FormulaSize m = size_of<F>(Sizes{.n = dimension_of(self)});
-              write<F>(self, t, In<T>(x, static_cast<std::size_t>(m.inputs)),
-                       Out<T>(out, static_cast<std::size_t>(m.outputs)));
-            });
     } else if constexpr (row_of(F).traits.listed) {
       require_no_list(source_, F);
     }
@@ -153,51 +160,6 @@ class Collector {
   void program(Formula formula, FormulaSize size, F f) {
     source_.programs[index(formula)] =
         std::make_shared<const Program<BatchedFormula<S, F>>>(BatchedFormula<S, F>{system_, f, size});
-  }
-  // Canonical coordinates are Darboux coordinates already: the chart copies them.
-  void compile_identity_chart() {
-    const auto copy = []<class T>(const S& self, const T& /*t*/, const T* from, T* to) {
-      std::copy_n(from, static_cast<std::size_t>(dimension_of(self)), to);
-    };
-    compile<false>(Formula::chart, copy);
-    compile<false>(Formula::chart_inverse, copy);
-  }
-  void compile_chart_field() requires CompilesChartField<S> {
-    source_.chart_field_series = &compiled_series<S>();
-    using Lanes = Pack<8>;
-    constexpr bool in_lanes = writes<S, Formula::chart_field>
-                                  ? writes<S, Formula::chart_field, Lanes>
-                                  : writes<S, Formula::force, Lanes> && writes<S, Formula::velocity, Lanes>;
-    compile<in_lanes>(Formula::chart_field, []<class T>(const S& self, const T& t, const T* y, T* rate) {
-      constexpr auto size = static_cast<std::size_t>(S::dimension);
-      chart_field_of<S, T>(self, t, In<T>(y, size), Out<T>(rate, size));
-    });
-    if constexpr (S::dimension <= 6)  // all columns in one pass of duals; for larger n the tape is as fast
-      compile<false>(Formula::chart_field_jacobian,
-                     [](const S& self, const double& t, const double* y, double* matrix) {
-                       constexpr auto size = static_cast<std::size_t>(S::dimension);
-                       using D = Dual<double, S::dimension>;
-                       std::array<D, size> point, rate;
-                       for (std::size_t k = 0; k < size; ++k)
-                         point[k] = D::variable(y[k], static_cast<int>(k));
-                       chart_field_of<S, D>(self, D(t), point, rate);
-                       for (std::size_t i = 0; i < size; ++i)
-                         for (std::size_t j = 0; j < size; ++j) matrix[i * size + j] = rate[i].derivative[j];
-                     });
-  }
-  // Keeps the code of call(system, t, arguments, results) for doubles and, where `InLanes`, for packs.
-  template <bool InLanes, class Call>
-  void compile(Formula formula, const Call& /*call*/) {
-    CompiledCode& code = source_.compiled[index(formula)];
-    code.one = &run<double, Call>;
-    if constexpr (InLanes) {
-      code.four = &run<Pack<4>, Call>;
-      code.eight = &run<Pack<8>, Call>;
-    }
-  }
-  template <class T, class Call>
-  static void run(const void* system, const T& t, const T* arguments, T* results) {
-    Call()(*static_cast<const S*>(system), t, arguments, results);
   }
 
   std::shared_ptr<const S> system_;

@@ -9,7 +9,7 @@
 #include <memory>
 #include <utility>
 
-#include <pfaff/core/facets/scalars.hpp>
+#include <pfaff/core/facets/scalar_units.hpp>
 #include <pfaff/core/tape/recorder.hpp>
 
 namespace pfaff {
@@ -33,13 +33,13 @@ class FormulaProgram : public Maker<Evaluator, StepScalars> {
   [[nodiscard]] virtual Tape record() const = 0;
 };
 
-/// A program made of F, which says how many numbers it reads and writes (inputs(), outputs()) and makes for
-/// every scalar T, the recording one included, an object with buffers of its own: make<T>(), to be called as
-/// object(t, In<T> arguments, Out<T> results).
+namespace detail {
+
+/// What the programs made of F are.
 template <class F>
-class Program final : public MakerOf<Program<F>, FormulaProgram> {
+class ProgramCode {
  public:
-  explicit Program(F formula) : formula_(std::make_shared<const F>(std::move(formula))) {}
+  explicit ProgramCode(F formula) : formula_(std::make_shared<const F>(std::move(formula))) {}
   // Each evaluator is used by one thread, so writing to its buffers through a const context is safe.
   template <class T>
   [[nodiscard]] Evaluator<T> made() const {
@@ -51,7 +51,7 @@ class Program final : public MakerOf<Program<F>, FormulaProgram> {
             },
             context, std::move(bound)};
   }
-  [[nodiscard]] Tape record() const override {
+  [[nodiscard]] Tape recorded() const {
     return pfaff::record(formula_->inputs(), formula_->outputs(),
                          [&](const Recorded& t, In<Recorded> x, Out<Recorded> out) {
                            formula_->template make<Recorded>()(t, x, out);
@@ -71,6 +71,32 @@ class Program final : public MakerOf<Program<F>, FormulaProgram> {
     decltype(std::declval<const F&>().template make<T>()) object;
   };
   std::shared_ptr<const F> formula_;
+};
+
+}  // namespace detail
+
+/// A program made of F, which says how many numbers it reads and writes (inputs(), outputs()) and makes for
+/// every scalar T, the recording one included, an object with buffers of its own: make<T>(), to be called as
+/// object(t, In<T> arguments, Out<T> results).
+template <class F>
+class Program final : public detail::MakerInUnits<Program<F>, FormulaProgram>, public detail::ProgramCode<F> {
+ public:
+  using detail::ProgramCode<F>::ProgramCode;
+  [[nodiscard]] Tape record() const override {
+    if constexpr (detail::ThisUnit::makes<Recorded>) {
+      return this->recorded();
+    } else {
+      using Code = Tape (*)(const Program&);
+      const auto code = detail::code_left(typeid(Program), typeid(Recorded));
+      return reinterpret_cast<Code>(code)(*this);  // NOLINT
+    }
+  }
+  /// What the two units that compile F leave each other.
+  static void leave_code() {
+    detail::leave_code_of<Program>();
+    if constexpr (std::is_same_v<detail::ThisUnit, detail::InOthers>)
+      detail::leave<Program, Recorded>(+[](const Program& self) -> Tape { return self.recorded(); });
+  }
 };
 
 }  // namespace pfaff

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include <pfaff/core/errors/status.hpp>
-#include <pfaff/core/facets/scalars.hpp>
+#include <pfaff/core/facets/scalar_units.hpp>
 #include <pfaff/core/numbers/functions.hpp>
 
 namespace pfaff {
@@ -39,7 +39,7 @@ class ExactFlowsFactory : public Maker<ExactFlowsPointer, StepScalars> {};
 
 /// The factory that calls system->part_flow(part, h, z, change).
 template <class S>
-class ExactFlowsFactoryOf final : public MakerOf<ExactFlowsFactoryOf<S>, ExactFlowsFactory> {
+class ExactFlowsFactoryOf final : public detail::MakerInUnits<ExactFlowsFactoryOf<S>, ExactFlowsFactory> {
  public:
   explicit ExactFlowsFactoryOf(std::shared_ptr<const S> system) : system_(std::move(system)) {}
   template <class T>

@@ -20,7 +20,7 @@
 
 #include <pfaff/core/errors/status.hpp>
 #include <pfaff/core/facets/constrained_rates.hpp>
-#include <pfaff/core/facets/scalars.hpp>
+#include <pfaff/core/facets/scalar_units.hpp>
 #include <pfaff/core/linear/symmetric_pattern.hpp>
 #include <pfaff/core/numbers/functions.hpp>
 #include <pfaff/core/tape/recorder.hpp>
@@ -125,7 +125,7 @@ class HolonomicFactory : public Maker<HolonomicPointer, FormulaScalars> {};
 
 /// The factory that calls source->template constraint_evaluator<T>() for each scalar.
 template <class Source>
-class HolonomicFactoryOf final : public MakerOf<HolonomicFactoryOf<Source>, HolonomicFactory> {
+class HolonomicFactoryOf final : public detail::MakerInUnits<HolonomicFactoryOf<Source>, HolonomicFactory> {
  public:
   explicit HolonomicFactoryOf(std::shared_ptr<const Source> source) : source_(std::move(source)) {}
   template <class T>

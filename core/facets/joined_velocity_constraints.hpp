@@ -232,7 +232,7 @@ class JoinedVelocityConstraints final : public VelocityConstraints<T> {
 };
 
 /// The factory of such constraints.
-class JoinedVelocityFactory final : public MakerOf<JoinedVelocityFactory, VelocityFactory> {
+class JoinedVelocityFactory final : public detail::MakerInUnits<JoinedVelocityFactory, VelocityFactory> {
  public:
   JoinedVelocityFactory(std::shared_ptr<const HolonomicFactory> holonomic, JoinedTapes tapes)
       : holonomic_(std::move(holonomic)), tapes_(std::make_shared<const JoinedTapes>(std::move(tapes))) {}

@@ -109,9 +109,7 @@ const HolonomicFactory& Model::holonomic_factory() const {
   if (source_.holonomic != nullptr) return *source_.holonomic;
   const std::lock_guard lock(mutex_);
   if (holonomic_ == nullptr)
-    holonomic_ = std::make_shared<const HolonomicFactoryOf<TapedConstraintSource>>(
-        std::make_shared<const TapedConstraintSource>(
-            TapedConstraintSource{std::make_shared<const HolonomicTapes>(record_holonomic(*this))}));
+    holonomic_ = std::make_shared<const TapedHolonomicFactory>(record_holonomic(*this));
   return *holonomic_;
 }
 

@@ -2,7 +2,7 @@
 
 #include <tuple>
 
-#include <pfaff/core/facets/scalars.hpp>
+#include <pfaff/core/facets/scalar_units.hpp>
 #include <pfaff/core/numbers/formula_scalar.hpp>
 #include <pfaff/core/tape/replay.hpp>
 
@@ -27,20 +27,6 @@ Evaluator<T> make_evaluator(const std::shared_ptr<const Model>& model, Formula f
   return {&replayed<T>, context, std::move(replay)};
 }
 
-template <int W>
-Evaluator<Pack<W>> make_evaluator_in_lanes(const std::shared_ptr<const Model>& model, Formula formula) {
-  if (model->compiled(formula) != nullptr) {
-    if (const auto compiled = model->compiled_in_lanes<W>(formula)) return {compiled, model->system(), model};
-    return {};
-  }
-  if (model->program(formula) != nullptr) return {};
-  auto replay = std::make_shared<Replay<Pack<W>>>(model->tape(formula));
-  const void* context = replay.get();
-  return {&replayed<Pack<W>>, context, std::move(replay)};
-}
-template Evaluator<Pack<4>> make_evaluator_in_lanes(const std::shared_ptr<const Model>&, Formula);
-template Evaluator<Pack<8>> make_evaluator_in_lanes(const std::shared_ptr<const Model>&, Formula);
-
 // Emits make_evaluator for every scalar of the list, and says what one of them lacks.
 template <class List>
 struct EvaluatorInstances;
@@ -49,6 +35,6 @@ struct EvaluatorInstances<Scalars<T...>> {
   static_assert((check_step_scalar<T>() && ...));
   static constexpr std::tuple all{&make_evaluator<T>...};
 };
-template struct EvaluatorInstances<StepScalars>;
+template struct EvaluatorInstances<detail::ScalarsHere<StepScalars>>;
 
 }  // namespace pfaff

@@ -114,12 +114,17 @@ class TapedConstraints : public TapedParts<T, HolonomicConstraints<T>, Holonomic
 };
 
 /// The factory of a model's taped constraints.
-struct TapedConstraintSource {
-  std::shared_ptr<const HolonomicTapes> tapes;
+class TapedHolonomicFactory final : public detail::MakerInUnits<TapedHolonomicFactory, HolonomicFactory> {
+ public:
+  explicit TapedHolonomicFactory(HolonomicTapes tapes)
+      : tapes_(std::make_shared<const HolonomicTapes>(std::move(tapes))) {}
   template <class T>
-  [[nodiscard]] std::unique_ptr<HolonomicConstraints<T>> constraint_evaluator() const {
-    return std::make_unique<TapedConstraints<T>>(tapes);
+  [[nodiscard]] HolonomicPointer<T> made() const {
+    return std::make_unique<TapedConstraints<T>>(tapes_);
   }
+
+ private:
+  std::shared_ptr<const HolonomicTapes> tapes_;
 };
 
 }  // namespace pfaff

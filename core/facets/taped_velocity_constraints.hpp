@@ -52,7 +52,7 @@ class TapedVelocityConstraints final : public TapedParts<T, VelocityConstraints<
 };
 
 /// The factory of a model's taped velocity constraints.
-class TapedVelocityFactory final : public MakerOf<TapedVelocityFactory, VelocityFactory> {
+class TapedVelocityFactory final : public detail::MakerInUnits<TapedVelocityFactory, VelocityFactory> {
  public:
   explicit TapedVelocityFactory(VelocityTapes tapes)
       : tapes_(std::make_shared<const VelocityTapes>(std::move(tapes))) {}

@@ -10,8 +10,8 @@ bool violated(const OrderCondition& condition, const Quad& precision) {
   return !(relative_residual(condition) <= precision);
 }
 
-std::map<std::string, KnownOrderTheory::Make>& theories() {
-  static std::map<std::string, KnownOrderTheory::Make> known;
+std::map<std::string, detail::OrderTheoryRegistration::Make>& theories() {
+  static std::map<std::string, detail::OrderTheoryRegistration::Make> known;
   return known;
 }
 }  // namespace
@@ -35,7 +35,7 @@ int order_shown(const std::vector<OrderCondition>& conditions, const Quad& preci
   return first == nullptr ? largest : first->order - 1;
 }
 
-KnownOrderTheory::KnownOrderTheory(std::string method, Make make) {
+detail::OrderTheoryRegistration::OrderTheoryRegistration(std::string method, Make make) {
   theories().emplace(std::move(method), std::move(make));
 }
 

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include <pfaff/core/facets/scalar_units.hpp>
 #include <pfaff/core/numbers/quad.hpp>
 #include <pfaff/core/registry/parameter.hpp>
 
@@ -60,12 +61,17 @@ struct OrderTheory {
   static constexpr int in_no_sum = -1;
 };
 
-/// Says what the theory of a registered method is; a static object beside the registration of the method.
-class KnownOrderTheory {
+namespace detail {
+class OrderTheoryRegistration {
  public:
   using Make = std::function<OrderTheory(const Assignments& parameters)>;
-  KnownOrderTheory(std::string method, Make make);
+  OrderTheoryRegistration(std::string method, Make make);
 };
+}  // namespace detail
+
+/// Says what the theory of a registered method is, which it makes of the method's parameters; a static object
+/// beside the registration of the method.
+using KnownOrderTheory = detail::RegisteredHere<detail::OrderTheoryRegistration>;
 
 /// The theory of the method of that name with these parameters; nullopt where none is known.
 std::optional<OrderTheory> order_theory(const std::string& method, const Assignments& parameters);

@@ -3,17 +3,6 @@
 #include <pfaff/integrators/order_conditions/rooted_trees.hpp>
 #include <pfaff/integrators/runge_kutta/gauss.hpp>
 
-namespace pfaff::detail {
-template std::unique_ptr<CollocationForm<Problem<double>>> collocation_form<dynamic>(
-    const GaussCoefficients& tableau, const Problem<double>& p);
-template std::unique_ptr<CollocationForm<Problem<Quad>>> collocation_form<dynamic>(
-    const GaussCoefficients& tableau, const Problem<Quad>& p);
-template std::unique_ptr<CollocationForm<Problem<StepDual<double>>>> collocation_form<dynamic>(
-    const GaussCoefficients& tableau, const Problem<StepDual<double>>& p);
-template std::unique_ptr<CollocationForm<Problem<StepDual<Quad>>>> collocation_form<dynamic>(
-    const GaussCoefficients& tableau, const Problem<StepDual<Quad>>& p);
-}  // namespace pfaff::detail
-
 namespace {
 using namespace pfaff;
 

@@ -71,7 +71,7 @@ std::unique_ptr<CollocationForm<P>> sized_form(const CollocationCoefficients<Val
 
 /// The form of second order where it can be used and gains something, which it does not with one stage.
 template <int Stages, class P>
-std::unique_ptr<CollocationForm<P>> collocation_form(const GaussCoefficients& tableau, const P& p) {
+std::unique_ptr<CollocationForm<P>> chosen_form(const GaussCoefficients& tableau, const P& p) {
   const CollocationCoefficients<Value<Scalar<P>>> c(tableau);
   if constexpr (HasSeparable<P> && Stages != 1)
     if (const auto velocity = separable_velocity(p); velocity != nullptr && linear(*velocity))
@@ -79,16 +79,20 @@ std::unique_ptr<CollocationForm<P>> collocation_form(const GaussCoefficients& ta
   return sized_form<FirstOrderForm, Stages>(c, p);
 }
 
-// What registered methods step on is compiled once, in gauss.cpp, and not wherever a method starts with steps
-// of collocation or is built on it.
-extern template std::unique_ptr<CollocationForm<Problem<double>>> collocation_form<dynamic>(
-    const GaussCoefficients& tableau, const Problem<double>& p);
-extern template std::unique_ptr<CollocationForm<Problem<Quad>>> collocation_form<dynamic>(
-    const GaussCoefficients& tableau, const Problem<Quad>& p);
-extern template std::unique_ptr<CollocationForm<Problem<StepDual<double>>>> collocation_form<dynamic>(
-    const GaussCoefficients& tableau, const Problem<StepDual<double>>& p);
-extern template std::unique_ptr<CollocationForm<Problem<StepDual<Quad>>>> collocation_form<dynamic>(
-    const GaussCoefficients& tableau, const Problem<StepDual<Quad>>& p);
+/// The same for what registered methods step on, with any number of stages. It is compiled once, in
+/// collocation_form.cpp, and not wherever a method starts with steps of collocation or is built on it.
+template <class T>
+std::unique_ptr<CollocationForm<Problem<T>>> registered_form(const GaussCoefficients& tableau,
+                                                             const Problem<T>& p);
+
+template <int Stages, class P>
+std::unique_ptr<CollocationForm<P>> collocation_form(const GaussCoefficients& tableau, const P& p) {
+  if constexpr (Stages == dynamic && std::is_same_v<P, Problem<Scalar<P>>>) {
+    return registered_form<Scalar<P>>(tableau, p);
+  } else {
+    return chosen_form<Stages>(tableau, p);
+  }
+}
 
 }  // namespace detail
 

@@ -63,10 +63,6 @@ PluginValue read_base(TableDocument& document) {
   return base;
 }
 
-}  // namespace
-
-namespace pfaff {
-
 std::unique_ptr<const MethodTable> read_composition_table(TableDocument& document, TableHead head) {
   PluginValue base = read_base(document);
   const std::vector<Quad> kernel = document.numbers("weights"),
@@ -92,4 +88,5 @@ std::unique_ptr<const MethodTable> read_composition_table(TableDocument& documen
                                             pre.size());
 }
 
-}  // namespace pfaff
+const TableKind<> composition_kind{{"composition"}, read_composition_table};
+}  // namespace

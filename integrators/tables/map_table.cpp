@@ -211,9 +211,6 @@ void require_system(TableDocument& document, bool of_one_system) {
       document.refuse(key,
                       "is written beside 'system', the name of the one that it belongs to, which is missing");
 }
-}  // namespace
-
-namespace pfaff {
 
 std::unique_ptr<const MethodTable> read_map_table(TableDocument& document, TableHead head) {
   TextMap map;
@@ -255,4 +252,5 @@ std::unique_ptr<const MethodTable> read_map_table(TableDocument& document, Table
   return std::make_unique<MapTable<FieldMap>>(head.descriptor, document, settings, FieldMap{std::move(map)});
 }
 
-}  // namespace pfaff
+const TableKind<SeparableMap, FieldMap> map_kind{{"map"}, read_map_table};
+}  // namespace

@@ -1,26 +1,16 @@
 #include <pfaff/integrators/tables/method_table.hpp>
 
 #include <algorithm>
+#include <map>
 
 namespace pfaff {
 
 namespace {
 
-struct TableKind {
-  const char* name;
-  std::unique_ptr<const MethodTable> (*read)(TableDocument&, TableHead);
-};
-
-const std::vector<TableKind>& kinds() {
-  static const std::vector<TableKind> list{{"runge-kutta", read_runge_kutta_table},
-                                           {"splitting", read_splitting_table},
-                                           {"rkn-splitting", read_splitting_table},
-                                           {"processed", read_splitting_table},
-                                           {"composition", read_composition_table},
-                                           {"multistep", read_multistep_table},
-                                           {"second-order-multistep", read_second_order_multistep_table},
-                                           {"map", read_map_table}};
-  return list;
+// The readers by the names of their kinds.
+std::map<std::string, detail::TableReader>& readers() {
+  static std::map<std::string, detail::TableReader> known;
+  return known;
 }
 
 TableHead read_head(TableDocument& document, const std::string& kind) {
@@ -113,13 +103,17 @@ std::vector<Claim> kept_claims(TableDocument& document, std::vector<Claim> kept,
   return claimed;
 }
 
+void detail::register_table_kind(std::vector<std::string> names, TableReader read) {
+  for (std::string& name : names) readers().emplace(std::move(name), read);
+}
+
 std::unique_ptr<const MethodTable> read_method_table(const std::string& path) {
   TableDocument document(text::absolute_path(path));
   const std::string kind = document.required_text("kind");
   std::vector<std::string> names;
-  for (const TableKind& k : kinds()) {
-    if (kind == k.name) return k.read(document, read_head(document, kind));
-    names.emplace_back(k.name);
+  for (const auto& [name, read] : readers()) {
+    if (kind == name) return read(document, read_head(document, kind));
+    names.push_back(name);
   }
   document.refuse("kind", unknown_name("kind", kind, names));
 }

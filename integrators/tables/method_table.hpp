@@ -82,13 +82,28 @@ std::vector<Claim> kept_claims(TableDocument& document, std::vector<Claim> kept,
 /// "off by 1.2e-09; expected at most 1e-33"
 std::string residual_in_words(const OrderCondition& condition, const Quad& precision);
 
-// The readers, one of each kind.
-std::unique_ptr<const MethodTable> read_runge_kutta_table(TableDocument& document, TableHead head);
-std::unique_ptr<const MethodTable> read_splitting_table(TableDocument& document, TableHead head);
-std::unique_ptr<const MethodTable> read_composition_table(TableDocument& document, TableHead head);
-std::unique_ptr<const MethodTable> read_multistep_table(TableDocument& document, TableHead head);
-std::unique_ptr<const MethodTable> read_second_order_multistep_table(TableDocument& document, TableHead head);
-std::unique_ptr<const MethodTable> read_map_table(TableDocument& document, TableHead head);
+namespace detail {
+using TableReader = std::unique_ptr<const MethodTable> (*)(TableDocument&, TableHead);
+void register_table_kind(std::vector<std::string> names, TableReader read);
+
+template <class Unit, class... M>
+class TableKindIn : private CodeOf<Instance<M>...> {
+ public:
+  TableKindIn(std::vector<std::string> names, TableReader read) {
+    register_table_kind(std::move(names), read);
+  }
+};
+template <class... M>
+class TableKindIn<InDouble, M...> : private CodeOf<Instance<M>...> {
+ public:
+  TableKindIn(std::initializer_list<const char*> /*names*/, TableReader /*read*/) {}
+};
+}  // namespace detail
+
+/// Registers the reader of one kind of table under the names that files call it by; M are the methods that it
+/// makes.
+template <class... M>
+using TableKind = detail::TableKindIn<detail::ThisUnit, M...>;
 
 /// A table whose method is a struct M, filled when the file was read.
 template <class M>

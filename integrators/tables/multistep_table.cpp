@@ -139,10 +139,6 @@ MultistepPolynomials first_order_polynomials(const std::vector<Quad>& numbers) {
   return method;
 }
 
-}  // namespace
-
-namespace pfaff {
-
 std::unique_ptr<const MethodTable> read_multistep_table(TableDocument& document, TableHead head) {
   const MultistepPolynomials method = read_multistep_polynomials(document, head, 2);
   document.finish();
@@ -164,4 +160,5 @@ std::unique_ptr<const MethodTable> read_multistep_table(TableDocument& document,
                                                    std::move(made));
 }
 
-}  // namespace pfaff
+const TableKind<MultistepTable> multistep_kind{{"multistep"}, read_multistep_table};
+}  // namespace

@@ -134,10 +134,6 @@ std::vector<Claim> claims_of(TableDocument& document, const RungeKuttaTableau<Qu
   });
 }
 
-}  // namespace
-
-namespace pfaff {
-
 std::unique_ptr<const MethodTable> read_runge_kutta_table(TableDocument& document, TableHead head) {
   std::vector<Quad> nodes;
   RungeKuttaTableau<Quad> tableau = read_tableau(document, head, nodes);
@@ -168,4 +164,5 @@ std::unique_ptr<const MethodTable> read_runge_kutta_table(TableDocument& documen
                                                   std::move(method));
 }
 
-}  // namespace pfaff
+const TableKind<ExplicitTable, ImplicitTable> runge_kutta_kind{{"runge-kutta"}, read_runge_kutta_table};
+}  // namespace

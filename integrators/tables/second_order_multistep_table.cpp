@@ -220,10 +220,6 @@ MultistepPolynomials second_order_polynomials(const std::vector<Quad>& numbers) 
   return method;
 }
 
-}  // namespace
-
-namespace pfaff {
-
 std::unique_ptr<const MethodTable> read_second_order_multistep_table(TableDocument& document,
                                                                      TableHead head) {
   const MultistepPolynomials method = read_multistep_polynomials(document, head, 3);
@@ -250,4 +246,6 @@ std::unique_ptr<const MethodTable> read_second_order_multistep_table(TableDocume
                                                               std::move(made));
 }
 
-}  // namespace pfaff
+const TableKind<SecondOrderMultistepTable> second_order_multistep_kind{{"second-order-multistep"},
+                                                                       read_second_order_multistep_table};
+}  // namespace

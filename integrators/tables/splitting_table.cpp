@@ -162,10 +162,6 @@ Step read_step(TableDocument& document) {
   return step;
 }
 
-}  // namespace
-
-namespace pfaff {
-
 std::unique_ptr<const MethodTable> read_splitting_table(TableDocument& document, TableHead head) {
   const Step step = read_step(document);
   const int order = head.descriptor.order;
@@ -204,4 +200,6 @@ std::unique_ptr<const MethodTable> read_splitting_table(TableDocument& document,
                                                    std::move(method));
 }
 
-}  // namespace pfaff
+const TableKind<SplittingTable> splitting_kind{{"splitting", "rkn-splitting", "processed"},
+                                               read_splitting_table};
+}  // namespace

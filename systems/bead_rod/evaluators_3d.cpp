@@ -2,5 +2,5 @@
 #include <pfaff/systems/bead_rod/evaluators_of_dimension.hpp>
 
 namespace pfaff::detail {
-template struct EvaluatorInstances<3>;
+template struct EvaluatorInstances<3, ScalarsHere<FormulaScalars>>;
 }  // namespace pfaff::detail

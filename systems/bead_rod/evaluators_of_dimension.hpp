@@ -3,6 +3,7 @@
 
 #include <tuple>
 
+#include <pfaff/core/facets/scalar_units.hpp>
 #include <pfaff/systems/bead_rod/evaluators.hpp>
 #include <pfaff/systems/bead_rod/rod_constraints.hpp>
 
@@ -19,7 +20,7 @@ std::unique_ptr<HolonomicConstraints<T>> rod_constraints(const BeadRodParts& par
 }
 
 /// Emits both for every scalar of the list.
-template <int D, class List = FormulaScalars>
+template <int D, class List>
 struct EvaluatorInstances;
 template <int D, class... T>
 struct EvaluatorInstances<D, Scalars<T...>> {

@@ -242,11 +242,11 @@ class RodConstraints final : public HolonomicConstraints<T>, public DescribedByR
   // Rates in doubles, where all rods are parts of paths and rings that can be folded.
   static constexpr bool folds = std::is_same_v<T, double>;
   using Folded = FoldedRods<D>;
-  Status folded_rates(bool (Folded::*rates)(In<double>, In<double>, Out<double>, Out<double>), In<T> q,
+  Status folded_rates(bool (Folded::*operation)(In<double>, In<double>, Out<double>, Out<double>), In<T> q,
                       In<T> p, Out<T> q_rate, Out<T> p_rate) {
     const Status status = set_forces(q);
     if (!potentials_.constant()) folded_.set_forces(forces_);
-    const bool regular = (folded_.*rates)(q, p, q_rate, p_rate);
+    const bool regular = (folded_.*operation)(q, p, q_rate, p_rate);
     return regular || status != Status::converged ? status : Status::singular;
   }
   // Forces and accelerations of the beads; where they are constant, only when there are none yet.

@@ -203,7 +203,7 @@ class Builder {
                                  part.change.place));
       source_.part_names.push_back(part.name);
     }
-    source_.flows = taped_flows(std::move(changes));
+    source_.flows = std::make_shared<const TapedFlowsFactory>(std::move(changes));
   }
 
   void take_invariants() {
