@@ -6,12 +6,12 @@
 #include <optional>
 
 #include <pfaff/app/command.hpp>
-#include <pfaff/app/terminal.hpp>
 #include <pfaff/bench/experiment/experiment.hpp>
 #include <pfaff/bench/experiment/results.hpp>
 #include <pfaff/bench/experiment/stage_text.hpp>
 #include <pfaff/bench/experiment/team.hpp>
 #include <pfaff/bench/runner/interruption.hpp>
+#include <pfaff/bench/runner/terminal.hpp>
 
 namespace pfaff::app {
 

@@ -6,9 +6,9 @@
 #include <sstream>
 
 #include <pfaff/app/command.hpp>
-#include <pfaff/app/terminal.hpp>
 #include <pfaff/bench/derivation/named_parameters.hpp>
 #include <pfaff/bench/runner/settings.hpp>
+#include <pfaff/bench/runner/terminal.hpp>
 #include <pfaff/core/emit/emitter.hpp>
 #include <pfaff/core/errors/errors.hpp>
 #include <pfaff/core/system.hpp>

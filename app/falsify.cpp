@@ -6,11 +6,11 @@
 #include <optional>
 
 #include <pfaff/app/command.hpp>
-#include <pfaff/app/terminal.hpp>
 #include <pfaff/bench/falsification/falsify.hpp>
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/bench/runner/interruption.hpp>
 #include <pfaff/bench/runner/settings.hpp>
+#include <pfaff/bench/runner/terminal.hpp>
 #include <pfaff/bench/verification/check_budget.hpp>
 #include <pfaff/bench/verification/random_checks.hpp>
 #include <pfaff/core/numbers/formatted.hpp>

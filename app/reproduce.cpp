@@ -5,9 +5,9 @@
 #include <iostream>
 
 #include <pfaff/app/command.hpp>
-#include <pfaff/app/terminal.hpp>
 #include <pfaff/bench/reproduce/coverage/coverage.hpp>
 #include <pfaff/bench/runner/interruption.hpp>
+#include <pfaff/bench/runner/terminal.hpp>
 #include <pfaff/core/errors/errors.hpp>
 #include <pfaff/core/numbers/formatted.hpp>
 

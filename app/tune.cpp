@@ -5,9 +5,9 @@
 #include <optional>
 
 #include <pfaff/app/command.hpp>
-#include <pfaff/app/terminal.hpp>
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/bench/runner/interruption.hpp>
+#include <pfaff/bench/runner/terminal.hpp>
 #include <pfaff/bench/tuning/tuned_splitting.hpp>
 #include <pfaff/bench/verification/check.hpp>
 #include <pfaff/core/facets/quadratic_energy.hpp>

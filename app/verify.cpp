@@ -6,9 +6,9 @@
 #include <map>
 
 #include <pfaff/app/command.hpp>
-#include <pfaff/app/terminal.hpp>
 #include <pfaff/bench/runner/interruption.hpp>
 #include <pfaff/bench/runner/settings.hpp>
+#include <pfaff/bench/runner/terminal.hpp>
 #include <pfaff/bench/verification/check_budget.hpp>
 
 namespace pfaff::app {
