@@ -1,7 +1,7 @@
 # Installation and the package that find_package(Pfaff) finds.
 include(CMakePackageConfigHelpers)
 
-install(TARGETS pfaff pfaff_bench EXPORT PfaffTargets
+install(TARGETS pfaff pfaff_bench pfaff_studies EXPORT PfaffTargets
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS pfaff_trial_load RUNTIME DESTINATION ${CMAKE_INSTALL_LIBDIR})  # beside the library, which starts it
 install(TARGETS pfaff_app RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
