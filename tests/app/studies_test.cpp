@@ -64,6 +64,7 @@ class Studies : public ::testing::Test {
 };
 
 TEST_F(Studies, NamesAndHelpNeedNoLibrary) {
+  say_that_it_is_a_build_tree(directory());
   std::vector<Arguments> all{{"--help"},
                              {"--version"},
                              {"list"},
