@@ -4,8 +4,8 @@
 
 #include <pfaff/app/command.hpp>
 #include <pfaff/app/description.hpp>
-#include <pfaff/app/terminal.hpp>
 #include <pfaff/bench/experiment/citations.hpp>
+#include <pfaff/bench/runner/terminal.hpp>
 
 namespace pfaff::app {
 

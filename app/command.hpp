@@ -7,15 +7,9 @@
 #include <string>
 #include <vector>
 
-#include <pfaff/core/registry/parameter.hpp>
+#include <pfaff/bench/studies/options.hpp>
 
 namespace pfaff::app {
-
-/// Options that every command takes.
-struct Common {
-  bool json = false, quiet = false;
-  std::vector<std::string> plugins;
-};
 
 /// The work of a command. It returns the exit status: 0, or 1 where a check failed or a run ended early.
 using Action = std::function<int()>;

@@ -6,12 +6,13 @@
 #include <optional>
 
 #include <pfaff/app/command.hpp>
-#include <pfaff/app/terminal.hpp>
 #include <pfaff/bench/experiment/experiment.hpp>
 #include <pfaff/bench/experiment/results.hpp>
 #include <pfaff/bench/experiment/stage_text.hpp>
 #include <pfaff/bench/experiment/team.hpp>
 #include <pfaff/bench/runner/interruption.hpp>
+#include <pfaff/bench/runner/terminal.hpp>
+#include <pfaff/bench/studies/studies.hpp>
 
 namespace pfaff::app {
 
@@ -50,8 +51,12 @@ int compare(const CompareOptions& options, const Common& common) {
   const std::vector<std::string> names = options.all ? experiment_names() : options.names;
   nlohmann::json j{{"schema", 1}, {"experiments", nlohmann::json::array()}};
   bool failed = false;
+  std::vector<Experiment> experiments;
   for (const std::string& name : names) {
-    Experiment experiment = read_experiment(name, options.quick);
+    experiments.push_back(read_experiment(name, options.quick));
+    if (experiments.back().derivation) (void)studies();  // whether it is there is seen before anything is run
+  }
+  for (Experiment& experiment : experiments) {
     experiment.compile = experiment.compile || options.compile;
     std::filesystem::path directory = options.out;
     if (options.out.empty())

@@ -1,73 +1,11 @@
-// pfaff derive: equations of motion of a system as text and code, and how many operations they take.
-#include <algorithm>
-#include <chrono>
-#include <cmath>
-#include <iostream>
-#include <sstream>
-
+// pfaff derive: equations of motion of a system, made by the library of studies.
 #include <pfaff/app/command.hpp>
-#include <pfaff/app/terminal.hpp>
-#include <pfaff/bench/derivation/named_parameters.hpp>
-#include <pfaff/bench/runner/settings.hpp>
-#include <pfaff/core/emit/emitter.hpp>
-#include <pfaff/core/errors/errors.hpp>
-#include <pfaff/core/system.hpp>
-#include <pfaff/systems/text/text_system.hpp>
+#include <pfaff/bench/studies/derivation_methods.hpp>
+#include <pfaff/bench/studies/studies.hpp>
 
 namespace pfaff::app {
 
 namespace {
-
-struct DeriveOptions {
-  std::string system, method, emit = "counts";
-  std::vector<std::string> set;
-};
-
-// The form of friction among the settings, which is taken out of them.
-std::optional<FrictionForm> take_friction_form(Assignments& settings) {
-  std::optional<FrictionForm> form;
-  std::vector<std::string> names;
-  for (const FrictionForm one : {FrictionForm::metriplectic, FrictionForm::stokes, FrictionForm::none})
-    names.emplace_back(to_string(one));
-  std::erase_if(settings, [&](const auto& setting) {
-    if (setting.first != "friction-form") return false;
-    for (const FrictionForm one : {FrictionForm::metriplectic, FrictionForm::stokes, FrictionForm::none})
-      if (setting.second == to_string(one)) form = one;
-    if (!form) throw InputError(unknown_name("friction-form", setting.second, names));
-    return true;
-  });
-  return form;
-}
-
-// The degree of a generating function among the settings, which is taken out of them.
-int take_order(Assignments& settings, const std::string& method) {
-  int degree = 4;
-  if (method != "generating-function") return degree;
-  std::erase_if(settings, [&](const auto& setting) {
-    if (setting.first != "order") return false;
-    const std::optional<Real> order = Real::parse(setting.second);
-    if (!order || !order->is_fraction() || order->denominator() != 1 || order->numerator() < 1 ||
-        order->numerator() > largest_derived_degree)
-      throw InputError("order: expected a whole number in 1 .. " + std::to_string(largest_derived_degree) +
-                       ", got '" + setting.second + "'");
-    degree = static_cast<int>(order->numerator());
-    return true;
-  });
-  return degree;
-}
-
-// The order of elimination among the settings, which is taken out of them.
-std::vector<std::string> take_elimination(Assignments& settings) {
-  std::vector<std::string> names;
-  std::erase_if(settings, [&](const auto& setting) {
-    if (setting.first != "elimination") return false;
-    std::istringstream list(setting.second);
-    names.clear();
-    for (std::string name; std::getline(list, name, ',');) names.push_back(name);
-    return true;
-  });
-  return names;
-}
 
 // In lines of which each fits beside the names of the options.
 std::string methods_in_words() {
@@ -81,76 +19,18 @@ std::string methods_in_words() {
   return text;
 }
 
-// What --emit may say: counts, or a language.
-std::vector<std::string> forms() {
-  std::vector<std::string> names{"counts"};
-  for (const Emitter& emitter : emitters()) names.emplace_back(emitter.name);
-  return names;
-}
 std::string forms_in_words() {
   std::string text;
-  for (const std::string& name : forms()) text += (text.empty() ? "" : ", ") + name;
+  for (const std::string& name : derivation_forms()) text += (text.empty() ? "" : ", ") + name;
   return text;
-}
-
-// Prints the equations in a language.
-int print_text(const Equations& equations, const std::string& language) {
-  for (const Emitter& emitter : emitters())
-    if (emitter.name == language) std::cout << emitter.write(equations);
-  return 0;
-}
-
-int print_counts(const Equations& equations, double seconds, bool as_json) {
-  const nlohmann::json counts{{"schema", 1},
-                              {"system", equations.system},
-                              {"method", equations.method},
-                              {"equations", equations.coordinates.size()},
-                              {"operations", operations(equations.tape)},
-                              {"nodes", equations.tape.code.size()},
-                              {"seconds", seconds}};
-  if (as_json) {
-    std::cout << json_text(counts);
-    return 0;
-  }
-  std::string symbols;
-  for (const Symbol& symbol : equations.parameters) symbols += (symbols.empty() ? "" : " ") + symbol.name;
-  std::cout << table({{"system", "method", "equations", "operations", "nodes", "seconds"},
-                      {equations.system, equations.method, std::to_string(equations.coordinates.size()),
-                       std::to_string(operations(equations.tape)), std::to_string(equations.tape.code.size()),
-                       scientific(seconds)}});
-  std::cout << paragraph("symbols: " + (symbols.empty() ? "the coordinates alone" : symbols));
-  return 0;
-}
-
-int run(const DeriveOptions& options, bool as_json) {
-  Assignments settings = parse_settings(options.set);
-  const DerivationOptions chosen{take_friction_form(settings), take_order(settings, options.method),
-                                 take_elimination(settings)};
-  const SystemPlugin& system = system_named(options.system);
-  const std::vector<std::string> known = forms();
-  if (std::find(known.begin(), known.end(), options.emit) == known.end())
-    throw InputError(unknown_name("--emit", options.emit, known));
-  if (as_json && options.emit != "counts")
-    throw InputError("--json is for --emit counts; expected " + options.emit + " without it");
-  const SplitSettings split = split_settings(system, nullptr, nullptr, settings);
-  if (!split.initial.empty()) throw InputError("--set initial: equations do not depend on a state");
-  double seconds = HUGE_VAL;  // of one derivation; finding out which parameters are symbols takes several
-  const Equations equations = with_named_parameters(system, split.system, [&](const Model& model) {
-    const auto begin = std::chrono::steady_clock::now();
-    Equations made = derive(model, options.method, chosen);
-    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
-    seconds = std::min(seconds, taken.count());
-    return made;
-  });
-  if (options.emit != "counts") return print_text(equations, options.emit);
-  return print_counts(equations, seconds, as_json);
 }
 
 }  // namespace
 
 void add_derive(CLI::App& app, Common& common, Action& action) {
   CLI::App* sub = subcommand(app, common, "derive", "Equations of motion of a system, derived symbolically");
-  auto options = std::make_shared<DeriveOptions>();
+  auto options = std::make_shared<DerivationSettings>();
+  auto set = std::make_shared<std::vector<std::string>>();
   sub->add_option("system", options->system, "Name of the system, or the file of one written as text")
       ->type_name("SYSTEM|FILE")
       ->required();
@@ -158,14 +38,18 @@ void add_derive(CLI::App& app, Common& common, Action& action) {
       ->type_name("NAME")
       ->required();
   sub->add_option("--emit", options->emit, "What is printed: " + forms_in_words())->type_name("NAME");
-  sub->add_option("--set", options->set,
+  sub->add_option("--set", *set,
                   "A parameter of the system (beads=12), friction-form=NAME,\norder=K of "
                   "generating-function, or elimination=NAME,NAME,...\nof the constraints in the recursions")
       ->type_name("KEY=VALUE")
       ->expected(1)
       ->take_all();
-  sub->callback(
-      [options, &common, &action] { action = [options, &common] { return run(*options, common.json); }; });
+  sub->callback([=, &common, &action] {
+    action = [=, &common] {
+      options->set = parse_settings(*set);
+      return studies().derive(*options, common);
+    };
+  });
 }
 
 }  // namespace pfaff::app

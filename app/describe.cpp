@@ -4,7 +4,7 @@
 
 #include <pfaff/app/command.hpp>
 #include <pfaff/app/description.hpp>
-#include <pfaff/app/terminal.hpp>
+#include <pfaff/bench/runner/terminal.hpp>
 
 namespace pfaff::app {
 

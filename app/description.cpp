@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include <pfaff/app/terminal.hpp>
 #include <pfaff/bench/experiment/automatic_steps.hpp>
 #include <pfaff/bench/experiment/experiment.hpp>
 #include <pfaff/bench/runner/motion.hpp>
+#include <pfaff/bench/runner/terminal.hpp>
 #include <pfaff/core/bracket.hpp>
 #include <pfaff/core/facets/derivations/derivation.hpp>
 #include <pfaff/core/formulation.hpp>

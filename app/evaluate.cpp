@@ -4,9 +4,9 @@
 #include <pfaff/app/command.hpp>
 #include <pfaff/app/evaluation_text.hpp>
 #include <pfaff/app/state_file.hpp>
-#include <pfaff/app/terminal.hpp>
 #include <pfaff/bench/evaluation/evaluation.hpp>
 #include <pfaff/bench/runner/motion.hpp>
+#include <pfaff/bench/runner/terminal.hpp>
 
 namespace pfaff::app {
 

@@ -3,7 +3,7 @@
 #include <limits>
 #include <vector>
 
-#include <pfaff/app/terminal.hpp>
+#include <pfaff/bench/runner/terminal.hpp>
 #include <pfaff/core/numbers/formatted.hpp>
 #include <pfaff/core/numbers/quad.hpp>
 

@@ -8,8 +8,8 @@
 
 #include <pfaff/app/command.hpp>
 #include <pfaff/app/method_survey.hpp>
-#include <pfaff/app/terminal.hpp>
 #include <pfaff/bench/experiment/experiment.hpp>
+#include <pfaff/bench/runner/terminal.hpp>
 #include <pfaff/core/bracket.hpp>
 #include <pfaff/core/formulation.hpp>
 #include <pfaff/core/integrator.hpp>

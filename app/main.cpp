@@ -12,7 +12,7 @@
 #include <pfaff/app/command.hpp>
 #include <pfaff/app/heap.hpp>
 #include <pfaff/app/help_formatter.hpp>
-#include <pfaff/app/terminal.hpp>
+#include <pfaff/bench/runner/terminal.hpp>
 #include <pfaff/core/bracket.hpp>
 #include <pfaff/core/errors/budget.hpp>
 #include <pfaff/core/integrator.hpp>

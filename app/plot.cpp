@@ -3,10 +3,10 @@
 #include <iostream>
 
 #include <pfaff/app/command.hpp>
-#include <pfaff/app/terminal.hpp>
 #include <pfaff/bench/experiment/experiment_directory.hpp>
 #include <pfaff/bench/experiment/results.hpp>
 #include <pfaff/bench/runner/run_directory.hpp>
+#include <pfaff/bench/runner/terminal.hpp>
 
 namespace pfaff::app {
 

@@ -1,191 +1,15 @@
-// pfaff reproduce: prints the values printed in a paper beside those computed here, and what of the papers is
-// covered.
-#include <algorithm>
-#include <array>
-#include <iostream>
-
+// pfaff reproduce: what is printed in a paper beside what is computed here, by the library of studies.
 #include <pfaff/app/command.hpp>
-#include <pfaff/app/terminal.hpp>
-#include <pfaff/bench/reproduce/coverage/coverage.hpp>
-#include <pfaff/bench/runner/interruption.hpp>
-#include <pfaff/core/errors/errors.hpp>
-#include <pfaff/core/numbers/formatted.hpp>
+#include <pfaff/bench/studies/papers.hpp>
+#include <pfaff/bench/studies/studies.hpp>
 
 namespace pfaff::app {
-
-namespace {
-
-struct ReproduceOptions {
-  std::string paper, section;
-  bool coverage = false, list = false;
-  [[nodiscard]] std::vector<std::string> chosen() const {
-    return paper.empty() ? papers() : std::vector<std::string>{paper};
-  }
-};
-
-// A row whose texts do not fit beside each other.
-std::string block(const ReproducedRow& row, const std::string& difference) {
-  return paragraph(row.id) + table({{"  printed", row.printed},
-                                    {"  ours", row.ours},
-                                    {"  difference", difference},
-                                    {"  status", row.status}});
-}
-
-void print_rows(const std::string& paper, const std::vector<ReproducedRow>& rows) {
-  constexpr std::size_t widest_id = 34, widest_value = 20;
-  std::vector<std::vector<std::string>> lines{{"published", "printed", "ours", "difference", "status"}};
-  std::string blocks;
-  const auto count = [&](const char* status) {
-    return std::to_string(
-        std::count_if(rows.begin(), rows.end(), [&](const ReproducedRow& r) { return r.status == status; }));
-  };
-  for (const ReproducedRow& r : rows) {
-    const std::string difference = formatted("%.1e", r.difference);
-    if (r.id.size() > widest_id || r.printed.size() > widest_value || r.ours.size() > widest_value) {
-      blocks += block(r, difference);
-    } else {
-      lines.push_back({r.id, r.printed, r.ours, difference, r.status});
-    }
-  }
-  std::cout << paper << '\n' << (lines.size() > 1 ? table(lines) : std::string()) << blocks;
-  std::vector<std::vector<std::string>> notes;
-  for (const ReproducedRow& r : rows)
-    if (!r.erratum.empty()) notes.push_back({r.status, r.id + ": " + r.erratum});
-  std::cout << table(notes) << '\n'
-            << rows.size() << " rows: " << count("reproduced") << " reproduced, " << count("improved")
-            << " improved, " << count("erratum") << " errata, " << count("qualitative") << " qualitative"
-            << (ok(rows) ? "" : ", the rest FAILED") << '\n';
-}
-
-// What can be reproduced, without doing it: of every paper the number of its items, or every item of one.
-void print_list(const ReproduceOptions& options) {
-  std::vector<std::vector<std::string>> lines;
-  if (options.paper.empty()) {
-    lines.push_back({"paper", "items", "with rows"});
-    for (const std::string& paper : papers()) {
-      const std::vector<PaperItem>& items = items_of(paper);
-      const auto rows = std::count_if(items.begin(), items.end(),
-                                      [](const PaperItem& item) { return item.cover == Cover::rows; });
-      lines.push_back({paper, std::to_string(items.size()), std::to_string(rows)});
-    }
-  } else {
-    lines.push_back({options.paper, "kind", "dealt with by"});
-    for (const PaperItem& item : items_of(options.paper))
-      lines.push_back({item.name, to_string(item.kind),
-                       to_string(item.cover) + (item.note.empty() ? "" : ": " + item.note)});
-  }
-  std::cout << table(lines);
-}
-nlohmann::json list_json(const ReproduceOptions& options) {
-  nlohmann::json list = nlohmann::json::array();
-  for (const std::string& paper : options.chosen()) {
-    nlohmann::json items = nlohmann::json::array();
-    for (const PaperItem& item : items_of(paper))
-      items.push_back(
-          {{"item", item.name}, {"kind", to_string(item.kind)}, {"cover", to_string(item.cover)}});
-    list.push_back({{"paper", paper}, {"items", items}});
-  }
-  return {{"schema", 1}, {"papers", list}};
-}
-
-// A cell of at most `limit` characters.
-std::string fitted(const std::string& text, std::size_t limit) {
-  return text.size() > limit ? text.substr(0, limit - 2) + ".." : text;
-}
-
-void print_coverage(const Coverage& coverage) {
-  std::vector<std::vector<std::string>> counts{{coverage.paper, "items", "rows", "reason", "pending"}};
-  const auto add = [&](const std::string& name, const std::array<std::size_t, 3>& numbers) {
-    counts.push_back({name, std::to_string(numbers[0] + numbers[1] + numbers[2]), std::to_string(numbers[0]),
-                      std::to_string(numbers[1]), std::to_string(numbers[2])});
-  };
-  for (int k = 0; k <= static_cast<int>(ItemKind::statement); ++k) {
-    const auto kind = static_cast<ItemKind>(k);
-    const std::array<std::size_t, 3> numbers{coverage.count(kind, Cover::rows),
-                                             coverage.count(kind, Cover::reason),
-                                             coverage.count(kind, Cover::pending)};
-    if (numbers[0] + numbers[1] + numbers[2] > 0) add("  " + to_string(kind), numbers);
-  }
-  add("  all", {coverage.count(Cover::rows), coverage.count(Cover::reason), coverage.count(Cover::pending)});
-  std::cout << table(counts);
-  std::vector<std::vector<std::string>> without;
-  for (const CoveredItem& c : coverage.items)
-    if (c.item.cover != Cover::rows)
-      without.push_back({"  " + fitted(c.item.name, 24), to_string(c.item.cover), fitted(c.item.note, 42)});
-  std::cout << table(without);
-  for (const std::string& fault : coverage.faults) std::cout << paragraph("FAULT " + fault);
-  std::cout << '\n';
-}
-
-// One JSON value: that of the paper, or of all papers together.
-void print_json(const ReproduceOptions& options, const nlohmann::json& papers, bool good) {
-  nlohmann::json all{{"schema", 1}};
-  if (options.paper.empty()) {
-    all["ok"] = good;
-    all["papers"] = papers;
-  } else {
-    all.update(papers.front());
-  }
-  std::cout << json_text(all);
-}
-
-int run(const ReproduceOptions& options, const Common& common) {
-  if (options.paper.empty() && !options.section.empty())
-    throw InputError("--section " + options.section +
-                     ": expected a paper before it, because sections are a paper's");
-  if (options.coverage && !options.section.empty())
-    throw InputError("--section and --coverage exclude each other: the coverage is that of a whole paper");
-  if (options.list) {
-    if (options.coverage || !options.section.empty())
-      throw InputError("--list: expected neither --coverage nor --section beside it");
-    if (common.json) {
-      std::cout << json_text(list_json(options));
-    } else {
-      print_list(options);
-    }
-    return 0;
-  }
-  const Interruption interruption;
-  bool good = true;
-  nlohmann::json all = nlohmann::json::array();
-  const std::vector<std::string> chosen = options.chosen();
-  std::size_t done = 0;
-  for (const std::string& paper : chosen) {
-    if (options.coverage) {
-      const Coverage coverage = coverage_of(paper);
-      good = good && coverage.faults.empty();
-      if (common.json) {
-        all.push_back(to_json(coverage));
-      } else if (!common.quiet || !coverage.faults.empty()) {
-        print_coverage(coverage);
-      }
-      continue;
-    }
-    std::vector<ReproducedRow> rows;
-    try {
-      rows = reproduce(paper, options.section);
-    } catch (const BudgetSpent& spent) {
-      end_interrupted(spent, std::to_string(done) + " of " + std::to_string(chosen.size()) +
-                                 " papers were reproduced, and " + paper + " was not finished");
-    }
-    ++done;
-    good = good && ok(rows);
-    if (common.json) {
-      all.push_back(to_json(paper, rows));
-    } else if (!common.quiet || !ok(rows)) {
-      print_rows(paper, rows);
-    }
-  }
-  if (common.json) print_json(options, all, good);
-  return good ? 0 : 1;
-}
-}  // namespace
 
 void add_reproduce(CLI::App& app, Common& common, Action& action) {
   CLI::App* sub = subcommand(app, common, "reproduce",
                              "Published values beside ours: reproduced, erratum or qualitative");
   add_quiet(*sub, common);
-  auto options = std::make_shared<ReproduceOptions>();
+  auto options = std::make_shared<ReproductionOptions>();
   std::string known;
   for (const std::string& name : papers()) known += (known.empty() ? "" : ", ") + name;
   sub->add_option("paper", options->paper, known + "; all of them without")->type_name("PAPER");
@@ -193,7 +17,8 @@ void add_reproduce(CLI::App& app, Common& common, Action& action) {
   sub->add_flag("--list", options->list, "What can be reproduced, without doing it");
   sub->add_flag("--coverage", options->coverage,
                 "Which items of a paper have rows, and why others have none");
-  sub->callback([=, &common, &action] { action = [=, &common] { return run(*options, common); }; });
+  sub->callback(
+      [=, &common, &action] { action = [=, &common] { return studies().reproduce(*options, common); }; });
 }
 
 }  // namespace pfaff::app

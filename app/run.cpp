@@ -4,7 +4,6 @@
 
 #include <pfaff/app/command.hpp>
 #include <pfaff/app/state_file.hpp>
-#include <pfaff/app/terminal.hpp>
 #include <pfaff/bench/experiment/experiment_directory.hpp>
 #include <pfaff/bench/experiment/results.hpp>
 #include <pfaff/bench/runner/config_file.hpp>
@@ -12,6 +11,7 @@
 #include <pfaff/bench/runner/interruption.hpp>
 #include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/bench/runner/run_directory.hpp>
+#include <pfaff/bench/runner/terminal.hpp>
 
 namespace pfaff::app {
 

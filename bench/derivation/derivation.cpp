@@ -40,49 +40,44 @@ void by_solver(HolonomicConstraints<Recorded>& constraints, const Recorded& t, I
 
 struct Row {
   DerivationMethod method;
-  FrictionForm friction;
-  Engine engine;           // empty for the methods without holonomic constraints
+  FrictionForm friction = FrictionForm::none;
+  Engine engine = {};      // empty for the methods without holonomic constraints
   bool recursion = false;  // eliminates constraint by constraint
 };
-const std::vector<Row>& rows() {
+Row row_for(const DerivationMethod& method) {
   using enum FrictionForm;
-  static const std::vector<Row> list{
-      {{"ldl", "Dirac's equations, S factored in its sparsity"},
-       metriplectic,
-       by_formulation<HamiltonianReactions<Recorded>>},
-      {{"simplified", "Dirac's equations with the hidden constraints set to zero in them"},
-       metriplectic,
-       by_formulation<IdealReactions<Recorded>>},
-      {{"lmm", "Lagrange's multipliers"}, stokes, by_formulation<IdealReactions<Recorded>>},
-      {{"recursion", "one pair of constraints after the other, by vectors"},
-       metriplectic,
-       by_solver<RecursiveVectorsDirac>,
-       true},
-      {{"recursion-literal", "the recursion word for word, each bracket made once"},
-       metriplectic,
-       by_solver<RecursiveLiteralDirac>,
-       true},
-      {{"bivector", "the recursion on the whole bracket, by updates of rank 2"},
-       metriplectic,
-       by_solver<RecursiveTensorDirac>,
-       true},
-      {{"minors", "Dirac's equations with the closed inverse of a chain's S"},
-       metriplectic,
-       by_formulation<HamiltonianReactions<Recorded>>},
-      {{"nonholonomic", "projected equations of velocity constraints"}, none, {}},
-      {{"birkhoffian", "K^-1 (grad B + F_t), the structure solved for the rates"}, none, {}},
-      {{"generating-function", "the field in a chart, and coefficients of its generating function"},
-       none,
-       {}}};
+  switch (method.way) {
+    case DerivationWay::ldl:
+    case DerivationWay::minors:
+      return {method, metriplectic, by_formulation<HamiltonianReactions<Recorded>>};
+    case DerivationWay::simplified:
+      return {method, metriplectic, by_formulation<IdealReactions<Recorded>>};
+    case DerivationWay::lmm:
+      return {method, stokes, by_formulation<IdealReactions<Recorded>>};
+    case DerivationWay::recursion:
+      return {method, metriplectic, by_solver<RecursiveVectorsDirac>, true};
+    case DerivationWay::recursion_literal:
+      return {method, metriplectic, by_solver<RecursiveLiteralDirac>, true};
+    case DerivationWay::bivector:
+      return {method, metriplectic, by_solver<RecursiveTensorDirac>, true};
+    case DerivationWay::nonholonomic:
+    case DerivationWay::birkhoffian:
+    case DerivationWay::generating_function:
+      break;
+  }
+  return {method};
+}
+const std::vector<Row>& rows() {
+  static const std::vector<Row> list = [] {
+    std::vector<Row> made;
+    for (const DerivationMethod& method : derivation_methods()) made.push_back(row_for(method));
+    return made;
+  }();
   return list;
 }
-const Row& row_of(const std::string& method) {
-  std::vector<std::string> names;
-  for (const Row& row : rows()) {
-    if (row.method.name == method) return row;
-    names.push_back(row.method.name);
-  }
-  throw InputError(unknown_name("method", method, names));
+const Row& row_of(const std::string& name) {
+  const DerivationWay way = derivation_method(name).way;
+  return *std::find_if(rows().begin(), rows().end(), [&](const Row& row) { return row.method.way == way; });
 }
 
 bool chain(const Model& model) {
@@ -92,24 +87,24 @@ bool chain(const Model& model) {
 std::string misfit(const Model& model, const Row& row) {
   const std::string& method = row.method.name;
   const std::string who = "method " + method + " needs ";
-  if (method == "nonholonomic") {
+  if (row.method.way == DerivationWay::nonholonomic) {
     if (!model.nonholonomic()) return who + "velocity constraints; " + model.name() + " has none";
     return formulations().get("nonholonomic", "formulation").refuses(model);
   }
-  if (method == "birkhoffian") {
+  if (row.method.way == DerivationWay::birkhoffian) {
     const bool structured = model.facets().has(Facet::structure) || model.facets().has(Facet::hamiltonian);
     if (structured && (model.canonical() || model.facets().has(Facet::structure))) return {};
     return who + "a structure K(z, t) and no constraints; " + model.name() + " offers " +
            to_string(model.facets());
   }
-  if (method == "generating-function") {
+  if (row.method.way == DerivationWay::generating_function) {
     if (has_chart_hamiltonian(model)) return {};
     return who + "a Hamiltonian in Darboux coordinates and no constraints; " + model.name() + " offers " +
            to_string(model.facets());
   }
   if (!model.holonomic())
     return who + "holonomic constraints; " + model.name() + " offers " + to_string(model.facets());
-  if (method == "minors" && !chain(model))
+  if (row.method.way == DerivationWay::minors && !chain(model))
     return who + "one chain of constraints; S of " + model.name() + " is none";
   if (row.recursion && !model.tape(Formula::holonomic)->autonomous())
     return who + "constraints that do not depend on time; those of " + model.name() + " do";
@@ -132,7 +127,7 @@ void derive_holonomic(const Model& model, const Row& row, FrictionForm form,
   const auto record_with = [&](auto&& constraints) {
     row.engine(constraints, recorder.time(), In<Recorded>(inputs).first(n), rates, form, order);
   };
-  if (row.method.name == "minors") {
+  if (row.method.way == DerivationWay::minors) {
     record_with(ConstraintsByMinors<Recorded>(tapes, parameters));
   } else {
     record_with(TapedConstraints<Recorded>(tapes, parameters));
@@ -141,15 +136,6 @@ void derive_holonomic(const Model& model, const Row& row, FrictionForm form,
 }
 
 }  // namespace
-
-const std::vector<DerivationMethod>& derivation_methods() {
-  static const std::vector<DerivationMethod> methods = [] {
-    std::vector<DerivationMethod> list;
-    for (const Row& row : rows()) list.push_back(row.method);
-    return list;
-  }();
-  return methods;
-}
 
 Equations keep_used(Equations equations) {
   const std::size_t coordinates = equations.coordinates.size();
@@ -204,12 +190,12 @@ Equations derive(const Model& model, const std::string& method, const Derivation
   for (const Coordinate& c : model.coordinates()) equations.coordinates.push_back({c.name, c.unit});
   if (row.engine) {
     derive_holonomic(model, row, form, options.elimination, equations);
-  } else if (method == "nonholonomic") {
+  } else if (row.method.way == DerivationWay::nonholonomic) {
     // The motion shares the formulas of the model, which outlives it.
     const std::shared_ptr<const Model> borrowed(std::shared_ptr<const Model>(), &model);
     const auto motion = formulations().get("nonholonomic", "formulation").apply(borrowed, {});
     equations.tape = *motion->tape(Formula::field);
-  } else if (method == "generating-function") {
+  } else if (row.method.way == DerivationWay::generating_function) {
     expand_generating_function(model, options.degree, equations);
   } else {
     equations.tape =

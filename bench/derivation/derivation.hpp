@@ -6,18 +6,12 @@
 #include <string>
 #include <vector>
 
+#include <pfaff/bench/studies/derivation_methods.hpp>
 #include <pfaff/core/emit/equations.hpp>
 #include <pfaff/core/facets/model.hpp>
 #include <pfaff/core/formulation_members.hpp>
 
 namespace pfaff {
-
-/// A way to derive equations of motion.
-struct DerivationMethod {
-  std::string name, title;
-};
-/// All of them.
-const std::vector<DerivationMethod>& derivation_methods();
 
 /// Why a method does not fit a model; empty where it does. InputError for an unknown name.
 std::string derivation_misfit(const Model& model, const std::string& method);

@@ -1,15 +1,9 @@
-// Experiments of the kind `derivation`: how large the equations of a system become and how long it takes to
-// derive them, method by method, against the number K of its constraints.
-//
-//   operations ~ K^a, seconds ~ K^b;   written out without sharing, tree operations ~ e^(c K) or K^c
-//
-// a, b and c are slopes of least squares over logarithms, each with its interval of 95 % by Student's
-// distribution, from K = `fit_from` on. Of trees the law is taken that leaves the smaller residual. The times
-// are processor time, and the least of a few repetitions.
+// Experiments of the kind `derivation`, as they are asked for: how large the equations of a system become and
+// how long it takes to derive them, method by method, against the number of its constraints. They are run by
+// bench/derivation_growth/, in the library of studies.
 #pragma once
 
-#include <filesystem>
-#include <functional>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -18,9 +12,6 @@
 namespace pfaff {
 
 class Keys;
-struct Experiment;
-struct ExperimentOptions;
-struct ExperimentOutcome;
 
 /// One method, with the values of the system's parameter at which it derives equations, in rising order.
 struct DerivationSweep {
@@ -49,22 +40,5 @@ struct DerivationStudy {
 
 /// Reads what such an experiment has beside title and references. InputError as read_experiment.
 DerivationStudy read_derivation_study(Keys& keys, const std::string& where, bool quick);
-
-/// Derives what `directory` does not hold yet, one after the other, then writes results.csv, cost.csv,
-/// fits.csv, and where they are asked for figures and report.html, as run_experiment does.
-ExperimentOutcome run_derivation_study(
-    const Experiment& experiment, const std::filesystem::path& directory,
-    const std::function<void(const std::string& what, std::size_t done, std::size_t all)>& progress,
-    const ExperimentOptions& options);
-
-/// A slope of least squares with its interval of 95 %.
-struct FittedSlope {
-  std::size_t points = 0;
-  double slope = 0, low = 0, high = 0;
-  double residual = 0;  // the sum of squares that is left
-};
-
-/// The slope of y over x; needs three points or more, at two places or more.
-FittedSlope fitted_slope(const std::vector<double>& x, const std::vector<double>& y);
 
 }  // namespace pfaff

@@ -18,6 +18,7 @@
 #include <pfaff/bench/experiment/team.hpp>
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/bench/runner/run_directory.hpp>
+#include <pfaff/bench/studies/studies.hpp>
 
 namespace pfaff {
 
@@ -251,7 +252,7 @@ ExperimentOutcome run_experiment(const Experiment& asked, const fs::path& direct
                                  const ExperimentProgress& progress, const ExperimentOptions& options) {
   if (asked.derivation) {
     if (options.team != nullptr && !options.team->leads()) return {};  // one process makes all of it
-    return run_derivation_study(
+    return studies().derivation_growth(
         asked, directory,
         [&](const std::string& what, std::size_t done, std::size_t all) {
           if (progress) progress({1, what, done, all});

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,6 +10,7 @@
 
 #include <pfaff/bench/falsification/judgement.hpp>
 #include <pfaff/bench/random_systems/recipe.hpp>
+#include <pfaff/bench/studies/options.hpp>
 
 namespace pfaff {
 
@@ -35,14 +35,6 @@ struct FalsificationResult {
   ClaimUnderTest test;
   int tried = 0;  // random systems in the scope of the claim
   std::optional<Counterexample> counterexample;
-};
-
-struct FalsificationSettings {
-  std::uint64_t seed = 1;
-  double budget = 60;  // seconds, for all claims together
-  /// The search ends when so many systems have been drawn for each claim, whatever is left of the budget, so
-  /// that its results are the same on every machine that is fast enough.
-  std::uint64_t systems = std::numeric_limits<std::uint64_t>::max();
 };
 
 /// The claims of a method: all that it makes, or `claim` alone, made or not; with `parameters`, or where

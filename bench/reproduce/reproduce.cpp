@@ -1,35 +1,29 @@
 #include <pfaff/bench/reproduce/reproduce.hpp>
 
 #include <algorithm>
-#include <array>
 
 #include <pfaff/core/errors/errors.hpp>
 
 namespace pfaff {
 
 namespace {
-struct Paper {
-  const char* name;
-  std::vector<ReproducedRow> (*rows)();
-};
-constexpr std::array all_papers{
-    Paper{"su-qin", reproduce_su_qin}, Paper{"nguyen-turski", reproduce_nguyen_turski},
-    Paper{"pitanga-rodrigues", reproduce_pitanga_rodrigues}, Paper{"others", reproduce_others}};
+std::vector<ReproducedRow> rows_of(Paper paper) {
+  switch (paper) {
+    case Paper::su_qin:
+      return reproduce_su_qin();
+    case Paper::nguyen_turski:
+      return reproduce_nguyen_turski();
+    case Paper::pitanga_rodrigues:
+      return reproduce_pitanga_rodrigues();
+    case Paper::others:
+      break;
+  }
+  return reproduce_others();
+}
 }  // namespace
 
-std::vector<std::string> papers() {
-  std::vector<std::string> names;
-  for (const Paper& paper : all_papers) names.emplace_back(paper.name);
-  return names;
-}
-
 std::vector<ReproducedRow> reproduce(const std::string& paper, const std::string& section) {
-  const std::vector<std::string> known = papers();
-  if (std::find(known.begin(), known.end(), paper) == known.end())
-    throw InputError(unknown_name("paper", paper, known));
-  const auto found =
-      std::find_if(all_papers.begin(), all_papers.end(), [&](const Paper& p) { return paper == p.name; });
-  std::vector<ReproducedRow> rows = found->rows();
+  std::vector<ReproducedRow> rows = rows_of(paper_named(paper));
   if (section.empty()) return rows;
   std::vector<std::string> sections;
   for (const ReproducedRow& row : rows)

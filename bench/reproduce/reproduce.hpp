@@ -7,6 +7,7 @@
 #include <pfaff/bench/runner/json.hpp>
 
 #include <pfaff/bench/reproduce/evidence.hpp>
+#include <pfaff/bench/studies/papers.hpp>
 
 namespace pfaff {
 
@@ -23,9 +24,6 @@ struct ReproducedRow {
   std::string erratum;  // the entry in the list of misprints, or the claim tested
   Evidence evidence;
 };
-
-/// Papers that can be reproduced.
-std::vector<std::string> papers();
 
 /// The rows of a paper, of one section or of all (empty). InputError for unknown names.
 std::vector<ReproducedRow> reproduce(const std::string& paper, const std::string& section);

@@ -11,34 +11,34 @@ namespace pfaff {
 
 namespace {
 
-using Numbers = std::vector<double>;
+using Doubles = std::vector<double>;
 
 // Minimises |r(x)| under the conditions g(x) = 0 by Gauss and Newton: each step minimises the linearised sum
 // of squares under the linearised conditions, with a damping that grows while steps do not lead down. From
 // each start this is done in two ways, which find different minima: on a path off the conditions, that
 // approaches them by and by, and on one that first goes to them, by the method of Levenberg, and then along
 // them, each step being followed by corrections.
-class Search {
+class ConstrainedSearch {
  public:
-  explicit Search(const ConstrainedProblem& problem) : problem_(problem) {}
+  explicit ConstrainedSearch(const ConstrainedProblem& problem) : problem_(problem) {}
 
   struct Point {
-    Numbers x, conditions, residuals;
+    Doubles x, conditions, residuals;
   };
-  [[nodiscard]] Point at(Numbers x) const {
+  [[nodiscard]] Point at(Doubles x) const {
     spend(0, 1);
     auto values = problem_.values(x);
     return {std::move(x), std::move(values.conditions), std::move(values.residuals)};
   }
   // The derivatives of conditions and residuals, each one row for a variable.
   struct Slopes {
-    std::vector<Numbers> conditions, residuals;
+    std::vector<Doubles> conditions, residuals;
   };
   [[nodiscard]] Slopes slopes(const Point& point) const {
     constexpr double offset = 1e-6;  // a central difference of it is good to 1e-10
     Slopes slopes;
     for (std::size_t k = 0; k < point.x.size(); ++k) {
-      Numbers forward = point.x, backward = point.x;
+      Doubles forward = point.x, backward = point.x;
       forward[k] += offset;
       backward[k] -= offset;
       Point a = at(std::move(forward)), b = at(std::move(backward));
@@ -54,7 +54,7 @@ class Search {
 
   // The better end of the two paths from x, and nothing where neither reaches the conditions or both are too
   // long.
-  [[nodiscard]] std::optional<Point> from(const Numbers& x) const {
+  [[nodiscard]] std::optional<Point> from(const Doubles& x) const {
     std::optional<Point> best;
     for (const bool off : {true, false}) {
       std::optional<Point> end = along_conditions(off ? approaching(at(x)) : on_conditions(at(x)));
@@ -97,18 +97,18 @@ class Search {
   }
 
   // x less A^T y, for the rows of slopes that are the columns of A.
-  static Numbers corrected(Numbers x, const std::vector<Numbers>& slopes, const Numbers& multipliers) {
+  static Doubles corrected(Doubles x, const std::vector<Doubles>& slopes, const Doubles& multipliers) {
     for (std::size_t k = 0; k < x.size(); ++k)
       for (std::size_t i = 0; i < multipliers.size(); ++i) x[k] -= slopes[k][i] * multipliers[i];
     return x;
   }
   // A A^T + damping.
-  static LU<double> normal_matrix(const std::vector<Numbers>& slopes, std::size_t m, double damping) {
+  static LU<double> normal_matrix(const std::vector<Doubles>& slopes, std::size_t m, double damping) {
     LU<double> normal(m);
     for (std::size_t i = 0; i < m; ++i)
       for (std::size_t j = 0; j < m; ++j) {
         double sum = i == j ? damping : 0;
-        for (const Numbers& row : slopes) sum += row[i] * row[j];
+        for (const Doubles& row : slopes) sum += row[i] * row[j];
         normal(i, j) = sum;
       }
     return normal;
@@ -124,10 +124,10 @@ class Search {
     double damping = 1e-3;
     int idle = 0;
     for (int iteration = 0; iteration < 200 && idle < 12; ++iteration) {
-      const std::optional<Numbers> step = step_of(point, slopes(point), damping);
+      const std::optional<Doubles> step = step_of(point, slopes(point), damping);
       if (!step) break;
       const double length = norm_of(*step), factor = length > longest_step ? longest_step / length : 1;
-      Numbers x = point.x;
+      Doubles x = point.x;
       for (std::size_t k = 0; k < x.size(); ++k) x[k] += factor * (*step)[k];
       Point next = at(std::move(x));
       const double now = merit(point), then = merit(next);
@@ -161,7 +161,7 @@ class Search {
   // Where the conditions hold, or as far as sixty steps lead towards that.
   [[nodiscard]] Point on_conditions(Point point) const {
     const std::size_t m = point.conditions.size();
-    Numbers multipliers(m);
+    Doubles multipliers(m);
     double damping = 1e-2;
     for (int iteration = 0; iteration < 60 && norm_of(point.conditions) > 1e-9; ++iteration) {
       const auto rows = slopes(point).conditions;
@@ -185,12 +185,12 @@ class Search {
     const std::size_t m = point.conditions.size();
     LU<double> normal = normal_matrix(s.conditions, m, 0);
     if (!normal.factor()) return std::nullopt;
-    Numbers multipliers(m);
+    Doubles multipliers(m);
     constexpr double longest_step = 0.3;
     for (; damping < most_damped; damping *= 4) {
-      const std::optional<Numbers> step = step_of(point, s, damping);
+      const std::optional<Doubles> step = step_of(point, s, damping);
       if (!step || !(norm_of(*step) < longest_step)) continue;
-      Numbers x = point.x;
+      Doubles x = point.x;
       for (std::size_t k = 0; k < x.size(); ++k) x[k] += (*step)[k];
       Point next = at(std::move(x));
       // The slopes are those of the point before: five corrections are enough where the step is not too long.
@@ -204,12 +204,12 @@ class Search {
   }
 
   // d that minimises |r + J d|^2 + damping |d|^2 under g + A d = 0.
-  static std::optional<Numbers> step_of(const Point& point, const Slopes& s, double damping) {
+  static std::optional<Doubles> step_of(const Point& point, const Slopes& s, double damping) {
     const std::size_t n = point.x.size(), m = point.conditions.size();
     double scale = 0;
-    for (const Numbers& row : s.residuals) scale = std::max(scale, norm_of(row));
+    for (const Doubles& row : s.residuals) scale = std::max(scale, norm_of(row));
     LU<double> matrix(n + m);
-    Numbers right(n + m, 0.0), solution(n + m);
+    Doubles right(n + m, 0.0), solution(n + m);
     for (std::size_t i = 0; i < n; ++i) {
       for (std::size_t j = 0; j < n; ++j) {
         double sum = i == j ? damping * scale * scale + 1e-14 : 0;
@@ -234,8 +234,8 @@ class Search {
   const ConstrainedProblem& problem_;
 };
 
-Numbers rounded(const std::vector<Quad>& x) {
-  Numbers result;
+Doubles rounded(const std::vector<Quad>& x) {
+  Doubles result;
   for (const Quad& number : x) result.push_back(static_cast<double>(number));
   return result;
 }
@@ -253,7 +253,7 @@ double norm_of(const std::vector<double>& v) {
 std::optional<std::vector<Quad>> least_squares(const ConstrainedProblem& problem, std::mt19937_64& random,
                                                int starts,
                                                const std::function<void(double fraction)>& progress) {
-  const Search search(problem);
+  const ConstrainedSearch search(problem);
   std::optional<std::vector<Quad>> best;
   double smallest = std::numeric_limits<double>::infinity();
   int start = 0;

@@ -12,24 +12,11 @@
 #include <string>
 #include <vector>
 
+#include <pfaff/bench/studies/options.hpp>
 #include <pfaff/bench/tuning/shadow_terms.hpp>
 #include <pfaff/bench/tuning/splitting_logarithm.hpp>
 
 namespace pfaff {
-
-struct TuningSettings {
-  int order = 4;      // even
-  int stages = 6;     // forces a step, of the kernel where there is a processor; drifts come first and last
-  int processor = 0;  // the kicks of the processor, which begins with a drift; none where it is 0
-  /// Kinetic energies that are quadratic in the momenta need fewer conditions from order 6 on. Processed
-  /// methods are made for general parts.
-  Parts parts = Parts::general;
-  std::uint64_t seed = 1;
-  int starts = 60;  // of the search, drawn by `seed`
-  /// The sum of the lengths of all flows, taken positive, may be so large at most: long steps back and forth
-  /// make terms of higher order large.
-  double longest = 5;
-};
 
 /// A splitting with lengths that fulfil the order conditions to round-off of quad.
 struct TunedSplitting {

@@ -9,6 +9,7 @@
 #include <pfaff/bench/runner/json.hpp>
 
 #include <pfaff/bench/runner/motion.hpp>
+#include <pfaff/bench/studies/options.hpp>
 #include <pfaff/core/bracket.hpp>
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
@@ -127,15 +128,6 @@ std::vector<Check> check_false_processors();
 /// Controls: a method with a false claim of every kind, and the scheme su-qin (105) as printed, which has a
 /// misprint.
 std::vector<Check> check_false_methods();
-
-/// What is verified.
-struct VerificationSettings {
-  std::vector<std::string> names{};  // of plug-ins, tables of coefficients or kinds of plug-ins (systems
-                                     // ...), or controls; all when empty
-  bool full = false;                 // the large orders and more variants too
-  /// Parameters of the one plug-in that is named, instead of those that it is verified with otherwise.
-  Assignments set{};
-};
 
 /// Runs the checks. They run in parallel and their results come in a fixed order. InputError for an unknown
 /// name, and for parameters where not exactly one plug-in is named.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <pfaff/bench/derivation_growth/derived_sizes.hpp>
 #include <pfaff/bench/experiment/experiment.hpp>
 #include <pfaff/bench/runner/files.hpp>
 

@@ -23,15 +23,7 @@ std::string to_string(Cover cover) {
 
 namespace {
 
-struct PaperItems {
-  const char* paper;
-  const std::vector<PaperItem>& (*items)();
-};
-constexpr std::array all_items{
-    PaperItems{"su-qin", su_qin_items}, PaperItems{"nguyen-turski", nguyen_turski_items},
-    PaperItems{"pitanga-rodrigues", pitanga_rodrigues_items}, PaperItems{"others", others_items}};
-
-std::vector<std::string> split(const std::string& text, const std::string& at) {
+std::vector<std::string> split_at(const std::string& text, const std::string& at) {
   std::vector<std::string> parts;
   for (std::size_t begin = 0;;) {
     const std::size_t end = text.find(at, begin);
@@ -75,9 +67,17 @@ void find_gaps(const std::vector<PaperItem>& items, std::vector<std::string>& fa
 }  // namespace
 
 const std::vector<PaperItem>& items_of(const std::string& paper) {
-  for (const PaperItems& entry : all_items)
-    if (paper == entry.paper) return entry.items();
-  throw InputError(unknown_name("paper", paper, papers()));
+  switch (paper_named(paper)) {
+    case Paper::su_qin:
+      return su_qin_items();
+    case Paper::nguyen_turski:
+      return nguyen_turski_items();
+    case Paper::pitanga_rodrigues:
+      return pitanga_rodrigues_items();
+    case Paper::others:
+      break;
+  }
+  return others_items();
 }
 
 std::vector<std::string> named_items(const std::string& equation, const std::vector<PaperItem>& items) {
@@ -85,7 +85,7 @@ std::vector<std::string> named_items(const std::string& equation, const std::vec
     return std::find_if(items.begin(), items.end(), [&](const PaperItem& item) { return item.name == name; });
   };
   std::vector<std::string> names;
-  for (const std::string& text : split(equation, ", ")) {
+  for (const std::string& text : split_at(equation, ", ")) {
     const std::size_t dash = text.find(")-(");
     const auto first = dash == std::string::npos ? items.end() : place(text.substr(0, dash + 1)),
                last = dash == std::string::npos ? items.end() : place(text.substr(dash + 2));

@@ -7,7 +7,7 @@
 #include <pfaff/bench/runner/json.hpp>
 #include <pfaff/bench/runner/text_table.hpp>
 
-namespace pfaff::app {
+namespace pfaff {
 
 /// A JSON document as the commands print it, with a line end. Bytes that are no UTF-8 become U+FFFD.
 std::string json_text(const nlohmann::json& document);
@@ -32,4 +32,4 @@ class ProgressLine {
   std::chrono::steady_clock::time_point begin_, last_;
 };
 
-}  // namespace pfaff::app
+}  // namespace pfaff

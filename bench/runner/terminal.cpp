@@ -1,4 +1,4 @@
-#include <pfaff/app/terminal.hpp>
+#include <pfaff/bench/runner/terminal.hpp>
 
 #include <unistd.h>
 
@@ -7,7 +7,7 @@
 
 #include <pfaff/core/numbers/formatted.hpp>
 
-namespace pfaff::app {
+namespace pfaff {
 
 std::string json_text(const nlohmann::json& document) {
   return document.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
@@ -37,4 +37,4 @@ void ProgressLine::show(const std::string& what, double fraction) {
   std::fflush(stderr);
 }
 
-}  // namespace pfaff::app
+}  // namespace pfaff

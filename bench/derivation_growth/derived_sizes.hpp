@@ -2,6 +2,7 @@
 // findings.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -9,6 +10,16 @@
 #include <pfaff/bench/experiment/experiment.hpp>
 
 namespace pfaff {
+
+/// A slope of least squares with its interval of 95 %.
+struct FittedSlope {
+  std::size_t points = 0;
+  double slope = 0, low = 0, high = 0;
+  double residual = 0;  // the sum of squares that is left
+};
+
+/// The slope of y over x; needs three points or more, at two places or more.
+FittedSlope fitted_slope(const std::vector<double>& x, const std::vector<double>& y);
 
 /// A derivation that was made.
 struct Derived {

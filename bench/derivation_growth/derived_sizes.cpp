@@ -1,4 +1,4 @@
-#include <pfaff/bench/experiment/derived_sizes.hpp>
+#include <pfaff/bench/derivation_growth/derived_sizes.hpp>
 
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>

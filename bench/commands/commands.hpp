@@ -1,0 +1,15 @@
+// The commands of the library of studies: each does its work, prints what it found, and returns the exit
+// status.
+#pragma once
+
+#include <pfaff/bench/studies/options.hpp>
+
+namespace pfaff {
+
+int verify_command(const VerificationSettings& settings, const Common& common);
+int falsify_command(const FalsificationOptions& options, const Common& common);
+int reproduce_command(const ReproductionOptions& options, const Common& common);
+int derive_command(const DerivationSettings& options, const Common& common);
+int tune_command(const TuningOptions& options, const Common& common);
+
+}  // namespace pfaff
