@@ -1,12 +1,12 @@
 // Compilation units by scalars: for which scalars one compilation of a source makes code.
 //
-// Methods and programs step in double and in three more scalars (StepScalars), and formulas are put on tapes
-// by one more. Code in double has to be fast. The other scalars spend their time in the arithmetic of quads
-// and of numbers with derivatives, which is compiled elsewhere, and descriptions and recordings are used
-// once: what is hardly optimised there costs a user nothing and the build half of its time less. The build
-// therefore compiles the source of a plug-in twice: the unit `InDouble` is optimised and makes code in double
-// alone, the unit `InOthers` is not, makes all the rest and registers the plug-in. The author of the plug-in
-// notices nothing of it, and a source that is compiled once makes code for every scalar.
+// Methods and programs step in doubles and in quads, each with and without derivatives (StepScalars), and
+// formulas are put on tapes by one more scalar. Code in doubles has to be fast. Quads spend their time in
+// their arithmetic, which is compiled elsewhere, and descriptions and recordings are used once: optimising
+// what calls them takes a build longer than all the rest and gains little. The build therefore compiles the
+// source of a plug-in twice: the unit `InDouble` is optimised and makes code in doubles alone, the unit
+// `InOthers` is not, makes all the rest and registers the plug-in. The author of the plug-in notices nothing
+// of it, and a source that is compiled once makes code for every scalar.
 //
 // Types in unnamed namespaces have no names by which a linker could join the two units. Each unit therefore
 // leaves the addresses of its code under the names of the types, which are the same in both, while the
@@ -27,15 +27,19 @@ struct InAll {
   template <class T>
   static constexpr bool makes = true;
 };
-/// The optimised one of two compilations: code in double.
+/// Scalars of doubles, with and without derivatives.
+template <class T>
+constexpr bool of_doubles = std::is_same_v<Value<T>, double>;
+
+/// The optimised one of two compilations: code in doubles.
 struct InDouble {
   template <class T>
-  static constexpr bool makes = std::is_same_v<T, double>;
+  static constexpr bool makes = of_doubles<T>;
 };
 /// The other: code in the other scalars, and registrations.
 struct InOthers {
   template <class T>
-  static constexpr bool makes = !std::is_same_v<T, double>;
+  static constexpr bool makes = !of_doubles<T>;
 };
 
 #if defined(PFAFF_IN_OTHER_SCALARS)
