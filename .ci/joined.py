@@ -20,9 +20,11 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 TARGETS = {
     "pfaff": ["core", "brackets", "formulations", "systems", "integrators"],
-    "pfaff_bench": ["bench/measure", "bench/runner", "bench/verification", "bench/derivation", "bench/tuning"],
-    "pfaff_bench_cold": ["bench/evaluation", "bench/experiment", "bench/falsification", "bench/random_systems",
-                         "bench/reproduce"],
+    "pfaff_bench": ["bench/measure", "bench/runner"],
+    "pfaff_bench_cold": ["bench/evaluation", "bench/experiment", "bench/studies"],
+    "pfaff_studies": ["bench/derivation", "bench/tuning"],
+    "pfaff_studies_cold": ["bench/commands", "bench/derivation_growth", "bench/falsification", "bench/random_systems",
+                           "bench/reproduce", "bench/verification"],
     "pfaff_app": ["app"],
     **{f"{room}_tests": [f"tests/{room}"]
        for room in ("core", "brackets", "formulations", "systems", "integrators", "bench", "app")},

@@ -8,6 +8,7 @@
 
 #include <pfaff/bench/runner/loaded_objects.hpp>
 #include <pfaff/core/errors/errors.hpp>
+#include <pfaff/core/process/input_file.hpp>
 #include <pfaff/core/process/shared_object.hpp>
 #include <pfaff/core/registry/abi.hpp>
 #include <pfaff/core/system.hpp>
@@ -20,15 +21,32 @@ namespace {
 
 std::optional<StudyFunctions> registered_functions;
 
-// The line that mends the library: in the build tree one that builds it, elsewhere the installation. What is
-// there is newer than what it is made from, however it came about, so that it has to go first.
-std::string remedy(const fs::path& library) {
+// The build tree that makes the libraries of a folder, which is known by its cache.
+std::optional<fs::path> build_directory(const fs::path& folder) {
+  const std::string key = "\nPfaff_BINARY_DIR:STATIC=";
   std::error_code error;
-  if (!fs::equivalent(library.parent_path(), PFAFF_LIBRARY_DIRECTORY, error))
-    return "expected that of this installation of Pfaff: install it again";
+  for (fs::path above = folder;; above = above.parent_path()) {
+    if (const fs::path cache = above / "CMakeCache.txt"; fs::is_regular_file(cache, error)) {
+      const std::string text = read_file(cache);
+      const std::size_t at = text.find(key);
+      if (at == std::string::npos) return std::nullopt;
+      const std::size_t begin = at + key.size();
+      const fs::path made = text.substr(begin, text.find('\n', begin) - begin);
+      return fs::equivalent(made, folder, error) ? std::optional(above) : std::nullopt;
+    }
+    if (!above.has_relative_path()) return std::nullopt;
+  }
+}
+
+// The line that mends the library: in a build tree one that builds it, elsewhere the installation. What is
+// there may be newer than what it is made from, and would be kept; so it goes first.
+std::string remedy(const fs::path& library) {
+  const std::optional<fs::path> build = build_directory(library.parent_path());
+  if (!build) return "expected that of this installation of Pfaff, which has to be installed again";
+  std::error_code error;
   const fs::path file = fs::canonical(library, error);
-  return "expected the one that this line makes: " + (error ? "" : "rm '" + file.string() + "' && ") +
-         "cmake --build '" PFAFF_BUILD_DIRECTORY "' --target pfaff_studies";
+  return "expected the one that this makes: " + (error ? "" : "rm '" + file.string() + "'; ") +
+         "cmake --build '" + build->string() + "' --target pfaff_studies";
 }
 
 [[noreturn]] void refuse(const fs::path& library, const std::string& what) {
@@ -50,7 +68,8 @@ void check(const fs::path& library) {
   } catch (const InputError& error) {
     const std::string text = error.what(), before = "plug-in '" + library.string() + "': ";
     const std::string what = text.starts_with(before) ? text.substr(before.size()) : text;
-    refuse(library, what.substr(0, what.find("; expected")));
+    refuse(library,
+           what.starts_with("expected") ? "is no shared object" : what.substr(0, what.find("; expected")));
   }
   const auto note = std::find_if(notes.begin(), notes.end(),
                                  [](const std::string& text) { return text.starts_with(note_begins); });

@@ -8,8 +8,8 @@ namespace pfaff {
 namespace {
 
 // The results first .. first + count - 1 of the written formula minus those of the derived one.
-std::shared_ptr<const Tape> difference(const Tape& written, const Tape& derived, std::size_t first,
-                                       std::size_t count) {
+std::shared_ptr<const Tape> tape_of_difference(const Tape& written, const Tape& derived, std::size_t first,
+                                               std::size_t count) {
   return expression(written.inputs, static_cast<int>(count),
                     [&](const Recorded& t, Arguments z, Results out) {
                       const auto a = evaluate(written, t, z), b = evaluate(derived, t, z);
@@ -42,7 +42,7 @@ std::vector<Check> check_overrides(const std::string& plugin, const Model& model
     const std::vector<Real> where(centre.begin(), centre.begin() + written->inputs);
     const auto compare = [&](const std::string& what, std::size_t first, std::size_t count) {
       both(checks, plugin, "written " + what + " is the derived one", plugin,
-           difference(*written, *derived, first, count), where);
+           tape_of_difference(*written, *derived, first, count), where);
     };
     if (row.formula == Formula::constraint_gradients) {
       const std::vector<std::string> names = model.constraint_names();

@@ -23,7 +23,7 @@ std::string to_string(Cover cover) {
 
 namespace {
 
-std::vector<std::string> split(const std::string& text, const std::string& at) {
+std::vector<std::string> split_at(const std::string& text, const std::string& at) {
   std::vector<std::string> parts;
   for (std::size_t begin = 0;;) {
     const std::size_t end = text.find(at, begin);
@@ -85,7 +85,7 @@ std::vector<std::string> named_items(const std::string& equation, const std::vec
     return std::find_if(items.begin(), items.end(), [&](const PaperItem& item) { return item.name == name; });
   };
   std::vector<std::string> names;
-  for (const std::string& text : split(equation, ", ")) {
+  for (const std::string& text : split_at(equation, ", ")) {
     const std::size_t dash = text.find(")-(");
     const auto first = dash == std::string::npos ? items.end() : place(text.substr(0, dash + 1)),
                last = dash == std::string::npos ? items.end() : place(text.substr(dash + 2));
