@@ -2,6 +2,7 @@
 """Holds the includes of the sources against the rules of the house.
 
   Arrows run one way: a room includes only the rooms below it (ROOMS).
+  Of the two libraries of bench the first includes nothing of the second, nor does the program (STUDIES).
   No cycles of folders: what a folder includes, directly or through others, does not include the folder.
   A public header compiles by itself, without generating code. Builds do not show it: where sources are compiled
   together, others come before the one that includes its header first.
@@ -30,6 +31,8 @@ ROOMS = {
     "bench": {"core", "brackets", "formulations", "integrators", "systems"},
     "app": {"core", "brackets", "formulations", "integrators", "systems", "bench"},
 }
+# The folders of bench that are the library of studies (CMakeLists.txt), and who includes them: nobody else.
+STUDIES = {"commands", "derivation", "derivation_growth", "falsification", "random_systems", "reproduce", "tuning", "verification"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
 
@@ -59,6 +62,16 @@ def broken_arrows(arrows):
         if other != room and other not in ROOMS[room]:
             allowed = ", ".join(sorted(ROOMS[room])) or "nothing but itself"
             yield f"{source}:{number}: {room} includes {target}; expected {allowed}"
+
+
+def of_studies(path):
+    return path.parts[0] == "bench" and path.parts[1] in STUDIES
+
+
+def broken_libraries(arrows):
+    for source, number, target in arrows:
+        if of_studies(target) and not of_studies(source):
+            yield f"{source}:{number}: includes {target} of the library of studies; expected it to be asked for by studies()"
 
 
 def cycles(arrows):
@@ -147,7 +160,7 @@ def main():
     root = arguments.root.resolve()
     files = list(sources(root))
     arrows = [(source, number, target) for source in files for number, target in includes(root, source)]
-    problems = [*broken_arrows(arrows), *cycles(arrows)]
+    problems = [*broken_arrows(arrows), *broken_libraries(arrows), *cycles(arrows)]
     # The program's own headers and those of single benchmarks are not installed.
     public = [f for f in files if f.suffix == ".hpp" and f.parts[0] != "app" and f.parts[:2] != ("bench", "micro")]
     if not arguments.no_compile:
