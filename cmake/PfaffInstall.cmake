@@ -7,9 +7,9 @@ install(TARGETS pfaff_trial_load RUNTIME DESTINATION ${CMAKE_INSTALL_LIBDIR})  #
 install(TARGETS pfaff_app RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY core brackets formulations systems integrators DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pfaff
         FILES_MATCHING PATTERN "*.hpp")
-install(DIRECTORY bench/measure bench/runner bench/experiment bench/evaluation bench/verification
-                  bench/reproduce
-        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pfaff/bench FILES_MATCHING PATTERN "*.hpp")
+# All headers of bench but those of single benchmarks: whatever one of them includes is there too.
+install(DIRECTORY bench DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pfaff FILES_MATCHING PATTERN "*.hpp"
+        PATTERN bench/micro EXCLUDE PATTERN bench/report EXCLUDE PATTERN bench/experiments EXCLUDE)
 install(DIRECTORY bench/report DESTINATION ${CMAKE_INSTALL_DATADIR}/pfaff
         PATTERN "__pycache__" EXCLUDE)
 # Experiments name tables and models by their paths in the source tree; installed, the examples stand beside them.

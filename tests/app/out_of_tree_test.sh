@@ -21,6 +21,40 @@ prefix="$scratch/moved here"
 pfaff="$prefix/bin/pfaff"
 unset LD_LIBRARY_PATH PFAFF_PLUGIN_PATH
 
+# What an installed header includes is installed, and they compile: all of bench, which includes all that it needs.
+(cd "$prefix/include" && grep -rhoE '^#include <pfaff/[^>]+' pfaff | sed 's/.*<//' | sort -u >"$scratch/included" &&
+  find pfaff -name '*.hpp' | sort >"$scratch/headers")
+missing=$(grep -vxFf "$scratch/headers" "$scratch/included" || true)
+[[ -z $missing ]] || fail "included by installed headers, but not installed: $missing"
+grep '^pfaff/bench/' "$scratch/headers" | sed 's/.*/#include <&>/' >"$scratch/all.cpp"
+# shellcheck disable=SC2086 # several flags
+"${CXX:-c++}" -std=c++20 $flags -w -fsyntax-only -I "$prefix/include" "$scratch/all.cpp" >"$scratch/log" 2>&1 ||
+  fail "installed headers: $(head -n 3 "$scratch/log")"
+
+# The library of studies stands beside the others; without it, it is said what to do.
+"$pfaff" derive damped-pendulum --method birkhoffian >/dev/null || fail "the library of studies is not found"
+mkdir "$scratch/away"
+mv "$prefix"/lib*/libpfaff_studies.so* "$prefix"/lib*/*/libpfaff_studies.so* "$scratch/away" 2>/dev/null || true
+[[ -n $(ls "$scratch/away") ]] || fail "no library of studies is installed"
+status=0
+"$pfaff" derive damped-pendulum --method birkhoffian 2>"$scratch/err" || status=$?
+[[ $status == 2 && $(<"$scratch/err") == *"is missing"*"installed again" ]] ||
+  fail "without the library of studies: exit status $status, $(<"$scratch/err")"
+mv "$scratch"/away/* "$(dirname "$(find "$prefix" -name libpfaff_bench.so)")"
+
+# A program that calls it is linked to it, and has what is loaded otherwise.
+mkdir "$scratch/checks"
+printf '%s\n' 'cmake_minimum_required(VERSION 3.25)' 'project(Checks LANGUAGES CXX)' 'find_package(Pfaff REQUIRED)' \
+  'add_executable(checks checks.cpp)' 'target_link_libraries(checks PRIVATE Pfaff::studies)' \
+  >"$scratch/checks/CMakeLists.txt"
+printf '%s\n' '#include <pfaff/bench/studies/studies.hpp>' '#include <pfaff/bench/verification/check.hpp>' 'int main() {' \
+  '  int failed = 0;' '  for (const pfaff::Check& check : pfaff::verify({.names = {"canonical"}})) failed += !good(check);' \
+  '  return failed + pfaff::studies().verify({.names = {"canonical"}}, {.quiet = true});' '}' >"$scratch/checks/checks.cpp"
+"$cmake" -S "$scratch/checks" -B "$scratch/checks/build" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" \
+  -DCMAKE_CXX_FLAGS="$flags" >"$scratch/log" 2>&1 || fail "checks: $(<"$scratch/log")"
+"$cmake" --build "$scratch/checks/build" >"$scratch/log" 2>&1 || fail "checks: $(<"$scratch/log")"
+"$scratch/checks/build/checks" || fail "a program that is linked to the library of studies: exit status $?"
+
 for example in plugin program; do
   "$cmake" -S "$source/examples/$example" -B "$scratch/$example" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" \
     -DCMAKE_CXX_FLAGS="$flags" >"$scratch/log" 2>&1 || fail "$example: $(<"$scratch/log")"
