@@ -53,6 +53,7 @@ struct Outcome {
 /// How a command is started.
 struct Circumstances {
   fs::path directory;                  // where it works; empty: where the test does
+  fs::path program;                    // empty: the one that was built
   std::optional<rlim_t> largest_file;  // bytes; longer files fail to be written, as on a full disk
   std::optional<rlim_t> memory;        // bytes of address space
   std::string standard_output;         // a file instead of a pipe, such as /dev/full
@@ -66,7 +67,9 @@ class Program {
     if (pipe2(out_.data(), O_CLOEXEC) != 0 || pipe2(err_.data(), O_CLOEXEC) != 0)
       throw std::runtime_error("pipe failed");
     if (circumstances.nobody_reads) close(out_[0]), out_[0] = -1;
-    std::vector<const char*> argv{PFAFF_PROGRAM};
+    const std::string program =
+        circumstances.program.empty() ? PFAFF_PROGRAM : circumstances.program.string();
+    std::vector<const char*> argv{program.c_str()};
     for (const std::string& argument : arguments) argv.push_back(argument.c_str());
     argv.push_back(nullptr);
     id_ = fork();
@@ -89,7 +92,7 @@ class Program {
       if (!circumstances.standard_output.empty())
         out = open(circumstances.standard_output.c_str(), O_WRONLY | O_CLOEXEC);
       if (out < 0 || dup2(out, STDOUT_FILENO) < 0 || dup2(err_[1], STDERR_FILENO) < 0) _exit(126);
-      execv(PFAFF_PROGRAM, const_cast<char* const*>(argv.data()));
+      execv(program.c_str(), const_cast<char* const*>(argv.data()));
       _exit(127);
     }
     close(out_[1]), close(err_[1]);

@@ -1,0 +1,184 @@
+// The library of studies: what needs none of it works without it, and one that is missing, damaged or of
+// another build is refused in one line before it is loaded.
+#include <link.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "command.hpp"
+
+namespace {
+
+using namespace pfaff::testing;
+using Arguments = std::vector<std::string>;
+
+// The program with its libraries in a directory of their own, which is all but a build tree: the program
+// finds the experiments of the source tree there.
+class Studies : public ::testing::Test {
+ protected:
+  Studies() {
+    const fs::path built = fs::path(PFAFF_PROGRAM).parent_path();
+    for (const auto& entry : fs::directory_iterator(built)) {
+      const std::string name = entry.path().filename().string();
+      if (name == "pfaff" || name.starts_with("libpfaff"))
+        fs::copy(entry.path(), files_.path() / name, fs::copy_options::copy_symlinks);
+      if (name.starts_with("libpfaff_studies.so.") && (name_.empty() || name.size() < name_.size()))
+        name_ = name;
+    }
+    library_ = files_.path() / name_;
+    whole_ = text_of(library_);
+    fs::remove(fs::canonical(library_));
+    fs::remove(library_);
+  }
+
+  [[nodiscard]] Outcome run(const Arguments& arguments) const {
+    Circumstances here;
+    here.directory = files_.path();
+    here.program = files_.path() / "pfaff";
+    return run_pfaff(arguments, here);
+  }
+  // Puts a file in the place of the library.
+  void put(const std::string& bytes) const {
+    fs::remove_all(library_);
+    write(library_, bytes);
+  }
+  // A file in its place is refused, in one line that names it.
+  void expect_refusal(const std::vector<std::string>& fragments, const std::string& what) const {
+    expect_complaint(run({"derive", "damped-pendulum", "--method", "birkhoffian"}), 2,
+                     std::vector<std::string>{"library of studies '" + library_.string() + "': "} + fragments,
+                     what);
+  }
+  void say_that_it_is_a_build_tree(const fs::path& libraries) const {
+    const std::string source = fs::path(PFAFF_GOLDEN).parent_path().parent_path().string();
+    write(files_.path() / "CMakeCache.txt", "# cache\nCMAKE_HOME_DIRECTORY:INTERNAL=" + source +
+                                                "\nPfaff_BINARY_DIR:STATIC=" + libraries.string() + "\n");
+  }
+  [[nodiscard]] const fs::path& directory() const { return files_.path(); }
+  [[nodiscard]] const fs::path& library() const { return library_; }
+  [[nodiscard]] const std::string& whole() const { return whole_; }
+
+ private:
+  TemporaryDirectory files_;
+  std::string name_, whole_;
+  fs::path library_;
+};
+
+TEST_F(Studies, NamesAndHelpNeedNoLibrary) {
+  say_that_it_is_a_build_tree(directory());
+  std::vector<Arguments> all{{"--help"},
+                             {"--version"},
+                             {"list"},
+                             {"list", "--json"},
+                             {"list", "--markdown"},
+                             {"help", "--man"},
+                             {"completion", "bash"},
+                             {"completion", "zsh"}};
+  for (const char* command : {"verify", "falsify", "reproduce", "derive", "tune", "compare", "list"}) {
+    all.push_back({"help", command});
+    all.push_back({command, "--help"});
+  }
+  for (const Arguments& arguments : all) {
+    const Outcome with = run_pfaff(arguments), without = run(arguments);
+    EXPECT_EQ(without.status, 0) << joined(arguments) << without.err;
+    EXPECT_EQ(without.out, with.out) << joined(arguments);
+  }
+  // The control: what needs it does not go on without it.
+  for (const Arguments& arguments :
+       {Arguments{"verify", "pendulum"}, Arguments{"falsify", "rk4"}, Arguments{"reproduce", "--list"},
+        Arguments{"derive", "pendulum", "--method", "birkhoffian"},
+        Arguments{"tune", "pendulum", "--step", "1"}})
+    expect_complaint(run(arguments), 2, {"is missing"}, joined(arguments));
+}
+
+TEST_F(Studies, ExperimentsNeedNoLibrary) {
+  say_that_it_is_a_build_tree(directory());
+  const Outcome outcome =
+      run({"compare", "damped-oscillator", "--quick", "--no-report", "--timing", "0.001", "--out", "out"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(fs::exists(directory() / "out/results.csv"));
+  // One of several experiments needs it, which is seen before any is run.
+  const Arguments two{"compare", "damped-oscillator", "derive", "--quick", "--no-report", "--out", "both"};
+  expect_complaint(run(two), 2, {"is missing"}, joined(two));
+  EXPECT_FALSE(fs::exists(directory() / "both"));
+}
+
+TEST_F(Studies, AWholeLibraryIsLoaded) {
+  put(whole());
+  const Arguments derive{"derive", "damped-pendulum", "--method", "birkhoffian", "--emit", "cpp"};
+  const Outcome outcome = run(derive);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, run_pfaff(derive).out);
+  // A wrong use of a command is said without it.
+  fs::remove(library());
+  expect_complaint(run({"derive", "damped-pendulum", "--method", "birkhoffian", "--set", "nu"}), 2,
+                   {"expected KEY=VALUE"}, "derive");
+}
+
+// The end of what the loader maps; names of sections and symbols for debuggers may stand behind it.
+std::size_t end_of_segments(const std::string& file) {
+  ElfW(Ehdr) header;
+  std::memcpy(&header, file.data(), sizeof header);
+  std::size_t end = 0;
+  for (std::size_t k = 0; k < header.e_phnum; ++k) {
+    ElfW(Phdr) segment;
+    std::memcpy(&segment, file.data() + header.e_phoff + k * sizeof segment, sizeof segment);
+    if (segment.p_type == PT_LOAD) end = std::max<std::size_t>(end, segment.p_offset + segment.p_filesz);
+  }
+  return end;
+}
+
+// Cut off in the middle a file could be mapped into memory but not read, which would end the program by a
+// signal.
+TEST_F(Studies, ADamagedLibraryIsRefused) {
+  const std::size_t end = end_of_segments(whole());
+  for (std::size_t size = sizeof(ElfW(Ehdr)); size < end; size += end / 23) {
+    put(whole().substr(0, size));
+    expect_refusal({"is cut off or damaged"}, "cut off at " + std::to_string(size));
+  }
+  put(whole().substr(0, end - 1));
+  expect_refusal({"is cut off or damaged"}, "without the last byte");
+  for (const std::string& text :
+       {std::string(), std::string("no library\n"), whole().substr(0, 40), std::string(100000, '\0')}) {
+    put(text);
+    expect_refusal({"is no shared object"}, text.substr(0, 10));
+  }
+  fs::remove(library());
+  fs::create_directory(library());
+  expect_refusal({"is no regular file"}, "a directory");
+  // The loader's own words, of a library that it does not find.
+  std::string other = whole();
+  const std::size_t needed = other.find(std::string("\0libpfaff_bench.so.", 19));
+  ASSERT_NE(needed, std::string::npos);
+  other[needed + 1] = 'L';
+  put(other);
+  expect_refusal({"Libpfaff_bench.so"}, "a library that is not there");
+}
+
+TEST_F(Studies, ALibraryOfAnotherBuildIsRefused) {
+  const std::string begin = "linked with ";
+  const std::size_t note = whole().find(begin);
+  ASSERT_NE(note, std::string::npos);
+  const std::size_t first = note + begin.size(), second = whole().find(' ', first) + 1;
+  for (const std::size_t at : {first, second}) {
+    std::string other = whole();
+    other[at] = other[at] == '0' ? '1' : '0';
+    put(other);
+    expect_refusal({"belongs to another build of Pfaff"}, "build " + other.substr(note, 100));
+  }
+  put(text_of(std::string(PFAFF_TEST_PLUGINS) + "/fits.so"));
+  expect_refusal({"does not say which build"}, "a plug-in");
+}
+
+TEST_F(Studies, ARefusalNamesWhatMendsIt) {
+  expect_refusal({"is missing", "installation"}, "no build tree");
+  say_that_it_is_a_build_tree(directory() / "elsewhere");
+  expect_refusal({"is missing", "installation"}, "installed into a build tree");
+  say_that_it_is_a_build_tree(directory());
+  const std::string build = "cmake --build '" + directory().string() + "' --target pfaff_studies";
+  expect_refusal({"is missing", build}, "missing in a build tree");
+  // A damaged file is newer than what it is made from, and a build would keep it.
+  put("damaged");
+  expect_refusal({"rm '" + fs::canonical(library()).string() + "'; " + build}, "damaged in a build tree");
+}
+
+}  // namespace
