@@ -68,7 +68,8 @@ void check(const fs::path& library) {
   } catch (const InputError& error) {
     const std::string text = error.what(), before = "plug-in '" + library.string() + "': ";
     const std::string what = text.starts_with(before) ? text.substr(before.size()) : text;
-    refuse(library, what.substr(0, what.find("; expected")));
+    refuse(library,
+           what.starts_with("expected") ? "is no shared object" : what.substr(0, what.find("; expected")));
   }
   const auto note = std::find_if(notes.begin(), notes.end(),
                                  [](const std::string& text) { return text.starts_with(note_begins); });

@@ -140,7 +140,7 @@ TEST_F(Studies, ADamagedLibraryIsRefused) {
   for (const std::string& text :
        {std::string(), std::string("no library\n"), whole().substr(0, 40), std::string(100000, '\0')}) {
     put(text);
-    expect_refusal({"expected"}, text.substr(0, 10));
+    expect_refusal({"is no shared object"}, text.substr(0, 10));
   }
   fs::remove(library());
   fs::create_directory(library());
