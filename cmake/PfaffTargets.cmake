@@ -41,18 +41,16 @@ function(pfaff_cold_target target)
   target_compile_options(${target} PRIVATE ${pfaff_cold_options})
 endfunction()
 
-# Leaves of a list of sources those that are compiled in two units: those that register methods, formulations, systems
-# and kinds of tables, and those that instantiate something for the scalars of their unit.
-function(pfaff_made_in_two_units list)
-  set(made "")
-  foreach(source IN LISTS ${list})
-    file(STRINGS ${source} lines
-         REGEX "^const (Method|Formulation|System|TableKind)<|^template struct .*ScalarsHere")
+# Those of the sources in which a line matches the pattern.
+function(pfaff_sources_with result pattern)
+  set(found "")
+  foreach(source ${ARGN})
+    file(STRINGS ${source} lines REGEX "${pattern}")
     if(lines)
-      list(APPEND made ${source})
+      list(APPEND found ${source})
     endif()
   endforeach()
-  set(${list} ${made} PARENT_SCOPE)
+  set(${result} ${found} PARENT_SCOPE)
 endfunction()
 
 # Sources that are compiled together parse headers, instantiate templates and compile inline functions once for all of

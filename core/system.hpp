@@ -36,6 +36,7 @@
 //                                            part_names(), small_part, the part that is a perturbation
 //   reversal(t, z, reversed)                 the involution rho that reverses the motion, rho o flow_h =
 //                                            flow_-h o rho
+//   shared_model(descriptor, parameters)     the whole model, for families of systems that share one
 //   initial(z)                               instead of the descriptor's list, when it depends on parameters
 //   coordinates(), invariant_list(),         instead of the descriptor's lists, when they do
 //   constraint_names(), velocity_constraint_names()
@@ -90,7 +91,8 @@ class SystemPlugin : public Plugin {
 /// A model of an author's object (what System<S>::make does, for objects made in a program). InputError,
 /// naming the system, where a formula writes more or fewer results than it should.
 template <class S>
-std::shared_ptr<const Model> make_model(const SystemDescriptor& descriptor, const S& object) {
+std::shared_ptr<const Model> make_model(const SystemDescriptor& descriptor, const S& object,
+                                        Assignments parameters) {
   auto system = std::make_shared<const S>(object);
   ModelSource source;
   source.name = descriptor.name;
@@ -101,10 +103,31 @@ std::shared_ptr<const Model> make_model(const SystemDescriptor& descriptor, cons
   if constexpr (requires { system->invariant_list(); }) source.invariants = system->invariant_list();
   source.initial = descriptor.initial;
   source.time_unit = descriptor.time_unit;
-  source.parameters = resolved(parameters_of<S>(), system.get());
+  source.parameters = std::move(parameters);
   detail::Collector<S>(system, source).collect();
   return std::make_shared<const Model>(std::move(source));
 }
+/// The same with the parameters that S has.
+template <class S>
+std::shared_ptr<const Model> make_model(const SystemDescriptor& descriptor, const S& object) {
+  return make_model(descriptor, object, resolved(parameters_of<S>(), &object));
+}
+
+namespace detail {
+/// True where S makes its model itself, with what it has in common with other systems.
+template <class S>
+concept WritesModel = requires(const S& object, const SystemDescriptor& descriptor, Assignments parameters) {
+  { object.shared_model(descriptor, parameters) } -> std::same_as<std::shared_ptr<const Model>>;
+};
+
+/// Leaves the code of a system in one of its two units (core/facets/scalar_units.hpp), as a static object.
+template <class S>
+struct CodeOfSystem {
+  CodeOfSystem() {
+    if constexpr (!WritesModel<S>) Collector<S>::leave_code();
+  }
+};
+}  // namespace detail
 
 namespace detail::system {
 PFAFF_MEMBER_NAME(instances)
@@ -125,12 +148,11 @@ std::vector<Assignments> instances_of(bool full) {
 
 /// Registers S when the library that holds it is loaded.
 template <class S, class Unit = detail::ThisUnit>
-class System final : public SystemPlugin {
+class System final : public SystemPlugin, private detail::CodeOfSystem<S> {
  public:
   explicit System(SystemDescriptor descriptor,
                   const std::source_location& where = std::source_location::current())
       : SystemPlugin(std::move(descriptor), parameters_of<S>(), typeid(S), where) {
-    detail::Collector<S>::leave_code();
     systems().add(this);
   }
   [[nodiscard]] bool constrained() const override {
@@ -141,7 +163,11 @@ class System final : public SystemPlugin {
     return on_behalf_of("system " + name(), [&] {
       S object;
       assign_all(parameters(), &object, assignments, "system " + name());
-      return make_model(descriptor(), object);
+      if constexpr (detail::WritesModel<S>) {
+        return object.shared_model(descriptor(), resolved(parameters(), &object));
+      } else {
+        return make_model(descriptor(), object);
+      }
     });
   }
   [[nodiscard]] std::vector<Assignments> instances(bool full) const override { return instances_of<S>(full); }
@@ -149,9 +175,9 @@ class System final : public SystemPlugin {
 
 /// The registration in the unit that makes code in double (core/facets/scalar_units.hpp).
 template <class S>
-class System<S, detail::InDouble> {
+class System<S, detail::InDouble> : private detail::CodeOfSystem<S> {
  public:
-  explicit System(const SystemDescriptor& /*descriptor*/) { detail::Collector<S>::leave_code(); }
+  explicit System(const SystemDescriptor& /*descriptor*/) {}
 };
 
 }  // namespace pfaff

@@ -6,7 +6,7 @@
 namespace {
 using namespace pfaff;
 
-struct BeadRod : BeadRodSystem<BeadRod> {
+struct BeadRod : BeadRods<BeadRod> {
   std::string model;
   static std::vector<Parameter> parameters() {
     return {

@@ -5,7 +5,7 @@
 namespace {
 using namespace pfaff;
 
-struct ChainMolecule : BeadRodSystem<ChainMolecule> {
+struct ChainMolecule : BeadRods<ChainMolecule> {
   int beads = 8, axes = 3, exclude = 1, seed = 1;
   Real mass = 1, length = 1, epsilon = 0.2_r, sigma = 1, charge = 0.3_r, strength = 1, cutoff = 0, drag = 0,
        gravity = 0;

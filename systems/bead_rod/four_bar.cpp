@@ -5,7 +5,7 @@
 namespace {
 using namespace pfaff;
 
-struct FourBar : BeadRodSystem<FourBar> {
+struct FourBar : BeadRods<FourBar> {
   int seed = 1;
   Real ground = 2, crank = 1, rocker = 1.5_r, mass = 1, gravity = 9.81_r, drag = 0;
   static std::vector<Parameter> parameters() {

@@ -11,7 +11,7 @@
 namespace {
 using namespace pfaff;
 
-struct Humanoid : BeadRodSystem<Humanoid> {
+struct Humanoid : BeadRods<Humanoid> {
   int seed = 0;
   Real mass = 75, stature = 1.75_r, drag = 0.5_r, gravity = 9.81_r;
   static std::vector<Parameter> parameters() {

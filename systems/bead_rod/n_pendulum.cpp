@@ -5,7 +5,7 @@
 namespace {
 using namespace pfaff;
 
-struct NPendulum : BeadRodSystem<NPendulum> {
+struct NPendulum : BeadRods<NPendulum> {
   int bobs = 4, axes = 2, seed = 1;
   Real mass = 1, length = 1, gravity = 9.81_r, drag = 0;
   static std::vector<Parameter> parameters() {

@@ -4,7 +4,7 @@
 namespace {
 using namespace pfaff;
 
-struct Ring : BeadRodSystem<Ring> {
+struct Ring : BeadRods<Ring> {
   int beads = 8, axes = 2, seed = 1;
   Real mass = 1, length = 1, gravity = 0, drag = 0;
   static std::vector<Parameter> parameters() {

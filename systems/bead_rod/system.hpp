@@ -3,7 +3,7 @@
 //   H = sum_i |p_i|^2/(2 m_i) + V(q),   phi_k = (|D_k|^2 - l_k^2)/2,   friction lambda_i of bead i,
 //
 // as formulas compiled for every scalar, and the batched operations of the constraints. The author's struct
-// derives from BeadRodSystem<itself> and writes describe().
+// derives from BeadRods<itself> and writes describe().
 #pragma once
 
 #include <memory>
@@ -141,6 +141,30 @@ class BeadRodSystem {
   [[nodiscard]] std::size_t degrees() const { return description().beads() * description().axes(); }
 
   mutable std::shared_ptr<const BeadRodParts> parts_;
+};
+
+/// The formulas of a description.
+struct BeadRodFormulas : BeadRodSystem<BeadRodFormulas> {
+  BeadRodDescription described;
+  [[nodiscard]] const BeadRodDescription& describe() const { return described; }
+};
+
+/// The model of a description, compiled once for all systems of beads and rods alone; `parameters` are what
+/// it was described with.
+std::shared_ptr<const Model> bead_rod_model(const SystemDescriptor& descriptor,
+                                            BeadRodDescription description, Assignments parameters = {});
+
+/// A system S that writes describe().
+template <class S>
+struct BeadRods {
+  [[nodiscard]] int constraint_count() const { return static_cast<int>(self().describe().rods.size()); }
+  [[nodiscard]] std::shared_ptr<const Model> shared_model(const SystemDescriptor& descriptor,
+                                                          Assignments parameters) const {
+    return bead_rod_model(descriptor, self().describe(), std::move(parameters));
+  }
+
+ private:
+  [[nodiscard]] const S& self() const { return static_cast<const S&>(*this); }
 };
 
 }  // namespace pfaff
