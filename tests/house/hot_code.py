@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """Shows that the library takes no function for optimised code from a source that is hardly optimised.
 
-    hot_code.py LIBRARY OPTIMISED_OBJECTS OTHER_OBJECTS COMPILER
+    hot_code.py LIBRARY OPTIMISED OTHERS COMPILER
+
+OPTIMISED and OTHERS are files that list objects, one a line.
 
 Inline functions and templates are compiled in every source that uses them, and the linker keeps one copy of each, the
 first that it meets. Where an optimised source has a copy, the copy that is kept has to be one of those. Copies are told
@@ -34,7 +36,8 @@ def wrongly_taken(library, optimised, other):
 
 
 def main(library, optimised, other, compiler):
-    hot, cold = (sorted(pathlib.Path(folder).rglob("*.o")) for folder in (optimised, other))
+    hot, cold = ([line for line in pathlib.Path(objects).read_text(encoding="utf-8").split("\n") if line.endswith(".o")]
+                 for objects in (optimised, other))
     wrong, count = wrongly_taken(library, hot, cold)
     print(f"{len(wrong)} of {count} functions that can be told apart are the hardly optimised copies")
     for name in wrong[:20]:

@@ -51,7 +51,8 @@ TEST(ScalarUnits, EveryFormulationMakesItsFieldInEveryScalar) {
     for (const SystemPlugin* system : systems().all()) {
       const auto model = system->make({});
       if (!formulation->refuses(*model).empty()) continue;
-      const FormulaProgram* field = formulation->apply(model, {})->program(Formula::field);
+      const auto motion = formulation->apply(model, {});
+      const FormulaProgram* field = motion->program(Formula::field);
       if (field == nullptr) continue;  // on tapes
       for_each_scalar(StepScalars(), [&](auto scalar) {
         EXPECT_NE(field->evaluator(scalar).call, nullptr) << formulation->name() << " of " << system->name();
@@ -65,7 +66,7 @@ struct Left {};
 
 TEST(ScalarUnits, CodeThatNobodyLeftIsAnErrorThatNamesTheType) {
   EXPECT_THAT([] { static_cast<void>(detail::code_left(typeid(Left), typeid(Quad))); },
-              testing::ThrowsMessage<std::logic_error>(testing::HasSubstr("Left")));
+              ::testing::ThrowsMessage<std::logic_error>(::testing::HasSubstr("Left")));
 }
 
 TEST(ScalarUnits, TwoTypesOfOneNameAreAnError) {

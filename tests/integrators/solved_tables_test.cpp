@@ -20,7 +20,7 @@ using namespace pfaff;
 constexpr std::size_t drift = 0, kick = 1;
 
 // A splitting by its published digits: of palindromes the first half, with the one in the middle.
-struct Published {
+struct PublishedTable {
   const char* name;
   int order;
   Parts parts;
@@ -33,8 +33,8 @@ struct Published {
 
 // Sources: mclachlan-atela1992, omelyan-mryglod-folk2002, blanes-moan2002 (tables 2 and 3). What the papers
 // give as one less a sum is written out here by its first digits.
-const std::vector<Published>& published() {
-  static const std::vector<Published> list{
+const std::vector<PublishedTable>& published() {
+  static const std::vector<PublishedTable> list{
       {"mclachlan-atela-4",
        4,
        Parts::quadratic_kinetic,
@@ -88,7 +88,7 @@ const std::vector<Published>& published() {
   return list;
 }
 
-std::vector<PartialFlow> flows_of(const Published& method, const std::vector<Quad>& numbers) {
+std::vector<PartialFlow> flows_of(const PublishedTable& method, const std::vector<Quad>& numbers) {
   std::vector<PartialFlow> flows;
   for (std::size_t k = 0; k < method.flows; ++k)
     flows.push_back(
@@ -97,7 +97,7 @@ std::vector<PartialFlow> flows_of(const Published& method, const std::vector<Qua
 }
 
 // The residuals that have to vanish: of palindromes those of odd degree, as the others do so by themselves.
-std::vector<Quad> residuals(const Published& method, const std::vector<Quad>& numbers) {
+std::vector<Quad> residuals(const PublishedTable& method, const std::vector<Quad>& numbers) {
   std::vector<Quad> list;
   const std::vector<PartialFlow> flows = flows_of(method, numbers);
   for (const OrderCondition& c : method.orders.empty()
@@ -107,7 +107,7 @@ std::vector<Quad> residuals(const Published& method, const std::vector<Quad>& nu
   return list;
 }
 
-std::vector<Quad> solved(const Published& method) {
+std::vector<Quad> solved(const PublishedTable& method) {
   std::vector<Quad> numbers;
   for (const char* text : method.numbers) EXPECT_TRUE(parse(text, numbers.emplace_back()));
   const std::size_t n = numbers.size();
@@ -172,7 +172,7 @@ TEST(SolvedTables, CompositionOfOrderTen) {
 // blanes-casas-farres-laskar-makazaga-murua2013 as many as stand here. The conditions leave a direction in
 // which numbers move by 1e9 of what a residual moves, so that residuals of quad, 1e-33, tell them to 1e-23.
 TEST(SolvedTables, SchemesOfASmallPartAreWhatTheirConditionsGive) {
-  const std::vector<Published> list{
+  const std::vector<PublishedTable> list{
       {"aba-8-4",
        8,
        Parts::general,
@@ -216,7 +216,7 @@ TEST(SolvedTables, SchemesOfASmallPartAreWhatTheirConditionsGive) {
         "0.4359097036515261592231548624010651844006", "-0.01737538195906509300561788011852699719871",
         "-0.6538612258327867093807117373907094120024"},
        {10, 6, 4}}};
-  for (const Published& method : list) {
+  for (const PublishedTable& method : list) {
     const std::vector<Quad> numbers = solved(method);
     for (const Quad& residual : residuals(method, numbers))
       EXPECT_LT(abs(residual), Quad(1e-32)) << method.name;
@@ -231,7 +231,7 @@ TEST(SolvedTables, SchemesOfASmallPartAreWhatTheirConditionsGive) {
 }
 
 TEST(SolvedTables, HoldWhatTheOrderConditionsGive) {
-  for (const Published& method : published()) {
+  for (const PublishedTable& method : published()) {
     const std::vector<Quad> numbers = solved(method);
     // Nothing has moved by more than the digits that were published.
     for (std::size_t k = 0; k < numbers.size(); ++k) {
