@@ -3,7 +3,6 @@
 
 #include <tuple>
 
-#include <pfaff/core/facets/scalar_units.hpp>
 #include <pfaff/systems/bead_rod/evaluators.hpp>
 #include <pfaff/systems/bead_rod/rod_constraints.hpp>
 
