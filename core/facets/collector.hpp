@@ -97,8 +97,7 @@ class Collector {
     constexpr bool energies = writes<S, kinetic> && writes<S, potential>;
     if constexpr (energies && WritesDamping<S>) source_.damping = s.damping();
     source_.canonical = is_canonical<S>();
-    if constexpr (energies && is_batched<S>())
-      program(hamiltonian, {source_.dimension, 1}, EnergyObject());
+    if constexpr (energies && is_batched<S>()) program(hamiltonian, {source_.dimension, 1}, EnergyObject());
     if constexpr (WritesConstraintEvaluator<S>)
       source_.holonomic = std::make_shared<const HolonomicFactoryOf<S>>(system_);
     // A part count of zero means that with these parameters there are no parts to be solved exactly.

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include <pfaff/core/facets/taped_parts.hpp>
+#include <pfaff/core/facets/scalar_units.hpp>
 #include <pfaff/core/facets/velocity_constraints.hpp>
 
 namespace pfaff {
