@@ -9,8 +9,8 @@
 #include <memory>
 #include <utility>
 
-#include <pfaff/core/facets/taped_parts.hpp>
 #include <pfaff/core/facets/scalar_units.hpp>
+#include <pfaff/core/facets/taped_parts.hpp>
 #include <pfaff/core/facets/velocity_constraints.hpp>
 
 namespace pfaff {
