@@ -34,7 +34,7 @@ AnyFunction code_left(const std::type_info& made_by, const std::type_info& scala
   const std::lock_guard lock(all().mutex);
   const auto found = all().code.find({made_by.name(), scalar.name()});
   if (found == all().code.end())
-    throw std::logic_error(std::string("compiled for double alone: ") + made_by.name());
+    throw std::logic_error(std::string("no unit left code in ") + scalar.name() + " of " + made_by.name());
   return found->second;
 }
 

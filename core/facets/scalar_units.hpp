@@ -83,8 +83,8 @@ void leave_code(const std::type_info& made_by, const std::type_info& scalar, Any
 /// The code that was left; std::logic_error, naming the type, where none was.
 AnyFunction code_left(const std::type_info& made_by, const std::type_info& scalar);
 
-/// As MakerOf, for a Self that two units compile: what make_for has for scalars of the other unit comes from
-/// there.
+/// An Interface, derived from a Maker, whose make_for calls Self's template made<T>(args...) for every T that
+/// this unit makes code for; what it has for the others comes from the other unit.
 template <class Self, class Interface, class Unit = ThisUnit, class Makes = typename Interface::Makes>
 class MakerInUnits;
 template <class Self, class Interface, class Unit, template <class> class Made, class... Args>
@@ -135,3 +135,9 @@ struct CodeOf {
 };
 
 }  // namespace pfaff::detail
+
+namespace pfaff {
+/// The same for a Self that is compiled once, for every scalar.
+template <class Self, class Interface>
+using MakerOf = detail::MakerInUnits<Self, Interface, detail::InAll>;
+}  // namespace pfaff

@@ -59,19 +59,4 @@ class Maker<Made, Scalars<T, Rest...>, Args...> : public Maker<Made, Scalars<Res
   [[nodiscard]] virtual Made<T> make_for(std::type_identity<T> scalar, Args... args) const = 0;
 };
 
-/// An Interface, derived from a Maker, whose make_for calls Self's template made<T>(args...) for every T.
-template <class Self, class Interface, class Makes = typename Interface::Makes>
-class MakerOf;
-template <class Self, class Interface, template <class> class Made, class... Args>
-class MakerOf<Self, Interface, Maker<Made, Scalars<>, Args...>> : public Interface {};
-template <class Self, class Interface, template <class> class Made, class T, class... Rest, class... Args>
-class MakerOf<Self, Interface, Maker<Made, Scalars<T, Rest...>, Args...>>
-    : public MakerOf<Self, Interface, Maker<Made, Scalars<Rest...>, Args...>> {
- public:
-  using MakerOf<Self, Interface, Maker<Made, Scalars<Rest...>, Args...>>::make_for;
-  [[nodiscard]] Made<T> make_for(std::type_identity<T> /*scalar*/, Args... args) const final {
-    return static_cast<const Self&>(*this).template made<T>(std::move(args)...);
-  }
-};
-
 }  // namespace pfaff
