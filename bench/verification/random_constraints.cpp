@@ -12,34 +12,31 @@ namespace pfaff {
 
 namespace {
 
-struct RandomRods : BeadRodSystem<RandomRods> {
-  [[nodiscard]] static BeadRodDescription describe() {
-    BeadRodDescription d;
-    d.origin = "random rods";
-    d.dimension = 3;
-    constexpr std::size_t beads = 9;
-    std::mt19937 random(2718);
-    const auto draw = [&](int low, int high) {
-      return low + static_cast<int>(random() % static_cast<unsigned>(high - low + 1));
-    };
-    d.anchors.push_back({"origin", {0, 0, 0}});
-    for (std::size_t i = 0; i < beads; ++i) {
-      d.masses.push_back(Real::fraction(draw(50, 200), 100));
-      d.friction.push_back(i % 3 == 0 ? Real(0) : Real::fraction(draw(10, 90), 100));
-      for (int x = 0; x < 3; ++x) {
-        d.positions.push_back(Real::fraction(draw(-150, 150), 100));
-        d.momenta.push_back(Real::fraction(draw(-100, 100), 100));
-      }
+BeadRodDescription random_description() {
+  BeadRodDescription d;
+  d.origin = "random rods";
+  d.dimension = 3;
+  constexpr std::size_t beads = 9;
+  std::mt19937 random(2718);
+  const auto draw = [&](int low, int high) {
+    return low + static_cast<int>(random() % static_cast<unsigned>(high - low + 1));
+  };
+  d.anchors.push_back({"origin", {0, 0, 0}});
+  for (std::size_t i = 0; i < beads; ++i) {
+    d.masses.push_back(Real::fraction(draw(50, 200), 100));
+    d.friction.push_back(i % 3 == 0 ? Real(0) : Real::fraction(draw(10, 90), 100));
+    for (int x = 0; x < 3; ++x) {
+      d.positions.push_back(Real::fraction(draw(-150, 150), 100));
+      d.momenta.push_back(Real::fraction(draw(-100, 100), 100));
     }
-    d.gravity = {0, 0, Real::fraction(-981, 100)};
-    const auto join = [&](std::size_t a, std::size_t b) { d.rods.push_back({a, b, d.distance(a, b)}); };
-    join(0, beads);
-    for (std::size_t i = 1; i < beads; ++i)
-      join(i, static_cast<std::size_t>(draw(0, static_cast<int>(i) - 1)));
-    join(beads - 2, 1);  // a loop
-    return d;
   }
-};
+  d.gravity = {0, 0, Real::fraction(-981, 100)};
+  const auto join = [&](std::size_t a, std::size_t b) { d.rods.push_back({a, b, d.distance(a, b)}); };
+  join(0, beads);
+  for (std::size_t i = 1; i < beads; ++i) join(i, static_cast<std::size_t>(draw(0, static_cast<int>(i) - 1)));
+  join(beads - 2, 1);  // a loop
+  return d;
+}
 
 constexpr std::uint64_t seeds = 2;
 constexpr std::array kinds{SystemKind::surface, SystemKind::revolution, SystemKind::rods,
@@ -48,7 +45,7 @@ constexpr std::array kinds{SystemKind::surface, SystemKind::revolution, SystemKi
 }  // namespace
 
 std::shared_ptr<const Model> random_rods() {
-  return make_model(SystemDescriptor{.name = "random rods", .title = "", .reference = ""}, RandomRods{});
+  return bead_rod_model({.name = "random rods", .title = "", .reference = ""}, random_description());
 }
 
 std::vector<std::shared_ptr<const Model>> random_constraints() {

@@ -8,20 +8,9 @@
 
 namespace pfaff::nguyen_turski {
 
-namespace {
-
-struct Described : BeadRodSystem<Described> {
-  BeadRodDescription given;
-  [[nodiscard]] BeadRodDescription describe() const { return given; }
-};
-
-}  // namespace
-
 std::shared_ptr<const Model> bead_rod_model(const BeadRodDescription& description) {
-  Described object;
-  object.given = description;
-  return make_model({.name = "bead-rod", .title = "beads on rods", .reference = "nguyen-turski section 4"},
-                    object);
+  return pfaff::bead_rod_model(
+      {.name = "bead-rod", .title = "beads on rods", .reference = "nguyen-turski section 4"}, description);
 }
 
 BeadRodPoint::BeadRodPoint(std::shared_ptr<const Model> model, Numbers z)
