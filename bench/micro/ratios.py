@@ -6,7 +6,8 @@
     bench/micro/ratios.py PROGRAM --check     runs each benchmark once and compares no times: whether every run
                                               reaches its error and every benchmark is there
 
-Paths: a loop by hand; static and registered path, each also with forces derived from the energies; Boost.Odeint. psi-m
+Paths: a loop by hand; static and registered path, each also with forces derived from the energies; the registered path
+with derivatives in four directions (tangent); Boost.Odeint. psi-m
 is one gradient of the generating function truncated at degree m, compiled or interpreted, in nanoseconds each.
 Structured matrices are factored and solved with in nanoseconds a row, beside loops by hand and Eigen. Of rods (chains,
 rings, a humanoid, ensembles) it is one right-hand side or one step of RATTLE, in nanoseconds a rod. Of whole runs it is
@@ -39,9 +40,10 @@ METHODS = ["verlet-merged", "verlet-plain", "verlet", "rk4-plain", "rk4", "impli
 STRUCTURES = {"tridiagonal": [4, 8, 16, 64, 256, 1024], "cyclic": [4, 8, 16, 64, 256, 1024],
               "tree": [12, 16, 64, 256, 1024], "sparse": [16, 64, 256, 1024], "dense": [16, 64]}
 SOLVERS = ["library", "shuffled", "quad", "one-end", "both-ends", "eigen"]
+TANGENT = ["verlet", "rk4", "gauss-4", "generating-function-4"]  # measured with derivatives too
 GRADIENTS = ["psi-4", "psi-8", "psi-12", "psi-16"]
 PATHS = {"by-hand": "by hand", "static": "static", "static-derived": "derived", "registered": "registered",
-         "registered-derived": "derived", "odeint": "odeint"}
+         "registered-derived": "derived", "tangent": "tangent", "odeint": "odeint"}
 # Boost.Odeint's nearest: the same method, or the one with as many forces a step. It does not compensate.
 RIVALS = {"verlet-plain": "velocity-verlet", "rk4-plain": "rk4"}
 ONLY_ODEINT = ["symplectic-euler", "dopri5", "mclachlan"]
@@ -135,6 +137,10 @@ def targets():
         for path in ["static", "registered"]:
             rows.append((f"{system} verlet, {path}: derived / written force", (system, "verlet", path + "-derived"),
                          (system, "verlet", path), None))
+    for system in SYSTEMS:
+        for method in TANGENT:
+            rows.append((f"{system} {method}: with derivatives in four directions / without", (system, method, "tangent"),
+                         (system, method, "registered"), None))
     for system in SYSTEMS:
         for method, rival in RIVALS.items():
             rows.append((f"{system} {method}: static / Odeint's {rival}", (system, method, "static"),
