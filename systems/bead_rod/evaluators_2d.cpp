@@ -1,5 +1,5 @@
-// Bead-rod formulas in 2 dimensions, for all scalars in one unit: GCC inlines less of them into fewer, and
-// rods of rings take 5 to 18 % longer.
+// Bead-rod formulas in 2 dimensions. All scalars are compiled together: for code in doubles alone GCC chooses
+// to inline less, and right-hand sides of rings take 5 to 18 % longer.
 #include <pfaff/systems/bead_rod/evaluators_of_dimension.hpp>
 
 namespace pfaff::detail {
