@@ -2,8 +2,17 @@
 # Installs the Debian packages that Pfaff is built from, where any is missing; otherwise does nothing, quickly.
 # `--lint` adds what .ci/run checks the sources with. PFAFF_SKIP_SETUP=1 skips all of it.
 #
-# Exit status: 0 everything is there, 2 something is missing and cannot be installed from here.
+# Exit status: 0 everything is there; 2 something is missing and cannot be installed from here, or nothing can be built.
 set -euo pipefail
+
+# What is built goes to `build`, which is looked at first: CMake's own words about it name a folder of its own.
+root=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
+for folder in "$root/build/release" "$root/build" "$root"; do
+  [[ -e $folder ]] || continue
+  [[ -d $folder && -w $folder ]] && break
+  printf 'pfaff: %s: expected a folder that can be written, where Pfaff is built\n' "$folder" >&2
+  exit 2
+done
 [[ ${PFAFF_SKIP_SETUP:-} == 1 ]] && exit 0
 
 # The one list: package, and how to see it on systems without Debian's package manager (a program, a header, or a
