@@ -13,11 +13,6 @@
 //                                registered method is put before it
 //   order(model)                 where the order depends on parameters or problem
 //   preserves(model)             where what is kept depends on parameters or problem
-//   order_is_lower_bound()       true where the leading error is so small that measured slopes may exceed
-//                                the order
-//   order_is_exact()             true where measured slopes may not exceed the order on any system; otherwise
-//                                they may wherever a structure is constant in time, since symmetries can add
-//                                to the order there
 //   refuses(model)               why the method cannot run on a model that offers what it needs, or empty.
 //                                The reason is the predicate of a sentence, such as "keeps energies and needs
 //                                a system without friction". Its subject, the name of the registered method,
@@ -92,10 +87,6 @@ class MethodInstance : public Maker<StepperPointer, StepScalars, std::shared_ptr
   }
   /// Order claimed on this model.
   [[nodiscard]] virtual int order(const Model& model) const = 0;
-  /// True where errors of higher order may hide the claimed one at steps that can be measured.
-  [[nodiscard]] virtual bool order_is_lower_bound() const = 0;
-  /// True where the claimed order is exact on every system, the autonomous ones included.
-  [[nodiscard]] virtual bool order_is_exact() const = 0;
   /// What the method claims, on this model or on others (claims_in_scope says what speaks of this one).
   [[nodiscard]] virtual std::vector<Claim> preserves(const Model& model) const = 0;
   /// The method as messages call it.
@@ -184,14 +175,6 @@ class Instance final : public MakerInUnits<Instance<M>, MethodInstance> {
     } else {
       return plugin_.descriptor().order;
     }
-  }
-  [[nodiscard]] bool order_is_lower_bound() const override {
-    if constexpr (requires { method_.order_is_lower_bound(); }) return method_.order_is_lower_bound();
-    return false;
-  }
-  [[nodiscard]] bool order_is_exact() const override {
-    if constexpr (requires { method_.order_is_exact(); }) return method_.order_is_exact();
-    return false;
   }
   [[nodiscard]] std::vector<Claim> preserves(const Model& model) const override {
     if constexpr (requires { method_.preserves(model); }) {

@@ -72,8 +72,6 @@ class AliasInstance final : public MakerOf<AliasInstance, MethodInstance> {
   }
   [[nodiscard]] FacetSet needs() const override { return instance_->needs(); }
   [[nodiscard]] int order(const Model& model) const override { return instance_->order(model); }
-  [[nodiscard]] bool order_is_lower_bound() const override { return instance_->order_is_lower_bound(); }
-  [[nodiscard]] bool order_is_exact() const override { return instance_->order_is_exact(); }
   [[nodiscard]] std::vector<Claim> preserves(const Model& model) const override {
     return instance_->preserves(model);
   }

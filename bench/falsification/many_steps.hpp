@@ -17,8 +17,6 @@ class ManySteps final : public MakerOf<ManySteps, MethodInstance> {
   [[nodiscard]] Assignments parameters() const override { return method_.parameters(); }
   [[nodiscard]] FacetSet needs() const override { return method_.needs(); }
   [[nodiscard]] int order(const Model& model) const override { return method_.order(model); }
-  [[nodiscard]] bool order_is_lower_bound() const override { return method_.order_is_lower_bound(); }
-  [[nodiscard]] bool order_is_exact() const override { return method_.order_is_exact(); }
   [[nodiscard]] std::vector<Claim> preserves(const Model& model) const override {
     return method_.preserves(model);
   }

@@ -16,6 +16,8 @@
 
 namespace pfaff {
 
+struct Region;  // residuals.hpp
+
 /// The result of a check.
 /// - pass: the claim holds.
 /// - fail: the claim does not hold.
@@ -50,20 +52,22 @@ std::vector<Real> generic_state(const Model& model);
 /// freely. In plain units of time for a model that moves by a formulation only.
 Real generic_time_of(const Model& model);
 /// The order of a method, measured from its errors in quad against Taylor series. The error of a single step
-/// is measured while the step is halved; the slope is log2 of the ratio of successive errors, minus one.
+/// is measured while the step is halved, forwards and backwards, of which the lower order counts; the slope
+/// is log2 of the ratio of successive errors, minus one. Errors above a tenth of the state are left out.
 /// Halving ends when, of four slopes or more, the last two differ by less than 0.01 and the two before by
-/// less than 0.02; where round-off comes first, the slope is extrapolated from the last ones. Methods that
-/// need constraints are measured by their errors at the end of a fixed interval instead, without the minus
-/// one. The reason is that momenta of central differences do not accumulate their errors: over many steps
-/// they are as accurate as the positions, but after one step they are not. So are methods with history, over
-/// a longer interval, because their first steps are those of another method, which makes the starting values.
-/// Methods whose coefficients are
-/// doubles are measured in quad too, down to the error of their coefficients.
+/// less than 0.02; where round-off comes first, the order is not measurable there. Methods that need
+/// constraints are measured by their errors at the end of a fixed interval instead, without the minus one.
+/// The reason is that momenta of central differences do not accumulate their errors: over many steps they are
+/// as accurate as the positions, but after one step they are not. So are methods with history, over a longer
+/// interval, because their first steps are those of another method, which makes the starting values. Methods
+/// whose coefficients are doubles are measured in quad too, down to the error of their coefficients.
 struct MeasuredOrder {
   double slope = 0;
   bool settled = false;
-  bool exact = false;  // the longest step has an error of round-off, and the slopes do not settle
-  std::string reason;  // when nothing could be measured
+  bool exact = false;      // the longest step has an error of round-off, and the slopes do not settle
+  bool backwards = false;  // measured with h < 0
+  double moving = 0;       // by how much the last slopes differ, of three or more that have not settled
+  std::string reason;      // why it has not settled
 };
 MeasuredOrder measure_order(const MethodInstance& method, const std::shared_ptr<const Model>& model,
                             bool history = false);
@@ -96,10 +100,9 @@ std::vector<Check> check_constraints(const std::string& name, const std::shared_
 /// Checks of a metriplectic system: its symmetric bracket, the degeneracy conditions, and the signs of the
 /// rates of energy and entropy.
 std::vector<Check> check_metriplectic(const std::string& name, const Model& model);
-/// Checks of a motion that states a reversal rho, at states near `centre`: rho is an involution, and it turns
+/// Checks of a motion that states a reversal rho, at states of a region: rho is an involution, and it turns
 /// the field round, d rho X = -X o rho.
-std::vector<Check> check_reversal(const std::string& name, const Model& motion,
-                                  const std::vector<Real>& centre);
+std::vector<Check> check_reversal(const std::string& name, const Model& motion, const Region& region);
 /// Checks of a system with parts that are solved exactly, at a state: the flow of each part is a group and
 /// keeps the structure of the system, and the derivatives of the flows at time zero add up to its field.
 std::vector<Check> check_flows(const std::string& name, const std::shared_ptr<const Model>& model,

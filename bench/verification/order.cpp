@@ -5,7 +5,9 @@
 #include <pfaff/bench/measure/history.hpp>
 #include <pfaff/bench/measure/reference.hpp>
 #include <pfaff/bench/verification/check.hpp>
+#include <pfaff/bench/verification/check_budget.hpp>
 #include <pfaff/bench/verification/step_scale.hpp>
+#include <pfaff/core/numbers/formatted.hpp>
 
 namespace pfaff {
 
@@ -56,7 +58,7 @@ class Errors {
   void find_solution(const Quad& elapsed) {
     if (!exact_.empty() && elapsed == exact_after_) return;
     std::vector<Quad> z = start_;
-    taylor_flow(*motion_, begin_.quad(), elapsed, z);
+    short_flow(*motion_, begin_.quad(), elapsed, z);
     exact_ = std::move(z);
     exact_after_ = elapsed;
   }
@@ -73,7 +75,7 @@ class Errors {
       const std::int64_t more = steps / 32 * part - done;
       std::int64_t completed = 0;
       if (stepper->advance(begin_.quad(), done, h, more, z, completed) != Status::converged) return Quad(-1);
-      taylor_flow(*motion_, t, h * Quad(static_cast<double>(more)), exact);
+      short_flow(*motion_, t, h * Quad(static_cast<double>(more)), exact);
       done += more;
       t += h * Quad(static_cast<double>(more));
       std::vector<Quad> difference(z.size());
@@ -110,6 +112,9 @@ class Errors {
 
 double logarithm2(Quad x) { return std::log2(static_cast<double>(x)); }
 
+// Errors above this, relative to the state, say nothing of an order; those below the other may be round-off.
+constexpr double largest_error = 0.1, largest_round_off = 1e-20;
+
 // The slope at which the errors of successive halvings settle. error_of(k) is the error after k halvings,
 // negative where the step failed; errors below floor_of(k) are round-off and not used.
 template <class Error, class Floor>
@@ -119,7 +124,12 @@ MeasuredOrder settle(Error&& error_of, int halvings, Floor&& floor_of) {
   Quad last_error(-1);
   for (int halving = 0; halving < halvings; ++halving) {
     const Quad error = error_of(halving);
-    if (error < Quad(0)) continue;  // too large a step for the implicit solve
+    // Steps that are too large for the implicit solve, or lead where errors are no longer proportional to
+    // anything.
+    if (error < Quad(0) || error > Quad(largest_error)) {
+      last_error = Quad(-1);
+      continue;
+    }
     // The longest step decides. In quad, a step of many operations loses up to two digits to round-off.
     if (last_error < Quad(0)) result.exact = error < std::max(floor_of(halving), Quad(1e-30));
     if (error < floor_of(halving)) break;
@@ -131,19 +141,20 @@ MeasuredOrder settle(Error&& error_of, int halvings, Floor&& floor_of) {
       result.exact = false;
       result.slope = slopes.back();
       result.settled = true;
+      // Round-off that nothing foresaw does not fall, while a method that is wrong is off by more than that.
+      if (result.slope < 0.5 && last_error < Quad(largest_round_off)) {
+        result.settled = false;
+        result.reason = "errors stay at round-off, " + to_scientific(last_error, 1);
+      }
       return result;
     }
   }
-  if (slopes.empty()) {
-    result.reason = "no two errors above round-off";
-    return result;
-  }
-  // Errors reached round-off before the slopes settled. Slopes approach the order in proportion to h; where
-  // the last differences contract as that implies, one step of extrapolation is made.
-  const std::size_t n = slopes.size();
-  result.slope = slopes.back();
-  if (n >= 3 && std::abs(slopes[n - 1] - slopes[n - 2]) < 0.75 * std::abs(slopes[n - 2] - slopes[n - 3]))
-    result.slope = 2 * slopes[n - 1] - slopes[n - 2];
+  if (!slopes.empty()) result.slope = slopes.back();
+  if (const std::size_t n = slopes.size(); n >= 3)
+    result.moving =
+        std::max(std::abs(slopes[n - 1] - slopes[n - 2]), std::abs(slopes[n - 2] - slopes[n - 3]));
+  result.reason = slopes.empty() ? "no two errors between round-off and " + formatted("%g", largest_error)
+                                 : "the slope of errors has not settled when round-off comes";
   return result;
 }
 
@@ -169,24 +180,41 @@ MeasuredOrder measure_order(const MethodInstance& method, const std::shared_ptr<
   };
   // What constrained motion remembers is a reaction, which is its own after a step.
   if (history && !model->restricted()) {
-    errors.find_solution(long_interval * time);
-    return settle([&](int k) { return errors.late(long_interval * time, fewest_steps << k); }, 10,
-                  [&](int k) {
-                    // Roundings of n steps of a recurrence of second order add up to n^2 / 2 of them.
-                    const Quad n(static_cast<double>(fewest_steps << k));
-                    return std::max(Quad(100) * floor_after(long_interval * time), Quad(1e-35) * n * n);
-                  });
+    const auto over = [&](const Quad& elapsed) {
+      errors.find_solution(elapsed);
+      return settle([&](int k) { return errors.late(elapsed, fewest_steps << k); }, 10,
+                    [&](int k) {
+                      // Roundings of n steps of a recurrence of second order add up to n^2 / 2 of them.
+                      const Quad n(static_cast<double>(fewest_steps << k));
+                      return std::max(Quad(100) * floor_after(elapsed), Quad(1e-35) * n * n);
+                    });
+    };
+    // Where errors do not come below a tenth of the state, a method is wrong or the motion is chaotic; over a
+    // short time the first alone is so.
+    const MeasuredOrder order = over(long_interval * time);
+    return order.settled || order.moving > 0 ? order : over(interval * time);
   }
   if (method.needs_constraints() || history) {
     errors.find_solution(interval * time);
     return settle([&](int k) { return errors.after(interval * time, std::int64_t{1} << k); }, 10,
                   [&](int) { return Quad(100) * floor_after(interval * time); });
   }
-  const auto step = [&](int k) { return time / Quad(std::ldexp(1.0, k + 1)); };
-  MeasuredOrder order = settle([&](int k) { return errors.after_one(step(k)); }, 40,
-                               [&](int k) { return floor_after(step(k)); });
-  order.slope -= 1;
-  return order;
+  // Backwards too: a method may be right for h > 0 alone, but for a symmetric one, whose step of -h undoes
+  // that of h.
+  const std::vector<Claim> claims = claims_in_scope(method.preserves(*model), *model);
+  const bool symmetric = std::find(claims.begin(), claims.end(), Claim::symmetric) != claims.end();
+  MeasuredOrder slower;
+  for (const double direction : {1.0, -1.0}) {
+    if (direction < 0 && symmetric) break;
+    const auto step = [&](int k) { return time * Quad(std::ldexp(direction, -k - 1)); };
+    MeasuredOrder order = settle([&](int k) { return errors.after_one(step(k)); }, 40,
+                                 [&](int k) { return floor_after(abs(step(k))); });
+    order.slope -= 1;
+    order.backwards = direction < 0;
+    if (direction > 0 || (order.settled && slower.settled && order.slope < slower.slope - 0.5))
+      slower = order;
+  }
+  return slower;
 }
 
 double order_at_small_steps(const MethodInstance& method, const std::shared_ptr<const Model>& model,

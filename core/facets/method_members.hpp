@@ -21,8 +21,6 @@ namespace detail::method {
 PFAFF_MEMBER_NAME(Work)
 PFAFF_MEMBER_NAME(order)
 PFAFF_MEMBER_NAME(preserves)
-PFAFF_MEMBER_NAME(order_is_lower_bound)
-PFAFF_MEMBER_NAME(order_is_exact)
 PFAFF_MEMBER_NAME(validate)
 PFAFF_MEMBER_NAME(coefficients)
 PFAFF_MEMBER_NAME(refuses)
@@ -57,14 +55,6 @@ concept WritesOrder = requires(const M& m, const Model& model) {
 template <class M>
 concept WritesPreserves = requires(const M& m, const Model& model) {
   { m.preserves(model) } -> std::convertible_to<std::vector<Claim>>;
-};
-template <class M>
-concept WritesOrderIsLowerBound = requires(const M& m) {
-  { m.order_is_lower_bound() } -> std::same_as<bool>;
-};
-template <class M>
-concept WritesOrderIsExact = requires(const M& m) {
-  { m.order_is_exact() } -> std::same_as<bool>;
 };
 template <class M>
 concept WritesValidate = requires(M& m) {
@@ -143,10 +133,6 @@ constexpr void check_method_members() {
                 "order: expected int order(const Model& model) const");
   static_assert(WritesPreserves<M> || !method::has_preserves<M>,
                 "preserves: expected std::vector<Claim> preserves(const Model& model) const");
-  static_assert(WritesOrderIsLowerBound<M> || !method::has_order_is_lower_bound<M>,
-                "order_is_lower_bound: expected bool order_is_lower_bound() const");
-  static_assert(WritesOrderIsExact<M> || !method::has_order_is_exact<M>,
-                "order_is_exact: expected bool order_is_exact() const");
   static_assert(WritesValidate<M> || !method::has_validate<M>, "validate: expected void validate()");
   static_assert(WritesCoefficients<M> || !method::has_coefficients<M>,
                 "coefficients: expected std::span<Quad> coefficients()");

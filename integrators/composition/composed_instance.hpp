@@ -31,8 +31,6 @@ class ComposedInstance final : public MakerOf<ComposedInstance, MethodInstance> 
   [[nodiscard]] Assignments parameters() const override { return statement_.parameters; }
   [[nodiscard]] FacetSet needs() const override { return composed_->needs(); }
   [[nodiscard]] int order(const Model& /*model*/) const override { return statement_.order; }
-  [[nodiscard]] bool order_is_lower_bound() const override { return composed_->order_is_lower_bound(); }
-  [[nodiscard]] bool order_is_exact() const override { return composed_->order_is_exact(); }
   /// What the base keeps in steps of either sign; symmetry only where the weights are symmetric. Claims on
   /// entropy are left out: a sub-step back in time lets it fall.
   [[nodiscard]] std::vector<Claim> preserves(const Model& model) const override {

@@ -106,10 +106,6 @@ struct GeneratingFunction {
     const bool gains = truncation % 2 == 1 && form == "midpoint" && model.chart_autonomous();
     return truncation + (gains ? 1 : 0);
   }
-  /// With extra degrees the error of order 2 s is that of the collocation, too small to show at once.
-  [[nodiscard]] bool order_is_lower_bound() const { return extra_degrees() > 0; }
-  /// order(model) counts the order that odd m gain on autonomous systems.
-  [[nodiscard]] bool order_is_exact() const { return true; }
   [[nodiscard]] std::vector<Claim> preserves(const Model& model) const {
     std::vector<Claim> claims{Claim::symplectic, Claim::k_symplectic};
     if (symmetric_variant() || (form == "midpoint" && model.chart_autonomous()))

@@ -49,8 +49,6 @@ struct ExactFlowSplitting {
   [[nodiscard]] int order(const Model& /*model*/) const {
     return near_integrable_scheme(scheme).orders.back();
   }
-  // A term that is small with the perturbation hides those of the claimed order at steps that are not small.
-  [[nodiscard]] static bool order_is_lower_bound() { return true; }
   [[nodiscard]] std::vector<Claim> preserves(const Model& /*model*/) const {
     std::vector<Claim> kept{Claim::symplectic, Claim::k_symplectic, Claim::poisson};
     if (near_integrable_scheme(scheme).symmetric)

@@ -28,14 +28,6 @@ struct OrderOfNothing : Euler {
 struct PreservesNotConst : Euler {
   std::vector<Claim> preserves(const Model& /*model*/) { return {Claim::none}; }
 };
-// refused: order_is_lower_bound: expected bool order_is_lower_bound() const
-struct LowerBoundAsData : Euler {
-  bool order_is_lower_bound = true;
-};
-// refused: order_is_exact: expected bool order_is_exact() const
-struct ExactOrderOfAModel : Euler {
-  [[nodiscard]] bool order_is_exact(const Model& /*model*/) const { return true; }
-};
 // refused: validate: expected void validate()
 struct ValidateWithArgument : Euler {
   void validate(int /*unused*/) {}
