@@ -12,6 +12,8 @@ void add_verify(CLI::App& app, Common& common, Action& action) {
   sub->add_option("name", settings->names, "Plug-ins, kinds of them (systems ...), or controls; all without")
       ->type_name("NAME");
   sub->add_flag("--full", settings->full, "Higher orders and more variants");
+  sub->add_flag("--verbose", settings->verbose,
+                "A row for each claim, system and precision, and all failures");
   sub->add_option("--set", *set, "A parameter of the one plug-in that is named")
       ->type_name("KEY=VALUE")
       ->expected(1)

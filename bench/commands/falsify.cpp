@@ -146,14 +146,15 @@ int search(const FalsificationOptions& options, const Common& common) {
   }
   if (common.json) {
     std::cout << json_text(
-        {{"schema", 1}, {"ok", falsified == 0}, {"seed", settings.seed}, {"results", list}});
+        {{"schema", 1}, {"ok", falsified == 0 && systems > 0}, {"seed", settings.seed}, {"results", list}});
   } else if (!common.quiet) {
     print(results, common);
     std::cout << (results.empty() ? "" : "\n") << results.size() << " claims on " << systems
               << " random systems, seed " << settings.seed << ": " << falsified << " falsified\n";
+    if (systems == 0) std::cout << "NOT OK: no claim could be tried on any system\n";
   }
   if (!not_written.empty()) throw RunError(not_written);
-  return falsified == 0 ? 0 : 1;
+  return falsified == 0 && systems > 0 ? 0 : 1;
 }
 
 // Judges one claim on a system by name, at its initial state.
@@ -171,7 +172,7 @@ int show(const FalsificationOptions& options, const Common& common) {
                      " or is not in the scope of " + options.claim +
                      ", which is: " + std::string(claim_row(claim).scope));
   const Interruption interruption;
-  const Budget budget(limits_of_check);
+  const Budget budget(judged_by_long_runs(claim) ? limits_of_long_runs : limits_of_check);
   const Judgement judgement = judge(*method, claim, at);
   if (common.json) {
     std::cout << json_text({{"schema", 1},

@@ -24,6 +24,7 @@ struct VerificationSettings {
   std::vector<std::string> names{};  // of plug-ins, tables of coefficients or kinds of plug-ins (systems
                                      // ...), or controls; all when empty
   bool full = false;                 // the large orders and more variants too
+  bool verbose = false;              // every row of the tables, and no summary
   /// Parameters of the one plug-in that is named, instead of those that it is verified with otherwise.
   Assignments set{};
 };

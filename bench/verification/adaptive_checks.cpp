@@ -40,7 +40,7 @@ struct Stretch {
   Stretch(const MethodOnModel& on, const T& elapsed) : begin(on.time()), end(begin + elapsed) {
     for (const Real& x : generic_state(*on.model())) start.push_back(T(x));
     exact.assign(start.begin(), start.end());
-    taylor_flow(*motion_of(on.model()), Quad(begin), Quad(end) - Quad(begin), exact);
+    short_flow(*motion_of(on.model()), Quad(begin), Quad(end) - Quad(begin), exact);
   }
   T begin, end;
   std::vector<T> start;

@@ -70,13 +70,24 @@ std::vector<Real> bracket_point(int n) {
   for (int k = 0; k < n; ++k) z.push_back(Real::fraction(3 + 2 * k, 7));
   return z;
 }
+// States of all sizes up to ten, with coordinates that are positive, as sizes and temperatures are.
+Region bracket_region(int n) {
+  Region region(bracket_point(n));
+  for (const std::int64_t factor : {2, 4, 8}) {
+    std::vector<Real> z;
+    for (const Real& x : bracket_point(n)) z.push_back(Real::fraction(factor, 2) * x);
+    region.centres.push_back(std::move(z));
+    region.times.push_back(1);
+  }
+  return region;
+}
 }  // namespace
 
 std::vector<Check> check_bracket(const BracketPlugin& plugin, const Assignments& parameters) {
   const BracketInstance bracket = plugin.make(parameters);
   const int n = bracket.dimension;
   const auto tensor = tensor_of(*bracket.sharp, n);
-  const std::vector<Real> centre = bracket_point(n);
+  const Region centre = bracket_region(n);
   std::vector<Check> checks;
   if (plugin.descriptor().symmetry == Symmetry::skew)
     both(checks, plugin.name(), "skew", "", symmetric_part(*tensor, n), centre);

@@ -3,27 +3,38 @@
 namespace pfaff {
 
 namespace {
-constexpr const char* unjudged = "not judged: ";
-
-Check without_a_judgement(Check check, const std::string& why) {
-  check.in_scope = false;
-  check.result = CheckResult::skipped;
-  check.reason = unjudged + why;
-  return check;
-}
+constexpr const char* words = "not judged: ";
 }  // namespace
 
-bool ran_out(const Check& check) {
-  return check.result == CheckResult::skipped && check.reason.starts_with(unjudged);
+void short_flow(const Model& model, const Quad& t, const Quad& elapsed, std::vector<Quad>& z) {
+  constexpr std::int64_t steps = 2000;
+  const Budget budget({.steps = steps});
+  try {
+    taylor_flow(model, t, elapsed, z);
+  } catch (const BudgetSpent& spent) {
+    if (spent.stopped() || budget.steps() < steps) throw;
+    throw SolutionEnds(t, std::to_string(steps) + " Taylor steps lead no further");
+  }
+}
+
+bool unjudged(const Check& check) {
+  return check.result == CheckResult::skipped && check.reason.starts_with(words);
+}
+
+Check not_judged(Check check, const std::string& why) {
+  check.in_scope = false;
+  check.result = CheckResult::skipped;
+  check.reason = words + why;
+  return check;
 }
 
 Check not_judged(Check check, const BudgetSpent& spent) {
   if (spent.stopped()) throw BudgetSpent(spent);
-  return without_a_judgement(std::move(check), spent.what());
+  return not_judged(std::move(check), std::string(spent.what()));
 }
 
 Check not_judged(Check check, const SolutionEnds& ends) {
-  return without_a_judgement(std::move(check), ends.what());
+  return not_judged(std::move(check), std::string(ends.what()));
 }
 
 }  // namespace pfaff

@@ -9,9 +9,16 @@
 
 namespace pfaff {
 
-/// Some five times what the longest check of a plug-in of the tree is estimated to take, the rounding in long
-/// runs: two million steps.
-inline constexpr BudgetLimits limits_of_check{.steps = 10'000'000, .evaluations = 1'000'000'000};
+/// Five times what the longest check of a plug-in of the tree takes but for those of the rounding in long
+/// runs.
+inline constexpr BudgetLimits limits_of_check{.steps = 400'000, .evaluations = 20'000'000};
+/// The same of the rounding in long runs: two ensembles of half a million steps.
+inline constexpr BudgetLimits limits_of_long_runs{.steps = 10'000'000, .evaluations = 1'000'000'000};
+
+/// Moves `z` from time `t` along the flow of a model over `elapsed`, at most a few of the system's own times,
+/// by Taylor steps in quad, some tens of them. SolutionEnds also where two thousand do not do it: towards a
+/// singularity they become smaller and smaller.
+void short_flow(const Model& model, const Quad& t, const Quad& elapsed, std::vector<Quad>& z);
 
 /// The check, whose names are filled in, as one that was not judged because its budget was spent. Passes the
 /// exception on where the work was asked to stop.
@@ -19,8 +26,11 @@ Check not_judged(Check check, const BudgetSpent& spent);
 /// The same where the solution that it compares with ends before it is needed.
 Check not_judged(Check check, const SolutionEnds& ends);
 
-/// True where a check was not judged for that reason.
-bool ran_out(const Check& check);
+/// The same for any other reason, such as errors that round-off hides.
+Check not_judged(Check check, const std::string& why);
+
+/// True where a check was not judged, for whatever reason.
+bool unjudged(const Check& check);
 
 /// Returns judge(), a check, perhaps one or several; where it runs out of its budget, or of the solution that
 /// it compares with, `check`, whose names are filled in, not judged.

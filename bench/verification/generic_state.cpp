@@ -1,6 +1,9 @@
 // The state at which claims are measured.
+#include <cmath>
+
 #include <pfaff/bench/measure/constraints.hpp>
-#include <pfaff/bench/verification/check.hpp>
+#include <pfaff/bench/verification/check_budget.hpp>
+#include <pfaff/bench/verification/residuals.hpp>
 #include <pfaff/bench/verification/step_scale.hpp>
 
 namespace pfaff {
@@ -36,6 +39,59 @@ std::vector<Real> generic_state(const Model& model) {
     for (std::size_t k = 0; k < z.size(); ++k) z[k] = Real(moved[k]);
   }
   return z;
+}
+
+namespace {
+// Adds the states that the motion from `start` reaches in one direction of time.
+void add_states(Region& region, const Model& motion, const Real& t, const Quad& elapsed, int states) {
+  constexpr double most_growth = 8;
+  std::vector<Quad> z;
+  for (const Real& x : region.centres.front()) z.push_back(x.quad());
+  const auto size = [](const std::vector<Quad>& state) {
+    Quad largest(0);
+    for (const Quad& x : state) largest = std::max(largest, abs(x));
+    return largest;
+  };
+  const Quad first = size(z);
+  Quad done(0);
+  for (int k = 0; k < states; ++k) {
+    const Quad next = elapsed * Quad(std::ldexp(1.0, k));
+    try {
+      short_flow(motion, t.quad() + done, next - done, z);
+    } catch (const SolutionEnds&) {
+      return;
+    }
+    done = next;
+    if (!(size(z) <= Quad(most_growth) * first)) return;
+    region.centres.emplace_back(z.begin(), z.end());
+    region.times.push_back(static_cast<double>(t.quad() + done));
+  }
+}
+}  // namespace
+
+Region region_of(const Model& motion, std::vector<Real> centre) {
+  Region region(std::move(centre));
+  if (!motion.moves() || !is_short(motion)) return region;
+  const Real t = generic_time_of(motion);
+  const Quad time = own_time(motion, t, region.centres.front());
+  // The Taylor series of long formulas take most of the time of these checks; there four times the own time
+  // has to do.
+  constexpr std::size_t few_operations = 512;
+  const int states = motion.tape(Formula::field)->code.size() <= few_operations ? 6 : 3;
+  for (const double direction : {1.0, -1.0}) add_states(region, motion, t, Quad(direction) * time, states);
+  return region;
+}
+
+Region Region::first(std::size_t count) const {
+  Region region(*this);
+  for (std::vector<Real>& centre : region.centres) centre.resize(count);
+  return region;
+}
+
+Region Region::with_zero() const {
+  Region region(*this);
+  for (std::vector<Real>& centre : region.centres) centre.emplace_back(0);
+  return region;
 }
 
 }  // namespace pfaff

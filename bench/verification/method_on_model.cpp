@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <pfaff/bench/measure/history.hpp>
+#include <pfaff/bench/verification/rounding_of_step.hpp>
 
 namespace pfaff {
 
@@ -66,6 +67,14 @@ bool MethodOnModel::differentiable() const {
   return model_->dimension() <=
          (model_->restricted() && formulated ? most_differentiated_in_formulations : most_differentiated);
 }
+
+template <class T>
+MeasuredStep<T> MethodOnModel::moved_step(int seed) const {
+  return {method_, model_,     moved_by_a_unit<T>(start_, seed),
+          time_,   step_size_, history_ ? steps_of_warm_up : 0};
+}
+template MeasuredStep<double> MethodOnModel::moved_step<double>(int seed) const;
+template MeasuredStep<Quad> MethodOnModel::moved_step<Quad>(int seed) const;
 
 Check check_named(const MethodInstance& method, const Assignments& parameters, const std::string& system,
                   const std::string& claim, const std::string& scope, const char* precision) {

@@ -32,6 +32,8 @@ class MethodOnModel {
   [[nodiscard]] bool double_coefficients() const { return method_.descriptor().double_coefficients; }
   /// True where the model is small enough for Jacobians and Taylor series in quad.
   [[nodiscard]] bool differentiable() const;
+  /// The state at which claims are measured, generic_state of the model.
+  [[nodiscard]] const std::vector<Real>& start() const { return start_; }
   /// The time at which claims are measured, generic_time_of the model.
   [[nodiscard]] const Real& time() const { return time_; }
   /// True where the method remembers earlier steps. Its claims are then measured on a step that has others
@@ -57,6 +59,10 @@ class MethodOnModel {
       return *in_double_;
     }
   }
+
+  /// The same step from a start that is moved by a unit in the last place (rounding_of_step.hpp).
+  template <class T>
+  [[nodiscard]] MeasuredStep<T> moved_step(int seed) const;
 
   /// A check with the names of this method and model filled in, and no result yet.
   Check check(const std::string& claim, const std::string& scope, const char* precision) const;
@@ -86,14 +92,19 @@ class MethodOnModel {
 inline const Real check_step = Real::fraction(1, 20);
 
 // order_checks.cpp
-/// `conditions_judge` where the order conditions are judged too.
-Check check_order(MethodOnModel& on, bool conditions_judge);
+Check check_order(MethodOnModel& on);
 // order_conditions.cpp
 /// The coefficients of h^0, ..., h^p in the error of one step, p being the order but at most 8; they vanish
 /// for a method of that order, or are at the round-off of its coefficients where these are doubles. The
 /// largest one, relative to the scales of the step. nullopt where they say nothing: on systems with
 /// constraints, of methods that need constraints or that remember earlier steps, and beyond 16 coordinates.
 std::optional<Check> check_order_conditions(MethodOnModel& on);
+
+// run_checks.cpp
+/// The claims of the method at sixteen states along a run of a thousand steps, and in a step as large as
+/// converges; of a method without history that every step of the run is the one that a new stepper takes from
+/// there.
+std::vector<Check> check_along_run(MethodOnModel& on);
 
 // adaptive_checks.cpp
 std::vector<Check> check_adaptive(MethodOnModel& on);

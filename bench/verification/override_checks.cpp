@@ -26,8 +26,7 @@ std::string spoken(std::string_view name) {
 
 }  // namespace
 
-std::vector<Check> check_overrides(const std::string& plugin, const Model& model,
-                                   const std::vector<Real>& centre) {
+std::vector<Check> check_overrides(const std::string& plugin, const Model& model, const Region& region) {
   std::vector<Check> checks;
   for (const FormulaRow& row : formula_table) {
     if (!row.traits.unique || !model.given(row.formula)) continue;
@@ -39,15 +38,15 @@ std::vector<Check> check_overrides(const std::string& plugin, const Model& model
     const auto derived = model.derived(row.formula);
     if (derived == nullptr) continue;
     const auto written = model.tape(row.formula);
-    const std::vector<Real> where(centre.begin(), centre.begin() + written->inputs);
+    const Region where = region.first(static_cast<std::size_t>(written->inputs));
     const auto compare = [&](const std::string& what, std::size_t first, std::size_t count) {
       both(checks, plugin, "written " + what + " is the derived one", plugin,
            tape_of_difference(*written, *derived, first, count), where);
     };
     if (row.formula == Formula::constraint_gradients) {
       const std::vector<std::string> names = model.constraint_names();
-      for (std::size_t i = 0; i < names.size(); ++i)
-        compare("gradient of " + names[i], i * centre.size(), centre.size());
+      const std::size_t size = region.centres.front().size();
+      for (std::size_t i = 0; i < names.size(); ++i) compare("gradient of " + names[i], i * size, size);
     } else {
       compare(spoken(row.name), 0, written->outputs.size());
     }

@@ -4,8 +4,7 @@
 
 namespace pfaff {
 
-std::vector<Check> check_reversal(const std::string& name, const Model& motion,
-                                  const std::vector<Real>& centre) {
+std::vector<Check> check_reversal(const std::string& name, const Model& motion, const Region& region) {
   std::vector<Check> checks;
   const int n = motion.dimension();
   const auto reversal = motion.tape(Formula::reversal), field = motion.tape(Formula::field);
@@ -13,14 +12,14 @@ std::vector<Check> check_reversal(const std::string& name, const Model& motion,
     const auto back = evaluate(*reversal, t, evaluate(*reversal, t, z));
     for (std::size_t k = 0; k < z.size(); ++k) out[k] = back[k] - z[k];
   });
-  both(checks, name, "reversal is an involution", name, twice, centre);
+  both(checks, name, "reversal is an involution", name, twice, region);
   const auto turned = expression(n, n, [&](const Recorded& t, Arguments z, Results out) {
     const auto rate = evaluate(*field, t, z);
     const auto carried = directional_derivative(*reversal, t, Recorded(0), z, rate);
     const auto there = evaluate(*field, t, evaluate(*reversal, t, z));
     for (std::size_t k = 0; k < z.size(); ++k) out[k] = carried[k] + there[k];
   });
-  both(checks, name, "reversal turns the field", name, turned, centre);
+  both(checks, name, "reversal turns the field", name, turned, region);
   return checks;
 }
 

@@ -6,6 +6,7 @@
 #include <random>
 
 #include <pfaff/bench/verification/step_scale.hpp>
+#include <pfaff/core/numbers/with_rounding.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/replay.hpp>
 
@@ -26,7 +27,8 @@ constexpr double out_of_sight = 0.05;
 // state is in them.
 class Quantities {
  public:
-  explicit Quantities(const Model& model) : size_(static_cast<std::size_t>(model.dimension())) {
+  explicit Quantities(const Model& model)
+      : size_(static_cast<std::size_t>(model.dimension())), field_(model.tape(Formula::field)) {
     add(*model.tape(Formula::hamiltonian));
     names_.emplace_back("energy H");
     conserved_.push_back(true);
@@ -50,28 +52,43 @@ class Quantities {
     }
     return values;
   }
-  // u / sqrt 3 sum_k |dI/dz_k| |after_k - before_k| for each quantity I.
-  std::vector<double> roundings(double t, const std::vector<double>& before,
+  // u / sqrt 3 sum_k |dI/dz_k| a_k for each quantity I, where a_k is what the step of size h adds to a
+  // coordinate, with the rounding of the field that it is made of, which is evaluated at a rounded state.
+  std::vector<double> roundings(double t, double h, const std::vector<double>& before,
                                 const std::vector<double>& after) {
+    std::vector<WithRounding<double>> z, rate(size_);
+    for (const double x : before) z.emplace_back(x, std::abs(x));
+    field_(WithRounding<double>(t), z.data(), rate.data());
+    std::vector<double> added(size_);
+    for (std::size_t k = 0; k < size_; ++k) added[k] = std::hypot(after[k] - before[k], h * rate[k].error);
+    return in_quantities(t, before, added);
+  }
+  // The same of one rounding of the whole state.
+  std::vector<double> roundings_of_state(double t, const std::vector<double>& z) {
+    return in_quantities(t, z, z);
+  }
+
+ private:
+  std::vector<double> in_quantities(double t, const std::vector<double>& z,
+                                    const std::vector<double>& sizes) {
     std::vector<double> list, slope;
     for (Replay<double>& replay : slopes_) {
       slope.resize(replay.tape().outputs.size());
-      replay(t, before.data(), slope.data());
+      replay(t, z.data(), slope.data());
       for (std::size_t i = 0; i < slope.size(); i += size_) {
         double sum = 0;
-        for (std::size_t k = 0; k < size_; ++k) sum += std::abs(slope[i + k] * (after[k] - before[k]));
+        for (std::size_t k = 0; k < size_; ++k) sum += std::abs(slope[i + k] * sizes[k]);
         list.push_back(sum * unit_roundoff<double>() / std::numbers::sqrt3);
       }
     }
     return list;
   }
-
- private:
   void add(const Tape& tape) {
     values_.emplace_back(std::make_shared<const Tape>(tape));
     slopes_.emplace_back(std::make_shared<const Tape>(jacobian_tape(tape)));
   }
   std::size_t size_;
+  Replay<WithRounding<double>> field_;
   std::vector<Replay<Quad>> values_;
   std::vector<Replay<double>> slopes_;
   std::vector<std::string> names_;
@@ -95,6 +112,7 @@ class Run {
   }
   [[nodiscard]] T time() const { return t_ + T(static_cast<double>(taken_)) * h_; }
   [[nodiscard]] const std::vector<T>& state() const { return z_; }
+  [[nodiscard]] const T& step_size() const { return h_; }
   std::vector<Quad> values(Quantities& quantities) const {
     return quantities.at(Quad(time()), {z_.begin(), z_.end()});
   }
@@ -110,6 +128,7 @@ class Run {
 struct Samples {
   std::vector<std::vector<double>> errors;  // [run][block], from e = 0
   double rounding = 0;                      // sum of squares of the roundings of what single steps add
+  double at_rest = 0;                       // the same of one rounding of the whole state
   std::size_t looks = 0;                    // terms of that sum
   // The mean square change of e over `lag` blocks.
   [[nodiscard]] double change(std::size_t lag) const {
@@ -149,6 +168,7 @@ RoundOffGrowth growth_of(const std::string& quantity, const Samples& samples, st
   }
   growth.rms = std::sqrt(square / runs);
   if (square == 0) return growth;
+  growth.at_rest = std::sqrt(samples.at_rest / static_cast<double>(samples.looks));
   const double mean = sum / runs, variance = (square - runs * mean * mean) / (runs - 1);
   growth.significance = mean / std::sqrt(variance / runs);
   growth.exponent = growth_exponent(samples);
@@ -160,7 +180,7 @@ RoundOffGrowth growth_of(const std::string& quantity, const Samples& samples, st
 // The means of the quantities over the next steps of a run, and the roundings of what the last of them adds;
 // false where a step does not converge.
 struct Look {
-  std::vector<double> mean, rounding;
+  std::vector<double> mean, rounding, at_rest;
 };
 bool look(Run<double>& run, Quantities& quantities, const std::vector<Quad>& origin, Look& seen) {
   const std::size_t count = quantities.count();
@@ -172,7 +192,9 @@ bool look(Run<double>& run, Quantities& quantities, const std::vector<Quad>& ori
     const std::vector<Quad> now = run.values(quantities);
     for (std::size_t i = 0; i < count; ++i)
       seen.mean[i] += static_cast<double>(now[i] - origin[i]) / averaged_steps;
-    if (k + 1 == averaged_steps) seen.rounding = quantities.roundings(time, before, run.state());
+    if (k + 1 < averaged_steps) continue;
+    seen.rounding = quantities.roundings(time, run.step_size(), before, run.state());
+    seen.at_rest = quantities.roundings_of_state(time, before);
   }
   return true;
 }
@@ -212,7 +234,7 @@ std::optional<RoundOffStep> round_off_step(const MethodInstance& method,
     Run<double> rough(*in_double, rounded, t.value(), h.value());
     Run<Quad> exact(*in_quad, start, t.quad(), h.quad());
     if (!rough.step(1)) continue;
-    const std::vector<double> rounding = quantities.roundings(t.value(), rounded, rough.state());
+    const std::vector<double> rounding = quantities.roundings(t.value(), h.value(), rounded, rough.state());
     const std::vector<Quad> first = exact.values(quantities);
     std::vector<double> truncation(quantities.count());
     bool steps_on = true;
@@ -260,6 +282,7 @@ std::optional<std::vector<RoundOffGrowth>> round_off_growth(const MethodInstance
       for (std::size_t i = 0; i < samples.size(); ++i) {
         samples[i].errors.back().push_back(now.mean[i] - first.mean[i]);
         samples[i].rounding += now.rounding[i] * now.rounding[i];
+        samples[i].at_rest += now.at_rest[i] * now.at_rest[i];
         ++samples[i].looks;
       }
     }
@@ -273,8 +296,9 @@ std::optional<std::vector<RoundOffGrowth>> round_off_growth(const MethodInstance
 double excess_over_random_walk(const std::vector<RoundOffGrowth>& growth) {
   double worst = 0;
   for (const RoundOffGrowth& g : growth) {
-    if (g.rms == 0) continue;
-    for (const double part : {std::abs(g.significance) / 3, std::abs(g.exponent - 0.5) / 0.1, g.size})
+    // Errors that are no more than one rounding of the state have not grown, which is better than a walk.
+    if (g.rms <= g.at_rest) continue;
+    for (const double part : {std::abs(g.significance) / 3, (g.exponent - 0.5) / 0.1, g.size})
       worst = std::isnan(part) || std::isnan(worst) ? NAN : std::max(worst, part);
   }
   return worst;

@@ -12,8 +12,10 @@
 //
 // The size of the walk is compared with that of a method which rounds no more than what a step adds to the
 // state, every component once, with an error between -u and u of which all sizes are as likely: after n
-// steps, u (n/3 mean_steps (sum_k |dI/dz_k| |z'_k - z_k|)^2)^(1/2). A method that rounds the whole state in
-// each step walks further than that, by |z| over |z' - z|.
+// steps, u (n/3 mean_steps (sum_k |dI/dz_k| a_k)^2)^(1/2), where a_k^2 = (z'_k - z_k)^2 + (h e_k)^2 and u e_k
+// is the bound of what the field rounds at a rounded state; where positions have become large beside what
+// they change by in a step, that is what is left. A method that rounds the whole state in each step walks
+// further than that, by |z| over |z' - z|.
 //
 // Truncation must not be seen. The step is the longest one at which the energy's change over some steps in
 // quad stays far below the walk. Where the method claims nothing that rules a trend of the energy out, and of
@@ -47,6 +49,7 @@ struct RoundOffGrowth {
   double significance = 0;  // t: the mean of e at the end, in units of its own standard deviation
   double exponent = 0;      // of the growth of the rms change with the number of steps
   double size = 0;          // the rms at the end, in units of the walk of what steps add
+  double at_rest = 0;       // what one rounding of the whole state amounts to
 };
 
 /// The longest of the steps 2/5, 1/5, ... 1/80 of `time` at which truncation is out of the energy's sight in
@@ -72,7 +75,8 @@ std::optional<std::vector<RoundOffGrowth>> round_off_growth(const MethodInstance
                                                             const RoundOffEnsemble& ensemble);
 
 /// By how much the growth exceeds a random walk of roundings of what steps add, the largest over the
-/// quantities: within 1 are |t| < 3, an exponent of 0.5 +- 0.1, and a size below one.
+/// quantities: within 1 are |t| < 3, an exponent of at most 0.6, and a size below one. A quantity that has
+/// moved by no more than one rounding of the state has not grown.
 double excess_over_random_walk(const std::vector<RoundOffGrowth>& growth);
 
 }  // namespace pfaff

@@ -5,54 +5,82 @@
 #include <cmath>
 #include <cstdlib>
 
+#include <pfaff/bench/runner/terminal.hpp>
+#include <pfaff/bench/verification/check_budget.hpp>
 #include <pfaff/bench/verification/method_on_model.hpp>
 #include <pfaff/bench/verification/residuals.hpp>
+#include <pfaff/bench/verification/rounding_of_step.hpp>
 #include <pfaff/bench/verification/step_scale.hpp>
 
 namespace pfaff {
 
-namespace {
-// Where sizes of coordinates differ by more than this, methods that add positions to momenta cannot iterate:
-// what they add swamps the smaller ones at every step size.
-constexpr double most_differing_sizes = 0x1p20;
-
-double differing_sizes(const Model& model) {
-  const std::vector<double> scales = coordinate_scales(model);
-  const auto [smallest, largest] = std::minmax_element(scales.begin(), scales.end());
-  return *largest / *smallest;
-}
-}  // namespace
-
 Check check_steps(const MethodOnModel& on) {
   Check check = on.check("steps", "every system", "both");
   check.measured = on.step_size().value();
-  check.result = on.steps() ? CheckResult::pass : CheckResult::fail;
-  if (!on.steps()) {
-    check.reason = "no step converges, down to the size measured (" + std::string(to_string(on.failure())) +
-                   "), so that nothing can be judged";
-    if (const double differ = differing_sizes(*on.model()); differ > most_differing_sizes) {
-      check.in_scope = false;
-      check.result = CheckResult::skipped;
-      check.reason += "; sizes of coordinates differ by 2^" + std::to_string(std::ilogb(differ));
-    }
-  }
-  return check;
+  check.result = CheckResult::pass;
+  if (on.steps()) return check;
+  // On another system it may; where there is none, verify says that nothing was judged.
+  std::string why = "no step converges, down to " + scientific(check.measured) + " (" +
+                    std::string(to_string(on.failure())) + ")";
+  if (const double differ = differing_sizes(*on.model()); differ > most_differing_sizes)
+    why += "; sizes of coordinates differ by 2^" + std::to_string(std::ilogb(differ));
+  return not_judged(std::move(check), why);
 }
 
-Check check_precisions(MethodOnModel& on) {
-  // In quad from the very numbers from which the step in double begins.
+namespace {
+// How far the step in double from a state of doubles ends from the step in quad from the same numbers.
+double difference_of_precisions(const MethodOnModel& on, const std::vector<Real>& start, const Real& h,
+                                MeasuredStep<double>& rounded) {
   const auto as_double = [](const Real& x) { return Real(Quad(x.value())); };
-  std::vector<Real> start;
-  for (const Real& x : generic_state(*on.model())) start.push_back(as_double(x));
-  MeasuredStep<Quad> exact(on.method(), on.model(), start, as_double(on.time()), as_double(on.step_size()),
-                           on.step<double>().warm_up());
-  const auto& end = on.step<double>().end();
-  double difference = no_step;
-  if (end && exact.end())
-    difference =
-        static_cast<double>(exact.distance(std::vector<Quad>(end->begin(), end->end()), *exact.end()));
-  return on.residual("double-is-quad-rounded", "every system", true, "double", difference,
-                     tolerance<double>() * on.growth_of_round_off());
+  std::vector<Real> same;
+  for (const Real& x : start) same.push_back(as_double(x));
+  MeasuredStep<Quad> exact(on.method(), on.model(), same, as_double(on.time()), as_double(h),
+                           rounded.warm_up());
+  const auto& end = rounded.end();
+  if (!end || !exact.end()) return no_step;
+  return static_cast<double>(exact.distance(std::vector<Quad>(end->begin(), end->end()), *exact.end()));
+}
+}  // namespace
+
+// A difference that is not rounding can be what the stopping rule of the method leaves in double.
+Check check_precisions(MethodOnModel& on) {
+  const Real& h = on.step_size();
+  const double difference = difference_of_precisions(on, on.start(), h, on.step<double>());
+  Check check = on.residual("double-is-quad-rounded", "every system", true, "double", difference,
+                            tolerance<double>() * on.growth_of_round_off());
+  if (check.result != CheckResult::fail || std::isnan(difference)) return check;
+  const auto step_from = [&](const std::vector<Real>& start, const Real& size) {
+    return MeasuredStep<double>(on.method(), on.model(), start, on.time(), size, on.step<double>().warm_up());
+  };
+  MeasuredStep<double> again = step_from(on.start(), h);
+  if (again.end() != on.step<double>().end()) {
+    check.reason = "the same step from the same state ends elsewhere: it depends on what was computed before";
+    return check;
+  }
+  std::vector<double> differences;
+  double moved_by = 0;
+  for (int seed = 1; seed <= moved_steps; ++seed) {
+    const std::vector<Real> moved = moved_by_a_unit<double>(on.start(), seed);
+    MeasuredStep<double> rounded = step_from(moved, h);
+    differences.push_back(difference_of_precisions(on, moved, h, rounded));
+    if (rounded.end()) moved_by = std::max(moved_by, again.distance(*rounded.end(), *again.end()));
+  }
+  if (is_rounding(differences, check.tolerance)) {
+    check.result = CheckResult::pass;
+    check.reason = multiplied_rounding;
+  } else if (difference <= most_left_by_stopping * check.tolerance) {
+    check.result = CheckResult::pass;
+    check.reason = "what the method's own stopping rule leaves in double";
+  } else if (moved_by > difference / 8) {
+    return not_judged(check, "the step multiplies a rounding of its inputs to " + scientific(moved_by));
+  } else if (MeasuredStep<double> quarter = step_from(on.start(), h / Real(4));
+             difference_of_precisions(on, on.start(), h / Real(4), quarter) <= check.tolerance) {
+    return not_judged(check, "the equations of so large a step have another solution, which double finds");
+  } else if (differing_sizes(*on.model()) > most_differing_sizes) {
+    return not_judged(
+        check, "sizes of coordinates differ, so that what a stopping rule leaves is large in the smaller");
+  }
+  return check;
 }
 
 // Compares the Jacobian of the converged step with central differences of order 6 in quad, whose error is

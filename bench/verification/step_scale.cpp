@@ -88,6 +88,12 @@ std::vector<double> coordinate_scales(const Model& model) {
                        : coordinate_scales(model.initial());
 }
 
+double differing_sizes(const Model& model) {
+  const std::vector<double> scales = coordinate_scales(model);
+  const auto [smallest, largest] = std::minmax_element(scales.begin(), scales.end());
+  return *largest / *smallest;
+}
+
 Quad own_time(const Model& motion, const Real& t, const std::vector<Real>& z) {
   if (!is_short(motion)) return Quad(1);
   // The size of a term of high degree tells the rate whatever the sizes of single coordinates are.

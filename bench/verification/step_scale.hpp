@@ -23,6 +23,12 @@ std::vector<double> coordinate_scales(const Model& motion, const Real& t, const 
 /// Those at the initial state of a model, by its motion where it has one.
 std::vector<double> coordinate_scales(const Model& model);
 
+/// By how much the sizes of the coordinates at the initial state of a model differ.
+double differing_sizes(const Model& model);
+/// Where they differ by more than this, methods that add positions to momenta, which are of different units,
+/// cannot be judged: what they add swamps the smaller ones at every step size.
+inline constexpr double most_differing_sizes = 0x1p10;
+
 /// True where the field of a motion is a formula so short that series and bounds of rounding errors of it are
 /// computed at each step: up to 16 coordinates, or at most 8192 operations.
 bool is_short(const Model& motion);

@@ -59,13 +59,13 @@ std::shared_ptr<const Tape> changed(const Tape& tape, std::size_t output, F&& ch
 }  // namespace
 
 std::vector<Check> check_self_adjointness(const std::string& plugin, const Model& model) {
-  const std::vector<Real> centre = generic_state(model);
+  const Region region = region_of(model, generic_state(model));
   const auto residuals =
       self_adjointness_residuals(*model.tape(Formula::structure), *model.tape(Formula::covector));
   std::vector<Check> checks;
-  both(checks, plugin, "self-adjoint: K skew", plugin, residuals.skew, centre);
-  both(checks, plugin, "self-adjoint: K closed", plugin, residuals.closed, centre);
-  both(checks, plugin, "self-adjoint: rate of K", plugin, residuals.rate, centre);
+  both(checks, plugin, "self-adjoint: K skew", plugin, residuals.skew, region);
+  both(checks, plugin, "self-adjoint: K closed", plugin, residuals.closed, region);
+  both(checks, plugin, "self-adjoint: rate of K", plugin, residuals.rate, region);
   return checks;
 }
 

@@ -16,9 +16,9 @@ namespace {
 // A number that is the same at every state is conserved by everything, so that its conservation says nothing.
 // It varies where its values at random states differ by more than the bounds of their rounding errors.
 Check varies(const std::string& system, const std::string& invariant,
-             const std::shared_ptr<const Tape>& values, std::size_t k, const std::vector<Real>& centre) {
+             const std::shared_ptr<const Tape>& values, std::size_t k, const Region& region) {
   using W = WithRounding<Quad>;
-  NearbyStates<Quad> states(centre);
+  NearbyStates<Quad> states(region);
   Replay<W> replay(values);
   std::vector<W> out(values->outputs.size());
   W first;
@@ -45,7 +45,7 @@ std::vector<Recorded> placed(const std::shared_ptr<const Tape>& onto, const Reco
 
 // `onto` brings states onto the surface on which alone the claims are made; null where they are made off it.
 void invariants(std::vector<Check>& checks, const SystemPlugin& plugin, const Model& model,
-                const std::vector<Real>& centre, const std::shared_ptr<const Tape>& onto) {
+                const Region& region, const std::shared_ptr<const Tape>& onto) {
   const auto& list = model.invariants();
   if (list.empty()) return;
   const int n = model.dimension();
@@ -58,11 +58,11 @@ void invariants(std::vector<Check>& checks, const SystemPlugin& plugin, const Mo
       out[0] = directional_derivative(*values, t, Recorded(1), z, x)[k];
     });
     if (list[k].behaviour == Behaviour::conserved) {
-      checks.push_back(varies(plugin.name(), list[k].name, values, k, centre));
+      checks.push_back(varies(plugin.name(), list[k].name, values, k, region));
       if (list[k].quadratic)
         both(checks, plugin.name(), list[k].name + " is quadratic", plugin.name(),
-             third_difference(*values, k), centre);
-      both(checks, plugin.name(), "conserves " + list[k].name, plugin.name(), rate, centre);
+             third_difference(*values, k), region);
+      both(checks, plugin.name(), "conserves " + list[k].name, plugin.name(), rate, region);
     } else if (list[k].behaviour == Behaviour::decreasing || list[k].behaviour == Behaviour::increasing) {
       const bool falls = list[k].behaviour == Behaviour::decreasing;
       // The part of the rate that has the forbidden sign, made positive.
@@ -71,18 +71,17 @@ void invariants(std::vector<Check>& checks, const SystemPlugin& plugin, const Mo
         out[0] = falls ? select(r, r, Recorded(0)) : select(r, Recorded(0), -r);
       });
       both(checks, plugin.name(), (falls ? "decreases " : "increases ") + list[k].name, plugin.name(), wrong,
-           centre);
+           region);
     }
   }
 }
 
 // The exact solution satisfies the differential equation and starts at its initial state.
 void exact_solution(std::vector<Check>& checks, const SystemPlugin& plugin, const Model& model,
-                    std::vector<Real> centre, const std::shared_ptr<const Tape>& onto) {
+                    const Region& region, const std::shared_ptr<const Tape>& onto) {
   const int n = model.dimension();
   const auto size = static_cast<std::size_t>(n);
   const auto solution = model.tape(Formula::exact_solution), field = model.tape(Formula::field);
-  centre.emplace_back(0);
   const auto defect = expression(n + 1, 2 * n, [&](const Recorded& s, Arguments near, Results out) {
     std::vector<Recorded> z = placed(onto, near[size], near.first(size));
     z.push_back(near[size]);
@@ -95,20 +94,21 @@ void exact_solution(std::vector<Check>& checks, const SystemPlugin& plugin, cons
       out[size + k] = start[k] - z[k];
     }
   });
-  both(checks, plugin.name(), "exact solution", plugin.name(), defect, centre);
+  both(checks, plugin.name(), "exact solution", plugin.name(), defect, region.with_zero());
 }
 
-void darboux(std::vector<Check>& checks, const SystemPlugin& plugin, const Model& model) {
+void darboux(std::vector<Check>& checks, const SystemPlugin& plugin, const Model& model,
+             const Region& region) {
   const int n = model.dimension();
   const auto size = static_cast<std::size_t>(n);
   const auto chart = model.tape(Formula::chart), inverse = model.tape(Formula::chart_inverse);
   both(checks, plugin.name(), "chart is Darboux", plugin.name(),
-       darboux_residual(*chart, *model.tape(Formula::structure)), generic_state(model));
+       darboux_residual(*chart, *model.tape(Formula::structure)), region);
   const auto round_trip = expression(n, n, [&](const Recorded& t, Arguments z, Results out) {
     const auto back = evaluate(*inverse, t, evaluate(*chart, t, z));
     for (std::size_t k = 0; k < size; ++k) out[k] = back[k] - z[k];
   });
-  both(checks, plugin.name(), "chart inverse", plugin.name(), round_trip, generic_state(model));
+  both(checks, plugin.name(), "chart inverse", plugin.name(), round_trip, region);
   // The chart carries the field X of the system into the field of the chart: Y_z X + Y_t.
   const auto field = model.tape(Formula::field), in_chart = model.tape(Formula::chart_field);
   const auto carried = expression(n, n, [&](const Recorded& t, Arguments z, Results out) {
@@ -117,11 +117,12 @@ void darboux(std::vector<Check>& checks, const SystemPlugin& plugin, const Model
     const auto y = evaluate(*in_chart, t, evaluate(*chart, t, z));
     for (std::size_t k = 0; k < size; ++k) out[k] = moved[k] - y[k];
   });
-  both(checks, plugin.name(), "field in the chart", plugin.name(), carried, generic_state(model));
+  both(checks, plugin.name(), "field in the chart", plugin.name(), carried, region);
 }
 
 // The field made from T + V and the rate of friction agrees with the field of the system.
-void conformal(std::vector<Check>& checks, const SystemPlugin& plugin, const Model& model) {
+void conformal(std::vector<Check>& checks, const SystemPlugin& plugin, const Model& model,
+               const Region& region) {
   const Tape damped = damped_field(model);
   const auto field = model.tape(Formula::field);
   const auto difference =
@@ -129,8 +130,7 @@ void conformal(std::vector<Check>& checks, const SystemPlugin& plugin, const Mod
         const auto a = evaluate(*field, t, z), b = evaluate(damped, t, z);
         for (std::size_t k = 0; k < a.size(); ++k) out[k] = a[k] - b[k];
       });
-  both(checks, plugin.name(), "field of the damped energies", plugin.name(), difference,
-       generic_state(model));
+  both(checks, plugin.name(), "field of the damped energies", plugin.name(), difference, region);
 }
 
 }  // namespace
@@ -144,22 +144,22 @@ std::vector<Check> check_system(const SystemPlugin& plugin, const Assignments& p
   // motion keeps invariants and has closed forms on the surface.
   const auto motion = motion_of(model);
   const auto onto = model->nonholonomic() ? onto_velocity_constraints(*model) : nullptr;
-  const std::vector<Real> centre = model->restricted() ? model->initial() : generic_state(*model);
-  for (Check& check : check_overrides(plugin.name(), *model, centre)) checks.push_back(std::move(check));
+  const Region region = region_of(*motion, model->restricted() ? model->initial() : generic_state(*model));
+  for (Check& check : check_overrides(plugin.name(), *model, region)) checks.push_back(std::move(check));
   if (model->facets().has(Facet::hamiltonian) || model->facets().has(Facet::structure) ||
       model->given(Formula::poisson_tensor)) {
     const auto tensor = model->tape(Formula::poisson_tensor);
-    both(checks, plugin.name(), "bracket is skew", plugin.name(), symmetric_part(*tensor, n), centre);
-    both(checks, plugin.name(), "Jacobi identity", plugin.name(), jacobiator(*tensor, n), centre);
+    both(checks, plugin.name(), "bracket is skew", plugin.name(), symmetric_part(*tensor, n), region);
+    both(checks, plugin.name(), "Jacobi identity", plugin.name(), jacobiator(*tensor, n), region);
     if (model->given(Formula::casimirs))
       both(checks, plugin.name(), "Casimirs", plugin.name(),
-           sharp_of_casimirs(*tensor, *model->tape(Formula::casimirs)), centre);
+           sharp_of_casimirs(*tensor, *model->tape(Formula::casimirs)), region);
   }
   if (model->facets().has(Facet::structure)) {
     for (Check& check : check_self_adjointness(plugin.name(), *model)) checks.push_back(std::move(check));
   }
-  if (model->facets().has(Facet::darboux_chart)) darboux(checks, plugin, *model);
-  if (model->facets().has(Facet::conformal)) conformal(checks, plugin, *model);
+  if (model->facets().has(Facet::darboux_chart)) darboux(checks, plugin, *model, region);
+  if (model->facets().has(Facet::conformal)) conformal(checks, plugin, *model, region);
   if (model->facets().has(Facet::generating_map)) {
     const GeneratingMapCheck alpha = check_generating_map(*model);
     checks.push_back(
@@ -171,12 +171,13 @@ std::vector<Check> check_system(const SystemPlugin& plugin, const Assignments& p
     for (Check& check : check_constraints(plugin.name(), model)) checks.push_back(std::move(check));
   if (model->facets().has(Facet::metriplectic))
     for (Check& check : check_metriplectic(plugin.name(), *model)) checks.push_back(std::move(check));
-  invariants(checks, plugin, *motion, centre, onto);
-  if (model->facets().has(Facet::exact_solution)) exact_solution(checks, plugin, *motion, centre, onto);
+  invariants(checks, plugin, *motion, region, onto);
+  if (model->facets().has(Facet::exact_solution)) exact_solution(checks, plugin, *motion, region, onto);
   if (model->given(Formula::reversal))
-    for (Check& check : check_reversal(plugin.name(), *motion, centre)) checks.push_back(std::move(check));
+    for (Check& check : check_reversal(plugin.name(), *motion, region)) checks.push_back(std::move(check));
   if (model->facets().has(Facet::exact_flows))
-    for (Check& check : check_flows(plugin.name(), model, centre)) checks.push_back(std::move(check));
+    for (Check& check : check_flows(plugin.name(), model, region.centres.front()))
+      checks.push_back(std::move(check));
   for (Check& check : checks) check.parameters = parameters;
   return checks;
 }

@@ -1,5 +1,6 @@
 // Runs the checks: collects the jobs, runs them in parallel and returns their results in a fixed order.
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <mutex>
 
@@ -9,6 +10,7 @@
 #include <pfaff/bench/verification/check.hpp>
 #include <pfaff/bench/verification/check_budget.hpp>
 #include <pfaff/bench/verification/formulation_checks.hpp>
+#include <pfaff/bench/verification/near_parameters.hpp>
 #include <pfaff/bench/verification/random_checks.hpp>
 #include <pfaff/bench/verification/random_constraints.hpp>
 #include <pfaff/bench/verification/skated_models.hpp>
@@ -58,6 +60,15 @@ std::string controlled_on(const MethodInstance& method) {
   for (const char* name : {"damped-pendulum", "pendulum", "henon-heiles"})
     if (method.refuses(*systems().get(name, "").make({})).empty()) return name;
   return method.needs().has(Facet::velocity_constraints) ? "contact-oscillator" : "spherical-pendulum";
+}
+
+// Checks with parameters that nobody chose: the initial state may be outside the domain of a formula with
+// them.
+std::vector<Check> inside_domain(std::vector<Check> checks) {
+  for (Check& check : checks)
+    if (check.result == CheckResult::fail && std::isnan(check.measured))
+      check = not_judged(check, "a formula has no value near the initial state with these parameters");
+  return checks;
 }
 
 // The checks to be run, in their order.
@@ -115,6 +126,10 @@ class Jobs {
       if (!wanted(asked_as(*system)) && !wanted("systems")) continue;
       for (const Assignments& p : parameters(asked_as(*system), system->instances(settings_.full)))
         jobs_.push_back({called(system->name(), p), [=] { return check_system(*system, p); }});
+      if (settings_.set.empty())
+        for (const Assignments& p : parameters_near_defaults(*system, 2))
+          jobs_.push_back(
+              {called(system->name(), p), [=] { return inside_domain(check_system(*system, p)); }});
     }
   }
 
@@ -194,7 +209,9 @@ class Jobs {
 
   void add_method(const MethodPlugin& method, const SystemPlugin& system) {
     const auto model = system.make(parameters_of(system));
-    const auto instances = parameters(method.name(), method.instances(settings_.full));
+    auto instances = parameters(method.name(), method.instances(settings_.full));
+    if (named(method.name()) && settings_.set.empty())
+      for (const Assignments& drawn : parameters_near_defaults(method, 1)) instances.push_back(drawn);
     for (const Assignments& p : instances) {
       spend(0, 0);  // there are thousands of pairs, and somebody may not want to wait for their list
       const auto instance = method.make(p);
@@ -241,6 +258,37 @@ void validate(const VerificationSettings& settings) {
       std::find(kinds.begin(), kinds.end(), settings.names.front()) != kinds.end())
     throw InputError("--set: expected the name of one plug-in, whose parameters these are");
 }
+// A claim that could be judged on no system is no sound one. Added for methods that were tried on every
+// system; the order counts as judged where one of its checks is.
+void add_claims_judged_nowhere(std::vector<Check>& checks, const VerificationSettings& settings) {
+  const auto& names = settings.names;
+  const auto tried = [&](const std::string& plugin) {
+    return names.empty() || std::find(names.begin(), names.end(), "integrators") != names.end() ||
+           std::find(names.begin(), names.end(), plugin) != names.end();
+  };
+  const std::vector<std::string> methods = integrators().names_and_aliases();
+  std::map<std::pair<std::string, std::string>, std::pair<int, Check>>
+      claims;  // judged, and one that was not
+  for (const Check& c : checks) {
+    if (c.control || !tried(c.plugin) || std::find(methods.begin(), methods.end(), c.plugin) == methods.end())
+      continue;
+    const bool judged = c.result == CheckResult::pass || c.result == CheckResult::fail;
+    if (!judged && !unjudged(c)) continue;
+    const std::string claim = c.claim.starts_with("order") ? "order" : c.claim;
+    auto& [count, example] = claims[{called(c.plugin, c.parameters), claim}];
+    count += judged;
+    if (!judged) example = c;
+  }
+  for (auto& [key, found] : claims) {
+    auto& [judged, check] = found;
+    if (judged > 0 || key.second.ends_with(" in a large step")) continue;
+    check.claim = key.second;
+    check.result = CheckResult::fail;
+    check.in_scope = true;
+    check.reason = "judged on no system; " + check.reason;
+    checks.push_back(check);
+  }
+}
 }  // namespace
 
 std::vector<Check> verify(const VerificationSettings& given,
@@ -278,6 +326,7 @@ std::vector<Check> verify(const VerificationSettings& given,
   }
   std::vector<Check> all;
   for (auto& part : results) all.insert(all.end(), part.begin(), part.end());
+  add_claims_judged_nowhere(all, settings);
   return all;
 }
 

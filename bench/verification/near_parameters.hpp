@@ -1,0 +1,17 @@
+// Parameters near the defaults, with which claims are verified besides: what an author claims without a
+// condition holds for every value in the ranges that the author states.
+#pragma once
+
+#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/system.hpp>
+
+namespace pfaff {
+
+/// Settings of all real numbers of a plug-in near their defaults, `count` at most, drawn with a fixed seed:
+/// between 5/8 and 11/8 of the default, or of the size of one where that is zero. Those that the plug-in
+/// refuses are left out.
+std::vector<Assignments> parameters_near_defaults(const MethodPlugin& method, int count);
+/// The same of a system. None of systems with constraints, on which the initial state would no longer be.
+std::vector<Assignments> parameters_near_defaults(const SystemPlugin& system, int count);
+
+}  // namespace pfaff

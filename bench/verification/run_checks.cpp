@@ -1,0 +1,273 @@
+// Claims along runs: what holds in one step from one state may be lost after some steps, at every hundredth,
+// far from the start, or at steps so large that an iteration is cut off.
+#include <array>
+#include <cmath>
+
+#include <pfaff/bench/verification/check_budget.hpp>
+#include <pfaff/bench/verification/claim_checks.hpp>
+#include <pfaff/bench/verification/method_on_model.hpp>
+#include <pfaff/bench/verification/rounding_of_step.hpp>
+
+namespace pfaff {
+
+namespace {
+
+constexpr int steps_of_run = 1000, looks = 16;
+// Of a method that remembers earlier steps, so many come before the one that is judged.
+constexpr std::array warm_ups{16, 96, 198};
+constexpr int most_doublings = 6;
+// Of larger systems runs are shorter, and steps in quad are left to the step that is judged anyway.
+constexpr int small_system = 8, steps_of_short_run = 200;
+
+struct Place {
+  std::vector<Real> z;
+  Real t;
+  int steps = 0;  // before it
+};
+
+std::vector<Real> as_reals(const std::vector<double>& z) {
+  std::vector<Real> reals;
+  for (const double x : z) reals.emplace_back(Quad(x));
+  return reals;
+}
+
+// What the checks need of one run in double: the states at which claims are looked at, and the first step
+// that differs from the same step of a stepper that starts there.
+struct RunInDouble {
+  std::vector<Place> places;
+  int taken = 0;
+  int differs = 0;        // the number of that step; 0 where there is none
+  double difference = 0;  // in units of the scales of the step
+};
+
+// How far the step from a state moves where its inputs move by a unit in the last place.
+double spread(const MethodOnModel& on, const Place& place) {
+  MeasuredStep<double> step(on.method(), on.model(), place.z, place.t, on.step_size());
+  if (!step.end()) return no_step;
+  double worst = 0;
+  for (int seed = 1; seed <= moved_steps; ++seed) {
+    MeasuredStep<double> moved(on.method(), on.model(), moved_by_a_unit<double>(place.z, seed), place.t,
+                               on.step_size());
+    if (!moved.end()) return no_step;
+    worst = std::max(worst, step.distance(*step.end(), *moved.end()));
+  }
+  return worst;
+}
+
+// True where the same two steps differ by less in quad, by as much as the precisions differ: the step of a
+// run begins its iteration from what it remembers, and what the stopping rule leaves differs.
+bool left_by_stopping(const MethodOnModel& on, int steps, double in_double) {
+  constexpr double fall = 1e13, most = 1e-8;
+  if (!(in_double <= most)) return false;
+  const auto stepper = on.method().stepper(on.model(), Quad()),
+             single = on.method().stepper(on.model(), Quad());
+  std::vector<Quad> z;
+  for (const Real& x : on.start()) z.push_back(x.quad());
+  const Quad t0 = on.time().quad(), h = on.step_size().quad();
+  std::int64_t completed = 0;
+  if (stepper->advance(t0, 0, h, steps, z, completed) != Status::converged) return false;
+  std::vector<Quad> alone = z;
+  single->forget();
+  if (stepper->advance(t0, steps, h, 1, z, completed) != Status::converged ||
+      single->advance(t0, steps, h, 1, alone, completed) != Status::converged)
+    return false;
+  Quad size(0), difference(0);
+  for (std::size_t k = 0; k < z.size(); ++k) {
+    size = std::max(size, abs(z[k]));
+    difference = std::max(difference, abs(z[k] - alone[k]));
+  }
+  return difference * Quad(fall) <= Quad(in_double) * size;
+}
+
+// True where a step from a place ends within a fiftieth of the state from where two of half its size do.
+bool follows_the_motion(const MethodOnModel& on, const Place& place, const std::vector<double>& end) {
+  constexpr double most_rough = 0.02;
+  MeasuredStep<double> step(on.method(), on.model(), place.z, place.t, on.step_size());
+  const auto halves = step.after(step.t(), step.h() / 2, step.start(), 2);
+  if (!halves) return false;
+  double size = 0, difference = 0;
+  for (std::size_t k = 0; k < end.size(); ++k) {
+    size = std::max(size, std::abs((*halves)[k]));
+    difference = std::max(difference, std::abs((*halves)[k] - end[k]));
+  }
+  return difference <= most_rough * size;
+}
+
+RunInDouble follow(const MethodOnModel& on) {
+  constexpr double most_moved = 8, most_growth = 64, most_shrinking = 1024;
+  double allowed =
+      most_left_by_stopping * tolerance<double>();  // more where that has been found to be rounding
+  RunInDouble run;
+  const auto stepper = on.method().stepper(on.model(), 0.0), single = on.method().stepper(on.model(), 0.0);
+  std::vector<double> z;
+  for (const Real& x : on.start()) z.push_back(x.value());
+  const double t0 = on.time().value(), h = on.step_size().value();
+  std::vector<double> largest(z.size());
+  double first = 0;
+  for (const double x : z) first = std::max(first, std::abs(x));
+  const int steps = on.model()->dimension() > small_system ? steps_of_short_run : steps_of_run;
+  for (int n = 0; n < steps; ++n) {
+    const double t = t0 + n * h;
+    const Place place{as_reals(z), Real(Quad(t)), n};
+    // A coordinate that has become small beside what it was has no size by which a residual could be judged.
+    bool small = false;
+    for (std::size_t k = 0; k < z.size(); ++k) {
+      largest[k] = std::max(largest[k], std::abs(z[k]));
+      small = small || std::abs(z[k]) * most_shrinking < largest[k];
+    }
+    if (n % (steps / looks) == 0 && !small) run.places.push_back(place);
+    std::vector<double> alone = z;
+    std::int64_t completed = 0;
+    if (stepper->advance(t0, n, h, 1, z, completed) != Status::converged) break;
+    ++run.taken;
+    single->forget();
+    if (single->advance(t0, n, h, 1, alone, completed) != Status::converged) break;
+    double size = 0, difference = 0;
+    for (std::size_t k = 0; k < z.size(); ++k) {
+      size = std::max(size, std::abs(z[k]));
+      difference = std::max(difference, std::abs(z[k] - alone[k]));
+    }
+    // Far from where it started a motion has other sizes, for which the step was not chosen.
+    if (!(size <= most_growth * first) || !(first <= most_growth * size)) break;
+    if (!(difference > allowed * size)) continue;
+    if (difference / size <= most_moved * spread(on, place) || left_by_stopping(on, n, difference / size)) {
+      allowed = most_moved * difference / size;
+      continue;
+    }
+    // The equations of an implicit step may have several solutions, of which a start without a past finds
+    // another one.
+    if (!follows_the_motion(on, place, alone)) break;
+    run.differs = n + 1;
+    run.difference = difference / size;
+    break;
+  }
+  return run;
+}
+
+// The claim in the step from a place, once more where its residual may be rounding.
+template <class T>
+double residual_at(const MethodOnModel& on, const ClaimCheck& row, const Place& place, const Real& h,
+                   int warm_up) {
+  MeasuredStep<T> step(on.method(), on.model(), place.z, place.t, h, warm_up);
+  const double residual = residual_of(row, step);
+  if (!(residual > tolerance<T>())) return residual;
+  std::vector<double> moved;
+  for (int seed = 1; seed <= moved_steps; ++seed) {
+    MeasuredStep<T> again(on.method(), on.model(), moved_by_a_unit<T>(place.z, seed), place.t, h, warm_up);
+    moved.push_back(residual_of(row, again));
+  }
+  return is_rounding(moved, tolerance<T>()) ? 0 : residual;
+}
+
+// Rows of the claims that the method makes and that a single step shows.
+std::vector<const ClaimCheck*> rows_of(const MethodOnModel& on) {
+  std::vector<const ClaimCheck*> rows;
+  for (const ClaimCheck& row : claim_checks())
+    if (on.claims(row.claim) && !row.of_rounding &&
+        !(row.from_jacobian && (!on.differentiable() || on.history())))
+      rows.push_back(&row);
+  return rows;
+}
+
+// Fails where a claim is lost at one of the places; double coefficients and stopping rules leave more than
+// rounding.
+Check judged(const MethodOnModel& on, const ClaimCheck& row, const std::vector<Place>& places) {
+  Check check = on.check(std::string(claim_row(row.claim).name) + " along a run",
+                         std::string(claim_row(row.claim).scope), precision_name<double>());
+  check.tolerance = most_left_by_stopping * tolerance<double>() * on.growth_of_round_off();
+  check.result = CheckResult::pass;
+  const auto at = [&]<class T>(T /*scalar*/, const Place& place) {
+    return on.history() ? residual_at<T>(on, row, {on.start(), on.time()}, on.step_size(), place.steps)
+                        : residual_at<T>(on, row, place, on.step_size(), 0);
+  };
+  for (const Place& place : places) {
+    const double residual = at(0.0, place);
+    if (std::isnan(residual)) break;  // steps that do not converge are no claim's fault
+    check.measured = std::max(check.measured, residual);
+    if (residual <= check.tolerance) continue;
+    // What falls with the precision is rounding, or what the stopping rule leaves.
+    constexpr double fall = 1e13, most = 1e-8;
+    if (!on.double_coefficients() && residual <= most && at(Quad(), place) * fall <= residual) continue;
+    check.result = CheckResult::fail;
+    check.reason = "lost in step " + std::to_string(place.steps + 1);
+    break;
+  }
+  return check;
+}
+
+// How far one step ends from two of half its size, relative to the state; not-a-number where one does not
+// converge.
+double roughness(const MethodOnModel& on, const Real& h) {
+  MeasuredStep<double> step(on.method(), on.model(), on.start(), on.time(), h);
+  const auto halves = step.after(step.t(), step.h() / 2, step.start(), 2);
+  if (!step.end() || !halves) return no_step;
+  double size = 0, difference = 0;
+  for (std::size_t k = 0; k < halves->size(); ++k) {
+    size = std::max(size, std::abs((*halves)[k]));
+    difference = std::max(difference, std::abs((*halves)[k] - (*step.end())[k]));
+  }
+  return difference / size;
+}
+
+// The largest step from the generic state, of 2, 4, ... 64 times the one that is judged, that still follows
+// the motion. Beyond, the equations of an implicit step have several solutions, and the step back may find
+// another one.
+Real largest_step(const MethodOnModel& on) {
+  constexpr double most_rough = 0.02;
+  Real h = on.step_size();
+  for (int k = 0; k < most_doublings; ++k) {
+    const Real next = h * Real(2);
+    if (!(roughness(on, next) <= most_rough)) break;
+    h = next;
+  }
+  return h;
+}
+
+}  // namespace
+
+std::vector<Check> check_along_run(MethodOnModel& on) {
+  std::vector<Check> checks;
+  Check whole = on.check("steps of a run", "methods without history", precision_name<double>());
+  const auto add = [&](const Check& named, const auto& judge) {
+    checks.push_back(within_budget(named, judge));
+  };
+  RunInDouble run;
+  if (on.history()) {
+    for (const int steps : warm_ups) run.places.push_back({on.start(), on.time(), steps});
+  } else {
+    add(whole, [&] {
+      run = follow(on);
+      whole.measured = run.difference;
+      whole.tolerance = most_left_by_stopping * tolerance<double>();
+      whole.result = run.differs == 0 ? CheckResult::pass : CheckResult::fail;
+      if (run.differs != 0)
+        whole.reason =
+            "step " + std::to_string(run.differs) + " of a run is another than the same step by itself";
+      return whole;
+    });
+  }
+  for (const ClaimCheck* row : rows_of(on)) {
+    const Check named =
+        on.check(std::string(claim_row(row->claim).name) + " along a run", "", precision_name<double>());
+    add(named, [&] { return judged(on, *row, run.places); });
+  }
+  if (on.history() || on.double_coefficients() || on.model()->dimension() > small_system) return checks;
+  const Real h = largest_step(on);
+  if (h == on.step_size()) return checks;
+  for (const ClaimCheck* row : rows_of(on)) {
+    Check check = on.check(std::string(claim_row(row->claim).name) + " in a large step",
+                           std::string(claim_row(row->claim).scope), precision_name<Quad>());
+    add(check, [&] {
+      check.measured = residual_at<Quad>(on, *row, {on.start(), on.time()}, h, 0);
+      check.tolerance = most_left_by_stopping * tolerance<Quad>() * on.growth_of_round_off();
+      if (std::isnan(check.measured))
+        return not_judged(check, "a step of " + to_string(h.quad(), 3) + " does not converge");
+      check.result = check.measured <= check.tolerance ? CheckResult::pass : CheckResult::fail;
+      if (check.result == CheckResult::fail) check.reason = "lost in a step of " + to_string(h.quad(), 3);
+      return check;
+    });
+  }
+  return checks;
+}
+
+}  // namespace pfaff
