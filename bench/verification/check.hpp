@@ -80,9 +80,11 @@ double order_at_small_steps(const MethodInstance& method, const std::shared_ptr<
 /// Checks of one method with given parameters on one system, in double and quad.
 std::vector<Check> check_method(const MethodPlugin& plugin, const Assignments& parameters,
                                 const SystemPlugin& system);
-/// The same for a method and a model that fit each other, listed under the name `system`.
+/// The same for a method and a model that fit each other, listed under the name `system`; along runs, too,
+/// where that is asked for.
 std::vector<Check> check_method(const MethodInstance& method, const Assignments& parameters,
-                                const std::string& system, const std::shared_ptr<const Model>& model);
+                                const std::string& system, const std::shared_ptr<const Model>& model,
+                                bool along_runs = true);
 /// The method with one coefficient changed by 1e-6 must lose its order or its structure.
 std::vector<Check> check_changed_coefficient(const MethodPlugin& plugin, const Assignments& parameters,
                                              const SystemPlugin& system);

@@ -110,7 +110,7 @@ void excuse_stopping(std::vector<Check>& checks) {
 namespace {
 std::vector<Check> checks_of(const MethodInstance& method, const Assignments& parameters,
                              const std::string& system, const std::shared_ptr<const Model>& model,
-                             bool long_runs) {
+                             bool long_runs, bool along_runs) {
   std::optional<MethodOnModel> made;
   std::vector<Check> checks{
       within_budget(check_named(method, parameters, system, "steps", "every system", "both"),
@@ -137,20 +137,21 @@ std::vector<Check> checks_of(const MethodInstance& method, const Assignments& pa
   }
   check_claims<double>(checks, on, long_runs);
   excuse_stopping(checks);
-  if (!long_runs) return checks;
+  if (!along_runs) return checks;
   for (Check& check : check_along_run(on)) checks.push_back(std::move(check));
   return checks;
 }
 }  // namespace
 
 std::vector<Check> check_method(const MethodInstance& method, const Assignments& parameters,
-                                const std::string& system, const std::shared_ptr<const Model>& model) {
-  return checks_of(method, parameters, system, model, true);
+                                const std::string& system, const std::shared_ptr<const Model>& model,
+                                bool along_runs) {
+  return checks_of(method, parameters, system, model, true, along_runs);
 }
 
 std::vector<Check> check_in_short_runs(const MethodInstance& method, const Assignments& parameters,
                                        const std::string& system, const std::shared_ptr<const Model>& model) {
-  return checks_of(method, parameters, system, model, false);
+  return checks_of(method, parameters, system, model, false, false);
 }
 
 std::vector<Check> check_method(const MethodPlugin& plugin, const Assignments& parameters,

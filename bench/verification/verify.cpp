@@ -212,6 +212,8 @@ class Jobs {
     auto instances = parameters(method.name(), method.instances(settings_.full));
     if (named(method.name()) && settings_.set.empty())
       for (const Assignments& drawn : parameters_near_defaults(method, 1)) instances.push_back(drawn);
+    // With the many parameters of a full verification, runs would take most of its time.
+    const auto usual = method.instances(false);
     for (const Assignments& p : instances) {
       spend(0, 0);  // there are thousands of pairs, and somebody may not want to wait for their list
       const auto instance = method.make(p);
@@ -225,9 +227,10 @@ class Jobs {
         continue;
       if (in_passing && model->dimension() > most_formulated) continue;
       const std::string on = called(system.name(), parameters_of(system));
+      const bool along_runs = !settings_.full || std::find(usual.begin(), usual.end(), p) != usual.end();
       jobs_.push_back({called(method.name(), p) + " on " + on, [=, &method, &system] {
                          const auto made = method.make(p);
-                         auto checks = check_method(*made, p, on, motion);
+                         auto checks = check_method(*made, p, on, motion, along_runs);
                          if (system.name() == controlled_on(*made))
                            for (Check& check : check_changed_coefficient(method, p, system))
                              checks.push_back(std::move(check));

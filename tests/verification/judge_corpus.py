@@ -2,8 +2,8 @@
 
     judge_corpus.py PROGRAM CORPUS [--plugins DIR] [--half NAME] [--jobs N] [--only NAME...]
 
-CORPUS has a folder for each half (`seen`, which the checks were mended with, and `unseen`, which they were not), with
-the folders `sound` and `false`. A text file (.toml) is verified by its path; a source (.cpp) is verified as the plug-in
+CORPUS has a folder for each half, such as `seen`, which the checks were mended with, with the folders `sound` and
+`false`. A text file (.toml) is verified by its path; a source (.cpp) is verified as the plug-in
 DIR/STEM.so, by the name that it registers: its stem, with - for _. A sound item is judged rightly where `verify` ends
 with 0 and some claim was judged; a false one where it ends with 1 because a claim fails. An item that does not end
 within two minutes, or cannot be read, is judged wrongly.
