@@ -77,6 +77,7 @@ class Jobs {
   explicit Jobs(const VerificationSettings& settings)
       : settings_(settings), systems_(systems().all()), brackets_(brackets().all()) {
     add_texts();
+    leave_out_systems_without_a_state();
     add_systems();
     add_brackets();
     add_formulations();
@@ -119,6 +120,25 @@ class Jobs {
         texts_[systems_.back()] = name;
       }
     }
+  }
+
+  // Claims are measured near the initial state. A system that has none, since whoever runs it states one, is
+  // refused where it is asked for by name, and otherwise only said to be left out.
+  void leave_out_systems_without_a_state() {
+    std::erase_if(systems_, [&](const SystemPlugin* system) {
+      if (!system->make(parameters_of(*system))->initial().empty()) return false;
+      if (named(asked_as(*system)))
+        throw InputError("system " + system->name() +
+                         " has no initial state, near which its claims are measured");
+      if (wanted("systems"))
+        jobs_.push_back({system->name(), [system] {
+                           Check whole;
+                           whole.plugin = whole.system = system->name();
+                           whole.claim = "checks";
+                           return std::vector{not_judged(whole, "the system has no initial state")};
+                         }});
+      return true;
+    });
   }
 
   void add_systems() {
@@ -261,6 +281,7 @@ void validate(const VerificationSettings& settings) {
       std::find(kinds.begin(), kinds.end(), settings.names.front()) != kinds.end())
     throw InputError("--set: expected the name of one plug-in, whose parameters these are");
 }
+
 // A claim that could be judged on no system is no sound one. Added for methods that were tried on every
 // system; the order counts as judged where one of its checks is.
 void add_claims_judged_nowhere(std::vector<Check>& checks, const VerificationSettings& settings) {

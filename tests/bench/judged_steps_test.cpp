@@ -75,6 +75,27 @@ TEST(JudgedSteps, AMethodThatNeverStepsFails) {
   EXPECT_NE(std::find(failed.begin(), failed.end(), "steps"), failed.end());
 }
 
+struct Stateless {
+  static constexpr int dimension = 2;
+  template <class T>
+  T hamiltonian(const T& /*t*/, In<T> z) const {
+    return z[0] * z[0] + z[1] * z[1];
+  }
+};
+
+// Whoever runs it states where it begins; a method is not to pay for that, and who asks for its claims is
+// told.
+TEST(JudgedSteps, ASystemWithoutAnInitialStateIsJudgedForNobody) {
+  static const System<Stateless> stateless{{.name = "begins-anywhere",
+                                            .title = "a test",
+                                            .reference = "su-qin",
+                                            .coordinates = {{"q", ""}, {"p", ""}}}};
+  static const Method<Stuck> stuck{described("stuck-beside-it", 2, {Claim::none})};
+  for (const Check& check : verify({.names = {"stuck-beside-it"}}))
+    EXPECT_EQ(check.system.find("begins-anywhere"), std::string::npos);
+  EXPECT_THROW(verify({.names = {"begins-anywhere"}}), InputError);
+}
+
 // Momenta of planets are 1e-11 of their positions, which is said where a step does not converge there.
 TEST(JudgedSteps, AStepOnCoordinatesOfVeryDifferentSizesNeedNotConverge) {
   static const Method<Stuck> stuck{described("stuck-far-apart", 2, {Claim::none})};
