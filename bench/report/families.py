@@ -3,7 +3,8 @@
 A method belongs to the first family of which a word stands in the name of its integrator; a method that nobody has
 placed is of the last one. Colours come in pairs, for light and for dark paper; that families also differ in their marks
 keeps them apart in grey and for every kind of sight. Within a family lines are solid, dashed, dotted and dash-dotted, by
-falling order. A filled mark says that the method keeps the structure of its problem, an open one that it does not.
+falling order. A filled mark says that the method keeps the structure of its problem, an open one that it does not, and one of
+which half is filled that this is not known.
 """
 import dataclasses
 
@@ -48,15 +49,17 @@ def family_of(integrator):
     return next((f for f in FAMILIES if words & set(f.words)), FAMILIES[-1])
 
 
-def mark(family, filled):
-    """The mark as an SVG element, in the family's colour on whatever paper."""
-    kind = "full" if filled else "open"
-    return (f'<svg class="mk {kind}" style="--c:var(--{family.key})" width="12" height="12" viewBox="0 0 12 12" '
-            f'aria-hidden="true">{SHAPES[family.mark]}</svg>')
+def mark(family, fill):
+    """The mark as an SVG element, in the family's colour on whatever paper; the fill is "full", "open" or "half"."""
+    shape = SHAPES[family.mark]
+    half = f'<svg class="part" width="6" height="12" viewBox="0 0 6 12">{shape}</svg>' if fill == "half" else ""
+    return (f'<svg class="mk {"full" if fill == "full" else "open"}" style="--c:var(--{family.key})" width="12" height="12" '
+            f'viewBox="0 0 12 12" aria-hidden="true">{shape}{half}</svg>')
 
 
-def style(family, rank, filled):
+def style(family, rank, fill):
     """Line and marker of the method that is the rank-th of its family, as matplotlib takes them."""
     colour = family.light
     return {"color": colour, "linestyle": DASHES[rank % len(DASHES)], "marker": family.mark, "markersize": 5,
-            "markerfacecolor": colour if filled else "#fefefe", "markeredgecolor": colour, "markeredgewidth": 1.2}
+            "fillstyle": "left" if fill == "half" else "full", "markerfacecolor": "#fefefe" if fill == "open" else colour,
+            "markerfacecoloralt": "#fefefe", "markeredgecolor": colour, "markeredgewidth": 1.2}

@@ -65,7 +65,7 @@ def look_of(experiment, label):
     """How the lines of a method look: its family's colour and mark, and a dash by its place among those of the family."""
     families = {m["label"]: family_of(m.get("integrator") or m["label"]) for m in experiment.methods}
     kin = [other for other, family in families.items() if family is families[label]]
-    return style(families[label], kin.index(label), kin.index(label) % 2 == 0)
+    return style(families[label], kin.index(label), "full" if kin.index(label) % 2 == 0 else "open")
 
 
 def styled(experiment, run, target):

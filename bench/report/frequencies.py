@@ -83,7 +83,7 @@ def draw(verdict, found, axis, wide):
             if method not in by_label:
                 continue
             family = by_label[method].curve.family
-            look = style(family, rank[method], line.steady) | {"linewidth": 1.5, "markersize": 4.5}
+            look = style(family, rank[method], "full" if line.steady else "open") | {"linewidth": 1.5, "markersize": 4.5}
             placed = axis.place(line.errors)
             canvas.line(axes, line.steps, placed, f"{method}: {line.errors[0]:.1e} at the largest step", **look)
             ends.append((method, placed[-1], family.light))
@@ -98,13 +98,16 @@ def draw(verdict, found, axis, wide):
 
 
 def described(verdict, found):
-    """Who turns what best at the largest step that most methods have, in a sentence for each vector."""
+    """Who turns what best at the largest step that most methods have, of those whose errors are steady; a sentence for each
+    vector."""
     parts = []
     for vector, (_, lines) in found.items():
         steps = [line.steps[0] for line in lines.values()]
         common = max(set(steps), key=steps.count)
-        at = {method: line.errors[0] for method, line in lines.items() if line.steps[0] == common}
+        at = {method: line.errors[0] for method, line in lines.items() if line.steps[0] == common and line.steady}
+        if len(at) < 2:
+            continue
         best, worst = min(at, key=at.get), max(at, key=at.get)
         parts.append(f"At step {common:.4g} the frequency of {vector} is best with {best}, wrong by {at[best]:.1e}, and worst with "
                      f"{worst}, by {at[worst]:.1e} rad per {unit_of(verdict.case)}.")
-    return " ".join(parts)
+    return " ".join(parts) or "Errors of frequencies against the step."
