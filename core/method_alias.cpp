@@ -71,6 +71,7 @@ class AliasInstance final : public MakerOf<AliasInstance, MethodInstance> {
     return own;
   }
   [[nodiscard]] FacetSet needs() const override { return instance_->needs(); }
+  [[nodiscard]] std::string family() const override { return instance_->family(); }
   [[nodiscard]] int order(const Model& model) const override { return instance_->order(model); }
   [[nodiscard]] bool order_is_lower_bound() const override { return instance_->order_is_lower_bound(); }
   [[nodiscard]] bool order_is_exact() const override { return instance_->order_is_exact(); }

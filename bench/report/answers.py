@@ -2,11 +2,10 @@
 each with its assertion as data (assertion.py).
 
 growth       with which power of time the rms error of the conserved quantity grows, with an interval that leaving out one
-             seed after the other gives. A power is called that of a random walk or a proportion to time where its interval
-             holds 1/2 or 1 and not the other.
+             seed after the other gives. An interval of at most SHARP to either side that holds 0, 1/2 or 1 tells that power.
 constraints  who stays on the constraints, which is a residual at round-off, and by how much others leave them
 agreement    how far motions are from each other in two formulations of one system, over the size of the motion: AGREE and
-             less is agreement, DIFFER and more is none, where methods of one formulation are ten times as near to each other
+             less is agreement; DIFFER and more is none, where methods of formulations that agree are ten times as near
 frequencies  with which method a vector turns most nearly as in the solution, and with which least
 """
 import itertools
@@ -21,8 +20,8 @@ from sentence import name, names, quantity, wheres
 from verdict import TIE
 from wording import listed, size, text
 
-AGREE, DIFFER = 1e-3, 1e-2
-POWERS = ((0.5, "as a random walk does"), (1.0, "in proportion to time"))
+AGREE, DIFFER, SHARP = 1e-3, 1e-2, 0.25
+POWERS = {0.5: "grows as a random walk does", 1.0: "grows in proportion to time", 0.0: "does not grow"}
 
 
 def growth(verdict):
@@ -31,20 +30,20 @@ def growth(verdict):
         return []
     found = {run.method: (run, p, half) for run, p, half in growth_of(verdict.experiment, case) if not math.isnan(half)}
     rows = [r for r in verdict.rivals if r.label in found]
-    groups = {"": []}
+    groups = {}
     for row in rows:
         _, p, half = found[row.label]
-        holds = [words for power, words in POWERS if abs(p - power) <= half]
-        groups.setdefault(holds[0] if len(holds) == 1 else "" if holds else "with another power", []).append(row)
-    untold = groups.pop("")
+        holds = [words for power, words in POWERS.items() if abs(p - power) <= half]
+        groups.setdefault("" if half > SHARP or len(holds) > 1 else (holds or ["grows with another power"])[0], []).append(row)
+    untold = groups.pop("", [])
+    if not groups:
+        return []
 
     def told(some):
         return listed(f"{name(r)} (<i>t</i><sup>{found[r.label][1]:.2f} ± {found[r.label][2]:.2f}</sup>)" for r in some)
-    if not groups:
-        return []
-    words = (f"the rms error of {quantity(verdict)} over {case['seeds']} seeds grows "
-             + "; ".join(f"{words} with {told(some)}" for words, some in groups.items())
-             + (f"; with {told(untold)} the power is not told" if untold else ""))
+    words = (f"the rms error of {quantity(verdict)} over {case['seeds']} seeds "
+             + ", and ".join(f"{words} with {told(some)}" for words, some in groups.items())
+             + (f"; with {names(untold)} the power is not told" if untold else ""))
     return [Clause(words, "grows-as", labels(r for some in groups.values() for r in some), [case["conserved"]],
                    {r.label: wheres(verdict, found[r.label][0]) for r in rows},
                    {"groups": {words: labels(some) for words, some in groups.items()} | {"": labels(untold)},
@@ -79,9 +78,8 @@ def constraints(verdict):
                          f"by {ends(off)}")
             first = last = []
         elif off:
-            between = "" if len(off) == len(first) + len(last) else ", the others by sizes between"
-            parts.append(f"{names(first)} {'leaves' if len(first) == 1 else 'leave'} them by {ends(first)}{between}, "
-                         f"{names(last)} by {ends(last)}, the most")
+            parts.append(f"{names(first)} {'leaves' if len(first) == 1 else 'leave'} them least, by {ends(first)}, and {names(last)} "
+                         f"most, by {ends(last)}")
         return [Clause("; ".join(parts), "constraints", labels(on), [f"{level}:max"],
                        {r.label: wheres(verdict, runs[r.label]) for r in rows},
                        {"off": labels(off), "least": labels(first), "most": labels(last),
@@ -118,27 +116,41 @@ def distance(one: Recording, other: Recording):
 
 
 def agreement(verdict):
-    found, out = motions(verdict), []
-    for kind, other in itertools.combinations(found, 2):
-        apart = distances(found[kind], found[other])
-        within = distances(found[kind], found[kind]) + distances(found[other], found[other])
-        if not apart or not within or any(map(math.isnan, apart + within)):
-            continue
-        if max(apart) <= AGREE:
-            words, relation = f"{text(kind)} and {text(other)} agree, to {size(max(apart))} of the motion", "agree"
-        elif min(apart) >= DIFFER and min(apart) > 10 * max(within):
-            words, relation = f"{text(kind)} and {text(other)} differ, by {size(min(apart))} of the motion or more", "differ"
-        else:
-            continue
-        runs = {key: run for some in (kind, other) for key, (run, _) in found[some].items()}
-        state = next(iter(found[kind].values()))[1].state
-        rows = {}
-        for (method, _), run in runs.items():
-            rows.setdefault(method, []).append(run.where)
-        out.append(Clause(words, relation, [kind, other], state, rows,
-                          {"methods": [sorted({m for m, _ in found[k]}) for k in (kind, other)],
-                           "distance": max(apart) if relation == "agree" else min(apart), "within": max(within)}))
+    found, groups, out = motions(verdict), [], []
+    for kind in found:
+        group = next((g for g in groups if all(near(found[kind], found[other]) for other in g)), None)
+        groups = groups if group else groups + [[kind]]
+        group.append(kind) if group else None
+    for group in groups:
+        if len(group) > 1:
+            apart = max(max(distances(found[a], found[b])) for a, b in itertools.combinations(group, 2))
+            out.append(motion_clause(f"{listed(map(text, group))} agree, to {size(apart)} of the motion", "agree", found,
+                                     [[kind] for kind in group], apart))
+    for one, other in itertools.combinations(groups, 2):
+        apart = [d for a in one for b in other for d in distances(found[a], found[b])]
+        within = [d for group in (one, other) for a, b in itertools.combinations_with_replacement(group, 2)
+                  for d in distances(found[a], found[b])]
+        if apart and within and min(apart) >= max(DIFFER, 10 * max(within)):  # which nan is not
+            out.append(motion_clause(f"{listed(map(text, one))} {'differs' if len(one) == 1 else 'differ'} from "
+                                     f"{listed(map(text, other))}, by {size(min(apart))} of the motion or more", "differ", found,
+                                     [one, other], min(apart)))
     return out
+
+
+def near(some, others):
+    apart = distances(some, others)
+    return bool(apart) and not any(map(math.isnan, apart)) and max(apart) <= AGREE
+
+
+def motion_clause(words, relation, found, groups, apart):
+    """A clause on the motions of groups of formulations, whose distance is `apart`."""
+    rows = {}
+    for kind in itertools.chain(*groups):
+        for (method, _), (run, _) in found[kind].items():
+            rows.setdefault(method, []).append(run.where)
+    state = next(iter(found[groups[0][0]].values()))[1].state
+    methods = [sorted({m for kind in group for m, _ in found[kind]}) for group in groups]
+    return Clause(words, relation, list(itertools.chain(*groups)), state, rows, {"methods": methods, "distance": apart})
 
 
 def distances(some, others):
@@ -148,12 +160,13 @@ def distances(some, others):
 
 def turning(verdict):
     out = []
-    for vector, (rate, lines) in frequencies(verdict.experiment, verdict.case).items():
-        steps = [line.steps[0] for line in lines.values()]
+    for vector, (_, lines) in frequencies(verdict.experiment, verdict.case).items():
+        steps = [h for line in lines.values() for h, steady in zip(line.steps, line.steadies) if steady]
         if not steps:
             continue
-        step = max(set(steps), key=lambda h: (steps.count(h), h))
-        at = {m: line.errors[line.steps.index(step)] for m, line in lines.items() if step in line.steps and line.steady}
+        step = max(set(steps), key=lambda h: (steps.count(h), -h))
+        at = {m: line.errors[line.steps.index(step)] for m, line in lines.items()
+              if step in line.steps and line.steadies[line.steps.index(step)]}
         rows = sorted((r for r in verdict.rivals if r.label in at), key=lambda r: at[r.label])
         if len(rows) < 2:
             continue
@@ -163,7 +176,7 @@ def turning(verdict):
             continue
         unknown = [m for m in lines if m not in at]
         scope = f", of {len(rows)} methods whose error is steady," if unknown else ""
-        begin = f"at step {step:.4g} " if not out else ""
+        begin = f"at step {step:.4g} "
         words = (f"{begin}{text(vector)}{scope} turns best with {names(best)}, wrong by {size(at[rows[0].label])} rad per unit of time, and "
                  f"worst with {names(worst)}, by {size(at[rows[-1].label])}")
         out.append(Clause(words, "turns", labels(best), ["error", "change"], {},

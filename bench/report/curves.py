@@ -12,7 +12,7 @@ import statistics
 
 from error_measure import error_measure
 from experiment import ABOVE_ROUND_OFF, ROUND_OFF, UNIT_ROUND_OFF, Run
-from families import family_of
+from families import family_named
 
 CONTENDED = 1.3  # a timing whose median is above this times its fastest repetition was disturbed
 LOST = 0.5  # a relative error of this size says nothing any more: the phase is lost
@@ -62,7 +62,7 @@ class Curve:
 
     @property
     def family(self):
-        return family_of(self.method.get("integrator") or self.label)
+        return family_named(self.method.get("family"))
 
     @property
     def adaptive(self):

@@ -147,7 +147,7 @@ class Experiment:
                                  f"got '{case['precision']}'")
         for i, method in enumerate(self.methods):
             require(method, f"experiment.json, method {i + 1}", label=str)
-            allow(method, f"experiment.json, method {method['label']}", parameters=dict, systems=list)
+            allow(method, f"experiment.json, method {method['label']}", parameters=dict, systems=list, family=str, another_motion=bool)
             for claimed in method.get("systems") or []:
                 require(claimed, f"experiment.json, method {method['label']}, systems", name=str, preserves=list)
                 if type(claimed.get("order")) is not int:

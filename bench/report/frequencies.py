@@ -23,7 +23,11 @@ STEADY = 1 / 3  # of the error, by which it may change from half to half
 class Line:
     steps: list = dataclasses.field(default_factory=list)
     errors: list = dataclasses.field(default_factory=list)  # without their signs
-    steady: bool = True
+    steadies: list = dataclasses.field(default_factory=list)  # whether the error is the same in both halves of the time
+
+    @property
+    def steady(self):
+        return all(self.steadies)
 
 
 def frequencies(experiment, case):
@@ -39,11 +43,11 @@ def frequencies(experiment, case):
         line = lines.setdefault(cells["method"], Line())
         line.steps.append(step)
         line.errors.append(abs(error))
-        line.steady = line.steady and abs(change) <= STEADY * abs(error)
+        line.steadies.append(abs(change) <= STEADY * abs(error))
     for _, lines in found.values():
         for line in lines.values():
             order = sorted(range(len(line.steps)), key=lambda k: -line.steps[k])
-            line.steps, line.errors = [line.steps[k] for k in order], [line.errors[k] for k in order]
+            line.steps, line.errors, line.steadies = ([some[k] for k in order] for some in (line.steps, line.errors, line.steadies))
     return found
 
 
@@ -104,7 +108,7 @@ def described(verdict, found):
     for vector, (_, lines) in found.items():
         steps = [line.steps[0] for line in lines.values()]
         common = max(set(steps), key=steps.count)
-        at = {method: line.errors[0] for method, line in lines.items() if line.steps[0] == common and line.steady}
+        at = {method: line.errors[0] for method, line in lines.items() if line.steps[0] == common and line.steadies[0]}
         if len(at) < 2:
             continue
         best, worst = min(at, key=at.get), max(at, key=at.get)

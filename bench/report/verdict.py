@@ -84,7 +84,7 @@ class Verdict:
 
     @property
     def rivals(self):
-        return [r for r in self.rows if not r.curve.method.get("another_motion")]
+        return [r for r in self.rows if not r.curve.method.get("another_motion")] or self.rows
 
     def ranked(self, target):
         """The rivals of which runs lie on both sides of a target, the cheapest first."""

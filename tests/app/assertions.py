@@ -7,7 +7,7 @@ import statistics as st
 
 from experiment_files import Files, number
 
-POWERS = {"as a random walk does": [0.5], "in proportion to time": [1.0], "with another power": [], "": [0.5, 1.0]}
+POWERS = {"grows as a random walk does": [0.5], "grows in proportion to time": [1.0], "does not grow": [0], "grows with another power": []}
 
 
 class Judge(Files):
@@ -76,7 +76,7 @@ class Judge(Files):
             return self.at_level(a) and all(self.value(a, m) is x for x, of in groups for m in of)
         if relation == "grows-as":
             return all(math.isclose(p, self.power([self.series(w, a["columns"]) for w in a["rows"][m]]), abs_tol=1e-6) and
-                       [x for x in (0.5, 1.0) if abs(x - p) <= half] == POWERS[words]
+                       ([x for x in (0, 0.5, 1.0) if abs(x - p) <= half] == POWERS[words] and half <= 0.25 if words else True)
                        for words, of in a["groups"].items() for m in of for p, half in [a["powers"][m]])
         if relation == "constraints":
             spans = {m: (min(v), max(v)) for m in a["rows"] for v in [[number(self.rows[w][a["columns"][0]]) for w in a["rows"][m]]]}
@@ -84,9 +84,9 @@ class Judge(Files):
                 spans[low][0] <= spans[m][1] * 1.1 for low in a["least"] for m in a["off"]) and all(
                 spans[m][0] <= spans[high][1] * 1.1 for high in a["most"] for m in a["off"])
         if relation in ("agree", "differ"):
-            far = [self.apart(a, v, w) for one in a["methods"][0] for v in a["rows"][one] for o in a["methods"][1] for w in a["rows"][o]
-                   if self.rows[v].get("seed") == self.rows[w].get("seed")]
-            return max(far) <= 1e-3 if relation == "agree" else min(far) >= max(1e-2, 10 * a["within"])
+            far = [self.apart(a, v, w) for one, other in itertools.combinations(a["methods"], 2) for m in one for n in other
+                   for v in a["rows"][m] for w in a["rows"][n] if self.rows[v].get("seed") == self.rows[w].get("seed")]
+            return max(far) <= 1e-3 if relation == "agree" else min(far) >= 1e-2
         at = {r["method"]: abs(number(r["error"])) for r in self.turns.values() if (r["case"], r["vector"]) == (a["case"], a["vector"])
               and float(r["step"]) == a["step"] and r["method"] in a["among"]}
         return all(at[m] <= 1.1 * min(at.values()) for m in said) and all(1.1 * at[m] >= max(at.values()) for m in a["worst"])

@@ -1,6 +1,7 @@
 """bench/report: the verdict of a case, and the sentence and table that say it."""
 import json
 import math
+import re
 import unittest
 
 from synthetic import SCRIPTS, Fresh, load, parsed, reading, run, save, synthetic
@@ -12,17 +13,29 @@ import verdict_table  # noqa: E402
 import wording  # noqa: E402
 
 
-class Families(unittest.TestCase):
-    def test_methods_that_ship_have_families(self):
-        page = (SCRIPTS.parents[1] / "docs" / "plugins.md").read_text(encoding="utf-8")
-        part = page[page.index("## Integrators"):]
-        part = part[:part.index("\n## ", 5)] if "\n## " in part[5:] else part
-        names = [line.split("`")[1] for line in part.splitlines() if line.startswith("| `")]
-        self.assertGreater(sum(families.family_of(n).key != "other" for n in names), 25)
-        self.assertEqual(families.family_of("somebodys-rule").key, "other")
-        for name, key in (("gauss-darboux", "darboux"), ("odeint-mclachlan", "splitting"), ("odeint-rk4", "explicit"),
-                          ("mclachlan-perlmutter", "nonholonomic"), ("projected-gauss", "constrained")):
-            self.assertEqual(families.family_of(name).key, key)
+class Families(Fresh):
+    def test_families_are_those_that_plug_ins_name(self):
+        """Every family that a source names is known, and every family but the last is named."""
+        named = set()
+        for path in (SCRIPTS.parents[1] / "integrators").glob("*/*.cpp"):
+            named |= set(re.findall(r'\.?family = "([a-z]+)"', path.read_text(encoding="utf-8")))
+        self.assertEqual(named, {f.key for f in families.FAMILIES[:-1]})
+
+    def test_a_family_that_is_not_known_is_refused(self):
+        self.assertEqual(families.family_named("").key, "other")
+        synthetic(self.folder)
+        path = self.folder / "experiment.json"
+        head = json.loads(path.read_text())
+        head["methods"][0]["family"] = "gauss"
+        path.write_text(json.dumps(head))
+        shown = reading.Experiment(self.folder)
+        self.assertEqual({r.label: r.curve.family.key for r in verdict.Verdict(shown, shown.cases[0]).rows},
+                         {"mid": "gauss", "rk": "other", "bad": "other"})
+        head["methods"][0]["family"] = "gaus"
+        path.write_text(json.dumps(head))
+        status, told = run(self.folder)
+        self.assertEqual(status, 2)
+        self.assertIn("unknown family of methods 'gaus'; expected one of generating, darboux", told)
 
 
 class Said(Fresh):
@@ -92,8 +105,8 @@ class Said(Fresh):
     def test_the_subject_beside_gauss_of_equal_order(self):
         synthetic(self.folder)
         path = self.folder / "experiment.json"
-        text = path.read_text().replace('"integrator": "mid"', '"integrator": "generating-function"').replace(
-            '"integrator": "bad"', '"integrator": "gauss"').replace('"order": 2', '"order": 4')
+        text = path.read_text().replace('"integrator": "mid"', '"family": "generating"').replace(
+            '"integrator": "bad"', '"family": "gauss"').replace('"order": 2', '"order": 4')
         path.write_text(text)
         for step, mid, bad in (("0.4", "1e-3", ""), ("0.2", "1e-5", "1e-4"), ("0.1", "1e-8", "1e-7")):
             self.edit("results.csv", "error_max", lambda x: mid, lambda row: row[2] == "mid" and row[5] == step)
