@@ -61,6 +61,8 @@ class Times(unittest.TestCase):
         self.assertLess(coarse.cost, some.time_to(3e-6)[0])
         self.assertIsNone(some.bracket(0.5))  # the coarsest run is better already
         self.assertIsNone(some.bracket(1e-30))
+        # Better already at the coarsest, and on both sides further on, by accident.
+        self.assertIsNone(curve([(0.4, 1, 1e-9), (0.2, 2, 1e-3), (0.1, 4, 1e-9)]).bracket(1e-6))
 
     def test_at_equal_cost(self):
         some = curve(power_law(4))

@@ -205,6 +205,8 @@ class Said(Fresh):
         self.assertEqual([r.label for r in self.verdict().best(1e-4)], ["rk", "bad"])
         self.edit("cost.csv", "ns_per_step_min", lambda x: "60", lambda row: row[1] == "bad")
         self.assertEqual([r.label for r in self.verdict().best(1e-4)], ["rk"])
+        self.edit("cost.csv", "ns_per_step", lambda x: "61", lambda row: row[1] == "rk")  # the median reaches what bad takes
+        self.assertEqual([r.label for r in self.verdict().best(1e-4)], ["rk", "bad"])
 
     def test_the_first_screen_says_it(self):
         synthetic(self.folder)
