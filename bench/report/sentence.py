@@ -135,7 +135,7 @@ def structure(verdict):
         out = f"{scope}all keep {what}" if unknown else f"{'both' if known == 2 else 'all'} methods keep {what}"
     elif not keep:
         out = f"{scope}none keeps {what}" if unknown else f"no method keeps {what}"
-    elif len(plain_text(whose)) < len(plain_text(who)) and not whose.startswith(f"{len(lose)} of "):
+    elif len(keep) > 1 and len(plain_text(whose)) < len(plain_text(who)) and not whose.startswith(f"{len(lose)} of "):
         out = f"{scope}all but {whose} keep {what}"
     elif who.startswith(f"{len(keep)} of "):
         out = f"{who} keep {what}" + (f", and {len(lose)} do not" if unknown else "")
@@ -226,12 +226,16 @@ def drift(verdict):
 
 
 def drifting(verdict, rows):
-    """What the rows let the quantity do, by class of drift."""
-    kinds = {}
+    """What the rows let the quantity do, by class of drift; what is no more than round-off adds up to comes last."""
+    kinds, small = {}, [r for r in rows if r.drift <= GROWN * verdict.unit]
     for row in rows:
-        kinds.setdefault(row.drift_class, []).append(row)
-    return [f"{some(of)} {'lets' if len(of) == 1 else 'let'} {quantity(verdict)} drift ({text(kind)}{by_round_off(verdict, of)})"
-            for kind, of in kinds.items()]
+        if row not in small:
+            kinds.setdefault(row.drift_class, []).append(row)
+    out = [f"{some(of)} {'lets' if len(of) == 1 else 'let'} {quantity(verdict)} drift ({text(kind)})" for kind, of in kinds.items()]
+    if small:
+        out.append(f"round-off alone grows with {some(small)} ({listed(dict.fromkeys(text(r.drift_class) for r in small))} of at most "
+                   f"{size(max(r.drift for r in small))})")
+    return out
 
 
 def comparable(rows):
@@ -258,8 +262,3 @@ def at_cost(verdict, rows):
     ends = list(dict.fromkeys(with_work(verdict, x) for x in (costs[0], costs[-1])))
     return f"{'each ' if len(rows) > 1 else ''}at its own step, for {' to '.join(ends)}, "
 
-
-def by_round_off(verdict, rows):
-    """How large drifts are that are no more than what round-off adds up to."""
-    largest = max(r.drift for r in rows)
-    return f", {size(largest)} at most" if largest <= GROWN * verdict.unit else ""

@@ -231,6 +231,12 @@ class Said(Fresh):
         self.edit("results.csv", "energy:class", lambda x: "drifting" if x else x, lambda row: row[2] == "bad")
         self.assertIn("bad lets the energy drift (drifting); of rk it is not known", told())
 
+    def test_what_round_off_adds_up_to_is_told_apart(self):
+        synthetic(self.folder)
+        self.edit("results.csv", "energy:max", lambda x: "3e-13", lambda row: row[2] == "rk")
+        self.assertIn("bad lets the energy drift (drifting) and round-off alone grows with rk (drifting of at most 3·10^−13), the "
+                      "other does not", wording.plain_text(first_screen.below(self.verdict())))
+
     def test_equal_cost_is_said_of_runs_that_cost_the_same(self):
         synthetic(self.folder)
 
