@@ -12,7 +12,6 @@ how they stand.
 import math
 
 from assertion import Clause, labels, three
-from curves import GROWN
 from experiment import DIRECTIONS
 from verdict import TIE
 from wording import counted, listed, plain_text, power, size, text, two_digits
@@ -95,7 +94,7 @@ def losing(verdict):
         return []
     near = {r.label: min(r.curve.measured(), key=lambda p: abs(math.log(p.error / verdict.target))).run for r in best[:2]}
     lost = [r for r in best[:2] if verdict.class_of(near[r.label])[1]
-            and near[r.label].drift(verdict.invariant, "max") > GROWN * verdict.unit]
+            and near[r.label].drift(verdict.invariant, "max") > verdict.rounding(near[r.label])]
     if not lost:
         return []
     kinds = dict.fromkeys(verdict.class_of(near[r.label])[0] for r in lost)
@@ -227,7 +226,7 @@ def drift(verdict):
 
 def drifting(verdict, rows):
     """What the rows let the quantity do, by class of drift; what is no more than round-off adds up to comes last."""
-    kinds, small = {}, [r for r in rows if r.drift <= GROWN * verdict.unit]
+    kinds, small = {}, [r for r in rows if r.drift <= verdict.rounding(r.run)]
     for row in rows:
         if row not in small:
             kinds.setdefault(row.drift_class, []).append(row)

@@ -12,7 +12,7 @@ import dataclasses
 import math
 import statistics
 
-from curves import ZERO, Curve, curves, front
+from curves import GROWN, ZERO, Curve, curves, front
 from error_measure import error_measure
 from experiment import DIRECTIONS, ROUND_OFF, UNIT_ROUND_OFF, Run
 from findings import largest_setback
@@ -130,6 +130,11 @@ class Verdict:
             row.drift = math.nan if any(map(math.isnan, sizes)) else statistics.median(sizes)
             if self.expected in DIRECTIONS:  # a move against the direction, by more than round-off
                 row.drifts = None if math.isnan(row.drift) else row.drift > ROUND_OFF * self.unit
+
+    def rounding(self, run):
+        """What round-off may add up to in a run: GROWN units of the quantity at the start; zero where that is not known."""
+        series = self.experiment.series(run, self.invariant)
+        return GROWN * self.unit * abs(series.initial) if series and math.isfinite(series.initial) else 0.0
 
     def residual(self, row, level):
         """The largest residual of a level of constraints at equal cost, of an ensemble the median over its seeds; nan where

@@ -236,6 +236,12 @@ class Said(Fresh):
         self.edit("results.csv", "energy:max", lambda x: "3e-13", lambda row: row[2] == "rk")
         self.assertIn("bad lets the energy drift (drifting) and round-off alone grows with rk (drifting of at most 3·10^−13), the "
                       "other does not", wording.plain_text(first_screen.below(self.verdict())))
+        # Of a quantity of a ten thousandth the same is no round-off.
+        for path in self.folder.glob("runs/osc-1-*/series.csv"):
+            rows = load(path)
+            save(path, [rows[0]] + [[*row[:2], "1e-4", *row[3:]] for row in rows[1:]])
+        self.assertIn("rk and bad let the energy drift (drifting), the other does not",
+                      wording.plain_text(first_screen.below(self.verdict())))
 
     def test_equal_cost_is_said_of_runs_that_cost_the_same(self):
         synthetic(self.folder)
