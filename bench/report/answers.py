@@ -176,9 +176,8 @@ def turning(verdict):
             continue
         unknown = [m for m in lines if m not in at]
         scope = f", of {len(rows)} methods whose error is steady," if unknown else ""
-        begin = f"at step {step:.4g} "
-        words = (f"{begin}{text(vector)}{scope} turns best with {names(best)}, wrong by {size(at[rows[0].label])} rad per unit of time, and "
-                 f"worst with {names(worst)}, by {size(at[rows[-1].label])}")
+        words = (f"at step {step:.4g} {text(vector)}{scope} turns best with {names(best)}, wrong by {size(at[rows[0].label])} rad per "
+                 f"unit of time, and worst with {names(worst)}, by {size(at[rows[-1].label])}")
         out.append(Clause(words, "turns", labels(best), ["error", "change"], {},
                           {"vector": vector, "step": step, "worst": labels(worst), "among": labels(rows), "unknown": unknown}))
     return out

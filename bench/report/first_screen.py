@@ -13,15 +13,17 @@ from files import InputError
 from wording import counted, listed, plain_text, text
 
 # What answers a question, what stands in the second line, and what is said where the runs do not answer.
+COST = (sentence.cheapest, sentence.losing, sentence.bounded)
+RANKED = (sentence.cheapest, sentence.bounded)
 ANSWERS = {
-    "cost": ((sentence.cheapest, sentence.losing, sentence.structure), (sentence.dearer, sentence.drift), ""),
-    "energy": ((sentence.drift,), (sentence.structure, sentence.cheapest, sentence.dearer),
+    "cost": ((*COST, sentence.structure), (sentence.dearer, sentence.drift), ""),
+    "energy": ((sentence.drift,), (sentence.structure, *RANKED, sentence.dearer),
                "which methods let the conserved quantity drift away"),
-    "structure": ((sentence.structure,), (sentence.drift, sentence.cheapest, sentence.dearer), "which methods keep the structure"),
+    "structure": ((sentence.structure,), (sentence.drift, *RANKED, sentence.dearer), "which methods keep the structure"),
     "growth": ((answers.growth,), (sentence.drift,), "with which power of time errors grow"),
-    "constraints": ((answers.constraints,), (sentence.drift, sentence.cheapest), "which methods stay on the constraints"),
+    "constraints": ((answers.constraints,), (sentence.drift, *RANKED), "which methods stay on the constraints"),
     "agreement": ((answers.agreement, answers.constraints), (sentence.drift,), "whether formulations agree"),
-    "frequencies": ((answers.turning,), (sentence.drift, sentence.cheapest), "which frequencies are right"),
+    "frequencies": ((answers.turning,), (sentence.drift, *RANKED), "which frequencies are right"),
 }
 
 

@@ -1,6 +1,7 @@
 """What a case shows of cost, structure and drift: clauses in HTML, each with its assertion as data (assertion.py).
 
 cheapest    who is cheapest at the target, of the methods that are ranked there
+bounded     who is not ranked there and yet costs no more
 losing      whether the cheapest let the conserved quantity drift away in the run that is nearest to the target
 structure   who keeps the structure; "only", "all" and "no method" are said of those alone of which it is known
 dearer      what the cheapest method that keeps the structure costs, and what the experiment's subject, which is the family of
@@ -76,6 +77,18 @@ def cheapest(verdict):
         out += " (timings were disturbed)"
     return [Clause(out, "cheapest", labels(best), error_columns(verdict), {r.label: sides(r, verdict.target) for r in ranked},
                    priced(verdict, ranked) | {"unranked": [r.label for r in rivals if r not in ranked]})]
+
+
+def bounded(verdict):
+    """Who is not ranked, as runs are on one side of the target alone, but has a run that reaches it for no more than the cheapest."""
+    best = verdict.best(verdict.target) if verdict.target else []
+    rows = [r for r in verdict.rivals if best and not r.ranked(verdict.target)
+            and r.times[verdict.target][0] <= best[0].times[verdict.target][0]]
+    if not rows:
+        return []
+    words = f"{some(rows)}, not ranked, {'reaches' if len(rows) == 1 else 'reach'} it for no more"
+    of_rows = {r.label: [p.run.where for p in r.curve.measured()] for r in rows}
+    return [Clause(words, "no-dearer", labels(rows), error_columns(verdict), of_rows, priced(verdict, best[:1]))]
 
 
 def why_none_is_cheapest(verdict):

@@ -7,7 +7,8 @@ import statistics as st
 
 from experiment_files import Files, number
 
-POWERS = {"grows as a random walk does": [0.5], "grows in proportion to time": [1.0], "does not grow": [0], "grows with another power": []}
+POWERS = {"grows as a random walk does": [0.5], "grows in proportion to time": [1.0], "does not grow": [0],
+          "grows with another power": []}
 
 
 class Judge(Files):
@@ -36,17 +37,15 @@ class Judge(Files):
         seen = [(number(r["time"]) / (n := number(r["steps"])), number(r["structure_residual"]),
                  number(r.get(a["columns"][1])) / n) for r in rows if r["structure_residual"]]
         if any(claims) or not seen or max(s[1] for s in seen) > 1e5 * unit:
-            return max(s[1] for s in seen) <= 1e5 * unit if seen else True if any(claims) else None
+            return max(s[1] for s in seen) <= 1e5 * unit if seen else any(claims) or None
         return False if max(seen)[1] > 1e3 * unit else True if max(seen)[2] > 1e3 * unit else None
 
     def at_level(self, a):
         """Whether the runs cost what the words say, where they say that they cost the same."""
-        for m, where in ((m, w) for m in a["subject"] + a["not"] for w in a["rows"][m][:1] if a.get("level")):
-            spent = {p[3]: p[1] for p in self.curve(a | {"columns": ["steps"]}, m)} | ({self.size(self.rows[where]): number(self.rows[where]["level_ns"])}
-                                                              if "level_ns" in self.rows[where] else {})
-            if abs(math.log(spent[self.size(self.rows[where])] / a["level"])) > math.log(1.26):
-                return False
-        return True
+        runs = [(m, self.rows[a["rows"][m][0]]) for m in a["subject"] + a["not"]] if a.get("level") else []
+        costs = [number(r["level_ns"]) if "level_ns" in r else
+                 {p[3]: p[1] for p in self.curve(a | {"columns": ["steps"]}, m)}[self.size(r)] for m, r in runs]
+        return all(1 / 1.26 < c / a["level"] < 1.26 for c in costs)
 
     def power(self, some):
         """The power of time with which the root mean square of errors grows, in the second half of the decades shown."""
@@ -62,13 +61,16 @@ class Judge(Files):
 
     def holds(self, a):
         relation, said = a["relation"], a["subject"]
-        if relation in ("cheapest", "costs-times"):
+        if relation in ("cheapest", "costs-times", "no-dearer"):
             rivals = [m["label"] for m in self.head["methods"] if not m.get("another_motion")]
             costs = {m: c for m in rivals if (c := self.cost_to(a, m))}
             ends = [costs[m] for m in (a["than"], *said)] if "than" in a else [min(costs.values())] * 2
             times = [ends[1][0] / max(ends[0]), max(ends[1]) / ends[0][0]]
             best = {m for m, c in costs.items() if c[0] <= max(1.1 * ends[0][0], ends[0][1])}
             numbers = [(costs[m][0], x) for m, x in a["costs"].items()] + list(zip(times, a.get("times", [])))
+            if relation == "no-dearer":
+                return set(said) == {m for m in rivals if m not in costs for p in self.curve(a, m)
+                                     if p[0] <= a["target"] * (1 + 1e-8) and p[1] <= ends[0][0]}
             return (all(math.isclose(x, y, rel_tol=1e-3) for x, y in numbers)
                     and ("than" in a or (best == set(said) and set(costs) == set(a["rows"]))))
         if relation in ("keeps", "drifts", "moves-against"):

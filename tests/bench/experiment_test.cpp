@@ -280,25 +280,6 @@ TEST_F(Experiments, IncludedFilesGiveTheirTables) {
 }
 
 // No title or description of a quick experiment speaks of what only the full one has.
-TEST_F(Experiments, CasesAskWhatTheHeadAsksUnlessTheyAskTheirOwn) {
-  const std::string method = "[[method]]\nlabel = \"GF\"\nintegrator = \"generating-function\"\n";
-  const std::string one = "[[case]]\nsystem = \"harmonic-oscillator\"\ntime = 1\nsteps = [0.5]\n";
-  const std::string asked = "question = \"What?\"\nanswer = \"energy\"\n";
-  const Experiment e =
-      read(asked + method + one + "name = \"a\"\n" + one + "name = \"b\"\nanswer = \"structure\"\n");
-  EXPECT_EQ(e.cases[0].question, "What?");
-  EXPECT_EQ(e.cases[0].answer, "energy");
-  EXPECT_EQ(e.cases[1].question, "What?");
-  EXPECT_EQ(e.cases[1].answer, "structure");
-  (void)run_experiment(e, directory / "out", {}, {.report = false});
-  const auto j = nlohmann::json::parse(read_file(directory / "out/experiment.json"));
-  EXPECT_EQ(j["cases"][1]["answer"], "structure");
-  EXPECT_EQ(j["cases"][1]["question"], "What?");
-  EXPECT_EQ(j["methods"][0]["family"], "generating");
-  EXPECT_FALSE(j["methods"][0].contains("another_motion"));
-  EXPECT_THROW(read("answer = \"enery\"\n" + method + one + "name = \"a\"\n"), InputError);
-}
-
 TEST(QuickExperiments, DoNotPromiseMoreThanTheyDo) {
   for (const std::string& name : experiment_names()) {
     const Experiment full = read_experiment(name, false), quick = read_experiment(name, true);
