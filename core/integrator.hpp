@@ -66,6 +66,7 @@ namespace pfaff {
 struct MethodDescriptor {
   std::string name;           // kebab-case
   std::string title;          // one line
+  std::string family{};       // to which it belongs in reports, as bench/report/families.py has them; or none
   std::string reference;      // bib key and equations
   std::string description{};  // two to four sentences: what it is, when to take it, where it ends
   int order = 0;              // 0: M::order(model) says
@@ -91,6 +92,8 @@ class MethodInstance : public Maker<StepperPointer, StepScalars, std::shared_ptr
   [[nodiscard]] virtual std::vector<Claim> preserves(const Model& model) const = 0;
   /// The method as messages call it.
   [[nodiscard]] virtual std::string called() const { return descriptor().name; }
+  /// The family that reports show it in. Virtual for methods that are made of others.
+  [[nodiscard]] virtual std::string family() const { return descriptor().family; }
   /// Why the method rejects a model that offers what it needs, as a predicate; empty when it does not.
   [[nodiscard]] virtual std::string objection(const Model& model) const = 0;
   /// Why the method cannot run on this model, naming both sides; empty when it can.

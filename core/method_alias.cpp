@@ -71,6 +71,7 @@ class AliasInstance final : public MakerOf<AliasInstance, MethodInstance> {
     return own;
   }
   [[nodiscard]] FacetSet needs() const override { return instance_->needs(); }
+  [[nodiscard]] std::string family() const override { return instance_->family(); }
   [[nodiscard]] int order(const Model& model) const override { return instance_->order(model); }
   [[nodiscard]] std::vector<Claim> preserves(const Model& model) const override {
     return instance_->preserves(model);

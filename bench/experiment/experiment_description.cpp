@@ -51,6 +51,8 @@ nlohmann::json description(const Experiment& experiment, const std::vector<Exper
                                                  : exact      ? "exact"
                                                               : "30-digit"}});
     if (!c.error.empty()) j["cases"].back()["error"] = c.error;
+    if (!c.question.empty()) j["cases"].back()["question"] = c.question;
+    if (!c.answer.empty()) j["cases"].back()["answer"] = c.answer;
     for (const FrequencyVector& vector : c.frequencies) {
       nlohmann::json definitions = nlohmann::json::object();
       for (const auto& [name, expression] : vector.definitions) definitions[name] = expression;
@@ -83,8 +85,12 @@ nlohmann::json description(const Experiment& experiment, const std::vector<Exper
                          {"order", r.resolved.method->order(*r.resolved.model)},
                          {"preserves", claims}});
     }
-    j["methods"].push_back(
-        {{"label", m.label}, {"integrator", m.integrator}, {"parameters", parameters}, {"systems", systems}});
+    j["methods"].push_back({{"label", m.label},
+                            {"integrator", m.integrator},
+                            {"family", run->resolved.method->family()},
+                            {"parameters", parameters},
+                            {"systems", systems}});
+    if (!std::get<2>(problem_of(*run)).empty()) j["methods"].back()["another_motion"] = true;
     if (!m.tolerances.empty()) j["methods"].back()["tolerances"] = m.tolerances;
     if (!m.absolute.empty()) j["methods"].back()["absolute"] = m.absolute;
     if (!run->resolved.settings.formulation.empty()) {

@@ -21,7 +21,7 @@ void remove_derived(const fs::path& directory) {
   std::error_code error;
   for (const char* name :
        {"results.csv", "equal_cost.csv", "ensembles.csv", "contraction.csv", "loops.csv", "reversibility.csv",
-        "frequencies.csv", "findings.csv", "fits.csv", "report.html", "figures"})
+        "frequencies.csv", "findings.csv", "fits.csv", "report.html", "report.json", "figures"})
     fs::remove_all(directory / name, error);
 }
 

@@ -11,14 +11,14 @@ import math
 import statistics
 
 from error_measure import error_measure
-from experiment import UNIT_ROUND_OFF, Run
-from families import family_of
-from findings import ROUND_OFF
+from experiment import ABOVE_ROUND_OFF, ROUND_OFF, UNIT_ROUND_OFF, Run
+from families import family_named
 
 CONTENDED = 1.3  # a timing whose median is above this times its fastest repetition was disturbed
 LOST = 0.5  # a relative error of this size says nothing any more: the phase is lost
 GROWN = 1e5  # units of round-off to which a residual that is round-off at the coarsest step may grow at finer ones
 RESIDUAL_ABOVE = 1000  # units of round-off above which residuals show their power of the step
+REACHED = 1 + 1e-8  # an error that is a target but for its last digits reaches it
 ZERO = 0.1  # units of round-off at which an error of zero stands, which has no place on a logarithmic axis
 STUDENT = {1: 12.706, 2: 4.303}  # 95 % two-sided quantiles, by degrees of freedom
 
@@ -53,6 +53,8 @@ class Curve:
     residuals: list  # [(step, structure residual)], failed runs left out
     unit: float  # unit round-off
     of_state: bool = True  # errors are of the state, whose order the method claims; those of a quantity may fall faster
+    claims: bool = False  # the method claims to keep the structure of the case
+    structured: bool = True  # the case has a structure to keep
 
     @property
     def label(self):
@@ -60,7 +62,7 @@ class Curve:
 
     @property
     def family(self):
-        return family_of(self.method.get("integrator") or self.label)
+        return family_named(self.method.get("family"))
 
     @property
     def adaptive(self):
@@ -68,13 +70,28 @@ class Curve:
 
     @property
     def kept(self):
-        """Whether the structure is kept at every step; None where it was not measured. What truncation leaves of a residual is
-        largest at the coarsest step, so that it must be round-off there; at finer steps round-off may grow, because what a
+        """Whether the structure is kept: True, False, or None where that is not known.
+
+        It is kept where the method claims it and no residual says otherwise, and where the residual is round-off at the
+        coarsest step although the error of a step is not: what truncation leaves of a residual is largest there, and of a
+        step that is right to round-off a small residual is accuracy. At finer steps round-off may grow, because what a
         method solves for in a step is divided by the step."""
+        if any(x > GROWN * self.unit for _, x in self.residuals):
+            return False
+        if self.claims:
+            return True
         if not self.residuals:
             return None
-        return (max(self.residuals)[1] <= ROUND_OFF * self.unit
-                and all(x <= GROWN * self.unit for _, x in self.residuals))
+        if max(self.residuals)[1] > ROUND_OFF * self.unit:
+            return False
+        coarsest = max(self.points, key=lambda p: p.run.step)
+        seen = self.of_state and coarsest.error / max(1.0, coarsest.run.steps) > ROUND_OFF * self.unit
+        return True if seen else None
+
+    @property
+    def fill(self):
+        """Of the mark: whether the structure is kept; full where there is none to keep."""
+        return {True: "full", False: "open", None: "half"}[self.kept] if self.structured else "full"
 
     def residual_power(self):
         """The power of the step that the residual falls with, or nan."""
@@ -85,24 +102,38 @@ class Curve:
         """Points with an error and a cost, from the coarsest to the finest."""
         return [p for p in self.points if p.cost > 0 and 0 < p.error < math.inf]
 
-    def time_to(self, target, of_state):
-        """(cost at which the error is at most the target, whether the coarsest run is better already); nan if never."""
-        target *= 1 + 1e-8  # an error that is the target but for its last digits reaches it
+    def bracket(self, target):
+        """(coarse, fine): neighbouring runs on both sides of an error, those that reach it first; None where there are none,
+        as where the coarsest run is better already. A run whose phase is lost says nothing about errors, and is no side."""
+        target *= REACHED
         points = self.measured()
-        if not points:
-            return math.nan, False
-        found = []
-        if points[0].error <= target:
-            return points[0].cost, True
-        for coarse, fine in zip(points, points[1:]):
-            if coarse.error > target >= fine.error:
-                found.append(crossing(coarse, fine, target, self.claimed if of_state else None))
-        return min(found, default=math.nan), False
+        pairs = [(a, b) for a, b in zip(points, points[1:]) if a.error > target >= b.error]
+        if not pairs or points[0].error <= target:
+            return None
+        first = min(pairs, key=lambda pair: between(*pair, target))
+        return None if self.lost(first[0]) else first
 
-    def spread_at(self, cost):
-        """Median over fastest repetition of the timing nearest to a cost, up to what counts as disturbed."""
-        near = min(self.measured(), key=lambda p: abs(math.log(p.cost / cost)))
-        return min(CONTENDED, max(1.0, near.slowest / near.cost))
+    def lost(self, point):
+        return self.of_state and point.error >= LOST
+
+    def time_to(self, target):
+        """(cost at which the error is at most the target, whether that is no more than a bound): a bound where no runs are on
+        both sides of the target, because the coarsest run is better already or the phase is lost at the one before; nan if
+        never."""
+        sides = self.bracket(target)
+        if sides:
+            return between(*sides, target * REACHED), False
+        reached = [p.cost for p in self.measured() if p.error <= target * REACHED]
+        return (min(reached), True) if reached else (math.nan, False)
+
+    def slowest_to(self, target):
+        """The cost of a target by the median repetitions; nan where it is not between two runs."""
+        sides = self.bracket(target)
+        return between(*sides, target * REACHED, lambda p: p.slowest) if sides else math.nan
+
+    def disturbed_at(self, target):
+        """Whether a timing on one of the sides of a target was disturbed."""
+        return any(p.contended for p in self.bracket(target) or ())
 
     def floor(self):
         """The error from which round-off rules: where a finer step gains less than half of what the order claims."""
@@ -120,18 +151,20 @@ class Curve:
         floor = self.floor()
         if self.adaptive:
             return None
-        least = 30 * (self.unit if math.isnan(floor) else floor)
+        least = max(ABOVE_ROUND_OFF * self.unit, 0 if math.isnan(floor) else 30 * floor)
         seen = [(math.log(p.run.step), math.log(p.error)) for p in self.points if least < p.error < 0.1][-4:]
         if len({x for x, _ in seen}) < 2:
             return None
         value, interval = fitted_slope(seen)
+        if len(seen) > 2:
+            interval += abs(value - settled(seen))
         if not interval <= 1:
             value, interval = fitted_slope(seen[-2:])[0], math.nan
         off = math.inf if self.claimed is None else abs(value - self.claimed) if self.of_state else self.claimed - value
-        return Order(value, interval, off > (1 if math.isnan(interval) else max(0.15, interval)))
+        return Order(value, interval, not math.isnan(interval) and off > max(0.15, interval))
 
     def at_cost(self, level):
-        """(run, error, off): the run nearest to a cost, the error interpolated there, and whether it cannot cost that."""
+        """(run, error, cost): the run nearest to a cost, the error interpolated there, and what the run costs."""
         points = [p for p in self.points if p.cost > 0]
         if not points:
             return None
@@ -139,17 +172,20 @@ class Curve:
         for coarse, fine in zip(points, points[1:]):
             if coarse.cost <= level <= fine.cost and min(coarse.error, fine.error) > 0 and coarse.cost < fine.cost:
                 part = math.log(level / coarse.cost) / math.log(fine.cost / coarse.cost)
-                return near.run, coarse.error ** (1 - part) * fine.error**part, False
-        return near.run, near.error, abs(math.log(near.cost / level)) > math.log(1.1)
+                return near.run, coarse.error ** (1 - part) * fine.error**part, near.cost
+        return near.run, near.error, near.cost
 
 
-def crossing(coarse, fine, target, order):
-    """The cost of an error between two runs: straight between them in logarithms. A run whose phase is lost says
-    nothing about errors; then the claimed order leads from the finer run, at least to the cost of the coarser one."""
-    if order and coarse.error >= LOST:
-        return max(coarse.cost, fine.cost * (fine.error / target) ** (1 / order))
+def between(coarse, fine, target, cost=lambda point: point.cost):
+    """The cost of an error between those of two runs: straight between them in logarithms."""
     part = math.log(coarse.error / target) / math.log(coarse.error / fine.error)
-    return coarse.cost ** (1 - part) * fine.cost**part
+    return cost(coarse) ** (1 - part) * cost(fine) ** part
+
+
+def settled(points):
+    """The slope that those between neighbouring points come to, if they go on as they end."""
+    before, last = (fitted_slope(pair)[0] for pair in (points[-3:-1], points[-2:]))
+    return 2 * last - before
 
 
 def fitted_slope(points):
@@ -182,8 +218,13 @@ def curves(experiment, case, work):
         out.append(Curve(method, experiment.declared_order(method, case), points,
                          sum(r.failed for g in groups for r in g), sum(map(len, groups)),
                          [(h, x) for h, x in residuals if not math.isnan(x)], UNIT_ROUND_OFF[case["precision"]],
-                         measure is None or measure.of_state))
+                         measure is None or measure.of_state, claims_structure(experiment, method, case), bool(case.get("structure"))))
     return out
+
+
+def claims_structure(experiment, method, case):
+    """Whether the method claims to keep the structure of the case, whose name is that of the claim."""
+    return any(s["name"] == case.get("system") and case.get("structure") in s["preserves"] for s in method.get("systems") or [])
 
 
 def point(members, error, work):

@@ -88,7 +88,7 @@ def draw(study, quantity, look):
         some = [(k, v) for k, v in zip(*method.line(quantity)) if k <= largest]
         if not some:
             continue
-        shown = style(family_of(study, method), 0, True) | {"linewidth": 1.6, "markersize": 4.6, "zorder": 4}
+        shown = style(family_of(study, method), 0, "full") | {"linewidth": 1.6, "markersize": 4.6, "zorder": 4}
         told = f"{name_of(method, quantity)}: " + "; ".join(f"K = {k:.0f}, {v:.3g}" for k, v in some)
         canvas.line(axes, *zip(*some), told, **shown)
         lines.append((name_of(method, quantity), shown["color"], "bold", [(k, v) for k, v in some if v <= high]))

@@ -11,14 +11,16 @@ import dataclasses
 import math
 import statistics
 
+from assertion import said
 from canvas import MID, RULE, Canvas
 from curves import ranks
 from experiment import DIRECTIONS, UNIT_ROUND_OFF
 from families import FAMILIES, style
+from first_screen import finding
 from figures import Drawing, heading, sentences, step_text, with_unit
 from labels import pushed_apart
 from scales import ErrorAxis, envelope, logarithmic, time_axis
-from sentence import drifting, finding
+from sentence import drift
 from wording import plain_text
 
 
@@ -85,7 +87,7 @@ def draw(verdict, found, axis, look):
     rows = math.ceil(len(families) / columns)
     panel = min(520, (look.width - look.left - 6 - look.between * (columns - 1)) / columns)
     canvas = Canvas(look.width, rows * (look.top + look.tall) + look.below, look.font, look.scale)
-    canvas.description = plain_text(drifting(verdict) or finding(verdict))
+    canvas.description = plain_text(said(drift(verdict)) or finding(verdict))
     times = [t for _, ts, _ in found for t in ts]
     begin, end = min(times), max(times)
     rank = ranks(verdict.curves)
@@ -98,7 +100,7 @@ def draw(verdict, found, axis, look):
                 axes.plot(ts, axis.place(values), color=RULE, linewidth=0.8 * look.scale, zorder=1)
         own = [(r, ts, values) for r, ts, values in found if r.curve.family is family and ts]
         for r, ts, values in own:
-            shown = style(family, rank[r.label], r.curve.kept is not False) | {"linewidth": 1.5, "marker": ""}
+            shown = style(family, rank[r.label], r.curve.fill) | {"linewidth": 1.5, "marker": ""}
             told = f"{r.label}, {step_text(r.run.step, verdict.case)}: {r.drift_class} {r.drift:.1e}"
             canvas.line(axes, ts, axis.place(values), told, **shown, zorder=3)
             trend(axes, verdict, r, begin, end, family)

@@ -4,6 +4,7 @@ At each of the times that all finished runs of a method share, the root mean squ
 the power of time that it grows with: the slope of a straight line through log rms against log t in the second half of
 the decades shown. An unbiased error that is independent from step to step grows as t^0.5, one with a bias as t^1.
 """
+import bisect
 import math
 
 from figures import Drawing, heading, round_off, sentences, step_text, styled, with_unit
@@ -20,21 +21,45 @@ def drawings(experiment, case):
     return [drawn(experiment, case, curves)] if curves else []
 
 
-def spreads(experiment, case):
-    """[(run, times, rms over the seeds)] of each method at the common step; runs that failed are left out."""
-    curves = []
+STUDENT = {1: 12.71, 2: 4.30, 3: 3.18, 4: 2.78, 5: 2.57, 7: 2.36, 10: 2.23, 15: 2.13, 20: 2.09, 30: 2.04, 60: 2.0}  # 95 %
+
+
+def squares(experiment, case):
+    """[(run, times, [squared errors of each seed])] of each method at the common step; runs that failed are left out."""
+    out = []
     for run in experiment.at_common_step(case):
         members = [experiment.series(r, case["conserved"]) for r in experiment.ensemble_of(run) if not r.failed]
-        members = [m for m in members if m is not None and m.time]
-        shared = set.intersection(*(set(m.time) for m in members)) if members else set()
-        sums = dict.fromkeys(sorted(t for t in shared if t > 0), 0.0)
-        for m in members:
-            for t, change in zip(m.time, m.change):
-                if t in sums:
-                    sums[t] += change * change
-        if sums:
-            curves.append((run, list(sums), [math.sqrt(s / len(members)) for s in sums.values()]))
-    return curves
+        members = [dict(zip(m.time, m.change)) for m in members if m is not None and m.time]
+        times = sorted(t for t in set.intersection(*map(set, members)) if t > 0) if members else []
+        if times:
+            out.append((run, times, [[m[t] * m[t] for t in times] for m in members]))
+    return out
+
+
+def rms(members):
+    return [math.sqrt(sum(at) / len(at)) for at in zip(*members)]
+
+
+def spreads(experiment, case):
+    """[(run, times, rms over the seeds)] of each method at the common step."""
+    return [(run, times, rms(members)) for run, times, members in squares(experiment, case)]
+
+
+def growth_of(experiment, case):
+    """[(run, power of time that the rms error grows with, half of its 95 % interval)]: the interval comes from leaving out one
+    seed after the other, and is nan for fewer than three."""
+    out = []
+    for run, times, members in squares(experiment, case):
+        n = len(members)
+        power, half = exponent(times, rms(members)), math.nan
+        if n > 2:
+            without = [exponent(times, rms(members[:k] + members[k + 1:])) for k in range(n)]
+            mean = sum(without) / n
+            known = sorted(STUDENT)
+            student = STUDENT[known[bisect.bisect_right(known, n - 1) - 1]]
+            half = student * math.sqrt((n - 1) / n * sum((p - mean) ** 2 for p in without))
+        out.append((run, power, half))
+    return out
 
 
 def exponent(times, values):
@@ -54,8 +79,9 @@ def findings(experiment, case):
     """[(subject, sentence, [items])]: the size of the spread at the end and the power of time it grows with."""
     if not drawings(experiment, case):
         return []
-    items = [f"{run.method}: {values[-1]:.1e}, as " + ("–" if math.isnan(p) else f"t^{p:.2f}")
-             for run, times, values in spreads(experiment, case) for p in [exponent(times, values)]]
+    items = [f"{run.method}: {values[-1]:.1e}, as " + ("–" if math.isnan(p) else f"t^{p:.2f}" + (
+        "" if math.isnan(half) else f" ± {half:.2f}"))
+             for (run, _, values), (_, p, half) in zip(spreads(experiment, case), growth_of(experiment, case))]
     return [("Spread", f"Root mean square of the error of {case['conserved']} over {case['seeds']} seeds at the end, and "
              "the power of time that it grows with in the second half of the decades:", items)]
 

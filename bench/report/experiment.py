@@ -16,6 +16,7 @@ import drift_classes
 from files import InputError, allow, parse, read_csv, read_json, read_table, require
 
 UNIT_ROUND_OFF = {"double": 2.0**-53, "quad": 2.0**-113}
+ROUND_OFF, ABOVE_ROUND_OFF = 1000, 1e5  # units up to which a residual is round-off, and above which an error owes nothing to it
 RUN_COLUMNS = ("case", "method", "step", "time", "steps", "precision", "status", "message", "error_max",
                "error_final", "structure_residual", "rhs_per_step", "jacobians_per_step", "iterations_per_step",
                "factorisations_per_step", "run")
@@ -138,7 +139,7 @@ class Experiment:
         for i, case in enumerate(self.cases):
             require(case, f"experiment.json, case {i + 1}", name=str, precision=str)
             allow(case, f"experiment.json, case {case['name']}", title=str, parameters=dict, time_unit=str,
-                  conserved=str, error=str, structure=str, motion=list)
+                  conserved=str, error=str, structure=str, motion=list, question=str, answer=str)
             if len(case.get("motion") or []) not in (0, 2):
                 raise InputError(f"experiment.json, case {case['name']}: expected 'motion' to name two coordinates")
             if case["precision"] not in UNIT_ROUND_OFF:
@@ -146,7 +147,7 @@ class Experiment:
                                  f"got '{case['precision']}'")
         for i, method in enumerate(self.methods):
             require(method, f"experiment.json, method {i + 1}", label=str)
-            allow(method, f"experiment.json, method {method['label']}", parameters=dict, systems=list)
+            allow(method, f"experiment.json, method {method['label']}", parameters=dict, systems=list, family=str, another_motion=bool)
             for claimed in method.get("systems") or []:
                 require(claimed, f"experiment.json, method {method['label']}, systems", name=str, preserves=list)
                 if type(claimed.get("order")) is not int:

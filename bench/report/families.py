@@ -1,36 +1,33 @@
 """Families of methods. A family has one colour and one mark in every report, so that it is recognised from report to report.
 
-A method belongs to the first family of which a word stands in the name of its integrator; a method that nobody has
-placed is of the last one. Colours come in pairs, for light and for dark paper; that families also differ in their marks
+A method belongs to the family that its plug-in names, by the key below, and to the last one where it names none. Colours come in pairs, for light and for dark paper; that families also differ in their marks
 keeps them apart in grey and for every kind of sight. Within a family lines are solid, dashed, dotted and dash-dotted, by
-falling order. A filled mark says that the method keeps the structure of its problem, an open one that it does not.
+falling order. A filled mark says that the method keeps the structure of its problem, an open one that it does not, and one of
+which half is filled that this is not known.
 """
 import dataclasses
+
+from files import InputError
 
 
 @dataclasses.dataclass(frozen=True)
 class Family:
     key: str  # as style sheets name it
     plural: str  # as sentences name it
-    words: tuple
     light: str
     dark: str
     mark: str  # as matplotlib names it
 
 
 FAMILIES = (
-    Family("generating", "generating functions", ("generating",), "#003b68", "#3292f4", "o"),
-    Family("darboux", "Gauss in Darboux coordinates", ("darboux",), "#9a41ba", "#c784c4", "D"),
-    Family("nonholonomic", "nonholonomic integrators", ("nonholonomic", "dla", "gni", "perlmutter", "velocity"), "#3b1a8f",
-           "#feb2ff", "P"),
-    Family("constrained", "methods on the constraints", ("rattle", "shake", "lincs", "lobatto", "projected"), "#6b0a26",
-           "#ff486a", "p"),
-    Family("gauss", "Gauss collocation", ("gauss", "midpoint"), "#8f3413", "#fb894b", "s"),
-    Family("splitting", "splittings and compositions", ("splitting", "composition", "verlet", "symplectic", "leap",
-                                                        "mclachlan"), "#157b62", "#73e4c9", "^"),
-    Family("explicit", "structure-blind methods", ("rk4", "dopri5", "bulirsch", "odeint", "runge"), "#86761c",
-           "#f0dd9c", "v"),
-    Family("other", "other methods", (), "#443b47", "#b8a693", "h"))
+    Family("generating", "generating functions", "#003b68", "#3292f4", "o"),
+    Family("darboux", "Gauss in Darboux coordinates", "#9a41ba", "#c784c4", "D"),
+    Family("nonholonomic", "nonholonomic integrators", "#3b1a8f", "#feb2ff", "P"),
+    Family("constrained", "methods on the constraints", "#6b0a26", "#ff486a", "p"),
+    Family("gauss", "Gauss collocation", "#8f3413", "#fb894b", "s"),
+    Family("splitting", "splittings and compositions", "#157b62", "#73e4c9", "^"),
+    Family("explicit", "structure-blind methods", "#86761c", "#f0dd9c", "v"),
+    Family("other", "other methods", "#443b47", "#b8a693", "h"))
 
 DASHES = ("-", (0, (5, 1.8)), (0, (1.4, 1.4)), (0, (6, 1.6, 1.4, 1.6)),
           (0, (10, 3)), (0, (3, 1.2, 1, 1.2, 1, 1.2)))
@@ -43,20 +40,27 @@ SHAPES = {"o": '<circle cx="6" cy="6" r="4.4"/>', "s": '<rect x="2" y="2" width=
           "h": '<path d="M6 .8 10.5 3.4V8.6L6 11.2 1.5 8.6V3.4Z"/>'}
 
 
-def family_of(integrator):
-    words = set(integrator.split("-"))
-    return next((f for f in FAMILIES if words & set(f.words)), FAMILIES[-1])
+def family_named(key):
+    """The family of that key; the last one where none is named."""
+    if not key:
+        return FAMILIES[-1]
+    known = {f.key: f for f in FAMILIES}
+    if key not in known:
+        raise InputError(f"unknown family of methods '{key}'; expected one of {', '.join(known)}")
+    return known[key]
 
 
-def mark(family, filled):
-    """The mark as an SVG element, in the family's colour on whatever paper."""
-    kind = "full" if filled else "open"
-    return (f'<svg class="mk {kind}" style="--c:var(--{family.key})" width="12" height="12" viewBox="0 0 12 12" '
-            f'aria-hidden="true">{SHAPES[family.mark]}</svg>')
+def mark(family, fill):
+    """The mark as an SVG element, in the family's colour on whatever paper; the fill is "full", "open" or "half"."""
+    shape = SHAPES[family.mark]
+    half = f'<svg class="part" width="6" height="12" viewBox="0 0 6 12">{shape}</svg>' if fill == "half" else ""
+    return (f'<svg class="mk {"full" if fill == "full" else "open"}" style="--c:var(--{family.key})" width="12" height="12" '
+            f'viewBox="0 0 12 12" aria-hidden="true">{shape}{half}</svg>')
 
 
-def style(family, rank, filled):
+def style(family, rank, fill):
     """Line and marker of the method that is the rank-th of its family, as matplotlib takes them."""
     colour = family.light
     return {"color": colour, "linestyle": DASHES[rank % len(DASHES)], "marker": family.mark, "markersize": 5,
-            "markerfacecolor": colour if filled else "#fefefe", "markeredgecolor": colour, "markeredgewidth": 1.2}
+            "fillstyle": "left" if fill == "half" else "full", "markerfacecolor": "#fefefe" if fill == "open" else colour,
+            "markerfacecoloralt": "#fefefe", "markeredgecolor": colour, "markeredgewidth": 1.2}

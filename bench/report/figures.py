@@ -13,7 +13,7 @@ import typing
 
 from canvas import plain
 from experiment import DIRECTIONS, UNIT_ROUND_OFF
-from families import family_of, style
+from families import family_named, style
 from scales import ErrorAxis, envelope, time_axis
 from sheet import Sheet
 
@@ -63,9 +63,9 @@ def round_off(case):
 
 def look_of(experiment, label):
     """How the lines of a method look: its family's colour and mark, and a dash by its place among those of the family."""
-    families = {m["label"]: family_of(m.get("integrator") or m["label"]) for m in experiment.methods}
+    families = {m["label"]: family_named(m.get("family")) for m in experiment.methods}
     kin = [other for other, family in families.items() if family is families[label]]
-    return style(families[label], kin.index(label), kin.index(label) % 2 == 0)
+    return style(families[label], kin.index(label), "full" if kin.index(label) % 2 == 0 else "open")
 
 
 def styled(experiment, run, target):

@@ -1,23 +1,18 @@
-"""What an experiment shows, in sentences computed from its data: structure, drift, observed order, cost, failures.
+"""What an experiment shows, in sentences computed from its data: structure, drift, observed order, failures.
 
 Thresholds, all stated in the text they produce:
 - a structure residual is at round-off up to ROUND_OFF u, u the unit round-off of the run's precision;
-- the order of a method is the slope of log error over log step between its two smallest steps whose error is above
-  ABOVE_ROUND_OFF u, and so free of round-off;
-- "cheapest at error e" compares runs that were made, without interpolation.
+- the order of a method is the slope of log error over log step where refinement still gains (curves.py).
 """
 import math
 
 import constraints
 import ensembles
-from experiment import DIRECTIONS, UNIT_ROUND_OFF
-from error_measure import error_measure
+from curves import curves
+from experiment import DIRECTIONS, ROUND_OFF, UNIT_ROUND_OFF
 from figures import step_text, with_unit
-from wording import duration, listed, number
+from wording import listed, number
 
-ROUND_OFF = 1000
-ABOVE_ROUND_OFF = 1e5
-ORDER_TOLERANCE = 0.3
 
 
 def slope_unit(unit, time_unit):
@@ -32,15 +27,9 @@ def grouped(*groups):
 
 def findings(experiment, case):
     """[(subject, sentence, [items])] of one case."""
-    makers = (structure, drift, order, cost) if not case.get("seeds") else ()
+    makers = (structure, drift, order) if not case.get("seeds") else ()
     makers += (constraints.claims, ensembles.findings, constraints.growth, failures)
     return [found for maker in makers for found in maker(experiment, case)]
-
-
-def slope(points):
-    """Slope of log y over log x between two points."""
-    (x1, y1), (x2, y2) = points
-    return math.log(y1 / y2) / math.log(x1 / x2)
 
 
 def limit(case):
@@ -48,23 +37,19 @@ def limit(case):
 
 
 def structure(experiment, case):
-    keep, lose, kind = [], [], case.get("structure") or "symplectic"
-    for method in experiment.labels:
-        residuals = [(r.step, r.number("structure_residual")) for r in experiment.runs_of(case)
-                     if r.method == method and not r.failed]
-        residuals = [p for p in residuals if not math.isnan(p[1])]
-        above = [p for p in residuals if p[1] > limit(case)]
-        if residuals and not above:
-            keep.append(method)
-        elif above:
-            falls = len(above) > 1 and above[-1][0] != above[-2][0] and math.isfinite(above[-2][1] + above[-1][1])
-            rate = f", falling as h^{slope(above[-2:]):.1f}" if falls else ""
-            lose.append(f"{method} (up to {number(max(p[1] for p in above))}{rate})")
-    if not keep and not lose:
+    judged, kind = curves(experiment, case, "steps"), case.get("structure") or "symplectic"
+    keep, lose, unknown = ([c for c in judged if c.kept is value] for value in (True, False, None))
+    if not any(c.residuals for c in judged):
         return []
-    text = (f"The {kind} structure is kept to round-off by {len(keep)} of {len(keep) + len(lose)} methods (residual at "
-            f"most {ROUND_OFF} u = {number(limit(case))} at every step).")
-    return [("Structure", text, grouped(("kept", keep), ("not kept", lose)))]
+
+    def lost(c):
+        power = c.residual_power()
+        return (f"{c.label} (up to {number(max(x for _, x in c.residuals))}"
+                + ("" if math.isnan(power) else f", falling as h^{power:.1f}") + ")")
+    text = (f"The {kind} structure is kept by {len(keep)} of {len(keep) + len(lose)} methods of which it is known: by claim, or "
+            f"with a residual of at most {ROUND_OFF} u = {number(limit(case))} at the coarsest step.")
+    return [("Structure", text, grouped(("kept", [c.label for c in keep]), ("not kept", [lost(c) for c in lose]),
+                                        ("not known", [c.label for c in unknown])))]
 
 
 def drift(experiment, case):
@@ -123,56 +108,16 @@ def setbacks(experiment, case, name, runs, at):
 
 def order(experiment, case):
     agree, differ = [], []
-    for method in experiment.methods:
-        points = [(r.step, r.number("error_max")) for r in experiment.runs_of(case)
-                  if r.method == method["label"] and not r.failed
-                  and r.number("error_max") > ABOVE_ROUND_OFF * UNIT_ROUND_OFF[case["precision"]]][-2:]
-        if len(points) < 2 or points[0][0] == points[1][0] or not math.isfinite(points[0][1] + points[1][1]):
+    for curve in curves(experiment, case, "steps"):
+        seen = curve.order()
+        if seen is None:
             continue
-        seen, declared = slope(points), experiment.declared_order(method, case)
-        if declared is not None and abs(seen - declared) <= ORDER_TOLERANCE:
-            agree.append(f"{method['label']} ({seen:.2f})")
-        else:
-            expected = "" if declared is None else f", declared {declared}"
-            differ.append(f"{method['label']} ({seen:.2f}{expected})")
-    text = "Order seen in the largest error between the two smallest steps above round-off:"
-    items = grouped((f"within {ORDER_TOLERANCE} of the declared order", agree), ("other", differ))
+        spread = "two runs" if math.isnan(seen.interval) else f"± {max(seen.interval, 0.005):.2f}"
+        claim = "" if curve.claimed is None else f"; claimed {curve.claimed}"
+        (differ if seen.surprising else agree).append(f"{curve.label} ({seen.value:.2f} {spread}{claim})")
+    text = "Order seen at the steps where refinement still gains and round-off is far:"
+    items = grouped(("as claimed, as far as it can be told", agree), ("other than claimed", differ))
     return [("Order", text, items)] if items else []
-
-
-def cost(experiment, case):
-    measure = error_measure(experiment, case)
-    error = measure.of if measure else lambda run: math.nan
-    runs = [r for r in experiment.runs_of(case) if not r.failed and math.isfinite(error(r))]
-    methods = {r.method for r in runs}
-    if len(methods) < 2:
-        return []
-    if all(r.cost for r in runs):
-        work, show, kind = (lambda r: r.total_ns), duration, "processor time"
-    elif all(r.total_rhs > 0 for r in runs):
-        work, show, kind = (lambda r: r.total_rhs), number, "right-hand sides"
-    else:
-        return []
-    items = []
-    for target in targets(min(error(r) for r in runs if r.method == m) for m in methods):
-        best = {}
-        for r in runs:
-            if error(r) <= target * (1 + 1e-8) and (r.method not in best or work(r) < work(best[r.method])):
-                best[r.method] = r
-        ranked = sorted(best.values(), key=work)
-        first = ranked[0]
-        next_best = [f"{r.method} ({work(r) / work(first):.2g}×)" for r in ranked[1:4]]
-        then = f", then {listed(next_best)}" if next_best else ""
-        items.append(f"{measure.noun} at most {number(target)}: {first.method} at {step_text(first.step, case)} "
-                     f"({show(work(first))}){then}; {len(ranked)} of {len(methods)} methods reach it")
-    return [("Cost", f"Cheapest run in {kind}:", items)] if items else []
-
-
-def targets(best):
-    """Powers of ten worth asking for: the smallest that three quarters of the methods reach, and that two reach."""
-    reached = sorted(best)
-    wanted = (reached[max(1, math.ceil(0.75 * len(reached)) - 1)], reached[1])
-    return sorted({10.0 ** math.ceil(math.log10(x) - 1e-9) for x in wanted if x > 0}, reverse=True)
 
 
 def failures(experiment, case):

@@ -23,7 +23,11 @@ STEADY = 1 / 3  # of the error, by which it may change from half to half
 class Line:
     steps: list = dataclasses.field(default_factory=list)
     errors: list = dataclasses.field(default_factory=list)  # without their signs
-    steady: bool = True
+    steadies: list = dataclasses.field(default_factory=list)  # whether the error is the same in both halves of the time
+
+    @property
+    def steady(self):
+        return all(self.steadies)
 
 
 def frequencies(experiment, case):
@@ -39,11 +43,11 @@ def frequencies(experiment, case):
         line = lines.setdefault(cells["method"], Line())
         line.steps.append(step)
         line.errors.append(abs(error))
-        line.steady = line.steady and abs(change) <= STEADY * abs(error)
+        line.steadies.append(abs(change) <= STEADY * abs(error))
     for _, lines in found.values():
         for line in lines.values():
             order = sorted(range(len(line.steps)), key=lambda k: -line.steps[k])
-            line.steps, line.errors = [line.steps[k] for k in order], [line.errors[k] for k in order]
+            line.steps, line.errors, line.steadies = ([some[k] for k in order] for some in (line.steps, line.errors, line.steadies))
     return found
 
 
@@ -83,7 +87,7 @@ def draw(verdict, found, axis, wide):
             if method not in by_label:
                 continue
             family = by_label[method].curve.family
-            look = style(family, rank[method], line.steady) | {"linewidth": 1.5, "markersize": 4.5}
+            look = style(family, rank[method], "full" if line.steady else "open") | {"linewidth": 1.5, "markersize": 4.5}
             placed = axis.place(line.errors)
             canvas.line(axes, line.steps, placed, f"{method}: {line.errors[0]:.1e} at the largest step", **look)
             ends.append((method, placed[-1], family.light))
@@ -98,13 +102,16 @@ def draw(verdict, found, axis, wide):
 
 
 def described(verdict, found):
-    """Who turns what best at the largest step that most methods have, in a sentence for each vector."""
+    """Who turns what best at the largest step that most methods have, of those whose errors are steady; a sentence for each
+    vector."""
     parts = []
     for vector, (_, lines) in found.items():
         steps = [line.steps[0] for line in lines.values()]
         common = max(set(steps), key=steps.count)
-        at = {method: line.errors[0] for method, line in lines.items() if line.steps[0] == common}
+        at = {method: line.errors[0] for method, line in lines.items() if line.steps[0] == common and line.steadies[0]}
+        if len(at) < 2:
+            continue
         best, worst = min(at, key=at.get), max(at, key=at.get)
         parts.append(f"At step {common:.4g} the frequency of {vector} is best with {best}, wrong by {at[best]:.1e}, and worst with "
                      f"{worst}, by {at[worst]:.1e} rad per {unit_of(verdict.case)}.")
-    return " ".join(parts)
+    return " ".join(parts) or "Errors of frequencies against the step."

@@ -70,7 +70,7 @@ def draw(verdict, shown, axis, wide):
     canvas.description = f"The integral moves most for {worst[0].label}, by {max(worst[1].deviations):.1e} of itself."
     axes, ends, rank = canvas.panel(left, top, width - left - right, tall), [], ranks(verdict.curves)
     for row, one in shown:
-        look = style(row.curve.family, rank[row.label], row.curve.kept is not False) | {"linewidth": 1.5, "marker": ""}
+        look = style(row.curve.family, rank[row.label], row.curve.fill) | {"linewidth": 1.5, "marker": ""}
         placed = axis.place(one.deviations[1:])
         canvas.line(axes, one.times[1:], placed, f"{row.label}: largest {max(one.deviations):.1e}", **look)
         ends.append((row.label, placed[-1], row.curve.family.light))

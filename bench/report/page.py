@@ -15,7 +15,7 @@ from canvas import BAND, FRONT, GREY, INK, MID, PAPER, RULE
 from experiment import DIRECTIONS
 from families import FAMILIES, mark
 from figures import heading, slug
-from sentence import drifting, finding, holds
+from first_screen import below, finding, holds, question
 from verdict_table import table
 from wording import plain_text, power, text
 
@@ -68,11 +68,11 @@ def colours():
 def opening(experiment, verdicts, drawn):
     head, first = experiment.head, verdicts[0]
     out = ["<header>", '<p class="kicker">Pfaff experiment report</p>', f"<h1>{text(head['title'])}</h1>",
-           f'<p class="find">{finding(first)}</p>']
+           question(first), f'<p class="find">{finding(first)}</p>']
     if head.get("quick"):
         out.append('<p class="notice"><strong>Quick run.</strong> Times and steps were cut down to see that everything '
                    "works; draw no conclusions from it.</p>")
-    second = drifting(first)
+    second = below(first)
     out.append(f'<p class="where">{second + "<br>" if second else ""}{holds(first)}</p>')
     if len(verdicts) > 1:
         links = " ".join(f'<a href="#case-{slug(v.case)}">{text(heading(v.case))}</a>' for v in verdicts)
@@ -89,8 +89,9 @@ def section(experiment, verdict, drawn, first):
     case, name = verdict.case, slug(verdict.case)
     out = [f'<section class="case" id="case-{name}">', f"<h2>{text(heading(case))}</h2>"]
     if not first:
-        second = drifting(verdict)
-        out += [f'<p class="casefind">{finding(verdict)}</p>',
+        second = below(verdict)
+        asked = question(verdict) if case.get("question") != experiment.cases[0].get("question") else ""
+        out += [asked, f'<p class="casefind">{finding(verdict)}</p>',
                 f'<p class="where">{second + "<br>" if second else ""}{holds(verdict)}</p>']
     out.append(table(verdict))
     for _, said, items in constraints.claims(experiment, case):
@@ -133,16 +134,15 @@ def pictures(drawing, wide, narrow):
 
 
 def cheapest_table(verdict):
-    """Who is cheapest at each power of ten that two methods or more reach, down to where round-off rules."""
+    """Who is cheapest at each power of ten at which two methods or more are ranked, down to where round-off rules."""
     floor = verdict.floor()
     rows = []
     for k in range(1, 16):
         target = float(f"1e-{k}")
-        reached = [r for r in verdict.rows if r.times[target][0] > 0]
-        if len(reached) < 2 or target < floor or all(r.times[target][1] for r in reached):
+        ranked = verdict.ranked(target)
+        if len(ranked) < 2 or target < floor:
             continue
-        best = verdict.best(target)[0]
-        keeping = min((r for r in reached if r.curve.kept), key=lambda r: r.times[target][0], default=None)
+        best, keeping = ranked[0], next((r for r in ranked if r.curve.kept), None)
         rows.append(f'<tr><th scope="row">{power(-k)}</th>{cheapest_cell(verdict, best, target)}'
                     + (cheapest_cell(verdict, keeping, target) if verdict.structured else "") + "</tr>")
     if not rows:
@@ -156,9 +156,8 @@ def cheapest_table(verdict):
 def cheapest_cell(verdict, row, target):
     if row is None:
         return '<td class="na">–</td><td></td>'
-    cost, at_most = row.times[target]
-    return (f'<td>{mark(row.curve.family, row.curve.kept is not False)}<span class="c-{row.curve.family.key}">'
-            f'{text(row.label)}</span></td><td class="r">{"≤ " if at_most else ""}{verdict.cost_text(cost)}</td>')
+    return (f'<td>{mark(row.curve.family, row.curve.fill)}<span class="c-{row.curve.family.key}">'
+            f'{text(row.label)}</span></td><td class="r">{verdict.cost_text(row.times[target][0])}</td>')
 
 
 def missing(verdict, kinds):

@@ -15,7 +15,7 @@ from bibliography import bibtex
 from drawn import drawn
 from figures import slug
 from files import InputError
-from sentence import holds
+from first_screen import holds
 from verdict_latex import latex_table
 from wording import plain_text
 

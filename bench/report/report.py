@@ -3,7 +3,7 @@
 and figures for papers:  python3 report.py EXPERIMENT_DIR --figures pdf,svg,pgf,png [--width 85mm] [--style FILE]
 
 Reads experiment.json, results.csv, cost.csv (if timings were measured) and runs/*/series.csv with summary.json, as
-`pfaff compare` leaves them. Writes figures/<kind>_<case>.{svg,png} and report.html beside them, the same bytes for the same
+`pfaff compare` leaves them. Writes figures/<kind>_<case>.{svg,png}, report.html and report.json, which holds what its sentences assert, the same bytes for the same
 data. With --figures it writes figures and tables for papers instead, into figures/paper/: of that width, with text as text,
 captions beside them, drawn in matplotlib's style of the file (paper.mplstyle beside this script is the one taken). Needs
 matplotlib and nothing else; pgf needs LaTeX. Exit status: 0 fine, 2 wrong usage or input, with one line on stderr.
@@ -35,6 +35,7 @@ def report(folder):
         import derivation_page
         return derivation_page.report(derivation.Study(folder), write)
     experiment = Experiment(folder)
+    import first_screen
     import page  # after the input has been read: importing matplotlib takes a second
     from drawn import drawn
     from verdict import Verdict
@@ -52,6 +53,7 @@ def report(folder):
                 continue
             write(target / f"{drawing.name}.png", sheet.png())
             shown.append((drawing, sheet.svg(f"{drawing.name}-wide"), drawing.draw(False).svg(f"{drawing.name}-narrow")))
+    write(experiment.folder / "report.json", first_screen.data(experiment, verdicts))
     write(experiment.folder / "report.html", page.page(experiment, verdicts, pictures))
     return experiment.folder / "report.html"
 

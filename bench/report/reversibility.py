@@ -11,11 +11,10 @@ import math
 
 from canvas import GREY, MID, Canvas
 from curves import ranks
-from experiment import UNIT_ROUND_OFF
+from experiment import ROUND_OFF, UNIT_ROUND_OFF
 from families import style
 from figures import Drawing, heading, sentences, step_text, with_unit
 from files import InputError, parse
-from findings import ROUND_OFF
 from labels import right_of
 from scales import ErrorAxis, time_axis
 from verdict import Row
@@ -160,7 +159,7 @@ def draw(verdict, shown, middle, axis, wide):
     ends, several = [], sum(one.back for one in shown) > 1
     for one in shown:
         curve, placed = one.row.curve, axis.place(visible(one.returns))
-        look = style(curve.family, rank[one.label], True) | {"linewidth": 1.5, "marker": "", "zorder": 4}
+        look = style(curve.family, rank[one.label], "full") | {"linewidth": 1.5, "marker": "", "zorder": 4}
         look |= {"color": GREY, "linestyle": "-", "linewidth": 0.8, "zorder": 3} if one.back and several else {}
         canvas.line(axes, one.returns.times, placed, f"{one.label}: at most {one.returns.farthest:.1e}"
                     + (", comes back" if one.back else ""), **look)

@@ -7,7 +7,7 @@ import math
 
 from canvas import INK, MID, Canvas
 from experiment import DIRECTIONS, UNIT_ROUND_OFF, read_series
-from families import FAMILIES, family_of
+from families import FAMILIES, family_named
 from figures import Drawing, sentences, with_unit
 from frames import Animation, Figure, duration, strip
 from labels import pushed_apart
@@ -41,7 +41,7 @@ def drawing(kind, what, caption, draw):
 
 
 def motion(recording):
-    family, unit = family_of(recording.summary.get("integrator") or ""), recording.time_unit
+    family, unit = family_named(recording.summary.get("family")), recording.time_unit
     if recording.points():
         figure = Figure(recording)
         if len(figure.times) < 2:
@@ -97,7 +97,7 @@ def quantities(recording):
     if not shown:
         return []
     unit = UNIT_ROUND_OFF.get(precision, UNIT_ROUND_OFF["double"])
-    colour = family_of(recording.summary.get("integrator") or "").light
+    colour = family_named(recording.summary.get("family")).light
     zeros = sorted({r for _, lines, log in shown if log
                     for r in ErrorAxis([v for *_, v in lines], unit).remarks()})
     return [drawing("quantities", "Against time", sentences(

@@ -1,19 +1,19 @@
-"""What a case shows, in one sentence and two lines below it, all of it HTML and computed from the verdict.
+"""What a case shows of cost, structure and drift: clauses in HTML, each with its assertion as data (assertion.py).
 
-1. Who is cheapest at the target, whether it keeps the structure, and if not, whether the conserved quantity drifts away.
-2. Where the cheapest does not keep the structure: who does, and the cheapest of them. Where no structure was measured: who
-   stays closest to the constraints.
-3. The experiment's subject, which is the family of the method it lists first, against the Gauss method of equal order,
-   the cheaper one first, whoever that is.
-A claim that the data do not make is not printed.
+cheapest    who is cheapest at the target, of the methods that are ranked there
+bounded     who is not ranked there and yet costs no more
+losing      whether the cheapest let the conserved quantity drift away in the run that is nearest to the target
+structure   who keeps the structure; "only", "all" and "no method" are said of those alone of which it is known
+dearer      what the cheapest method that keeps the structure costs, and what the experiment's subject, which is the family of
+            the method it lists first, costs beside the Gauss method of equal order
+drift       who lets the conserved quantity drift away, or move against its direction
+A clause that the data do not make is not printed: properties have three values, and of two methods at least it must be known
+how they stand.
 """
 import math
 
-from curves import GROWN
+from assertion import Clause, labels, three
 from experiment import DIRECTIONS
-from families import family_of
-from figures import heading
-from findings import ROUND_OFF
 from verdict import TIE
 from wording import counted, listed, plain_text, power, size, text, two_digits
 
@@ -26,78 +26,105 @@ def names(rows):
     return listed(name(r) for r in rows)
 
 
+def some(rows):
+    return names(rows) if len(rows) <= 6 else f"{len(rows)} methods"
+
+
 def structure_of(case):
     return f"the {text(case.get('structure') or 'symplectic')} structure"
 
 
-def target_text(target):
-    return power(round(math.log10(target)))
-
-
-def finding(verdict):
-    """The sentence, without a full stop at its end only where there is nothing to say at all."""
-    said = [cheapest(verdict), keepers(verdict) or surface(verdict), subject(verdict)]
-    said = [s for s in said if s]
-    if not said:
-        said = [trends(verdict)]
-    joined = "; ".join(s for s in said if s)
-    return joined[:1].upper() + joined[1:] + "." if joined else "Nothing to compare"
-
-
-def spent(verdict, row, target):
-    cost, at_most = row.times[target]
-    return ("at most " if at_most else "") + with_work(verdict, cost)
+def quantity(verdict):
+    """The conserved quantity with its article; one that is called by a letter has none."""
+    called = text(verdict.invariant)
+    return f"<i>{called}</i>" if len(called) == 1 else f"the {called}"
 
 
 def with_work(verdict, cost):
     return verdict.cost_text(cost) + ("" if verdict.work == "time" else f" {verdict.work}")
 
 
+def spent(verdict, row):
+    return with_work(verdict, row.times[verdict.target][0])
+
+
+def sides(row, target):
+    return [p.run.where for p in row.curve.bracket(target)]
+
+
+def priced(verdict, rows):
+    """What an assertion on costs at the target says beside its subject."""
+    return {"target": verdict.target, "work": verdict.work,
+            "costs": {r.label: r.times[verdict.target][0] for r in rows}}
+
+
+def error_columns(verdict):
+    column = {"state": "error_max", "quantity": "relative_drift_max"}.get(verdict.measure.kind, f"{verdict.measure.name}:max")
+    return [column, {"time": "ns_per_step_min", "right-hand sides": "rhs_per_step", "steps": "steps"}[verdict.work]]
+
+
 def cheapest(verdict):
-    if verdict.target is None or len(verdict.rows) < 2:
-        return ""
-    best = verdict.best(verdict.target)
+    best = verdict.best(verdict.target) if verdict.target else []
+    if not best:
+        return []
+    ranked, rivals = verdict.ranked(verdict.target), verdict.rivals
     who = names(best) if len(best) <= 3 else f"{names(best[:2])} and {len(best) - 2} others"
-    out = (f"at {text(verdict.measure.noun)} {target_text(verdict.target)} {who} {'is' if len(best) == 1 else 'are'} cheapest, "
-           f"{spent(verdict, best[0], verdict.target)}")
-    if best[0].curve.kept:
-        return out + along_with(verdict)
-    named = best if len(best) <= 3 else best[:2]
-    losing = [(r, kind) for r in named if (kind := losing_class(verdict, r))]
-    kinds = dict.fromkeys(kind for _, kind in losing)
-    if not losing:
-        return out
-    which = ("" if len(best) == 1 else "both " if len(losing) == len(best) == 2 else "all " if len(losing) == len(best)
-             else names(r for r, _ in losing) + " ")
-    return out + (f", but {which}{'lets' if len(losing) == 1 else 'let'} {quantity(verdict)} drift "
-                  f"({listed(text(k) for k in kinds)})")
+    scope = "" if len(ranked) == len(rivals) else f" of {len(ranked)} methods with runs on both sides of it"
+    out = f"at {text(verdict.measure.noun)} {power(round(math.log10(verdict.target)))} {who} "
+    out += (f"cost the same{scope.replace(' of ', ', of ', 1)}, {spent(verdict, best[0])}" if len(best) == len(ranked) else
+            f"{'is' if len(best) == 1 else 'are'} cheapest{scope}, {spent(verdict, best[0])}")
+    if verdict.work == "time" and any(r.curve.disturbed_at(verdict.target) for r in ranked):
+        out += " (timings were disturbed)"
+    return [Clause(out, "cheapest", labels(best), error_columns(verdict), {r.label: sides(r, verdict.target) for r in ranked},
+                   priced(verdict, ranked) | {"unranked": [r.label for r in rivals if r not in ranked]})]
 
 
-def quantity(verdict):
-    """The conserved quantity with its article; one that is called by a letter has none."""
-    name = text(verdict.invariant)
-    return f"<i>{name}</i>" if len(name) == 1 else f"the {name}"
+def bounded(verdict):
+    """Who is not ranked, as runs are on one side of the target alone, but has a run that reaches it for no more than the cheapest."""
+    best = verdict.best(verdict.target) if verdict.target else []
+    rows = [r for r in verdict.rivals if best and not r.ranked(verdict.target)
+            and r.times[verdict.target][0] <= best[0].times[verdict.target][0]]
+    if not rows:
+        return []
+    words = f"{some(rows)}, not ranked, {'reaches' if len(rows) == 1 else 'reach'} it for no more"
+    of_rows = {r.label: [p.run.where for p in r.curve.measured()] for r in rows}
+    return [Clause(words, "no-dearer", labels(rows), error_columns(verdict), of_rows, priced(verdict, best[:1]))]
 
 
-def losing_class(verdict, row):
-    """The class of drift of the row's run that is nearest to the target where the quantity drifts away in it, by more than
-    round-off adds up to; otherwise nothing."""
-    near = run_near(row, verdict.target)
-    kind = near.drift_class(verdict.invariant) if near and verdict.invariant else ""
-    grows = kind and verdict.expected not in DIRECTIONS and verdict.experiment.drift_classes[kind].grows
-    return kind if grows and near.drift(verdict.invariant, "max") > GROWN * verdict.unit else ""
+def why_none_is_cheapest(verdict):
+    """The reason in words where no method is called cheapest; otherwise empty."""
+    if verdict.target and verdict.best(verdict.target):
+        return ""
+    finished = [r for r in verdict.rivals if r.curve.points]
+    return ("no run finished" if not finished else "one method alone finished a run" if len(finished) == 1 else
+            "no error is known here" if not verdict.comparable else
+            "no two methods have runs on both sides of one error")
 
 
-def run_near(row, target):
-    """The run whose error is nearest to the target."""
-    points = row.curve.measured()
-    return min(points, key=lambda p: abs(math.log(p.error / target))).run if points else None
+def losing(verdict):
+    best = verdict.best(verdict.target) if verdict.target else []
+    if not best or best[0].curve.kept or not verdict.invariant or verdict.expected in DIRECTIONS:
+        return []
+    near = {r.label: min(r.curve.measured(), key=lambda p: abs(math.log(p.error / verdict.target))).run for r in best[:2]}
+    lost = [r for r in best[:2] if verdict.class_of(near[r.label])[1]
+            and near[r.label].drift(verdict.invariant, "max") > verdict.rounding(near[r.label])]
+    if not lost:
+        return []
+    kinds = dict.fromkeys(verdict.class_of(near[r.label])[0] for r in lost)
+    who = "" if len(best) == 1 else "both " if len(lost) == len(best) else f"{names(lost)} "
+    return [Clause(f"but {who}{'lets' if len(lost) == 1 else 'let'} {quantity(verdict)} drift ({listed(map(text, kinds))})",
+                   "drifts", labels(lost), [f"{verdict.invariant}:class"],
+                   {r.label: wheres(verdict, near[r.label]) for r in lost}, {"not": [], "unknown": []}, ", ")]
+
+
+def wheres(verdict, run):
+    return [r.where for r in verdict.experiment.ensemble_of(run) if not r.failed]
 
 
 def kept_split(verdict):
-    """(rows that keep the structure, rows that do not); methods on which it was not measured are in neither."""
-    judged = [r for r in verdict.rows if r.curve.kept is not None]
-    return [r for r in judged if r.curve.kept], [r for r in judged if not r.curve.kept]
+    """(rows that keep the structure, that do not, of which it is not known); none of the first two where no residual was
+    measured at all, since what does not keep the structure could not be seen then."""
+    return three(verdict.rivals, lambda r: r.curve.kept) if verdict.structured else ([], [], verdict.rivals)
 
 
 def collective(rows, others):
@@ -108,170 +135,142 @@ def collective(rows, others):
     return names(rows) if len(rows) <= 4 else f"{len(rows)} of {len(rows) + len(others)} methods"
 
 
-def few(rows, said):
-    """Whether they were too many to name: all that is said of them is how many."""
-    return said.startswith(f"{len(rows)} of ")
-
-
-def along_with(verdict):
-    """How the cheapest, which keeps the structure, stands among the others."""
-    keep, lose = kept_split(verdict)
-    structure = f"keeps {structure_of(verdict.case)} at round-off"
+def structure(verdict):
+    keep, lose, unknown = kept_split(verdict)
+    known, what = len(keep) + len(lose), structure_of(verdict.case)
+    if known < 2:
+        return []
+    who, whose = collective(keep, lose + unknown), collective(lose, keep + unknown)
+    scope = f"of {known} methods of which it is known " if unknown else ""
+    verb = "keeps" if len(keep) == 1 else "keep"
     if not lose:
-        return f", and like all others {structure}" if len(keep) > 1 else f", and {structure}"
-    if len(keep) == 1:
-        return f", and alone {structure}"
-    whose = collective(lose, keep)
-    if few(lose, whose):
-        return f", and like {len(keep) - 1} others {structure}"
-    return f", and like all but {whose} {structure}"
+        out = f"{scope}all keep {what}" if unknown else f"{'both' if known == 2 else 'all'} methods keep {what}"
+    elif not keep:
+        out = f"{scope}none keeps {what}" if unknown else f"no method keeps {what}"
+    elif len(keep) > 1 and len(plain_text(whose)) < len(plain_text(who)) and not whose.startswith(f"{len(lose)} of "):
+        out = f"{scope}all but {whose} keep {what}"
+    elif who.startswith(f"{len(keep)} of "):
+        out = f"{who} keep {what}" + (f", and {len(lose)} do not" if unknown else "")
+    else:
+        out = f"{scope}only {who} {verb} {what}"
+    rows = {r.label: [p.run.where for p in r.curve.points] for r in verdict.rivals}
+    return [Clause(out, "keeps", labels(keep), ["structure_residual", error_columns(verdict)[0] if verdict.of_state else ""],
+                   rows, {"not": labels(lose), "unknown": labels(unknown)})]
 
 
-def keepers(verdict):
+def times_as_much(verdict, cheap, dear):
+    """(words, [least, most]): how many times as much the dear one costs, from the spread of timings."""
+    (a, b), target = (cheap, dear), verdict.target
+    least = b.times[target][0] / max(a.times[target][0], a.curve.slowest_to(target))
+    most = max(b.times[target][0], b.curve.slowest_to(target)) / a.times[target][0]
+    ends = list(dict.fromkeys(two_digits(x) for x in (least, most)))
+    return " to ".join(ends), [least, most]
+
+
+def ratio(verdict, dear, cheap, words):
+    told, ends = times_as_much(verdict, cheap, dear)
+    out = words.format(told)
+    if verdict.work == "time" and any(r.curve.disturbed_at(verdict.target) for r in (cheap, dear)):
+        out += " (timings were disturbed)"
+    return Clause(out, "costs-times", [dear.label], error_columns(verdict), {r.label: sides(r, verdict.target) for r in (cheap, dear)},
+                  priced(verdict, (cheap, dear)) | {"than": cheap.label, "times": ends})
+
+
+def dearer(verdict):
     best = verdict.best(verdict.target) if verdict.target else []
-    keep, lose = kept_split(verdict)
-    if not (keep or lose) or best and best[0].curve.kept:
-        return ""
-    structure = f"{structure_of(verdict.case)} at round-off"
-    if not keep:
-        return f"no method keeps {structure}"
-    if not lose:
-        return f"all methods keep {structure}"
-    who, whose = collective(keep, lose), collective(lose, keep)
-    only = "" if few(keep, who) and len(keep) >= len(lose) else "only "
-    shorter = len(plain_text(whose)) < len(plain_text(who)) and not few(lose, whose)
-    out = f"all but {whose} keep {structure}" if shorter else (
-        f"{only}{who} {'keeps' if len(keep) == 1 else 'keep'} {structure}")
-    cheap = cheapest_keeper(verdict)
-    if not cheap:
-        return out
-    cost = spent(verdict, cheap, verdict.target) + times_as_much(verdict, cheap)
-    return out + (f", for {cost}" if len(keep) == 1 else f", cheapest of them {name(cheap)}, {cost}")
+    if not best:
+        return []
+    out, ranked = [], verdict.ranked(verdict.target)
+    keeper = next((r for r in ranked if verdict.structured and r.curve.kept), None)
+    if keeper and keeper not in best:
+        out.append(ratio(verdict, keeper, best[0], f"{name(keeper)}, which keeps the structure, costs {{}} times as much as "
+                                                   f"{name(best[0])} ({spent(verdict, keeper)})"))
+    family = verdict.curves[0].family
+    ours = next((r for r in ranked if r.curve.family is family and family.key != "gauss"), None)
+    gauss = ours and next((r for r in ranked if r.curve.family.key == "gauss" and r.curve.claimed == ours.curve.claimed), None)
+    if gauss:
+        cheap, dear = sorted((ours, gauss), key=lambda r: r.times[verdict.target][0])
+        if times_as_much(verdict, cheap, dear)[1][0] > TIE and not (cheap is best[0] and dear is keeper):
+            out.append(ratio(verdict, dear, cheap, f"{name(dear)} costs {{}} times as much as {name(cheap)} of equal order "
+                                                   f"({spent(verdict, dear)})"))
+    return out
 
 
-def cheapest_keeper(verdict):
-    """The row that is cheapest at the target among those that keep the structure, or None."""
-    reached = [r for r in kept_split(verdict)[0] if verdict.target and r.times[verdict.target][0] > 0]
-    return min(reached, key=lambda r: r.times[verdict.target][0], default=None)
-
-
-def times_as_much(verdict, row):
-    """How many times what the cheapest costs a row costs at the target; empty where bounds alone are known of it."""
-    cost, at_most = row.times[verdict.target]
-    least, bound = verdict.best(verdict.target)[0].times[verdict.target]
-    if at_most or cost / least < TIE:
-        return ""
-    return f" ({'at least ' if bound else ''}{two_digits(cost / least)}×)"
-
-
-def surface(verdict):
-    """Where no structure was measured: who stays closest to the constraints, and who leaves them most."""
-    if verdict.structured:
-        return ""
-    for level in verdict.experiment.residuals:
-        sized = sorted(((x, r) for r in verdict.rows if not math.isnan(x := verdict.residual(r, level))), key=lambda s: s[0])
-        if len(sized) > 1 and sized[0][0] < sized[-1][0]:
-            (near, first), (far, last) = sized[0], sized[-1]
-            return (f"{name(first)} stays closest to the constraints, {size(near)}, and {name(last)} leaves them by most, "
-                    f"{size(far)}")
-    return ""
-
-
-def subject(verdict):
-    if verdict.target is None:
-        return ""
-    family = family_of(verdict.experiment.methods[0].get("integrator") or "")
-    reached = [r for r in verdict.rows if r.times[verdict.target][0] > 0]
-    ours = next((r for r in reached if r.curve.family is family), None)
-    if not ours or family.key == "gauss":
-        return ""
-    gauss = [r for r in reached if r.curve.family.key == "gauss" and r.curve.claimed == ours.curve.claimed]
-    if not gauss:
-        return ""
-    best = verdict.best(verdict.target)
-    cheap, dear = sorted((ours, gauss[0]), key=lambda r: r.times[verdict.target][0])
-    ratio = dear.times[verdict.target][0] / cheap.times[verdict.target][0]
-    times = [f"{name(r)} ({spent(verdict, r, verdict.target)})" for r in (cheap, dear)]
-    if dear.times[verdict.target][1]:
-        return ""  # no more than a bound is known of it
-    least = "at least " if cheap.times[verdict.target][1] else ""
-    which = ", which keeps it" if dear.curve.kept and cheap.curve.kept is False else ""
-    if ratio < 1.1:
-        return "" if cheap in best and dear in best else f"{times[0]} and {times[1]} cost the same"
-    if cheap is best[0] and dear is cheapest_keeper(verdict) and not cheap.curve.kept:
-        return ""  # its cost was told where it was said to keep the structure
-    if cheap is best[0]:
-        return f"{name(dear)} costs {least}{two_digits(ratio)} times as much ({spent(verdict, dear, verdict.target)}){which}"
-    return f"{times[0]} is {least}{two_digits(ratio)}× cheaper than {times[1]}{which}"
-
-
-def trends(verdict):
-    """Who lets the conserved quantity drift away, by class; empty where nobody does or nothing is known."""
-    losing = {}
-    for row in verdict.rows:
-        if verdict.loses(row):
-            losing.setdefault(row.drift_class, []).append(row)
-    return "; ".join(f"{some(rows)} {'lets' if len(rows) == 1 else 'let'} {quantity(verdict)} drift ({text(kind)}"
-                     f"{by_round_off(verdict, rows)})" for kind, rows in losing.items())
-
-
-def some(rows):
-    return names(rows) if len(rows) <= 6 else f"{len(rows)} methods"
-
-
-def by_round_off(verdict, rows):
-    """How large drifts are that are no more than what round-off adds up to."""
-    largest = max(r.drift for r in rows)
-    return f", {size(largest)} at most" if largest <= GROWN * verdict.unit else ""
-
-
-def drifting(verdict):
-    """The second line."""
+def drift(verdict):
     if not verdict.invariant:
-        return ""
-    if verdict.expected in DIRECTIONS:
+        return []
+    every = [r for r in verdict.rivals if r.run]
+    rows = comparable(every)
+    grow, stay, unknown = three(rows, lambda r: r.drifts)
+    if len(grow) + len(stay) < 2:
+        return []
+    known = len(grow) + len(stay)
+    directed = verdict.expected in DIRECTIONS
+    if directed:
         verb, move = DIRECTIONS[verdict.expected]
-        wrong = [r for r in verdict.rows if r.drift > ROUND_OFF * verdict.unit]
-        begin = "" if verdict.comparable else "No error is known here, so that no method is called cheapest. "
-        what = quantity(verdict)
-        return (f"{begin}{what[0].upper()}{what[1:]} is expected to {verb}; " + (
-            f"{names(wrong)} {'lets' if len(wrong) == 1 else 'let'} it {move} at equal cost." if wrong
-            else f"no method lets it {move} by more than round-off."))
-    if not any(r.drift_class for r in verdict.rows):
-        return ""
-    out = trends(verdict)
-    begin = f"At equal cost, {with_work(verdict, verdict.level)}, " if verdict.level > 0 else ""
-    quiet = [r for r in verdict.rows if r.curve.kept is False and r.drift_class and not verdict.loses(r)
-             and not verdict.untold(r)]
-    untold = [r for r in verdict.rows if verdict.untold(r)]
-    nobody = f"no method {'is seen to let' if untold else 'lets'} {quantity(verdict)} drift away"
-    said = [begin + (out or nobody) + "."]
-    if untold:
-        said.append(f"Whether {some(untold)} {'does' if len(untold) == 1 else 'do'} is "
-                    f"{listed(text(k) for k in dict.fromkeys(r.drift_class for r in untold))}.")
-    if quiet:
-        said.append(f"{some(quiet)} {'does' if len(quiet) == 1 else 'do'} not keep the structure but "
-                    f"{'shows' if len(quiet) == 1 else 'show'} no trend.")
-    return " ".join(said)
+        begin = f"{quantity(verdict)} is expected to {verb}, and "
+        told = [f"{some(grow)} {'lets' if len(grow) == 1 else 'let'} it {move}"] if grow else []
+        away = f"it {move} by more than round-off"
+    else:
+        begin, told = "", drifting(verdict, grow)
+        away = f"{quantity(verdict)} drift away"
+    if told:
+        out = listed(told) + (f", the other{'' if len(stay) == 1 else f' {len(stay)}'} {'does' if len(stay) == 1 else 'do'} not"
+                              if stay and not unknown else "")
+    else:
+        out = (f"of {counted(known, 'method')} of which it is known none lets " if unknown else "no method lets ") + away
+    if unknown:
+        out += f"; of {some(unknown)} it is not known"
+    others = [r for r in every if r not in rows]
+    elsewhere = [r for r in others if r.drifts and not directed]
+    if len(others) > len(elsewhere):
+        out += f"; {some([r for r in others if r not in elsewhere])} had no run at that cost"
+    of_rows = {r.label: wheres(verdict, r.run) for r in rows}
+    clauses = [Clause(begin + at_cost(verdict, grow + stay) + out, "moves-against" if directed else "drifts", labels(grow),
+                      [verdict.invariant if directed else f"{verdict.invariant}:class"], of_rows,
+                      {"not": labels(stay), "unknown": labels(unknown)} | equal(verdict, grow + stay)
+                      | ({"expected": verdict.expected} if directed else {}))]
+    if elsewhere:
+        clauses.append(Clause(at_cost(verdict, elsewhere) + listed(drifting(verdict, elsewhere)), "drifts", labels(elsewhere),
+                              [f"{verdict.invariant}:class"], {r.label: wheres(verdict, r.run) for r in elsewhere},
+                              {"not": [], "unknown": []}))
+    return clauses
 
 
-def holds(verdict):
-    """The third line: for what it holds."""
-    case, runs = verdict.case, verdict.experiment.runs_of(verdict.case)
-    unit = case.get("time_unit") or ""
-    parts = [text(heading(case)) + (f" to t = {text(case['time'])} {text(unit)}".rstrip() if "time" in case else ""),
-             f"{case['precision']} precision"]
-    if verdict.measure:
-        which = {"exact": "the exact solution", "30-digit": "a solution of up to 30 digits"}.get(
-            case.get("reference_solution") or "", "the reference solution")
-        parts.append(text(verdict.measure.defined(which)))
-    steps = sorted({r.step for r in runs if not r.tolerance}, reverse=True)
-    between = ("" if not steps else f" at step {steps[0]:.4g}" if len(steps) == 1 else
-               f" at {len(steps)} steps between {steps[0]:.4g} and {steps[-1]:.4g}") + (f" {unit}" if unit and steps else "")
-    parts.append(counted(len(verdict.rows), "method") + text(between))
-    timing = {"time": "times are the fastest repetition of a run on one core, and differences within 10 % or the spread of "
-              "timings count as ties", "right-hand sides": "timings were not measured: right-hand sides stand for cost",
-              "steps": "timings were not measured: steps stand for cost"}[verdict.work]
-    if case.get("seeds"):
-        parts.append(f"medians over {case['seeds']} seeds")
-    return f"Holds for {', '.join(parts[:-1])}{', ' if len(parts) > 1 else ''}{parts[-1]}; {timing}."
+def drifting(verdict, rows):
+    """What the rows let the quantity do, by class of drift; what is no more than round-off adds up to comes last."""
+    kinds, small = {}, [r for r in rows if r.drift <= verdict.rounding(r.run)]
+    for row in rows:
+        if row not in small:
+            kinds.setdefault(row.drift_class, []).append(row)
+    out = [f"{some(of)} {'lets' if len(of) == 1 else 'let'} {quantity(verdict)} drift ({text(kind)})" for kind, of in kinds.items()]
+    if small:
+        out.append(f"round-off alone grows with {some(small)} ({listed(dict.fromkeys(text(r.drift_class) for r in small))} of at most "
+                   f"{size(max(r.drift for r in small))})")
+    return out
+
+
+def comparable(rows):
+    """The rows whose runs are at equal cost where it is known of half of them at least, and of two, if the quantity drifts;
+    otherwise all rows."""
+    at_level = [r for r in rows if not r.off]
+    known = sum(r.drifts is not None for r in at_level)
+    return at_level if known >= 2 and 2 * known >= sum(r.drifts is not None for r in rows) else rows
+
+
+def equal(verdict, rows):
+    """Of an assertion on runs at equal cost: the level; null where their costs differ."""
+    agree = verdict.level > 0 and not any(r.off for r in rows)
+    return {"level": verdict.level if agree else None, "work": verdict.work}
+
+
+def at_cost(verdict, rows):
+    """In which runs: at equal cost where that is what they cost, otherwise each at its own step, with what it cost."""
+    if equal(verdict, rows)["level"]:
+        return f"at equal cost, {with_work(verdict, verdict.level)}, "
+    costs = sorted(r.cost for r in rows if r.cost > 0)
+    if not costs:
+        return f"{'each ' if len(rows) > 1 else ''}at its own step, "
+    ends = list(dict.fromkeys(with_work(verdict, x) for x in (costs[0], costs[-1])))
+    return f"{'each ' if len(rows) > 1 else ''}at its own step, for {' to '.join(ends)}, "
+

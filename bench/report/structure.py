@@ -4,16 +4,16 @@ along the run at equal cost. Methods that keep the structure at every step share
 import dataclasses
 import math
 
+from assertion import said
 from canvas import BAND, GREY, MID, Canvas
 from curves import ranks
-from experiment import UNIT_ROUND_OFF
+from experiment import ROUND_OFF, UNIT_ROUND_OFF
 from families import style
 from figures import Drawing, heading, sentences, with_unit
-from findings import ROUND_OFF
 from labels import right_of
 from scales import ErrorAxis, envelope, step_axis, time_axis
-from sentence import collective, kept_split, structure_of
-from wording import counted, plain_text
+from sentence import structure as kept_by
+from wording import plain_text
 
 
 @dataclasses.dataclass
@@ -62,13 +62,7 @@ def drawings(verdict):
 
 def lede(verdict):
     """HTML: who keeps the structure, in a sentence."""
-    keep, lose = kept_split(verdict)
-    if not lose:
-        return f"Every method keeps {structure_of(verdict.case)} at round-off, at every step."
-    if not keep:
-        return f"No method keeps {structure_of(verdict.case)}; a residual that falls with the step is accuracy."
-    return (f"{len(keep)} of {counted(len(keep) + len(lose), 'method')} keep {structure_of(verdict.case)} at every step; "
-            f"{collective(lose, keep)} {'does' if len(lose) == 1 else 'do'} not.")
+    return said(kept_by(verdict)) or "A residual that falls with the step is accuracy, not structure."
 
 
 def draw(verdict, judged, along, axis, look):
@@ -87,7 +81,7 @@ def draw(verdict, judged, along, axis, look):
         lines = [(r, *zip(*r.curve.residuals)) for r in judged] if panel == "step" else along
         for r, x, values in lines:
             kept = r.curve.kept
-            shown = style(r.curve.family, rank[r.label], kept) | {"linewidth": 1.5, "markersize": 4.5, "zorder": 4}
+            shown = style(r.curve.family, rank[r.label], r.curve.fill) | {"linewidth": 1.5, "markersize": 4.5, "zorder": 4}
             shown |= {"color": GREY, "markeredgecolor": GREY, "linewidth": 0.8, "linestyle": "-", "markersize": 3.4,
                       "markerfacecolor": GREY, "zorder": 3} if kept else {}
             if panel == "time":

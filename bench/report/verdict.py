@@ -4,21 +4,24 @@ them in words.
 level    the cost at which methods are compared: of 1, 2, 5 times a power of ten the one that most methods' runs span; of
          several the nearest to the best cost at the target. The program chooses it where it made runs at that cost; their
          errors and drifts are then those of the table, and nothing is interpolated.
-target   the error that the sentence speaks of: 1e-6, or where nobody reaches it the smallest power of ten that two do.
+target   the error that the sentence speaks of: of the powers of ten the one that lies between the errors of two runs of most
+         methods; of several the nearest to 1e-6. Methods are ranked at an error only by runs on both sides of it.
+rivals   the methods whose motion is that of the case: a formulation that makes another motion is no rival.
 """
 import dataclasses
 import math
 import statistics
 
-from curves import ZERO, Curve, curves, front
+from curves import GROWN, ZERO, Curve, curves, front
 from error_measure import error_measure
-from experiment import DIRECTIONS, UNIT_ROUND_OFF, Run
+from experiment import DIRECTIONS, ROUND_OFF, UNIT_ROUND_OFF, Run
 from findings import largest_setback
 from wording import short_count, short_time
 
 TARGETS = (1e-3, 1e-6, 1e-9, 1e-12)
 LEAD = 1e-6
 TIE = 1.1
+EQUAL = 1.25  # costs that differ by less than this factor are called equal
 
 
 @dataclasses.dataclass
@@ -26,18 +29,26 @@ class Row:
     curve: Curve
     run: Run | None = None  # the one nearest to the level
     error: float = math.nan  # interpolated at the level
-    off: bool = False  # the method cannot cost the level
+    cost: float = math.nan  # of `run`
+    off: bool = False  # `run` does not cost the level
     drift: float = math.nan  # of `run`: the largest change, or the largest move against the expected direction
     drift_class: str = ""
+    drifts: bool | None = None  # in `run` the quantity drifts away, or moves against its direction; None: not known
     times: dict = dataclasses.field(default_factory=dict)  # target -> (cost, at most)
 
     @property
     def label(self):
         return self.curve.label
 
+    def ranked(self, target):
+        """Whether runs lie on both sides of the target, so that its cost is known and not merely bounded."""
+        cost, at_most = self.times[target]
+        return cost > 0 and not at_most
+
     def sort_key(self, lead, first):
-        return tuple(math.inf if math.isnan(x) else x for x in (
-            self.times[lead][0], self.times[first][0], self.error, self.drift))
+        """Ranked methods before others, which are sorted by what they reach at equal cost."""
+        costs = [self.times[t][0] if self.ranked(t) else math.inf for t in (lead, first)]
+        return (*costs, *(math.inf if math.isnan(x) else x for x in (self.error, self.drift)))
 
 
 class Verdict:
@@ -52,7 +63,7 @@ class Verdict:
         self.invariant = case.get("conserved") or ""
         self.expected = experiment.expectation(case, self.invariant)[0] if self.invariant else ""
         self.unit = UNIT_ROUND_OFF[case["precision"]]
-        self.rows = [Row(c, times={t: c.time_to(t, self.of_state) for t in self._asked()}) for c in self.curves]
+        self.rows = [Row(c, times={t: c.time_to(t) for t in self._asked()}) for c in self.curves]
         self.target = self._target()
         self.level, self.made = (experiment.equal.get(case["name"]) if self.work == "time" else None) or (self._level(), {})
         for row in self.rows:
@@ -67,18 +78,22 @@ class Verdict:
     def _target(self):
         if not self.comparable:
             return None
-        if self.best(LEAD):
-            return LEAD
-        reached = [t for t in sorted(self._asked()) if sum(r.times[t][0] > 0 for r in self.rows) >= min(2, len(self.rows))]
-        return reached[0] if reached else None
+        counts = {t: len(self.ranked(t)) for t in self._asked()}
+        most = max(counts.values())
+        return min((t for t, n in counts.items() if n == most), key=lambda t: abs(math.log(t / LEAD))) if most > 1 else None
+
+    @property
+    def rivals(self):
+        return [r for r in self.rows if not r.curve.method.get("another_motion")] or self.rows
+
+    def ranked(self, target):
+        """The rivals of which runs lie on both sides of a target, the cheapest first."""
+        return sorted((r for r in self.rivals if r.ranked(target)), key=lambda r: r.times[target][0])
 
     def best(self, target):
-        """The rows that are cheapest at a target within ties, the cheapest first; empty if nobody reaches it."""
-        reached = sorted((r for r in self.rows if r.times[target][0] > 0), key=lambda r: r.times[target][0])
-        if not reached:
-            return []
-        limit = reached[0].times[target][0] * max(TIE, reached[0].curve.spread_at(reached[0].times[target][0]))
-        return [r for r in reached if r.times[target][0] <= limit]
+        """The rows that are cheapest at a target within ties, the cheapest first; empty where fewer than two are ranked."""
+        ranked = self.ranked(target)
+        return [r for r in ranked if tied(ranked[0], r, target)] if len(ranked) > 1 else []
 
     def _level(self):
         spans = [(min(costs), max(costs)) for c in self.curves if (costs := [p.cost for p in c.points if p.cost > 0])]
@@ -86,7 +101,7 @@ class Verdict:
             return math.nan
         low, high = min(s[0] for s in spans), max(s[1] for s in spans)
         grid = [m * 10.0**k for k in range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1) for m in (1, 2, 5)]
-        best = self.best(self.target) if self.target else []
+        best = self.ranked(self.target) if self.target else []
         goal = best[0].times[self.target][0] if best else math.sqrt(low * high)
 
         def worth(level):
@@ -97,21 +112,29 @@ class Verdict:
         points = row.curve.points
         found = row.curve.at_cost(self.level) if self.level > 0 else None
         if found:
-            row.run, row.error, row.off = found
+            row.run, row.error, row.cost = found
             made = self.made.get(row.label)
             if made and not made.failed:
                 measured = self.measure.of(made) if self.measure else math.nan
-                row.run, row.off = made, False
+                row.run, row.cost = made, self.level
                 row.error = measured if math.isnan(measured) else max(ZERO * self.unit, measured)
         elif points:  # nothing is known of costs: the run at the step that most methods share
             step = self.experiment.common_step(self.case)
             row.run = min(points, key=lambda p: abs(math.log(p.run.step / step))).run
+        row.off = not abs(math.log(row.cost / self.level)) <= math.log(EQUAL) if self.level > 0 else bool(row.run)
         if row.run and self.invariant:
             members = [r for r in self.experiment.ensemble_of(row.run) if not r.failed]
-            row.drift_class = statistics.mode(r.drift_class(self.invariant) for r in members)
-            row.drift = statistics.median(
-                largest_setback(self.experiment, r, self.invariant, self.expected) if self.expected in DIRECTIONS else
-                r.drift(self.invariant, "max") for r in members)
+            row.drift_class, row.drifts = self.class_of(row.run)
+            sizes = [largest_setback(self.experiment, r, self.invariant, self.expected) if self.expected in DIRECTIONS else
+                     r.drift(self.invariant, "max") for r in members]
+            row.drift = math.nan if any(map(math.isnan, sizes)) else statistics.median(sizes)
+            if self.expected in DIRECTIONS:  # a move against the direction, by more than round-off
+                row.drifts = None if math.isnan(row.drift) else row.drift > ROUND_OFF * self.unit
+
+    def rounding(self, run):
+        """What round-off may add up to in a run: GROWN units of the quantity at the start; zero where that is not known."""
+        series = self.experiment.series(run, self.invariant)
+        return GROWN * self.unit * abs(series.initial) if series and math.isfinite(series.initial) else 0.0
 
     def residual(self, row, level):
         """The largest residual of a level of constraints at equal cost, of an ensemble the median over its seeds; nan where
@@ -128,20 +151,19 @@ class Verdict:
         return (f"Each method was run at the step at which it takes {cost}, as far as it can." if self.made else
                 f"Each method in the run whose cost is nearest to {cost}.")
 
-    def loses(self, row):
-        """Whether the conserved quantity drifts away at equal cost."""
-        classes = self.experiment.drift_classes
-        return bool(row.drift_class) and self.expected not in DIRECTIONS and classes[row.drift_class].grows
-
-    def untold(self, row):
-        """Whether it is not known if the conserved quantity drifts away at equal cost."""
-        classes = self.experiment.drift_classes
-        return (bool(row.drift_class) and self.expected not in DIRECTIONS and not classes[row.drift_class].grows
-                and not classes[row.drift_class].keeps)
+    def class_of(self, run):
+        """(the class of drift of a run, whether the error grows): True, False, or None where the class does not tell. Of an
+        ensemble the most frequent class, and what more than half of the seeds say."""
+        found = [r.drift_class(self.invariant) for r in self.experiment.ensemble_of(run) if not r.failed]
+        classes = [self.experiment.drift_classes.get(name) for name in found]
+        grow, keep = (sum(bool(c) and getattr(c, key) for c in classes) for key in ("grows", "keeps"))
+        return (statistics.mode(found) if found else "",
+                True if 2 * grow > len(found) else False if 2 * keep > len(found) else None)
 
     @property
     def structured(self):
-        return any(r.curve.kept is not None for r in self.rows)
+        """Whether what does not keep the structure could be seen."""
+        return any(r.curve.residuals for r in self.rows)
 
     @property
     def failures(self):
@@ -175,6 +197,12 @@ class Verdict:
         on_front = [p.run.method for p in front(self.curves)]
         chosen += sorted(set(on_front), key=lambda label: (-on_front.count(label), label))
         return list(dict.fromkeys(chosen + [r.label for r in ranked]))[:limit]
+
+
+def tied(one, other, target):
+    """Whether two costs of a target differ by no more than timings do: by a tenth, or by the spread of either."""
+    costs = sorted((r.times[target][0], r.curve.slowest_to(target)) for r in (one, other))
+    return costs[1][0] <= max(TIE * costs[0][0], costs[0][1])
 
 
 def work_of(experiment, case):

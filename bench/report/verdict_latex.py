@@ -60,6 +60,8 @@ def structure(row):
     if row.curve.kept is None:
         return "--"
     exponent = row.curve.residual_power()
+    if not row.curve.residuals:
+        return "claimed"
     worst = max(x for _, x in row.curve.residuals)
     return "kept" if row.curve.kept else size(worst) if math.isnan(exponent) else f"$h^{{{exponent:.1f}}}$"
 

@@ -8,7 +8,6 @@ import math
 from experiment import DIRECTIONS
 from families import mark
 from figures import slug, step_text, with_unit
-from findings import ROUND_OFF
 from verdict import TARGETS
 from wording import minus, power, raised, size, text, two_digits
 
@@ -36,8 +35,7 @@ def table(verdict):
            f'<table class="verdict"><caption>{caption(verdict)}</caption>', f"<thead><tr>{top}</tr>",
            f"<tr>{second}</tr></thead><tbody>"]
     for row in rows:
-        filled = row.curve.kept is not False
-        cells = [f'<th scope="row">{mark(row.curve.family, filled)}<span class="c-{row.curve.family.key}">'
+        cells = [f'<th scope="row">{mark(row.curve.family, row.curve.fill)}<span class="c-{row.curve.family.key}">'
                  f"{text(row.label)}</span></th>"]
         for c in columns[1:]:
             classes, value, shown, *title = c["cell"](row)
@@ -92,7 +90,11 @@ def all_columns(verdict):
 
 def structure_cell(row):
     if row.curve.kept is None:
-        return "na", None, "–"
+        small = [x for _, x in row.curve.residuals]
+        return (("na", math.log10(max(max(small), 1e-40)), f"not known <small>{size(max(small))}</small>",
+                 "the error of a step is as small, so that this may be accuracy") if small else ("na", None, "–"))
+    if not row.curve.residuals:
+        return "", -40.0, '<span class="tick">claimed</span>'
     worst = max(x for _, x in row.curve.residuals)
     if row.curve.kept:
         return "", math.log10(max(worst, 1e-40)), f'<span class="tick">kept</span> <small>{size(worst)}</small>'
@@ -109,11 +111,14 @@ def drift_cell(verdict, row):
     sorted_by = math.log10(max(row.drift, 1e-40))
     if verdict.expected in DIRECTIONS:
         move = DIRECTIONS[verdict.expected][1]
-        rises = row.drift > ROUND_OFF * verdict.unit
-        return ("bad" if rises else "", sorted_by,
-                f'<span class="cls">{move if rises else "none"}</span> {size(row.drift)}', at_which(verdict, row))
-    return ("bad" if verdict.loses(row) else "", sorted_by,
-            f'<span class="cls">{text(row.drift_class or "–")}</span> {size(row.drift)}', at_which(verdict, row))
+        return ("bad" if row.drifts else "", sorted_by,
+                f'<span class="cls">{move if row.drifts else "none"}</span> {size(row.drift)}{star(row)}', at_which(verdict, row))
+    return ("bad" if row.drifts else "", sorted_by,
+            f'<span class="cls">{text(row.drift_class or "–")}</span> {size(row.drift)}{star(row)}', at_which(verdict, row))
+
+
+def star(row):
+    return '<span class="star" title="does not cost this much: its nearest run">*</span>' if row.off else ""
 
 
 def at_which(verdict, row):
@@ -125,16 +130,15 @@ def level_cell(verdict, row, name):
     top = verdict.residual(row, name)
     if math.isnan(top):
         return "na", None, "–"
-    return "r", math.log10(max(top, 1e-40)), size(top), row.run.drift_class(name)
+    return "r", math.log10(max(top, 1e-40)), size(top) + star(row), row.run.drift_class(name)
 
 
 def error_cell(verdict, row):
     if math.isnan(row.error):
         return "na", None, "–"
-    star = '<span class="star" title="cannot cost this much: its nearest run">*</span>' if row.off else ""
     shown = "phase lost" if row.error >= 0.5 and verdict.of_state else size(row.error)
     return "", math.log10(max(row.error, 1e-40)), (
-        "" if verdict.experiment.residuals else strip(row)) + f'<span class="num">{shown}</span>{star}'
+        "" if verdict.experiment.residuals else strip(row)) + f'<span class="num">{shown}</span>{star(row)}'
 
 
 def strip(row):
@@ -155,11 +159,11 @@ def time_cell(verdict, row, target):
         points = row.curve.measured()
         last = min(points, key=lambda p: p.error) if points else None
         return "na", None, "–", f"error {last.error:.1e} after {verdict.cost_text(last.cost)} at best" if last else ""
-    best = verdict.best(target)
-    ratio = cost / best[0].times[target][0]
-    return ("best" if row in best else "", cost,
-            f"{'≤ ' if at_most else ''}{verdict.cost_text(cost)} <small>×{two_digits(ratio)}</small>",
-            "its coarsest run is better already" if at_most else "")
+    if at_most or row not in verdict.rivals:
+        return "", NEVER / 2, f"{'≤ ' if at_most else ''}{verdict.cost_text(cost)}", (
+            "no runs on both sides of this error" if at_most else "another motion")
+    ratio = cost / verdict.ranked(target)[0].times[target][0]
+    return ("best" if row in verdict.best(target) else "", cost, f"{verdict.cost_text(cost)} <small>×{two_digits(ratio)}</small>")
 
 
 def claim_cell(row):
@@ -183,15 +187,17 @@ def caption(verdict):
     parts = []
     if verdict.target is not None:
         spent = "time" if verdict.work == "time" else f"number of {verdict.work}"
-        parts.append(f"Sorted by the {spent} to {text(verdict.measure.noun)} {power(round(math.log10(lead)))}; "
-                     "× is the ratio to the best, ≤ says that the coarsest run is better already, – that no run reaches it.")
+        parts.append(f"Sorted by the {spent} to {text(verdict.measure.noun)} {power(round(math.log10(lead)))} "
+                     "where runs lie on both sides of it, and then by the error; × is the ratio to the best, ≤ a bound where "
+                     "there is no run on one side, – says that no run reaches it.")
     if verdict.level > 0:
         level = verdict.cost_text(verdict.level) + ("" if verdict.work == "time" else f" {verdict.work}")
         parts.append(f"At equal cost, {level}: " + (
-            "each method was run at the step that costs this; a star marks one that cannot, by its nearest run."
-            if verdict.made else "the error is interpolated between runs, drift and residual are of the nearest run."))
+            "each method was run at the step that costs this; a star marks one that does not cost it, by its nearest run."
+            if verdict.made else "the error is interpolated between runs, drift and residual are of the nearest run, with a star "
+            "where that costs another."))
     if verdict.structured:
-        parts.append("Filled marks keep the structure at every step, open ones do not.")
+        parts.append("Filled marks keep the structure, open ones do not, and of those filled by half it is not known.")
     if verdict.case.get("seeds"):
         parts.append(f"Medians over {verdict.case['seeds']} seeds, and their most frequent class.")
     if verdict.failures:

@@ -10,10 +10,10 @@ import math
 from canvas import BAND, FRONT, GREY, MID, Canvas
 from curves import LOST, ZERO, curves, front, ranks
 from families import style
+from first_screen import finding
 from figures import Drawing, heading, sentences, step_text
 from labels import Label, inside, place, sampled
 from scales import power_of_ten
-from sentence import finding
 from wording import counted, listed, plain_text, short_count, short_time, tick_time
 
 CLIPPED = 4.0  # where relative errors end: what is above says the same, that all is lost
@@ -96,11 +96,11 @@ def draw(verdict, work, some, named, look):
               linewidth=13 * look.scale, solid_capstyle="round", solid_joinstyle="round", zorder=1)
     for curve in sorted(some, key=lambda c: c.label in named):
         colour = curve.label in named
-        shown = style(curve.family, rank[curve.label], curve.kept is not False)
+        shown = style(curve.family, rank[curve.label], curve.fill)
         shown |= {"linewidth": 1.7, "markersize": 5.5, "zorder": 4}
         if not colour:
             shown |= {"color": GREY, "markeredgecolor": GREY, "linewidth": 0.9, "markersize": 3.4,
-                      "linestyle": "-", "zorder": 3} | ({"markerfacecolor": GREY} if curve.kept is not False else {})
+                      "linestyle": "-", "zorder": 3} | ({"markerfacecolor": GREY} if curve.fill == "full" else {})
         points = curve.measured()
         costs, errors = [p.cost for p in points], clipped(verdict, [p.error for p in points])
         told = f"{curve.label}: " + "; ".join(

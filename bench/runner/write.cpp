@@ -90,6 +90,7 @@ nlohmann::json summary(const ResolvedRun& run, const RunRecord& record) {
   j["schema"] = 1;
   j["system"] = run.model->name();
   j["integrator"] = run.settings.integrator;
+  j["family"] = run.method->family();
   if (!run.settings.of_case.empty()) j["case"] = run.settings.of_case;
   if (!run.settings.of_method.empty()) j["method"] = run.settings.of_method;
   for (const auto& [key, value] : run.model->parameters()) j["parameters"]["system." + key] = value;

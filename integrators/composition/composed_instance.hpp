@@ -43,6 +43,10 @@ class ComposedInstance final : public MakerOf<ComposedInstance, MethodInstance> 
     return kept;
   }
   [[nodiscard]] std::string called() const override { return statement_.called; }
+  /// That of compositions, unless the base steps on constraints.
+  [[nodiscard]] std::string family() const override {
+    return needs_constraints() ? composed_->family() : descriptor().family;
+  }
   [[nodiscard]] std::string objection(const Model& model) const override {
     return composed_->objection(model);
   }

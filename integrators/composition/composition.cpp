@@ -138,6 +138,7 @@ class CompositionPlugin final : public MethodPlugin {
 const CompositionPlugin composition{
     {.name = "composition",
      .title = "symmetric compositions of a symmetric method of order 2",
+     .family = "splitting",
      .reference =
          "yoshida1990; suzuki1990; kahan-li1997; hairer-lubich-wanner2006 (II.4.4), (II.4.5), (V.3.11), "
          "(V.3.13)",

@@ -12,6 +12,7 @@ struct Lincs : pfaff::Lincs {};
 const Method<Shake> shake{
     {.name = "shake",
      .title = "SHAKE: positions on the constraints, momenta of central differences",
+     .family = "constrained",
      .reference = "ryckaert1977; hairer-lubich-wanner2006 VII.1.4",
      .description =
          "Stoermer-Verlet with positions kept on the constraints and momenta from central differences, as in "
@@ -22,6 +23,7 @@ const Method<Shake> shake{
 const Method<Lincs> lincs{
     {.name = "lincs",
      .title = "Stoermer-Verlet with LINCS: constraint forces from a truncated series",
+     .family = "constrained",
      .reference = "hess1997",
      .description = "Stoermer-Verlet with constraint forces from a truncated series and a few corrections "
                     "instead of a solve. Take it to see what such approximations cost and leave behind. The "

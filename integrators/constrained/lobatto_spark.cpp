@@ -11,6 +11,7 @@ struct LobattoSpark : pfaff::LobattoSpark {};
 const Method<LobattoSpark> registered{
     {.name = "lobatto-spark",
      .title = "Lobatto IIIA-IIIB pair on the constraint surface, order 2 s - 2",
+     .family = "constrained",
      .reference = "jay1996; hairer-lubich-wanner2006 VII.1.5",
      .description = "The Lobatto IIIA-IIIB pair on the surface of holonomic constraints, of order 2 s - 2. "
                     "Take it for high accuracy on the surface, and where the mass matrix depends on the "

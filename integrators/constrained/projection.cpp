@@ -19,6 +19,7 @@ struct ProjectedGauss : SymmetricallyProjected<Gauss, SurfaceShift> {
 const Method<ProjectedRungeKutta4> projected_runge_kutta{
     {.name = "projected-rk4",
      .title = "classical Runge-Kutta method, each step projected onto the constraints",
+     .family = "constrained",
      .reference = "hairer-lubich-wanner2006 IV.4; hairer-norsett-wanner1993 II.1",
      .description =
          "A step of the classical Runge-Kutta method followed by projection onto both levels of the "
@@ -29,6 +30,7 @@ const Method<ProjectedRungeKutta4> projected_runge_kutta{
 const Method<ProjectedGauss> projected_gauss{
     {.name = "projected-gauss",
      .title = "Gauss collocation projected symmetrically onto the constraints, order 2 s",
+     .family = "constrained",
      .reference = "hairer-lubich-wanner2006 V.4.1, (II.1.3)",
      .description = "Gauss collocation with a symmetric projection, which leaves and enters the constraint "
                     "surface by the same multipliers, of order 2 s. Take it for long runs of time-reversible "

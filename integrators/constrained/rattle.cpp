@@ -12,6 +12,7 @@ struct Rattle : pfaff::Rattle {
 const Method<Rattle> rattle{
     {.name = "rattle",
      .title = "RATTLE: Stoermer-Verlet on the constraint surface",
+     .family = "constrained",
      .reference = "andersen1983; hairer-lubich-wanner2006 VII.1.4",
      .description =
          "Stoermer-Verlet on the surface of holonomic constraints, symmetric and of order 2. Take it first "

@@ -31,6 +31,7 @@ struct GeneratingFunction : pfaff::GeneratingFunction {
 const Method<GeneratingFunction> registered{
     {.name = "generating-function",
      .title = "K(z,t)-symplectic generating-function scheme of order m",
+     .family = "generating",
      .reference = "su-qin (87)-(88)",
      .description =
          "Schemes of any order m from the truncated generating function of a Darboux chart, su-qin "

@@ -10,6 +10,7 @@ struct GeneratingFunctionAlpha : pfaff::GeneratingFunctionAlpha {};
 const Method<GeneratingFunctionAlpha> registered{
     {.name = "generating-function-alpha",
      .title = "K(z,t)-symplectic generating-function scheme of order m for the system's own alpha",
+     .family = "generating",
      .reference = "su-qin (32)-(34), (87)-(88)",
      .description = "Schemes of any order m from the truncated generating function of a system's own "
                     "transformation alpha of pairs of states. Take them where no Darboux chart is known: the "

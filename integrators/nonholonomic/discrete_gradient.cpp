@@ -88,6 +88,7 @@ struct BothForms {
 const Method<BothForms> registered{
     {.name = "nonholonomic-discrete-gradient",
      .title = "discrete gradient methods for velocity constraints, which keep the energy",
+     .family = "nonholonomic",
      .reference = "celledoni-farre-hoiseth-martin2019; gonzalez1996; quispel-mclaren2008",
      .description =
          "Discrete gradient methods for velocity constraints, symmetric and of order 2, that keep any energy "

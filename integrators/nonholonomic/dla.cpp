@@ -13,6 +13,7 @@ struct DiscreteLagrangeDAlembert : pfaff::DiscreteLagrangeDAlembert {
 const Method<DiscreteLagrangeDAlembert> registered{
     {.name = "dla",
      .title = "discrete Lagrange-d'Alembert method at the middle of a step",
+     .family = "nonholonomic",
      .reference = "cortes-martinez2001",
      .description = "The discrete Lagrange-d'Alembert method for velocity constraints, which hold in the "
                     "middle of a step "

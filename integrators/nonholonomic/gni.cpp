@@ -59,6 +59,7 @@ struct GeometricNonholonomicIntegrator : ReflectedMomentum {
 const Method<GeometricNonholonomicIntegrator> registered{
     {.name = "gni",
      .title = "geometric nonholonomic integrator: variational steps between reflections of the momentum",
+     .family = "nonholonomic",
      .reference = "ferraro-iglesias-martin-de-diego2008",
      .description =
          "A variational step at its middle between reflections of the momentum by the velocity constraints, "

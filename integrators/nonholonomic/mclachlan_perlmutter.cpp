@@ -132,6 +132,7 @@ struct McLachlanPerlmutter {
 const Method<McLachlanPerlmutter> registered{
     {.name = "mclachlan-perlmutter",
      .title = "reversible method of McLachlan and Perlmutter for velocity constraints",
+     .family = "nonholonomic",
      .reference = "mclachlan-perlmutter2006",
      .description =
          "A drift, a kick that reflects the momentum by the velocity constraints in the middle of "

@@ -68,6 +68,7 @@ struct NonholonomicLeapFrog : ReflectedMomentum {
 const Method<NonholonomicLeapFrog> registered{
     {.name = "nonholonomic-leap-frog",
      .title = "nonholonomic leap-frog: Stoermer-Verlet between reflections of the momentum",
+     .family = "nonholonomic",
      .reference = "mclachlan-perlmutter2006",
      .description =
          "Stoermer-Verlet between reflections of the momentum by the velocity constraints, of order 2, "

@@ -199,6 +199,7 @@ struct SparkLobatto {
 const Method<SparkLobatto> registered{
     {.name = "spark-lobatto",
      .title = "Lobatto IIIA-IIIB pair for velocity constraints, order 2 s - 2",
+     .family = "nonholonomic",
      .reference = "jay1998; hairer-lubich-wanner2006 II.1.4, IV.2.2",
      .description =
          "The Lobatto IIIA-IIIB pair for velocity constraints, symmetric and of order 2 s - 2 with s stages; "

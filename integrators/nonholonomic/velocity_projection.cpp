@@ -19,6 +19,7 @@ struct VelocityProjectedGauss : SymmetricallyProjected<Gauss, VelocityShift> {
 const Method<VelocityProjectedRungeKutta4> velocity_projected_runge_kutta{
     {.name = "velocity-projected-rk4",
      .title = "classical Runge-Kutta method, momenta projected onto velocity constraints",
+     .family = "nonholonomic",
      .reference = "hairer-lubich-wanner2006 IV.4; hairer-norsett-wanner1993 II.1",
      .description =
          "A step of the classical Runge-Kutta method in a formulation, nonholonomic by default, followed by "
@@ -30,6 +31,7 @@ const Method<VelocityProjectedRungeKutta4> velocity_projected_runge_kutta{
 const Method<VelocityProjectedGauss> velocity_projected_gauss{
     {.name = "velocity-projected-gauss",
      .title = "Gauss collocation, momenta projected symmetrically onto velocity constraints, order 2 s",
+     .family = "nonholonomic",
      .reference = "hairer-lubich-wanner2006 V.4.1, (II.1.3)",
      .description =
          "Gauss collocation in a formulation, nonholonomic by default, with a symmetric projection of the "

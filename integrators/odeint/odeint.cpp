@@ -115,6 +115,7 @@ struct OdeintMcLachlan {
 const Method<OdeintRk4> rk4{
     {.name = "odeint-rk4",
      .title = "Boost.Odeint runge_kutta4",
+     .family = "explicit",
      .reference = "ahnert-mulansky2011",
      .description = "Boost.Odeint's classical Runge-Kutta method of order 4, driven step by step. Take it to "
                     "compare cost with a library that everyone has. Its coefficients are doubles, so that "
@@ -125,6 +126,7 @@ const Method<OdeintRk4> rk4{
 const Method<OdeintDopri5> dopri5{
     {.name = "odeint-dopri5",
      .title = "Boost.Odeint runge_kutta_dopri5 (Dormand-Prince)",
+     .family = "explicit",
      .reference = "ahnert-mulansky2011; dormand-prince1980",
      .description = "Boost.Odeint's Dormand and Prince pair of order 5, with steps of one size or controlled "
                     "by a tolerance. Take it as the usual general-purpose method, for short runs to a given "
@@ -136,6 +138,7 @@ const Method<OdeintDopri5> dopri5{
 const Method<OdeintMcLachlan> mclachlan{
     {.name = "odeint-mclachlan",
      .title = "Boost.Odeint symplectic_rkn_sb3a_mclachlan",
+     .family = "splitting",
      .reference = "ahnert-mulansky2011; mclachlan1995",
      .description =
          "Boost.Odeint's symplectic Runge-Kutta-Nystroem method of McLachlan, explicit, symmetric and of "

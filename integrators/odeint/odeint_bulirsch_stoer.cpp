@@ -81,6 +81,7 @@ struct OdeintBulirschStoer {
 const Method<OdeintBulirschStoer> registered{
     {.name = "odeint-bulirsch-stoer",
      .title = "Boost.Odeint bulirsch_stoer; fixed steps of order 8",
+     .family = "explicit",
      .reference = "ahnert-mulansky2011; hairer-norsett-wanner1993 II.9",
      .description =
          "Boost.Odeint's extrapolation of the modified midpoint rule, which chooses order and step for a "

@@ -11,6 +11,7 @@ struct RegisteredRungeKutta4 : pfaff::RungeKutta4 {};
 const Method<RegisteredRungeKutta4> registered{
     {.name = "rk4",
      .title = "classical Runge-Kutta method of order 4",
+     .family = "explicit",
      .reference = "hairer-norsett-wanner1993 II.1",
      .description =
          "The classical explicit Runge-Kutta method of order 4. Take it as the yardstick, and for short runs "

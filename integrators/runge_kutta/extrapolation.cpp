@@ -254,6 +254,7 @@ struct Extrapolation {
 const Method<Extrapolation> registered{
     {.name = "extrapolation",
      .title = "extrapolation of the midpoint rule (Gragg, Bulirsch and Stoer), of any order",
+     .family = "explicit",
      .reference = "hairer-norsett-wanner1993 II.9",
      .description =
          "Extrapolation of the explicit midpoint rule, of order 2 k with k columns, which with a tolerance "

@@ -25,6 +25,7 @@ struct RegisteredImplicitMidpoint : pfaff::ImplicitMidpoint {};
 const Method<RegisteredGauss> gauss{
     {.name = "gauss",
      .title = "Gauss collocation, order 2 s",
+     .family = "gauss",
      .reference = "hairer-lubich-wanner2006 (II.1.3)",
      .description =
          "Gauss collocation of any number of stages s, implicit and of order 2 s. Take it for smooth "
@@ -35,6 +36,7 @@ const Method<RegisteredGauss> gauss{
 const Method<RegisteredImplicitMidpoint> midpoint{
     {.name = "implicit-midpoint",
      .title = "implicit midpoint rule (Euler centre scheme)",
+     .family = "gauss",
      .reference = "su-qin (107); hairer-lubich-wanner2006 (II.1.4)",
      .description = "The implicit midpoint rule, Gauss collocation of one stage and the Euler centre scheme "
                     "of Feng's school. Take it as the simplest symplectic method for energies that are not "

@@ -15,6 +15,7 @@ struct MidpointDarboux : InDarbouxChart<ImplicitMidpoint> {
 const Method<GaussDarboux> gauss_darboux{
     {.name = "gauss-darboux",
      .title = "Gauss collocation in Darboux coordinates, order 2 s",
+     .family = "darboux",
      .reference = "hairer-lubich-wanner2006 (II.1.3), VI.4.2; su-qin (21)",
      .description = "Gauss collocation in the Darboux coordinates of a system, of order 2 s and exactly K(z, "
                     "t)-symplectic. Take it where a chart is at hand and high accuracy is asked for, beside "
@@ -24,6 +25,7 @@ const Method<GaussDarboux> gauss_darboux{
 const Method<MidpointDarboux> midpoint_darboux{
     {.name = "midpoint-darboux",
      .title = "implicit midpoint rule in Darboux coordinates",
+     .family = "darboux",
      .reference = "hairer-lubich-wanner2006 (II.1.4); su-qin (21)",
      .description =
          "The implicit midpoint rule in the Darboux coordinates of a system, of order 2 and exactly "

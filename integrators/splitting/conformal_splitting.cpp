@@ -12,6 +12,7 @@ struct ConformalSplitting : pfaff::ConformalSplitting {
 const Method<ConformalSplitting> strang{
     {.name = "conformal-splitting",
      .title = "Strang splitting into friction and Stoermer-Verlet",
+     .family = "splitting",
      .reference = "bhatt2016; mclachlan-perlmutter2001",
      .description = "Stoermer-Verlet between two half steps of the exact flow of linear friction: explicit, "
                     "symmetric and of order 2. Take it for separable energies with a friction proportional "

@@ -138,6 +138,7 @@ const Method<ExactFlowSplitting> splitting{
     {.name = "exact-flow-splitting",
      .title = "splittings into parts that are solved exactly: Wisdom-Holman, (8, 2), (8, 4), (10, 6, 4), "
               "correctors",
+     .family = "splitting",
      .reference = "wisdom-holman1991; wisdom-holman-touma1996; mclachlan1995small; laskar-robutel2001; "
                   "blanes-casas-farres-laskar-makazaga-murua2013",
      .description =

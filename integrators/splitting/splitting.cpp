@@ -14,6 +14,7 @@ struct SymplecticEuler : pfaff::SymplecticEuler {};
 const Method<Verlet> verlet{
     {.name = "verlet",
      .title = "Stoermer-Verlet, position form",
+     .family = "splitting",
      .reference = "hairer-lubich-wanner2006 (I.1.17)",
      .description =
          "The Stoermer-Verlet method, drift, kick, drift: explicit, symplectic, symmetric and of order 2 for "
@@ -25,6 +26,7 @@ const Method<Verlet> verlet{
 const Method<SymplecticEuler> symplectic_euler{
     {.name = "symplectic-euler",
      .title = "symplectic Euler: kick, then drift",
+     .family = "splitting",
      .reference = "hairer-lubich-wanner2006 (I.1.9)",
      .description = "A kick and then a drift: explicit, symplectic and of order 1 for separable energies. "
                     "Take it to study what structure alone gives, as it is the smallest symplectic method. "

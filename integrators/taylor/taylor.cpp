@@ -139,6 +139,7 @@ struct Taylor {
 const Method<Taylor> registered{
     {.name = "taylor",
      .title = "Taylor series of the solution, of any order",
+     .family = "explicit",
      .reference = "jorba-zou2005",
      .description =
          "The truncated power series of the solution itself, of any order up to 64, which with a tolerance "

@@ -55,6 +55,15 @@ std::vector<T> steps_on(const MethodInstance& method, const char* system) {
   return z;
 }
 
+TEST(Aliases, AreCompositionsInReportsUnlessTheyStepOnConstraints) {
+  for (const Short& s : shorts)
+    EXPECT_EQ(method_named(s.name, {})->family(),
+              std::string(s.base) == "rattle" ? "constrained" : "splitting")
+        << s.name;
+  EXPECT_EQ(method_named("wisdom-holman", {})->family(), "splitting");
+  EXPECT_EQ(method_named("leap-frog", {})->family(), "");
+}
+
 TEST(Aliases, StepBitForBitLikeTheCompositionTheyName) {
   EXPECT_EQ(integrators().aliases().size(), shorts.size() + 1);  // and wisdom-holman, a splitting
   for (const Short& s : shorts)

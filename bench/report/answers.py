@@ -1,0 +1,183 @@
+"""What a case shows of growth over seeds, of constraints, of formulations that agree or not and of frequencies: clauses in HTML,
+each with its assertion as data (assertion.py).
+
+growth       with which power of time the rms error of the conserved quantity grows, with an interval that leaving out one
+             seed after the other gives. An interval of at most SHARP to either side that holds 0, 1/2 or 1 tells that power.
+constraints  who stays on the constraints, which is a residual at round-off, and by how much others leave them
+agreement    how far motions are from each other in two formulations of one system, over the size of the motion: AGREE and
+             less is agreement; DIFFER and more is none, where methods of formulations that agree are ten times as near
+frequencies  with which method a vector turns most nearly as in the solution, and with which least
+"""
+import itertools
+import math
+
+from assertion import Clause, labels, three
+from ensembles import growth_of
+from experiment import ROUND_OFF
+from frequencies import frequencies
+from recording import Recording, read_recording
+from sentence import name, names, quantity, wheres
+from verdict import TIE
+from wording import listed, size, text
+
+AGREE, DIFFER, SHARP = 1e-3, 1e-2, 0.25
+POWERS = {0.5: "grows as a random walk does", 1.0: "grows in proportion to time", 0.0: "does not grow"}
+
+
+def growth(verdict):
+    case = verdict.case
+    if not case.get("seeds") or verdict.expected != "conserved":
+        return []
+    found = {run.method: (run, p, half) for run, p, half in growth_of(verdict.experiment, case) if not math.isnan(half)}
+    rows = [r for r in verdict.rivals if r.label in found]
+    groups = {}
+    for row in rows:
+        _, p, half = found[row.label]
+        holds = [words for power, words in POWERS.items() if abs(p - power) <= half]
+        groups.setdefault("" if half > SHARP or len(holds) > 1 else (holds or ["grows with another power"])[0], []).append(row)
+    untold = groups.pop("", [])
+    if not groups:
+        return []
+
+    def told(some):
+        return listed(f"{name(r)} (<i>t</i><sup>{found[r.label][1]:.2f} ± {found[r.label][2]:.2f}</sup>)" for r in some)
+    words = (f"the rms error of {quantity(verdict)} over {case['seeds']} seeds "
+             + ", and ".join(f"{words} with {told(some)}" for words, some in groups.items())
+             + (f"; with {names(untold)} the power is not told" if untold else ""))
+    return [Clause(words, "grows-as", labels(r for some in groups.values() for r in some), [case["conserved"]],
+                   {r.label: wheres(verdict, found[r.label][0]) for r in rows},
+                   {"groups": {words: labels(some) for words, some in groups.items()} | {"": labels(untold)},
+                    "powers": {r.label: list(found[r.label][1:]) for r in rows}})]
+
+
+def constraints(verdict):
+    """Of the first kind of constraints of which residuals of two methods are known, at the step that most methods share."""
+    experiment, runs = verdict.experiment, {r.method: r for r in verdict.experiment.at_common_step(verdict.case)}
+    for level in experiment.residuals:
+        spans = {}
+        for row in verdict.rivals:
+            members = [r for r in experiment.ensemble_of(runs[row.label]) if not r.failed]
+            values = [r.drift(level, "max") for r in members]
+            if values and not any(map(math.isnan, values)):
+                spans[row.label] = (min(values), max(values))
+        rows = [r for r in verdict.rivals if r.label in spans]
+        if len(rows) < 2:
+            continue
+        on, off, _ = three(rows, lambda r: spans[r.label][1] <= ROUND_OFF * verdict.unit)
+        off.sort(key=lambda r: spans[r.label])
+        first = [r for r in off if spans[r.label][0] <= TIE * spans[off[0].label][1]]
+        last = [r for r in off if TIE * spans[r.label][1] >= spans[off[-1].label][0]]
+        kind = text(level.replace("-", " ")) + "s"
+        parts = [f"{names(on)} {'stays' if len(on) == 1 else 'stay'} on the {kind}" if on else f"no method stays on the {kind}"]
+
+        def ends(some):
+            low, high = min(spans[r.label][0] for r in some), max(spans[r.label][1] for r in some)
+            return size(high) if size(low) == size(high) else f"{size(low)} to {size(high)}"
+        if off and (set(labels(first)) & set(labels(last)) or len(first) + len(last) > 6):
+            parts.append(f"{names(off) if len(off) <= 4 else f'{len(off)} methods'} {'leaves' if len(off) == 1 else 'leave'} them, "
+                         f"by {ends(off)}")
+            first = last = []
+        elif off:
+            parts.append(f"{names(first)} {'leaves' if len(first) == 1 else 'leave'} them least, by {ends(first)}, and {names(last)} "
+                         f"most, by {ends(last)}")
+        return [Clause("; ".join(parts), "constraints", labels(on), [f"{level}:max"],
+                       {r.label: wheres(verdict, runs[r.label]) for r in rows},
+                       {"off": labels(off), "least": labels(first), "most": labels(last),
+                        "spans": {r.label: list(spans[r.label]) for r in rows}})]
+    return []
+
+
+def motions(verdict):
+    """{formulation: {(method, seed): (run, Recording)}} of the case and of those that begin like it: the same system,
+    parameters and time."""
+    experiment, out = verdict.experiment, {}
+    kinds = {m["label"]: m.get("formulation") or "" for m in experiment.methods}
+    for case in experiment.cases:
+        if any(case.get(k) != verdict.case.get(k) for k in ("system", "parameters", "time", "seeds")):
+            continue
+        for run in experiment.at_common_step(case):
+            if not kinds[run.method]:
+                continue
+            for one in experiment.ensemble_of(run):
+                if not one.failed and (experiment.folder / one.path / "series.csv").exists():
+                    out.setdefault(kinds[run.method], {})[run.method, one.seed] = (one, read_recording(experiment.folder / one.path))
+    return out
+
+
+def distance(one: Recording, other: Recording):
+    """The largest distance of two motions at the times that both have, over the largest size of the first."""
+    at = {t: k for k, t in enumerate(other.times)}
+    pairs = [(k, at[t]) for k, t in enumerate(one.times) if t in at]
+    if len(pairs) < 2 or one.state != other.state:
+        return math.nan
+    columns = [(one.columns[n], other.columns[n]) for n in one.state]
+    return (math.sqrt(max(sum((a[k] - b[j]) ** 2 for a, b in columns) for k, j in pairs))
+            / math.sqrt(max(sum(a[k] ** 2 for a, _ in columns) for k, _ in pairs)))
+
+
+def agreement(verdict):
+    found, groups, out = motions(verdict), [], []
+    for kind in found:
+        group = next((g for g in groups if all(near(found[kind], found[other]) for other in g)), None)
+        groups = groups if group else groups + [[kind]]
+        group.append(kind) if group else None
+    for group in groups:
+        if len(group) > 1:
+            apart = max(max(distances(found[a], found[b])) for a, b in itertools.combinations(group, 2))
+            out.append(motion_clause(f"{listed(map(text, group))} agree, to {size(apart)} of the motion", "agree", found,
+                                     [[kind] for kind in group], apart))
+    for one, other in itertools.combinations(groups, 2):
+        apart = [d for a in one for b in other for d in distances(found[a], found[b])]
+        within = [d for group in (one, other) for a, b in itertools.combinations_with_replacement(group, 2)
+                  for d in distances(found[a], found[b])]
+        if apart and within and min(apart) >= max(DIFFER, 10 * max(within)):  # which nan is not
+            out.append(motion_clause(f"{listed(map(text, one))} {'differs' if len(one) == 1 else 'differ'} from "
+                                     f"{listed(map(text, other))}, by {size(min(apart))} of the motion or more", "differ", found,
+                                     [one, other], min(apart)))
+    return out
+
+
+def near(some, others):
+    apart = distances(some, others)
+    return bool(apart) and not any(map(math.isnan, apart)) and max(apart) <= AGREE
+
+
+def motion_clause(words, relation, found, groups, apart):
+    """A clause on the motions of groups of formulations, whose distance is `apart`."""
+    rows = {}
+    for kind in itertools.chain(*groups):
+        for (method, _), (run, _) in found[kind].items():
+            rows.setdefault(method, []).append(run.where)
+    state = next(iter(found[groups[0][0]].values()))[1].state
+    methods = [sorted({m for kind in group for m, _ in found[kind]}) for group in groups]
+    return Clause(words, relation, list(itertools.chain(*groups)), state, rows, {"methods": methods, "distance": apart})
+
+
+def distances(some, others):
+    return [distance(a[1], b[1]) for (method, seed), a in some.items() for (by, of), b in others.items()
+            if seed == of and (some is not others or method < by)]
+
+
+def turning(verdict):
+    out = []
+    for vector, (_, lines) in frequencies(verdict.experiment, verdict.case).items():
+        steps = [h for line in lines.values() for h, steady in zip(line.steps, line.steadies) if steady]
+        if not steps:
+            continue
+        step = max(set(steps), key=lambda h: (steps.count(h), -h))
+        at = {m: line.errors[line.steps.index(step)] for m, line in lines.items()
+              if step in line.steps and line.steadies[line.steps.index(step)]}
+        rows = sorted((r for r in verdict.rivals if r.label in at), key=lambda r: at[r.label])
+        if len(rows) < 2:
+            continue
+        best = [r for r in rows if at[r.label] <= TIE * at[rows[0].label]]
+        worst = [r for r in rows if TIE * at[r.label] >= at[rows[-1].label]]
+        if best[-1] is worst[0] or len(best) == len(rows):
+            continue
+        unknown = [m for m in lines if m not in at]
+        scope = f", of {len(rows)} methods whose error is steady," if unknown else ""
+        words = (f"at step {step:.4g} {text(vector)}{scope} turns best with {names(best)}, wrong by {size(at[rows[0].label])} rad per "
+                 f"unit of time, and worst with {names(worst)}, by {size(at[rows[-1].label])}")
+        out.append(Clause(words, "turns", labels(best), ["error", "change"], {},
+                          {"vector": vector, "step": step, "worst": labels(worst), "among": labels(rows), "unknown": unknown}))
+    return out
