@@ -100,7 +100,6 @@ void print_all(const std::vector<Check>& checks) {
 struct Summary {
   int passed = 0, failed = 0, unjudged = 0;
   const Check* worst = nullptr;  // of those that were judged, in units of what is allowed
-  double size = 0;
 };
 
 // How near a check is to what is allowed: above one it fails. Of an order, by how much it misses the claim.
@@ -140,10 +139,7 @@ void print_claims(const std::vector<Check>& checks) {
     s.passed += c.result == CheckResult::pass;
     s.failed += c.result == CheckResult::fail;
     s.unjudged += unjudged(c);
-    if (judged && (s.worst == nullptr || nearness(c) > s.size)) {
-      s.worst = &c;
-      s.size = nearness(c);
-    }
+    if (judged && (s.worst == nullptr || nearness(c) > nearness(*s.worst))) s.worst = &c;
   }
   std::vector<std::vector<std::string>> rows{
       {"claim", "holds", "fails", "not judged", "worst (allowed)", "where"}};

@@ -28,11 +28,10 @@ void exempt_from_quad(std::vector<Check>& checks, const MethodOnModel& on) {
 // Passes a failed check whose residual is rounding: it is measured again, from starts that are moved.
 template <class T, class Residual>
 void excuse_rounding(Check& check, const MethodOnModel& on, const Residual& residual) {
-  std::vector<double> residuals;
-  for (int seed = 1; seed <= moved_steps; ++seed) {
-    MeasuredStep<T> moved = on.moved_step<T>(seed);
-    residuals.push_back(residual(moved));
-  }
+  const auto residuals = of_moved_starts<T>(on.start(), [&](const std::vector<Real>& start) {
+    MeasuredStep<T> moved = on.step_from<T>(start, on.step_size());
+    return residual(moved);
+  });
   if (!is_rounding(residuals, check.tolerance)) return;
   check.result = CheckResult::pass;
   check.reason = multiplied_rounding;
@@ -105,9 +104,6 @@ void excuse_stopping(std::vector<Check>& checks) {
     }
 }
 
-}  // namespace
-
-namespace {
 std::vector<Check> checks_of(const MethodInstance& method, const Assignments& parameters,
                              const std::string& system, const std::shared_ptr<const Model>& model,
                              bool long_runs, bool along_runs) {

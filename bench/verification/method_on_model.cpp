@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include <pfaff/bench/measure/history.hpp>
-#include <pfaff/bench/verification/rounding_of_step.hpp>
 
 namespace pfaff {
 
@@ -69,12 +68,11 @@ bool MethodOnModel::differentiable() const {
 }
 
 template <class T>
-MeasuredStep<T> MethodOnModel::moved_step(int seed) const {
-  return {method_, model_,     moved_by_a_unit<T>(start_, seed),
-          time_,   step_size_, history_ ? steps_of_warm_up : 0};
+MeasuredStep<T> MethodOnModel::step_from(const std::vector<Real>& start, const Real& h) const {
+  return {method_, model_, start, time_, h, history_ ? steps_of_warm_up : 0};
 }
-template MeasuredStep<double> MethodOnModel::moved_step<double>(int seed) const;
-template MeasuredStep<Quad> MethodOnModel::moved_step<Quad>(int seed) const;
+template MeasuredStep<double> MethodOnModel::step_from<double>(const std::vector<Real>&, const Real&) const;
+template MeasuredStep<Quad> MethodOnModel::step_from<Quad>(const std::vector<Real>&, const Real&) const;
 
 Check check_named(const MethodInstance& method, const Assignments& parameters, const std::string& system,
                   const std::string& claim, const std::string& scope, const char* precision) {

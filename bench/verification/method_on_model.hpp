@@ -60,9 +60,9 @@ class MethodOnModel {
     }
   }
 
-  /// The same step from a start that is moved by a unit in the last place (rounding_of_step.hpp).
+  /// The same step from another start, and of another size.
   template <class T>
-  [[nodiscard]] MeasuredStep<T> moved_step(int seed) const;
+  [[nodiscard]] MeasuredStep<T> step_from(const std::vector<Real>& start, const Real& h) const;
 
   /// A check with the names of this method and model filled in, and no result yet.
   Check check(const std::string& claim, const std::string& scope, const char* precision) const;

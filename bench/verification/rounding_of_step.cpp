@@ -17,6 +17,11 @@ bool is_rounding(std::span<const double> residuals, double tolerance) {
   return std::sqrt(squares / (count - 1)) > fraction * sum / count;
 }
 
+bool falls_with_the_precision(double in_double, double in_quad) {
+  constexpr double fall = 1e13, most = 1e-8;
+  return in_double <= most && in_quad * fall <= in_double;
+}
+
 template <class T>
 std::vector<Real> moved_by_a_unit(const std::vector<Real>& start, int seed) {
   std::mt19937_64 random(static_cast<std::uint64_t>(seed));

@@ -38,4 +38,17 @@ bool is_rounding(std::span<const double> residuals, double tolerance);
 template <class T>
 std::vector<Real> moved_by_a_unit(const std::vector<Real>& start, int seed);
 
+/// measure(moved) for each of `moved_steps` starts that are moved so.
+template <class T, class Measure>
+std::vector<double> of_moved_starts(const std::vector<Real>& start, const Measure& measure) {
+  std::vector<double> measured;
+  for (int seed = 1; seed <= moved_steps; ++seed)
+    measured.push_back(measure(moved_by_a_unit<T>(start, seed)));
+  return measured;
+}
+
+/// True where a residual is rounding, or what a stopping rule leaves: in quad it is smaller by as much as the
+/// precisions differ, which no error of a method is. What is above 1e-8 in double is neither.
+bool falls_with_the_precision(double in_double, double in_quad);
+
 }  // namespace pfaff

@@ -35,30 +35,41 @@ std::vector<Real> as_reals(const std::vector<double>& z) {
 // that differs from the same step of a stepper that starts there.
 struct RunInDouble {
   std::vector<Place> places;
-  int taken = 0;
   int differs = 0;        // the number of that step; 0 where there is none
-  double difference = 0;  // in units of the scales of the step
+  double difference = 0;  // relative to the state after it
 };
+
+template <class T>
+T largest_of(const std::vector<T>& z) {
+  T largest(0);
+  for (const T& x : z) largest = std::max(largest, T(abs(x)));
+  return largest;
+}
+
+// The largest difference of two states over the largest coordinate of the first.
+template <class T>
+double relative_difference(const std::vector<T>& z, const std::vector<T>& other) {
+  T difference(0);
+  for (std::size_t k = 0; k < z.size(); ++k) difference = std::max(difference, T(abs(z[k] - other[k])));
+  return static_cast<double>(difference / largest_of(z));
+}
 
 // How far the step from a state moves where its inputs move by a unit in the last place.
 double spread(const MethodOnModel& on, const Place& place) {
   MeasuredStep<double> step(on.method(), on.model(), place.z, place.t, on.step_size());
   if (!step.end()) return no_step;
   double worst = 0;
-  for (int seed = 1; seed <= moved_steps; ++seed) {
-    MeasuredStep<double> moved(on.method(), on.model(), moved_by_a_unit<double>(place.z, seed), place.t,
-                               on.step_size());
-    if (!moved.end()) return no_step;
-    worst = std::max(worst, step.distance(*step.end(), *moved.end()));
-  }
+  for (const double distance : of_moved_starts<double>(place.z, [&](const std::vector<Real>& start) {
+         MeasuredStep<double> moved(on.method(), on.model(), start, place.t, on.step_size());
+         return moved.end() ? step.distance(*step.end(), *moved.end()) : no_step;
+       }))
+    worst = std::isnan(distance) ? no_step : std::max(worst, distance);
   return worst;
 }
 
 // True where the same two steps differ by less in quad, by as much as the precisions differ: the step of a
 // run begins its iteration from what it remembers, and what the stopping rule leaves differs.
 bool left_by_stopping(const MethodOnModel& on, int steps, double in_double) {
-  constexpr double fall = 1e13, most = 1e-8;
-  if (!(in_double <= most)) return false;
   const auto stepper = on.method().stepper(on.model(), Quad()),
              single = on.method().stepper(on.model(), Quad());
   std::vector<Quad> z;
@@ -71,26 +82,15 @@ bool left_by_stopping(const MethodOnModel& on, int steps, double in_double) {
   if (stepper->advance(t0, steps, h, 1, z, completed) != Status::converged ||
       single->advance(t0, steps, h, 1, alone, completed) != Status::converged)
     return false;
-  Quad size(0), difference(0);
-  for (std::size_t k = 0; k < z.size(); ++k) {
-    size = std::max(size, abs(z[k]));
-    difference = std::max(difference, abs(z[k] - alone[k]));
-  }
-  return difference * Quad(fall) <= Quad(in_double) * size;
+  return falls_with_the_precision(in_double, relative_difference(z, alone));
 }
 
 // True where a step from a place ends within a fiftieth of the state from where two of half its size do.
-bool follows_the_motion(const MethodOnModel& on, const Place& place, const std::vector<double>& end) {
+bool follows_the_motion(const MethodOnModel& on, const Place& place, const Real& h) {
   constexpr double most_rough = 0.02;
-  MeasuredStep<double> step(on.method(), on.model(), place.z, place.t, on.step_size());
+  MeasuredStep<double> step(on.method(), on.model(), place.z, place.t, h);
   const auto halves = step.after(step.t(), step.h() / 2, step.start(), 2);
-  if (!halves) return false;
-  double size = 0, difference = 0;
-  for (std::size_t k = 0; k < end.size(); ++k) {
-    size = std::max(size, std::abs((*halves)[k]));
-    difference = std::max(difference, std::abs((*halves)[k] - end[k]));
-  }
-  return difference <= most_rough * size;
+  return step.end() && halves && relative_difference(*halves, *step.end()) <= most_rough;
 }
 
 RunInDouble follow(const MethodOnModel& on) {
@@ -101,10 +101,8 @@ RunInDouble follow(const MethodOnModel& on) {
   const auto stepper = on.method().stepper(on.model(), 0.0), single = on.method().stepper(on.model(), 0.0);
   std::vector<double> z;
   for (const Real& x : on.start()) z.push_back(x.value());
-  const double t0 = on.time().value(), h = on.step_size().value();
+  const double t0 = on.time().value(), h = on.step_size().value(), first = largest_of(z);
   std::vector<double> largest(z.size());
-  double first = 0;
-  for (const double x : z) first = std::max(first, std::abs(x));
   for (int n = 0; n < steps_of_run; ++n) {
     const double t = t0 + n * h;
     const Place place{as_reals(z), Real(Quad(t)), n};
@@ -118,26 +116,21 @@ RunInDouble follow(const MethodOnModel& on) {
     std::vector<double> alone = z;
     std::int64_t completed = 0;
     if (stepper->advance(t0, n, h, 1, z, completed) != Status::converged) break;
-    ++run.taken;
     single->forget();
     if (single->advance(t0, n, h, 1, alone, completed) != Status::converged) break;
-    double size = 0, difference = 0;
-    for (std::size_t k = 0; k < z.size(); ++k) {
-      size = std::max(size, std::abs(z[k]));
-      difference = std::max(difference, std::abs(z[k] - alone[k]));
-    }
     // Far from where it started a motion has other sizes, for which the step was not chosen.
+    const double size = largest_of(z), difference = relative_difference(z, alone);
     if (!(size <= most_growth * first) || !(first <= most_growth * size)) break;
-    if (!(difference > allowed * size)) continue;
-    if (difference / size <= most_moved * spread(on, place) || left_by_stopping(on, n, difference / size)) {
-      allowed = most_moved * difference / size;
+    if (!(difference > allowed)) continue;
+    if (difference <= most_moved * spread(on, place) || left_by_stopping(on, n, difference)) {
+      allowed = most_moved * difference;
       continue;
     }
     // The equations of an implicit step may have several solutions, of which a start without a past finds
     // another one.
-    if (!follows_the_motion(on, place, alone)) break;
+    if (!follows_the_motion(on, place, on.step_size())) break;
     run.differs = n + 1;
-    run.difference = difference / size;
+    run.difference = difference;
     break;
   }
   return run;
@@ -150,11 +143,10 @@ double residual_at(const MethodOnModel& on, const ClaimCheck& row, const Place& 
   MeasuredStep<T> step(on.method(), on.model(), place.z, place.t, h, warm_up);
   const double residual = residual_of(row, step);
   if (!(residual > tolerance<T>())) return residual;
-  std::vector<double> moved;
-  for (int seed = 1; seed <= moved_steps; ++seed) {
-    MeasuredStep<T> again(on.method(), on.model(), moved_by_a_unit<T>(place.z, seed), place.t, h, warm_up);
-    moved.push_back(residual_of(row, again));
-  }
+  const auto moved = of_moved_starts<T>(place.z, [&](const std::vector<Real>& start) {
+    MeasuredStep<T> again(on.method(), on.model(), start, place.t, h, warm_up);
+    return residual_of(row, again);
+  });
   return is_rounding(moved, tolerance<T>()) ? 0 : residual;
 }
 
@@ -168,11 +160,16 @@ std::vector<const ClaimCheck*> rows_of(const MethodOnModel& on) {
   return rows;
 }
 
+// The check of a claim, which has not been made yet.
+template <class T>
+Check check_of(const MethodOnModel& on, const ClaimCheck& row, const char* where) {
+  const ClaimRow& claim = claim_row(row.claim);
+  return on.check(std::string(claim.name) + where, std::string(claim.scope), precision_name<T>());
+}
+
 // Fails where a claim is lost at one of the places; double coefficients and stopping rules leave more than
 // rounding.
-Check judged(const MethodOnModel& on, const ClaimCheck& row, const std::vector<Place>& places) {
-  Check check = on.check(std::string(claim_row(row.claim).name) + " along a run",
-                         std::string(claim_row(row.claim).scope), precision_name<double>());
+Check judged(const MethodOnModel& on, const ClaimCheck& row, const std::vector<Place>& places, Check check) {
   check.tolerance = most_left_by_stopping * tolerance<double>() * on.growth_of_round_off();
   check.result = CheckResult::pass;
   const auto at = [&]<class T>(T /*scalar*/, const Place& place) {
@@ -184,9 +181,7 @@ Check judged(const MethodOnModel& on, const ClaimCheck& row, const std::vector<P
     if (std::isnan(residual)) break;  // steps that do not converge are no claim's fault
     check.measured = std::max(check.measured, residual);
     if (residual <= check.tolerance) continue;
-    // What falls with the precision is rounding, or what the stopping rule leaves.
-    constexpr double fall = 1e13, most = 1e-8;
-    if (!on.double_coefficients() && residual <= most && at(Quad(), place) * fall <= residual) continue;
+    if (!on.double_coefficients() && falls_with_the_precision(residual, at(Quad(), place))) continue;
     check.result = CheckResult::fail;
     check.reason = "lost in step " + std::to_string(place.steps + 1);
     break;
@@ -194,29 +189,14 @@ Check judged(const MethodOnModel& on, const ClaimCheck& row, const std::vector<P
   return check;
 }
 
-// How far one step ends from two of half its size, relative to the state; not-a-number where one does not
-// converge.
-double roughness(const MethodOnModel& on, const Real& h) {
-  MeasuredStep<double> step(on.method(), on.model(), on.start(), on.time(), h);
-  const auto halves = step.after(step.t(), step.h() / 2, step.start(), 2);
-  if (!step.end() || !halves) return no_step;
-  double size = 0, difference = 0;
-  for (std::size_t k = 0; k < halves->size(); ++k) {
-    size = std::max(size, std::abs((*halves)[k]));
-    difference = std::max(difference, std::abs((*halves)[k] - (*step.end())[k]));
-  }
-  return difference / size;
-}
-
 // The largest step from the generic state, of 2, 4, ... 64 times the one that is judged, that still follows
 // the motion. Beyond, the equations of an implicit step have several solutions, and the step back may find
 // another one.
 Real largest_step(const MethodOnModel& on) {
-  constexpr double most_rough = 0.02;
   Real h = on.step_size();
   for (int k = 0; k < most_doublings; ++k) {
     const Real next = h * Real(2);
-    if (!(roughness(on, next) <= most_rough)) break;
+    if (!follows_the_motion(on, {on.start(), on.time()}, next)) break;
     h = next;
   }
   return h;
@@ -228,8 +208,8 @@ std::vector<Check> check_along_run(MethodOnModel& on) {
   std::vector<Check> checks;
   if (on.model()->dimension() > small_system) return checks;
   Check whole = on.check("steps of a run", "methods without history", precision_name<double>());
-  const auto add = [&](const Check& named, const auto& judge) {
-    checks.push_back(within_budget(named, judge));
+  const auto add = [&](const Check& check, const auto& judge) {
+    checks.push_back(within_budget(check, judge));
   };
   RunInDouble run;
   if (on.history()) {
@@ -247,16 +227,14 @@ std::vector<Check> check_along_run(MethodOnModel& on) {
     });
   }
   for (const ClaimCheck* row : rows_of(on)) {
-    const Check named =
-        on.check(std::string(claim_row(row->claim).name) + " along a run", "", precision_name<double>());
-    add(named, [&] { return judged(on, *row, run.places); });
+    const Check check = check_of<double>(on, *row, " along a run");
+    add(check, [&] { return judged(on, *row, run.places, check); });
   }
   if (on.history() || on.double_coefficients()) return checks;
   const Real h = largest_step(on);
   if (h == on.step_size()) return checks;
   for (const ClaimCheck* row : rows_of(on)) {
-    Check check = on.check(std::string(claim_row(row->claim).name) + " in a large step",
-                           std::string(claim_row(row->claim).scope), precision_name<Quad>());
+    Check check = check_of<Quad>(on, *row, " in a large step");
     add(check, [&] {
       check.measured = residual_at<Quad>(on, *row, {on.start(), on.time()}, h, 0);
       check.tolerance = most_left_by_stopping * tolerance<Quad>() * on.growth_of_round_off();

@@ -49,22 +49,17 @@ Check check_precisions(MethodOnModel& on) {
   Check check = on.residual("double-is-quad-rounded", "every system", true, "double", difference,
                             tolerance<double>() * on.growth_of_round_off());
   if (check.result != CheckResult::fail || std::isnan(difference)) return check;
-  const auto step_from = [&](const std::vector<Real>& start, const Real& size) {
-    return MeasuredStep<double>(on.method(), on.model(), start, on.time(), size, on.step<double>().warm_up());
-  };
-  MeasuredStep<double> again = step_from(on.start(), h);
+  MeasuredStep<double> again = on.step_from<double>(on.start(), h);
   if (again.end() != on.step<double>().end()) {
     check.reason = "the same step from the same state ends elsewhere: it depends on what was computed before";
     return check;
   }
-  std::vector<double> differences;
   double moved_by = 0;
-  for (int seed = 1; seed <= moved_steps; ++seed) {
-    const std::vector<Real> moved = moved_by_a_unit<double>(on.start(), seed);
-    MeasuredStep<double> rounded = step_from(moved, h);
-    differences.push_back(difference_of_precisions(on, moved, h, rounded));
+  const auto differences = of_moved_starts<double>(on.start(), [&](const std::vector<Real>& moved) {
+    MeasuredStep<double> rounded = on.step_from<double>(moved, h);
     if (rounded.end()) moved_by = std::max(moved_by, again.distance(*rounded.end(), *again.end()));
-  }
+    return difference_of_precisions(on, moved, h, rounded);
+  });
   if (is_rounding(differences, check.tolerance)) {
     check.result = CheckResult::pass;
     check.reason = multiplied_rounding;
@@ -73,7 +68,7 @@ Check check_precisions(MethodOnModel& on) {
     check.reason = "what the method's own stopping rule leaves in double";
   } else if (moved_by > difference / 8) {
     return not_judged(check, "the step multiplies a rounding of its inputs to " + scientific(moved_by));
-  } else if (MeasuredStep<double> quarter = step_from(on.start(), h / Real(4));
+  } else if (MeasuredStep<double> quarter = on.step_from<double>(on.start(), h / Real(4));
              difference_of_precisions(on, on.start(), h / Real(4), quarter) <= check.tolerance) {
     return not_judged(check, "the equations of so large a step have another solution, which double finds");
   } else if (differing_sizes(*on.model()) > most_differing_sizes) {
