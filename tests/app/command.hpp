@@ -87,7 +87,7 @@ class Program {
       }
       // Tests that run in the background of a script inherit interrupts that are ignored.
       for (const int signal : {SIGINT, SIGPIPE}) std::signal(signal, SIG_DFL);
-      alarm(300);  // what never ends is a failure
+      alarm(600);  // what never ends is a failure
       int out = out_[1];
       if (!circumstances.standard_output.empty())
         out = open(circumstances.standard_output.c_str(), O_WRONLY | O_CLOEXEC);
