@@ -1,4 +1,4 @@
-// pfaff list: shows all plug-ins by kind and family, and for each facet which plug-ins offer and need it. In
+// pfaff list: shows all plug-ins by kind and folder, and for each facet which plug-ins offer and need it. In
 // Markdown the list is the page docs/plugins.md, that of integrators with what they keep docs/methods.md.
 #include <algorithm>
 #include <iostream>
@@ -20,16 +20,16 @@ namespace pfaff::app {
 namespace {
 const std::vector<std::string> kinds{"systems", "integrators", "brackets", "formulations", "experiments"};
 
-// The plug-ins of a kind with title and family, in the order of families.
+// The plug-ins of a kind with title and folder, in the order of folders.
 template <class P>
 nlohmann::json entries_of(const Registry<P>& registry, const std::string& room) {
   std::vector<nlohmann::json> entries;
   for (const P* plugin : registry.all())
     entries.push_back({{"name", plugin->name()},
                        {"title", plugin->descriptor().title},
-                       {"family", family_of(*plugin, room)}});
+                       {"folder", folder_of(*plugin, room)}});
   std::stable_sort(entries.begin(), entries.end(), [](const auto& one, const auto& other) {
-    return one["family"].template get<std::string>() < other["family"].template get<std::string>();
+    return one["folder"].template get<std::string>() < other["folder"].template get<std::string>();
   });
   return entries;
 }
@@ -171,26 +171,26 @@ int methods_in_markdown() {
          "below.\nThis page is what `pfaff list integrators --markdown` prints.\n";
   const SurveyedSystems known;
   std::map<std::string, MethodSurvey> surveys;
-  std::map<std::string, std::set<Claim>> columns;  // of each family those that one of its methods claims
+  std::map<std::string, std::set<Claim>> columns;  // of each folder those that one of its methods claims
   for (const MethodPlugin* method : integrators().all()) {
     const MethodSurvey& survey = surveys[method->name()] = known.of(*method, method->instances(true));
-    for (const auto& kept : survey.kept) columns[family_of(*method, "integrators")].insert(kept.first);
+    for (const auto& kept : survey.kept) columns[folder_of(*method, "integrators")].insert(kept.first);
   }
-  std::string family = "-";
+  std::string folder = "-";
   for (const auto& entry : entries_of(integrators(), "integrators")) {
-    if (entry["family"] != family) {
-      family = entry["family"];
-      std::cout << "\n## " << family << "\n\n| method | order |";
-      for (const Claim claim : columns[family]) std::cout << ' ' << to_string(claim) << " |";
+    if (entry["folder"] != folder) {
+      folder = entry["folder"];
+      std::cout << "\n## " << folder << "\n\n| method | order |";
+      for (const Claim claim : columns[folder]) std::cout << ' ' << to_string(claim) << " |";
       std::cout << "\n|---|---|";
-      for (std::size_t k = 0; k < columns[family].size(); ++k) std::cout << "---|";
+      for (std::size_t k = 0; k < columns[folder].size(); ++k) std::cout << "---|";
       std::cout << '\n';
     }
     const auto name = entry["name"].get<std::string>();
     const MethodSurvey& survey = surveys[name];
     std::cout << "| `" << name << "` | " << in_words(survey.orders)
               << (survey.adaptive ? ", chooses its steps" : "") << " |";
-    for (const Claim claim : columns[family]) {
+    for (const Claim claim : columns[folder]) {
       const auto kept = survey.kept.find(claim);
       std::cout << ' ' << (kept == survey.kept.end() ? "" : in_words(kept->second) + " ") << '|';
     }
@@ -204,16 +204,16 @@ int methods_in_markdown() {
   return 0;
 }
 
-// A kind as text: its plug-ins under the names of their families.
+// A kind as text: its plug-ins under the names of their folders.
 void print(const std::string& kind, const nlohmann::json& entries) {
   const bool methods = kind == "integrators";
   TableRows rows;
   if (methods) rows.push_back({kind, "order", "keeps", ""});
-  std::string family;
+  std::string folder;
   for (const auto& entry : entries) {
-    if (entry.value("family", "") != family) {
-      family = entry["family"];
-      rows.push_back({" " + family});
+    if (entry.value("folder", "") != folder) {
+      folder = entry["folder"];
+      rows.push_back({" " + folder});
     }
     rows.push_back({"  " + entry["name"].get<std::string>()});
     if (methods) {

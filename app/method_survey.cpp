@@ -51,13 +51,13 @@ std::string in_words(const std::set<int>& numbers) {
   return text;
 }
 
-std::string family_of(const Plugin& plugin, const std::string& room) {
+std::string folder_of(const Plugin& plugin, const std::string& room) {
   const std::size_t at = plugin.file().rfind("/" + room + "/");
   if (at == std::string::npos) return "plug-ins";
   const std::string inside = plugin.file().substr(at + room.size() + 2);
-  std::string family = inside.substr(0, inside.find('/') == std::string::npos ? 0 : inside.find('/'));
-  std::replace(family.begin(), family.end(), '_', '-');
-  return family;
+  std::string folder = inside.substr(0, inside.find('/') == std::string::npos ? 0 : inside.find('/'));
+  std::replace(folder.begin(), folder.end(), '_', '-');
+  return folder;
 }
 
 }  // namespace pfaff::app

@@ -36,8 +36,8 @@ class SurveyedSystems {
 /// Numbers as in "4", "2, 4, 6" or "1 to 12, 14".
 std::string in_words(const std::set<int>& numbers);
 
-/// The family of a plug-in: the folder of its source in the room of its kind, such as "runge-kutta"; empty
+/// The folder of a plug-in: the folder of its source in the room of its kind, such as "runge-kutta"; empty
 /// for sources in the room itself, and "plug-ins" for those from elsewhere.
-std::string family_of(const Plugin& plugin, const std::string& room);
+std::string folder_of(const Plugin& plugin, const std::string& room);
 
 }  // namespace pfaff::app

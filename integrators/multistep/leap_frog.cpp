@@ -14,6 +14,7 @@ struct LeapFrog : pfaff::LeapFrog {
 const Method<LeapFrog> registered{
     {.name = "leap-frog",
      .title = "leap-frog scheme (explicit two-step midpoint rule)",
+     .family = "multistep",
      .reference = "hairer-norsett-wanner1993 III.1",
      .description = "The explicit two-step midpoint rule for any vector field, of order 2 with one "
                     "evaluation a step. Take it only to compare, as one of the conventional schemes that "

@@ -67,6 +67,7 @@ std::unique_ptr<const MethodTable> read_composition_table(TableDocument& documen
   PluginValue base = read_base(document);
   const std::vector<Quad> kernel = document.numbers("weights"),
                           pre = document.has("pre") ? document.numbers("pre") : std::vector<Quad>();
+  head.descriptor.family = "splitting";
   const int order = head.descriptor.order;
   if (order > largest_degree)
     document.refuse("order", "expected at most " + std::to_string(largest_degree) +

@@ -22,8 +22,6 @@ TableHead read_head(TableDocument& document, const std::string& kind) {
   d.order = document.required_whole_number("order");
   const bool map = kind == "map";
   d.title = document.text("title", kind + (map ? "" : " table") + " of order " + std::to_string(d.order));
-  if (kind == "composition" || kind == "splitting" || kind == "rkn-splitting" || kind == "processed")
-    d.family = "splitting";
   d.reference = document.text("reference", "");
   d.description = document.text(
       "description", map ? "A map written as text, read from a file. Its order and what it keeps are what "

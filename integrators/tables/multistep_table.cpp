@@ -142,6 +142,7 @@ MultistepPolynomials first_order_polynomials(const std::vector<Quad>& numbers) {
 std::unique_ptr<const MethodTable> read_multistep_table(TableDocument& document, TableHead head) {
   const MultistepPolynomials method = read_multistep_polynomials(document, head, 2);
   document.finish();
+  head.descriptor.family = "multistep";
   const int order = head.descriptor.order;
   require_order(document, head, multistep_conditions(method, order + 1));
   if (const std::string reason = instability(method); !reason.empty())

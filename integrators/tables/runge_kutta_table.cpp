@@ -149,6 +149,7 @@ std::unique_ptr<const MethodTable> read_runge_kutta_table(TableDocument& documen
   if (is_explicit(tableau)) {
     ExplicitTable method;
     method.tableau = std::move(tableau);
+    head.descriptor.family = "explicit";
     return std::make_unique<TableOf<ExplicitTable>>(head.descriptor, document, std::move(theory),
                                                     std::move(method));
   }

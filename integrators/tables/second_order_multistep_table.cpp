@@ -226,6 +226,7 @@ std::unique_ptr<const MethodTable> read_second_order_multistep_table(TableDocume
   if (method.sigma.back() != Quad(0))
     document.refuse("sigma", "the last number is not 0; expected an explicit method");
   document.finish();
+  head.descriptor.family = "multistep";
   const int order = head.descriptor.order;
   require_order(document, head, second_order_multistep_conditions(method, order + 1));
   const std::vector<Quad> r = without_root_one(without_root_one(method.rho));

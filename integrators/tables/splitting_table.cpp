@@ -164,6 +164,7 @@ Step read_step(TableDocument& document) {
 
 std::unique_ptr<const MethodTable> read_splitting_table(TableDocument& document, TableHead head) {
   const Step step = read_step(document);
+  head.descriptor.family = "splitting";
   const int order = head.descriptor.order;
   if (order > largest_degree)
     document.refuse("order", "expected at most " + std::to_string(largest_degree) +

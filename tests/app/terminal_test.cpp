@@ -177,7 +177,7 @@ TEST(Terminal, ListsShowFamiliesOrdersAndWhatIsKept) {
   const auto found =
       std::find_if(gauss.begin(), gauss.end(), [](const auto& j) { return j["name"] == "gauss"; });
   ASSERT_NE(found, gauss.end());
-  EXPECT_EQ((*found)["family"], "runge-kutta");
+  EXPECT_EQ((*found)["folder"], "runge-kutta");
   EXPECT_EQ((*found)["orders"], nlohmann::json({4}));
   // Names alone are those of the lists.
   std::istringstream names(run_pfaff({"list", "systems", "--names"}).out);
