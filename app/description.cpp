@@ -16,13 +16,23 @@ namespace pfaff::app {
 
 namespace {
 
+// The range of a coordinate with its unit; the unit alone where it has none.
+std::string range_of(const Coordinate& coordinate) {
+  if (coordinate.range == unbounded) return coordinate.unit;
+  Parameter bounded;
+  bounded.unit = coordinate.unit;
+  bounded.minimum = coordinate.range[0];
+  bounded.maximum = coordinate.range[1];
+  return pfaff::range_of(bounded);
+}
+
 nlohmann::json parameters_of(const Plugin& plugin, const Assignments& defaults) {
   nlohmann::json list = nlohmann::json::array();
   for (std::size_t k = 0; k < plugin.parameters().size(); ++k) {
     const Parameter& p = plugin.parameters()[k];
     list.push_back({{"name", p.name},
                     {"default", defaults[k].second},
-                    {"range", range_of(p)},
+                    {"range", pfaff::range_of(p)},
                     {"unit", p.unit},
                     {"meaning", p.meaning}});
   }
@@ -103,12 +113,17 @@ nlohmann::json describe_system(const SystemPlugin& plugin) {
                    {"autonomous", model->autonomous()},
                    {"parameters", parameters_of(plugin, model->parameters())},
                    {"formulas", formulas_of(*model)}};
-  for (std::size_t k = 0; k < model->coordinates().size(); ++k)
+  for (std::size_t k = 0; k < model->coordinates().size(); ++k) {
+    const Coordinate& c = model->coordinates()[k];
     j["coordinates"].push_back(
-        {{"name", model->coordinates()[k].name},
-         {"unit", model->coordinates()[k].unit},
+        {{"name", c.name},
+         {"unit", c.unit},
          {"initial", k < model->initial().size() ? nlohmann::json(to_string(model->initial()[k]))
                                                  : nlohmann::json(nullptr)}});
+    if (std::any_of(model->coordinates().begin(), model->coordinates().end(),
+                    [](const Coordinate& one) { return one.range != unbounded; }))
+      j["coordinates"].back()["range"] = range_of(c);
+  }
   j["invariants"] = nlohmann::json::array();
   for (const Invariant& i : model->invariants())
     j["invariants"].push_back({{"name", i.name}, {"unit", i.unit}, {"expected", to_string(i.behaviour)}});

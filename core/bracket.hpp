@@ -40,6 +40,8 @@ struct BracketInstance {
   Assignments parameters;
   std::shared_ptr<const Tape> sharp;
   std::shared_ptr<const Tape> casimirs;  // null where none are claimed
+  /// Where each coordinate states that what is claimed holds; empty where none does.
+  std::vector<Range> ranges{};
 };
 
 /// A registered bracket.

@@ -7,6 +7,7 @@
 
 #include <pfaff/bench/measure/constraints.hpp>
 #include <pfaff/bench/runner/motion.hpp>
+#include <pfaff/bench/runner/stated_identities.hpp>
 #include <pfaff/bench/runner/steps.hpp>
 #include <pfaff/core/native/compiled_model.hpp>
 #include <pfaff/core/numbers/formatted.hpp>
@@ -303,6 +304,7 @@ ResolvedRun resolve(const RunSettings& settings) {
   } else {
     check_domain<double>(run, system.name());
   }
+  check_stated_identities(*whole, run.t0, run.initial);
   resolve_steps(run);
   return run;
 }

@@ -22,14 +22,6 @@ std::shared_ptr<const Tape> jacobiator(const Tape& tensor, int n) {
         }
   });
 }
-std::shared_ptr<const Tape> symmetric_part(const Tape& tensor, int n) {
-  const auto size = static_cast<std::size_t>(n);
-  return expression(n, n * n, [&](const Recorded& t, Arguments z, Results out) {
-    const auto pi = evaluate(tensor, t, z);
-    for (std::size_t i = 0; i < size; ++i)
-      for (std::size_t j = 0; j < size; ++j) out[i * size + j] = pi[i * size + j] + pi[j * size + i];
-  });
-}
 
 std::shared_ptr<const Tape> sharp_of_casimirs(const Tape& tensor, const Tape& casimirs) {
   const auto size = static_cast<std::size_t>(casimirs.inputs);
@@ -87,7 +79,8 @@ std::vector<Check> check_bracket(const BracketPlugin& plugin, const Assignments&
   const BracketInstance bracket = plugin.make(parameters);
   const int n = bracket.dimension;
   const auto tensor = tensor_of(*bracket.sharp, n);
-  const Region centre = bracket_region(n);
+  Region centre = bracket_region(n);
+  centre.box = bracket.ranges;
   std::vector<Check> checks;
   if (plugin.descriptor().symmetry == Symmetry::skew)
     both(checks, plugin.name(), "skew", "", symmetric_part(*tensor, n), centre);

@@ -1,4 +1,5 @@
 // The state at which claims are measured.
+#include <algorithm>
 #include <cmath>
 
 #include <pfaff/bench/measure/constraints.hpp>
@@ -42,7 +43,8 @@ std::vector<Real> generic_state(const Model& model) {
 }
 
 namespace {
-// Adds the states that the motion from `start` reaches in one direction of time.
+// Adds the states that the motion from the first centre reaches in one direction of time: after `elapsed`,
+// twice, four times that.
 void add_states(Region& region, const Model& motion, const Real& t, const Quad& elapsed, int states) {
   constexpr double most_growth = 8;
   std::vector<Quad> z;
@@ -71,6 +73,10 @@ void add_states(Region& region, const Model& motion, const Real& t, const Quad& 
 
 Region region_of(const Model& motion, std::vector<Real> centre) {
   Region region(std::move(centre));
+  if (!motion.restricted() && motion.source().formulation.empty() &&
+      std::any_of(motion.coordinates().begin(), motion.coordinates().end(),
+                  [](const Coordinate& c) { return c.range != unbounded; }))
+    for (const Coordinate& c : motion.coordinates()) region.box.push_back(c.range);
   if (!motion.moves() || !is_short(motion)) return region;
   const Real t = generic_time_of(motion);
   const Quad time = own_time(motion, t, region.centres.front());
@@ -85,6 +91,7 @@ Region region_of(const Model& motion, std::vector<Real> centre) {
 Region Region::first(std::size_t count) const {
   Region region(*this);
   for (std::vector<Real>& centre : region.centres) centre.resize(count);
+  if (!region.box.empty()) region.box.resize(count, unbounded);
   return region;
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <pfaff/bench/runner/stated_identities.hpp>
 #include <pfaff/bench/verification/check.hpp>
 #include <pfaff/bench/verification/step_scale.hpp>
 #include <pfaff/core/numbers/with_rounding.hpp>
@@ -19,8 +20,8 @@ namespace pfaff {
 
 using Arguments = std::span<const Recorded>;
 using Results = std::span<Recorded>;
-// States near the first centre of a region, and near each of the others.
-inline constexpr int points = 20, far_points = 4;
+// States near the first centre of a region, near each of the others, and in its box.
+inline constexpr int points = 20, far_points = 4, box_points = 80;
 
 inline Check named(const std::string& plugin, const std::string& claim, const std::string& system,
                    const char* precision, double measured, double tolerance) {
@@ -54,11 +55,13 @@ void add_controls(std::vector<Check>& controls, const std::string& fault, const 
   if (controls.size() == before) throw std::logic_error(fault + ": no claim is called " + claim);
 }
 
-// The centres near which states are drawn: one, or those of the region that a motion reaches (region_of).
+// The centres near which states are drawn: one, or those of the region that a motion reaches (region_of); and
+// the box from which they are drawn besides.
 struct Region {
   Region(std::vector<Real> centre) : centres{std::move(centre)} {}  // NOLINT(google-explicit-constructor)
   std::vector<std::vector<Real>> centres;
   std::vector<double> times{1};  // near which they are drawn, that of a motion where it reaches them
+  std::vector<Range> box{};      // a range for each coordinate; empty where no coordinate states one
   // The region in the first `count` coordinates.
   [[nodiscard]] Region first(std::size_t count) const;
   // The region with one more coordinate, which is zero.
@@ -67,19 +70,22 @@ struct Region {
 
 /// A state of a motion and the states that the motion reaches from there, forwards and backwards in time, up
 /// to 32 times the system's own time, four times where the field takes more than 512 operations, or until a
-/// coordinate has grown by eight. What holds near the initial
-/// state alone does not hold there. Of a field that is not short the first alone.
+/// coordinate has grown by eight. What holds near the initial state alone does not hold there. Of a field
+/// that is not short the first alone. The box is that of the ranges which coordinates state; a motion on
+/// constraints has none, since the states of a box are not on them.
 Region region_of(const Model& motion, std::vector<Real> centre);
 
 // Random states near the centres of a region, drawn with a fixed seed. Near the first one each coordinate is
 // within 1/20 of its scale and the time near one; near the others within 1/20 or, of every other state, a
-// half of itself, so that it keeps its sign.
+// half of itself, so that it keeps its sign. The last ones are anywhere in the box, but near the first centre
+// in coordinates that state no range.
 template <class T>
 class NearbyStates {
  public:
   explicit NearbyStates(const Region& region) : region_(region), z_(region.centres.front().size()) {}
   [[nodiscard]] int count() const {
-    return points + far_points * static_cast<int>(region_.centres.size() - 1);
+    return points + far_points * static_cast<int>(region_.centres.size() - 1) +
+           (region_.box.empty() ? 0 : box_points);
   }
   // True of a state near another centre than the first. It may lie outside the domain of a formula.
   [[nodiscard]] bool far() const { return far_; }
@@ -87,8 +93,9 @@ class NearbyStates {
   const std::vector<T>& next(T& time) {
     far_ = drawn_ >= points;
     const auto place = static_cast<std::size_t>(far_ ? 1 + (drawn_ - points) / far_points : 0);
+    if (drawn_++ == 0) scales_ = coordinate_scales(region_.centres.front());
+    if (place >= region_.centres.size()) return in_box(time);
     const std::vector<Real>& centre = region_.centres[place];
-    if (drawn_++ == 0) scales_ = coordinate_scales(centre);
     for (std::size_t i = 0; i < z_.size(); ++i) {
       const double reach = far_ ? std::abs(centre[i].value()) * (drawn_ % 2 == 0 ? 10 : 1) : scales_[i];
       z_[i] = T(centre[i]) + T(offset_(random_) * reach);
@@ -98,6 +105,17 @@ class NearbyStates {
   }
 
  private:
+  const std::vector<T>& in_box(T& time) {
+    for (std::size_t i = 0; i < z_.size(); ++i) {
+      const double share = offset_(random_);
+      const auto [smallest, largest] = i < region_.box.size() ? region_.box[i] : unbounded;
+      z_[i] = std::isfinite(largest - smallest) ? T(smallest) + T((share + 0.05) * 10) * T(largest - smallest)
+                                                : T(region_.centres.front()[i]) + T(share * scales_[i]);
+    }
+    time = T(region_.times.front() + offset_(random_));
+    return z_;
+  }
+
   const Region& region_;
   std::vector<double> scales_;
   std::vector<T> z_;
@@ -165,8 +183,6 @@ inline void both(std::vector<Check>& checks, const std::string& plugin, const st
 
 /// [Pi, Pi]^{ijk} = sum_l Pi^il d_l Pi^jk + cyclic: n x n x n, zero where Jacobi's identity holds.
 std::shared_ptr<const Tape> jacobiator(const Tape& tensor, int n);
-/// Pi + Pi^T, n x n: zero where the tensor is skew.
-std::shared_ptr<const Tape> symmetric_part(const Tape& tensor, int n);
 /// Pi dC for each function C in `casimirs`, n numbers each, one after the other; zero where C is a Casimir of
 /// Pi.
 std::shared_ptr<const Tape> sharp_of_casimirs(const Tape& tensor, const Tape& casimirs);

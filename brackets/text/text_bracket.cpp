@@ -113,6 +113,10 @@ BracketInstance TextBracket::made(const std::vector<Real>& values) const {
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j) vector[i] = vector[i] + tensor[i * n + j] * x[n + j];
   BracketInstance instance{size, {}, std::make_shared<const Tape>(recorder.finish(vector)), {}};
+  if (std::any_of(d.coordinates.begin(), d.coordinates.end(),
+                  [](const TextCoordinate& c) { return c.range != unbounded; }))
+    for (const TextCoordinate& c : d.coordinates)
+      instance.ranges.insert(instance.ranges.end(), count_of(c, constants), c.range);
   for (std::size_t k = 0; k < values.size(); ++k)
     instance.parameters.emplace_back(d.parameters[k].name, to_string(values[k]));
   if (!d.casimirs.empty()) {

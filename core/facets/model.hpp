@@ -25,6 +25,7 @@
 #include <pfaff/core/facets/velocity_constraints.hpp>
 #include <pfaff/core/linear/symplectic_basis.hpp>
 #include <pfaff/core/numbers/pack.hpp>
+#include <pfaff/core/registry/parameter.hpp>
 #include <pfaff/core/tape/tape.hpp>
 
 namespace pfaff {
@@ -59,6 +60,9 @@ inline Invariant decreasing(std::string name, std::string unit) {
 struct Coordinate {
   std::string name;
   std::string unit;
+  /// Where what the system states of itself is meant to hold: verification draws states from all of it. A run
+  /// may leave it.
+  Range range = unbounded;
 };
 
 /// A formula that its author compiled for doubles: called with the system, t, arguments and results.

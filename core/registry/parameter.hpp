@@ -1,8 +1,10 @@
 // Parameters: declared once by a plug-in, seen by the command line, experiments, `describe` and the docs.
 #pragma once
 
+#include <array>
 #include <concepts>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,6 +16,11 @@
 #include <pfaff/core/registry/member_names.hpp>
 
 namespace pfaff {
+
+/// The least and the largest value that a number may have.
+using Range = std::array<double, 2>;
+inline constexpr Range unbounded{-std::numeric_limits<double>::infinity(),
+                                 std::numeric_limits<double>::infinity()};
 
 /// name = value settings from the command line or a file, in order.
 using Assignments = std::vector<std::pair<std::string, std::string>>;

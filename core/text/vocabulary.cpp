@@ -21,11 +21,24 @@ Real constant_of(const Item& value, const std::string& what) {
   return Scope().constant(expression_of(value, what));
 }
 
+// The range of what is called `what`, where the table has one.
+Range optional_range(Table& table, const std::string& what) {
+  const Item* range = table.find("range");
+  if (range == nullptr) return unbounded;
+  if (range->kind != Kind::list || range->items.size() != 2)
+    refuse(*range, "range of " + what + ": expected [smallest, largest]");
+  const Range bounds{constant_of(range->items[0], "range").value(),
+                     constant_of(range->items[1], "range").value()};
+  if (!(bounds[0] <= bounds[1]))
+    refuse(*range, "range of " + what + ": expected the smallest before the largest");
+  return bounds;
+}
+
 TextParameter read_parameter(const Member& member) {
   TextParameter p;
   p.name = member.key;
-  p.minimum = -std::numeric_limits<double>::infinity();
-  p.maximum = std::numeric_limits<double>::infinity();
+  p.minimum = unbounded[0];
+  p.maximum = unbounded[1];
   const std::string what = "parameter '" + p.name + "'";
   if (member.value.kind != Kind::table) {
     p.value = constant_of(member.value, what);
@@ -36,10 +49,9 @@ TextParameter read_parameter(const Member& member) {
   p.unit = optional_label(table, "unit");
   p.meaning = table.text("meaning");
   if (const Item* range = table.find("range")) {
-    if (range->kind != Kind::list || range->items.size() != 2)
-      refuse(*range, "range of " + what + ": expected [smallest, largest]");
-    p.minimum = constant_of(range->items[0], "range").value();
-    p.maximum = constant_of(range->items[1], "range").value();
+    const Range bounds = optional_range(table, what);
+    p.minimum = bounds[0];
+    p.maximum = bounds[1];
     if (!(p.minimum <= p.value.value() && p.value.value() <= p.maximum))
       refuse(*range, what + ": its value " + to_string(p.value) + " is not in its range");
   }
@@ -79,7 +91,12 @@ std::vector<TextCoordinate> read_coordinates(const Item& value, TakenNames& name
       if (item.kind == Kind::table) {
         Table table(item, "coordinate");
         const Item& name = table.required("name");
-        list.push_back({text_of(name, "name"), optional_label(table, "unit"), {}, name.source});
+        const std::string called = text_of(name, "name");
+        list.push_back({called,
+                        optional_label(table, "unit"),
+                        {},
+                        name.source,
+                        optional_range(table, "coordinate '" + called + "'")});
         table.finish();
       } else {
         list.push_back({text_of(item, "coordinates"), "", {}, item.source});
@@ -89,8 +106,8 @@ std::vector<TextCoordinate> read_coordinates(const Item& value, TakenNames& name
     for (const auto& [key, place, item] : value.members) {
       if (item.kind == Kind::table) {
         Table table(item, "coordinates '" + key + "'");
-        list.push_back(
-            {key, optional_label(table, "unit"), expression_of(table.required("count"), "count"), place});
+        list.push_back({key, optional_label(table, "unit"), expression_of(table.required("count"), "count"),
+                        place, optional_range(table, "coordinates '" + key + "'")});
         table.finish();
       } else {
         list.push_back({key, "", expression_of(item, "coordinates '" + key + "'"), place});

@@ -23,6 +23,7 @@ struct TextCoordinate {
   std::string name, unit;
   std::optional<Expression> count{};
   Source place;
+  Range range = unbounded;
 };
 
 /// A name for an expression, or for a list of them.

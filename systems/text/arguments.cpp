@@ -32,7 +32,7 @@ TextNames::TextNames(const TextDeclaration& declaration, const std::vector<Real>
   for (const TextCoordinate& c : declaration.coordinates) {
     const Block block{c.name, coordinates_.size(), count_of(c, constants_), c.count.has_value()};
     for (std::size_t k = 1; k <= block.count; ++k)
-      coordinates_.push_back({block.several ? c.name + std::to_string(k) : c.name, c.unit});
+      coordinates_.push_back({block.several ? c.name + std::to_string(k) : c.name, c.unit, c.range});
     blocks_.push_back(block);
   }
 }

@@ -57,6 +57,38 @@ TEST(JudgedSystems, AWrongQuadraticFlagIsBlamedOnTheFlag) {
   EXPECT_EQ(bad(check_method(integrators().get("gauss", ""), {}, plugin)), Names{});
 }
 
+// The energy of an oscillator, but beyond |q| = 5, where its motion does not lead.
+struct EnergyNearby {
+  static constexpr int dimension = 2;
+  template <class T>
+  T hamiltonian(const T& /*t*/, In<T> z) const {
+    return (z[0] * z[0] + z[1] * z[1]) / 2;
+  }
+  template <class T>
+  void invariants(const T& t, In<T> z, Out<T> values) const {
+    values[0] = hamiltonian(t, z) + select(z[0] * z[0] - 25, z[0] * z[0] - 25, T(0));
+  }
+};
+
+template <int tenths>  // of the range to both sides; without one where there are none
+const SystemPlugin& energy_nearby(const char* name) {
+  static const Range range = tenths == 0 ? unbounded : Range{-tenths / 10.0, tenths / 10.0};
+  static const System<EnergyNearby> plugin{{.name = name,
+                                            .title = "",
+                                            .reference = "",
+                                            .coordinates = {{"q", "", range}, {"p", ""}},
+                                            .initial = {Real(1), Real::fraction(1, 3)},
+                                            .invariants = {conserved("energy", "")},
+                                            .time_unit = ""}};
+  return plugin;
+}
+
+TEST(JudgedSystems, StatesAreDrawnFromTheRangesThatCoordinatesState) {
+  EXPECT_EQ(bad(check_system(energy_nearby<0>("energy-nearby"))), Names{});
+  EXPECT_EQ(bad(check_system(energy_nearby<49>("energy-within-reach"))), Names{});
+  EXPECT_EQ(bad(check_system(energy_nearby<70>("energy-beyond-reach"))), Names{"conserves energy"});
+}
+
 // A field that is not that of the Hamiltonian, at the size 1e-45.
 struct TinyField {
   static constexpr int dimension = 2;

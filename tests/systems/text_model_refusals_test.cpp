@@ -71,6 +71,10 @@ TEST(TextModelRefusals, KeysAndFiles) {
                  "model.toml:4:33: unknown key 'rnage'; did you mean 'range'?");
   expect_refused(spring + "parameters = { a = { value = 2, range = [0, 1] } }\n",
                  "model.toml:4:41: parameter 'a': its value 2 is not in its range");
+  expect_refused("coordinates = [{ name = \"q\", range = [1] }, \"p\"]\n",
+                 "model.toml:1:38: range of coordinate 'q': expected [smallest, largest]");
+  expect_refused("coordinates = [{ name = \"q\", range = [1, 0] }, \"p\"]\n",
+                 "model.toml:1:38: range of coordinate 'q': expected the smallest before the largest");
   expect_refused(spring + "parameters = { q = 2 }\n",
                  "model.toml:1:17: coordinate 'q' has the name of a parameter");
   expect_refused(spring + "parameters = { sin = 2 }\n",

@@ -1,0 +1,155 @@
+#include <pfaff/bench/runner/stated_identities.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <pfaff/core/linear/lu.hpp>
+#include <pfaff/core/numbers/formatted.hpp>
+#include <pfaff/core/numbers/with_rounding.hpp>
+#include <pfaff/core/tape/derivatives.hpp>
+#include <pfaff/core/tape/replay.hpp>
+
+namespace pfaff {
+
+namespace {
+// The results first .. first + count - 1 of the written formula minus those of the derived one.
+std::shared_ptr<const Tape> tape_of_difference(const Tape& written, const Tape& derived, std::size_t first,
+                                               std::size_t count) {
+  return std::make_shared<const Tape>(
+      record(written.inputs, static_cast<int>(count),
+             [&](const Recorded& t, std::span<const Recorded> z, std::span<Recorded> out) {
+               const auto a = evaluate(written, t, z), b = evaluate(derived, t, z);
+               for (std::size_t k = 0; k < count; ++k) out[k] = a[first + k] - b[first + k];
+             }));
+}
+
+// "chart_field" as "chart field".
+std::string spoken(std::string_view name) {
+  std::string words(name);
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
+
+using Rounded = WithRounding<double>;
+
+// The results of a tape at a state, whose first coordinates are those that it reads, with their bounds.
+std::vector<Rounded> results_of(const std::shared_ptr<const Tape>& tape, const Real& t,
+                                const std::vector<Real>& z) {
+  std::vector<Rounded> out(tape->outputs.size()), state;
+  for (const Real& x : z) state.emplace_back(x);
+  state.resize(std::max(state.size(), static_cast<std::size_t>(tape->inputs)));
+  Replay<Rounded> replay(tape);
+  replay(Rounded(t), state.data(), out.data());
+  return out;
+}
+
+// The largest result over the sum of the sizes of its terms; 0 where one has no value.
+double relative_to_terms(const std::vector<Rounded>& results) {
+  double worst = 0;
+  for (const Rounded& x : results) {
+    if (!std::isfinite(x.value) || !std::isfinite(x.error)) return 0;
+    if (x.value != 0) worst = std::max(worst, std::abs(x.value) / x.error);
+  }
+  return worst;
+}
+
+bool singular(const std::vector<Rounded>& matrix, std::size_t n) {
+  LU<Rounded> lu(n);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j) {
+      const Rounded& x = matrix[i * n + j];
+      if (!std::isfinite(x.value)) return false;
+      lu(i, j) = x;
+    }
+  if (!lu.factor()) return true;
+  for (std::size_t i = 0; i < n; ++i)
+    if (!lu(i, i).significant()) return true;
+  return false;
+}
+
+std::vector<StatedIdentity> identities_of(const Model& model) {
+  std::vector<StatedIdentity> all = written_formulas(model);
+  if (model.facets().has(Facet::structure))
+    all.push_back({"K is skew", symmetric_part(*model.tape(Formula::structure), model.dimension())});
+  if (model.given(Formula::poisson_tensor))
+    all.push_back(
+        {"bracket is skew", symmetric_part(*model.tape(Formula::poisson_tensor), model.dimension())});
+  return all;
+}
+
+// A state within a twentieth of each coordinate of another one.
+std::vector<Real> state_beside(const std::vector<Real>& z) {
+  double size = 0;
+  for (const Real& x : z) size = std::max(size, std::abs(x.value()));
+  if (size == 0) size = 1;
+  std::vector<Real> moved;
+  for (std::size_t k = 0; k < z.size(); ++k) {
+    const double own = std::abs(z[k].value()), by = (own == 0 ? size : own) / static_cast<double>(20 + k);
+    moved.push_back(z[k] + Real(Quad(k % 2 == 0 ? by : -by)));
+  }
+  return moved;
+}
+}  // namespace
+
+std::shared_ptr<const Tape> symmetric_part(const Tape& tensor, int n) {
+  const auto size = static_cast<std::size_t>(n);
+  return std::make_shared<const Tape>(
+      record(n, n * n, [&](const Recorded& t, std::span<const Recorded> z, std::span<Recorded> out) {
+        const auto pi = evaluate(tensor, t, z);
+        for (std::size_t i = 0; i < size; ++i)
+          for (std::size_t j = 0; j < size; ++j) out[i * size + j] = pi[i * size + j] + pi[j * size + i];
+      }));
+}
+
+std::vector<StatedIdentity> written_formulas(const Model& model) {
+  std::vector<StatedIdentity> all;
+  for (const FormulaRow& row : formula_table) {
+    if (!row.traits.unique || !model.given(row.formula)) continue;
+    // For a system with constraints the formulas alone make the field without reactions, which is not that of
+    // its motion.
+    if (row.formula == Formula::field && model.restricted()) continue;
+    // Zero where they are left out, which is a default: nothing says what they should be.
+    if (row.formula == Formula::velocity_offsets) continue;
+    const auto derived = model.derived(row.formula);
+    if (derived == nullptr) continue;
+    const auto written = model.tape(row.formula);
+    const auto compare = [&](const std::string& what, std::size_t first, std::size_t count) {
+      all.push_back(
+          {"written " + what + " is the derived one", tape_of_difference(*written, *derived, first, count)});
+    };
+    if (row.formula == Formula::constraint_gradients) {
+      const std::vector<std::string> names = model.constraint_names();
+      const auto size = static_cast<std::size_t>(model.dimension());
+      for (std::size_t i = 0; i < names.size(); ++i) compare("gradient of " + names[i], i * size, size);
+    } else {
+      compare(spoken(row.name), 0, written->outputs.size());
+    }
+  }
+  return all;
+}
+
+void check_stated_identities(const Model& model, const Real& t, const std::vector<Real>& z) {
+  constexpr int most_coordinates = 64;
+  constexpr double most = 1e-6;
+  if (model.dimension() > most_coordinates) return;
+  if (model.facets().has(Facet::structure)) {
+    const auto structure = model.tape(Formula::structure);
+    if (singular(results_of(structure, t, z), static_cast<std::size_t>(model.dimension())))
+      throw InputError("system " + model.name() +
+                       ": K is singular at the initial state; expected a regular matrix");
+  }
+  const std::vector<Real> beside = state_beside(z);
+  const Real later = t + Real::fraction(1, 20);
+  for (const StatedIdentity& stated : identities_of(model)) {
+    const double first = relative_to_terms(results_of(stated.residual, t, z)),
+                 second = relative_to_terms(results_of(stated.residual, later, beside));
+    if (std::max(first, second) <= most) continue;
+    throw InputError("system " + model.name() + ": it is false that " + stated.words + ", " +
+                     (first > most ? "at the initial state" : "at a state near the initial one") + ", by " +
+                     formatted("%.2g", std::max(first, second)) +
+                     " of its terms; `pfaff verify` looks at all that the system states");
+  }
+}
+
+}  // namespace pfaff
