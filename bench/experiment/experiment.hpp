@@ -38,6 +38,12 @@ struct FrequencyVector {
   Assignments definitions;
 };
 
+/// What stands above the sentence of a report: the equation of the motion in prose
+/// (bench/report/equation.py), the question that it asks and the kind of its answer; each may be empty.
+struct Asked {
+  std::string equation, question, answer;
+};
+
 struct ExperimentCase {
   std::string name, title, system, time;
   Assignments set;
@@ -46,7 +52,7 @@ struct ExperimentCase {
   std::optional<double> evaluations;  // that a run at a chosen step may take; default_evaluations without it
   std::map<std::string, std::vector<std::string>> chosen;  // steps by the label of the method, once chosen
   std::string conserved;                                   // the invariant whose drift is shown
-  std::string question, answer;  // what the report is asked, and the kind of its answer; or none
+  Asked asked;
   std::string error;  // the invariant whose relative drift is the error of a run (error_measure.hpp); or none
   std::vector<std::string> motion;  // two coordinates, whose tracks in their plane are drawn; or none
   std::vector<FrequencyVector> frequencies;
@@ -79,7 +85,7 @@ struct MethodSelection {
 
 struct Experiment {
   std::string name, title, description;
-  std::string question, answer;  // of all cases that have none of their own
+  Asked asked;  // of all cases that have nothing of their own
   std::vector<std::string> reference, notes;
   std::vector<ExperimentMethod> methods;
   std::optional<MethodSelection> selection;

@@ -51,8 +51,10 @@ nlohmann::json description(const Experiment& experiment, const std::vector<Exper
                                                  : exact      ? "exact"
                                                               : "30-digit"}});
     if (!c.error.empty()) j["cases"].back()["error"] = c.error;
-    if (!c.question.empty()) j["cases"].back()["question"] = c.question;
-    if (!c.answer.empty()) j["cases"].back()["answer"] = c.answer;
+    for (const auto& [key, value] : {std::pair("equation", c.asked.equation),
+                                     {"question", c.asked.question},
+                                     {"answer", c.asked.answer}})
+      if (!value.empty()) j["cases"].back()[key] = value;
     for (const FrequencyVector& vector : c.frequencies) {
       nlohmann::json definitions = nlohmann::json::object();
       for (const auto& [name, expression] : vector.definitions) definitions[name] = expression;

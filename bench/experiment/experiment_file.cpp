@@ -123,16 +123,16 @@ void read_parts(const fs::path& path, std::deque<Part>& parts, std::vector<fs::p
   parts.push_back(std::move(part));
 }
 
-// What the report of a case is asked and how it answers, which a case takes from the head where it says
-// nothing.
-void read_question(Keys& keys, const std::string& where, std::string& question, std::string& answer) {
+// What the report of a case is asked, which a case takes from the head where it says nothing.
+void read_question(Keys& keys, const std::string& where, Asked& asked) {
   // As ANSWERS of bench/report/first_screen.py.
   const std::vector<std::string> answers{"cost",        "energy",    "structure",  "growth",
                                          "constraints", "agreement", "frequencies"};
-  question = keys.text("question", question);
-  answer = keys.text("answer", answer);
-  if (!answer.empty() && std::find(answers.begin(), answers.end(), answer) == answers.end())
-    throw InputError(where + ": " + unknown_name("answer", answer, answers));
+  asked.equation = keys.text("equation", asked.equation);
+  asked.question = keys.text("question", asked.question);
+  asked.answer = keys.text("answer", asked.answer);
+  if (!asked.answer.empty() && std::find(answers.begin(), answers.end(), asked.answer) == answers.end())
+    throw InputError(where + ": " + unknown_name("answer", asked.answer, answers));
 }
 
 // Adds the methods of a table [[method]]: one for each point of the grid of its parameters.
@@ -171,9 +171,8 @@ void read_case(const toml::table& table, const Part& part, Experiment& experimen
   one.initial = c.list_of_some("initial");
   read_steps(c, one);
   one.conserved = c.text("conserved", "");
-  one.question = experiment.question;
-  one.answer = experiment.answer;
-  read_question(c, where, one.question, one.answer);
+  one.asked = experiment.asked;
+  read_question(c, where, one.asked);
   const std::string error = c.text("error", "");
   one.motion = c.list("motion");
   if (!one.motion.empty() && one.motion.size() != 2)
@@ -246,11 +245,10 @@ void read_head(Keys& keys, const Part& part, bool included, Experiment& experime
     q.finish();
     if (experiment.quick) title = quick_title, description = quick_description;
   }
-  std::string question, answer;
-  read_question(keys, part.name(), question, answer);
+  Asked asked;
+  read_question(keys, part.name(), asked);
   if (included) return;
-  experiment.question = question;
-  experiment.answer = answer;
+  experiment.asked = asked;
   experiment.title = title;
   experiment.description = description;
   experiment.compile = compile;

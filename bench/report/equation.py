@@ -7,7 +7,8 @@ names      one letter, or the name of a Greek letter, is a variable; names of fu
 x'  x''    derivatives
 x^y  x_k   raised and lowered: a name, a number or what is in braces
 [[a, b], [c, d]]  a matrix; sqrt(x) a root
-+ - * / = < > <= >= , ( ) [ ] |  as they are; what stands side by side is multiplied
+|x|        the size of x; sum and times are the signs of a sum and of a vector product
++ - * / = < > <= >= , ( ) [ ]  as they are; what stands side by side is multiplied
 
 What cannot be read as an equation, such as brackets in brackets more than 40 deep, is shown as it is written, and so is a dollar sign without another.
 """
@@ -19,7 +20,7 @@ GREEK = dict(zip("alpha beta gamma delta epsilon zeta eta theta iota kappa lambd
                  "omega".split(), "αβγδεζηθικλμνξπρστυφχψω"))
 GREEK |= dict(zip("Gamma Delta Theta Lambda Xi Pi Sigma Phi Psi Omega".split(), "ΓΔΘΛΞΠΣΦΨΩ"))
 FUNCTIONS = ("sin", "cos", "tan", "exp", "log", "sinh", "cosh", "det", "grad")
-SIGNS = {"-": "−", "*": "⋅", "<=": "≤", ">=": "≥"}
+SIGNS = {"-": "−", "*": "⋅", "<=": "≤", ">=": "≥", "sum": "∑", "times": "×"}
 TOKEN = re.compile(r"\s*([0-9]+(?:\.[0-9]+)?|[A-Za-z]+|<=|>=|'+|[-+*/=<>,()\[\]{}|^_])")
 DEEPEST = 40  # levels of brackets, beyond which no equation is meant
 TIMES, APPLIED = "<mo>&#8290;</mo>", "<mo>&#8289;</mo>"
@@ -100,6 +101,10 @@ class Reader:
             inner = self.row("}", "")
             self.take("}")
             return inner, "term"
+        if token == "|":
+            inner = self.row("|", "")
+            self.take("|")
+            return f'<mrow><mo>|</mo>{inner}<mo>|</mo></mrow>', "term"
         if token == "[" and self.peek() == "[":
             return self.matrix(), "term"
         if token == "sqrt":
@@ -109,7 +114,7 @@ class Reader:
             return f"<msqrt>{inner}</msqrt>", "term"
         if token[0].isdigit():
             return f"<mn>{token}</mn>", "term"
-        if token[0].isalpha():
+        if token[0].isalpha() and token not in SIGNS:
             upright = token not in GREEK and len(token) > 1
             style = ' mathvariant="normal"' if upright else ""
             return f"<mi{style}>{GREEK.get(token, token)}</mi>", "function" if token in FUNCTIONS else "term"

@@ -8,6 +8,7 @@ import json
 import answers
 import sentence
 from assertion import capital, said
+from equation import prose
 from figures import heading
 from files import InputError
 from wording import counted, listed, plain_text, text
@@ -74,9 +75,10 @@ def below(verdict):
 
 
 def question(verdict):
-    """HTML: the question that the sentence answers; empty where the experiment asks none."""
-    asked = verdict.case.get("question")
-    return f'<p class="question">{text(asked)}</p>' if asked else ""
+    """HTML: the equation of the motion, and the question that the sentence answers; empty where the experiment has none."""
+    about, asked = verdict.case.get("equation"), verdict.case.get("question")
+    return "".join(filter(None, (f'<p class="equation">{prose(about)}</p>' if about else "",
+                                 f'<p class="question">{text(asked)}</p>' if asked else "")))
 
 
 def data(experiment, verdicts):
@@ -106,4 +108,6 @@ def holds(verdict):
               "steps": "timings were not measured: steps stand for cost"}[verdict.work]
     if case.get("seeds"):
         parts.append(f"medians over {case['seeds']} seeds")
+    if verdict.target and len(verdict.ranked(verdict.target)) < len(verdict.rivals):
+        timing += "; ranked are methods with runs on both sides of the error"
     return f"Holds for {', '.join(parts[:-1])}{', ' if len(parts) > 1 else ''}{parts[-1]}; {timing}."

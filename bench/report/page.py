@@ -90,7 +90,8 @@ def section(experiment, verdict, drawn, first):
     out = [f'<section class="case" id="case-{name}">', f"<h2>{text(heading(case))}</h2>"]
     if not first:
         second = below(verdict)
-        asked = question(verdict) if case.get("question") != experiment.cases[0].get("question") else ""
+        alike = all(case.get(k) == experiment.cases[0].get(k) for k in ("equation", "question"))
+        asked = "" if alike else question(verdict)
         out += [asked, f'<p class="casefind">{finding(verdict)}</p>',
                 f'<p class="where">{second + "<br>" if second else ""}{holds(verdict)}</p>']
     out.append(table(verdict))

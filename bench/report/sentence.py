@@ -69,12 +69,12 @@ def cheapest(verdict):
         return []
     ranked, rivals = verdict.ranked(verdict.target), verdict.rivals
     who = names(best) if len(best) <= 3 else f"{names(best[:2])} and {len(best) - 2} others"
-    scope = "" if len(ranked) == len(rivals) else f" of {len(ranked)} methods with runs on both sides of it"
+    scope = "" if len(ranked) == len(rivals) else f" of {len(ranked)} ranked methods"
     out = f"at {text(verdict.measure.noun)} {power(round(math.log10(verdict.target)))} {who} "
     out += (f"cost the same{scope.replace(' of ', ', of ', 1)}, {spent(verdict, best[0])}" if len(best) == len(ranked) else
             f"{'is' if len(best) == 1 else 'are'} cheapest{scope}, {spent(verdict, best[0])}")
     if verdict.work == "time" and any(r.curve.disturbed_at(verdict.target) for r in ranked):
-        out += " (timings were disturbed)"
+        out += " (disturbed)"
     return [Clause(out, "cheapest", labels(best), error_columns(verdict), {r.label: sides(r, verdict.target) for r in ranked},
                    priced(verdict, ranked) | {"unranked": [r.label for r in rivals if r not in ranked]})]
 
@@ -171,7 +171,7 @@ def ratio(verdict, dear, cheap, words):
     told, ends = times_as_much(verdict, cheap, dear)
     out = words.format(told)
     if verdict.work == "time" and any(r.curve.disturbed_at(verdict.target) for r in (cheap, dear)):
-        out += " (timings were disturbed)"
+        out += " (disturbed)"
     return Clause(out, "costs-times", [dear.label], error_columns(verdict), {r.label: sides(r, verdict.target) for r in (cheap, dear)},
                   priced(verdict, (cheap, dear)) | {"than": cheap.label, "times": ends})
 

@@ -145,10 +145,10 @@ void check_stated_identities(const Model& model, const Real& t, const std::vecto
     const double first = relative_to_terms(results_of(stated.residual, t, z)),
                  second = relative_to_terms(results_of(stated.residual, later, beside));
     if (std::max(first, second) <= most) continue;
-    throw InputError("system " + model.name() + ": it is false that " + stated.words + ", " +
-                     (first > most ? "at the initial state" : "at a state near the initial one") + ", by " +
-                     formatted("%.2g", std::max(first, second)) +
-                     " of its terms; `pfaff verify` looks at all that the system states");
+    throw InputError("system " + model.name() + ": false " +
+                     (first > most ? "at the initial state" : "at a state near the initial one") + ": " +
+                     stated.words + " (off by " + formatted("%.2g", std::max(first, second)) +
+                     " of its terms); `pfaff verify` looks at all that a system states");
   }
 }
 

@@ -20,17 +20,18 @@ TEST(Questions, CasesAskWhatTheHeadAsksUnlessTheyAskTheirOwn) {
   };
   const std::string method = "[[method]]\nlabel = \"GF\"\nintegrator = \"generating-function\"\n";
   const std::string one = "[[case]]\nsystem = \"harmonic-oscillator\"\ntime = 1\nsteps = [0.5]\n";
-  const std::string asked = "question = \"What?\"\nanswer = \"energy\"\n";
+  const std::string asked = "equation = \"$q'' = -q$\"\nquestion = \"What?\"\nanswer = \"energy\"\n";
   const Experiment e =
       read(asked + method + one + "name = \"a\"\n" + one + "name = \"b\"\nanswer = \"structure\"\n");
-  EXPECT_EQ(e.cases[0].question, "What?");
-  EXPECT_EQ(e.cases[0].answer, "energy");
-  EXPECT_EQ(e.cases[1].question, "What?");
-  EXPECT_EQ(e.cases[1].answer, "structure");
+  EXPECT_EQ(e.cases[0].asked.question, "What?");
+  EXPECT_EQ(e.cases[0].asked.answer, "energy");
+  EXPECT_EQ(e.cases[1].asked.question, "What?");
+  EXPECT_EQ(e.cases[1].asked.answer, "structure");
   (void)run_experiment(e, files / "out", {}, {.report = false});
   const auto j = nlohmann::json::parse(read_file(files / "out/experiment.json"));
   EXPECT_EQ(j["cases"][1]["answer"], "structure");
   EXPECT_EQ(j["cases"][1]["question"], "What?");
+  EXPECT_EQ(j["cases"][1]["equation"], "$q'' = -q$");
   EXPECT_EQ(j["methods"][0]["family"], "generating");
   EXPECT_FALSE(j["methods"][0].contains("another_motion"));
   EXPECT_THROW(read("answer = \"enery\"\n" + method + one + "name = \"a\"\n"), InputError);

@@ -30,6 +30,15 @@ class Equations(unittest.TestCase):
         self.assertEqual([words(e) for e in found(math, "msup")], ["r′′", "r′"])
         self.assertEqual(math.get("aria-label"), "r'' + nu r' + r = 0")
 
+    def test_sizes_sums_and_vector_products(self):
+        math = tree("q_i'' = -sum m_j q_j/|q_i - q_j|^3")
+        power = [e for e in found(math, "msup") if words(e).startswith("|")][0]
+        self.assertEqual([words(part) for part in power], ["|qi−qj|", "3"])
+        self.assertEqual(words(math), "qi′′=−∑mj·qj/|qi−qj|3")
+        self.assertEqual(words(tree("z times I z")), "z×I·z")
+        with self.assertRaises(equation.NotRead):
+            equation.mathml("|q")
+
     def test_powers_indices_and_groups(self):
         math = tree("e^{-2 nu t} q_1^2 (p + 1)/2 <= 3.5")
         power, = found(math, "msup")
@@ -79,7 +88,8 @@ class Equations(unittest.TestCase):
         equations = 0
         for path in sorted(SCRIPTS.parent.glob("experiments/*.toml")):
             experiment = tomllib.loads(path.read_text(encoding="utf-8"))
-            for text in [experiment["description"], *experiment.get("notes", [])]:
+            shown = [part["equation"] for part in [experiment, *experiment.get("case", [])] if "equation" in part]
+            for text in [experiment["description"], *experiment.get("notes", []), *shown]:
                 self.assertNotIn("$", equation.prose(text).replace("aria-label", ""), path.name)
                 equations += equation.prose(text).count("<math")
         self.assertGreater(equations, 5)

@@ -54,7 +54,7 @@ class Said(Fresh):
 
     def test_cheapest_loses_and_somebody_keeps(self):
         synthetic(self.folder)
-        self.assertEqual(self.said(), "At state error 10^−5 rk and bad cost the same, of 2 methods with runs on both sides of it, "
+        self.assertEqual(self.said(), "At state error 10^−5 rk and bad cost the same, of 2 ranked methods, "
                          "16 µs, but both let the energy drift (drifting); only mid keeps the symplectic structure.")
 
     def test_cheapest_keeps(self):
@@ -62,7 +62,7 @@ class Said(Fresh):
         for step, error in (("0.4", "1e-4"), ("0.2", "1e-7"), ("0.1", "1e-9")):
             self.edit("results.csv", "error_max", lambda x: error, lambda row: row[2] == "mid" and row[5] == step)
         said = self.said()
-        self.assertIn("mid is cheapest, 5.0 µs (timings were disturbed); only mid keeps the symplectic structure", said)
+        self.assertIn("mid is cheapest, 5.0 µs (disturbed); only mid keeps the symplectic structure", said)
         self.assertNotIn("drift", said)
 
     def test_a_bound_is_never_ranked(self):
@@ -71,7 +71,7 @@ class Said(Fresh):
         before = self.said()
         self.edit("results.csv", "error_max", lambda x: "1e-16", lambda row: row[2] == "mid")
         self.assertEqual(self.said().replace(" mid, not ranked, reaches it for no more;", ""), before)
-        self.assertIn("of 2 methods with runs on both sides of it", before)
+        self.assertIn("of 2 ranked methods", before)
         shown = self.verdict()
         mid = next(r for r in shown.rows if r.label == "mid")
         self.assertEqual(verdict_table.time_cell(shown, mid, shown.target)[:3], ("", verdict_table.NEVER / 2, "≤ 4.0 µs"))
@@ -81,7 +81,7 @@ class Said(Fresh):
         synthetic(self.folder)
         self.assertNotIn("disturbed", self.said())
         self.edit("cost.csv", "ns_per_step", lambda x: "90", lambda row: row[1] == "rk")
-        self.assertIn("16 µs (timings were disturbed)", self.said())
+        self.assertIn("16 µs (disturbed)", self.said())
 
     def test_nobody_keeps_and_everybody(self):
         synthetic(self.folder)
@@ -172,7 +172,7 @@ class Said(Fresh):
         self.assertAlmostEqual(rk.times[1e-12][0] / (8000 * 2 ** (4 / 5)), 1, places=6)
         self.assertNotEqual(before.rows[0].times, rk.times)
         said = self.said()
-        self.assertTrue(said.startswith("At energy error 10^−6 rk is cheapest of 2 methods with runs on both sides of it, 5.7 µs"),
+        self.assertTrue(said.startswith("At energy error 10^−6 rk is cheapest of 2 ranked methods, 5.7 µs"),
                         said)
         page = verdict_table.table(shown)
         for told in ("time to reach energy error", ">energy error<", "slope of energy error", "10<sup>−12</sup>"):
@@ -208,7 +208,7 @@ class Said(Fresh):
         self.assertEqual(run(self.folder)[0], 0)
         page = parsed(self.folder).text
         head = page[:page.index("method structure")]
-        for told in ("cost the same, of 2 methods with runs on both sides of it, 16 µs", "At equal cost, 10 µs", "Holds for Oscillator to t = 40 s"):
+        for told in ("cost the same, of 2 ranked methods, 16 µs", "At equal cost, 10 µs", "Holds for Oscillator to t = 40 s"):
             self.assertIn(told, head)
 
     def test_no_method_keeps_a_quantity_of_which_it_is_not_known(self):
