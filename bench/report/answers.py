@@ -21,7 +21,7 @@ from verdict import TIE
 from wording import listed, size, text
 
 AGREE, DIFFER, SHARP = 1e-3, 1e-2, 0.25
-POWERS = {0.5: "grows as a random walk does", 1.0: "grows in proportion to time", 0.0: "does not grow"}
+POWERS = {0.5: "as a random walk", 1.0: "in proportion to time", 0.0: "not at all"}
 
 
 def growth(verdict):
@@ -34,15 +34,15 @@ def growth(verdict):
     for row in rows:
         _, p, half = found[row.label]
         holds = [words for power, words in POWERS.items() if abs(p - power) <= half]
-        groups.setdefault("" if half > SHARP or len(holds) > 1 else (holds or ["grows with another power"])[0], []).append(row)
+        groups.setdefault("" if half > SHARP or len(holds) > 1 else (holds or ["with another power"])[0], []).append(row)
     untold = groups.pop("", [])
     if not groups:
         return []
 
     def told(some):
         return listed(f"{name(r)} (<i>t</i><sup>{found[r.label][1]:.2f} ± {found[r.label][2]:.2f}</sup>)" for r in some)
-    words = (f"the rms error of {quantity(verdict)} over {case['seeds']} seeds "
-             + ", and ".join(f"{words} with {told(some)}" for words, some in groups.items())
+    words = (f"rms errors of {quantity(verdict)} over {case['seeds']} seeds grow "
+             + "; ".join(f"{words} with {told(some)}" for words, some in groups.items())
              + (f"; with {names(untold)} the power is not told" if untold else ""))
     return [Clause(words, "grows-as", labels(r for some in groups.values() for r in some), [case["conserved"]],
                    {r.label: wheres(verdict, found[r.label][0]) for r in rows},
@@ -158,6 +158,14 @@ def distances(some, others):
             if seed == of and (some is not others or method < by)]
 
 
+def agreement_or_constraints(verdict):
+    return agreement(verdict) or constraints(verdict)
+
+
+def constraints_beside_agreement(verdict):
+    return constraints(verdict) if agreement(verdict) else []
+
+
 def turning(verdict):
     out = []
     for vector, (_, lines) in frequencies(verdict.experiment, verdict.case).items():
@@ -175,9 +183,9 @@ def turning(verdict):
         if best[-1] is worst[0] or len(best) == len(rows):
             continue
         unknown = [m for m in lines if m not in at]
-        scope = f", of {len(rows)} methods whose error is steady," if unknown else ""
-        words = (f"at step {step:.4g} {text(vector)}{scope} turns best with {names(best)}, wrong by {size(at[rows[0].label])} rad per "
-                 f"unit of time, and worst with {names(worst)}, by {size(at[rows[-1].label])}")
+        scope = f", of {len(rows)} steady methods," if unknown else ""
+        words = (f"at step {step:.4g} {text(vector)}{scope} turns best with {names(best)}, off by {size(at[rows[0].label])}, "
+                 f"and worst with {names(worst)}, by {size(at[rows[-1].label])}" + ("" if out else " rad per unit of time"))
         out.append(Clause(words, "turns", labels(best), ["error", "change"], {},
                           {"vector": vector, "step": step, "worst": labels(worst), "among": labels(rows), "unknown": unknown}))
     return out

@@ -14,16 +14,17 @@ from files import InputError
 from wording import counted, listed, plain_text, text
 
 # What answers a question, what stands in the second line, and what is said where the runs do not answer.
-COST = (sentence.cheapest, sentence.losing, sentence.bounded)
+COST = (sentence.cheapest, sentence.losing)
 RANKED = (sentence.cheapest, sentence.bounded)
 ANSWERS = {
-    "cost": ((*COST, sentence.structure), (sentence.dearer, sentence.drift), ""),
+    "cost": ((*COST, sentence.structure), (sentence.bounded, sentence.dearer, sentence.drift), ""),
     "energy": ((sentence.drift,), (sentence.structure, *RANKED, sentence.dearer),
                "which methods let the conserved quantity drift away"),
     "structure": ((sentence.structure,), (sentence.drift, *RANKED, sentence.dearer), "which methods keep the structure"),
     "growth": ((answers.growth,), (sentence.drift,), "with which power of time errors grow"),
     "constraints": ((answers.constraints,), (sentence.drift, *RANKED), "which methods stay on the constraints"),
-    "agreement": ((answers.agreement, answers.constraints), (sentence.drift,), "whether formulations agree"),
+    "agreement": ((answers.agreement_or_constraints,), (answers.constraints_beside_agreement, sentence.drift),
+                  "whether formulations agree"),
     "frequencies": ((answers.turning,), (sentence.drift, *RANKED), "which frequencies are right"),
 }
 

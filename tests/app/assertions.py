@@ -7,8 +7,7 @@ import statistics as st
 
 from experiment_files import Files, number
 
-POWERS = {"grows as a random walk does": [0.5], "grows in proportion to time": [1.0], "does not grow": [0],
-          "grows with another power": []}
+POWERS = {"as a random walk": [0.5], "in proportion to time": [1.0], "not at all": [0], "with another power": []}
 
 
 class Judge(Files):
