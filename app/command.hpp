@@ -38,6 +38,16 @@ CLI::App* subcommand(CLI::App& app, Common& common, const std::string& name, con
 /// The option --quiet, for commands that show progress and summaries.
 void add_quiet(CLI::App& sub, Common& common);
 
+/// Refuses what is no number above zero.
+CLI::Validator positive_number();
+/// Refuses what is no directory.
+CLI::Validator existing_directory();
+
+/// Ends a command whose output cannot be written: without a word where the reader of a pipe has what it
+/// wanted
+/// (`| head`), with a RunError otherwise.
+void require_written_output();
+
 /// The settings in texts "key=value". InputError for a text without '='.
 Assignments parse_settings(const std::vector<std::string>& texts);
 

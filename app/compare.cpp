@@ -140,7 +140,7 @@ void add_compare(CLI::App& app, Common& common, Action& action) {
   sub->add_option("--timing", options->timing,
                   "How long each run is timed, in seconds (default 0.3, with --quick 0.05)")
       ->type_name("SECONDS")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   sub->add_option("--out", options->out, "Where results go (default pfaff-out/NAME), or resume from")
       ->type_name("DIR");
   sub->add_option("--figures", options->paper.kinds,

@@ -22,19 +22,19 @@ void add_falsify(CLI::App& app, Common& common, Action& action) {
   sub->add_option("--seed", options->seed, "Of the random systems and parameters, 1 without")->type_name("N");
   sub->add_option("--budget", options->budget, "Seconds; 60 without, 300 with --all")
       ->type_name("SECONDS")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   sub->add_option("--systems", options->systems, "At most so many random systems for each claim")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   sub->add_option("--out", options->out, "Directory for the models of counterexamples, besides printing them")
       ->type_name("DIR")
-      ->check(CLI::ExistingDirectory);
+      ->check(existing_directory());
   sub->add_option("--system", options->system, "Judge the claim on this system, from its initial state")
       ->type_name("SYSTEM|FILE");
   sub->add_option("--step", options->step, "With --system: the step, 1/10 without")->type_name("h");
   sub->add_option("--steps", options->steps, "With --system: how many steps in a row, 1 without")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   sub->add_option("--at", options->at, "With --system: the time at which the step begins, 0 without")
       ->type_name("t");
   sub->callback([=, &common, &action] {

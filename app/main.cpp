@@ -2,6 +2,10 @@
 //
 // Exit status: 0 when all went well, 1 when a check failed or a run ended early, 2 for wrong usage or input.
 // Only results go to stdout; an error is one line on stderr.
+#include <poll.h>
+#include <unistd.h>
+
+#include <charconv>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
@@ -23,6 +27,11 @@
 
 namespace pfaff::app {
 
+namespace {
+// Thrown where the reader of standard output has closed its end.
+struct ReaderIsGone {};
+}  // namespace
+
 CLI::App* subcommand(CLI::App& app, Common& common, const std::string& name, const std::string& what) {
   CLI::App* sub = app.add_subcommand(name, what);
   sub->group("Commands");
@@ -39,6 +48,33 @@ CLI::App* subcommand(CLI::App& app, Common& common, const std::string& name, con
 void add_quiet(CLI::App& sub, Common& common) {
   sub.add_flag("--quiet", common.quiet, "No progress and no summary: errors and the exit status say it")
       ->excludes("--json");
+}
+
+CLI::Validator positive_number() {
+  return {[](const std::string& text) {
+            double value = 0;
+            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+            const bool whole = error == std::errc() && end == text.data() + text.size();
+            return whole && value > 0 ? std::string() : "expected a number > 0, got '" + text + "'";
+          },
+          ""};
+}
+
+CLI::Validator existing_directory() {
+  return {[](const std::string& text) {
+            return std::filesystem::is_directory(text)
+                       ? std::string()
+                       : "expected a directory that exists, got '" + text + "'";
+          },
+          ""};
+}
+
+void require_written_output() {
+  std::cout.flush();
+  if (std::cout) return;
+  pollfd out{STDOUT_FILENO, 0, 0};
+  if (poll(&out, 1, 0) == 1 && (out.revents & POLLERR) != 0) throw ReaderIsGone();
+  throw RunError("cannot write to standard output");
 }
 
 Assignments parse_settings(const std::vector<std::string>& texts) {
@@ -134,9 +170,10 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& error, int a
 int run(const Action& work) {
   try {
     const int status = work();
-    std::cout.flush();
-    if (!std::cout) throw RunError("cannot write to standard output");
+    require_written_output();
     return status;
+  } catch (const ReaderIsGone&) {
+    return 0;
   } catch (const text::TextError& error) {
     complain(error.what());
     if (!error.excerpt().empty()) std::cerr << error.excerpt() << '\n';
@@ -157,8 +194,8 @@ int run(const Action& work) {
 }
 
 int run(int argc, char** argv) {
-  // When the reader of stdout closes its end early, the write fails and is reported as an error; without this
-  // the signal would end the program silently.
+  // When the reader of stdout closes its end early, the write fails and the work ends
+  // (require_written_output); without this the signal would end the program in the middle of it.
   std::signal(SIGPIPE, SIG_IGN);
   CLI::App app{"Pfaff: structure-preserving integration, what drifts and what it costs", "pfaff"};
   app.formatter(std::make_shared<HelpFormatter>());

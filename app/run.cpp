@@ -1,6 +1,7 @@
 // pfaff run: makes one run and writes it to a directory or to standard output.
 #include <cmath>
 #include <iostream>
+#include <sstream>
 
 #include <pfaff/app/command.hpp>
 #include <pfaff/app/state_file.hpp>
@@ -24,10 +25,28 @@ struct RunOptions {
   bool force = false;
 };
 
+// Names all options that are missing at once.
+void require_options(const RunOptions& options) {
+  const RunSettings& s = options.settings;
+  const bool here = options.config.empty();  // the settings, which a config.toml has otherwise
+  std::string missing;
+  int count = 0;
+  for (const auto& [absent, what] :
+       {std::pair(here && s.system.empty(), "--system (see pfaff list systems)"),
+        {here && s.integrator.empty(), "--integrator (see pfaff list integrators)"},
+        {here && s.step.empty() && s.tolerance.empty(), "--step, or --tolerance"},
+        {here && s.time.empty(), "--time, the duration of the run"},
+        {options.out.empty(),
+         "--out, a new directory for the run, or - for its series on standard output"}}) {
+    if (!absent) continue;
+    missing += (count++ == 0 ? "" : "; ") + std::string(what);
+  }
+  if (count > 0) throw InputError("missing: " + missing);
+}
+
 // What the options ask for, read from a config.toml or from the options themselves, not yet resolved.
 RunConfig config_of(const RunOptions& options) {
-  if (options.out.empty())
-    throw InputError("--out is missing: a new directory for the run, or - for its series on standard output");
+  require_options(options);
   RunConfig config{options.settings, {}};
   RunSettings& settings = config.settings;
   if (!options.config.empty()) {
@@ -40,11 +59,8 @@ RunConfig config_of(const RunOptions& options) {
         throw InputError("--config holds the whole run; expected no other settings beside it");
     return read_config(options.config);
   }
-  if (settings.system.empty()) throw InputError("--system is missing (see pfaff list systems)");
   if (settings.project_initial && settings.allow_inconsistent)
     throw InputError("--project-initial and --allow-inconsistent exclude each other");
-  if (settings.integrator.empty()) throw InputError("--integrator is missing (see pfaff list integrators)");
-  if (settings.time.empty()) throw InputError("--time is missing: the duration of the run");
   settings.set = parse_settings(options.set);
   if (!options.precision.empty()) settings.precision = parse_precision(options.precision);
   if (!options.absolute.empty()) settings.absolute = split_commas(options.absolute);
@@ -131,6 +147,29 @@ int finish(const nlohmann::json& j, const std::string& text) {
   return 1;
 }
 
+// The series as one object: the summary, the columns with their units, and the rows.
+nlohmann::json series_json(const ResolvedRun& run, const RunRecord& record, nlohmann::json summary) {
+  std::istringstream lines(series_csv(run, record));
+  std::string line, cell;
+  for (bool head = true; std::getline(lines, line); head = false) {
+    std::istringstream cells(line + ',');  // so that the last cell, too, ends with a comma, if it is empty
+    nlohmann::json row = nlohmann::json::array();
+    while (std::getline(cells, cell, ',')) {
+      if (cell.empty())
+        row.push_back(nullptr);
+      else if (head || run.settings.precision == Precision::quad)
+        row.push_back(cell);
+      else
+        row.push_back(std::stod(cell));
+    }
+    if (head)
+      summary["columns"] = row;
+    else
+      summary["rows"].push_back(row);
+  }
+  return summary;
+}
+
 RunRecord executed(const ResolvedRun& resolved, bool quiet) {
   const Interruption interruption;
   const auto reference = reference_asked_for(resolved);
@@ -149,10 +188,12 @@ int run(const RunOptions& options, const Common& common) {
     std::cerr << "pfaff: " << end << '\n';
   if (options.out == "-") {
     const RunRecord record = executed(resolved, common.quiet);
-    const std::string series = series_csv(resolved, record);
-    std::cout << series << std::flush;
-    if (!std::cout) throw RunError("cannot write to standard output");
     const nlohmann::json j = summary(resolved, record);
+    if (common.json)
+      std::cout << json_text(series_json(resolved, record, j));
+    else
+      std::cout << series_csv(resolved, record);
+    require_written_output();
     if (j.contains("reference_ended") && !common.quiet) std::cerr << "pfaff: " << of_the_reference(j) << '\n';
     return finish(j, "");
   }

@@ -33,7 +33,7 @@ void add_tune(CLI::App& app, Common& common, Action& action) {
   sub->add_option("--seed", options->tuning.seed, "Of the starts of the search, 1 without")->type_name("N");
   sub->add_option("--starts", options->tuning.starts, "How many starts, 60 without")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   sub->add_option("--name", options->name, "Of the method, tuned-splitting without")->type_name("WORD");
   sub->add_option("--out", options->out, "Write the table into this file (.toml) and verify it")
       ->type_name("FILE");

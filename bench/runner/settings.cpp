@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include <pfaff/bench/measure/constraints.hpp>
+#include <pfaff/bench/runner/asked_for.hpp>
 #include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/bench/runner/stated_identities.hpp>
 #include <pfaff/bench/runner/steps.hpp>
@@ -200,7 +201,7 @@ std::vector<std::string> asked_state(const RunSettings& settings, const SplitSet
 }  // namespace
 
 ResolvedState resolve_state(const RunSettings& settings) {
-  const SystemPlugin& system = system_named(settings.system);
+  const SystemPlugin& system = system_asked_for(settings.system);
   const FormulationPlugin* formulation = formulation_for(system, settings.formulation);
   const SplitSettings split = split_settings(system, formulation, nullptr, settings.set);
   ResolvedState result;
@@ -263,11 +264,12 @@ void check_domain(const ResolvedRun& run, const std::string& system) {
 ResolvedRun resolve(const RunSettings& settings) {
   ResolvedRun run;
   run.settings = settings;
-  const SystemPlugin& system = system_named(settings.system);
-  if (const auto* text = dynamic_cast<const TextSystem*>(&system))
-    run.settings.system = text->files().front().first;
-  const MethodPlugin& method = integrator_named(settings.integrator);
-  if (const auto* table = dynamic_cast<const MethodTable*>(&method)) run.settings.integrator = table->path();
+  const SystemPlugin& system = system_asked_for(settings.system);
+  const auto* text = dynamic_cast<const TextSystem*>(&system);
+  run.settings.system = text != nullptr ? text->files().front().first : system.name();
+  const MethodPlugin& method = integrator_asked_for(settings.integrator);
+  const auto* table = dynamic_cast<const MethodTable*>(&method);
+  run.settings.integrator = table != nullptr ? table->path() : method.name();
   const FormulationPlugin* formulation = formulation_for(system, settings.formulation);
   SplitSettings split = split_settings(system, formulation, &method, settings.set);
   split.system = with_absolute_paths(system.parameters(), std::move(split.system));
@@ -284,7 +286,8 @@ ResolvedRun resolve(const RunSettings& settings) {
     throw InputError(method.name() + " steps on the constraints of " + system.name() +
                      " themselves; expected no --formulation and no parameter of one");
   }
-  if (const std::string reason = run.method->refuses(*run.model); !reason.empty()) throw InputError(reason);
+  if (const std::string reason = run.method->refuses(*run.model); !reason.empty())
+    throw InputError(reason + what_to_do(*run.method, *run.model));
   if (settings.precision == Precision::quad && run.method->descriptor().double_coefficients)
     throw InputError(method.name() + " has coefficients in double only; expected --precision double");
 

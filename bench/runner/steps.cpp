@@ -9,6 +9,7 @@
 
 #include <pfaff/bench/measure/chosen_steps.hpp>
 #include <pfaff/bench/measure/constraints.hpp>
+#include <pfaff/bench/runner/asked_for.hpp>
 #include <pfaff/bench/runner/record.hpp>
 
 namespace pfaff {
@@ -112,7 +113,8 @@ void resolve_tolerance(ResolvedRun& run) {
   resolve_absolute(run);
   if (!run.method->adaptive())
     throw InputError(run.method->called() +
-                     " takes fixed steps only; expected --step instead of --tolerance");
+                     " takes fixed steps only; expected --step instead of --tolerance" +
+                     or_methods_that_choose(*run.model));
   if (settings.precision == Precision::quad && !adaptive_in_quad(*run.method, run.model))
     throw InputError(run.method->called() + " chooses its steps in double only; expected --precision double");
   if (settings.precision == Precision::quad) {

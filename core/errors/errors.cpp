@@ -11,17 +11,19 @@
 namespace pfaff {
 
 namespace {
+// How many letters are to be changed, left out, added or exchanged with the next one.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
+  std::vector<std::size_t> before(b.size() + 1), row(b.size() + 1), next(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
   for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
+    next[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t substitution = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substitution});
+      next[j] = std::min({row[j] + 1, next[j - 1] + 1, row[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        next[j] = std::min(next[j], before[j - 2] + 1);
     }
+    before.swap(row);
+    row.swap(next);
   }
   return row[b.size()];
 }
@@ -66,10 +68,13 @@ std::size_t shared_length(std::string_view a, std::string_view b) {
   return longest;
 }
 
-// The three candidates that share the longest text with the name.
+// The three candidates that share the longest text with the name, those that are a part of it first.
 std::vector<std::string> most_alike(std::string_view name, std::vector<std::string> candidates) {
   std::stable_sort(candidates.begin(), candidates.end(), [&](const std::string& a, const std::string& b) {
-    return shared_length(name, a) > shared_length(name, b);
+    const auto likeness = [&](const std::string& candidate) {
+      return std::pair(name.find(candidate) != std::string_view::npos, shared_length(name, candidate));
+    };
+    return likeness(a) > likeness(b);
   });
   candidates.resize(3);
   return candidates;
@@ -78,11 +83,13 @@ std::vector<std::string> most_alike(std::string_view name, std::vector<std::stri
 
 std::string nearest(std::string_view name, const std::vector<std::string>& candidates) {
   std::string best;
-  // Half of the name may be wrong, of short ones one letter: 'h' is not near 'nu'.
-  std::size_t distance = std::max<std::size_t>(1, name.size() / 2);
+  // A third of the name may be wrong, of short ones one letter: 'h' is not near 'nu', and '--scheme' not near
+  // '--help'.
+  const std::string_view bare = name.substr(std::min(name.find_first_not_of('-'), name.size()));
+  std::size_t distance = std::max<std::size_t>(1, bare.size() / 3);
   for (const std::string& candidate : candidates) {
     // A name typed short is near to what it begins.
-    const bool prefix = name.size() >= 3 && candidate.starts_with(name);
+    const bool prefix = bare.size() >= 3 && candidate.starts_with(name);
     const std::size_t d = prefix ? 1 : edit_distance(name, candidate);
     if (d <= distance && (best.empty() || d < distance)) {
       best = candidate;

@@ -19,6 +19,30 @@ TEST(BadNames, Commands) {
   expect_refused({"--json", "list"}, {"expected a command before '--json'", "see pfaff --help"});
 }
 
+TEST(BadNames, OfAnotherKindAndInOtherLetters) {
+  const auto run = [](const char* system, const char* integrator) {
+    return Arguments{"run", system, integrator, "--step", "0.1", "--time", "0.1", "--out", "-"};
+  };
+  expect_refused(run("gauss", "kepler"), {"'gauss' is an integrator; expected a system"});
+  expect_refused(run("kepler", "pendulum"), {"'pendulum' is a system; expected an integrator"});
+  EXPECT_EQ(run_pfaff(run("Kepler", "VERLET")).out, run_pfaff(run("kepler", "verlet")).out);
+  // What is not near is not meant; what a name ends in may be.
+  expect_refused(run("kepler", "stormer-verlet"), {"such as verlet, "});
+  expect_refused({"run", "--scheme", "verlet"}, {"unknown option '--scheme'; expected one of"});
+}
+
+TEST(BadNames, ARefusalSaysWhatToDo) {
+  const auto run = [](const char* system, const char* integrator, const char* how) {
+    return Arguments{"run", system, integrator, how, "0.1", "--time", "0.1", "--out", "-"};
+  };
+  expect_refused(run("n-pendulum", "verlet", "--step"),
+                 {"verlet needs separable", "methods that fit: ", "rattle"});
+  expect_refused(run("kepler", "gauss", "--tolerance"), {"or one of extrapolation, ", "taylor"});
+  expect_refused({"falsify", "rk4", "--budget", "-1"}, {"--budget: expected a number > 0, got '-1'"});
+  expect_refused({"falsify", "rk4", "--out", "nowhere"},
+                 {"--out: expected a directory that exists, got 'nowhere'"});
+}
+
 TEST(BadNames, Options) {
   expect_refused({"list", "--jsn"}, {"unknown option '--jsn'", "did you mean '--json'?", "pfaff list"});
   expect_refused(pendulum_run + std::vector<std::string>{"--presision", "quad"},

@@ -119,7 +119,7 @@ TEST(BadSettings, StateFile) {
 }
 
 TEST(BadSettings, Step) {
-  expect_refused(refused_pendulum({"--time", "1"}), {"--step is missing", "--tolerance"});
+  expect_refused(refused_pendulum({"--time", "1"}), {"missing: --step, or --tolerance"});
   for (const std::string bad : {"0", "-0.1", "0/1"})
     expect_refused(refused_pendulum({"--time", "1", "--step", bad}),
                    {"--step: expected a number > 0", "'" + bad + "'"});
@@ -135,7 +135,7 @@ TEST(BadSettings, Step) {
 }
 
 TEST(BadSettings, Time) {
-  expect_refused(refused_pendulum({"--step", "0.1"}), {"--time is missing"});
+  expect_refused(refused_pendulum({"--step", "0.1"}), {"missing: --time, the duration of the run"});
   for (const std::string bad : {"0", "-1"})
     expect_refused(refused_pendulum({"--step", "0.1", "--time", bad}),
                    {"--time: expected a duration > 0", "'" + bad + "'"});
@@ -174,10 +174,14 @@ TEST(BadSettings, Every) {
 }
 
 TEST(BadSettings, WhatIsMissing) {
-  expect_refused({"run"}, {"--out is missing"});
-  expect_refused({"run", "--out", ""}, {"--out is missing"});
-  expect_refused({"run", "--out", "run"}, {"--system is missing", "pfaff list systems"});
-  expect_refused({"run", "--out", "run", "--system", "kepler"}, {"--integrator is missing"});
+  const std::string every =
+      "missing: --system (see pfaff list systems); --integrator (see pfaff list integrators); "
+      "--step, or --tolerance; --time, the duration of the run; --out, ";
+  expect_refused({"run"}, {every});
+  expect_refused({"run", "--out", ""}, {every});
+  expect_refused({"run", "kepler", "verlet", "--config", "run/config.toml"}, {"missing: --out, "});
+  expect_refused({"run", "--out", "run", "--system", "kepler"},
+                 {"missing: --integrator (see pfaff list integrators); --step"});
 }
 
 TEST(BadSettings, ConfigFile) {

@@ -1,0 +1,64 @@
+#include <pfaff/bench/runner/asked_for.hpp>
+
+#include <algorithm>
+#include <cctype>
+
+#include <pfaff/integrators/tables/method_table.hpp>
+#include <pfaff/systems/text/text_system.hpp>
+
+namespace pfaff {
+
+namespace {
+// The name in small letters, as names of plug-ins are, where there is none of that name as it stands.
+template <class P>
+std::string spelled(const Registry<P>& registry, const std::string& name) {
+  std::string small(name);
+  for (char& c : small) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return registry.find(name) == nullptr && registry.find(small) != nullptr ? small : name;
+}
+
+// InputError, which says so, where a name of one kind is that of another.
+template <class P, class Other>
+std::string of_its_kind(const Registry<P>& registry, const Registry<Other>& others, const std::string& name,
+                        const char* kind, const char* other) {
+  std::string found = spelled(registry, name);
+  if (registry.find(found) == nullptr && others.find(spelled(others, name)) != nullptr)
+    throw InputError("'" + name + "' is " + other + "; expected " + kind);
+  return found;
+}
+}  // namespace
+
+const SystemPlugin& system_asked_for(const std::string& name) {
+  return system_named(of_its_kind(systems(), integrators(), name, "a system", "an integrator"));
+}
+const MethodPlugin& integrator_asked_for(const std::string& name) {
+  return integrator_named(of_its_kind(integrators(), systems(), name, "an integrator", "a system"));
+}
+
+std::string what_to_do(const MethodInstance& method, const Model& model) {
+  if (method.needs().has(Facet::separable) && model.facets().has(Facet::hamiltonian))
+    return "; kinetic and potential energies that are written apart make a system separable";
+  constexpr std::size_t most = 6;
+  // Those that keep most of what the system has come first.
+  std::vector<std::pair<std::size_t, std::string>> fitting;
+  for (const MethodPlugin* other : integrators().all())
+    if (const auto made = other->make({}); made->refuses(model).empty())
+      fitting.emplace_back(claims_in_scope(made->preserves(model), model).size(), other->name());
+  std::stable_sort(fitting.begin(), fitting.end(),
+                   [](const auto& one, const auto& other) { return one.first > other.first; });
+  if (fitting.empty()) return {};
+  std::string text = "; methods that fit: ";
+  for (std::size_t k = 0; k < std::min(most, fitting.size()); ++k)
+    text += (k == 0 ? "" : ", ") + fitting[k].second;
+  return text + (fitting.size() > most ? ", ... (pfaff describe " + model.name() + ")" : "");
+}
+
+std::string or_methods_that_choose(const Model& model) {
+  std::string names;
+  for (const MethodPlugin* method : integrators().all())
+    if (const auto made = method->make({}); made->adaptive() && made->refuses(model).empty())
+      names += (names.empty() ? ", or one of " : ", ") + method->name();
+  return names;
+}
+
+}  // namespace pfaff

@@ -1,0 +1,23 @@
+// The plug-ins that settings name, and what is said where a name or a pair of them does not fit.
+#pragma once
+
+#include <string>
+
+#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/system.hpp>
+
+namespace pfaff {
+
+/// The system or integrator of that name, in whatever letters, or of that file. InputError for an unknown
+/// name, which says so where it is that of the other kind.
+const SystemPlugin& system_asked_for(const std::string& name);
+const MethodPlugin& integrator_asked_for(const std::string& name);
+
+/// What whoever is told that a method refuses a model can do: write energies apart, or take another method.
+/// To follow the refusal; may be empty.
+std::string what_to_do(const MethodInstance& method, const Model& model);
+
+/// ", or one of taylor, ...": the methods that choose their steps on a model; empty where there are none.
+std::string or_methods_that_choose(const Model& model);
+
+}  // namespace pfaff
