@@ -61,7 +61,7 @@ TEST(Aliases, AreCompositionsInReportsUnlessTheyStepOnConstraints) {
               std::string(s.base) == "rattle" ? "constrained" : "splitting")
         << s.name;
   EXPECT_EQ(method_named("wisdom-holman", {})->family(), "splitting");
-  EXPECT_EQ(method_named("leap-frog", {})->family(), "");
+  EXPECT_EQ(method_named("leap-frog", {})->family(), "multistep");
 }
 
 TEST(Aliases, StepBitForBitLikeTheCompositionTheyName) {
