@@ -98,11 +98,15 @@ class Drawing {
     }
     return sum;
   }
-  // The same with one term that grows with time.
+  // The same with one term whose coefficient is c (t + t^2/4): a rule for its mean over a step that is wrong,
+  // but right where it is linear, shows.
   SparsePolynomial driven(SparsePolynomial p, std::size_t low, std::size_t high) {
     Powers powers = powers_of(p.variables(), low, high);
     powers.back() = 1;
-    p.add(powers, coefficient());
+    const Real c = coefficient();
+    p.add(powers, c);
+    powers.back() = 2;
+    p.add(powers, c / Real(4));
     return p;
   }
   // Terms of degrees 2 ... high beside the leading ones; none in the smallest size.

@@ -18,10 +18,12 @@ std::string value_near(const Parameter& parameter, const std::string& given, std
   return to_string(Quad(std::clamp(wanted, parameter.minimum, parameter.maximum)), 6);
 }
 
-template <class P>
-std::vector<Assignments> drawn_near(const P& plugin, int count) {
+// `parameters_with` gives all parameters of the plug-in as it is made with some; InputError where it refuses
+// them.
+template <class P, class Made>
+std::vector<Assignments> drawn_near(const P& plugin, int count, const Made& parameters_with) {
   std::vector<Assignments> list;
-  const Assignments defaults = plugin.make({})->parameters();
+  const Assignments defaults = parameters_with({});
   std::mt19937_64 random(20050);
   for (int k = 0; k < count; ++k) {
     Assignments drawn;
@@ -31,7 +33,7 @@ std::vector<Assignments> drawn_near(const P& plugin, int count) {
           if (std::string near = value_near(parameter, value, random); near != value)
             drawn.emplace_back(name, std::move(near));
     try {
-      if (!drawn.empty() && plugin.make(drawn) != nullptr) list.push_back(std::move(drawn));
+      if (!drawn.empty() && !parameters_with(drawn).empty()) list.push_back(std::move(drawn));
     } catch (const InputError&) {
       continue;  // what the author refuses is claimed by nobody
     }
@@ -41,12 +43,16 @@ std::vector<Assignments> drawn_near(const P& plugin, int count) {
 }  // namespace
 
 std::vector<Assignments> parameters_near_defaults(const MethodPlugin& method, int count) {
-  return drawn_near(method, count);
+  return drawn_near(method, count, [&](const Assignments& set) { return method.make(set)->parameters(); });
 }
 
 std::vector<Assignments> parameters_near_defaults(const SystemPlugin& system, int count) {
   if (system.constrained()) return {};
-  return drawn_near(system, count);
+  return drawn_near(system, count, [&](const Assignments& set) { return system.make(set)->parameters(); });
+}
+
+std::vector<Assignments> parameters_near_defaults(const BracketPlugin& bracket, int count) {
+  return drawn_near(bracket, count, [&](const Assignments& set) { return bracket.make(set).parameters; });
 }
 
 }  // namespace pfaff

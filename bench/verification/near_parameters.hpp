@@ -2,6 +2,7 @@
 // condition holds for every value in the ranges that the author states.
 #pragma once
 
+#include <pfaff/core/bracket.hpp>
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
 
@@ -13,5 +14,7 @@ namespace pfaff {
 std::vector<Assignments> parameters_near_defaults(const MethodPlugin& method, int count);
 /// The same of a system. None of systems with constraints, on which the initial state would no longer be.
 std::vector<Assignments> parameters_near_defaults(const SystemPlugin& system, int count);
+/// The same of a bracket.
+std::vector<Assignments> parameters_near_defaults(const BracketPlugin& bracket, int count);
 
 }  // namespace pfaff

@@ -45,7 +45,7 @@ std::shared_ptr<const Model> model_claimed_on(const MethodInstance& method, Clai
 }
 
 std::vector<Check> check_on_random_systems(const MethodPlugin& plugin, const Assignments& parameters,
-                                           std::size_t turn) {
+                                           std::size_t turn, bool every_kind) {
   const auto method = plugin.make(parameters);
   std::set<SystemKind> chosen;
   for (const ClaimRow& row : claim_table) {
@@ -58,7 +58,10 @@ std::vector<Check> check_on_random_systems(const MethodPlugin& plugin, const Ass
           model_claimed_on(*method, row.claim, model_of(system_of(recipe))) != nullptr)
         kinds.push_back(kind);
     }
-    chosen.merge(some_of(kinds, turn));
+    if (every_kind)
+      chosen.insert(kinds.begin(), kinds.end());
+    else
+      chosen.merge(some_of(kinds, turn));
   }
   std::vector<Check> checks;
   for (const SystemKind kind : chosen) {

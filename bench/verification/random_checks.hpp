@@ -17,8 +17,8 @@ std::shared_ptr<const Model> model_claimed_on(const MethodInstance& method, Clai
 /// All checks of a method on random systems with a fixed seed, of three kinds in the scope of each of its
 /// claims, or as many as there are; none for a method that claims nothing. A quick verification of a method
 /// with many parameters numbers these by `turn`, from 0; after the first, each claim is checked on one kind,
-/// another one from turn to turn.
+/// another one from turn to turn. With `every_kind` each claim is checked on all kinds in its scope.
 std::vector<Check> check_on_random_systems(const MethodPlugin& plugin, const Assignments& parameters,
-                                           std::size_t turn = 0);
+                                           std::size_t turn = 0, bool every_kind = false);
 
 }  // namespace pfaff

@@ -129,6 +129,10 @@ class Jobs {
       if (!wanted(asked_as(*bracket)) && !wanted("brackets")) continue;
       for (const Assignments& p : parameters(asked_as(*bracket), instances_of(*bracket)))
         jobs_.push_back({called(bracket->name(), p), [=] { return check_bracket(*bracket, p); }});
+      if (settings_.set.empty())
+        for (const Assignments& p : parameters_near_defaults(*bracket, 2))
+          jobs_.push_back(
+              {called(bracket->name(), p), [=] { return inside_domain(check_bracket(*bracket, p)); }});
     }
   }
 
@@ -189,11 +193,15 @@ class Jobs {
                          [=, &method] { return check_coefficients(method, p); }});
   }
 
+  // On random systems of three kinds for each claim with the first parameters, of every kind where the method
+  // is named, and of one kind with the other parameters.
   void add_random_systems(const MethodPlugin& method) {
     std::size_t turn = 0;
+    bool every_kind = named(method.name());
     for (const Assignments& p : parameters(method.name(), method.instances(settings_.full))) {
       jobs_.push_back({called(method.name(), p) + " on random systems",
-                       [=, &method] { return check_on_random_systems(method, p, turn); }});
+                       [=, &method] { return check_on_random_systems(method, p, turn, every_kind); }});
+      every_kind = false;
       if (!settings_.full) ++turn;
     }
   }
