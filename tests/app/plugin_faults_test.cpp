@@ -73,7 +73,7 @@ TEST(PluginFaults, ControlCharactersAreShownNotObeyed) {
   EXPECT_EQ(json.status, 0) << json.err;
   EXPECT_NE(json.out.find("2J and \uFFFD more"), std::string::npos);
   (void)json_of(json.out);
-  expect_refused({"run", "--out", "-", "--system", "\033]0;title\007"}, {"--integrator is missing"});
+  expect_refused({"run", "--out", "-", "--system", "\033]0;title\007"}, {"missing: --integrator"});
   const Outcome named = run_pfaff({"describe", "\033]0;title\007"});
   EXPECT_EQ(named.err.find('\033'), std::string::npos) << named.err;
   EXPECT_NE(named.err.find("'\uFFFD]0;title\uFFFD'"), std::string::npos) << named.err;

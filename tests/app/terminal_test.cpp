@@ -125,7 +125,7 @@ TEST(Terminal, SystemAndIntegratorNeedNoOptions) {
   EXPECT_EQ(run_pfaff({"evaluate", "kepler"}).out, run_pfaff({"evaluate", "--system", "kepler"}).out);
   expect_refused(Arguments{"run", "kepler", "gauss", "verlet"} + rest, {"verlet"});
   expect_refused(Arguments{"run", "kepler", "guass"} + rest, {"did you mean 'gauss'?"});
-  expect_refused(Arguments{"run", "kepler"} + rest, {"--integrator is missing"});
+  expect_refused(Arguments{"run", "kepler"} + rest, {"missing: --integrator"});
 }
 
 TEST(Terminal, ARunSaysWhatItDoesWithTheLastStep) {
