@@ -155,12 +155,13 @@ nlohmann::json series_json(const ResolvedRun& run, const RunRecord& record, nloh
     std::istringstream cells(line + ',');  // so that the last cell, too, ends with a comma, if it is empty
     nlohmann::json row = nlohmann::json::array();
     while (std::getline(cells, cell, ',')) {
+      const auto number = head ? std::nullopt : Real::parse(cell);
       if (cell.empty())
         row.push_back(nullptr);
-      else if (head || run.settings.precision == Precision::quad)
+      else if (!number || run.settings.precision == Precision::quad)
         row.push_back(cell);
       else
-        row.push_back(std::stod(cell));
+        row.push_back(number->value());
     }
     if (head)
       summary["columns"] = row;

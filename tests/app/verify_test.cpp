@@ -44,15 +44,13 @@ TEST(Verify, EveryClaimOfEveryMethod) {
     if (result == "skipped") {
       EXPECT_FALSE(c.value("reason", "").empty()) << c;
       const std::string reason = c["reason"];
-      EXPECT_TRUE(plugin.starts_with("odeint-") ||
-                  reason.find("remembers earlier steps") != std::string::npos ||
-                  reason.find("has not settled") != std::string::npos ||
-                  reason.find("no series") != std::string::npos ||
-                  reason.find("sizes of coordinates differ") != std::string::npos)
+      EXPECT_TRUE(plugin.starts_with("odeint-") || reason.starts_with("not judged: ") ||
+                  reason.find("remembers earlier steps") != std::string::npos)
           << c;
     }
     if (c["control"]) continue;
-    if (claim == "order" && result == "pass") ordered[plugin].insert(c["system"]);
+    // An order that could not be judged on a system was looked for there; one that is judged nowhere fails.
+    if (claim == "order") ordered[plugin].insert(c["system"]);
     if (!of_structure(claim)) continue;
     structured[plugin].insert(c["system"]);
     if (result == "measured") measured[plugin].insert(c["system"]);
