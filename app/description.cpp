@@ -113,6 +113,8 @@ nlohmann::json describe_system(const SystemPlugin& plugin) {
                    {"autonomous", model->autonomous()},
                    {"parameters", parameters_of(plugin, model->parameters())},
                    {"formulas", formulas_of(*model)}};
+  const bool ranges = std::any_of(model->coordinates().begin(), model->coordinates().end(),
+                                  [](const Coordinate& c) { return c.range != unbounded; });
   for (std::size_t k = 0; k < model->coordinates().size(); ++k) {
     const Coordinate& c = model->coordinates()[k];
     j["coordinates"].push_back(
@@ -120,9 +122,7 @@ nlohmann::json describe_system(const SystemPlugin& plugin) {
          {"unit", c.unit},
          {"initial", k < model->initial().size() ? nlohmann::json(to_string(model->initial()[k]))
                                                  : nlohmann::json(nullptr)}});
-    if (std::any_of(model->coordinates().begin(), model->coordinates().end(),
-                    [](const Coordinate& one) { return one.range != unbounded; }))
-      j["coordinates"].back()["range"] = range_of(c);
+    if (ranges) j["coordinates"].back()["range"] = range_of(c);
   }
   j["invariants"] = nlohmann::json::array();
   for (const Invariant& i : model->invariants())

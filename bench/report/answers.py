@@ -8,6 +8,7 @@ agreement    how far motions are from each other in two formulations of one syst
              less is agreement; DIFFER and more is none, where methods of formulations that agree are ten times as near
 frequencies  with which method a vector turns most nearly as in the solution, and with which least
 """
+import functools
 import itertools
 import math
 
@@ -115,6 +116,7 @@ def distance(one: Recording, other: Recording):
             / math.sqrt(max(sum(a[k] ** 2 for a, _ in columns) for k, _ in pairs)))
 
 
+@functools.cache  # it reads recordings, and is asked for by each line of the first screen
 def agreement(verdict):
     found, groups, out = motions(verdict), [], []
     for kind in found:

@@ -14,10 +14,9 @@ from files import InputError
 from wording import counted, listed, plain_text, text
 
 # What answers a question, what stands in the second line, and what is said where the runs do not answer.
-COST = (sentence.cheapest, sentence.losing)
 RANKED = (sentence.cheapest, sentence.bounded)
 ANSWERS = {
-    "cost": ((*COST, sentence.structure), (sentence.bounded, sentence.dearer, sentence.drift), ""),
+    "cost": ((sentence.cheapest, sentence.losing, sentence.structure), (sentence.bounded, sentence.dearer, sentence.drift), ""),
     "energy": ((sentence.drift,), (sentence.structure, *RANKED, sentence.dearer),
                "which methods let the conserved quantity drift away"),
     "structure": ((sentence.structure,), (sentence.drift, *RANKED, sentence.dearer), "which methods keep the structure"),
@@ -75,7 +74,7 @@ def below(verdict):
     return " ".join(filter(None, parts))
 
 
-def question(verdict):
+def above(verdict):
     """HTML: the equation of the motion, and the question that the sentence answers; empty where the experiment has none."""
     about, asked = verdict.case.get("equation"), verdict.case.get("question")
     return "".join(filter(None, (f'<p class="equation">{prose(about)}</p>' if about else "",

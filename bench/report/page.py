@@ -15,7 +15,7 @@ from canvas import BAND, FRONT, GREY, INK, MID, PAPER, RULE
 from experiment import DIRECTIONS
 from families import FAMILIES, mark
 from figures import heading, slug
-from first_screen import below, finding, holds, question
+from first_screen import above, below, finding, holds
 from verdict_table import table
 from wording import plain_text, power, text
 
@@ -68,7 +68,7 @@ def colours():
 def opening(experiment, verdicts, drawn):
     head, first = experiment.head, verdicts[0]
     out = ["<header>", '<p class="kicker">Pfaff experiment report</p>', f"<h1>{text(head['title'])}</h1>",
-           question(first), f'<p class="find">{finding(first)}</p>']
+           above(first), f'<p class="find">{finding(first)}</p>']
     if head.get("quick"):
         out.append('<p class="notice"><strong>Quick run.</strong> Times and steps were cut down to see that everything '
                    "works; draw no conclusions from it.</p>")
@@ -91,7 +91,7 @@ def section(experiment, verdict, drawn, first):
     if not first:
         second = below(verdict)
         alike = all(case.get(k) == experiment.cases[0].get(k) for k in ("equation", "question"))
-        asked = "" if alike else question(verdict)
+        asked = "" if alike else above(verdict)
         out += [asked, f'<p class="casefind">{finding(verdict)}</p>',
                 f'<p class="where">{second + "<br>" if second else ""}{holds(verdict)}</p>']
     out.append(table(verdict))

@@ -24,7 +24,7 @@ TIE = 1.1
 EQUAL = 1.25  # costs that differ by less than this factor are called equal
 
 
-@dataclasses.dataclass
+@dataclasses.dataclass(eq=False)
 class Row:
     curve: Curve
     run: Run | None = None  # the one nearest to the level

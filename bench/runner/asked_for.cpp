@@ -26,6 +26,16 @@ std::string of_its_kind(const Registry<P>& registry, const Registry<Other>& othe
     throw InputError("'" + name + "' is " + other + "; expected " + kind);
   return found;
 }
+
+// The integrators that can step on a model, made with their defaults.
+std::vector<std::pair<const MethodPlugin*, std::unique_ptr<MethodInstance>>> methods_that_fit(
+    const Model& model) {
+  std::vector<std::pair<const MethodPlugin*, std::unique_ptr<MethodInstance>>> fitting;
+  for (const MethodPlugin* method : integrators().all())
+    if (auto made = method->make({}); made->refuses(model).empty())
+      fitting.emplace_back(method, std::move(made));
+  return fitting;
+}
 }  // namespace
 
 const SystemPlugin& system_asked_for(const std::string& name) {
@@ -41,9 +51,8 @@ std::string what_to_do(const MethodInstance& method, const Model& model) {
   constexpr std::size_t most = 6;
   // Those that keep most of what the system has come first.
   std::vector<std::pair<std::size_t, std::string>> fitting;
-  for (const MethodPlugin* other : integrators().all())
-    if (const auto made = other->make({}); made->refuses(model).empty())
-      fitting.emplace_back(claims_in_scope(made->preserves(model), model).size(), other->name());
+  for (const auto& [other, made] : methods_that_fit(model))
+    fitting.emplace_back(claims_in_scope(made->preserves(model), model).size(), other->name());
   std::stable_sort(fitting.begin(), fitting.end(),
                    [](const auto& one, const auto& other) { return one.first > other.first; });
   if (fitting.empty()) return {};
@@ -55,9 +64,8 @@ std::string what_to_do(const MethodInstance& method, const Model& model) {
 
 std::string or_methods_that_choose(const Model& model) {
   std::string names;
-  for (const MethodPlugin* method : integrators().all())
-    if (const auto made = method->make({}); made->adaptive() && made->refuses(model).empty())
-      names += (names.empty() ? ", or one of " : ", ") + method->name();
+  for (const auto& [method, made] : methods_that_fit(model))
+    if (made->adaptive()) names += (names.empty() ? ", or one of " : ", ") + method->name();
   return names;
 }
 

@@ -2,12 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include <pfaff/core/linear/lu.hpp>
 #include <pfaff/core/numbers/formatted.hpp>
-#include <pfaff/core/numbers/with_rounding.hpp>
-#include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/replay.hpp>
 
 namespace pfaff {
@@ -16,12 +13,11 @@ namespace {
 // The results first .. first + count - 1 of the written formula minus those of the derived one.
 std::shared_ptr<const Tape> tape_of_difference(const Tape& written, const Tape& derived, std::size_t first,
                                                std::size_t count) {
-  return std::make_shared<const Tape>(
-      record(written.inputs, static_cast<int>(count),
-             [&](const Recorded& t, std::span<const Recorded> z, std::span<Recorded> out) {
-               const auto a = evaluate(written, t, z), b = evaluate(derived, t, z);
-               for (std::size_t k = 0; k < count; ++k) out[k] = a[first + k] - b[first + k];
-             }));
+  return expression(written.inputs, static_cast<int>(count),
+                    [&](const Recorded& t, Arguments z, Results out) {
+                      const auto a = evaluate(written, t, z), b = evaluate(derived, t, z);
+                      for (std::size_t k = 0; k < count; ++k) out[k] = a[first + k] - b[first + k];
+                    });
 }
 
 // "chart_field" as "chart field".
@@ -49,7 +45,7 @@ double relative_to_terms(const std::vector<Rounded>& results) {
   double worst = 0;
   for (const Rounded& x : results) {
     if (!std::isfinite(x.value) || !std::isfinite(x.error)) return 0;
-    if (x.value != 0) worst = std::max(worst, std::abs(x.value) / x.error);
+    worst = std::max(worst, relative_to_rounding(x));
   }
   return worst;
 }
@@ -94,12 +90,11 @@ std::vector<Real> state_beside(const std::vector<Real>& z) {
 
 std::shared_ptr<const Tape> symmetric_part(const Tape& tensor, int n) {
   const auto size = static_cast<std::size_t>(n);
-  return std::make_shared<const Tape>(
-      record(n, n * n, [&](const Recorded& t, std::span<const Recorded> z, std::span<Recorded> out) {
-        const auto pi = evaluate(tensor, t, z);
-        for (std::size_t i = 0; i < size; ++i)
-          for (std::size_t j = 0; j < size; ++j) out[i * size + j] = pi[i * size + j] + pi[j * size + i];
-      }));
+  return expression(n, n * n, [&](const Recorded& t, Arguments z, Results out) {
+    const auto pi = evaluate(tensor, t, z);
+    for (std::size_t i = 0; i < size; ++i)
+      for (std::size_t j = 0; j < size; ++j) out[i * size + j] = pi[i * size + j] + pi[j * size + i];
+  });
 }
 
 std::vector<StatedIdentity> written_formulas(const Model& model) {

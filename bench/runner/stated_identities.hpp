@@ -2,13 +2,35 @@
 // one that would be derived, K and the bracket are skew, K is regular.
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include <pfaff/core/numbers/with_rounding.hpp>
 #include <pfaff/core/system.hpp>
+#include <pfaff/core/tape/derivatives.hpp>
 
 namespace pfaff {
+
+using Arguments = std::span<const Recorded>;
+using Results = std::span<Recorded>;
+
+/// A tape made of recorded expressions of (t, z).
+template <class F>
+std::shared_ptr<const Tape> expression(int inputs, int outputs, F&& f) {
+  return std::make_shared<const Tape>(record(inputs, outputs, std::forward<F>(f)));
+}
+
+/// The size of a residual relative to the bound of its rounding error, which is in units of round-off, and so
+/// over the sum of the sizes of its terms; zero where the residual is exactly zero, and infinite where no
+/// rounding could explain it.
+template <class T>
+double relative_to_rounding(const WithRounding<T>& x) {
+  if (x.value == T(0)) return 0;
+  return static_cast<double>(T(abs(x.value)) / x.error);
+}
 
 /// A statement about formulas: the results of `residual`, an expression of (t, z), are zero where it is true.
 struct StatedIdentity {

@@ -49,12 +49,7 @@ void add_states(Region& region, const Model& motion, const Real& t, const Quad& 
   constexpr double most_growth = 8;
   std::vector<Quad> z;
   for (const Real& x : region.centres.front()) z.push_back(x.quad());
-  const auto size = [](const std::vector<Quad>& state) {
-    Quad largest(0);
-    for (const Quad& x : state) largest = std::max(largest, abs(x));
-    return largest;
-  };
-  const Quad first = size(z);
+  const Quad first = largest_of(z);
   Quad done(0);
   for (int k = 0; k < states; ++k) {
     const Quad next = elapsed * Quad(std::ldexp(1.0, k));
@@ -64,7 +59,7 @@ void add_states(Region& region, const Model& motion, const Real& t, const Quad& 
       return;
     }
     done = next;
-    if (!(size(z) <= Quad(most_growth) * first)) return;
+    if (!(largest_of(z) <= Quad(most_growth) * first)) return;
     region.centres.emplace_back(z.begin(), z.end());
     region.times.push_back(static_cast<double>(t.quad() + done));
   }

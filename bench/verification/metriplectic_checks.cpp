@@ -107,7 +107,7 @@ std::vector<Check> check_metriplectic(const std::string& name, const Model& mode
 
 namespace {
 
-// A body that turns about its region of mass, with a relaxation that is wrong in one of these ways.
+// A body that turns about its centre of mass, with a relaxation that is wrong in one of these ways.
 enum class FalseBracketSum { none, moves_energy, not_symmetric, indefinite, entropy_no_casimir };
 struct FaultyBracket {
   FalseBracketSum fault;

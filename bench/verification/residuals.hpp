@@ -18,8 +18,6 @@
 
 namespace pfaff {
 
-using Arguments = std::span<const Recorded>;
-using Results = std::span<Recorded>;
 // States near the first centre of a region, near each of the others, and in its box.
 inline constexpr int points = 20, far_points = 4, box_points = 80;
 
@@ -125,14 +123,6 @@ class NearbyStates {
   std::uniform_real_distribution<double> offset_{-0.05, 0.05};
 };
 
-// The size of a residual relative to the bound of its rounding error, which is in units of round-off; zero
-// where the residual is exactly zero, and infinite where no rounding could explain it.
-template <class T>
-double relative_to_rounding(const WithRounding<T>& x) {
-  if (x.value == T(0)) return 0;
-  return static_cast<double>(T(abs(x.value)) / x.error);
-}
-
 // The largest output of a tape at random states of a region, each relative to the sizes of the terms that
 // it is made of. A formula that is zero stays below a few units of round-off, however large, small or badly
 // conditioned its terms are.
@@ -164,12 +154,6 @@ double largest(const std::shared_ptr<const Tape>& tape, const Region& region) {
 template <class T>
 constexpr double residual_tolerance() {
   return 4 * static_cast<double>(unit_roundoff<T>());
-}
-
-// A tape made of recorded expressions of (t, z).
-template <class F>
-std::shared_ptr<const Tape> expression(int inputs, int outputs, F&& f) {
-  return std::make_shared<const Tape>(record(inputs, outputs, std::forward<F>(f)));
 }
 
 inline void both(std::vector<Check>& checks, const std::string& plugin, const std::string& claim,

@@ -39,13 +39,6 @@ struct RunInDouble {
   double difference = 0;  // relative to the state after it
 };
 
-template <class T>
-T largest_of(const std::vector<T>& z) {
-  T largest(0);
-  for (const T& x : z) largest = std::max(largest, T(abs(x)));
-  return largest;
-}
-
 // The largest difference of two states over the largest coordinate of the first.
 template <class T>
 double relative_difference(const std::vector<T>& z, const std::vector<T>& other) {

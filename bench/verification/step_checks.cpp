@@ -23,8 +23,7 @@ Check check_steps(const MethodOnModel& on) {
   // On another system it may; where there is none, verify says that nothing was judged.
   std::string why = "no step converges, down to " + scientific(check.measured) + " (" +
                     std::string(to_string(on.failure())) + ")";
-  if (const double differ = differing_sizes(*on.model()); differ > most_differing_sizes)
-    why += "; sizes of coordinates differ by 2^" + std::to_string(std::ilogb(differ));
+  if (const std::string differ = differing_sizes(*on.model()); !differ.empty()) why += "; " + differ;
   return not_judged(std::move(check), why);
 }
 
@@ -72,9 +71,8 @@ Check check_precisions(MethodOnModel& on) {
   } else if (MeasuredStep<double> quarter = on.step_from<double>(on.start(), h / Real(4));
              difference_of_precisions(on, on.start(), h / Real(4), quarter) <= check.tolerance) {
     return not_judged(check, "the equations of so large a step have another solution, which double finds");
-  } else if (differing_sizes(*on.model()) > most_differing_sizes) {
-    return not_judged(
-        check, "sizes of coordinates differ, so that what a stopping rule leaves is large in the smaller");
+  } else if (const std::string differ = differing_sizes(*on.model()); !differ.empty()) {
+    return not_judged(check, differ + ", so that what a stopping rule leaves is large in the smaller");
   }
   return check;
 }

@@ -88,10 +88,13 @@ std::vector<double> coordinate_scales(const Model& model) {
                        : coordinate_scales(model.initial());
 }
 
-double differing_sizes(const Model& model) {
+std::string differing_sizes(const Model& model) {
+  constexpr int most = 10;
   const std::vector<double> scales = coordinate_scales(model);
   const auto [smallest, largest] = std::minmax_element(scales.begin(), scales.end());
-  return *largest / *smallest;
+  const double power = std::log2(*largest / *smallest);
+  if (power <= most) return {};
+  return "sizes of coordinates differ by 2^" + std::to_string(static_cast<int>(std::floor(power)));
 }
 
 Quad own_time(const Model& motion, const Real& t, const std::vector<Real>& z) {

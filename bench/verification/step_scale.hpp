@@ -5,11 +5,21 @@
 // made from these sizes, so that the same system in other units is judged in the same way.
 #pragma once
 
+#include <algorithm>
+#include <string>
 #include <vector>
 
 #include <pfaff/core/facets/model.hpp>
 
 namespace pfaff {
+
+/// The size of the largest coordinate.
+template <class T>
+T largest_of(const std::vector<T>& z) {
+  T largest(0);
+  for (const T& x : z) largest = std::max(largest, T(abs(x)));
+  return largest;
+}
 
 /// How far the coordinates of a system are from one, at a state near `centre`, as powers of two: the size of
 /// each coordinate there, or that of the largest one for coordinates that are zero. Sizes within a factor of
@@ -23,11 +33,10 @@ std::vector<double> coordinate_scales(const Model& motion, const Real& t, const 
 /// Those at the initial state of a model, by its motion where it has one.
 std::vector<double> coordinate_scales(const Model& model);
 
-/// By how much the sizes of the coordinates at the initial state of a model differ.
-double differing_sizes(const Model& model);
-/// Where they differ by more than this, methods that add positions to momenta, which are of different units,
-/// cannot be judged: what they add swamps the smaller ones at every step size.
-inline constexpr double most_differing_sizes = 0x1p10;
+/// "sizes of coordinates differ by 2^k" where they do by more than 2^10 at the initial state of a model, else
+/// nothing. Methods that add positions to momenta, which are of different units, cannot be judged there: what
+/// they add swamps the smaller ones at every step size.
+std::string differing_sizes(const Model& model);
 
 /// True where the field of a motion is a formula so short that series and bounds of rounding errors of it are
 /// computed at each step: up to 16 coordinates, or at most 8192 operations.

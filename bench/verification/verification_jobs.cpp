@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 
-#include <pfaff/bench/runner/interruption.hpp>
 #include <pfaff/bench/runner/settings.hpp>
 #include <pfaff/bench/verification/check_budget.hpp>
 #include <pfaff/bench/verification/formulation_checks.hpp>
@@ -113,27 +112,27 @@ class Jobs {
   }
 
   void add_systems() {
-    for (const SystemPlugin* system : systems_) {
-      if (!wanted(asked_as(*system)) && !wanted("systems")) continue;
-      for (const Assignments& p : parameters(asked_as(*system), system->instances(settings_.full)))
-        jobs_.push_back({called(system->name(), p), [=] { return check_system(*system, p); }});
-      if (settings_.set.empty())
-        for (const Assignments& p : parameters_near_defaults(*system, 2))
-          jobs_.push_back(
-              {called(system->name(), p), [=] { return inside_domain(check_system(*system, p)); }});
-    }
+    for (const SystemPlugin* system : systems_)
+      if (wanted(asked_as(*system)) || wanted("systems"))
+        add_identities(*system, system->instances(settings_.full), check_system);
   }
 
   void add_brackets() {
-    for (const BracketPlugin* bracket : brackets_) {
-      if (!wanted(asked_as(*bracket)) && !wanted("brackets")) continue;
-      for (const Assignments& p : parameters(asked_as(*bracket), instances_of(*bracket)))
-        jobs_.push_back({called(bracket->name(), p), [=] { return check_bracket(*bracket, p); }});
-      if (settings_.set.empty())
-        for (const Assignments& p : parameters_near_defaults(*bracket, 2))
-          jobs_.push_back(
-              {called(bracket->name(), p), [=] { return inside_domain(check_bracket(*bracket, p)); }});
-    }
+    for (const BracketPlugin* bracket : brackets_)
+      if (wanted(asked_as(*bracket)) || wanted("brackets"))
+        add_identities(*bracket, instances_of(*bracket), check_bracket);
+  }
+
+  // What a plug-in states of itself, with the parameters of its instances and with two sets drawn near the
+  // defaults, for which nobody promised that the initial state is in the domain of every formula.
+  template <class P>
+  void add_identities(const P& plugin, std::vector<Assignments> instances,
+                      std::vector<Check> (*check)(const P&, const Assignments&)) {
+    for (const Assignments& p : parameters(asked_as(plugin), std::move(instances)))
+      jobs_.push_back({called(plugin.name(), p), [=, &plugin] { return check(plugin, p); }});
+    if (!settings_.set.empty()) return;
+    for (const Assignments& p : parameters_near_defaults(plugin, 2))
+      jobs_.push_back({called(plugin.name(), p), [=, &plugin] { return inside_domain(check(plugin, p)); }});
   }
 
   // On every system that they fit, on random systems of constraints, and on models with velocity constraints

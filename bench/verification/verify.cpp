@@ -1,6 +1,5 @@
 // Runs the checks that are asked for in parallel and returns their results in a fixed order.
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <mutex>
 

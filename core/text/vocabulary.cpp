@@ -48,13 +48,11 @@ TextParameter read_parameter(const Member& member) {
   p.value = constant_of(table.required("value"), "value");
   p.unit = optional_label(table, "unit");
   p.meaning = table.text("meaning");
-  if (const Item* range = table.find("range")) {
-    const Range bounds = optional_range(table, what);
-    p.minimum = bounds[0];
-    p.maximum = bounds[1];
-    if (!(p.minimum <= p.value.value() && p.value.value() <= p.maximum))
-      refuse(*range, what + ": its value " + to_string(p.value) + " is not in its range");
-  }
+  const Range bounds = optional_range(table, what);
+  p.minimum = bounds[0];
+  p.maximum = bounds[1];
+  if (!(p.minimum <= p.value.value() && p.value.value() <= p.maximum))
+    refuse(*table.find("range"), what + ": its value " + to_string(p.value) + " is not in its range");
   table.finish();
   return p;
 }

@@ -99,7 +99,7 @@ TEST(Structure, CongruenceByHand) {
   EXPECT_TRUE(std::isnan(congruence_residual<double>({NAN, 0, 0, 1}, k, k)));
 }
 
-// The explicit Euler method, whose derivatives are off by a part in 10^20.
+// The explicit Euler method, whose first coordinate has derivatives that are off by a part in 10^20.
 struct WronglyDifferentiated {
   template <class P>
   struct Work {
@@ -118,7 +118,10 @@ struct WronglyDifferentiated {
   template <HasVectorField P>
   Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
     p.field(t, z, w.slope);
-    for (std::size_t k = 0; k < z.size(); ++k) z[k] = spoilt(z[k] + h * w.slope[k]);
+    for (std::size_t k = 0; k < z.size(); ++k) {
+      const auto moved = z[k] + h * w.slope[k];
+      z[k] = k == 0 ? spoilt(moved) : moved;
+    }
     return Status::converged;
   }
 };
@@ -137,6 +140,13 @@ TEST(Structure, JacobiansAreThoseOfTheStep) {
   const auto of_wrong = jacobian(check_method(wrong, {}, systems().get("pendulum", "system")));
   EXPECT_EQ(of_wrong.result, CheckResult::fail);
   EXPECT_NEAR(of_wrong.measured, 1e-20, 1e-22);
+  // Of many coordinates not every one is moved alone; one wrong row of 64 is found all the same.
+  const auto of_many = wrong.make({});
+  MethodOnModel on_many(*of_many, {}, "fermi-pasta-ulam-tsingou", model_named("fermi-pasta-ulam-tsingou"));
+  const Check many = check_step_jacobian(on_many);
+  EXPECT_EQ(many.result, CheckResult::fail);
+  EXPECT_GT(many.measured, 1e-21);
+  EXPECT_LT(many.measured, 1e-19);
   const auto chain = model_named("skate-chain");
   for (const char* name : {"dla", "nonholonomic-discrete-gradient"}) {
     const auto method = method_of(name);
