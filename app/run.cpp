@@ -30,7 +30,6 @@ void require_options(const RunOptions& options) {
   const RunSettings& s = options.settings;
   const bool here = options.config.empty();  // the settings, which a config.toml has otherwise
   std::string missing;
-  int count = 0;
   for (const auto& [absent, what] :
        {std::pair(here && s.system.empty(), "--system (see pfaff list systems)"),
         {here && s.integrator.empty(), "--integrator (see pfaff list integrators)"},
@@ -38,10 +37,9 @@ void require_options(const RunOptions& options) {
         {here && s.time.empty(), "--time, the duration of the run"},
         {options.out.empty(),
          "--out, a new directory for the run, or - for its series on standard output"}}) {
-    if (!absent) continue;
-    missing += (count++ == 0 ? "" : "; ") + std::string(what);
+    if (absent) missing += (missing.empty() ? "" : "; ") + std::string(what);
   }
-  if (count > 0) throw InputError("missing: " + missing);
+  if (!missing.empty()) throw InputError("missing: " + missing);
 }
 
 // What the options ask for, read from a config.toml or from the options themselves, not yet resolved.
@@ -92,7 +90,7 @@ std::string of_the_last_step(const ResolvedRun& run) {
   if (run.adaptive()) return {};
   const Quad end = run.step.quad() * Quad(static_cast<double>(run.steps)), time = run.time.quad();
   if (abs(end - time) < Quad(1e-9) * time) return {};
-  return "the run lasts " + to_string(end, 12) + ", not " + to_string(run.time) + ": " +
+  return "the run lasts " + to_string(end, 12) + ", not " + to_string(time, 12) + ": " +
          std::to_string(run.steps) + (run.steps == 1 ? " step" : " whole steps") + " of " +
          to_string(run.step) + ", and none is shortened";
 }
@@ -149,12 +147,12 @@ int finish(const nlohmann::json& j, const std::string& text) {
 
 // The series as one object: the summary, the columns with their units, and the rows.
 nlohmann::json series_json(const ResolvedRun& run, const RunRecord& record, nlohmann::json summary) {
+  summary.erase("series");  // the name of the file, of which there is none
   std::istringstream lines(series_csv(run, record));
-  std::string line, cell;
+  std::string line;
   for (bool head = true; std::getline(lines, line); head = false) {
-    std::istringstream cells(line + ',');  // so that the last cell, too, ends with a comma, if it is empty
     nlohmann::json row = nlohmann::json::array();
-    while (std::getline(cells, cell, ',')) {
+    for (const std::string& cell : split_commas(line)) {
       const auto number = head ? std::nullopt : Real::parse(cell);
       if (cell.empty())
         row.push_back(nullptr);
@@ -238,7 +236,8 @@ void add_run(CLI::App& app, Common& common, Action& action) {
                   "Motion of a system with constraints (without: " + dirac_formulation().name() + " or " +
                       nonholonomic_formulation().name() + ")")
       ->type_name("FORMULATION");
-  sub->add_option("--step", s.step, "Step h > 0")->type_name("h");
+  sub->add_option("--step", s.step, "Step h > 0; this and other numbers may be expressions: 2*pi/200")
+      ->type_name("h");
   sub->add_option("--tolerance", s.tolerance,
                   "Instead of --step, for methods that choose their steps: error per step, relative to the "
                   "scale of each coordinate along the motion")

@@ -1,5 +1,9 @@
 #include <pfaff/bench/experiment/case_steps.hpp>
 
+#include <algorithm>
+
+#include <pfaff/bench/runner/asked_for.hpp>
+#include <pfaff/bench/runner/expressions.hpp>
 #include <pfaff/core/numbers/real.hpp>
 
 namespace pfaff {
@@ -31,6 +35,19 @@ void read_steps(Keys& keys, ExperimentCase& one) {
   }
   if (const std::string text = keys.text("evaluations", ""); !text.empty())
     one.evaluations = keys.read("evaluations", text, evaluations_in);
+}
+
+void evaluate_numbers(ExperimentCase& one, const std::string& where) {
+  std::vector<std::pair<std::string*, const char*>> numbers{{&one.time, "time"}};
+  for (std::string& step : one.steps) numbers.emplace_back(&step, "steps");
+  for (std::string& x : one.initial) numbers.emplace_back(&x, "initial");
+  // Making a system takes time, and most cases have numbers alone.
+  if (std::all_of(numbers.begin(), numbers.end(), [](const auto& n) { return Real::parse(*n.first); }))
+    return;
+  const SystemPlugin& system = system_asked_for(one.system);
+  const Assignments parameters =
+      system.make(split_settings(system, nullptr, nullptr, one.set).system)->parameters();
+  for (const auto& [text, key] : numbers) *text = evaluated(*text, where + ": key '" + key + "'", parameters);
 }
 
 void check_steps(const ExperimentCase& one, const std::string& where) {

@@ -1,4 +1,4 @@
-// The keys of a case of an experiment that say at which steps it is run.
+// The keys of a case of an experiment that say at which steps it is run, and its numbers.
 #pragma once
 
 #include <string>
@@ -15,5 +15,9 @@ void read_steps(Keys& keys, ExperimentCase& one);
 /// Refuses a case that has no steps, evaluations without automatic steps, and automatic steps without a
 /// solution, by whose distance they are chosen. `where` begins the message.
 void check_steps(const ExperimentCase& one, const std::string& where);
+
+/// Puts numbers in the place of the expressions among time, steps and initial state, which read the
+/// parameters of the case's system. TextError, which begins with `where`, for other names.
+void evaluate_numbers(ExperimentCase& one, const std::string& where);
 
 }  // namespace pfaff

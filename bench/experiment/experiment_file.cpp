@@ -215,6 +215,7 @@ void read_case(const toml::table& table, const Part& part, Experiment& experimen
   for (const GridPoint& point : points) {
     ExperimentCase& next = experiment.cases.emplace_back(one);
     next.set = point.values;
+    evaluate_numbers(next, where);
     if (point.varying.empty()) continue;
     next.name += ", " + point.varying;
     next.title += ", " + point.varying;

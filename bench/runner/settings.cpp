@@ -7,6 +7,7 @@
 
 #include <pfaff/bench/measure/constraints.hpp>
 #include <pfaff/bench/runner/asked_for.hpp>
+#include <pfaff/bench/runner/expressions.hpp>
 #include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/bench/runner/stated_identities.hpp>
 #include <pfaff/bench/runner/steps.hpp>
@@ -74,11 +75,17 @@ SplitSettings split_settings(const SystemPlugin& system, const FormulationPlugin
   std::vector<Owner> owners{{"system.", &system, &split.system}};
   if (formulation != nullptr) owners.push_back({"formulation.", formulation, &split.formulation});
   if (method != nullptr) owners.push_back({"integrator.", method, &split.integrator});
-  const auto give = [](const Owner& owner, const std::string& key, const std::string& value) {
+  const auto give = [](const Owner& owner, const std::string& key, std::string value) {
+    const auto& known = owner.plugin->parameters();
+    const auto parameter =
+        std::find_if(known.begin(), known.end(), [&](const Parameter& p) { return p.name == key; });
+    if (parameter != known.end() &&
+        (parameter->kind == Parameter::Kind::real || parameter->kind == Parameter::Kind::integer))
+      value = evaluated(value, "parameter '" + key + "' of " + owner.plugin->name());
     if (is_set(*owner.assignments, key))
       throw InputError("parameter '" + key + "' of " + owner.plugin->name() +
                        " is set twice; expected one value");
-    owner.assignments->emplace_back(key, value);
+    owner.assignments->emplace_back(key, std::move(value));
   };
   for (const auto& setting : set) {
     const std::string &key = setting.first, &value = setting.second;
@@ -192,11 +199,14 @@ void check_consistency(const RunSettings& settings, ResolvedRun& run) {
   }
 }
 
-// The state that is asked for, in one of the two ways there are; empty where it is not.
-std::vector<std::string> asked_state(const RunSettings& settings, const SplitSettings& split) {
+// The state that is asked for, in one of the two ways there are, as numbers; empty where it is not.
+std::vector<std::string> asked_state(const RunSettings& settings, const SplitSettings& split,
+                                     const Assignments& parameters) {
   if (!settings.initial.empty() && !split.initial.empty())
     throw InputError("'initial' is set twice, by itself and among the parameters; expected one state");
-  return settings.initial.empty() ? split.initial : settings.initial;
+  std::vector<std::string> state = settings.initial.empty() ? split.initial : settings.initial;
+  for (std::string& number : state) number = evaluated(number, "initial", parameters);
+  return state;
 }
 }  // namespace
 
@@ -208,8 +218,9 @@ ResolvedState resolve_state(const RunSettings& settings) {
   result.model = system.make(split.system);
   if (formulation != nullptr) result.model = formulation->apply(result.model, split.formulation);
   if (settings.compile) result.model = compiled(result.model);
-  result.state = initial_state(*result.model, asked_state(settings, split));
-  result.t = finite_number(settings.t0, "time");
+  const Assignments& parameters = result.model->parameters();
+  result.state = initial_state(*result.model, asked_state(settings, split, parameters));
+  result.t = finite_number(evaluated(settings.t0, "time", parameters), "time");
   return result;
 }
 
@@ -294,9 +305,15 @@ ResolvedRun resolve(const RunSettings& settings) {
   if (settings.compile && settings.precision == Precision::double_precision) run.model = compiled(run.model);
 
   note_origins(run, system, method, read);
-  run.initial = initial_state(*run.model, asked_state(settings, split));
-  run.t0 = finite_number(settings.t0, "initial time");
-  run.time = finite_number(settings.time, "--time");
+  const Assignments& parameters = run.model->parameters();
+  run.initial = initial_state(*run.model, asked_state(settings, split, parameters));
+  for (const auto& [number, what] : {std::pair(&run.settings.t0, "initial time"),
+                                     {&run.settings.time, "--time"},
+                                     {&run.settings.step, "--step"},
+                                     {&run.settings.tolerance, "--tolerance"}})
+    *number = evaluated(*number, what, parameters);
+  run.t0 = finite_number(run.settings.t0, "initial time");
+  run.time = finite_number(run.settings.time, "--time");
   if (!(run.time > Real(0))) throw InputError("--time: expected a duration > 0, got '" + settings.time + "'");
 
   run.given_initial = run.initial;

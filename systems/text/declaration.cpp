@@ -171,6 +171,8 @@ TextDeclaration read_declaration(const Document& document) {
     d.chart_coordinates = read_names(*list, "chart coordinate", names);
   if (const Item* value = root.find("let")) d.definitions = read_definitions(*value, names);
   if (const Item* value = root.find("initial")) d.initial = read_formula(*value, "initial");
+  if (const Item* value = root.find("initial_velocities"))
+    d.initial_velocities = read_formula(*value, "initial_velocities");
   if (const Item* value = root.find("lagrangian")) d.lagrangian = read_formula(*value, "lagrangian");
   if (const Item* value = root.find("damping")) d.damping = read_formula(*value, "damping");
   for (const Formula formula : written) {

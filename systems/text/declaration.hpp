@@ -56,7 +56,7 @@ struct TextDeclaration {
   std::vector<std::string> velocities;  // names of the velocities of a Lagrangian; empty: v[1], v[2], ...
   std::vector<std::string> chart_coordinates;  // names of chart coordinates; empty: y[1], y[2], ...
   std::vector<TextDefinition> definitions;
-  std::optional<TextFormula> initial, lagrangian, damping;
+  std::optional<TextFormula> initial, initial_velocities, lagrangian, damping;
   std::array<std::optional<TextFormula>, formula_count> formulas;
   std::optional<GivenBracket> bracket, symmetric_bracket;
   std::vector<TextVelocityConstraint> velocity_constraints;

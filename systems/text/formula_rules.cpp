@@ -62,6 +62,10 @@ void check_formulas(const TextDeclaration& d, const Item& root) {
   beside(d.symmetric_bracket.has_value(), energy && !d.damping, "symmetric_bracket",
          "hamiltonian, or kinetic and potential");
   beside(has(entropy), d.symmetric_bracket.has_value(), "entropy", "symmetric_bracket");
+  beside(d.initial_velocities.has_value(), d.initial.has_value(), "initial_velocities",
+         "initial, with the positions alone");
+  beside(d.initial_velocities.has_value(), canonical || d.damping, "initial_velocities",
+         "a canonical energy");
   beside(!d.velocities.empty(), lagrangian, "velocities", "lagrangian");
   beside(!d.chart_coordinates.empty(), has(chart), "chart_coordinates", "chart and chart_inverse");
   rule(has(field) || energy || form, "",

@@ -5,6 +5,8 @@
 #include <pfaff/core/facets/taped_flows.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/systems/text/arguments.hpp>
+#include <pfaff/systems/text/followed_quantities.hpp>
+#include <pfaff/systems/text/initial_momenta.hpp>
 #include <pfaff/systems/text/legendre.hpp>
 
 namespace pfaff::text {
@@ -26,12 +28,9 @@ class Builder {
 
   ModelSource build() && {
     names_.check_definitions(d_);
-    if (d_.initial) source_.initial = constants(*d_.initial, "initial");
-    if (d_.damping) {
-      const std::vector<Real> rate = constants(*d_.damping, "damping");
-      if (rate.size() != 1) refuse(d_.damping->place, 0, "damping: expected one number");
-      source_.damping = rate.front();
-    }
+    if (d_.initial_velocities) require_pairs();
+    if (d_.initial) source_.initial = constants(*d_.initial, "initial", d_.initial_velocities ? n_ / 2 : n_);
+    if (d_.damping) source_.damping = constants(*d_.damping, "damping", 1).front();
     for (std::size_t k = 0; k < formula_count; ++k)
       if (d_.formulas[k]) take(static_cast<Formula>(k), *d_.formulas[k]);
     if (d_.lagrangian) take_lagrangian();
@@ -44,20 +43,27 @@ class Builder {
     source_.canonical =
         (given(Formula::kinetic) && !d_.damping) || (given(Formula::hamiltonian) && !d_.bracket);
     if (source_.canonical || d_.damping) require_pairs();
+    if (d_.initial_velocities) take_initial_velocities();
+    add_followed_quantities(source_);
     return std::move(source_);
   }
 
  private:
-  std::vector<Real> constants(const TextFormula& formula, const std::string& what) const {
+  // Numbers, as many as `expected`.
+  std::vector<Real> constants(const TextFormula& formula, const std::string& what,
+                              std::size_t expected) const {
     Scope scope = names_.scope(Arguments::none, what, {}, {});
     std::vector<Recorded> values;
     for (const Expression& e : formula.results) scope.append(e, values);
     std::vector<Real> numbers;
     for (const Recorded& x : values) numbers.push_back(x.constant());
-    if (what == "initial" && numbers.size() != n_)
+    if (numbers.size() != expected)
       refuse(formula.place, 0,
-             "initial: expected " + std::to_string(n_) + " numbers, one for each coordinate, got " +
-                 std::to_string(numbers.size()));
+             what + ": expected " +
+                 (expected == 1 ? "one number"
+                                : std::to_string(expected) + " numbers, one for each " +
+                                      (expected == n_ ? "coordinate" : "position")) +
+                 ", got " + std::to_string(numbers.size()));
     return numbers;
   }
 
@@ -126,10 +132,30 @@ class Builder {
     source_.given[index(formula)] = std::move(tape);
   }
 
+  [[nodiscard]] Tapes lagrangian() const {
+    return recorded(d_.lagrangian->results, Arguments::velocities, "lagrangian", 1, d_.lagrangian->place);
+  }
+
+  // Momenta follow the positions in the initial state.
+  void take_initial_velocities() {
+    const TextFormula& written = *d_.initial_velocities;
+    const std::vector<Real> v = constants(written, "initial_velocities", n_ / 2), q = source_.initial;
+    const auto given = [&](Formula f) { return source_.given[index(f)]; };
+    try {
+      const std::vector<Real> p =
+          d_.lagrangian
+              ? momenta_of_lagrangian(*lagrangian(), q, v)
+              : momenta_of_energy(
+                    given(Formula::kinetic) ? given(Formula::kinetic) : given(Formula::hamiltonian), q, v);
+      source_.initial.insert(source_.initial.end(), p.begin(), p.end());
+    } catch (const InputError& error) {
+      refuse(written.place, 0, "initial_velocities: " + std::string(error.what()));
+    }
+  }
+
   void take_lagrangian() {
     require_pairs();
-    const auto tape =
-        recorded(d_.lagrangian->results, Arguments::velocities, "lagrangian", 1, d_.lagrangian->place);
+    const auto tape = lagrangian();
     std::vector<Real> q(n_ / 2);
     for (std::size_t k = 0; k < q.size(); ++k)  // without an initial state any positions will do
       q[k] = source_.initial.empty() ? Real::fraction(static_cast<std::int64_t>(2 * k + 3), 7)

@@ -1,0 +1,142 @@
+#include <pfaff/systems/text/followed_quantities.hpp>
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include <pfaff/core/tape/derivatives.hpp>
+#include <pfaff/core/tape/replay.hpp>
+
+namespace pfaff::text {
+
+namespace {
+using Tapes = std::shared_ptr<const Tape>;
+
+bool reads_time(const Tapes& tape) {
+  return tape != nullptr && std::any_of(tape->code.begin(), tape->code.end(),
+                                        [](const Instruction& i) { return i.operation == Operation::time; });
+}
+
+// A function of the whole state; null where the model gives none without the time in it.
+Tapes energy_of(const ModelSource& source) {
+  const auto given = [&](Formula f) { return source.given[index(f)]; };
+  const Tapes whole = given(Formula::hamiltonian), kinetic = given(Formula::kinetic),
+              potential = given(Formula::potential);
+  if (reads_time(whole) || reads_time(kinetic) || reads_time(potential)) return nullptr;
+  if (whole != nullptr) return whole;
+  if (kinetic == nullptr) return nullptr;
+  const auto half = static_cast<std::size_t>(source.dimension) / 2;
+  return std::make_shared<const Tape>(
+      record(source.dimension, 1, [&](const Recorded& t, In<Recorded> z, Out<Recorded> out) {
+        const std::vector<Recorded> q(z.begin(), z.begin() + static_cast<std::ptrdiff_t>(half)),
+            p(z.begin() + static_cast<std::ptrdiff_t>(half), z.end());
+        out[0] = evaluate(*kinetic, t, p)[0] + evaluate(*potential, t, q)[0];
+      }));
+}
+
+// False where something may take from the energy, or give to it.
+bool is_conserved(const ModelSource& source) {
+  const auto given = [&](Formula f) { return source.given[index(f)]; };
+  return !source.damping && given(Formula::friction) == nullptr &&
+         (given(Formula::symmetric_tensor) == nullptr || given(Formula::entropy) != nullptr) &&
+         given(Formula::velocity_offsets) == nullptr && !reads_time(given(Formula::holonomic)) &&
+         !reads_time(given(Formula::constraints)) && !reads_time(given(Formula::velocity_constraints)) &&
+         !reads_time(given(Formula::poisson_tensor));
+}
+
+// The gradients of the results of a tape at the initial state, or at any other where there is none, and at a
+// state beside it: one behind the other.
+using Gradients = std::array<std::vector<Quad>, 2>;
+Gradients gradients_of(const Tape& tape, const ModelSource& source) {
+  Gradients gradients;
+  Replay<Quad> replay(std::make_shared<const Tape>(jacobian_tape(tape)));
+  for (std::size_t place = 0; place < gradients.size(); ++place) {
+    std::vector<Quad> z;
+    for (int k = 0; k < source.dimension; ++k) {
+      const Quad x = source.initial.empty() ? Quad(2 * k + 3) / Quad(7)
+                                            : source.initial[static_cast<std::size_t>(k)].quad();
+      z.push_back(x + Quad(static_cast<int>(place)) * (abs(x) + Quad(1)) / Quad(20 + k));
+    }
+    gradients[place].resize(tape.outputs.size() * z.size());
+    replay(Quad(0), z.data(), gradients[place].data());
+  }
+  return gradients;
+}
+
+bool parallel(std::span<const Quad> a, std::span<const Quad> b) {
+  constexpr double rounding = 1e-25;
+  Quad aa(0), ab(0), bb(0);
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    aa += a[k] * a[k];
+    ab += a[k] * b[k];
+    bb += b[k] * b[k];
+  }
+  return abs(aa * bb - ab * ab) <= Quad(rounding) * aa * bb;
+}
+
+// Adds quantities that the author has not stated.
+class Followed {
+ public:
+  explicit Followed(ModelSource& source) : source_(source) {
+    if (const Tapes& stated = source.given[index(Formula::invariants)]; stated != nullptr)
+      stated_ = gradients_of(*stated, source);
+  }
+  void add(const Tapes& tape, std::size_t output, Invariant invariant) {
+    const auto same_name = [&](const Invariant& one) { return one.name == invariant.name; };
+    if (std::any_of(source_.invariants.begin(), source_.invariants.end(), same_name) ||
+        is_stated(*tape, output))
+      return;
+    source_.invariants.push_back(std::move(invariant));
+    added_.emplace_back(tape, output);
+  }
+  void finish() {
+    if (added_.empty()) return;
+    Tapes& stated = source_.given[index(Formula::invariants)];
+    stated =
+        std::make_shared<const Tape>(record(source_.dimension, static_cast<int>(source_.invariants.size()),
+                                            [&](const Recorded& t, In<Recorded> z, Out<Recorded> out) {
+                                              std::size_t k = 0;
+                                              if (stated != nullptr)
+                                                for (const Recorded& x : evaluate(*stated, t, z))
+                                                  out[k++] = x;
+                                              for (const auto& [tape, output] : added_)
+                                                out[k++] = evaluate(*tape, t, z)[output];
+                                            }));
+  }
+
+ private:
+  // True where a conserved quantity that the author states is a function of this one.
+  [[nodiscard]] bool is_stated(const Tape& tape, std::size_t output) const {
+    if (stated_.front().empty()) return false;
+    const auto n = static_cast<std::size_t>(source_.dimension);
+    const Gradients own = gradients_of(tape, source_);
+    for (std::size_t k = 0; k * n < stated_.front().size(); ++k) {
+      bool same = source_.invariants[k].behaviour == Behaviour::conserved;
+      for (std::size_t place = 0; place < own.size(); ++place)
+        same = same && parallel(std::span(own[place]).subspan(output * n, n),
+                                std::span(stated_[place]).subspan(k * n, n));
+      if (same) return true;
+    }
+    return false;
+  }
+
+  ModelSource& source_;
+  Gradients stated_;  // of the author's invariants
+  std::vector<std::pair<Tapes, std::size_t>> added_;
+};
+}  // namespace
+
+void add_followed_quantities(ModelSource& source) {
+  Followed followed(source);
+  if (const Tapes energy = energy_of(source); energy != nullptr)
+    followed.add(energy, 0,
+                 {"energy", "", is_conserved(source) ? Behaviour::conserved : Behaviour::free, false});
+  if (const Tapes& casimirs = source.given[index(Formula::casimirs)];
+      casimirs != nullptr && source.given[index(Formula::symmetric_tensor)] == nullptr &&
+      !reads_time(casimirs))
+    for (std::size_t k = 0; k < casimirs->outputs.size(); ++k)
+      followed.add(casimirs, k, conserved("casimir" + std::to_string(k + 1), ""));
+  followed.finish();
+}
+
+}  // namespace pfaff::text
