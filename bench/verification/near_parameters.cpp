@@ -47,7 +47,6 @@ std::vector<Assignments> parameters_near_defaults(const MethodPlugin& method, in
 }
 
 std::vector<Assignments> parameters_near_defaults(const SystemPlugin& system, int count) {
-  if (system.constrained()) return {};
   return drawn_near(system, count, [&](const Assignments& set) { return system.make(set)->parameters(); });
 }
 

@@ -12,7 +12,7 @@ namespace pfaff {
 /// between 5/8 and 11/8 of the default, or of the size of one where that is zero. Those that the plug-in
 /// refuses are left out.
 std::vector<Assignments> parameters_near_defaults(const MethodPlugin& method, int count);
-/// The same of a system. None of systems with constraints, on which the initial state would no longer be.
+/// The same of a system, whose initial state may be off its constraints with them.
 std::vector<Assignments> parameters_near_defaults(const SystemPlugin& system, int count);
 /// The same of a bracket.
 std::vector<Assignments> parameters_near_defaults(const BracketPlugin& bracket, int count);

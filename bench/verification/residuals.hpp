@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <pfaff/bench/measure/constraints.hpp>
 #include <pfaff/bench/runner/stated_identities.hpp>
 #include <pfaff/bench/verification/check.hpp>
 #include <pfaff/bench/verification/step_scale.hpp>
@@ -60,6 +62,7 @@ struct Region {
   std::vector<std::vector<Real>> centres;
   std::vector<double> times{1};  // near which they are drawn, that of a motion where it reaches them
   std::vector<Range> box{};      // a range for each coordinate; empty where no coordinate states one
+  std::shared_ptr<const Model> surface{};  // on whose constraints states are brought; null: they stay
   // The region in the first `count` coordinates.
   [[nodiscard]] Region first(std::size_t count) const;
   // The region with one more coordinate, which is zero.
@@ -87,8 +90,25 @@ class NearbyStates {
   }
   // True of a state near another centre than the first. It may lie outside the domain of a formula.
   [[nodiscard]] bool far() const { return far_; }
-  // The next state, in a buffer that the call after it overwrites; `time` is a time near one.
+  // The next state, in a buffer that the call after it overwrites; `time` is a time near one. Where a state
+  // cannot be brought onto the surface it is not-a-number and counts as far.
   const std::vector<T>& next(T& time) {
+    const std::vector<T>& z = drawn(time);
+    if (region_.surface != nullptr) far_ = !bring_onto(*region_.surface, Quad(time), z_) || far_;
+    return z;
+  }
+
+ private:
+  // The coordinates of the surface, the first ones of the state, moved onto its constraints.
+  static bool bring_onto(const Model& surface, const Quad& time, std::vector<T>& z) {
+    const auto n = static_cast<std::ptrdiff_t>(surface.dimension());
+    std::vector<Quad> x(z.begin(), z.begin() + n);
+    const bool there = project_onto_constraints(surface, time, x).status == Status::converged;
+    for (std::size_t k = 0; k < x.size(); ++k)
+      z[k] = there ? T(Real(x[k])) : std::numeric_limits<T>::quiet_NaN();
+    return there;
+  }
+  const std::vector<T>& drawn(T& time) {
     far_ = drawn_ >= points;
     const auto place = static_cast<std::size_t>(far_ ? 1 + (drawn_ - points) / far_points : 0);
     if (drawn_++ == 0) scales_ = coordinate_scales(region_.centres.front());
@@ -101,8 +121,6 @@ class NearbyStates {
     time = T(region_.times[place] + offset_(random_));
     return z_;
   }
-
- private:
   const std::vector<T>& in_box(T& time) {
     for (std::size_t i = 0; i < z_.size(); ++i) {
       const double share = offset_(random_);
@@ -136,7 +154,10 @@ double largest(const std::shared_ptr<const Tape>& tape, const Region& region) {
   for (int k = 0; k < states.count(); ++k) {
     T time;
     const std::vector<T>& z = states.next(time);
-    const std::vector<W> exact(z.begin(), z.end());
+    // A state on a surface is a rounded one.
+    std::vector<W> exact(z.begin(), z.end());
+    for (W& x : exact)
+      if (region.surface != nullptr) x.error = T(abs(x.value));
     replay(W(time), exact.data(), out.data());
     if (states.far() && !std::all_of(out.begin(), out.end(), [](const W& x) { return isfinite(x.value); }))
       continue;
@@ -181,10 +202,6 @@ bool is_quadratic(const Model& model, std::size_t invariant);
 /// Y_z^T K_c Y_z - K with K_c = [[0, -I], [I, 0]], for the chart Y and the structure K: zero where the chart
 /// is Darboux's.
 std::shared_ptr<const Tape> darboux_residual(const Tape& chart, const Tape& structure);
-
-/// (z, t) -> the state on the velocity constraints of a model that projection in the metric of its masses
-/// makes of z, for states near the surface. Holonomic constraints beside them are met first.
-std::shared_ptr<const Tape> onto_velocity_constraints(const Model& model);
 
 /// Compares what the author wrote with what is derived without it, at random states of a region: every
 /// formula of the table that is written and can be derived, and the gradients of constraints one by one, by

@@ -71,8 +71,6 @@ Check check_precisions(MethodOnModel& on) {
   } else if (MeasuredStep<double> quarter = on.step_from<double>(on.start(), h / Real(4));
              difference_of_precisions(on, on.start(), h / Real(4), quarter) <= check.tolerance) {
     return not_judged(check, "the equations of so large a step have another solution, which double finds");
-  } else if (const std::string differ = differing_sizes(*on.model()); !differ.empty()) {
-    return not_judged(check, differ + ", so that what a stopping rule leaves is large in the smaller");
   }
   return check;
 }

@@ -38,22 +38,15 @@ Check varies(const std::string& system, const std::string& invariant,
   return check;
 }
 
-// The state at which a claim is measured: `z`, or the state on the surface that `onto` makes of it.
-std::vector<Recorded> placed(const std::shared_ptr<const Tape>& onto, const Recorded& t, Arguments z) {
-  return onto == nullptr ? std::vector<Recorded>(z.begin(), z.end()) : evaluate(*onto, t, z);
-}
-
-// `onto` brings states onto the surface on which alone the claims are made; null where they are made off it.
 void invariants(std::vector<Check>& checks, const SystemPlugin& plugin, const Model& model,
-                const Region& region, const std::shared_ptr<const Tape>& onto) {
+                const Region& region) {
   const auto& list = model.invariants();
   if (list.empty()) return;
   const int n = model.dimension();
   const auto values = model.tape(Formula::invariants), field = model.tape(Formula::field);
   for (std::size_t k = 0; k < list.size(); ++k) {
     // dI/dt along the field.
-    const auto rate = expression(n, 1, [&](const Recorded& t, Arguments near, Results out) {
-      const auto z = placed(onto, t, near);
+    const auto rate = expression(n, 1, [&](const Recorded& t, Arguments z, Results out) {
       const auto x = evaluate(*field, t, z);
       out[0] = directional_derivative(*values, t, Recorded(1), z, x)[k];
     });
@@ -78,13 +71,11 @@ void invariants(std::vector<Check>& checks, const SystemPlugin& plugin, const Mo
 
 // The exact solution satisfies the differential equation and starts at its initial state.
 void exact_solution(std::vector<Check>& checks, const SystemPlugin& plugin, const Model& model,
-                    const Region& region, const std::shared_ptr<const Tape>& onto) {
+                    const Region& region) {
   const int n = model.dimension();
   const auto size = static_cast<std::size_t>(n);
   const auto solution = model.tape(Formula::exact_solution), field = model.tape(Formula::field);
-  const auto defect = expression(n + 1, 2 * n, [&](const Recorded& s, Arguments near, Results out) {
-    std::vector<Recorded> z = placed(onto, near[size], near.first(size));
-    z.push_back(near[size]);
+  const auto defect = expression(n + 1, 2 * n, [&](const Recorded& s, Arguments z, Results out) {
     const auto state = evaluate(*solution, s, z);
     const auto rate = time_derivative(*solution, s, z);
     const auto x = evaluate(*field, z[size] + s, state);
@@ -140,10 +131,8 @@ std::vector<Check> check_system(const SystemPlugin& plugin, const Assignments& p
   const int n = model->dimension();
   std::vector<Check> checks;
   // With constraints, the claims about invariants, solutions and reversals are claims about the motion in the
-  // default formulation. In Dirac's they hold near the surface of the constraints and off it; nonholonomic
-  // motion keeps invariants and has closed forms on the surface.
+  // default formulation, which keeps invariants and has closed forms on the surface of the constraints.
   const auto motion = motion_of(model);
-  const auto onto = model->nonholonomic() ? onto_velocity_constraints(*model) : nullptr;
   const Region region = region_of(*motion, model->restricted() ? model->initial() : generic_state(*model));
   for (Check& check : check_overrides(plugin.name(), *model, region)) checks.push_back(std::move(check));
   if (model->facets().has(Facet::hamiltonian) || model->facets().has(Facet::structure) ||
@@ -171,8 +160,10 @@ std::vector<Check> check_system(const SystemPlugin& plugin, const Assignments& p
     for (Check& check : check_constraints(plugin.name(), model)) checks.push_back(std::move(check));
   if (model->facets().has(Facet::metriplectic))
     for (Check& check : check_metriplectic(plugin.name(), *model)) checks.push_back(std::move(check));
-  invariants(checks, plugin, *motion, region, onto);
-  if (model->facets().has(Facet::exact_solution)) exact_solution(checks, plugin, *motion, region, onto);
+  Region on_surface = region;
+  if (model->restricted()) on_surface.surface = model;
+  invariants(checks, plugin, *motion, on_surface);
+  if (model->facets().has(Facet::exact_solution)) exact_solution(checks, plugin, *motion, on_surface);
   if (model->given(Formula::reversal))
     for (Check& check : check_reversal(plugin.name(), *motion, region)) checks.push_back(std::move(check));
   if (model->facets().has(Facet::exact_flows))

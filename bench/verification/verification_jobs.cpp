@@ -32,12 +32,12 @@ std::string controlled_on(const MethodInstance& method) {
   return method.needs().has(Facet::velocity_constraints) ? "contact-oscillator" : "spherical-pendulum";
 }
 
-// Checks with parameters that nobody chose: the initial state may be outside the domain of a formula with
-// them.
+// Checks with parameters that nobody chose: with them the initial state may be outside the domain of a
+// formula, or off the constraints.
 std::vector<Check> inside_domain(std::vector<Check> checks) {
   for (Check& check : checks)
-    if (check.result == CheckResult::fail && std::isnan(check.measured))
-      check = not_judged(check, "a formula has no value near the initial state with these parameters");
+    if (check.result == CheckResult::fail && (std::isnan(check.measured) || check.scope == "initial state"))
+      check = not_judged(check, "the initial state does not belong to these parameters");
   return checks;
 }
 
