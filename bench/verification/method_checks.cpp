@@ -106,14 +106,15 @@ void excuse_stopping(std::vector<Check>& checks) {
     }
 }
 
-// Leaves failures undecided on a system whose coordinates are of very different sizes, as metres and the
-// momenta of molecules are: what a method adds up there may be of different units, which swamp each other at
-// every step size. On other systems the same claims are judged.
-void excuse_differing_sizes(std::vector<Check>& checks, const Model& model) {
+// Leaves failures undecided where coordinates are of very different sizes, as metres and the momenta of
+// molecules are, and the method adds numbers of different units, which swamp each other at every step size.
+// On other systems the same claims are judged.
+void excuse_mixed_units(std::vector<Check>& checks, const MethodOnModel& on) {
   if (std::all_of(checks.begin(), checks.end(), good)) return;
-  const std::string differ = differing_sizes(model);
+  const std::string differ = differing_sizes(*on.model());
+  if (differ.empty() || !adds_up_units(on)) return;
   for (Check& check : checks)
-    if (!good(check) && !differ.empty()) check = not_judged(std::move(check), differ);
+    if (!good(check)) check = not_judged(std::move(check), differ + ", and the method adds them up");
 }
 
 std::vector<Check> checks_of(const MethodInstance& method, const Assignments& parameters,
@@ -147,7 +148,7 @@ std::vector<Check> checks_of(const MethodInstance& method, const Assignments& pa
   excuse_stopping(checks);
   if (along_runs)
     for (Check& check : check_along_run(on)) checks.push_back(std::move(check));
-  excuse_differing_sizes(checks, *model);
+  excuse_mixed_units(checks, on);
   return checks;
 }
 }  // namespace

@@ -101,10 +101,17 @@ Check check_order(MethodOnModel& on);
 std::optional<Check> check_order_conditions(MethodOnModel& on);
 
 // run_checks.cpp
-/// The claims of the method at sixteen states along a run of a thousand steps, and in a step as large as
-/// converges; of a method without history that every step of the run is the one that a new stepper takes from
-/// there.
+/// The claims of the method in every step of runs of a thousand steps, or in sixteen of them where a claim
+/// needs the Jacobian of the step: at the step that is judged, at the largest that follows the motion and
+/// between; and in one step as large as converges in quad. Of a method without history also that every step
+/// of the first run is the one that a new stepper takes from there.
 std::vector<Check> check_along_run(MethodOnModel& on);
+
+// mixed_units.cpp
+/// True of a method whose step on a canonical system is another one where positions and momenta are written
+/// in other units. It adds numbers of different units, as generating functions with a full matrix of `normal`
+/// do. False on systems that are not canonical.
+bool adds_up_units(const MethodOnModel& on);
 
 // adaptive_checks.cpp
 std::vector<Check> check_adaptive(MethodOnModel& on);

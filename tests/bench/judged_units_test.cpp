@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include <pfaff/bench/verification/method_on_model.hpp>
 #include <pfaff/bench/verification/step_scale.hpp>
 
 #include "judged.hpp"
@@ -175,6 +176,30 @@ TEST(JudgedUnits, OrdersOfDoubleCoefficientsAreJudgedWhereSlopesDoNotSettle) {
     const Names found = bad(check_method(vain, {}, *system));
     EXPECT_NE(std::find(found.begin(), found.end(), "order"), found.end());
   }
+}
+
+// A mass of a ton on a spring.
+struct HeavyOscillator {
+  static constexpr int dimension = 2;
+  template <class T>
+  T hamiltonian(const T& /*t*/, In<T> z) const {
+    return z[1] * z[1] / 2000 + 500 * (z[0] * z[0] + z[0] * z[0] * z[0] * z[0] / 8);
+  }
+};
+
+// A generating function of w = (q + p, ...) has other steps in other units; one of (q, p') and midpoints do
+// not.
+TEST(JudgedUnits, MethodsThatAddUpUnitsAreKnown) {
+  static const System<HeavyOscillator> system{
+      {.name = "heavy-oscillator", .title = "", .reference = "", .initial = {Real(2), Real(3000)}}};
+  const auto adds = [&](const char* name, const Assignments& set) {
+    const auto method = integrators().get(name, "integrator").make(set);
+    return adds_up_units(MethodOnModel(*method, set, system.name(), system.make({})));
+  };
+  EXPECT_TRUE(
+      adds("generating-function", {{"order", "2"}, {"form", "normal"}, {"normal", "0.2,0.1,-0.3,-0.2"}}));
+  EXPECT_FALSE(adds("generating-function", {{"order", "2"}}));
+  EXPECT_FALSE(adds("implicit-midpoint", {}));
 }
 
 TEST(JudgedUnits, FalseClaimsAreFoundInStrangeUnits) {

@@ -64,7 +64,9 @@ TEST(ClaimsAlongRuns, AnIterationThatIsCutOffIsFoundAtLargeSteps) {
   const auto failed = failures<Faulty<0, 24>>("midpoint-of-24-sweeps");
   ASSERT_FALSE(failed.empty());
   for (const std::string& claim : failed)
-    EXPECT_NE(claim.find("in a large step"), std::string::npos) << claim;
+    EXPECT_TRUE(claim.find("in a large step") != std::string::npos ||
+                claim.find("of longer steps") != std::string::npos)
+        << claim;
 }
 
 }  // namespace
