@@ -41,6 +41,9 @@ class Witnessed {
   friend Witnessed sin(const Witnessed& a) { return {sin(a.node_), sin(a.value_)}; }
   friend Witnessed cos(const Witnessed& a) { return {cos(a.node_), cos(a.value_)}; }
   friend Witnessed pow(const Witnessed& a, const Real& y) { return {pow(a.node_, y), pow(a.value_, y)}; }
+  friend Witnessed special(SpecialFunction which, const Witnessed& a, const Witnessed& slope) {
+    return {special(which, a.node_, slope.node_), special(which, a.value_, slope.value_)};
+  }
   friend Witnessed select(const Witnessed& c, const Witnessed& a, const Witnessed& b) {
     return {select(c.node_, a.node_, b.node_), select(c.value_, a.value_, b.value_)};
   }

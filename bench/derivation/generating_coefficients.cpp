@@ -50,6 +50,14 @@ class RecordedSeries {
       return sum / b[0];
     });
   }
+  friend RecordedSeries special(SpecialFunction which, const RecordedSeries& a, const RecordedSeries& slope) {
+    return made(a, slope, [&](std::size_t l, const Numbers& /*before*/) {
+      if (l == 0) return special(which, a[0], slope[0]);
+      Recorded sum(0);
+      for (std::size_t i = 1; i <= l; ++i) sum = sum + weight(i, l) * a[i] * slope[l - i];
+      return sum;
+    });
+  }
   friend RecordedSeries sqrt(const RecordedSeries& a) {
     return made(a, a, [&](std::size_t l, const Numbers& r) {
       if (l == 0) return sqrt(a[0]);

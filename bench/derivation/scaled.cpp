@@ -114,6 +114,9 @@ Scaled sin(const Scaled& a) {
 }
 Scaled cos(const Scaled& a) { return Scaled(cos((a.scale_.negative ? -a : a).whole())); }
 Scaled pow(const Scaled& a, const Real& y) { return Scaled(pow(a.whole(), y)); }
+Scaled special(SpecialFunction which, const Scaled& a, const Scaled& slope) {
+  return Scaled(special(which, a.whole(), slope.whole()));
+}
 Scaled select(const Scaled& condition, const Scaled& positive, const Scaled& otherwise) {
   // A positive factor of the condition decides nothing.
   const Recorded sign = condition.is_constant()     ? condition.core_

@@ -52,6 +52,7 @@ class Scaled {
   friend Scaled sin(const Scaled& a);
   friend Scaled cos(const Scaled& a);
   friend Scaled pow(const Scaled& a, const Real& y);
+  friend Scaled special(SpecialFunction which, const Scaled& a, const Scaled& slope);
   friend Scaled select(const Scaled& condition, const Scaled& positive, const Scaled& otherwise);
 
  private:

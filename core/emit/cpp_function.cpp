@@ -15,7 +15,8 @@ const std::string_view cpp_reserved =
     "static_cast struct switch template this thread_local throw true try typedef typeid typename union "
     "unsigned "
     "using virtual void volatile wchar_t while xor xor_eq std NAN INFINITY EOF errno assert linux unix "
-    "sqrt exp log sin cos pow abs fabs state parameters results shared arguments solve main as_lanes "
+    "sqrt exp log sin cos atan erf pow abs fabs state parameters results shared arguments solve main "
+    "as_lanes "
     "choose_lanes each_lane lane_of lane_count lanes4 lanes8 half_power";
 
 Phrase Cpp::number(const Real& value) const {
@@ -26,8 +27,8 @@ Phrase Cpp::number(const Real& value) const {
   const bool negative = text.front() == '-';
   return {std::move(text), negative ? Strength::sum : Strength::atom};
 }
-Phrase Cpp::function(Operation operation, const Phrase& argument) const {
-  return {prefix_ + std::string(usual_name(operation)) + "(" + argument.text + ")", Strength::atom};
+Phrase Cpp::function(std::string_view name, const Phrase& argument) const {
+  return {prefix_ + std::string(name) + "(" + argument.text + ")", Strength::atom};
 }
 Phrase Cpp::power(const Phrase& base, const Real& exponent) const {
   if (is_small_half_integer(exponent))

@@ -35,7 +35,7 @@ class Cpp : public Language {
   [[nodiscard]] PlanRules rules() const override { return {40, false, false}; }
   [[nodiscard]] bool associative() const override { return false; }
   [[nodiscard]] Phrase number(const Real& value) const override;
-  [[nodiscard]] Phrase function(Operation operation, const Phrase& argument) const override;
+  [[nodiscard]] Phrase function(std::string_view name, const Phrase& argument) const override;
   [[nodiscard]] Phrase power(const Phrase& base, const Real& exponent) const override;
   [[nodiscard]] Phrase choice(const Phrase& condition, const Phrase& positive,
                               const Phrase& otherwise) const override;

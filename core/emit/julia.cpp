@@ -13,7 +13,8 @@ constexpr std::string_view julia_reserved =
     "function "
     "global if import in isa let local macro module mutable new outer primitive public quote return struct "
     "true "
-    "try type using where while sqrt exp log sin cos ifelse pi im Inf NaN state parameters rates nothing "
+    "try type using where while sqrt exp log sin cos atan erf ifelse pi im Inf NaN state parameters rates "
+    "nothing "
     "missing "
     "big";
 
@@ -30,8 +31,8 @@ class JuliaLanguage final : public Language {
     if (value.denominator() == 1) return {text, sign};
     return {"(" + text + "//" + std::to_string(value.denominator()) + ")", Strength::atom};
   }
-  [[nodiscard]] Phrase function(Operation operation, const Phrase& argument) const override {
-    return {std::string(usual_name(operation)) + "(" + argument.text + ")", Strength::atom};
+  [[nodiscard]] Phrase function(std::string_view name, const Phrase& argument) const override {
+    return {std::string(name) + "(" + argument.text + ")", Strength::atom};
   }
   [[nodiscard]] Phrase power(const Phrase& base, const Real& exponent) const override {
     return {at_least(Strength::atom, base) + "^" + at_least(Strength::atom, number(exponent)),
@@ -78,6 +79,7 @@ std::string write_julia(const Equations& equations) {
                      plain_words(equations.method) + ". Written by Pfaff.\n";
   for (const std::string& line : legend_of(equations, text_name.inputs)) text += "#   " + line + "\n";
   text += "# Results: " + joined(names_of_results(equations), ", ") + "\n";
+  if (calls(tape, "erf")) text += "using SpecialFunctions: erf\n";
   text += "function " + function + "!(rates, state, parameters, " + text_name.time + ")\n";
   const std::span<const std::string> inputs(text_name.inputs);
   text += unpacked(inputs.first(equations.coordinates.size()), "state") +

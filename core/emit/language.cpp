@@ -1,13 +1,16 @@
 #include <pfaff/core/emit/language.hpp>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <stdexcept>
 
+#include <pfaff/core/numbers/special.hpp>
+
 namespace pfaff::emit {
 
-std::string_view usual_name(Operation function) {
-  switch (function) {
+std::string_view usual_name(const Instruction& function) {
+  switch (function.operation) {
     case Operation::square_root:
       return "sqrt";
     case Operation::exponential:
@@ -18,9 +21,17 @@ std::string_view usual_name(Operation function) {
       return "sin";
     case Operation::cosine:
       return "cos";
+    case Operation::special:
+      return static_cast<SpecialFunction>(function.c) == SpecialFunction::arctangent ? "atan" : "erf";
     default:
       throw std::logic_error("usual_name: not a function of one argument");
   }
+}
+
+bool calls(const Tape& tape, std::string_view name) {
+  return std::any_of(tape.code.begin(), tape.code.end(), [&](const Instruction& i) {
+    return i.operation == Operation::special && usual_name(i) == name;
+  });
 }
 
 std::string double_text(const Real& value) {
@@ -89,7 +100,8 @@ Phrase Expressions::definition(int slot) const {
     case Operation::logarithm:
     case Operation::sine:
     case Operation::cosine:
-      return language_.function(i.operation, value(i.a));
+    case Operation::special:
+      return language_.function(usual_name(i), value(i.a));
     case Operation::time:
     case Operation::input:
     case Operation::solve:

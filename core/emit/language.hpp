@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <pfaff/core/emit/plan.hpp>
@@ -27,8 +28,8 @@ class Language {
   /// Whether a + (b + c) may be written a + b + c. It may not where the order of roundings matters.
   [[nodiscard]] virtual bool associative() const = 0;
   [[nodiscard]] virtual Phrase number(const Real& value) const = 0;
-  /// sqrt, exp, log, sin or cos of an argument.
-  [[nodiscard]] virtual Phrase function(Operation operation, const Phrase& argument) const = 0;
+  /// A function of one argument by its usual name: sqrt, exp, log, sin, cos, atan, erf.
+  [[nodiscard]] virtual Phrase function(std::string_view name, const Phrase& argument) const = 0;
   [[nodiscard]] virtual Phrase power(const Phrase& base, const Real& exponent) const = 0;
   /// `positive` where condition > 0, else `otherwise`.
   [[nodiscard]] virtual Phrase choice(const Phrase& condition, const Phrase& positive,
@@ -63,8 +64,11 @@ class Expressions {
   const std::vector<std::string>& names_;
 };
 
-/// The function's usual name: sqrt, exp, log, sin, cos.
-std::string_view usual_name(Operation function);
+/// The usual name of a function of one argument: sqrt, exp, log, sin, cos, atan, erf.
+std::string_view usual_name(const Instruction& function);
+
+/// True where a tape calls this special function, by its usual name.
+bool calls(const Tape& tape, std::string_view name);
 
 /// The double nearest to a constant, in as few digits as name it, with a point or an exponent: "2.0",
 /// "1e-12".

@@ -29,10 +29,13 @@ class Latex final : public Language {
     }
     return {(negative ? "-" : "") + text, negative ? Strength::sum : strength};
   }
-  [[nodiscard]] Phrase function(Operation operation, const Phrase& argument) const override {
-    if (operation == Operation::square_root) return {"\\sqrt{" + argument.text + "}", Strength::call};
-    const std::string name = operation == Operation::logarithm ? "ln" : std::string(usual_name(operation));
-    return {"\\" + name + parenthesised(argument.text), Strength::call};
+  [[nodiscard]] Phrase function(std::string_view name, const Phrase& argument) const override {
+    if (name == "sqrt") return {"\\sqrt{" + argument.text + "}", Strength::call};
+    const std::string word = name == "log"    ? "\\ln"
+                             : name == "atan" ? "\\arctan"
+                             : name == "erf"  ? "\\operatorname{erf}"
+                                              : "\\" + std::string(name);
+    return {word + parenthesised(argument.text), Strength::call};
   }
   [[nodiscard]] Phrase power(const Phrase& base, const Real& exponent) const override {
     return {at_least(Strength::atom, base) + "^{" + number(exponent).text + "}", Strength::call};

@@ -31,8 +31,8 @@ class Wolfram final : public Language {
     const bool fraction = value.is_fraction() && value.denominator() != 1;
     return {text, text.front() == '-' ? Strength::sum : fraction ? Strength::product : Strength::atom};
   }
-  [[nodiscard]] Phrase function(Operation operation, const Phrase& argument) const override {
-    std::string name(usual_name(operation));
+  [[nodiscard]] Phrase function(std::string_view usual, const Phrase& argument) const override {
+    std::string name(usual == "atan" ? "arcTan" : usual);
     name.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(name.front())));
     return {name + "[" + argument.text + "]", Strength::atom};
   }

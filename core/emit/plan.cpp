@@ -25,7 +25,7 @@ Plan::Plan(const Tape& tape, const PlanRules& rules)
     } else if (rules.squares && i.operation == Operation::multiply && i.a == i.b) {
       ++uses[at(i.a)];
     } else {
-      operands(i, tape.solves, [&](int slot) { ++uses[at(slot)]; });
+      written_operands(i, tape.solves, [&](int slot) { ++uses[at(slot)]; });
     }
   }
 
@@ -35,7 +35,8 @@ Plan::Plan(const Tape& tape, const PlanRules& rules)
     if (i.operation == Operation::solve_next) named_[k] = named_[k - 1];
     if (i.operation == Operation::solve_next || uses[k] == 0 || is_atom(i)) continue;
     int size = 1;
-    operands(i, tape.solves, [&](int slot) { size += stands_alone(slot) ? 0 : operations_[at(slot)]; });
+    written_operands(i, tape.solves,
+                     [&](int slot) { size += stands_alone(slot) ? 0 : operations_[at(slot)]; });
     if (i.operation == Operation::solve) {
       const int order = tape.solves[at(i.a)].size;
       size += order * order * order;

@@ -48,9 +48,18 @@ void visit_parts(const Tape& tape, const Plan& plan, int slot, Visit&& visit);
 
 namespace pfaff::emit {
 
+// The operands in what is written for an instruction: a special function is written without its slope.
+template <class Visit>
+void written_operands(const Instruction& i, const std::vector<LinearSystem>& solves, Visit&& visit) {
+  if (i.operation == Operation::special)
+    visit(i.a);
+  else
+    operands(i, solves, visit);
+}
+
 template <class Visit>
 void visit_parts(const Tape& tape, const Plan& plan, int slot, Visit&& visit) {
-  operands(tape.code[static_cast<std::size_t>(slot)], tape.solves, [&](int part) {
+  written_operands(tape.code[static_cast<std::size_t>(slot)], tape.solves, [&](int part) {
     if (plan.named(part) || is_atom(tape.code[static_cast<std::size_t>(part)])) {
       visit(part);
     } else {

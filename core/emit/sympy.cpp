@@ -14,7 +14,8 @@ constexpr std::string_view sympy_reserved =
     "False None True and as assert async await break case class continue def del elif else except finally "
     "for "
     "from global if import in is lambda match nonlocal not or pass raise return try type while with "
-    "sqrt exp log sin cos Matrix Piecewise Rational nan oo sympify map tuple rates coordinates parameters "
+    "sqrt exp log sin cos atan erf Matrix Piecewise Rational nan oo sympify map tuple rates coordinates "
+    "parameters "
     "results "
     "state print";
 
@@ -30,8 +31,8 @@ class Python final : public Language {
     if (value.denominator() == 1) return {numerator, value.numerator() < 0 ? Strength::sum : Strength::atom};
     return {"Rational(" + numerator + ", " + std::to_string(value.denominator()) + ")", Strength::atom};
   }
-  [[nodiscard]] Phrase function(Operation operation, const Phrase& argument) const override {
-    return {std::string(usual_name(operation)) + "(" + argument.text + ")", Strength::atom};
+  [[nodiscard]] Phrase function(std::string_view name, const Phrase& argument) const override {
+    return {std::string(name) + "(" + argument.text + ")", Strength::atom};
   }
   [[nodiscard]] Phrase power(const Phrase& base, const Real& exponent) const override {
     return {at_least(Strength::atom, base) + "**" + at_least(Strength::atom, number(exponent)),
@@ -84,7 +85,10 @@ std::string write_sympy(const Equations& equations) {
                      plain_words(equations.method) + ". Written by Pfaff.\n\n";
   for (const std::string& line : legend_of(equations, text_name.inputs)) text += line + "\n";
   text +=
-      "\"\"\"\nfrom sympy import Matrix, Piecewise, Rational, cos, exp, log, nan, oo, sin, sqrt, sympify\n\n";
+      "\"\"\"\nfrom sympy import Matrix, Piecewise, Rational, cos, exp, log, nan, oo, sin, sqrt, sympify\n";
+  for (const std::string name : {"atan", "erf"})
+    if (calls(tape, name)) text += "from sympy import " + name + "\n";
+  text += "\n";
   text += "coordinates = " + quoted(coordinates) + "\nparameters = " + quoted(parameters) + "\n";
   text += "results = " + quoted(names_of_results(equations)) + "\n\n\n";
   text += "def rates(" + text_name.time + ", state" +

@@ -87,6 +87,8 @@ template <class P> inline P exp(const P& x) { return each_lane(x, [](double a) {
 template <class P> inline P log(const P& x) { return each_lane(x, [](double a) { return log(a); }); }
 template <class P> inline P sin(const P& x) { return each_lane(x, [](double a) { return sin(a); }); }
 template <class P> inline P cos(const P& x) { return each_lane(x, [](double a) { return cos(a); }); }
+template <class P> inline P atan(const P& x) { return each_lane(x, [](double a) { return atan(a); }); }
+template <class P> inline P erf(const P& x) { return each_lane(x, [](double a) { return erf(a); }); }
 template <class P> inline P pow(const P& x, double y) { return each_lane(x, [y](double a) { return pow(a, y); }); }
 template <class P, class A, class B> inline P choose_lanes(const P& condition, const A& positive, const B& otherwise) {
   P r;
@@ -151,8 +153,8 @@ NativeText text_of(const Model& model) {
   result.text =
       "extern \"C\" {\ndouble sqrt(double) noexcept;\ndouble exp(double) noexcept;\ndouble log(double) "
       "noexcept;\n"
-      "double sin(double) noexcept;\ndouble cos(double) noexcept;\ndouble pow(double, double) "
-      "noexcept;\n}\n\n" +
+      "double sin(double) noexcept;\ndouble cos(double) noexcept;\ndouble atan(double) noexcept;\n"
+      "double erf(double) noexcept;\ndouble pow(double, double) noexcept;\n}\n\n" +
       in_lanes + cpp_half_power("") + solver + functions + result.series.text;
   return result;
 }

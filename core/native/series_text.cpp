@@ -96,6 +96,12 @@ template <class P, class L> INLINE P power(const P* a, double e, const P* r, L l
   for (int i = 1; i <= l; ++i) sum = sum + (i * e - (l - i)) * a[i] * r[l - i];
   return sum / ((1.0 * l) * a[0]);
 }
+template <class P, class F, class L> INLINE P special(const P* a, const P* slope, F f, L l) {
+  if (l == 0) return each(a[0], f);
+  P sum = a[1] * slope[l - 1];
+  for (int i = 2; i <= l; ++i) sum = sum + (1.0 * i) * a[i] * slope[l - i];
+  return sum * (1.0 / l);
+}
 template <class P, class L> INLINE void circle(const P* a, P* s, P* c, L l) {
   if (l == 0) {
     s[0] = each(a[0], [](double x) { return sin(x); });
@@ -231,6 +237,9 @@ class SeriesWriter {
         return "logarithm(" + series(i.a) + of_result;
       case Operation::power:
         return "power(" + series(i.a) + ", " + value(i.b) + of_result;
+      case Operation::special:
+        return "special(" + series(i.a) + ", " + series(i.b) + ", [](double x) { return " +
+               std::string(emit::usual_name(i)) + "(x); }, l)";
       default:  // select
         return "s[" + capacity_times(slot_[at(i.a)]) + "] > 0.0 ? " + coefficient(i.b) + " : " +
                coefficient(i.c);

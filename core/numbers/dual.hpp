@@ -8,7 +8,7 @@
 #include <array>
 #include <cstddef>
 
-#include <pfaff/core/numbers/functions.hpp>
+#include <pfaff/core/numbers/special.hpp>
 
 namespace pfaff {
 
@@ -123,6 +123,11 @@ Dual<T, N> pow(const Dual<T, N>& x, const Real& y) {
 template <class T, int N>
 Dual<T, N> pow(const Dual<T, N>& x, const Dual<T, N>& y) {
   return exp(y * log(x));
+}
+
+template <class T, int N>
+Dual<T, N> special(SpecialFunction which, const Dual<T, N>& x, const Dual<T, N>& slope) {
+  return chain(x, T(special(which, x.value, slope.value)), slope.value);
 }
 
 template <class T, int N>

@@ -13,7 +13,7 @@
 #include <cstddef>
 #include <cstring>
 
-#include <pfaff/core/numbers/functions.hpp>
+#include <pfaff/core/numbers/special.hpp>
 
 namespace pfaff {
 
@@ -182,6 +182,9 @@ class Pack {
   }
   friend Pack cos(const Pack& a) {
     return a.each([](double x) { return std::cos(x); });
+  }
+  friend Pack special(SpecialFunction which, const Pack& a, const Pack& /*slope*/) {
+    return a.each([which](double x) { return special(which, x, 0.0); });
   }
   /// x^y for a constant exponent.
   friend Pack pow(const Pack& a, const Real& y) {

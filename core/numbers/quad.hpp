@@ -21,6 +21,8 @@ __float128 sinq(__float128) noexcept;
 __float128 cosq(__float128) noexcept;
 void sincosq(__float128, __float128*, __float128*) noexcept;
 __float128 powq(__float128, __float128) noexcept;
+__float128 atanq(__float128) noexcept;
+__float128 erfq(__float128) noexcept;
 }
 
 namespace pfaff {

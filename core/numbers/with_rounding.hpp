@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include <pfaff/core/numbers/functions.hpp>
+#include <pfaff/core/numbers/special.hpp>
 
 namespace pfaff {
 
@@ -90,6 +90,10 @@ WithRounding<T> cos(const WithRounding<T>& x) {
 template <class T>
 WithRounding<T> pow(const WithRounding<T>& x, const Real& y) {
   return rounded(x, T(pow(x.value, y)), T(T(y) * pow(x.value, y - Real(1))));
+}
+template <class T>
+WithRounding<T> special(SpecialFunction which, const WithRounding<T>& x, const WithRounding<T>& slope) {
+  return rounded(x, T(special(which, x.value, slope.value)), slope.value);
 }
 template <class T>
 WithRounding<T> select(const WithRounding<T>& condition, const WithRounding<T>& positive,

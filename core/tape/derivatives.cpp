@@ -233,6 +233,9 @@ class Adjoints {
         add(i.a, w * (Recorded(y) * pow(at(i.a), y - Real(1))));
         break;
       }
+      case Operation::special:
+        add(i.a, w * at(i.b));
+        break;
       case Operation::select:
         add_within(guard(k).within(at(i.a), true), i.b, select(at(i.a), w, Recorded(0)));
         add_within(guard(k).within(at(i.a), false), i.c, select(at(i.a), Recorded(0), w));

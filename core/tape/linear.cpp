@@ -50,6 +50,7 @@ bool linear(const Tape& tape) {
       case Operation::sine:
       case Operation::cosine:
       case Operation::power:
+      case Operation::special:
         kinds[k] = at(i.a) == Kind::constant ? Kind::constant : Kind::other;
         break;
       case Operation::solve: {

@@ -169,6 +169,20 @@ class OnlineSeries {
     r.store(a.flat(l, e) ? P(0) : sum / (P(l) * a.at(0)));
     return r;
   }
+  friend OnlineSeries special(SpecialFunction which, const OnlineSeries& a, const OnlineSeries& slope) {
+    if (a.is_constant()) return number(special(which, a.constant_, 0.0));
+    const OnlineSeries r = a.same_kind();
+    if (!r.active()) return r;
+    const int l = a.level();
+    if (l == 0) {
+      r.store(a.first([which](double x) { return special(which, x, 0.0); }));
+      return r;
+    }
+    P sum = a.at(1) * slope.at(l - 1);
+    for (int i = 2; i <= a.last(l); ++i) sum = sum + P(i) * a.at(i) * slope.at(l - i);
+    r.store(sum * P(1.0 / l));
+    return r;
+  }
   friend OnlineSeries sin(const OnlineSeries& a) {
     if (a.is_constant()) return number(std::sin(a.constant_));
     return {*a.run_, a.sine_and_cosine(), a.of_time_};

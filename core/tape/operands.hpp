@@ -21,6 +21,7 @@ void operands(const Instruction& i, const std::vector<LinearSystem>& solves, Vis
     case Operation::subtract:
     case Operation::multiply:
     case Operation::divide:
+    case Operation::special:
       visit(i.a);
       visit(i.b);
       return;

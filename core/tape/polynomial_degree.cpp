@@ -43,6 +43,7 @@ Degree of(const Instruction& code, const Tape& tape, const std::vector<Degree>& 
     case Operation::logarithm:
     case Operation::sine:
     case Operation::cosine:
+    case Operation::special:
       return unless_constant(at(code.a));
     case Operation::power:
       for (int exponent = 0; exponent <= 8; ++exponent)

@@ -110,6 +110,13 @@ Recorded pow(const Recorded& x, const Recorded& y) {
   return y.is_constant() ? pow(x, y.constant()) : exp(y * log(x));
 }
 
+Recorded special(SpecialFunction which, const Recorded& x, const Recorded& slope) {
+  if (x.is_constant())
+    return x.is(0) ? Recorded(0) : Recorded(Real(special(which, x.constant().quad(), Quad(0))));
+  Recorder* r = x.recorder();
+  return r->append({Operation::special, x.slot(), r->slot_of(slope), static_cast<int>(which)});
+}
+
 Recorded select(const Recorded& condition, const Recorded& positive, const Recorded& otherwise) {
   if (condition.is_constant()) return condition.constant() > Real(0) ? positive : otherwise;
   Recorder* r = condition.recorder();

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include <pfaff/core/numbers/functions.hpp>
+#include <pfaff/core/numbers/special.hpp>
 #include <pfaff/core/tape/instruction_index.hpp>
 #include <pfaff/core/tape/tape.hpp>
 
@@ -117,6 +117,7 @@ Recorded cos(const Recorded& x);
 /// x^y: small integer powers become products, the power 1/2 a square root.
 Recorded pow(const Recorded& x, const Real& y);
 Recorded pow(const Recorded& x, const Recorded& y);
+Recorded special(SpecialFunction which, const Recorded& x, const Recorded& slope);
 Recorded select(const Recorded& condition, const Recorded& positive, const Recorded& otherwise);
 inline bool structurally_zero(const Recorded& x) { return x.is(0); }
 /// 0, with the domain of x: where x has no value the product 0 x is recorded, and so has none either. A

@@ -189,6 +189,9 @@ class Replay {
         case Operation::power:
           for (; i != end; ++i) x[i->slot] = pow(x[i->a], tape_->constants[static_cast<std::size_t>(i->b)]);
           break;
+        case Operation::special:
+          for (; i != end; ++i) x[i->slot] = special(static_cast<SpecialFunction>(i->c), x[i->a], x[i->b]);
+          break;
         case Operation::select:
           for (; i != end; ++i) x[i->slot] = select(x[i->a], x[i->b], x[i->c]);
           break;

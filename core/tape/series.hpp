@@ -8,7 +8,8 @@
 //
 // Recurrences at level l, sums over i: product sum a_i b_{l-i}; quotient (a_l - sum_{i>=1} b_i q_{l-i}) /
 // b_0; exp (1/l) sum i a_i e_{l-i}; sine and cosine coupled; log, sqrt; a^r: sum (i r - (l - i)) a_i p_{l-i}
-// / (l a_0); linear solve A_0 x_l = b_l - sum_{i>=1} A_i x_{l-i} with one factorisation of A_0.
+// / (l a_0); a special function whose derivative at a is d: (1/l) sum i a_i d_{l-i}; linear solve A_0 x_l =
+// b_l - sum_{i>=1} A_i x_{l-i} with one factorisation of A_0.
 //
 // Where a_0 = 0 and a_m is the first coefficient that is not, a^r is of degree m r: its coefficients below
 // are 0, and others are given only where a_0 is not 0.
@@ -179,6 +180,9 @@ class SeriesReplay {
       case Operation::power:
         each([&](std::size_t n) { return pow(a[n], tape_->constants[static_cast<std::size_t>(i.b)]); });
         break;
+      case Operation::special:
+        each([&, b = b()](std::size_t n) { return special(static_cast<SpecialFunction>(i.c), a[n], b[n]); });
+        break;
       case Operation::select:
         each([&, b = b(), c = slot(static_cast<std::size_t>(i.c), 0)](std::size_t n) {
           return select(a[n], b[n], c[n]);
@@ -197,9 +201,9 @@ class SeriesReplay {
     const T* a = i.operation >= Operation::negate && i.operation <= Operation::select
                      ? slot(static_cast<std::size_t>(i.a), 0)
                      : nullptr;
-    const T* b = i.operation >= Operation::add && i.operation <= Operation::divide
-                     ? slot(static_cast<std::size_t>(i.b), 0)
-                     : nullptr;
+    const bool pair = (i.operation >= Operation::add && i.operation <= Operation::divide) ||
+                      i.operation == Operation::special;
+    const T* b = pair ? slot(static_cast<std::size_t>(i.b), 0) : nullptr;
     const T* x0 = slot(k, 0);
     const std::size_t at = l * lanes_;
     const auto each = [&](auto&& value) {
@@ -282,6 +286,11 @@ class SeriesReplay {
         });
         break;
       }
+      case Operation::special:
+        each([](std::size_t) { return T(0); });
+        convolve(x, a, b, l, 1, l, index);
+        each([&, order = index(l)](std::size_t n) { return x[n] / order; });
+        break;
       case Operation::select: {
         const T* p = slot(static_cast<std::size_t>(i.b), l);
         const T* q = slot(static_cast<std::size_t>(i.c), l);

@@ -22,6 +22,7 @@ bool Tape::autonomous() const {
       case Operation::subtract:
       case Operation::multiply:
       case Operation::divide:
+      case Operation::special:
         timed[k] = from(i.a) | from(i.b);
         break;
       case Operation::select:
@@ -107,6 +108,7 @@ Tape Recorder::finish(std::span<const Recorded> outputs) {
       case Operation::subtract:
       case Operation::multiply:
       case Operation::divide:
+      case Operation::special:
         i.a = moved(i.a);
         i.b = moved(i.b);
         break;

@@ -29,6 +29,7 @@ enum class Operation : std::uint8_t {
   sine,         // sin a; the next instruction is the cosine of the same argument
   cosine,       // cos a, written together with the sine before it
   power,        // a ^ constants[b]
+  special,      // SpecialFunction(c) of a, whose derivative at a is b
   select,       // b where a > 0, else c
   solve,        // first component of the solution of linear system solves[a]
   solve_next    // its further components, written together with the first

@@ -1,7 +1,9 @@
 // Expressions as text: what is written in a file in place of a C++ formula.
 //
 //   + - * / ^ and unary minus, with ^ first and from the right: -x^2 is -(x^2), 2^3^2 is 2^9
-//   sqrt exp log sin cos tan of one argument, pow(x, y)
+//   sqrt exp log sin cos tan asin acos atan sinh cosh tanh erf abs sign of one argument, pow(x, y),
+//   atan2(y, x), min(x, y), max(x, y)
+//   select(x < y, a, b), with one of < > <= >= in the condition
 //   name, name[index] counted from 1
 //   sum(i, first, last, of i) and vector(i, first, last, of i); the latter stands for several values of a
 //   list
@@ -24,16 +26,17 @@ namespace pfaff::text {
 /// One operation of an expression. Operands are nodes of the same expression, by their numbers.
 struct Node {
   enum class Kind {
-    number,    // value
-    name,      // name
-    element,   // name[operand]
-    negate,    // -operand
-    sum,       // operands, each added or subtracted, from left to right
-    product,   // operands, each multiplied or divided by, from left to right
-    power,     // operand ^ operand
-    function,  // name(operands)
-    call,      // name(operands) of a function that the scope gives a meaning
-    range      // name is "sum" or "vector", variable is the index: first, last, body
+    number,      // value
+    name,        // name
+    element,     // name[operand]
+    negate,      // -operand
+    sum,         // operands, each added or subtracted, from left to right
+    product,     // operands, each multiplied or divided by, from left to right
+    power,       // operand ^ operand
+    function,    // name(operands)
+    comparison,  // operand name operand, the condition of select: name is <, >, <= or >=
+    call,        // name(operands) of a function that the scope gives a meaning
+    range        // name is "sum" or "vector", variable is the index: first, last, body
   };
   Kind kind = Kind::number;
   std::size_t offset = 0;  // of its place in the text

@@ -52,8 +52,12 @@ Token Lexer::next() {
     while (at_ < text.size() && (is_letter(text[at_]) || is_digit(text[at_]))) ++at_;
   } else if (std::string_view("+-*/^()[],").find(c) != std::string_view::npos) {
     ++at_;
-  } else if (std::string_view("<>=!?&|").find(c) != std::string_view::npos) {
-    refuse(source_, begin, "values are not compared in a formula; expected + - * / ^, a number or a name");
+  } else if (c == '<' || c == '>') {
+    at_ += at_ + 1 < text.size() && text[at_ + 1] == '=' ? 2 : 1;
+  } else if (std::string_view("=!?&|").find(c) != std::string_view::npos) {
+    refuse(source_, begin,
+           "expected + - * / ^, a number or a name; conditions of select(condition, a, b) compare by < > <= "
+           "or >=");
   } else if (static_cast<unsigned char>(c) >= 0x80U) {
     refuse(source_, begin, "expected names of the letters a to z, A to Z, digits and _");
   } else {

@@ -1,24 +1,29 @@
 // A recursive-descent parser of expressions. It calls itself for parentheses, arguments, exponents and signs,
 // up to a depth; sums and products of any length are loops.
 #include <algorithm>
-#include <array>
 
 #include <pfaff/core/text/expression.hpp>
+#include <pfaff/core/text/functions.hpp>
 #include <pfaff/core/text/lexer.hpp>
 
 namespace pfaff::text {
 
 namespace {
 
-constexpr std::array functions{Function{"sqrt", 1}, Function{"exp", 1}, Function{"log", 1},
-                               Function{"sin", 1},  Function{"cos", 1}, Function{"tan", 1},
-                               Function{"pow", 2}};
-
 const Function* function_named(std::string_view name, std::span<const Function> list) {
   const auto found =
       std::find_if(list.begin(), list.end(), [&](const Function& f) { return f.name == name; });
   return found == list.end() ? nullptr : &*found;
 }
+const Function* function_named(std::string_view name) {
+  const KnownFunction* known = known_function(name);
+  return known == nullptr ? nullptr : &known->function;
+}
+bool is_comparison(std::string_view sign) {
+  return sign == "<" || sign == ">" || sign == "<=" || sign == ">=";
+}
+constexpr const char* where_compared =
+    "values are compared in the condition of select(condition, a, b) alone";
 bool is_range(std::string_view name) { return name == "sum" || name == "vector"; }
 }  // namespace
 
@@ -35,6 +40,7 @@ class Parser {
 
   [[nodiscard]] Expression::Tree parse() && {
     tree_.root = sum();
+    if (is_comparison(here().text)) fail(here(), where_compared);
     if (here().kind != Token::Kind::end) {
       const bool operand = here().kind != Token::Kind::sign || here().text == "(" || here().text == "[";
       fail(here(), operand ? "expected an operator such as * before '" + word(here()) + "'"
@@ -115,6 +121,7 @@ class Parser {
     if (token.kind == Token::Kind::name) return named(token);
     if (token.kind == Token::Kind::sign && token.text == "(") {
       const std::size_t inside = sum();
+      if (is_comparison(here().text)) fail(here(), where_compared);
       expect(")", "for the '(' in column " + std::to_string(token.offset + 1) + " of the text");
       return inside;
     }
@@ -126,14 +133,14 @@ class Parser {
   std::size_t named(const Token& token) {
     Node node{.offset = token.offset};
     node.name = word(token);
-    const Function* function = function_named(token.text, functions);
+    const Function* function = function_named(token.text);
     node.kind = function != nullptr ? Node::Kind::function : Node::Kind::call;
     if (function == nullptr) function = function_named(token.text, more_);
     if (is("(")) {
       if (is_range(token.text)) return range(std::move(node));
       if (function == nullptr) {
         std::vector<std::string> known{"sum", "vector"};
-        for (const Function& f : functions) known.emplace_back(f.name);
+        for (const KnownFunction& f : known_functions()) known.emplace_back(f.function.name);
         for (const Function& f : more_) known.emplace_back(f.name);
         fail(token, unknown_name("function", node.name, known));
       }
@@ -152,7 +159,8 @@ class Parser {
   }
   std::size_t call(Node node, const Function& function) {
     const Token open = take();
-    node.operands.push_back(sum());
+    node.operands.push_back(node.kind == Node::Kind::function && function.name == "select" ? comparison()
+                                                                                           : sum());
     while (is(",")) {
       take();
       node.operands.push_back(sum());
@@ -161,7 +169,19 @@ class Parser {
       fail(open, node.name + ": expected " + std::to_string(function.arguments) +
                      (function.arguments == 1 ? " argument" : " arguments") + ", got " +
                      std::to_string(node.operands.size()));
+    if (is_comparison(here().text)) fail(here(), where_compared);
     expect(")", "behind the arguments of '" + node.name + "'");
+    return add(std::move(node));
+  }
+  std::size_t comparison() {
+    const std::size_t left = sum();
+    if (!is_comparison(here().text))
+      fail(here(),
+           "select: expected a comparison as its condition, such as x < y, before '" + word(here()) + "'");
+    const Token token = take();
+    Node node{.kind = Node::Kind::comparison, .offset = token.offset, .name = word(token)};
+    node.operands = {left, sum()};
+    if (is_comparison(here().text)) fail(here(), "select: expected one comparison as its condition");
     return add(std::move(node));
   }
   std::size_t range(Node node) {
@@ -231,7 +251,7 @@ std::vector<std::string> Expression::names() const {
 const std::vector<std::string>& reserved_names() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all{"t", "pi", "sum", "vector"};
-    for (const Function& f : functions) all.emplace_back(f.name);
+    for (const KnownFunction& f : known_functions()) all.emplace_back(f.function.name);
     return all;
   }();
   return names;

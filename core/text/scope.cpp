@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include <pfaff/core/text/functions.hpp>
+
 namespace pfaff::text {
 
 namespace {
@@ -80,6 +82,17 @@ void Scope::append_node(const Expression& of, std::size_t number, std::vector<Re
     for_each_index(of, number, [&] { append_node(of, node.operands[2], values); });
     return;
   }
+  if (node.kind == Node::Kind::function && node.name == "select") {
+    std::vector<Recorded> first, second;
+    append_node(of, node.operands[1], first);
+    append_node(of, node.operands[2], second);
+    if (first.size() != second.size())
+      fail(of, number,
+           "select: its branches stand for " + std::to_string(first.size()) + " and " +
+               std::to_string(second.size()) + " values; expected as many in both");
+    for (std::size_t k = 0; k < first.size(); ++k) values.push_back(chosen(of, number, first[k], second[k]));
+    return;
+  }
   const bool index =
       std::any_of(indices_.begin(), indices_.end(), [&](const Index& i) { return i.name == node.name; });
   if (node.kind == Node::Kind::name && !index && node.name != "t") {
@@ -139,6 +152,7 @@ Recorded Scope::value(const Expression& of, std::size_t number) {
       return function(of, number);
     case Node::Kind::call:
       return meaning_(number);
+    case Node::Kind::comparison:  // read by select
     case Node::Kind::range:
       break;
   }
@@ -195,27 +209,26 @@ Recorded Scope::power(const Expression& of, std::size_t node, const Recorded& ba
 
 Recorded Scope::function(const Expression& of, std::size_t number) {
   const Node& node = of.node(number);
-  const std::string& name = node.name;
-  const Recorded x = value(of, node.operands[0]);
-  Recorded result;
-  if (name == "pow") {
-    result = power(of, number, x, value(of, node.operands[1]));
-  } else if (name == "sqrt") {
-    result = sqrt(x);
-  } else if (name == "exp") {
-    result = exp(x);
-  } else if (name == "log") {
-    result = log(x);
-  } else if (name == "sin") {
-    result = sin(x);
-  } else if (name == "cos") {
-    result = cos(x);
-  } else {
-    result = sin(x) / cos(x);  // tan
-  }
+  if (node.name == "select")
+    return chosen(of, number, value(of, node.operands[1]), value(of, node.operands[2]));
+  std::vector<Recorded> arguments;
+  for (const std::size_t operand : node.operands) arguments.push_back(value(of, operand));
+  const Recorded result = node.name == "pow" ? power(of, number, arguments[0], arguments[1])
+                                             : known_function(node.name)->value(arguments);
   if (result.is_constant() && !isfinite(result.constant().quad()))
     fail(of, number, "this constant is not finite");
   return result;
+}
+
+// The first branch of select where its condition is true, else the second one.
+Recorded Scope::chosen(const Expression& of, std::size_t number, const Recorded& first,
+                       const Recorded& second) {
+  const Node& condition = of.node(of.node(number).operands[0]);
+  const Recorded x = value(of, condition.operands[0]), y = value(of, condition.operands[1]);
+  const bool larger = condition.name.front() == '>', or_equal = condition.name.size() == 2;
+  // x > y is the branch of a positive x - y, and x <= y the other branch of it.
+  const Recorded difference = larger == or_equal ? y - x : x - y;
+  return or_equal ? select(difference, second, first) : select(difference, first, second);
 }
 
 Recorded Scope::named(const Expression& of, std::size_t number) {

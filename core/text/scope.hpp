@@ -75,6 +75,7 @@ class Scope {
   Recorded product(const Expression& of, const Node& node);
   Recorded power(const Expression& of, std::size_t node, const Recorded& base, const Recorded& exponent);
   Recorded function(const Expression& of, std::size_t node);
+  Recorded chosen(const Expression& of, std::size_t node, const Recorded& first, const Recorded& second);
   Recorded named(const Expression& of, std::size_t node);
   Recorded element(const Expression& of, std::size_t node);
   void append_node(const Expression& of, std::size_t node, std::vector<Recorded>& values);

@@ -17,6 +17,9 @@ namespace pfaff {
 // Rationals have no such functions; a tape that is replayed exactly has none of these operations.
 inline Rational no_fraction() { throw std::domain_error("no fraction"); }
 inline Rational sqrt(const Rational& /*x*/) { return no_fraction(); }
+inline Rational special(SpecialFunction /*which*/, const Rational& /*x*/, const Rational& /*slope*/) {
+  return no_fraction();
+}
 inline Rational exp(const Rational& /*x*/) { return no_fraction(); }
 inline Rational log(const Rational& /*x*/) { return no_fraction(); }
 inline Rational sin(const Rational& /*x*/) { return no_fraction(); }

@@ -144,6 +144,8 @@ def structure(text, names, known, assignments, words, allowed):
 def check_julia(path, sample):
     text = re.sub(r"#.*", "", path.read_text())
     lines = [line.strip() for line in text.strip().splitlines()]
+    if lines[0] == "using SpecialFunctions: erf":
+        del lines[0]
     head = re.fullmatch(r"function \w+!\(rates, state, parameters, (\w+)\)", lines[0])
     if not head or lines[-2:] != ["return rates", "end"]:
         raise ValueError("no function")
@@ -183,7 +185,7 @@ def check_mathematica(path, sample):
         if name[0].isupper():
             raise ValueError(f"{name} may be Mathematica's own")
     assignments.append(([], module.group(3)))
-    structure(text, [], known, assignments, r"[A-Za-z]\w*", {"Sqrt", "Exp", "Log", "Sin", "Cos", "If", "LinearSolve"})
+    structure(text, [], known, assignments, r"[A-Za-z]\w*", {"Sqrt", "Exp", "Log", "Sin", "Cos", "ArcTan", "Erf", "If", "LinearSolve"})
     if module.group(3).count(",\n") + 1 != len(sample["outputs"]):
         raise ValueError("not as many results as there should be")
 

@@ -97,8 +97,11 @@ TEST(EmittedCpp, RandomTapesGiveWhatTheirReplaysGive) {
                                out[4] = out[3];
                              }),
                       "plain"));
+  all.push_back(random_equations(8, 60, true));
   std::vector<std::string> texts;
   for (const Equations& equations : all) texts.push_back(write_cpp(equations));
+  EXPECT_NE(texts.back().find("std::atan("), std::string::npos);
+  EXPECT_NE(texts.back().find("std::erf("), std::string::npos);
   EXPECT_NE(texts[5].find("random_6_rates_part_2("), std::string::npos);
   EXPECT_EQ(texts[0].find("_part_"), std::string::npos);
   EXPECT_NE(texts[1].find("sin(lambda"), std::string::npos) << "a coordinate keeps its name";

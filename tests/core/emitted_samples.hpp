@@ -73,8 +73,8 @@ inline Equations named(Tape tape, const std::string& system) {
   equations.further_outputs = {"multiplier_1"};
   return equations;
 }
-inline Equations random_equations(unsigned seed, int operations) {
-  return named(RandomFormula{seed, 6, 5, operations}.tape(), "random-" + std::to_string(seed));
+inline Equations random_equations(unsigned seed, int operations, bool special = false) {
+  return named(RandomFormula{seed, 6, 5, operations, special}.tape(), "random-" + std::to_string(seed));
 }
 inline Equations rational_equations(unsigned seed, int operations) {
   return named(record(6, 5, RationalFormula{seed, 6, 5, operations}), "rational-" + std::to_string(seed));

@@ -20,9 +20,9 @@ using namespace pfaff::testing;
 Tape formula() {
   return record(4, 4, [](const Recorded& t, In<Recorded> z, Out<Recorded> out) {
     const Recorded wave = sin(2 * t) * exp(-t / 3), safe = z[0] * z[0] + 2;
-    out[0] = -z[1] / safe + cos(z[2]) * sin(z[2]) - wave * sqrt(safe) + (3 - z[3]) * 0.3_r;
+    out[0] = -z[1] / safe + cos(z[2]) * sin(z[2]) - wave * sqrt(safe) + (3 - z[3]) * 0.3_r + erf(z[2] - t);
     out[1] = log(safe) * pow(safe, -1.7_r) + exp(z[1] * z[2]) + select(z[0] - z[1], z[3] - 1, cos(t) * z[0]) +
-             2 / safe + z[0] * z[3] * wave;
+             atan(z[2] * z[3]) + 2 / safe + z[0] * z[3] * wave;
     out[2] = Recorded(0.25_r);
     out[3] = z[1];
   });

@@ -34,6 +34,7 @@ inline std::vector<Recorded> solved(const std::vector<Recorded>& a, const std::v
 struct RandomFormula {
   unsigned seed;
   int inputs, outputs, operations;
+  bool special = false;  // with special functions among the operations
 
   template <class T>
   void operator()(const T& t, In<T> z, Out<T> out) const {
@@ -44,7 +45,7 @@ struct RandomFormula {
     // Operands are drawn one statement at a time: calls within one expression have no order.
     const auto any = [&] { return x[random() % x.size()]; };
     for (int k = 0; k < operations; ++k) {
-      const auto operation = random() % 14;
+      const auto operation = random() % (special ? 16 : 14);
       const T a = any(), b = any(), c = any(), d = any(), one(1);
       switch (operation) {
         case 0:
@@ -76,6 +77,12 @@ struct RandomFormula {
           break;
         case 9:
           x.push_back(pow(1 + cos(a) * cos(a), Real::fraction(-3, 2)));
+          break;
+        case 14:
+          x.push_back(atan(2 * a - b));
+          break;
+        case 15:
+          x.push_back(erf(a) * tanh(b));
           break;
         case 10:
           x.push_back(select(sin(3 * a), sin(b), -cos(c)));

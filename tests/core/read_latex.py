@@ -5,7 +5,7 @@ from fractions import Fraction
 import mpmath
 
 FUNCTIONS = {"sqrt": mpmath.sqrt, "exp": mpmath.exp, "log": mpmath.log, "ln": mpmath.log, "sin": mpmath.sin,
-             "cos": mpmath.cos}
+             "cos": mpmath.cos, "atan": mpmath.atan, "arctan": mpmath.atan, "erf": mpmath.erf}
 
 
 def number(text, rational):
@@ -39,6 +39,7 @@ class Latex:
 
     def read(self, text):
         self.tokens, at = [], 0
+        text = text.replace("\\operatorname{erf}", "\\erf")
         text = text.replace("\\text{if }", " \\condition ").replace("\\text{otherwise}", " \\otherwise ")
         while at < len(text.rstrip()):
             found = self.TOKEN.match(text, at)

@@ -66,6 +66,9 @@ std::vector<double> one_by_one(const Tape& tape, double t, const std::vector<dou
       case Operation::power:
         x[k] = pow(at(i.a), constant(i.b));
         break;
+      case Operation::special:
+        x[k] = special(static_cast<SpecialFunction>(i.c), at(i.a), at(i.b));
+        break;
       case Operation::select:
         x[k] = at(i.a) > 0 ? at(i.b) : at(i.c);
         break;

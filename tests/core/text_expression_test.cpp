@@ -2,6 +2,7 @@
 // their places, and bounds on what a text can ask for.
 #include <gtest/gtest.h>
 
+#include <pfaff/core/numbers/dual.hpp>
 #include <pfaff/core/tape/replay.hpp>
 #include <pfaff/core/text/scope.hpp>
 
@@ -65,6 +66,90 @@ TEST(TextExpression, FunctionsHaveQuadPrecision) {
   EXPECT_GT(abs(value("sqrt(2)").quad() - Quad(1.4142135623730951)), tolerance);  // a double is seen
 }
 
+// Values of 40 digits by mpmath.
+TEST(TextExpression, FurtherFunctionsHaveQuadPrecision) {
+  const std::vector<std::pair<std::string, std::string>> golden{
+      {"atan(0.7)", "0.6107259643892086165437588764902360938185"},
+      {"asin(3/10)", "0.3046926540153975079720029612275291669546"},
+      {"acos(-0.4)", "1.982313172862384638616059589257087046954"},
+      {"atan2(-1.2, -0.5)", "-1.965587446494658135971421222029332028994"},
+      {"erf(0.8)", "0.7421009647076604861671105865029458773177"},
+      {"tanh(1.3)", "0.8617231593133063642949537159367517988468"},
+      {"sinh(-0.6)", "-0.636653582148241271123454375465148319025"},
+      {"cosh(0.9)", "1.433086385448774387841790401624048341628"},
+      {"atan2(2, -0.0) - pi/2", "0"},
+      {"atan2(1e-30, -3) - pi", "-3.333333333333333333333333333333333333333e-31"},
+      {"asin(1) - pi/2", "0"},
+      {"acos(-1) - pi", "0"}};
+  // Some roundings of numbers of order one.
+  for (const auto& [text, exact] : golden)
+    EXPECT_LT(abs(value(text).quad() - Real::parse(exact)->quad()), Quad(2e-33)) << text;
+  EXPECT_GT(abs(value("erf(0.8)").quad() - Quad(0.7421009647076605)), Quad(1e-18));  // a double is seen
+}
+
+TEST(TextExpression, BranchesOfConstantsAreExact) {
+  expect_fraction("abs(-1/3) + abs(1/3)", 2, 3);
+  expect_fraction("sign(-0.1) + 10*sign(0) + 100*sign(7)", 99, 1);
+  expect_fraction("min(1/3, 1/4) + max(-2, 3)", 13, 4);
+  expect_fraction("select(1/3 < 0.4, 1, 2)", 1, 1);
+  expect_fraction("select(1/3 > 0.4, 1, 2)", 2, 1);
+  expect_fraction("select(2 < 2, 1, 2) + 10*select(2 <= 2, 1, 2)", 12, 1);
+  expect_fraction("select(2 > 2, 1, 2) + 10*select(2 >= 2, 1, 2)", 12, 1);
+  expect_fraction("select(3 <= 2, 1, 2) + 10*select(1 >= 2, 1, 2)", 22, 1);
+}
+
+// The results of items at z = (0.3, -0.7), and their derivatives in the first coordinate.
+template <class T>
+std::vector<std::pair<double, double>> values_and_slopes(const std::vector<std::string>& items) {
+  std::vector<Recorded> results;
+  const Tape tape = [&] {
+    Recorder recorder(2);
+    Scope scope;
+    scope.define("t", recorder.time());
+    scope.define("x", recorder.inputs()[0]);
+    scope.define("y", recorder.inputs()[1]);
+    for (const std::string& item : items) scope.append(Expression(source(item)), results);
+    return recorder.finish(results);
+  }();
+  using D = Dual<T, 1>;
+  std::vector<D> out(results.size());
+  const std::vector<D> z{D::variable(T(0.3), 0), D(T(-0.7))};
+  Replay<D> replay(std::make_shared<const Tape>(tape));
+  replay(D(T(0)), z.data(), out.data());
+  std::vector<std::pair<double, double>> pairs;
+  for (const D& x : out)
+    pairs.emplace_back(static_cast<double>(x.value), static_cast<double>(x.derivative[0]));
+  return pairs;
+}
+
+TEST(TextExpression, BranchesHaveTheValuesAndSlopesOfTheirSide) {
+  const std::vector<std::string> items{"abs(x)",
+                                       "abs(x*y)",
+                                       "sign(y)*x",
+                                       "min(x, x^2)",
+                                       "max(y, x*y)",
+                                       "select(x > y, x^2, log(y))",
+                                       "select(x <= y, log(y), 3*x)",
+                                       "select(x < t, vector(i, 1, 2, i*x), vector(i, 1, 2, x^(i+1)))"};
+  const std::vector<std::pair<double, double>> expected{{0.3, 1},    {0.21, 0.7},   {-0.3, -1},
+                                                        {0.09, 0.6}, {-0.21, -0.7}, {0.09, 0.6},
+                                                        {0.9, 3},    {0.09, 0.6},   {0.027, 0.27}};
+  for (const auto& found : {values_and_slopes<double>(items), values_and_slopes<Quad>(items)}) {
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      EXPECT_NEAR(found[k].first, expected[k].first, 4e-16) << k;
+      EXPECT_NEAR(found[k].second, expected[k].second, 4e-16) << k;
+    }
+  }
+}
+
+TEST(TextExpression, BranchesOfListsAreOfOneLength) {
+  Scope scope;
+  std::vector<Recorded> values;
+  EXPECT_THROW(scope.append(Expression(source("select(1 < 2, vector(i, 1, 2, i), 3)")), values), TextError);
+  expect_error("select(1 < 2, vector(i, 1, 2, i), 3)", "vector(...) stands for several values");
+}
+
 TEST(TextExpression, RecordsWhatCppRecords) {
   const Expression written(
       source("a*q[1]^2/2 + sum(i, 2, 3, sin(q[i] - q[i-1])/i) - t*r + pow(r, a) + tan(q1)"));
@@ -125,7 +210,14 @@ TEST(TextExpression, ErrorsShowThePlace) {
   expect_error("2 3", ":14: expected an operator such as * before '3'");
   expect_error("2 )", ":14: expected the end of the expression before ')'");
   expect_error("2**3", ":14: expected ^ for a power instead of **");
-  expect_error("1 < 2", ":14: values are not compared");
+  expect_error("1 < 2", ":14: values are compared in the condition of select(condition, a, b) alone");
+  expect_error("sqrt(1 < 2)", ":19: values are compared in the condition");
+  expect_error("select((1 < 2), 3, 4)", ":22: values are compared in the condition");
+  expect_error("select(1, 2, 3)",
+               ":20: select: expected a comparison as its condition, such as x < y, before ','");
+  expect_error("select(1 < 2 < 3, 2, 3)", ":25: select: expected one comparison as its condition");
+  expect_error("select(1 < 2, 3)", "select: expected 3 arguments, got 2");
+  expect_error("select(1 == 2, 3, 4)", ":21: expected + - * / ^, a number or a name; conditions of select");
   expect_error("sqrt 2", ":17: expected '(' behind the function 'sqrt'");
   expect_error("squrt(2)", ":12: unknown function 'squrt'; did you mean 'sqrt'?");
   expect_error("pow(2)", "pow: expected 2 arguments, got 1");
