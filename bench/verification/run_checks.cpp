@@ -3,10 +3,12 @@
 #include <array>
 #include <cmath>
 
+#include <pfaff/bench/measure/history.hpp>
 #include <pfaff/bench/verification/check_budget.hpp>
 #include <pfaff/bench/verification/claim_checks.hpp>
 #include <pfaff/bench/verification/method_on_model.hpp>
 #include <pfaff/bench/verification/rounding_of_step.hpp>
+#include <pfaff/core/system.hpp>
 
 namespace pfaff {
 
@@ -86,6 +88,14 @@ bool follows_the_motion(const MethodOnModel& on, const Place& place, const Real&
   return step.end() && halves && relative_difference(*halves, *step.end()) <= most_rough;
 }
 
+// True of a method that remembers earlier steps on the pendulum. Where the force is constant, as it is on one
+// side of a kink, it shows no memory.
+bool remembers_elsewhere(const MethodInstance& method) {
+  const auto pendulum = systems().get("pendulum", "system").make({});
+  return method.refuses(*pendulum).empty() &&
+         keeps_history(method, pendulum, Quad(0), Quad(1) / Quad(8), {Quad(1), Quad(1) / Quad(2)});
+}
+
 // A run of steps of one size.
 RunInDouble follow(const MethodOnModel& on, const Real& step) {
   constexpr double most_moved = 8, most_growth = 64, most_shrinking = 1024;
@@ -123,6 +133,7 @@ RunInDouble follow(const MethodOnModel& on, const Real& step) {
     // The equations of an implicit step may have several solutions, of which a start without a past finds
     // another one.
     if (!follows_the_motion(on, place, step)) break;
+    if (remembers_elsewhere(on.method())) break;
     run.differs = n + 1;
     run.difference = difference;
     break;

@@ -8,6 +8,7 @@
 #include <pfaff/core/facets/model.hpp>
 #include <pfaff/core/tape/replay.hpp>
 #include <pfaff/systems/text/text_system.hpp>
+#include <pfaff/tests/formula_values.hpp>
 #include <pfaff/tests/temporary_directory.hpp>
 
 namespace pfaff {
@@ -49,6 +50,27 @@ PolynomialSystem with_name(PolynomialSystem system) {
 // Both evaluate the same sums and products in an order of their own, whose rounding is some 1e-34.
 constexpr double rounding = 1e-31;
 
+// The largest difference of the invariants that one model writes from the first ones of another.
+double invariant_difference(const Model& read, const Model& written) {
+  const auto n = static_cast<std::size_t>(written.dimension());
+  std::vector<Quad> z;
+  for (std::size_t k = 0; k < n; ++k) z.push_back(Quad(static_cast<int>(2 * k + 3)) / Quad(7));
+  const std::vector<Quad> a = pfaff::testing::values(read.tape(Formula::invariants), Quad(0.3), z),
+                          b = pfaff::testing::values(written.tape(Formula::invariants), Quad(0.3), z);
+  double worst = 0;
+  for (std::size_t k = 0; k < b.size(); ++k)
+    worst = std::max(worst, static_cast<double>(abs(a[k] - b[k]) / std::max(abs(b[k]), Quad(1))));
+  return worst;
+}
+
+// What a model offers, but for invariants.
+std::string facets_of(const Model& model) {
+  std::string names = to_string(model.facets());
+  const std::string left_out = ", invariants";
+  if (const auto at = names.find(left_out); at != std::string::npos) names.erase(at, left_out.size());
+  return names;
+}
+
 TEST(RandomTexts, AreTheSystemsThatTheyWrite) {
   std::size_t formulas = 0;
   for (const SystemKind kind : system_kinds)
@@ -58,11 +80,12 @@ TEST(RandomTexts, AreTheSystemsThatTheyWrite) {
         const std::string text = text_model(system, {"A comment.", "", "  and a command"});
         SCOPED_TRACE(text);
         const auto written = model_of(system), read = read_back(text);
-        EXPECT_EQ(read->facets(), written->facets());
+        EXPECT_EQ(facets_of(*read), facets_of(*written));
         for (std::size_t k = 0; k < system.initial.size(); ++k)
           EXPECT_EQ(read->initial()[k].quad(), written->initial()[k].quad());
-        ASSERT_EQ(read->invariants().size(), written->invariants().size());
-        for (std::size_t k = 0; k < read->invariants().size(); ++k) {
+        // A model that is read follows its energy besides.
+        ASSERT_GE(read->invariants().size(), written->invariants().size());
+        for (std::size_t k = 0; k < written->invariants().size(); ++k) {
           EXPECT_EQ(read->invariants()[k].name, written->invariants()[k].name);
           EXPECT_EQ(read->invariants()[k].quadratic, written->invariants()[k].quadratic);
           EXPECT_EQ(read->invariants()[k].behaviour, written->invariants()[k].behaviour);
@@ -71,7 +94,11 @@ TEST(RandomTexts, AreTheSystemsThatTheyWrite) {
           EXPECT_EQ(read->damping().quad(), written->damping().quad());
         }
         for (const auto& [formula, results] : system.formulas) {
-          EXPECT_LE(formula_difference(*read, *written, formula), rounding) << to_string(formula);
+          if (formula == Formula::invariants) {
+            EXPECT_LE(invariant_difference(*read, *written), rounding);
+          } else {
+            EXPECT_LE(formula_difference(*read, *written, formula), rounding) << to_string(formula);
+          }
           ++formulas;
         }
       }
