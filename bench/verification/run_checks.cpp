@@ -167,7 +167,7 @@ std::vector<const ClaimCheck*> rows_of(const MethodOnModel& on) {
 
 // The check of a claim, which has not been made yet.
 template <class T>
-Check check_of(const MethodOnModel& on, const ClaimCheck& row, const std::string& where) {
+Check check_of(const MethodOnModel& on, const ClaimCheck& row, const char* where) {
   const ClaimRow& claim = claim_row(row.claim);
   return on.check(std::string(claim.name) + where, std::string(claim.scope), precision_name<T>());
 }
@@ -221,7 +221,7 @@ std::vector<Check> check_along_run(MethodOnModel& on) {
   const auto add = [&](const Check& check, const auto& judge) {
     checks.push_back(within_budget(check, judge));
   };
-  const auto along = [&](const Real& h, const std::string& of) {
+  const auto along = [&](const Real& h) {
     RunInDouble run;
     Check whole = on.check("steps of a run", "methods without history", precision_name<double>());
     if (on.history()) {
@@ -242,13 +242,13 @@ std::vector<Check> check_along_run(MethodOnModel& on) {
       if (h == on.step_size()) checks.push_back(followed);
     }
     for (const ClaimCheck* row : rows_of(on)) {
-      const Check check = check_of<double>(on, *row, " along a run" + of);
+      const Check check = check_of<double>(on, *row, " along a run");
       add(check, [&] { return judged(on, *row, h, run.places, check); });
     }
   };
-  along(on.step_size(), "");
+  along(on.step_size());
   const std::vector<Real> longer = longer_steps(on);
-  for (const Real& h : longer) along(h, " of longer steps");
+  for (const Real& h : longer) along(h);
   if (on.history() || on.double_coefficients() || longer.empty()) return checks;
   const Real& h = longer.back();
   for (const ClaimCheck* row : rows_of(on)) {

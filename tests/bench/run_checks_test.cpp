@@ -65,7 +65,7 @@ TEST(ClaimsAlongRuns, AnIterationThatIsCutOffIsFoundAtLargeSteps) {
   ASSERT_FALSE(failed.empty());
   for (const std::string& claim : failed)
     EXPECT_TRUE(claim.find("in a large step") != std::string::npos ||
-                claim.find("of longer steps") != std::string::npos)
+                claim.find(", of size ") != std::string::npos)
         << claim;
 }
 
