@@ -213,8 +213,8 @@ Recorded Scope::function(const Expression& of, std::size_t number) {
     return chosen(of, number, value(of, node.operands[1]), value(of, node.operands[2]));
   std::vector<Recorded> arguments;
   for (const std::size_t operand : node.operands) arguments.push_back(value(of, operand));
-  const Recorded result = node.name == "pow" ? power(of, number, arguments[0], arguments[1])
-                                             : known_function(node.name)->value(arguments);
+  Recorded result = node.name == "pow" ? power(of, number, arguments[0], arguments[1])
+                                       : known_function(node.name)->value(arguments);
   if (result.is_constant() && !isfinite(result.constant().quad()))
     fail(of, number, "this constant is not finite");
   return result;
