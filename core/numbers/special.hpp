@@ -37,7 +37,7 @@ concept BeyondDouble = !std::floating_point<T> && !std::integral<T>;
 
 /// The size of x. At x = 0 derivatives are those of -x.
 template <BeyondDouble T>
-T abs(const T& x) requires(!requires(const T& y) { y < y; }) {
+T abs(const T& x) requires(!requires(const T& y, const T& z) { y < z; }) {
   return select(x, x, -x);
 }
 /// 1, 0 or -1 as x is above, at or below zero; derivatives are zero.
