@@ -20,8 +20,8 @@ bool reads_time(const Tapes& tape) {
 // A function of the whole state; null where the model gives none without the time in it.
 Tapes energy_of(const ModelSource& source) {
   const auto given = [&](Formula f) { return source.given[index(f)]; };
-  const Tapes whole = given(Formula::hamiltonian), kinetic = given(Formula::kinetic),
-              potential = given(Formula::potential);
+  const Tapes kinetic = given(Formula::kinetic), potential = given(Formula::potential);
+  Tapes whole = given(Formula::hamiltonian);
   if (reads_time(whole) || reads_time(kinetic) || reads_time(potential)) return nullptr;
   if (whole != nullptr) return whole;
   if (kinetic == nullptr) return nullptr;
