@@ -12,10 +12,7 @@ namespace pfaff::text {
 namespace {
 using Tapes = std::shared_ptr<const Tape>;
 
-bool reads_time(const Tapes& tape) {
-  return tape != nullptr && std::any_of(tape->code.begin(), tape->code.end(),
-                                        [](const Instruction& i) { return i.operation == Operation::time; });
-}
+bool reads_time(const Tapes& tape) { return tape != nullptr && !tape->autonomous(); }
 
 // A function of the whole state; null where the model gives none without the time in it.
 Tapes energy_of(const ModelSource& source) {
