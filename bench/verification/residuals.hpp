@@ -94,16 +94,18 @@ class NearbyStates {
   // cannot be brought onto the surface it is not-a-number and counts as far.
   const std::vector<T>& next(T& time) {
     const std::vector<T>& z = drawn(time);
-    if (region_.surface != nullptr) far_ = !bring_onto(*region_.surface, Quad(time), z_) || far_;
+    if (region_.surface != nullptr) far_ = !bring_onto(*region_.surface, time, z_) || far_;
     return z;
   }
 
  private:
-  // The coordinates of the surface, the first ones of the state, moved onto its constraints.
-  static bool bring_onto(const Model& surface, const Quad& time, std::vector<T>& z) {
-    const auto n = static_cast<std::ptrdiff_t>(surface.dimension());
-    std::vector<Quad> x(z.begin(), z.begin() + n);
-    const bool there = project_onto_constraints(surface, time, x).status == Status::converged;
+  // The coordinates of the surface, the first ones of the state, moved onto its constraints. Those of an
+  // exact solution are a state at the time that stands behind them, and `time` is what has elapsed since.
+  static bool bring_onto(const Model& surface, const T& time, std::vector<T>& z) {
+    const auto n = static_cast<std::size_t>(surface.dimension());
+    std::vector<Quad> x(z.begin(), z.begin() + static_cast<std::ptrdiff_t>(n));
+    const Quad at(z.size() > n ? z[n] : time);
+    const bool there = project_onto_constraints(surface, at, x).status == Status::converged;
     for (std::size_t k = 0; k < x.size(); ++k)
       z[k] = there ? T(Real(x[k])) : std::numeric_limits<T>::quiet_NaN();
     return there;

@@ -203,4 +203,38 @@ TEST(JudgedSystems, TrueSystemsRaiseNoFalseAlarms) {
   }
   EXPECT_GT(judged, 30);
 }
+// A bead on a line that is carried along, y = t^2/2. Its exact solution begins on the line of the time t0.
+struct CarriedBead {
+  static constexpr int dimension = 4, constraint_count = 1;
+  template <class T>
+  T kinetic(const T& /*t*/, In<T> p) const {
+    return (p[0] * p[0] + p[1] * p[1]) / 2;
+  }
+  template <class T>
+  T potential(const T& /*t*/, In<T> /*q*/) const {
+    return T(0);
+  }
+  template <class T>
+  void holonomic(const T& t, In<T> q, Out<T> phi) const {
+    phi[0] = q[1] - t * t / 2;
+  }
+  template <class T>
+  void exact_solution(const T& elapsed, const T& t0, In<T> z, Out<T> end) const {
+    const T t = t0 + elapsed;
+    end[0] = z[0] + z[2] * elapsed;
+    end[1] = t * t / 2;
+    end[2] = z[2];
+    end[3] = t;
+  }
+};
+
+TEST(JudgedSystems, ExactSolutionsOnSurfacesThatMove) {
+  static const System<CarriedBead> carried{{.name = "carried-bead",
+                                            .title = "",
+                                            .reference = "",
+                                            .coordinates = {{"x", ""}, {"y", ""}, {"p_x", ""}, {"p_y", ""}},
+                                            .initial = {Real(1), 0, Real::fraction(1, 2), 0}}};
+  EXPECT_EQ(bad(check_system(carried)), Names{});
+}
+
 }  // namespace
