@@ -132,6 +132,14 @@ std::string summary_table(const nlohmann::json& j, const std::string& written, c
   if (j.contains("projected_initial"))
     rows.push_back(
         {"initial", "moved onto the constraints, relative change " + number(j["projected_initial"])});
+  if (j.contains("redundant_constraints")) {
+    std::string names;
+    for (const auto& name : j["redundant_constraints"])
+      names += (names.empty() ? "" : ", ") + name.get<std::string>();
+    rows.push_back({"redundant", names + (j["redundant_constraints"].size() == 1
+                                              ? ", which follows from the other constraints, has no reaction"
+                                              : ", which follow from the other constraints, have no reactions")});
+  }
   rows.push_back({written, out + "/{config.toml, series.csv, summary.json}"});
   return facts(rows);
 }

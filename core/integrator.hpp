@@ -101,6 +101,9 @@ class MethodInstance : public Maker<StepperPointer, StepScalars, std::shared_ptr
     if (!model.facets().includes(needs()))
       return called() + " needs " + to_string(needs()) + "; " + model.name() + " offers " +
              to_string(model.facets()) + model.advice(needs());
+    if (model.forced() && needs_constraints() && !needs().has(Facet::vector_field))
+      return called() + " keeps the constraints of a motion that an energy makes alone; " + model.name() +
+             " has applied forces, which methods for vector fields take, beside a formulation of its constraints";
     const std::string reason = objection(model);
     return reason.empty() ? reason : called() + " " + reason;
   }

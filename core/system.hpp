@@ -20,6 +20,8 @@
 //                                            optional friction(t, z, lambda), coefficients >= 0 of momenta;
 //                                            constraint_evaluator<T>(), an object with the operations of
 //                                            core/facets/holonomic.hpp, in place of derived ones
+//   applied_force(t, z, Q)                   generalised forces that no potential gives, beside a canonical
+//                                            energy, constrained or not: p' = -H_q + Q
 //   velocity_constraints(t, q, rows)         A(q, t), row-major, of constraints A v + b = 0 of the
 //                                            velocities of a canonical system; how many says
 //                                            velocity_constraint_count; optional velocity_offsets(t, q, b)
@@ -49,6 +51,7 @@
 #include <memory>
 
 #include <pfaff/core/facets/collector.hpp>
+#include <pfaff/core/facets/redundant_constraints.hpp>
 #include <pfaff/core/registry/member_names.hpp>
 #include <pfaff/core/registry/plugin.hpp>
 #include <pfaff/core/registry/registry.hpp>
@@ -105,6 +108,7 @@ std::shared_ptr<const Model> make_model(const SystemDescriptor& descriptor, cons
   source.time_unit = descriptor.time_unit;
   source.parameters = std::move(parameters);
   detail::Collector<S>(system, source).collect();
+  leave_out_redundant(source);
   return std::make_shared<const Model>(std::move(source));
 }
 /// The same with the parameters that S has.

@@ -101,6 +101,8 @@ nlohmann::json summary(const ResolvedRun& run, const RunRecord& record) {
       j["parameters"]["formulation." + key] = value;
   }
   if (run.settings.project_initial) j["projected_initial"] = run.projected;
+  if (const auto& names = run.model->source().redundant_constraints; !names.empty())
+    j["redundant_constraints"] = names;
   j["precision"] = to_string(run.settings.precision);
   j["time"] = to_string(run.time);
   if (run.adaptive()) {

@@ -48,7 +48,7 @@ class PositionConstraints {
   virtual void hidden_values(const T& t, In<T> q, In<T> p, Out<T> hidden) = 0;
   /// H_p, n numbers.
   virtual void velocity(const T& t, In<T> q, In<T> p, Out<T> v) = 0;
-  /// -H_q, n numbers; without friction and without constraint forces.
+  /// -H_q, applied forces added, n numbers; without friction and without constraint forces.
   virtual void force(const T& t, In<T> q, In<T> p, Out<T> f) = 0;
 
   /// Places B and the factors of S at (q, p, t); S depends on p only where H is not quadratic in it.
@@ -92,9 +92,10 @@ class HolonomicConstraints : public PositionConstraints<T> {
   virtual Status place(const T& t, In<T> q, In<T> p) = 0;
   [[nodiscard]] virtual std::span<const T> residuals() const = 0;     // phi
   [[nodiscard]] virtual std::span<const T> hidden() const = 0;        // phi~
-  [[nodiscard]] virtual std::span<const T> hidden_rates() const = 0;  // h = {phi~, H} + phi~_t
+  /// h = {phi~, H} + phi~_t + P Q: the rates of phi~ by all but reactions and friction.
+  [[nodiscard]] virtual std::span<const T> hidden_rates() const = 0;
   [[nodiscard]] virtual std::span<const T> velocities() const = 0;    // H_p
-  [[nodiscard]] virtual std::span<const T> forces() const = 0;        // -H_q
+  [[nodiscard]] virtual std::span<const T> forces() const = 0;        // -H_q, applied forces added
   /// r = T u and f = T^T x with T = dphi~/dq.
   virtual void hidden_by_position(In<T> u, Out<T> r) const = 0;
   virtual void hidden_by_position_transpose(In<T> x, Out<T> f) const = 0;

@@ -65,8 +65,9 @@ Model::Model(ModelSource source) : source_(std::move(source)) {
     for (const Facet f : kept)
       if (content_.has(f)) facets_ = facets_.with(f);
   };
-  // Where a second bracket or constraints take part, the energy and its bracket alone do not make the motion:
+  // Where a second bracket, applied forces or constraints take part, the energy and its bracket alone do not make the motion:
   // facets that speak of them are not offered, though content() has them.
+  if (forced()) keep({Facet::vector_field, Facet::holonomic, Facet::constraints, Facet::velocity_constraints, Facet::invariants, Facet::exact_solution, Facet::exact_flows});
   if (content_.has(Facet::metriplectic))
     keep({Facet::vector_field, Facet::metriplectic, Facet::invariants, Facet::exact_solution});
   if (content_.has(Facet::constraints))
@@ -141,6 +142,9 @@ PivotPairs Model::pivots_of_structure() const {
 std::string Model::advice(FacetSet needs) const {
   if (facets_.has(Facet::velocity_constraints) && !moves() && needs.has(Facet::vector_field))
     return "; a formulation of its velocity constraints makes a motion of them";
+  if (forced() && !facets_.includes(needs))
+    return "; its applied forces have no potential: methods for vector fields take them" +
+           std::string(moves() ? "" : ", beside a formulation of its constraints");
   if (needs.has(Facet::generating_map) && !facets_.has(Facet::generating_map))
     return facets_.has(Facet::structure) || source_.canonical ? "; write alpha(t, t0, new_z, old_z, w_hat, w)"
                                                               : "";

@@ -119,6 +119,8 @@ struct ModelSource {
   std::optional<std::size_t> small_part;                                       // a perturbation of the others
 #define PFAFF_COUNT(name, member, names, ...) std::vector<std::string> names;  // in the author's order
 #include <pfaff/core/facets/formula_rows.hpp>
+  // Of the author's holonomic constraints those that follow from the others (redundant_constraints.hpp).
+  std::vector<std::string> redundant_constraints;
   std::optional<bool> autonomous;  // said beforehand where the tapes are too long to be searched for the time
   std::string formulation;         // the formulation that made the field, or empty
   std::vector<std::pair<std::string, std::string>> formulation_parameters;
@@ -168,6 +170,8 @@ class Model {
   [[nodiscard]] bool has_energy() const { return content_.has(Facet::hamiltonian); }
   /// True for an H = T(p, t) + V(q, t) in canonical coordinates, constrained or not.
   [[nodiscard]] bool separable_energy() const { return content_.has(Facet::separable); }
+  /// True where forces are applied beside those of the energy, p' = -H_q + Q: Formula::applied_force.
+  [[nodiscard]] bool forced() const { return given(Formula::applied_force); }
   /// True where no coefficient of friction can differ from zero.
   [[nodiscard]] bool frictionless() const;
   /// Names of all constraints, in the order of Formula::constraints: of holonomic ones, each is followed by

@@ -64,8 +64,9 @@ class StaticProblem {
   static constexpr int extent = S::dimension;
   using State = Vector<T, extent>;
   static constexpr bool constrained = detail::counts_constraints<S> || detail::counts_velocity_constraints<S>;
-  // Where constraints or a second bracket take part, the energy alone does not make the motion.
-  static constexpr bool alone = !constrained && !detail::writes<S, Formula::symmetric_tensor>;
+  // Where constraints, a second bracket or applied forces take part, the energy alone does not make the motion.
+  static constexpr bool alone = !constrained && !detail::writes<S, Formula::symmetric_tensor> &&
+                                !detail::writes<S, Formula::applied_force>;
   static constexpr bool energies =
       detail::writes<S, Formula::kinetic, T> && detail::writes<S, Formula::potential, T>;
   static constexpr bool conformal = alone && energies && detail::WritesDamping<S>;

@@ -26,7 +26,7 @@ HolonomicTapes record_holonomic(const Model& model) {
   HolonomicFormulas formulas;
   formulas.values = model.tape(Formula::holonomic);
   formulas.degrees = static_cast<std::size_t>(formulas.values->inputs);
-  formulas.gradient = model.tape(Formula::hamiltonian_gradient);
+  formulas.gradient = slopes_of_motion(model);
   if (model.given(Formula::friction)) formulas.friction = model.tape(Formula::friction);
   return record_holonomic(formulas);
 }

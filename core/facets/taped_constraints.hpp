@@ -21,7 +21,7 @@ class Model;
 struct HolonomicFormulas {
   std::size_t degrees = 0, parameters = 0;
   std::shared_ptr<const Tape> values;    // (q, t) -> phi
-  std::shared_ptr<const Tape> gradient;  // (q, p, t) -> (H_q, H_p)
+  std::shared_ptr<const Tape> gradient;  // (q, p, t) -> (H_q - Q, H_p), the slopes of the motion
   std::shared_ptr<const Tape> friction;  // (q, p, t) -> lambda; null where there is none
 };
 

@@ -19,7 +19,7 @@ namespace pfaff {
 /// differentiated.
 struct LinearTapes {
   std::size_t count = 0, degrees = 0, parameters = 0;
-  std::shared_ptr<const Tape> gradient;  // (q, p, t) -> (H_q, H_p)
+  std::shared_ptr<const Tape> gradient;  // (q, p, t) -> (H_q - Q, H_p), the slopes of the motion
   std::shared_ptr<const Tape> linear;    // (q, p, t) -> R, P, S: entries, diagonal, couplings
   std::shared_ptr<const Tape> place;     // -> those, H_p, -H_q, and what follows
   SparseRows rows, by_momentum;          // R, P
@@ -30,6 +30,12 @@ struct LinearTapes {
 /// fills in where they are.
 void record_linear(const SparseRecorded& rows, const SparseRecorded& by_momentum, LinearTapes& tapes,
                    std::vector<Recorded>& out);
+
+class Model;
+
+/// (q, p, t) -> (H_q - Q, H_p) of a canonical model with the energy H and, where it has them, applied forces
+/// Q: without reactions and friction q' is the second half and p' the negative of the first.
+std::shared_ptr<const Tape> slopes_of_motion(const Model& model);
 
 /// H_p and -H_q of a gradient tape with 2n outputs: the flow of H.
 std::vector<Recorded> flow_of(const Tape& gradient, const Recorded& t, const std::vector<Recorded>& z);

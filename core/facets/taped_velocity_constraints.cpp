@@ -10,7 +10,7 @@ VelocityTapes record_velocity(const Model& model) {
   const auto a = model.tape(Formula::velocity_constraints), b = model.tape(Formula::velocity_offsets),
              phi = model.given(Formula::holonomic) ? model.tape(Formula::holonomic) : nullptr;
   VelocityTapes tapes;
-  tapes.gradient = model.tape(Formula::hamiltonian_gradient);
+  tapes.gradient = slopes_of_motion(model);
   const std::size_t n = tapes.degrees = static_cast<std::size_t>(a->inputs),
                     holonomic = phi == nullptr ? 0 : phi->outputs.size();
   tapes.count = holonomic + b->outputs.size();

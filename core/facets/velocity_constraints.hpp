@@ -41,7 +41,7 @@ class VelocityConstraints {
   virtual void values(const T& t, In<T> q, In<T> p, Out<T> psi) = 0;
   /// H_p, n numbers.
   virtual void velocity(const T& t, In<T> q, In<T> p, Out<T> v) = 0;
-  /// -H_q, n numbers; without constraint forces.
+  /// -H_q, applied forces added, n numbers; without constraint forces.
   virtual void force(const T& t, In<T> q, In<T> p, Out<T> f) = 0;
 
   /// Places A, P and the factors of S at (q, p, t); P and S depend on p only where H is not quadratic in it.
@@ -58,9 +58,10 @@ class VelocityConstraints {
   /// Places what linearise does and, at the same (q, p, t), what the next four members return.
   virtual Status place(const T& t, In<T> q, In<T> p) = 0;
   [[nodiscard]] virtual std::span<const T> residuals() const = 0;   // psi
-  [[nodiscard]] virtual std::span<const T> rates() const = 0;       // {psi, H} + psi_t
+  /// {psi, H} + psi_t + P Q: the rates of psi by all but reactions.
+  [[nodiscard]] virtual std::span<const T> rates() const = 0;
   [[nodiscard]] virtual std::span<const T> velocities() const = 0;  // H_p
-  [[nodiscard]] virtual std::span<const T> forces() const = 0;      // -H_q
+  [[nodiscard]] virtual std::span<const T> forces() const = 0;      // -H_q, applied forces added
 
   /// The motion with ideal reactions, q' = v and p' = -H_q - A^T x with psi' = 0, as one operation, offered
   /// by evaluators that need fewer passes for it than the operations above together; null from all others.

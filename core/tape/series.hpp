@@ -88,6 +88,11 @@ class SeriesReplay {
     return slots_.data() + (static_cast<std::size_t>(tape_->outputs[k]) * levels_ + level) * lanes_;
   }
 
+  /// The coefficient of level `level` in slot k of the first lane.
+  [[nodiscard]] const T& coefficient(std::size_t k, std::size_t level) const {
+    return slots_[(k * levels_ + level) * lanes_];
+  }
+
   [[nodiscard]] std::size_t lanes() const { return lanes_; }
   [[nodiscard]] std::size_t levels() const { return levels_; }
 

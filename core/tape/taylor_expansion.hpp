@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include <pfaff/core/tape/kinks.hpp>
 #include <pfaff/core/tape/series.hpp>
 
 namespace pfaff {
@@ -22,6 +23,7 @@ class TaylorExpansion {
   TaylorExpansion(std::shared_ptr<const Tape> field, int order)
       : n_(static_cast<std::size_t>(field->inputs)),
         order_(static_cast<std::size_t>(order)),
+        kinks_(*field),
         series_(std::move(field), order, 1),
         coefficients_(n_ * (order_ + 1)) {}
 
@@ -48,6 +50,13 @@ class TaylorExpansion {
     for (std::size_t k = 0; k < n_; ++k) most = std::max(most, abs(coefficients_[degree * n_ + k]));
     return most;
   }
+  /// The first kink of the field up to the time h, behind which the series is not that of the solution.
+  [[nodiscard]] std::optional<Kink<Value<T>>> first_kink(const Value<T>& h) {
+    if (kinks_.none()) return {};
+    return kinks_.first(series_, h);
+  }
+  /// The time s of the last kink found, with its derivatives.
+  [[nodiscard]] T time_of_kink(const Value<T>& s) const { return kinks_.time(series_, s); }
   /// Component k of z(s) - z(0).
   [[nodiscard]] T increment(const T& s, std::size_t k) const {
     T sum = coefficients_[order_ * n_ + k];
@@ -57,6 +66,7 @@ class TaylorExpansion {
 
  private:
   std::size_t n_, order_;
+  Kinks<T> kinks_;
   SeriesReplay<T> series_;
   std::vector<T> coefficients_;
 };

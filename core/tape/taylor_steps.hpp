@@ -20,6 +20,8 @@
 // The size s_k is the largest of the caller's for that coordinate and of the terms |z_{k,l}| h^l of low
 // degree, so that it needs no unit. A coordinate without any of these, which begins with a high power of the
 // time, is measured against what the first step tried would make of it.
+//
+// Where the field has a kink (kinks.hpp) a step ends behind it, and the defect is measured before it.
 #pragma once
 
 #include <algorithm>
@@ -77,14 +79,22 @@ class TaylorSteps {
     const double guess = guessed(whole, least);
     const bool limited = T(guess) < whole;
     T h = limited ? T(guess) : whole;
+    const auto kink = expansion_.first_kink(direction * h);
+    if (kink) h = abs(kink->before);
     std::fill(unsized_.begin(), unsized_.end(), T(0));
+    if (kink && time_ + kink->before == time_) {  // the state is at the kink, within rounding
+      if (++begun_at_kinks_ > most_at_kinks) return T(0);
+      const T least = T(4) * std::numeric_limits<T>::epsilon() * std::max(T(abs(time_)), whole);
+      return direction * std::max(T(abs(kink->behind)), least);
+    }
+    begun_at_kinks_ = 0;
     for (int reductions = 0; time_ + direction * h != time_; ++reductions) {
       measure_sizes(h, least);
       T excess = this->excess(direction * h, tolerance);
       if (!limited && reductions == 0)
         for (const double part : parts)
           excess = larger(excess, this->excess(direction * h * T(part), tolerance));
-      if (excess <= T(1)) return direction * h;
+      if (excess <= T(1)) return kink && reductions == 0 ? kink->behind : direction * h;
       h = h * T(reduction(excess, reductions));
     }
     return T(0);
@@ -109,6 +119,9 @@ class TaylorSteps {
  private:
   // Places within a step, in parts of it, that no period of a field has in common.
   static constexpr std::array parts{0.1459, 0.3820, 0.6180};
+  // Steps in a row that begin at a kink: a motion that stays there, as on a jump towards which the field
+  // points on both sides, would take them for ever.
+  static constexpr int most_at_kinks = 1000;
   // The rounding errors of a defect, in units of those of the field at the end: those of the sum of the
   // polynomial and of its coefficients.
   static constexpr int roundings = 32;
@@ -230,6 +243,7 @@ class TaylorSteps {
   double reach_;
   std::vector<double> of_degrees_, logarithms_;  // of p/m, and of the last coefficients, [degree][coordinate]
   T time_{};
+  int begun_at_kinks_ = 0;
   std::vector<T> sizes_, unsized_;                  // of coordinates; of those that have none
   std::vector<T> state_, slope_, rate_, rounding_;  // where the defect is measured
   std::vector<WithRounding<T>> rounded_state_, rounded_rate_;

@@ -15,6 +15,9 @@
 // truth, the defect of the series at the end of the step does not, and the step is shortened before it is
 // taken (core/tape/taylor_steps.hpp). Where the solution runs into a singularity the steps shrink until they
 // no longer move the time, and the status says so. No structure is kept.
+//
+// A series ends where the field has a kink (core/tape/kinks.hpp): there a step is made of two series, and a
+// step that is chosen ends.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -29,6 +32,7 @@ namespace {
 using namespace pfaff;
 
 constexpr int most_order = 64;
+constexpr int most_kinks = 1000;  // of the field within a step
 constexpr std::int64_t most_taylor_steps = 1000000000;
 
 template <class P>
@@ -77,11 +81,19 @@ struct Taylor {
 
   template <HasFieldTape P>
   Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
-    ++p.counters().fields;
-    w.expansion.expand(t, z.data());
-    for (std::size_t k = 0; k < z.size(); ++k)
-      add_to(z[k], w.carry[k], w.expansion.increment(h, k), compensated);
-    return Status::converged;
+    using T = Scalar<P>;
+    T rest = h;
+    for (int piece = 0; piece < most_kinks; ++piece) {
+      ++p.counters().fields;
+      w.expansion.expand(t + (h - rest), z.data());
+      const auto kink = w.expansion.first_kink(value_of(rest));
+      const T s = kink ? w.expansion.time_of_kink(kink->behind) : rest;
+      for (std::size_t k = 0; k < z.size(); ++k)
+        add_to(z[k], w.carry[k], w.expansion.increment(s, k), compensated);
+      if (!kink || kink->behind == value_of(rest)) return Status::converged;
+      rest = rest - s;
+    }
+    return Status::not_converged;  // the motion stays at a kink
   }
 
   template <HasPlainFieldTape P>

@@ -43,6 +43,8 @@ std::size_t TextNames::inputs(Arguments arguments) const {
     case Arguments::positions:
     case Arguments::momenta:
       return n / 2;
+    case Arguments::motion:
+      return n + n / 2;
     case Arguments::pair:
       return 2 * n + 1;
     case Arguments::elapsed:
@@ -109,6 +111,10 @@ Scope TextNames::scope(Arguments arguments, const std::string& what, const Recor
     case Arguments::velocities:
       define_half(scope, 0, {inputs.begin(), inputs.begin() + n / 2}, what, "positions, velocities");
       define_list(scope, velocities_, "v", {inputs.begin() + n / 2, inputs.end()});
+      break;
+    case Arguments::motion:
+      define_state(scope, {inputs.begin(), inputs.begin() + n});
+      define_list(scope, velocities_, "v", {inputs.begin() + n, inputs.end()});
       break;
     case Arguments::chart:
       for (const Block& block : blocks_)

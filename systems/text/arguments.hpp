@@ -13,6 +13,7 @@ enum class Arguments {
   positions,   // the first half of them
   momenta,     // the second half
   velocities,  // the first half, and velocities in place of the second
+  motion,      // the coordinates, and velocities behind them
   chart,       // coordinates of a chart, y[1], y[2], ... or by their names
   pair,        // new_NAME and old_NAME for every coordinate, and the second time t0
   elapsed,     // the coordinates at the time t0; the time is `elapsed`

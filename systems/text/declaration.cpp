@@ -17,7 +17,7 @@ constexpr std::array written{
     Formula::force,       Formula::velocity,          Formula::birkhoffian, Formula::one_form,
     Formula::structure,   Formula::covector,          Formula::chart,       Formula::chart_inverse,
     Formula::chart_field, Formula::chart_hamiltonian, Formula::holonomic,   Formula::friction,
-    Formula::constraints, Formula::entropy,           Formula::casimirs,    Formula::exact_solution,
+    Formula::constraints, Formula::applied_force, Formula::entropy,           Formula::casimirs,    Formula::exact_solution,
     Formula::reversal};
 
 std::vector<std::string> read_names(const Item& value, const std::string& what, TakenNames& names) {

@@ -34,7 +34,7 @@ Tapes energy_of(const ModelSource& source) {
 // False where something may take from the energy, or give to it.
 bool is_conserved(const ModelSource& source) {
   const auto given = [&](Formula f) { return source.given[index(f)]; };
-  return !source.damping && given(Formula::friction) == nullptr &&
+  return !source.damping && given(Formula::friction) == nullptr && given(Formula::applied_force) == nullptr &&
          (given(Formula::symmetric_tensor) == nullptr || given(Formula::entropy) != nullptr) &&
          given(Formula::velocity_offsets) == nullptr && !reads_time(given(Formula::holonomic)) &&
          !reads_time(given(Formula::constraints)) && !reads_time(given(Formula::velocity_constraints)) &&

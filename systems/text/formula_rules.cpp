@@ -53,6 +53,13 @@ void check_formulas(const TextDeclaration& d, const Item& root) {
   beside(has(holonomic), canonical, "holonomic", "a canonical energy");
   beside(has(constraints), energy && !d.damping, "constraints", "hamiltonian, or kinetic and potential");
   beside(has(friction), has(holonomic), "friction", "holonomic");
+  rule(!(has(applied_force) && d.damping), "damping",
+       "damping beside applied_force: expected -nu p as a part of applied_force instead");
+  beside(has(applied_force), canonical, "applied_force", "a canonical energy");
+  for (const auto& [there, key] : {std::pair(has(constraints), "constraints"), std::pair(has(alpha), "alpha"),
+                                   std::pair(d.symmetric_bracket.has_value(), "symmetric_bracket")})
+    rule(!(has(applied_force) && there), "applied_force",
+         std::string("applied_force stands beside an energy, holonomic and velocity constraints; expected no ") + key);
   const bool velocities = !d.velocity_constraints.empty();
   beside(velocities, canonical, "velocity_constraints", "a canonical energy");
   rule(!(has(holonomic) && has(constraints)), "constraints",

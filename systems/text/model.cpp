@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <pfaff/core/facets/redundant_constraints.hpp>
 #include <pfaff/core/facets/taped_flows.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/systems/text/arguments.hpp>
@@ -33,7 +34,10 @@ class Builder {
     if (d_.damping) source_.damping = constants(*d_.damping, "damping", 1).front();
     for (std::size_t k = 0; k < formula_count; ++k)
       if (d_.formulas[k]) take(static_cast<Formula>(k), *d_.formulas[k]);
-    if (d_.lagrangian) take_lagrangian();
+    if (d_.lagrangian) {
+      take_lagrangian();
+      if (d_.has(Formula::applied_force)) insert_velocities();
+    }
     if (d_.bracket) take_bracket(*d_.bracket, Formula::poisson_tensor);
     if (d_.symmetric_bracket) take_bracket(*d_.symmetric_bracket, Formula::symmetric_tensor);
     if (!d_.velocity_constraints.empty()) take_velocity_constraints();
@@ -44,6 +48,7 @@ class Builder {
         (given(Formula::kinetic) && !d_.damping) || (given(Formula::hamiltonian) && !d_.bracket);
     if (source_.canonical || d_.damping) require_pairs();
     if (d_.initial_velocities) take_initial_velocities();
+    leave_out_redundant(source_);
     add_followed_quantities(source_);
     return std::move(source_);
   }
@@ -104,6 +109,7 @@ class Builder {
       case Formula::force:
       case Formula::velocity:
       case Formula::friction:
+      case Formula::applied_force:
         return n_ / 2;
       case Formula::structure:
         return n_ * n_;
@@ -120,7 +126,9 @@ class Builder {
 
   void take(Formula formula, const TextFormula& written) {
     const std::string what(to_string(formula));
-    auto tape = recorded(written.results, arguments_of(formula), what, results_of(formula), written.place);
+    const bool moving = formula == Formula::applied_force && d_.lagrangian;
+    auto tape = recorded(written.results, moving ? Arguments::motion : arguments_of(formula), what,
+                         results_of(formula), written.place);
     if (formula == Formula::holonomic || formula == Formula::constraints) {
       source_.constraint_names = written.names;
       if (written.names.empty() || written.names.size() != tape->outputs.size()) {
@@ -166,6 +174,24 @@ class Builder {
     source_.given[index(Formula::hamiltonian)] = std::move(made.hamiltonian);
     source_.given[index(Formula::kinetic)] = std::move(made.kinetic);
     source_.given[index(Formula::potential)] = std::move(made.potential);
+  }
+
+  // Applied forces beside a lagrangian are written as functions of (q, p, v); they become functions of (q, p),
+  // with v = H_p.
+  void insert_velocities() {
+    Tapes& force = source_.given[index(Formula::applied_force)];
+    const Tapes kinetic = source_.given[index(Formula::kinetic)],
+                energy = kinetic ? kinetic : source_.given[index(Formula::hamiltonian)];
+    const std::size_t m = n_ / 2;
+    force = std::make_shared<const Tape>(
+        record(static_cast<int>(n_), static_cast<int>(m), [&](const Recorded& t, In<Recorded> z, Out<Recorded> out) {
+          const std::vector<Recorded> one{Recorded(1)},
+              slope = gradient(*energy, t, kinetic ? z.subspan(m) : z, one);
+          std::vector<Recorded> motion(z.begin(), z.end());
+          motion.insert(motion.end(), slope.end() - static_cast<std::ptrdiff_t>(m), slope.end());
+          const std::vector<Recorded> values = evaluate(*force, t, motion);
+          std::copy(values.begin(), values.end(), out.begin());
+        }));
   }
 
   // The tensor of a bracket, column by column from the sharp map of a plug-in, or as its rows are written.

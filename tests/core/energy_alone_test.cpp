@@ -1,4 +1,4 @@
-// Where a second bracket or constraints take part, the field of the energy alone is not the motion: neither
+// Where a second bracket, applied forces or constraints take part, the field of the energy alone is not the motion: neither
 // what was compiled of force and velocity is used as the field, nor does the static path offer one.
 #include <gtest/gtest.h>
 
@@ -53,6 +53,15 @@ struct TrapWithFieldAndFriction : TrapWithFriction {
 struct BatchedTrapWithFriction : TrapWithFriction {
   static constexpr bool batched = true;
 };
+struct TrapWithAppliedForce : Trap {
+  template <class T>
+  void applied_force(const T& /*t*/, In<T> z, Out<T> f) const {
+    f[0] = -3 * z[1];
+  }
+};
+struct BatchedTrapWithAppliedForce : TrapWithAppliedForce {
+  static constexpr bool batched = true;
+};
 struct TrapOnASurface : Trap {
   static constexpr int constraint_count = 1;
   template <class T>
@@ -83,17 +92,22 @@ TEST(EnergyAlone, FrictionIsInTheFieldOfRunsInDouble) {
   EXPECT_EQ(momentum_rate<TrapWithFriction>(), -7);
   EXPECT_EQ(momentum_rate<TrapWithFieldAndFriction>(), -7);
   EXPECT_EQ(momentum_rate<BatchedTrapWithFriction>(), -7);
+  EXPECT_EQ(momentum_rate<TrapWithAppliedForce>(), -7);
+  EXPECT_EQ(momentum_rate<BatchedTrapWithAppliedForce>(), -7);
   EXPECT_EQ(momentum_rate<Trap>(), -1);
 }
 TEST(EnergyAlone, WhatIsCompiledOfForceAndVelocityIsTheFieldOfTheEnergyOnly) {
   EXPECT_NE(make_model(trap_descriptor, Trap{})->compiled(Formula::field), nullptr);
   EXPECT_EQ(make_model(trap_descriptor, TrapWithFriction{})->compiled(Formula::field), nullptr);
+  EXPECT_EQ(make_model(trap_descriptor, TrapWithAppliedForce{})->compiled(Formula::field), nullptr);
 }
 TEST(EnergyAlone, StaticProblemsOfferNoFieldOfIt) {
   static_assert(HasVectorField<StaticProblem<Trap>> && HasSeparable<StaticProblem<Trap>>);
   static_assert(!HasVectorField<StaticProblem<TrapWithFriction>>);
   static_assert(!HasSeparable<StaticProblem<TrapWithFriction>>);
   static_assert(!HasDarbouxChart<StaticProblem<TrapWithFriction>>);
+  static_assert(!HasVectorField<StaticProblem<TrapWithAppliedForce>>);
+  static_assert(!HasSeparable<StaticProblem<TrapWithAppliedForce>>);
   static_assert(HasVectorField<StaticProblem<TrapWithFieldAndFriction>>);
   static_assert(!HasSeparable<StaticProblem<TrapWithFieldAndFriction>>);
   static_assert(!HasVectorField<StaticProblem<TrapOnASurface>> &&

@@ -30,6 +30,10 @@ std::shared_ptr<const Tape> record_constraints(const Model& model) {
         const Numbers gradient = evaluate(*slopes, t, z);
         Numbers flow(2 * n);
         for (std::size_t k = 0; k < n; ++k) flow[k] = gradient[n + k], flow[n + k] = -gradient[k];
+        if (model.forced()) {
+          const Numbers applied = evaluate(*model.tape(Formula::applied_force), t, z);
+          for (std::size_t k = 0; k < n; ++k) flow[n + k] = flow[n + k] + applied[k];
+        }
         append(evaluate(*phi, t, z.first(n)));
         append(evaluate(hidden, t, z));
         append(directional_derivative(hidden, t, Recorded(1), z, flow));

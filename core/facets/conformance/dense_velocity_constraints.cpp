@@ -67,7 +67,9 @@ std::shared_ptr<const Tape> record_velocity_constraints(const Model& model) {
                flow.resize(size);
                const Numbers moved = directional_derivative(*slopes, t, Recorded(1), z, flow);
                append_entries(v, at, out);
-               for (std::size_t k = 0; k < n; ++k) out[at++] = -gradient[k];
+               Numbers forces(n);
+               if (model.forced()) forces = evaluate(*model.tape(Formula::applied_force), t, z);
+               for (std::size_t k = 0; k < n; ++k) out[at++] = forces[k] - gradient[k];
                for (std::size_t k = 0; k < n; ++k) out[at++] = moved[n + k];
                for (std::size_t i = 0; i < n; ++i)
                  for (std::size_t j = 0; j < n; ++j) out[at++] = curvature[(n + i) * size + n + j];

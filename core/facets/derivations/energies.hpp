@@ -3,6 +3,7 @@
 #pragma once
 
 #include <pfaff/core/facets/derivations/derivation.hpp>
+#include <pfaff/core/facets/taped_parts.hpp>
 
 namespace pfaff::derivations {
 
@@ -66,6 +67,15 @@ inline std::shared_ptr<const Tape> bracket_field(const Model& model) {
         }
       }));
 }
+inline bool is_forced(const Model& model) { return model.forced() && canonical_energy(model); }
+/// (H_p, -H_q + Q) with applied forces Q.
+inline std::shared_ptr<const Tape> forced_field(const Model& model) {
+  const auto slopes = slopes_of_motion(model);
+  return shared(
+      record(model.dimension(), model.dimension(), [&](const Recorded& t, Arguments z, Results out) {
+        copy(flow_of(*slopes, t, {z.begin(), z.end()}), out);
+      }));
+}
 /// (T_p, -V_q - nu p), which the conformal facet stands for.
 inline std::shared_ptr<const Tape> damped_field(const Model& model) {
   const auto velocity = model.tape(Formula::velocity), force = model.tape(Formula::force);
@@ -93,6 +103,7 @@ inline constexpr std::array energies{
                &gradient_of_hamiltonian},
     Derivation{Formula::velocity, {Formula::kinetic, none, none}, &separates, &slope_of<Formula::kinetic>},
     Derivation{Formula::force, {Formula::potential, none, none}, &separates, &slope_of<Formula::potential>},
+    Derivation{Formula::field, {Formula::hamiltonian_gradient, Formula::applied_force, none}, &is_forced, &forced_field},
     Derivation{
         Formula::field, {Formula::velocity, Formula::force, none}, &has<Facet::separable>, &separable_field},
     Derivation{Formula::field, {Formula::hamiltonian, none, none}, &canonical_energy, &canonical_field},
