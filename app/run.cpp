@@ -136,9 +136,10 @@ std::string summary_table(const nlohmann::json& j, const std::string& written, c
     std::string names;
     for (const auto& name : j["redundant_constraints"])
       names += (names.empty() ? "" : ", ") + name.get<std::string>();
-    rows.push_back({"redundant", names + (j["redundant_constraints"].size() == 1
-                                              ? ", which follows from the other constraints, has no reaction"
-                                              : ", which follow from the other constraints, have no reactions")});
+    rows.push_back(
+        {"redundant", names + (j["redundant_constraints"].size() == 1
+                                   ? ", which follows from the other constraints, has no reaction"
+                                   : ", which follow from the other constraints, have no reactions")});
   }
   rows.push_back({written, out + "/{config.toml, series.csv, summary.json}"});
   return facts(rows);

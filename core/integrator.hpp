@@ -103,7 +103,8 @@ class MethodInstance : public Maker<StepperPointer, StepScalars, std::shared_ptr
              to_string(model.facets()) + model.advice(needs());
     if (model.forced() && needs_constraints() && !needs().has(Facet::vector_field))
       return called() + " keeps the constraints of a motion that an energy makes alone; " + model.name() +
-             " has applied forces, which methods for vector fields take, beside a formulation of its constraints";
+             " has applied forces, which methods for vector fields take, beside a formulation of its "
+             "constraints";
     const std::string reason = objection(model);
     return reason.empty() ? reason : called() + " " + reason;
   }

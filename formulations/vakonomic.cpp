@@ -19,7 +19,8 @@ struct Vakonomic {
 
   [[nodiscard]] std::string refuses(const Model& model) const {
     if (model.forced())
-      return "formulation vakonomic makes the motion of a Hamiltonian; " + model.name() + " has applied forces";
+      return "formulation vakonomic makes the motion of a Hamiltonian; " + model.name() +
+             " has applied forces";
     if (!model.frictionless() || model.given(Formula::symmetric_tensor))
       return "formulation vakonomic makes a motion without friction; " + model.name() + " has friction";
     if (!quadratic_in_momenta(model))

@@ -117,7 +117,9 @@ SymbolicFormulas symbolic_formulas(const Model& model, bool friction) {
   SymbolicFormulas result;
   result.formulas.values = model.tape(Formula::holonomic);
   result.formulas.degrees = static_cast<std::size_t>(result.formulas.values->inputs);
-  result.formulas.gradient = model.forced() ? slopes_of_motion(model) : gradient_of(*model.tape(Formula::hamiltonian), 2 * result.formulas.degrees);
+  result.formulas.gradient =
+      model.forced() ? slopes_of_motion(model)
+                     : gradient_of(*model.tape(Formula::hamiltonian), 2 * result.formulas.degrees);
   if (friction && !model.frictionless()) result.formulas.friction = model.tape(Formula::friction);
   return result;
 }

@@ -13,7 +13,8 @@ constexpr std::size_t most_positions = 40;
 // The largest component of Pibar grad H - (rate of the state), both on the constraints.
 template <class T>
 json flow_difference(const Point<T>& at, const NonholonomicBracket& bracket, const Matrix<T>& tensor) {
-  if (!at.model->moves() || at.model->forced()) return nullptr;  // the bracket's field is that of an energy alone
+  if (!at.model->moves() || at.model->forced())
+    return nullptr;  // the bracket's field is that of an energy alone
   Point<T> there{at.model, at.t, bracket.projected(at.t, at.z), true, true, {}};
   const std::vector<T> flow = tensor * there.values(at.model->tape(Formula::hamiltonian_gradient)),
                        rate = there.values(at.model, Formula::field);

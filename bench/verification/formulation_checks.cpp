@@ -88,7 +88,8 @@ class FormulationChecker {
                         !model_->tape(Formula::hamiltonian)->autonomous();
     const bool dissipates = (model_->given(Formula::friction) && !model_->frictionless()) ||
                             model_->given(Formula::symmetric_tensor);
-    energy_in_scope_ = !moving && !model_->forced() && (!dissipates || statement_.friction == FrictionForm::none);
+    energy_in_scope_ =
+        !moving && !model_->forced() && (!dissipates || statement_.friction == FrictionForm::none);
   }
 
   std::vector<Check> run() {

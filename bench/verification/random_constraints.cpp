@@ -6,6 +6,7 @@
 
 #include <pfaff/bench/random_systems/recipe.hpp>
 #include <pfaff/core/system.hpp>
+#include <pfaff/core/tape/recorder.hpp>
 #include <pfaff/systems/bead_rod/system.hpp>
 
 namespace pfaff {
@@ -42,6 +43,21 @@ constexpr std::uint64_t seeds = 2;
 constexpr std::array kinds{SystemKind::surface, SystemKind::revolution, SystemKind::rods,
                            SystemKind::second_class, SystemKind::rolling};
 
+// The same system with applied forces, Q_k = q_k/3 - q_(k+1) p_(k+1)/2 + sin(t) p_k, which nothing keeps.
+std::shared_ptr<const Model> with_applied_forces(const Model& model) {
+  ModelSource source = model.source();
+  source.name += "-forced";
+  source.invariants.clear();
+  source.given[index(Formula::invariants)] = source.given[index(Formula::reversal)] = nullptr;
+  const auto n = static_cast<std::size_t>(source.dimension) / 2;
+  source.given[index(Formula::applied_force)] = std::make_shared<const Tape>(record(
+      source.dimension, static_cast<int>(n), [n](const Recorded& t, In<Recorded> z, Out<Recorded> force) {
+        for (std::size_t k = 0; k < n; ++k)
+          force[k] = z[k] / 3 - z[(k + 1) % n] * z[n + (k + 1) % n] / 2 + sin(t) * z[n + k];
+      }));
+  return std::make_shared<const Model>(std::move(source));
+}
+
 }  // namespace
 
 std::shared_ptr<const Model> random_rods() {
@@ -55,6 +71,7 @@ std::vector<std::shared_ptr<const Model>> random_constraints() {
       PolynomialSystem system = system_of(random_recipe(kind, seed, verified_size));
       system.name += "-" + std::to_string(seed);
       models.push_back(model_of(system));
+      if (kind != SystemKind::second_class) models.push_back(with_applied_forces(*models.back()));
       // Angular momentum is kept where everything is symmetric about an axis, and nothing that moves is.
       if (kind == SystemKind::rolling || kind == SystemKind::revolution) continue;
       system.name += "-moving";

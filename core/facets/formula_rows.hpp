@@ -104,9 +104,9 @@ PFAFF_FORMULA(alpha, void, (const T& t, const T& t0, In<T> new_z, In<T> old_z, O
 // Constraints of positions; coefficients lambda >= 0 of friction, of the momenta.
 PFAFF_MAP(holonomic, q, n / 2, phi, constraints, .part_of = facets(Facet::holonomic))
 PFAFF_MAP(friction, z, n, lambda, n / 2, .may_skip_zeros = true, .part_of = facets(Facet::holonomic))
-// Applied forces Q, one for each momentum, beside a canonical energy: p' = -H_q + Q. They serve no facet; where they
-// are written the facets of the energy are not offered, because the energy alone does not make the motion.
-PFAFF_MAP(applied_force, z, n, f, n / 2, .may_skip_zeros = true)
+// Applied forces Q, one for each momentum, beside a canonical energy: p' = -H_q + Q. Where they are written the facets
+// of the energy are not offered, because the energy alone does not make the motion.
+PFAFF_MAP(applied_force, z, n, f, n / 2, .may_skip_zeros = true, .part_of = facets(Facet::vector_field, Facet::holonomic, Facet::velocity_constraints))
 // All constraints, with hidden ones where they are holonomic, and d phi_i / dz_j, row-major.
 PFAFF_MAP(constraints, z, n, phi, constraints, .part_of = facets(Facet::constraints, Facet::velocity_constraints))
 PFAFF_MAP(constraint_gradients, z, n, rows, constraints * n, .may_skip_zeros = true, .part_of = facets(Facet::constraints, Facet::velocity_constraints))

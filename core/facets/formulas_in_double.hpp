@@ -49,9 +49,10 @@ class CollectorInDouble {
 #define PFAFF_FORMULA(name, ...) c.template take<name>();
 #define PFAFF_BRACKET(name, ...) c.template take<name>();
 #include <pfaff/core/facets/formula_rows.hpp>
-    // The field of the energy alone, which is not the motion where a second bracket or applied forces take part.
-    if constexpr (writes_undamped_energies<S>() && !writes<S, symmetric_tensor> && !writes<S, applied_force> &&
-                  writes<S, force> && writes<S, velocity>)
+    // The field of the energy alone, which is not the motion where a second bracket or applied forces take
+    // part.
+    if constexpr (writes_undamped_energies<S>() && !writes<S, symmetric_tensor> &&
+                  !writes<S, applied_force> && writes<S, force> && writes<S, velocity>)
       c.template compile<writes<S, force, Pack<8>> && writes<S, velocity, Pack<8>>>(
           field, []<class T>(const S& self, const T& t, const T* z, T* o) {
             const auto m = static_cast<std::size_t>(dimension_of(self) / 2);

@@ -90,12 +90,12 @@ class HolonomicConstraints : public PositionConstraints<T> {
   /// Places B and the factors of S as linearise does and, at the same (q, p, t), T and what the next five
   /// members return.
   virtual Status place(const T& t, In<T> q, In<T> p) = 0;
-  [[nodiscard]] virtual std::span<const T> residuals() const = 0;     // phi
-  [[nodiscard]] virtual std::span<const T> hidden() const = 0;        // phi~
+  [[nodiscard]] virtual std::span<const T> residuals() const = 0;  // phi
+  [[nodiscard]] virtual std::span<const T> hidden() const = 0;     // phi~
   /// h = {phi~, H} + phi~_t + P Q: the rates of phi~ by all but reactions and friction.
   [[nodiscard]] virtual std::span<const T> hidden_rates() const = 0;
-  [[nodiscard]] virtual std::span<const T> velocities() const = 0;    // H_p
-  [[nodiscard]] virtual std::span<const T> forces() const = 0;        // -H_q, applied forces added
+  [[nodiscard]] virtual std::span<const T> velocities() const = 0;  // H_p
+  [[nodiscard]] virtual std::span<const T> forces() const = 0;      // -H_q, applied forces added
   /// r = T u and f = T^T x with T = dphi~/dq.
   virtual void hidden_by_position(In<T> u, Out<T> r) const = 0;
   virtual void hidden_by_position_transpose(In<T> x, Out<T> f) const = 0;

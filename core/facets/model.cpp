@@ -65,9 +65,11 @@ Model::Model(ModelSource source) : source_(std::move(source)) {
     for (const Facet f : kept)
       if (content_.has(f)) facets_ = facets_.with(f);
   };
-  // Where a second bracket, applied forces or constraints take part, the energy and its bracket alone do not make the motion:
-  // facets that speak of them are not offered, though content() has them.
-  if (forced()) keep({Facet::vector_field, Facet::holonomic, Facet::constraints, Facet::velocity_constraints, Facet::invariants, Facet::exact_solution, Facet::exact_flows});
+  // Where a second bracket, applied forces or constraints take part, the energy and its bracket alone do not
+  // make the motion: facets that speak of them are not offered, though content() has them.
+  if (forced())
+    keep({Facet::vector_field, Facet::holonomic, Facet::constraints, Facet::velocity_constraints,
+          Facet::invariants, Facet::exact_solution, Facet::exact_flows});
   if (content_.has(Facet::metriplectic))
     keep({Facet::vector_field, Facet::metriplectic, Facet::invariants, Facet::exact_solution});
   if (content_.has(Facet::constraints))

@@ -26,15 +26,15 @@ Quad norm(const Numbers& x) {
 // the number of constraints where each has few neighbours.
 bool may_be_dependent(const Tape& phi, const Numbers& q) {
   std::shared_ptr<const SymmetricPattern> pattern;
-  const auto gram = record_list(phi.inputs, [&](const Recorded& t, const std::vector<Recorded>& x,
-                                                std::vector<Recorded>& out) {
-    SparseRecorded rows;
-    for (const SparseGradient& row : sparse_gradients(phi, t, x, x.size())) {
-      for (const auto& [column, entry] : row) rows.push_back(column, entry);
-      rows.end_row();
-    }
-    pattern = record_gram(rows, rows, {}, out);
-  });
+  const auto gram = record_list(
+      phi.inputs, [&](const Recorded& t, const std::vector<Recorded>& x, std::vector<Recorded>& out) {
+        SparseRecorded rows;
+        for (const SparseGradient& row : sparse_gradients(phi, t, x, x.size())) {
+          for (const auto& [column, entry] : row) rows.push_back(column, entry);
+          rows.end_row();
+        }
+        pattern = record_gram(rows, rows, {}, out);
+      });
   const std::vector<double> at = [&] {
     std::vector<double> list;
     for (const Quad& x : q) list.push_back(static_cast<double>(x));
@@ -44,7 +44,8 @@ bool may_be_dependent(const Tape& phi, const Numbers& q) {
   Replay<double>{gram}(0, at.data(), entries.data());
   StructuredLDLT<double> factors(pattern);
   std::copy_n(entries.begin(), phi.outputs.size(), factors.diagonal());
-  std::copy(entries.begin() + static_cast<std::ptrdiff_t>(phi.outputs.size()), entries.end(), factors.couplings());
+  std::copy(entries.begin() + static_cast<std::ptrdiff_t>(phi.outputs.size()), entries.end(),
+            factors.couplings());
   return factors.factor_semidefinite() == Status::converged && factors.dropped() > 0;
 }
 
@@ -144,7 +145,8 @@ bool follow_from(Constraints& constraints, const Indices& kept, const Indices& l
     Numbers direction(q.size());
     for (Quad& x : direction) x = random.next().quad();
     bool arrived = false;
-    for (Quad length = scale / Quad(100); !arrived && length > scale / Quad(1e5); length = length / Quad(10)) {
+    for (Quad length = scale / Quad(100); !arrived && length > scale / Quad(1e5);
+         length = length / Quad(10)) {
       Numbers there = q;
       for (std::size_t k = 0; k < q.size(); ++k) there[k] += length * direction[k];
       if (!bring_onto(constraints, kept, there)) continue;
@@ -164,7 +166,8 @@ std::shared_ptr<const Tape> results_of(const Tape& tape, const Indices& which) {
   return std::make_shared<const Tape>(record(tape.inputs, static_cast<int>(which.size()),
                                              [&](const Recorded& t, In<Recorded> x, Out<Recorded> out) {
                                                const std::vector<Recorded> all = evaluate(tape, t, x);
-                                               for (std::size_t k = 0; k < which.size(); ++k) out[k] = all[which[k]];
+                                               for (std::size_t k = 0; k < which.size(); ++k)
+                                                 out[k] = all[which[k]];
                                              }));
 }
 
@@ -172,22 +175,24 @@ std::shared_ptr<const Tape> results_of(const Tape& tape, const Indices& which) {
 void follow(ModelSource& source, const std::shared_ptr<const Tape>& phi, const Indices& which) {
   std::shared_ptr<const Tape>& stated = source.given[index(Formula::invariants)];
   for (const std::size_t k : which) source.invariants.push_back(conserved(source.constraint_names[k], ""));
-  stated = std::make_shared<const Tape>(
-      record(source.dimension, static_cast<int>(source.invariants.size()),
-             [&](const Recorded& t, In<Recorded> z, Out<Recorded> out) {
-               std::size_t at = 0;
-               if (stated != nullptr)
-                 for (const Recorded& x : evaluate(*stated, t, z)) out[at++] = x;
-               const std::vector<Recorded> all = evaluate(*phi, t, z.first(static_cast<std::size_t>(phi->inputs)));
-               for (const std::size_t k : which) out[at++] = all[k];
-             }));
+  stated = std::make_shared<const Tape>(record(source.dimension, static_cast<int>(source.invariants.size()),
+                                               [&](const Recorded& t, In<Recorded> z, Out<Recorded> out) {
+                                                 std::size_t at = 0;
+                                                 if (stated != nullptr)
+                                                   for (const Recorded& x : evaluate(*stated, t, z))
+                                                     out[at++] = x;
+                                                 const std::vector<Recorded> all = evaluate(
+                                                     *phi, t, z.first(static_cast<std::size_t>(phi->inputs)));
+                                                 for (const std::size_t k : which) out[at++] = all[k];
+                                               }));
 }
 }  // namespace
 
 void leave_out_redundant(ModelSource& source) {
   const std::shared_ptr<const Tape> phi = source.given[index(Formula::holonomic)];
   const bool compiled = source.holonomic != nullptr || source.programs[index(Formula::invariants)] != nullptr;
-  if (phi == nullptr || compiled || source.initial.size() != static_cast<std::size_t>(source.dimension)) return;
+  if (phi == nullptr || compiled || source.initial.size() != static_cast<std::size_t>(source.dimension))
+    return;
   constexpr std::size_t most_entries = 40000;  // of B in quad precision, a second or two
   const auto size = static_cast<std::size_t>(phi->inputs);
   Numbers q;

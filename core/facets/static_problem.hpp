@@ -64,7 +64,8 @@ class StaticProblem {
   static constexpr int extent = S::dimension;
   using State = Vector<T, extent>;
   static constexpr bool constrained = detail::counts_constraints<S> || detail::counts_velocity_constraints<S>;
-  // Where constraints, a second bracket or applied forces take part, the energy alone does not make the motion.
+  // Where constraints, a second bracket or applied forces take part, the energy alone does not make the
+  // motion.
   static constexpr bool alone = !constrained && !detail::writes<S, Formula::symmetric_tensor> &&
                                 !detail::writes<S, Formula::applied_force>;
   static constexpr bool energies =

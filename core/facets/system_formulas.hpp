@@ -77,13 +77,15 @@ constexpr void check_formulas() {
                 "constraints is written beside kinetic and potential, or hamiltonian, which are missing");
   static_assert(names<S, holonomic> || !(names<S, friction> || NamedConstraintEvaluator::named<S>),
                 "friction and constraint_evaluator are written beside holonomic, which is missing");
-  static_assert(canonical || !names<S, applied_force>,
-                "applied_force is written beside kinetic and potential, or hamiltonian without bracket, which are "
-                "missing; beside damping, add -nu p to applied_force instead");
-  static_assert(!names<S, applied_force> || !(names<S, constraints> || names<S, symmetric_tensor> || names<S, alpha> ||
-                                             NamedConstraintEvaluator::named<S>),
-                "applied_force stands beside an energy, holonomic and velocity constraints; expected no constraints, "
-                "symmetric_bracket, alpha or constraint_evaluator");
+  static_assert(
+      canonical || !names<S, applied_force>,
+      "applied_force is written beside kinetic and potential, or hamiltonian without bracket, which are "
+      "missing; beside damping, add -nu p to applied_force instead");
+  static_assert(
+      !names<S, applied_force> || !(names<S, constraints> || names<S, symmetric_tensor> || names<S, alpha> ||
+                                    NamedConstraintEvaluator::named<S>),
+      "applied_force stands beside an energy, holonomic and velocity constraints; expected no constraints, "
+      "symmetric_bracket, alpha or constraint_evaluator");
   static_assert(names<S, constraints> || !names<S, constraint_gradients>,
                 "constraint_gradients is written beside constraints, which is missing");
   static_assert(names<S, velocity_constraints> == counts_velocity_constraints<S>,

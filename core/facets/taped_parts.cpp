@@ -18,8 +18,8 @@ std::shared_ptr<const Tape> slopes_of_motion(const Model& model) {
   const auto gradient = model.tape(Formula::hamiltonian_gradient);
   if (!model.forced()) return gradient;
   const auto force = model.tape(Formula::applied_force);
-  return std::make_shared<const Tape>(record(
-      gradient->inputs, gradient->inputs, [&](const Recorded& t, In<Recorded> z, Out<Recorded> out) {
+  return std::make_shared<const Tape>(
+      record(gradient->inputs, gradient->inputs, [&](const Recorded& t, In<Recorded> z, Out<Recorded> out) {
         const std::vector<Recorded> slopes = evaluate(*gradient, t, z), applied = evaluate(*force, t, z);
         std::copy(slopes.begin(), slopes.end(), out.begin());
         for (std::size_t k = 0; k < applied.size(); ++k) out[k] = out[k] - applied[k];

@@ -57,7 +57,7 @@ class VelocityConstraints {
 
   /// Places what linearise does and, at the same (q, p, t), what the next four members return.
   virtual Status place(const T& t, In<T> q, In<T> p) = 0;
-  [[nodiscard]] virtual std::span<const T> residuals() const = 0;   // psi
+  [[nodiscard]] virtual std::span<const T> residuals() const = 0;  // psi
   /// {psi, H} + psi_t + P Q: the rates of psi by all but reactions.
   [[nodiscard]] virtual std::span<const T> rates() const = 0;
   [[nodiscard]] virtual std::span<const T> velocities() const = 0;  // H_p

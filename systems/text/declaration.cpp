@@ -13,12 +13,12 @@ using Kind = Item::Kind;
 
 // The formulas that are one expression, a list of them or the rows of a matrix, by their keys.
 constexpr std::array written{
-    Formula::field,       Formula::hamiltonian,       Formula::kinetic,     Formula::potential,
-    Formula::force,       Formula::velocity,          Formula::birkhoffian, Formula::one_form,
-    Formula::structure,   Formula::covector,          Formula::chart,       Formula::chart_inverse,
-    Formula::chart_field, Formula::chart_hamiltonian, Formula::holonomic,   Formula::friction,
-    Formula::constraints, Formula::applied_force, Formula::entropy,           Formula::casimirs,    Formula::exact_solution,
-    Formula::reversal};
+    Formula::field,          Formula::hamiltonian,       Formula::kinetic,     Formula::potential,
+    Formula::force,          Formula::velocity,          Formula::birkhoffian, Formula::one_form,
+    Formula::structure,      Formula::covector,          Formula::chart,       Formula::chart_inverse,
+    Formula::chart_field,    Formula::chart_hamiltonian, Formula::holonomic,   Formula::friction,
+    Formula::constraints,    Formula::applied_force,     Formula::entropy,     Formula::casimirs,
+    Formula::exact_solution, Formula::reversal};
 
 std::vector<std::string> read_names(const Item& value, const std::string& what, TakenNames& names) {
   if (value.kind != Kind::list) refuse(value, what + ": expected a list of names");

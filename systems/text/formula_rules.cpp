@@ -59,7 +59,9 @@ void check_formulas(const TextDeclaration& d, const Item& root) {
   for (const auto& [there, key] : {std::pair(has(constraints), "constraints"), std::pair(has(alpha), "alpha"),
                                    std::pair(d.symmetric_bracket.has_value(), "symmetric_bracket")})
     rule(!(has(applied_force) && there), "applied_force",
-         std::string("applied_force stands beside an energy, holonomic and velocity constraints; expected no ") + key);
+         std::string(
+             "applied_force stands beside an energy, holonomic and velocity constraints; expected no ") +
+             key);
   const bool velocities = !d.velocity_constraints.empty();
   beside(velocities, canonical, "velocity_constraints", "a canonical energy");
   rule(!(has(holonomic) && has(constraints)), "constraints",

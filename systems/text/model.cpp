@@ -176,15 +176,15 @@ class Builder {
     source_.given[index(Formula::potential)] = std::move(made.potential);
   }
 
-  // Applied forces beside a lagrangian are written as functions of (q, p, v); they become functions of (q, p),
-  // with v = H_p.
+  // Applied forces beside a lagrangian are written as functions of (q, p, v); they become functions of (q,
+  // p), with v = H_p.
   void insert_velocities() {
     Tapes& force = source_.given[index(Formula::applied_force)];
     const Tapes kinetic = source_.given[index(Formula::kinetic)],
                 energy = kinetic ? kinetic : source_.given[index(Formula::hamiltonian)];
     const std::size_t m = n_ / 2;
-    force = std::make_shared<const Tape>(
-        record(static_cast<int>(n_), static_cast<int>(m), [&](const Recorded& t, In<Recorded> z, Out<Recorded> out) {
+    force = std::make_shared<const Tape>(record(
+        static_cast<int>(n_), static_cast<int>(m), [&](const Recorded& t, In<Recorded> z, Out<Recorded> out) {
           const std::vector<Recorded> one{Recorded(1)},
               slope = gradient(*energy, t, kinetic ? z.subspan(m) : z, one);
           std::vector<Recorded> motion(z.begin(), z.end());

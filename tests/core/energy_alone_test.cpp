@@ -1,5 +1,6 @@
-// Where a second bracket, applied forces or constraints take part, the field of the energy alone is not the motion: neither
-// what was compiled of force and velocity is used as the field, nor does the static path offer one.
+// Where a second bracket, applied forces or constraints take part, the field of the energy alone is not the
+// motion: neither what was compiled of force and velocity is used as the field, nor does the static path
+// offer one.
 #include <gtest/gtest.h>
 
 #include <pfaff/core/facets/static_problem.hpp>

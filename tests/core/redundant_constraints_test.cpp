@@ -37,11 +37,11 @@ struct Plate {
   void holonomic(const T& /*t*/, In<T> q, Out<T> phi) const {
     const auto square = [](const T& x, const T& y) { return x * x + y * y; };
     const std::array<T, 6> lengths{square(q[0], q[1]) - 1,
-                      square(q[2] - 1, q[3]) - 1,
-                      square(q[0] - q[2], q[1] - q[3]) - 1,
-                      square(q[2] - q[4], q[3] - q[5]) - T(5) / 4,
-                      square(q[0] - q[4], q[1] - q[5]) - T(5) / 4,
-                      square(q[4] - T(1) / 2, q[5] - 1) - (Wrong ? T(3) / 2 : T(1))};
+                                   square(q[2] - 1, q[3]) - 1,
+                                   square(q[0] - q[2], q[1] - q[3]) - 1,
+                                   square(q[2] - q[4], q[3] - q[5]) - T(5) / 4,
+                                   square(q[0] - q[4], q[1] - q[5]) - T(5) / 4,
+                                   square(q[4] - T(1) / 2, q[5] - 1) - (Wrong ? T(3) / 2 : T(1))};
     for (std::size_t k = 0; k < static_cast<std::size_t>(Rods); ++k) phi[k] = lengths[k];
   }
 };
@@ -67,15 +67,17 @@ TEST(RedundantConstraints, ARodTooManyIsLeftOutAndFollowed) {
   // It is what the author wrote: off the surface too.
   std::vector<Quad> z;
   for (int k = 0; k < 12; ++k) z.push_back(Quad(k) / Quad(7));
-  const Quad expected = (z[4] - Quad(1) / Quad(2)) * (z[4] - Quad(1) / Quad(2)) + (z[5] - Quad(1)) * (z[5] - Quad(1)) - Quad(1);
-  EXPECT_LT(static_cast<double>(abs(evaluated(model, Formula::invariants, z, 1, Quad(0))[0] - expected)), 1e-32);
+  const Quad expected =
+      (z[4] - Quad(1) / Quad(2)) * (z[4] - Quad(1) / Quad(2)) + (z[5] - Quad(1)) * (z[5] - Quad(1)) - Quad(1);
+  EXPECT_LT(static_cast<double>(abs(evaluated(model, Formula::invariants, z, 1, Quad(0))[0] - expected)),
+            1e-32);
 }
 TEST(RedundantConstraints, EnoughRodsAreAllKept) {
   EXPECT_TRUE(model_of(Plate<5>{}, hanging())->source().redundant_constraints.empty());
 }
 
-// Two positions in one: with the crank of the third point longer than the others the state is off its surface,
-// and the dependence of the gradients, which the lengths do not change, is no redundancy.
+// Two positions in one: with the crank of the third point longer than the others the state is off its
+// surface, and the dependence of the gradients, which the lengths do not change, is no redundancy.
 TEST(RedundantConstraints, AContradictionIsKept) {
   EXPECT_TRUE((model_of(Plate<6, true>{}, hanging())->source().redundant_constraints.empty()));
 }

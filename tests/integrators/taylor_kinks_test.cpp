@@ -46,17 +46,17 @@ struct Rectified {  // z' = |sin t| - z/2 with a kink of the time alone, and y' 
     rate[1] = max(z[0], T(1) / 2);
   }
 };
-struct Sliding {  // the state reaches 0 at t = 1 and cannot leave it
+struct Sliding {  // from 1 the state reaches 0 at t = 1, where neither side is left
   static constexpr int dimension = 1;
   template <class T>
   void field(const T& /*t*/, In<T> z, Out<T> rate) const {
-    rate[0] = -sign(z[0]);
+    rate[0] = select(z[0], T(-1), T(1));
   }
 };
 
 template <class T>
-std::vector<T> moved(const std::shared_ptr<const Model>& model, const T& h, std::int64_t steps, std::vector<T> z,
-                     Status expected = Status::converged) {
+std::vector<T> moved(const std::shared_ptr<const Model>& model, const T& h, std::int64_t steps,
+                     std::vector<T> z, Status expected = Status::converged) {
   const auto stepper = method_named("taylor", {{"order", "4"}})->stepper(model, T());
   std::int64_t completed = 0;
   EXPECT_EQ(stepper->advance(T(0), 0, h, steps, z, completed), expected);

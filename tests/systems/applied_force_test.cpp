@@ -57,8 +57,8 @@ struct Sample {
 Quad number(const char* digits) { return Real::parse(digits)->quad(); }
 
 void expect_sample(const Sample& sample) {
-  const auto z = after_steps<Quad>(*method_named("gauss", {{"stages", "8"}}), motion_of(example(sample.model)),
-                                   sample.step, sample.steps);
+  const auto z = after_steps<Quad>(*method_named("gauss", {{"stages", "8"}}),
+                                   motion_of(example(sample.model)), sample.step, sample.steps);
   for (const auto& [k, expected] : sample.state)
     EXPECT_LT(static_cast<double>(abs(z[k] - expected)), sample.tolerance) << sample.model << " " << k;
 }
@@ -103,7 +103,7 @@ TEST(AppliedForce, FrictionInAJointActsOnBothLinks) {
   ASSERT_EQ(method_named("taylor")->stepper(arm, Quad())->advance_to(t, Quad(2), Quad(1e-22), z),
             Status::converged);
   const std::array expected{"-0.029900703542105425", "0.16756154613284985", "0.34912624087285521",
-                               "0.44596710028844651"};
+                            "0.44596710028844651"};
   for (std::size_t k = 0; k < z.size(); ++k)
     EXPECT_LT(static_cast<double>(abs(z[k] - number(expected[k]))), 2e-14) << k;
 }
@@ -172,7 +172,8 @@ struct DrivenEdge {
 template <class S>
 std::shared_ptr<const Model> model_of(const S& system, std::vector<Real> initial) {
   return make_model(
-      SystemDescriptor{.name = "forced", .title = "", .reference = "", .initial = std::move(initial)}, system);
+      SystemDescriptor{.name = "forced", .title = "", .reference = "", .initial = std::move(initial)},
+      system);
 }
 const char* const driven_text =
     "coordinates = [\"q\", \"p\"]\ninitial = [1, 0]\nkinetic = \"p^2/2\"\npotential = \"q^2/2\"\n"
@@ -247,8 +248,9 @@ TEST(AppliedForce, MethodsOfEnergiesSayWhatTakesThem) {
             "which methods for vector fields take, beside a formulation of its constraints");
   EXPECT_EQ(said_of("gauss", written(driven_text)), "");
   const auto edge = model_of(DrivenEdge{}, {0, 0, 0, 1, 0, 1});
-  EXPECT_EQ(said_of("spark-lobatto", edge).find("spark-lobatto keeps the constraints of a motion that an "
-                                                "energy makes alone"),
+  EXPECT_EQ(said_of("spark-lobatto", edge)
+                .find("spark-lobatto keeps the constraints of a motion that an "
+                      "energy makes alone"),
             0U);
   EXPECT_EQ(formulations().get("vakonomic", "formulation").refuses(*edge),
             "formulation vakonomic makes the motion of a Hamiltonian; forced has applied forces");
@@ -258,12 +260,14 @@ TEST(AppliedForce, WhatItDoesNotStandBesideIsRefused) {
                     energies = "kinetic = \"p^2/2\"\npotential = \"q^2/2\"\n";
   EXPECT_EQ(refusal(state + "field = [\"p\", \"-q\"]\n" + force),
             "model.toml:3:1: applied_force is written beside a canonical energy, which is missing");
-  EXPECT_EQ(refusal(state + energies + force + "damping = 0.1\n"),
-            "model.toml:5:1: damping beside applied_force: expected -nu p as a part of applied_force instead");
+  EXPECT_EQ(
+      refusal(state + energies + force + "damping = 0.1\n"),
+      "model.toml:5:1: damping beside applied_force: expected -nu p as a part of applied_force instead");
   EXPECT_EQ(refusal(state + energies + "applied_force = [\"-p\", 0]\n"),
-            "model.toml:5:17: applied_force: expected 1 expression, got 2");
-  EXPECT_EQ(refusal(state + energies + force + "symmetric_bracket = [[0, 0], [0, 1]]\n"),
-            "model.toml:5:1: applied_force stands beside an energy, holonomic and velocity constraints; expected "
-            "no symmetric_bracket");
+            "model.toml:4:17: applied_force: expected 1 expression, got 2");
+  EXPECT_EQ(
+      refusal(state + energies + force + "symmetric_bracket = [[0, 0], [0, 1]]\n"),
+      "model.toml:4:1: applied_force stands beside an energy, holonomic and velocity constraints; expected "
+      "no symmetric_bracket");
 }
 }  // namespace

@@ -103,7 +103,10 @@ inline constexpr std::array energies{
                &gradient_of_hamiltonian},
     Derivation{Formula::velocity, {Formula::kinetic, none, none}, &separates, &slope_of<Formula::kinetic>},
     Derivation{Formula::force, {Formula::potential, none, none}, &separates, &slope_of<Formula::potential>},
-    Derivation{Formula::field, {Formula::hamiltonian_gradient, Formula::applied_force, none}, &is_forced, &forced_field},
+    Derivation{Formula::field,
+               {Formula::hamiltonian_gradient, Formula::applied_force, none},
+               &is_forced,
+               &forced_field},
     Derivation{
         Formula::field, {Formula::velocity, Formula::force, none}, &has<Facet::separable>, &separable_field},
     Derivation{Formula::field, {Formula::hamiltonian, none, none}, &canonical_energy, &canonical_field},
