@@ -66,6 +66,9 @@ void check_formulas(const TextDeclaration& d, const Item& root) {
          "initial, with the positions alone");
   beside(d.initial_velocities.has_value(), canonical || d.damping, "initial_velocities",
          "a canonical energy");
+  rule(!d.initial_velocities || !(has(constraints) || d.symmetric_bracket), "initial_velocities",
+       "momenta do not follow from velocities in which constraints of the phase space or a second bracket "
+       "take part; expected all of the state in initial");
   beside(!d.velocities.empty(), lagrangian, "velocities", "lagrangian");
   beside(!d.chart_coordinates.empty(), has(chart), "chart_coordinates", "chart and chart_inverse");
   rule(has(field) || energy || form, "",

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
+#include <pfaff/core/facets/momenta_of_velocities.hpp>
 #include <pfaff/core/facets/taped_flows.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/systems/text/arguments.hpp>
 #include <pfaff/systems/text/followed_quantities.hpp>
-#include <pfaff/systems/text/initial_momenta.hpp>
 #include <pfaff/systems/text/legendre.hpp>
 
 namespace pfaff::text {
@@ -143,10 +143,10 @@ class Builder {
     const auto given = [&](Formula f) { return source_.given[index(f)]; };
     try {
       const std::vector<Real> p =
-          d_.lagrangian
-              ? momenta_of_lagrangian(*lagrangian(), q, v)
-              : momenta_of_energy(
-                    given(Formula::kinetic) ? given(Formula::kinetic) : given(Formula::hamiltonian), q, v);
+          d_.lagrangian ? momenta_of_lagrangian(*lagrangian(), q, v)
+                        : momenta_of_velocities(
+                              given(Formula::kinetic) ? given(Formula::kinetic) : given(Formula::hamiltonian),
+                              Real(0), q, v);
       source_.initial.insert(source_.initial.end(), p.begin(), p.end());
     } catch (const InputError& error) {
       refuse(written.place, 0, "initial_velocities: " + std::string(error.what()));
