@@ -5,6 +5,7 @@
 #include <pfaff/app/evaluation_text.hpp>
 #include <pfaff/app/state_file.hpp>
 #include <pfaff/bench/evaluation/evaluation.hpp>
+#include <pfaff/bench/runner/initial_state.hpp>
 #include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/bench/runner/terminal.hpp>
 
@@ -24,7 +25,8 @@ EvaluationSettings settings_of(const EvaluateOptions& options) {
   run.set = parse_settings(options.set);
   if (!options.state.empty()) {
     for (const auto& [key, value] : run.set)
-      if (key == "initial") throw InputError("--state and --set initial exclude each other");
+      if (key == "initial" || key == "initial_velocities")
+        throw InputError("--state and --set " + key + " exclude each other");
     run.t0.clear();
     read_state(options.state, run);
     if (!options.time.empty() && !run.t0.empty())
@@ -52,11 +54,13 @@ void add_evaluate(CLI::App& app, Common& common, Action& action) {
                   "Motion of a system with constraints (without: " + dirac_formulation().name() + " or " +
                       nonholonomic_formulation().name() + ")")
       ->type_name("FORMULATION");
-  sub->add_option("--set", options->set, "A parameter (nu=0.3) or the state, initial=a,b,...")
+  sub->add_option(
+         "--set", options->set,
+         "A parameter (nu=0.3) or the state: initial=a,b,..., or its velocities, initial_velocities=a,b,...")
       ->type_name("KEY=VALUE")
       ->expected(1)
       ->take_all();
-  sub->add_option("--state", options->state, "JSON file with the state: t, and z or q and p")
+  sub->add_option("--state", options->state, "JSON file with the state: t, and z, q and p or q and v")
       ->type_name("FILE");
   sub->add_option("--time", options->time, "The time, 0 without")->type_name("t");
   sub->add_option("--precision", options->precision, "The numbers; double without")->type_name("double|quad");

@@ -67,7 +67,8 @@ RunConfig config_of(const RunOptions& options) {
   if (!options.max_steps.empty()) settings.step_budget = parse_every(options.max_steps, "--max-steps");
   if (!options.state.empty()) {
     for (const auto& [key, value] : settings.set)
-      if (key == "initial") throw InputError("--state and --set initial exclude each other");
+      if (key == "initial" || key == "initial_velocities")
+        throw InputError("--state and --set " + key + " exclude each other");
     read_state(options.state, settings);
   }
   return config;
@@ -259,11 +260,12 @@ void add_run(CLI::App& app, Common& common, Action& action) {
   sub->add_option("--every", options->every,
                   "Sample every k-th step (default: about a thousand samples, 200 of processed methods)")
       ->type_name("k");
-  sub->add_option("--set", options->set, "A parameter (nu=0.3, integrator.order=4) or initial=a,b,...")
+  sub->add_option("--set", options->set,
+                  "A parameter (nu=0.3, integrator.order=4), initial=a,b,... or initial_velocities=a,b,...")
       ->type_name("KEY=VALUE")
       ->expected(1)
       ->take_all();
-  sub->add_option("--state", options->state, "JSON file with the initial state: t, and z or q and p")
+  sub->add_option("--state", options->state, "JSON file with the initial state: t, and z, q and p or q and v")
       ->type_name("FILE");
   sub->add_option("--precision", options->precision, "The numbers; double without")->type_name("double|quad");
   sub->add_option("--reference", options->reference,

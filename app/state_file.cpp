@@ -64,24 +64,31 @@ void read_state(const std::string& path, RunSettings& settings) {
   nlohmann::json j;
   ExactNumbers reader(j, path);
   if (!nlohmann::json::sax_parse(read_file(path), &reader) || !j.is_object())
-    throw InputError(path + ": expected a JSON object with t and z (or q and p)");
+    throw InputError(path + ": expected a JSON object with t and z (or q and p, or q and v)");
   for (const auto& [key, value] : j.items())
-    if (key != "t" && key != "z" && key != "q" && key != "p" && key != "schema")
-      throw InputError(path + ": " + unknown_name("key", key, {"t", "z", "q", "p"}));
+    if (key != "t" && key != "z" && key != "q" && key != "p" && key != "v" && key != "schema")
+      throw InputError(path + ": " + unknown_name("key", key, {"t", "z", "q", "p", "v"}));
   if (j.contains("t")) settings.t0 = number_text(j["t"], path);
-  std::vector<nlohmann::json> parts;
-  if (j.contains("z")) parts = {j["z"]};
-  if (j.contains("q") != j.contains("p") || j.contains("q") == j.contains("z"))
-    throw InputError(path + ": expected z, or q and p");
-  if (j.contains("q")) parts = {j["q"], j["p"]};
-  for (const nlohmann::json& part : parts) {
-    if (!part.is_array()) throw InputError(path + ": expected a list of numbers");
-    for (const nlohmann::json& x : part) settings.initial.push_back(number_text(x, path));
-  }
-  if (parts.size() == 2 && parts[0].size() != parts[1].size())
-    throw InputError(path + ": expected as many numbers in q as in p, got " +
-                     std::to_string(parts[0].size()) + " and " + std::to_string(parts[1].size()));
-  if (settings.initial.empty()) throw InputError(path + ": expected numbers, got an empty list");
+  const auto numbers = [&](const char* key) {
+    std::vector<std::string> list;
+    if (!j[key].is_array()) throw InputError(path + ": expected a list of numbers");
+    for (const nlohmann::json& x : j[key]) list.push_back(number_text(x, path));
+    if (list.empty()) throw InputError(path + ": expected numbers, got an empty list");
+    return list;
+  };
+  const bool z = j.contains("z"), q = j.contains("q"), p = j.contains("p"), v = j.contains("v");
+  if (z == q || q != (p != v) || (p && v)) throw InputError(path + ": expected z, q and p, or q and v");
+  settings.initial = numbers(z ? "z" : "q");
+  if (z) return;
+  const std::string second = p ? "p" : "v";
+  const std::vector<std::string> rest = numbers(second.c_str());
+  if (settings.initial.size() != rest.size())
+    throw InputError(path + ": expected as many numbers in q as in " + second + ", got " +
+                     std::to_string(settings.initial.size()) + " and " + std::to_string(rest.size()));
+  if (p)
+    settings.initial.insert(settings.initial.end(), rest.begin(), rest.end());
+  else
+    settings.initial_velocities = rest;
 }
 
 }  // namespace pfaff::app

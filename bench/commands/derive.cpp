@@ -106,7 +106,8 @@ int derive_command(const DerivationSettings& options, const Common& common) {
   if (common.json && options.emit != "counts")
     throw InputError("--json is for --emit counts; expected " + options.emit + " without it");
   const SplitSettings split = split_settings(system, nullptr, nullptr, settings);
-  if (!split.initial.empty()) throw InputError("--set initial: equations do not depend on a state");
+  if (!split.initial.empty() || !split.initial_velocities.empty())
+    throw InputError("--set initial: equations do not depend on a state");
   double seconds = HUGE_VAL;  // of one derivation; finding out which parameters are symbols takes several
   const Equations equations = with_named_parameters(system, split.system, [&](const Model& model) {
     const auto begin = std::chrono::steady_clock::now();

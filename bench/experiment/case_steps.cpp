@@ -41,6 +41,7 @@ void evaluate_numbers(ExperimentCase& one, const std::string& where) {
   std::vector<std::pair<std::string*, const char*>> numbers{{&one.time, "time"}};
   for (std::string& step : one.steps) numbers.emplace_back(&step, "steps");
   for (std::string& x : one.initial) numbers.emplace_back(&x, "initial");
+  for (std::string& x : one.initial_velocities) numbers.emplace_back(&x, "initial_velocities");
   // Making a system takes time, and most cases have numbers alone.
   if (std::all_of(numbers.begin(), numbers.end(), [](const auto& n) { return Real::parse(*n.first); }))
     return;

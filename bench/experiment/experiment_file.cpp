@@ -169,6 +169,7 @@ void read_case(const toml::table& table, const Part& part, Experiment& experimen
   one.time = c.required("time");
   const std::vector<GridPoint> points = points_of(c.assignment_lists("set"));
   one.initial = c.list_of_some("initial");
+  one.initial_velocities = c.list_of_some("initial_velocities");
   read_steps(c, one);
   one.conserved = c.text("conserved", "");
   one.asked = experiment.asked;

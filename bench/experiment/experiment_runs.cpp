@@ -41,6 +41,7 @@ ResolvedRun resolved(const Experiment& experiment, const ExperimentRun& run) {
   for (const auto& [key, value] : m.set)
     settings.set.emplace_back(key.starts_with("formulation.") ? key : "integrator." + key, value);
   settings.initial = c.initial;
+  settings.initial_velocities = c.initial_velocities;
   settings.compile = experiment.compile;
   settings.step = run.step;
   settings.tolerance = run.tolerance;

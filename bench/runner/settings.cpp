@@ -8,6 +8,7 @@
 #include <pfaff/bench/measure/constraints.hpp>
 #include <pfaff/bench/runner/asked_for.hpp>
 #include <pfaff/bench/runner/expressions.hpp>
+#include <pfaff/bench/runner/initial_state.hpp>
 #include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/bench/runner/stated_identities.hpp>
 #include <pfaff/bench/runner/steps.hpp>
@@ -89,9 +90,10 @@ SplitSettings split_settings(const SystemPlugin& system, const FormulationPlugin
   };
   for (const auto& setting : set) {
     const std::string &key = setting.first, &value = setting.second;
-    if (key == "initial") {
-      if (!split.initial.empty()) throw InputError("'initial' is set twice; expected one state");
-      split.initial = split_commas(value);
+    if (key == "initial" || key == "initial_velocities") {
+      std::vector<std::string>& numbers = key == "initial" ? split.initial : split.initial_velocities;
+      if (!numbers.empty()) throw InputError("'" + key + "' is set twice; expected one state");
+      numbers = split_commas(value);
       continue;
     }
     if (const auto named = std::find_if(owners.begin(), owners.end(),
@@ -109,7 +111,7 @@ SplitSettings split_settings(const SystemPlugin& system, const FormulationPlugin
                        knowing[1]->prefix + key);
     if (knowing.empty()) {
       const bool dotted = key.find('.') != std::string::npos;
-      std::vector<std::string> names{"initial"};
+      std::vector<std::string> names{"initial", "initial_velocities"};
       std::string of;
       for (const Owner& owner : owners) {
         of += (of.empty() ? "" : " or ") + owner.plugin->name();
@@ -123,36 +125,7 @@ SplitSettings split_settings(const SystemPlugin& system, const FormulationPlugin
   return split;
 }
 
-std::vector<Real> state_numbers(const Model& model, const std::vector<std::string>& texts,
-                                const std::string& what) {
-  const auto dimension = static_cast<std::size_t>(model.dimension());
-  if (texts.size() != dimension)
-    throw InputError(what + " state of " + model.name() + ": expected " + std::to_string(dimension) +
-                     " numbers, got " + std::to_string(texts.size()));
-  std::vector<Real> numbers;
-  for (std::size_t k = 0; k < dimension; ++k)
-    numbers.push_back(
-        finite_number(texts[k], what + " " + model.coordinates()[k].name + " of " + model.name()));
-  return numbers;
-}
-
 namespace {
-// The state written in `texts`, or the model's own initial state where `texts` is empty.
-std::vector<Real> initial_state(const Model& model, const std::vector<std::string>& texts) {
-  const auto dimension = static_cast<std::size_t>(model.dimension());
-  if (model.coordinates().size() != dimension)
-    throw InputError("system " + model.name() + " names " + std::to_string(model.coordinates().size()) +
-                     " coordinates; expected " + std::to_string(dimension));
-  if (!texts.empty()) return state_numbers(model, texts, "initial");
-  if (!model.initial().empty() && model.initial().size() != dimension)
-    throw InputError("system " + model.name() + " lists an initial state of " +
-                     std::to_string(model.initial().size()) + " numbers; expected " +
-                     std::to_string(dimension) + ", or --set initial=");
-  if (model.initial().size() != dimension)
-    throw InputError("system " + model.name() + " has no initial state of its own; expected --set initial=");
-  return model.initial();
-}
-
 // Refuses a state at which the velocity constraints of a system define no motion. `whole` is the system
 // before a formulation was applied, which may have solved the constraints.
 void check_independence(const Model& whole, const ResolvedRun& run) {
@@ -199,14 +172,16 @@ void check_consistency(const RunSettings& settings, ResolvedRun& run) {
   }
 }
 
-// The state that is asked for, in one of the two ways there are, as numbers; empty where it is not.
-std::vector<std::string> asked_state(const RunSettings& settings, const SplitSettings& split,
-                                     const Assignments& parameters) {
-  if (!settings.initial.empty() && !split.initial.empty())
-    throw InputError("'initial' is set twice, by itself and among the parameters; expected one state");
-  std::vector<std::string> state = settings.initial.empty() ? split.initial : settings.initial;
-  for (std::string& number : state) number = evaluated(number, "initial", parameters);
-  return state;
+// The state that is asked for, of each of the two places for it.
+AskedState asked_state(const RunSettings& settings, const SplitSettings& split) {
+  const auto either = [](const std::vector<std::string>& a, const std::vector<std::string>& b,
+                         const std::string& key) {
+    if (!a.empty() && !b.empty())
+      throw InputError("'" + key + "' is set twice, by itself and among the parameters; expected one state");
+    return a.empty() ? b : a;
+  };
+  return {either(settings.initial, split.initial, "initial"),
+          either(settings.initial_velocities, split.initial_velocities, "initial_velocities")};
 }
 }  // namespace
 
@@ -219,8 +194,8 @@ ResolvedState resolve_state(const RunSettings& settings) {
   if (formulation != nullptr) result.model = formulation->apply(result.model, split.formulation);
   if (settings.compile) result.model = compiled(result.model);
   const Assignments& parameters = result.model->parameters();
-  result.state = initial_state(*result.model, asked_state(settings, split, parameters));
   result.t = finite_number(evaluated(settings.t0, "time", parameters), "time");
+  result.state = initial_state(*result.model, asked_state(settings, split), result.t);
   return result;
 }
 
@@ -306,7 +281,6 @@ ResolvedRun resolve(const RunSettings& settings) {
 
   note_origins(run, system, method, read);
   const Assignments& parameters = run.model->parameters();
-  run.initial = initial_state(*run.model, asked_state(settings, split, parameters));
   for (const auto& [number, what] : {std::pair(&run.settings.t0, "initial time"),
                                      {&run.settings.time, "--time"},
                                      {&run.settings.step, "--step"},
@@ -316,6 +290,7 @@ ResolvedRun resolve(const RunSettings& settings) {
   run.time = finite_number(run.settings.time, "--time");
   if (!(run.time > Real(0))) throw InputError("--time: expected a duration > 0, got '" + settings.time + "'");
 
+  run.initial = initial_state(*run.model, asked_state(settings, split), run.t0);
   run.given_initial = run.initial;
   check_independence(*whole, run);
   check_consistency(settings, run);

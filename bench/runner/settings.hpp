@@ -39,7 +39,7 @@ struct RunSettings {
   std::string system, integrator;
   std::string formulation;  // empty: that of formulation_for() where the integrator needs a vector field
   Assignments set;          // nu=0.3, system.nu=0.3, integrator.order=4, initial=1,0.5
-  std::vector<std::string> initial;  // empty: the system's own initial state
+  std::vector<std::string> initial, initial_velocities;  // where `set` says nothing of the state
   std::string t0 = "0", step, tolerance, time;
   std::vector<std::string> absolute;  // beside the tolerance: none, one for all coordinates, or one for each
   std::int64_t every = 0;             // 0: chosen for about a thousand samples, 200 of processed methods
@@ -84,11 +84,12 @@ std::vector<T> absolute_tolerances(const ResolvedRun& run) {
 }
 
 /// Settings sorted by the plug-in they belong to. A bare key that two of the plug-ins know must be given as
-/// system.KEY, formulation.KEY or integrator.KEY (InputError otherwise). `initial` belongs to none of them
-/// and is taken out. `formulation` and `method` may be null where the run has none.
+/// system.KEY, formulation.KEY or integrator.KEY (InputError otherwise). The state, `initial` and
+/// `initial_velocities`, belongs to none of them and is taken out. `formulation` and `method` may be null
+/// where the run has none.
 struct SplitSettings {
   Assignments system, formulation, integrator;
-  std::vector<std::string> initial;
+  std::vector<std::string> initial, initial_velocities;
 };
 SplitSettings split_settings(const SystemPlugin& system, const FormulationPlugin* formulation,
                              const MethodPlugin* method, const Assignments& set);
@@ -99,12 +100,9 @@ struct ResolvedState {
   std::vector<Real> state;
   Real t;
 };
-/// Resolves and checks what belongs to the system and its formulation alone: names, parameters, `initial` and
+/// Resolves and checks what belongs to the system and its formulation alone: names, parameters, the state and
 /// `t0`. A system with constraints is taken in the formulation that formulation_for() gives.
 ResolvedState resolve_state(const RunSettings& settings);
-/// One finite number for each coordinate of the model; InputError, naming `what` ("initial"), otherwise.
-std::vector<Real> state_numbers(const Model& model, const std::vector<std::string>& texts,
-                                const std::string& what);
 
 /// Checks everything about a run: names, parameters, fit of method and system, state, step, horizon. Paths of
 /// files among the parameters become absolute.

@@ -29,20 +29,26 @@ class MeasuredFlows {
     for (const double x : coordinate_scales(*model_, now_, centre)) scales_.push_back(T(x));
   }
 
-  // phi_s o phi_t - phi_(s+t) for times of either sign, t = -s among them, in units of the sizes of the
-  // coordinates; not-a-number where a flow fails.
+  // phi_s o phi_t - phi_(s+t) for times of either sign, t = -s among them, in units of the sizes that the
+  // coordinates have or come to have on the way: one that starts next to zero may be moved far away.
+  // Not-a-number where a flow fails.
   double off_group(std::size_t part) {
     double worst = 0;
     for (const auto& [first, second] : {std::pair{3, 5}, {7, -4}, {6, -6}, {-2, -7}}) {
       const T s = T(first) * time_ / T(8), t = T(second) * time_ / T(8);
-      std::vector<T> there = start_, at_once = start_;
-      if (!flow(part, s, there) || !flow(part, t, there) || !flow(part, s + t, at_once)) return no_step;
-      for (std::size_t k = 0; k < start_.size(); ++k)
-        worst = std::max(worst, static_cast<double>(T(abs(there[k] - at_once[k])) / scales_[k]));
+      std::vector<T> first_end = start_, at_once = start_;
+      if (!flow(part, s, first_end)) return no_step;
+      std::vector<T> there = first_end;
+      if (!flow(part, t, there) || !flow(part, s + t, at_once)) return no_step;
+      for (std::size_t k = 0; k < start_.size(); ++k) {
+        const T size = std::max({scales_[k], T(abs(first_end[k])), T(abs(at_once[k]))});
+        worst = std::max(worst, static_cast<double>(T(abs(there[k] - at_once[k])) / size));
+      }
     }
     return worst;
   }
-  // The sum of the derivatives at h = 0 less the field, times the time, in the same units.
+  // The sum of the derivatives at h = 0 less the field, times the time, in units of the sizes of the
+  // coordinates or of what the field moves them by in the time.
   double off_field() {
     using D = StepDual<T>;
     const std::size_t n = start_.size();
@@ -55,8 +61,10 @@ class MeasuredFlows {
     }
     Problem<T>(model_).field(T(now_), In<T>(start_), Out<T>(field));
     double worst = 0;
-    for (std::size_t k = 0; k < n; ++k)
-      worst = std::max(worst, static_cast<double>(T(abs(sum[k] - field[k])) * time_ / scales_[k]));
+    for (std::size_t k = 0; k < n; ++k) {
+      const T size = std::max(scales_[k], T(abs(field[k])) * time_);
+      worst = std::max(worst, static_cast<double>(T(abs(sum[k] - field[k])) * time_ / size));
+    }
     return worst;
   }
   // How far the Jacobian of the flow is from keeping the structure of the system.

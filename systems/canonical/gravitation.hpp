@@ -81,16 +81,12 @@ class Gravitation {
   static constexpr std::size_t small_part = planetary::interaction;
   [[nodiscard]] int part_count() const { return self().softening().is(0) ? 2 : 0; }
   [[nodiscard]] std::vector<std::string> part_names() const {
-    if (part_count() == 0) return {};
-    return {"Kepler orbits", "interaction"};
+    return part_count() == 0 ? std::vector<std::string>{} : planetary::part_names();
   }
   template <class T>
   Status part_flow(std::size_t part, const T& h, In<T> z, Out<T> change) const {
     const auto of_body = [this](std::size_t body) { return mass<T>(body); };
-    const T constant(self().constant());
-    return part == planetary::kepler
-               ? planetary::kepler_part<T>(of_body, constant, count(), directions(), h, z, change)
-               : planetary::interaction_part<T>(of_body, constant, count(), directions(), h, z, change);
+    return planetary::part_flow<T>(part, of_body, T(self().constant()), count(), directions(), h, z, change);
   }
   template <class T>
   void reversal(const T& /*t*/, In<T> z, Out<T> reversed) const {

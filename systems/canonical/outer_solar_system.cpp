@@ -17,11 +17,12 @@ struct OuterSolarSystem : Gravitation<OuterSolarSystem> {
        pluto = Real::fraction(1, 130000000);
   static std::vector<Parameter> parameters() {
     using S = OuterSolarSystem;
-    const auto mass = [](Real S::*member, const char* name, const char* meaning = "mass") {
-      return parameter(member, name, "Msun", 1e-12, 10, meaning);
+    const auto mass = [](Real S::*member, const char* name, const std::string& of = "") {
+      return parameter(member, name, "Msun", 1e-12, 10,
+                       "mass" + of + "; what has none is a probe of restricted-n-body");
     };
     return {parameter(&S::gravitation, "gravitation", "au^3/(Msun d^2)", 0, 1, "constant of gravitation"),
-            mass(&S::sun, "sun", "mass, with the inner planets"),
+            mass(&S::sun, "sun", ", with the inner planets"),
             mass(&S::jupiter, "jupiter"),
             mass(&S::saturn, "saturn"),
             mass(&S::uranus, "uranus"),

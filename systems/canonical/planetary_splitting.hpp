@@ -152,6 +152,27 @@ Status kepler_part(const Mass& mass, const T& constant, std::size_t n, std::size
   return Status::converged;
 }
 
+/// Of r_i = r + d in `directions` directions: `difference` is r_i/|r_i|^3 - r/|r|^3, by Encke's method, and
+/// `pull` is r_i/|r_i|^3. `way` is d.
+template <class T>
+void pulls_apart(std::size_t directions, const std::array<T, 3>& r, const std::array<T, 3>& way,
+                 std::array<T, 3>& difference, std::array<T, 3>& pull) {
+  T square(0), far(0), mixed(0);
+  for (std::size_t x = 0; x < directions; ++x) {
+    pull[x] = r[x] + way[x];
+    square = square + r[x] * r[x];
+    far = far + pull[x] * pull[x];
+    mixed = mixed + way[x] * (way[x] + T(2) * r[x]);
+  }
+  const T w = mixed / square, ratio = T(1) + w, cube = ratio * sqrt(ratio);
+  const T shrunk = w * (T(3) + w * (T(3) + w)) / (cube * (T(1) + cube));
+  const T near_cube = T(1) / (square * sqrt(square)), far_cube = T(1) / (far * sqrt(far));
+  for (std::size_t x = 0; x < directions; ++x) {
+    difference[x] = (way[x] - shrunk * pull[x]) * near_cube;
+    pull[x] = pull[x] * far_cube;
+  }
+}
+
 /// The flow of the interaction: no change of positions, and h times the force -dB/dq of momenta.
 template <class T, class Mass>
 Status interaction_part(const Mass& mass, const T& constant, std::size_t n, std::size_t d, const T& h,
@@ -166,25 +187,18 @@ Status interaction_part(const Mass& mass, const T& constant, std::size_t n, std:
   for (std::size_t i = 2; i < n; ++i) {
     const T own = mass(i), inner = mass(0) + others, strength = scale * own;
     // The first body against Kepler's problem.
-    std::array<T, 3> r{}, jacobi{}, way{};
-    T square(0), far(0), mixed(0);
+    std::array<T, 3> r{}, way{}, difference{}, pull{};
     for (std::size_t x = 0; x < d; ++x) {
       r[x] = z[x * n + i] - z[x * n];
       way[x] = -(moment[x] / inner);
-      jacobi[x] = r[x] + way[x];
-      square = square + r[x] * r[x];
-      far = far + jacobi[x] * jacobi[x];
-      mixed = mixed + way[x] * (way[x] + T(2) * r[x]);
     }
-    const T w = mixed / square, ratio = T(1) + w, cube = ratio * sqrt(ratio);
-    const T shrunk = w * (T(3) + w * (T(3) + w)) / (cube * (T(1) + cube));
-    const T near_cube = T(1) / (square * sqrt(square)), far_cube = T(1) / (far * sqrt(far));
+    pulls_apart(d, r, way, difference, pull);
     for (std::size_t x = 0; x < d; ++x) {
-      const T difference = (way[x] - shrunk * jacobi[x]) * near_cube, pull = jacobi[x] * far_cube;
-      change[half + x * n + i] = change[half + x * n + i] + strength * (mass(0) * difference + others * pull);
-      change[half + x * n] = change[half + x * n] - strength * mass(0) * difference;
+      change[half + x * n + i] =
+          change[half + x * n + i] + strength * (mass(0) * difference[x] + others * pull[x]);
+      change[half + x * n] = change[half + x * n] - strength * mass(0) * difference[x];
       for (std::size_t j = 1; j < i; ++j)
-        change[half + x * n + j] = change[half + x * n + j] - strength * mass(j) * pull;
+        change[half + x * n + j] = change[half + x * n + j] - strength * mass(j) * pull[x];
     }
     // The others among each other.
     for (std::size_t j = 1; j < i; ++j) {
@@ -206,6 +220,16 @@ Status interaction_part(const Mass& mass, const T& constant, std::size_t n, std:
   for (std::size_t k = half; k < 2 * half; ++k)
     if (!isfinite(value_of(change[k]))) return Status::non_finite;
   return Status::converged;
+}
+
+inline std::vector<std::string> part_names() { return {"Kepler orbits", "interaction"}; }
+
+/// The flow of one of the two parts.
+template <class T, class Mass>
+Status part_flow(std::size_t part, const Mass& mass, const T& constant, std::size_t n, std::size_t d,
+                 const T& h, In<T> z, Out<T> change) {
+  return part == kepler ? kepler_part<T>(mass, constant, n, d, h, z, change)
+                        : interaction_part<T>(mass, constant, n, d, h, z, change);
 }
 }  // namespace planetary
 

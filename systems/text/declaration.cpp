@@ -119,7 +119,7 @@ std::vector<TextVelocityConstraint> read_velocity_constraints(const Item& value)
 
 std::vector<TextPart> read_parts(const Item& value) {
   if (value.kind != Kind::list || value.items.empty())
-    refuse(value, "parts: expected a list of { name = ..., change = [...] }");
+    refuse(value, "parts: expected a list of { name = ..., change = [...] }, or \"kepler\"");
   std::vector<TextPart> list;
   for (const Item& item : value.items) {
     Table table(item, "part");
@@ -187,7 +187,11 @@ TextDeclaration read_declaration(const Document& document) {
     d.symmetric_bracket = read_bracket(*value, "symmetric_bracket", d.path);
   if (const Item* value = root.find("velocity_constraints"))
     d.velocity_constraints = read_velocity_constraints(*value);
-  if (const Item* value = root.find("parts")) {
+  if (const Item* value = root.find("parts"); value != nullptr && value->kind == Kind::text) {
+    if (value->source.text != "kepler")
+      refuse(*value, unknown_name("splitting", value->source.text, {"kepler"}));
+    d.kepler_parts = value->source;
+  } else if (value != nullptr) {
     names.take(value->source, "h", "time of a flow");
     d.parts = read_parts(*value);
   }

@@ -61,6 +61,7 @@ struct TextDeclaration {
   std::optional<GivenBracket> bracket, symmetric_bracket;
   std::vector<TextVelocityConstraint> velocity_constraints;
   std::vector<TextPart> parts;
+  std::optional<Source> kepler_parts;  // instead: Kepler orbits and the interaction of bodies
   std::vector<TextInvariant> invariants;
 
   [[nodiscard]] const TextFormula* find(Formula formula) const {

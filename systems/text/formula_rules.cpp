@@ -71,10 +71,15 @@ void check_formulas(const TextDeclaration& d, const Item& root) {
   beside(d.symmetric_bracket.has_value(), energy && !d.damping, "symmetric_bracket",
          "hamiltonian, or kinetic and potential");
   beside(has(entropy), d.symmetric_bracket.has_value(), "entropy", "symmetric_bracket");
+  rule(!d.kepler_parts || (energies && !d.damping), "parts",
+       "parts = \"kepler\" is written beside kinetic and potential, or a lagrangian, without damping");
   beside(d.initial_velocities.has_value(), d.initial.has_value(), "initial_velocities",
          "initial, with the positions alone");
   beside(d.initial_velocities.has_value(), canonical || d.damping, "initial_velocities",
          "a canonical energy");
+  rule(!d.initial_velocities || !(has(constraints) || d.symmetric_bracket), "initial_velocities",
+       "momenta do not follow from velocities in which constraints of the phase space or a second bracket "
+       "take part; expected all of the state in initial");
   beside(!d.velocities.empty(), lagrangian, "velocities", "lagrangian");
   beside(!d.chart_coordinates.empty(), has(chart), "chart_coordinates", "chart and chart_inverse");
   rule(has(field) || energy || form, "",

@@ -142,4 +142,15 @@ LegendreTransform legendre_transform(const Tape& lagrangian, const std::vector<R
   return result;
 }
 
+std::vector<Real> momenta_of_lagrangian(const Tape& lagrangian, const std::vector<Real>& q,
+                                        const std::vector<Real>& v) {
+  Values point;
+  for (const Real& x : q) point.emplace_back(x);
+  for (const Real& x : v) point.emplace_back(x);
+  const Values slope = gradient(lagrangian, Recorded(0), point, Values{Recorded(1)});
+  std::vector<Real> p;
+  for (std::size_t k = q.size(); k < slope.size(); ++k) p.push_back(slope[k].constant());
+  return p;
+}
+
 }  // namespace pfaff::text

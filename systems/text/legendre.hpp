@@ -24,4 +24,9 @@ struct LegendreTransform {
 /// where it is not full, or L is not quadratic, `refused` says so and names the rank.
 LegendreTransform legendre_transform(const Tape& lagrangian, const std::vector<Real>& q);
 
+/// p = L_v(q, v) at the time zero, for a Lagrangian, a tape of (q, v); exact where the numbers stay
+/// fractions.
+std::vector<Real> momenta_of_lagrangian(const Tape& lagrangian, const std::vector<Real>& q,
+                                        const std::vector<Real>& v);
+
 }  // namespace pfaff::text

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 
+#include <pfaff/core/facets/momenta_of_velocities.hpp>
 #include <pfaff/core/facets/redundant_constraints.hpp>
 #include <pfaff/core/facets/taped_flows.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/systems/text/arguments.hpp>
 #include <pfaff/systems/text/followed_quantities.hpp>
-#include <pfaff/systems/text/initial_momenta.hpp>
+#include <pfaff/systems/text/kepler_parts.hpp>
 #include <pfaff/systems/text/legendre.hpp>
 
 namespace pfaff::text {
@@ -42,6 +43,7 @@ class Builder {
     if (d_.symmetric_bracket) take_bracket(*d_.symmetric_bracket, Formula::symmetric_tensor);
     if (!d_.velocity_constraints.empty()) take_velocity_constraints();
     if (!d_.parts.empty()) take_parts();
+    if (d_.kepler_parts) take_kepler_parts();
     if (!d_.invariants.empty()) take_invariants();
     const auto given = [&](Formula f) { return source_.given[index(f)] != nullptr; };
     source_.canonical =
@@ -151,10 +153,10 @@ class Builder {
     const auto given = [&](Formula f) { return source_.given[index(f)]; };
     try {
       const std::vector<Real> p =
-          d_.lagrangian
-              ? momenta_of_lagrangian(*lagrangian(), q, v)
-              : momenta_of_energy(
-                    given(Formula::kinetic) ? given(Formula::kinetic) : given(Formula::hamiltonian), q, v);
+          d_.lagrangian ? momenta_of_lagrangian(*lagrangian(), q, v)
+                        : momenta_of_velocities(
+                              given(Formula::kinetic) ? given(Formula::kinetic) : given(Formula::hamiltonian),
+                              Real(0), q, v);
       source_.initial.insert(source_.initial.end(), p.begin(), p.end());
     } catch (const InputError& error) {
       refuse(written.place, 0, "initial_velocities: " + std::string(error.what()));
@@ -256,6 +258,20 @@ class Builder {
       source_.part_names.push_back(part.name);
     }
     source_.flows = std::make_shared<const TapedFlowsFactory>(std::move(changes));
+  }
+
+  void take_kepler_parts() {
+    const auto given = [&](Formula f) { return source_.given[index(f)]; };
+    try {
+      if (given(Formula::kinetic) == nullptr)
+        throw InputError("lagrangian: expected a mass matrix that does not depend on positions");
+      source_.flows = std::make_shared<const PlanetaryFlowsFactory>(std::make_shared<const PlanetaryBodies>(
+          attracting_bodies(*given(Formula::kinetic), *given(Formula::potential), source_.initial)));
+    } catch (const InputError& error) {
+      refuse(*d_.kepler_parts, 0, "parts: " + std::string(error.what()));
+    }
+    source_.part_names = planetary::part_names();
+    source_.small_part = planetary::interaction;
   }
 
   void take_invariants() {

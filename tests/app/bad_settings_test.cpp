@@ -92,9 +92,9 @@ TEST(BadSettings, StateFile) {
                    Arguments{"state.json"} + fragments);
   };
   refused(R"({"t": 0, "z": [1, 0], "zz": 1})", {"unknown key 'zz'", "did you mean 'z'?"});
-  refused(R"({"t": 0})", {"expected z, or q and p"});
-  refused(R"({"q": [1]})", {"expected z, or q and p"});
-  refused(R"({"z": [1, 0], "q": [1], "p": [0]})", {"expected z, or q and p"});
+  refused(R"({"t": 0})", {"expected z, q and p, or q and v"});
+  refused(R"({"q": [1]})", {"expected z, q and p, or q and v"});
+  refused(R"({"z": [1, 0], "q": [1], "p": [0]})", {"expected z, q and p, or q and v"});
   refused(R"({"z": 1})", {"expected a list of numbers"});
   refused(R"({"z": []})", {"expected numbers, got an empty list"});
   refused(R"({"z": [1, null]})", {"expected numbers or decimal strings"});

@@ -135,6 +135,11 @@ TEST(Evaluate, StateFiles) {
                  {"--time", "state.json"});
   expect_refused(Arguments{"evaluate", "--system"} + from + Arguments{"--set", "initial=1,2"},
                  {"--state", "exclude"});
+  // Positions and velocities: p = M v with M = ((2, cos theta), (cos theta, 1)) of unit masses and lengths.
+  write(files / "state.json", R"({"q": [0.25, 0], "v": [0, 2.5]})");
+  const auto momenta = evaluated({"n-pendulum-angles", "--state", files / "state.json"})["state"];
+  EXPECT_NEAR(momenta[2].get<double>(), 2.5 * std::cos(0.25), 1e-15);
+  EXPECT_NEAR(momenta[3].get<double>(), 2.5, 1e-15);
   write(files / "state.json", R"({"z": [0.25, 2]})");
   EXPECT_EQ(evaluated(from + Arguments{"--time", "1"})["t"], 1.0);
   for (const auto& [bad, fragment] :

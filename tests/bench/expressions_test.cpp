@@ -54,9 +54,12 @@ TEST(Expressions, AreTakenByCasesOfExperiments) {
   one.set = {{"omega", "2"}};
   one.time = "20*pi";
   one.steps = {"0.1", "pi/(10*omega)"};
-  one.initial = {"pi/2", "0"};
+  one.initial = {"pi/2"};
+  one.initial_velocities = {"omega*3"};
   evaluate_numbers(one, "file");
   EXPECT_EQ(*Real::parse(one.time), *Real::parse(full_turn) * Real(10));
+  EXPECT_EQ(*Real::parse(one.initial[0]), *Real::parse(full_turn) / Real(4));
+  EXPECT_EQ(one.initial_velocities[0], "6");
   EXPECT_EQ(one.steps[0], "0.1");
   EXPECT_EQ(*Real::parse(one.steps[1]), *Real::parse(full_turn) / Real(40));
   one.time = "20*pe";

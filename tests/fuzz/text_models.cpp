@@ -89,7 +89,9 @@ class TextModel {
       add("velocity_constraints",
           "[{ row = [" + quoted(positions()) + "], b = 1, name = " + quoted(name("blade")) + " }]");
     if (choices_.once_in(12))
-      add("parts", "[{ name = " + quoted(name("whole")) + ", change = " + list(both(), both()) + " }]");
+      add("parts", choices_.once_in(3)
+                       ? "\"kepler\""
+                       : "[{ name = " + quoted(name("whole")) + ", change = " + list(both(), both()) + " }]");
     if (choices_.once_in(12)) add("friction", "[" + quoted(both() + "^2") + "]");
     if (choices_.once_in(12)) add("exact_solution", list(q() + " + " + p() + "*elapsed", p() + " - t0"));
     if (choices_.once_in(12)) add("constraints", list(q(), p()));

@@ -1,13 +1,16 @@
-#include <pfaff/systems/text/initial_momenta.hpp>
+#include <pfaff/core/facets/momenta_of_velocities.hpp>
 
 #include <algorithm>
+#include <optional>
+#include <string>
 
 #include <pfaff/core/errors/errors.hpp>
+#include <pfaff/core/facets/model.hpp>
 #include <pfaff/core/linear/lu.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/replay.hpp>
 
-namespace pfaff::text {
+namespace pfaff {
 
 namespace {
 // The size of the largest number; not-a-number where one is.
@@ -20,9 +23,12 @@ Quad largest_of(const std::vector<Quad>& x) {
 // H_p - v, and the matrix H_pp, at positions that stay the same.
 class VelocityEquations {
  public:
-  VelocityEquations(const std::shared_ptr<const Tape>& energy, const std::vector<Real>& q,
+  VelocityEquations(const std::shared_ptr<const Tape>& energy, const Real& time, const std::vector<Real>& q,
                     const std::vector<Real>& v)
-      : m_(v.size()), point_(static_cast<std::size_t>(energy->inputs)), values_(m_ * (1 + point_.size())) {
+      : m_(v.size()),
+        time_(time.quad()),
+        point_(static_cast<std::size_t>(energy->inputs)),
+        values_(m_ * (1 + point_.size())) {
     for (const Real& x : v) wanted_.push_back(x.quad());
     first_ = point_.size() - m_;
     for (std::size_t k = 0; k < first_; ++k) point_[k] = q[k].quad();
@@ -41,7 +47,7 @@ class VelocityEquations {
   // H_p - v at these momenta.
   std::vector<Quad> residual(const std::vector<Quad>& p) {
     std::copy(p.begin(), p.end(), point_.begin() + static_cast<std::ptrdiff_t>(first_));
-    (*replay_)(Quad(0), point_.data(), values_.data());
+    (*replay_)(time_, point_.data(), values_.data());
     std::vector<Quad> out(m_);
     for (std::size_t k = 0; k < m_; ++k) out[k] = values_[k] - wanted_[k];
     return out;
@@ -61,28 +67,29 @@ class VelocityEquations {
 
  private:
   std::size_t m_, first_ = 0;
+  Quad time_;
   std::vector<Quad> point_, values_, wanted_;
   std::optional<Replay<Quad>> replay_;
 };
 }  // namespace
 
-std::vector<Real> momenta_of_lagrangian(const Tape& lagrangian, const std::vector<Real>& q,
-                                        const std::vector<Real>& v) {
-  std::vector<Recorded> point;
-  for (const Real& x : q) point.emplace_back(x);
-  for (const Real& x : v) point.emplace_back(x);
-  const std::vector<Recorded> one{Recorded(1)};
-  const std::vector<Recorded> slope = gradient(lagrangian, Recorded(0), point, one);
-  std::vector<Real> p;
-  for (std::size_t k = q.size(); k < slope.size(); ++k) p.push_back(slope[k].constant());
-  return p;
+std::shared_ptr<const Tape> energy_of_velocities(const Model& model) {
+  const FacetSet content = model.content();
+  const bool in_phase_space = content.has(Facet::constraints) && !content.has(Facet::holonomic);
+  if (in_phase_space || content.has(Facet::metriplectic)) return nullptr;
+  if (content.meets(facets(Facet::separable, Facet::conformal))) return model.tape(Formula::kinetic);
+  return model.canonical() && model.has_energy() ? model.tape(Formula::hamiltonian) : nullptr;
 }
 
-std::vector<Real> momenta_of_energy(const std::shared_ptr<const Tape>& energy, const std::vector<Real>& q,
-                                    const std::vector<Real>& v) {
+std::vector<Real> momenta_of_velocities(const std::shared_ptr<const Tape>& energy, const Real& t,
+                                        const std::vector<Real>& q, const std::vector<Real>& v) {
   constexpr int most_iterations = 100, most_halvings = 30;
+  constexpr std::size_t most = 2000;  // the matrix H_pp is dense
+  if (v.size() > most)
+    throw InputError("expected at most " + std::to_string(most) + " positions beside velocities, got " +
+                     std::to_string(v.size()) + "; give momenta instead");
   constexpr double round_off = 1e-28;
-  VelocityEquations velocities(energy, q, v);
+  VelocityEquations velocities(energy, t, q, v);
   std::vector<Quad> p(v.size()), residual = velocities.residual(p);
   const Quad scale = std::max(velocities.scale(), largest_of(residual));
   bool better = true;
@@ -101,8 +108,8 @@ std::vector<Real> momenta_of_energy(const std::shared_ptr<const Tape>& energy, c
   }
   if (!(largest_of(residual) <= Quad(round_off) * scale))
     throw InputError(
-        "no momenta p with H_p = v were found from p = 0; expected initial momenta in `initial`");
+        "no momenta p with H_p = v were found from p = 0; expected momenta in `initial` instead");
   return {p.begin(), p.end()};
 }
 
-}  // namespace pfaff::text
+}  // namespace pfaff
