@@ -136,7 +136,8 @@ std::string range_of(const Parameter& p) {
 void Parameter::assign(void* object, const std::string& text, std::string_view owner) const {
   const auto refuse = [&](const std::string& expected) {
     throw InputError("parameter '" + name + "' of " + std::string(owner) + ": expected " + expected + " in " +
-                     range_of(*this) + ", got '" + text + "'");
+                     range_of(*this) + ", got '" + text + "'" +
+                     (meaning.empty() ? "" : " (" + meaning + ")"));
   };
   if (kind == Kind::file) {
     write(object, text);
