@@ -51,8 +51,8 @@ void print(const nlohmann::json& j) {
       return std::any_of(rows_of.begin(), rows_of.end(),
                          [&](const auto& row) { return row.contains(column); });
     };
-    for (const char* column : {"name", "initial", "default", "range", "order", "formulation", "expected",
-                               "origin", "unit", "title", "steps", "preserves", "meaning"})
+    for (const char* column : {"name", "symbol", "initial", "default", "range", "order", "formulation",
+                               "expected", "origin", "unit", "title", "steps", "preserves", "meaning"})
       if (has(column) && !(column == std::string("unit") && has("range"))) columns.emplace_back(column);
     for (const std::string& column : columns) rows[0].push_back(rows[0].empty() ? "  " + column : column);
     for (const auto& item : value) {

@@ -1,9 +1,11 @@
 #include <pfaff/app/description.hpp>
 
 #include <algorithm>
+#include <map>
 
 #include <pfaff/bench/experiment/automatic_steps.hpp>
 #include <pfaff/bench/experiment/experiment.hpp>
+#include <pfaff/bench/runner/asked_for.hpp>
 #include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/bench/runner/terminal.hpp>
 #include <pfaff/core/bracket.hpp>
@@ -47,12 +49,49 @@ nlohmann::json formulations_of(const std::shared_ptr<const Model>& model) {
   return names;
 }
 
+// What the literature and the documentation write for a formula.
+std::string symbol_of(Formula formula) {
+  using enum Formula;
+  static const std::map<Formula, std::string> symbols{{field, "X, dz/dt = X(z, t)"},
+                                                      {field_jacobian, "dX/dz"},
+                                                      {hamiltonian, "H"},
+                                                      {hamiltonian_gradient, "grad H"},
+                                                      {poisson_tensor, "Pi, X = Pi grad H"},
+                                                      {casimirs, "C, Pi grad C = 0"},
+                                                      {kinetic, "T, H = T + V"},
+                                                      {potential, "V, H = T + V"},
+                                                      {force, "-dV/dq"},
+                                                      {velocity, "dT/dp"},
+                                                      {birkhoffian, "B of F.dz - B dt"},
+                                                      {one_form, "F of F.dz - B dt"},
+                                                      {structure, "K of K z' + D = 0"},
+                                                      {covector, "D of K z' + D = 0"},
+                                                      {chart, "y(z, t)"},
+                                                      {chart_inverse, "z(y, t)"},
+                                                      {chart_hamiltonian, "H(y, t)"},
+                                                      {chart_field, "Y, dy/dt = Y(y, t)"},
+                                                      {chart_field_jacobian, "dY/dy"},
+                                                      {alpha, "w^ and w"},
+                                                      {holonomic, "phi(q, t) = 0"},
+                                                      {friction, "lambda, of each momentum"},
+                                                      {constraints, "phi(z, t) = 0"},
+                                                      {constraint_gradients, "dphi/dz"},
+                                                      {velocity_constraints, "A of A v + b = 0"},
+                                                      {velocity_offsets, "b of A v + b = 0"},
+                                                      {symmetric_tensor, "G, symmetric"},
+                                                      {entropy, "S"},
+                                                      {invariants, "I"},
+                                                      {exact_solution, "z(t)"},
+                                                      {reversal, "rho"}};
+  return symbols.at(formula);
+}
+
 // The formulas that make what a model offers, and all that its author wrote: for each whether it is written,
 // and if not, what it is derived from.
 nlohmann::json formulas_of(const Model& model) {
   nlohmann::json list = nlohmann::json::array();
   for (const FormulaRow& row : formula_table) {
-    nlohmann::json j{{"name", row.name}};
+    nlohmann::json j{{"name", row.name}, {"symbol", symbol_of(row.formula)}};
     if (model.given(row.formula)) {
       j["origin"] = "written, " + std::string(row.written);
     } else {
@@ -230,7 +269,8 @@ nlohmann::json describe_experiment(const std::string& name) {
 
 }  // namespace
 
-std::vector<nlohmann::json> describe(const std::string& name, const std::vector<std::string>& also_known) {
+std::vector<nlohmann::json> describe(const std::string& asked, const std::vector<std::string>& also_known) {
+  const std::string name = spelled(asked);
   if (names_method_table(name)) return {describe_method(integrator_named(name))};
   std::vector<nlohmann::json> found;
   if (text::is_text_file(name))

@@ -1,17 +1,18 @@
 #include <pfaff/app/state_file.hpp>
 
-#include <pfaff/bench/runner/json.hpp>
 #include <set>
 
 #include <pfaff/bench/runner/files.hpp>
+#include <pfaff/bench/runner/json.hpp>
+#include <pfaff/core/text/source.hpp>
 
 namespace pfaff::app {
 
 namespace {
 // A JSON parser that keeps numbers as the text they are written as, because a double would lose digits.
 struct ExactNumbers : nlohmann::detail::json_sax_dom_parser<nlohmann::json> {
-  ExactNumbers(nlohmann::json& result, const std::string& path)
-      : json_sax_dom_parser(result, false), path_(path) {}
+  ExactNumbers(nlohmann::json& result, const std::string& path, const std::string& contents)
+      : json_sax_dom_parser(result, false), path_(path), contents_(contents) {}
   // Of a key that is there twice the parser keeps the last; which one was meant, nobody knows.
   bool key(std::string& name) {
     if (depth_ == 1 && !keys_.insert(name).second)
@@ -38,6 +39,12 @@ struct ExactNumbers : nlohmann::detail::json_sax_dom_parser<nlohmann::json> {
     std::string text = written;
     return string(text);
   }
+  // The place is that of the last byte that was read.
+  bool parse_error(std::size_t read, const std::string& last, const nlohmann::detail::exception& /*error*/) {
+    text::refuse({contents_, path_}, read == 0 ? 0 : read - 1,
+                 "expected a JSON object with t and z (or q and p), " +
+                     (read > contents_.size() ? "which ends unfinished" : "got '" + last + "'"));
+  }
 
  private:
   // Values are copied by a function that calls itself for each level, so there is a limit to these.
@@ -47,7 +54,7 @@ struct ExactNumbers : nlohmann::detail::json_sax_dom_parser<nlohmann::json> {
       throw InputError(path_ + ": expected lists of numbers, got lists inside one another");
   }
 
-  const std::string& path_;
+  const std::string &path_, &contents_;
   int depth_ = 0;
   std::set<std::string> keys_;
 };
@@ -62,8 +69,9 @@ std::string number_text(const nlohmann::json& value, const std::string& where) {
 
 void read_state(const std::string& path, RunSettings& settings) {
   nlohmann::json j;
-  ExactNumbers reader(j, path);
-  if (!nlohmann::json::sax_parse(read_file(path), &reader) || !j.is_object())
+  const std::string contents = read_file(path);
+  ExactNumbers reader(j, path, contents);
+  if (!nlohmann::json::sax_parse(contents, &reader) || !j.is_object())
     throw InputError(path + ": expected a JSON object with t and z (or q and p, or q and v)");
   for (const auto& [key, value] : j.items())
     if (key != "t" && key != "z" && key != "q" && key != "p" && key != "v" && key != "schema")

@@ -7,12 +7,12 @@
 
 #include <pfaff/bench/commands/commands.hpp>
 #include <pfaff/bench/derivation/named_parameters.hpp>
+#include <pfaff/bench/runner/asked_for.hpp>
 #include <pfaff/bench/runner/settings.hpp>
 #include <pfaff/bench/runner/terminal.hpp>
 #include <pfaff/core/emit/emitter.hpp>
 #include <pfaff/core/errors/errors.hpp>
 #include <pfaff/core/system.hpp>
-#include <pfaff/systems/text/text_system.hpp>
 
 namespace pfaff {
 
@@ -99,7 +99,7 @@ int derive_command(const DerivationSettings& options, const Common& common) {
   Assignments settings = options.set;
   const DerivationOptions chosen{take_friction_form(settings), take_order(settings, options.method),
                                  take_elimination(settings)};
-  const SystemPlugin& system = system_named(options.system);
+  const SystemPlugin& system = system_asked_for(options.system);
   const std::vector<std::string> known = derivation_forms();
   if (std::find(known.begin(), known.end(), options.emit) == known.end())
     throw InputError(unknown_name("--emit", options.emit, known));

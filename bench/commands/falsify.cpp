@@ -7,6 +7,7 @@
 
 #include <pfaff/bench/commands/commands.hpp>
 #include <pfaff/bench/falsification/falsify.hpp>
+#include <pfaff/bench/runner/asked_for.hpp>
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/bench/runner/interruption.hpp>
 #include <pfaff/bench/runner/settings.hpp>
@@ -15,8 +16,6 @@
 #include <pfaff/bench/verification/random_checks.hpp>
 #include <pfaff/core/numbers/formatted.hpp>
 #include <pfaff/core/system.hpp>
-#include <pfaff/integrators/tables/method_table.hpp>
-#include <pfaff/systems/text/text_system.hpp>
 
 namespace pfaff {
 
@@ -41,7 +40,7 @@ std::vector<ClaimUnderTest> tests_of(const FalsificationOptions& options) {
   std::optional<Claim> claim;
   if (!options.claim.empty()) claim = claim_named(options.claim);
   if (!options.all)
-    return claims_under_test(integrator_named(options.method), options.set, claim, options.seed);
+    return claims_under_test(integrator_asked_for(options.method), options.set, claim, options.seed);
   std::vector<ClaimUnderTest> tests;
   for (const MethodPlugin* plugin : integrators().all())
     for (ClaimUnderTest& test : claims_under_test(*plugin, {}, claim, options.seed))
@@ -162,8 +161,8 @@ int show(const FalsificationOptions& options, const Common& common) {
   if (options.all || options.method.empty() || options.claim.empty())
     throw InputError("--system: expected an integrator and its --claim beside it");
   const Claim claim = claim_named(options.claim);
-  const auto method = integrator_named(options.method).make(options.set);
-  const auto system = system_named(options.system).make({});
+  const auto method = integrator_asked_for(options.method).make(options.set);
+  const auto system = system_asked_for(options.system).make({});
   JudgedStep at{model_in_scope(*method, claim, system), system->initial(), number_of(options.at, "--at"),
                 number_of(options.step, "--step"), options.steps};
   if (!(at.step > Real(0))) throw InputError("--step: expected a number above 0, got " + options.step);

@@ -19,38 +19,85 @@ std::vector<std::string> chosen_papers(const ReproductionOptions& options) {
   return options.paper.empty() ? papers() : std::vector<std::string>{options.paper};
 }
 
-// A row whose texts do not fit beside each other.
-std::string block(const ReproducedRow& row, const std::string& difference) {
-  return paragraph(row.id) + table({{"  printed", row.printed},
-                                    {"  ours", row.ours},
-                                    {"  difference", difference},
-                                    {"  status", row.status}});
+// The rows in the order of the paper: by the first item that each names. Sections write theirs by subject.
+void put_in_order(std::vector<ReproducedRow>& rows, const std::vector<PaperItem>& items) {
+  const auto place = [&](const ReproducedRow& row) {
+    const std::string first = named_items(row.equation, items).front();
+    return std::find_if(items.begin(), items.end(),
+                        [&](const PaperItem& item) { return item.name == first; }) -
+           items.begin();
+  };
+  std::stable_sort(rows.begin(), rows.end(),
+                   [&](const ReproducedRow& a, const ReproducedRow& b) { return place(a) < place(b); });
+}
+
+// Rows on lines of four columns, whose widths are the same in the whole output, and those that are too wide
+// for one in blocks of lines between them. A line says nothing of the difference, which is seen.
+class RowPrinter {
+ public:
+  explicit RowPrinter(std::size_t columns)
+      : columns_(columns),
+        value_((columns - status_ - 3 * gap_) * 2 / 7),
+        id_(columns - status_ - 3 * gap_ - 2 * value_) {}
+
+  [[nodiscard]] std::string head() const { return line("published", "printed", "ours", "status"); }
+  [[nodiscard]] std::string row(const ReproducedRow& row) const {
+    if (row.id.size() <= id_ && row.printed.size() <= value_ && row.ours.size() <= value_)
+      return line(row.id, row.printed, row.ours, row.status);
+    TableRows block{{"  printed", row.printed}, {"  ours", row.ours}};
+    if (!row.evidence.printed.empty()) block.push_back({"  difference", difference(row)});
+    block.push_back({"  status", row.status});
+    return paragraph(row.id, columns_) + table(block, {}, columns_);
+  }
+
+ private:
+  [[nodiscard]] std::string line(const std::string& id, const std::string& printed, const std::string& ours,
+                                 const std::string& status) const {
+    const std::string gap(gap_, ' ');
+    return printable(padded(id, id_) + gap + padded(printed, value_) + gap + padded(ours, value_) + gap +
+                     status) +
+           '\n';
+  }
+  static std::string padded(std::string text, std::size_t width) {
+    if (text.size() < width) text.resize(width, ' ');
+    return text;
+  }
+  // Rounding noise is no difference.
+  static std::string difference(const ReproducedRow& row) {
+    return row.difference <= at_round_off ? "0" : formatted("%.1e", row.difference);
+  }
+
+  static constexpr std::size_t gap_ = 2, status_ = 11;  // "qualitative"
+  std::size_t columns_, value_, id_;
+};
+
+// What is said of misprints and of rows without numbers, each once, by the item that it speaks of.
+TableRows notes_of(const std::vector<ReproducedRow>& rows) {
+  TableRows notes;
+  for (const ReproducedRow& r : rows) {
+    if (r.erratum.empty()) continue;
+    const std::vector<std::string> note{
+        r.status, r.erratum.starts_with(r.equation) ? r.erratum : r.id + ": " + r.erratum};
+    if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+  }
+  return notes;
 }
 
 void print_rows(const std::string& paper, const std::vector<ReproducedRow>& rows) {
-  constexpr std::size_t widest_id = 34, widest_value = 20;
-  std::vector<std::vector<std::string>> lines{{"published", "printed", "ours", "difference", "status"}};
-  std::string blocks;
+  const std::size_t columns = std::min<std::size_t>(80, terminal_columns());
   const auto count = [&](const char* status) {
     return std::to_string(
         std::count_if(rows.begin(), rows.end(), [&](const ReproducedRow& r) { return r.status == status; }));
   };
-  for (const ReproducedRow& r : rows) {
-    const std::string difference = formatted("%.1e", r.difference);
-    if (r.id.size() > widest_id || r.printed.size() > widest_value || r.ours.size() > widest_value) {
-      blocks += block(r, difference);
-    } else {
-      lines.push_back({r.id, r.printed, r.ours, difference, r.status});
-    }
-  }
-  std::cout << paper << '\n' << (lines.size() > 1 ? table(lines) : std::string()) << blocks;
-  std::vector<std::vector<std::string>> notes;
-  for (const ReproducedRow& r : rows)
-    if (!r.erratum.empty()) notes.push_back({r.status, r.id + ": " + r.erratum});
-  std::cout << table(notes) << '\n'
-            << rows.size() << " rows: " << count("reproduced") << " reproduced, " << count("improved")
-            << " improved, " << count("erratum") << " errata, " << count("qualitative") << " qualitative"
-            << (ok(rows) ? "" : ", the rest FAILED") << '\n';
+  const RowPrinter printer(columns);
+  std::cout << paper << '\n' << printer.head();
+  for (const ReproducedRow& r : rows) std::cout << printer.row(r);
+  std::cout << '\n'
+            << table(notes_of(rows), {}, columns) << '\n'
+            << paragraph(std::to_string(rows.size()) + " rows: " + count("reproduced") + " reproduced, " +
+                             count("improved") + " improved, " + count("erratum") + " errata, " +
+                             count("qualitative") + " qualitative" + (ok(rows) ? "" : ", the rest FAILED"),
+                         columns);
 }
 
 // What can be reproduced, without doing it: of every paper the number of its items, or every item of one.
@@ -162,6 +209,7 @@ int reproduce_command(const ReproductionOptions& options, const Common& common) 
     std::vector<ReproducedRow> rows;
     try {
       rows = reproduce(paper, options.section);
+      put_in_order(rows, items_of(paper));
     } catch (const BudgetSpent& spent) {
       end_interrupted(spent, std::to_string(done) + " of " + std::to_string(chosen.size()) +
                                  " papers were reproduced, and " + paper + " was not finished");

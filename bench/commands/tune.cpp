@@ -5,14 +5,13 @@
 #include <optional>
 
 #include <pfaff/bench/commands/commands.hpp>
+#include <pfaff/bench/runner/asked_for.hpp>
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/bench/runner/interruption.hpp>
 #include <pfaff/bench/runner/terminal.hpp>
 #include <pfaff/bench/tuning/tuned_splitting.hpp>
 #include <pfaff/bench/verification/check.hpp>
 #include <pfaff/core/facets/quadratic_energy.hpp>
-#include <pfaff/integrators/tables/method_table.hpp>
-#include <pfaff/systems/text/text_system.hpp>
 
 namespace pfaff {
 
@@ -22,7 +21,7 @@ namespace fs = std::filesystem;
 
 // The shadow terms of a registered splitting or one of a file, on the system.
 double error_of(const std::string& method, const SplittingLogarithm& logarithm, const ShadowTerms& terms) {
-  const auto theory = order_theory(integrator_named(method).name(), {});
+  const auto theory = order_theory(integrator_asked_for(method).name(), {});
   if (!theory || theory->kind != "words" || theory->sums.size() != theory->coefficients.size())
     throw InputError("--beside " + method + ": expected a splitting by its table of coefficients");
   std::vector<PartialFlow> flows;
@@ -65,7 +64,7 @@ int tune_command(const TuningOptions& options, const Common& common) {
   if (!options.out.empty() && fs::path(options.out).extension() != ".toml")
     throw InputError("--out '" + options.out + "': expected a file that ends in .toml");
   if (!options.out.empty()) check_new_file(options.out, "--out");
-  const SystemPlugin& system = system_named(options.system);
+  const SystemPlugin& system = system_asked_for(options.system);
   const auto model = system.make(options.set);
   TuningSettings settings = options.tuning;
   settings.parts = parts_for(*model, settings);

@@ -1,18 +1,23 @@
 #include <pfaff/bench/reproduce/rows.hpp>
 
+#include <cmath>
+
 #include <pfaff/core/errors/budget.hpp>
 
 namespace pfaff {
 
 std::string shown(const Numbers& x) {
+  Quad largest(1);
+  for (const Quad& v : x)
+    if (abs(v) > largest) largest = abs(v);
   std::string text;
   for (const Quad& v : x) {
     if (!text.empty()) text += ' ';
-    text += to_string(v, 6);
+    text += abs(v) <= Quad(at_round_off) * largest ? "0" : to_string(v, 6);
   }
   return text;
 }
-std::string shown(double x) { return to_string(Quad(x), 4); }
+std::string shown(double x) { return std::abs(x) <= at_round_off ? "0" : to_string(Quad(x), 4); }
 
 void Rows::add(const std::string& equation, const std::string& what, const Texts& texts, Evidence evidence,
                const std::string& entry) {

@@ -11,9 +11,9 @@
 
 namespace pfaff {
 
-/// Six digits of each number.
+/// Six digits of each number; 0 for what is no more than round-off of the largest of them, or of 1.
 std::string shown(const Numbers& x);
-/// Four digits.
+/// Four digits; 0 for round-off of 1.
 std::string shown(double x);
 
 /// What stands in a row without numbers to compare: texts instead of what is printed and of what is ours.

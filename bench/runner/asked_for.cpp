@@ -3,26 +3,28 @@
 #include <algorithm>
 #include <cctype>
 
+#include <pfaff/core/bracket.hpp>
+#include <pfaff/core/formulation.hpp>
 #include <pfaff/integrators/tables/method_table.hpp>
 #include <pfaff/systems/text/text_system.hpp>
 
 namespace pfaff {
 
-namespace {
-// The name in small letters, as names of plug-ins are, where there is none of that name as it stands.
-template <class P>
-std::string spelled(const Registry<P>& registry, const std::string& name) {
+std::string spelled(const std::string& name) {
   std::string small(name);
   for (char& c : small) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return registry.find(name) == nullptr && registry.find(small) != nullptr ? small : name;
+  const bool registered = systems().find(small) != nullptr || integrators().find(small) != nullptr ||
+                          brackets().find(small) != nullptr || formulations().find(small) != nullptr;
+  return registered ? small : name;
 }
 
+namespace {
 // InputError, which says so, where a name of one kind is that of another.
 template <class P, class Other>
 std::string of_its_kind(const Registry<P>& registry, const Registry<Other>& others, const std::string& name,
                         const char* kind, const char* other) {
-  std::string found = spelled(registry, name);
-  if (registry.find(found) == nullptr && others.find(spelled(others, name)) != nullptr)
+  std::string found = spelled(name);
+  if (registry.find(found) == nullptr && others.find(found) != nullptr)
     throw InputError("'" + name + "' is " + other + "; expected " + kind);
   return found;
 }
@@ -46,8 +48,9 @@ const MethodPlugin& integrator_asked_for(const std::string& name) {
 }
 
 std::string what_to_do(const MethodInstance& method, const Model& model) {
+  std::string text;
   if (method.needs().has(Facet::separable) && model.facets().has(Facet::hamiltonian))
-    return "; kinetic and potential energies that are written apart make a system separable";
+    text = "; kinetic and potential energies that are written apart make a system separable";
   constexpr std::size_t most = 6;
   // Those that keep most of what the system has come first.
   std::vector<std::pair<std::size_t, std::string>> fitting;
@@ -55,8 +58,8 @@ std::string what_to_do(const MethodInstance& method, const Model& model) {
     fitting.emplace_back(claims_in_scope(made->preserves(model), model).size(), other->name());
   std::stable_sort(fitting.begin(), fitting.end(),
                    [](const auto& one, const auto& other) { return one.first > other.first; });
-  if (fitting.empty()) return {};
-  std::string text = "; methods that fit: ";
+  if (fitting.empty()) return text;
+  text += "; methods that fit: ";
   for (std::size_t k = 0; k < std::min(most, fitting.size()); ++k)
     text += (k == 0 ? "" : ", ") + fitting[k].second;
   return text + (fitting.size() > most ? ", ... (pfaff describe " + model.name() + ")" : "");

@@ -8,6 +8,9 @@
 
 namespace pfaff {
 
+/// A name as plug-ins are registered, in small letters, where it is that of one in others; else as it stands.
+std::string spelled(const std::string& name);
+
 /// The system or integrator of that name, in whatever letters, or of that file. InputError for an unknown
 /// name, which says so where it is that of the other kind.
 const SystemPlugin& system_asked_for(const std::string& name);

@@ -1,5 +1,7 @@
 #include <pfaff/bench/runner/motion.hpp>
 
+#include <pfaff/bench/runner/asked_for.hpp>
+
 namespace pfaff {
 
 namespace {
@@ -19,7 +21,7 @@ const FormulationPlugin& default_formulation(const Model& model) {
 }
 
 const FormulationPlugin* formulation_for(const SystemPlugin& system, const std::string& name) {
-  const FormulationPlugin* named = name.empty() ? nullptr : &formulations().get(name, "formulation");
+  const FormulationPlugin* named = name.empty() ? nullptr : &formulations().get(spelled(name), "formulation");
   if (system.constrained())
     return named != nullptr ? named : &formulation_of_kind(system.constrains_velocities());
   if (named != nullptr)

@@ -3,6 +3,7 @@
 #include <map>
 #include <mutex>
 
+#include <pfaff/bench/runner/asked_for.hpp>
 #include <pfaff/bench/runner/interruption.hpp>
 #include <pfaff/bench/runner/parallel.hpp>
 #include <pfaff/bench/runner/settings.hpp>
@@ -91,7 +92,7 @@ std::vector<Check> verify(const VerificationSettings& given,
                           const std::function<void(const std::string&, std::size_t, std::size_t)>& progress) {
   VerificationSettings settings = given;
   for (std::string& name : settings.names)
-    if (names_method_table(name)) name = integrator_named(name).name();
+    name = names_method_table(name) ? integrator_named(name).name() : spelled(name);
   validate(settings);
   const std::vector<VerificationJob> jobs = verification_jobs(settings);
   std::vector<std::vector<Check>> results(jobs.size());

@@ -137,7 +137,7 @@ void Parameter::assign(void* object, const std::string& text, std::string_view o
   const auto refuse = [&](const std::string& expected) {
     throw InputError("parameter '" + name + "' of " + std::string(owner) + ": expected " + expected + " in " +
                      range_of(*this) + ", got '" + text + "'" +
-                     (meaning.empty() ? "" : " (" + name + ": " + meaning + ")"));
+                     (meaning.empty() ? "" : " (" + meaning + ")"));
   };
   if (kind == Kind::file) {
     write(object, text);

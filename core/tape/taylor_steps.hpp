@@ -80,14 +80,16 @@ class TaylorSteps {
     const bool limited = T(guess) < whole;
     T h = limited ? T(guess) : whole;
     const auto kink = expansion_.first_kink(direction * h);
-    if (kink) h = abs(kink->before);
+    if (kink) {
+      crowded_ = T(abs(kink->behind)) < h / T(1000) ? crowded_ + 1 : 0;
+      if (crowded_ > most_crowded) return T(0);
+      h = abs(kink->before);
+    }
     std::fill(unsized_.begin(), unsized_.end(), T(0));
     if (kink && time_ + kink->before == time_) {  // the state is at the kink, within rounding
-      if (++begun_at_kinks_ > most_at_kinks) return T(0);
       const T least = T(4) * std::numeric_limits<T>::epsilon() * std::max(T(abs(time_)), whole);
       return direction * std::max(T(abs(kink->behind)), least);
     }
-    begun_at_kinks_ = 0;
     for (int reductions = 0; time_ + direction * h != time_; ++reductions) {
       measure_sizes(h, least);
       T excess = this->excess(direction * h, tolerance);
@@ -119,9 +121,9 @@ class TaylorSteps {
  private:
   // Places within a step, in parts of it, that no period of a field has in common.
   static constexpr std::array parts{0.1459, 0.3820, 0.6180};
-  // Steps in a row that begin at a kink: a motion that stays there, as on a jump towards which the field
-  // points on both sides, would take them for ever.
-  static constexpr int most_at_kinks = 1000;
+  // Steps in a row that a kink makes a thousand times shorter: a motion that stays at a jump, towards which
+  // the field points on both sides, would take them for ever.
+  static constexpr int most_crowded = 1000;
   // The rounding errors of a defect, in units of those of the field at the end: those of the sum of the
   // polynomial and of its coefficients.
   static constexpr int roundings = 32;
@@ -243,7 +245,7 @@ class TaylorSteps {
   double reach_;
   std::vector<double> of_degrees_, logarithms_;  // of p/m, and of the last coefficients, [degree][coordinate]
   T time_{};
-  int begun_at_kinks_ = 0;
+  int crowded_ = 0;  // such steps so far
   std::vector<T> sizes_, unsized_;                  // of coordinates; of those that have none
   std::vector<T> state_, slope_, rate_, rounding_;  // where the defect is measured
   std::vector<WithRounding<T>> rounded_state_, rounded_rate_;

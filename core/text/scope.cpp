@@ -26,6 +26,16 @@ bool is_small_whole(const Real& x) {
   constexpr std::int64_t most = 64;
   return x.is_fraction() && x.denominator() == 1 && x.numerator() <= most && x.numerator() >= -most;
 }
+
+// Of a node that is always zero the names that are, as a mass may be: " where m = 0"; empty without any.
+std::string where_zero(Scope& scope, const Expression& of, std::size_t number) {
+  const Node& node = of.node(number);
+  if (node.kind == Node::Kind::name)
+    return structurally_zero(scope.value(of, number)) ? " where " + node.name + " = 0" : std::string();
+  for (const std::size_t operand : node.operands)
+    if (std::string zero = where_zero(scope, of, operand); !zero.empty()) return zero;
+  return {};
+}
 }  // namespace
 
 // Counts how deep evaluations are inside one another, and how many there were.
@@ -178,7 +188,7 @@ Recorded Scope::product(const Expression& of, const Node& node) {
   for (std::size_t k = 1; k < node.operands.size(); ++k) {
     const Recorded factor = value(of, node.operands[k]);
     if (node.inverted[k] && structurally_zero(factor))
-      fail(of, node.operands[k], "division by what is always zero");
+      fail(of, node.operands[k], "division by what is always zero" + where_zero(*this, of, node.operands[k]));
     if (structurally_zero(total)) {
       total = nothing_of(node.inverted[k] ? Recorded(1) / factor : factor);
     } else if (structurally_zero(factor)) {

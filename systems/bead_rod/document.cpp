@@ -9,6 +9,7 @@
 #include <pfaff/core/errors/errors.hpp>
 #include <pfaff/core/process/input_file.hpp>
 #include <pfaff/core/registry/source_text.hpp>
+#include <pfaff/core/text/source.hpp>
 
 namespace pfaff {
 
@@ -76,11 +77,9 @@ class JsonReader : public nlohmann::json_sax<nlohmann::json> {
   bool end_array() override { return close(); }
   bool parse_error(std::size_t position, const std::string& token,
                    const nlohmann::detail::exception& /*error*/) override {
-    const auto line =
-        std::count(text_.begin(),
-                   text_.begin() + static_cast<std::ptrdiff_t>(std::min(position, text_.size())), '\n') +
-        1;
-    throw InputError(path_ + ":" + std::to_string(line) + ": not JSON at '" + token + "'");
+    const bool ends = position > text_.size();
+    text::refuse({text_, path_}, position == 0 ? 0 : position - 1,
+                 ends ? "expected JSON, which ends unfinished" : "expected JSON, got '" + token + "'");
   }
 
  private:

@@ -16,7 +16,8 @@ struct Kepler {
   static constexpr int dimension = 4;
   Real eccentricity = 0.6_r;
   static std::vector<Parameter> parameters() {
-    return {parameter(&Kepler::eccentricity, "eccentricity", "", 0, 0.95, "of the initial orbit")};
+    return {parameter(&Kepler::eccentricity, "eccentricity", "", 0, 0.95,
+                      "of the orbit at the start; any other start is set by initial=")};
   }
   static std::vector<Assignments> instances(bool /*full*/) { return {{}, {{"eccentricity", "0.6"}}}; }
   template <class T>

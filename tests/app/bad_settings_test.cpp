@@ -99,10 +99,7 @@ TEST(BadSettings, StateFile) {
   refused(R"({"z": []})", {"expected numbers, got an empty list"});
   refused(R"({"z": [1, null]})", {"expected numbers or decimal strings"});
   refused(R"({"t": [0], "z": [1, 0]})", {"expected numbers or decimal strings"});
-  refused("z = [1, 0]", {"expected a JSON object"});
-  refused(R"({"z": [1, 0])", {"expected a JSON object"});
   refused("[1, 0]", {"expected a JSON object"});
-  refused("", {"expected a JSON object"});
   const auto with_state = refused_pendulum({"--step", "0.1", "--time", "1", "--state", files / "state.json"});
   write(files / "state.json", R"({"z": [1, 0, 2]})");
   expect_refused(with_state, {"expected 2 numbers, got 3"});

@@ -1,5 +1,5 @@
-// Systems and brackets written as text, by the program: run, rerun, describe, evaluate, verify, falsify,
-// compare, and the place of an error.
+// Systems and brackets written as text, by the program: run, rerun, describe, evaluate, verify, falsify and
+// compare.
 #include "command.hpp"
 
 namespace {
@@ -68,19 +68,6 @@ TEST(TextModel, OnlyConstraintsHaveNames) {
     EXPECT_NE(refused.err.find("expected expressions in their order, without names"), std::string::npos)
         << refused.err;
   }
-}
-
-TEST(TextModel, AnErrorShowsItsPlace) {
-  const TemporaryDirectory files;
-  write(files / "bad.toml",
-        "coordinates = [\"q\", \"p\"]\nkinetic = \"p^2/2\"\npotential = \"mas*q^2\"\nparameters = { mass = 1 "
-        "}\n");
-  const Outcome refused = run_pfaff({"run", "--system", files / "bad.toml", "--integrator", "verlet",
-                                     "--step", "0.1", "--time", "1", "--out", files / "out"});
-  EXPECT_EQ(refused.status, 2);
-  EXPECT_NE(refused.err.find("bad.toml:3:14: unknown name 'mas'; did you mean 'mass'?\n  mas*q^2\n  ^\n"),
-            std::string::npos)
-      << refused.err;
 }
 
 }  // namespace

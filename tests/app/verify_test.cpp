@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <fstream>
 #include <map>
+#include <regex>
 #include <set>
 
 #include "command.hpp"
@@ -295,6 +296,26 @@ TEST(Reproduce, Refusals) {
   expect_refused({"reproduce", "su-qn", "--coverage"}, {"unknown paper 'su-qn'", "did you mean 'su-qin'?"});
 }
 
+// Rows stand in the order of the paper's items, whatever their width.
+TEST(Reproduce, RowsStandInTheOrderOfThePaper) {
+  for (const std::string paper : {"su-qin", "nguyen-turski", "pitanga-rodrigues"}) {
+    std::map<std::string, std::size_t> place;
+    for (const auto& item : passed({"reproduce", paper, "--coverage"})["items"])
+      place.emplace(item["item"], place.size());
+    std::size_t before = 0;
+    for (const auto& row : passed({"reproduce", paper})["rows"]) {
+      const std::string equation = row["equation"];
+      std::size_t first = std::string::npos;  // the longest item that the name of the row begins with
+      std::size_t longest = 0;
+      for (const auto& [item, at] : place)
+        if (equation.starts_with(item) && item.size() > longest) first = at, longest = item.size();
+      ASSERT_NE(first, std::string::npos) << equation;
+      EXPECT_GE(first, before) << paper << ": " << row["id"];
+      before = first;
+    }
+  }
+}
+
 TEST(Reproduce, Text) {
   const Outcome outcome = run_pfaff({"reproduce"});
   EXPECT_EQ(outcome.status, 0);
@@ -302,7 +323,10 @@ TEST(Reproduce, Text) {
     EXPECT_NE(outcome.out.find(shown), std::string::npos) << shown;
   EXPECT_EQ(outcome.out.find("FAILED"), std::string::npos);
   std::istringstream lines(outcome.out);
-  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100U) << line;
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80U) << line;
+  EXPECT_NE(outcome.out.find("which scheme is best: (105), corrected"), std::string::npos);
+  // Rounding noise, which is 1e-33 in quad, is shown as no number.
+  EXPECT_FALSE(std::regex_search(outcome.out, std::regex("e-3[0-9]")));
   EXPECT_EQ(run_pfaff({"reproduce", "nguyen-turski", "--section", "brackets"}).status, 0);
   EXPECT_EQ(run_pfaff({"reproduce", "pitanga-rodrigues", "--section", "transverse"}).status, 0);
   for (const char* section : {"2", "3", "4", "5"})

@@ -148,5 +148,18 @@ TEST(ConstraintsAlongRuns, AreFoundAfreshWhereThePastMisleads) {
   EXPECT_THAT(long_steps.record.message, HasSubstr("did not converge"));
 }
 
+// The class of a residual at round-off is round-off, in either precision, for a method that has the sphere as
+// a quadratic invariant. The control is RK4: its residual of 2.6e-12, however small, is a trend.
+TEST(ConstraintsAlongRuns, AtRoundOffHaveNoTrend) {
+  const auto classes = [](const char* method, Precision precision) {
+    const WholeRun run = whole_run("sphere-particle", method, "0.01", "10", {}, precision);
+    return std::pair(run.record.constraints[0].drift_class, run.record.constraints[1].drift_class);
+  };
+  const std::pair none(DriftClass::round_off, DriftClass::round_off);
+  EXPECT_EQ(classes("gauss", Precision::double_precision), none);
+  EXPECT_EQ(classes("gauss", Precision::quad), none);
+  EXPECT_EQ(classes("rk4", Precision::double_precision).first, DriftClass::linear);
+}
+
 }  // namespace
 }  // namespace pfaff

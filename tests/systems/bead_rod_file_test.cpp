@@ -127,7 +127,7 @@ TEST(BeadRodFile, SaysTheLineWhereItIsNoFileOfItsKind) {
     }
     return "not refused";
   };
-  EXPECT_NE(message("broken.json", "{\n\"dimension\": 2,\n]").find("broken.json:3: not JSON"),
+  EXPECT_NE(message("broken.json", "{\n\"dimension\": 2,\n]").find("broken.json:3:1: expected JSON, got '"),
             std::string::npos);
   EXPECT_NE(message("broken.toml", "dimension = 2\nmasses = [1,\n").find("broken.toml:"), std::string::npos);
   EXPECT_NE(message("double.json", "{\"masses\": [1], \"masses\": [2]}").find("key 'masses' is there twice"),
