@@ -251,11 +251,11 @@ def drifting(verdict, rows):
 
 
 def comparable(rows):
-    """The rows whose runs are at equal cost where it is known of half of them at least, and of two, if the quantity drifts;
-    otherwise all rows."""
+    """The rows whose runs are at equal cost, where these are at least half of the rows, half of those of which it is known if the
+    quantity drifts, and two of these; otherwise all rows."""
     at_level = [r for r in rows if not r.off]
-    known = sum(r.drifts is not None for r in at_level)
-    return at_level if known >= 2 and 2 * known >= sum(r.drifts is not None for r in rows) else rows
+    known, of_all = (sum(r.drifts is not None for r in some) for some in (at_level, rows))
+    return at_level if known >= 2 and 2 * known >= of_all and 2 * len(at_level) >= len(rows) else rows
 
 
 def equal(verdict, rows):

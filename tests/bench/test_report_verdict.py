@@ -252,6 +252,22 @@ class Said(Fresh):
         self.assertIn("ach at its own step, for ", said)
         self.assertIn('class="star"', verdict_table.table(self.verdict()))
 
+    def test_equal_cost_is_not_said_where_most_methods_have_no_run_there(self):
+        """Three of five methods have none, and of two of them it is not known if they drift."""
+        synthetic(self.folder, extra_methods=2)
+        others = ("a method with a rather long name, number 0", "a method with a rather long name, number 1")
+        self.edit("results.csv", "energy:class", lambda x: "unused" if x else x, lambda row: row[2] in others)
+        for label, cost in ((others[0], "4e3"), ("bad", "4e5")):
+            self.edit("cost.csv", "ns_per_step_min", lambda x, cost=cost: cost, lambda row, label=label: row[1] == label)
+
+        def told():
+            return wording.plain_text(first_screen.below(self.verdict())).lower()
+        self.assertIn("at equal cost, 10 µs, rk let", told())  # of three, which are most of them
+        self.edit("cost.csv", "ns_per_step_min", lambda x: "4e7", lambda row: row[1] == others[1])
+        said = told()
+        self.assertNotIn("equal cost", said)
+        self.assertIn("each at its own step, for ", said)
+
     def test_another_motion_is_no_rival(self):
         synthetic(self.folder)
         path = self.folder / "experiment.json"
