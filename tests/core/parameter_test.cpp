@@ -59,12 +59,15 @@ TEST(Parameter, TakesTextExactly) {
 TEST(Parameter, RefusesWhatIsOutOfRange) {
   EXPECT_EQ(refusal("nu", "11"),
             "parameter 'nu' of system sample: expected a number in 0 .. 10 1/s, got '11' (nu: damping rate)");
-  EXPECT_EQ(refusal("nu", "-1e-300"),
-            "parameter 'nu' of system sample: expected a number in 0 .. 10 1/s, got '-1e-300' (nu: damping rate)");
+  EXPECT_EQ(
+      refusal("nu", "-1e-300"),
+      "parameter 'nu' of system sample: expected a number in 0 .. 10 1/s, got '-1e-300' (nu: damping rate)");
   EXPECT_EQ(refusal("stages", "0"),
-            "parameter 'stages' of system sample: expected an integer in 1 .. 32, got '0' (stages: number of stages)");
+            "parameter 'stages' of system sample: expected an integer in 1 .. 32, got '0' (stages: number of "
+            "stages)");
   EXPECT_EQ(refusal("stages", "33"),
-            "parameter 'stages' of system sample: expected an integer in 1 .. 32, got '33' (stages: number of stages)");
+            "parameter 'stages' of system sample: expected an integer in 1 .. 32, got '33' (stages: number "
+            "of stages)");
   EXPECT_EQ(refusal("form", "midpint"),
             "parameter 'form' of system sample: expected midpoint|qhat-p, got 'midpint'");
 }
