@@ -1,10 +1,11 @@
 #include <pfaff/systems/text/kepler_parts.hpp>
 
 #include <algorithm>
+#include <array>
+#include <memory>
 #include <string>
 
 #include <pfaff/core/errors/errors.hpp>
-#include <pfaff/core/numbers/formatted.hpp>
 #include <pfaff/core/numbers/random_numbers.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/replay.hpp>
@@ -56,7 +57,10 @@ std::vector<Real> masses_of_coordinates(const Tape& kinetic) {
   const std::vector<Quad>& velocity = slope(p);
   for (std::size_t k = 0; k < size; ++k)
     fits = fits && abs(velocity[k] * masses[k].quad() - p[k]) <= Quad(rounding_in_quad);
-  if (!fits) throw InputError("kinetic: expected sum p^2/(2*m) of all momenta, with masses m > 0 (what has no mass is a probe of restricted-n-body)");
+  if (!fits)
+    throw InputError(
+        "kinetic: expected sum p^2/(2*m) of all momenta, with masses m > 0 (what has no mass is a probe of "
+        "restricted-n-body)");
   return masses;
 }
 

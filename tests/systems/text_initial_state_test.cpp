@@ -76,6 +76,12 @@ TEST(TextInitialState, VelocitiesThatNoMomentaHaveAreRefused) {
             "model.toml:5:22: initial_velocities: expected one number, got 2");
   EXPECT_EQ(refusal_written(of_line + "field = [\"p\", \"-q\"]\ninitial = [1]\ninitial_velocities = [1]\n"),
             "model.toml:4:1: initial_velocities is written beside a canonical energy, which is missing");
+  // Where Dirac's bracket makes the motion the velocity is another one than H_p.
+  EXPECT_EQ(
+      refusal_written(of_plane + "hamiltonian = \"p^2 + s^2 + x^2\"\nconstraints = [\"y\", \"s\"]\n"
+                                 "initial = [1, 0]\ninitial_velocities = [1, 0]\n"),
+      "model.toml:5:1: momenta do not follow from velocities in which constraints of the phase space or a "
+      "second bracket take part; expected all of the state in initial");
 }
 
 // The names of what is followed, and "?" behind those of which nothing is claimed.
