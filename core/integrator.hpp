@@ -255,8 +255,11 @@ class Instance final : public MakerInUnits<Instance<M>, MethodInstance> {
 /// What two units leave each other of M.
 template <class M>
 void leave_code_of_method() {
-  leave_code_of<Instance<M>>();
-  if constexpr (requires { typename M::Composed; }) leave_code_of<Instance<typename M::Composed>>();
+  // Of a method that does not step check_method_members says so; its code would be errors by the dozen.
+  if constexpr (StepsInScalars<M>) {
+    leave_code_of<Instance<M>>();
+    if constexpr (requires { typename M::Composed; }) leave_code_of<Instance<typename M::Composed>>();
+  }
 }
 
 }  // namespace detail
@@ -283,7 +286,9 @@ class Method final : public MethodPlugin {
           throw InputError("integrator " + name() + ": " + error.what());
         }
       }
-      return std::make_unique<detail::Instance<M>>(*this, std::move(method));
+      if constexpr (detail::StepsInScalars<M>)
+        return std::make_unique<detail::Instance<M>>(*this, std::move(method));
+      return nullptr;  // refused by check_method_members
     });
   }
   [[nodiscard]] std::vector<Assignments> instances(bool full) const override {

@@ -42,6 +42,11 @@ namespace detail {
 // The problem on which signatures are tried: every facet, in double.
 using TriedProblem = Problem<double>;
 
+// True where M can be made into code: it steps in doubles, and in quads, where a time, a step or a state that
+// it takes as doubles does not fit.
+template <class M>
+concept StepsInScalars = Steps<M, TriedProblem> && Steps<M, Problem<Quad>>;
+
 template <class M>
 concept WritesWork = requires {
   typename M::template Work<TriedProblem>;
@@ -129,6 +134,9 @@ constexpr void check_method_members() {
       Steps<M, TriedProblem>,
       "step: expected template <HasVectorField P> Status step(const P& p, const Scalar<P>& t, const "
       "Scalar<P>& h, State<P>& z, Work<P>& work) const, with whatever facet's concept it needs");
+  static_assert(StepsInScalars<M> || !Steps<M, TriedProblem>,
+                "step: expected const Scalar<P>& t, const Scalar<P>& h and State<P>& z, and not doubles: "
+                "methods step in quad too");
   static_assert(WritesOrder<M> || !method::has_order<M>,
                 "order: expected int order(const Model& model) const");
   static_assert(WritesPreserves<M> || !method::has_preserves<M>,

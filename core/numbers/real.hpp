@@ -29,7 +29,7 @@ class Real {
   /// A double is not the decimal it was written as (and would be cut to an int): use 0.3_r, or Real(Quad(x))
   /// for the binary number itself.
   template <std::floating_point F>
-  Real(F value) = delete;
+  Real(F value) = delete;  // expected a literal such as 0.3_r, or Real(Quad(x))
 
   /// Parses "0.1", "-2.5e-3" or "a/b"; nullopt when the text is not a number.
   static std::optional<Real> parse(std::string_view text);

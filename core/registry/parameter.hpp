@@ -103,6 +103,15 @@ Parameter parameter(Real S::*member, std::string name, std::string unit, double 
   return p;
 }
 
+/// Refused: a double is not the decimal that it was written as, which a run in quad shows.
+template <class S, std::floating_point F, class... Rest>
+Parameter parameter(F S::* /*member*/, const char* name, const Rest&... /*rest*/) {
+  static_assert(!std::floating_point<F>,
+                "parameter: expected a member of the type Real, such as Real nu = 0.3_r, and not a double, "
+                "which is not the decimal that it is written as");
+  return {.name = name, .unit = {}, .meaning = {}};
+}
+
 /// An integer parameter.
 template <class S>
 Parameter parameter(int S::*member, std::string name, std::string unit, int minimum, int maximum,

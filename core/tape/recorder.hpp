@@ -4,6 +4,7 @@
 // by zero and one, shares common subexpressions, and keeps sine and cosine of one argument together.
 #pragma once
 
+#include <compare>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -34,7 +35,7 @@ class Recorded {
   /// Refused, because a floating-point number would be cut to an int. The constants of a formula are ints and
   /// Reals.
   template <std::floating_point F>
-  Recorded(F value) = delete;
+  Recorded(F value) = delete;  // expected a Real: a member of that type, or a literal such as 0.3_r
   Recorded(Recorder* recorder, int slot) : kind_(Kind::slot), number_(slot), target_(recorder) {}
 
   Recorded(const Recorded& o) : kind_(o.kind_), number_(o.number_), target_(o.target_) {
@@ -109,6 +110,58 @@ class Recorded {
   void* target_ = nullptr;  // the recorder or the shared constant
 };
 
+/// One of two operands is recorded.
+template <class A, class B>
+concept ARecordedOperand = std::same_as<A, Recorded> || std::same_as<B, Recorded>;
+/// The other one is a number that is neither an int nor a Real.
+template <class A, class B>
+concept AFloatingOperand = ARecordedOperand<A, B> &&(std::floating_point<A> || std::floating_point<B>);
+
+// Comparisons, of values that are not there yet when a formula is recorded, and constants in doubles are
+// refused in one sentence. (Deleted operators would list every other one.)
+namespace detail {
+template <class A, class B>
+void refuse_comparison() {
+  static_assert(!ARecordedOperand<A, B>,
+                "a formula compares no values, which are not known when it is recorded: expected select(x - "
+                "y, a, b), which is a where x > y and b elsewhere");
+}
+template <class A, class B>
+Recorded refuse_floating() {
+  static_assert(!AFloatingOperand<A, B>,
+                "the constants of a formula are Reals and ints, exact in every precision: expected a member "
+                "of the type Real, or a literal such as 0.3_r, and not a double");
+  return {};
+}
+}  // namespace detail
+template <class A, class B>
+requires ARecordedOperand<A, B>
+bool operator==(const A& /*a*/, const B& /*b*/) {
+  detail::refuse_comparison<A, B>();
+  return false;
+}
+template <class A, class B>
+requires ARecordedOperand<A, B> std::partial_ordering operator<=>(const A& /*a*/, const B& /*b*/) {
+  detail::refuse_comparison<A, B>();
+  return std::partial_ordering::unordered;
+}
+template <class A, class B>
+requires AFloatingOperand<A, B> Recorded operator+(const A& /*a*/, const B& /*b*/) {
+  return detail::refuse_floating<A, B>();
+}
+template <class A, class B>
+requires AFloatingOperand<A, B> Recorded operator-(const A& /*a*/, const B& /*b*/) {
+  return detail::refuse_floating<A, B>();
+}
+template <class A, class B>
+requires AFloatingOperand<A, B> Recorded operator*(const A& /*a*/, const B& /*b*/) {
+  return detail::refuse_floating<A, B>();
+}
+template <class A, class B>
+requires AFloatingOperand<A, B> Recorded operator/(const A& /*a*/, const B& /*b*/) {
+  return detail::refuse_floating<A, B>();
+}
+
 Recorded sqrt(const Recorded& x);
 Recorded exp(const Recorded& x);
 Recorded log(const Recorded& x);
@@ -119,6 +172,8 @@ Recorded pow(const Recorded& x, const Real& y);
 Recorded pow(const Recorded& x, const Recorded& y);
 Recorded special(SpecialFunction which, const Recorded& x, const Recorded& slope);
 Recorded select(const Recorded& condition, const Recorded& positive, const Recorded& otherwise);
+/// That of core/numbers/special.hpp is for numbers without comparisons, and these have some, which refuse.
+inline Recorded abs(const Recorded& x) { return select(x, x, -x); }
 inline bool structurally_zero(const Recorded& x) { return x.is(0); }
 /// 0, with the domain of x: where x has no value the product 0 x is recorded, and so has none either. A
 /// product with a zero is a plain 0, as sparse matrices and their derivatives are made of such products; who

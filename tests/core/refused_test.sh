@@ -21,6 +21,12 @@ for source in "$root"/tests/core/refused/*.cpp; do
       exit 1
     }
     reasons=$((reasons + 1))
-  done < <(sed -n 's|^// refused: ||p' "$source")
+  done < <(sed -n 's|^// refused\( alone\)\?: ||p' "$source")
+  # Where a sentence is all that an author shall read, further errors are too much.
+  if grep -q '^// refused alone: ' "$source" && [[ $(grep -c ' error: ' <<<"$said") != "$reasons" ]]; then
+    echo "$source: expected no errors but its $reasons reasons in"
+    echo "$said"
+    exit 1
+  fi
   [[ $reasons -gt 0 ]] || { echo "$source gives no reasons"; exit 1; }
 done

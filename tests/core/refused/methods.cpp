@@ -119,8 +119,6 @@ template <class M>
 const Method<M> registered{{.name = "refused", .title = "", .reference = "", .order = 1}};
 const MethodPlugin* const all[] = {&registered<OrderOfNothing>,
                                    &registered<PreservesNotConst>,
-                                   &registered<LowerBoundAsData>,
-                                   &registered<ExactOrderOfAModel>,
                                    &registered<ValidateWithArgument>,
                                    &registered<CoefficientsAsCopy>,
                                    &registered<RefusesByBool>,
