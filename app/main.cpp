@@ -171,7 +171,14 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& error, int a
     if (option == nullptr) return unknown_name("option", name, options) + " (of pfaff " + command + ")";
     if (option->get_items_expected_min() > 0 && name == argument) ++k;
   }
-  return std::string(error.what()) + " (see pfaff " + command + " --help)";
+  // CLI11 names the first that is missing alone.
+  std::string missing;
+  if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr)
+    for (const CLI::Option* option : sub.get_options())
+      if (option->get_required() && option->count() == 0)
+        missing += (missing.empty() ? "" : ", ") + option->get_name();
+  return (missing.empty() ? std::string(error.what()) : "missing: " + missing) + " (see pfaff " + command +
+         " --help)";
 }
 
 // Does the work and sees to it that all of its output was written; the exit status. Whatever is thrown ends

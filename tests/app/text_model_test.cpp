@@ -1,5 +1,7 @@
 // Systems and brackets written as text, by the program: run, rerun, describe, evaluate, verify, falsify and
 // compare.
+#include <map>
+
 #include "command.hpp"
 
 namespace {
@@ -68,6 +70,31 @@ TEST(TextModel, OnlyConstraintsHaveNames) {
     EXPECT_NE(refused.err.find("expected expressions in their order, without names"), std::string::npos)
         << refused.err;
   }
+}
+
+// The keys of the action form are words; the literature and the pages say F and B.
+TEST(TextModel, IsDescribedInTheSymbolsOfTheLiterature) {
+  const nlohmann::json described = json_of(
+      run_pfaff({"describe", PFAFF_GOLDEN "/../../examples/models/damped-pendulum.toml", "--json"}).out);
+  std::map<std::string, std::string> symbols;
+  for (const auto& formula : described["formulas"]) symbols[formula["name"]] = formula["symbol"];
+  EXPECT_EQ(symbols["birkhoffian"], "B of F.dz - B dt");
+  EXPECT_EQ(symbols["one_form"], "F of F.dz - B dt");
+  EXPECT_EQ(symbols["structure"], "K of K z' + D = 0");
+}
+
+// A start by velocities that the constraints do not allow: how far off, and what mends it.
+TEST(TextModel, StartsThatBreakAConstraintAreMeasured) {
+  const TemporaryDirectory files;
+  write(files / "pendulum.toml",
+        "coordinates = [\"x\", \"y\", \"px\", \"py\"]\ninitial = [1, 0]\ninitial_velocities = [0.5, 1]\n"
+        "kinetic = \"(px^2 + py^2)/2\"\npotential = \"y\"\nholonomic = { rod = \"(x^2 + y^2 - 1)/2\" }\n");
+  const std::vector<std::string> run{
+      "run", files / "pendulum.toml", "rattle", "--step", "0.1", "--time", "0.2", "--out", "-"};
+  // d/dt (x^2 + y^2 - 1)/2 = x x' = 0.5; without it the velocity (0, 1) is left, and 0.5/|(0.5, 1)| = 0.447.
+  expect_refused(run, {"constraint rod~ is off by 0.5; expected a state on the constraints, or "
+                       "--project-initial (which changes it by 0.45, relatively)"});
+  EXPECT_EQ(run_pfaff(run + std::vector<std::string>{"--project-initial"}).status, 0);
 }
 
 }  // namespace
