@@ -180,7 +180,8 @@ std::string_view to_string(SystemKind kind) {
                                                                     "rolling",
                                                                     "transcendental",
                                                                     "breathing",
-                                                                    "breathing-surface"};
+                                                                    "breathing-surface",
+                                                                    "concave-metriplectic"};
   return names[static_cast<std::size_t>(kind)];
 }
 
@@ -207,6 +208,7 @@ PolynomialSystem system_of(const Recipe& recipe) {
       break;
     case SystemKind::casimir_bracket:
     case SystemKind::metriplectic:
+    case SystemKind::concave_metriplectic:
       system = detail::bracket_system(recipe);
       break;
     case SystemKind::field:

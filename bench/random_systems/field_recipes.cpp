@@ -6,7 +6,7 @@ namespace pfaff {
 
 // Parts: the Casimir C and H, each in three variables. Pi_ij = eps_ijk C_k obeys Jacobi's identity whatever C
 // is, and the field is free of divergence. With the second bracket G = alpha (|H_z|^2 I - H_z H_z^T), which
-// does not move H, the entropy S = C grows.
+// does not move H, the entropy S = C grows, or S = -C.
 PolynomialSystem detail::bracket_system(const Recipe& recipe) {
   PolynomialSystem system;
   constexpr std::size_t n = 3;
@@ -36,7 +36,7 @@ PolynomialSystem detail::bracket_system(const Recipe& recipe) {
     for (std::size_t j = 0; j < n; ++j)
       symmetric.push_back(recipe.rate * ((i == j ? square : SparsePolynomial(n)) - slope[i] * slope[j]));
   system.formulas[Formula::symmetric_tensor] = symmetric;
-  system.formulas[Formula::entropy] = {casimir};
+  system.formulas[Formula::entropy] = {Real(recipe.kind == SystemKind::metriplectic ? 1 : -1) * casimir};
   return system;
 }
 

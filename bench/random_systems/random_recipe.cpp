@@ -48,6 +48,10 @@ class Drawing {
         if (size_ > 0)
           for (auto& part : recipe_.parts) part[0] = part[0] + terms(3, 2, 3, size_);
         break;
+      case SystemKind::concave_metriplectic:
+        dimension(3);
+        recipe_.parts = {{squares(3)}, {squares(3) + more_terms(3, 3)}};
+        break;
       case SystemKind::field:
       case SystemKind::skew_field:
         fields();
@@ -62,7 +66,10 @@ class Drawing {
         constraints();
     }
     recipe_.rate = pick({Real::fraction(1, 5), Real::fraction(1, 2), 1});
-    if (recipe_.kind == SystemKind::metriplectic && below(2) == 0) recipe_.rate = Real::fraction(1, 1000000);
+    // What a method does to an entropy by itself shows beside a weak relaxation, which produces little.
+    if ((recipe_.kind == SystemKind::metriplectic && below(2) == 0) ||
+        recipe_.kind == SystemKind::concave_metriplectic)
+      recipe_.rate = Real::fraction(1, 1000000);
     return recipe_;
   }
 

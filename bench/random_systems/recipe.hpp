@@ -36,7 +36,8 @@ enum class SystemKind {
   rolling,               // velocity constraints A(q) v = 0
   transcendental,        // T(p) + V(q), polynomials of p and q and of functions of single components
   breathing,             // H = T(p, t) + V(q, t)
-  breathing_surface      // a surface with T = (1 + r t) |p|^2/(2 m)
+  breathing_surface,     // a surface with T = (1 + r t) |p|^2/(2 m)
+  concave_metriplectic   // metriplectic with the entropy S = -C
 };
 /// In the order in which verification chooses among those that fit: the first, one in the middle, the last.
 inline constexpr std::array system_kinds{SystemKind::separable,
@@ -50,6 +51,7 @@ inline constexpr std::array system_kinds{SystemKind::separable,
                                          SystemKind::sheared_form,
                                          SystemKind::casimir_bracket,
                                          SystemKind::metriplectic,
+                                         SystemKind::concave_metriplectic,
                                          SystemKind::field,
                                          SystemKind::skew_field,
                                          SystemKind::surface,

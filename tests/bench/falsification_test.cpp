@@ -12,6 +12,7 @@
 #include <pfaff/bench/verification/measured_step.hpp>
 #include <pfaff/bench/verification/random_checks.hpp>
 #include <pfaff/core/system.hpp>
+#include <pfaff/integrators/tables/method_table.hpp>
 
 namespace pfaff {
 namespace {
@@ -233,6 +234,10 @@ TEST(Falsify, VerificationOnRandomSystemsRejectsFalseClaims) {
   EXPECT_EQ(failed(method_plugin("false-projection")), (Claims{"constrained-symplectic"}));
   EXPECT_EQ(failed(method_plugin("false-midpoint")), (Claims{"K-symplectic"}));
   EXPECT_EQ(failed(method_plugin("false-leap-frog")), (Claims{"energy", "symmetric"}));
+  // Its entropy rises where it is convex, as that of every registered system is.
+  EXPECT_EQ(
+      failed(*read_method_table(PFAFF_GOLDEN "/../verification/corpus/unseen/false/entropic_euler.toml")),
+      (Claims{"entropy"}));
   for (const char* name : {"verlet", "rattle", "midpoint-darboux"})
     EXPECT_EQ(failed(method_plugin(name)), Claims{}) << name;
 }

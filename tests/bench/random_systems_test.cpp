@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <random>
 
 #include <pfaff/bench/measure/constraints.hpp>
 #include <pfaff/bench/random_systems/recipe.hpp>
 #include <pfaff/bench/runner/motion.hpp>
+#include <pfaff/bench/verification/check.hpp>
 #include <pfaff/bench/verification/residuals.hpp>
 #include <pfaff/core/facets/claims.hpp>
 #include <pfaff/core/tape/replay.hpp>
@@ -67,6 +69,7 @@ TEST(RandomSystems, OfferWhatTheirKindSays) {
       case SystemKind::sheared_form:
         return Facet::generating_map;
       case SystemKind::metriplectic:
+      case SystemKind::concave_metriplectic:
         return Facet::metriplectic;
       case SystemKind::surface:
       case SystemKind::revolution:
@@ -148,6 +151,33 @@ TEST(RandomSystems, BracketsObeyJacobi) {
     });
     EXPECT_GT(static_cast<double>(largest<Quad>(jacobiator(*wrong, 3), model->initial())), 1e-6);
   }
+}
+
+// By the measures of verification, and S by its second differences in random directions: that of one kind is
+// concave everywhere, and that of the other is not.
+TEST(RandomSystems, EntropiesRiseAndAreConcaveOrNot) {
+  for (const SystemKind kind : {SystemKind::metriplectic, SystemKind::concave_metriplectic})
+    for (std::uint64_t seed = 1; seed <= seeds; ++seed)
+      for (int size = 0; size < 3; ++size) {
+        SCOPED_TRACE(std::string(to_string(kind)) + " seed " + std::to_string(seed) + " size " +
+                     std::to_string(size));
+        const auto model = model_of(system_of(random_recipe(kind, seed, size)));
+        for (const Check& check : check_metriplectic("random", *model))
+          EXPECT_TRUE(good(check)) << check.claim;
+        const auto entropy = [&](const std::vector<double>& d, double share) {
+          std::vector<Quad> z = initial(*model);
+          for (std::size_t k = 0; k < z.size(); ++k) z[k] += Quad(share * d[k]);
+          return static_cast<double>(values(*model, Formula::entropy, Quad(0), z).front());
+        };
+        std::mt19937 random(1);
+        std::uniform_real_distribution<double> any(-1, 1);
+        int concave = 0;
+        for (int k = 0; k < 20; ++k) {
+          const std::vector<double> d{any(random), any(random), any(random)};
+          concave += entropy(d, 1) - 2 * entropy(d, 0) + entropy(d, -1) < 0 ? 1 : 0;
+        }
+        EXPECT_EQ(concave == 20, kind == SystemKind::concave_metriplectic);
+      }
 }
 
 TEST(RandomSystems, StartOnTheirConstraints) {
