@@ -133,7 +133,9 @@ void add_compare(CLI::App& app, Common& common, Action& action) {
       ->type_name("EXPERIMENT|FILE");
   sub->add_flag("--all", options->all, "Every experiment that ships");
   sub->add_flag("--quick", options->quick, "Shorter horizons and fewer steps, to look at");
-  sub->add_flag("--force", options->force, "Run anew what was made from other files or builds");
+  sub->add_flag(
+      "--force", options->force,
+      "Run anew what was made from other files or builds, and replace another experiment of the same name");
   sub->add_flag("--compile", options->compile,
                 "Compile the systems' formulas with the C++ compiler of this machine");
   sub->add_flag("--no-report", options->no_report, "Leave out the figures and report.html");

@@ -8,9 +8,11 @@
 #include <pfaff/bench/runner/asked_for.hpp>
 #include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/bench/runner/terminal.hpp>
+#include <pfaff/brackets/stated_ranges.hpp>
 #include <pfaff/core/bracket.hpp>
 #include <pfaff/core/facets/derivations/derivation.hpp>
 #include <pfaff/core/formulation.hpp>
+#include <pfaff/core/registry/range_text.hpp>
 #include <pfaff/integrators/tables/method_table.hpp>
 #include <pfaff/systems/text/text_system.hpp>
 
@@ -18,23 +20,13 @@ namespace pfaff::app {
 
 namespace {
 
-// The range of a coordinate with its unit; the unit alone where it has none.
-std::string range_of(const Coordinate& coordinate) {
-  if (coordinate.range == unbounded) return coordinate.unit;
-  Parameter bounded;
-  bounded.unit = coordinate.unit;
-  bounded.minimum = coordinate.range[0];
-  bounded.maximum = coordinate.range[1];
-  return pfaff::range_of(bounded);
-}
-
 nlohmann::json parameters_of(const Plugin& plugin, const Assignments& defaults) {
   nlohmann::json list = nlohmann::json::array();
   for (std::size_t k = 0; k < plugin.parameters().size(); ++k) {
     const Parameter& p = plugin.parameters()[k];
     list.push_back({{"name", p.name},
                     {"default", defaults[k].second},
-                    {"range", pfaff::range_of(p)},
+                    {"range", range_of(p)},
                     {"unit", p.unit},
                     {"meaning", p.meaning}});
   }
@@ -152,8 +144,7 @@ nlohmann::json describe_system(const SystemPlugin& plugin) {
                    {"autonomous", model->autonomous()},
                    {"parameters", parameters_of(plugin, model->parameters())},
                    {"formulas", formulas_of(*model)}};
-  const bool ranges = std::any_of(model->coordinates().begin(), model->coordinates().end(),
-                                  [](const Coordinate& c) { return c.range != unbounded; });
+  const std::vector<Range> ranges = stated_ranges(model->coordinates());
   for (std::size_t k = 0; k < model->coordinates().size(); ++k) {
     const Coordinate& c = model->coordinates()[k];
     j["coordinates"].push_back(
@@ -161,7 +152,9 @@ nlohmann::json describe_system(const SystemPlugin& plugin) {
          {"unit", c.unit},
          {"initial", k < model->initial().size() ? nlohmann::json(to_string(model->initial()[k]))
                                                  : nlohmann::json(nullptr)}});
-    if (ranges) j["coordinates"].back()["range"] = range_of(c);
+    // A range is shown with its unit; where others state one, the unit alone stands in its place.
+    if (!ranges.empty())
+      j["coordinates"].back()["range"] = ranges[k] == unbounded ? c.unit : range_text(ranges[k], c.unit);
   }
   j["invariants"] = nlohmann::json::array();
   for (const Invariant& i : model->invariants())

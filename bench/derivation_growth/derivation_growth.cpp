@@ -109,7 +109,8 @@ nlohmann::json description(const Experiment& experiment) {
   return j;
 }
 
-// Refuses a directory with another experiment, or with one that another build made.
+// Refuses a directory with another experiment, or with one that another build made; with `force` they are
+// removed.
 void check_identity(const fs::path& directory, const nlohmann::json& mine, bool force) {
   const fs::path identity = directory / experiment_file;
   std::error_code error;
@@ -118,12 +119,11 @@ void check_identity(const fs::path& directory, const nlohmann::json& mine, bool 
   if (!theirs.is_object() || !theirs.contains("schema")) return;
   const bool same_build = theirs["versions"] == mine["versions"];
   theirs["versions"] = mine["versions"];
-  const std::string where = "output directory '" + directory.string() + "' holds ";
-  if (theirs != mine)
-    throw InputError(where + "another experiment; expected a new directory or the same experiment to resume");
+  refuse_another_experiment(directory, theirs, mine, force);
   if (!same_build && !force)
-    throw InputError(where + "derivations by another build of Pfaff; expected a new directory, or --force " +
-                     "to make them anew");
+    throw InputError("output directory '" + directory.string() +
+                     "' holds derivations by another build of Pfaff; expected a new directory, or --force to "
+                     "make them anew");
   if (same_build && !force) return;
   fs::remove_all(directory / "runs", error);
 }

@@ -25,24 +25,23 @@ namespace pfaff {
 namespace fs = std::filesystem;
 
 namespace {
-// Refuses a directory that holds another experiment than the one described.
-void check_identity(const fs::path& directory, const nlohmann::json& mine) {
+// Refuses a directory that holds another experiment than the one described. True where it is to be replaced.
+bool replaces_another(const fs::path& directory, const nlohmann::json& mine, bool force) {
   const fs::path identity = directory / experiment_file;
   std::error_code error;
-  if (!fs::exists(identity, error)) return;
+  if (!fs::exists(identity, error)) return false;
   // Builds are left out of the comparison here; they belong to the identity of each run.
   nlohmann::json theirs = nlohmann::json::parse(read_file(identity), nullptr, false);
   // A damaged file says nothing about the runs beside it, each of which says by itself what it is.
-  if (!theirs.is_object() || !theirs.contains("schema")) return;
+  if (!theirs.is_object() || !theirs.contains("schema")) return false;
   const nlohmann::json their_classes = theirs["drift_classes"];
   theirs["versions"] = mine["versions"];
   theirs["drift_classes"] = mine["drift_classes"];
-  if (theirs != mine)
-    throw InputError("output directory '" + directory.string() +
-                     "' holds another experiment; expected a new directory or the same experiment to resume");
+  refuse_another_experiment(directory, theirs, mine, force);
   if (their_classes != mine["drift_classes"])
     throw InputError("output directory '" + directory.string() +
                      "' holds runs of a version with other drift classes; expected a new directory");
+  return theirs != mine;
 }
 
 // The indices of the runs that `directory` does not hold. Refuses outdated runs unless they may be made anew.
@@ -82,23 +81,36 @@ void remove_outdated(const fs::path& directory, const std::vector<ExperimentRun>
   remove_derived(directory);
 }
 
+// Removes the runs of an experiment that this one replaces. Those that both have stay.
+void remove_other_runs(const fs::path& directory, const std::vector<ExperimentRun>& runs) {
+  std::error_code error;
+  std::vector<fs::path> others;
+  for (const auto& entry : fs::directory_iterator(directory / "runs", error))
+    if (std::none_of(runs.begin(), runs.end(),
+                     [&](const ExperimentRun& run) { return run.slug == entry.path().filename(); }))
+      others.push_back(entry.path());
+  for (const fs::path& run : others) fs::remove_all(run, error);
+}
+
 // What the leading process does before runs are made: it takes the directory and finds what is missing.
 struct Preparation {
   std::unique_ptr<DirectoryLock> held;
   std::string described;
+  bool replaces = false;  // the directory holds another experiment, which is to be replaced
 
   void take(const Experiment& experiment, const fs::path& directory, const std::vector<ExperimentRun>& runs,
-            const std::vector<LeftOut>& left_out) {
+            const std::vector<LeftOut>& left_out, bool force) {
     described = description(experiment, runs, left_out).dump(1) + "\n";
     held = take_experiment_directory(directory, "pfaff compare");
-    check_identity(directory, nlohmann::json::parse(described));
+    replaces = replaces_another(directory, nlohmann::json::parse(described), force);
   }
 
   // The indices of the runs that are missing.
   std::vector<std::size_t> find(const fs::path& directory, const std::vector<ExperimentRun>& runs,
                                 bool force) const {
     std::vector<std::size_t> open = runs_to_make(directory, runs, force);
-    if (!open.empty()) remove_outdated(directory, runs);
+    if (!open.empty() || replaces) remove_outdated(directory, runs);
+    if (replaces) remove_other_runs(directory, runs);
     write_file(directory / experiment_file, described);
     std::error_code error;
     fs::create_directories(directory / "runs", error);
@@ -173,7 +185,7 @@ void make_all(Experiment experiment, const fs::path& directory, const Experiment
   Team& team = options.team == nullptr ? alone : *options.team;
   Preparation ready;
   (void)team.agreed([&] {
-    ready.take(experiment, directory, runs, outcome.left_out);
+    ready.take(experiment, directory, runs, outcome.left_out, options.force);
     return std::vector<std::size_t>();
   });
   References references;

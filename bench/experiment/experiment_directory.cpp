@@ -1,6 +1,7 @@
 #include <pfaff/bench/experiment/experiment_directory.hpp>
 
 #include <pfaff/bench/runner/files.hpp>
+#include <pfaff/core/errors/errors.hpp>
 
 namespace pfaff {
 
@@ -15,6 +16,16 @@ std::unique_ptr<DirectoryLock> take_experiment_of(const fs::path& run, const std
   const fs::path experiment = fs::weakly_canonical(run, error).parent_path().parent_path();
   if (error || !fs::is_regular_file(experiment / experiment_file, error)) return nullptr;
   return std::make_unique<DirectoryLock>(experiment, work);
+}
+
+void refuse_another_experiment(const fs::path& directory, const nlohmann::json& theirs,
+                               const nlohmann::json& mine, bool force) {
+  if (theirs == mine) return;
+  const bool same_name = theirs.at("name") == mine.at("name");
+  if (same_name && force) return;
+  throw InputError("output directory '" + directory.string() + "' holds another experiment" +
+                   (same_name ? " of the same name; expected a new directory, or --force to replace it"
+                              : "; expected a new directory or the same experiment to resume"));
 }
 
 void remove_derived(const fs::path& directory) {

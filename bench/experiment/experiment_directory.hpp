@@ -6,6 +6,7 @@
 #include <string>
 
 #include <pfaff/bench/runner/directory_lock.hpp>
+#include <pfaff/bench/runner/json.hpp>
 
 namespace pfaff {
 
@@ -20,6 +21,11 @@ std::unique_ptr<DirectoryLock> take_experiment_directory(const std::filesystem::
 /// Takes the experiment that the directory of a run stands in; null where it stands in none. An experiment
 /// makes its runs anew without a look at the locks of each, so that who works on one run holds both.
 std::unique_ptr<DirectoryLock> take_experiment_of(const std::filesystem::path& run, const std::string& work);
+
+/// Refuses the directory where the experiment that it holds, as it describes itself, is another one than
+/// `mine`. One of the same name is let pass where `force` says that it may be replaced.
+void refuse_another_experiment(const std::filesystem::path& directory, const nlohmann::json& theirs,
+                               const nlohmann::json& mine, bool force);
 
 /// Removes what was put together from several runs or their timings, of which some are about to change, so
 /// that nothing of it is left beside what is made anew: tables, figures, and the report.

@@ -1,11 +1,11 @@
 // The state at which claims are measured.
-#include <algorithm>
 #include <cmath>
 
 #include <pfaff/bench/measure/constraints.hpp>
 #include <pfaff/bench/verification/check_budget.hpp>
 #include <pfaff/bench/verification/residuals.hpp>
 #include <pfaff/bench/verification/step_scale.hpp>
+#include <pfaff/brackets/stated_ranges.hpp>
 
 namespace pfaff {
 
@@ -68,10 +68,8 @@ void add_states(Region& region, const Model& motion, const Real& t, const Quad& 
 
 Region region_of(const Model& motion, std::vector<Real> centre) {
   Region region(std::move(centre));
-  if (!motion.restricted() && motion.source().formulation.empty() &&
-      std::any_of(motion.coordinates().begin(), motion.coordinates().end(),
-                  [](const Coordinate& c) { return c.range != unbounded; }))
-    for (const Coordinate& c : motion.coordinates()) region.box.push_back(c.range);
+  if (!motion.restricted() && motion.source().formulation.empty())
+    region.box = stated_ranges(motion.coordinates());
   if (!motion.moves() || !is_short(motion)) return region;
   const Real t = generic_time_of(motion);
   const Quad time = own_time(motion, t, region.centres.front());

@@ -2,6 +2,8 @@
 
 #include <filesystem>
 
+#include <pfaff/brackets/stated_ranges.hpp>
+
 namespace pfaff {
 
 using namespace text;
@@ -113,10 +115,10 @@ BracketInstance TextBracket::made(const std::vector<Real>& values) const {
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j) vector[i] = vector[i] + tensor[i * n + j] * x[n + j];
   BracketInstance instance{size, {}, std::make_shared<const Tape>(recorder.finish(vector)), {}};
-  if (std::any_of(d.coordinates.begin(), d.coordinates.end(),
-                  [](const TextCoordinate& c) { return c.range != unbounded; }))
-    for (const TextCoordinate& c : d.coordinates)
-      instance.ranges.insert(instance.ranges.end(), count_of(c, constants), c.range);
+  std::vector<Coordinate> coordinates;
+  for (const TextCoordinate& c : d.coordinates)
+    coordinates.insert(coordinates.end(), count_of(c, constants), {c.name, c.unit, c.range});
+  instance.ranges = stated_ranges(coordinates);
   for (std::size_t k = 0; k < values.size(); ++k)
     instance.parameters.emplace_back(d.parameters[k].name, to_string(values[k]));
   if (!d.casimirs.empty()) {

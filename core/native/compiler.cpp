@@ -18,11 +18,12 @@ namespace pfaff::native {
 
 namespace {
 // Values are those of IEEE arithmetic in the order of the text, whatever the user's words for the compiler
-// are: no contraction, no reordering. Without errno a square root is one instruction. The instructions are
-// those that the library itself needs.
+// are: no contraction, no reordering. Without errno a square root is one instruction. The compiler may not
+// know what an arc tangent is, or it takes cos(atan(x)) for 1/sqrt(1 + x^2) in the code for doubles, where it
+// sees it, and not in that for packs. The instructions are those that the library itself needs.
 constexpr const char* flags =
     "-std=c++17 -O2 -shared -fPIC -fno-fast-math -fno-unsafe-math-optimizations -ffp-contract=off "
-    "-fno-math-errno -fno-tree-slp-vectorize "
+    "-fno-math-errno -fno-builtin-atan -fno-tree-slp-vectorize "
     "-w" PFAFF_INSTRUCTIONS;
 
 std::vector<std::string> words_of(const char* text) {

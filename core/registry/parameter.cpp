@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include <pfaff/core/registry/range_text.hpp>
+
 namespace pfaff {
 
 namespace {
@@ -122,6 +124,10 @@ bool Parameter::takes(std::string_view key) const {
   return key == name || (kind == Kind::plugin && key.starts_with(name + "."));
 }
 
+std::string range_text(const Range& range, const std::string& unit) {
+  return number(range[0]) + " .. " + number(range[1]) + (unit.empty() ? "" : " " + unit);
+}
+
 std::string range_of(const Parameter& p) {
   if (p.kind == Parameter::Kind::file) return "FILE";
   if (p.kind == Parameter::Kind::choice || p.kind == Parameter::Kind::plugin) {
@@ -130,7 +136,7 @@ std::string range_of(const Parameter& p) {
       text += (text.empty() ? "" : "|") + choice;
     return text;
   }
-  return number(p.minimum) + " .. " + number(p.maximum) + (p.unit.empty() ? "" : " " + p.unit);
+  return range_text({p.minimum, p.maximum}, p.unit);
 }
 
 void Parameter::assign(void* object, const std::string& text, std::string_view owner) const {

@@ -2,6 +2,7 @@
 // base, and the short names of those that are met most. Families: yoshida1990 (few stages, large errors),
 // suzuki1990 (many stages, smaller ones), kahan-li1997 (the best known of orders 6 and 8).
 #include <pfaff/core/method_alias.hpp>
+#include <pfaff/integrators/composition/bases.hpp>
 #include <pfaff/integrators/composition/composed_instance.hpp>
 #include <pfaff/integrators/composition/composition_weights.hpp>
 #include <pfaff/integrators/order_conditions/word_conditions.hpp>
@@ -29,38 +30,13 @@ std::vector<std::string> scheme_names() {
   return names;
 }
 
-bool symmetric(const MethodPlugin& method) {
-  const std::vector<Claim>& kept = method.descriptor().preserves;
-  return std::find(kept.begin(), kept.end(), Claim::symmetric) != kept.end();
-}
-
-// Why a method cannot be a base; empty when it can.
-std::string unfit(const MethodPlugin& plugin, const MethodInstance& method) {
-  if (method.adaptive()) return "it chooses its steps itself";
-  const bool composable = method.composed({Quad(1)}, 0) != nullptr;
-  if (!symmetric(plugin) && (composable || !plugin.descriptor().preserves.empty()))
-    return "it is not symmetric";
-  if (!composable) return "it does not say how it is composed";
-  return plugin.descriptor().order == 2 ? "" : "its order is not 2";
-}
-
-std::vector<std::string> bases() {
-  std::vector<std::string> names;
-  for (const MethodPlugin* method : integrators().all())
-    if (unfit(*method, *method->make({})).empty()) names.push_back(method->name());
-  return names;
-}
-
 // The base with its parameters set.
 std::unique_ptr<MethodInstance> made_base(const PluginValue& base) {
   const MethodPlugin& plugin = integrators().get(base.name, "integrator");
   auto method = plugin.make(base.settings);
-  const std::string reason = unfit(plugin, *method);
-  if (reason.empty()) return method;
-  std::string list;
-  for (const std::string& name : bases()) list += (list.empty() ? "" : ", ") + name;
-  throw InputError("composition cannot have the base " + base.name + ": " + reason +
-                   "; expected one of: " + list);
+  const std::string reason = unfit_as_base(plugin, *method);
+  if (!reason.empty()) throw InputError("composition cannot have the base " + base.name + ": " + reason);
+  return method;
 }
 
 struct Composing {
@@ -73,7 +49,7 @@ struct Composing {
                       "order of the composition, without one the scheme's lowest; kahan-li has 6 and 8"),
             parameter(&Composing::base, "base",
                       {.kind = "integrator",
-                       .names = bases,
+                       .names = base_names,
                        .parameters =
                            [](const std::string& name) {
                              return integrators().get(name, "integrator").parameters();
@@ -127,7 +103,7 @@ class CompositionPlugin final : public MethodPlugin {
 
   [[nodiscard]] std::vector<Assignments> instances(bool full) const override {
     std::vector<Assignments> list;
-    for (const std::string& base : bases())
+    for (const std::string& base : base_names())
       for (const Scheme& scheme : schemes())
         for (std::size_t k = 0; k < (full ? scheme.verified_in_full : scheme.verified); ++k)
           list.push_back({{"scheme", scheme.name}, {"order", scheme.orders[k]}, {"base", base}});

@@ -20,7 +20,9 @@ struct RegisteredGauss : pfaff::Gauss {
     return claims;
   }
 };
-struct RegisteredImplicitMidpoint : pfaff::ImplicitMidpoint {};
+struct RegisteredImplicitMidpoint : pfaff::ImplicitMidpoint {
+  using Composed = Composition<pfaff::ImplicitMidpoint>;
+};
 
 const Method<RegisteredGauss> gauss{
     {.name = "gauss",
@@ -40,7 +42,8 @@ const Method<RegisteredImplicitMidpoint> midpoint{
      .reference = "su-qin (107); hairer-lubich-wanner2006 (II.1.4)",
      .description = "The implicit midpoint rule, Gauss collocation of one stage and the Euler centre scheme "
                     "of Feng's school. Take it as the simplest symplectic method for energies that are not "
-                    "separable, and where quadratic invariants have to stay. Its order is 2, and for "
+                    "separable, where quadratic invariants have to stay, and as the base of compositions "
+                    "for any vector field. Its order is 2, and for "
                     "structures that depend on the state or on time it is no longer symplectic.",
      .order = 2,
      .preserves = kept_by_gauss}};

@@ -4,16 +4,13 @@
 // step is pre, the weights and the inverse of pre, and n steps in a row take pre and its inverse once.
 #include <algorithm>
 
+#include <pfaff/integrators/composition/bases.hpp>
 #include <pfaff/integrators/composition/composed_instance.hpp>
 #include <pfaff/integrators/order_conditions/word_conditions.hpp>
 #include <pfaff/integrators/tables/method_table.hpp>
 
 namespace {
 using namespace pfaff;
-
-bool contains(const std::vector<Claim>& claims, Claim claim) {
-  return std::find(claims.begin(), claims.end(), claim) != claims.end();
-}
 
 class CompositionTable final : public MethodTable {
  public:
@@ -50,16 +47,12 @@ class CompositionTable final : public MethodTable {
   bool palindrome_;
 };
 
-// The base, which has to be symmetric, of order 2, and to say how it is composed.
+// The base, with its parameters looked at.
 PluginValue read_base(TableDocument& document) {
   PluginValue base = parse_plugin_value(document.required_text("base"), document.path() + ": key 'base'");
   const MethodPlugin& plugin = integrators().get(base.name, "integrator");
-  const auto instance = plugin.make(base.settings);
-  if (!contains(plugin.descriptor().preserves, Claim::symmetric) || plugin.descriptor().order != 2 ||
-      instance->adaptive() || instance->composed({Quad(1)}, 0) == nullptr)
-    document.refuse("base", base.name +
-                                " cannot be composed; expected a symmetric method of order 2, such as "
-                                "verlet, midpoint-darboux or rattle");
+  const std::string reason = unfit_as_base(plugin, *plugin.make(base.settings));
+  if (!reason.empty()) document.refuse("base", base.name + " cannot be composed: " + reason);
   return base;
 }
 

@@ -165,11 +165,12 @@ TEST(Describe, Integrators) {
 
 TEST(Describe, ACompositionSaysWhichBasesThereAre) {
   const auto j = asked({"describe", "composition"});
-  const nlohmann::json base{{"name", "base"},
-                            {"default", "midpoint-darboux(compensated=yes)"},
-                            {"range", "conformal-splitting|dla|midpoint-darboux|rattle|verlet"},
-                            {"unit", ""},
-                            {"meaning", "the symmetric method of order 2 that takes the sub-steps"}};
+  const nlohmann::json base{
+      {"name", "base"},
+      {"default", "midpoint-darboux(compensated=yes)"},
+      {"range", "conformal-splitting|dla|implicit-midpoint|midpoint-darboux|rattle|verlet"},
+      {"unit", ""},
+      {"meaning", "the symmetric method of order 2 that takes the sub-steps"}};
   EXPECT_EQ(j["parameters"][2], base);
   EXPECT_EQ(j["parameters"][0]["range"], "yoshida|suzuki|kahan-li");
 }

@@ -217,6 +217,14 @@ TEST(Documentation, AFileThatIsNotThereIsFound) {  // the control of the test ab
             (std::vector<std::string>{"verification.md#claims", "claim.md", "#page"}));
 }
 
+// The first block is a system with the reasons of its lines beside them (examples/plugin/duffing.cpp).
+TEST(Documentation, CodeOfContributingIsCompiled) {
+  const auto shown = blocks(contents("CONTRIBUTING.md"));
+  ASSERT_EQ(shown.size(), 2U);
+  EXPECT_NE(contents("examples/templates/multistep_integrator.cpp").find(shown[1]), std::string::npos)
+      << shown[1];
+}
+
 TEST(Documentation, CodeOfConstraintsIsCompiled) {
   const auto shown = blocks(contents("docs/constraints.md"));
   ASSERT_EQ(shown.size(), 1U);

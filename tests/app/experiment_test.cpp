@@ -160,8 +160,53 @@ TEST(Experiment, KilledAndResumedItGivesTheSameResults) {
   std::string other = short_and_long_runs;
   other.replace(other.find("time = \"20\""), 11, "time = \"30\"");
   write(files / "test.toml", other);
-  expect_complaint(run_pfaff(compare(files, "whole")), 2, {"whole' holds another experiment"}, "compare");
+  expect_complaint(run_pfaff(compare(files, "whole")), 2,
+                   {"whole' holds another experiment of the same name; expected a new directory, or --force"},
+                   "compare");
   EXPECT_EQ(text_of(files / "whole/results.csv"), results);
+}
+
+// What an experiment of the same name left is replaced where that is asked for. One of another name is not.
+TEST(Experiment, AnotherOneOfTheSameNameIsReplacedByForce) {
+  const TemporaryDirectory files;
+  const auto with = [](std::string text, const std::string& old, const std::string& changed) {
+    return text.replace(text.find(old), old.size(), changed);
+  };
+  const std::string two = R"(schema = 1
+title = "A test"
+[[method]]
+label = "RK4"
+integrator = "rk4"
+[[case]]
+name = "short"
+system = "damped-oscillator"
+time = "2"
+steps = ["0.5", "0.1"]
+conserved = "birkhoffian"
+)";
+  const Arguments plain = compare_without_report(files, "out"), forced = plain + Arguments{"--force"};
+  write(files / "test.toml", two);
+  ASSERT_EQ(run_pfaff(plain).status, 0);
+  const std::string kept = text_of(files / "out/runs/short-rk4-h0.1/summary.json");
+  write(files / "out/report.html", "of the first one");
+  write(files / "test.toml", with(with(two, "\"0.5\"", "\"0.25\""), "A test", "Another"));
+  expect_complaint(run_pfaff(plain), 2, {"out' holds another experiment of the same name"}, "compare");
+  const Outcome outcome = run_pfaff(forced);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(json_of(outcome.out)["experiments"][0]["resumed"], 1);
+  EXPECT_EQ(runs_in(files.path() / "out"), (std::set<std::string>{"short-rk4-h0.1", "short-rk4-h0.25"}));
+  EXPECT_EQ(text_of(files / "out/runs/short-rk4-h0.1/summary.json"), kept);
+  EXPECT_FALSE(fs::exists(files.path() / "out/report.html")) << "the report of other runs is left";
+  for (const char* table : {"out/results.csv", "out/cost.csv"})
+    EXPECT_EQ(text_of(files / table).find(",0.5,"), std::string::npos) << table;
+  // It is the experiment of the directory from now on.
+  EXPECT_EQ(run_pfaff(plain).status, 0);
+  write(files / "other.toml", two);
+  Arguments other = forced;
+  other[1] = files / "other.toml";
+  expect_complaint(run_pfaff(other), 2, {"out' holds another experiment; expected a new directory"},
+                   "compare");
+  EXPECT_EQ(runs_in(files.path() / "out").size(), 2U);
 }
 
 // An ensemble of two formulations: medians, and findings of which one is wrong on purpose.

@@ -97,9 +97,14 @@ grep -q '^field is its definition ' "$scratch/out" || fail "verify template-form
 run_pfaff run --plugin "$plugins/templates.so" --system spherical-pendulum --formulation template-formulation \
   --integrator rk4 --step 0.01 --time 1 --out -
 [[ $status == 0 && $(wc -l <"$scratch/out") -ge 3 ]] || fail "template-formulation does not run: $(<"$scratch/err")"
-run_pfaff run --plugin "$plugins/templates.so" --system template-system --integrator template-integrator \
-  --step 0.1 --time 1 --out -
-[[ $status == 0 && $(wc -l <"$scratch/out") -ge 3 ]] || fail "the templates do not run: $(<"$scratch/err")"
+for integrator in template-integrator template-multistep-integrator; do
+  run_pfaff run --plugin "$plugins/templates.so" --system template-system --integrator "$integrator" \
+    --step 0.1 --time 1 --out -
+  [[ $status == 0 && $(wc -l <"$scratch/out") -ge 3 ]] || fail "$integrator does not run: $(<"$scratch/err")"
+done
+run_pfaff verify template-multistep-integrator --plugin "$plugins/templates.so"
+[[ $status == 0 ]] || fail "verify template-multistep-integrator: $(tail -n 3 "$scratch/out")"
+grep -q '^order ' "$scratch/out" || fail "verify template-multistep-integrator: its order was not measured"
 # The Birkhoffian one does what docs/generating-functions.md promises of it.
 run_pfaff list systems --plugin "$plugins/templates.so"
 grep -q "template-birkhoffian " "$scratch/out" || fail "template-birkhoffian is not listed"

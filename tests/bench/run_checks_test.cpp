@@ -65,10 +65,10 @@ TEST(ClaimsAlongRuns, AStepThatIsWrongNowAndThenIsFound) {
   EXPECT_EQ(failed.front(), "steps of a run: step 97 of a run is another than the same step by itself");
 }
 
-// The 29th step of a run is another one than by itself. That the claims are lost where the position is
+// The fifth step of a run is another one than by itself. That the claims are lost where the position is
 // negative, into which the motion swings later, is found all the same, at the usual step and at longer ones.
 TEST(ClaimsAlongRuns, AStepThatDiffersDoesNotEndTheSearchForLostClaims) {
-  const auto failed = failures<Faulty<29, 200, true>>("midpoint-wrong-on-one-side");
+  const auto failed = failures<Faulty<5, 200, true>>("midpoint-wrong-on-one-side");
   ASSERT_FALSE(failed.empty());
   const auto found = [&](bool at_longer_steps) {
     return std::any_of(failed.begin(), failed.end(), [&](const std::string& claim) {

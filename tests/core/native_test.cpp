@@ -193,6 +193,23 @@ TEST_F(Native, PacksTellTheSignOfZero) {
   expect_bits_in_lanes<4>(*model, Formula::field);
 }
 
+// The compiler knows these as roots, whose last bits are others.
+struct CircularFunctionsOfAnArcTangent {
+  static constexpr int dimension = 1;
+  template <class T>
+  void field(const T& t, In<T> z, Out<T> rate) const {
+    rate[0] = cos(atan(z[0])) + 3 * sin(atan(z[0] + t));
+  }
+};
+
+TEST_F(Native, PacksAndDoublesKnowTheSameIdentities) {
+  const auto model =
+      compiled(bare(make_model({.name = "arc-tangents", .title = "", .reference = "", .initial = {1}},
+                               CircularFunctionsOfAnArcTangent{})));
+  expect_bits_in_lanes<4>(*model, Formula::field);
+  expect_bits_in_lanes<8>(*model, Formula::field);
+}
+
 TEST_F(Native, PacksSolveNoLinearSystems) {
   unsigned seed = 0;
   while (RandomField{.seed = seed}.formula().tape().solves.empty()) ++seed;

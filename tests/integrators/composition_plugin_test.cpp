@@ -125,16 +125,17 @@ TEST(Composition, IsResolvedWithItsBase) {
 
 TEST(Composition, TakesEveryBaseThatSaysHowItIsComposed) {
   const auto& plugin = integrators().get("composition", "integrator");
-  EXPECT_EQ(range_of(plugin.parameters()[2]), "conformal-splitting|dla|midpoint-darboux|rattle|verlet");
+  EXPECT_EQ(range_of(plugin.parameters()[2]),
+            "conformal-splitting|dla|implicit-midpoint|midpoint-darboux|rattle|verlet");
   std::set<std::string> verified;
   for (const Assignments& parameters : plugin.instances(false))
     verified.insert(parameters[0].second + " of " + parameters[2].second);
-  EXPECT_EQ(verified.size(), 15U);  // three schemes of five bases
+  EXPECT_EQ(verified.size(), 18U);  // three schemes of six bases
 }
 
 TEST(Composition, RefusesOtherBases) {
   const std::string expected =
-      "; expected one of: conformal-splitting, dla, midpoint-darboux, rattle, verlet";
+      "; expected one of: conformal-splitting, dla, implicit-midpoint, midpoint-darboux, rattle, verlet";
   const auto because = [&](const char* base, const char* reason) {
     EXPECT_EQ(composition_refusal({{"base", base}}),
               "composition cannot have the base " + std::string(base) + ": " + reason + expected);

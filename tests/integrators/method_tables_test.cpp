@@ -209,7 +209,7 @@ TEST(MethodTables, BadFilesAreRefusedInOneLine) {
       "name = \"table\"\nkind = \"runge-kutta\"\norder = 1\na = [[0.5, 0.5], [0.5, 0.5]]\nb = [0.5, 0.5]\n",
       {"have the same sum"});
   expect_table_refused("name = \"table\"\nkind = \"composition\"\nbase = \"rk4\"\norder = 2\nweights = [1]\n",
-                       {"rk4 cannot be composed; expected a symmetric method of order 2"});
+                       {"rk4 cannot be composed: it is not symmetric; expected one of: ", ", verlet"});
   expect_table_refused(
       "name = \"table\"\nkind = \"composition\"\nbase = \"a\\nb\"\norder = 2\nweights = [1]\n",
       {"key 'base': expected NAME or NAME(key=value, key=value), got 'a b'"});
