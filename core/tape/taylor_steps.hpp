@@ -245,7 +245,7 @@ class TaylorSteps {
   double reach_;
   std::vector<double> of_degrees_, logarithms_;  // of p/m, and of the last coefficients, [degree][coordinate]
   T time_{};
-  int crowded_ = 0;  // such steps so far
+  int crowded_ = 0;                                 // such steps so far
   std::vector<T> sizes_, unsized_;                  // of coordinates; of those that have none
   std::vector<T> state_, slope_, rate_, rounding_;  // where the defect is measured
   std::vector<WithRounding<T>> rounded_state_, rounded_rate_;
