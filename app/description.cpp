@@ -8,9 +8,9 @@
 #include <pfaff/bench/runner/asked_for.hpp>
 #include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/bench/runner/terminal.hpp>
-#include <pfaff/brackets/stated_ranges.hpp>
 #include <pfaff/core/bracket.hpp>
 #include <pfaff/core/facets/derivations/derivation.hpp>
+#include <pfaff/core/facets/stated_ranges.hpp>
 #include <pfaff/core/formulation.hpp>
 #include <pfaff/core/registry/range_text.hpp>
 #include <pfaff/integrators/tables/method_table.hpp>

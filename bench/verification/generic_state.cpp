@@ -5,7 +5,7 @@
 #include <pfaff/bench/verification/check_budget.hpp>
 #include <pfaff/bench/verification/residuals.hpp>
 #include <pfaff/bench/verification/step_scale.hpp>
-#include <pfaff/brackets/stated_ranges.hpp>
+#include <pfaff/core/facets/stated_ranges.hpp>
 
 namespace pfaff {
 

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include <pfaff/brackets/stated_ranges.hpp>
+#include <pfaff/core/facets/stated_ranges.hpp>
 
 namespace pfaff {
 
