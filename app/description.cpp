@@ -1,7 +1,6 @@
 #include <pfaff/app/description.hpp>
 
 #include <algorithm>
-#include <map>
 
 #include <pfaff/bench/experiment/automatic_steps.hpp>
 #include <pfaff/bench/experiment/experiment.hpp>
@@ -44,38 +43,75 @@ nlohmann::json formulations_of(const std::shared_ptr<const Model>& model) {
 // What the literature and the documentation write for a formula.
 std::string symbol_of(Formula formula) {
   using enum Formula;
-  static const std::map<Formula, std::string> symbols{{field, "X, dz/dt = X(z, t)"},
-                                                      {field_jacobian, "dX/dz"},
-                                                      {hamiltonian, "H"},
-                                                      {hamiltonian_gradient, "grad H"},
-                                                      {poisson_tensor, "Pi, X = Pi grad H"},
-                                                      {casimirs, "C, Pi grad C = 0"},
-                                                      {kinetic, "T, H = T + V"},
-                                                      {potential, "V, H = T + V"},
-                                                      {force, "-dV/dq"},
-                                                      {velocity, "dT/dp"},
-                                                      {birkhoffian, "B of F.dz - B dt"},
-                                                      {one_form, "F of F.dz - B dt"},
-                                                      {structure, "K of K z' + D = 0"},
-                                                      {covector, "D of K z' + D = 0"},
-                                                      {chart, "y(z, t)"},
-                                                      {chart_inverse, "z(y, t)"},
-                                                      {chart_hamiltonian, "H(y, t)"},
-                                                      {chart_field, "Y, dy/dt = Y(y, t)"},
-                                                      {chart_field_jacobian, "dY/dy"},
-                                                      {alpha, "w^ and w"},
-                                                      {holonomic, "phi(q, t) = 0"},
-                                                      {friction, "lambda, of each momentum"},
-                                                      {constraints, "phi(z, t) = 0"},
-                                                      {constraint_gradients, "dphi/dz"},
-                                                      {velocity_constraints, "A of A v + b = 0"},
-                                                      {velocity_offsets, "b of A v + b = 0"},
-                                                      {symmetric_tensor, "G, symmetric"},
-                                                      {entropy, "S"},
-                                                      {invariants, "I"},
-                                                      {exact_solution, "z(t)"},
-                                                      {reversal, "rho"}};
-  return symbols.at(formula);
+  switch (formula) {  // without a default, so that the compiler names a formula that is left out
+    case field:
+      return "X, dz/dt = X(z, t)";
+    case field_jacobian:
+      return "dX/dz";
+    case hamiltonian:
+      return "H";
+    case hamiltonian_gradient:
+      return "grad H";
+    case poisson_tensor:
+      return "Pi, X = Pi grad H";
+    case casimirs:
+      return "C, Pi grad C = 0";
+    case kinetic:
+      return "T, H = T + V";
+    case potential:
+      return "V, H = T + V";
+    case force:
+      return "-dV/dq";
+    case velocity:
+      return "dT/dp";
+    case birkhoffian:
+      return "B of F.dz - B dt";
+    case one_form:
+      return "F of F.dz - B dt";
+    case structure:
+      return "K of K z' + D = 0";
+    case covector:
+      return "D of K z' + D = 0";
+    case chart:
+      return "y(z, t)";
+    case chart_inverse:
+      return "z(y, t)";
+    case chart_hamiltonian:
+      return "H(y, t)";
+    case chart_field:
+      return "Y, dy/dt = Y(y, t)";
+    case chart_field_jacobian:
+      return "dY/dy";
+    case alpha:
+      return "w^ and w";
+    case holonomic:
+      return "phi(q, t) = 0";
+    case friction:
+      return "lambda, of each momentum";
+    case applied_force:
+      return "Q, p' = -H_q + Q";
+    case constraints:
+      return "phi(z, t) = 0";
+    case constraint_gradients:
+      return "dphi/dz";
+    case velocity_constraints:
+      return "A of A v + b = 0";
+    case velocity_offsets:
+      return "b of A v + b = 0";
+    case symmetric_tensor:
+      return "G, symmetric";
+    case entropy:
+      return "S";
+    case invariants:
+      return "I";
+    case exact_solution:
+      return "z(t)";
+    case reversal:
+      return "rho";
+    case count:
+      break;
+  }
+  return {};
 }
 
 // The formulas that make what a model offers, and all that its author wrote: for each whether it is written,

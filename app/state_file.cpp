@@ -42,7 +42,7 @@ struct ExactNumbers : nlohmann::detail::json_sax_dom_parser<nlohmann::json> {
   // The place is that of the last byte that was read.
   bool parse_error(std::size_t read, const std::string& last, const nlohmann::detail::exception& /*error*/) {
     text::refuse({contents_, path_}, read == 0 ? 0 : read - 1,
-                 "expected a JSON object with t and z (or q and p), " +
+                 "expected a JSON object with t and z (or q and p, or q and v), " +
                      (read > contents_.size() ? "which ends unfinished" : "got '" + last + "'"));
   }
 
@@ -81,12 +81,12 @@ void read_state(const std::string& path, RunSettings& settings) {
     std::vector<std::string> list;
     if (!j[key].is_array()) throw InputError(path + ": expected a list of numbers");
     for (const nlohmann::json& x : j[key]) list.push_back(number_text(x, path));
-    if (list.empty()) throw InputError(path + ": expected numbers, got an empty list");
     return list;
   };
   const bool z = j.contains("z"), q = j.contains("q"), p = j.contains("p"), v = j.contains("v");
   if (z == q || q != (p != v) || (p && v)) throw InputError(path + ": expected z, q and p, or q and v");
   settings.initial = numbers(z ? "z" : "q");
+  if (z && settings.initial.empty()) throw InputError(path + ": expected numbers, got an empty list");
   if (z) return;
   const std::string second = p ? "p" : "v";
   const std::vector<std::string> rest = numbers(second.c_str());

@@ -60,6 +60,7 @@ class SeriesOfSolution {
     // larger, for its first digits are below the others' last ones.
     for (std::size_t k = 0; k < z_.size(); ++k) least_[k] = std::max(least_[k], steps_.unsized()[k]);
     after_ = abs(goal - t_) <= abs(step) ? goal : t_ + step;
+    if (steps_.ends_at_kink()) ++kinks_;
     return {};
   }
   /// The time and the state at the point of expansion, and the time at the end of the step.
@@ -67,6 +68,8 @@ class SeriesOfSolution {
   [[nodiscard]] const std::vector<Quad>& state() const { return z_; }
   [[nodiscard]] Quad after() const { return after_; }
   [[nodiscard]] const TaylorExpansion<Quad>& expansion() const { return steps_.expansion(); }
+  /// How many kinks of the field the steps have led to.
+  [[nodiscard]] std::int64_t kinks() const { return kinks_; }
   /// The state at a time of the step.
   void evaluate(Quad t, std::vector<Quad>& z) const {
     for (std::size_t k = 0; k < z.size(); ++k) z[k] = z_[k] + expansion().increment(t - t_, k);
@@ -103,7 +106,7 @@ class SeriesOfSolution {
   TaylorSteps<Quad> steps_;
   Quad t_, paced_, after_;
   std::vector<Quad> z_, least_;  // the least sizes of coordinates
-  std::int64_t taken_ = 0;
+  std::int64_t taken_ = 0, kinks_ = 0;
 };
 
 std::string solution_found_up_to(Quad t, const std::string& reason) {
@@ -120,7 +123,7 @@ void ReferenceExpansion::evaluate(Quad s, Quad* z) const {
 
 SolutionEnds::SolutionEnds(Quad t, const std::string& reason) : RunError(solution_found_up_to(t, reason)) {}
 
-void taylor_flow(const Model& model, Quad t, Quad elapsed, std::vector<Quad>& z) {
+std::int64_t taylor_flow(const Model& model, Quad t, Quad elapsed, std::vector<Quad>& z) {
   SeriesOfSolution solution(model, order_of_solution, t, z);
   const Quad goal = t + elapsed;
   while (solution.time() != goal) {
@@ -129,6 +132,7 @@ void taylor_flow(const Model& model, Quad t, Quad elapsed, std::vector<Quad>& z)
     solution.advance();
   }
   z = solution.state();
+  return solution.kinks();
 }
 
 ReferenceSolution::ReferenceSolution(std::shared_ptr<const Model> model, Quad t0, std::vector<Quad> initial,

@@ -3,6 +3,7 @@
 // series of two orders with steps of their own. What both have in common is what is claimed.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -31,8 +32,8 @@ class SolutionEnds : public RunError {
 /// Moves `z` from time `t` along the flow of a model over `elapsed`, which may be negative, by Taylor steps
 /// in quad. A step spends one of the budget of its thread (core/errors/budget.hpp), and at most a million are
 /// taken. SolutionEnds where the solution leaves the domain of the formulas, where it blows up, and behind
-/// the last step; BudgetSpent where the budget ends.
-void taylor_flow(const Model& model, Quad t, Quad elapsed, std::vector<Quad>& z);
+/// the last step; BudgetSpent where the budget ends. Returns how many kinks of the field the motion meets.
+std::int64_t taylor_flow(const Model& model, Quad t, Quad elapsed, std::vector<Quad>& z);
 
 /// The solution of an initial value problem at any time of an interval. A Taylor solution is computed and
 /// kept by the constructor; the object is immutable afterwards, so that threads can share it.

@@ -6,11 +6,11 @@ namespace {
 constexpr const char* words = "not judged: ";
 }  // namespace
 
-void short_flow(const Model& model, const Quad& t, const Quad& elapsed, std::vector<Quad>& z) {
+std::int64_t short_flow(const Model& model, const Quad& t, const Quad& elapsed, std::vector<Quad>& z) {
   constexpr std::int64_t steps = 2000;
   const Budget budget({.steps = steps});
   try {
-    taylor_flow(model, t, elapsed, z);
+    return taylor_flow(model, t, elapsed, z);
   } catch (const BudgetSpent& spent) {
     if (spent.stopped() || budget.steps() < steps) throw;
     throw SolutionEnds(t, std::to_string(steps) + " Taylor steps lead no further");

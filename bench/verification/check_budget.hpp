@@ -17,8 +17,8 @@ inline constexpr BudgetLimits limits_of_long_runs{.steps = 10'000'000, .evaluati
 
 /// Moves `z` from time `t` along the flow of a model over `elapsed`, at most a few of the system's own times,
 /// by Taylor steps in quad, some tens of them. SolutionEnds also where two thousand do not do it: towards a
-/// singularity they become smaller and smaller.
-void short_flow(const Model& model, const Quad& t, const Quad& elapsed, std::vector<Quad>& z);
+/// singularity they become smaller and smaller. Returns how many kinks of the field the motion meets.
+std::int64_t short_flow(const Model& model, const Quad& t, const Quad& elapsed, std::vector<Quad>& z);
 
 /// The check, whose names are filled in, as one that was not judged because its budget was spent. Passes the
 /// exception on where the work was asked to stop.
@@ -28,6 +28,10 @@ Check not_judged(Check check, const SolutionEnds& ends);
 
 /// The same for any other reason, such as errors that round-off hides.
 Check not_judged(Check check, const std::string& why);
+
+/// Why a claim about the size or the order of errors is not judged across a kink of the field.
+inline constexpr const char* across_a_kink =
+    "the motion meets a kink of the field, behind which errors are not those of a smooth motion";
 
 /// True where a check was not judged, for whatever reason.
 bool unjudged(const Check& check);

@@ -58,10 +58,13 @@ class Errors {
   void find_solution(const Quad& elapsed) {
     if (!exact_.empty() && elapsed == exact_after_) return;
     std::vector<Quad> z = start_;
-    short_flow(*motion_, begin_.quad(), elapsed, z);
+    kinks_ = short_flow(*motion_, begin_.quad(), elapsed, z);
     exact_ = std::move(z);
     exact_after_ = elapsed;
   }
+
+  /// True where the motion to the state last found meets a kink of the field.
+  [[nodiscard]] bool across_kinks() const { return kinks_ > 0; }
 
   /// The root mean square of the errors after the last quarter of so many equal steps, at eight times;
   /// negative when a step fails. `steps` is a multiple of 32.
@@ -108,6 +111,7 @@ class Errors {
   Quad time_;
   std::vector<Quad> exact_;  // the state after the time that was asked for last
   Quad exact_after_;
+  std::int64_t kinks_ = 0;
 };
 
 double logarithm2(Quad x) { return std::log2(static_cast<double>(x)); }
@@ -182,6 +186,7 @@ MeasuredOrder measure_order(const MethodInstance& method, const std::shared_ptr<
   if (history && !model->restricted()) {
     const auto over = [&](const Quad& elapsed) {
       errors.find_solution(elapsed);
+      if (errors.across_kinks()) return MeasuredOrder{.reason = across_a_kink};
       return settle([&](int k) { return errors.late(elapsed, fewest_steps << k); }, 10,
                     [&](int k) {
                       // Roundings of n steps of a recurrence of second order add up to n^2 / 2 of them.
@@ -196,6 +201,7 @@ MeasuredOrder measure_order(const MethodInstance& method, const std::shared_ptr<
   }
   if (method.needs_constraints() || history) {
     errors.find_solution(interval * time);
+    if (errors.across_kinks()) return MeasuredOrder{.reason = across_a_kink};
     return settle([&](int k) { return errors.after(interval * time, std::int64_t{1} << k); }, 10,
                   [&](int) { return Quad(100) * floor_after(interval * time); });
   }

@@ -15,7 +15,8 @@ std::shared_ptr<const Model> random_rods();
 
 /// Polynomial systems drawn with fixed seeds: surfaces, surfaces of revolution, rods on a plane, second-class
 /// constraints of the phase space and velocity constraints, two of each, and the same surfaces, rods and
-/// second-class constraints with terms that depend on time.
+/// second-class constraints with terms that depend on time; those that are canonical also with applied
+/// forces.
 std::vector<std::shared_ptr<const Model>> random_constraints();
 
 }  // namespace pfaff

@@ -86,7 +86,9 @@ class TaylorSteps {
       h = abs(kink->before);
     }
     std::fill(unsized_.begin(), unsized_.end(), T(0));
+    ends_at_kink_ = false;
     if (kink && time_ + kink->before == time_) {  // the state is at the kink, within rounding
+      ends_at_kink_ = true;
       const T least = T(4) * std::numeric_limits<T>::epsilon() * std::max(T(abs(time_)), whole);
       return direction * std::max(T(abs(kink->behind)), least);
     }
@@ -96,11 +98,17 @@ class TaylorSteps {
       if (!limited && reductions == 0)
         for (const double part : parts)
           excess = larger(excess, this->excess(direction * h * T(part), tolerance));
-      if (excess <= T(1)) return kink && reductions == 0 ? kink->behind : direction * h;
+      if (excess <= T(1)) {
+        ends_at_kink_ = kink && reductions == 0;
+        return ends_at_kink_ ? kink->behind : direction * h;
+      }
       h = h * T(reduction(excess, reductions));
     }
     return T(0);
   }
+
+  /// True where the last step ends behind a kink of the field.
+  [[nodiscard]] bool ends_at_kink() const { return ends_at_kink_; }
 
   /// The sizes that the last step was measured against, of coordinates; zero where there was none.
   [[nodiscard]] const std::vector<T>& sizes() const { return sizes_; }
@@ -245,6 +253,7 @@ class TaylorSteps {
   double reach_;
   std::vector<double> of_degrees_, logarithms_;  // of p/m, and of the last coefficients, [degree][coordinate]
   T time_{};
+  bool ends_at_kink_ = false;
   int crowded_ = 0;                                 // such steps so far
   std::vector<T> sizes_, unsized_;                  // of coordinates; of those that have none
   std::vector<T> state_, slope_, rate_, rounding_;  // where the defect is measured

@@ -143,7 +143,7 @@ TEST(Evaluate, StateFiles) {
   write(files / "state.json", R"({"z": [0.25, 2]})");
   EXPECT_EQ(evaluated(from + Arguments{"--time", "1"})["t"], 1.0);
   for (const auto& [bad, fragment] :
-       {std::pair{"{", "expected a JSON object"}, std::pair{R"({"z": [1]})", "expected 2 numbers"},
+       {std::pair{"[]", "expected a JSON object"}, std::pair{R"({"z": [1]})", "expected 2 numbers"},
         std::pair{R"({"z": [1, 2, 3]})", "expected 2 numbers"},
         std::pair{R"({"y": [1, 2]})", "unknown key 'y'"},
         std::pair{R"({"z": [1, "a"]})", "initial p of damped-pendulum"}}) {

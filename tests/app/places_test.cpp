@@ -75,7 +75,7 @@ TEST(Places, OfNamesThatAreNoParameters) {
 
 TEST(Places, OfWhatIsNoJson) {
   const TemporaryDirectory files;
-  const std::string expected = "expected a JSON object with t and z (or q and p), ";
+  const std::string expected = "expected a JSON object with t and z (or q and p, or q and v), ";
   for (const Misplaced& bad : {
            Misplaced{"z = [1, 0]", "1:1: " + expected + "got 'z'"},
            {R"({"z": [1, 0])", "1:13: " + expected + "which ends unfinished"},
