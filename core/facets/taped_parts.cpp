@@ -15,7 +15,7 @@ void record_linear(const SparseRecorded& rows, const SparseRecorded& by_momentum
 }
 
 std::shared_ptr<const Tape> slopes_of_motion(const Model& model) {
-  const auto gradient = model.tape(Formula::hamiltonian_gradient);
+  auto gradient = model.tape(Formula::hamiltonian_gradient);
   if (!model.forced()) return gradient;
   const auto force = model.tape(Formula::applied_force);
   return std::make_shared<const Tape>(

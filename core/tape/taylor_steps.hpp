@@ -89,8 +89,8 @@ class TaylorSteps {
     ends_at_kink_ = false;
     if (kink && time_ + kink->before == time_) {  // the state is at the kink, within rounding
       ends_at_kink_ = true;
-      const T least = T(4) * std::numeric_limits<T>::epsilon() * std::max(T(abs(time_)), whole);
-      return direction * std::max(T(abs(kink->behind)), least);
+      const T shortest = T(4) * std::numeric_limits<T>::epsilon() * std::max(T(abs(time_)), whole);
+      return direction * std::max(T(abs(kink->behind)), shortest);
     }
     for (int reductions = 0; time_ + direction * h != time_; ++reductions) {
       measure_sizes(h, least);

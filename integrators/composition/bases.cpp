@@ -29,7 +29,7 @@ std::vector<std::string> base_names() {
 }
 
 std::string unfit_as_base(const MethodPlugin& plugin, const MethodInstance& method) {
-  const std::string reason = why_unfit(plugin, method);
+  std::string reason = why_unfit(plugin, method);
   if (reason.empty()) return reason;
   std::string list;
   for (const std::string& name : base_names()) list += (list.empty() ? "" : ", ") + name;
