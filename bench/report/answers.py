@@ -169,7 +169,7 @@ def constraints_beside_agreement(verdict):
 
 
 def turning(verdict):
-    out = []
+    out, said = [], None  # the step that the clause before names
     for vector, (_, lines) in frequencies(verdict.experiment, verdict.case).items():
         steps = [h for line in lines.values() for h, steady in zip(line.steps, line.steadies) if steady]
         if not steps:
@@ -185,8 +185,10 @@ def turning(verdict):
         if best[-1] is worst[0] or len(best) == len(rows):
             continue
         unknown = [m for m in lines if m not in at]
-        scope = f", of {len(rows)} steady methods," if unknown else ""
-        words = (f"at step {step:.4g} {text(vector)}{scope} turns best with {names(best)}, off by {size(at[rows[0].label])}, "
+        scope = f", of {len(rows)}{'' if out else ' steady methods'}," if unknown else ""
+        place = "" if step == said else f"at step {step:.4g} "
+        said = step
+        words = (f"{place}{text(vector)}{scope} turns best with {names(best)}, off by {size(at[rows[0].label])}, "
                  f"and worst with {names(worst)}, by {size(at[rows[-1].label])}" + ("" if out else " rad per unit of time"))
         out.append(Clause(words, "turns", labels(best), ["error", "change"], {},
                           {"vector": vector, "step": step, "worst": labels(worst), "among": labels(rows), "unknown": unknown}))
