@@ -5,6 +5,7 @@
 #include <pfaff/bench/experiment/case_steps.hpp>
 #include <pfaff/bench/experiment/experiment.hpp>
 #include <pfaff/bench/experiment/method_selection.hpp>
+#include <pfaff/bench/runner/asked_for.hpp>
 #include <pfaff/bench/runner/toml_keys.hpp>
 #include <pfaff/core/text/vocabulary.hpp>
 
@@ -291,8 +292,10 @@ std::vector<std::string> experiment_names() {
 Experiment read_experiment(const std::string& name_or_path, bool quick) {
   fs::path path = name_or_path;
   if (path.extension() != ".toml") {
-    path = data_directory() / "experiments" / (name_or_path + ".toml");
+    const fs::path directory = data_directory() / "experiments";
     std::error_code error;
+    path = directory / (name_or_path + ".toml");
+    if (!fs::exists(path, error)) path = directory / (in_small_letters(name_or_path) + ".toml");
     if (!fs::exists(path, error))
       throw InputError(unknown_name("experiment", name_or_path, experiment_names()));
   }

@@ -10,9 +10,13 @@
 
 namespace pfaff {
 
+std::string in_small_letters(std::string name) {
+  for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return name;
+}
+
 std::string spelled(const std::string& name) {
-  std::string small(name);
-  for (char& c : small) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string small = in_small_letters(name);
   const bool registered = systems().find(small) != nullptr || integrators().find(small) != nullptr ||
                           brackets().find(small) != nullptr || formulations().find(small) != nullptr;
   return registered ? small : name;

@@ -8,6 +8,8 @@
 
 namespace pfaff {
 
+/// A name in small letters.
+std::string in_small_letters(std::string name);
 /// A name as plug-ins are registered, in small letters, where it is that of one in others; else as it stands.
 std::string spelled(const std::string& name);
 

@@ -279,6 +279,11 @@ TEST_F(Experiments, IncludedFilesGiveTheirTables) {
   EXPECT_EQ(e.methods[1].label, "RK4");
 }
 
+TEST(ExperimentNames, AreTakenInWhateverLetters) {
+  EXPECT_EQ(read_experiment("Kepler", true).name, "kepler");
+  EXPECT_EQ(read_experiment("DAMPED-Oscillator", true).name, "damped-oscillator");
+}
+
 // No title or description of a quick experiment speaks of what only the full one has.
 TEST(QuickExperiments, DoNotPromiseMoreThanTheyDo) {
   for (const std::string& name : experiment_names()) {
