@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
@@ -120,10 +121,15 @@ class Program {
     std::array<std::string*, 2> texts{&outcome.out, &outcome.err};
     std::array<char, 65536> buffer{};
     while (streams[0].fd >= 0 || streams[1].fd >= 0) {
-      if (poll(streams.data(), streams.size(), -1) < 0) break;
+      if (poll(streams.data(), streams.size(), -1) < 0) {
+        if (errno == EINTR)
+          continue;  // stopped and continued meanwhile, as by a debugger or a machine that sleeps
+        break;
+      }
       for (std::size_t k = 0; k < streams.size(); ++k) {
         if (streams[k].fd < 0 || streams[k].revents == 0) continue;
         const ssize_t count = read(streams[k].fd, buffer.data(), buffer.size());
+        if (count < 0 && errno == EINTR) continue;
         if (count > 0) {
           texts[k]->append(buffer.data(), static_cast<std::size_t>(count));
         } else {
