@@ -50,6 +50,7 @@ class Kinks {
         }
         while (abs(behind - before) > resolution) {
           const V middle = before + (behind - before) / V(2);
+          if (middle == before || middle == behind) break;  // no number lies between them
           (changed(middle) ? behind : before) = middle;
         }
         if (!found || abs(behind) < abs(found->behind)) {

@@ -67,6 +67,7 @@ struct Taylor {
     // Made when a tolerance is first given, since its degree follows from that.
     std::optional<TaylorSteps<T>> adaptive;
     State<P> carry, rate;
+    State<P> begin, carry_at_begin;  // of a step that meets a kink
     CoordinateScales<P> scales;
     std::vector<T> sizes;  // the scales for the step that is looked for
     T last_step{0};        // of a run with a tolerance
@@ -75,6 +76,8 @@ struct Taylor {
         : expansion(p.field_tape(), method.truncation),
           carry(p.make_state()),
           rate(p.make_state()),
+          begin(p.make_state()),
+          carry_at_begin(p.make_state()),
           scales(p),
           sizes(p.size()) {}
   };
@@ -87,12 +90,14 @@ struct Taylor {
       ++p.counters().fields;
       w.expansion.expand(t + (h - rest), z.data());
       const auto kink = w.expansion.first_kink(value_of(rest));
+      if (kink && piece == 0) w.begin = z, w.carry_at_begin = w.carry;
       const T s = kink ? w.expansion.time_of_kink(kink->behind) : rest;
       for (std::size_t k = 0; k < z.size(); ++k)
         add_to(z[k], w.carry[k], w.expansion.increment(s, k), compensated);
       if (!kink || kink->behind == value_of(rest)) return Status::converged;
       rest = rest - s;
     }
+    z = w.begin, w.carry = w.carry_at_begin;
     return Status::not_converged;  // the motion stays at a kink
   }
 
