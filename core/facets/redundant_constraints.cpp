@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <pfaff/core/facets/followed_invariants.hpp>
 #include <pfaff/core/facets/sparse_tape.hpp>
 #include <pfaff/core/linear/matrix.hpp>
 #include <pfaff/core/linear/structured_ldlt.hpp>
@@ -170,22 +171,6 @@ std::shared_ptr<const Tape> results_of(const Tape& tape, const Indices& which) {
                                                  out[k] = all[which[k]];
                                              }));
 }
-
-// Follows constraints as conserved quantities behind those that the author states.
-void follow(ModelSource& source, const std::shared_ptr<const Tape>& phi, const Indices& which) {
-  std::shared_ptr<const Tape>& stated = source.given[index(Formula::invariants)];
-  for (const std::size_t k : which) source.invariants.push_back(conserved(source.constraint_names[k], ""));
-  stated = std::make_shared<const Tape>(record(source.dimension, static_cast<int>(source.invariants.size()),
-                                               [&](const Recorded& t, In<Recorded> z, Out<Recorded> out) {
-                                                 std::size_t at = 0;
-                                                 if (stated != nullptr)
-                                                   for (const Recorded& x : evaluate(*stated, t, z))
-                                                     out[at++] = x;
-                                                 const std::vector<Recorded> all = evaluate(
-                                                     *phi, t, z.first(static_cast<std::size_t>(phi->inputs)));
-                                                 for (const std::size_t k : which) out[at++] = all[k];
-                                               }));
-}
 }  // namespace
 
 void leave_out_redundant(ModelSource& source) {
@@ -205,7 +190,10 @@ void leave_out_redundant(ModelSource& source) {
   for (std::size_t i = 0; i < constraints.count; ++i)
     if (!std::binary_search(dependent.begin(), dependent.end(), i)) kept.push_back(i);
   if (dependent.empty() || kept.empty() || !follow_from(constraints, kept, dependent, q)) return;
-  follow(source, phi, dependent);
+  std::vector<FollowedQuantity> followed;
+  for (const std::size_t k : dependent)
+    followed.push_back({conserved(source.constraint_names[k], ""), phi, k});
+  follow(source, followed);
   std::vector<std::string> names;
   for (const std::size_t k : kept) names.push_back(source.constraint_names[k]);
   for (const std::size_t k : dependent) source.redundant_constraints.push_back(source.constraint_names[k]);

@@ -4,6 +4,7 @@
 #include <array>
 #include <span>
 
+#include <pfaff/core/facets/followed_invariants.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/replay.hpp>
 
@@ -83,23 +84,9 @@ class Followed {
     if (std::any_of(source_.invariants.begin(), source_.invariants.end(), same_name) ||
         is_stated(*tape, output))
       return;
-    source_.invariants.push_back(std::move(invariant));
-    added_.emplace_back(tape, output);
+    added_.push_back({std::move(invariant), tape, output});
   }
-  void finish() {
-    if (added_.empty()) return;
-    Tapes& stated = source_.given[index(Formula::invariants)];
-    stated =
-        std::make_shared<const Tape>(record(source_.dimension, static_cast<int>(source_.invariants.size()),
-                                            [&](const Recorded& t, In<Recorded> z, Out<Recorded> out) {
-                                              std::size_t k = 0;
-                                              if (stated != nullptr)
-                                                for (const Recorded& x : evaluate(*stated, t, z))
-                                                  out[k++] = x;
-                                              for (const auto& [tape, output] : added_)
-                                                out[k++] = evaluate(*tape, t, z)[output];
-                                            }));
-  }
+  void finish() { follow(source_, added_); }
 
  private:
   // True where a conserved quantity that the author states is a function of this one.
@@ -119,7 +106,7 @@ class Followed {
 
   ModelSource& source_;
   Gradients stated_;  // of the author's invariants
-  std::vector<std::pair<Tapes, std::size_t>> added_;
+  std::vector<FollowedQuantity> added_;
 };
 }  // namespace
 
