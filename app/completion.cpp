@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include <pfaff/app/command.hpp>
+#include <pfaff/bench/runner/asked_for.hpp>
 #include <pfaff/core/errors/errors.hpp>
 #include <pfaff/core/numbers/formatted.hpp>
 
@@ -61,8 +62,7 @@ Values values_of(const CLI::App& app, const std::string& type) {
     } else if (std::isupper(static_cast<unsigned char>(part[0])) != 0) {
       values.names = true;
       if (part != "NAME") {
-        values.listed = part + "s";
-        for (char& c : values.listed) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        values.listed = in_small_letters(part + "s");
       }
     } else {
       values.words.push_back(part);

@@ -9,6 +9,8 @@
 namespace pfaff::app {
 
 namespace {
+constexpr const char* expected_state = "expected a JSON object with t and z (or q and p, or q and v)";
+
 // A JSON parser that keeps numbers as the text they are written as, because a double would lose digits.
 struct ExactNumbers : nlohmann::detail::json_sax_dom_parser<nlohmann::json> {
   ExactNumbers(nlohmann::json& result, const std::string& path, const std::string& contents)
@@ -39,11 +41,8 @@ struct ExactNumbers : nlohmann::detail::json_sax_dom_parser<nlohmann::json> {
     std::string text = written;
     return string(text);
   }
-  // The place is that of the last byte that was read.
   bool parse_error(std::size_t read, const std::string& last, const nlohmann::detail::exception& /*error*/) {
-    text::refuse({contents_, path_}, read == 0 ? 0 : read - 1,
-                 "expected a JSON object with t and z (or q and p, or q and v), " +
-                     (read > contents_.size() ? "which ends unfinished" : "got '" + last + "'"));
+    text::refuse_json({contents_, path_}, read, last, expected_state);
   }
 
  private:
@@ -72,7 +71,7 @@ void read_state(const std::string& path, RunSettings& settings) {
   const std::string contents = read_file(path);
   ExactNumbers reader(j, path, contents);
   if (!nlohmann::json::sax_parse(contents, &reader) || !j.is_object())
-    throw InputError(path + ": expected a JSON object with t and z (or q and p, or q and v)");
+    throw InputError(path + ": " + expected_state);
   for (const auto& [key, value] : j.items())
     if (key != "t" && key != "z" && key != "q" && key != "p" && key != "v" && key != "schema")
       throw InputError(path + ": " + unknown_name("key", key, {"t", "z", "q", "p", "v"}));

@@ -1,8 +1,6 @@
 // Counterexamples as text: the model and the command that shows it.
-#include <algorithm>
-#include <cctype>
-
 #include <pfaff/bench/falsification/falsify.hpp>
+#include <pfaff/bench/runner/asked_for.hpp>
 #include <pfaff/core/numbers/formatted.hpp>
 
 namespace pfaff {
@@ -28,10 +26,7 @@ std::string shell_word(const std::string& text) {
 }
 
 std::string counterexample_name(const ClaimUnderTest& test) {
-  std::string claim(to_string(test.claim));
-  std::transform(claim.begin(), claim.end(), claim.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return test.method->descriptor().name + "-not-" + claim;
+  return test.method->descriptor().name + "-not-" + in_small_letters(std::string(to_string(test.claim)));
 }
 
 PolynomialSystem named_system(const ClaimUnderTest& test, const Counterexample& counterexample) {

@@ -41,4 +41,11 @@ void refuse(const Source& source, std::size_t offset, const std::string& message
                   text.empty() ? "" : "  " + shown(text.substr(first, last - first)) + "\n  " + caret + "^");
 }
 
+void refuse_json(const Source& source, std::size_t read, const std::string& token,
+                 const std::string& expected) {
+  // The place is that of the last byte that was read.
+  refuse(source, read == 0 ? 0 : read - 1,
+         expected + (read > source.text.size() ? ", which ends unfinished" : ", got '" + token + "'"));
+}
+
 }  // namespace pfaff::text

@@ -31,4 +31,9 @@ class TextError : public InputError {
 /// Throws a TextError about the place `offset`, in bytes, of the text.
 [[noreturn]] void refuse(const Source& source, std::size_t offset, const std::string& message);
 
+/// The same of broken JSON, of whose text a parser had read `read` bytes when it met `token`. `expected` says
+/// what the whole was to be: "expected JSON".
+[[noreturn]] void refuse_json(const Source& source, std::size_t read, const std::string& token,
+                              const std::string& expected);
+
 }  // namespace pfaff::text

@@ -77,9 +77,7 @@ class JsonReader : public nlohmann::json_sax<nlohmann::json> {
   bool end_array() override { return close(); }
   bool parse_error(std::size_t position, const std::string& token,
                    const nlohmann::detail::exception& /*error*/) override {
-    const bool ends = position > text_.size();
-    text::refuse({text_, path_}, position == 0 ? 0 : position - 1,
-                 ends ? "expected JSON, which ends unfinished" : "expected JSON, got '" + token + "'");
+    text::refuse_json({text_, path_}, position, token, "expected JSON");
   }
 
  private:
