@@ -8,6 +8,7 @@
 #include <pfaff/core/system.hpp>
 
 #include "../formula_values.hpp"
+#include "../integrators/adaptive_samples.hpp"
 #include "../integrators/methods.hpp"
 
 namespace {
@@ -15,6 +16,7 @@ using namespace pfaff;
 using pfaff::testing::after_steps;
 using pfaff::testing::evaluated;
 using pfaff::testing::method_named;
+using pfaff::testing::sample_of;
 
 // A plate of three points at (0, 0), (1, 0) and (1/2, 1) from its corner, hung on three parallel cranks of
 // length one: six rods, five of which are enough. Every point goes round a circle, at the angle a from the
@@ -52,14 +54,8 @@ std::vector<Real> hanging() {
   z.resize(12, Real(0));
   return z;
 }
-template <class S>
-std::shared_ptr<const Model> model_of(const S& system, std::vector<Real> initial) {
-  return make_model(
-      SystemDescriptor{.name = "plate", .title = "", .reference = "", .initial = std::move(initial)}, system);
-}
-
 TEST(RedundantConstraints, ARodTooManyIsLeftOutAndFollowed) {
-  const auto model = model_of(Plate<6>{}, hanging());
+  const auto model = sample_of(Plate<6>{}, hanging());
   EXPECT_EQ(model->source().redundant_constraints, std::vector<std::string>{"phi6"});
   EXPECT_EQ(model->source().constraint_names.size(), 5U);
   ASSERT_EQ(model->invariants().size(), 1U);
@@ -73,13 +69,13 @@ TEST(RedundantConstraints, ARodTooManyIsLeftOutAndFollowed) {
             1e-32);
 }
 TEST(RedundantConstraints, EnoughRodsAreAllKept) {
-  EXPECT_TRUE(model_of(Plate<5>{}, hanging())->source().redundant_constraints.empty());
+  EXPECT_TRUE(sample_of(Plate<5>{}, hanging())->source().redundant_constraints.empty());
 }
 
 // Two positions in one: with the crank of the third point longer than the others the state is off its
 // surface, and the dependence of the gradients, which the lengths do not change, is no redundancy.
 TEST(RedundantConstraints, AContradictionIsKept) {
-  EXPECT_TRUE((model_of(Plate<6, true>{}, hanging())->source().redundant_constraints.empty()));
+  EXPECT_TRUE((sample_of(Plate<6, true>{}, hanging())->source().redundant_constraints.empty()));
 }
 
 // A chain of two rods that is stretched between its ends: the gradients depend on each other in this position
@@ -101,12 +97,12 @@ struct Stretched {
   }
 };
 TEST(RedundantConstraints, ASingularPositionIsKept) {
-  EXPECT_TRUE(model_of(Stretched{}, {1, 0, 0, 0})->source().redundant_constraints.empty());
+  EXPECT_TRUE(sample_of(Stretched{}, {1, 0, 0, 0})->source().redundant_constraints.empty());
 }
 
 // a'' = -2 sin a from rest, for each formulation and for methods that keep the constraints themselves.
 TEST(RedundantConstraints, TheMotionIsThatOfAPendulum) {
-  const auto model = model_of(Plate<6>{}, hanging());
+  const auto model = sample_of(Plate<6>{}, hanging());
   const auto expect_acceleration = [&](const std::vector<Quad>& rate, const std::string& name) {
     // At rest p' = a'' (cos a, sin a) at every point.
     const Quad turn = -Quad(2) * Quad(3) / Quad(5);

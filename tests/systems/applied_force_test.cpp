@@ -4,44 +4,27 @@
 
 #include <array>
 #include <filesystem>
-#include <fstream>
 
 #include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/core/formulation.hpp>
 #include <pfaff/core/system.hpp>
-#include <pfaff/core/text/source.hpp>
-#include <pfaff/systems/text/text_system.hpp>
 
 #include "../formula_values.hpp"
 #include "../integrators/methods.hpp"
-#include "../temporary_directory.hpp"
+#include "written_models.hpp"
 
 namespace {
 using namespace pfaff;
 using pfaff::testing::after_steps;
 using pfaff::testing::evaluated;
 using pfaff::testing::method_named;
+using pfaff::testing::model_written;
+using pfaff::testing::refusal_written;
 
 std::shared_ptr<const Model> example(const std::string& name) {
   const auto directory = std::filesystem::path(PFAFF_GOLDEN) / "../../examples/models";
   return system_named((directory / (name + ".toml")).string()).make({});
 }
-std::shared_ptr<const Model> written(const std::string& text) {
-  const pfaff::testing::TemporaryDirectory directory;
-  const std::string file = directory / "model.toml";
-  std::ofstream(file) << text;
-  return system_named(file).make({});
-}
-std::string refusal(const std::string& text) {
-  try {
-    (void)written(text);
-  } catch (const InputError& error) {
-    const std::string what = error.what();
-    return what.substr(std::min(what.find("model.toml"), what.size()));
-  }
-  return "accepted";
-}
-
 // The values were computed with 34 digits by Gragg, Bulirsch and Stoer's extrapolation from equations of
 // motion written by hand in other coordinates: angles and their rates of the arm, the angle of the crank
 // alone for the loop, whose point 4 is where two circles meet. Gauss's method of order 16 in quad is exact to
@@ -182,7 +165,7 @@ const char* const driven_text =
 TEST(AppliedForce, TwinsInCppAndTextHaveOneField) {
   const std::vector<Quad> z{Quad(3) / Quad(7), Quad(-2) / Quad(3)};
   const Quad t = Quad(4) / Quad(5);
-  const auto text = evaluated(written(driven_text), Formula::field, z, 2, t),
+  const auto text = evaluated(model_written(driven_text), Formula::field, z, 2, t),
              twin = evaluated(model_of(Driven{}, {1, 0}), Formula::field, z, 2, t);
   EXPECT_EQ(text, twin);
   EXPECT_LT(static_cast<double>(abs(twin[1] - (cos(Quad(2) * t) - z[0] - z[1] / Quad(5)))), 1e-33);
@@ -190,7 +173,7 @@ TEST(AppliedForce, TwinsInCppAndTextHaveOneField) {
 
 // Beside a lagrangian the force reads velocities: L = (1 + q^2) v^2/2 - q^2/2 has p = (1 + q^2) v.
 TEST(AppliedForce, ReadsTheVelocitiesOfALagrangian) {
-  const auto model = written(
+  const auto model = model_written(
       "coordinates = [\"q\", \"p\"]\ninitial = [1, 0]\nvelocities = [\"u\"]\n"
       "lagrangian = \"(1 + q^2)*u^2/2 - q^2/2\"\napplied_force = [\"t*u^3 - q*p\"]\n");
   const Quad q = Quad(1) / Quad(3), p = Quad(5) / Quad(7), t = Quad(2), u = p / (Quad(1) + q * q);
@@ -229,7 +212,7 @@ TEST(AppliedForce, ADrivenBladeKeepsItsDirection) {
 
 // H' = Q.v: an energy that such a force changes counts as conserved nowhere.
 TEST(AppliedForce, TheEnergyIsFollowedAndNotClaimed) {
-  const auto model = written(driven_text);
+  const auto model = model_written(driven_text);
   ASSERT_EQ(model->invariants().size(), 1U);
   EXPECT_EQ(model->invariants().front().name, "energy");
   EXPECT_EQ(model->invariants().front().behaviour, Behaviour::free);
@@ -239,14 +222,14 @@ std::string said_of(const std::string& method, const std::shared_ptr<const Model
   return method_named(method)->refuses(*model);
 }
 TEST(AppliedForce, MethodsOfEnergiesSayWhatTakesThem) {
-  EXPECT_EQ(said_of("verlet", written(driven_text)),
+  EXPECT_EQ(said_of("verlet", model_written(driven_text)),
             "verlet needs separable; model offers vector-field, invariants; its applied forces have no "
             "potential: methods for vector fields take them");
   const auto bob = model_of(MotorPendulum{}, {1, 0, 0, 0});
   EXPECT_EQ(said_of("rattle", bob),
             "rattle keeps the constraints of a motion that an energy makes alone; forced has applied forces, "
             "which methods for vector fields take, beside a formulation of its constraints");
-  EXPECT_EQ(said_of("gauss", written(driven_text)), "");
+  EXPECT_EQ(said_of("gauss", model_written(driven_text)), "");
   const auto edge = model_of(DrivenEdge{}, {0, 0, 0, 1, 0, 1});
   EXPECT_EQ(said_of("spark-lobatto", edge)
                 .find("spark-lobatto keeps the constraints of a motion that an "
@@ -258,15 +241,15 @@ TEST(AppliedForce, MethodsOfEnergiesSayWhatTakesThem) {
 TEST(AppliedForce, WhatItDoesNotStandBesideIsRefused) {
   const std::string state = "coordinates = [\"q\", \"p\"]\n", force = "applied_force = [\"-p\"]\n",
                     energies = "kinetic = \"p^2/2\"\npotential = \"q^2/2\"\n";
-  EXPECT_EQ(refusal(state + "field = [\"p\", \"-q\"]\n" + force),
+  EXPECT_EQ(refusal_written(state + "field = [\"p\", \"-q\"]\n" + force),
             "model.toml:3:1: applied_force is written beside a canonical energy, which is missing");
   EXPECT_EQ(
-      refusal(state + energies + force + "damping = 0.1\n"),
+      refusal_written(state + energies + force + "damping = 0.1\n"),
       "model.toml:5:1: damping beside applied_force: expected -nu p as a part of applied_force instead");
-  EXPECT_EQ(refusal(state + energies + "applied_force = [\"-p\", 0]\n"),
+  EXPECT_EQ(refusal_written(state + energies + "applied_force = [\"-p\", 0]\n"),
             "model.toml:4:17: applied_force: expected 1 expression, got 2");
   EXPECT_EQ(
-      refusal(state + energies + force + "symmetric_bracket = [[0, 0], [0, 1]]\n"),
+      refusal_written(state + energies + force + "symmetric_bracket = [[0, 0], [0, 1]]\n"),
       "model.toml:4:1: applied_force stands beside an energy, holonomic and velocity constraints; expected "
       "no symmetric_bracket");
 }

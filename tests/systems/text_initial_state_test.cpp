@@ -1,32 +1,15 @@
 // Initial states of text models by positions and velocities, and the quantities that runs follow untold.
 #include <gtest/gtest.h>
 
-#include <fstream>
-
 #include <pfaff/core/facets/problem.hpp>
-#include <pfaff/core/text/source.hpp>
-#include <pfaff/systems/text/text_system.hpp>
 
-#include "../temporary_directory.hpp"
+#include "written_models.hpp"
 
 namespace {
 using namespace pfaff;
+using pfaff::testing::model_written;
+using pfaff::testing::refusal_written;
 
-std::shared_ptr<const Model> model_written(const std::string& text) {
-  const pfaff::testing::TemporaryDirectory directory;
-  const std::string file = directory / "model.toml";
-  std::ofstream(file) << text;
-  return system_named(file).make({});
-}
-std::string refusal_written(const std::string& text) {
-  try {
-    (void)model_written(text);
-  } catch (const InputError& error) {
-    const std::string what = error.what();
-    return what.substr(std::min(what.find("model.toml"), what.size()));
-  }
-  return "accepted";
-}
 const std::string of_line = "coordinates = [\"q\", \"p\"]\n";
 const std::string of_plane = "coordinates = [\"x\", \"y\", \"p\", \"s\"]\n";
 

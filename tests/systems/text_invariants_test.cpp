@@ -2,30 +2,15 @@
 // string itself, which holds 15 characters: GCC 12 freed them twice where what follows a name throws.
 #include <gtest/gtest.h>
 
-#include <fstream>
-
-#include <pfaff/core/text/source.hpp>
-#include <pfaff/systems/text/text_system.hpp>
-
-#include "../temporary_directory.hpp"
+#include "written_models.hpp"
 
 namespace {
 using namespace pfaff;
 
-// The message for a spring with one more line, without its folder; "accepted" where there is none.
+// The message for a spring with one more line.
 std::string told_of(const std::string& line) {
-  const pfaff::testing::TemporaryDirectory directory;
-  const std::string file = directory / "model.toml";
-  std::ofstream(file) << "coordinates = [\"q\", \"p\"]\nkinetic = \"p^2/2\"\npotential = \"q^2/2\"\n"
-                      << line << '\n';
-  try {
-    (void)system_named(file).make({});
-  } catch (const InputError& error) {
-    const std::string what = error.what();
-    EXPECT_EQ(what.find('\n'), std::string::npos) << what;
-    return what.substr(std::min(what.find("model.toml"), what.size()));
-  }
-  return "accepted";
+  return pfaff::testing::refusal_written(
+      "coordinates = [\"q\", \"p\"]\nkinetic = \"p^2/2\"\npotential = \"q^2/2\"\n" + line + "\n");
 }
 void expect_told(const std::string& line, const std::string& expected) {
   EXPECT_EQ(told_of(line).find(expected), 0U)

@@ -8,39 +8,26 @@
 #include <pfaff/systems/text/text_system.hpp>
 
 #include "../temporary_directory.hpp"
+#include "written_models.hpp"
 
 namespace {
 using namespace pfaff;
+using pfaff::testing::refusal_written;
 
-// The message for a model, without its folder.
-std::string message(const std::string& text, const Assignments& set = {}) {
-  const pfaff::testing::TemporaryDirectory directory;
-  const std::string file = (directory.path() / "model.toml").string();
-  std::ofstream(file) << text;
-  try {
-    (void)system_named(file).make(set);
-  } catch (const InputError& error) {
-    const std::string what = error.what();
-    EXPECT_EQ(what.find('\n'), std::string::npos) << what;
-    const auto at = what.find("model.toml");
-    return at == std::string::npos ? what : what.substr(at);
-  }
-  return "accepted";
-}
 void expect_refused(const std::string& text, const std::string& expected) {
-  EXPECT_EQ(message(text).find(expected), 0U)
-      << text << "\ngave: " << message(text) << "\nnot:  " << expected;
+  EXPECT_EQ(refusal_written(text).find(expected), 0U)
+      << text << "\ngave: " << refusal_written(text) << "\nnot:  " << expected;
 }
 const std::string two = "coordinates = [\"q\", \"p\"]\n";
 const std::string spring = two + "kinetic = \"p^2/2\"\npotential = \"q^2/2\"\n";
 
-TEST(TextModelRefusals, TheRightOneIsAccepted) { EXPECT_EQ(message(spring), "accepted"); }
+TEST(TextModelRefusals, TheRightOneIsAccepted) { EXPECT_EQ(refusal_written(spring), "accepted"); }
 
 TEST(TextModelRefusals, Parts) {
   const auto parts = [](const std::string& list) { return spring + "parts = " + list + "\n"; };
   const std::string drift = R"({ name = "drift", change = ["h*p", 0] })",
                     kick = R"({ name = "kick", change = [0, "-h*q"] })";
-  EXPECT_EQ(message(parts("[" + drift + ", " + kick + "]")), "accepted");
+  EXPECT_EQ(refusal_written(parts("[" + drift + ", " + kick + "]")), "accepted");
   expect_refused(parts("[]"), "model.toml:4:9: parts: expected a list of { name = ..., change = [...] }");
   expect_refused(parts("[{ name = \"drift\" }]"), "model.toml:4:10: part: the key 'change' is missing");
   expect_refused(parts("[{ name = \"drift\", change = [\"h*p\"] }]"),
@@ -83,7 +70,7 @@ TEST(TextModelRefusals, KeysAndFiles) {
                  "model.toml:4:45: unknown behaviour 'constant'");
   expect_refused(two + "lagrangian = \"v[1]^2/2\"\nparameters = { v = 1 }\n",
                  "model.toml:2:15: velocity 'v' has the name of a parameter");
-  EXPECT_EQ(message(spring, {{"b", "2"}}).find("unknown parameter 'b'"), 0U);
+  EXPECT_EQ(refusal_written(spring, {{"b", "2"}}).find("unknown parameter 'b'"), 0U);
 }
 
 TEST(TextModelRefusals, Formulas) {
