@@ -299,11 +299,12 @@ TEST(Reproduce, Refusals) {
 // Rows stand in the order of the paper's items, whatever their width.
 TEST(Reproduce, RowsStandInTheOrderOfThePaper) {
   for (const std::string paper : {"su-qin", "nguyen-turski", "pitanga-rodrigues"}) {
+    const nlohmann::json coverage = passed({"reproduce", paper, "--coverage"});
+    const nlohmann::json reproduced = passed({"reproduce", paper});
     std::map<std::string, std::size_t> place;
-    for (const auto& item : passed({"reproduce", paper, "--coverage"})["items"])
-      place.emplace(item["item"], place.size());
+    for (const auto& item : coverage["items"]) place.emplace(item["item"], place.size());
     std::size_t before = 0;
-    for (const auto& row : passed({"reproduce", paper})["rows"]) {
+    for (const auto& row : reproduced["rows"]) {
       const std::string equation = row["equation"];
       std::size_t first = std::string::npos;  // the longest item that the name of the row begins with
       std::size_t longest = 0;
