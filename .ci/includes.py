@@ -28,8 +28,9 @@ ROOMS = {
     "formulations": {"core"},
     "integrators": {"core"},
     "systems": {"core", "brackets"},
-    "bench": {"core", "brackets", "formulations", "integrators", "systems"},
-    "app": {"core", "brackets", "formulations", "integrators", "systems", "bench"},
+    "runs": {"core", "brackets", "formulations", "integrators", "systems"},
+    "bench": {"core", "brackets", "formulations", "integrators", "systems", "runs"},
+    "app": {"core", "brackets", "formulations", "integrators", "systems", "runs", "bench"},
 }
 # The folders of bench that are the library of studies (CMakeLists.txt), and who includes them: nobody else.
 STUDIES = {"commands", "derivation", "derivation_growth", "falsification", "random_systems", "reproduce", "tuning", "verification"}

@@ -6,9 +6,9 @@
 #include <sstream>
 
 #include <pfaff/app/command.hpp>
-#include <pfaff/bench/runner/asked_for.hpp>
 #include <pfaff/core/errors/errors.hpp>
 #include <pfaff/core/numbers/formatted.hpp>
+#include <pfaff/runs/asked_for.hpp>
 
 namespace pfaff::app {
 

@@ -4,8 +4,6 @@
 
 #include <pfaff/bench/experiment/automatic_steps.hpp>
 #include <pfaff/bench/experiment/experiment.hpp>
-#include <pfaff/bench/runner/asked_for.hpp>
-#include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/bench/runner/terminal.hpp>
 #include <pfaff/core/bracket.hpp>
 #include <pfaff/core/facets/derivations/derivation.hpp>
@@ -13,6 +11,8 @@
 #include <pfaff/core/formulation.hpp>
 #include <pfaff/core/registry/range_text.hpp>
 #include <pfaff/integrators/tables/method_table.hpp>
+#include <pfaff/runs/asked_for.hpp>
+#include <pfaff/runs/motion.hpp>
 #include <pfaff/systems/text/text_system.hpp>
 
 namespace pfaff::app {

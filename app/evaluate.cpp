@@ -6,8 +6,8 @@
 #include <pfaff/app/state_file.hpp>
 #include <pfaff/bench/evaluation/evaluation.hpp>
 #include <pfaff/bench/runner/initial_state.hpp>
-#include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/bench/runner/terminal.hpp>
+#include <pfaff/runs/motion.hpp>
 
 namespace pfaff::app {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <exception>
 
-#include <pfaff/bench/runner/motion.hpp>
+#include <pfaff/runs/motion.hpp>
 
 namespace pfaff::app {
 

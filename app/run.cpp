@@ -10,9 +10,9 @@
 #include <pfaff/bench/runner/config_file.hpp>
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/bench/runner/interruption.hpp>
-#include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/bench/runner/run_directory.hpp>
 #include <pfaff/bench/runner/terminal.hpp>
+#include <pfaff/runs/motion.hpp>
 
 namespace pfaff::app {
 

@@ -7,12 +7,12 @@
 
 #include <pfaff/bench/commands/commands.hpp>
 #include <pfaff/bench/derivation/named_parameters.hpp>
-#include <pfaff/bench/runner/asked_for.hpp>
 #include <pfaff/bench/runner/settings.hpp>
 #include <pfaff/bench/runner/terminal.hpp>
 #include <pfaff/core/emit/emitter.hpp>
 #include <pfaff/core/errors/errors.hpp>
 #include <pfaff/core/system.hpp>
+#include <pfaff/runs/asked_for.hpp>
 
 namespace pfaff {
 

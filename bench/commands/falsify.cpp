@@ -7,7 +7,6 @@
 
 #include <pfaff/bench/commands/commands.hpp>
 #include <pfaff/bench/falsification/falsify.hpp>
-#include <pfaff/bench/runner/asked_for.hpp>
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/bench/runner/interruption.hpp>
 #include <pfaff/bench/runner/settings.hpp>
@@ -16,6 +15,7 @@
 #include <pfaff/bench/verification/random_checks.hpp>
 #include <pfaff/core/numbers/formatted.hpp>
 #include <pfaff/core/system.hpp>
+#include <pfaff/runs/asked_for.hpp>
 
 namespace pfaff {
 

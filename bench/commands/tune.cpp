@@ -5,13 +5,13 @@
 #include <optional>
 
 #include <pfaff/bench/commands/commands.hpp>
-#include <pfaff/bench/runner/asked_for.hpp>
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/bench/runner/interruption.hpp>
 #include <pfaff/bench/runner/terminal.hpp>
 #include <pfaff/bench/tuning/tuned_splitting.hpp>
 #include <pfaff/bench/verification/check.hpp>
 #include <pfaff/core/facets/quadratic_energy.hpp>
+#include <pfaff/runs/asked_for.hpp>
 
 namespace pfaff {
 

@@ -2,9 +2,9 @@
 // that of the formulation.
 #include <pfaff/bench/evaluation/evaluation_parts.hpp>
 #include <pfaff/bench/measure/constraint_brackets.hpp>
-#include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/brackets/dirac/dirac.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
+#include <pfaff/runs/motion.hpp>
 
 namespace pfaff::evaluation_parts {
 

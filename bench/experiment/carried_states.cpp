@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <pfaff/runs/integration.hpp>
+
 namespace pfaff {
 
 std::vector<const ExperimentRun*> runs_at_largest_steps(
@@ -25,18 +27,20 @@ std::vector<const ExperimentRun*> runs_at_largest_steps(
 
 void carry(const ResolvedRun& run, std::vector<std::vector<double>>& states, std::int64_t steps, int looks,
            const std::function<bool(std::int64_t step)>& look) {
-  std::vector<StepperPointer<double>> steppers;
-  for (std::size_t k = 0; k < states.size(); ++k)
-    steppers.push_back(run.method->stepper(run.model, double()));
-  const double h = run.step.value(), t0 = run.t0.value();
+  std::vector<Integration<double>> carried;
+  Start<double> start = start_of<double>(run);
+  for (const std::vector<double>& z : states) {
+    start.state = z;
+    carried.emplace_back(start);
+  }
   if (!look(0)) return;
   std::int64_t done = 0;
   for (int k = 1; k <= looks; ++k) {
     const std::int64_t until = steps * k / looks;
     if (until == done) continue;
     for (std::size_t i = 0; i < states.size(); ++i) {
-      std::int64_t completed = 0;
-      if (steppers[i]->advance(t0, done, h, until - done, states[i], completed) != Status::converged) return;
+      if (!carried[i].steps(until - done).reached()) return;
+      states[i].assign(carried[i].state().begin(), carried[i].state().end());
     }
     done = until;
     if (!look(done)) return;

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include <pfaff/bench/runner/asked_for.hpp>
 #include <pfaff/bench/runner/expressions.hpp>
 #include <pfaff/core/numbers/real.hpp>
+#include <pfaff/runs/asked_for.hpp>
 
 namespace pfaff {
 

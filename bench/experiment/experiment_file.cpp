@@ -5,9 +5,9 @@
 #include <pfaff/bench/experiment/case_steps.hpp>
 #include <pfaff/bench/experiment/experiment.hpp>
 #include <pfaff/bench/experiment/method_selection.hpp>
-#include <pfaff/bench/runner/asked_for.hpp>
 #include <pfaff/bench/runner/toml_keys.hpp>
 #include <pfaff/core/text/vocabulary.hpp>
+#include <pfaff/runs/asked_for.hpp>
 
 namespace pfaff {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <charconv>
 
-#include <pfaff/bench/runner/motion.hpp>
+#include <pfaff/runs/motion.hpp>
 
 namespace pfaff {
 

@@ -1,7 +1,7 @@
 // Counterexamples as text: the model and the command that shows it.
 #include <pfaff/bench/falsification/falsify.hpp>
-#include <pfaff/bench/runner/asked_for.hpp>
 #include <pfaff/core/numbers/formatted.hpp>
+#include <pfaff/runs/asked_for.hpp>
 
 namespace pfaff {
 

@@ -51,6 +51,22 @@ class ManySteps final : public MakerOf<ManySteps, MethodInstance> {
       completed /= count_;
       return status;
     }
+    Status fill(Block<T>& block, std::size_t rows, std::span<T> z, std::int64_t& completed) override {
+      const std::int64_t first = block.first, stride = block.stride;
+      const T h = block.h;
+      const auto as_asked = [&] {
+        block.first = first, block.stride = stride, block.h = h, completed /= count_;
+      };
+      block.first *= count_, block.stride *= count_, block.h = h / T(count_);
+      try {
+        const Status status = stepper_->fill(block, rows, z, completed);
+        as_asked();
+        return status;
+      } catch (...) {
+        as_asked();
+        throw;
+      }
+    }
     Status advance_to(T& /*t*/, const T& /*end*/, const Tolerance<T>& /*tolerance*/,
                       std::span<T> /*z*/) override {
       throw InputError("several steps as one are of a fixed size");

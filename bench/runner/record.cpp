@@ -4,10 +4,11 @@
 #include <chrono>
 #include <utility>
 
-#include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/bench/runner/observer.hpp>
 #include <pfaff/bench/runner/steps.hpp>
 #include <pfaff/core/errors/budget.hpp>
+#include <pfaff/runs/integration.hpp>
+#include <pfaff/runs/motion.hpp>
 
 namespace pfaff {
 
@@ -37,20 +38,6 @@ void end_by(const BudgetSpent& spent, const T& t, std::int64_t step, RunRecord& 
   if (!spent.stopped()) record.status = Status::not_converged;
   record.message = (spent.stopped() ? "it was interrupted" : std::string(spent.what())) + " " + at(t, step);
   if (spent.reason() == BudgetSpent::Reason::steps) record.message += "; --max-steps sets it";
-}
-
-std::string failure(Status status, const std::string& when) {
-  switch (status) {
-    case Status::not_converged:
-      return "the implicit solve did not converge " + when;
-    case Status::singular:
-      return "a linear system was singular " + when;
-    case Status::non_finite:
-      return "the state or the structure left the range of numbers " + when;
-    case Status::converged:
-      break;
-  }
-  return {};
 }
 
 // For a step of size h that failed at (t, z): a phrase that names the largest smaller step that still works,
@@ -162,16 +149,12 @@ void execute_fixed(const ResolvedRun& run, Observer<T>& observer, RunRecord& rec
 template <class T>
 int sample_intervals(const ResolvedRun& run) {
   const Budget budget({.steps = run.settings.step_budget});
-  const auto stepper = run.method->stepper(run.model, T());
-  std::vector<T> z;
-  for (const Real& x : run.initial) z.push_back(T(x));
-  T t(run.t0);
-  const std::vector<T> absolute = absolute_tolerances<T>(run);
+  Integration<T> trial(start_of<T>(run));
   try {
-    (void)stepper->advance_to(t, t + T(run.time), {T(run.tolerance), absolute}, z);
+    (void)trial.to(T(run.t0) + T(run.time));
   } catch (const BudgetSpent&) {
   }
-  return static_cast<int>(std::clamp<std::int64_t>(stepper->counters().steps / 8, 32, most_intervals));
+  return static_cast<int>(std::clamp<std::int64_t>(trial.counters().steps / 8, 32, most_intervals));
 }
 
 template <class T>
@@ -179,31 +162,31 @@ void execute_adaptive(const ResolvedRun& run, Observer<T>& observer, RunRecord& 
                       const Progress& progress) {
   const int intervals = sample_intervals<T>(run);
   const Budget budget({.steps = run.settings.step_budget});
-  const auto stepper = run.method->stepper(run.model, T());
-  std::vector<T> z;
-  for (const Real& x : run.initial) z.push_back(T(x));
-  const std::vector<T> absolute = absolute_tolerances<T>(run);
-  T t(run.t0);
-  const auto steps = [&] { return stepper->counters().steps; };
+  Integration<T> integration(start_of<T>(run));
+  const auto steps = [&] { return integration.counters().steps; };
+  const auto observed = [&] {
+    const T t = integration.time();
+    const std::vector<T> z(integration.state().begin(), integration.state().end());
+    return ended_by(observer.observe(t, Quad(t), z, true, false), t, steps(), record);
+  };
   try {
-    bool ended = ended_by(observer.observe(t, Quad(t), z, true, false), t, 0, record);
+    bool ended = observed();
     for (int k = 1; k <= intervals && !ended; ++k) {
-      const T end = T(run.t0) + T(run.time) * T(k) / T(intervals);
-      const Status status = stepper->advance_to(t, end, {T(run.tolerance), absolute}, z);
-      if (status != Status::converged) {
-        record.status = status;
-        record.message = "the step control gave up " + at(t, steps()) +
+      const Outcome outcome = integration.to(T(run.t0) + T(run.time) * T(k) / T(intervals));
+      if (!outcome.reached()) {
+        record.status = outcome.status();
+        record.message = "the step control gave up " + at(integration.time(), steps()) +
                          ": no step meets the tolerance in every coordinate (what counts in small ones, "
                          "--absolute says)";
         break;
       }
-      ended = ended_by(observer.observe(t, Quad(t), z, true, false), t, steps(), record);
+      ended = observed();
       if (progress) progress(static_cast<double>(k) / intervals);
     }
   } catch (const BudgetSpent& spent) {
-    end_by(spent, t, steps(), record);
+    end_by(spent, integration.time(), steps(), record);
   }
-  record.counters = stepper->counters();
+  record.counters = integration.counters();
   record.completed = record.counters.steps;
 }
 

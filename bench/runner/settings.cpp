@@ -6,16 +6,16 @@
 #include <sstream>
 
 #include <pfaff/bench/measure/constraints.hpp>
-#include <pfaff/bench/runner/asked_for.hpp>
 #include <pfaff/bench/runner/expressions.hpp>
 #include <pfaff/bench/runner/initial_state.hpp>
-#include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/bench/runner/stated_identities.hpp>
 #include <pfaff/bench/runner/steps.hpp>
 #include <pfaff/core/native/compiled_model.hpp>
 #include <pfaff/core/numbers/formatted.hpp>
 #include <pfaff/core/process/checksum.hpp>
 #include <pfaff/integrators/tables/method_table.hpp>
+#include <pfaff/runs/asked_for.hpp>
+#include <pfaff/runs/motion.hpp>
 #include <pfaff/systems/text/text_system.hpp>
 
 namespace pfaff {

@@ -9,6 +9,7 @@
 #include <pfaff/core/formulation.hpp>
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
+#include <pfaff/runs/integration.hpp>
 
 namespace pfaff {
 
@@ -81,6 +82,20 @@ std::vector<T> absolute_tolerances(const ResolvedRun& run) {
   std::vector<T> numbers;
   for (const Real& x : run.absolute) numbers.push_back(T(x));
   return numbers;
+}
+
+/// What an Integration of a run is made of, in the scalar T. A method that chooses its steps has no interval.
+template <class T>
+Start<T> start_of(const ResolvedRun& run) {
+  Start<T> start{run.model, run.method, {}, T(0), T(run.t0)};
+  for (const Real& x : run.initial) start.state.push_back(T(x));
+  if (run.adaptive()) {
+    start.tolerance = T(run.tolerance);
+    start.absolute = absolute_tolerances<T>(run);
+  } else {
+    start.h = T(run.step);
+  }
+  return start;
 }
 
 /// Settings sorted by the plug-in they belong to. A bare key that two of the plug-ins know must be given as

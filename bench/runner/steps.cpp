@@ -9,8 +9,8 @@
 
 #include <pfaff/bench/measure/chosen_steps.hpp>
 #include <pfaff/bench/measure/constraints.hpp>
-#include <pfaff/bench/runner/asked_for.hpp>
 #include <pfaff/bench/runner/record.hpp>
+#include <pfaff/runs/asked_for.hpp>
 
 namespace pfaff {
 

@@ -3,7 +3,7 @@
 #include <pfaff/bench/tuning/tuned_splitting.hpp>
 #include <pfaff/core/facets/problem.hpp>
 #include <pfaff/core/integrator.hpp>
-#include <pfaff/core/numbers/formatted.hpp>
+#include <pfaff/runs/integrate.hpp>
 
 namespace pfaff {
 
@@ -30,17 +30,14 @@ std::vector<std::vector<double>> states_along_the_motion(const std::shared_ptr<c
   // Twenty steps of order 8 for each time in which the motion goes as far as the state is long.
   constexpr int steps = 20;
   const double h = std::sqrt(size / speed) / steps;
-  const auto stepper =
-      integrators().get("kahan-li", "integrator").make({{"order", "8"}})->stepper(model, 0.0);
+  auto motion =
+      integrate<double>(model, integrators().get("kahan-li", "integrator").make({{"order", "8"}}), h);
   std::vector<std::vector<double>> states;
   for (int k = 0; k < count; ++k) {
-    states.push_back(z);
-    std::int64_t completed = 0;
-    const Status status = stepper->advance(0, static_cast<std::int64_t>(k) * steps, h, steps, z, completed);
-    if (status != Status::converged)
-      throw RunError("system " + model->name() + ": the motion cannot be followed, " +
-                     std::string(to_string(status)) +
-                     " at t = " + formatted("%.9g", h * static_cast<double>(steps) * static_cast<double>(k)));
+    states.emplace_back(motion.state().begin(), motion.state().end());
+    const Outcome outcome = motion.steps(steps);
+    if (!outcome.reached())
+      throw RunError("system " + model->name() + ": the motion cannot be followed: " + outcome.message());
   }
   return states;
 }

@@ -8,11 +8,11 @@
 
 #include <pfaff/bench/runner/json.hpp>
 
-#include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/bench/studies/options.hpp>
 #include <pfaff/core/bracket.hpp>
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
+#include <pfaff/runs/motion.hpp>
 
 namespace pfaff {
 

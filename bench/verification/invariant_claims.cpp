@@ -1,8 +1,8 @@
 // Claims about numbers that a step conserves, or changes in one direction only.
-#include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/bench/verification/claim_checks.hpp>
 #include <pfaff/bench/verification/residuals.hpp>
 #include <pfaff/core/system.hpp>
+#include <pfaff/runs/motion.hpp>
 
 namespace pfaff {
 

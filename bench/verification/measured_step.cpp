@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include <pfaff/bench/runner/motion.hpp>
+#include <pfaff/runs/motion.hpp>
 
 namespace pfaff {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <set>
 
-#include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/bench/verification/claim_checks.hpp>
+#include <pfaff/runs/motion.hpp>
 
 namespace pfaff {
 

@@ -3,7 +3,6 @@
 #include <map>
 #include <mutex>
 
-#include <pfaff/bench/runner/asked_for.hpp>
 #include <pfaff/bench/runner/interruption.hpp>
 #include <pfaff/bench/runner/parallel.hpp>
 #include <pfaff/bench/runner/settings.hpp>
@@ -12,6 +11,7 @@
 #include <pfaff/bench/verification/verification_jobs.hpp>
 #include <pfaff/core/formulation.hpp>
 #include <pfaff/integrators/tables/method_table.hpp>
+#include <pfaff/runs/asked_for.hpp>
 #include <pfaff/systems/text/text_system.hpp>
 
 namespace pfaff {

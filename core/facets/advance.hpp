@@ -7,6 +7,7 @@
 
 #include <pfaff/core/errors/status.hpp>
 #include <pfaff/core/facets/allowed_steps.hpp>
+#include <pfaff/core/facets/block.hpp>
 #include <pfaff/core/facets/problem.hpp>
 #include <pfaff/core/facets/processed.hpp>
 
@@ -62,26 +63,35 @@ Status unswitched(const M& method, Loop&& loop) {
   }
 }
 
-/// The steps of advance(), as many as the budget of this thread allows: fewer than `count` with the status
-/// converged where it has ended them. A step that does not converge is tried once more: a method forgets the
+/// `rows` times `stride` steps as advance() takes them, as many as the budget of this thread allows: fewer
+/// with the status converged where it has ended them. Where there is a block, the state after each `stride`
+/// steps is put to its next row. A step that does not converge is tried once more: a method forgets the
 /// past when its step fails, and what it extrapolated from it may lead away from a solution that is found
 /// from the state alone. Where a step throws, `completed` is 0, and of the state nothing is known.
 template <class M, class P>
 requires Steps<M, P> Status advance_as_allowed(const M& method, const P& problem, const Scalar<P>& t0,
-                                               std::int64_t first, const Scalar<P>& h, std::int64_t count,
-                                               State<P>& z, Work<M, P>& work, std::int64_t& completed) {
+                                               std::int64_t first, const Scalar<P>& h, std::int64_t rows,
+                                               std::int64_t stride, Block<Scalar<P>>* block, State<P>& z,
+                                               Work<M, P>& work, std::int64_t& completed) {
   using W = Work<M, P>;
   completed = 0;
   AllowedSteps<P> steps(problem);
   const auto loop = [&](State<P>& state, W& w) {
+    const auto put = [&] {
+      if (block != nullptr) block->states.put(block->rows++, state.data());
+    };
     return unswitched(method, [&](const M& m) {
       if constexpr (WritesProcessor<M, P, W>)
-        if (m.processed()) return advance_kernel(m, problem, t0, first, h, count, steps, state, w, completed);
-      return steps.repeat(count, completed, [&](std::int64_t taken) {
-        const Scalar<P> t = t0 + Scalar<P>(static_cast<double>(first + taken)) * h;
-        const Status status = m.step(problem, t, h, state, w);
-        return status == Status::not_converged ? m.step(problem, t, h, state, w) : status;
-      });
+        if (m.processed())
+          return advance_kernels(m, problem, t0, first, h, rows, stride, put, steps, state, w, completed);
+      return steps.repeat(
+          rows * stride, stride, completed,
+          [&](std::int64_t taken) {
+            const Scalar<P> t = t0 + Scalar<P>(static_cast<double>(first + taken)) * h;
+            const Status status = m.step(problem, t, h, state, w);
+            return status == Status::not_converged ? m.step(problem, t, h, state, w) : status;
+          },
+          put);
     });
   };
   if constexpr (std::is_trivially_copyable_v<State<P>> && std::is_trivially_copyable_v<W>) {
@@ -108,7 +118,8 @@ template <class M, class P>
 requires Steps<M, P> Status advance(const M& method, const P& problem, const Scalar<P>& t0,
                                     std::int64_t first, const Scalar<P>& h, std::int64_t count, State<P>& z,
                                     Work<M, P>& work, std::int64_t& completed) {
-  const Status status = detail::advance_as_allowed(method, problem, t0, first, h, count, z, work, completed);
+  const Status status = detail::advance_as_allowed(
+      method, problem, t0, first, h, 1, count, static_cast<Block<Scalar<P>>*>(nullptr), z, work, completed);
   if (status == Status::converged && completed < count) spend(1, 0);
   return status;
 }

@@ -39,20 +39,27 @@ class AllowedSteps {
 
   /// Takes steps 0, 1, ..., count - 1 by step(k) until one does not converge or the budget ends it, and
   /// leaves in `taken` how many were taken. Converged with fewer than `count` where the budget has ended it.
-  template <class Step>
-  Status repeat(std::int64_t count, std::int64_t& taken, Step&& step) {
+  /// look() is called after each `stride` steps.
+  template <class Step, class Look>
+  Status repeat(std::int64_t count, std::int64_t stride, std::int64_t& taken, Step&& step, Look&& look) {
     Status status = Status::converged;
-    std::int64_t k = 0;
-    while (status == Status::converged && k < count) {
-      const std::int64_t allowed = k + next(count - k);
-      if (allowed == k) break;
-      for (; k < allowed; ++k) {
+    std::int64_t k = 0, allowed = 0, looked_at = stride;
+    while (k < count) {
+      if (k == allowed) allowed = k + next(count - k);
+      if (k == allowed) break;
+      for (const std::int64_t end = std::min(allowed, looked_at); k < end; ++k) {
         status = step(k);
         if (status != Status::converged) break;
       }
+      if (status != Status::converged) break;
+      if (k == looked_at) look(), looked_at += stride;
     }
     taken = k;
     return status;
+  }
+  template <class Step>
+  Status repeat(std::int64_t count, std::int64_t& taken, Step&& step) {
+    return repeat(count, count, taken, step, [] {});
   }
 
  private:

@@ -75,4 +75,21 @@ Status advance_kernel(const M& method, const P& problem, const Scalar<P>& t0, st
   return status;
 }
 
+/// `rows` loops of `stride` steps each, after which put() looks at the state.
+template <class M, class P, class W, class Put>
+Status advance_kernels(const M& method, const P& problem, const Scalar<P>& t0, std::int64_t first,
+                       const Scalar<P>& h, std::int64_t rows, std::int64_t stride, Put&& put,
+                       AllowedSteps<P>& steps, State<P>& z, W& work, std::int64_t& completed) {
+  completed = 0;
+  for (std::int64_t row = 0; row < rows; ++row) {
+    std::int64_t taken = 0;
+    const Status status =
+        advance_kernel(method, problem, t0, first + completed, h, stride, steps, z, work, taken);
+    completed += taken;
+    if (status != Status::converged || taken < stride) return status;
+    put();
+  }
+  return Status::converged;
+}
+
 }  // namespace pfaff::detail

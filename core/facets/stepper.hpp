@@ -9,6 +9,7 @@
 
 #include <pfaff/core/errors/errors.hpp>
 #include <pfaff/core/facets/advance.hpp>
+#include <pfaff/core/facets/block.hpp>
 #include <pfaff/core/facets/problem.hpp>
 #include <pfaff/core/facets/tolerance.hpp>
 
@@ -26,6 +27,14 @@ class Stepper {
   /// 0.
   virtual Status advance(const T& t0, std::int64_t first, const T& h, std::int64_t count, std::span<T> z,
                          std::int64_t& completed) = 0;
+  /// Fills rows 0 … rows - 1 (at most block.capacity) of a block whose first, stride, t0 and h are set: row 0
+  /// is the state `stride` steps after z, and steps have the numbers block.first - block.stride, …. The bits
+  /// are those of advance() called for one row after the other. block.rows says how many rows were filled,
+  /// all of them finite; z is the state after `completed` steps, which a step that fails and a budget that
+  /// ends leave between two rows. Where a state is not finite, z is that of the row before, the status is
+  /// non_finite and the history is dropped. Where a step throws, the rows before it stay, and z is the state
+  /// of the last.
+  virtual Status fill(Block<T>& block, std::size_t rows, std::span<T> z, std::int64_t& completed) = 0;
   /// From t to `end` with steps of the method's choosing at `tolerance`, of which a number is the relative
   /// part; t is left where it got to, also where BudgetSpent is thrown between two steps. Where the state
   /// there is not finite, the status is non_finite, and t, z and the counted steps are as they were.
@@ -56,8 +65,7 @@ class SteppingOn final : public Stepper<Scalar<P>> {
   Status advance(const T& t0, std::int64_t first, const T& h, std::int64_t count, std::span<T> z,
                  std::int64_t& completed) override {
     std::copy(z.begin(), z.end(), state_.begin());
-    const Status status =
-        advance_as_allowed(method_, problem_, t0, first, h, count, state_, *work_, completed);
+    const Status status = loop(t0, first, h, 1, count, nullptr, completed);
     if (!finite()) {
       completed = 0;
       return left_as_it_was();
@@ -65,6 +73,29 @@ class SteppingOn final : public Stepper<Scalar<P>> {
     std::copy(state_.begin(), state_.end(), z.begin());
     problem_.counters().steps += completed;
     if (status == Status::converged && completed < count) spend(1, 0);
+    return status;
+  }
+
+  Status fill(Block<T>& block, std::size_t rows, std::span<T> z, std::int64_t& completed) override {
+    block.rows = 0;
+    block.times.clear();
+    std::copy(z.begin(), z.end(), state_.begin());
+    Status status = Status::converged;
+    try {
+      status = loop(block.t0, block.first - block.stride, block.h, static_cast<std::int64_t>(rows),
+                    block.stride, &block, completed);
+    } catch (...) {
+      ends_with_rows(block, z, completed);
+      throw;
+    }
+    if (block.states.first_not_finite(block.rows) < block.rows || !finite()) {
+      ends_with_rows(block, z, completed);
+      return left_as_it_was();
+    }
+    block.states.fill_behind(block.rows);
+    std::copy(state_.begin(), state_.end(), z.begin());
+    problem_.counters().steps += completed;
+    if (status == Status::converged && block.rows < rows) spend(1, 0);
     return status;
   }
 
@@ -96,6 +127,20 @@ class SteppingOn final : public Stepper<Scalar<P>> {
     for (const T& x : state_)
       if (!isfinite(value_of(x))) return false;
     return true;
+  }
+  // One loop for both calls, since every method is compiled with it for several sizes and scalars.
+  [[gnu::noinline]] Status loop(const T& t0, std::int64_t first, const T& h, std::int64_t rows,
+                                std::int64_t stride, Block<T>* block, std::int64_t& completed) {
+    return advance_as_allowed(method_, problem_, t0, first, h, rows, stride, block, state_, *work_,
+                              completed);
+  }
+  // Of a call that did not come to its end the finite rows count, and z is the last of them.
+  void ends_with_rows(Block<T>& block, std::span<T> z, std::int64_t& completed) {
+    block.rows = block.states.first_not_finite(block.rows);
+    block.states.fill_behind(block.rows);
+    if (block.rows > 0) block.states.get(block.rows - 1, z);
+    completed = static_cast<std::int64_t>(block.rows) * block.stride;
+    problem_.counters().steps += completed;
   }
   // Explicit methods do not look at what they make, so that their history is no more finite than the state.
   Status left_as_it_was() {

@@ -14,34 +14,20 @@
 #include <pfaff/core/odeint/stepper.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/integrators/splitting/splitting.hpp>
+#include <pfaff/runs/integrate.hpp>
+#include <pfaff/runs/invariant_errors.hpp>
 
 namespace {
 
 using namespace pfaff;
 
-// A system and a method by name, and an observer that looks at the energy between steps.
+// A system and a method by name, and a watcher that looks at the energy after every tenth step.
 double energy_error() {
-  const auto model = systems().get("kepler", "system").make({{"eccentricity", "0.3"}});
-  const auto method = integrators().get("gauss", "integrator").make({{"stages", "3"}});
-  if (const std::string reason = method->refuses(*model); !reason.empty()) throw InputError(reason);
-
-  const Problem<double> problem(model);
-  const auto energy = [&](double t, const std::vector<double>& z) {
-    std::vector<double> values(model->invariants().size());
-    problem.invariants(t, z, values);
-    return values[0];
-  };
-  std::vector<double> z;
-  for (const Real& x : model->initial()) z.push_back(x.value());
-  const double h = 0.05, start = energy(0, z);
-  const auto stepper = method->stepper(model, double());
-  double worst = 0;
-  for (std::int64_t step = 0, completed = 0; step < 2000; step += completed) {
-    const Status status = stepper->advance(0, step, h, 10, z, completed);
-    if (status != Status::converged) throw RunError(std::string(to_string(status)));
-    worst = std::max(worst, std::abs(energy(h * static_cast<double>(step + completed), z) - start));
-  }
-  return worst;
+  auto run = integrate("kepler", {{"eccentricity", "0.3"}}, "gauss", {{"stages", "3"}}, {.step = "0.05"});
+  InvariantErrors errors;
+  run.watch(errors, 10);
+  run.steps(2000).expect_reached();
+  return errors.largest()[0];
 }
 
 // The static path: the compiler knows system, method and size, and inlines the formulas into the loop.

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <fstream>
 
-#include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/bench/verification/check_budget.hpp>
+#include <pfaff/runs/motion.hpp>
 #include <pfaff/systems/text/text_system.hpp>
 
 #include "../temporary_directory.hpp"

@@ -4,8 +4,8 @@
 
 #include <pfaff/bench/evaluation/evaluation.hpp>
 #include <pfaff/bench/measure/constraint_brackets.hpp>
-#include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
+#include <pfaff/runs/motion.hpp>
 
 namespace {
 

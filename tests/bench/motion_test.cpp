@@ -2,8 +2,8 @@
 // whatever else needs the motion.
 #include <gtest/gtest.h>
 
-#include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/bench/runner/record.hpp>
+#include <pfaff/runs/motion.hpp>
 
 namespace {
 

@@ -8,11 +8,11 @@
 
 #include <pfaff/bench/measure/constraints.hpp>
 #include <pfaff/bench/random_systems/recipe.hpp>
-#include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/bench/verification/check.hpp>
 #include <pfaff/bench/verification/residuals.hpp>
 #include <pfaff/core/facets/claims.hpp>
 #include <pfaff/core/tape/replay.hpp>
+#include <pfaff/runs/motion.hpp>
 
 #include "../formula_values.hpp"
 

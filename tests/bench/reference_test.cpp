@@ -6,8 +6,8 @@
 #include <pfaff/bench/runner/json.hpp>
 
 #include <pfaff/bench/measure/reference.hpp>
-#include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/core/system.hpp>
+#include <pfaff/runs/motion.hpp>
 
 #include "../formula_values.hpp"
 

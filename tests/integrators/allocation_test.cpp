@@ -2,10 +2,10 @@
 // on every system that fits, in double and quad.
 #include <gtest/gtest.h>
 
-#include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/integrators/tables/method_table.hpp>
+#include <pfaff/runs/motion.hpp>
 #include <pfaff/systems/text/text_system.hpp>
 
 #include <pfaff/tests/integrators/nonholonomic_samples.hpp>

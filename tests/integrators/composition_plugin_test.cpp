@@ -6,10 +6,10 @@
 #include <set>
 
 #include <pfaff/bench/runner/config_file.hpp>
-#include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/integrators/composition/composition_weights.hpp>
+#include <pfaff/runs/motion.hpp>
 
 #include "methods.hpp"
 

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include <pfaff/bench/measure/constraints.hpp>
-#include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/bench/verification/check.hpp>
+#include <pfaff/runs/motion.hpp>
 #include <pfaff/tests/integrators/constrained_systems.hpp>
 
 #include "methods.hpp"

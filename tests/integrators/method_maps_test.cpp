@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <fstream>
 
-#include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/bench/verification/check.hpp>
+#include <pfaff/runs/motion.hpp>
 
 #include "method_files.hpp"
 #include "methods.hpp"

@@ -2,9 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/core/facets/scalar_units.hpp>
 #include <pfaff/core/formulation.hpp>
+#include <pfaff/runs/motion.hpp>
 
 namespace pfaff {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include <pfaff/bench/measure/constraints.hpp>
-#include <pfaff/bench/runner/motion.hpp>
+#include <pfaff/runs/motion.hpp>
 
 #include "methods.hpp"
 

@@ -5,9 +5,9 @@
 #include <array>
 #include <filesystem>
 
-#include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/core/formulation.hpp>
 #include <pfaff/core/system.hpp>
+#include <pfaff/runs/motion.hpp>
 
 #include "../formula_values.hpp"
 #include "../integrators/methods.hpp"

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <pfaff/bench/measure/constraints.hpp>
-#include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/core/system.hpp>
+#include <pfaff/runs/motion.hpp>
 
 namespace pfaff::testing {
 

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/bench/runner/settings.hpp>
+#include <pfaff/runs/motion.hpp>
 #include <pfaff/systems/text/text_system.hpp>
 
 #include "../temporary_directory.hpp"

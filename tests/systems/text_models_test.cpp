@@ -6,8 +6,8 @@
 #include <fstream>
 #include <random>
 
-#include <pfaff/bench/runner/motion.hpp>
 #include <pfaff/bench/verification/check.hpp>
+#include <pfaff/runs/motion.hpp>
 #include <pfaff/systems/text/text_system.hpp>
 
 #include "../formula_values.hpp"

@@ -38,29 +38,19 @@ Numbers state_at_end(const std::string& system, const std::string& integrator, c
   settings.tolerance = tolerance;
   settings.time = time;
   const ResolvedRun run = resolve(settings);
-  std::vector<double> z;
-  for (const Real& x : run.initial) z.push_back(x.value());
-  double t = 0;
-  const auto stepper = run.method->stepper(run.model, double());
-  const Status status = stepper->advance_to(t, run.time.value(), {run.tolerance.value()}, z);
-  if (status != Status::converged)
-    throw RunError(integrator + " on " + run.model->name() + ": " + std::string(to_string(status)));
-  return {z.begin(), z.end()};
+  Integration<double> integration(start_of<double>(run));
+  integration.to((run.t0 + run.time).value()).expect_reached();
+  return {integration.state().begin(), integration.state().end()};
 }
 
 template <class T>
 void follow(const ResolvedRun& run, const std::function<void(const std::vector<T>&)>& each) {
-  std::vector<T> z;
-  for (const Real& x : run.initial) z.push_back(T(x));
-  const StepperPointer<T> stepper = run.method->stepper(run.model, T());
-  each(z);
+  Integration<T> integration(start_of<T>(run));
+  const auto look = [&] { each({integration.state().begin(), integration.state().end()}); };
+  look();
   for (std::int64_t step = 0; step < run.steps; ++step) {
-    std::int64_t completed = 0;
-    const Status status = stepper->advance(T(run.t0), step, T(run.step), 1, z, completed);
-    if (status != Status::converged)
-      throw RunError(run.method->called() + " on " + run.model->name() + ": " +
-                     std::string(to_string(status)));
-    each(z);
+    integration.steps(1).expect_reached();
+    look();
   }
 }
 

@@ -1,4 +1,4 @@
-#include <pfaff/bench/runner/asked_for.hpp>
+#include <pfaff/runs/asked_for.hpp>
 
 #include <algorithm>
 #include <cctype>

@@ -1,6 +1,6 @@
-#include <pfaff/bench/runner/motion.hpp>
+#include <pfaff/runs/motion.hpp>
 
-#include <pfaff/bench/runner/asked_for.hpp>
+#include <pfaff/runs/asked_for.hpp>
 
 namespace pfaff {
 

@@ -1,0 +1,53 @@
+#include <pfaff/runs/integrate.hpp>
+
+#include <cmath>
+
+#include <pfaff/runs/asked_for.hpp>
+#include <pfaff/runs/motion.hpp>
+
+namespace pfaff {
+
+namespace {
+Real number(const std::string& text, const std::string& what) {
+  const auto value = Real::parse(text);
+  if (!value || !std::isfinite(value->value()))
+    throw InputError(what + ": expected a finite decimal number or a/b, got '" + text + "'");
+  return *value;
+}
+}  // namespace
+
+template <class T>
+Integration<T> integrate(const std::string& system, const Assignments& system_parameters,
+                         const std::string& method, const Assignments& method_parameters,
+                         const AskedIntegration& asked) {
+  const SystemPlugin& plugin = system_asked_for(system);
+  const FormulationPlugin* const formulation = formulation_for(plugin, asked.formulation);
+  Start<T> start;
+  start.model = plugin.make(system_parameters);
+  start.method = integrator_asked_for(method).make(method_parameters);
+  if (formulation != nullptr && !start.method->refuses(*start.model).empty()) {
+    start.model = formulation->apply(start.model, {});
+  } else if (!asked.formulation.empty()) {
+    throw InputError(start.method->called() + " steps on the constraints of " + plugin.name() +
+                     " themselves; expected no formulation");
+  }
+  if (asked.initial.empty())
+    for (const Real& x : start.model->initial()) start.state.push_back(T(x));
+  for (const std::string& text : asked.initial) start.state.push_back(T(number(text, "initial")));
+  const std::size_t n = start.state.size();
+  start.h = T(number(asked.step, "step"));
+  start.t0 = T(number(asked.t0, "initial time"));
+  if (!asked.tolerance.empty()) start.tolerance = T(number(asked.tolerance, "tolerance"));
+  for (const std::string& text : asked.absolute)
+    start.absolute.push_back(T(number(text, "absolute tolerance")));
+  if (start.absolute.size() == 1) start.absolute.assign(n, T(start.absolute.front()));
+  start.block_rows = asked.block_rows;
+  return Integration<T>(std::move(start));
+}
+
+template Integration<double> integrate(const std::string&, const Assignments&, const std::string&,
+                                       const Assignments&, const AskedIntegration&);
+template Integration<Quad> integrate(const std::string&, const Assignments&, const std::string&,
+                                     const Assignments&, const AskedIntegration&);
+
+}  // namespace pfaff

@@ -1,0 +1,279 @@
+#include <pfaff/runs/integration.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <pfaff/core/errors/budget.hpp>
+
+namespace pfaff {
+
+std::string failure(Status status, const std::string& where) {
+  switch (status) {
+    case Status::not_converged:
+      return "the implicit solve did not converge " + where;
+    case Status::singular:
+      return "a linear system was singular " + where;
+    case Status::non_finite:
+      return "the state or the structure left the range of numbers " + where;
+    case Status::converged:
+      break;
+  }
+  return {};
+}
+
+std::string Outcome::message() const {
+  switch (end_) {
+    case End::failed:
+      return failure(status_, where_);
+    case End::watcher:
+      return "a watcher ended the integration " + where_;
+    case End::asked:
+      return "the integration was interrupted " + where_;
+    case End::reached:
+      break;
+  }
+  return {};
+}
+
+void Outcome::expect_reached() const {
+  if (!reached()) throw RunError(message());
+}
+
+namespace {
+template <class T>
+void check(const Start<T>& start) {
+  const Model& model = *start.model;
+  if (const std::string reason = start.method->refuses(model); !reason.empty()) throw InputError(reason);
+  const auto dimension = static_cast<std::size_t>(model.dimension());
+  if (start.state.size() != dimension)
+    throw InputError("initial state of " + model.name() + ": expected " + std::to_string(dimension) +
+                     " numbers, got " + std::to_string(start.state.size()));
+  for (std::size_t i = 0; i < dimension; ++i)
+    if (!isfinite(value_of(start.state[i])))
+      throw InputError("initial state of " + model.name() + ": " + model.coordinates()[i].name +
+                       " is not finite");
+  const bool adaptive = value_of(start.tolerance) > Value<T>(0);
+  if (!isfinite(value_of(start.h)) || (!adaptive && value_of(start.h) == Value<T>(0)))
+    throw InputError("step: expected a finite number other than 0");
+  if (!isfinite(value_of(start.t0))) throw InputError("initial time: expected a finite number");
+  if (adaptive && !start.method->adaptive())
+    throw InputError(start.method->called() + " takes fixed steps only; expected a step without a tolerance");
+  if (!start.absolute.empty() && start.absolute.size() != dimension)
+    throw InputError("absolute tolerances: expected none, or one for each of the " +
+                     std::to_string(dimension) + " coordinates of " + model.name() + ", got " +
+                     std::to_string(start.absolute.size()));
+}
+// A start that was checked, so that members can be made of it.
+template <class T>
+Start<T> checked(Start<T> start) {
+  check(start);
+  // What a watcher does once for a block is lost beside 256 rows, and a block should stay in the cache.
+  if (start.block_rows == 0)
+    start.block_rows = std::clamp<std::size_t>(8192 / std::max<std::size_t>(1, start.state.size()), 16, 256);
+  return start;
+}
+}  // namespace
+
+template <class T>
+Integration<T>::Integration(Start<T> start)
+    : start_(checked(std::move(start))),
+      state_(start_.state),
+      reached_(start_.t0),
+      stepper_(start_.method->stepper(start_.model, T())),
+      block_(state_.size(), start_.block_rows) {}
+
+template <class T>
+Integration<T> Integration<T>::beside(std::vector<T> state) const {
+  return beside(std::move(state), time(), start_.h);
+}
+
+template <class T>
+Integration<T> Integration<T>::beside(std::vector<T> state, const T& t0, const T& h) const {
+  Start<T> start = start_;
+  start.t0 = t0, start.h = h;
+  start.state = std::move(state);
+  return Integration(std::move(start));
+}
+
+template <class T>
+Integration<T> Integration<T>::reversed() const {
+  return beside(state_, time(), -start_.h);
+}
+
+template <class T>
+Integration<T> Integration<T>::at(std::int64_t step, std::vector<T> state) const {
+  Integration run = beside(std::move(state), start_.t0, start_.h);
+  run.taken_ = step;
+  run.reached_ = time_of(step);
+  return run;
+}
+
+template <class T>
+void Integration<T>::turn() {
+  reached_ = start_.t0 = time();
+  start_.h = -start_.h;
+  taken_ = 0;
+}
+
+template <class T>
+void Integration<T>::watch(Watcher<T>& watcher, std::int64_t every) {
+  if (every <= 0) throw InputError("watch: expected a whole number > 0 of steps between two looks");
+  if (adaptive() && value_of(start_.h) == Value<T>(0))
+    throw InputError("step: expected the time between two looks beside the tolerance, got 0");
+  watching_.push_back({&watcher, every});
+  watcher.start(*this);
+}
+
+template <class T>
+Outcome Integration<T>::ended(std::int64_t begin, Outcome::End end, Status status) const {
+  const std::string where = end == Outcome::End::reached ? ""
+                                                         : "at t = " + to_string(Quad(value_of(time())), 10) +
+                                                               " (step " + std::to_string(taken_) + ")";
+  return {end, status, taken_ - begin, where};
+}
+
+// Where the flag is set, the budget of this call ends it between two steps; other budgets pass on.
+template <class T>
+template <class Loop>
+Outcome Integration<T>::guarded(Loop&& loop) {
+  if (asked_ == nullptr) return loop();
+  const std::int64_t begin = taken_;
+  const Budget budget(BudgetLimits{}, asked_);
+  try {
+    return loop();
+  } catch (const BudgetSpent& spent) {
+    if (!spent.stopped() || !asked_->load()) throw;
+    return ended(begin, Outcome::End::asked, Status::converged);
+  }
+}
+
+// Takes `rows` times `stride` steps, and puts the states between them into the block.
+template <class T>
+Status Integration<T>::fill(std::int64_t stride, std::int64_t rows) {
+  if (adaptive()) return fill_adaptive(rows);
+  block_.t0 = start_.t0, block_.h = start_.h;
+  block_.stride = stride, block_.first = taken_ + stride;
+  std::int64_t completed = 0;
+  try {
+    const Status status = stepper_->fill(block_, static_cast<std::size_t>(rows), state_, completed);
+    taken_ += completed;
+    return status;
+  } catch (...) {
+    taken_ += completed;
+    throw;
+  }
+}
+
+// Goes on to the times of the next `rows` intervals.
+template <class T>
+Status Integration<T>::fill_adaptive(std::int64_t rows) {
+  block_.t0 = start_.t0, block_.h = start_.h;
+  block_.stride = 1, block_.first = taken_ + 1;
+  block_.rows = 0;
+  block_.times.clear();
+  Status status = Status::converged;
+  const Tolerance<T> tolerance(start_.tolerance, start_.absolute);
+  for (; static_cast<std::int64_t>(block_.rows) < rows; ++taken_) {
+    status = stepper_->advance_to(reached_, time_of(taken_ + 1), tolerance, state_);
+    if (status != Status::converged) break;
+    block_.times.push_back(reached_);
+    block_.states.put(block_.rows++, state_.data());
+  }
+  block_.states.fill_behind(block_.rows);
+  return status;
+}
+
+// Shows the block to the watchers; true where one of them ends the run at a row of it.
+template <class T>
+bool Integration<T>::look() {
+  if (block_.rows == 0) return false;
+  std::size_t last = block_.rows;
+  for (const Watching& w : watching_) last = std::min(last, w.watcher->look(*this, block_));
+  if (last >= block_.rows) return false;
+  // What the stepper remembers belongs to the end of the block.
+  taken_ = block_.step(last);
+  if (adaptive()) reached_ = block_.time(last);
+  block_.states.get(last, state_);
+  stepper_->forget();
+  return true;
+}
+
+template <class T>
+Outcome Integration<T>::steps(std::int64_t count) {
+  if (count < 0) throw InputError("steps: expected a whole number >= 0; turn() and reversed() go back");
+  if (adaptive() && count > 0 && value_of(start_.h) == Value<T>(0))
+    throw InputError(
+        "step: expected the time between two looks beside the tolerance, got 0; to() needs none");
+  return guarded([&]() -> Outcome {
+    const std::int64_t begin = taken_, end = taken_ + count;
+    const auto most = static_cast<std::int64_t>(start_.block_rows);
+    // Every look takes a processed method its processor.
+    std::int64_t stride = method().processed() && watching_.empty() ? std::max<std::int64_t>(1, count) : 0;
+    for (const Watching& w : watching_) stride = std::gcd(stride, w.every);
+    if (stride == 0 || adaptive()) stride = 1;
+    while (taken_ < end) {
+      const std::int64_t next = watching_.empty() ? std::min(end, taken_ + stride)
+                                                  : (taken_ / stride + 1) * stride;  // that is looked at
+      Status status = Status::converged;
+      bool whole = true;  // rows of the block are looked at
+      const std::int64_t before = taken_;
+      const auto filled = [&](std::int64_t by, std::int64_t rows) {
+        try {
+          status = fill(by, rows);
+        } catch (...) {
+          if (whole && !watching_.empty()) (void)look();  // nothing that was seen is lost
+          throw;
+        }
+      };
+      if (next > end || next - taken_ < stride) {
+        whole = next <= end;
+        filled(std::min(next, end) - before, 1);
+      } else {
+        filled(stride, std::min(most, (end - before) / stride));
+      }
+      if (whole && !watching_.empty() && look()) return ended(begin, Outcome::End::watcher, status);
+      if (status != Status::converged) return ended(begin, Outcome::End::failed, status);
+    }
+    return ended(begin, Outcome::End::reached, Status::converged);
+  });
+}
+
+template <class T>
+Outcome Integration<T>::to(const T& t) {
+  using V = Value<T>;
+  const V h = value_of(start_.h), span = value_of(t) - value_of(time());
+  if (h == V(0)) {  // with a tolerance, and nobody watches
+    return guarded([&]() -> Outcome {
+      const Tolerance<T> tolerance(start_.tolerance, start_.absolute);
+      const Status status = stepper_->advance_to(reached_, t, tolerance, state_);
+      const auto end = status == Status::converged ? Outcome::End::reached : Outcome::End::failed;
+      return ended(taken_, end, status);
+    });
+  }
+  const double ratio = static_cast<double>(V(span / h));
+  const double slack = 1e-9 * std::max(1.0, std::abs(ratio));
+  if (!(std::abs(ratio) < 9e18)) throw InputError("to: expected a time that whole steps reach");
+  if (ratio < -slack)
+    throw InputError("to: t = " + to_string(Quad(value_of(t)), 10) + " lies behind t = " +
+                     to_string(Quad(value_of(time())), 10) + "; turn() and reversed() go back");
+  if (!adaptive()) return steps(static_cast<std::int64_t>(std::ceil(ratio - slack)));
+  // Intervals end where they would without the call, and the last one at t.
+  const V intervals = (value_of(t) - value_of(start_.t0)) / h;
+  const auto whole = static_cast<std::int64_t>(std::floor(static_cast<double>(intervals) + 1e-9));
+  Outcome outcome = steps(std::max<std::int64_t>(0, whole - taken_));
+  if (!outcome.reached() || value_of(t) == value_of(reached_)) return outcome;
+  return guarded([&]() -> Outcome {
+    const std::int64_t begin = taken_ - outcome.steps();
+    const Tolerance<T> tolerance(start_.tolerance, start_.absolute);
+    const Status status = stepper_->advance_to(reached_, t, tolerance, state_);
+    return ended(begin, status == Status::converged ? Outcome::End::reached : Outcome::End::failed, status);
+  });
+}
+
+template class Integration<double>;
+template class Integration<Quad>;
+template class Integration<StepDual<double>>;
+template class Integration<StepDual<Quad>>;
+
+}  // namespace pfaff
