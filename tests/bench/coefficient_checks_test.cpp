@@ -87,7 +87,7 @@ TEST(CoefficientChecks, ControlsFindConditionsAboveOrder1ThatAreNotEvaluated) {
 // The conditions of order 1 alone, whatever order is asked for.
 TEST(CoefficientChecks, EntriesOfAAreFoundByConditionsAboveOrder1Only) {
   const KnownOrderTheory blind{
-      "spark-lobatto", [](const Assignments& /*parameters*/) {
+      "nonholonomic-lobatto", [](const Assignments& /*parameters*/) {
         OrderTheory theory =
             tree_theory({{Quad(0), Quad(0), Quad(0.5), Quad(0)}, {Quad(0), Quad(1)}}, 2, true);
         theory.conditions = [all = theory.conditions](const std::vector<Quad>& numbers) {
@@ -97,7 +97,7 @@ TEST(CoefficientChecks, EntriesOfAAreFoundByConditionsAboveOrder1Only) {
         };
         return theory;
       }};
-  const std::vector<Check> checks = check_coefficients(integrators().get("spark-lobatto", ""), {});
+  const std::vector<Check> checks = check_coefficients(integrators().get("nonholonomic-lobatto", ""), {});
   ASSERT_EQ(checks.size(), 4U);  // b and the one entry of a
   EXPECT_TRUE(good(checks.front()));
   for (std::size_t k = 1; k < checks.size(); ++k) EXPECT_FALSE(good(checks[k])) << checks[k].claim;

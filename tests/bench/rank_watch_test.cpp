@@ -55,7 +55,7 @@ constexpr const char* turning = R"(row = ["-y", "x", "0"])";
 
 // The states at -1 + 0.1 k miss the singular point at t = 1.03 or, where they hit it, there at the latest.
 TEST_F(RankAlongRuns, EndsRunsThroughAPointWhereARowOfConstraintsVanishes) {
-  for (const char* method : {"rk4", "spark-lobatto", "dla", "velocity-projected-rk4"})
+  for (const char* method : {"rk4", "nonholonomic-lobatto", "dla", "velocity-projected-rk4"})
     for (const auto& [initial, row] : {std::pair{"-1.03, 0, 0, 1, 0, 0.25", turning},
                                        {"-1.03, -0.515, 0, 1, 0.5, 0.25", turning},
                                        {"-1.07, 0, 0, 1, 0, 0.25", R"(row = ["0", "x^2", "0"])"}}) {

@@ -59,7 +59,7 @@ void no_method_allocates_on_velocity_constraints() {
   for (const auto& model : nonholonomic::golden_models())
     for (const char* name :
          {"dla", "gni", "nonholonomic-leap-frog", "mclachlan-perlmutter", "nonholonomic-discrete-gradient",
-          "composition", "velocity-projected-rk4", "velocity-projected-gauss", "spark-lobatto"}) {
+          "composition", "velocity-projected-rk4", "velocity-projected-gauss", "nonholonomic-lobatto"}) {
       const auto method = std::string(name) == "composition" ? nonholonomic::composed("dla", "kahan-li", "6")
                                                              : nonholonomic::method_named(name);
       const auto motion = motion_for(*method, model);

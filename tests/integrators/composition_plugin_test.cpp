@@ -65,7 +65,7 @@ TEST(Aliases, AreCompositionsInReportsUnlessTheyStepOnConstraints) {
 }
 
 TEST(Aliases, StepBitForBitLikeTheCompositionTheyName) {
-  EXPECT_EQ(integrators().aliases().size(), shorts.size() + 1);  // and wisdom-holman, a splitting
+  EXPECT_EQ(integrators().aliases().size(), shorts.size() + 2);  // and wisdom-holman and spark-lobatto
   for (const Short& s : shorts)
     for (const char* compensated : {"yes", "no"}) {
       const Assignments whole{

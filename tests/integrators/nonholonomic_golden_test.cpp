@@ -52,12 +52,13 @@ TEST(NonholonomicGolden, GeometricNonholonomicIntegrator) {
 template <class T>
 void expect_lobatto_pairs() {
   const auto models = golden_models();
-  const auto cases = nlohmann::json::parse(std::ifstream(PFAFF_GOLDEN "/spark_lobatto.json")).at("cases");
+  const auto cases =
+      nlohmann::json::parse(std::ifstream(PFAFF_GOLDEN "/nonholonomic_lobatto.json")).at("cases");
   ASSERT_EQ(cases.size(), models.size());
   for (std::size_t k = 0; k < cases.size(); ++k)
     for (const char* stages : {"2", "3", "4"})
       for (std::size_t i = 0; i < 2; ++i) {
-        const auto z = after_steps(*method_named("spark-lobatto", {{"stages", stages}}), models[k],
+        const auto z = after_steps(*method_named("nonholonomic-lobatto", {{"stages", stages}}), models[k],
                                    T(Real::fraction(1, 10)), i == 0 ? 1 : 10, initial_state<T>(*models[k]));
         EXPECT_LE(distance(z, numbers<T>(cases[k]["stages"][stages][lengths[i]])), bound<T>)
             << models[k]->name() << ' ' << stages << ' ' << lengths[i];

@@ -13,7 +13,7 @@ using namespace nonholonomic;
 using ::testing::HasSubstr;
 
 const std::vector<const char*> one_step{"dla", "mclachlan-perlmutter", "nonholonomic-discrete-gradient",
-                                        "spark-lobatto"},
+                                        "nonholonomic-lobatto"},
     all{"dla", "gni", "nonholonomic-leap-frog", "mclachlan-perlmutter", "nonholonomic-discrete-gradient"};
 
 // The slope of the errors at T = 1 from reference flows of 36 digits, between `steps` steps and twice as
@@ -44,9 +44,15 @@ TEST(Nonholonomic, MethodsHaveOrderTwo) {
 TEST(Nonholonomic, LobattoPairsHaveOrderTwoLessThanTwiceTheirStages) {
   for (const int stages : {2, 3, 4})
     for (std::size_t k = 0; k < 4; ++k)
-      EXPECT_NEAR(measured_slope(*method_named("spark-lobatto", {{"stages", std::to_string(stages)}}), k, 16),
-                  2 * stages - 2, 0.1)
+      EXPECT_NEAR(
+          measured_slope(*method_named("nonholonomic-lobatto", {{"stages", std::to_string(stages)}}), k, 16),
+          2 * stages - 2, 0.1)
           << stages << ' ' << k;
+}
+TEST(Nonholonomic, LobattoPairHasItsFormerName) {
+  const auto& model = golden_models()[0];
+  EXPECT_EQ(after_steps(*method_named("spark-lobatto"), model, 0.01, 3),
+            after_steps(*method_named("nonholonomic-lobatto"), model, 0.01, 3));
 }
 TEST(Nonholonomic, CompositionsReachHigherOrders) {
   EXPECT_NEAR(measured_slope(*composed("dla", "suzuki", "4"), 0, 16), 4, 0.1);
@@ -74,7 +80,7 @@ template <class T>
 void constraints_hold() {
   for (const auto& model : golden_models())
     for (const char* name :
-         {"dla", "gni", "nonholonomic-leap-frog", "nonholonomic-discrete-gradient", "spark-lobatto"}) {
+         {"dla", "gni", "nonholonomic-leap-frog", "nonholonomic-discrete-gradient", "nonholonomic-lobatto"}) {
       const auto m = method_named(name);
       if (!m->refuses(*model).empty()) continue;
       EXPECT_LE(
@@ -158,7 +164,8 @@ TEST(Nonholonomic, StaggeredStepsAreSymmetricWithTheReactionTheyCarry) {
 TEST(Nonholonomic, MomentaOfAllowedSymmetriesAreKept) {
   const auto edge = golden_models()[1];
   const auto start = initial_state<Quad>(*edge);
-  for (const char* name : {"dla", "gni", "nonholonomic-leap-frog", "mclachlan-perlmutter", "spark-lobatto"})
+  for (const char* name :
+       {"dla", "gni", "nonholonomic-leap-frog", "mclachlan-perlmutter", "nonholonomic-lobatto"})
     EXPECT_LE(static_cast<double>(
                   abs(after_steps(*method_named(name), edge, Quad(0.125), 40, start)[5] - start[5])),
               1e-32)
@@ -223,7 +230,7 @@ TEST(Nonholonomic, MovingConstraintsAreFollowed) {
   const auto eighth = after_steps(*composed("dla", "kahan-li", "8"), model, Quad(1) / Quad(32), 32, start);
   EXPECT_LE(distance(eighth, flow), 1e-12);
   const auto lobatto = [&](std::int64_t count) {
-    const auto z = after_steps(*method_named("spark-lobatto"), model,
+    const auto z = after_steps(*method_named("nonholonomic-lobatto"), model,
                                Quad(1) / Quad(static_cast<double>(count)), count, start);
     EXPECT_LE(slip(*model, Quad(1), z), 1e-32);
     return distance(z, flow);
@@ -238,7 +245,7 @@ TEST(Nonholonomic, PairingsThatMakeNoSenseAreRefused) {
   for (const char* name : {"nonholonomic-leap-frog", "mclachlan-perlmutter"})
     EXPECT_THAT(method_named(name)->refuses(*models[3]), HasSubstr(": take dla or gni")) << name;
   const auto pendulum = systems().get("pendulum", "system").make({});
-  for (const auto& names : {all, {"spark-lobatto"}})
+  for (const auto& names : {all, {"nonholonomic-lobatto"}})
     for (const char* name : names)
       EXPECT_THAT(method_named(name)->refuses(*pendulum), HasSubstr("needs velocity-constraints")) << name;
   for (const Claim claim : {Claim::symplectic, Claim::k_symplectic, Claim::poisson, Claim::volume})
@@ -247,7 +254,7 @@ TEST(Nonholonomic, PairingsThatMakeNoSenseAreRefused) {
 
 TEST(Nonholonomic, StepsThatAreTooLargeAreReported) {
   const auto model = golden_models()[0];
-  for (const char* name : {"dla", "gni", "nonholonomic-discrete-gradient", "spark-lobatto"}) {
+  for (const char* name : {"dla", "gni", "nonholonomic-discrete-gradient", "nonholonomic-lobatto"}) {
     const auto stepper = method_named(name)->stepper(model, double());
     auto z = initial_state<double>(*model);
     const auto before = z;

@@ -231,8 +231,8 @@ TEST(AppliedForce, MethodsOfEnergiesSayWhatTakesThem) {
             "which methods for vector fields take, beside a formulation of its constraints");
   EXPECT_EQ(said_of("gauss", model_written(driven_text)), "");
   const auto edge = model_of(DrivenEdge{}, {0, 0, 0, 1, 0, 1});
-  EXPECT_EQ(said_of("spark-lobatto", edge)
-                .find("spark-lobatto keeps the constraints of a motion that an "
+  EXPECT_EQ(said_of("nonholonomic-lobatto", edge)
+                .find("nonholonomic-lobatto keeps the constraints of a motion that an "
                       "energy makes alone"),
             0U);
   EXPECT_EQ(formulations().get("vakonomic", "formulation").refuses(*edge),

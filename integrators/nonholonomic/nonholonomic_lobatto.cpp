@@ -23,6 +23,7 @@
 #include <vector>
 
 #include <pfaff/core/integrator.hpp>
+#include <pfaff/core/method_alias.hpp>
 #include <pfaff/integrators/constrained/constraint_solves.hpp>
 #include <pfaff/integrators/constrained/lobatto_stages.hpp>
 #include <pfaff/integrators/nonholonomic/energy_slopes.hpp>
@@ -30,7 +31,7 @@
 namespace {
 using namespace pfaff;
 
-struct SparkLobatto {
+struct NonholonomicLobatto {
   int stages = 3;
   bool compensated = true;
   LobattoCoefficients tableau = lobatto_coefficients(3);
@@ -38,8 +39,9 @@ struct SparkLobatto {
   static constexpr bool fixed_sizes = false;  // the work is in batched calls, which take no fixed size
 
   static std::vector<Parameter> parameters() {
-    return {parameter(&SparkLobatto::stages, "stages", "", 2, 4, "number of stages s; the order is 2 s - 2"),
-            parameter(&SparkLobatto::compensated, "compensated", "compensated summation")};
+    return {parameter(&NonholonomicLobatto::stages, "stages", "", 2, 4,
+                      "number of stages s; the order is 2 s - 2"),
+            parameter(&NonholonomicLobatto::compensated, "compensated", "compensated summation")};
   }
   static std::vector<Assignments> instances(bool full) {
     if (!full) return {{{"stages", "3"}}};
@@ -61,7 +63,7 @@ struct SparkLobatto {
     EnergySlopes<T> slopes;
     MomentumProjection<T> onto_velocities;
 
-    Work(const SparkLobatto& method, const P& p)
+    Work(const NonholonomicLobatto& method, const P& p)
         : LobattoStages<T>(method.tableau, p.size() / 2, p.nonholonomic().count()),
           to_multipliers(this->converted(velocity_multipliers(lobatto_coefficients(method.stages)))),
           residual(this->s() * this->count()),
@@ -196,8 +198,8 @@ struct SparkLobatto {
   }
 };
 
-const Method<SparkLobatto> registered{
-    {.name = "spark-lobatto",
+const Method<NonholonomicLobatto> method{
+    {.name = "nonholonomic-lobatto",
      .title = "Lobatto IIIA-IIIB pair for velocity constraints, order 2 s - 2",
      .family = "nonholonomic",
      .reference = "jay1998; hairer-lubich-wanner2006 II.1.4, IV.2.2",
@@ -208,4 +210,6 @@ const Method<SparkLobatto> registered{
          "constraints that stand beside those of velocities are kept at the level of velocities only.",
      .preserves = {Claim::symmetric, Claim::reversible, Claim::velocity_constraints,
                    Claim::nonholonomic_momentum}}};
+// The former name, which was too like that of `lobatto-spark`.
+const MethodAlias spark_lobatto{method, "spark-lobatto", {}};
 }  // namespace
