@@ -13,6 +13,7 @@
 #include <pfaff/runs/motion.hpp>
 
 #include "../formula_values.hpp"
+#include "explosion.hpp"
 
 namespace pfaff {
 namespace {
@@ -120,10 +121,11 @@ void tiles_hold_rows() {
   EXPECT_EQ(tiles.first_not_finite(19), 19U);
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
     for (const std::size_t row : {18U, 9U, 8U, 0U}) {
-      std::array<T, components> z{T(1), T(bad), T(2)};
-      tiles.put(row, z.data());
+      const std::array<T, components> wrong{T(1), T(bad), T(2)}, right{T(1), T(1), T(2)};
+      tiles.put(row, wrong.data());
       EXPECT_EQ(tiles.first_not_finite(19), row);
       EXPECT_EQ(tiles.first_not_finite(row), row);  // the rows before it are all right
+      tiles.put(row, right.data());
     }
 }
 TEST(Blocks, TilesHoldRows) {
@@ -138,22 +140,8 @@ TEST(Blocks, LargeNumbersAreFinite) {
   EXPECT_EQ(tiles.first_not_finite(8), 8U);
 }
 
-// x' = x^2 from x = 1 leaves every bound at t = 1.
-struct Explosion {
-  static constexpr int dimension = 1;
-  template <class T>
-  void field(const T& /*t*/, In<T> z, Out<T> rate) const {
-    rate[0] = z[0] * z[0];
-  }
-};
-std::shared_ptr<const Model> explosion() {
-  return make_model(
-      {.name = "explosion", .title = "", .reference = "", .coordinates = {{"x"}}, .initial = {1}},
-      Explosion{});
-}
-
 TEST(Blocks, EndWithTheLastFiniteRow) {
-  const auto model = explosion();
+  const auto model = testing::explosion();
   const auto method = integrators().get("rk4", "integrator").make({});
   for (const std::int64_t stride : {1, 3}) {
     EXPECT_TRUE(same_bits<double>(*method, model, 0.125, 64, stride)) << stride;

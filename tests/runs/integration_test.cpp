@@ -13,6 +13,7 @@
 #include <pfaff/runs/invariant_errors.hpp>
 
 #include "../formula_values.hpp"
+#include "explosion.hpp"
 
 namespace pfaff {
 namespace {
@@ -265,19 +266,8 @@ TEST(Integration, KeepsWhatABudgetLeaves) {
   EXPECT_EQ(state_of(run), by_hand<double>("henon-heiles", "gauss", {}, 0.1, 100));
 }
 
-// x' = x^2 from x = 1 leaves every bound at t = 1.
-struct Explosion {
-  static constexpr int dimension = 1;
-  template <class T>
-  void field(const T& /*t*/, In<T> z, Out<T> rate) const {
-    rate[0] = z[0] * z[0];
-  }
-};
-
 TEST(Integration, KeepsTheLastFiniteState) {
-  const auto model =
-      make_model({.name = "explosion", .title = "", .reference = "", .coordinates = {{"x"}}, .initial = {1}},
-                 Explosion{});
+  const auto model = testing::explosion();
   const std::shared_ptr<const MethodInstance> rk4 = integrators().get("rk4", "integrator").make({});
   auto run = integrate(model, rk4, 0.125);
   const Outcome outcome = run.steps(1000);
