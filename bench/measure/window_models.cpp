@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numbers>
 
 #include <pfaff/bench/measure/windows.hpp>
@@ -117,11 +116,12 @@ double dot(const double* a, const double* b, std::size_t n) {
 /// The models' raw columns: every shape, cosine and sine, filtered.
 std::vector<Vector> raw_columns(const WindowModels& models, const WindowMatrix& f) {
   std::vector<Vector> columns;
-  const auto append = [&](const std::function<double(double)>& value) {
+  Vector values(f.columns);
+  const auto append = [&](const auto& value) {
+    for (std::size_t g = 0; g < f.columns; ++g) values[g] = value((double(g) + 0.5) / double(f.columns));
     Vector column(f.rows);
     for (std::size_t j = 0; j < f.rows; ++j)
-      for (std::size_t g = 0; g < f.columns; ++g)
-        column[j] += f(j, g) * value((double(g) + 0.5) / double(f.columns));
+      for (std::size_t g = 0; g < f.columns; ++g) column[j] += f(j, g) * values[g];
     columns.push_back(std::move(column));
   };
   for (const Shape& shape : models.shapes) append(shape);
@@ -148,9 +148,12 @@ Covariance seen_through(Noise noise, const WindowMatrix& c, const std::vector<Ve
     for (double& value : x) result.columns.push_back(value / norm);
     result.norms.push_back(norm);
   }
-  for (std::size_t a = 0; a < raw.size(); ++a)
-    for (std::size_t b = 0; b < raw.size(); ++b)
-      result.products.push_back(dot(&result.columns[a * n], &result.columns[b * n], n));
+  const std::size_t count = raw.size();
+  result.products.resize(count * count);
+  for (std::size_t a = 0; a < count; ++a)
+    for (std::size_t b = 0; b <= a; ++b)
+      result.products[a * count + b] = result.products[b * count + a] =
+          dot(&result.columns[a * n], &result.columns[b * n], n);
   return result;
 }
 
@@ -189,8 +192,13 @@ double Shape::operator()(double s) const {
 }
 
 const WindowModels& window_models(std::size_t windows) {
-  static const WindowModels few = make_models(few_windows), many = make_models(many_windows);
-  return windows == few_windows ? few : many;
+  // Made when they are first asked for, as each takes milliseconds.
+  if (windows == few_windows) {
+    static const WindowModels few = make_models(few_windows);
+    return few;
+  }
+  static const WindowModels many = make_models(many_windows);
+  return many;
 }
 
 }  // namespace pfaff::windows

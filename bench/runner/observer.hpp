@@ -113,8 +113,9 @@ class Observer {
   /// Takes the state at time t. Every call counts for drift, setbacks and constraint residuals; `keep` also
   /// adds a row to the series, and `structure` a structure residual to that row. Says what is not finite or
   /// was singular on the way here, or nothing. A row is kept where state and invariants are finite, without
-  /// the error where that is not. `exact` is the time without rounding, at which the error is measured: n
-  /// steps lead to t0 + n h, and the solution moves on in half a unit in the last place of t.
+  /// the error where that is not. `exact` is the time without rounding, at which the error is measured
+  /// where a row is kept: n steps lead to t0 + n h, and the solution moves on in half a unit in the last
+  /// place of t.
   [[nodiscard]] std::string observe(const T& t, const Quad& exact, const std::vector<T>& z, bool keep,
                                     bool structure) {
     if (const std::string singular = rank_.observe(t, z); !singular.empty()) {

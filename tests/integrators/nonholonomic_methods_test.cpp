@@ -50,7 +50,7 @@ TEST(Nonholonomic, LobattoPairsHaveOrderTwoLessThanTwiceTheirStages) {
           << stages << ' ' << k;
 }
 TEST(Nonholonomic, LobattoPairHasItsFormerName) {
-  const auto& model = golden_models()[0];
+  const auto model = golden_models()[0];
   EXPECT_EQ(after_steps(*method_named("spark-lobatto"), model, 0.01, 3),
             after_steps(*method_named("nonholonomic-lobatto"), model, 0.01, 3));
 }
