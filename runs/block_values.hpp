@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -29,7 +30,8 @@ class BlockValues {
     if constexpr (in_lanes) lanes_ = make_evaluator_in_lanes<static_cast<int>(lanes<T>)>(model, formula);
   }
 
-  /// The values at the rows of a block, which has at most `capacity` of them.
+  /// The values at the rows of a block, which has at most `capacity` of them. Lanes behind the last row have
+  /// no meaning.
   [[nodiscard]] const Tiles<T>& operator()(const Block<T>& block) {
     if constexpr (in_lanes)
       if (lanes_.call != nullptr) {
@@ -41,7 +43,6 @@ class BlockValues {
       one_.call(one_.context, block.time(row), state_.data(), results_.data());
       values_.put(row, results_.data());
     }
-    values_.fill_behind(block.rows);
     return values_;
   }
   /// The values at a single state.
@@ -56,14 +57,24 @@ class BlockValues {
 
   void evaluate_in_lanes(const Block<T>& block) {
     static_assert(!in_lanes || lanes<T> == 8);
-    Lanes arguments_of_time;
-    for (std::size_t tile = 0; tile * lanes<T> < block.rows; ++tile) {
-      for (std::size_t lane = 0; lane < lanes<T>; ++lane)
-        arguments_of_time.set(lane, block.time(std::min(tile * lanes<T> + lane, block.rows - 1)));
-      // A tile is what packs of its numbers are in memory.
-      lanes_.call(lanes_.context, arguments_of_time, reinterpret_cast<const Lanes*>(block.states.tile(tile)),
+    // A tile is what packs of its numbers are in memory.
+    for (std::size_t tile = 0; tile * lanes<T> < block.rows; ++tile)
+      lanes_.call(lanes_.context, times(block, tile * lanes<T>),
+                  reinterpret_cast<const Lanes*>(block.states.tile(tile)),
                   reinterpret_cast<Lanes*>(values_.tile(tile)));
+  }
+  // Block::time of eight rows. Lanes behind the last row have times of their own, and values of no meaning.
+  static Lanes times(const Block<T>& block, std::size_t row) {
+    if (block.times.empty()) {
+      static constexpr std::array<double, 8> numbers{0, 1, 2, 3, 4, 5, 6, 7};
+      return Lanes(block.t0) + (Lanes(static_cast<double>(block.step(row))) +
+                                Lanes::load(numbers.data()) * Lanes(static_cast<double>(block.stride))) *
+                                   Lanes(block.h);
     }
+    Lanes t;
+    for (std::size_t lane = 0; lane < lanes<T>; ++lane)
+      t.set(lane, block.times[std::min(row + lane, block.rows - 1)]);
+    return t;
   }
 
   Tiles<T> values_;

@@ -15,7 +15,7 @@ struct Explosion {
 
 inline std::shared_ptr<const Model> explosion() {
   return make_model(
-      {.name = "explosion", .title = "", .reference = "", .coordinates = {{"x"}}, .initial = {1}},
+      {.name = "explosion", .title = "", .reference = "", .coordinates = {{"x", ""}}, .initial = {1}},
       Explosion{});
 }
 

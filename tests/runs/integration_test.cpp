@@ -332,5 +332,36 @@ TEST(InvariantErrors, AreThoseOfTheStates) {
   }
 }
 
+// x' = -1 leads out of the domain of the root.
+struct Falling {
+  static constexpr int dimension = 1;
+  template <class T>
+  void field(const T& /*t*/, In<T> /*z*/, Out<T> rate) const {
+    rate[0] = T(-1);
+  }
+  template <class T>
+  void invariants(const T& t, In<T> z, Out<T> values) const {
+    values[0] = sqrt(z[0]);
+    values[1] = z[0] + t;
+  }
+};
+TEST(InvariantErrors, AreInfiniteWhereAValueIsNotFinite) {
+  const auto model = make_model({.name = "falling",
+                                 .title = "",
+                                 .reference = "",
+                                 .coordinates = {{"x", ""}},
+                                 .initial = {1},
+                                 .invariants = {decreasing("root", ""), conserved("sum", "")}},
+                                Falling{});
+  for (const std::size_t steps : {3U, 5U, 8U, 9U, 20U}) {
+    auto run = integrate<double>(model, integrators().get("rk4", "integrator").make({}), 0.25);
+    InvariantErrors errors;
+    run.watch(errors);
+    EXPECT_TRUE(run.steps(static_cast<std::int64_t>(steps)).reached());
+    EXPECT_EQ(std::isfinite(errors.largest()[0]), steps <= 4) << steps;
+    EXPECT_LT(errors.largest()[1], 1e-15) << steps;
+  }
+}
+
 }  // namespace
 }  // namespace pfaff
