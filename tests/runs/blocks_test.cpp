@@ -116,7 +116,8 @@ void tiles_hold_rows() {
   EXPECT_EQ(tiles.tile(1)[0], T(10.0 * lanes<T>));
   EXPECT_EQ(tiles.tile(1)[2 * lanes<T>], T(10.0 * lanes<T> + 2));
   tiles.fill_behind(19);
-  if (lanes < T >> 1) EXPECT_EQ(tiles.at(20, 1), tiles.at(18, 1));
+  constexpr std::size_t last = lanes<T> == 1 ? 18 : 20;  // of the tile in which row 18 lies
+  EXPECT_EQ(tiles.at(last, 1), tiles.at(18, 1));
 
   EXPECT_EQ(tiles.first_not_finite(19), 19U);
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
