@@ -232,7 +232,8 @@ Outcome Integration<T>::steps(std::int64_t count) {
       } else {
         filled(stride, std::min(most, (end - before) / stride));
       }
-      if (whole && !watching_.empty() && look()) return ended(begin, Outcome::End::watcher, status);
+      if (whole && !watching_.empty() && look())
+        return ended(begin, Outcome::End::watcher, Status::converged);
       if (status != Status::converged) return ended(begin, Outcome::End::failed, status);
     }
     return ended(begin, Outcome::End::reached, Status::converged);
@@ -242,6 +243,7 @@ Outcome Integration<T>::steps(std::int64_t count) {
 template <class T>
 Outcome Integration<T>::to(const T& t) {
   using V = Value<T>;
+  if (!isfinite(value_of(t))) throw InputError("to: expected a finite time");
   const V h = value_of(start_.h), span = value_of(t) - value_of(time());
   if (h == V(0)) {  // with a tolerance, and nobody watches
     return guarded([&]() -> Outcome {
@@ -258,11 +260,12 @@ Outcome Integration<T>::to(const T& t) {
     throw InputError("to: t = " + to_string(Quad(value_of(t)), 10) + " lies behind t = " +
                      to_string(Quad(value_of(time())), 10) + "; turn() and reversed() go back");
   if (!adaptive()) return steps(static_cast<std::int64_t>(std::ceil(ratio - slack)));
-  // Intervals end where they would without the call, and the last one at t.
-  const V intervals = (value_of(t) - value_of(start_.t0)) / h;
-  const auto whole = static_cast<std::int64_t>(std::floor(static_cast<double>(intervals) + 1e-9));
+  // Intervals end where they would without the call, and the last one at t, if it does not end there anyway.
+  const double intervals = static_cast<double>(V((value_of(t) - value_of(start_.t0)) / h));
+  const auto whole = static_cast<std::int64_t>(std::floor(intervals + 1e-9));
   Outcome outcome = steps(std::max<std::int64_t>(0, whole - taken_));
-  if (!outcome.reached() || value_of(t) == value_of(reached_)) return outcome;
+  const V left = value_of(t) - value_of(reached_);
+  if (!outcome.reached() || abs(left) <= V(1e-9) * abs(h)) return outcome;
   return guarded([&]() -> Outcome {
     const std::int64_t begin = taken_ - outcome.steps();
     const Tolerance<T> tolerance(start_.tolerance, start_.absolute);

@@ -126,7 +126,8 @@ class Integration {
   /// are then those that were reached.
   Outcome steps(std::int64_t count);
   /// Takes whole steps until `t` is reached to a billionth of a step, or passed by less than one. With a
-  /// tolerance it ends at `t` exactly. InputError for a time that lies behind.
+  /// tolerance it ends at `t`, or to a billionth of an interval at the end of one. InputError for a time that
+  /// lies behind.
   Outcome to(const T& t);
 
  private:

@@ -211,6 +211,11 @@ TEST(Integration, ChoosesItsSteps) {
   EXPECT_NEAR(run.state()[0], std::cos(1.75), 1e-13);
   EXPECT_TRUE(run.steps(1).reached());
   EXPECT_EQ(notes.times.back(), 2);
+  EXPECT_EQ(run.to(2.5 - 1e-12).steps(), 1);  // the end of an interval, from which it does not step back
+  EXPECT_EQ(run.time(), 2.5);
+  EXPECT_EQ(notes.times.back(), 2.5);
+  EXPECT_EQ(run.to(2.5 + 1e-12).steps(), 0);
+  EXPECT_THROW((void)run.to(std::nan("")), InputError);
 
   auto unwatched = integrate("harmonic-oscillator", {}, "taylor", {},
                              {.step = "0", .initial = {"1", "0"}, .tolerance = "1e-14"});
