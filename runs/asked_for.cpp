@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 #include <pfaff/core/bracket.hpp>
 #include <pfaff/core/formulation.hpp>
@@ -9,6 +10,13 @@
 #include <pfaff/systems/text/text_system.hpp>
 
 namespace pfaff {
+
+Real finite_number(const std::string& text, const std::string& what) {
+  const auto value = Real::parse(text);
+  if (!value || !std::isfinite(value->value()))
+    throw InputError(what + ": expected a finite decimal number or a/b, got '" + text + "'");
+  return *value;
+}
 
 std::string in_small_letters(std::string name) {
   for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));

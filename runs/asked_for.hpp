@@ -1,4 +1,5 @@
-// The plug-ins that settings name, and what is said where a name or a pair of them does not fit.
+// The plug-ins that settings name and the numbers that they give, and what is said where a name, a number or
+// a pair of plug-ins does not fit.
 #pragma once
 
 #include <string>
@@ -7,6 +8,10 @@
 #include <pfaff/core/system.hpp>
 
 namespace pfaff {
+
+/// The finite decimal number or fraction that a text is. InputError, which says `what` the text is,
+/// otherwise.
+Real finite_number(const std::string& text, const std::string& what);
 
 /// A name in small letters.
 std::string in_small_letters(std::string name);

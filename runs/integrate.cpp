@@ -1,20 +1,9 @@
 #include <pfaff/runs/integrate.hpp>
 
-#include <cmath>
-
 #include <pfaff/runs/asked_for.hpp>
 #include <pfaff/runs/motion.hpp>
 
 namespace pfaff {
-
-namespace {
-Real number(const std::string& text, const std::string& what) {
-  const auto value = Real::parse(text);
-  if (!value || !std::isfinite(value->value()))
-    throw InputError(what + ": expected a finite decimal number or a/b, got '" + text + "'");
-  return *value;
-}
-}  // namespace
 
 template <class T>
 Integration<T> integrate(const std::string& system, const Assignments& system_parameters,
@@ -33,13 +22,13 @@ Integration<T> integrate(const std::string& system, const Assignments& system_pa
   }
   if (asked.initial.empty())
     for (const Real& x : start.model->initial()) start.state.push_back(T(x));
-  for (const std::string& text : asked.initial) start.state.push_back(T(number(text, "initial")));
+  for (const std::string& text : asked.initial) start.state.push_back(T(finite_number(text, "initial")));
   const std::size_t n = start.state.size();
-  start.h = T(number(asked.step, "step"));
-  start.t0 = T(number(asked.t0, "initial time"));
-  if (!asked.tolerance.empty()) start.tolerance = T(number(asked.tolerance, "tolerance"));
+  start.h = T(finite_number(asked.step, "step"));
+  start.t0 = T(finite_number(asked.t0, "initial time"));
+  if (!asked.tolerance.empty()) start.tolerance = T(finite_number(asked.tolerance, "tolerance"));
   for (const std::string& text : asked.absolute)
-    start.absolute.push_back(T(number(text, "absolute tolerance")));
+    start.absolute.push_back(T(finite_number(text, "absolute tolerance")));
   if (start.absolute.size() == 1) start.absolute.assign(n, T(start.absolute.front()));
   start.block_rows = asked.block_rows;
   return Integration<T>(std::move(start));

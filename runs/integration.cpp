@@ -133,12 +133,12 @@ Outcome Integration<T>::ended(std::int64_t begin, Outcome::End end, Status statu
   return {end, status, taken_ - begin, where};
 }
 
-// Where the flag is set, the budget of this call ends it between two steps; other budgets pass on.
+// The outcome of a loop that began at step `begin`. Where the flag is set, the budget of this call ends it
+// between two steps; other budgets pass on.
 template <class T>
 template <class Loop>
-Outcome Integration<T>::guarded(Loop&& loop) {
+Outcome Integration<T>::guarded(std::int64_t begin, Loop&& loop) {
   if (asked_ == nullptr) return loop();
-  const std::int64_t begin = taken_;
   const Budget budget(BudgetLimits{}, asked_);
   try {
     return loop();
@@ -173,9 +173,8 @@ Status Integration<T>::fill_adaptive(std::int64_t rows) {
   block_.rows = 0;
   block_.times.clear();
   Status status = Status::converged;
-  const Tolerance<T> tolerance(start_.tolerance, start_.absolute);
   for (; static_cast<std::int64_t>(block_.rows) < rows; ++taken_) {
-    status = stepper_->advance_to(reached_, time_of(taken_ + 1), tolerance, state_);
+    status = advance_to(time_of(taken_ + 1));
     if (status != Status::converged) break;
     block_.times.push_back(reached_);
     block_.states.put(block_.rows++, state_.data());
@@ -199,44 +198,58 @@ bool Integration<T>::look() {
   return true;
 }
 
+// As fill(), and shows the rows to the watchers, those before an exception too. `ends`: one of them ends the
+// run.
+template <class T>
+Status Integration<T>::fill_and_look(std::int64_t stride, std::int64_t rows, bool& ends) {
+  Status status = Status::converged;
+  try {
+    status = fill(stride, rows);
+  } catch (...) {
+    (void)look();
+    throw;
+  }
+  ends = look();
+  return status;
+}
+
 template <class T>
 Outcome Integration<T>::steps(std::int64_t count) {
   if (count < 0) throw InputError("steps: expected a whole number >= 0; turn() and reversed() go back");
   if (adaptive() && count > 0 && value_of(start_.h) == Value<T>(0))
     throw InputError(
         "step: expected the time between two looks beside the tolerance, got 0; to() needs none");
-  return guarded([&]() -> Outcome {
-    const std::int64_t begin = taken_, end = taken_ + count;
-    const auto most = static_cast<std::int64_t>(start_.block_rows);
+  const std::int64_t begin = taken_;
+  return guarded(begin, [&]() -> Outcome {
+    const std::int64_t end = taken_ + count, most = static_cast<std::int64_t>(start_.block_rows);
+    const bool watched = !watching_.empty();
     // Every look takes a processed method its processor.
-    std::int64_t stride = method().processed() && watching_.empty() ? std::max<std::int64_t>(1, count) : 0;
+    std::int64_t stride = method().processed() && !watched ? count : 0;
     for (const Watching& w : watching_) stride = std::gcd(stride, w.every);
     if (stride == 0 || adaptive()) stride = 1;
     while (taken_ < end) {
-      const std::int64_t next = watching_.empty() ? std::min(end, taken_ + stride)
-                                                  : (taken_ / stride + 1) * stride;  // that is looked at
-      Status status = Status::converged;
-      bool whole = true;  // rows of the block are looked at
-      const std::int64_t before = taken_;
-      const auto filled = [&](std::int64_t by, std::int64_t rows) {
-        try {
-          status = fill(by, rows);
-        } catch (...) {
-          if (whole && !watching_.empty()) (void)look();  // nothing that was seen is lost
-          throw;
-        }
-      };
-      if (next > end || next - taken_ < stride) {
-        whole = next <= end;
-        filled(std::min(next, end) - before, 1);
-      } else {
-        filled(stride, std::min(most, (end - before) / stride));
-      }
-      if (whole && !watching_.empty() && look())
-        return ended(begin, Outcome::End::watcher, Status::converged);
+      const std::int64_t left = end - taken_, to_look = watched ? stride - taken_ % stride : stride;
+      const std::int64_t by = std::min(to_look, left), rows = by == stride ? std::min(most, left / by) : 1;
+      bool ends = false;
+      const Status status = watched && to_look <= left ? fill_and_look(by, rows, ends) : fill(by, rows);
+      if (ends) return ended(begin, Outcome::End::watcher, Status::converged);
       if (status != Status::converged) return ended(begin, Outcome::End::failed, status);
     }
     return ended(begin, Outcome::End::reached, Status::converged);
+  });
+}
+
+template <class T>
+Status Integration<T>::advance_to(const T& t) {
+  return stepper_->advance_to(reached_, t, {start_.tolerance, start_.absolute}, state_);
+}
+
+// With a tolerance, to a time at which nobody looks.
+template <class T>
+Outcome Integration<T>::to_between(const T& t, std::int64_t begin) {
+  return guarded(begin, [&]() -> Outcome {
+    const Status status = advance_to(t);
+    return ended(begin, status == Status::converged ? Outcome::End::reached : Outcome::End::failed, status);
   });
 }
 
@@ -245,14 +258,7 @@ Outcome Integration<T>::to(const T& t) {
   using V = Value<T>;
   if (!isfinite(value_of(t))) throw InputError("to: expected a finite time");
   const V h = value_of(start_.h), span = value_of(t) - value_of(time());
-  if (h == V(0)) {  // with a tolerance, and nobody watches
-    return guarded([&]() -> Outcome {
-      const Tolerance<T> tolerance(start_.tolerance, start_.absolute);
-      const Status status = stepper_->advance_to(reached_, t, tolerance, state_);
-      const auto end = status == Status::converged ? Outcome::End::reached : Outcome::End::failed;
-      return ended(taken_, end, status);
-    });
-  }
+  if (h == V(0)) return to_between(t, taken_);
   const double ratio = static_cast<double>(V(span / h));
   const double slack = 1e-9 * std::max(1.0, std::abs(ratio));
   if (!(std::abs(ratio) < 9e18)) throw InputError("to: expected a time that whole steps reach");
@@ -266,12 +272,7 @@ Outcome Integration<T>::to(const T& t) {
   Outcome outcome = steps(std::max<std::int64_t>(0, whole - taken_));
   const V left = value_of(t) - value_of(reached_);
   if (!outcome.reached() || abs(left) <= V(1e-9) * abs(h)) return outcome;
-  return guarded([&]() -> Outcome {
-    const std::int64_t begin = taken_ - outcome.steps();
-    const Tolerance<T> tolerance(start_.tolerance, start_.absolute);
-    const Status status = stepper_->advance_to(reached_, t, tolerance, state_);
-    return ended(begin, status == Status::converged ? Outcome::End::reached : Outcome::End::failed, status);
-  });
+  return to_between(t, taken_ - outcome.steps());
 }
 
 template class Integration<double>;

@@ -138,9 +138,12 @@ class Integration {
   Outcome ended(std::int64_t begin, Outcome::End end, Status status) const;
   Status fill(std::int64_t stride, std::int64_t rows);
   Status fill_adaptive(std::int64_t rows);
+  Status fill_and_look(std::int64_t stride, std::int64_t rows, bool& ends);
   bool look();
+  Status advance_to(const T& t);
+  Outcome to_between(const T& t, std::int64_t begin);
   template <class Loop>
-  Outcome guarded(Loop&& loop);
+  Outcome guarded(std::int64_t begin, Loop&& loop);
 
   Start<T> start_;
   std::vector<T> state_;

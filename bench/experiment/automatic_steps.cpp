@@ -9,7 +9,7 @@
 #include <pfaff/bench/experiment/cells.hpp>
 #include <pfaff/bench/experiment/error_measure.hpp>
 #include <pfaff/bench/runner/parallel.hpp>
-#include <pfaff/bench/runner/steps.hpp>
+#include <pfaff/runs/asked_for.hpp>
 
 namespace pfaff {
 

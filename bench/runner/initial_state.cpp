@@ -1,9 +1,9 @@
 #include <pfaff/bench/runner/initial_state.hpp>
 
 #include <pfaff/bench/runner/expressions.hpp>
-#include <pfaff/bench/runner/steps.hpp>
 #include <pfaff/core/errors/errors.hpp>
 #include <pfaff/core/facets/momenta_of_velocities.hpp>
+#include <pfaff/runs/asked_for.hpp>
 
 namespace pfaff {
 

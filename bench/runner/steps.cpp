@@ -14,13 +14,6 @@
 
 namespace pfaff {
 
-Real finite_number(const std::string& text, const std::string& what) {
-  const auto value = Real::parse(text);
-  if (!value || !std::isfinite(value->value()))
-    throw InputError(what + ": expected a finite decimal number or a/b, got '" + text + "'");
-  return *value;
-}
-
 namespace {
 // Refuses steps of which too little is left in the scalar T of the run: one that rounds to zero, and one for
 // which t + h is off by more than a millionth of h at a time of the run. Forces that depend on time would be

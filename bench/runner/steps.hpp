@@ -10,9 +10,6 @@ namespace pfaff {
 // The most intervals between samples of a run that chooses its steps.
 inline constexpr int most_intervals = 200;
 
-// The finite decimal number or fraction that a text is. Throws InputError, which says `what` the text is.
-Real finite_number(const std::string& text, const std::string& what);
-
 // Fills in the step or the tolerances of a run, the number of its steps and how many of them lie between
 // samples, from its settings and its times `t0` and `time`. Refuses (InputError) what does not fit the method
 // or what nothing is left of in the precision of the run.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include <pfaff/bench/falsification/many_steps.hpp>
 #include <pfaff/core/errors/budget.hpp>
 #include <pfaff/core/facets/block.hpp>
 #include <pfaff/core/integrator.hpp>
@@ -87,6 +88,14 @@ TEST(Blocks, ALastBitThatDiffersIsSeen) {
   const auto method = integrators().get("verlet", "integrator").make({});
   EXPECT_TRUE(same_bits<double>(*method, model, 0.01, 11, 1));
   EXPECT_FALSE(same_bits<double>(*method, model, 0.01, 11, 1, true));
+}
+
+// Several steps as one have the times, the states and the counted steps of blocks too.
+TEST(Blocks, OfSeveralStepsAsOne) {
+  const auto model = testing::model_named("kepler");
+  const auto leap_frog = integrators().get("leap-frog", "integrator").make({});
+  for (const std::int64_t stride : {1, 2})
+    EXPECT_TRUE(same_bits<double>(ManySteps(*leap_frog, 3), model, 0.03, 5, stride)) << stride;
 }
 
 TEST(Blocks, RowsHaveTheirTimesAndSteps) {

@@ -10,63 +10,32 @@
 #include <pfaff/core/errors/budget.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/runs/integrate.hpp>
-#include <pfaff/runs/invariant_errors.hpp>
 
-#include "../formula_values.hpp"
+#include "../integrators/methods.hpp"
 #include "explosion.hpp"
+#include "notes.hpp"
 
 namespace pfaff {
 namespace {
 
+using testing::Coordinates;
 using ::testing::HasSubstr;
-using Coordinates = std::vector<double>;
+using testing::Notes;
+using testing::state_of;
 
-Coordinates state_of(const Integration<double>& run) { return {run.state().begin(), run.state().end()}; }
-
-// Steps by a loop written by hand.
+// The state after so many steps by a single call of a stepper.
 template <class T>
-std::vector<T> by_hand(const std::string& system, const std::string& method, const Assignments& set,
-                       const T& h, std::int64_t steps) {
-  const auto model = testing::model_named(system);
-  const auto stepper = integrators().get(method, "integrator").make(set)->stepper(model, T());
-  std::vector<T> z = testing::initial_state<T>(*model);
-  for (std::int64_t k = 0, taken = 0; k < steps; ++k)
-    EXPECT_EQ(stepper->advance(T(0), k, h, 1, z, taken), Status::converged);
-  return z;
+std::vector<T> by_stepper(const std::string& system, const std::string& method, const Assignments& set,
+                          const T& h, std::int64_t steps) {
+  return testing::after_steps(*testing::method_named(method, set), testing::model_named(system), h, steps);
 }
 
-// Notes the steps, times and states that it is shown, and ends a run after a step.
-class Notes final : public Watcher<double> {
- public:
-  explicit Notes(std::int64_t every = 1, std::int64_t last = -1) : every_(every), last_(last) {}
-  void start(const Integration<double>& run) override { note(run.steps_taken(), run.time(), state_of(run)); }
-  std::size_t look(const Integration<double>& /*run*/, const Block<double>& block) override {
-    for (std::size_t row = 0; row < block.rows; ++row) {
-      if (block.step(row) % every_ != 0) continue;
-      Coordinates z(block.states.components());
-      block.states.get(row, z);
-      note(block.step(row), block.time(row), z);
-      if (block.step(row) == last_) return row;
-    }
-    return block.rows;
-  }
-  std::vector<std::int64_t> steps;
-  std::vector<double> times;
-  std::vector<Coordinates> states;
-
- private:
-  void note(std::int64_t step, double t, const Coordinates& z) {
-    steps.push_back(step), times.push_back(t), states.push_back(z);
-  }
-  std::int64_t every_, last_;
-};
-
-TEST(Integration, TakesTheStepsOfALoop) {
+TEST(Integration, TakesTheStepsOfAStepper) {
   auto run = integrate("kepler", {}, "gauss", {{"stages", "3"}}, {.step = "0.05"});
   EXPECT_TRUE(run.steps(7).reached());
   EXPECT_EQ(run.steps(600).steps(), 600);
   EXPECT_TRUE(run.steps(0).reached());
-  EXPECT_EQ(state_of(run), by_hand<double>("kepler", "gauss", {{"stages", "3"}}, 0.05, 607));
+  EXPECT_EQ(state_of(run), by_stepper<double>("kepler", "gauss", {{"stages", "3"}}, 0.05, 607));
   EXPECT_EQ(run.steps_taken(), 607);
   EXPECT_EQ(run.time(), 607 * 0.05);
   EXPECT_EQ(run.counters().steps, 607);
@@ -75,7 +44,7 @@ TEST(Integration, TakesTheStepsOfALoop) {
   EXPECT_TRUE(in_quad.steps(20).reached());
   const Quad tenth = Real::fraction(1, 10).quad();
   EXPECT_EQ((std::vector<Quad>{in_quad.state().begin(), in_quad.state().end()}),
-            by_hand<Quad>("kepler", "verlet", {}, tenth, 20));
+            by_stepper<Quad>("kepler", "verlet", {}, tenth, 20));
   EXPECT_EQ(in_quad.time(), Quad(20) * tenth);
 }
 
@@ -113,9 +82,9 @@ TEST(Integration, WatchersSeeTheirStepsWhateverTheCalls) {
       for (std::size_t k = 0; k < 25; ++k) {
         EXPECT_EQ(fives.steps[k], static_cast<std::int64_t>(5 * k));
         EXPECT_EQ(fives.times[k], static_cast<double>(5 * k) * 0.1);
-        EXPECT_EQ(fives.states[k], by_hand<double>("henon-heiles", "gauss", {}, 0.1, fives.steps[k]));
+        EXPECT_EQ(fives.states[k], by_stepper<double>("henon-heiles", "gauss", {}, 0.1, fives.steps[k]));
       }
-      EXPECT_EQ(state_of(run), by_hand<double>("henon-heiles", "gauss", {}, 0.1, 120));
+      EXPECT_EQ(state_of(run), by_stepper<double>("henon-heiles", "gauss", {}, 0.1, 120));
     }
 }
 
@@ -139,9 +108,8 @@ TEST(Integration, EndsAtTheRowThatAWatcherNames) {
   EXPECT_EQ(run.time(), other.time());
 }
 
-// Symmetric methods come back to where they began, with the history of those that have one; a method that is
-// not does not. What is left is rounding: 400 steps of errors of a few units of 1.1e-16, which the motion
-// hardly amplifies.
+// Symmetric methods come back to where they began; a method that is not does not. What is left is rounding:
+// 400 steps of errors of a few units of 1.1e-16, which the motion hardly amplifies.
 TEST(Integration, TurnsRound) {
   const auto back = [](const std::string& method, const Assignments& set) {
     auto run = integrate("pendulum", {}, method, set, {.step = "0.05"});
@@ -250,7 +218,7 @@ TEST(Integration, EndsWhereItIsAskedTo) {
   EXPECT_EQ(outcome.end(), Outcome::End::asked);
   EXPECT_EQ(outcome.steps(), 12);
   EXPECT_THAT(outcome.message(), HasSubstr("interrupted at t = 1.2 (step 12)"));
-  EXPECT_EQ(state_of(run), by_hand<double>("henon-heiles", "gauss", {}, 0.1, 12));
+  EXPECT_EQ(state_of(run), by_stepper<double>("henon-heiles", "gauss", {}, 0.1, 12));
   flag = false;
   EXPECT_EQ(run.steps(2).end(), Outcome::End::reached);  // `asks` sets the flag behind the last step
 }
@@ -268,7 +236,7 @@ TEST(Integration, KeepsWhatABudgetLeaves) {
   EXPECT_EQ(notes.steps.back(), 21);
   EXPECT_TRUE(run.steps(79).reached());
   EXPECT_EQ(notes.steps.size(), 101U);
-  EXPECT_EQ(state_of(run), by_hand<double>("henon-heiles", "gauss", {}, 0.1, 100));
+  EXPECT_EQ(state_of(run), by_stepper<double>("henon-heiles", "gauss", {}, 0.1, 100));
 }
 
 TEST(Integration, KeepsTheLastFiniteState) {
@@ -312,60 +280,6 @@ TEST(Integration, RefusesWhatDoesNotFit) {
   expect_refused([&] { (void)run.steps(-1); }, "turn() and reversed() go back");
   Notes notes;
   expect_refused([&] { run.watch(notes, 0); }, "expected a whole number > 0");
-}
-
-// The largest errors of invariants are those of the states one by one, to the last bit, in lanes and not.
-TEST(InvariantErrors, AreThoseOfTheStates) {
-  for (const char* system : {"kepler", "n-pendulum", "damped-oscillator"}) {
-    SCOPED_TRACE(system);
-    auto run = integrate(system, {}, "gauss", {}, {.step = "0.05", .block_rows = 13});
-    InvariantErrors errors;
-    Notes notes;
-    run.watch(errors);
-    run.watch(notes);
-    EXPECT_TRUE(run.steps(100).reached());
-    const Problem<double> problem(run.model());
-    const std::size_t count = run.model()->invariants().size();
-    std::vector<double> first(count), now(count), largest(count);
-    problem.invariants(0, notes.states[0], first);
-    for (std::size_t k = 0; k < notes.states.size(); ++k) {
-      problem.invariants(notes.times[k], notes.states[k], now);
-      for (std::size_t i = 0; i < count; ++i) largest[i] = std::max(largest[i], std::abs(now[i] - first[i]));
-    }
-    EXPECT_EQ(errors.largest(), largest);
-    EXPECT_GT(count, 0U);
-  }
-}
-
-// x' = -1 leads out of the domain of the root.
-struct Falling {
-  static constexpr int dimension = 1;
-  template <class T>
-  void field(const T& /*t*/, In<T> /*z*/, Out<T> rate) const {
-    rate[0] = T(-1);
-  }
-  template <class T>
-  void invariants(const T& t, In<T> z, Out<T> values) const {
-    values[0] = sqrt(z[0]);
-    values[1] = z[0] + t;
-  }
-};
-TEST(InvariantErrors, AreInfiniteWhereAValueIsNotFinite) {
-  const auto model = make_model({.name = "falling",
-                                 .title = "",
-                                 .reference = "",
-                                 .coordinates = {{"x", ""}},
-                                 .initial = {1},
-                                 .invariants = {decreasing("root", ""), conserved("sum", "")}},
-                                Falling{});
-  for (const std::size_t steps : {3U, 5U, 8U, 9U, 20U}) {
-    auto run = integrate<double>(model, integrators().get("rk4", "integrator").make({}), 0.25);
-    InvariantErrors errors;
-    run.watch(errors);
-    EXPECT_TRUE(run.steps(static_cast<std::int64_t>(steps)).reached());
-    EXPECT_EQ(std::isfinite(errors.largest()[0]), steps <= 4) << steps;
-    EXPECT_LT(errors.largest()[1], 1e-15) << steps;
-  }
 }
 
 }  // namespace

@@ -1,0 +1,43 @@
+// Watchers that note what they are shown.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <pfaff/runs/integration.hpp>
+
+namespace pfaff::testing {
+
+using Coordinates = std::vector<double>;
+
+inline Coordinates state_of(const Integration<double>& run) {
+  return {run.state().begin(), run.state().end()};
+}
+
+// Notes the steps, times and states that it is shown, and ends a run after a step.
+class Notes final : public Watcher<double> {
+ public:
+  explicit Notes(std::int64_t every = 1, std::int64_t last = -1) : every_(every), last_(last) {}
+  void start(const Integration<double>& run) override { note(run.steps_taken(), run.time(), state_of(run)); }
+  std::size_t look(const Integration<double>& /*run*/, const Block<double>& block) override {
+    for (std::size_t row = 0; row < block.rows; ++row) {
+      if (block.step(row) % every_ != 0) continue;
+      Coordinates z(block.states.components());
+      block.states.get(row, z);
+      note(block.step(row), block.time(row), z);
+      if (block.step(row) == last_) return row;
+    }
+    return block.rows;
+  }
+  std::vector<std::int64_t> steps;
+  std::vector<double> times;
+  std::vector<Coordinates> states;
+
+ private:
+  void note(std::int64_t step, double t, const Coordinates& z) {
+    steps.push_back(step), times.push_back(t), states.push_back(z);
+  }
+  std::int64_t every_, last_;
+};
+
+}  // namespace pfaff::testing
