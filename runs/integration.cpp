@@ -121,8 +121,8 @@ void Integration<T>::watch(Watcher<T>& watcher, std::int64_t every) {
   if (every <= 0) throw InputError("watch: expected a whole number > 0 of steps between two looks");
   if (adaptive() && value_of(start_.h) == Value<T>(0))
     throw InputError("step: expected the time between two looks beside the tolerance, got 0");
+  watcher.start(*this);  // one that throws does not watch
   watching_.push_back({&watcher, every});
-  watcher.start(*this);
 }
 
 template <class T>

@@ -29,8 +29,9 @@ class Watcher {
   /// Called by watch(), before the first step: the state is that of the start.
   virtual void start(const Integration<T>& run) = 0;
   /// Looks at the rows of a block. Where several watchers look at different steps, a block has the rows of
-  /// all of them, and Block::row_of finds one's own. Returns block.rows, or the row with which the run is to
-  /// end.
+  /// all of them, and more where their numbers of steps are no multiples of each other; Block::row_of finds
+  /// one's own. Returns block.rows, or the row with which the run is to end. The other watchers are shown the
+  /// whole block all the same, and the rows behind the end once more where the run goes on.
   virtual std::size_t look(const Integration<T>& run, const Block<T>& block) = 0;
 };
 
@@ -91,7 +92,8 @@ class Integration {
   [[nodiscard]] const std::shared_ptr<const Model>& model() const { return start_.model; }
   [[nodiscard]] const MethodInstance& method() const { return *start_.method; }
   [[nodiscard]] bool adaptive() const { return value_of(start_.tolerance) > Value<T>(0); }
-  /// Of the state. Whatever ends a call leaves both as they belong together.
+  /// Of the state. Both belong together after every call that returns, and where a budget ends it between two
+  /// steps. What a formula throws within a step of a method that chooses its steps leaves the time ahead.
   [[nodiscard]] T time() const { return adaptive() ? reached_ : time_of(taken_); }
   [[nodiscard]] T time_of(std::int64_t step) const {
     return start_.t0 + T(static_cast<double>(step)) * start_.h;
@@ -101,7 +103,8 @@ class Integration {
   [[nodiscard]] std::size_t block_rows() const { return block_.capacity; }
   /// The number of the step at which the state stands, counted from t0.
   [[nodiscard]] std::int64_t steps_taken() const { return taken_; }
-  /// The last finite state: between steps, or, of a method with a processor, where the state was looked at.
+  /// The last finite state of those that are looked at; where nobody watches, of all between two steps, but
+  /// of a method with a processor that at the beginning of the call.
   [[nodiscard]] std::span<const T> state() const { return state_; }
   [[nodiscard]] const Counters& counters() const { return stepper_->counters(); }
 
@@ -113,7 +116,8 @@ class Integration {
   [[nodiscard]] Integration reversed() const;
   /// The same integration after `step` steps, at a state that is known: times are those of this one.
   [[nodiscard]] Integration at(std::int64_t step, std::vector<T> state) const;
-  /// Turns round where it is, with all that the method remembers. Steps are counted anew from here.
+  /// Turns round where it is. What the method remembers stays with it, and whether it can use that for steps
+  /// of -h is the method's: a leap-frog starts anew. Steps are counted anew from here.
   void turn();
 
   /// Shows `watcher`, which must outlive the integration, the state after every `every` steps.

@@ -22,6 +22,7 @@ class InvariantErrors final : public Watcher<T> {
   void start(const Integration<T>& run) override {
     const std::size_t count = run.model()->invariants().size();
     largest_.assign(count, T(0));
+    initial_.clear();
     if (count == 0) return;
     values_ = std::make_unique<BlockValues<T>>(run.model(), Formula::invariants, count, run.block_rows());
     const std::span<const T> initial = values_->at(run.time(), run.state());

@@ -254,6 +254,24 @@ TEST(Integration, KeepsTheLastFiniteState) {
   EXPECT_EQ(run.beside(state_of(run)).steps(1).status(), Status::non_finite);
 }
 
+// Cannot begin, and counts what it is shown all the same.
+class Unable final : public Watcher<double> {
+ public:
+  void start(const Integration<double>& /*run*/) override { throw InputError("unable"); }
+  std::size_t look(const Integration<double>& /*run*/, const Block<double>& block) override {
+    looks += 1;
+    return block.rows;
+  }
+  int looks = 0;
+};
+TEST(Integration, AWatcherThatCannotBeginDoesNotWatch) {
+  auto run = integrate("kepler", {}, "verlet", {}, {.step = "0.1"});
+  Unable unable;
+  EXPECT_THROW(run.watch(unable), InputError);
+  EXPECT_TRUE(run.steps(10).reached());
+  EXPECT_EQ(unable.looks, 0);
+}
+
 void expect_refused(const std::function<void()>& work, const std::string& words) {
   try {
     work();

@@ -8,6 +8,7 @@
 #include <pfaff/runs/integrate.hpp>
 #include <pfaff/runs/invariant_errors.hpp>
 
+#include "explosion.hpp"
 #include "notes.hpp"
 
 namespace pfaff {
@@ -67,6 +68,20 @@ TEST(InvariantErrors, AreInfiniteWhereAValueIsNotFinite) {
     EXPECT_EQ(std::isfinite(errors.largest()[0]), steps <= 4) << steps;
     EXPECT_LT(errors.largest()[1], 1e-15) << steps;
   }
+}
+
+// What was watched before is forgotten, also on a model without invariants.
+TEST(InvariantErrors, BeginAnewWithEachRun) {
+  InvariantErrors errors;
+  auto with = integrate("kepler", {}, "rk4", {}, {.step = "0.1"});
+  with.watch(errors);
+  EXPECT_TRUE(with.steps(10).reached());
+  EXPECT_FALSE(errors.largest().empty());
+  auto without =
+      integrate<double>(testing::explosion(), integrators().get("rk4", "integrator").make({}), 0.125);
+  without.watch(errors);
+  EXPECT_TRUE(without.steps(3).reached());
+  EXPECT_TRUE(errors.largest().empty());
 }
 
 }  // namespace
