@@ -5,8 +5,8 @@ install(TARGETS pfaff pfaff_bench pfaff_studies EXPORT PfaffTargets
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS pfaff_trial_load RUNTIME DESTINATION ${CMAKE_INSTALL_LIBDIR})  # beside the library, which starts it
 install(TARGETS pfaff_app RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(DIRECTORY core brackets formulations systems integrators runs DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pfaff
-        FILES_MATCHING PATTERN "*.hpp")
+install(DIRECTORY core brackets formulations systems integrators runs verify derive papers
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pfaff FILES_MATCHING PATTERN "*.hpp")
 # All headers of bench but those of single benchmarks: whatever one of them includes is there too.
 install(DIRECTORY bench DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pfaff FILES_MATCHING PATTERN "*.hpp"
         PATTERN bench/micro EXCLUDE PATTERN bench/report EXCLUDE PATTERN bench/experiments EXCLUDE)

@@ -27,7 +27,7 @@
 //                             formulation fits
 //   static instances(full)    the parameters that verification runs through
 // What a formulation says of itself, its reactions, what it keeps and its form of friction, is tested on
-// every system that it fits (bench/verification/formulation_checks.cpp).
+// every system that it fits (verify/formulation_checks.cpp).
 #pragma once
 
 #include <limits>

@@ -76,7 +76,7 @@ add_dependencies(app_tests degenerate_plugin spring-1_plugin spring-2_plugin)
 
 # Methods with false claims, for the search of counterexamples.
 pfaff_test_plugin(false-claims app/plugins/false_claims.cpp)
-add_dependencies(bench_tests false-claims_plugin)
+add_dependencies(verify_tests false-claims_plugin)
 add_dependencies(app_tests false-claims_plugin)
 
 add_dependencies(core_tests fits_plugin starts-fast_plugin other-version_plugin no-stamp_plugin two-stamps_plugin

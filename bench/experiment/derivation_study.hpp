@@ -1,6 +1,6 @@
 // Experiments of the kind `derivation`, as they are asked for: how large the equations of a system become and
 // how long it takes to derive them, method by method, against the number of its constraints. They are run by
-// bench/derivation_growth/, in the library of studies.
+// derive/derivation_growth/, in the library of studies.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // What a method may claim to keep, one row a claim. This list is the only one: the enumerators of Claim,
 // their names, meanings and scopes are made from it, and verification refuses to compile while a row lacks
-// its check or its control (bench/verification/claim_checks.cpp).
+// its check or its control (verify/claim_checks.cpp).
 //
 // Included wherever rows are turned into something else, so it has no include guard. A row is
 //   PFAFF_CLAIM(enumerator, "name", scope predicate, .meaning = a sentence, .scope = the predicate in words)

@@ -1,5 +1,5 @@
 // Claims: what a method may say that it keeps, each with its meaning and with the systems it speaks of. The
-// rows are in claim_rows.hpp; a claim's check and its control are in bench/verification/claim_checks.cpp.
+// rows are in claim_rows.hpp; a claim's check and its control are in verify/claim_checks.cpp.
 #pragma once
 
 #include <array>

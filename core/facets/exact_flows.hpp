@@ -4,7 +4,7 @@
 // The flow phi_h of a part is the map that carries a state along its field X_k for the time h, of either
 // sign. Parts do not depend on time, so that phi_s o phi_t = phi_(s+t). Where the system has a structure,
 // each flow keeps it. This, and that the fields of the parts add up to that of the system, is what
-// verification measures of every system with the facet (bench/verification/flow_checks.cpp).
+// verification measures of every system with the facet (verify/flow_checks.cpp).
 #pragma once
 
 #include <memory>

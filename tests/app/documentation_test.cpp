@@ -64,8 +64,7 @@ TEST(Documentation, LimitsOfVerificationAreThoseOfTheCode) {
   const auto one_line = [](const std::string& file) {
     return std::regex_replace(contents(file), std::regex("\\s+"), " ");
   };
-  const std::string of_methods = "bench/verification/method_on_model.cpp",
-                    page = one_line("docs/verification.md");
+  const std::string of_methods = "verify/method_on_model.cpp", page = one_line("docs/verification.md");
   EXPECT_NE(page.find("systems of more than " + number(of_methods, "most_differentiated") + " coordinates"),
             std::string::npos);
   EXPECT_NE(page.find("or more than " + number(of_methods, "most_differentiated_in_formulations") +
@@ -137,7 +136,7 @@ TEST(Documentation, TheTableOfFacetsIsThatOfTheProgram) {
 // Every text that begins like a path from the top of the tree, wherever a page has it.
 std::set<std::string> files_named(const std::string& page) {
   static const std::regex path(
-      R"((^|[^\w./-])((core|brackets|formulations|systems|integrators|bench|app|tests|docs|examples|cmake|\.ci)/[\w./-]*))");
+      R"((^|[^\w./-])((core|brackets|formulations|systems|integrators|bench|verify|derive|papers|app|tests|docs|examples|cmake|\.ci)/[\w./-]*))");
   std::set<std::string> files;
   for (std::sregex_iterator at(page.begin(), page.end(), path), end; at != end; ++at) {
     std::string file = (*at)[2];
@@ -207,12 +206,11 @@ TEST(Documentation, FilesThatPagesNameAreThere) {
 }
 TEST(Documentation, AFileThatIsNotThereIsFound) {  // the control of the test above
   const std::string page =
-      "# A page\nClaims (`core/facets/claim_rows.hpp`) are checked in bench/verification/claim_check.cpp. "
+      "# A page\nClaims (`core/facets/claim_rows.hpp`) are checked in verify/claim_check.cpp. "
       "See "
       "[them](verification.md#claims), [it](verification.md#what-a-method-may-claim), [that](claim.md), "
       "[this](#a-page), [nothing](#page) and [more](https://example.org/core/none.hpp).";
-  EXPECT_EQ(missing(files_named(page), source),
-            std::vector<std::string>{"bench/verification/claim_check.cpp"});
+  EXPECT_EQ(missing(files_named(page), source), std::vector<std::string>{"verify/claim_check.cpp"});
   EXPECT_EQ(broken_links(page, "docs"),
             (std::vector<std::string>{"verification.md#claims", "claim.md", "#page"}));
 }

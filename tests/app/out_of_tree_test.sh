@@ -21,12 +21,13 @@ prefix="$scratch/moved here"
 pfaff="$prefix/bin/pfaff"
 unset LD_LIBRARY_PATH PFAFF_PLUGIN_PATH
 
-# What an installed header includes is installed, and they compile: all of bench, which includes all that it needs.
+# What an installed header includes is installed, and they compile: all of bench and of the rooms above it, which include all
+# that they need.
 (cd "$prefix/include" && grep -rhoE '^#include <pfaff/[^>]+' pfaff | sed 's/.*<//' | sort -u >"$scratch/included" &&
   find pfaff -name '*.hpp' | sort >"$scratch/headers")
 missing=$(grep -vxFf "$scratch/headers" "$scratch/included" || true)
 [[ -z $missing ]] || fail "included by installed headers, but not installed: $missing"
-grep '^pfaff/bench/' "$scratch/headers" | sed 's/.*/#include <&>/' >"$scratch/all.cpp"
+grep -E '^pfaff/(bench|verify|derive|papers)/' "$scratch/headers" | sed 's/.*/#include <&>/' >"$scratch/all.cpp"
 # shellcheck disable=SC2086 # several flags
 "${CXX:-c++}" -std=c++20 $flags -w -fsyntax-only -I "$prefix/include" "$scratch/all.cpp" >"$scratch/log" 2>&1 ||
   fail "installed headers: $(head -n 3 "$scratch/log")"
@@ -47,7 +48,7 @@ mkdir "$scratch/checks"
 printf '%s\n' 'cmake_minimum_required(VERSION 3.25)' 'project(Checks LANGUAGES CXX)' 'find_package(Pfaff REQUIRED)' \
   'add_executable(checks checks.cpp)' 'target_link_libraries(checks PRIVATE Pfaff::studies)' \
   >"$scratch/checks/CMakeLists.txt"
-printf '%s\n' '#include <pfaff/bench/studies/studies.hpp>' '#include <pfaff/bench/verification/check.hpp>' 'int main() {' \
+printf '%s\n' '#include <pfaff/bench/studies/studies.hpp>' '#include <pfaff/verify/check.hpp>' 'int main() {' \
   '  int failed = 0;' '  for (const pfaff::Check& check : pfaff::verify({.names = {"canonical"}})) failed += !good(check);' \
   '  return failed + pfaff::studies().verify({.names = {"canonical"}}, {.quiet = true});' '}' >"$scratch/checks/checks.cpp"
 "$cmake" -S "$scratch/checks" -B "$scratch/checks/build" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" \

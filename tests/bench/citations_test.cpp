@@ -11,8 +11,8 @@
 #include <pfaff/bench/experiment/citations.hpp>
 #include <pfaff/bench/experiment/experiment.hpp>
 #include <pfaff/bench/runner/files.hpp>
-#include <pfaff/bench/verification/check.hpp>
 #include <pfaff/core/bracket.hpp>
+#include <pfaff/verify/check.hpp>
 
 namespace {
 

@@ -7,7 +7,7 @@
 
 #include <pfaff/bench/runner/stated_identities.hpp>
 
-#include "judged.hpp"
+#include "../verify/judged.hpp"
 #include "run_settings.hpp"
 
 namespace {

@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include <pfaff/bench/measure/structure.hpp>
-#include <pfaff/bench/verification/check.hpp>
-#include <pfaff/bench/verification/method_on_model.hpp>
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/runs/motion.hpp>
+#include <pfaff/verify/check.hpp>
+#include <pfaff/verify/method_on_model.hpp>
 
 #include "../formula_values.hpp"
 

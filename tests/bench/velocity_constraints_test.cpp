@@ -5,11 +5,11 @@
 #include <algorithm>
 
 #include <pfaff/bench/measure/constraints.hpp>
-#include <pfaff/bench/verification/check.hpp>
-#include <pfaff/bench/verification/formulation_checks.hpp>
-#include <pfaff/bench/verification/skated_models.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/runs/motion.hpp>
+#include <pfaff/verify/check.hpp>
+#include <pfaff/verify/formulation_checks.hpp>
+#include <pfaff/verify/skated_models.hpp>
 
 #include "../formula_values.hpp"
 #include "worst_residual.hpp"

@@ -4,11 +4,11 @@
 
 #include <pfaff/bench/runner/json.hpp>
 
-#include <pfaff/bench/verification/skated_models.hpp>
 #include <pfaff/core/facets/problem.hpp>
 #include <pfaff/core/formulation.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/replay.hpp>
+#include <pfaff/verify/skated_models.hpp>
 
 #include "../formula_values.hpp"
 #include "../golden_numbers.hpp"

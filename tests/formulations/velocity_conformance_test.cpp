@@ -3,11 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <pfaff/bench/verification/skated_models.hpp>
 #include <pfaff/core/facets/conformance/constraint_matchers.hpp>
 #include <pfaff/core/facets/joined_velocity_constraints.hpp>
 #include <pfaff/core/facets/taped_constraints.hpp>
 #include <pfaff/core/facets/taped_velocity_constraints.hpp>
+#include <pfaff/verify/skated_models.hpp>
 
 #include "velocity_systems.hpp"
 

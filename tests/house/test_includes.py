@@ -43,15 +43,16 @@ class Includes(unittest.TestCase):
         self.assertEqual(self.check("--no-compile")[0], 1)
 
     def test_what_includes_the_library_of_studies_without_being_of_it_is_named(self):
-        self.write("bench/verification/check.hpp", "#pragma once\n")
-        self.write("bench/tuning/tuned.hpp", "#pragma once\n#include <pfaff/bench/verification/check.hpp>\n")
+        self.write("verify/check.hpp", "#pragma once\n")
+        self.write("derive/tuning/tuned.hpp", "#pragma once\n#include <pfaff/verify/check.hpp>\n")
         self.assertEqual(self.check("--no-compile"), (0, ""))
-        for name in ("bench/runner/record.hpp", "app/verify.cpp"):
+        for name, fault in (("bench/runner/record.hpp", "bench includes verify/check.hpp; expected brackets"),
+                            ("app/verify.cpp", "includes verify/check.hpp of the library of studies")):
             with self.subTest(name):
-                self.write(name, "#include <pfaff/bench/verification/check.hpp>\n")
+                self.write(name, "#include <pfaff/verify/check.hpp>\n")
                 status, said = self.check("--no-compile")
                 self.assertEqual(status, 1)
-                self.assertIn(f"{name}:1: includes bench/verification/check.hpp of the library of studies", said)
+                self.assertIn(f"{name}:1: {fault}", said)
 
     def test_a_cycle_of_folders_is_named_with_its_includes(self):
         self.write("core/numbers/quad.hpp", '#pragma once\n#include "../linear/lu.hpp"\n')

@@ -1,9 +1,9 @@
 // Every method makes claims and has controls. The claims themselves are measured by `pfaff verify`.
 #include <gtest/gtest.h>
 
-#include <pfaff/bench/verification/check.hpp>
 #include <pfaff/core/bracket.hpp>
 #include <pfaff/runs/motion.hpp>
+#include <pfaff/verify/check.hpp>
 
 namespace pfaff {
 namespace {

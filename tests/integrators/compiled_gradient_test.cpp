@@ -5,11 +5,11 @@
 
 #include <cmath>
 
-#include <pfaff/bench/verification/check.hpp>
 #include <pfaff/core/facets/problem.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/core/tape/replay.hpp>
 #include <pfaff/integrators/generating/gradient_evaluator.hpp>
+#include <pfaff/verify/check.hpp>
 
 namespace pfaff {
 namespace {

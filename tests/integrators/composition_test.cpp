@@ -4,8 +4,8 @@
 
 #include <functional>
 
-#include <pfaff/bench/verification/check.hpp>
 #include <pfaff/integrators/composition/composition_weights.hpp>
+#include <pfaff/verify/check.hpp>
 
 #include "methods.hpp"
 

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <pfaff/bench/measure/structure.hpp>
-#include <pfaff/bench/verification/check.hpp>
 #include <pfaff/core/facets/static_problem.hpp>
 #include <pfaff/integrators/splitting/conformal_splitting.hpp>
+#include <pfaff/verify/check.hpp>
 
 #include "methods.hpp"
 

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include <pfaff/bench/measure/constraints.hpp>
-#include <pfaff/bench/verification/check.hpp>
 #include <pfaff/runs/motion.hpp>
 #include <pfaff/tests/integrators/constrained_systems.hpp>
+#include <pfaff/verify/check.hpp>
 
 #include "methods.hpp"
 

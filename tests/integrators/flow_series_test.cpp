@@ -7,10 +7,10 @@
 #include <memory>
 #include <vector>
 
-#include <pfaff/bench/verification/check.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/core/tape/replay.hpp>
 #include <pfaff/integrators/generating/flow_series.hpp>
+#include <pfaff/verify/check.hpp>
 
 namespace pfaff {
 namespace {

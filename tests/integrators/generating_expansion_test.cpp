@@ -3,10 +3,10 @@
 // form, and closed forms.
 #include <gtest/gtest.h>
 
-#include <pfaff/bench/reproduce/su_qin/generating_expansion.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/integrators/generating/generating_gradient.hpp>
+#include <pfaff/papers/su_qin/generating_expansion.hpp>
 
 #include "bent.hpp"
 #include "generating_samples.hpp"

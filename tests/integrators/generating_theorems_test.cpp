@@ -5,12 +5,12 @@
 #include <random>
 
 #include <pfaff/bench/measure/structure.hpp>
-#include <pfaff/bench/reproduce/su_qin/generating_expansion.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/examples/templates/alpha.hpp>
 #include <pfaff/integrators/generating/generating_gradient.hpp>
 #include <pfaff/integrators/generating/lagrangian_transformation.hpp>
+#include <pfaff/papers/su_qin/generating_expansion.hpp>
 
 #include "bent.hpp"
 #include "generating_samples.hpp"

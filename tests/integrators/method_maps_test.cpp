@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <fstream>
 
-#include <pfaff/bench/verification/check.hpp>
 #include <pfaff/runs/motion.hpp>
+#include <pfaff/verify/check.hpp>
 
 #include "method_files.hpp"
 #include "methods.hpp"

@@ -7,10 +7,10 @@
 #include <random>
 
 #include <pfaff/bench/measure/structure.hpp>
-#include <pfaff/bench/verification/check.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/replay.hpp>
+#include <pfaff/verify/check.hpp>
 
 #include "generating_samples.hpp"
 #include "methods.hpp"

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <pfaff/bench/measure/structure.hpp>
-#include <pfaff/bench/verification/check.hpp>
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
+#include <pfaff/verify/check.hpp>
 
 #include "../formula_values.hpp"
 #include "samples.hpp"

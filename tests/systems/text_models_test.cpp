@@ -6,9 +6,9 @@
 #include <fstream>
 #include <random>
 
-#include <pfaff/bench/verification/check.hpp>
 #include <pfaff/runs/motion.hpp>
 #include <pfaff/systems/text/text_system.hpp>
+#include <pfaff/verify/check.hpp>
 
 #include "../formula_values.hpp"
 #include "../temporary_directory.hpp"

@@ -1,0 +1,101 @@
+// One step of a method on a model, as the measures of claims use it: its start and end, its Jacobian, and
+// further steps for claims about more than one.
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <optional>
+#include <type_traits>
+#include <vector>
+
+#include <pfaff/bench/measure/history.hpp>
+#include <pfaff/bench/measure/structure.hpp>
+#include <pfaff/verify/step_scale.hpp>
+
+namespace pfaff {
+
+/// The round-off allowed in one step, relative to the sizes of the numbers that the step is made of: 1e-14 in
+/// double and 1e-31 in quad. These are about 100 and 1000 units of round-off, which leaves room for sums over
+/// stages and for the conditioning of a step.
+template <class T>
+constexpr double tolerance() {
+  return std::is_same_v<T, Quad> ? 1e-31 : 1e-14;
+}
+template <class T>
+constexpr const char* precision_name() {
+  return std::is_same_v<T, Quad> ? "quad" : "double";
+}
+
+/// The residual of a step that does not converge: not-a-number, with which no check passes.
+inline constexpr double no_step = std::numeric_limits<double>::quiet_NaN();
+
+/// As many steps forget the start of a method that remembers its past, which is not of the method's own kind.
+inline constexpr int steps_of_warm_up = static_cast<int>(longest_beginning);
+
+/// A step of size h from `start` at time t, in the scalar T. What is asked of it is computed when it is first
+/// asked for, and kept. With a warm-up, the stepper takes so many steps of the same size before the one that
+/// is measured, and keeps its history. Claims about two steps take the second with the history of the first
+/// after a warm-up, or where it is said that history is `carried`.
+template <class T>
+class MeasuredStep {
+ public:
+  MeasuredStep(const MethodInstance& method, std::shared_ptr<const Model> model,
+               const std::vector<Real>& start, const Real& t, const Real& h, int warm_up = 0,
+               bool carried = false);
+
+  [[nodiscard]] const MethodInstance& method() const { return method_; }
+  [[nodiscard]] const std::shared_ptr<const Model>& model() const { return model_; }
+  /// The time at which the measured step begins, and its size.
+  [[nodiscard]] const T& t() const { return t_; }
+  [[nodiscard]] const T& h() const { return h_; }
+  /// The state from which the measured step begins, after the warm-up.
+  const std::vector<T>& start() {
+    (void)end();
+    return start_;
+  }
+
+  /// The state after the step; nullopt where it does not converge.
+  const std::optional<std::vector<T>>& end();
+  /// How the step, or the first of the warm-up that failed, ended.
+  Status status() {
+    (void)end();
+    return status_;
+  }
+  /// The state after `count` steps of size `length` from z at `time`, without history; nullopt where one does
+  /// not converge.
+  std::optional<std::vector<T>> after(const T& time, const T& length, std::vector<T> z, int count = 1);
+  /// The state after one more step of size `length` from z at the time where the measured step ends, by the
+  /// stepper that has just taken the warm-up and the measured step; nullopt where one does not converge.
+  std::optional<std::vector<T>> then(const T& length, std::vector<T> z);
+  /// The Jacobian of the step without history, from dual numbers carried through the converged step.
+  const StepJacobian<T>& jacobian();
+  /// The sizes against which residuals of the step are judged, one for each coordinate (step_scales).
+  const std::vector<T>& scales();
+  /// The largest difference of two states in units of the scales.
+  T distance(const std::vector<T>& a, const std::vector<T>& b);
+  /// The number of steps taken before the one that is measured.
+  [[nodiscard]] int warm_up() const { return warm_up_; }
+  /// True where a step that follows is taken with the history of this one (then).
+  [[nodiscard]] bool carried() const { return carried_; }
+  /// The stepper that takes the steps.
+  Stepper<T>& stepper() {
+    if (stepper_ == nullptr) stepper_ = method_.stepper(model_, T());
+    return *stepper_;
+  }
+
+ private:
+  const MethodInstance& method_;
+  std::shared_ptr<const Model> model_;
+  T begin_, t_, h_;  // the time before the warm-up, that of the measured step, and its size
+  int warm_up_;
+  bool carried_;
+  std::vector<T> begin_state_, start_;  // before the warm-up and after it
+  std::unique_ptr<Stepper<T>> stepper_;
+  bool taken_ = false;
+  Status status_ = Status::converged;
+  std::optional<std::vector<T>> end_;
+  std::optional<StepJacobian<T>> jacobian_;
+  std::vector<T> scales_;
+};
+
+}  // namespace pfaff

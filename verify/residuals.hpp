@@ -1,0 +1,222 @@
+// Residuals of identities, recorded as tapes and evaluated at random points drawn with a fixed seed.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <pfaff/bench/measure/constraints.hpp>
+#include <pfaff/bench/runner/stated_identities.hpp>
+#include <pfaff/core/numbers/with_rounding.hpp>
+#include <pfaff/core/tape/derivatives.hpp>
+#include <pfaff/core/tape/replay.hpp>
+#include <pfaff/verify/check.hpp>
+#include <pfaff/verify/step_scale.hpp>
+
+namespace pfaff {
+
+// States near the first centre of a region, near each of the others, and in its box.
+inline constexpr int points = 20, far_points = 4, box_points = 80;
+
+inline Check named(const std::string& plugin, const std::string& claim, const std::string& system,
+                   const char* precision, double measured, double tolerance) {
+  Check check;
+  check.plugin = plugin;
+  check.claim = claim;
+  check.scope = "every point";
+  check.system = system;
+  check.precision = precision;
+  check.measured = measured;
+  check.tolerance = tolerance;
+  check.result = measured <= tolerance ? CheckResult::pass : CheckResult::fail;
+  return check;
+}
+
+// Adds to `controls` those of the checks of a planted fault that is_meant(check) selects: they have to fail.
+// std::logic_error where there are none, since the claim is then called otherwise.
+template <class Meant>
+void add_controls(std::vector<Check>& controls, const std::string& fault, const std::string& claim,
+                  const std::vector<Check>& checks, const Meant& is_meant) {
+  const std::size_t before = controls.size();
+  for (Check check : checks) {
+    if (!is_meant(check)) continue;
+    check.plugin = fault;
+    check.system.clear();
+    check.scope = "control";
+    check.control = true;
+    check.result = check.result == CheckResult::fail ? CheckResult::rejected : CheckResult::pass;
+    controls.push_back(std::move(check));
+  }
+  if (controls.size() == before) throw std::logic_error(fault + ": no claim is called " + claim);
+}
+
+// The centres near which states are drawn: one, or those of the region that a motion reaches (region_of); and
+// the box from which they are drawn besides.
+struct Region {
+  Region(std::vector<Real> centre) : centres{std::move(centre)} {}  // NOLINT(google-explicit-constructor)
+  std::vector<std::vector<Real>> centres;
+  std::vector<double> times{1};  // near which they are drawn, that of a motion where it reaches them
+  std::vector<Range> box{};      // a range for each coordinate; empty where no coordinate states one
+  std::shared_ptr<const Model> surface{};  // on whose constraints states are brought; null: they stay
+  // The region in the first `count` coordinates.
+  [[nodiscard]] Region first(std::size_t count) const;
+  // The region with one more coordinate, which is zero.
+  [[nodiscard]] Region with_zero() const;
+};
+
+/// A state of a motion and the states that the motion reaches from there, forwards and backwards in time, up
+/// to 32 times the system's own time, four times where the field takes more than 512 operations, or until a
+/// coordinate has grown by eight. What holds near the initial state alone does not hold there. Of a field
+/// that is not short the first alone. The box is that of the ranges which coordinates state; a motion on
+/// constraints has none, since the states of a box are not on them.
+Region region_of(const Model& motion, std::vector<Real> centre);
+
+// Random states near the centres of a region, drawn with a fixed seed. Near the first one each coordinate is
+// within 1/20 of its scale and the time near one; near the others within 1/20 or, of every other state, a
+// half of itself, so that it keeps its sign. The last ones are anywhere in the box, but near the first centre
+// in coordinates that state no range.
+template <class T>
+class NearbyStates {
+ public:
+  explicit NearbyStates(const Region& region) : region_(region), z_(region.centres.front().size()) {}
+  [[nodiscard]] int count() const {
+    return points + far_points * static_cast<int>(region_.centres.size() - 1) +
+           (region_.box.empty() ? 0 : box_points);
+  }
+  // True of a state near another centre than the first. It may lie outside the domain of a formula.
+  [[nodiscard]] bool far() const { return far_; }
+  // The next state, in a buffer that the call after it overwrites; `time` is a time near one. Where a state
+  // cannot be brought onto the surface it is not-a-number and counts as far.
+  const std::vector<T>& next(T& time) {
+    const std::vector<T>& z = drawn(time);
+    if (region_.surface != nullptr) far_ = !bring_onto(*region_.surface, time, z_) || far_;
+    return z;
+  }
+
+ private:
+  // The coordinates of the surface, the first ones of the state, moved onto its constraints. Those of an
+  // exact solution are a state at the time that stands behind them, and `time` is what has elapsed since.
+  static bool bring_onto(const Model& surface, const T& time, std::vector<T>& z) {
+    const auto n = static_cast<std::size_t>(surface.dimension());
+    std::vector<Quad> x(z.begin(), z.begin() + static_cast<std::ptrdiff_t>(n));
+    const Quad at(z.size() > n ? z[n] : time);
+    const bool there = project_onto_constraints(surface, at, x).status == Status::converged;
+    for (std::size_t k = 0; k < x.size(); ++k)
+      z[k] = there ? T(Real(x[k])) : std::numeric_limits<T>::quiet_NaN();
+    return there;
+  }
+  const std::vector<T>& drawn(T& time) {
+    far_ = drawn_ >= points;
+    const auto place = static_cast<std::size_t>(far_ ? 1 + (drawn_ - points) / far_points : 0);
+    if (drawn_++ == 0) scales_ = coordinate_scales(region_.centres.front());
+    if (place >= region_.centres.size()) return in_box(time);
+    const std::vector<Real>& centre = region_.centres[place];
+    for (std::size_t i = 0; i < z_.size(); ++i) {
+      const double reach = far_ ? std::abs(centre[i].value()) * (drawn_ % 2 == 0 ? 10 : 1) : scales_[i];
+      z_[i] = T(centre[i]) + T(offset_(random_) * reach);
+    }
+    time = T(region_.times[place] + offset_(random_));
+    return z_;
+  }
+  const std::vector<T>& in_box(T& time) {
+    for (std::size_t i = 0; i < z_.size(); ++i) {
+      const double share = offset_(random_);
+      const auto [smallest, largest] = i < region_.box.size() ? region_.box[i] : unbounded;
+      z_[i] = std::isfinite(largest - smallest) ? T(smallest) + T((share + 0.05) * 10) * T(largest - smallest)
+                                                : T(region_.centres.front()[i]) + T(share * scales_[i]);
+    }
+    time = T(region_.times.front() + offset_(random_));
+    return z_;
+  }
+
+  const Region& region_;
+  std::vector<double> scales_;
+  std::vector<T> z_;
+  int drawn_ = 0;
+  bool far_ = false;
+  std::mt19937_64 random_{20041};
+  std::uniform_real_distribution<double> offset_{-0.05, 0.05};
+};
+
+// The largest output of a tape at random states of a region, each relative to the sizes of the terms that
+// it is made of. A formula that is zero stays below a few units of round-off, however large, small or badly
+// conditioned its terms are.
+template <class T>
+double largest(const std::shared_ptr<const Tape>& tape, const Region& region) {
+  using W = WithRounding<T>;
+  NearbyStates<T> states(region);
+  Replay<W> replay(tape);
+  std::vector<W> out(tape->outputs.size());
+  double worst = 0;
+  for (int k = 0; k < states.count(); ++k) {
+    T time;
+    const std::vector<T>& z = states.next(time);
+    // A state on a surface is a rounded one.
+    std::vector<W> exact(z.begin(), z.end());
+    for (W& x : exact)
+      if (region.surface != nullptr) x.error = T(abs(x.value));
+    replay(W(time), exact.data(), out.data());
+    if (states.far() && !std::all_of(out.begin(), out.end(), [](const W& x) { return isfinite(x.value); }))
+      continue;
+    for (const W& x : out) {
+      const double size = relative_to_rounding(x);
+      worst = std::isnan(size) || std::isnan(worst) ? NAN : std::max(worst, size);
+    }
+  }
+  return worst;
+}
+
+// A residual is the sum of rounding errors of which each is at most one unit of round-off of its term, or two
+// where it comes from a library function. Twice as much is allowed for what a bound to first order leaves
+// out.
+template <class T>
+constexpr double residual_tolerance() {
+  return 4 * static_cast<double>(unit_roundoff<T>());
+}
+
+inline void both(std::vector<Check>& checks, const std::string& plugin, const std::string& claim,
+                 const std::string& system, const std::shared_ptr<const Tape>& residual,
+                 const Region& region) {
+  checks.push_back(named(plugin, claim, system, "double", largest<double>(residual, region),
+                         residual_tolerance<double>()));
+  checks.push_back(
+      named(plugin, claim, system, "quad", largest<Quad>(residual, region), residual_tolerance<Quad>()));
+}
+
+/// [Pi, Pi]^{ijk} = sum_l Pi^il d_l Pi^jk + cyclic: n x n x n, zero where Jacobi's identity holds.
+std::shared_ptr<const Tape> jacobiator(const Tape& tensor, int n);
+/// Pi dC for each function C in `casimirs`, n numbers each, one after the other; zero where C is a Casimir of
+/// Pi.
+std::shared_ptr<const Tape> sharp_of_casimirs(const Tape& tensor, const Tape& casimirs);
+
+/// The third difference I(z + 3d) - 3 I(z + 2d) + 3 I(z + d) - I(z) of output k of a tape along a fixed
+/// direction d with unequal components: one number, zero where the output is a polynomial of degree two in
+/// the state.
+std::shared_ptr<const Tape> third_difference(const Tape& values, std::size_t k);
+/// True where it is, at random states near the initial one.
+bool is_quadratic(const Model& model, std::size_t invariant);
+
+/// Y_z^T K_c Y_z - K with K_c = [[0, -I], [I, 0]], for the chart Y and the structure K: zero where the chart
+/// is Darboux's.
+std::shared_ptr<const Tape> darboux_residual(const Tape& chart, const Tape& structure);
+
+/// Compares what the author wrote with what is derived without it, at random states of a region: every
+/// formula of the table that is written and can be derived, and the gradients of constraints one by one, by
+/// the names of the constraints.
+std::vector<Check> check_overrides(const std::string& plugin, const Model& model, const Region& region);
+
+/// Whether a symmetric tensor, n x n, is non-negative at random states of a region, in double and quad: the
+/// number of its negative pivots is zero.
+std::vector<Check> check_not_negative(const std::string& plugin, const std::string& claim,
+                                      const std::string& system, const std::shared_ptr<const Tape>& tensor,
+                                      const Region& region);
+
+/// Self-adjointness of a system K zdot + D = 0 (su-qin (8)), condition by condition.
+std::vector<Check> check_self_adjointness(const std::string& plugin, const Model& model);
+
+}  // namespace pfaff

@@ -1,0 +1,39 @@
+#include <pfaff/verify/rounding_of_step.hpp>
+
+#include <cmath>
+#include <random>
+
+namespace pfaff {
+
+bool is_rounding(std::span<const double> residuals, double tolerance) {
+  constexpr double fraction = 0.02;
+  const auto count = static_cast<double>(residuals.size());
+  double sum = 0, squares = 0;
+  for (const double r : residuals) {
+    if (!(r <= most_multiplied * tolerance)) return false;
+    sum += r;
+  }
+  for (const double r : residuals) squares += (r - sum / count) * (r - sum / count);
+  return std::sqrt(squares / (count - 1)) > fraction * sum / count;
+}
+
+bool falls_with_the_precision(double in_double, double in_quad) {
+  constexpr double fall = 1e13, most = 1e-8;
+  return in_double <= most && in_quad * fall <= in_double;
+}
+
+template <class T>
+std::vector<Real> moved_by_a_unit(const std::vector<Real>& start, int seed) {
+  std::mt19937_64 random(static_cast<std::uint64_t>(seed));
+  std::vector<Real> moved;
+  for (const Real& x : start) {
+    const T here(x), unit = T(2) * unit_roundoff<T>() * T(abs(here));
+    moved.emplace_back(Quad((random() & 1U) != 0 ? here + unit : here - unit));
+  }
+  return moved;
+}
+
+template std::vector<Real> moved_by_a_unit<double>(const std::vector<Real>&, int);
+template std::vector<Real> moved_by_a_unit<Quad>(const std::vector<Real>&, int);
+
+}  // namespace pfaff

@@ -1,0 +1,273 @@
+// Claims along runs: what holds in one step from one state may be lost after some steps, at every hundredth,
+// far from the start, or at steps so large that an iteration is cut off.
+#include <array>
+#include <cmath>
+
+#include <pfaff/bench/measure/history.hpp>
+#include <pfaff/core/system.hpp>
+#include <pfaff/verify/check_budget.hpp>
+#include <pfaff/verify/claim_checks.hpp>
+#include <pfaff/verify/method_on_model.hpp>
+#include <pfaff/verify/rounding_of_step.hpp>
+
+namespace pfaff {
+
+namespace {
+
+constexpr int steps_of_run = 1000, looks = 16;
+// Of a method that remembers earlier steps, so many come before the one that is judged.
+constexpr std::array warm_ups{16, 96, 198};
+constexpr int most_doublings = 6;
+// Runs of larger systems would take most of the time of verification; small ones of every kind show the same.
+constexpr int small_system = 8;
+
+struct Place {
+  std::vector<Real> z;
+  Real t;
+  int steps = 0;  // before it
+};
+
+std::vector<Real> as_reals(const std::vector<double>& z) {
+  std::vector<Real> reals;
+  for (const double x : z) reals.emplace_back(Quad(x));
+  return reals;
+}
+
+// What the checks need of one run in double: the states at which claims are looked at, and the first step
+// that differs from the same step of a stepper that starts there.
+struct RunInDouble {
+  std::vector<Place> places;
+  int differs = 0;        // the number of that step; 0 where there is none
+  double difference = 0;  // relative to the state after it
+};
+
+// The largest difference of two states over the largest coordinate of the first.
+template <class T>
+double relative_difference(const std::vector<T>& z, const std::vector<T>& other) {
+  T difference(0);
+  for (std::size_t k = 0; k < z.size(); ++k) difference = std::max(difference, T(abs(z[k] - other[k])));
+  return static_cast<double>(difference / largest_of(z));
+}
+
+// How far the step from a state moves where its inputs move by a unit in the last place.
+double spread(const MethodOnModel& on, const Place& place, const Real& h) {
+  MeasuredStep<double> step(on.method(), on.model(), place.z, place.t, h);
+  if (!step.end()) return no_step;
+  double worst = 0;
+  for (const double distance : of_moved_starts<double>(place.z, [&](const std::vector<Real>& start) {
+         MeasuredStep<double> moved(on.method(), on.model(), start, place.t, h);
+         return moved.end() ? step.distance(*step.end(), *moved.end()) : no_step;
+       }))
+    worst = std::isnan(distance) ? no_step : std::max(worst, distance);
+  return worst;
+}
+
+// True where the same two steps differ by less in quad, by as much as the precisions differ: the step of a
+// run begins its iteration from what it remembers, and what the stopping rule leaves differs.
+bool left_by_stopping(const MethodOnModel& on, const Real& size, int steps, double in_double) {
+  const auto stepper = on.method().stepper(on.model(), Quad()),
+             single = on.method().stepper(on.model(), Quad());
+  std::vector<Quad> z;
+  for (const Real& x : on.start()) z.push_back(x.quad());
+  const Quad t0 = on.time().quad(), h = size.quad();
+  std::int64_t completed = 0;
+  if (stepper->advance(t0, 0, h, steps, z, completed) != Status::converged) return false;
+  std::vector<Quad> alone = z;
+  single->forget();
+  if (stepper->advance(t0, steps, h, 1, z, completed) != Status::converged ||
+      single->advance(t0, steps, h, 1, alone, completed) != Status::converged)
+    return false;
+  return falls_with_the_precision(in_double, relative_difference(z, alone));
+}
+
+// True where a step from a place ends within a fiftieth of the state from where two of half its size do.
+bool follows_the_motion(const MethodOnModel& on, const Place& place, const Real& h) {
+  constexpr double most_rough = 0.02;
+  MeasuredStep<double> step(on.method(), on.model(), place.z, place.t, h);
+  const auto halves = step.after(step.t(), step.h() / 2, step.start(), 2);
+  return step.end() && halves && relative_difference(*halves, *step.end()) <= most_rough;
+}
+
+// True of a method that remembers earlier steps on the pendulum. Where the force is constant, as it is on one
+// side of a kink, it shows no memory.
+bool remembers_elsewhere(const MethodInstance& method) {
+  const auto pendulum = systems().get("pendulum", "system").make({});
+  return method.refuses(*pendulum).empty() &&
+         keeps_history(method, pendulum, Quad(0), Quad(1) / Quad(8), {Quad(1), Quad(1) / Quad(2)});
+}
+
+// A run of steps of one size, of which each is compared with the same step by itself where that is asked for,
+// up to the first one that differs.
+RunInDouble follow(const MethodOnModel& on, const Real& step, bool compared) {
+  constexpr double most_moved = 8, most_growth = 64, most_shrinking = 1024;
+  double allowed =
+      most_left_by_stopping * tolerance<double>();  // more where that has been found to be rounding
+  RunInDouble run;
+  const auto stepper = on.method().stepper(on.model(), 0.0), single = on.method().stepper(on.model(), 0.0);
+  std::vector<double> z;
+  for (const Real& x : on.start()) z.push_back(x.value());
+  const double t0 = on.time().value(), h = step.value(), first = largest_of(z);
+  std::vector<double> largest(z.size());
+  for (int n = 0; n < steps_of_run; ++n) {
+    const double t = t0 + n * h;
+    const Place place{as_reals(z), Real(Quad(t)), n};
+    // A coordinate that has become small beside what it was has no size by which a residual could be judged.
+    bool small = false;
+    for (std::size_t k = 0; k < z.size(); ++k) {
+      largest[k] = std::max(largest[k], std::abs(z[k]));
+      small = small || std::abs(z[k]) * most_shrinking < largest[k];
+    }
+    if (!small) run.places.push_back(place);
+    std::vector<double> alone = z;
+    std::int64_t completed = 0;
+    if (stepper->advance(t0, n, h, 1, z, completed) != Status::converged) break;
+    // Far from where it started a motion has other sizes, for which the step was not chosen.
+    const double size = largest_of(z);
+    if (!(size <= most_growth * first) || !(first <= most_growth * size)) break;
+    if (!compared) continue;
+    single->forget();
+    if (single->advance(t0, n, h, 1, alone, completed) != Status::converged) break;
+    const double difference = relative_difference(z, alone);
+    if (!(difference > allowed)) continue;
+    if (difference <= most_moved * spread(on, place, step) || left_by_stopping(on, step, n, difference)) {
+      allowed = most_moved * difference;
+      continue;
+    }
+    // The equations of an implicit step may have several solutions, of which a start without a past finds
+    // another one.
+    if (!follows_the_motion(on, place, step)) break;
+    if (remembers_elsewhere(on.method())) break;
+    run.differs = n + 1;
+    run.difference = difference;
+    compared = false;
+  }
+  return run;
+}
+
+// The claim in the step from a place, once more where its residual may be rounding.
+template <class T>
+double residual_at(const MethodOnModel& on, const ClaimCheck& row, const Place& place, const Real& h,
+                   int warm_up) {
+  MeasuredStep<T> step(on.method(), on.model(), place.z, place.t, h, warm_up);
+  const double residual = residual_of(row, step);
+  if (!(residual > tolerance<T>())) return residual;
+  const auto moved = of_moved_starts<T>(place.z, [&](const std::vector<Real>& start) {
+    MeasuredStep<T> again(on.method(), on.model(), start, place.t, h, warm_up);
+    return residual_of(row, again);
+  });
+  return is_rounding(moved, tolerance<T>()) ? 0 : residual;
+}
+
+// Rows of the claims that the method makes and that a single step shows.
+std::vector<const ClaimCheck*> rows_of(const MethodOnModel& on) {
+  std::vector<const ClaimCheck*> rows;
+  for (const ClaimCheck& row : claim_checks())
+    if (on.claims(row.claim) && !row.of_rounding &&
+        !(row.from_jacobian && (!on.differentiable() || on.history())))
+      rows.push_back(&row);
+  return rows;
+}
+
+// The check of a claim, which has not been made yet.
+template <class T>
+Check check_of(const MethodOnModel& on, const ClaimCheck& row, const char* where) {
+  const ClaimRow& claim = claim_row(row.claim);
+  return on.check(std::string(claim.name) + where, std::string(claim.scope), precision_name<T>());
+}
+
+// Fails where a claim is lost in a step from one of the places: of claims that need the Jacobian of the step
+// from sixteen of them, of others from each. Double coefficients and stopping rules leave more than rounding.
+Check judged(const MethodOnModel& on, const ClaimCheck& row, const Real& h, const std::vector<Place>& places,
+             Check check) {
+  check.tolerance = most_left_by_stopping * tolerance<double>() * on.growth_of_round_off();
+  check.result = CheckResult::pass;
+  const auto at = [&]<class T>(T /*scalar*/, const Place& place) {
+    return on.history() ? residual_at<T>(on, row, {on.start(), on.time()}, h, place.steps)
+                        : residual_at<T>(on, row, place, h, 0);
+  };
+  for (const Place& place : places) {
+    if (row.from_jacobian && !on.history() && place.steps % (steps_of_run / looks) != 0) continue;
+    const double residual = at(0.0, place);
+    if (std::isnan(residual)) break;  // steps that do not converge are no claim's fault
+    check.measured = std::max(check.measured, residual);
+    if (residual <= check.tolerance) continue;
+    if (!on.double_coefficients() && falls_with_the_precision(residual, at(Quad(), place))) continue;
+    // The equations of a long implicit step may have several solutions, of which the step back finds another.
+    if (h != on.step_size() && !follows_the_motion(on, place, h)) continue;
+    check.result = CheckResult::fail;
+    check.reason = "lost in step " + std::to_string(place.steps + 1);
+    if (h != on.step_size()) check.reason += ", of size " + to_string(h.quad(), 3);
+    break;
+  }
+  return check;
+}
+
+// Steps longer than the one that is judged: the largest of 2, 4, ... 64 times it that still follows the
+// motion from the generic state, and one halfway there. Beyond, the equations of an implicit step have
+// several solutions, and the step back may find another one.
+std::vector<Real> longer_steps(const MethodOnModel& on) {
+  std::vector<Real> sizes{on.step_size()};
+  for (int k = 0; k < most_doublings; ++k) {
+    const Real next = sizes.back() * Real(2);
+    if (!follows_the_motion(on, {on.start(), on.time()}, next)) break;
+    sizes.push_back(next);
+  }
+  if (sizes.size() > 3) return {sizes[sizes.size() / 2], sizes.back()};
+  return {sizes.begin() + 1, sizes.end()};
+}
+
+}  // namespace
+
+std::vector<Check> check_along_run(MethodOnModel& on) {
+  std::vector<Check> checks;
+  if (on.model()->dimension() > small_system) return checks;
+  const auto add = [&](const Check& check, const auto& judge) {
+    checks.push_back(within_budget(check, judge));
+  };
+  const auto along = [&](const Real& h) {
+    RunInDouble run;
+    Check whole = on.check("steps of a run", "methods without history", precision_name<double>());
+    if (on.history()) {
+      for (const int steps : warm_ups) run.places.push_back({on.start(), on.time(), steps});
+    } else {
+      // At longer steps the equations of an implicit step may have several solutions, of which a start
+      // without a past finds another one: there a difference says no more than where a method that remembers
+      // elsewhere begins to do so, from where on its claims are not about single steps.
+      const Check followed = within_budget(whole, [&] {
+        run = follow(on, h, h == on.step_size() || remembers_elsewhere(on.method()));
+        whole.measured = run.difference;
+        whole.tolerance = most_left_by_stopping * tolerance<double>();
+        whole.result = run.differs == 0 ? CheckResult::pass : CheckResult::fail;
+        if (run.differs != 0)
+          whole.reason =
+              "step " + std::to_string(run.differs) + " of a run is another than the same step by itself";
+        return whole;
+      });
+      if (h == on.step_size()) checks.push_back(followed);
+    }
+    for (const ClaimCheck* row : rows_of(on)) {
+      const Check check = check_of<double>(on, *row, " along a run");
+      add(check, [&] { return judged(on, *row, h, run.places, check); });
+    }
+  };
+  along(on.step_size());
+  const std::vector<Real> longer = longer_steps(on);
+  for (const Real& h : longer) along(h);
+  if (on.history() || on.double_coefficients() || longer.empty()) return checks;
+  const Real& h = longer.back();
+  for (const ClaimCheck* row : rows_of(on)) {
+    Check check = check_of<Quad>(on, *row, " in a large step");
+    add(check, [&] {
+      check.measured = residual_at<Quad>(on, *row, {on.start(), on.time()}, h, 0);
+      check.tolerance = most_left_by_stopping * tolerance<Quad>() * on.growth_of_round_off();
+      if (std::isnan(check.measured))
+        return not_judged(check, "a step of " + to_string(h.quad(), 3) + " does not converge");
+      check.result = check.measured <= check.tolerance ? CheckResult::pass : CheckResult::fail;
+      if (check.result == CheckResult::fail) check.reason = "lost in a step of " + to_string(h.quad(), 3);
+      return check;
+    });
+  }
+  return checks;
+}
+
+}  // namespace pfaff

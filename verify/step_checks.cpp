@@ -1,0 +1,161 @@
+// What every step has to satisfy, whatever the method claims: it gives the same numbers in both precisions,
+// its Jacobian is the derivative of the step itself, and several steps at once end where single ones do.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <random>
+
+#include <pfaff/bench/runner/terminal.hpp>
+#include <pfaff/verify/check_budget.hpp>
+#include <pfaff/verify/method_on_model.hpp>
+#include <pfaff/verify/residuals.hpp>
+#include <pfaff/verify/rounding_of_step.hpp>
+#include <pfaff/verify/step_scale.hpp>
+
+namespace pfaff {
+
+Check check_steps(const MethodOnModel& on) {
+  Check check = on.check("steps", "every system", "both");
+  check.measured = on.step_size().value();
+  check.result = CheckResult::pass;
+  if (on.steps()) return check;
+  // On another system it may; where there is none, verify says that nothing was judged.
+  std::string why = "no step converges, down to " + scientific(check.measured) + " (" +
+                    std::string(to_string(on.failure())) + ")";
+  if (const std::string differ = differing_sizes(*on.model()); !differ.empty()) why += "; " + differ;
+  return not_judged(std::move(check), why);
+}
+
+namespace {
+// How far the step in double from a state of doubles ends from the step in quad from the same numbers.
+double difference_of_precisions(const MethodOnModel& on, const std::vector<Real>& start, const Real& h,
+                                MeasuredStep<double>& rounded) {
+  const auto as_double = [](const Real& x) { return Real(Quad(x.value())); };
+  std::vector<Real> same;
+  for (const Real& x : start) same.push_back(as_double(x));
+  MeasuredStep<Quad> exact(on.method(), on.model(), same, as_double(on.time()), as_double(h),
+                           rounded.warm_up());
+  const auto& end = rounded.end();
+  if (!end || !exact.end()) return no_step;
+  return static_cast<double>(exact.distance(std::vector<Quad>(end->begin(), end->end()), *exact.end()));
+}
+}  // namespace
+
+// A difference that is not rounding can be what the stopping rule of the method leaves in double.
+Check check_precisions(MethodOnModel& on) {
+  const Real& h = on.step_size();
+  const double difference = difference_of_precisions(on, on.start(), h, on.step<double>());
+  Check check = on.residual("double-is-quad-rounded", "every system", true, "double", difference,
+                            tolerance<double>() * on.growth_of_round_off());
+  if (check.result != CheckResult::fail || std::isnan(difference)) return check;
+  MeasuredStep<double> again = on.step_from<double>(on.start(), h);
+  if (again.end() != on.step<double>().end()) {
+    check.reason = "the same step from the same state ends elsewhere: it depends on what was computed before";
+    return check;
+  }
+  double moved_by = 0;
+  const auto differences = of_moved_starts<double>(on.start(), [&](const std::vector<Real>& moved) {
+    MeasuredStep<double> rounded = on.step_from<double>(moved, h);
+    if (rounded.end()) moved_by = std::max(moved_by, again.distance(*rounded.end(), *again.end()));
+    return difference_of_precisions(on, moved, h, rounded);
+  });
+  if (is_rounding(differences, check.tolerance)) {
+    check.result = CheckResult::pass;
+    check.reason = multiplied_rounding;
+  } else if (difference <= most_left_by_stopping * check.tolerance) {
+    check.result = CheckResult::pass;
+    check.reason = "what the method's own stopping rule leaves in double";
+  } else if (moved_by > difference / 8) {
+    return not_judged(check, "the step multiplies a rounding of its inputs to " + scientific(moved_by));
+  } else if (MeasuredStep<double> quarter = on.step_from<double>(on.start(), h / Real(4));
+             difference_of_precisions(on, on.start(), h / Real(4), quarter) <= check.tolerance) {
+    return not_judged(check, "the equations of so large a step have another solution, which double finds");
+  }
+  return check;
+}
+
+namespace {
+// The directions in which a Jacobian is compared: every coordinate by its scale, or of many coordinates a few
+// directions that have a part in all of them, up or down as a fixed seed says. A wrong entry shows in each.
+std::vector<std::vector<Quad>> directions_of(const std::vector<Quad>& scales) {
+  constexpr std::size_t most = 8;
+  const std::size_t n = scales.size();
+  std::vector<std::vector<Quad>> directions(std::min(n, most), std::vector<Quad>(n));
+  std::mt19937_64 random(20041);
+  for (std::size_t k = 0; k < directions.size(); ++k)
+    for (std::size_t j = 0; j < n; ++j)
+      directions[k][j] = n > most ? (random() % 2 == 0 ? scales[j] : -scales[j])
+                         : j == k ? scales[j]
+                                  : Quad(0);
+  return directions;
+}
+}  // namespace
+
+// Compares the Jacobian of the converged step with central differences of order 6 in quad, whose error is
+// delta^6 + u/delta. delta is in units of the scale, which is a thousand times the coordinate where the field
+// amplifies rounding so much; of differences of order 4 the error delta^4 was above the tolerance there. With
+// constraints, steps return to the surface along directions that turn fast, so that delta is smaller.
+Check check_step_jacobian(MethodOnModel& on) {
+  constexpr std::array<int, 3> weights{45, -9, 1};  // of the differences over 2, 4 and 6 delta, in 60ths
+  MeasuredStep<Quad>& step = on.step<Quad>();
+  const std::vector<Quad>& scales = step.scales();
+  const Quad delta(on.model()->restricted() ? 2e-8 : 1e-7);
+  const std::vector<Quad>& jacobian = step.jacobian().jacobian;
+  bool judged = step.jacobian().status == Status::converged;
+  Quad worst(0), largest(0);
+  const std::size_t n = step.start().size();
+  for (const std::vector<Quad>& direction : directions_of(scales)) {
+    std::vector<Quad> slope(n);
+    for (int offset = -3; offset <= 3 && judged; ++offset) {
+      if (offset == 0) continue;
+      std::vector<Quad> moved = step.start();
+      for (std::size_t j = 0; j < n; ++j) moved[j] += Quad(offset) * delta * direction[j];
+      const auto end = step.after(step.t(), step.h(), std::move(moved));
+      judged = judged && end.has_value();
+      if (!judged) break;
+      const int weight = weights[static_cast<std::size_t>(std::abs(offset) - 1)];
+      for (std::size_t i = 0; i < n; ++i)
+        slope[i] += Quad(offset > 0 ? weight : -weight) / Quad(60) * (*end)[i] / delta;
+    }
+    for (std::size_t i = 0; i < n && judged; ++i) {
+      Quad along(0);
+      for (std::size_t j = 0; j < n; ++j) along += jacobian[i * n + j] * direction[j];
+      worst = std::max(worst, abs(slope[i] - along) / scales[i]);
+      largest = std::max(largest, abs(along) / scales[i]);
+    }
+  }
+  return on.residual("step-jacobian", "every system", true, "quad",
+                     judged ? static_cast<double>(worst / largest) : no_step, 1e-24);
+}
+
+namespace {
+// How far two steps at once end from two single steps.
+double difference_in_a_row(MeasuredStep<Quad>& step) {
+  const auto at_once = step.after(step.t(), step.h(), step.start(), 2);
+  const auto one = step.after(step.t(), step.h(), step.start());
+  if (!at_once || !one) return no_step;
+  const auto two = step.after(step.t() + step.h(), step.h(), *one);
+  return two ? static_cast<double>(step.distance(*at_once, *two)) : no_step;
+}
+}  // namespace
+
+Check check_steps_in_a_row(MethodOnModel& on) {
+  return on.residual("steps-in-a-row", "processed methods", true, "quad",
+                     difference_in_a_row(on.step<Quad>()), tolerance<Quad>() * on.growth_of_round_off());
+}
+
+std::vector<Check> check_false_processors() {
+  const std::string system = "henon-heiles";
+  const Assignments parameters{{"scheme", "corrected-3"}};
+  const auto sound = integrators().get("exact-flow-splitting", "integrator").make(parameters);
+  // The first flow of the processor, without the last of its inverse.
+  const auto changed = sound->with_changed_coefficient(0, Quad(1e-6));
+  MethodOnModel on(*changed, parameters, system, systems().get(system, "system").make({}));
+  std::vector<Check> controls;
+  add_controls(controls, "exact-flow-splitting with a processor that is not undone", "steps-in-a-row",
+               {check_steps_in_a_row(on)}, [](const Check& /*check*/) { return true; });
+  return controls;
+}
+
+}  // namespace pfaff

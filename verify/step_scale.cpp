@@ -1,0 +1,137 @@
+#include <pfaff/verify/step_scale.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <pfaff/core/numbers/with_rounding.hpp>
+#include <pfaff/core/tape/replay.hpp>
+#include <pfaff/core/tape/taylor_expansion.hpp>
+#include <pfaff/verify/check.hpp>
+
+namespace pfaff {
+
+namespace {
+// The field of a constrained motion may be a formula of a million operations.
+constexpr std::size_t few_coordinates = 16, few_operations = 8192;
+// Sizes and rates between 1/ordinary and ordinary are taken as one; other rates are brought to ordinary_rate.
+constexpr double ordinary = 64, ordinary_rates = 32, ordinary_rate = 8;
+constexpr int degrees = 10;
+
+// The size of a coordinate as a power of two, or one where it is ordinary or not known.
+double as_scale(double size) {
+  const bool is_ordinary = !(size > 0) || !std::isfinite(size) || (size >= 1 / ordinary && size <= ordinary);
+  return is_ordinary ? 1 : std::exp2(std::round(std::log2(size)));
+}
+
+TaylorExpansion<Quad> expanded(const Model& motion, const Real& t, const std::vector<Real>& z) {
+  TaylorExpansion<Quad> expansion(motion.tape(Formula::field), degrees);
+  std::vector<Quad> at;
+  for (const Real& x : z) at.push_back(x.quad());
+  expansion.expand(t.quad(), at.data());
+  return expansion;
+}
+
+// The largest rate at which a coordinate changes in units of its size, from the terms of the degrees first,
+// ..., degrees; coordinates of size zero are left out. Zero where nothing changes.
+double largest_rate(const TaylorExpansion<Quad>& expansion, int first, const std::vector<double>& sizes) {
+  const std::size_t n = sizes.size();
+  double rate = 0;
+  for (int degree = first; degree <= degrees; ++degree)
+    for (std::size_t k = 0; k < n; ++k) {
+      const Quad term = abs(expansion.coefficients()[static_cast<std::size_t>(degree) * n + k]);
+      if (sizes[k] == 0 || term == Quad(0)) continue;
+      const double of_term = static_cast<double>(exp(log(term / Quad(sizes[k])) / Quad(degree)));
+      if (!std::isfinite(of_term)) return 0;
+      rate = std::max(rate, of_term);
+    }
+  return rate;
+}
+}  // namespace
+
+bool is_short(const Model& motion) {
+  return motion.dimension() <= static_cast<int>(few_coordinates) ||
+         motion.tape(Formula::field)->code.size() <= few_operations;
+}
+
+std::vector<double> coordinate_scales(const std::vector<Real>& centre) {
+  double largest = 0;
+  for (const Real& x : centre) largest = std::max(largest, std::abs(x.value()));
+  std::vector<double> scales;
+  for (const Real& x : centre) scales.push_back(as_scale(x.value() == 0 ? largest : std::abs(x.value())));
+  return scales;
+}
+
+std::vector<double> coordinate_scales(const Model& motion, const Real& t, const std::vector<Real>& z) {
+  std::vector<double> scales = coordinate_scales(z);
+  const auto is_zero = [](const Real& x) { return x.value() == 0; };
+  if (std::none_of(z.begin(), z.end(), is_zero) || !is_short(motion)) return scales;
+  const std::size_t n = z.size();
+  const TaylorExpansion<Quad> expansion = expanded(motion, t, z);
+  std::vector<double> known(n);
+  for (std::size_t k = 0; k < n; ++k) known[k] = is_zero(z[k]) ? 0 : scales[k];
+  const double rate = largest_rate(expansion, 1, known);
+  if (rate == 0) return scales;
+  for (std::size_t k = 0; k < n; ++k) {
+    if (!is_zero(z[k])) continue;
+    Quad size(0), power(1);
+    for (int degree = 1; degree <= degrees; ++degree) {
+      power = power / Quad(rate);
+      size = std::max(size, abs(expansion.coefficients()[static_cast<std::size_t>(degree) * n + k]) * power);
+    }
+    if (size > Quad(0) && isfinite(size)) scales[k] = as_scale(static_cast<double>(size));
+  }
+  return scales;
+}
+
+std::vector<double> coordinate_scales(const Model& model) {
+  return model.moves() ? coordinate_scales(model, generic_time_of(model), model.initial())
+                       : coordinate_scales(model.initial());
+}
+
+std::string differing_sizes(const Model& model) {
+  constexpr int most = 10;
+  const std::vector<double> scales = coordinate_scales(model);
+  const auto [smallest, largest] = std::minmax_element(scales.begin(), scales.end());
+  const double power = std::log2(*largest / *smallest);
+  if (power <= most) return {};
+  return "sizes of coordinates differ by 2^" + std::to_string(static_cast<int>(std::floor(power)));
+}
+
+Quad own_time(const Model& motion, const Real& t, const std::vector<Real>& z) {
+  if (!is_short(motion)) return Quad(1);
+  // The size of a term of high degree tells the rate whatever the sizes of single coordinates are.
+  const double rate = largest_rate(expanded(motion, t, z), 6, coordinate_scales(z));
+  if (rate == 0 || (rate <= ordinary_rates && rate >= 1 / ordinary_rates)) return Quad(1);
+  const double nearest = rate > 1 ? ordinary_rate : 1 / ordinary_rate;
+  return Quad(std::exp2(-std::round(std::log2(rate / nearest))));
+}
+
+template <class T>
+std::vector<T> step_scales(const Model& motion, const T& t, const T& h, const std::vector<T>& start,
+                           const std::vector<T>& end) {
+  const std::size_t n = start.size();
+  std::vector<T> scales(n);
+  for (std::size_t k = 0; k < n; ++k) scales[k] = std::max(T(abs(start[k])), T(abs(end[k])));
+  if (!is_short(motion)) {
+    const T largest = *std::max_element(scales.begin(), scales.end());
+    scales.assign(n, largest);
+    return scales;
+  }
+  Replay<WithRounding<T>> field(motion.tape(Formula::field));
+  std::vector<WithRounding<T>> z, rate(n);
+  for (std::size_t k = 0; k < n; ++k) z.emplace_back(start[k], scales[k]);
+  field(WithRounding<T>(t, T(abs(t))), z.data(), rate.data());
+  for (std::size_t k = 0; k < n; ++k) scales[k] = scales[k] + T(abs(h)) * rate[k].error;
+  // A coordinate that is zero and stays zero has no size of its own; it takes that of the largest one.
+  const T largest = *std::max_element(scales.begin(), scales.end());
+  for (T& x : scales)
+    if (x == T(0)) x = largest == T(0) ? T(1) : largest;
+  return scales;
+}
+
+template std::vector<double> step_scales(const Model&, const double&, const double&,
+                                         const std::vector<double>&, const std::vector<double>&);
+template std::vector<Quad> step_scales(const Model&, const Quad&, const Quad&, const std::vector<Quad>&,
+                                       const std::vector<Quad>&);
+
+}  // namespace pfaff

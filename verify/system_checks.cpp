@@ -1,0 +1,181 @@
+// The claims of systems: what was written agrees with what is derived, structures have the properties they
+// are claimed to have, and invariants and exact solutions are right. Measured at random points drawn with a
+// fixed seed.
+#include <algorithm>
+
+#include <pfaff/bench/measure/reference.hpp>
+#include <pfaff/core/formulation.hpp>
+#include <pfaff/core/tape/derivatives.hpp>
+#include <pfaff/core/tape/replay.hpp>
+#include <pfaff/integrators/generating/generating_map_check.hpp>
+#include <pfaff/verify/check.hpp>
+#include <pfaff/verify/residuals.hpp>
+
+namespace pfaff {
+
+namespace {
+
+// A number that is the same at every state is conserved by everything, so that its conservation says nothing.
+// It varies where its values at random states differ by more than the bounds of their rounding errors.
+Check varies(const std::string& system, const std::string& invariant,
+             const std::shared_ptr<const Tape>& values, std::size_t k, const Region& region) {
+  using W = WithRounding<Quad>;
+  NearbyStates<Quad> states(region);
+  Replay<W> replay(values);
+  std::vector<W> out(values->outputs.size());
+  W first;
+  double largest = 0;
+  for (int j = 0; j < points; ++j) {
+    Quad time;
+    const std::vector<Quad>& z = states.next(time);
+    // At one time, since an invariant may depend on it.
+    replay(W(Quad(1)), std::vector<W>(z.begin(), z.end()).data(), out.data());
+    if (j == 0) first = out[k];
+    largest = std::max(largest, relative_to_rounding(out[k] - first));
+  }
+  Check check = named(system, invariant + " varies", system, "quad", largest, 0);
+  check.expected = residual_tolerance<Quad>();
+  check.result = largest > check.expected ? CheckResult::pass : CheckResult::fail;
+  if (check.result == CheckResult::fail) check.reason = "the same at every state, so that it says nothing";
+  return check;
+}
+
+void invariants(std::vector<Check>& checks, const SystemPlugin& plugin, const Model& model,
+                const Region& region) {
+  const auto& list = model.invariants();
+  if (list.empty()) return;
+  const int n = model.dimension();
+  const auto values = model.tape(Formula::invariants), field = model.tape(Formula::field);
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    // dI/dt along the field.
+    const auto rate = expression(n, 1, [&](const Recorded& t, Arguments z, Results out) {
+      const auto x = evaluate(*field, t, z);
+      out[0] = directional_derivative(*values, t, Recorded(1), z, x)[k];
+    });
+    if (list[k].behaviour == Behaviour::conserved) {
+      // A constraint that follows from the others is zero on all of their surface, and is to be.
+      const auto& redundant = model.source().redundant_constraints;
+      if (std::find(redundant.begin(), redundant.end(), list[k].name) == redundant.end())
+        checks.push_back(varies(plugin.name(), list[k].name, values, k, region));
+      if (list[k].quadratic)
+        both(checks, plugin.name(), list[k].name + " is quadratic", plugin.name(),
+             third_difference(*values, k), region);
+      both(checks, plugin.name(), "conserves " + list[k].name, plugin.name(), rate, region);
+    } else if (list[k].behaviour == Behaviour::decreasing || list[k].behaviour == Behaviour::increasing) {
+      const bool falls = list[k].behaviour == Behaviour::decreasing;
+      // The part of the rate that has the forbidden sign, made positive.
+      const auto wrong = expression(n, 1, [&](const Recorded& t, Arguments z, Results out) {
+        const Recorded r = evaluate(*rate, t, z)[0];
+        out[0] = falls ? select(r, r, Recorded(0)) : select(r, Recorded(0), -r);
+      });
+      both(checks, plugin.name(), (falls ? "decreases " : "increases ") + list[k].name, plugin.name(), wrong,
+           region);
+    }
+  }
+}
+
+// The exact solution satisfies the differential equation and starts at its initial state.
+void exact_solution(std::vector<Check>& checks, const SystemPlugin& plugin, const Model& model,
+                    const Region& region) {
+  const int n = model.dimension();
+  const auto size = static_cast<std::size_t>(n);
+  const auto solution = model.tape(Formula::exact_solution), field = model.tape(Formula::field);
+  const auto defect = expression(n + 1, 2 * n, [&](const Recorded& s, Arguments z, Results out) {
+    const auto state = evaluate(*solution, s, z);
+    const auto rate = time_derivative(*solution, s, z);
+    const auto x = evaluate(*field, z[size] + s, state);
+    const auto start = evaluate(*solution, Recorded(0), z);
+    for (std::size_t k = 0; k < size; ++k) {
+      out[k] = rate[k] - x[k];
+      out[size + k] = start[k] - z[k];
+    }
+  });
+  both(checks, plugin.name(), "exact solution", plugin.name(), defect, region.with_zero());
+}
+
+void darboux(std::vector<Check>& checks, const SystemPlugin& plugin, const Model& model,
+             const Region& region) {
+  const int n = model.dimension();
+  const auto size = static_cast<std::size_t>(n);
+  const auto chart = model.tape(Formula::chart), inverse = model.tape(Formula::chart_inverse);
+  both(checks, plugin.name(), "chart is Darboux", plugin.name(),
+       darboux_residual(*chart, *model.tape(Formula::structure)), region);
+  const auto round_trip = expression(n, n, [&](const Recorded& t, Arguments z, Results out) {
+    const auto back = evaluate(*inverse, t, evaluate(*chart, t, z));
+    for (std::size_t k = 0; k < size; ++k) out[k] = back[k] - z[k];
+  });
+  both(checks, plugin.name(), "chart inverse", plugin.name(), round_trip, region);
+  // The chart carries the field X of the system into the field of the chart: Y_z X + Y_t.
+  const auto field = model.tape(Formula::field), in_chart = model.tape(Formula::chart_field);
+  const auto carried = expression(n, n, [&](const Recorded& t, Arguments z, Results out) {
+    const auto x = evaluate(*field, t, z);
+    const auto moved = directional_derivative(*chart, t, Recorded(1), z, x);
+    const auto y = evaluate(*in_chart, t, evaluate(*chart, t, z));
+    for (std::size_t k = 0; k < size; ++k) out[k] = moved[k] - y[k];
+  });
+  both(checks, plugin.name(), "field in the chart", plugin.name(), carried, region);
+}
+
+// The field made from T + V and the rate of friction agrees with the field of the system.
+void conformal(std::vector<Check>& checks, const SystemPlugin& plugin, const Model& model,
+               const Region& region) {
+  const Tape damped = damped_field(model);
+  const auto field = model.tape(Formula::field);
+  const auto difference =
+      expression(model.dimension(), model.dimension(), [&](const Recorded& t, Arguments z, Results out) {
+        const auto a = evaluate(*field, t, z), b = evaluate(damped, t, z);
+        for (std::size_t k = 0; k < a.size(); ++k) out[k] = a[k] - b[k];
+      });
+  both(checks, plugin.name(), "field of the damped energies", plugin.name(), difference, region);
+}
+
+}  // namespace
+
+std::vector<Check> check_system(const SystemPlugin& plugin, const Assignments& parameters) {
+  const auto model = plugin.make(parameters);
+  const int n = model->dimension();
+  std::vector<Check> checks;
+  // With constraints, the claims about invariants, solutions and reversals are claims about the motion in the
+  // default formulation, which keeps invariants and has closed forms on the surface of the constraints.
+  const auto motion = motion_of(model);
+  const Region region = region_of(*motion, model->restricted() ? model->initial() : generic_state(*model));
+  for (Check& check : check_overrides(plugin.name(), *model, region)) checks.push_back(std::move(check));
+  if (model->facets().has(Facet::hamiltonian) || model->facets().has(Facet::structure) ||
+      model->given(Formula::poisson_tensor)) {
+    const auto tensor = model->tape(Formula::poisson_tensor);
+    both(checks, plugin.name(), "bracket is skew", plugin.name(), symmetric_part(*tensor, n), region);
+    both(checks, plugin.name(), "Jacobi identity", plugin.name(), jacobiator(*tensor, n), region);
+    if (model->given(Formula::casimirs))
+      both(checks, plugin.name(), "Casimirs", plugin.name(),
+           sharp_of_casimirs(*tensor, *model->tape(Formula::casimirs)), region);
+  }
+  if (model->facets().has(Facet::structure)) {
+    for (Check& check : check_self_adjointness(plugin.name(), *model)) checks.push_back(std::move(check));
+  }
+  if (model->facets().has(Facet::darboux_chart)) darboux(checks, plugin, *model, region);
+  if (model->facets().has(Facet::conformal)) conformal(checks, plugin, *model, region);
+  if (model->facets().has(Facet::generating_map)) {
+    const GeneratingMapCheck alpha = check_generating_map(*model);
+    checks.push_back(
+        named(plugin.name(), "alpha satisfies (34)", plugin.name(), "quad", alpha.residual, 1e-31));
+    if (!alpha.holds) checks.back().result = CheckResult::fail;
+    checks.back().reason = alpha.message;
+  }
+  if (model->restricted())
+    for (Check& check : check_constraints(plugin.name(), model)) checks.push_back(std::move(check));
+  if (model->facets().has(Facet::metriplectic))
+    for (Check& check : check_metriplectic(plugin.name(), *model)) checks.push_back(std::move(check));
+  Region on_surface = region;
+  if (model->restricted()) on_surface.surface = model;
+  invariants(checks, plugin, *motion, on_surface);
+  if (model->facets().has(Facet::exact_solution)) exact_solution(checks, plugin, *motion, on_surface);
+  if (model->given(Formula::reversal))
+    for (Check& check : check_reversal(plugin.name(), *motion, region)) checks.push_back(std::move(check));
+  if (model->facets().has(Facet::exact_flows))
+    for (Check& check : check_flows(plugin.name(), model, region.centres.front()))
+      checks.push_back(std::move(check));
+  for (Check& check : checks) check.parameters = parameters;
+  return checks;
+}
+
+}  // namespace pfaff

@@ -1,0 +1,22 @@
+// Which checks a verification makes.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <pfaff/verify/check.hpp>
+
+namespace pfaff {
+
+/// Checks that are made together: of a plug-in with one set of parameters, or of a method on one system.
+struct VerificationJob {
+  std::string what;  // as progress names it
+  std::function<std::vector<Check>()> run;
+};
+
+/// The checks that the settings ask for, in their order. InputError where a system without an initial state
+/// is asked for by name.
+std::vector<VerificationJob> verification_jobs(const VerificationSettings& settings);
+
+}  // namespace pfaff

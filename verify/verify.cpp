@@ -1,0 +1,130 @@
+// Runs the checks that are asked for in parallel and returns their results in a fixed order.
+#include <algorithm>
+#include <map>
+#include <mutex>
+
+#include <pfaff/bench/runner/interruption.hpp>
+#include <pfaff/bench/runner/parallel.hpp>
+#include <pfaff/bench/runner/settings.hpp>
+#include <pfaff/core/formulation.hpp>
+#include <pfaff/integrators/tables/method_table.hpp>
+#include <pfaff/runs/asked_for.hpp>
+#include <pfaff/systems/text/text_system.hpp>
+#include <pfaff/verify/check.hpp>
+#include <pfaff/verify/check_budget.hpp>
+#include <pfaff/verify/verification_jobs.hpp>
+
+namespace pfaff {
+
+std::string_view to_string(CheckResult result) {
+  constexpr std::array<std::string_view, 5> names{"pass", "fail", "measured", "rejected", "skipped"};
+  return names[static_cast<std::size_t>(result)];
+}
+
+bool good(const Check& check) {
+  if (check.control) return check.result == CheckResult::rejected;
+  if (check.in_scope) return check.result == CheckResult::pass;
+  return check.result == CheckResult::measured ||
+         (check.result == CheckResult::skipped && !check.reason.empty());
+}
+
+nlohmann::json to_json(const Check& c) {
+  nlohmann::json parameters = nlohmann::json::object();
+  for (const auto& [key, value] : c.parameters) parameters[key] = value;
+  return {{"plugin", c.plugin},     {"claim", c.claim},         {"scope", c.scope},
+          {"system", c.system},     {"precision", c.precision}, {"parameters", parameters},
+          {"measured", c.measured}, {"expected", c.expected},   {"tolerance", c.tolerance},
+          {"in_scope", c.in_scope}, {"control", c.control},     {"result", to_string(c.result)},
+          {"reason", c.reason}};
+}
+
+namespace {
+// Refuses names that nothing has, and parameters that are not those of one plug-in.
+void validate(const VerificationSettings& settings) {
+  const std::vector<std::string> kinds{"systems", "brackets", "integrators", "formulations", "controls"};
+  std::vector<std::string> known = kinds;
+  for (const auto& more :
+       {systems().names(), integrators().names_and_aliases(), brackets().names(), formulations().names()})
+    known.insert(known.end(), more.begin(), more.end());
+  for (const std::string& name : settings.names)
+    if (!text::is_text_file(name) && std::find(known.begin(), known.end(), name) == known.end())
+      throw InputError(unknown_name("name", name, known));
+  if (settings.set.empty()) return;
+  if (settings.names.size() != 1 ||
+      std::find(kinds.begin(), kinds.end(), settings.names.front()) != kinds.end())
+    throw InputError("--set: expected the name of one plug-in, whose parameters these are");
+}
+
+// A claim that could be judged on no system is no sound one. Added for methods that were tried on every
+// system; the order counts as judged where one of its checks is.
+void add_claims_judged_nowhere(std::vector<Check>& checks, const VerificationSettings& settings) {
+  const auto& names = settings.names;
+  const auto tried = [&](const std::string& plugin) {
+    return names.empty() || std::find(names.begin(), names.end(), "integrators") != names.end() ||
+           std::find(names.begin(), names.end(), plugin) != names.end();
+  };
+  const std::vector<std::string> methods = integrators().names_and_aliases();
+  std::map<std::pair<std::string, std::string>, std::pair<int, Check>>
+      claims;  // judged, and one that was not
+  for (const Check& c : checks) {
+    if (c.control || !tried(c.plugin) || std::find(methods.begin(), methods.end(), c.plugin) == methods.end())
+      continue;
+    const bool judged = c.result == CheckResult::pass || c.result == CheckResult::fail;
+    if (!judged && !unjudged(c)) continue;
+    const std::string claim = c.claim.starts_with("order") ? "order" : c.claim;
+    auto& [count, example] = claims[{called(c.plugin, c.parameters), claim}];
+    count += judged;
+    if (!judged) example = c;
+  }
+  for (auto& [key, found] : claims) {
+    auto& [judged, check] = found;
+    if (judged > 0 || key.second.ends_with(" in a large step")) continue;
+    check.claim = key.second;
+    check.result = CheckResult::fail;
+    check.in_scope = true;
+    check.reason = "judged on no system; " + check.reason;
+    checks.push_back(check);
+  }
+}
+}  // namespace
+
+std::vector<Check> verify(const VerificationSettings& given,
+                          const std::function<void(const std::string&, std::size_t, std::size_t)>& progress) {
+  VerificationSettings settings = given;
+  for (std::string& name : settings.names)
+    name = names_method_table(name) ? integrator_named(name).name() : spelled(name);
+  validate(settings);
+  const std::vector<VerificationJob> jobs = verification_jobs(settings);
+  std::vector<std::vector<Check>> results(jobs.size());
+  std::mutex mutex;
+  std::size_t done = 0;
+  const auto run = [&](std::size_t k) {
+    Check whole;
+    whole.plugin = jobs[k].what;
+    whole.claim = "checks";
+    try {
+      results[k] = within_budget(whole, jobs[k].run, {});
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const BudgetSpent&) {
+      throw;
+    } catch (...) {
+      throw RunError(jobs[k].what + ": " + words_of_current_exception());
+    }
+    const std::lock_guard lock(mutex);
+    ++done;
+    if (progress) progress(jobs[k].what, done, jobs.size());
+  };
+  try {
+    in_parallel(jobs.size(), run);
+  } catch (const BudgetSpent& spent) {
+    end_interrupted(spent, std::to_string(done) + " of " + std::to_string(jobs.size()) +
+                               " groups of checks were made, and none is shown");
+  }
+  std::vector<Check> all;
+  for (auto& part : results) all.insert(all.end(), part.begin(), part.end());
+  add_claims_judged_nowhere(all, settings);
+  return all;
+}
+
+}  // namespace pfaff
