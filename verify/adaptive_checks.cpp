@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
-#include <pfaff/bench/measure/chosen_steps.hpp>
-#include <pfaff/bench/measure/reference.hpp>
 #include <pfaff/core/numbers/formatted.hpp>
+#include <pfaff/runs/support/chosen_steps.hpp>
+#include <pfaff/runs/support/reference.hpp>
 #include <pfaff/verify/check_budget.hpp>
 #include <pfaff/verify/method_on_model.hpp>
 #include <pfaff/verify/step_scale.hpp>

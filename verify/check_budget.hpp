@@ -3,8 +3,8 @@
 // does not: it is not judged, and says so.
 #pragma once
 
-#include <pfaff/bench/measure/reference.hpp>
 #include <pfaff/core/errors/budget.hpp>
+#include <pfaff/runs/support/reference.hpp>
 #include <pfaff/verify/check.hpp>
 
 namespace pfaff {

@@ -2,11 +2,11 @@
 // there, or independent where they constrain velocities, evaluators compute what is derived, and the default
 // formulation keeps the constraints, off their surface too. (Gradients that an author writes are compared
 // with derived ones, as all formulas are, in override_checks.cpp.)
-#include <pfaff/bench/measure/constraint_brackets.hpp>
-#include <pfaff/bench/measure/constraints.hpp>
 #include <pfaff/core/facets/conformance/constraint_identities.hpp>
 #include <pfaff/core/facets/conformance/velocity_identities.hpp>
 #include <pfaff/core/formulation.hpp>
+#include <pfaff/runs/support/constraint_brackets.hpp>
+#include <pfaff/runs/support/constraints.hpp>
 #include <pfaff/verify/residuals.hpp>
 
 namespace pfaff {

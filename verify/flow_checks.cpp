@@ -6,7 +6,7 @@
 // Flows iterate, so that they are measured as numbers, with the derivatives of dual numbers.
 #include <cmath>
 
-#include <pfaff/bench/measure/structure.hpp>
+#include <pfaff/runs/support/structure.hpp>
 #include <pfaff/verify/measured_step.hpp>
 #include <pfaff/verify/residuals.hpp>
 

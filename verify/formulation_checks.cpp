@@ -6,10 +6,10 @@
 #include <cmath>
 #include <random>
 
-#include <pfaff/bench/measure/constraints.hpp>
 #include <pfaff/core/facets/problem.hpp>
 #include <pfaff/core/numbers/with_rounding.hpp>
 #include <pfaff/core/tape/replay.hpp>
+#include <pfaff/runs/support/constraints.hpp>
 #include <pfaff/verify/dense_motion.hpp>
 #include <pfaff/verify/residuals.hpp>
 

@@ -1,8 +1,8 @@
 // The state at which claims are measured.
 #include <cmath>
 
-#include <pfaff/bench/measure/constraints.hpp>
 #include <pfaff/core/facets/stated_ranges.hpp>
+#include <pfaff/runs/support/constraints.hpp>
 #include <pfaff/verify/check_budget.hpp>
 #include <pfaff/verify/residuals.hpp>
 #include <pfaff/verify/step_scale.hpp>

@@ -8,8 +8,8 @@
 #include <type_traits>
 #include <vector>
 
-#include <pfaff/bench/measure/history.hpp>
-#include <pfaff/bench/measure/structure.hpp>
+#include <pfaff/runs/support/history.hpp>
+#include <pfaff/runs/support/structure.hpp>
 #include <pfaff/verify/step_scale.hpp>
 
 namespace pfaff {

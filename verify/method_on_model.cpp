@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <pfaff/bench/measure/history.hpp>
+#include <pfaff/runs/support/history.hpp>
 
 namespace pfaff {
 

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <pfaff/bench/measure/history.hpp>
-#include <pfaff/bench/measure/reference.hpp>
 #include <pfaff/core/numbers/formatted.hpp>
+#include <pfaff/runs/support/history.hpp>
+#include <pfaff/runs/support/reference.hpp>
 #include <pfaff/verify/check.hpp>
 #include <pfaff/verify/check_budget.hpp>
 #include <pfaff/verify/step_scale.hpp>

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include <pfaff/bench/measure/reference.hpp>
+#include <pfaff/runs/support/reference.hpp>
 #include <pfaff/verify/method_on_model.hpp>
 
 namespace pfaff {

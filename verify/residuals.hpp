@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include <pfaff/bench/measure/constraints.hpp>
 #include <pfaff/bench/runner/stated_identities.hpp>
 #include <pfaff/core/numbers/with_rounding.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/replay.hpp>
+#include <pfaff/runs/support/constraints.hpp>
 #include <pfaff/verify/check.hpp>
 #include <pfaff/verify/step_scale.hpp>
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <pfaff/bench/measure/reference.hpp>
+#include <pfaff/runs/support/reference.hpp>
 #include <pfaff/verify/check.hpp>
 #include <pfaff/verify/claim_checks.hpp>
 #include <pfaff/verify/round_off_growth.hpp>

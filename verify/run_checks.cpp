@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 
-#include <pfaff/bench/measure/history.hpp>
 #include <pfaff/core/system.hpp>
+#include <pfaff/runs/support/history.hpp>
 #include <pfaff/verify/check_budget.hpp>
 #include <pfaff/verify/claim_checks.hpp>
 #include <pfaff/verify/method_on_model.hpp>

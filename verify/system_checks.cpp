@@ -3,11 +3,11 @@
 // fixed seed.
 #include <algorithm>
 
-#include <pfaff/bench/measure/reference.hpp>
 #include <pfaff/core/formulation.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/replay.hpp>
 #include <pfaff/integrators/generating/generating_map_check.hpp>
+#include <pfaff/runs/support/reference.hpp>
 #include <pfaff/verify/check.hpp>
 #include <pfaff/verify/residuals.hpp>
 

@@ -1,8 +1,8 @@
 // The part of an evaluation that is about constraints: their brackets W, the blocks S and A of W where the
 // constraints are holonomic (nguyen-turski (4.1)), their classes, and the forces that keep them.
 #include <pfaff/bench/evaluation/evaluation_parts.hpp>
-#include <pfaff/bench/measure/constraint_brackets.hpp>
-#include <pfaff/bench/measure/constraints.hpp>
+#include <pfaff/runs/support/constraint_brackets.hpp>
+#include <pfaff/runs/support/constraints.hpp>
 
 namespace pfaff::evaluation_parts {
 

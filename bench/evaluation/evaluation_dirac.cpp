@@ -1,10 +1,10 @@
 // The part of an evaluation that is about Dirac's bracket: its tensor, and the motion by every solver beside
 // that of the formulation.
 #include <pfaff/bench/evaluation/evaluation_parts.hpp>
-#include <pfaff/bench/measure/constraint_brackets.hpp>
 #include <pfaff/brackets/dirac/dirac.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/runs/motion.hpp>
+#include <pfaff/runs/support/constraint_brackets.hpp>
 
 namespace pfaff::evaluation_parts {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include <pfaff/bench/measure/term_magnitudes.hpp>
+#include <pfaff/runs/support/term_magnitudes.hpp>
 
 namespace pfaff {
 

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include <pfaff/bench/experiment/cells.hpp>
-#include <pfaff/bench/measure/constraints.hpp>
-#include <pfaff/bench/measure/setback.hpp>
 #include <pfaff/bench/runner/text_table.hpp>
+#include <pfaff/runs/support/constraints.hpp>
+#include <pfaff/runs/support/setback.hpp>
 
 namespace pfaff {
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include <pfaff/bench/experiment/experiment.hpp>
-#include <pfaff/bench/measure/turning.hpp>
 #include <pfaff/core/tape/tape.hpp>
+#include <pfaff/runs/support/turning.hpp>
 
 namespace pfaff {
 

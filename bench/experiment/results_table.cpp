@@ -7,9 +7,9 @@
 #include <pfaff/bench/experiment/error_measure.hpp>
 #include <pfaff/bench/experiment/experiment_findings.hpp>
 #include <pfaff/bench/experiment/results.hpp>
-#include <pfaff/bench/measure/constraints.hpp>
 #include <pfaff/bench/runner/text_table.hpp>
 #include <pfaff/core/numbers/formatted.hpp>
+#include <pfaff/runs/support/constraints.hpp>
 
 namespace pfaff {
 

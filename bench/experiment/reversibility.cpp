@@ -7,8 +7,8 @@
 
 #include <pfaff/bench/experiment/carried_states.hpp>
 #include <pfaff/bench/experiment/cells.hpp>
-#include <pfaff/bench/measure/history.hpp>
 #include <pfaff/bench/runner/parallel.hpp>
+#include <pfaff/runs/support/history.hpp>
 
 namespace pfaff {
 

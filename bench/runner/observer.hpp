@@ -8,17 +8,17 @@
 #include <string>
 #include <vector>
 
-#include <pfaff/bench/measure/constraints.hpp>
-#include <pfaff/bench/measure/growth.hpp>
-#include <pfaff/bench/measure/history.hpp>
-#include <pfaff/bench/measure/output_gradients.hpp>
-#include <pfaff/bench/measure/own_range.hpp>
-#include <pfaff/bench/measure/rank_watch.hpp>
-#include <pfaff/bench/measure/setback.hpp>
-#include <pfaff/bench/measure/structure.hpp>
-#include <pfaff/bench/measure/term_magnitudes.hpp>
 #include <pfaff/bench/runner/record.hpp>
 #include <pfaff/core/errors/budget.hpp>
+#include <pfaff/runs/support/constraints.hpp>
+#include <pfaff/runs/support/growth.hpp>
+#include <pfaff/runs/support/history.hpp>
+#include <pfaff/runs/support/output_gradients.hpp>
+#include <pfaff/runs/support/own_range.hpp>
+#include <pfaff/runs/support/rank_watch.hpp>
+#include <pfaff/runs/support/setback.hpp>
+#include <pfaff/runs/support/structure.hpp>
+#include <pfaff/runs/support/term_magnitudes.hpp>
 
 namespace pfaff {
 

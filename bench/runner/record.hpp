@@ -11,11 +11,11 @@
 
 #include <pfaff/bench/runner/json.hpp>
 
-#include <pfaff/bench/measure/drift.hpp>
-#include <pfaff/bench/measure/growth.hpp>
-#include <pfaff/bench/measure/reference.hpp>
-#include <pfaff/bench/measure/structure.hpp>
 #include <pfaff/bench/runner/settings.hpp>
+#include <pfaff/runs/support/drift.hpp>
+#include <pfaff/runs/support/growth.hpp>
+#include <pfaff/runs/support/reference.hpp>
+#include <pfaff/runs/support/structure.hpp>
 
 namespace pfaff {
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <sstream>
 
-#include <pfaff/bench/measure/constraints.hpp>
 #include <pfaff/bench/runner/expressions.hpp>
 #include <pfaff/bench/runner/initial_state.hpp>
 #include <pfaff/bench/runner/stated_identities.hpp>
@@ -16,6 +15,7 @@
 #include <pfaff/integrators/tables/method_table.hpp>
 #include <pfaff/runs/asked_for.hpp>
 #include <pfaff/runs/motion.hpp>
+#include <pfaff/runs/support/constraints.hpp>
 #include <pfaff/systems/text/text_system.hpp>
 
 namespace pfaff {

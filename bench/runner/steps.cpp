@@ -7,10 +7,10 @@
 #include <cmath>
 #include <limits>
 
-#include <pfaff/bench/measure/chosen_steps.hpp>
-#include <pfaff/bench/measure/constraints.hpp>
 #include <pfaff/bench/runner/record.hpp>
 #include <pfaff/runs/asked_for.hpp>
+#include <pfaff/runs/support/chosen_steps.hpp>
+#include <pfaff/runs/support/constraints.hpp>
 
 namespace pfaff {
 

@@ -1,11 +1,11 @@
 // The texts of a run's files.
 #include <boost/version.hpp>
 
-#include <pfaff/bench/measure/constraints.hpp>
-#include <pfaff/bench/measure/links.hpp>
-#include <pfaff/bench/measure/setback.hpp>
 #include <pfaff/bench/runner/record.hpp>
 #include <pfaff/core/numbers/formatted.hpp>
+#include <pfaff/runs/support/constraints.hpp>
+#include <pfaff/runs/support/links.hpp>
+#include <pfaff/runs/support/setback.hpp>
 
 namespace pfaff {
 

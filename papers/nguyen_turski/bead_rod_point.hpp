@@ -5,9 +5,9 @@
 #include <memory>
 #include <string>
 
-#include <pfaff/bench/measure/constraint_brackets.hpp>
 #include <pfaff/core/facets/holonomic.hpp>
 #include <pfaff/papers/evidence.hpp>
+#include <pfaff/runs/support/constraint_brackets.hpp>
 #include <pfaff/systems/bead_rod/description.hpp>
 
 namespace pfaff::nguyen_turski {

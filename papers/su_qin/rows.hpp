@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include <pfaff/bench/measure/structure.hpp>
 #include <pfaff/core/linear/matrix.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/core/tape/replay.hpp>
 #include <pfaff/papers/rows.hpp>
+#include <pfaff/runs/support/structure.hpp>
 
 namespace pfaff::su_qin {
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include <pfaff/bench/measure/constraints.hpp>
-#include <pfaff/bench/measure/links.hpp>
 #include <pfaff/bench/runner/settings.hpp>
+#include <pfaff/runs/support/constraints.hpp>
+#include <pfaff/runs/support/links.hpp>
 
 #include "../formula_values.hpp"
 #include "worst_residual.hpp"

@@ -8,9 +8,9 @@
 #include <sstream>
 
 #include <pfaff/bench/experiment/results.hpp>
-#include <pfaff/bench/measure/drift_class.hpp>
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/core/errors/errors.hpp>
+#include <pfaff/runs/support/drift_class.hpp>
 
 #include "../temporary_directory.hpp"
 

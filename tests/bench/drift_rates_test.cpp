@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include <pfaff/bench/measure/drift.hpp>
+#include <pfaff/runs/support/drift.hpp>
 
 #include "../drift/synthetic_series.hpp"
 

@@ -11,7 +11,7 @@
 #include <random>
 #include <vector>
 
-#include <pfaff/bench/measure/drift.hpp>
+#include <pfaff/runs/support/drift.hpp>
 
 namespace pfaff::testing::drift {
 

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <pfaff/bench/evaluation/evaluation.hpp>
-#include <pfaff/bench/measure/constraint_brackets.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/runs/motion.hpp>
+#include <pfaff/runs/support/constraint_brackets.hpp>
 
 namespace {
 

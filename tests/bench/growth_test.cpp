@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include <pfaff/bench/measure/growth.hpp>
+#include <pfaff/runs/support/growth.hpp>
 
 namespace {
 using pfaff::growth;

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include <pfaff/bench/measure/output_gradients.hpp>
-#include <pfaff/bench/measure/own_range.hpp>
 #include <pfaff/bench/runner/record.hpp>
+#include <pfaff/runs/support/output_gradients.hpp>
+#include <pfaff/runs/support/own_range.hpp>
 
 namespace pfaff {
 namespace {

@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <pfaff/bench/measure/rank_watch.hpp>
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/bench/runner/record.hpp>
+#include <pfaff/runs/support/rank_watch.hpp>
 #include <pfaff/tests/temporary_directory.hpp>
 
 namespace pfaff {

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include <pfaff/bench/measure/reference.hpp>
 #include <pfaff/core/system.hpp>
+#include <pfaff/runs/support/reference.hpp>
 
 namespace pfaff::testing {
 

@@ -5,9 +5,9 @@
 
 #include <pfaff/bench/runner/json.hpp>
 
-#include <pfaff/bench/measure/reference.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/runs/motion.hpp>
+#include <pfaff/runs/support/reference.hpp>
 
 #include "../formula_values.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include <pfaff/bench/experiment/experiment_findings.hpp>
-#include <pfaff/bench/measure/setback.hpp>
+#include <pfaff/runs/support/setback.hpp>
 
 #include "run_settings.hpp"
 

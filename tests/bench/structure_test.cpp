@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <pfaff/bench/measure/structure.hpp>
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/runs/motion.hpp>
+#include <pfaff/runs/support/structure.hpp>
 #include <pfaff/verify/check.hpp>
 #include <pfaff/verify/method_on_model.hpp>
 

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include <pfaff/bench/measure/constraints.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/runs/motion.hpp>
+#include <pfaff/runs/support/constraints.hpp>
 #include <pfaff/verify/check.hpp>
 #include <pfaff/verify/formulation_checks.hpp>
 #include <pfaff/verify/skated_models.hpp>

@@ -1,6 +1,6 @@
 // The measured exponent of a walk, on walks whose exponent is known: fractional Brownian motion, made by
 // Cholesky's factors of its covariance (t^2H + s^2H - |t - s|^2H)/2.
-#include <pfaff/bench/measure/walk_exponent.hpp>
+#include <pfaff/runs/support/walk_exponent.hpp>
 
 #include "drift_series.hpp"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include <pfaff/bench/measure/constraints.hpp>
+#include <pfaff/runs/support/constraints.hpp>
 
 namespace pfaff::testing {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include <pfaff/bench/measure/drift.hpp>
+#include <pfaff/runs/support/drift.hpp>
 
 #include "synthetic_series.hpp"
 

@@ -1,5 +1,5 @@
 // synthetic_series: errors whose class is known because it was put in, to measure how often the classifier of
-// bench/measure/drift.hpp is right. Nothing of the classifier is used here.
+// runs/support/drift.hpp is right. Nothing of the classifier is used here.
 //
 // A series has n samples at s = k/n, n log-uniform in 100 ... 2000, or in given limits. `fast` stands for a
 // sum of 1 to 5 sines of 10 ... n/4 periods with random phases and weights, scaled to amplitude 1; `slow` for

@@ -2,11 +2,11 @@
 // composition law of their flow between two times.
 #include <gtest/gtest.h>
 
-#include <pfaff/bench/measure/structure.hpp>
 #include <pfaff/core/linear/matrix.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/replay.hpp>
+#include <pfaff/runs/support/structure.hpp>
 
 #include "bent.hpp"
 #include "generating_samples.hpp"

@@ -2,9 +2,9 @@
 // facet that it needs.
 #include <gtest/gtest.h>
 
-#include <pfaff/bench/measure/structure.hpp>
 #include <pfaff/core/facets/static_problem.hpp>
 #include <pfaff/integrators/splitting/conformal_splitting.hpp>
+#include <pfaff/runs/support/structure.hpp>
 #include <pfaff/verify/check.hpp>
 
 #include "methods.hpp"

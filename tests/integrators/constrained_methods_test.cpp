@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include <pfaff/bench/measure/constraints.hpp>
 #include <pfaff/runs/motion.hpp>
+#include <pfaff/runs/support/constraints.hpp>
 #include <pfaff/tests/integrators/constrained_systems.hpp>
 #include <pfaff/verify/check.hpp>
 

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
-#include <pfaff/bench/measure/structure.hpp>
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/integrators/generating/generating_map_check.hpp>
+#include <pfaff/runs/support/structure.hpp>
 #include <pfaff/verify/check.hpp>
 
 #include "generating_samples.hpp"

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include <pfaff/bench/measure/structure.hpp>
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
+#include <pfaff/runs/support/structure.hpp>
 
 namespace pfaff {
 namespace {

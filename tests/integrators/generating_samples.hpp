@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include <pfaff/bench/measure/structure.hpp>
 #include <pfaff/core/linear/matrix.hpp>
+#include <pfaff/runs/support/structure.hpp>
 
 #include "../formula_values.hpp"
 

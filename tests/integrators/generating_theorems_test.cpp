@@ -4,13 +4,13 @@
 
 #include <random>
 
-#include <pfaff/bench/measure/structure.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/examples/templates/alpha.hpp>
 #include <pfaff/integrators/generating/generating_gradient.hpp>
 #include <pfaff/integrators/generating/lagrangian_transformation.hpp>
 #include <pfaff/papers/su_qin/generating_expansion.hpp>
+#include <pfaff/runs/support/structure.hpp>
 
 #include "bent.hpp"
 #include "generating_samples.hpp"

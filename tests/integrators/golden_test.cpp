@@ -6,9 +6,9 @@
 #include <fstream>
 #include <pfaff/bench/runner/json.hpp>
 
-#include <pfaff/bench/measure/structure.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/integrators/generating/generating_gradient.hpp>
+#include <pfaff/runs/support/structure.hpp>
 
 #include "../golden_numbers.hpp"
 

@@ -3,9 +3,9 @@
 // 32.
 #include <gtest/gtest.h>
 
-#include <pfaff/bench/measure/structure.hpp>
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
+#include <pfaff/runs/support/structure.hpp>
 
 #include "methods.hpp"
 

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include <pfaff/bench/measure/reference.hpp>
-#include <pfaff/bench/measure/structure.hpp>
 #include <pfaff/core/system.hpp>
+#include <pfaff/runs/support/reference.hpp>
+#include <pfaff/runs/support/structure.hpp>
 
 #include "methods.hpp"
 

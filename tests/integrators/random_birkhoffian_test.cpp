@@ -6,10 +6,10 @@
 
 #include <random>
 
-#include <pfaff/bench/measure/structure.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/replay.hpp>
+#include <pfaff/runs/support/structure.hpp>
 #include <pfaff/verify/check.hpp>
 
 #include "generating_samples.hpp"

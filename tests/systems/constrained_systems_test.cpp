@@ -1,9 +1,9 @@
 // Systems with constraints against closed forms of their motion and their brackets.
 #include <gtest/gtest.h>
 
-#include <pfaff/bench/measure/constraints.hpp>
 #include <pfaff/core/linear/matrix.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
+#include <pfaff/runs/support/constraints.hpp>
 
 #include "../formula_values.hpp"
 #include "../formulations/rods.hpp"

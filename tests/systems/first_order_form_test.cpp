@@ -2,9 +2,9 @@
 // written by F and B, and what is refused because it does not fit together.
 #include <gtest/gtest.h>
 
-#include <pfaff/bench/measure/structure.hpp>
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
+#include <pfaff/runs/support/structure.hpp>
 #include <pfaff/verify/check.hpp>
 
 #include "../formula_values.hpp"

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <pfaff/bench/measure/constraints.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/runs/motion.hpp>
+#include <pfaff/runs/support/constraints.hpp>
 
 namespace pfaff::testing {
 

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include <pfaff/bench/measure/chosen_steps.hpp>
-#include <pfaff/bench/measure/history.hpp>
 #include <pfaff/bench/runner/record.hpp>
 #include <pfaff/core/integrator.hpp>
+#include <pfaff/runs/support/chosen_steps.hpp>
+#include <pfaff/runs/support/history.hpp>
 
 #include "judged.hpp"
 

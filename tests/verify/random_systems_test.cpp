@@ -6,10 +6,10 @@
 #include <cmath>
 #include <random>
 
-#include <pfaff/bench/measure/constraints.hpp>
 #include <pfaff/core/facets/claims.hpp>
 #include <pfaff/core/tape/replay.hpp>
 #include <pfaff/runs/motion.hpp>
+#include <pfaff/runs/support/constraints.hpp>
 #include <pfaff/verify/check.hpp>
 #include <pfaff/verify/random_systems/recipe.hpp>
 #include <pfaff/verify/residuals.hpp>

@@ -1,5 +1,5 @@
 // Which rows of A of velocity constraints A v + b = 0 depend on each other.
-#include <pfaff/bench/measure/constraints.hpp>
+#include <pfaff/runs/support/constraints.hpp>
 
 namespace pfaff {
 

@@ -1,4 +1,4 @@
-#include <pfaff/bench/measure/output_gradients.hpp>
+#include <pfaff/runs/support/output_gradients.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
-#include <pfaff/bench/measure/own_range.hpp>
+#include <pfaff/runs/support/own_range.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include <pfaff/bench/measure/output_gradients.hpp>
+#include <pfaff/runs/support/output_gradients.hpp>
 
 namespace pfaff {
 

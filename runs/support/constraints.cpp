@@ -1,4 +1,4 @@
-#include <pfaff/bench/measure/constraints.hpp>
+#include <pfaff/runs/support/constraints.hpp>
 
 #include <pfaff/core/linear/matrix.hpp>
 

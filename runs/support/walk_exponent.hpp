@@ -11,7 +11,7 @@
 
 #include <vector>
 
-#include <pfaff/bench/measure/envelope.hpp>
+#include <pfaff/runs/support/envelope.hpp>
 
 namespace pfaff::windows {
 

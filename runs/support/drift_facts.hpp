@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include <pfaff/bench/measure/drift_rules.hpp>
+#include <pfaff/runs/support/drift_rules.hpp>
 
 namespace pfaff::drift_rules {
 

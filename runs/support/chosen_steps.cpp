@@ -1,4 +1,4 @@
-#include <pfaff/bench/measure/chosen_steps.hpp>
+#include <pfaff/runs/support/chosen_steps.hpp>
 
 #include <vector>
 

@@ -1,4 +1,4 @@
-#include <pfaff/bench/measure/growth.hpp>
+#include <pfaff/runs/support/growth.hpp>
 
 #include <algorithm>
 #include <cmath>

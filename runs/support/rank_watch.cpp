@@ -1,4 +1,4 @@
-#include <pfaff/bench/measure/rank_watch.hpp>
+#include <pfaff/runs/support/rank_watch.hpp>
 
 #include <algorithm>
 #include <cmath>

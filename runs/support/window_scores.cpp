@@ -1,4 +1,4 @@
-#include <pfaff/bench/measure/window_scores.hpp>
+#include <pfaff/runs/support/window_scores.hpp>
 
 #include <algorithm>
 #include <array>

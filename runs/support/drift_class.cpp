@@ -1,4 +1,4 @@
-#include <pfaff/bench/measure/drift_class.hpp>
+#include <pfaff/runs/support/drift_class.hpp>
 
 #include <algorithm>
 #include <stdexcept>

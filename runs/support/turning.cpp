@@ -1,4 +1,4 @@
-#include <pfaff/bench/measure/turning.hpp>
+#include <pfaff/runs/support/turning.hpp>
 
 #include <cmath>
 #include <limits>

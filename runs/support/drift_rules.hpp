@@ -66,8 +66,8 @@
 #include <string>
 #include <vector>
 
-#include <pfaff/bench/measure/drift.hpp>
-#include <pfaff/bench/measure/window_scores.hpp>
+#include <pfaff/runs/support/drift.hpp>
+#include <pfaff/runs/support/window_scores.hpp>
 
 namespace pfaff::drift_rules {
 

@@ -1,4 +1,4 @@
-#include <pfaff/bench/measure/reference.hpp>
+#include <pfaff/runs/support/reference.hpp>
 
 #include <algorithm>
 #include <cmath>

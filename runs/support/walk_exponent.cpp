@@ -1,11 +1,11 @@
-#include <pfaff/bench/measure/walk_exponent.hpp>
+#include <pfaff/runs/support/walk_exponent.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include <pfaff/bench/measure/window_models.hpp>
-#include <pfaff/bench/measure/windows.hpp>
+#include <pfaff/runs/support/window_models.hpp>
+#include <pfaff/runs/support/windows.hpp>
 
 namespace pfaff::windows {
 

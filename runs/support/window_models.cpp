@@ -1,10 +1,10 @@
-#include <pfaff/bench/measure/window_models.hpp>
+#include <pfaff/runs/support/window_models.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include <pfaff/bench/measure/windows.hpp>
+#include <pfaff/runs/support/windows.hpp>
 
 namespace pfaff::windows {
 

@@ -1,4 +1,4 @@
-#include <pfaff/bench/measure/links.hpp>
+#include <pfaff/runs/support/links.hpp>
 
 #include <algorithm>
 #include <cmath>

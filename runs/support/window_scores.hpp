@@ -22,7 +22,7 @@
 #include <cstddef>
 #include <vector>
 
-#include <pfaff/bench/measure/window_models.hpp>
+#include <pfaff/runs/support/window_models.hpp>
 
 namespace pfaff::windows {
 

@@ -1,4 +1,4 @@
-#include <pfaff/bench/measure/windows.hpp>
+#include <pfaff/runs/support/windows.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include <pfaff/bench/measure/structure.hpp>
+#include <pfaff/runs/support/structure.hpp>
 
 #include <algorithm>
 #include <cmath>

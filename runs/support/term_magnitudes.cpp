@@ -1,4 +1,4 @@
-#include <pfaff/bench/measure/term_magnitudes.hpp>
+#include <pfaff/runs/support/term_magnitudes.hpp>
 
 #include <algorithm>
 #include <cmath>

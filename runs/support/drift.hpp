@@ -24,9 +24,9 @@
 #include <string>
 #include <vector>
 
-#include <pfaff/bench/measure/drift_class.hpp>
-#include <pfaff/bench/measure/envelope.hpp>
-#include <pfaff/bench/measure/windows.hpp>
+#include <pfaff/runs/support/drift_class.hpp>
+#include <pfaff/runs/support/envelope.hpp>
+#include <pfaff/runs/support/windows.hpp>
 
 namespace pfaff {
 

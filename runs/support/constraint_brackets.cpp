@@ -1,4 +1,4 @@
-#include <pfaff/bench/measure/constraint_brackets.hpp>
+#include <pfaff/runs/support/constraint_brackets.hpp>
 
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/replay.hpp>

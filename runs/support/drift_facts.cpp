@@ -1,4 +1,4 @@
-#include <pfaff/bench/measure/drift_facts.hpp>
+#include <pfaff/runs/support/drift_facts.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,11 +1,11 @@
-#include <pfaff/bench/measure/drift_rules.hpp>
+#include <pfaff/runs/support/drift_rules.hpp>
 
 #include <algorithm>
 #include <cmath>
 
-#include <pfaff/bench/measure/drift_facts.hpp>
-#include <pfaff/bench/measure/walk_exponent.hpp>
 #include <pfaff/core/numbers/formatted.hpp>
+#include <pfaff/runs/support/drift_facts.hpp>
+#include <pfaff/runs/support/walk_exponent.hpp>
 
 namespace pfaff::drift_rules {
 

@@ -1,4 +1,4 @@
-#include <pfaff/bench/measure/history.hpp>
+#include <pfaff/runs/support/history.hpp>
 
 #include <algorithm>
 

@@ -1,10 +1,10 @@
-#include <pfaff/bench/measure/drift.hpp>
+#include <pfaff/runs/support/drift.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include <pfaff/bench/measure/drift_rules.hpp>
+#include <pfaff/runs/support/drift_rules.hpp>
 
 namespace pfaff {
 
