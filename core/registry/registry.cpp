@@ -18,21 +18,25 @@ bool is_kebab_case(std::string_view name) {
          });
 }
 
-std::vector<std::string> registered_twice() {
-  std::vector<std::string> all;
-  for (const auto* names : {&systems().duplicates(), &integrators().duplicates(), &brackets().duplicates(),
-                            &formulations().duplicates()})
-    all.insert(all.end(), names->begin(), names->end());
+namespace {
+// The faults of every registry of the process.
+std::vector<const RegistrationFaults*>& of_all_kinds() {
+  static std::vector<const RegistrationFaults*> all;
   return all;
 }
+std::vector<std::string> lines(const std::vector<std::string>& (RegistrationFaults::*of_a_kind)() const) {
+  std::vector<std::string> all;
+  for (const RegistrationFaults* faults : of_all_kinds())
+    all.insert(all.end(), (faults->*of_a_kind)().begin(), (faults->*of_a_kind)().end());
+  return all;
+}
+}  // namespace
 
-std::vector<std::string> misnamed() {
-  std::vector<std::string> all;
-  for (const auto* names :
-       {&systems().misnamed(), &integrators().misnamed(), &brackets().misnamed(), &formulations().misnamed()})
-    all.insert(all.end(), names->begin(), names->end());
-  return all;
-}
+RegistrationFaults::RegistrationFaults() { of_all_kinds().push_back(this); }
+RegistrationFaults::~RegistrationFaults() { std::erase(of_all_kinds(), this); }
+
+std::vector<std::string> registered_twice() { return lines(&RegistrationFaults::duplicates); }
+std::vector<std::string> misnamed() { return lines(&RegistrationFaults::misnamed); }
 
 void load_plugin(const std::string& path) {
   require_same_abi(path);

@@ -23,9 +23,25 @@ class MethodPlugin;
 class BracketPlugin;
 class FormulationPlugin;
 
+/// What was wrong with registrations of one kind, whatever the kind.
+class RegistrationFaults {
+ public:
+  RegistrationFaults();
+  RegistrationFaults(const RegistrationFaults&) = delete;
+  RegistrationFaults& operator=(const RegistrationFaults&) = delete;
+  virtual ~RegistrationFaults();
+  /// One line for every name registered twice.
+  [[nodiscard]] const std::vector<std::string>& duplicates() const { return duplicates_; }
+  /// One line for every plug-in that was not registered because of its name or a parameter's.
+  [[nodiscard]] const std::vector<std::string>& misnamed() const { return misnamed_; }
+
+ protected:
+  std::vector<std::string> duplicates_, misnamed_;
+};
+
 /// All plug-ins of one kind.
 template <class P>
-class Registry {
+class Registry final : public RegistrationFaults {
  public:
   /// Adds a plug-in with static lifetime.
   void add(const P* plugin) {
@@ -44,10 +60,6 @@ class Registry {
   [[nodiscard]] const std::vector<const P*>& all() const { return plugins_; }
   /// Aliases in alphabetical order.
   [[nodiscard]] const std::vector<const P*>& aliases() const { return aliases_; }
-  /// One line for every name registered twice.
-  [[nodiscard]] const std::vector<std::string>& duplicates() const { return duplicates_; }
-  /// One line for every plug-in that was not registered because of its name or a parameter's.
-  [[nodiscard]] const std::vector<std::string>& misnamed() const { return misnamed_; }
 
   /// The plug-in or alias of that name; null where there is none.
   [[nodiscard]] const P* find(std::string_view name) const {
@@ -101,7 +113,6 @@ class Registry {
   }
 
   List plugins_, aliases_;
-  std::vector<std::string> duplicates_, misnamed_;
 };
 
 /// The registries, one of each kind in the process.
