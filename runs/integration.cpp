@@ -2,78 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include <pfaff/core/errors/budget.hpp>
 
 namespace pfaff {
-
-std::string failure(Status status, const std::string& where) {
-  switch (status) {
-    case Status::not_converged:
-      return "the implicit solve did not converge " + where;
-    case Status::singular:
-      return "a linear system was singular " + where;
-    case Status::non_finite:
-      return "the state or the structure left the range of numbers " + where;
-    case Status::converged:
-      break;
-  }
-  return {};
-}
-
-std::string Outcome::message() const {
-  switch (end_) {
-    case End::failed:
-      return failure(status_, where_);
-    case End::watcher:
-      return "a watcher ended the integration " + where_;
-    case End::asked:
-      return "the integration was interrupted " + where_;
-    case End::reached:
-      break;
-  }
-  return {};
-}
-
-void Outcome::expect_reached() const {
-  if (!reached()) throw RunError(message());
-}
-
-namespace {
-template <class T>
-void check(const Start<T>& start) {
-  const Model& model = *start.model;
-  if (const std::string reason = start.method->refuses(model); !reason.empty()) throw InputError(reason);
-  const auto dimension = static_cast<std::size_t>(model.dimension());
-  if (start.state.size() != dimension)
-    throw InputError("initial state of " + model.name() + ": expected " + std::to_string(dimension) +
-                     " numbers, got " + std::to_string(start.state.size()));
-  for (std::size_t i = 0; i < dimension; ++i)
-    if (!isfinite(value_of(start.state[i])))
-      throw InputError("initial state of " + model.name() + ": " + model.coordinates()[i].name +
-                       " is not finite");
-  const bool adaptive = value_of(start.tolerance) > Value<T>(0);
-  if (!isfinite(value_of(start.h)) || (!adaptive && value_of(start.h) == Value<T>(0)))
-    throw InputError("step: expected a finite number other than 0");
-  if (!isfinite(value_of(start.t0))) throw InputError("initial time: expected a finite number");
-  if (adaptive && !start.method->adaptive())
-    throw InputError(start.method->called() + " takes fixed steps only; expected a step without a tolerance");
-  if (!start.absolute.empty() && start.absolute.size() != dimension)
-    throw InputError("absolute tolerances: expected none, or one for each of the " +
-                     std::to_string(dimension) + " coordinates of " + model.name() + ", got " +
-                     std::to_string(start.absolute.size()));
-}
-// A start that was checked, so that members can be made of it.
-template <class T>
-Start<T> checked(Start<T> start) {
-  check(start);
-  // What a watcher does once for a block is lost beside 256 rows, and a block should stay in the cache.
-  if (start.block_rows == 0)
-    start.block_rows = std::clamp<std::size_t>(8192 / std::max<std::size_t>(1, start.state.size()), 16, 256);
-  return start;
-}
-}  // namespace
 
 template <class T>
 Integration<T>::Integration(Start<T> start)
@@ -111,8 +45,16 @@ Integration<T> Integration<T>::at(std::int64_t step, std::vector<T> state) const
 
 template <class T>
 void Integration<T>::turn() {
-  reached_ = start_.t0 = time();
-  start_.h = -start_.h;
+  go_on_from(state_, time(), -start_.h);
+}
+
+template <class T>
+void Integration<T>::go_on_from(std::vector<T> state, const T& t0, const T& h) {
+  Start<T> start = start_;
+  start.state = std::move(state), start.t0 = t0, start.h = h;
+  start_ = checked(std::move(start));
+  state_ = start_.state;
+  reached_ = start_.t0;
   taken_ = 0;
 }
 
@@ -148,6 +90,14 @@ Outcome Integration<T>::guarded(std::int64_t begin, Loop&& loop) {
   }
 }
 
+namespace {
+// How many steps lie from `step`, which may be negative, to the next multiple of `every`.
+std::int64_t lattice_behind(std::int64_t step, std::int64_t every) {
+  const std::int64_t rest = step % every;
+  return rest == 0 ? 0 : rest < 0 ? -rest : every - rest;
+}
+}  // namespace
+
 // Takes `rows` times `stride` steps, and puts the states between them into the block.
 template <class T>
 Status Integration<T>::fill(std::int64_t stride, std::int64_t rows) {
@@ -172,45 +122,91 @@ Status Integration<T>::fill_adaptive(std::int64_t rows) {
   block_.stride = 1, block_.first = taken_ + 1;
   block_.rows = 0;
   block_.times.clear();
-  Status status = Status::converged;
   for (; static_cast<std::int64_t>(block_.rows) < rows; ++taken_) {
-    status = advance_to(time_of(taken_ + 1));
-    if (status != Status::converged) break;
+    if (const Status status = advance_to(time_of(taken_ + 1)); status != Status::converged) return status;
     block_.times.push_back(reached_);
     block_.states.put(block_.rows++, state_.data());
   }
-  block_.states.fill_behind(block_.rows);
-  return status;
+  return Status::converged;
+}
+
+// The rows of the block that somebody who watches is to see.
+template <class T>
+const Block<T>& Integration<T>::shown_to(const Watching& watching) {
+  const std::int64_t every = adaptive() ? watching.every : watching.every / block_.stride;
+  if (every == 1) return block_;
+  if (thinned_ == nullptr) thinned_ = std::make_unique<Block<T>>(state_.size(), block_.capacity);
+  Block<T>& thinned = *thinned_;
+  thinned.t0 = block_.t0, thinned.h = block_.h, thinned.stride = watching.every;
+  thinned.rows = 0;
+  thinned.times.clear();
+  const std::int64_t behind = lattice_behind(block_.first, watching.every);
+  thinned.first = block_.first + behind;
+  std::vector<T> z(state_.size());
+  for (std::size_t row = block_.row_of(thinned.first); row < block_.rows;
+       row += static_cast<std::size_t>(every)) {
+    block_.states.get(row, z);
+    thinned.states.put(thinned.rows++, z.data());
+    if (!block_.times.empty()) thinned.times.push_back(block_.times[row]);
+  }
+  thinned.states.fill_behind(thinned.rows);
+  return thinned;
 }
 
 // Shows the block to the watchers; true where one of them ends the run at a row of it.
 template <class T>
 bool Integration<T>::look() {
-  if (block_.rows == 0) return false;
-  std::size_t last = block_.rows;
-  for (const Watching& w : watching_) last = std::min(last, w.watcher->look(*this, block_));
-  if (last >= block_.rows) return false;
-  // What the stepper remembers belongs to the end of the block.
-  taken_ = block_.step(last);
-  if (adaptive()) reached_ = block_.time(last);
-  block_.states.get(last, state_);
-  stepper_->forget();
-  return true;
+  const std::size_t filled = block_.rows;
+  std::size_t last = filled;
+  block_.states.fill_behind(filled);
+  for (const Watching& w : watching_) {
+    const Block<T>& shown = shown_to(w);
+    if (shown.rows == 0) continue;
+    const std::size_t row = w.watcher->end(*this, shown);
+    if (row < shown.rows) last = std::min(last, block_.row_of(shown.step(row)));
+  }
+  const bool ends = last < filled;
+  if (ends) {
+    // What the stepper remembers belongs to the end of the block.
+    taken_ = block_.step(last);
+    if (adaptive()) reached_ = block_.time(last);
+    block_.states.get(last, state_);
+    stepper_->forget();
+    block_.rows = last + 1;
+    if (!block_.times.empty()) block_.times.resize(block_.rows);
+    block_.states.fill_behind(block_.rows);
+  }
+  for (const Watching& w : watching_)
+    if (const Block<T>& shown = shown_to(w); shown.rows > 0) w.watcher->look(*this, shown);
+  return ends;
 }
 
-// As fill(), and shows the rows to the watchers, those before an exception too. `ends`: one of them ends the
-// run.
+// As fill(), and shows the rows to the watchers. `ends`: one of them ends the run, at a row before whatever
+// failed or was thrown.
 template <class T>
 Status Integration<T>::fill_and_look(std::int64_t stride, std::int64_t rows, bool& ends) {
   Status status = Status::converged;
   try {
     status = fill(stride, rows);
   } catch (...) {
-    (void)look();
-    throw;
+    ends = look();
+    if (!ends) throw;
+    return Status::converged;
   }
   ends = look();
   return status;
+}
+
+// After `steps` steps in a row whose end is not finite, and which are left as they began: takes those that
+// are finite one by one.
+template <class T>
+void Integration<T>::up_to_the_failure(std::int64_t steps) {
+  for (std::int64_t k = 0; k + 1 < steps; ++k) {
+    std::int64_t completed = 0;
+    const Status status = stepper_->advance(start_.t0, taken_, start_.h, 1, state_, completed);
+    taken_ += completed;
+    if (status != Status::converged) return;
+  }
 }
 
 template <class T>
@@ -219,20 +215,24 @@ Outcome Integration<T>::steps(std::int64_t count) {
   if (adaptive() && count > 0 && value_of(start_.h) == Value<T>(0))
     throw InputError(
         "step: expected the time between two looks beside the tolerance, got 0; to() needs none");
-  const std::int64_t begin = taken_;
+  const std::int64_t begin = taken_, most = static_cast<std::int64_t>(start_.block_rows);
+  const std::int64_t end = count > std::numeric_limits<std::int64_t>::max() - std::max<std::int64_t>(0, begin)
+                               ? std::numeric_limits<std::int64_t>::max()
+                               : begin + count;
+  const bool watched = !watching_.empty();
+  // Every look takes a processed method its processor.
+  std::int64_t stride = method().processed() && !watched ? count : 0;
+  for (const Watching& w : watching_) stride = std::gcd(stride, w.every);
+  if (stride == 0 || adaptive()) stride = 1;
   return guarded(begin, [&]() -> Outcome {
-    const std::int64_t end = taken_ + count, most = static_cast<std::int64_t>(start_.block_rows);
-    const bool watched = !watching_.empty();
-    // Every look takes a processed method its processor.
-    std::int64_t stride = method().processed() && !watched ? count : 0;
-    for (const Watching& w : watching_) stride = std::gcd(stride, w.every);
-    if (stride == 0 || adaptive()) stride = 1;
     while (taken_ < end) {
-      const std::int64_t left = end - taken_, to_look = watched ? stride - taken_ % stride : stride;
+      const std::int64_t left = end - taken_,
+                         to_look = watched ? 1 + lattice_behind(taken_ + 1, stride) : stride;
       const std::int64_t by = std::min(to_look, left), rows = by == stride ? std::min(most, left / by) : 1;
       bool ends = false;
       const Status status = watched && to_look <= left ? fill_and_look(by, rows, ends) : fill(by, rows);
       if (ends) return ended(begin, Outcome::End::watcher, Status::converged);
+      if (status == Status::non_finite && !adaptive()) up_to_the_failure(by);
       if (status != Status::converged) return ended(begin, Outcome::End::failed, status);
     }
     return ended(begin, Outcome::End::reached, Status::converged);
@@ -253,25 +253,40 @@ Outcome Integration<T>::to_between(const T& t, std::int64_t begin) {
   });
 }
 
+namespace {
+// The least whole number that is not below x, of which |x| is below 9e18.
+template <class V>
+std::int64_t ceiling(const V& x) {
+  const auto below = static_cast<std::int64_t>(std::floor(static_cast<double>(x)));
+  return V(static_cast<double>(below)) < x ? below + 1 : below;
+}
+}  // namespace
+
 template <class T>
 Outcome Integration<T>::to(const T& t) {
   using V = Value<T>;
-  if (!isfinite(value_of(t))) throw InputError("to: expected a finite time");
-  const V h = value_of(start_.h), span = value_of(t) - value_of(time());
+  const V end = value_of(t), t0 = value_of(start_.t0), h = value_of(start_.h);
+  if (!isfinite(end)) throw InputError("to: expected a finite time");
   if (h == V(0)) return to_between(t, taken_);
-  const double ratio = static_cast<double>(V(span / h));
-  const double slack = 1e-9 * std::max(1.0, std::abs(ratio));
-  if (!(std::abs(ratio) < 9e18)) throw InputError("to: expected a time that whole steps reach");
-  if (ratio < -slack)
-    throw InputError("to: t = " + to_string(Quad(value_of(t)), 10) + " lies behind t = " +
+  // Both times are rounded, and so is what lies between them.
+  const V steps_from_start = (end - t0) / h;
+  const V slack = V(1e-9) + V(4) * std::numeric_limits<V>::epsilon() * (abs(end) + abs(t0)) / abs(h);
+  if (!(abs(steps_from_start) < V(9e18) && slack < V(0.5)))
+    throw InputError("to: expected a time that whole steps reach");
+  const auto refuse_behind = [&] {
+    throw InputError("to: t = " + to_string(Quad(end), 10) + " lies behind t = " +
                      to_string(Quad(value_of(time())), 10) + "; turn() and reversed() go back");
-  if (!adaptive()) return steps(static_cast<std::int64_t>(std::ceil(ratio - slack)));
+  };
+  if (!adaptive()) {
+    const std::int64_t whole = ceiling(V(steps_from_start - slack));
+    if (whole < taken_) refuse_behind();
+    return steps(whole - taken_);
+  }
+  if ((end - value_of(reached_)) / h < -slack) refuse_behind();
   // Intervals end where they would without the call, and the last one at t, if it does not end there anyway.
-  const double intervals = static_cast<double>(V((value_of(t) - value_of(start_.t0)) / h));
-  const auto whole = static_cast<std::int64_t>(std::floor(intervals + 1e-9));
+  const std::int64_t whole = -ceiling(V(-(steps_from_start + slack)));
   Outcome outcome = steps(std::max<std::int64_t>(0, whole - taken_));
-  const V left = value_of(t) - value_of(reached_);
-  if (!outcome.reached() || abs(left) <= V(1e-9) * abs(h)) return outcome;
+  if (!outcome.reached() || abs(end - value_of(reached_)) <= slack * abs(h)) return outcome;
   return to_between(t, taken_ - outcome.steps());
 }
 

@@ -7,76 +7,33 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include <pfaff/core/facets/block.hpp>
 #include <pfaff/core/integrator.hpp>
+#include <pfaff/runs/outcome.hpp>
+#include <pfaff/runs/start.hpp>
 
 namespace pfaff {
 
 template <class T>
 class Integration;
 
-/// Looks at states while they go by, a call for a whole block of them.
+/// Looks at states while they go by, a call for a whole block of them. A block that it is shown has the
+/// states after each of its numbers of steps and no others, whoever else watches and however calls and blocks
+/// are cut.
 template <class T>
 class Watcher {
  public:
   virtual ~Watcher() = default;
   /// Called by watch(), before the first step: the state is that of the start.
   virtual void start(const Integration<T>& run) = 0;
-  /// Looks at the rows of a block. Where several watchers look at different steps, a block has the rows of
-  /// all of them, and more where their numbers of steps are no multiples of each other; Block::row_of finds
-  /// one's own. Returns block.rows, or the row with which the run is to end. The other watchers are shown the
-  /// whole block all the same, and the rows behind the end once more where the run goes on.
-  virtual std::size_t look(const Integration<T>& run, const Block<T>& block) = 0;
-};
-
-/// How a call of Integration::steps or Integration::to ended.
-class [[nodiscard]] Outcome {
- public:
-  enum class End {
-    reached,  // all that was asked for
-    failed,   // a step failed, see status()
-    watcher,  // a watcher ended it
-    asked     // the flag of stop_when() was set
-  };
-  Outcome(End end, Status status, std::int64_t steps, std::string where)
-      : end_(end), status_(status), steps_(steps), where_(std::move(where)) {}
-  [[nodiscard]] End end() const { return end_; }
-  [[nodiscard]] bool reached() const { return end_ == End::reached; }
-  [[nodiscard]] Status status() const { return status_; }
-  /// How many steps of one size, or intervals of a method that chooses its steps, lead to the state.
-  [[nodiscard]] std::int64_t steps() const { return steps_; }
-  /// What ended the call and where, as a sentence without a full stop; empty where all was reached.
-  [[nodiscard]] std::string message() const;
-  /// Throws RunError with the message where not all was reached.
-  void expect_reached() const;
-
- private:
-  End end_;
-  Status status_;
-  std::int64_t steps_;
-  std::string where_;
-};
-
-/// What kind of failure a status is, followed by where it happened; empty for Status::converged.
-[[nodiscard]] std::string failure(Status status, const std::string& where);
-
-/// What an Integration is made of.
-template <class T>
-struct Start {
-  std::shared_ptr<const Model> model;
-  std::shared_ptr<const MethodInstance> method;
-  std::vector<T> state;  // a number for each coordinate of the model
-  T h{0};                // the step, of either sign; with a tolerance the time between the states looked at
-  T t0{0};
-  T tolerance{0};              // > 0: the method chooses its steps, see Tolerance
-  std::vector<T> absolute{};   // absolute tolerances beside it: none, or one for each coordinate
-  std::size_t block_rows = 0;  // the most states that watchers see at once; 0: chosen by their size
+  /// The row with which the run is to end; block.rows where it may go on. All watchers are asked before any
+  /// of them looks, and one of them may end the run at a row before: what is seen here is not to be kept.
+  virtual std::size_t end(const Integration<T>& /*run*/, const Block<T>& block) { return block.rows; }
+  /// Looks at the rows of a block, none of which lies behind the end of the run.
+  virtual void look(const Integration<T>& run, const Block<T>& block) = 0;
 };
 
 /// One integration. Times are t0 + n h, computed from the number n of steps. Of the scalars it is there for
@@ -84,16 +41,16 @@ struct Start {
 template <class T>
 class Integration {
  public:
-  /// InputError where the method refuses the model, where the state has another size or a number that is not
-  /// finite, where the step is zero or not finite, and where a tolerance is given to a method that takes
-  /// fixed steps.
+  /// InputError where there is no model or no method, where the method refuses the model or has coefficients
+  /// in double for an integration in quad, where the state has another size or a number that is not finite,
+  /// where the step is zero or not finite, for tolerances out of range, and where one is given to a method
+  /// that takes fixed steps.
   explicit Integration(Start<T> start);
 
   [[nodiscard]] const std::shared_ptr<const Model>& model() const { return start_.model; }
   [[nodiscard]] const MethodInstance& method() const { return *start_.method; }
   [[nodiscard]] bool adaptive() const { return value_of(start_.tolerance) > Value<T>(0); }
-  /// Of the state. Both belong together after every call that returns, and where a budget ends it between two
-  /// steps. What a formula throws within a step of a method that chooses its steps leaves the time ahead.
+  /// Of the state. Both belong together however a call ends.
   [[nodiscard]] T time() const { return adaptive() ? reached_ : time_of(taken_); }
   [[nodiscard]] T time_of(std::int64_t step) const {
     return start_.t0 + T(static_cast<double>(step)) * start_.h;
@@ -103,8 +60,9 @@ class Integration {
   [[nodiscard]] std::size_t block_rows() const { return block_.capacity; }
   /// The number of the step at which the state stands, counted from t0.
   [[nodiscard]] std::int64_t steps_taken() const { return taken_; }
-  /// The last finite state of those that are looked at; where nobody watches, of all between two steps, but
-  /// of a method with a processor that at the beginning of the call.
+  /// The state that was reached: after a step that failed the last finite one. Where steps were taken several
+  /// at a time, since they are not looked at, those up to the failure are taken again one by one, and a
+  /// method that remembers steps begins to do so anew.
   [[nodiscard]] std::span<const T> state() const { return state_; }
   [[nodiscard]] const Counters& counters() const { return stepper_->counters(); }
 
@@ -119,19 +77,24 @@ class Integration {
   /// Turns round where it is. What the method remembers stays with it, and whether it can use that for steps
   /// of -h is the method's: a leap-frog starts anew. Steps are counted anew from here.
   void turn();
+  /// Goes on from another state, at another time and with another step; steps are counted from there. What
+  /// the method remembers stays with it, which is how methods with a past are led back.
+  void go_on_from(std::vector<T> state, const T& t0, const T& h);
 
-  /// Shows `watcher`, which must outlive the integration, the state after every `every` steps.
+  /// Shows `watcher`, which must outlive the integration, the states after each `every` steps, counted from
+  /// t0.
   void watch(Watcher<T>& watcher, std::int64_t every = 1);
   /// Ends calls of steps() and to() between two steps once the flag is set, which must outlive the
   /// integration.
   void stop_when(const std::atomic<bool>& asked) { asked_ = &asked; }
 
-  /// Takes `count` steps (>= 0). BudgetSpent passes where the budget of this thread ends them; state and time
-  /// are then those that were reached.
+  /// Takes `count` steps (>= 0). BudgetSpent, and what a step throws, pass; state and time are then those
+  /// that were reached. Where a watcher ends the run at a state before, the call ends with that.
   Outcome steps(std::int64_t count);
-  /// Takes whole steps until `t` is reached to a billionth of a step, or passed by less than one. With a
-  /// tolerance it ends at `t`, or to a billionth of an interval at the end of one. InputError for a time that
-  /// lies behind.
+  /// Takes whole steps until `t` is reached, or passed by less than one. With a tolerance it ends at `t`, or
+  /// where that is the end of an interval, there. Times are compared to a billionth of a step and to what
+  /// round-off of the times makes of it. InputError for a time that lies behind by a step or more, with a
+  /// tolerance for all that lie behind; where the step is 0, none does.
   Outcome to(const T& t);
 
  private:
@@ -143,6 +106,8 @@ class Integration {
   Status fill(std::int64_t stride, std::int64_t rows);
   Status fill_adaptive(std::int64_t rows);
   Status fill_and_look(std::int64_t stride, std::int64_t rows, bool& ends);
+  void up_to_the_failure(std::int64_t steps);
+  const Block<T>& shown_to(const Watching& watching);
   bool look();
   Status advance_to(const T& t);
   Outcome to_between(const T& t, std::int64_t begin);
@@ -155,6 +120,7 @@ class Integration {
   std::int64_t taken_ = 0;
   StepperPointer<T> stepper_;
   Block<T> block_;
+  std::unique_ptr<Block<T>> thinned_;  // for watchers that look at fewer steps than others
   std::vector<Watching> watching_;
   const std::atomic<bool>* asked_ = nullptr;
 };

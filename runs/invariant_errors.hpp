@@ -28,14 +28,13 @@ class InvariantErrors final : public Watcher<T> {
     const std::span<const T> initial = values_->at(run.time(), run.state());
     initial_.assign(initial.begin(), initial.end());
   }
-  std::size_t look(const Integration<T>& /*run*/, const Block<T>& block) override {
-    if (initial_.empty()) return block.rows;
+  void look(const Integration<T>& /*run*/, const Block<T>& block) override {
+    if (initial_.empty()) return;
     const Tiles<T>& values = (*values_)(block);
     for (std::size_t i = 0; i < initial_.size(); ++i) {
       const T worst = largest_error(values, i, block.rows);
       if (!(worst <= largest_[i])) largest_[i] = isfinite(worst) ? worst : T(infinity);
     }
-    return block.rows;
   }
   /// The largest absolute difference from its first value of each invariant, in its unit.
   [[nodiscard]] const std::vector<T>& largest() const { return largest_; }

@@ -23,8 +23,8 @@ class Stepper {
   /// Steps first … first + count - 1 of size h (of either sign) from t0; see pfaff::advance. Where the state
   /// that they reach is not finite, the status is non_finite, z is as it was before the call, `completed` is
   /// 0, and the history is dropped: which of several steps left the range of numbers is known to whoever
-  /// takes them one by one. BudgetSpent from within a step leaves z as it was before the call and `completed`
-  /// 0.
+  /// takes them one by one. What a step throws leaves z as it was before the call and `completed` 0, and
+  /// drops the history.
   virtual Status advance(const T& t0, std::int64_t first, const T& h, std::int64_t count, std::span<T> z,
                          std::int64_t& completed) = 0;
   /// Fills rows 0 … rows - 1 (at most block.capacity) of a block whose first, stride, t0 and h are set: row 0
@@ -32,12 +32,13 @@ class Stepper {
   /// are those of advance() called for one row after the other. block.rows says how many rows were filled,
   /// all of them finite; z is the state after `completed` steps, which a step that fails and a budget that
   /// ends leave between two rows. Where a state is not finite, z is that of the row before, the status is
-  /// non_finite and the history is dropped. Where a step throws, the rows before it stay, and z is the state
-  /// of the last.
+  /// non_finite and the history is dropped, as it is where a step throws: the rows before it stay, and z is
+  /// the state of the last.
   virtual Status fill(Block<T>& block, std::size_t rows, std::span<T> z, std::int64_t& completed) = 0;
   /// From t to `end` with steps of the method's choosing at `tolerance`, of which a number is the relative
-  /// part; t is left where it got to, also where BudgetSpent is thrown between two steps. Where the state
-  /// there is not finite, the status is non_finite, and t, z and the counted steps are as they were.
+  /// part; t and z are left where it got to, also where BudgetSpent is thrown between two steps. Where the
+  /// state there is not finite, the status is non_finite, and t, z and the counted steps are as they were, as
+  /// they are where a step throws.
   /// InputError for a start at rest in zero without absolute tolerances.
   virtual Status advance_to(T& t, const T& end, const Tolerance<T>& tolerance, std::span<T> z) = 0;
   /// Drops history and compensation: the next step depends on its state alone.
@@ -102,14 +103,21 @@ class SteppingOn final : public Stepper<Scalar<P>> {
   Status advance_to(T& t, const T& end, const Tolerance<T>& tolerance, std::span<T> z) override {
     if constexpr (requires { method_.advance_to(problem_, t, end, tolerance, state_, *work_); }) {
       std::copy(z.begin(), z.end(), state_.begin());
-      const T begin = t;
+      T reached = t;
       const auto steps = problem_.counters().steps;
-      const Status status = method_.advance_to(problem_, t, end, tolerance, state_, *work_);
-      if (!finite()) {
-        t = begin;
+      const auto left = [&] {
         problem_.counters().steps = steps;
         return left_as_it_was();
+      };
+      Status status = Status::converged;
+      try {
+        status = method_.advance_to(problem_, reached, end, tolerance, state_, *work_);
+      } catch (...) {
+        (void)left();
+        throw;
       }
+      if (!finite()) return left();
+      t = reached;
       std::copy(state_.begin(), state_.end(), z.begin());
       if (status == Status::converged && t != end) spend(1, 0);
       return status;
@@ -128,11 +136,17 @@ class SteppingOn final : public Stepper<Scalar<P>> {
       if (!isfinite(value_of(x))) return false;
     return true;
   }
-  // One loop for both calls, since every method is compiled with it for several sizes and scalars.
+  // One loop for both calls, since every method is compiled with it for several sizes and scalars. What a
+  // method remembers of a step that throws belongs to no state.
   [[gnu::noinline]] Status loop(const T& t0, std::int64_t first, const T& h, std::int64_t rows,
                                 std::int64_t stride, Block<T>* block, std::int64_t& completed) {
-    return advance_as_allowed(method_, problem_, t0, first, h, rows, stride, block, state_, *work_,
-                              completed);
+    try {
+      return advance_as_allowed(method_, problem_, t0, first, h, rows, stride, block, state_, *work_,
+                                completed);
+    } catch (...) {
+      forget();
+      throw;
+    }
   }
   // Of a call that did not come to its end the finite rows count, and z is the last of them.
   void ends_with_rows(Block<T>& block, std::span<T> z, std::int64_t& completed) {

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <limits>
 
-#include <pfaff/bench/falsification/many_steps.hpp>
 #include <pfaff/core/errors/budget.hpp>
 #include <pfaff/core/facets/block.hpp>
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/runs/motion.hpp>
+#include <pfaff/verify/falsification/many_steps.hpp>
 
 #include "../formula_values.hpp"
 #include "explosion.hpp"

@@ -72,7 +72,7 @@ TEST(Integration, WatchersSeeTheirStepsWhateverTheCalls) {
     for (const std::vector<std::int64_t>& calls :
          {std::vector<std::int64_t>{120}, {1, 1, 1, 117}, {59, 61}, {13, 30, 0, 77}}) {
       auto run = integrate("henon-heiles", {}, "gauss", {}, {.step = "0.1", .block_rows = block_rows});
-      Notes threes(3), fives(5);
+      Notes threes, fives;
       run.watch(threes, 3);
       run.watch(fives, 5);
       for (const std::int64_t count : calls) EXPECT_TRUE(run.steps(count).reached());
@@ -90,7 +90,7 @@ TEST(Integration, WatchersSeeTheirStepsWhateverTheCalls) {
 
 TEST(Integration, EndsAtTheRowThatAWatcherNames) {
   auto run = integrate("kepler", {}, "gauss", {}, {.step = "0.1"});
-  Notes until(1, 37);
+  Notes until(37);
   run.watch(until);
   const Outcome outcome = run.steps(1000);
   EXPECT_EQ(outcome.end(), Outcome::End::watcher);
@@ -156,6 +156,7 @@ TEST(Integration, GoesToATime) {
   EXPECT_EQ(run.to(0.3).steps(), 3);  // to a billionth of a step, though 3 times 0.1 is beyond it
   EXPECT_EQ(run.to(0.3).steps(), 0);
   EXPECT_EQ(run.to(0.55).steps(), 3);
+  EXPECT_EQ(run.to(0.55).steps(), 0);
   EXPECT_EQ(run.time(), 6 * 0.1);
   try {
     (void)run.to(0.1);
@@ -198,9 +199,8 @@ class Asks final : public Watcher<double> {
  public:
   Asks(std::atomic<bool>& flag, std::int64_t step) : flag_(flag), step_(step) {}
   void start(const Integration<double>& /*run*/) override {}
-  std::size_t look(const Integration<double>& /*run*/, const Block<double>& block) override {
+  void look(const Integration<double>& /*run*/, const Block<double>& block) override {
     if (block.step(block.rows - 1) >= step_) flag_ = true;
-    return block.rows;
   }
 
  private:
@@ -258,10 +258,7 @@ TEST(Integration, KeepsTheLastFiniteState) {
 class Unable final : public Watcher<double> {
  public:
   void start(const Integration<double>& /*run*/) override { throw InputError("unable"); }
-  std::size_t look(const Integration<double>& /*run*/, const Block<double>& block) override {
-    looks += 1;
-    return block.rows;
-  }
+  void look(const Integration<double>& /*run*/, const Block<double>& /*block*/) override { looks += 1; }
   int looks = 0;
 };
 TEST(Integration, AWatcherThatCannotBeginDoesNotWatch) {

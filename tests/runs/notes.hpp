@@ -17,17 +17,17 @@ inline Coordinates state_of(const Integration<double>& run) {
 // Notes the steps, times and states that it is shown, and ends a run after a step.
 class Notes final : public Watcher<double> {
  public:
-  explicit Notes(std::int64_t every = 1, std::int64_t last = -1) : every_(every), last_(last) {}
+  explicit Notes(std::int64_t last = -1) : last_(last) {}
   void start(const Integration<double>& run) override { note(run.steps_taken(), run.time(), state_of(run)); }
-  std::size_t look(const Integration<double>& /*run*/, const Block<double>& block) override {
+  std::size_t end(const Integration<double>& /*run*/, const Block<double>& block) override {
+    return last_ < 0 ? block.rows : block.row_of(last_);
+  }
+  void look(const Integration<double>& /*run*/, const Block<double>& block) override {
+    Coordinates z(block.states.components());
     for (std::size_t row = 0; row < block.rows; ++row) {
-      if (block.step(row) % every_ != 0) continue;
-      Coordinates z(block.states.components());
       block.states.get(row, z);
       note(block.step(row), block.time(row), z);
-      if (block.step(row) == last_) return row;
     }
-    return block.rows;
   }
   std::vector<std::int64_t> steps;
   std::vector<double> times;
@@ -37,7 +37,7 @@ class Notes final : public Watcher<double> {
   void note(std::int64_t step, double t, const Coordinates& z) {
     steps.push_back(step), times.push_back(t), states.push_back(z);
   }
-  std::int64_t every_, last_;
+  std::int64_t last_;
 };
 
 }  // namespace pfaff::testing
