@@ -12,6 +12,7 @@
 #include <pfaff/core/registry/range_text.hpp>
 #include <pfaff/integrators/tables/method_table.hpp>
 #include <pfaff/runs/asked_for.hpp>
+#include <pfaff/runs/measure.hpp>
 #include <pfaff/runs/motion.hpp>
 #include <pfaff/systems/text/text_system.hpp>
 
@@ -275,6 +276,22 @@ nlohmann::json describe_formulation(const FormulationPlugin& plugin) {
   return j;
 }
 
+nlohmann::json describe_measure(const MeasurePlugin& plugin) {
+  const auto measure = plugin.make({});
+  const MeasureDescriptor& d = plugin.descriptor();
+  nlohmann::json j{{"kind", "measure"},
+                   {"name", plugin.name()},
+                   {"title", d.title},
+                   {"reference", d.reference},
+                   {"description", d.description},
+                   {"over", d.over == Over::time ? "time" : "step"},
+                   {"usual", d.usual},
+                   {"parameters", parameters_of(plugin, measure->parameters())},
+                   {"watches", nlohmann::json::array()}};
+  for (const Claim claim : d.watches) j["watches"].push_back(to_string(claim));
+  return j;
+}
+
 nlohmann::json describe_experiment(const std::string& name) {
   Experiment e = read_experiment(name, false);
   std::erase(e.description, '$');  // which stand around equations
@@ -310,13 +327,14 @@ std::vector<nlohmann::json> describe(const std::string& asked, const std::vector
   if (const auto* bracket = brackets().find(name)) found.push_back(describe_bracket(*bracket));
   if (const auto* formulation = formulations().find(name))
     found.push_back(describe_formulation(*formulation));
+  if (const auto* measure = measures().find(name)) found.push_back(describe_measure(*measure));
   const std::vector<std::string> experiments = experiment_names();
   if (std::find(experiments.begin(), experiments.end(), name) != experiments.end())
     found.push_back(describe_experiment(name));
   if (!found.empty()) return found;
   std::vector<std::string> names;
   for (const auto& more : {systems().names(), integrators().names_and_aliases(), brackets().names(),
-                           formulations().names(), experiments, also_known})
+                           formulations().names(), measures().names(), experiments, also_known})
     for (const std::string& one : more)
       if (std::find(names.begin(), names.end(), one) == names.end()) names.push_back(one);
   throw InputError(unknown_name("name", name, names));

@@ -14,11 +14,13 @@
 #include <pfaff/core/formulation.hpp>
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
+#include <pfaff/runs/measure.hpp>
 
 namespace pfaff::app {
 
 namespace {
-const std::vector<std::string> kinds{"systems", "integrators", "brackets", "formulations", "experiments"};
+const std::vector<std::string> kinds{"systems",      "integrators", "brackets",
+                                     "formulations", "measures",    "experiments"};
 
 // The plug-ins of a kind with title and folder, in the order of folders.
 template <class P>
@@ -38,6 +40,7 @@ nlohmann::json entries_of_kind(const std::string& kind) {
   if (kind == "systems") return entries_of(systems(), kind);
   if (kind == "brackets") return entries_of(brackets(), kind);
   if (kind == "formulations") return entries_of(formulations(), kind);
+  if (kind == "measures") return entries_of(measures(), kind);
   if (kind == "integrators") {
     nlohmann::json entries = entries_of(integrators(), kind);
     const SurveyedSystems known;
@@ -60,6 +63,7 @@ std::vector<std::string> names_of_kind(const std::string& kind) {
   if (kind == "integrators") return integrators().names();
   if (kind == "brackets") return brackets().names();
   if (kind == "formulations") return formulations().names();
+  if (kind == "measures") return measures().names();
   return experiment_names();
 }
 
@@ -156,6 +160,7 @@ int plugins_in_markdown() {
   print_markdown("Integrators", integrators());
   print_markdown("Brackets", brackets());
   print_markdown("Formulations", formulations());
+  print_markdown("Measures", measures());
   return 0;
 }
 
@@ -261,11 +266,11 @@ int list(const ListOptions& options, bool json) {
 }  // namespace
 
 void add_list(CLI::App& app, Common& common, Action& action) {
-  CLI::App* sub =
-      subcommand(app, common, "list", "List systems, integrators, brackets, formulations and experiments");
+  CLI::App* sub = subcommand(app, common, "list",
+                             "List systems, integrators, brackets, formulations, measures and experiments");
   auto options = std::make_shared<ListOptions>();
   sub->add_option("kind", options->kind, "What is listed; all kinds without, but for facets")
-      ->type_name("systems|integrators|brackets|formulations|experiments|facets");
+      ->type_name("systems|integrators|brackets|formulations|measures|experiments|facets");
   sub->add_flag("--names", options->names, "The names alone, one a line")->excludes("--json");
   sub->add_flag("--markdown", options->markdown,
                 "All plug-ins as a page of Markdown, or integrators and what they keep")

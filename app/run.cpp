@@ -10,6 +10,7 @@
 #include <pfaff/bench/runner/config_file.hpp>
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/bench/runner/interruption.hpp>
+#include <pfaff/bench/runner/measure_tables.hpp>
 #include <pfaff/bench/runner/run_directory.hpp>
 #include <pfaff/bench/runner/terminal.hpp>
 #include <pfaff/runs/motion.hpp>
@@ -20,7 +21,7 @@ namespace {
 
 struct RunOptions {
   RunSettings settings;
-  std::vector<std::string> set;
+  std::vector<std::string> set, measures;
   std::string every, absolute, precision, out, state, config, reference, max_steps;
   bool force = false;
 };
@@ -103,7 +104,8 @@ std::string of_the_reference(const nlohmann::json& j) {
 }
 
 // A summary for the terminal.
-std::string summary_table(const nlohmann::json& j, const std::string& written, const std::string& out) {
+std::string summary_table(const nlohmann::json& j, const std::string& written, const std::string& out,
+                          const TableRows& tables) {
   const auto number = [&](const nlohmann::json& x) {
     return x.is_number() && std::isfinite(x.get<double>()) ? scientific(x.get<double>()) : "not finite";
   };
@@ -142,6 +144,7 @@ std::string summary_table(const nlohmann::json& j, const std::string& written, c
                                    ? ", which follows from the other constraints, has no reaction"
                                    : ", which follow from the other constraints, have no reactions")});
   }
+  rows.insert(rows.end(), tables.begin(), tables.end());
   rows.push_back({written, out + "/{config.toml, series.csv, summary.json}"});
   return facts(rows);
 }
@@ -191,8 +194,37 @@ RunRecord executed(const ResolvedRun& resolved, bool quiet) {
       &Interruption::stop());
 }
 
+// The measures that are asked for, all of which fit the run.
+Measures fitting_measures(const RunOptions& options, const ResolvedRun& resolved) {
+  Measures measures = measures_asked_for(options.measures);
+  if (!measures.empty() && options.out == "-")
+    throw InputError("--measure: tables of measures go to the directory of the run; expected --out DIR");
+  for (const auto& measure : measures)
+    if (const std::string reason = refuses(*measure, resolved); !reason.empty())
+      throw InputError("--measure: " + reason);
+  return measures;
+}
+
+// Makes the tables of measures, and gives the rows that tell of them, their names in the summary too.
+TableRows measured(const RunOptions& options, const ResolvedRun& resolved, const Measures& measures,
+                   const nlohmann::json& summary) {
+  TableRows rows;
+  if (measures.empty() || summary["status"] != "converged") return rows;
+  const Interruption interruption;
+  const Budget budget({}, &Interruption::stop());
+  const auto tables = tables_of(options.out, resolved, summary["checksum"], measures);
+  for (std::size_t m = 0; m < measures.size(); ++m) {
+    const std::string& name = measures[m]->descriptor().name;
+    rows.push_back({name, std::to_string(tables[m].lines.size()) + " rows in " + options.out + "/" +
+                              measures_directory + "/" + name + ".csv" +
+                              (tables[m].ended.empty() ? "" : "; ended early: " + tables[m].ended)});
+  }
+  return rows;
+}
+
 int run(const RunOptions& options, const Common& common) {
   const ResolvedRun resolved = resolved_run(options);
+  const Measures measures = fitting_measures(options, resolved);
   if (const std::string end = of_the_last_step(resolved); !end.empty() && !common.quiet)
     std::cerr << "pfaff: " << end << '\n';
   if (options.out == "-") {
@@ -208,7 +240,7 @@ int run(const RunOptions& options, const Common& common) {
   }
   const std::filesystem::path directory = options.out;
   std::vector<std::string> ours = run_file_names();
-  ours.emplace_back(run_figures_directory);
+  ours.insert(ours.end(), {run_figures_directory, measures_directory});
   const auto experiment = take_experiment_of(directory, "pfaff run");
   const auto held = take_output_directory(directory, "pfaff run", ours);
   const KeptRun kept = kept_run(directory, resolved);
@@ -225,9 +257,10 @@ int run(const RunOptions& options, const Common& common) {
   }
   const nlohmann::json j =
       kept.current() ? kept.summary : write_run(directory, resolved, executed(resolved, common.quiet));
+  const TableRows tables = measured(options, resolved, measures, j);
   if (common.quiet) return finish(j, "");
-  return finish(
-      j, common.json ? json_text(j) : summary_table(j, kept.current() ? "kept" : "written", options.out));
+  return finish(j, common.json ? json_text(j)
+                               : summary_table(j, kept.current() ? "kept" : "written", options.out, tables));
 }
 
 }  // namespace
@@ -277,6 +310,11 @@ void add_run(CLI::App& app, Common& common, Action& action) {
                 "Compile the system's formulas with the C++ compiler of this machine");
   sub->add_flag("--project-initial", s.project_initial, "Move the initial state onto the constraints");
   sub->add_flag("--allow-inconsistent", s.allow_inconsistent, "Take an initial state off the constraints");
+  sub->add_option("--measure", options->measures,
+                  "Measure the run too: a measure of pfaff list measures, with settings as in NAME(looks=10)")
+      ->type_name("MEASURE")
+      ->expected(1)
+      ->take_all();
   sub->add_option("--config", options->config, "config.toml of an earlier run, to run it again")
       ->type_name("FILE");
   sub->add_flag("--force", options->force, "Run anew what was made from other files or builds");

@@ -7,6 +7,7 @@
 #include <pfaff/core/bracket.hpp>
 #include <pfaff/core/formulation.hpp>
 #include <pfaff/integrators/tables/method_table.hpp>
+#include <pfaff/runs/measure.hpp>
 #include <pfaff/systems/text/text_system.hpp>
 
 namespace pfaff {
@@ -26,7 +27,8 @@ std::string in_small_letters(std::string name) {
 std::string spelled(const std::string& name) {
   const std::string small = in_small_letters(name);
   const bool registered = systems().find(small) != nullptr || integrators().find(small) != nullptr ||
-                          brackets().find(small) != nullptr || formulations().find(small) != nullptr;
+                          brackets().find(small) != nullptr || formulations().find(small) != nullptr ||
+                          measures().find(small) != nullptr;
   return registered ? small : name;
 }
 

@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
-#include <pfaff/bench/experiment/cells.hpp>
 #include <pfaff/bench/experiment/error_measure.hpp>
+#include <pfaff/bench/runner/csv_cells.hpp>
 #include <pfaff/bench/runner/parallel.hpp>
 #include <pfaff/runs/asked_for.hpp>
 

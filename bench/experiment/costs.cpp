@@ -6,9 +6,9 @@
 #include <sstream>
 #include <system_error>
 
-#include <pfaff/bench/experiment/cells.hpp>
 #include <pfaff/bench/experiment/experiment_directory.hpp>
 #include <pfaff/bench/experiment/machine.hpp>
+#include <pfaff/bench/runner/csv_cells.hpp>
 #include <pfaff/bench/runner/files.hpp>
 
 namespace pfaff {

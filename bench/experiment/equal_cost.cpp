@@ -7,11 +7,11 @@
 #include <set>
 #include <sstream>
 
-#include <pfaff/bench/experiment/cells.hpp>
 #include <pfaff/bench/experiment/costs.hpp>
 #include <pfaff/bench/experiment/error_measure.hpp>
 #include <pfaff/bench/experiment/results.hpp>
 #include <pfaff/bench/runner/config_file.hpp>
+#include <pfaff/bench/runner/csv_cells.hpp>
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/bench/runner/parallel.hpp>
 #include <pfaff/bench/runner/run_directory.hpp>

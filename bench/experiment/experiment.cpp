@@ -4,17 +4,15 @@
 #include <map>
 
 #include <pfaff/bench/experiment/automatic_steps.hpp>
-#include <pfaff/bench/experiment/contraction.hpp>
 #include <pfaff/bench/experiment/costs.hpp>
 #include <pfaff/bench/experiment/equal_cost.hpp>
 #include <pfaff/bench/experiment/experiment_description.hpp>
 #include <pfaff/bench/experiment/experiment_directory.hpp>
 #include <pfaff/bench/experiment/experiment_findings.hpp>
 #include <pfaff/bench/experiment/frequencies.hpp>
-#include <pfaff/bench/experiment/loop_invariant.hpp>
+#include <pfaff/bench/experiment/measured_runs.hpp>
 #include <pfaff/bench/experiment/references.hpp>
 #include <pfaff/bench/experiment/results.hpp>
-#include <pfaff/bench/experiment/reversibility.hpp>
 #include <pfaff/bench/experiment/team.hpp>
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/bench/runner/run_directory.hpp>
@@ -225,10 +223,9 @@ void make_all(Experiment experiment, const fs::path& directory, const Experiment
     if (s["status"] != "converged") ++outcome.failed;
   write_file(directory / "results.csv", results_csv(runs, summaries));
   write_or_remove(directory / "ensembles.csv", ensembles_csv(runs, summaries));
-  write_or_remove(directory / "contraction.csv", contraction_csv(runs, summaries));
-  report(ExperimentStage::phases, "loops of states", 0);
-  write_or_remove(directory / "loops.csv", loops_csv(runs, summaries));
-  write_or_remove(directory / "reversibility.csv", reversibility_csv(runs, summaries));
+  report(ExperimentStage::phases, "measures", 0);
+  std::string notes;
+  write_measures(directory, measures_of(experiment), runs, summaries, notes);
   report(ExperimentStage::phases, "frequencies", 0);
   write_or_remove(directory / "frequencies.csv", frequencies_csv(runs, summaries));
   const std::vector<Finding> findings = findings_of(experiment, runs, summaries);
@@ -237,7 +234,7 @@ void make_all(Experiment experiment, const fs::path& directory, const Experiment
   outcome.failed_claims = failed_claims(findings);
   write_equal_cost(directory, experiment, runs, summaries, references, progress);
   outcome.table = results_table(directory, experiment, runs, summaries) + findings_table(findings) +
-                  ended_references(runs, summaries);
+                  ended_references(runs, summaries) + notes;
   if (options.report) {
     report(ExperimentStage::phases, "figures and report", 0);
     outcome.report = make_report(directory);

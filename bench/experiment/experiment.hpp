@@ -17,6 +17,7 @@
 #include <pfaff/bench/experiment/derivation_study.hpp>
 #include <pfaff/bench/experiment/parameter_grid.hpp>
 #include <pfaff/bench/runner/directory_lock.hpp>
+#include <pfaff/bench/runner/measure_tables.hpp>
 #include <pfaff/bench/runner/record.hpp>
 
 namespace pfaff {
@@ -91,6 +92,7 @@ struct Experiment {
   std::optional<MethodSelection> selection;
   std::vector<ExperimentCase> cases;
   std::vector<ExperimentClaim> claims;
+  std::optional<Measures> measures;           // that it names; without a list the usual ones
   std::optional<DerivationStudy> derivation;  // in the place of methods, cases and claims
   bool quick = false;
   bool compile = false;  // as `compile = yes` of every run

@@ -4,6 +4,7 @@
 
 #include <pfaff/bench/experiment/automatic_steps.hpp>
 #include <pfaff/bench/experiment/citations.hpp>
+#include <pfaff/bench/experiment/measured_runs.hpp>
 
 namespace pfaff {
 
@@ -26,6 +27,14 @@ nlohmann::json description(const Experiment& experiment, const std::vector<Exper
                                   {"measure", entry.measure},
                                   {"grows", entry.grows},
                                   {"keeps", entry.keeps}});
+  // The measures that say something of a run.
+  j["measures"] = nlohmann::json::array();
+  for (const auto& measure : measures_of(experiment))
+    if (const auto run = std::find_if(
+            runs.begin(), runs.end(),
+            [&](const ExperimentRun& r) { return r.seed == 0 && refuses(*measure, r.resolved).empty(); });
+        run != runs.end())
+      j["measures"].push_back(description_of(*measure, *run->resolved.model));
   j["citation"] = nlohmann::json::array();
   for (const std::string& key : experiment.reference) j["citation"].push_back(citation(key));
   for (const ExperimentCase& c : experiment.cases) {

@@ -1,6 +1,7 @@
 #include <pfaff/bench/experiment/experiment_directory.hpp>
 
 #include <pfaff/bench/runner/files.hpp>
+#include <pfaff/bench/runner/measure_tables.hpp>
 #include <pfaff/core/errors/errors.hpp>
 
 namespace pfaff {
@@ -31,8 +32,8 @@ void refuse_another_experiment(const fs::path& directory, const nlohmann::json& 
 void remove_derived(const fs::path& directory) {
   std::error_code error;
   for (const char* name :
-       {"results.csv", "equal_cost.csv", "ensembles.csv", "contraction.csv", "loops.csv", "reversibility.csv",
-        "frequencies.csv", "findings.csv", "fits.csv", "report.html", "report.json", "figures"})
+       {"results.csv", "equal_cost.csv", "ensembles.csv", measures_directory, "frequencies.csv",
+        "findings.csv", "fits.csv", "report.html", "report.json", "figures"})
     fs::remove_all(directory / name, error);
 }
 

@@ -250,7 +250,16 @@ void read_head(Keys& keys, const Part& part, bool included, Experiment& experime
   }
   Asked asked;
   read_question(keys, part.name(), asked);
+  const bool measures_named = part.root.get("measures") != nullptr;
+  const std::vector<std::string> measures = keys.list("measures");
   if (included) return;
+  if (measures_named) {
+    try {
+      experiment.measures = measures_asked_for(measures);
+    } catch (const InputError& error) {
+      keys.refuse("measures", error.what());
+    }
+  }
   experiment.asked = asked;
   experiment.title = title;
   experiment.description = description;

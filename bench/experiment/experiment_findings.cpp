@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <pfaff/bench/experiment/cells.hpp>
+#include <pfaff/bench/runner/csv_cells.hpp>
 #include <pfaff/bench/runner/text_table.hpp>
 #include <pfaff/runs/support/constraints.hpp>
 #include <pfaff/runs/support/setback.hpp>

@@ -7,11 +7,11 @@
 #include <map>
 #include <numbers>
 
-#include <pfaff/bench/experiment/carried_states.hpp>
-#include <pfaff/bench/experiment/cells.hpp>
+#include <pfaff/bench/runner/csv_cells.hpp>
 #include <pfaff/bench/runner/parallel.hpp>
 #include <pfaff/core/tape/replay.hpp>
 #include <pfaff/core/text/scope.hpp>
+#include <pfaff/runs/measure.hpp>
 
 namespace pfaff {
 
@@ -85,21 +85,19 @@ std::vector<FoundFrequency> frequencies_of(const ExperimentRun& run, const Refer
   const double h = resolved.step.value(), t0 = resolved.t0.value();
   const auto steps = static_cast<std::int64_t>(time.value() / h * (1 + 1e-12));
   VectorTracks vectors(run);
-  std::vector<double> initial, times;
-  for (const Real& x : resolved.initial) initial.push_back(x.value());
-  std::vector<std::vector<double>> states{initial};
+  std::vector<double> times;
   std::vector<std::vector<TurningVector>> of_method, of_solution;
-  carry(resolved, states, steps, looks_at_vectors, [&](std::int64_t step) {
-    const double elapsed = static_cast<double>(step) * h;
+  Integration<double> carried(start_of<double>(resolved));
+  for (const std::int64_t step : evenly(steps, looks_at_vectors)) {
     const Quad at = resolved.t0.quad() + Quad(static_cast<double>(step)) * resolved.step.quad();
-    if (!solution.covers(at)) return false;
+    if (!carried.steps(step - carried.steps_taken()).reached() || !solution.covers(at)) break;
+    const double elapsed = static_cast<double>(step) * h;
     times.push_back(elapsed);
-    vectors.append(t0 + elapsed, states[0], of_method);
+    vectors.append(t0 + elapsed, {carried.state().begin(), carried.state().end()}, of_method);
     std::vector<double> exact;
     for (const Quad& x : solution.at(at)) exact.push_back(static_cast<double>(x));
     vectors.append(t0 + elapsed, exact, of_solution);
-    return true;
-  });
+  }
   const bool whole = !times.empty() && times.back() >= static_cast<double>(steps) * h * (1 - 1e-9);
   std::vector<FoundFrequency> found;
   for (std::size_t k = 0; k < of_method.size(); ++k) {

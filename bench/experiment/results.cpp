@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <pfaff/bench/experiment/cells.hpp>
 #include <pfaff/bench/experiment/error_measure.hpp>
+#include <pfaff/bench/runner/csv_cells.hpp>
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/core/process/child_program.hpp>
 

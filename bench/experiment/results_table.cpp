@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include <pfaff/bench/experiment/cells.hpp>
 #include <pfaff/bench/experiment/costs.hpp>
 #include <pfaff/bench/experiment/error_measure.hpp>
 #include <pfaff/bench/experiment/experiment_findings.hpp>
 #include <pfaff/bench/experiment/results.hpp>
+#include <pfaff/bench/runner/csv_cells.hpp>
 #include <pfaff/bench/runner/text_table.hpp>
 #include <pfaff/core/numbers/formatted.hpp>
 #include <pfaff/runs/support/constraints.hpp>

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <limits>
 
 #include <pfaff/core/errors/errors.hpp>
 
@@ -41,6 +42,16 @@ int new_file(const fs::path& path) {
   return open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
 }
 }  // namespace
+
+std::optional<std::string> text_in(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) return std::nullopt;
+  try {
+    return read_file(path, std::numeric_limits<std::uint64_t>::max());
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
 
 void check_new_file(const fs::path& path, const std::string& option) {
   const std::string where = option + " '" + path.string() + "': ";

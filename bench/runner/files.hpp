@@ -17,6 +17,10 @@ namespace pfaff {
 /// is a new one whatever stands there. RunError when the disk is full or not writable.
 void write_file(const std::filesystem::path& path, const std::string& text);
 
+/// The text of a file of ours, however long the run was that wrote it; nullopt where there is none that can
+/// be read.
+std::optional<std::string> text_in(const std::filesystem::path& path);
+
 /// Refuses a path at which `option` is to leave a file where something stands there already, or where no file
 /// can be made (InputError). Leaves nothing there.
 void check_new_file(const std::filesystem::path& path, const std::string& option);

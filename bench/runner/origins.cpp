@@ -18,6 +18,7 @@
 #include <pfaff/core/process/checksum.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/integrators/tables/method_table.hpp>
+#include <pfaff/runs/measure.hpp>
 
 namespace pfaff {
 
@@ -55,6 +56,7 @@ const Plugin* plugin_of(const std::string& kind, const std::string& name) {
   if (kind == "integrator") return integrators().find(name);
   if (kind == "formulation") return formulations().find(name);
   if (kind == "bracket") return brackets().find(name);
+  if (kind == "measure") return measures().find(name);
   return nullptr;
 }
 

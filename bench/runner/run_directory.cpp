@@ -23,16 +23,6 @@ std::string checksum(const std::string& config, const std::string& series, nlohm
   return sha1_of(sha1_of(config) + sha1_of(series) + sha1_of(text_of(summary)));
 }
 
-std::optional<std::string> text_in(const fs::path& path) {
-  std::error_code error;
-  if (!fs::is_regular_file(path, error)) return std::nullopt;
-  try {
-    return read_file(path, std::numeric_limits<std::uint64_t>::max());  // as long as the run was
-  } catch (const InputError&) {
-    return std::nullopt;
-  }
-}
-
 // The summary of a directory whose files belong together and are undamaged; null otherwise.
 nlohmann::json verified_summary(const fs::path& directory, const std::string& config) {
   const auto series = text_in(directory / series_name), text = text_in(directory / summary_name);

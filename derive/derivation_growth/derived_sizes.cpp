@@ -4,7 +4,7 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
-#include <pfaff/bench/experiment/cells.hpp>
+#include <pfaff/bench/runner/csv_cells.hpp>
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/core/numbers/formatted.hpp>
 

@@ -1,0 +1,90 @@
+#include <pfaff/bench/experiment/measured_runs.hpp>
+
+#include <algorithm>
+#include <map>
+
+#include <pfaff/bench/runner/csv_cells.hpp>
+#include <pfaff/bench/runner/files.hpp>
+#include <pfaff/bench/runner/parallel.hpp>
+
+namespace pfaff {
+
+namespace fs = std::filesystem;
+
+Measures measures_of(const Experiment& experiment) {
+  if (experiment.measures) return *experiment.measures;
+  Measures usual;
+  for (const MeasurePlugin* measure : measures().all())
+    if (measure->descriptor().usual) usual.push_back(measure->make({}));
+  return usual;
+}
+
+std::vector<const ExperimentRun*> measured_runs(const MeasureInstance& measure,
+                                                const std::vector<ExperimentRun>& runs,
+                                                const std::vector<nlohmann::json>& summaries) {
+  std::vector<const ExperimentRun*> found;
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    const ExperimentRun& run = runs[k];
+    if (run.seed > 0 || summaries[k]["status"] != "converged" || !refuses(measure, run.resolved).empty())
+      continue;
+    const auto same = std::find_if(found.begin(), found.end(), [&](const ExperimentRun* other) {
+      return other->which == run.which && other->method == run.method;
+    });
+    if (measure.descriptor().over == Over::step || same == found.end()) {
+      found.push_back(&run);
+    } else if ((*same)->resolved.step < run.resolved.step) {
+      *same = &run;
+    }
+  }
+  return found;
+}
+
+namespace {
+// Adds the table of a run to the joined one, whose columns are those of the first run.
+void join(const ExperimentRun& run, const MeasureInstance& measure, const MeasureTable& table,
+          MeasureTable& joined, std::string& notes) {
+  const auto note = [&](const std::string& what) {
+    notes += measure.descriptor().name + " of " + in_words(run) + " " + what + "\n";
+  };
+  if (joined.columns.empty()) joined.columns = table.columns;
+  if (table.columns != joined.columns)
+    return note("is left out: it has other columns than in the first case");
+  if (!table.ended.empty()) note("ends early: " + table.ended);
+  const std::string begin =
+      csv_quoted(run.which->name) + "," + csv_quoted(run.method->label) + "," + csv_quoted(run.step) + ",";
+  for (const std::string& line : table.lines) joined.lines.push_back(begin + line);
+}
+}  // namespace
+
+void write_measures(const fs::path& directory, const Measures& measures,
+                    const std::vector<ExperimentRun>& runs, const std::vector<nlohmann::json>& summaries,
+                    std::string& notes) {
+  std::map<const ExperimentRun*, Measures> wanted;
+  for (const auto& measure : measures)
+    for (const ExperimentRun* run : measured_runs(*measure, runs, summaries)) wanted[run].push_back(measure);
+  std::vector<std::vector<MeasureTable>> tables(runs.size());
+  in_parallel(runs.size(), [&](std::size_t k) {
+    if (const auto found = wanted.find(&runs[k]); found != wanted.end())
+      tables[k] = tables_of(directory / "runs" / runs[k].slug, runs[k].resolved,
+                            summaries[k]["checksum"].get<std::string>(), found->second);
+  });
+  std::error_code error;
+  fs::remove_all(directory / measures_directory, error);
+  for (const auto& measure : measures) {
+    MeasureTable joined;
+    for (std::size_t k = 0; k < runs.size(); ++k) {
+      const Measures& of_run = wanted[&runs[k]];
+      const auto place = std::find(of_run.begin(), of_run.end(), measure);
+      if (place != of_run.end())
+        join(runs[k], *measure, tables[k][static_cast<std::size_t>(place - of_run.begin())], joined, notes);
+    }
+    if (joined.lines.empty()) continue;
+    std::string text = "case,method,step";
+    for (const std::string& name : joined.columns) text += "," + csv_quoted(name);
+    for (const std::string& line : joined.lines) text += "\n" + line;
+    fs::create_directories(directory / measures_directory, error);
+    write_file(directory / measures_directory / (measure->descriptor().name + ".csv"), text + "\n");
+  }
+}
+
+}  // namespace pfaff

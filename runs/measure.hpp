@@ -1,0 +1,279 @@
+// What the author of a measure includes. A measure says of a run what its steps do: it looks at states that
+// go by, or carries states of its own along, and leaves a table.
+//
+// M is a struct in an anonymous namespace that holds settings, and has
+//   std::vector<Column> columns(const Model& model) const;      of its table; the time stands before them
+//   template <class T> struct Work { Work(const M&, const Measured<T>& run); … };   what it keeps meanwhile
+// and looks at a run in one or several of three ways:
+//   std::vector<std::int64_t> looks(const Measured<T>& run) const;     numbers of steps, in increasing order,
+//   bool look(const Measured<T>& run, const Look<T>& at, Work<T>& work, Row& row) const;        at each of
+//                                them, with a row of the table; false ends the table before it
+//   void block(const Measured<T>& run, const Block<T>& block, Work<T>& work) const;   every state, in blocks
+//   bool end(const Measured<T>& run, Work<T>& work, Row& row) const;   once all steps are taken, with a row;
+//                                false leaves none
+// each a template of the scalar T, double and Quad. Steps count from 0, which is the start.
+//
+// Optional members of M. One of the names with another signature is refused by the compiler, which says what
+// was expected.
+//   static parameters()          the settings of the measure
+//   refuses(model, method)       why it says nothing of a run, as a predicate ("needs a system with …"), or
+//                                empty
+//   static controls()            what it has to give on systems of which the answer is known, and faults that
+//                                it has to see: `pfaff verify` runs them
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <pfaff/core/facets/claims.hpp>
+#include <pfaff/core/registry/plugin.hpp>
+#include <pfaff/core/registry/registry.hpp>
+#include <pfaff/runs/integration.hpp>
+#include <pfaff/runs/measure_statement.hpp>
+
+namespace pfaff {
+
+/// A run as a measure sees it.
+template <class T>
+struct Measured {
+  const Integration<T>& start;  // at the start, to take others from with beside() and reversed()
+  std::int64_t steps = 0;       // that the run has
+};
+
+/// A state of the run, after `step` steps.
+template <class T>
+struct Look {
+  std::int64_t step;
+  T t;
+  std::span<const T> z;
+};
+
+/// 0 and about `count` other numbers of steps, evenly spaced up to `steps`.
+std::vector<std::int64_t> evenly(std::int64_t steps, int count);
+
+/// A measure at work on one run. What its author's code throws passes.
+template <class T>
+class Measuring {
+ public:
+  virtual ~Measuring() = default;
+  [[nodiscard]] virtual const std::vector<std::int64_t>& looks() const = 0;
+  virtual bool look(const Look<T>& at, Row& row) = 0;
+  [[nodiscard]] virtual bool sees_blocks() const = 0;
+  virtual void block(const Block<T>& block) = 0;
+  [[nodiscard]] virtual bool has_end() const = 0;
+  virtual bool end(Row& row) = 0;
+};
+
+/// A measure with its settings fixed.
+class MeasureInstance {
+ public:
+  virtual ~MeasureInstance() = default;
+  [[nodiscard]] virtual const MeasureDescriptor& descriptor() const = 0;
+  [[nodiscard]] virtual Assignments parameters() const = 0;
+  /// NAME, or NAME(key=value, …) with all of its settings.
+  [[nodiscard]] std::string called() const;
+  [[nodiscard]] virtual std::vector<Column> columns(const Model& model) const = 0;
+  /// Why it says nothing of runs of this method on this model, naming itself; empty where it does.
+  [[nodiscard]] std::string refuses(const Model& model, const MethodInstance& method) const;
+  /// Sets to work on a run, whose `start` must outlive what is returned.
+  [[nodiscard]] virtual std::unique_ptr<Measuring<double>> on(const Measured<double>& run) const = 0;
+  [[nodiscard]] virtual std::unique_ptr<Measuring<Quad>> on(const Measured<Quad>& run) const = 0;
+
+ protected:
+  [[nodiscard]] virtual std::string objection(const Model& model, const MethodInstance& method) const = 0;
+};
+
+/// A registered measure.
+class MeasurePlugin : public Plugin {
+ public:
+  MeasurePlugin(MeasureDescriptor descriptor, std::vector<Parameter> parameters, const std::type_info& type,
+                const std::source_location& where)
+      : Plugin(descriptor.name, std::move(parameters), type, where), descriptor_(std::move(descriptor)) {}
+  [[nodiscard]] const MeasureDescriptor& descriptor() const { return descriptor_; }
+  /// InputError for settings that are none.
+  [[nodiscard]] virtual std::unique_ptr<MeasureInstance> make(const Assignments& set) const = 0;
+  [[nodiscard]] virtual std::vector<MeasureControl> controls() const = 0;
+
+ private:
+  MeasureDescriptor descriptor_;
+};
+
+/// All measures.
+Registry<MeasurePlugin>& measures();
+extern template class Registry<MeasurePlugin>;
+
+/// The measure that a text names, NAME or NAME(key=value, …). InputError with the nearest name where there is
+/// none.
+std::unique_ptr<MeasureInstance> measure_asked_for(const std::string& text);
+
+namespace detail {
+
+// Kinds share some names: each kind looks its own up in a namespace of its own.
+namespace measure {
+PFAFF_MEMBER_NAME(looks)
+PFAFF_MEMBER_NAME(look)
+PFAFF_MEMBER_NAME(block)
+PFAFF_MEMBER_NAME(end)
+PFAFF_MEMBER_NAME(refuses)
+PFAFF_MEMBER_NAME(controls)
+}  // namespace measure
+
+template <class M>
+using WorkOfMeasure = typename M::template Work<double>;
+
+template <class M>
+concept WritesColumns = requires(const M& m, const Model& model) {
+  { m.columns(model) } -> std::same_as<std::vector<Column>>;
+};
+template <class M>
+concept WritesMeasureWork = requires {
+  typename WorkOfMeasure<M>;
+  requires std::constructible_from < WorkOfMeasure<M>,
+  const M&, const Measured<double>& > ;
+};
+template <class M>
+concept WritesLooks = requires(const M& m, const Measured<double>& run) {
+  { m.looks(run) } -> std::same_as<std::vector<std::int64_t>>;
+};
+template <class M>
+concept WritesLook = requires(const M& m, const Measured<double>& run, const Look<double>& at,
+                              WorkOfMeasure<M>& work, Row& row) {
+  { m.look(run, at, work, row) } -> std::same_as<bool>;
+};
+template <class M>
+concept WritesBlock = requires(const M& m, const Measured<double>& run, const Block<double>& block,
+                               WorkOfMeasure<M>& work) {
+  { m.block(run, block, work) } -> std::same_as<void>;
+};
+template <class M>
+concept WritesEnd = requires(const M& m, const Measured<double>& run, WorkOfMeasure<M>& work, Row& row) {
+  { m.end(run, work, row) } -> std::same_as<bool>;
+};
+template <class M>
+concept WritesObjection = requires(const M& m, const Model& model, const MethodInstance& method) {
+  { m.refuses(model, method) } -> std::same_as<std::string>;
+};
+template <class M>
+concept WritesControls = requires {
+  { M::controls() } -> std::same_as<std::vector<MeasureControl>>;
+};
+
+/// Refuses, while M is compiled, a struct that measures nothing, and members that bear the name of one that
+/// is known and cannot be used as one.
+template <class M>
+constexpr void check_measure_members() {
+  static_assert(WritesColumns<M>, "columns: expected std::vector<Column> columns(const Model& model) const");
+  static_assert(WritesMeasureWork<M>,
+                "Work: expected template <class T> struct Work with a constructor Work(const M&, const "
+                "Measured<T>& run)");
+  static_assert(WritesLook<M> || !measure::has_look<M>,
+                "look: expected template <class T> bool look(const Measured<T>& run, const Look<T>& at, "
+                "Work<T>& work, Row& row) const");
+  static_assert(WritesLooks<M> || !measure::has_looks<M>,
+                "looks: expected template <class T> std::vector<std::int64_t> looks(const Measured<T>& run) "
+                "const");
+  static_assert(measure::has_look<M> == measure::has_looks<M>,
+                "look and looks belong together: expected both of them or neither");
+  static_assert(WritesBlock<M> || !measure::has_block<M>,
+                "block: expected template <class T> void block(const Measured<T>& run, const Block<T>& "
+                "block, Work<T>& work) const");
+  static_assert(WritesEnd<M> || !measure::has_end<M>,
+                "end: expected template <class T> bool end(const Measured<T>& run, Work<T>& work, Row& row) "
+                "const");
+  static_assert(measure::has_look<M> || measure::has_end<M>,
+                "a measure without rows: expected look and looks, or end");
+  static_assert(WritesObjection<M> || !measure::has_refuses<M>,
+                "refuses: expected std::string refuses(const Model& model, const MethodInstance& method) "
+                "const");
+  static_assert(WritesControls<M> || !measure::has_controls<M>,
+                "controls: expected static std::vector<MeasureControl> controls()");
+}
+
+template <class M, class T>
+class MeasuringWith final : public Measuring<T> {
+ public:
+  MeasuringWith(const M& measure, const Measured<T>& run)
+      : measure_(measure), run_(run), work_(measure_, run_) {
+    if constexpr (WritesLooks<M>) looks_ = measure_.looks(run_);
+  }
+  [[nodiscard]] const std::vector<std::int64_t>& looks() const override { return looks_; }
+  bool look([[maybe_unused]] const Look<T>& at, [[maybe_unused]] Row& row) override {
+    if constexpr (WritesLook<M>) return measure_.look(run_, at, work_, row);
+    return false;
+  }
+  [[nodiscard]] bool sees_blocks() const override { return WritesBlock<M>; }
+  void block([[maybe_unused]] const Block<T>& block) override {
+    if constexpr (WritesBlock<M>) measure_.block(run_, block, work_);
+  }
+  [[nodiscard]] bool has_end() const override { return WritesEnd<M>; }
+  bool end([[maybe_unused]] Row& row) override {
+    if constexpr (WritesEnd<M>) return measure_.end(run_, work_, row);
+    return false;
+  }
+
+ private:
+  M measure_;
+  Measured<T> run_;
+  typename M::template Work<T> work_;
+  std::vector<std::int64_t> looks_;
+};
+
+template <class M>
+class MeasureWith final : public MeasureInstance {
+ public:
+  MeasureWith(const MeasurePlugin& plugin, M measure) : plugin_(plugin), measure_(std::move(measure)) {}
+  [[nodiscard]] const MeasureDescriptor& descriptor() const override { return plugin_.descriptor(); }
+  [[nodiscard]] Assignments parameters() const override { return resolved(plugin_.parameters(), &measure_); }
+  [[nodiscard]] std::vector<Column> columns(const Model& model) const override {
+    return measure_.columns(model);
+  }
+  [[nodiscard]] std::unique_ptr<Measuring<double>> on(const Measured<double>& run) const override {
+    return std::make_unique<MeasuringWith<M, double>>(measure_, run);
+  }
+  [[nodiscard]] std::unique_ptr<Measuring<Quad>> on(const Measured<Quad>& run) const override {
+    return std::make_unique<MeasuringWith<M, Quad>>(measure_, run);
+  }
+
+ protected:
+  [[nodiscard]] std::string objection([[maybe_unused]] const Model& model,
+                                      [[maybe_unused]] const MethodInstance& method) const override {
+    if constexpr (WritesObjection<M>) return measure_.refuses(model, method);
+    return {};
+  }
+
+ private:
+  const MeasurePlugin& plugin_;
+  M measure_;
+};
+
+}  // namespace detail
+
+/// Registers M when the library that holds it is loaded.
+template <class M>
+class Measure final : public MeasurePlugin {
+ public:
+  explicit Measure(MeasureDescriptor descriptor,
+                   const std::source_location& where = std::source_location::current())
+      : MeasurePlugin(std::move(descriptor), parameters_of<M>(), typeid(M), where) {
+    detail::check_measure_members<M>();
+    measures().add(this);
+  }
+  [[nodiscard]] std::unique_ptr<MeasureInstance> make(const Assignments& set) const override {
+    M object;
+    assign_all(parameters(), &object, set, "measure " + name());
+    return std::make_unique<detail::MeasureWith<M>>(*this, std::move(object));
+  }
+  [[nodiscard]] std::vector<MeasureControl> controls() const override {
+    if constexpr (detail::WritesControls<M>) return M::controls();
+    return {};
+  }
+};
+
+}  // namespace pfaff

@@ -1,0 +1,117 @@
+// How a method contracts the plane: a disc of states, carried along.
+//
+// A system of one q and one p with friction, q' = T_p, p' = -V_q - nu p, states by its damping nu how it
+// contracts areas: dq ^ dp shrinks as e^{-nu t}, whatever the potential is. The outline of a disc around the
+// initial state is moved point by point; its area is that of the polygon of these points.
+#include <algorithm>
+#include <cmath>
+
+#include <pfaff/core/numbers/formatted.hpp>
+#include <pfaff/runs/measure.hpp>
+
+namespace {
+using namespace pfaff;
+
+struct Contraction {
+  int corners = 96, count = 120;
+
+  static std::vector<Parameter> parameters() {
+    return {parameter(&Contraction::corners, "corners", "", 3, 1024, "of the outline of the disc"),
+            parameter(&Contraction::count, "looks", "", 1, 1000, "at the disc")};
+  }
+  [[nodiscard]] std::vector<Column> columns(const Model& /*model*/) const {
+    return {{"area"}, {"law"}, {.name = "outline", .kind = Column::Kind::text}};
+  }
+  [[nodiscard]] std::string refuses(const Model& model, const MethodInstance& /*method*/) const {
+    const bool contracts =
+        model.dimension() == 2 && model.facets().has(Facet::conformal) && model.damping() > Real(0);
+    return contracts ? ""
+                     : "needs one q and one p with a damping > 0, which " + model.name() + " does not state";
+  }
+  // Until the law has come to e^{-folds}, or the run ends.
+  template <class T>
+  [[nodiscard]] std::vector<std::int64_t> looks(const Measured<T>& run) const {
+    const double steps =
+        std::floor(folds / run.start.model()->damping().value() / static_cast<double>(run.start.step()));
+    return evenly(static_cast<std::int64_t>(std::clamp(steps, 1.0, static_cast<double>(run.steps))), count);
+  }
+
+  template <class T>
+  struct Work {
+    std::vector<Integration<T>> outline;
+    std::vector<std::int64_t> shown;  // the looks at which the table has the outline
+    T first{1};
+
+    Work(const Contraction& measure, const Measured<T>& run) {
+      const T q = run.start.state()[0], p = run.start.state()[1], size = length(q, p);
+      const T r = T(radius) * (size > T(0) ? size : T(1));
+      for (int k = 0; k < measure.corners; ++k) {
+        const T angle = T(2) * T(pi) * T(k) / T(measure.corners);
+        outline.push_back(run.start.beside({q + r * cos(angle), p + r * sin(angle)}));
+      }
+      const std::vector<std::int64_t> looks = measure.looks(run);
+      for (std::size_t j = 0; j < outlines; ++j)
+        shown.push_back(looks[j * (looks.size() - 1) / (outlines - 1)]);
+    }
+  };
+
+  template <class T>
+  bool look(const Measured<T>& run, const Look<T>& at, Work<T>& work, Row& row) const {
+    std::string text;
+    const bool shown = std::find(work.shown.begin(), work.shown.end(), at.step) != work.shown.end();
+    T twice(0);
+    for (Integration<T>& point : work.outline) {
+      if (!point.steps(at.step - point.steps_taken()).reached()) return false;
+      if (shown) text += (text.empty() ? "" : ";") + in_six_digits(point.state());
+    }
+    for (std::size_t k = 0; k < work.outline.size(); ++k) {
+      const auto a = work.outline[k].state(), b = work.outline[(k + 1) % work.outline.size()].state();
+      twice += a[0] * b[1] - b[0] * a[1];
+    }
+    if (at.step == 0) work.first = twice / T(2);
+    const T elapsed = T(static_cast<double>(at.step)) * run.start.step();
+    row = {at.step == 0 ? T(1) : T(twice / T(2) / work.first),
+           exp(-T(run.start.model()->damping()) * elapsed), text};
+    return isfinite(twice);
+  }
+
+  // The flow of a damped oscillator contracts areas by e^{-nu t} = e^{-2} after 20 time units at nu = 0.1.
+  static std::vector<MeasureControl> controls() {
+    const auto damped = [](const char* method, bool fault) {
+      return MeasureControl{.system = "damped-oscillator",
+                            .method = method,
+                            .step = "0.1",
+                            .steps = 100,
+                            .column = "area",
+                            .expected = 0,
+                            .allowed = 1e-12,
+                            .fault = fault};
+    };
+    return {damped("generating-function", false), damped("rk4", true)};
+  }
+
+ private:
+  static constexpr std::size_t outlines = 6;
+  static constexpr double radius = 0.25;  // over the size of the initial state
+  static constexpr double folds = 3;
+  static inline const Real pi = 3.141592653589793238462643383279502884_r;
+
+  static double length(double q, double p) { return std::hypot(q, p); }
+  static Quad length(const Quad& q, const Quad& p) { return sqrt(q * q + p * p); }
+  template <class T>
+  static std::string in_six_digits(std::span<const T> z) {
+    return formatted("%.6g %.6g", static_cast<double>(z[0]), static_cast<double>(z[1]));
+  }
+};
+
+const Measure<Contraction> registered{
+    {.name = "contraction",
+     .title = "How a method contracts areas of the plane, beside the law of the motion",
+     .reference = "mclachlan-quispel2002",
+     .description =
+         "The area of a disc of states that the method carries along, over that at the start, beside "
+         "e^{-nu t}, which is the law of every system of one q and one p with the damping nu. The "
+         "disc is the polygon of its corners.",
+     .watches = {Claim::conformal},
+     .usual = true}};
+}  // namespace

@@ -1,0 +1,167 @@
+// There and back again: how far a method misses its start when it turns round.
+//
+// A method without memory takes steps of -h on the way back, or, where the system states a reversal (of
+// momenta, say), steps of h from the reversed state, whose end is reversed once more. Symmetric and
+// reversible methods come back but for rounding; what one rounding of the state at the turn becomes on the
+// way back says how much rounding may be.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include <pfaff/core/facets/problem.hpp>
+#include <pfaff/runs/measure.hpp>
+#include <pfaff/runs/support/history.hpp>
+
+namespace {
+using namespace pfaff;
+
+struct Reversibility {
+  int most = 1000, intervals = 12;
+
+  static std::vector<Parameter> parameters() {
+    return {parameter(&Reversibility::most, "steps", "", 1, 1000000, "after which it turns round at last"),
+            parameter(&Reversibility::intervals, "intervals", "", 1, 100, "between the turns")};
+  }
+  [[nodiscard]] std::vector<Column> columns(const Model& /*model*/) const {
+    return {{.name = "distance", .digits = 9},
+            {.name = "rounding", .digits = 9},
+            {.name = "by", .kind = Column::Kind::text}};
+  }
+  // The numbers of steps after which it turns round: evenly spaced in their logarithm, and fewer of them
+  // where states are large.
+  template <class T>
+  [[nodiscard]] std::vector<std::int64_t> looks(const Measured<T>& run) const {
+    const std::int64_t of_large = 64 * std::int64_t{most} / run.start.model()->dimension();
+    const std::int64_t limit = std::clamp<std::int64_t>(of_large, std::min(most, 100), most);
+    const auto all = static_cast<double>(std::min(run.steps, limit));
+    std::vector<std::int64_t> found;
+    for (int k = 0; k <= intervals; ++k) {
+      const std::int64_t turn = std::llround(std::pow(all, static_cast<double>(k) / intervals));
+      if (found.empty() || found.back() < turn) found.push_back(turn);
+    }
+    return found;
+  }
+
+  enum class WayBack { negative_steps, reversal };
+
+  template <class T>
+  struct Work {
+    std::vector<T> start;
+    bool remembers = false;     // what is remembered belongs to the state that was reached, and to no other
+    std::optional<WayBack> by;  // nothing leads the method back
+    Evaluator<T> reversal;
+
+    Work(const Reversibility& /*measure*/, const Measured<T>& run)
+        : start(run.start.state().begin(), run.start.state().end()) {
+      const Model& model = *run.start.model();
+      const MethodInstance& method = run.start.method();
+      remembers = keeps_history(method, run.start.model(), Quad(run.start.time()), Quad(run.start.step()),
+                                {start.begin(), start.end()});
+      const bool stated = model.given(Formula::reversal) && model.autonomous();
+      const std::vector<Claim> claims = claims_in_scope(method.preserves(model), model);
+      const auto claimed = [&](Claim claim) {
+        return std::find(claims.begin(), claims.end(), claim) != claims.end();
+      };
+      if (stated && (!remembers || claimed(Claim::reversible))) {
+        by = WayBack::reversal;
+        reversal = make_evaluator<T>(run.start.model(), Formula::reversal);
+      } else if (!remembers || claimed(Claim::symmetric)) {
+        by = WayBack::negative_steps;
+      }
+    }
+  };
+
+  // Each turn has a run of its own, so that it is what a run of so many steps would be, with its history.
+  template <class T>
+  bool look(const Measured<T>& run, const Look<T>& at, Work<T>& work, Row& row) const {
+    if (!work.by) return false;
+    Integration<T> there = run.start.beside(work.start);
+    if (!there.steps(at.step).reached()) return false;
+    const std::vector<T> turn(there.state().begin(), there.state().end());
+    const auto end = back(work, there, turn);
+    const auto other = end && !work.remembers ? back(work, there, changed(turn)) : std::nullopt;
+    const T norm = apart(work.start, std::vector<T>(work.start.size(), T(0)));
+    const T size = norm > T(0) ? norm : T(1), unit = std::numeric_limits<T>::epsilon() / T(2);
+    const T not_known(std::numeric_limits<double>::quiet_NaN());
+    row = {end ? apart(*end, work.start) / size : not_known,
+           other ? apart(*other, *end) / size * (unit / change<T>()) : not_known,
+           *work.by == WayBack::reversal ? "reversal" : "negative steps"};
+    return true;
+  }
+
+  // Verlet comes back but for the rounding of a hundred steps, RK4 misses by what it damps.
+  static std::vector<MeasureControl> controls() {
+    const auto pendulum = [](const char* method, bool fault) {
+      return MeasureControl{.system = "pendulum",
+                            .method = method,
+                            .step = "0.1",
+                            .steps = 100,
+                            .column = "distance",
+                            .expected = 0,
+                            .allowed = 1e-12,
+                            .fault = fault};
+    };
+    return {pendulum("verlet", false), pendulum("gauss", false), pendulum("rk4", true)};
+  }
+
+ private:
+  // So small that it acts linearly, and far above round-off.
+  template <class T>
+  static T change() {
+    return sqrt(std::numeric_limits<T>::epsilon());
+  }
+  // The end of the way back from a state, with what is remembered there or without; nullopt where a step
+  // fails.
+  template <class T>
+  static std::optional<std::vector<T>> back(const Work<T>& work, Integration<T>& there,
+                                            const std::vector<T>& turn) {
+    const bool reverses = *work.by == WayBack::reversal;
+    const std::int64_t steps = there.steps_taken();
+    const T t = there.time();
+    const std::vector<T> begin = reverses ? reversed(work, turn) : turn;
+    const auto walked = [&](Integration<T>& run) -> std::optional<std::vector<T>> {
+      if (!run.steps(steps).reached()) return std::nullopt;
+      const std::vector<T> end(run.state().begin(), run.state().end());
+      return reverses ? reversed(work, end) : end;
+    };
+    if (work.remembers) {
+      there.go_on_from(begin, t, reverses ? there.step() : T(-there.step()));
+      return walked(there);
+    }
+    Integration<T> other = there.beside(begin, t, reverses ? there.step() : T(-there.step()));
+    return walked(other);
+  }
+  template <class T>
+  static std::vector<T> reversed(const Work<T>& work, const std::vector<T>& z) {
+    std::vector<T> image(z.size());
+    work.reversal.call(work.reversal.context, T(0), z.data(), image.data());
+    return image;
+  }
+  // What a rounding of each coordinate may be: relative changes of either sign, without a pattern that
+  // symmetric states have.
+  template <class T>
+  static std::vector<T> changed(std::vector<T> z) {
+    for (std::size_t i = 0; i < z.size(); ++i)
+      z[i] *= std::cos(1 + 2 * static_cast<double>(i)) > 0 ? T(1) + change<T>() : T(1) - change<T>();
+    return z;
+  }
+  template <class T>
+  static T apart(const std::vector<T>& a, const std::vector<T>& b) {
+    T square(0);
+    for (std::size_t i = 0; i < a.size(); ++i) square += (a[i] - b[i]) * (a[i] - b[i]);
+    return sqrt(square);
+  }
+};
+
+const Measure<Reversibility> registered{
+    {.name = "reversibility",
+     .title = "How far a method misses its start when it turns round",
+     .reference = "hairer-lubich-wanner2006 V.1",
+     .description =
+         "The distance from the start after as many steps back as there were, over the size of the "
+         "start, beside what one rounding of the state at the turn becomes on the way back. It is "
+         "empty where a step on the way back fails.",
+     .watches = {Claim::reversible, Claim::symmetric},
+     .usual = true}};
+}  // namespace
