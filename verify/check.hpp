@@ -12,6 +12,7 @@
 #include <pfaff/core/bracket.hpp>
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
+#include <pfaff/runs/measure.hpp>
 #include <pfaff/runs/motion.hpp>
 
 namespace pfaff {
@@ -113,6 +114,8 @@ std::vector<Check> check_flows(const std::string& name, const std::shared_ptr<co
 std::vector<Check> check_bracket(const BracketPlugin& plugin, const Assignments& parameters);
 /// The parameters that a bracket is verified with: the defaults, and each choice it offers.
 std::vector<Assignments> instances_of(const BracketPlugin& plugin);
+/// What a measure gives where its answers are known, and whether it sees the faults that it states.
+std::vector<Check> check_measure(const MeasurePlugin& plugin);
 /// Controls: one bracket without Jacobi's identity and one that is not quite skew, both of which must be
 /// rejected.
 std::vector<Check> check_false_brackets();

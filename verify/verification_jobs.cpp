@@ -51,6 +51,7 @@ class Jobs {
     add_systems();
     add_brackets();
     add_formulations();
+    add_measures();
     add_controls();
     add_methods();
   }
@@ -157,6 +158,12 @@ class Jobs {
             jobs_.push_back({called(formulation->name(), p) + " of " + model->name(),
                              [=] { return check_formulation(*formulation, p, model); }});
       }
+  }
+
+  void add_measures() {
+    for (const MeasurePlugin* measure : measures().all())
+      if (wanted(measure->name()) || wanted("measures"))
+        jobs_.push_back({"measure " + measure->name(), [measure] { return check_measure(*measure); }});
   }
 
   void add_controls() {

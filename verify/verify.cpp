@@ -41,10 +41,11 @@ nlohmann::json to_json(const Check& c) {
 namespace {
 // Refuses names that nothing has, and parameters that are not those of one plug-in.
 void validate(const VerificationSettings& settings) {
-  const std::vector<std::string> kinds{"systems", "brackets", "integrators", "formulations", "controls"};
+  const std::vector<std::string> kinds{"systems",      "brackets", "integrators",
+                                       "formulations", "measures", "controls"};
   std::vector<std::string> known = kinds;
-  for (const auto& more :
-       {systems().names(), integrators().names_and_aliases(), brackets().names(), formulations().names()})
+  for (const auto& more : {systems().names(), integrators().names_and_aliases(), brackets().names(),
+                           formulations().names(), measures().names()})
     known.insert(known.end(), more.begin(), more.end());
   for (const std::string& name : settings.names)
     if (!text::is_text_file(name) && std::find(known.begin(), known.end(), name) == known.end())

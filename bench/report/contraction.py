@@ -1,4 +1,4 @@
-"""How methods contract areas, of the systems that state by which law they do: contraction.csv has the outlines of a disc of
+"""How methods contract areas, of the systems that state by which law they do: measures/contraction.csv has the outlines of a disc of
 states that each method carries along, and its area beside the law.
 
 The law shrinks whatever is drawn. Outlines are therefore seen through a lens: positions and momenta over the square root of
@@ -33,7 +33,7 @@ class Carried:
 def carried(experiment, case):
     """{method: Carried}"""
     found = {}
-    for where, cells in experiment.contraction:
+    for where, cells in experiment.table("contraction"):
         if cells["case"] != case["name"]:
             continue
         step, t, area, law = (parse(cells[k], f"{where}, column {k}") for k in ("step", "t", "area", "law"))

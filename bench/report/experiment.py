@@ -23,10 +23,7 @@ RUN_COLUMNS = ("case", "method", "step", "time", "steps", "precision", "status",
 COST_COLUMNS = ("case", "method", "step", "ns_per_step", "ns_per_step_min", "ns_per_step_max")
 SPREAD_COLUMNS = ("case", "method", "step", "tolerance", "runs", "finished", "measure", "measured", "median", "low",
                   "high")
-CONTRACTION_COLUMNS = ("case", "method", "step", "t", "area", "law", "outline")
 FREQUENCY_COLUMNS = ("case", "method", "step", "vector", "frequency", "error", "change")
-LOOP_COLUMNS = ("case", "method", "step", "t", "integral", "uncertainty")
-RETURN_COLUMNS = ("case", "method", "step", "t", "distance", "rounding", "by")
 CLAIM_COLUMNS = ("case", "measure", "method", "relation", "factor", "than", "bound", "step", "runs", "holding", "needed",
                  "holds", "ratio_median")
 MEASURES = ("max", "rms", "final", "slope", "slope_low", "slope_high", "oscillation", "exponent", "class")
@@ -164,9 +161,7 @@ class Experiment:
         self.machine = self._read_machine()
         self.equal = self._read_equal()
         self.spreads = self._read_rows("ensembles.csv", SPREAD_COLUMNS)
-        self.contraction = self._read_rows("contraction.csv", CONTRACTION_COLUMNS)
-        self.loops = self._read_rows("loops.csv", LOOP_COLUMNS)
-        self.reversibility = self._read_rows("reversibility.csv", RETURN_COLUMNS)
+        self.measures = self._read_measures()
         self.frequencies = self._read_rows("frequencies.csv", FREQUENCY_COLUMNS)
         self.claims = self._read_rows("findings.csv", CLAIM_COLUMNS)
         self._series, self._summaries = {}, {}
@@ -240,6 +235,25 @@ class Experiment:
         """[(where, cells)] of a file that only some experiments have."""
         path = self.folder / name
         return read_table(path, columns)[1] if path.exists() else []
+
+    def _read_measures(self):
+        """{name: what experiment.json says of a measure}"""
+        found = {}
+        for i, measure in enumerate(self.head.get("measures") or []):
+            where = f"experiment.json, measure {i + 1}"
+            require(measure, where, name=str, title=str, file=str, over=str, columns=list)
+            allow(measure, where, description=str)
+            for k, column in enumerate(measure["columns"]):
+                require(column, f"{where}, column {k + 1}", name=str, kind=str)
+            found[measure["name"]] = measure
+        return found
+
+    def table(self, name):
+        """[(where, cells)] of the table that a measure left; nothing where it was not asked for or says nothing of a run."""
+        measure = self.measures.get(name)
+        if measure is None:
+            return []
+        return self._read_rows(measure["file"], ("case", "method", "step", "t", *(c["name"] for c in measure["columns"])))
 
     def spreads_of(self, case, measure):
         """[(method, size, median, low, high, finished, runs)] over the seeds of an ensemble, in order."""

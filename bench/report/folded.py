@@ -11,8 +11,8 @@ from figures import heading
 from findings import findings
 from wording import counted, text
 
-DATA = ("experiment.json", "results.csv", "cost.csv", "fits.csv", "equal_cost.csv", "ensembles.csv", "contraction.csv", "loops.csv",
-        "reversibility.csv", "frequencies.csv", "findings.csv", "machine.json")
+DATA = ("experiment.json", "results.csv", "cost.csv", "fits.csv", "equal_cost.csv", "ensembles.csv", "frequencies.csv",
+        "findings.csv", "machine.json")
 
 
 def footer(experiment, verdicts, drawn, picture):
@@ -84,7 +84,8 @@ def provenance(experiment):
     spread = spreads_of_timings(experiment)
     if spread:
         rows.append(("spread of timings", spread))
-    files = [name for name in DATA if (experiment.folder / name).exists()]
+    tables = [measure["file"] for measure in experiment.measures.values()]
+    files = [name for name in [*DATA, *tables] if (experiment.folder / name).exists()]
     links = ", ".join(f'<a href="{name}">{name}</a>' for name in files)
     return ("<dl>" + "\n".join(f"<dt>{text(k)}</dt><dd>{text(v)}</dd>" for k, v in rows)
             + f"<dt>data</dt><dd>beside this page: {links}; runs/ with a directory for each run</dd>"

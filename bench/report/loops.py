@@ -1,5 +1,5 @@
 """Poincaré's integral invariant: the integral of F·dz, p dq of canonical systems, around a loop of states that each method
-carries along. loops.csv has it at about fifty times, over that at the start, with what it changes by where every other point of
+carries along. measures/poincare-loop.csv has it at about fifty times, over that at the start, with what it changes by where every other point of
 the loop is left out.
 
 The derivative along the loop is that of a trigonometric polynomial, whose error with all points is about the square of that with
@@ -30,7 +30,7 @@ class Loop:
 def loops(experiment, case):
     """{method: Loop}, each up to the time at which it is no longer resolved."""
     found = {}
-    for where, cells in experiment.loops:
+    for where, cells in experiment.table("poincare-loop"):
         if cells["case"] != case["name"]:
             continue
         step, t, integral, uncertainty = (parse(cells[k], f"{where}, column {k}")

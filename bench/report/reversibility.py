@@ -1,5 +1,5 @@
 """Reversibility along the run: how far a method misses its start when it goes forward to t, turns round and goes back as many
-steps. reversibility.csv has it at about a dozen times, as |z − z(0)|/|z(0)|, with what one rounding of the state at the turn makes
+steps. measures/reversibility.csv has it at about a dozen times, as |z − z(0)|/|z(0)|, with what one rounding of the state at the turn makes
 of the same distance.
 
 A method is said to come back where it never misses its start by more than ROUND_OFF times what one rounding has made so far,
@@ -65,7 +65,7 @@ class Shown:
 def returns(experiment, case):
     """{method: Returns}"""
     found = {}
-    for where, cells in experiment.reversibility:
+    for where, cells in experiment.table("reversibility"):
         if cells["case"] != case["name"]:
             continue
         step, t, distance, rounding = (parse(cells[k], f"{where}, column {k}") for k in ("step", "t", "distance", "rounding"))

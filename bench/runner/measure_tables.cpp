@@ -151,7 +151,7 @@ nlohmann::json description_of(const MeasureInstance& measure, const Model& model
                    {"over", d.over == Over::time ? "time" : "step"},
                    {"watches", nlohmann::json::array()},
                    {"columns", nlohmann::json::array()},
-                   {"table", std::string(measures_directory) + "/" + d.name + ".csv"}};
+                   {"file", std::string(measures_directory) + "/" + d.name + ".csv"}};
   for (const Claim claim : d.watches) j["watches"].push_back(to_string(claim));
   for (const Column& column : measure.columns(model))
     j["columns"].push_back({{"name", column.name},

@@ -87,7 +87,7 @@ PFAFF_PLUGIN_PATH="$scratch/nowhere" run_pfaff list systems
 [[ $status == 2 ]] || fail "PFAFF_PLUGIN_PATH: exit status $status for a directory that is not there"
 
 # The templates register, run together, and cannot be registered from two files.
-for kind in system integrator bracket formulation; do
+for kind in system integrator bracket formulation measure; do
   run_pfaff list "${kind}s" --plugin "$plugins/templates.so"
   grep -q "template-$kind " "$scratch/out" || fail "template-$kind is not listed"
 done
@@ -105,6 +105,18 @@ done
 run_pfaff verify template-multistep-integrator --plugin "$plugins/templates.so"
 [[ $status == 0 ]] || fail "verify template-multistep-integrator: $(tail -n 3 "$scratch/out")"
 grep -q '^order ' "$scratch/out" || fail "verify template-multistep-integrator: its order was not measured"
+run_pfaff verify template-measure --plugin "$plugins/templates.so"
+[[ $status == 0 ]] || fail "verify template-measure: $(tail -n 3 "$scratch/out")"
+grep -q '^measure ' "$scratch/out" || fail "verify template-measure: its answers were not looked at"
+run_pfaff run --plugin "$plugins/templates.so" --system kepler --integrator verlet --step 0.1 --time 10 \
+  --measure 'template-measure(looks=4)' --out "$scratch/measured"
+[[ $status == 0 && $(wc -l <"$scratch/measured/measures/template-measure.csv") == 6 ]] ||
+  fail "template-measure does not measure: $(<"$scratch/err")"
+run_pfaff run --plugin "$plugins/templates.so" --system spherical-pendulum --integrator rattle --step 0.1 --time 10 \
+  --measure template-measure --out "$scratch/refused"
+[[ $status == 2 && ! -e $scratch/refused ]] || fail "template-measure of constraints: exit status $status, expected 2"
+grep -q 'template-measure needs states without constraints; spherical-pendulum has some' "$scratch/err" ||
+  fail "template-measure of constraints: $(<"$scratch/err")"
 # The Birkhoffian one does what docs/generating-functions.md promises of it.
 run_pfaff list systems --plugin "$plugins/templates.so"
 grep -q "template-birkhoffian " "$scratch/out" || fail "template-birkhoffian is not listed"
@@ -119,7 +131,7 @@ cp "$plugins/templates.so" "$scratch/copy.so"
 run_pfaff list systems --plugin "$plugins/templates.so" --plugin "$scratch/copy.so"
 [[ $status == 2 ]] || fail "two copies of the templates: exit status $status, expected 2"
 grep -q 'registered twice' "$scratch/err" || fail "two copies of the templates: $(<"$scratch/err")"
-for kind in system integrator bracket formulation; do
+for kind in system integrator bracket formulation measure; do
   grep -q "template-$kind in " "$scratch/err" || fail "two copies of the templates: template-$kind is not reported"
 done
 

@@ -2,7 +2,7 @@
 import math
 import unittest
 
-from synthetic import Fresh, reading, run, save, synthetic
+from synthetic import Fresh, reading, run, measured, synthetic
 
 import contraction  # noqa: E402
 import verdict  # noqa: E402
@@ -20,7 +20,7 @@ def discs(folder, rows=()):
             size = math.sqrt(law * (1 + worse * k / 10))
             outline = ";".join(f"{size * math.cos(a)!r} {size * math.sin(a)!r}" for a in (0, 1.5, 3, 4.5)) if k % 2 == 0 else ""
             table.append(["osc", label, "0.4", repr(t), repr(law * (1 + worse * k / 10)), repr(law), outline])
-    save(folder / "contraction.csv", table + list(rows))
+    measured(folder, "contraction", table + list(rows), texts=("outline",))
     return folder
 
 
@@ -69,7 +69,7 @@ class Contraction(Fresh):
         page = (self.folder / "report.html").read_text(encoding="utf-8")
         self.assertEqual(page.count("Contraction of areas</h3>"), 1)
         self.assertTrue((self.folder / "figures" / "contraction_osc.svg").exists())
-        (self.folder / "contraction.csv").unlink()
+        (self.folder / "measures" / "contraction.csv").unlink()
         self.assertEqual(run(self.folder)[0], 0)
         self.assertNotIn("Contraction of areas", (self.folder / "report.html").read_text(encoding="utf-8"))
 

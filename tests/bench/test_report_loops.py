@@ -1,7 +1,7 @@
 """bench/report: Poincaré's integral invariant, up to where the carried loop is resolved."""
 import unittest
 
-from synthetic import Fresh, reading, run, save, synthetic
+from synthetic import Fresh, reading, run, measured, synthetic
 
 import loops  # noqa: E402
 import verdict  # noqa: E402
@@ -15,7 +15,7 @@ class Loops(Fresh):
         for k in range(11):
             table.append(["osc", "mid", "0.4", repr(0.4 * k), repr(1 + 2e-13 * (-1) ** k * (k > 0)), "1e-13"])
             table.append(["osc", "rk", "0.4", repr(0.4 * k), repr(1 - 1e-5 * k), "1e-5" if k > 7 else "1e-9"])
-        save(self.folder / "loops.csv", table + list(rows))
+        measured(self.folder, "poincare-loop", table + list(rows))
         return reading.Experiment(self.folder)
 
     def test_lines_end_where_the_loop_is_wound_up(self):
@@ -43,7 +43,7 @@ class Loops(Fresh):
         self.write([["osc", "mid", "0.4", "5", "one", "1e-13"]])
         status, stderr = run(self.folder)
         self.assertEqual(status, 2)
-        self.assertIn("loops.csv, line 24, column integral", stderr)
+        self.assertIn("poincare-loop.csv, line 24, column integral", stderr)
 
 
 if __name__ == "__main__":

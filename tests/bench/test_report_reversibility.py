@@ -3,7 +3,7 @@ import math
 import types
 import unittest
 
-from synthetic import Fresh, reading, run, save, synthetic
+from synthetic import Fresh, reading, run, measured, synthetic
 
 import reversibility  # noqa: E402
 import verdict  # noqa: E402
@@ -23,7 +23,7 @@ class Reversibility(Fresh):
             t, rounding = 0.4 * (k + 1), U * 2**k
             table.append(["osc", "mid", "0.4", repr(t), repr(mid(k)), repr(rounding), by])
             table.append(["osc", "rk", "0.4", repr(t), repr(1e-6 * (k + 1)), repr(rounding), "reversal"])
-        save(self.folder / "reversibility.csv", table + list(rows))
+        measured(self.folder, "reversibility", table + list(rows), texts=("by",))
         return reading.Experiment(self.folder)
 
     def drawing(self, shown):
@@ -91,8 +91,9 @@ class Reversibility(Fresh):
         self.assertIn("The way back is one of negative steps.", self.drawing(self.only_negative()).caption)
 
     def only_negative(self):
-        save(self.folder / "reversibility.csv", [["case", "method", "step", "t", "distance", "rounding", "by"]]
-             + [["osc", "mid", "0.4", repr(0.4 * k), "1e-16", "1e-16", "negative steps"] for k in (1, 2, 4)])
+        measured(self.folder, "reversibility", [["case", "method", "step", "t", "distance", "rounding", "by"]]
+             + [["osc", "mid", "0.4", repr(0.4 * k), "1e-16", "1e-16", "negative steps"] for k in (1, 2, 4)],
+                 texts=("by",))
         return reading.Experiment(self.folder)
 
     def test_the_page_shows_it(self):
@@ -103,7 +104,7 @@ class Reversibility(Fresh):
         self.assertIn("<title>rk: at most 1.1e-05</title>", page)
         self.assertIn("<title>mid: at most 3.1e-11, comes back</title>", page)
         self.assertIn("<title>one rounding at the turn</title>", page)
-        self.assertIn('href="reversibility.csv"', page)
+        self.assertIn('href="measures/reversibility.csv"', page)
         self.assertTrue((self.folder / "figures" / "reversibility_osc.svg").exists())
         self.assertFalse((self.folder / "figures" / "reversibility_damped.svg").exists())
 

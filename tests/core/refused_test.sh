@@ -5,7 +5,7 @@ set -euo pipefail
 compiler=$1 include=$2 root=$3
 compile() { "$compiler" -std=c++20 -fsyntax-only -I "$include" "$1" 2>&1; }
 
-for kind in system integrator bracket formulation; do
+for kind in system integrator bracket formulation measure; do
   compile "$root/examples/templates/$kind.cpp" || { echo "the control, a sound $kind, was refused"; exit 1; }
 done
 for source in "$root"/tests/core/refused/*.cpp; do

@@ -3,25 +3,30 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
-#include <pfaff/bench/experiment/loop_invariant.hpp>
-#include <pfaff/bench/runner/files.hpp>
+#include "measured_table.hpp"
 
-#include "../temporary_directory.hpp"
-
+namespace pfaff {
 namespace {
-using namespace pfaff;
 
-ResolvedRun looped(const std::string& system, const std::string& integrator, const Assignments& set = {},
-                   const std::string& step = "0.1") {
-  RunSettings settings;
-  settings.system = system;
-  settings.integrator = integrator;
-  settings.set = set;
-  settings.step = step;
-  settings.time = "20";
-  return resolve(settings);
+using testing::fits;
+using testing::to_measure;
+using testing::ToMeasure;
+
+ToMeasure looped(const std::string& system, const std::string& method, const Assignments& set = {},
+                 const std::string& step = "0.1") {
+  return to_measure(system, method, step, set, 20);
+}
+
+struct CarriedLoop {
+  double t, integral, uncertainty;
+};
+std::vector<CarriedLoop> carry_loop(const ToMeasure& run, int looks) {
+  std::vector<CarriedLoop> loops;
+  const MeasuredTable table = table_of("poincare-loop(looks=" + std::to_string(looks) + ")", run);
+  for (const MeasuredTable::Line& line : table.lines)
+    loops.push_back({time_of(line, run), testing::number(line, 0), testing::number(line, 1)});
+  return loops;
 }
 
 // While the loop is resolved, as reports draw it.
@@ -35,11 +40,11 @@ double largest_change(const std::vector<CarriedLoop>& loops) {
 }
 
 TEST(LoopInvariant, OfCanonicalAndBirkhoffianSystemsWithoutConstraints) {
-  EXPECT_TRUE(has_loop_invariant(looped("kepler", "rk4")));
-  EXPECT_TRUE(has_loop_invariant(looped("damped-pendulum", "rk4")));
-  EXPECT_TRUE(has_loop_invariant(looped("lotka-volterra", "rk4")));
-  EXPECT_FALSE(has_loop_invariant(looped("spherical-pendulum", "rattle")));
-  EXPECT_FALSE(has_loop_invariant(looped("relaxing-rigid-body", "rk4")));
+  EXPECT_TRUE(fits("poincare-loop", looped("kepler", "rk4")));
+  EXPECT_TRUE(fits("poincare-loop", looped("damped-pendulum", "rk4")));
+  EXPECT_TRUE(fits("poincare-loop", looped("lotka-volterra", "rk4")));
+  EXPECT_FALSE(fits("poincare-loop", looped("spherical-pendulum", "rattle")));
+  EXPECT_FALSE(fits("poincare-loop", looped("relaxing-rigid-body", "rk4")));
 }
 
 // A loop of 64 points and of size 1/1000 is known to 1e-16 * 1000 * 64, a few times over; kept where steps
@@ -72,44 +77,21 @@ TEST(LoopInvariant, OfALinearSystemIsTheDeterminantOfTheSteps) {
 
 // Half of the points say as much while the loop is smooth, and no longer once it is wound up.
 TEST(LoopInvariant, TellsWhenALoopIsNoLongerResolved) {
-  RunSettings settings;
-  settings.system = "kepler";
-  settings.integrator = "verlet";
-  settings.step = "0.2";
-  settings.time = "200";
-  const auto loops = carry_loop(resolve(settings), 40);
+  const auto loops = carry_loop(to_measure("kepler", "verlet", "0.2", {}, 200), 40);
   ASSERT_EQ(loops.size(), 41U);
   EXPECT_LT(loops[1].uncertainty, 1e-9);
   EXPECT_GT(loops.back().uncertainty, 1e-3);
 }
 
-TEST(LoopInvariant, IsThatOfTheLargestStepThatEndsWell) {
-  const pfaff::testing::TemporaryDirectory files;
-  write_file(files / "test.toml", R"(schema = 1
-title = "A test"
-[[method]]
-label = "RK4, one"
-integrator = "rk4"
-[[case]]
-name = "swing"
-system = "pendulum"
-time = 4
-steps = [0.1, 0.4, 0.2]
-)");
-  const Experiment of = read_experiment(files / "test.toml", false);
-  const auto runs = expand(of);
-  std::vector<nlohmann::json> summaries(runs.size(), {{"status", "converged"}});
-  const auto rows_with = [&](const std::string& begin) {
-    std::istringstream lines(loops_csv(runs, summaries));
-    std::size_t count = 0;
-    for (std::string line; std::getline(lines, line);) count += line.starts_with(begin) ? 1 : 0;
-    return count;
-  };
-  EXPECT_EQ(rows_with("case,method,step,t,integral,uncertainty"), 1U);
-  EXPECT_EQ(rows_with("swing,\"RK4, one\",0.4,"), 11U);  // the start and ten steps
-  EXPECT_EQ(rows_with(""), 12U);
-  for (nlohmann::json& summary : summaries) summary["status"] = "non_finite";
-  EXPECT_EQ(loops_csv(runs, summaries), "");
+// In quad the integral is known as well as states are: 64 points of a loop of size 1/1000.
+TEST(LoopInvariant, IsMeasuredInThePrecisionOfTheRun) {
+  const auto run = integrate<Quad>("pendulum", {}, "verlet", {}, {.step = "0.1"});
+  const auto measure = measure_asked_for("poincare-loop(steps=20, looks=4)");
+  const MeasuredTable table = measured(run, 20, {measure.get()}).front();
+  ASSERT_EQ(table.lines.size(), 5U);
+  for (const MeasuredTable::Line& line : table.lines)
+    EXPECT_LT(abs(std::get<Quad>(line.cells[0]) - Quad(1)), Quad(1e-28)) << line.step;
 }
 
 }  // namespace
+}  // namespace pfaff

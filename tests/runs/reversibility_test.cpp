@@ -3,23 +3,35 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
-#include <pfaff/bench/experiment/reversibility.hpp>
-#include <pfaff/bench/runner/files.hpp>
+#include <pfaff/core/system.hpp>
 
-#include "../temporary_directory.hpp"
-#include "run_settings.hpp"
+#include "measured_table.hpp"
 
+namespace pfaff {
 namespace {
-using namespace pfaff;
-using pfaff::testing::settings_of;
 
-ResolvedRun turned(const std::string& system, const std::string& integrator, const std::string& step = "0.1",
-                   const Assignments& set = {}, const std::string& time = "20") {
-  RunSettings settings = settings_of(system, step, time, set);
-  settings.integrator = integrator;
-  return resolve(settings);
+using testing::ToMeasure;
+
+ToMeasure turned(const std::string& system, const std::string& method, const std::string& step = "0.1",
+                 const Assignments& set = {}, double time = 20) {
+  return testing::to_measure(system, method, step, set, time);
+}
+
+struct Return {
+  double t, distance, rounding;
+};
+struct Returns {
+  std::vector<Return> looks;
+  std::string by;
+};
+Returns returns_to_start(const ToMeasure& run) {
+  Returns returns;
+  for (const MeasuredTable::Line& line : table_of("reversibility", run).lines) {
+    returns.looks.push_back({time_of(line, run), testing::number(line, 0), testing::number(line, 1)});
+    returns.by = std::get<std::string>(line.cells[2]);
+  }
+  return returns;
 }
 
 double farthest(const Returns& returns) {
@@ -33,8 +45,8 @@ double farthest(const Returns& returns) {
 // The power of h with which the distance at the end falls.
 double power(const std::string& system, const std::string& integrator, const std::string& step,
              const std::string& half) {
-  const Returns coarse = returns_to_start(turned(system, integrator, step, {}, "4"));
-  const Returns fine = returns_to_start(turned(system, integrator, half, {}, "4"));
+  const Returns coarse = returns_to_start(turned(system, integrator, step, {}, 4));
+  const Returns fine = returns_to_start(turned(system, integrator, half, {}, 4));
   EXPECT_NEAR(coarse.looks.back().t, 4, 1e-12);
   EXPECT_NEAR(fine.looks.back().t, 4, 1e-12);
   return std::log2(coarse.looks.back().distance / fine.looks.back().distance);
@@ -46,7 +58,7 @@ double power(const std::string& system, const std::string& integrator, const std
 TEST(Reversibility, SymmetricMethodsComeBackByTheReversal) {
   for (const char* method : {"verlet", "gauss", "implicit-midpoint", "generating-function"}) {
     const Returns returns = returns_to_start(turned("kepler", method, "0.05"));
-    EXPECT_EQ(returns.by, WayBack::reversal) << method;
+    EXPECT_EQ(returns.by, "reversal") << method;
     EXPECT_LT(farthest(returns), 2e-12) << method;
   }
   EXPECT_GT(farthest(returns_to_start(turned("kepler", "rk4", "0.05"))), 1e-3);
@@ -58,7 +70,7 @@ TEST(Reversibility, SymmetricMethodsComeBackByTheReversal) {
 TEST(Reversibility, DampedSystemsGoBackByNegativeSteps) {
   for (const char* method : {"generating-function", "gauss-darboux", "gauss"}) {
     const Returns returns = returns_to_start(turned("damped-pendulum", method));
-    EXPECT_EQ(returns.by, WayBack::negative_steps) << method;
+    EXPECT_EQ(returns.by, "negative steps") << method;
     EXPECT_LT(farthest(returns), 1e-13) << method;
   }
   EXPECT_GT(farthest(returns_to_start(turned("damped-pendulum", "rk4"))), 1e-6);
@@ -92,30 +104,32 @@ struct SilentPendulum {
   }
 };
 
+std::shared_ptr<const Model> model_of(const std::string& name, const std::vector<Real>& initial,
+                                      auto system) {
+  return make_model(SystemDescriptor{.name = name, .title = "", .reference = "", .initial = initial}, system);
+}
+
 template <class S>
-Returns returns_of(const S& system, const std::string& integrator, const std::string& t0 = "0") {
-  RunSettings settings = settings_of("pendulum", "0.1", "20");
-  settings.integrator = integrator;
-  settings.t0 = t0;
-  ResolvedRun run = resolve(settings);
-  run.initial = {Real(1), Real::fraction(1, 2)};
-  run.model = make_model(
-      SystemDescriptor{.name = "stated-pendulum", .title = "", .reference = "", .initial = run.initial},
-      system);
-  return returns_to_start(run);
+Returns returns_of(const S& system, const std::string& method, double t0 = 0) {
+  Start<double> start{model_of("stated-pendulum", {Real(1), Real::fraction(1, 2)}, system),
+                      integrators().get(method, "integrator").make({}),
+                      {1, 0.5},
+                      0.1,
+                      t0};
+  return returns_to_start({Integration<double>(std::move(start)), 200});
 }
 
 TEST(Reversibility, TheReversalIsThatOfTheSystem) {
   const Returns right = returns_of(StatedPendulum{}, "gauss");
-  EXPECT_EQ(right.by, WayBack::reversal);
+  EXPECT_EQ(right.by, "reversal");
   EXPECT_LT(farthest(right), 1e-13);
 
   const Returns wrong = returns_of(StatedPendulum{.stated = Stated::nothing_turned}, "gauss");
-  EXPECT_EQ(wrong.by, WayBack::reversal);
+  EXPECT_EQ(wrong.by, "reversal");
   EXPECT_GT(farthest(wrong), 0.5);
 
   const Returns silent = returns_of(SilentPendulum{}, "gauss");
-  EXPECT_EQ(silent.by, WayBack::negative_steps);
+  EXPECT_EQ(silent.by, "negative steps");
   EXPECT_LT(farthest(silent), 1e-13);
   EXPECT_GT(farthest(returns_of(SilentPendulum{}, "rk4")), 1e-6);
 }
@@ -123,21 +137,21 @@ TEST(Reversibility, TheReversalIsThatOfTheSystem) {
 // The motion of a driven system is another one backwards, whatever reversal it states: the way back begins at
 // the time of the turn and goes back to the time of the start.
 TEST(Reversibility, SystemsThatDependOnTimeGoBackInTime) {
-  const Returns driven = returns_of(StatedPendulum{.drive = Real::fraction(3, 10)}, "gauss", "0.7");
-  EXPECT_EQ(driven.by, WayBack::negative_steps);
+  const Returns driven = returns_of(StatedPendulum{.drive = Real::fraction(3, 10)}, "gauss", 0.7);
+  EXPECT_EQ(driven.by, "negative steps");
   EXPECT_LT(farthest(driven), 1e-12);
 }
 
 TEST(Reversibility, MethodsOnConstraintsComeBack) {
-  const Returns rattle = returns_to_start(turned("n-pendulum", "rattle", "0.01", {{"bobs", "2"}}, "1"));
-  EXPECT_EQ(rattle.by, WayBack::negative_steps);
+  const Returns rattle = returns_to_start(turned("n-pendulum", "rattle", "0.01", {{"bobs", "2"}}, 1));
+  EXPECT_EQ(rattle.by, "negative steps");
   EXPECT_LT(farthest(rattle), 1e-13);
-  EXPECT_GT(farthest(returns_to_start(turned("n-pendulum", "projected-rk4", "0.01", {{"bobs", "2"}}, "1"))),
+  EXPECT_GT(farthest(returns_to_start(turned("n-pendulum", "projected-rk4", "0.01", {{"bobs", "2"}}, 1))),
             1e-11);
   // Dirac's formulation, and constraints of velocities in the nonholonomic one.
-  EXPECT_LT(farthest(returns_to_start(turned("n-pendulum", "gauss", "0.01", {{"bobs", "2"}}, "1"))), 1e-13);
-  const Returns ball = returns_to_start(turned("rolling-ball", "gauss", "0.1", {}, "5"));
-  EXPECT_EQ(ball.by, WayBack::reversal);
+  EXPECT_LT(farthest(returns_to_start(turned("n-pendulum", "gauss", "0.01", {{"bobs", "2"}}, 1))), 1e-13);
+  const Returns ball = returns_to_start(turned("rolling-ball", "gauss", "0.1", {}, 5));
+  EXPECT_EQ(ball.by, "reversal");
   EXPECT_LT(farthest(ball), 1e-13);
 }
 
@@ -147,12 +161,12 @@ TEST(Reversibility, MethodsOnConstraintsComeBack) {
 TEST(Reversibility, WhatIsRememberedIsTurnedRoundToo) {
   for (const char* method : {"gni", "nonholonomic-leap-frog"}) {
     const Returns particle = returns_to_start(turned("contact-particle", method));
-    EXPECT_EQ(particle.by, WayBack::reversal) << method;
+    EXPECT_EQ(particle.by, "reversal") << method;
     EXPECT_LT(farthest(particle), 1e-13) << method;
     for (const Return& one : particle.looks) EXPECT_TRUE(std::isnan(one.rounding)) << method;
   }
-  const Returns ball = returns_to_start(turned("rolling-ball", "gni", "0.1", {}, "5"));
-  EXPECT_EQ(ball.by, WayBack::negative_steps);
+  const Returns ball = returns_to_start(turned("rolling-ball", "gni", "0.1", {}, 5));
+  EXPECT_EQ(ball.by, "negative steps");
   EXPECT_LT(farthest(ball), 1e-13);
 }
 
@@ -164,13 +178,6 @@ TEST(Reversibility, MultistepMethodsAreLeftOut) {
   EXPECT_TRUE(returns_to_start(turned("kepler", tables + "12.toml", "0.05")).looks.empty());
 }
 
-// What a run measures of the structure of a step would be that of the method of its first steps.
-TEST(Reversibility, RunsOfMultistepMethodsHaveNoStructureOfAStep) {
-  const std::string table = std::string(PFAFF_GOLDEN) + "/../../examples/tables/quinlan-tremaine-12.toml";
-  EXPECT_FALSE(execute(turned("kepler", table, "0.05"), nullptr).structure_residual);
-  EXPECT_TRUE(execute(turned("kepler", "gauss", "0.05"), nullptr).structure_residual);
-}
-
 // The midpoint rule turns the plane of the oscillator, and keeps every distance in it, so that what is 2^-53
 // of one state is 2^-53 of the other. Beside the upright position of a pendulum distances grow as e^t.
 TEST(Reversibility, ARoundingGrowsAsTheMotionMakesIt) {
@@ -178,7 +185,7 @@ TEST(Reversibility, ARoundingGrowsAsTheMotionMakesIt) {
       returns_to_start(turned("harmonic-oscillator", "implicit-midpoint", "0.1", {{"initial", "3,4"}}));
   for (const Return& one : round.looks) EXPECT_NEAR(one.rounding / 0x1p-53, 1, 1e-6) << one.t;
   const Returns upright =
-      returns_to_start(turned("pendulum", "gauss", "0.05", {{"initial", "3.141592653589793,1e-9"}}, "10"));
+      returns_to_start(turned("pendulum", "gauss", "0.05", {{"initial", "3.141592653589793,1e-9"}}, 10));
   const Return& last = upright.looks.back();
   ASSERT_NEAR(last.t, 10, 1e-12);
   EXPECT_NEAR(std::log(last.rounding / 0x1p-53), 10, 1);
@@ -210,13 +217,11 @@ struct OnlyForward {
 TEST(Reversibility, AWayBackThatFailsHasNoDistance) {
   static const Method<OnlyForward> only_forward{
       {.name = "only-forward", .title = "", .reference = "", .order = 1}};
-  ResolvedRun run = resolve(settings_of("pendulum", "1", "4"));
-  run.initial = {1, 1};
-  run.model = make_model(
-      SystemDescriptor{.name = "bounded", .title = "", .reference = "", .initial = run.initial}, Bounded{});
   for (const bool forward : {false, true}) {
-    if (forward) run.method = only_forward.make({});
-    const Returns returns = returns_to_start(run);
+    Start<double> start{
+        model_of("bounded", {1, 1}, Bounded{}), integrators().get("rk4", "integrator").make({}), {1, 1}, 1};
+    if (forward) start.method = only_forward.make({});
+    const Returns returns = returns_to_start({Integration<double>(std::move(start)), 4});
     ASSERT_EQ(returns.looks.size(), 4U);
     for (const Return& one : returns.looks) {
       EXPECT_TRUE(std::isnan(one.distance)) << one.t;
@@ -226,74 +231,17 @@ TEST(Reversibility, AWayBackThatFailsHasNoDistance) {
 }
 
 TEST(Reversibility, TurnsAreSpacedEvenlyInTheirLogarithm) {
-  const auto steps_of = [](const ResolvedRun& run) {
+  const auto steps_of = [](const ToMeasure& run) {
     std::vector<long long> steps;
     for (const Return& one : returns_to_start(run).looks) steps.push_back(std::llround(one.t / 0.1));
     return steps;
   };
-  EXPECT_EQ(steps_of(turned("pendulum", "verlet", "0.1", {}, "200")),
+  EXPECT_EQ(steps_of(turned("pendulum", "verlet", "0.1", {}, 200)),
             (std::vector<long long>{1, 2, 3, 6, 10, 18, 32, 56, 100, 178, 316, 562, 1000}));
-  EXPECT_EQ(steps_of(turned("pendulum", "verlet", "0.1", {}, "0.4")), (std::vector<long long>{1, 2, 3, 4}));
+  EXPECT_EQ(steps_of(turned("pendulum", "verlet", "0.1", {}, 0.4)), (std::vector<long long>{1, 2, 3, 4}));
   // Of 256 coordinates a quarter of the steps.
-  EXPECT_EQ(steps_of(turned("fermi-pasta-ulam-tsingou", "verlet", "0.1", {{"n", "128"}}, "200")).back(), 250);
-}
-
-TEST(Reversibility, IsThatOfTheLargestStepThatEndsWell) {
-  const pfaff::testing::TemporaryDirectory files;
-  write_file(files / "test.toml", R"(schema = 1
-title = "A test"
-[[method]]
-label = "RK4, one"
-integrator = "rk4"
-[[method]]
-label = "chosen"
-integrator = "odeint-dopri5"
-tolerance = ["1e-6"]
-[[method]]
-label = "two states"
-integrator = "leap-frog"
-[[case]]
-name = "swing"
-system = "pendulum"
-methods = ["RK4, one", "chosen", "two states"]
-time = 4
-steps = [0.1, 0.4, 0.2]
-[[case]]
-name = "many"
-system = "quartic-nonholonomic"
-methods = ["RK4, one"]
-time = 4
-steps = [0.1]
-seeds = 2
-[[method]]
-label = "remembers"
-integrator = "gni"
-[[case]]
-name = "particle"
-system = "contact-particle"
-methods = ["remembers"]
-time = 0.1
-steps = [0.1]
-)");
-  const Experiment of = read_experiment(files / "test.toml", false);
-  const auto runs = expand(of);
-  std::vector<nlohmann::json> summaries(runs.size(), {{"status", "converged"}});
-  const auto rows_with = [&](const std::string& begin) {
-    std::istringstream lines(reversibility_csv(runs, summaries));
-    std::size_t count = 0;
-    for (std::string line; std::getline(lines, line);) count += line.starts_with(begin) ? 1 : 0;
-    return count;
-  };
-  EXPECT_EQ(rows_with("case,method,step,t,distance,rounding,by"), 1U);
-  const std::size_t turns = 9;  // after 1 to 8 and 10 steps, as 10^(k/12) is rounded
-  EXPECT_EQ(rows_with("swing,\"RK4, one\",0.4,"), turns);
-  EXPECT_EQ(rows_with(""), 1 + turns + 1);
-  EXPECT_TRUE(reversibility_csv(runs, summaries).ends_with(",,reversal\n"));  // no rounding of GNI
-  for (std::size_t k = 0; k < runs.size(); ++k)
-    if (runs[k].step == "0.4") summaries[k]["status"] = "non_finite";
-  EXPECT_EQ(rows_with("swing,\"RK4, one\",0.2,"), rows_with("") - 2);
-  for (nlohmann::json& summary : summaries) summary["status"] = "non_finite";
-  EXPECT_EQ(reversibility_csv(runs, summaries), "");
+  EXPECT_EQ(steps_of(turned("fermi-pasta-ulam-tsingou", "verlet", "0.1", {{"n", "128"}}, 200)).back(), 250);
 }
 
 }  // namespace
+}  // namespace pfaff

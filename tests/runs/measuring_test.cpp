@@ -1,0 +1,151 @@
+// Measures as plug-ins: what they are shown, and that a fault of one is its own.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include <pfaff/core/errors/budget.hpp>
+
+#include "explosion.hpp"
+#include "measured_table.hpp"
+
+namespace pfaff {
+namespace {
+
+using ::testing::HasSubstr;
+
+// What a measure of a test does at a look.
+enum class Deed { nothing, throws, is_not_finite, few_cells, ends, looks_back };
+
+// Looks at every third step, at all blocks, and at the end.
+struct Trial {
+  Deed deed = Deed::nothing;
+  [[nodiscard]] std::vector<Column> columns(const Model& /*model*/) const { return {{"x"}, {"seen"}}; }
+  template <class T>
+  [[nodiscard]] std::vector<std::int64_t> looks(const Measured<T>& run) const {
+    if (deed == Deed::looks_back) return {3, 2};
+    std::vector<std::int64_t> numbers;
+    for (std::int64_t step = 0; step <= run.steps; step += 3) numbers.push_back(step);
+    return numbers;
+  }
+  template <class T>
+  struct Work {
+    T seen{0};
+    Work(const Trial& /*trial*/, const Measured<T>& /*run*/) {}
+  };
+  template <class T>
+  void block(const Measured<T>& /*run*/, const Block<T>& block, Work<T>& work) const {
+    for (std::size_t row = 0; row < block.rows; ++row) work.seen += block.states.at(row, 0);
+  }
+  template <class T>
+  bool look(const Measured<T>& /*run*/, const Look<T>& at, Work<T>& work, Row& row) const {
+    const bool now = at.step == 6;
+    if (now && deed == Deed::throws) throw std::runtime_error("no more");
+    if (now && deed == Deed::ends) return false;
+    row = {now && deed == Deed::is_not_finite ? T(std::nan("")) : at.z[0], work.seen};
+    if (now && deed == Deed::few_cells) row.pop_back();
+    return true;
+  }
+  template <class T>
+  bool end(const Measured<T>& run, Work<T>& work, Row& row) const {
+    row = {T(static_cast<double>(run.steps)), work.seen};
+    return true;
+  }
+};
+
+std::vector<MeasuredTable> tables_of(const std::vector<Deed>& deeds, std::int64_t steps = 10,
+                                     const std::shared_ptr<const Model>& model = nullptr) {
+  static const Measure<Trial> plugin{{.name = "trial", .title = ""}};
+  const auto run = model == nullptr
+                       ? integrate("harmonic-oscillator", {}, "verlet", {}, {.step = "0.1"})
+                       : integrate<double>(model, integrators().get("rk4", "integrator").make({}), 0.125);
+  std::vector<std::unique_ptr<MeasureInstance>> trials;
+  std::vector<const MeasureInstance*> asked;
+  for (const Deed deed : deeds)
+    asked.push_back(
+        trials.emplace_back(std::make_unique<detail::MeasureWith<Trial>>(plugin, Trial{deed})).get());
+  return measured(run, steps, asked);
+}
+
+// Looks come after the blocks that lead to them, and the start is seen too.
+TEST(Measuring, ShowsTheStatesOfTheRun) {
+  const MeasuredTable table = tables_of({Deed::nothing}).front();
+  ASSERT_EQ(table.lines.size(), 5U);  // after 0, 3, 6 and 9 steps, and at the end
+  auto run = integrate("harmonic-oscillator", {}, "verlet", {}, {.step = "0.1"});
+  double seen = run.state()[0];
+  for (std::int64_t step = 0; step <= 10; ++step) {
+    if (step > 0) {
+      EXPECT_TRUE(run.steps(1).reached());
+      seen += run.state()[0];
+    }
+    if (step % 3 != 0) continue;
+    const MeasuredTable::Line& line = table.lines[static_cast<std::size_t>(step / 3)];
+    EXPECT_EQ(line.step, step);
+    EXPECT_EQ(testing::number(line, 0), run.state()[0]);
+    EXPECT_EQ(testing::number(line, 1), seen);
+  }
+  EXPECT_EQ(table.lines.back().step, 10);
+  EXPECT_EQ(testing::number(table.lines.back(), 0), 10);
+  EXPECT_EQ(testing::number(table.lines.back(), 1), seen);
+  EXPECT_EQ(table.ended, "");
+}
+
+TEST(Measuring, AFaultOfAMeasureIsItsOwn) {
+  const auto tables = tables_of(
+      {Deed::nothing, Deed::throws, Deed::is_not_finite, Deed::few_cells, Deed::ends, Deed::looks_back});
+  const auto alone = tables_of({Deed::nothing}).front();
+  EXPECT_EQ(tables[0].lines.size(), 5U);
+  for (std::size_t k = 0; k < 5; ++k)
+    EXPECT_EQ(testing::number(tables[0].lines[k], 1), testing::number(alone.lines[k], 1));
+  EXPECT_EQ(tables[1].lines.size(), 2U);
+  EXPECT_EQ(tables[1].ended, "no more");
+  ASSERT_EQ(tables[2].lines.size(), 5U);
+  EXPECT_EQ(text_of(tables[2].lines[2].cells[0], tables[2].columns[0]), "");
+  EXPECT_NE(text_of(tables[2].lines[3].cells[0], tables[2].columns[0]), "");
+  EXPECT_EQ(tables[3].lines.size(), 2U);
+  EXPECT_THAT(tables[3].ended, HasSubstr("expected a row of 2 cells, got 1"));
+  EXPECT_EQ(tables[4].lines.size(), 2U);
+  EXPECT_EQ(tables[4].ended, "");
+  EXPECT_EQ(tables[5].lines.size(), 0U);
+  EXPECT_THAT(tables[5].ended, HasSubstr("in increasing order"));
+}
+
+// Where the run fails, tables end and say so.
+TEST(Measuring, TablesEndWhereTheRunDoes) {
+  const MeasuredTable table = tables_of({Deed::nothing}, 1000, testing::explosion()).front();
+  EXPECT_GT(table.lines.size(), 2U);
+  EXPECT_LT(table.lines.size(), 20U);
+  EXPECT_THAT(table.ended, HasSubstr("left the range of numbers at t = "));
+}
+
+TEST(Measuring, EndsWithTheBudget) {
+  const Budget budget({.steps = 5});
+  EXPECT_THROW((void)tables_of({Deed::nothing}), BudgetSpent);
+}
+
+TEST(Measuring, CellsAreWrittenWithTheDigitsOfTheirColumns) {
+  EXPECT_EQ(text_of(Cell(0.1), {.name = "all"}), "0.10000000000000001");
+  EXPECT_EQ(text_of(Cell(0.1), {.name = "three", .digits = 3}), "0.1");
+  EXPECT_EQ(text_of(Cell(Quad(1) / Quad(3)), {.name = "all"}).size(), 38U);  // "0." and 36 digits
+  EXPECT_EQ(text_of(Cell(std::numeric_limits<double>::infinity()), {.name = "x"}), "");
+  EXPECT_EQ(text_of(Cell(std::string("by, and")), {.name = "x", .kind = Column::Kind::text}), "by, and");
+}
+
+TEST(Measuring, RefusesWhatIsNoMeasure) {
+  const auto words_of = [](const std::string& text) -> std::string {
+    try {
+      (void)measure_asked_for(text);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_THAT(words_of("poincare-lop"), HasSubstr("did you mean 'poincare-loop'"));
+  EXPECT_THAT(words_of("poincare-loop(look=3)"), HasSubstr("'looks'"));
+  EXPECT_THAT(words_of("poincare-loop(looks=0)"), HasSubstr("1"));
+  EXPECT_THAT(words_of("poincare-loop(looks"), HasSubstr("measure"));
+}
+
+}  // namespace
+}  // namespace pfaff

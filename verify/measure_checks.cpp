@@ -1,0 +1,82 @@
+// Measures where their answers are known, and faults that they have to see (MeasureControl).
+#include <cmath>
+
+#include <pfaff/runs/integrate.hpp>
+#include <pfaff/runs/measuring.hpp>
+#include <pfaff/verify/check.hpp>
+
+namespace pfaff {
+
+namespace {
+// The number in the last row of a column. InputError where there is none, which says why.
+double last_number(const MeasuredTable& table, const std::string& column) {
+  if (!table.ended.empty()) throw InputError("its table ends early: " + table.ended);
+  if (table.lines.empty()) throw InputError("its table has no rows");
+  for (std::size_t k = 0; k < table.columns.size(); ++k)
+    if (const auto* number = std::get_if<double>(&table.lines.back().cells[k]);
+        table.columns[k].name == column && number != nullptr) {
+      if (!std::isfinite(*number))
+        throw InputError("the last number of its column '" + column + "' is not finite");
+      return *number;
+    }
+  throw InputError("its table has no column of numbers '" + column + "'");
+}
+
+Check judged(const MeasureInstance& measure, const MeasureControl& control) {
+  Check check;
+  check.plugin = measure.descriptor().name;
+  check.parameters = measure.parameters();
+  check.claim = "measure";
+  check.scope = control.column + " by " + control.method + ", " + std::to_string(control.steps) +
+                " steps of " + control.step;
+  check.system = control.system;
+  check.precision = "double";
+  check.expected = control.expected;
+  check.tolerance = control.allowed;
+  check.control = control.fault;
+  try {
+    const auto run = integrate(control.system, control.system_parameters, control.method,
+                               control.method_parameters, {.step = control.step});
+    if (const std::string reason = measure.refuses(*run.model(), run.method()); !reason.empty())
+      throw InputError(reason);
+    check.measured = std::abs(last_number(measured(run, control.steps, {&measure}).front(), control.column) -
+                              control.expected);
+  } catch (const InputError& error) {
+    check.result = CheckResult::fail;
+    check.reason = error.what();
+    return check;
+  }
+  const bool as_stated = check.measured <= control.allowed;
+  check.result = control.fault ? as_stated ? CheckResult::fail : CheckResult::rejected
+                 : as_stated   ? CheckResult::pass
+                               : CheckResult::fail;
+  if (check.result == CheckResult::fail)
+    check.reason =
+        control.fault ? "it does not see that the method does not keep it" : "it gives another number";
+  return check;
+}
+}  // namespace
+
+std::vector<Check> check_measure(const MeasurePlugin& plugin) {
+  const auto measure = plugin.make({});
+  std::vector<Check> checks;
+  int answers = 0, faults = 0;
+  for (const MeasureControl& control : plugin.controls()) {
+    checks.push_back(judged(*measure, control));
+    (control.fault ? faults : answers) += 1;
+  }
+  Check stated;
+  stated.plugin = plugin.name();
+  stated.claim = "measure";
+  stated.scope = "two answers and a fault stated";
+  stated.measured = answers + faults;
+  stated.expected = 3;
+  stated.result = answers >= 2 && faults >= 1 ? CheckResult::pass : CheckResult::fail;
+  if (stated.result == CheckResult::fail)
+    stated.reason = "controls() states " + std::to_string(answers) + " answers and " +
+                    std::to_string(faults) + " faults; expected two answers at least and a fault";
+  checks.push_back(stated);
+  return checks;
+}
+
+}  // namespace pfaff
