@@ -65,7 +65,7 @@ std::vector<std::vector<Quad>> error_series(MethodOnModel& on, const ReferenceEx
 }
 
 // The largest coefficient of the degrees first, ..., last, and its degree.
-std::pair<Quad, int> largest_of(const std::vector<std::vector<Quad>>& errors, int first, int last) {
+std::pair<Quad, int> largest_coefficient(const std::vector<std::vector<Quad>>& errors, int first, int last) {
   std::pair<Quad, int> largest{Quad(0), first};
   for (const auto& component : errors)
     for (int degree = first; degree <= last; ++degree)
@@ -113,16 +113,17 @@ std::optional<Check> check_order_conditions(MethodOnModel& on) {
   for (int k = 0; k < most_radii; ++k, radius = radius / Quad(4)) {
     const auto errors = error_series(on, solution, start, radius);
     if (errors.empty() ||
-        !(largest_of(errors, interpolation_points - points_left_out, interpolation_points - 1).first <=
-          Quad(nothing_left_out)))
+        !(largest_coefficient(errors, interpolation_points - points_left_out, interpolation_points - 1)
+              .first <= Quad(nothing_left_out)))
       continue;
     const int next = std::min(order + 1, interpolation_points - 1);
-    if (doubles && !(largest_of(errors, next, next).first >= Quad(seen_above_tolerance * check.tolerance))) {
+    if (doubles &&
+        !(largest_coefficient(errors, next, next).first >= Quad(seen_above_tolerance * check.tolerance))) {
       check.in_scope = false;
       check.reason = "the error of a step is too near the round-off of the coefficients";
       return check;
     }
-    const auto [size, degree] = largest_of(errors, 0, std::min(order, most_conditions));
+    const auto [size, degree] = largest_coefficient(errors, 0, std::min(order, most_conditions));
     check.measured = static_cast<double>(size);
     check.result = check.measured <= check.tolerance ? CheckResult::pass : CheckResult::fail;
     if (check.result == CheckResult::pass) return check;
