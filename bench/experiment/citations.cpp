@@ -16,10 +16,8 @@ const std::map<std::string, std::string>& entries() {
     std::map<std::string, std::string> result;
     namespace fs = std::filesystem;
     std::error_code error;
-    const auto data = find_data_directory();
-    if (!data) return result;
-    fs::path path = *data / "references.bib";
-    if (!fs::exists(path, error)) path = data->parent_path() / "references.bib";
+    if (!find_data_directory()) return result;
+    const fs::path path = shipped_path("references.bib");
     if (!fs::exists(path, error)) return result;
     const std::string text = read_file(path);
     for (std::size_t begin = text.find('@'); begin != std::string::npos;) {

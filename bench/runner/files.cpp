@@ -180,4 +180,10 @@ fs::path data_directory() {
                    installed_data().string() + "', as they are installed with the program");
 }
 
+fs::path shipped_path(const fs::path& name) {
+  const fs::path installed = data_directory() / name;
+  std::error_code error;
+  return fs::exists(installed, error) ? installed : data_directory().parent_path() / name;
+}
+
 }  // namespace pfaff

@@ -50,5 +50,8 @@ std::filesystem::path program_path();
 std::optional<std::filesystem::path> find_data_directory();
 /// The same; InputError where there is none.
 std::filesystem::path data_directory();
+/// The path of a file or folder that ships under the name that it has in the source tree, such as
+/// "examples/models". InputError where there is no data directory.
+std::filesystem::path shipped_path(const std::filesystem::path& name);
 
 }  // namespace pfaff

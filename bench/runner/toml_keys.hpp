@@ -73,7 +73,7 @@ class Keys {
   std::vector<std::string> list(std::string_view key, std::vector<std::string> fallback = {}) {
     const toml::node* node = find(key);
     if (node == nullptr) return fallback;
-    if (!node->is_array()) throw InputError(where_ + ": key '" + std::string(key) + "': expected a list");
+    if (!node->is_array()) refuse(key, "expected a list");
     std::vector<std::string> items;
     for (const toml::node& item : *node->as_array()) items.push_back(scalar(item, key));
     return items;
@@ -82,8 +82,7 @@ class Keys {
   std::vector<std::string> list_of_some(std::string_view key) {
     std::vector<std::string> items = list(key);
     if (items.empty() && table_.get(key) != nullptr)
-      throw InputError(where_ + ": key '" + std::string(key) +
-                       "': expected a number at least, got an empty list");
+      refuse(key, "expected a number at least, got an empty list");
     return items;
   }
   /// A list; a single item without brackets is a list of one.
@@ -94,7 +93,7 @@ class Keys {
   Assignments assignments(std::string_view key) {
     const toml::node* node = find(key);
     if (node == nullptr) return {};
-    if (!node->is_table()) throw InputError(where_ + ": key '" + std::string(key) + "': expected a table");
+    if (!node->is_table()) refuse(key, "expected a table");
     Assignments result;
     for (const auto& [name, value] : *node->as_table())
       result.emplace_back(name.str(), scalar(value, name.str()));
@@ -119,8 +118,7 @@ class Keys {
   }
   const toml::table* table(std::string_view key) {
     const toml::node* node = find(key);
-    if (node != nullptr && !node->is_table())
-      throw InputError(where_ + ": key '" + std::string(key) + "': expected a table");
+    if (node != nullptr && !node->is_table()) refuse(key, "expected a table");
     return node == nullptr ? nullptr : node->as_table();
   }
   /// The tables of an array [[key]]. InputError where there is none, unless `needed` is false.
@@ -145,8 +143,10 @@ class Keys {
   // Where a key stands, for messages: "FILE [[case]], line 7".
   [[nodiscard]] std::string place(std::string_view key) const {
     const auto entry = table_.find(key);
-    const auto line = entry == table_.end() ? 0 : entry->first.source().begin.line;
-    return where_ + (line == 0 ? "" : ", line " + std::to_string(line));
+    return at(entry == table_.end() ? toml::source_region() : entry->first.source());
+  }
+  [[nodiscard]] std::string at(const toml::source_region& region) const {
+    return where_ + (region.begin.line == 0 ? "" : ", line " + std::to_string(region.begin.line));
   }
   const toml::node* find(std::string_view key) {
     asked_.emplace_back(key);
@@ -156,7 +156,7 @@ class Keys {
     if (const auto* s = node.as_string()) return s->get();
     if (const auto* i = node.as_integer()) return std::to_string(i->get());
     if (const auto* b = node.as_boolean()) return b->get() ? "yes" : "no";
-    throw InputError(where_ + ": key '" + std::string(key) + "': expected a number or a string");
+    throw InputError(at(node.source()) + ": key '" + std::string(key) + "': expected a number or a string");
   }
 
   const toml::table& table_;

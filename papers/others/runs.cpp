@@ -9,10 +9,7 @@
 namespace pfaff::others {
 
 std::string example(const std::string& name) {
-  std::filesystem::path folder = data_directory() / "examples";
-  std::error_code error;
-  if (!std::filesystem::exists(folder, error)) folder = data_directory().parent_path() / "examples";
-  return (folder / name).string();
+  return shipped_path(std::filesystem::path("examples") / name).string();
 }
 
 ResolvedRun resolved(const Asked& asked) {
