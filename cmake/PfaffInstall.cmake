@@ -22,7 +22,9 @@ foreach(experiment ${experiments})
   file(WRITE ${PROJECT_BINARY_DIR}/installed/experiments/${name} "${text}")
 endforeach()
 install(DIRECTORY ${PROJECT_BINARY_DIR}/installed/experiments DESTINATION ${CMAKE_INSTALL_DATADIR}/pfaff)
-# Models and tables that rows of `pfaff reproduce others` run.
+# Which items of papers have rows, and models and tables that rows of `pfaff reproduce others` run.
+install(DIRECTORY papers/coverage DESTINATION ${CMAKE_INSTALL_DATADIR}/pfaff/papers
+        FILES_MATCHING PATTERN "*.toml")
 install(DIRECTORY examples/models examples/tables DESTINATION ${CMAKE_INSTALL_DATADIR}/pfaff/examples)
 install(FILES ${pfaff_written}/pfaff.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(FILES ${pfaff_written}/pfaff DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <iostream>
+#include <map>
 
 #include <pfaff/bench/runner/interruption.hpp>
 #include <pfaff/bench/runner/terminal.hpp>
@@ -106,7 +107,7 @@ void print_list(const ReproductionOptions& options) {
   if (options.paper.empty()) {
     lines.push_back({"paper", "items", "with rows"});
     for (const std::string& paper : papers()) {
-      const std::vector<PaperItem>& items = items_of(paper);
+      const std::vector<PaperItem> items = items_of(paper);
       const auto rows = std::count_if(items.begin(), items.end(),
                                       [](const PaperItem& item) { return item.cover == Cover::rows; });
       lines.push_back({paper, std::to_string(items.size()), std::to_string(rows)});
@@ -194,10 +195,12 @@ int reproduce_command(const ReproductionOptions& options, const Common& common) 
   bool good = true;
   nlohmann::json all = nlohmann::json::array();
   const std::vector<std::string> chosen = chosen_papers(options);
+  std::map<std::string, std::vector<PaperItem>> items;  // of all papers before the first is computed
+  for (const std::string& paper : chosen) items[paper] = items_of(paper);
   std::size_t done = 0;
   for (const std::string& paper : chosen) {
     if (options.coverage) {
-      const Coverage coverage = coverage_of(paper);
+      const Coverage coverage = coverage_of(paper, items[paper], reproduce(paper, ""));
       good = good && coverage.faults.empty();
       if (common.json) {
         all.push_back(to_json(coverage));
@@ -209,7 +212,7 @@ int reproduce_command(const ReproductionOptions& options, const Common& common) 
     std::vector<ReproducedRow> rows;
     try {
       rows = reproduce(paper, options.section);
-      put_in_order(rows, items_of(paper));
+      put_in_order(rows, items[paper]);
     } catch (const BudgetSpent& spent) {
       end_interrupted(spent, std::to_string(done) + " of " + std::to_string(chosen.size()) +
                                  " papers were reproduced, and " + paper + " was not finished");

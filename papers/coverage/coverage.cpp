@@ -4,7 +4,6 @@
 #include <array>
 #include <charconv>
 #include <map>
-#include <set>
 
 #include <pfaff/core/errors/errors.hpp>
 
@@ -58,27 +57,13 @@ void find_gaps(const std::vector<PaperItem>& items, std::vector<std::string>& fa
     if (!counted(item.kind) || name.number == 0) continue;
     int& before = last[{item.kind, name.series}];
     for (int missing = before + 1; missing < name.number; ++missing)
-      faults.push_back(to_string(item.kind) + " " + name.series + std::to_string(missing) +
-                       (item.name.ends_with(')') ? ")" : "") + " is not listed");
+      faults.push_back(item.place + ": " + to_string(item.kind) + " " + name.series +
+                       std::to_string(missing) + (item.name.ends_with(')') ? ")" : "") + " is not listed");
     before = std::max(before, name.number);
   }
 }
 
 }  // namespace
-
-const std::vector<PaperItem>& items_of(const std::string& paper) {
-  switch (paper_named(paper)) {
-    case Paper::su_qin:
-      return su_qin_items();
-    case Paper::nguyen_turski:
-      return nguyen_turski_items();
-    case Paper::pitanga_rodrigues:
-      return pitanga_rodrigues_items();
-    case Paper::others:
-      break;
-  }
-  return others_items();
-}
 
 std::vector<std::string> named_items(const std::string& equation, const std::vector<PaperItem>& items) {
   const auto place = [&](const std::string& name) {
@@ -114,30 +99,32 @@ Coverage coverage_of(const std::string& paper, const std::vector<PaperItem>& ite
   Coverage coverage{paper, {}, {}};
   find_gaps(items, coverage.faults);
   std::map<std::string, std::vector<std::string>> found;
-  std::set<std::string> known;
-  for (const PaperItem& item : items)
-    if (!known.insert(item.name).second) coverage.faults.push_back(item.name + " is listed twice");
+  std::vector<std::string> known;
+  const auto is_known = [&](const std::string& name) {
+    return std::find(known.begin(), known.end(), name) != known.end();
+  };
+  const auto fault = [&](const PaperItem& item, const std::string& what) {
+    coverage.faults.push_back(item.place + ": " + item.name + " " + what);
+  };
+  for (const PaperItem& item : items) {
+    if (is_known(item.name)) fault(item, "is listed twice");
+    known.push_back(item.name);
+  }
   for (const ReproducedRow& row : rows)
     for (const std::string& name : named_items(row.equation, items)) {
       found[name].push_back(row.id);
-      if (!known.contains(name))
-        coverage.faults.push_back("the row '" + row.id + "' names " + name + ", which is not listed");
+      if (!is_known(name))
+        coverage.faults.push_back("the row '" + row.id +
+                                  "': " + unknown_name("item of " + paper, name, known));
     }
   for (const PaperItem& item : items) {
     const std::vector<std::string>& ids = found[item.name];
     coverage.items.push_back({item, ids});
-    if (item.cover == Cover::rows && ids.empty())
-      coverage.faults.push_back(item.name + " has no row; expected one, or a reason");
+    if (item.cover == Cover::rows && ids.empty()) fault(item, "has no row; expected one, or a reason");
     if (item.cover != Cover::rows && !ids.empty())
-      coverage.faults.push_back(item.name + " has rows and is listed as " + to_string(item.cover));
-    if ((item.cover == Cover::rows) != item.note.empty())
-      coverage.faults.push_back(item.name + (item.note.empty() ? ": the reason is missing"
-                                                               : " has rows and a reason for having none"));
+      fault(item, "has rows and is listed as " + to_string(item.cover));
   }
   return coverage;
-}
-Coverage coverage_of(const std::string& paper) {
-  return coverage_of(paper, items_of(paper), reproduce(paper, ""));
 }
 
 nlohmann::json to_json(const Coverage& coverage) {

@@ -2,10 +2,19 @@
 // figure and every stated number has rows in the reproduction, or a reason why it cannot have one, or is
 // pending.
 //
-// The items of a paper are a table of data, a file for each paper in this folder. Whether an item has rows is
-// not said in the table but found: rows name their items (ReproducedRow::equation).
+// The items of a paper are data, a file for each paper in this folder that is read with the rows:
+//
+//   items = [
+//     { equation = ["(1)", "(2)"] },
+//     { definition = "Definition 1", reason = "of (3)" },
+//     { equation = "(3)", pending = "needs a second system" },
+//   ]
+//
+// A kind (ItemKind) is the key of names, in the order of the paper. Whether an item has rows is not said
+// there but found: rows name their items (ReproducedRow::equation).
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -42,15 +51,14 @@ struct PaperItem {
   std::string name;
   ItemKind kind = ItemKind::equation;
   Cover cover = Cover::rows;
-  std::string note = {};  // the reason, or what is pending; empty where there are rows
+  std::string note = {};   // the reason, or what is pending; empty where there are rows
+  std::string place = {};  // where it is listed: "su-qin.toml, line 12"
 };
 
-/// The items of a paper; InputError for an unknown name.
-const std::vector<PaperItem>& items_of(const std::string& paper);
-const std::vector<PaperItem>& su_qin_items();
-const std::vector<PaperItem>& nguyen_turski_items();
-const std::vector<PaperItem>& pitanga_rodrigues_items();
-const std::vector<PaperItem>& others_items();
+/// The items that a file lists. InputError, with file and line, where it is not as above.
+std::vector<PaperItem> read_items(const std::filesystem::path& path);
+/// The items of a paper; InputError for an unknown name too.
+std::vector<PaperItem> items_of(const std::string& paper);
 
 /// An item with the rows that name it, by their ids.
 struct CoveredItem {
@@ -61,8 +69,9 @@ struct CoveredItem {
 struct Coverage {
   std::string paper;
   std::vector<CoveredItem> items;
-  /// What is wrong, one line each: a gap in the numbers of equations or the like, an item without rows and
-  /// without a reason, a reason for an item that has rows, an item listed twice, a row that names no item.
+  /// What is wrong, one line each, with its place: a gap in the numbers of equations or the like, an item
+  /// without rows and without a reason, a reason for an item that has rows, an item listed twice, a row that
+  /// names no item.
   std::vector<std::string> faults;
 
   /// How many items of a kind, or of every kind, are dealt with in one way.
@@ -77,8 +86,6 @@ std::vector<std::string> named_items(const std::string& equation, const std::vec
 /// The coverage of `items` by `rows`.
 Coverage coverage_of(const std::string& paper, const std::vector<PaperItem>& items,
                      const std::vector<ReproducedRow>& rows);
-/// The coverage of a paper by all its rows, which are computed for it. InputError for an unknown name.
-Coverage coverage_of(const std::string& paper);
 
 /// {paper, ok, counts {rows, reason, pending}, items [{item, kind, cover, rows, note}], faults}.
 nlohmann::json to_json(const Coverage& coverage);

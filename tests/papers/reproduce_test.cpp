@@ -149,7 +149,7 @@ TEST(Coverage, EndsWhereThePapersEnd) {
 
 // Nothing of this paper is left for later; what has no row cannot have one.
 TEST(Coverage, OfPitangaAndRodriguesIsWhole) {
-  const std::vector<PaperItem>& items = pitanga_rodrigues_items();
+  const std::vector<PaperItem> items = items_of("pitanga-rodrigues");
   EXPECT_GT(items.size(), 50U);
   for (const PaperItem& item : items) EXPECT_NE(item.cover, Cover::pending) << item.name;
 }
@@ -161,10 +161,10 @@ ReproducedRow row_named(const std::string& equation) {
   return row;
 }
 std::vector<PaperItem> three_equations() {
-  return {{"(1)", ItemKind::equation, Cover::rows, ""},
-          {"Theorem 1", ItemKind::theorem, Cover::reason, "a definition"},
-          {"(2)", ItemKind::equation, Cover::rows, ""},
-          {"(3)", ItemKind::equation, Cover::pending, "built later"}};
+  return {{"(1)", ItemKind::equation, Cover::rows, "", "file, line 1"},
+          {"Theorem 1", ItemKind::theorem, Cover::reason, "a definition", "file, line 2"},
+          {"(2)", ItemKind::equation, Cover::rows, "", "file, line 3"},
+          {"(3)", ItemKind::equation, Cover::pending, "built later", "file, line 4"}};
 }
 
 TEST(Coverage, PlantedFaultsAreFound) {
@@ -177,20 +177,61 @@ TEST(Coverage, PlantedFaultsAreFound) {
   };
   auto gap = three_equations();
   gap.erase(gap.begin() + 2);
-  EXPECT_EQ(only_fault(gap, {row_named("(1)")}), "equation (2) is not listed");
+  EXPECT_EQ(only_fault(gap, {row_named("(1)")}), "file, line 4: equation (2) is not listed");
   auto first = three_equations();
   first[1].name = "Theorem 2";
-  EXPECT_EQ(only_fault(first, rows), "theorem Theorem 1 is not listed");
-  EXPECT_EQ(only_fault(three_equations(), {row_named("(1)")}), "(2) has no row; expected one, or a reason");
+  EXPECT_EQ(only_fault(first, rows), "file, line 2: theorem Theorem 1 is not listed");
+  EXPECT_EQ(only_fault(three_equations(), {row_named("(1)")}),
+            "file, line 3: (2) has no row; expected one, or a reason");
   EXPECT_EQ(only_fault(three_equations(), {row_named("(1), (2), (4)")}),
-            "the row '(1), (2), (4) a row' names (4), which is not listed");
-  EXPECT_EQ(only_fault(three_equations(), {row_named("(1)-(3)")}), "(3) has rows and is listed as pending");
+            "the row '(1), (2), (4) a row': unknown item of a paper '(4)'; did you mean '(1)'?");
+  EXPECT_EQ(only_fault(three_equations(), {row_named("(1)-(3)")}),
+            "file, line 4: (3) has rows and is listed as pending");
   auto twice = three_equations();
   twice.push_back(twice.back());
-  EXPECT_EQ(only_fault(twice, rows), "(3) is listed twice");
-  auto silent = three_equations();
-  silent[1].note.clear();
-  EXPECT_EQ(only_fault(silent, rows), "Theorem 1: the reason is missing");
+  EXPECT_EQ(only_fault(twice, rows), "file, line 4: (3) is listed twice");
+}
+
+TEST(Coverage, IsReadFromFiles) {
+  const pfaff::testing::TemporaryDirectory folder;
+  const auto read = [&](const std::string& entries) {
+    std::ofstream(folder / "paper.toml") << "items = [\n" << entries << "\n]\n";
+    return read_items(folder / "paper.toml");
+  };
+  const std::vector<PaperItem> items =
+      read("{ equation = ['(1)', '(2)'] },\n{ table = 'table 1', pending = 'built later' },");
+  ASSERT_EQ(items.size(), 3U);
+  EXPECT_EQ(items[1].name + ", " + items[1].place, "(2), paper.toml, line 2");
+  EXPECT_EQ(items[1].cover, Cover::rows);
+  EXPECT_EQ(items[2].name + ", " + items[2].place, "table 1, paper.toml, line 3");
+  EXPECT_EQ(items[2].kind, ItemKind::table);
+  EXPECT_EQ(items[2].cover, Cover::pending);
+  EXPECT_EQ(items[2].note, "built later");
+}
+
+TEST(Coverage, FilesThatAreWrongAreRefusedWithTheLine) {
+  const pfaff::testing::TemporaryDirectory folder;
+  const auto refusal = [&](const std::string& entry) -> std::string {
+    std::ofstream(folder / "paper.toml") << "items = [\n{ equation = '(1)' },\n" << entry << "\n]\n";
+    try {
+      read_items(folder / "paper.toml");
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  const std::string there = "paper.toml, line 3: ";
+  EXPECT_EQ(refusal("{ equation = '(2)' }"), "none");
+  EXPECT_EQ(refusal("{ equaton = '(2)' }"), there + "unknown key 'equaton'; did you mean 'equation'?");
+  EXPECT_EQ(refusal("{ equation = [] }"), there + "expected names of a kind, such as equation = '(1)'");
+  EXPECT_EQ(refusal("{ equation = '(2)', table = 'table 1' }"),
+            there + "key 'table': expected one kind, got equation too");
+  EXPECT_EQ(refusal("{ equation = [[]] }"), there + "key 'equation': expected a number or a string");
+  EXPECT_EQ(refusal("{ equation = '(2)', reason = '' }"),
+            there + "key 'reason': expected why there are no rows, got an empty text");
+  EXPECT_EQ(refusal("{ equation = '(2)', reason = 'a definition', pending = 'built later' }"),
+            there + "key 'pending': expected a reason or what is pending, not both");
+  EXPECT_NE(refusal("{ equation = }").find("paper.toml:3: "), std::string::npos);
 }
 
 TEST(Coverage, NamesItemsOneByOneAndInRanges) {
