@@ -2,42 +2,47 @@
 
 #include <algorithm>
 
+#include <pfaff/bench/reproduce/rows.hpp>
 #include <pfaff/core/errors/errors.hpp>
 
 namespace pfaff {
 
 namespace {
-std::vector<ReproducedRow> rows_of(Paper paper) {
+std::vector<PartOfPaper> parts_of(Paper paper) {
   switch (paper) {
     case Paper::su_qin:
-      return reproduce_su_qin();
+      return su_qin_parts();
     case Paper::nguyen_turski:
-      return reproduce_nguyen_turski();
+      return nguyen_turski_parts();
     case Paper::pitanga_rodrigues:
-      return reproduce_pitanga_rodrigues();
+      return pitanga_rodrigues_parts();
     case Paper::others:
       break;
   }
-  return reproduce_others();
+  return others_parts();
 }
 }  // namespace
 
 std::vector<ReproducedRow> reproduce(const std::string& paper, const std::string& section) {
-  std::vector<ReproducedRow> rows = rows_of(paper_named(paper));
-  if (section.empty()) return rows;
   std::vector<std::string> sections;
-  for (const ReproducedRow& row : rows)
-    if (std::find(sections.begin(), sections.end(), row.section) == sections.end())
-      sections.push_back(row.section);
-  if (std::find(sections.begin(), sections.end(), section) == sections.end()) {
+  const std::vector<PartOfPaper> parts = parts_of(paper_named(paper));
+  for (const PartOfPaper& part : parts)
+    if (sections.empty() || sections.back() != part.section) sections.push_back(part.section);
+  if (!section.empty() && std::find(sections.begin(), sections.end(), section) == sections.end()) {
     // No suggestion: most sections are numbers, and none of them is near.
     std::string text = "unknown section '" + section + "' of " + paper + "; expected one of: ";
     for (const std::string& known_section : sections)
       text += (&known_section == &sections.front() ? "" : ", ") + known_section;
     throw InputError(text);
   }
-  std::erase_if(rows, [&](const ReproducedRow& row) { return row.section != section; });
-  return rows;
+  std::vector<ReproducedRow> all;
+  for (const auto& [name, add] : parts) {
+    if (!section.empty() && name != section) continue;
+    Rows rows(name);
+    add(rows);
+    for (ReproducedRow& row : rows.take()) all.push_back(std::move(row));
+  }
+  return all;
 }
 
 bool ok(const std::vector<ReproducedRow>& rows) {

@@ -25,6 +25,8 @@ struct ReproducedRow {
   Evidence evidence;
 };
 
+class Rows;
+
 /// The rows of a paper, of one section or of all (empty). InputError for unknown names.
 std::vector<ReproducedRow> reproduce(const std::string& paper, const std::string& section);
 
@@ -33,13 +35,15 @@ nlohmann::json to_json(const std::string& paper, const std::vector<ReproducedRow
 /// True when every row is reproduced, improved, an erratum shown to be one, or qualitative.
 bool ok(const std::vector<ReproducedRow>& rows);
 
-/// Su & Qin, every section with formulas (su_qin/).
-std::vector<ReproducedRow> reproduce_su_qin();
-/// Nguyen & Turski (nguyen_turski/): sections "brackets" and "formulations".
-std::vector<ReproducedRow> reproduce_nguyen_turski();
-/// Pitanga & Rodrigues (pitanga_rodrigues/): sections "projectors", "transverse", "sleigh" and "contact".
-std::vector<ReproducedRow> reproduce_pitanga_rodrigues();
-/// Published numbers of other works (others/): sections "solutions", "methods" and "books".
-std::vector<ReproducedRow> reproduce_others();
+/// A part of a paper's rows: the section that they belong to, and what adds them.
+struct PartOfPaper {
+  std::string section;
+  void (*add)(Rows& rows);
+};
+/// The parts of each paper, in its folder.
+std::vector<PartOfPaper> su_qin_parts();
+std::vector<PartOfPaper> nguyen_turski_parts();
+std::vector<PartOfPaper> pitanga_rodrigues_parts();
+std::vector<PartOfPaper> others_parts();
 
 }  // namespace pfaff

@@ -161,13 +161,11 @@ void flow(Rows& rows) {
 
 }  // namespace
 
-std::vector<ReproducedRow> birkhoffian_systems() {
-  Rows rows("2");
+void birkhoffian_systems(Rows& rows) {
   equations(rows);
   conditions(rows);
   forms(rows);
   flow(rows);
-  return rows.take();
 }
 
 }  // namespace pfaff::su_qin

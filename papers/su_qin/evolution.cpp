@@ -180,12 +180,10 @@ void scalar_equations(Rows& rows) {
 
 }  // namespace
 
-std::vector<ReproducedRow> evolution_rows() {
-  Rows rows("4");
+void evolution_rows(Rows& rows) {
   flow_law(rows);
   theorem(rows);
   scalar_equations(rows);
-  return rows.take();
 }
 
 }  // namespace pfaff::su_qin

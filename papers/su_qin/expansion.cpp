@@ -105,11 +105,9 @@ void orders(Rows& rows) {
 
 }  // namespace
 
-std::vector<ReproducedRow> expansion_rows() {
-  Rows rows("4");
+void expansion_rows(Rows& rows) {
   coefficients(rows);
   orders(rows);
-  return rows.take();
 }
 
 }  // namespace pfaff::su_qin

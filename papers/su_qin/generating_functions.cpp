@@ -16,16 +16,16 @@ const Numbers old_state{Quad(0.8), Quad(-0.4)};
 
 class Section {
  public:
-  std::vector<ReproducedRow> rows() {
+  explicit Section(Rows& rows) : rows_(rows) {}
+  void add() {
     transformations();
     conditions();
     theorems();
     propositions();
-    return rows_.take();
   }
 
  private:
-  Rows rows_{"3"};
+  Rows& rows_;
   // The pendulum's K is the oscillator's, and so is alpha.
   std::shared_ptr<const Model> model_ = damped("damped-pendulum");
   printed::Oscillator printed_{nu, t0, t1};
@@ -151,6 +151,6 @@ class Section {
 
 }  // namespace
 
-std::vector<ReproducedRow> generating_functions() { return Section().rows(); }
+void generating_functions(Rows& rows) { Section(rows).add(); }
 
 }  // namespace pfaff::su_qin

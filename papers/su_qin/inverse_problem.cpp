@@ -20,8 +20,7 @@ Numbers values_at(const std::vector<printed::Polynomial>& functions, const Numbe
 
 }  // namespace
 
-std::vector<ReproducedRow> inverse_problem() {
-  Rows rows("2");
+void inverse_problem(Rows& rows) {
   const auto model = polynomial_system();
   const printed::BirkhoffSystem printed = printed_system();
   const Numbers zt = joined(sample_state, {t0});
@@ -52,7 +51,6 @@ std::vector<ReproducedRow> inverse_problem() {
     for (std::size_t j = 0; j < 4; ++j) slopes.push_back(forces[i].slope(j));
   rows.reproduced("(15)", "symmetry of the slopes of D + F_t", values_at(slopes, zt),
                   Matrix<Quad>(4, value(jacobian_tape(sum), t0, sample_state)).transposed().entries());
-  return rows.take();
 }
 
 }  // namespace pfaff::su_qin

@@ -14,15 +14,15 @@ namespace {
 
 class OscillatorForm {
  public:
-  std::vector<ReproducedRow> rows() {
+  explicit OscillatorForm(Rows& rows) : rows_(rows) {}
+  void add() {
     birkhoffian_form();
     alpha();
     derivatives();
-    return rows_.take();
   }
 
  private:
-  Rows rows_{"5"};
+  Rows& rows_;
   printed::Oscillator printed_{nu, t0, t1};
   std::shared_ptr<const Model> model_ = damped("damped-oscillator");
   LagrangianTransformation<Quad> alpha_{damped("damped-pendulum")->tape(Formula::alpha)};
@@ -98,6 +98,6 @@ class OscillatorForm {
 
 }  // namespace
 
-std::vector<ReproducedRow> oscillator_form() { return OscillatorForm().rows(); }
+void oscillator_form(Rows& rows) { OscillatorForm(rows).add(); }
 
 }  // namespace pfaff::su_qin

@@ -15,17 +15,17 @@ namespace {
 
 class OscillatorSchemes {
  public:
-  std::vector<ReproducedRow> rows() {
+  explicit OscillatorSchemes(Rows& rows) : rows_(rows) {}
+  void add() {
     coefficients();
     first_order();
     second_order();
     centre();
     best();
-    return rows_.take();
   }
 
  private:
-  Rows rows_{"5"};
+  Rows& rows_;
   printed::Oscillator printed_{nu, t0, t1};
   std::shared_ptr<const Model> model_ = damped("damped-oscillator");
   Numbers z_{Quad(0.5), Quad(0.1)};
@@ -145,6 +145,6 @@ class OscillatorSchemes {
 
 }  // namespace
 
-std::vector<ReproducedRow> oscillator_schemes() { return OscillatorSchemes().rows(); }
+void oscillator_schemes(Rows& rows) { OscillatorSchemes(rows).add(); }
 
 }  // namespace pfaff::su_qin

@@ -52,15 +52,11 @@ Numbers engine_term(const Model& model, int k, const Numbers& w) {
 
 namespace pfaff {
 
-std::vector<ReproducedRow> reproduce_su_qin() {
-  std::vector<ReproducedRow> all;
-  for (const auto section : {su_qin::birkhoffian_systems, su_qin::inverse_problem,
-                             su_qin::generating_functions, su_qin::evolution_rows, su_qin::expansion_rows,
-                             su_qin::oscillator_form, su_qin::oscillator_schemes}) {
-    const auto rows = section();
-    all.insert(all.end(), rows.begin(), rows.end());
-  }
-  return all;
+std::vector<PartOfPaper> su_qin_parts() {
+  return {{"2", su_qin::birkhoffian_systems},  {"2", su_qin::inverse_problem},
+          {"3", su_qin::generating_functions}, {"4", su_qin::evolution_rows},
+          {"4", su_qin::expansion_rows},       {"5", su_qin::oscillator_form},
+          {"5", su_qin::oscillator_schemes}};
 }
 
 }  // namespace pfaff

@@ -50,12 +50,12 @@ Matrix<T> linear_flow(const Model& model, const T& elapsed) {
   return m;
 }
 
-std::vector<ReproducedRow> birkhoffian_systems();   // section 2
-std::vector<ReproducedRow> inverse_problem();       // section 2, (14)-(18)
-std::vector<ReproducedRow> generating_functions();  // section 3
-std::vector<ReproducedRow> evolution_rows();        // section 4, (56)-(76)
-std::vector<ReproducedRow> expansion_rows();        // section 4, (77)-(91)
-std::vector<ReproducedRow> oscillator_form();       // section 5, (93)-(99)
-std::vector<ReproducedRow> oscillator_schemes();    // section 5, (100)-(107)
+void birkhoffian_systems(Rows& rows);   // section 2
+void inverse_problem(Rows& rows);       // section 2, (14)-(18)
+void generating_functions(Rows& rows);  // section 3
+void evolution_rows(Rows& rows);        // section 4, (56)-(76)
+void expansion_rows(Rows& rows);        // section 4, (77)-(91)
+void oscillator_form(Rows& rows);       // section 5, (93)-(99)
+void oscillator_schemes(Rows& rows);    // section 5, (100)-(107)
 
 }  // namespace pfaff::su_qin

@@ -98,6 +98,17 @@ TEST_P(Reproduce, RowsAreIdentifiedByTheirNames) {
     EXPECT_TRUE(names.insert(row.id).second) << row.id << " stands there twice";
 }
 
+// A section is computed by itself, and its rows are those that it has among all.
+TEST_P(Reproduce, SectionsMakeUpTheWhole) {
+  std::map<std::string, std::vector<std::string>> sections;
+  for (const ReproducedRow& row : rows_of(GetParam())) sections[row.section].push_back(row.id);
+  for (const auto& [section, ids] : sections) {
+    std::vector<std::string> alone;
+    for (const ReproducedRow& row : reproduce(GetParam(), section)) alone.push_back(row.id);
+    EXPECT_EQ(alone, ids) << section;
+  }
+}
+
 TEST_P(Reproduce, CoverageHasNoFaults) {
   const Coverage coverage = coverage_of(GetParam(), items_of(GetParam()), rows_of(GetParam()));
   for (const std::string& fault : coverage.faults) ADD_FAILURE() << fault;
