@@ -12,9 +12,9 @@ specification = importlib.util.spec_from_file_location("ratios", SCRIPT)
 ratios = importlib.util.module_from_spec(specification)
 specification.loader.exec_module(ratios)
 
-LIMITED = [row for row in ratios.targets() if row[3] is not None]
+LIMITED = [row for row in ratios.RATIOS if row.limit is not None]
 # Rows of a time that is limited in no other row.
-ALONE = [row for row in LIMITED if sum(other[1] == row[1] for other in LIMITED) == 1]
+ALONE = [row for row in LIMITED if sum(other.numerator == row.numerator for other in LIMITED) == 1]
 
 
 class Ratios(unittest.TestCase):
@@ -22,8 +22,8 @@ class Ratios(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.file = pathlib.Path(folder.name) / "times.json"
-        self.times = {"/".join(key): 1.0 for row in LIMITED for key in row[1:3]}  # no target is below 1
-        for run, error, _, _ in ratios.WHOLE_RUNS:
+        self.times = {"/".join(key): 1.0 for row in LIMITED for key in (row.numerator, row.denominator)}  # no target is below 1
+        for run, error in ratios.ERRORS_TO_REACH.items():
             self.times["/".join(ratios.error_of(run))] = error
 
     def check(self):
@@ -40,7 +40,7 @@ class Ratios(unittest.TestCase):
         return status, told.getvalue(), complained.getvalue()
 
     def line(self, told, row):
-        return next(text for text in told.splitlines() if text.startswith(row[0] + " "))
+        return next(text for text in told.splitlines() if text.startswith(row.what + " "))
 
     def test_measurements_within_their_targets_pass(self):
         status, told, complained = self.check()
@@ -50,14 +50,14 @@ class Ratios(unittest.TestCase):
     def test_one_false_measurement_fails_whichever_it_is(self):
         for row in (ALONE[0], ALONE[len(ALONE) // 2], ALONE[-1]):
             self.setUp()
-            self.times["/".join(row[1])] = 1.26 * row[3]
+            self.times["/".join(row.numerator)] = 1.26 * row.limit
             status, told, complained = self.check()
-            self.assertEqual(status, 1, row[0])
+            self.assertEqual(status, 1, row.what)
             self.assertIn("exceeded by 26 %", self.line(told, row))
             self.assertIn("1 of the ratios exceed their targets by more than 25 %", complained)
 
     def test_a_run_that_does_not_reach_its_error_fails(self):
-        run, error, _, _ = ratios.WHOLE_RUNS[0]
+        run, error = next(iter(ratios.ERRORS_TO_REACH.items()))
         for false in (1.01 * error, float("nan"), None):
             self.setUp()
             key = "/".join(ratios.error_of(run))
@@ -75,14 +75,14 @@ class Ratios(unittest.TestCase):
 
     def test_a_ratio_between_the_target_and_the_bound_is_marked_and_passes(self):
         row = LIMITED[-1]
-        self.times["/".join(row[1])] = 1.24 * row[3]
+        self.times["/".join(row.numerator)] = 1.24 * row.limit
         status, told, _ = self.check()
         self.assertEqual(status, 0)
         self.assertTrue(self.line(told, row).endswith("missed"))
 
     def test_a_target_without_a_measurement_fails(self):
         row = LIMITED[0]
-        del self.times["/".join(row[1])]
+        del self.times["/".join(row.numerator)]
         status, told, _ = self.check()
         self.assertEqual(status, 1)
         self.assertTrue(self.line(told, row).endswith("not measured"))
@@ -92,6 +92,21 @@ class Ratios(unittest.TestCase):
         status, told, _ = self.check()
         self.assertEqual(status, 0)
         self.assertIn("exceeded by 2400 %", told)
+
+    def test_a_ratio_stands_for_all_combinations_of_its_lists(self):
+        entry = {"what": "{system} {method}", "numerator": "{system}/{method}/static", "denominator": "{system}/rk4/odeint",
+                 "system": "systems", "method": ["verlet", {"method": "gauss", "limit": 2.0, "error": 1e-9}], "limit": 1.5}
+        found = ratios.ratios_of(entry, {"systems": ["kepler", "pendulum"]})
+        self.assertEqual([tuple(row) for row in found],
+                         [(f"{system} {method}", (system, method, "static"), (system, "rk4", "odeint"), limit, error)
+                          for system in ("kepler", "pendulum")
+                          for method, limit, error in (("verlet", 1.5, None), ("gauss", 2.0, 1e-9))])
+
+    def test_a_name_without_values_is_refused(self):
+        entry = {"what": "{system}", "numerator": "{system}/rk4/static", "denominator": "kepler/rk4/static"}
+        for wrong in ({}, {"system": "sistems"}, {"system": ["kepler"], "numerator": "{sistem}/rk4/static"}):
+            with self.assertRaisesRegex(ValueError, r"targets.toml: \[\[ratio\]\] '{system}': '\w+' is missing; .*: systems$"):
+                ratios.ratios_of(entry | wrong, {"systems": ["kepler"]})
 
     def test_what_google_benchmark_prints_is_read(self):
         runs = [{"run_type": "iteration", "run_name": "kepler/verlet/static", "ns_per_step": time} for time in (3.0, 2.0)]
@@ -110,8 +125,8 @@ class Ratios(unittest.TestCase):
 
     def runs(self):
         """One run of each benchmark that is needed."""
-        errors = {"/".join(run): {"energy_error": error} for run, error, _, _ in ratios.WHOLE_RUNS}
-        names = sorted({"/".join(key) for row in LIMITED for key in row[1:3]} | errors.keys())
+        errors = {"/".join(run): {"energy_error": error} for run, error in ratios.ERRORS_TO_REACH.items()}
+        names = sorted({"/".join(key) for row in LIMITED for key in (row.numerator, row.denominator)} | errors.keys())
         return [{"run_type": "iteration", "run_name": name, "ns_per_step": 1.0} | errors.get(name, {}) for name in names]
 
     def test_a_check_compares_no_times(self):
