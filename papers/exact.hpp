@@ -73,6 +73,13 @@ printed::Table<T> table_of(const Matrix<T>& m) {
   return table;
 }
 
+inline ExactMatrix matrix_of(const printed::Table<Rational>& table) {
+  ExactMatrix m(table.size(), table.front().size());
+  for (std::size_t i = 0; i < m.rows(); ++i)
+    for (std::size_t j = 0; j < m.columns(); ++j) m(i, j) = table[i][j];
+  return m;
+}
+
 /// The first coordinates as constraints.
 struct FirstCoordinates {
   std::size_t number = 0;

@@ -10,12 +10,6 @@ namespace {
 using RationalTable = printed::Table<Rational>;
 using List = std::initializer_list<std::size_t>;
 
-ExactMatrix matrix(const std::vector<std::vector<Rational>>& rows) {
-  ExactMatrix m(rows.size(), rows.front().size());
-  for (std::size_t i = 0; i < m.rows(); ++i)
-    for (std::size_t j = 0; j < m.columns(); ++j) m(i, j) = rows[i][j];
-  return m;
-}
 std::vector<std::string> numbered(const std::string& letter, std::size_t n) {
   std::vector<std::string> names;
   for (std::size_t k = 1; k <= n; ++k) names.push_back(letter + std::to_string(k));
@@ -63,9 +57,9 @@ void general(Rows& rows) {
   rows.reproduced("(3.14)", "the step of the proof",
                   quads({second[1][2] - second[1][0] * second[0][2] / second[0][0]}), quads({whole}));
   // The condition is on leading minors. A vanishing minor that does not lead is harmless.
-  const ExactMatrix works = matrix({{1, 2}, {2, 0}});
+  const ExactMatrix works = matrix_of({{1, 2}, {2, 0}});
   // A vanishing minor that leads breaks the recursion.
-  const ExactMatrix breaks = matrix({{1, 1, 0}, {1, 1, 1}, {0, 1, 0}});
+  const ExactMatrix breaks = matrix_of({{1, 1, 0}, {1, 1, 1}, {0, 1, 0}});
   rows.claim("Theorem 1", "when the recursion works",
              {"all main minors of W must not vanish",
               outcome(works, Symmetry::symmetric, printed::counted(0, 2), numbered("phi", 2))},
@@ -76,7 +70,7 @@ void general(Rows& rows) {
 
 void break_downs(Rows& rows) {
   const Rational a = Rational(7) / Rational(3);
-  const ExactMatrix w = matrix({{0, a}, {a, 0}});
+  const ExactMatrix w = matrix_of({{0, a}, {a, 0}});
   const auto names = numbered("x", 2);
   const auto two = printed::counted(0, 2), three = printed::counted(0, 3);
   const auto pivoted = classify(w, Symmetry::symmetric);
@@ -85,7 +79,7 @@ void break_downs(Rows& rows) {
                    {is_true(!plain_recursion(w, Symmetry::symmetric, two).works), is_true(pivoted.regular()),
                     is_true(pivoted.pivots.size() == 1)},
                    "no order works; a pivot of both constraints does");
-  const ExactMatrix u = matrix({{1, 1}, {1, -1}});
+  const ExactMatrix u = matrix_of({{1, 1}, {1, -1}});
   const auto combined = plain_recursion(u * w * u.transposed(), Symmetry::symmetric, two);
   rows.reproduced("Example 3.1", "pivots of x1 + x2, x1 - x2", quads({Rational(2) * a, Rational(-2) * a}),
                   quads(combined.pivots));
@@ -105,7 +99,7 @@ void break_downs(Rows& rows) {
   rows.reproduced("Example 3.1", "the bracket, by recursion in u1 and u2", quads(printed),
                   quads(engine_brackets(change * g * change.transposed(), 2, Symmetry::symmetric,
                                         RecursiveLiteralDirac{})));
-  const ExactMatrix minor = matrix({{1, 1, 0}, {1, 1, 1}, {0, 1, 0}});
+  const ExactMatrix minor = matrix_of({{1, 1, 0}, {1, 1, 1}, {0, 1, 0}});
   rows.qualitative(
       "(3.8)", "second leading minor 0",
       {"-", outcome(minor, Symmetry::symmetric, three, numbered("phi", 3))},

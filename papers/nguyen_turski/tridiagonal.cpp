@@ -50,10 +50,7 @@ void one_pairs(Rows& rows) {
                   quads(tridiagonal_inverse(OnePair<Rational>{u, w}).dense()));
   // A matrix that is no one-pair matrix has no tridiagonal inverse.
   q[0][rows_of_s - 1] = q[rows_of_s - 1][0] = q[0][rows_of_s - 1] + Rational(1);
-  ExactMatrix changed(rows_of_s, rows_of_s);
-  for (std::size_t i = 0; i < rows_of_s; ++i)
-    for (std::size_t j = 0; j < rows_of_s; ++j) changed(i, j) = q[i][j];
-  const auto entry = std::abs(static_cast<double>(inverse(changed)(0, rows_of_s - 1)));
+  const auto entry = std::abs(static_cast<double>(inverse(matrix_of(q))(0, rows_of_s - 1)));
   rows.qualitative("(C.2)", "one pair is needed", {"-", "entry (1, 6) of the inverse " + shown(entry)},
                    {at_least(entry, clearly)}, "control: one entry changed, not tridiagonal");
 }

@@ -207,10 +207,7 @@ void metric_projectors(Rows& rows, const RiemannianSample& s) {
   const RiemannianTable fitting =
       printed::product(printed::inverse(printed::kinds(s.g_table, free_coordinates, 1, 1)),
                        printed::kinds(s.g_table, free_coordinates, 1, 0));
-  ExactMatrix gamma(forms, free_coordinates);
-  for (std::size_t i = 0; i < forms; ++i)
-    for (std::size_t j = 0; j < free_coordinates; ++j) gamma(i, j) = fitting[i][j];
-  const auto one_forms = one_forms_of(gamma);
+  const auto one_forms = one_forms_of(matrix_of(fitting));
   const auto own = orthogonal(s.metric.sharp(), one_forms);
   rows.reproduced("(10)", "q = Q where D is orthogonal to its complement", quads(printed::matrix_q(fitting)),
                   quads(own.complement().matrix()));
