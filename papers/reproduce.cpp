@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include <pfaff/bench/reproduce/rows.hpp>
 #include <pfaff/core/errors/errors.hpp>
+#include <pfaff/papers/rows.hpp>
 
 namespace pfaff {
 

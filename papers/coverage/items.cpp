@@ -1,6 +1,6 @@
 // The items of papers as their files list them.
-#include <pfaff/papers/coverage/coverage.hpp>
 #include <pfaff/bench/runner/toml_keys.hpp>
+#include <pfaff/papers/coverage/coverage.hpp>
 
 namespace pfaff {
 
