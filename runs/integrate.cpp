@@ -2,8 +2,24 @@
 
 #include <pfaff/runs/asked_for.hpp>
 #include <pfaff/runs/motion.hpp>
+#include <pfaff/runs/state_checks.hpp>
 
 namespace pfaff {
+
+template <class T>
+Integration<T> begun(Start<T> start) {
+  Integration<T> run(std::move(start));
+  const std::vector<T> state(run.state().begin(), run.state().end());
+  if (run.model()->restricted()) {
+    std::vector<Quad> z(state.begin(), state.end());
+    if (const Consistency found = consistency_of(*run.model(), Quad(run.time()), z); !found.on_constraints())
+      throw InputError(found.where + "; expected a state on the constraints");
+  }
+  check_domain(run.model(), run.time(), state);
+  return run;
+}
+template Integration<double> begun(Start<double>);
+template Integration<Quad> begun(Start<Quad>);
 
 template <class T>
 Integration<T> integrate(const std::string& system, const Assignments& system_parameters,
@@ -31,7 +47,7 @@ Integration<T> integrate(const std::string& system, const Assignments& system_pa
     start.absolute.push_back(T(finite_number(text, "absolute tolerance")));
   if (start.absolute.size() == 1) start.absolute.assign(n, T(start.absolute.front()));
   start.block_rows = asked.block_rows;
-  return Integration<T>(std::move(start));
+  return begun(std::move(start));
 }
 
 template Integration<double> integrate(const std::string&, const Assignments&, const std::string&,

@@ -8,6 +8,13 @@
 
 namespace pfaff {
 
+/// The integration that begins so. InputError for what Integration refuses, for a state off the constraints,
+/// and for one at which the vector field or an invariant is not finite.
+template <class T>
+[[nodiscard]] Integration<T> begun(Start<T> start);
+extern template Integration<double> begun(Start<double>);
+extern template Integration<Quad> begun(Start<Quad>);
+
 /// What else belongs to an integration. Numbers are texts, so that each scalar reads every digit of them.
 struct AskedIntegration {
   std::string step;                    // the step, of either sign; with a tolerance the time between looks
@@ -39,7 +46,7 @@ template <class T = double>
                                        std::shared_ptr<const MethodInstance> method, const T& h) {
   Start<T> start{model, std::move(method), {}, h};
   for (const Real& x : model->initial()) start.state.push_back(T(x));
-  return Integration<T>(std::move(start));
+  return begun(std::move(start));
 }
 
 }  // namespace pfaff

@@ -9,78 +9,24 @@
 #include <vector>
 
 #include <pfaff/bench/runner/record.hpp>
+#include <pfaff/bench/runner/watched_error.hpp>
 #include <pfaff/core/errors/budget.hpp>
+#include <pfaff/runs/block_values.hpp>
 #include <pfaff/runs/support/constraints.hpp>
 #include <pfaff/runs/support/growth.hpp>
 #include <pfaff/runs/support/history.hpp>
-#include <pfaff/runs/support/output_gradients.hpp>
 #include <pfaff/runs/support/own_range.hpp>
 #include <pfaff/runs/support/rank_watch.hpp>
 #include <pfaff/runs/support/setback.hpp>
 #include <pfaff/runs/support/structure.hpp>
-#include <pfaff/runs/support/term_magnitudes.hpp>
 
 namespace pfaff {
 
 // A structure residual needs the Jacobian of a step, whose cost grows as the cube of the dimension. Beyond
 // this dimension it would take most of a run, so it is not measured.
 inline constexpr int most_differentiated_in_runs = 64;
-
-/// The errors of one quantity over a run. A DriftAccumulator takes no more of them once one is beyond 1e150;
-/// the largest and the last one are known nevertheless, and then the sum of the squares is said to be
-/// infinite.
-class WatchedError {
- public:
-  /// Takes the next error; false where it is not finite.
-  [[nodiscard]] bool add(double t, double error) {
-    if (!std::isfinite(error)) return false;
-    drift_.add(t, error);
-    largest_ = std::max(largest_, std::abs(error));
-    last_ = error;
-    return true;
-  }
-  [[nodiscard]] Drift result(const RoundOff& round_off) const {
-    Drift drift = drift_.result(round_off);
-    if (drift.non_finite == 0) return drift;
-    drift.maximum = largest_;
-    drift.final_value = last_;
-    drift.rms = std::numeric_limits<double>::infinity();
-    return drift;
-  }
-
- private:
-  DriftAccumulator drift_;
-  double largest_ = 0, last_ = 0;
-};
-
-/// What roundings do to the outputs of a tape along a run: the magnitudes of their terms, and what steps
-/// propagate of the roundings of the state, where that is not too dear to find.
-class RoundingSizes {
- public:
-  explicit RoundingSizes(std::shared_ptr<const Tape> tape) : terms_(tape) {
-    if (OutputGradients::applies(*tape)) propagated_.emplace(*tape);
-  }
-  void add(double t, const std::vector<double>& z) {
-    terms_.add(t, z);
-    if (propagated_) propagated_->add(t, z);
-  }
-  [[nodiscard]] const std::vector<double>& terms() const { return terms_.largest(); }
-  /// Of the outputs first, first + stride, ...: the largest of each.
-  [[nodiscard]] RoundOff largest(double unit, std::int64_t steps, std::size_t first,
-                                 std::size_t stride) const {
-    RoundOff result{unit, 0, steps};
-    if (propagated_) result.propagated = 0;
-    for (std::size_t k = first; k < terms().size(); k += stride) {
-      result.scale = std::max(result.scale, terms()[k]);
-      if (propagated_) result.propagated = std::max(*result.propagated, propagated_->largest()[k]);
-    }
-    return result;
-  }
-
- private:
-  TermMagnitudes terms_;
-  std::optional<PropagatedRoundings> propagated_;
-};
+/// The most states that a run looks at together.
+inline constexpr std::size_t most_rows = 256;
 
 /// Measures a run computed in the scalar T as it goes, into `record`.
 template <class T>
@@ -102,7 +48,11 @@ class Observer {
     if (run.settings.structure_residuals && StructureResidual<T>::applies(*run.model) && !run.adaptive() &&
         run.model->dimension() <= most_differentiated_in_runs && !remembers(run))
       residual_.emplace(*run.method, run.model);
-    if (!values_.empty()) roundings_.emplace(run.model->tape(Formula::invariants));
+    if (!values_.empty()) {
+      roundings_.emplace(run.model->tape(Formula::invariants));
+      block_values_ =
+          std::make_unique<BlockValues<T>>(run.model, Formula::invariants, values_.size(), most_rows);
+    }
     if (run.model->restricted()) constraint_roundings_.emplace(run.model->tape(Formula::constraints));
     if (reference != nullptr && changes(run)) exact_.emplace(run.model);
     drift_.resize(values_.size());
@@ -141,6 +91,40 @@ class Observer {
       if (!constraint_drift_[i].add(static_cast<double>(t), static_cast<double>(residuals_[i])))
         return "the residual " + constraint_residual_names(*run_.model)[i] + " is not finite";
     return keep ? observe_sample(t, exact, z, structure) : std::string();
+  }
+
+  /// Evaluates the invariants at all states of a block, for take() and sample(), which look at them as
+  /// observe() does. False where one is not finite, or where states have to be observed one by one.
+  [[nodiscard]] bool evaluate(const Block<T>& block) {
+    if (run_.model->restricted() || rank_.watches() || block.rows > most_rows) return false;
+    if (block_values_ == nullptr) return true;
+    in_block_ = &(*block_values_)(block);
+    errors_.resize(values_.size() * block.rows);
+    bool fit = true;
+    for (std::size_t i = 0; i < values_.size(); ++i)
+      for (std::size_t row = 0; row < block.rows; ++row) {
+        const double error = static_cast<double>(in_block_->at(row, i) - initial_[i]);
+        errors_[i * block.rows + row] = error;
+        fit = fit && std::abs(error) <= 1e150;
+      }
+    return fit;
+  }
+  /// Takes the first rows of an evaluated block for drift and setbacks.
+  void take(const Block<T>& block, std::size_t rows) {
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+      drift_[i].add(static_cast<double>(block.t0), static_cast<double>(block.h), block.first, block.stride,
+                    {errors_.data() + i * block.rows, rows});
+      if (setback_words(run_.model->invariants()[i].behaviour))
+        for (std::size_t row = 0; row < rows; ++row) setbacks_[i].add(in_block_->at(row, i));
+    }
+  }
+  /// Keeps a row of an evaluated block.
+  [[nodiscard]] std::string sample(const Block<T>& block, std::size_t row, const Quad& exact,
+                                   bool structure) {
+    for (std::size_t i = 0; i < values_.size(); ++i) values_[i] = in_block_->at(row, i);
+    std::vector<T> z(block.states.components());
+    block.states.get(row, z);
+    return observe_sample(block.time(row), exact, z, structure);
   }
 
   /// Puts into the record what follows from all that was observed.
@@ -301,6 +285,9 @@ class Observer {
   StepperPointer<T> apart_;  // for steps that are not the run's own
   bool singular_ = false;
   std::optional<RoundingSizes> roundings_, constraint_roundings_;  // of invariants, and of constraints
+  std::unique_ptr<BlockValues<T>> block_values_;                   // null where there are no invariants
+  const Tiles<T>* in_block_ = nullptr;                             // the invariants at the rows of a block,
+  std::vector<double> errors_;                                     // and each less its first value
   std::vector<T> values_, initial_, residuals_;
   std::vector<double> in_double_, first_state_;  // the state
   std::vector<double> first_terms_;              // of the invariants: the magnitudes of their terms at first

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <pfaff/bench/runner/observer.hpp>
+#include <pfaff/bench/runner/observing.hpp>
 #include <pfaff/bench/runner/steps.hpp>
 #include <pfaff/core/errors/budget.hpp>
 #include <pfaff/runs/integration.hpp>
@@ -13,21 +14,6 @@
 namespace pfaff {
 
 namespace {
-
-// Where a run has ended, for messages.
-template <class T>
-std::string at(const T& t, std::int64_t step) {
-  return "at t = " + to_string(Quad(t), 10) + " (step " + std::to_string(step) + ")";
-}
-
-// Ends a run at which something measured is not finite; true where there is such a thing.
-template <class T>
-bool ended_by(const std::string& not_finite, const T& t, std::int64_t step, RunRecord& record) {
-  if (not_finite.empty()) return false;
-  record.status = Status::non_finite;
-  record.message = not_finite + " " + at(t, step);
-  return true;
-}
 
 // Ends a run whose budget has ended after `step` steps, at time t. A failure that is known by then stays.
 template <class T>
@@ -62,88 +48,51 @@ std::string smaller_step(const ResolvedRun& run, const T& t, const T& h, const s
   return "; from there a step of " + to_string(Quad(good), 3) + " works";
 }
 
-// The blocks of steps that a run takes between two looks at its state.
-struct Blocks {
-  std::int64_t steps, every, stride;
-  // The size of the block that begins with step k.
-  [[nodiscard]] std::int64_t at(std::int64_t k) const {
-    const std::int64_t next_row = std::min(steps, (k / every + 1) * every);
-    return std::min(stride, next_row - k);
-  }
-};
+// Drift is measured at every step in runs of up to four million steps, and at evenly spaced ones in longer
+// runs. A processed method is looked at where states are kept alone, since every look takes its processor.
+std::int64_t steps_between_looks(const ResolvedRun& run) {
+  if (run.method->processed()) return run.every;
+  std::int64_t stride = std::min(run.every, std::max<std::int64_t>(1, run.steps / 2000000));
+  while (run.every % stride != 0) --stride;
+  return stride;
+}
 
-// A block of several steps that ends in a state that is not finite is left as it began. Here its steps are
-// taken one by one, after all blocks before it in the same calls, so that history and rounding are those of
-// the run. z is left in the last finite state, and `completed` says how many steps of the block lead there.
+// The work of so many steps and of one more that fails, where a block of steps has gone on behind that.
 template <class T>
-Status up_to_the_failure(const ResolvedRun& run, const Blocks& blocks, std::int64_t block, const T& h,
-                         std::vector<T>& z, std::int64_t& completed) {
-  const auto stepper = run.method->stepper(run.model, T());
-  std::vector<T> state;
-  for (const Real& x : run.initial) state.push_back(T(x));
-  const T t0(run.t0);
-  std::int64_t taken = 0;
-  for (std::int64_t k = 0; k < block; k += blocks.at(k))
-    (void)stepper->advance(t0, k, h, blocks.at(k), state, taken);
-  for (completed = 0; completed + 1 < blocks.at(block); ++completed) {
-    const Status status = stepper->advance(t0, block + completed, h, 1, state, taken);
-    if (status != Status::converged) return status;
-    z = state;
-  }
-  return Status::non_finite;
+Counters counters_up_to(const ResolvedRun& run, std::int64_t steps, bool fails) {
+  Integration<T> again(start_of<T>(run));
+  (void)again.steps(steps);
+  if (fails) (void)again.steps(1);
+  return again.counters();
 }
 
 template <class T>
 void execute_fixed(const ResolvedRun& run, Observer<T>& observer, RunRecord& record,
                    const Progress& progress) {
-  const auto stepper = run.method->stepper(run.model, T());
-  std::vector<T> z;
-  for (const Real& x : run.initial) z.push_back(T(x));
-  const T t0(run.t0), h(run.step);
-  const auto time = [&](std::int64_t k) { return t0 + T(static_cast<double>(k)) * h; };
-  // The time without rounding, of samples that are kept: in quad it costs as much as a short step.
-  const auto exact = [&](std::int64_t k, bool keep) {
-    return keep ? Quad(t0) + Quad(static_cast<double>(k)) * Quad(h) : Quad(0);
-  };
-  // Drift is measured at every step in runs of up to two million steps, and at evenly spaced ones in longer
-  // runs. A processed method is looked at where states are kept alone, since every look takes its processor.
-  const std::int64_t stride = run.method->processed()
-                                  ? run.every
-                                  : std::min(run.every, std::max<std::int64_t>(1, run.steps / 2000000));
-  const Blocks blocks{run.steps, run.every, stride};
-  const std::int64_t rows = run.steps / run.every + 1;
-  const std::int64_t structure_rows = std::max<std::int64_t>(1, rows / 50);
-  std::int64_t row = 0, k = 0, completed = 0;
+  Integration<T> integration(start_of<T>(run));
+  Observing<T> observing(run, observer, record, progress);
+  const std::int64_t stride = steps_between_looks(run);
+  bool failed = false, counts = true;  // counts: no step was taken in vain
   try {
-    bool ended = ended_by(observer.observe(time(0), exact(0, true), z, true, true), time(0), 0, record);
-    while (k < run.steps && !ended) {
-      const std::int64_t count = blocks.at(k);
-      Status status = stepper->advance(t0, k, h, count, z, completed);
-      if (status == Status::non_finite && completed == 0 && count > 1)
-        status = up_to_the_failure(run, blocks, k, h, z, completed);
-      record.completed = k + completed;
-      if (status != Status::converged) {
-        record.status = status;
-        const T reached = time(k + completed);
-        record.message = failure(status, at(reached, k + completed));
-        record.message += smaller_step(run, reached, h, z);
-        break;
+    integration.watch(observing, stride);
+    if (!observing.ended()) {
+      const Outcome outcome = integration.steps(run.steps);
+      if (outcome.reached() && run.steps % stride != 0) observing.last(integration);
+      failed = outcome.end() == Outcome::End::failed;
+      counts = outcome.reached() || (failed && outcome.status() != Status::non_finite);
+      if (failed) {
+        record.completed = integration.steps_taken();
+        record.status = outcome.status();
+        record.message =
+            outcome.message() + smaller_step(run, integration.time(), integration.step(),
+                                             {integration.state().begin(), integration.state().end()});
       }
-      const std::int64_t now = k + count;
-      const bool keep = now % run.every == 0 || now == run.steps;
-      if (keep) ++row;
-      const bool structure = keep && (row % structure_rows == 0 || now == run.steps);
-      completed = 0;
-      ended =
-          ended_by(observer.observe(time(now), exact(now, keep), z, keep, structure), time(now), now, record);
-      if (ended) record.completed = k;  // the steps behind which all was finite
-      k = now;
-      if (progress && keep) progress(static_cast<double>(k) / static_cast<double>(run.steps));
     }
   } catch (const BudgetSpent& spent) {
-    end_by(spent, time(k + completed), k + completed, record);
+    end_by(spent, integration.time(), integration.steps_taken(), record);
   }
-  record.counters = stepper->counters();
+  record.counters =
+      counts ? integration.counters() : counters_up_to<T>(run, integration.steps_taken(), failed);
 }
 
 // The number of intervals between evenly spaced samples of a run whose method chooses its steps. Every sample

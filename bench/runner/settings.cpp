@@ -15,7 +15,7 @@
 #include <pfaff/integrators/tables/method_table.hpp>
 #include <pfaff/runs/asked_for.hpp>
 #include <pfaff/runs/motion.hpp>
-#include <pfaff/runs/support/constraints.hpp>
+#include <pfaff/runs/state_checks.hpp>
 #include <pfaff/systems/text/text_system.hpp>
 
 namespace pfaff {
@@ -152,23 +152,14 @@ void check_consistency(const RunSettings& settings, ResolvedRun& run) {
   if (settings.allow_inconsistent) return;
   std::vector<Quad> z;
   for (const Real& x : run.initial) z.push_back(x.quad());
-  const ProjectionOntoConstraints projection = project_onto_constraints(*run.model, run.t0.quad(), z);
-  const std::string residual = formatted("%.2g", projection.worst_residual),
-                    change = formatted("%.2g", projection.change);
-  const std::string where =
-      "initial state of " + run.model->name() + ": constraint " + projection.worst + " is off by " + residual;
-  if (projection.status != Status::converged)
-    throw InputError(where + " and the state cannot be moved onto the constraints (" +
-                     std::string(to_string(projection.status)) + ")");
-  // A decimal input rounds when it becomes a double; residuals of that size are no inconsistency.
-  constexpr double round_off = 1e-13;
+  const Consistency found = consistency_of(*run.model, run.t0.quad(), z);
   if (settings.project_initial) {
-    run.projected = projection.change;
+    run.projected = found.projection.change;
     for (std::size_t k = 0; k < z.size(); ++k) run.initial[k] = Real(z[k]);
-  } else if (projection.change > round_off) {
-    throw InputError(where +
+  } else if (!found.on_constraints()) {
+    throw InputError(found.where +
                      "; expected a state on the constraints, or --project-initial (which changes it by " +
-                     change + ", relatively), or --allow-inconsistent");
+                     formatted("%.2g", found.projection.change) + ", relatively), or --allow-inconsistent");
   }
 }
 
@@ -225,25 +216,11 @@ void note_origins(ResolvedRun& run, const SystemPlugin& system, const MethodPlug
 }  // namespace
 
 namespace {
-// Refuses a state outside the domain of the formulas, or beyond the range of the run's numbers, which would
-// otherwise show as NaN in the run.
 template <class T>
-void check_domain(const ResolvedRun& run, const std::string& system) {
-  const Problem<T> problem(run.model);
-  const T t(run.t0);
-  std::vector<T> z, rate(run.initial.size()), values(run.model->invariants().size());
+void check_domain_of(const ResolvedRun& run) {
+  std::vector<T> z;
   for (const Real& x : run.initial) z.push_back(T(x));
-  const auto expect_finite = [&](const T& x, const std::string& what) {
-    if (!isfinite(x)) throw InputError("initial state of " + system + ": " + what + " is not finite there");
-  };
-  if (run.model->moves()) {
-    problem.field(t, z, rate);
-    for (const T& x : rate) expect_finite(x, "the vector field");
-  }
-  if (values.empty()) return;
-  problem.invariants(t, z, values);
-  for (std::size_t i = 0; i < values.size(); ++i)
-    expect_finite(values[i], "the invariant " + run.model->invariants()[i].name);
+  check_domain(run.model, T(run.t0), z);
 }
 }  // namespace
 
@@ -295,9 +272,9 @@ ResolvedRun resolve(const RunSettings& settings) {
   check_independence(*whole, run);
   check_consistency(settings, run);
   if (settings.precision == Precision::quad) {
-    check_domain<Quad>(run, system.name());
+    check_domain_of<Quad>(run);
   } else {
-    check_domain<double>(run, system.name());
+    check_domain_of<double>(run);
   }
   check_stated_identities(*whole, run.t0, run.initial);
   resolve_steps(run);

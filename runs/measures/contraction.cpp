@@ -116,7 +116,7 @@ struct Contraction {
 const Measure<Contraction> registered{
     {.name = "contraction",
      .title = "How a method contracts areas of the plane, beside the law of the motion",
-     .reference = "mclachlan-quispel2002",
+     .reference = "mclachlan-perlmutter2001",
      .description =
          "The area of a disc of states that the method carries along, over that at the start, beside "
          "e^{-nu t}, which is the law of every system of one q and one p with the damping nu. The "

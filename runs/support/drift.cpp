@@ -17,9 +17,60 @@ DriftAccumulator::DriftAccumulator(std::size_t capacity)
     : capacity_(std::max<std::size_t>(capacity + capacity % 2, 64)) {
   blocks_.reserve(capacity_);
   values_.reserve(most_values + 1);
+  waiting_.reserve(group);
 }
 
 void DriftAccumulator::add(double t, double error) {
+  take_waiting();
+  take_one(t, error);
+}
+
+void DriftAccumulator::add(double t0, double h, std::int64_t first, std::int64_t stride,
+                           std::span<const double> errors) {
+  const Steps steps{t0, h, first, stride};
+  Steps next = steps_of_waiting_;
+  next.first += static_cast<std::int64_t>(waiting_.size()) * next.stride;
+  if (!waiting_.empty() && steps != next) take_waiting();
+  if (waiting_.empty()) steps_of_waiting_ = steps;
+  while (!errors.empty()) {
+    const std::size_t some = std::min(group - waiting_.size(), errors.size());
+    waiting_.insert(waiting_.end(), errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(some));
+    errors = errors.subspan(some);
+    if (waiting_.size() == group) take_waiting();
+  }
+}
+
+void DriftAccumulator::take_waiting() {
+  if (waiting_.empty()) return;
+  Steps& steps = steps_of_waiting_;
+  take(steps.t0 + static_cast<double>(steps.first) * steps.h, static_cast<double>(steps.stride) * steps.h,
+       waiting_);
+  steps.first += static_cast<std::int64_t>(waiting_.size()) * steps.stride;
+  waiting_.clear();
+}
+
+void DriftAccumulator::take(double t, double dt, std::span<const double> errors) {
+  if (non_finite_ > 0) return;
+  const sums::Sums all = sums::of(errors, samples_ > 0 ? last_error_ : errors[0]);
+  const bool finite = std::isfinite(all.sum) && std::max(-all.low, all.high) <= largest_error &&
+                      std::isfinite(t + dt * static_cast<double>(errors.size()));
+  if (!finite) {
+    for (std::size_t k = 0; k < errors.size(); ++k) take_one(t + static_cast<double>(k) * dt, errors[k]);
+    return;
+  }
+  if (samples_ == 0) first_time_ = t;
+  add_moments(t, dt, errors.back(), all);
+  note_values(errors);
+  for (std::size_t done = 0; done < errors.size();) {
+    const std::size_t some = std::min(room_in_block(), errors.size() - done);
+    const std::span<const double> part = errors.subspan(done, some);
+    append(sums::block_of(some == errors.size() ? all : sums::of(part, part[0]),
+                          t + static_cast<double>(done) * dt, dt));
+    done += some;
+  }
+}
+
+void DriftAccumulator::take_one(double t, double error) {
   if (!std::isfinite(t) || !(std::abs(error) <= largest_error)) {
     if (non_finite_++ == 0) non_finite_time_ = t;
     return;
@@ -27,8 +78,7 @@ void DriftAccumulator::add(double t, double error) {
   if (non_finite_ > 0) return;
   if (samples_++ == 0) first_time_ = t;
   if (samples_ > 1 && error != last_error_) ++(error > last_error_ ? rises_ : falls_);
-  if (values_.size() <= most_values && std::find(values_.begin(), values_.end(), error) == values_.end())
-    values_.push_back(error);
+  note_values({&error, 1});
   last_time_ = t;
   last_error_ = error;
   const double dt = t - moments_.mean_time, de = error - moments_.mean;
@@ -37,10 +87,43 @@ void DriftAccumulator::add(double t, double error) {
   moments_.time_time += dt * (t - moments_.mean_time);
   moments_.time_error += dt * (error - moments_.mean);
   moments_.error_error += de * (error - moments_.mean);
+  append({1, t, error, error, error, error * error});
+}
 
-  const windows::Block sample{1, t, error, error, error, error * error};
+// Sums about the means of two sets of samples give those about the means of both [chan-golub-leveque1983].
+void DriftAccumulator::add_moments(double t, double dt, double last, const sums::Sums& of) {
+  const auto count = static_cast<double>(of.count), before = static_cast<double>(samples_);
+  const double total = before + count, weight = before * count / total;
+  const double away_time = t + dt * (count - 1) / 2 - moments_.mean_time;
+  const double away = of.shift + of.sum / count - moments_.mean;
+  moments_.time_time += dt * dt * count * (count * count - 1) / 12 + away_time * away_time * weight;
+  moments_.time_error += dt * (of.ramp - (count - 1) / 2 * of.sum) + away_time * away * weight;
+  moments_.error_error += std::max(of.square - of.sum * of.sum / count, 0.0) + away * away * weight;
+  moments_.mean_time += away_time * count / total;
+  moments_.mean += away * count / total;
+  samples_ += of.count;
+  rises_ += of.rises;
+  falls_ += of.falls;
+  last_time_ = t + dt * (count - 1);
+  last_error_ = last;
+}
+
+void DriftAccumulator::note_values(std::span<const double> errors) {
+  for (const double error : errors) {
+    if (values_.size() > most_values) return;
+    if (std::find(values_.begin(), values_.end(), error) == values_.end()) values_.push_back(error);
+  }
+}
+
+// How many samples the last block takes before it is full.
+std::size_t DriftAccumulator::room_in_block() const {
+  const bool full = blocks_.empty() || blocks_.back().count >= block_length_;
+  return full ? block_length_ : block_length_ - blocks_.back().count;
+}
+
+void DriftAccumulator::append(const windows::Block& some) {
   if (!blocks_.empty() && blocks_.back().count < block_length_) {
-    blocks_.back() = merged(blocks_.back(), sample);
+    blocks_.back() = merged(blocks_.back(), some);
     return;
   }
   if (blocks_.size() == capacity_) {
@@ -50,10 +133,17 @@ void DriftAccumulator::add(double t, double error) {
     blocks_.resize(capacity_ / 2);
     block_length_ *= 2;
   }
-  blocks_.push_back(sample);
+  blocks_.push_back(some);
 }
 
 Drift DriftAccumulator::result(const RoundOff& round_off) const {
+  if (waiting_.empty()) return result_of_taken(round_off);
+  DriftAccumulator whole = *this;
+  whole.take_waiting();
+  return whole.result_of_taken(round_off);
+}
+
+Drift DriftAccumulator::result_of_taken(const RoundOff& round_off) const {
   Drift drift;
   drift.samples = samples_;
   drift.non_finite = non_finite_;

@@ -21,11 +21,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <pfaff/runs/support/drift_class.hpp>
 #include <pfaff/runs/support/envelope.hpp>
+#include <pfaff/runs/support/error_sums.hpp>
 #include <pfaff/runs/support/windows.hpp>
 
 namespace pfaff {
@@ -88,10 +90,15 @@ class DriftAccumulator {
   /// Takes the next sample, also one that is not finite. Allocates where blocks merge, which is each time
   /// that the number of samples has doubled, and in a copy.
   void add(double t, double error);
+  /// The samples at t0 + (first + k stride) h, of which none but the caller's last ones are looked at yet:
+  /// they are taken so many at a time that no digit of a result depends on how they come. A number that is
+  /// not finite counts as above.
+  void add(double t0, double h, std::int64_t first, std::int64_t stride, std::span<const double> errors);
 
   [[nodiscard]] Drift result(const RoundOff& round_off = {}) const;
 
-  /// In order of time; all but the last of equal count.
+  /// Of what was taken so far one by one, or in whole groups: in order of time; all but the last of equal
+  /// count.
   [[nodiscard]] const std::vector<windows::Block>& blocks() const { return blocks_; }
 
   /// Most different values of which count is kept.
@@ -105,6 +112,22 @@ class DriftAccumulator {
   struct Moments {
     double mean_time = 0, mean = 0, time_time = 0, time_error = 0, error_error = 0;
   };
+  /// The times of samples that wait to be taken.
+  struct Steps {
+    double t0 = 0, h = 0;
+    std::int64_t first = 0, stride = 1;
+    friend bool operator==(const Steps&, const Steps&) = default;
+  };
+  static constexpr std::size_t group = 256;
+
+  void take_one(double t, double error);
+  void take_waiting();
+  void take(double t, double dt, std::span<const double> errors);
+  void add_moments(double t, double dt, double last, const sums::Sums& of);
+  void append(const windows::Block& some);
+  void note_values(std::span<const double> errors);
+  [[nodiscard]] std::size_t room_in_block() const;
+  [[nodiscard]] Drift result_of_taken(const RoundOff& round_off) const;
 
   std::size_t capacity_, block_length_ = 1;
   std::vector<windows::Block> blocks_;
@@ -113,6 +136,8 @@ class DriftAccumulator {
   std::size_t samples_ = 0, non_finite_ = 0, rises_ = 0, falls_ = 0;
   double first_time_ = 0, last_time_ = 0, last_error_ = 0, non_finite_time_ = 0;
   Moments moments_;
+  std::vector<double> waiting_;
+  Steps steps_of_waiting_;
 };
 
 }  // namespace pfaff

@@ -53,6 +53,9 @@ class RankWatch {
 
   RankWatch(std::shared_ptr<const Model> model, Advance advance);
 
+  /// False where the model has no such matrix.
+  [[nodiscard]] bool watches() const { return !matrix_.empty(); }
+
   /// Takes the next state of the run. Says, in a sentence without its end, which matrix has changed its rank
   /// since one of the two states before; nothing where none has.
   [[nodiscard]] std::string observe(const T& t, const std::vector<T>& z);

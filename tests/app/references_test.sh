@@ -14,7 +14,7 @@ trap 'rm -f "$control"' EXIT
 printf '// nobody1999 (7), su-qin, welford1962\n' >"$control"
 [[ $(unknown "$control") == nobody1999 ]] || { printf 'FAILED the control: %s\n' "$(unknown "$control")" >&2; exit 1; }
 
-missing=$(unknown core brackets formulations systems integrators bench verify derive papers app examples \
+missing=$(unknown core brackets formulations systems integrators runs bench verify derive papers app examples \
   --include='*.?pp' --include='*.toml')
 for key in su-qin nguyen-turski pitanga-rodrigues; do
   listed | grep -qx -- "$key" || missing+=" $key"

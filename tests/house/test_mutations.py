@@ -15,7 +15,7 @@ from pathlib import Path
 PROJECT = Path(__file__).resolve().parents[2]
 RUN = PROJECT / "tests/mutation/run"
 PROGRAMS = [f"{room}_tests" for room in
-            ("core", "brackets", "formulations", "systems", "integrators", "bench", "verify", "derive",
+            ("core", "brackets", "formulations", "systems", "integrators", "runs", "bench", "verify", "derive",
              "papers", "app", "verification")]
 
 # Builds what stands in engine.txt into a program and test programs that look at their copy of it.

@@ -291,6 +291,17 @@ TEST(Integration, RefusesWhatDoesNotFit) {
   expect_refused([] { (void)integrate("damped-oscillator", {}, "verlet", {}, {.step = "0.1"}); }, "verlet");
   expect_refused(kepler({.step = "0.1", .tolerance = "1e-9", .absolute = {"1", "2"}}, "taylor"),
                  "one for each of the 4 coordinates");
+  expect_refused(kepler({.step = "0.1", .initial = {"0", "0", "1", "0"}}),
+                 "kepler: the vector field is not finite there");
+  const auto pendulum = [](const char* method, const std::vector<std::string>& initial) {
+    return [=] {
+      (void)integrate("n-pendulum", {{"bobs", "1"}}, method, {}, {.step = "0.1", .initial = initial});
+    };
+  };
+  expect_refused(pendulum("rattle", {"0.8", "0.8", "0", "0"}), "; expected a state on the constraints");
+  pendulum("rattle", {"0.6", "0.8", "0", "0"})();
+  expect_refused([] { (void)integrate<Quad>("kepler", {}, "odeint-rk4", {}, {.step = "0.1"}); },
+                 "coefficients in double only");
   auto run = integrate("kepler", {}, "verlet", {}, {.step = "0.1"});
   expect_refused([&] { (void)run.steps(-1); }, "turn() and reversed() go back");
   Notes notes;
