@@ -6,7 +6,8 @@
 //   template <class T> struct Work { Work(const M&, const Measured<T>& run); … };   what it keeps meanwhile
 // and looks at a run in one or several of three ways:
 //   std::vector<std::int64_t> looks(const Measured<T>& run) const;     numbers of steps, in increasing order,
-//   bool look(const Measured<T>& run, const Look<T>& at, Work<T>& work, Row& row) const;        at each of
+//   bool look(const Measured<T>& run, const RunState<T>& at, Work<T>& work, Row& row) const;        at each
+//   of
 //                                them, with a row of the table; false ends the table before it
 //   void block(const Measured<T>& run, const Block<T>& block, Work<T>& work) const;   every state, in blocks
 //   bool end(const Measured<T>& run, Work<T>& work, Row& row) const;   once all steps are taken, with a row;
@@ -49,7 +50,7 @@ struct Measured {
 
 /// A state of the run, after `step` steps.
 template <class T>
-struct Look {
+struct RunState {
   std::int64_t step;
   T t;
   std::span<const T> z;
@@ -64,7 +65,7 @@ class Measuring {
  public:
   virtual ~Measuring() = default;
   [[nodiscard]] virtual const std::vector<std::int64_t>& looks() const = 0;
-  virtual bool look(const Look<T>& at, Row& row) = 0;
+  virtual bool look(const RunState<T>& at, Row& row) = 0;
   [[nodiscard]] virtual bool sees_blocks() const = 0;
   virtual void block(const Block<T>& block) = 0;
   [[nodiscard]] virtual bool has_end() const = 0;
@@ -143,7 +144,7 @@ concept WritesLooks = requires(const M& m, const Measured<double>& run) {
   { m.looks(run) } -> std::same_as<std::vector<std::int64_t>>;
 };
 template <class M>
-concept WritesLook = requires(const M& m, const Measured<double>& run, const Look<double>& at,
+concept WritesLook = requires(const M& m, const Measured<double>& run, const RunState<double>& at,
                               WorkOfMeasure<M>& work, Row& row) {
   { m.look(run, at, work, row) } -> std::same_as<bool>;
 };
@@ -174,7 +175,7 @@ constexpr void check_measure_members() {
                 "Work: expected template <class T> struct Work with a constructor Work(const M&, const "
                 "Measured<T>& run)");
   static_assert(WritesLook<M> || !measure::has_look<M>,
-                "look: expected template <class T> bool look(const Measured<T>& run, const Look<T>& at, "
+                "look: expected template <class T> bool look(const Measured<T>& run, const RunState<T>& at, "
                 "Work<T>& work, Row& row) const");
   static_assert(WritesLooks<M> || !measure::has_looks<M>,
                 "looks: expected template <class T> std::vector<std::int64_t> looks(const Measured<T>& run) "
@@ -204,7 +205,7 @@ class MeasuringWith final : public Measuring<T> {
     if constexpr (WritesLooks<M>) looks_ = measure_.looks(run_);
   }
   [[nodiscard]] const std::vector<std::int64_t>& looks() const override { return looks_; }
-  bool look([[maybe_unused]] const Look<T>& at, [[maybe_unused]] Row& row) override {
+  bool look([[maybe_unused]] const RunState<T>& at, [[maybe_unused]] Row& row) override {
     if constexpr (WritesLook<M>) return measure_.look(run_, at, work_, row);
     return false;
   }

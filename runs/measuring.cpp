@@ -34,7 +34,7 @@ struct AtWork {
                ? std::numeric_limits<std::int64_t>::max()
                : measuring->looks()[next];
   }
-  void look(const Look<T>& at) {
+  void look(const RunState<T>& at) {
     if (next_look() != at.step) return;
     ++next;
     guarded([&] {

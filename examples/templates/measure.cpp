@@ -44,7 +44,7 @@ struct Separation {
   // A row of the table, a cell for each column. A cell that is not finite is left empty; false ends the
   // table.
   template <class T>
-  bool look(const Measured<T>& /*run*/, const Look<T>& at, Work<T>& work, Row& row) const {
+  bool look(const Measured<T>& /*run*/, const RunState<T>& at, Work<T>& work, Row& row) const {
     if (!work.neighbour.steps(at.step - work.neighbour.steps_taken()).reached()) return false;
     T square(0);
     for (std::size_t i = 0; i < at.z.size(); ++i) {

@@ -57,7 +57,7 @@ struct Contraction {
   };
 
   template <class T>
-  bool look(const Measured<T>& run, const Look<T>& at, Work<T>& work, Row& row) const {
+  bool look(const Measured<T>& run, const RunState<T>& at, Work<T>& work, Row& row) const {
     std::string text;
     const bool shown = std::find(work.shown.begin(), work.shown.end(), at.step) != work.shown.end();
     T twice(0);

@@ -69,7 +69,7 @@ struct PoincareLoop {
   };
 
   template <class T>
-  bool look(const Measured<T>& /*run*/, const Look<T>& at, Work<T>& work, Row& row) const {
+  bool look(const Measured<T>& /*run*/, const RunState<T>& at, Work<T>& work, Row& row) const {
     std::vector<std::vector<T>> states, forms;
     for (Integration<T>& point : work.loop) {
       if (!point.steps(at.step - point.steps_taken()).reached()) return false;

@@ -74,7 +74,7 @@ struct Reversibility {
 
   // Each turn has a run of its own, so that it is what a run of so many steps would be, with its history.
   template <class T>
-  bool look(const Measured<T>& run, const Look<T>& at, Work<T>& work, Row& row) const {
+  bool look(const Measured<T>& run, const RunState<T>& at, Work<T>& work, Row& row) const {
     if (!work.by) return false;
     Integration<T> there = run.start.beside(work.start);
     if (!there.steps(at.step).reached()) return false;

@@ -39,7 +39,7 @@ struct Trial {
     for (std::size_t row = 0; row < block.rows; ++row) work.seen += block.states.at(row, 0);
   }
   template <class T>
-  bool look(const Measured<T>& /*run*/, const Look<T>& at, Work<T>& work, Row& row) const {
+  bool look(const Measured<T>& /*run*/, const RunState<T>& at, Work<T>& work, Row& row) const {
     const bool now = at.step == 6;
     if (now && deed == Deed::throws) throw std::runtime_error("no more");
     if (now && deed == Deed::ends) return false;

@@ -26,7 +26,7 @@ struct WithoutColumns {
 };
 const Measure<WithoutColumns> without_columns{{.name = "without-columns", .title = ""}};
 
-// refused: look: expected template <class T> bool look(const Measured<T>& run, const Look<T>& at,
+// refused: look: expected template <class T> bool look(const Measured<T>& run, const RunState<T>& at,
 // refused: looks: expected template <class T> std::vector<std::int64_t> looks(const Measured<T>& run)
 struct WrongLooks : Sound {
   template <class T>
@@ -35,7 +35,7 @@ struct WrongLooks : Sound {
   };
   [[nodiscard]] std::vector<int> looks() const { return {}; }
   template <class T>
-  void look(const Measured<T>& /*run*/, const Look<T>& /*at*/, Work<T>& /*work*/, Row& /*row*/) const {}
+  void look(const Measured<T>& /*run*/, const RunState<T>& /*at*/, Work<T>& /*work*/, Row& /*row*/) const {}
 };
 const Measure<WrongLooks> wrong_looks{{.name = "wrong-looks", .title = ""}};
 
