@@ -6,9 +6,6 @@
 namespace {
 using namespace pfaff;
 
-struct Shake : pfaff::Shake {};
-struct Lincs : pfaff::Lincs {};
-
 const Method<Shake> shake{
     {.name = "shake",
      .title = "SHAKE: positions on the constraints, momenta of central differences",

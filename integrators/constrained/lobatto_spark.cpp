@@ -6,8 +6,6 @@
 namespace {
 using namespace pfaff;
 
-struct LobattoSpark : pfaff::LobattoSpark {};
-
 const Method<LobattoSpark> registered{
     {.name = "lobatto-spark",
      .title = "Lobatto IIIA-IIIB pair on the constraint surface, order 2 s - 2",

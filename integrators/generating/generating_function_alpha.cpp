@@ -5,8 +5,6 @@
 namespace {
 using namespace pfaff;
 
-struct GeneratingFunctionAlpha : pfaff::GeneratingFunctionAlpha {};
-
 const Method<GeneratingFunctionAlpha> registered{
     {.name = "generating-function-alpha",
      .title = "K(z,t)-symplectic generating-function scheme of order m for the system's own alpha",

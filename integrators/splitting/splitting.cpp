@@ -9,7 +9,6 @@ using namespace pfaff;
 struct Verlet : pfaff::Verlet {
   using Composed = Composition<pfaff::Verlet>;
 };
-struct SymplecticEuler : pfaff::SymplecticEuler {};
 
 const Method<Verlet> verlet{
     {.name = "verlet",

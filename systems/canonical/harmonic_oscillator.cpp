@@ -5,8 +5,6 @@
 namespace {
 using namespace pfaff;
 
-struct HarmonicOscillator : pfaff::HarmonicOscillator {};
-
 const System<HarmonicOscillator> registered{
     {.name = "harmonic-oscillator",
      .title = "harmonic oscillator, q'' + omega^2 q = 0",

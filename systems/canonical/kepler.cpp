@@ -5,8 +5,6 @@
 namespace {
 using namespace pfaff;
 
-struct Kepler : pfaff::Kepler {};
-
 const System<Kepler> registered{
     {.name = "kepler",
      .title = "planar Kepler problem, H = |p|^2/2 - 1/|q|",

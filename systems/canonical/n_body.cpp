@@ -5,8 +5,6 @@
 namespace {
 using namespace pfaff;
 
-struct NBody : pfaff::NBody {};
-
 const System<NBody> registered{
     {.name = "n-body",
      .title = "n bodies that attract each other, H = sum |p_i|^2/(2 m_i) - G sum m_i m_j/r_ij",

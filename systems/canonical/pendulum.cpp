@@ -5,8 +5,6 @@
 namespace {
 using namespace pfaff;
 
-struct Pendulum : pfaff::Pendulum {};
-
 const System<Pendulum> registered{
     {.name = "pendulum",
      .title = "pendulum, q'' + omega^2 sin q = 0",
