@@ -4,7 +4,7 @@
   Arrows run one way: a room includes only the rooms below it (ROOMS).
   The program includes nothing of the library of studies (STUDIES), which it loads.
   No cycles of folders: what a folder includes, directly or through others, does not include the folder.
-  A public header compiles by itself, without generating code. Builds do not show it: where sources are compiled
+  A header compiles by itself, without generating code. Builds do not show it: where sources are compiled
   together, others come before the one that includes its header first.
 
   includes.py [--no-compile] [--root DIRECTORY]

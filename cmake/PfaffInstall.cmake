@@ -5,11 +5,13 @@ install(TARGETS pfaff pfaff_bench pfaff_studies EXPORT PfaffTargets
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS pfaff_trial_load RUNTIME DESTINATION ${CMAKE_INSTALL_LIBDIR})  # beside the library, which starts it
 install(TARGETS pfaff_app RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(DIRECTORY core brackets formulations systems integrators runs verify derive papers
-        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pfaff FILES_MATCHING PATTERN "*.hpp")
-# All headers of bench but those of single benchmarks: whatever one of them includes is there too.
-install(DIRECTORY bench DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/pfaff FILES_MATCHING PATTERN "*.hpp"
-        PATTERN bench/micro EXCLUDE PATTERN bench/report EXCLUDE PATTERN bench/experiments EXCLUDE)
+# The list of public headers is read here too, so that a false one is refused before anything is built.
+include(cmake/PfaffHeaders.cmake)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS cmake/public_headers.txt)
+pfaff_public_headers(pfaff_listed ${PROJECT_SOURCE_DIR})
+install(CODE "
+  include(\"${PROJECT_SOURCE_DIR}/cmake/PfaffHeaders.cmake\")
+  pfaff_install_headers(\"${PROJECT_SOURCE_DIR}\" \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_INCLUDEDIR}\")")
 install(DIRECTORY bench/report DESTINATION ${CMAKE_INSTALL_DATADIR}/pfaff
         PATTERN "__pycache__" EXCLUDE)
 # Experiments name tables and models by their paths in the source tree; installed, the examples stand beside them.

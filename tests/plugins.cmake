@@ -99,4 +99,8 @@ if(PFAFF_SANITIZE)
 endif()
 add_test(NAME app/out_of_tree COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/app/out_of_tree_test.sh
                                       ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR} ${CMAKE_COMMAND} "${flags}")
-set_tests_properties(app/plugins app/out_of_tree PROPERTIES TIMEOUT 600)
+add_test(NAME app/public_headers COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/app/public_headers_test.sh
+                                         ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR} ${CMAKE_COMMAND} "${flags}")
+set_tests_properties(app/plugins PROPERTIES TIMEOUT 600)
+# Compilers take minutes in them: ctest starts them among the first.
+set_tests_properties(app/out_of_tree app/public_headers PROPERTIES TIMEOUT 1200 COST 100)

@@ -21,17 +21,6 @@ prefix="$scratch/moved here"
 pfaff="$prefix/bin/pfaff"
 unset LD_LIBRARY_PATH PFAFF_PLUGIN_PATH
 
-# What an installed header includes is installed, and they compile: all of bench and of the rooms above it, which include all
-# that they need.
-(cd "$prefix/include" && grep -rhoE '^#include <pfaff/[^>]+' pfaff | sed 's/.*<//' | sort -u >"$scratch/included" &&
-  find pfaff -name '*.hpp' | sort >"$scratch/headers")
-missing=$(grep -vxFf "$scratch/headers" "$scratch/included" || true)
-[[ -z $missing ]] || fail "included by installed headers, but not installed: $missing"
-grep -E '^pfaff/(bench|verify|derive|papers)/' "$scratch/headers" | sed 's/.*/#include <&>/' >"$scratch/all.cpp"
-# shellcheck disable=SC2086 # several flags
-"${CXX:-c++}" -std=c++20 $flags -w -fsyntax-only -I "$prefix/include" "$scratch/all.cpp" >"$scratch/log" 2>&1 ||
-  fail "installed headers: $(head -n 3 "$scratch/log")"
-
 # The library of studies stands beside the others; without it, it is said what to do.
 "$pfaff" derive damped-pendulum --method birkhoffian >/dev/null || fail "the library of studies is not found"
 mkdir "$scratch/away"

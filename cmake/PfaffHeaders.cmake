@@ -1,0 +1,53 @@
+# Which headers are installed, and where: those of cmake/public_headers.txt to include/pfaff, and what they include besides
+# to include/pfaff/detail/pfaff, so that no include line differs between the tree and what is installed.
+cmake_policy(VERSION 3.25)  # what runs this file while it installs has none of its own
+
+# The headers that authors may include; an error where one of them is not there.
+function(pfaff_public_headers result source)
+  file(STRINGS ${source}/cmake/public_headers.txt headers REGEX "^[^#]")
+  foreach(header ${headers})
+    if(NOT EXISTS ${source}/${header})
+      cmake_path(GET header FILENAME name)
+      file(GLOB_RECURSE near RELATIVE ${source} ${source}/[a-z]*/${name})
+      list(FILTER near EXCLUDE REGEX "^build/")
+      if(NOT near)
+        set(near "a header of the tree")
+      endif()
+      message(FATAL_ERROR "cmake/public_headers.txt: there is no '${header}'; expected ${near}")
+    endif()
+  endforeach()
+  set(${result} ${headers} PARENT_SCOPE)
+endfunction()
+
+# These headers and all that they include of Pfaff's.
+function(pfaff_with_what_they_include result source)
+  set(found "")
+  set(next ${ARGN})
+  while(next)
+    list(POP_FRONT next header)
+    list(APPEND found ${header})
+    file(STRINGS ${source}/${header} lines REGEX "^#include [<\"]")
+    foreach(line ${lines})
+      if(line MATCHES "\"(.*)\"")
+        message(FATAL_ERROR "${header} includes \"${CMAKE_MATCH_1}\"; expected <pfaff/...>, by which it is found when installed")
+      elseif(line MATCHES "<pfaff/(.*)>" AND NOT CMAKE_MATCH_1 IN_LIST found AND NOT CMAKE_MATCH_1 IN_LIST next)
+        list(APPEND next ${CMAKE_MATCH_1})
+      endif()
+    endforeach()
+  endwhile()
+  set(${result} ${found} PARENT_SCOPE)
+endfunction()
+
+# Run by the installation, which therefore sees what headers include now and not when CMake was run.
+function(pfaff_install_headers source destination)
+  pfaff_public_headers(public ${source})
+  pfaff_with_what_they_include(all ${source} ${public})
+  foreach(header ${all})
+    set(place ${destination}/pfaff/detail/pfaff)
+    if(header IN_LIST public)
+      set(place ${destination}/pfaff)
+    endif()
+    cmake_path(GET header PARENT_PATH folder)
+    file(INSTALL ${source}/${header} DESTINATION ${place}/${folder})
+  endforeach()
+endfunction()
