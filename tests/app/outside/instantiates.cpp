@@ -49,8 +49,8 @@ bool same(std::span<const T> a, std::span<const T> b) {
 
 constexpr int steps = 1000;
 
-// The registered method against `method` on `problem`, after each step. No bit of a
-// double or of a Quad is padding.
+// The registered method against `method` on `problem`, after each step. No bit of a double or of a Quad is
+// padding.
 template <class P, class M>
 void compare(Integration<Scalar<P>> run, const P& problem, const M& method, const std::string& what) {
   using T = Scalar<P>;
@@ -135,8 +135,8 @@ bool of_library(const void* address) {
          std::string_view(info.dli_fname).find(library_name) != std::string_view::npos;
 }
 
-// The series that generating functions evaluate. The program asks for its own ones first, so that they are
-// the ones that are made where both share them.
+// The series that generating functions evaluate. The program asks for its own before a model is made: where
+// both share them, the first to ask decides whose code they are.
 void look_at_series() {
   const CompiledSeries& own = *StaticProblem<Kepler>().chart_field_series().series;
   const CompiledSeries& registered = *systems().get("kepler", "system").make({})->chart_field_series();
