@@ -1,15 +1,15 @@
 // pfaff compare: runs an experiment from its TOML file, shows its table, and writes results.csv, cost.csv,
-// figures and report.html.
+// figures and report.html; of all experiments an index too.
 #include <chrono>
 #include <iostream>
 #include <map>
 #include <optional>
 
-#include <pfaff/app/command.hpp>
+#include <pfaff/app/figure_options.hpp>
 #include <pfaff/bench/experiment/experiment.hpp>
-#include <pfaff/bench/experiment/results.hpp>
 #include <pfaff/bench/experiment/stage_text.hpp>
 #include <pfaff/bench/experiment/team.hpp>
+#include <pfaff/bench/runner/files.hpp>
 #include <pfaff/bench/runner/interruption.hpp>
 #include <pfaff/bench/runner/terminal.hpp>
 #include <pfaff/bench/studies/studies.hpp>
@@ -46,11 +46,31 @@ std::string left_out_text(const std::vector<LeftOut>& left_out) {
   return text;
 }
 
+// The sentence of every case, as its report begins.
+std::string verdict_text(const nlohmann::json& cases) {
+  std::string text;
+  for (const nlohmann::json& one : cases)
+    text += paragraph((cases.size() > 1 ? one.at("case").get<std::string>() + ": " : "") +
+                      one.at("sentence").get<std::string>());
+  return text.empty() ? text : "\n" + text;
+}
+
 int compare(const CompareOptions& options, const Common& common) {
   const std::unique_ptr<Team> team = launched_team();
   const std::vector<std::string> names = options.all ? experiment_names() : options.names;
+  if (names.empty())
+    throw InputError("compare: expected files of experiments in '" +
+                     (data_directory() / "experiments").string() + "', found none");
   nlohmann::json j{{"schema", 1}, {"experiments", nlohmann::json::array()}};
   bool failed = false;
+  const std::filesystem::path above = options.out.empty() ? "pfaff-out" : options.out;
+  // Quick and long experiments without --out stand side by side, and so do their indices.
+  const std::filesystem::path index =
+      above / (options.quick && options.out.empty() ? "index-quick.html" : "index.html");
+  const bool indexed = options.all && !options.no_report;
+  if (indexed) refuse_what_is_no_index(index);
+  check(options.paper);
+  std::vector<std::filesystem::path> reported;
   std::vector<Experiment> experiments;
   for (const std::string& name : names) {
     experiments.push_back(read_experiment(name, options.quick));
@@ -58,10 +78,11 @@ int compare(const CompareOptions& options, const Common& common) {
   }
   for (Experiment& experiment : experiments) {
     experiment.compile = experiment.compile || options.compile;
-    std::filesystem::path directory = options.out;
+    std::filesystem::path directory = above;
     if (options.out.empty())
-      directory = std::filesystem::path("pfaff-out") / (experiment.name + (options.quick ? "-quick" : ""));
-    if (!options.out.empty() && names.size() > 1) directory /= experiment.name;
+      directory /= experiment.name + (options.quick ? "-quick" : "");
+    else if (names.size() > 1)
+      directory /= experiment.name;
     ExperimentOutcome outcome;
     {
       // Studies of derivations do not look whether they should stop: a signal ends them as usual.
@@ -91,16 +112,24 @@ int compare(const CompareOptions& options, const Common& common) {
       throw RunError("interrupted: " + std::to_string(outcome.resumed) + " of " +
                      std::to_string(outcome.runs) + " runs are in " + directory.string() +
                      "; the same command resumes");
-    std::filesystem::path figures;
+    MadeFigures figures;
     if (!options.paper.kinds.empty()) figures = make_paper_figures(directory, options.paper);
+    nlohmann::json verdict = nlohmann::json::array();
+    if (!outcome.report.empty()) {
+      verdict = verdicts_of(directory);
+      reported.push_back(directory);
+    }
     failed = failed || outcome.failed == outcome.runs || !outcome.failed_claims.empty();
     j["experiments"].push_back({{"name", experiment.name},
                                 {"directory", directory.string()},
                                 {"runs", outcome.runs},
                                 {"resumed", outcome.resumed},
                                 {"failed", outcome.failed}});
-    if (!outcome.report.empty()) j["experiments"].back()["report"] = outcome.report.string();
-    if (!figures.empty()) j["experiments"].back()["figures"] = figures.string();
+    if (!outcome.report.empty()) {
+      j["experiments"].back()["report"] = outcome.report.string();
+      j["experiments"].back()["verdict"] = verdict;
+    }
+    if (!figures.path.empty()) j["experiments"].back()["figures"] = figures.path.string();
     if (!outcome.findings.empty()) j["experiments"].back()["findings"] = outcome.findings;
     for (const LeftOut& one : outcome.left_out)
       j["experiments"].back()["left_out"].push_back(
@@ -111,12 +140,19 @@ int compare(const CompareOptions& options, const Common& common) {
                 << " resumed, " << outcome.failed << " ended early)\nresults  "
                 << (directory / "results.csv").string() << '\n'
                 << (outcome.report.empty() ? "" : "report   " + outcome.report.string() + "\n")
-                << (figures.empty() ? "" : "figures  " + figures.string() + "\n")
-                << left_out_text(outcome.left_out);
+                << (figures.path.empty() ? "" : "figures  " + figures.path.string() + "\n")
+                << left_out_text(outcome.left_out) << verdict_text(verdict);
+    if (!figures.left_out.empty())
+      std::cerr << printable("pfaff: " + experiment.name + ": " + figures.left_out) << '\n';
     if (!outcome.failed_claims.empty())
       std::cerr << printable("pfaff: " + experiment.name +
                              ": a finding does not hold: " + outcome.failed_claims)
                 << '\n';
+  }
+  if (indexed && (team == nullptr || team->leads())) {
+    make_index(index, reported);
+    j["index"] = index.string();
+    if (!common.json && !common.quiet) std::cout << "\nindex    " << index.string() << '\n';
   }
   if (common.json) std::cout << json_text(j);
   return failed ? 1 : 0;
@@ -145,13 +181,7 @@ void add_compare(CLI::App& app, Common& common, Action& action) {
       ->check(positive_number());
   sub->add_option("--out", options->out, "Where results go (default pfaff-out/NAME), or resume from")
       ->type_name("DIR");
-  sub->add_option("--figures", options->paper.kinds,
-                  "Figures and tables for papers too: some of pdf, svg, pgf, png")
-      ->type_name("KIND,...");
-  sub->add_option("--width", options->paper.width, "Width of the figures for papers (default 85mm)")
-      ->type_name("LENGTH");
-  sub->add_option("--style", options->paper.style, "A style file of matplotlib's for the figures for papers")
-      ->type_name("FILE");
+  add_figure_options(*sub, options->paper);
   sub->callback([=, &common, &action] {
     action = [=, &common] {
       if (options->all == !options->names.empty())

@@ -33,7 +33,7 @@ void remove_derived(const fs::path& directory) {
   std::error_code error;
   for (const char* name :
        {"results.csv", "equal_cost.csv", "ensembles.csv", measures_directory, "frequencies.csv",
-        "findings.csv", "fits.csv", "report.html", "report.json", "figures"})
+        "findings.csv", "fits.csv", "report.html", "report.json", "verdict.csv", "figures"})
     fs::remove_all(directory / name, error);
 }
 

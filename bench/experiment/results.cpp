@@ -116,12 +116,15 @@ std::string results_csv(const std::vector<ExperimentRun>& runs,
 }
 
 namespace {
-// A report script, run with these arguments. RunError begins with `what` when it fails.
+// A report script, run with these arguments; what it says that it made, which is an object in its last line.
+// When it fails, RunError begins with `what`; where that is empty the script was given wrong input, and it is
+// an InputError.
 //
 // Python runs apart from what surrounds it: -I leaves out its environment variables, the user's packages and
 // the current directory, from which matplotlib would take its settings too. Paths among the arguments are
 // absolute.
-void run_script(const std::string& name, const std::vector<std::string>& arguments, const std::string& what) {
+nlohmann::json run_script(const std::string& name, const std::vector<std::string>& arguments,
+                          const std::string& what) {
   const fs::path folder = data_directory() / "report";
   // matplotlib is installed as a package of the operating system and is seen by its own Python only, so that
   // /usr/bin/python3 goes before any other.
@@ -132,35 +135,71 @@ void run_script(const std::string& name, const std::vector<std::string>& argumen
                        .directory = folder};
   program.words.insert(program.words.end(), arguments.begin(), arguments.end());
   ChildEnding ending = run_program(program);
-  if (ending.succeeded()) return;
   std::string& said = ending.output;
   while (!said.empty() && said.back() == '\n') said.pop_back();
-  if (said.empty()) said = python + " " + ending.in_words();
-  const std::size_t newline = said.rfind('\n');
-  throw RunError(what + ": " + (newline == std::string::npos ? said : said.substr(newline + 1)));
+  const std::string last = said.substr(said.rfind('\n') + 1);  // all of it where there is one line
+  if (ending.succeeded())
+    if (nlohmann::json made = nlohmann::json::parse(last, nullptr, false); made.is_object()) return made;
+  if (what.empty() && last.starts_with(name + ": ")) throw InputError(last.substr(name.size() + 2));
+  throw RunError(what + ": " + (last.empty() ? python + " " + ending.in_words() : last));
+}
+
+// The options of figures for papers, none where no kind of file is asked for.
+std::vector<std::string> options_of(const PaperFigures& wanted) {
+  if (wanted.kinds.empty()) return {};
+  std::vector<std::string> options{"--figures", wanted.kinds, "--width", wanted.width};
+  if (!wanted.style.empty()) {
+    (void)read_file(wanted.style);  // which refuses what Python would wait for
+    options.insert(options.end(), {"--style", fs::absolute(wanted.style).string()});
+  }
+  return options;
 }
 }  // namespace
 
 fs::path make_report(const fs::path& directory) {
-  run_script("report.py", {fs::absolute(directory).string()},
-             "the report could not be made (results.csv and cost.csv are complete)");
+  (void)run_script("report.py", {fs::absolute(directory).string()},
+                   "the report could not be made (results.csv and cost.csv are complete)");
   return directory / "report.html";
 }
 
-fs::path make_paper_figures(const fs::path& directory, const PaperFigures& wanted) {
-  std::vector<std::string> arguments{fs::absolute(directory).string(), "--figures", wanted.kinds, "--width",
-                                     wanted.width};
-  if (!wanted.style.empty()) {
-    (void)read_file(wanted.style);  // which refuses what Python would wait for
-    arguments.insert(arguments.end(), {"--style", fs::absolute(wanted.style).string()});
-  }
-  run_script("report.py", arguments, "the figures for papers could not be made");
-  return directory / "figures" / "paper";
+nlohmann::json verdicts_of(const fs::path& directory) {
+  nlohmann::json cases = nlohmann::json::parse(read_file(directory / "report.json"))["cases"];
+  for (nlohmann::json& one : cases) one.erase("assertions");
+  return cases;
 }
 
-fs::path make_run_figures(const fs::path& directory) {
-  run_script("plot.py", {fs::absolute(directory).string()}, "the figures of the run could not be made");
-  return directory / run_figures_directory / "plot.html";
+void refuse_what_is_no_index(const fs::path& page) {
+  std::error_code error;
+  if (fs::exists(page, error) && read_file(page).find("<p class=\"kicker\">Pfaff ") == std::string::npos)
+    throw InputError("'" + page.string() +
+                     "' is no index of Pfaff's; expected a directory without such a file");
+}
+
+void make_index(const fs::path& page, const std::vector<fs::path>& directories) {
+  std::vector<std::string> arguments{fs::absolute(page).string()};
+  for (const fs::path& directory : directories) arguments.push_back(fs::absolute(directory).string());
+  (void)run_script("index.py", arguments, "the index could not be made (reports are complete)");
+}
+
+void check(const PaperFigures& wanted) {
+  if (const auto options = options_of(wanted); !options.empty()) (void)run_script("wanted.py", options, "");
+}
+
+MadeFigures make_paper_figures(const fs::path& directory, const PaperFigures& wanted) {
+  std::vector<std::string> arguments = options_of(wanted);
+  arguments.insert(arguments.begin(), fs::absolute(directory).string());
+  const nlohmann::json made = run_script("report.py", arguments, "the figures for papers could not be made");
+  return {directory / "figures" / "paper", "", made.value("left_out", "")};
+}
+
+MadeFigures make_run_figures(const fs::path& directory, const PaperFigures& wanted,
+                             const std::string& coordinates) {
+  std::vector<std::string> arguments = options_of(wanted);
+  arguments.insert(arguments.begin(), fs::absolute(directory).string());
+  if (!coordinates.empty()) arguments.insert(arguments.end(), {"--coordinates", coordinates});
+  const nlohmann::json made = run_script("plot.py", arguments, "");
+  return {directory / run_figures_directory / "plot.html", made.value("sentence", ""),
+          made.value("left_out", "")};
 }
 
 }  // namespace pfaff

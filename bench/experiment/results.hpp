@@ -28,6 +28,17 @@ std::string results_table(const std::filesystem::path& directory, const Experime
 /// RunError with the message of the scripts when they fail.
 std::filesystem::path make_report(const std::filesystem::path& directory);
 
+/// What the report of a directory says of each case, as report.json holds it: the sentence, the line below
+/// it, and a row for each method.
+nlohmann::json verdicts_of(const std::filesystem::path& directory);
+
+/// Refuses a file in the place of an index that is none.
+void refuse_what_is_no_index(const std::filesystem::path& page);
+
+/// Runs the report scripts, which write one page of the reports in these directories: their sentences, a
+/// picture of each, and what became of every method with every problem. RunError as above.
+void make_index(const std::filesystem::path& page, const std::vector<std::filesystem::path>& directories);
+
 /// Figures for papers, as the report scripts take them.
 struct PaperFigures {
   std::string kinds;  // of pdf, svg, pgf and png some, with commas between them
@@ -35,15 +46,27 @@ struct PaperFigures {
   std::string style;  // a style file of matplotlib's; empty for the one that ships
 };
 
+/// Refuses what the report scripts do not make. InputError with their message.
+void check(const PaperFigures& wanted);
+
+/// What the scripts made of figures.
+struct MadeFigures {
+  std::filesystem::path path;
+  std::string sentence;  // what the figures of a run show
+  std::string left_out;  // what could not be made, and why; empty where nothing was left out
+};
+
 /// Runs the report scripts, which draw figures and write tables for papers, and returns the directory of
 /// these. RunError with the message of the scripts when they fail.
-std::filesystem::path make_paper_figures(const std::filesystem::path& directory, const PaperFigures& wanted);
+MadeFigures make_paper_figures(const std::filesystem::path& directory, const PaperFigures& wanted);
 
 /// Where the figures of a run stand in its directory.
 constexpr const char* run_figures_directory = "plot";
 
 /// Runs the scripts that draw one run, which make plot/ in its directory, and returns the path of the page
-/// there. RunError with the message of the scripts when they fail.
-std::filesystem::path make_run_figures(const std::filesystem::path& directory);
+/// there. The motion is drawn in the plane of two coordinates, "q1,q2", or where none are named of those that
+/// the system suggests. InputError with the message of the scripts when they refuse.
+MadeFigures make_run_figures(const std::filesystem::path& directory, const PaperFigures& wanted,
+                             const std::string& coordinates);
 
 }  // namespace pfaff

@@ -9,6 +9,7 @@ page.
 import html
 import io
 import re
+import typing
 
 import matplotlib
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -32,6 +33,21 @@ matplotlib.rcParams.update({
     "figure.facecolor": PAPER, "axes.facecolor": "none", "axes.edgecolor": MID, "axes.labelcolor": INK, "text.color": INK,
     "xtick.color": MID, "ytick.color": MID, "xtick.labelcolor": MID, "ytick.labelcolor": MID,
 })
+
+
+class Sizes(typing.NamedTuple):
+    """How large a figure is drawn: lengths are meant for narrow screens and multiplied by `unit`."""
+    width: float  # in pixels, on paper in points
+    font: float
+    unit: float
+    wide: bool  # room for several panels side by side
+
+
+def sizes(wide):
+    """Of a wide screen where `wide` is True, of a narrow one where it is False, else of print of that width in points."""
+    if isinstance(wide, bool):
+        return Sizes(1120, 12.5, 1.0, True) if wide else Sizes(368, 11, 1.0, False)
+    return Sizes(wide, 7, 7 / 11, wide >= 350)
 
 
 def plain(text):
@@ -125,8 +141,13 @@ def svg_text(content, prefix, description, titles, coloured, scale=1.0, unit="")
     text = re.sub(r'\bid="([^"]*)"', rf'id="{prefix}-\1"', text)
     text = re.sub(r'href="#([^"]*)"', rf'href="#{prefix}-\1"', text)
     text = re.sub(r"url\(#([^)]*)\)", rf"url(#{prefix}-\1)", text)
-    if not coloured:
-        for colour, variable in VARIABLES.items():
-            text = text.replace(colour, f"var(--{variable})")
+    text = text if coloured else recoloured(text)
     told = f"<desc>{html.escape(description)}</desc>" if description else ""
     return re.sub(r"(<svg [^>]*>)", lambda m: m[1] + told, text, count=1)
+
+
+def recoloured(text):
+    """An SVG with the variables of the style sheet in the place of its colours."""
+    for colour, variable in VARIABLES.items():
+        text = text.replace(colour, f"var(--{variable})")
+    return text

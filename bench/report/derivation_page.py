@@ -1,33 +1,43 @@
 """report.html of derived equations: a sentence, a table of the methods, the figures, and folded what lies behind them."""
+import json
+import math
+
 import folded
 import papers as paper_figures
+from command import table, write
 from derivation_figures import drawings, family_of
 from equation import prose
 from families import mark
+from figures import saved
 from page import document, figure
 from wording import counted, number, plain_text, text
 
 
-def report(study, write):
-    target, pictures = study.folder / "figures", []
-    target.mkdir(exist_ok=True)
-    for drawing in drawings(study):
-        sheet = drawing.draw(True)
-        alone = sheet.svg(f"{drawing.name}-wide", coloured=True)
-        write(target / f"{drawing.name}.svg", f'<?xml version="1.0" encoding="utf-8"?>\n{alone}')
-        write(target / f"{drawing.name}.png", sheet.png())
-        pictures.append((drawing, sheet.svg(f"{drawing.name}-wide"), drawing.draw(False).svg(f"{drawing.name}-narrow")))
+def report(study):
+    pictures = saved(drawings(study), study.folder / "figures", small=True)
+    rows = [row_of(m) for m in study.methods]
+    said = {"case": "equations", "title": study.head["title"], "question": "", "answer": "growth of equations",
+            "sentence": plain_text(finding(study)), "below": "", "methods": rows, "assertions": []}
+    write(study.folder / "verdict.csv", table(rows))
+    write(study.folder / "report.json", json.dumps({"schema": 1, "experiment": study.head["name"], "cases": [said]}, indent=1,
+                                                   ensure_ascii=False) + "\n")
     write(study.folder / "report.html", document(study.head["title"], plain_text(finding(study)), body(study, pictures)))
-    return study.folder / "report.html"
+    return {"report": str(study.folder / "report.html")}
 
 
-def papers(study, kinds, width, style, write):
+def row_of(method):
+    """A row of verdict.csv: the largest equations that the method was given, and the law by which operations grow."""
+    last, fit = method.points[-1], method.fits.get("operations")
+    return {"case": "equations", "method": method.name, "constraints": last["K"], "equations": last["equations"],
+            "operations": last["operations"], "seconds": None if math.isnan(last["seconds"]) else last["seconds"],
+            "law": fit.law if fit else "", **{k: getattr(fit, k) if fit else None for k in ("exponent", "low", "high")}}
+
+
+def papers(study, wanted):
     target = study.folder / "figures" / "paper"
-    with paper_figures.settings(kinds, style, target):
+    with paper_figures.settings(wanted, target):
         for drawing in drawings(study):
-            paper_figures.figure(drawing, kinds, width, target, write)
-            write(target / f"{drawing.name}.txt", paper_figures.caption(study.head, drawing, plain_text(finding(study)), {}))
-    return target
+            paper_figures.figure(drawing, wanted, target, paper_figures.caption(study.head, drawing, plain_text(finding(study)), {}))
 
 
 def grown(fit):

@@ -12,11 +12,13 @@ import statistics
 import typing
 
 from canvas import plain
+from command import write
 from experiment import DIRECTIONS, UNIT_ROUND_OFF
 from families import family_named, style
 from scales import ErrorAxis, envelope, time_axis
 from sheet import Sheet
 
+PROLOGUE = '<?xml version="1.0" encoding="utf-8"?>\n'  # of an SVG that is a file of its own
 ENVELOPE = "Each line joins the largest values within short stretches of time."
 
 
@@ -32,8 +34,27 @@ class Drawing:
 
     @property
     def name(self):
-        """The file name without its ending."""
-        return f"{self.kind}_{slug(self.case)}"
+        """The file name without its ending; a drawing of one run has no case."""
+        return f"{self.kind}_{slug(self.case)}" if self.case else self.kind
+
+
+def saved(drawings, target, small=False):
+    """Draw them as files of the directory; [(drawing, wide SVG, narrow SVG)] for a page. With `small`, the first one, as narrow
+    screens have it, is small.svg too, for the index."""
+    target.mkdir(exist_ok=True)
+    out = []
+    for drawing in drawings:
+        sheet = drawing.draw(True)
+        write(target / f"{drawing.name}.svg", PROLOGUE + sheet.svg(f"{drawing.name}-wide", coloured=True))
+        if drawing.kind == "animation":  # scales by itself, and has no picture that stands still
+            out.append((drawing, sheet.svg(f"{drawing.name}-moving"), ""))
+            continue
+        write(target / f"{drawing.name}.png", sheet.png())
+        narrow = drawing.draw(False)
+        if small and not out:
+            write(target / "small.svg", PROLOGUE + narrow.svg("small", coloured=True))
+        out.append((drawing, sheet.svg(f"{drawing.name}-wide"), narrow.svg(f"{drawing.name}-narrow")))
+    return out
 
 
 def slug(case):

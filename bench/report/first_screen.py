@@ -11,6 +11,7 @@ from assertion import capital, said
 from equation import prose
 from figures import heading
 from files import InputError
+from verdict_data import rows
 from wording import counted, listed, plain_text, text
 
 # What answers a question, what stands in the second line, and what is said where the runs do not answer.
@@ -84,7 +85,7 @@ def above(verdict):
 def data(experiment, verdicts):
     """The content of report.json."""
     cases = [{"case": v.case["name"], "question": v.case.get("question") or "", "answer": v.case.get("answer") or "cost",
-              "sentence": plain_text(finding(v)), "below": plain_text(below(v)),
+              "title": heading(v.case), "sentence": plain_text(finding(v)), "below": plain_text(below(v)), "methods": rows(v),
               "assertions": [clause.data() | {"case": v.case["name"]} for clause in first(v) + second(v)]} for v in verdicts]
     return json.dumps({"schema": 1, "experiment": experiment.head["name"], "cases": cases}, indent=1, ensure_ascii=False) + "\n"
 

@@ -8,7 +8,7 @@ less motion, and on a click.
 """
 import math
 
-from canvas import GREY, INK, MID, PAPER, RULE, Canvas, plain
+from canvas import GREY, INK, MID, PAPER, RULE, Canvas, plain, sizes
 from portraits import widened
 from wording import number, text
 
@@ -77,47 +77,49 @@ def strip(figure, colour, time_unit, wide):
     """Six frames side by side on a Canvas, with a scale."""
     count = min(6, len(figure.times))
     chosen = [round(k * (len(figure.times) - 1) / max(1, count - 1)) for k in range(count)]
-    width, font = (1120, 12.5) if wide else (368, 11)
-    columns = count if wide else min(3, count)
+    look = sizes(wide)
+    columns = count if look.wide else min(3, count)
     x, y, w, h = figure.box()
-    each = width / columns - 10
+    gap, line = 10 * look.unit, 26 * look.unit
+    each = look.width / columns - gap
     tall = min(1.6 * each, max(0.4 * each, each * h / w))
     x, w, y, h = *widened(x, w, h * each / tall), *widened(y, h, w * tall / each)  # equal scales fill the frame
     rows = math.ceil(count / columns)
-    canvas = Canvas(width, rows * (tall + 26) + 26, font)
+    canvas = Canvas(look.width, rows * (tall + line) + line, look.font, look.unit)
     last = len(figure.places[0]) - 1
     for n, k in enumerate(chosen):
         row, column = divmod(n, columns)
-        axes = canvas.panel(5 + column * (each + 10), 24 + row * (tall + 26), each, tall)
+        axes = canvas.panel(gap / 2 + column * (each + gap), 24 * look.unit + row * (tall + line), each, tall)
         axes.set(xlim=(x, x + w), ylim=(y, y + h), xticks=[], yticks=[])
         axes.grid(False)
         for spine in axes.spines.values():
             spine.set_visible(False)
-        axes.plot(*zip(*(now[last] for now in figure.places[:k + 1])), color=GREY, linewidth=0.8, zorder=1)
+        axes.plot(*zip(*(now[last] for now in figure.places[:k + 1])), color=GREY, linewidth=0.8 * look.unit, zorder=1)
         for pair in figure.links:
-            axes.plot(*zip(*figure.ends(pair, k)), color=colour, linewidth=1.8, solid_capstyle="round", zorder=2)
+            axes.plot(*zip(*figure.ends(pair, k)), color=colour, linewidth=1.8 * look.unit, solid_capstyle="round", zorder=2)
         dots = figure.places[k]
         size = 5.0 if len(dots) < 20 else 3.0 if len(dots) < 60 else 1.8
-        axes.plot(*zip(*dots), linestyle="none", marker="o", color=colour, markersize=size, markeredgecolor=PAPER,
-                  markeredgewidth=0.5, zorder=3)
+        axes.plot(*zip(*dots), linestyle="none", marker="o", color=colour, markersize=size * look.unit, markeredgecolor=PAPER,
+                  markeredgewidth=0.5 * look.unit, zorder=3)
         for end in {e for pair in figure.links for e in pair if not isinstance(e, int)}:
-            axes.plot(*zip(end), marker="s", color=INK, markersize=4, zorder=4)
-        axes.set_title(plain(f"t = {number(figure.times[k])} {'' if time_unit == '1' else time_unit}".strip()), fontsize=font,
-                       color=INK, pad=3)
-    ruler(canvas, canvas.axes[0], figure.unit)
+            axes.plot(*zip(end), marker="s", color=INK, markersize=4 * look.unit, zorder=4)
+        axes.set_title(plain(f"t = {number(figure.times[k])} {'' if time_unit == '1' else time_unit}".strip()), fontsize=look.font,
+                       color=INK, pad=3 * look.unit)
+    ruler(canvas, canvas.axes[0], figure.unit, look.unit)
     return canvas
 
 
-def ruler(canvas, axes, unit):
+def ruler(canvas, axes, unit, scale):
     """A scale below the first frame: of 1, 2, 5 times a power of ten the one next to a third of the frame's width."""
     (x0, x1), box = axes.get_xlim(), axes.get_window_extent(canvas.renderer)
     third = (x1 - x0) / 3
     long = max((m * 10.0**math.floor(math.log10(third)) for m in (1, 2, 5)), key=lambda v: -abs(math.log(v / third)))
     pixels = long / (x1 - x0) * box.width
-    canvas.leader((12, 12), (12 + pixels, 12), MID)
-    for end in (12, 12 + pixels):
-        canvas.leader((end, 9), (end, 15), MID)
-    canvas.write(axes, 18 + pixels, 12, f"{long:g} {'' if unit == '1' else unit}".strip(), 0.95, color=MID, va="center")
+    begin, tick = 12 * scale, 3 * scale
+    canvas.leader((begin, begin), (begin + pixels, begin), MID)
+    for end in (begin, begin + pixels):
+        canvas.leader((end, begin - tick), (end, begin + tick), MID)
+    canvas.write(axes, begin + pixels + 2 * tick, begin, f"{long:g} {'' if unit == '1' else unit}".strip(), 0.95, color=MID, va="center")
 
 
 def duration(figure, time_unit):

@@ -5,7 +5,7 @@ chords of a curve that nobody sees.
 """
 import math
 
-from canvas import INK, Canvas, plain
+from canvas import INK, Canvas, plain, sizes
 from figures import limits, sentences, with_unit
 from recording import coarse
 
@@ -24,17 +24,19 @@ def panels(tracks, names, units, wide, start=True):
     equal = units[0] == units[1]
     pads = [0.06 * ((high - low) or 1) for low, high in frame]
     spans = [high - low + 2 * pad for (low, high), pad in zip(frame, pads)]
-    width, font = (1120, 12.5) if wide else (368, 11)
-    left, top, right, below, between = (72 if wide else 56), 24, 10, 46, 14
-    columns = min(len(tracks), 4 if wide else 2)
-    each = min(340 if wide else 300, (width - left - right - between * (columns - 1)) / columns)
+    look = sizes(wide)
+    left, top, right, below, between = (x * look.unit for x in (72 if look.wide else 56, 24, 10, 46, 14))
+    columns = min(len(tracks), 4 if look.wide else 2)
+    most = (340 if wide else 300) if isinstance(wide, bool) else look.width  # on paper a figure is as wide as was asked for
+    each = min(most, (look.width - left - right - between * (columns - 1)) / columns)
     tall = min(1.25 * each, max(0.45 * each, each * spans[1] / spans[0])) if equal else 0.8 * each
     low = [bounds[0] - pad for bounds, pad in zip(frame, pads)]
     if equal:  # the frame is filled, so that a circle is a circle
         (low[0], spans[0]), (low[1], spans[1]) = (widened(low[0], spans[0], spans[1] * each / tall),
                                                   widened(low[1], spans[1], spans[0] * tall / each))
     rows = math.ceil(len(tracks) / columns)
-    canvas = Canvas(left + columns * each + between * (columns - 1) + right, rows * (top + tall) + below, font)
+    canvas = Canvas(left + columns * each + between * (columns - 1) + right, rows * (top + tall) + below,
+                    look.font, look.unit)
     for k, (label, colour, x, y) in enumerate(tracks):
         row, column = divmod(k, columns)
         axes = canvas.panel(left + column * (each + between), top + row * (top + tall), each, tall)
@@ -44,8 +46,8 @@ def panels(tracks, names, units, wide, start=True):
                  else {"linewidth": 0.9})
         canvas.line(axes, x[::step], y[::step], label, color=colour, **style)
         if start:
-            axes.plot(x[:1], y[:1], marker="x", color=INK, markersize=6, markeredgewidth=1.4, zorder=5)
-        axes.set_title(plain(label), fontsize=0.95 * font, color=colour, loc="left", pad=4)
+            axes.plot(x[:1], y[:1], marker="x", color=INK, markersize=6 * look.unit, markeredgewidth=1.4 * look.unit, zorder=5)
+        axes.set_title(plain(label), fontsize=0.95 * look.font, color=colour, loc="left", pad=4 * look.unit)
         axes.set_xlim(low[0], low[0] + spans[0])
         axes.set_ylim(low[1], low[1] + spans[1])
         axes.locator_params(nbins=4)

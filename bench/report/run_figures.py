@@ -5,7 +5,7 @@ and the structure residual as they are.
 """
 import math
 
-from canvas import INK, MID, Canvas
+from canvas import INK, MID, Canvas, sizes
 from experiment import DIRECTIONS, UNIT_ROUND_OFF, read_series
 from families import FAMILIES, family_named
 from figures import Drawing, sentences, with_unit
@@ -13,6 +13,7 @@ from frames import Animation, Figure, duration, strip
 from labels import pushed_apart
 from portraits import panels, remarks
 from scales import ErrorAxis, envelope, time_axis
+from wording import counted
 
 COORDINATES = 6  # of systems with more coordinates the coordinates are not drawn against time
 
@@ -32,12 +33,52 @@ def about(recording):
                                  parameters, ended) if x.strip()) + "."
 
 
-def drawings(recording):
-    return [*motion(recording), *quantities(recording)]
+def sentence(recording):
+    """What the figures show, of what the record of the run holds alone."""
+    summary, unit = recording.summary, "" if recording.time_unit == "1" else f" {recording.time_unit}"
+    said = [f"{title(recording)}: {counted(summary.get('completed') or len(recording.times) - 1, 'step')} to t = "
+            f"{recording.times[-1]:.6g}{unit}"]
+    if (status := summary.get("status") or "converged") != "converged":
+        said[0] += f", where it ended early ({summary.get('message') or status})"
+    for entry in summary.get("invariants") or []:
+        name, most, unit = entry["name"], entry.get("max"), entry.get("unit")
+        if entry.get("expected") in DIRECTIONS:
+            verb, move = DIRECTIONS[entry["expected"]]
+            against, last = entry.get(f"largest_{move}"), recording.columns[name][-1]
+            said.append(f"{name}, which is expected to {verb}, goes from {entry['initial']:.4g} to {with_unit_after(last, 4, unit)}"
+                        + ("" if against is None else f" and never {move}s" if against == 0 else
+                           f" and {move}s by at most {with_unit_after(against, 2, unit)}"))
+        elif entry.get("expected") == "conserved" and most is not None and math.isfinite(most):
+            scale = entry.get("scale")
+            relative = f", {most / scale:.2g} of its scale," if scale and most > 0 else ""
+            said.append(f"{name} moves by at most {with_unit_after(most, 2, unit)}{relative} from the start "
+                        f"({entry.get('class') or 'without a class'})")
+    said += [f"the residual of the {entry['name']} is at most {entry['max']:.2g}" for entry in summary.get("constraints") or []
+             if entry.get("max") is not None]
+    if summary.get("error_max") is not None:
+        said.append(f"the relative error of the state is at most {summary['error_max']:.2g}")
+    return "; ".join(said) + "."
+
+
+def with_unit_after(number, digits, unit):
+    return f"{number:.{digits}g}" + ("" if not unit or unit == "1" else f" {unit}")
+
+
+def drawings(recording, coordinates=None):
+    """[Drawing]; the motion in the plane of two coordinates where these are named."""
+    return [*(plane(recording, coordinates) if coordinates else motion(recording)), *quantities(recording)]
 
 
 def drawing(kind, what, caption, draw):
-    return Drawing(kind, {"name": kind}, what, caption, draw)
+    return Drawing(kind, {}, what, caption, draw, paper=draw)
+
+
+def plane(recording, names):
+    """The track in the plane of two coordinates."""
+    colour, units = family_named(recording.summary.get("family")).light, [recording.units[n] for n in names]
+    tracks = [(recording.method, colour, *recording.track(names))]
+    return [drawing("motion", f"{names[1]} against {names[0]}", remarks(tracks, units),
+                    lambda wide: panels(tracks, names, units, wide))]
 
 
 def motion(recording):
@@ -51,19 +92,16 @@ def motion(recording):
             "Lines join points that a constraint holds apart." if figure.links else "", "Grey is the way of the last point.",
             "Seen obliquely: y points backwards." if figure.depth else ""),
             lambda wide: strip(figure, family.light, unit, wide)),
-            drawing("animation", "Animation", f"{pace[0].upper()}{pace[1:]}; a click stops it.",
+            Drawing("animation", {}, "Animation", f"{pace[0].upper()}{pace[1:]}; a click stops it.",
                     lambda _: Animation(figure, family.light, family.key, title(recording), seconds))]
     names = recording.plane()
     if names is None:
         return []
-    label, units = recording.method, [recording.units[n] for n in names]
-    tracks = [(label, family.light, *recording.track(names))]
-    out = [drawing("motion", f"{names[1]} against {names[0]}", remarks(tracks, units),
-                   lambda wide: panels(tracks, names, units, wide))]
+    out = plane(recording, names)
     cut = recording.section()
     if cut:
         q1, q2, _, p2 = recording.state
-        cuts, scales = [(label, family.light, *zip(*cut))], (recording.units[q2], recording.units[p2])
+        cuts, scales = [(recording.method, family.light, *zip(*cut))], (recording.units[q2], recording.units[p2])
         out.append(drawing("section", f"Section at {q1} = 0", f"Each point is one of {len(cut)} passages of {q1} = 0 upwards.",
                            lambda wide: panels(cuts, (q2, p2), scales, wide, start=False)))
     return out
@@ -107,16 +145,16 @@ def quantities(recording):
 
 
 def small_panels(shown, time_label, unit, colour, wide):
-    width, font = (1120, 12.5) if wide else (368, 11)
-    columns = min(len(shown), 3 if wide else 1)
-    left, top, between, right, below, tall = 66, 26, 76, 30, 46, 190
-    each = min(420, (width - left - right - between * (columns - 1)) / columns)
+    look = sizes(wide)
+    font, columns = look.font, min(len(shown), 3 if look.wide else 1)
+    left, top, between, right, below, tall, most = (x * look.unit for x in (66, 26, 76, 30, 46, 190, 420))
+    each = min(most, (look.width - left - right - between * (columns - 1)) / columns)
     rows = math.ceil(len(shown) / columns)
-    canvas = Canvas(left + columns * each + between * (columns - 1) + right, rows * (top + tall + below), font)
+    canvas = Canvas(left + columns * each + between * (columns - 1) + right, rows * (top + tall + below), font, look.unit)
     for k, (what, lines, log) in enumerate(shown):
         row, column = divmod(k, columns)
         axes = canvas.panel(left + column * (each + between), top + row * (top + tall + below), each, tall)
-        axes.set_title(what.replace("$", r"\$"), fontsize=font, color=INK, loc="left", pad=5)
+        axes.set_title(what.replace("$", r"\$"), fontsize=font, color=INK, loc="left", pad=5 * look.unit)
         axis = ErrorAxis([v for *_, v in lines], unit) if log else None
         ends = []
         for n, (label, times, values) in enumerate(lines):
@@ -125,7 +163,7 @@ def small_panels(shown, time_label, unit, colour, wide):
             canvas.line(axes, times, placed, label or what, color=colour_of, linewidth=1.3)
             ends.append((label, placed[-1], colour_of))
         if axis:
-            axes.axhline(unit, color=MID, linewidth=0.8, linestyle=(0, (4, 2)))
+            axes.axhline(unit, color=MID, linewidth=0.8 * look.unit, linestyle=(0, (4, 2)))
             axis.apply(axes)
         time_axis(axes, min(t[0] for _, t, _ in lines) if log else 0, max(t[-1] for _, t, _ in lines))
         canvas.labels(axes, time_label, "")

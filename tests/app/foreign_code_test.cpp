@@ -128,6 +128,7 @@ TEST_F(ForeignCode, AProgramThatWasCopiedAloneRunsNoScripts) {
             std::string::npos)
       << said;
   EXPECT_EQ(run_copy("compare kepler").first, 2);
+  EXPECT_EQ(run_copy("compare --all --quiet").first, 2);  // not a success of no experiments
   EXPECT_FALSE(fs::exists(files().path() / "run/plot"));
   // What needs none of them runs; the next test is the control, in which a program in its build tree plots.
   EXPECT_EQ(run_copy("list").first, 0);

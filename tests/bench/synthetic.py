@@ -113,9 +113,14 @@ def load(path):
 
 def run(folder):
     """(exit status, stderr) of report.py in this process."""
-    with contextlib.redirect_stderr(io.StringIO()) as stderr:
-        status = report.main([str(folder)])
-    return status, stderr.getvalue()
+    return ended(report, folder)[::2]
+
+
+def ended(script, *arguments):
+    """(exit status, what it says that it made or None, stderr) of a script in this process."""
+    with contextlib.redirect_stderr(io.StringIO()) as stderr, contextlib.redirect_stdout(io.StringIO()) as stdout:
+        status = script.main([str(a) for a in arguments])
+    return status, json.loads(stdout.getvalue()) if stdout.getvalue() else None, stderr.getvalue()
 
 
 class Balance(html.parser.HTMLParser):

@@ -6,7 +6,7 @@ import tempfile
 import unittest
 import xml.etree.ElementTree
 
-from synthetic import parsed, run
+from synthetic import load, parsed, run
 
 import derivation  # noqa: E402
 import derivation_figures  # noqa: E402
@@ -49,9 +49,16 @@ class Derivations(unittest.TestCase):
     def test_files(self):
         self.assertEqual(self.status, 0, self.stderr)
         self.assertEqual({p.name for p in (self.folder / "figures").iterdir()},
-                         {f"growth_{what}.{end}" for what in ("operations", "seconds", "tree") for end in ("svg", "png")})
+                         {f"growth_{what}.{end}" for what in ("operations", "seconds", "tree") for end in ("svg", "png")}
+                         | {"small.svg"})
         for path in (self.folder / "figures").glob("*.svg"):
             xml.etree.ElementTree.parse(path)
+
+    def test_the_verdict_is_data(self):
+        rows = load(self.folder / "verdict.csv")
+        said = json.loads((self.folder / "report.json").read_text())["cases"][0]
+        self.assertEqual([row[1] for row in rows[1:]], [m["method"] for m in said["methods"]])
+        self.assertIn(said["sentence"].split(" ")[1], [row[1] for row in rows])
 
     def test_page_stands_alone(self):
         self.assertEqual(self.page.open, [])

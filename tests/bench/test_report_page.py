@@ -1,6 +1,7 @@
 """bench/report: what report.py makes of whole, partial and unusual experiments."""
 import base64
 import hashlib
+import json
 import os
 import re
 import subprocess
@@ -33,10 +34,11 @@ class Whole(unittest.TestCase):
         self.assertEqual(self.status, 0, self.stderr)
         kinds = {"osc": ("work_precision", "work_precision_evaluations", "drift", "drift_at_equal_step", "structure"),
                  "damped": ("drift_at_equal_step", "structure")}
-        expected = {f"{kind}_{case}.{end}" for case, some in kinds.items() for kind in some for end in ("svg", "png")}
+        expected = {f"{kind}_{case}.{end}" for case, some in kinds.items() for kind in some for end in ("svg", "png")} | {"small.svg"}
         self.assertEqual({p.name for p in (self.folder / "figures").iterdir()}, expected)
         self.assertEqual({p.name for p in self.folder.iterdir()},  # and no temporary name is left
-                         {"experiment.json", "results.csv", "cost.csv", "runs", "figures", "report.html", "report.json"})
+                         {"experiment.json", "results.csv", "cost.csv", "runs", "figures", "report.html", "report.json",
+                          "verdict.csv"})
         for path in (self.folder / "figures").glob("*.svg"):
             xml.etree.ElementTree.parse(path)
             self.assertNotIn("<dc:date>", path.read_text())
@@ -110,7 +112,7 @@ class Whole(unittest.TestCase):
         done = subprocess.run([sys.executable, SCRIPTS / "report.py", self.folder], capture_output=True,
                               env=os.environ | {"PYTHONHASHSEED": "7"})
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(done.stdout, b"")
+        self.assertEqual(json.loads(done.stdout), {"report": str(self.folder / "report.html")})
         self.assertEqual(before, [p.read_bytes() for p in paths])
 
 

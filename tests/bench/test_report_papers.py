@@ -1,27 +1,25 @@
 """bench/report: figures and tables for papers, and the labels of figures."""
-import contextlib
-import io
 import re
 import shutil
 import subprocess
 import unittest
+import unittest.mock
 import xml.etree.ElementTree
 
-from synthetic import Fresh, reading, report, synthetic
+from synthetic import Fresh, ended, reading, report, synthetic
 
 import labels  # noqa: E402
 import papers  # noqa: E402
 import scales  # noqa: E402
 import verdict  # noqa: E402
 import verdict_latex  # noqa: E402
+import wanted  # noqa: E402
 import work_precision  # noqa: E402
 
 
 def paper(folder, *options):
     """(exit status, stderr) of report.py with options."""
-    with contextlib.redirect_stderr(io.StringIO()) as stderr:
-        status = report.main([str(folder), *options])
-    return status, stderr.getvalue()
+    return ended(report, folder, *options)[::2]
 
 
 class Papers(Fresh):
@@ -58,13 +56,13 @@ class Papers(Fresh):
 
     def test_exponents_are_formulas_in_papers_alone(self):
         self.assertEqual(scales.power_of_ten(-16), "10⁻¹⁶")
-        with papers.settings(["pdf"], None, self.folder / "figures"):
+        with papers.settings(wanted.wanted({"--figures": "pdf"}), self.folder / "figures"):
             self.assertEqual(scales.power_of_ten(-16), "$10^{-16}$")
         self.assertEqual(scales.power_of_ten(3), "10³")
 
     def test_what_is_wrong_is_said(self):
         synthetic(self.folder)
-        for options, said in ((("--figures", "gif"), "--figures: expected some of pdf, svg, pgf, png, got 'gif'"),
+        for options, said in ((("--figures", "gif"), "--figures: expected some of pdf, svg, pgf, png, got 'gif'; did you mean 'pgf'?"),
                               (("--figures", "pdf", "--width", "85"), "--width: expected a width between 50mm and 350mm"),
                               (("--figures", "pdf", "--width", "3mm"), "--width"), (("--width", "85mm"), "--figures names"),
                               (("--figures",), "--figures: expected a value"), (("--other", "x"), "expected one argument"),
@@ -72,6 +70,18 @@ class Papers(Fresh):
             status, told = paper(self.folder, *options)
             self.assertEqual((status, told.count("\n")), (2, 1), told)
             self.assertIn(said, told)
+
+    def test_without_latex_the_other_kinds_are_made(self):
+        synthetic(self.folder)
+        with unittest.mock.patch.object(shutil, "which", lambda program: None):
+            status, made, told = ended(report, self.folder, "--figures", "pgf,pdf,svg")
+            self.assertEqual(status, 0, told)
+            self.assertEqual(made["left_out"], "figures of the kind pgf were left out, because pgf needs LaTeX, with which it "
+                             "measures text, and none is installed")
+            self.assertEqual({p.suffix for p in (self.folder / "figures" / "paper").iterdir()}, {".pdf", ".svg", ".txt", ".tex", ".bib"})
+            self.assertEqual(ended(wanted, "--figures", "pgf")[0], 2)  # nothing is left to be made
+        with unittest.mock.patch.object(shutil, "which", lambda program: f"/bin/{program}"):
+            self.assertEqual(ended(wanted, "--figures", "pgf,pdf")[1], {"left_out": ""})
 
     @unittest.skipUnless(shutil.which("pdflatex"), "LaTeX is not installed")
     def test_latex_takes_them(self):

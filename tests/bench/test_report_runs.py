@@ -1,6 +1,4 @@
 """bench/report: what is seen of one run, and the page that pfaff plot makes."""
-import contextlib
-import io
 import json
 import math
 import pathlib
@@ -8,11 +6,12 @@ import re
 import unittest
 import xml.etree.ElementTree
 
-from synthetic import Balance, Fresh, save
+from synthetic import Balance, Fresh, ended, save
 
 import frames  # noqa: E402
 import plot  # noqa: E402
 import recording  # noqa: E402
+import run_figures  # noqa: E402
 
 
 def run_directory(folder, columns, rows, **summary):
@@ -105,11 +104,9 @@ class Frames(Fresh):
         self.assertIn("faster than the motion", frames.duration(figure, "s")[1])
 
 
-def plotted(folder):
+def plotted(folder, *options):
     """(exit status, stderr) of plot.py in this process."""
-    with contextlib.redirect_stderr(io.StringIO()) as stderr:
-        status = plot.main([str(folder)])
-    return status, stderr.getvalue()
+    return ended(plot, folder, *options)[::2]
 
 
 class Pages(Fresh):
@@ -135,6 +132,34 @@ class Pages(Fresh):
         page = (self.folder / "plot" / "plot.html").read_text()
         self.assertIn("q2 against q1", page)
         self.assertIn("Each point is one of 31 passages of q1 = 0 upwards.", page)
+
+    def test_coordinates_and_figures_for_papers(self):
+        folder = oscillators(self.folder)
+        self.assertEqual(plotted(folder, "--coordinates", "q1,p1", "--figures", "pdf,png", "--width", "85mm"), (0, ""))
+        self.assertIn("p1 against q1", (folder / "plot" / "plot.html").read_text())
+        self.assertEqual({p.name for p in (folder / "plot" / "paper").iterdir()},
+                         {f"{kind}.{end}" for kind in ("motion", "quantities") for end in ("pdf", "png", "txt")})
+        canvas = run_figures.drawings(recording.read_recording(folder), ("q1", "p1"))[0].draw(241)
+        self.assertEqual((canvas.width, canvas.font), (241, 7))
+        for options, said in ((("--coordinates", "q1"), "expected two names with a comma between them, got 'q1'"),
+                              (("--coordinates", "q1,P1"), "no coordinate 'P1'; did you mean 'p1'?"),
+                              (("--figures", "gif"), "got 'gif'; did you mean 'pgf'?"), (("--width", "9cm"), "--figures names")):
+            status, told = plotted(folder, *options)
+            self.assertEqual((status, told.count("\n")), (2, 1), told)
+            self.assertIn(said, told)
+
+    def test_the_sentence_says_what_the_record_holds(self):
+        folder = run_directory(
+            self.folder, ["t [s]", "q [m]", "p [m/s]", "energy [J]", "heat [J]", "entropy", "free"],
+            [[0.0, 1.0, 0.0, 2.0, 3.0, 0.0, 0.0], [0.5, 1.0, 0.0, 2.5, 1.0, 0.0, 0.0]],
+            completed=5, status="not_converged", message="the iteration", error_max=0.25, invariants=[
+                {"name": "energy", "unit": "J", "expected": "conserved", "class": "linear", "max": 0.5, "initial": 2.0, "scale": 4.0},
+                {"name": "heat", "unit": "J", "expected": "decreasing", "initial": 3.0, "largest_rise": 0.0},
+                {"name": "entropy", "unit": "1", "expected": "conserved", "max": None}, {"name": "free", "expected": "free"}])
+        self.assertEqual(ended(plot, folder)[1]["sentence"], (
+            "s, rk4: 5 steps to t = 0.5 s, where it ended early (the iteration); energy moves by at most 0.5 J, 0.12 of its scale, "
+            "from the start (linear); heat, which is expected to decrease, goes from 3 to 1 J and never rises; the relative error of "
+            "the state is at most 0.25."))
 
     def test_what_is_no_run_is_refused(self):
         for folder, said in ((self.folder / "nowhere", "expected the directory of a run"),
