@@ -11,8 +11,6 @@ from experiment import UNIT_ROUND_OFF
 from figures import Drawing, heading, sentences, step_text, with_unit
 from scales import ErrorAxis, time_axis
 
-PANELS = 8
-
 
 def quantile(values, part):
     """The value below which a part of the values lies, straight between neighbours."""
@@ -30,7 +28,7 @@ def drawings(verdict):
     curves = []
     runs = {r.method: r for r in experiment.at_common_step(case)}
     for row in verdict.rows:
-        if row.label in verdict.named(PANELS) and row.label in runs:
+        if row.label in verdict.named() and row.label in runs:
             found = [experiment.series(r, verdict.invariant) for r in experiment.ensemble_of(runs[row.label]) if not r.failed]
             shown = [(s.time, [abs(x) for x in s.change]) for s in found if s and s.time]
             times, largest = maxima(shown) if shown else ([], [])

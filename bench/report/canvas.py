@@ -92,10 +92,10 @@ class Canvas:
         return axes.annotate(plain(text), (x, y), xycoords="figure points", fontsize=size * self.font,
                              annotation_clip=False, **style)
 
-    def leader(self, begin, end, colour):
+    def leader(self, begin, end, colour, dash="-"):
         """A thin straight line between two points, in pixels from the bottom left of the figure."""
         x, y = ([a / 72, b / 72] for a, b in zip(begin, end))
-        self.figure.add_artist(Line2D(x, y, color=colour, linewidth=0.7 * self.scale, transform=self.figure.dpi_scale_trans))
+        self.figure.add_artist(Line2D(x, y, color=colour, linewidth=0.7 * self.scale, linestyle=dash, transform=self.figure.dpi_scale_trans))
 
     def measure(self, text, size=1.0, weight="normal"):
         """(width, height) of a text in pixels."""

@@ -8,21 +8,56 @@ import bisect
 import math
 import statistics
 
-from figures import Drawing, heading, round_off, sentences, step_text, styled, with_unit
+from canvas import MID
+from curves import ranks
+from families import style
+from figures import Drawing, heading, sentences, step_text, with_unit
+from lines import Line, Panel, draw, in_grey
 from scales import ErrorAxis, logarithmic, time_axis
-from canvas import plain
-from sheet import Sheet
+from wording import listed
 
 BINS = 60
-LABELS = {"constraint": r"constraints, max $|\varphi|$", "hidden-constraint": r"hidden constraints, max $|\tilde\varphi|$"}
+LABELS = {"constraint": "constraints, max |φ|", "hidden-constraint": "hidden constraints"}
 
 
-def drawings(experiment, case):
+def drawings(verdict):
+    """One drawing with a panel for each quantity; none where no residual was measured."""
+    experiment, case = verdict.experiment, verdict.case
     names = [n for n in experiment.residuals if any(not math.isnan(r.drift(n, "max")) for r in experiment.runs_of(case))]
-    if not names:
+    conserved = verdict.invariant and verdict.expected == "conserved"
+    by_label = {run.method: run for run in experiment.at_common_step(case)}
+    runs = [by_label[label] for label in verdict.in_order(by_label)]
+    curves = {name: panel_curves(experiment, case, name, runs) for name in ([verdict.invariant] if conserved else []) + names}
+    curves = {name: some for name, some in curves.items() if some}
+    if not names or not curves:
         return []
-    drawn = constraints(experiment, case, names)
-    return [drawn] if drawn else []
+    seeds, unit = case.get("seeds") or 0, experiment.expectation(case, verdict.invariant)[1] if conserved else ""
+    labels = LABELS | {verdict.invariant: with_unit(f"drift of {verdict.invariant}", unit)}
+    panels = [panel(verdict, labels.get(name, name), some) for name, some in curves.items()]
+    what = (f"Medians over {seeds} seeds of the largest values in short stretches of time." if seeds else
+            "Each line joins the largest values in short stretches of time.")
+    tolerances = sorted({r.tolerance for r in runs if r.tolerance}, key=float)
+    steps = sentences("" if all(r.tolerance for r in runs) else f"Methods of fixed steps: {step_text(experiment.common_step(case), case)}.",
+                      f"Others: tolerance {listed(tolerances)}." if tolerances else "")
+    caption = sentences(
+        what, steps, "Residuals have the units of the constraints as the system states them; a method on the constraint surface stays "
+        "near unit round-off, the dashed line.", "A cross: the run ended early." if any(
+            line.ended for one in panels for line in one.lines) else "", in_grey(panels), *panels[0].axis.remarks())
+    title = f"{heading(case)}: errors against time" + (f", medians over {seeds} seeds" if seeds else "")
+    return [Drawing("constraints", case, title, caption, lambda wide: draw(panels, wide, title), printed=True)]
+
+
+def panel(verdict, what, curves):
+    """The panel of one quantity, of which `curves` are [(run, times, values)]."""
+    axis, rows, rank = ErrorAxis([v for *_, v in curves], verdict.unit), {r.label: r for r in verdict.rows}, ranks(verdict.curves)
+    seeds = verdict.case.get("seeds")
+    lines = [Line(run.method, times, values, style(rows[run.method].curve.family, rank[run.method], rows[run.method].curve.fill),
+                  f"{run.method}: {max(values):.1e}", ended=run.failed and not seeds) for run, times, values in curves]
+
+    def unit_round_off(_, axes):
+        axes.axhline(verdict.unit, color=MID, linewidth=0.8, linestyle=(0, (4, 2)), zorder=1)
+    return Panel(lines, axis, with_unit("t", verdict.case.get("time_unit") or ""), "", lambda _, axes: time_axis(
+        axes, min(line.x[0] for line in lines), max(line.x[-1] for line in lines)), what, more=unit_round_off)
 
 
 def panel_curves(experiment, case, name, runs):
@@ -67,48 +102,6 @@ def maxima(shown):
             out_t.append(edge)
             out_v.append(largest)
     return out_t, out_v
-
-
-def constraints(experiment, case, names):
-    invariant = case.get("conserved")
-    conserved = invariant and experiment.expectation(case, invariant)[0] == "conserved"
-    panels = ([invariant] if conserved else []) + names
-    runs = experiment.at_common_step(case)
-    curves = {name: panel_curves(experiment, case, name, runs) for name in panels}
-    if not any(curves.values()):
-        return None
-    target, seeds = experiment.common_step(case), case.get("seeds") or 0
-    unit = experiment.expectation(case, invariant)[1] if conserved else ""
-    u, u_label = round_off(case)
-    axes_of = {name: ErrorAxis([v for *_, v in curves[name]], u) for name in panels}
-    title = f"{heading(case)}: errors against time" + (f", medians over {seeds} seeds" if seeds else "")
-    labels = LABELS | ({invariant: plain(with_unit(f"drift of {invariant}, |I(t) − I(0)|", unit))} if conserved else {})
-
-    def draw(wide):
-        sheet = Sheet(len(panels), wide, title)
-        for axes, name in zip(sheet.axes, panels):
-            axis = axes_of[name]
-            sheet.level(axes, u, u_label)
-            for n, (run, times, values) in enumerate(curves[name]):
-                look, label = styled(experiment, run, target)
-                gap = max(1, len(times) // 6)
-                sheet.method(axes, times, axis.place(values), look, label,
-                             markevery=(n * gap // max(1, len(curves[name])), gap))
-                if run.failed and not seeds:
-                    sheet.cross(axes, times[-1], axis.place(values)[-1], "run ended early")
-            if curves[name]:
-                time_axis(axes, min(t[0] for _, t, _ in curves[name]), max(t[-1] for _, t, _ in curves[name]))
-            axis.apply(axes)
-            axes.set(xlabel=plain(with_unit("time t", case.get("time_unit"))), ylabel=labels.get(name, plain(name)))
-        return sheet
-
-    what = (f"Medians over {seeds} seeds of the largest values in short stretches of time." if seeds else
-            "Each line joins the largest values in short stretches of time.")
-    steps = "" if all(r.tolerance for r in runs) else f"Methods of fixed steps: {step_text(target, case)}."
-    return Drawing("constraints", case, title, sentences(
-        what, steps, "Residuals have the units of the constraints as the system states them; a method on the constraint "
-        "surface stays near unit round-off.", *(remark for name in panels for remark in axes_of[name].remarks()[:1]
-                                                if name == panels[0])), draw)
 
 
 def growth(experiment, case):

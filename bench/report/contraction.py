@@ -8,13 +8,14 @@ import dataclasses
 import math
 
 from canvas import MID, Canvas, plain
+from curves import ranks
 from experiment import UNIT_ROUND_OFF
+from families import style
 from figures import Drawing, heading, limits, sentences, step_text, with_unit
 from files import InputError, parse
-from labels import right_of
+from lines import Line, Panel, fill
 from scales import ErrorAxis, time_axis
 
-PANELS = 8
 FRAME = 1.5  # images that leave the middle method's by this many of their width leave the frame
 
 
@@ -53,7 +54,7 @@ def carried(experiment, case):
 
 def drawings(verdict):
     case, found = verdict.case, carried(verdict.experiment, verdict.case)
-    named = verdict.named(PANELS)
+    named = verdict.named()
     shown = [(row, found[row.label]) for row in verdict.rows
              if row.label in named and row.label in found and len(found[row.label].times) > 1]
     if not shown:
@@ -74,9 +75,9 @@ def drawings(verdict):
 def draw(verdict, shown, axis, title, wide):
     width, font = (1120, 12.5) if wide else (368, 11)
     left, top, right, below, between = (72 if wide else 56), 24, 10, 46, 14
-    columns = 4 if wide else 2
+    columns = (3 if len(shown) in (3, 5, 6) else 4) if wide else 2
     each = (width - left - right - between * (columns - 1)) / columns
-    tall, low_tall = 0.8 * each, 170
+    tall, low_tall = (0.62 if columns == 3 else 0.8) * each, 170
     rows = math.ceil(len(shown) / columns)
     down = rows * (top + tall) + below
     canvas = Canvas(width, down + top + low_tall + below, font)
@@ -108,13 +109,11 @@ def draw(verdict, shown, axis, title, wide):
 
 def deviations(canvas, verdict, shown, axis, place):
     """Of each method, how far its area over the law is from 1, with its name at the end of the line."""
-    axes, ends = canvas.panel(*place), []
-    for row, one in shown:
-        colour, placed = row.curve.family.light, axis.place(one.deviations[1:])
-        canvas.line(axes, one.times[1:], placed, f"{row.label}: at the end {one.deviations[-1]:.1e}", color=colour, linewidth=1.2)
-        ends.append((row.label, placed[-1], row.curve.family.light))
-    axis.apply(axes)
-    axes.axhline(verdict.unit, color=MID, linewidth=0.8, linestyle=(0, (4, 2)), zorder=1)
-    time_axis(axes, 0, max(one.times[-1] for _, one in shown))
-    canvas.labels(axes, with_unit("t", verdict.case.get("time_unit") or ""), "|area / exact − 1|")
-    right_of(canvas, axes, ends)
+    rank, unit = ranks(verdict.curves), verdict.case.get("time_unit") or ""
+    lines = [Line(row.label, one.times[1:], one.deviations[1:], style(row.curve.family, rank[row.label], row.curve.fill),
+                  f"{row.label}: at the end {one.deviations[-1]:.1e}") for row, one in shown]
+
+    def unit_round_off(_, axes):
+        axes.axhline(verdict.unit, color=MID, linewidth=0.8, linestyle=(0, (4, 2)), zorder=1)
+    fill(canvas, canvas.panel(*place), Panel(lines, axis, with_unit("t", unit), "|area / exact − 1|", lambda _, axes: time_axis(
+        axes, 0, max(one.times[-1] for _, one in shown)), more=unit_round_off))

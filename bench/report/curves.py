@@ -90,8 +90,8 @@ class Curve:
 
     @property
     def fill(self):
-        """Of the mark: whether the structure is kept; full where there is none to keep."""
-        return {True: "full", False: "open", None: "half"}[self.kept] if self.structured else "full"
+        """Of the mark, which is full where the structure is kept and nowhere else; open where there is none to keep."""
+        return {True: "full", False: "open", None: "half"}[self.kept] if self.structured else "open"
 
     def residual_power(self):
         """The power of the step that the residual falls with, or nan."""

@@ -8,13 +8,14 @@ import math
 from canvas import MID
 from families import FAMILIES, style
 from figures import Drawing, sentences
-from labels import Label, place
+from labels import right_of
 from scales import power_of_ten
 from wording import listed
-from work_precision import NARROW, WIDE, paper
+from work_precision import frame_of
 
 TALLEST_TREE = 1e30  # larger ones leave the frame: nobody writes them out
 RAISED = str.maketrans("0123456789.-", "⁰¹²³⁴⁵⁶⁷⁸⁹·⁻")
+TREES = "terms of |S|  exp(0.48 K)"
 TITLES = {"operations": "operations of all equations", "seconds": "processor time of the derivation [s]",
           "tree": "operations of all equations, written out"}
 
@@ -39,8 +40,7 @@ def drawing(study, quantity):
                  "logarithm of the golden ratio, 0.481, for each row."}[quantity],
         f"Exponents are fitted from K = {begin:.0f} on." if fitted else "")
     return Drawing("growth", {"name": quantity}, titles[quantity], caption,
-                   lambda wide: draw(study, quantity, WIDE if wide else NARROW), "",
-                   lambda width: draw(study, quantity, paper(width)))
+                   lambda wide: draw(study, quantity, wide), printed=True)
 
 
 def formula(published):
@@ -61,8 +61,9 @@ def name_of(method, quantity):
     return f"{method.name}  K" + f"{fit.exponent:.2f}".translate(RAISED)
 
 
-def draw(study, quantity, look):
-    canvas, axes = look.canvas()
+def draw(study, quantity, wide):
+    others = [f"{p['label']}, published" for p in study.published] if quantity == "seconds" else [TREES] if quantity == "tree" else []
+    canvas, axes = frame_of(wide, [name_of(m, quantity) for m in study.methods] + others)
     largest = max(k for m in study.methods for k in m.line(quantity)[0])
     if quantity == "tree":
         largest = min(largest, 64)
@@ -76,10 +77,10 @@ def draw(study, quantity, look):
     for published in study.published if quantity == "seconds" else []:
         rods = [1 + 63 * i / 200 for i in range(201)]
         curve = [(k, published["factor"] * math.exp(published["rate"] * k)) for k in rods]
-        curve = [(k, v) for k, v in curve if low <= v <= high]
+        curve = [(k, v) for k, v in curve if low <= v <= high and k <= 1.15 * largest]
         lines.append((f"{published['label']}, published", MID, "normal", curve))
     if quantity == "tree":
-        lines.append(("terms of |S|  exp(0.48 K)", MID, "normal", [(k, v) for k, v in enumerate(fibonacci(int(largest)), 1)
+        lines.append((TREES, MID, "normal", [(k, v) for k, v in enumerate(fibonacci(int(largest)), 1)
                                                                   if low <= v <= high]))
     lines = [line for line in lines if line[-1]]  # those of which a part is in the frame
     for text, _, _, curve in lines:
@@ -88,14 +89,14 @@ def draw(study, quantity, look):
         some = [(k, v) for k, v in zip(*method.line(quantity)) if k <= largest]
         if not some:
             continue
-        shown = style(family_of(study, method), 0, "full") | {"linewidth": 1.6, "markersize": 4.6, "zorder": 4}
+        shown = style(family_of(study, method), 0, "open") | {"linewidth": 1.6, "markersize": 4.6, "zorder": 4}
         told = f"{name_of(method, quantity)}: " + "; ".join(f"K = {k:.0f}, {v:.3g}" for k, v in some)
         canvas.line(axes, *zip(*some), told, **shown)
         lines.append((name_of(method, quantity), shown["color"], "bold", [(k, v) for k, v in some if v <= high]))
     if quantity == "tree":
         axes.set_xlim(0, 1.04 * largest)
     else:
-        twos = range(0, math.ceil(math.log2(largest)) + 1, 1 if look is not NARROW else 2)
+        twos = range(0, math.ceil(math.log2(largest)) + 1, 1 if wide is True else 2)
         axes.set_xscale("log")
         axes.set_xticks([2.0**k for k in twos], [str(2**k) for k in twos])
         axes.set_xticks([], minor=True)
@@ -108,7 +109,7 @@ def draw(study, quantity, look):
     axes.set_ylim(low, high)
     canvas.labels(axes, "number K of constraints", TITLES[quantity])
     canvas.description = f"{TITLES[quantity]} against K: " + "; ".join(name_of(m, quantity) for m in study.methods)
-    name_lines(canvas, axes, lines)
+    right_of(canvas, axes, [(text, *curve[-1], colour, "") for text, colour, _, curve in lines], "bold")
     return canvas
 
 
@@ -119,21 +120,3 @@ def fibonacci(count):
         out.append(following)
         following += out[-2]
     return out
-
-
-def name_lines(canvas, axes, lines):
-    box = axes.get_window_extent(canvas.renderer)
-    area = (box.x0 + 2, box.y0 + 2, box.x1 - 2, box.y1 - 1)
-    pixels = [[tuple(axes.transData.transform(point)) for point in curve] for *_, curve in lines]
-    labels, looks = [], {}
-    for (text, colour, weight, _), points in zip(lines, pixels):
-        if points:
-            labels.append(Label(text, points, *canvas.measure(text, 0.9, weight)))
-            looks[text] = (colour, weight)
-    for label in place(labels, area, pixels):
-        colour, weight = looks[label.text]
-        if label.far:
-            x, y = (min(max(a, low), high) for a, low, high in zip(label.anchor, label.box[:2], label.box[2:]))
-            canvas.leader((x, y), label.anchor, colour)
-        canvas.write(axes, label.box[0], label.box[1], label.text, 0.9, color=colour, weight=weight, va="bottom", ha="left",
-                     zorder=6)

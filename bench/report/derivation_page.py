@@ -90,7 +90,7 @@ def methods_table(study):
         last = method.points[-1]
         family = family_of(study, method)
         rows.append(
-            f'<tr><th scope="row">{mark(family, "full")}<span class="c-{family.key}">{text(method.name)}</span></th>'
+            f'<tr><th scope="row">{mark(family, "open")}<span class="c-{family.key}">{text(method.name)}</span></th>'
             f'<td>{text(method.title)}</td>'
             f'<td class="r">{last["K"]:.0f}</td><td class="r">{last["operations"]:.0f}</td>'
             f'<td class="r">{number(last["seconds"])}</td>' + "".join(interval(method.fits.get(q))

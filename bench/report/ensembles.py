@@ -7,21 +7,21 @@ the decades shown. An unbiased error that is independent from step to step grows
 import bisect
 import math
 
-from figures import Drawing, heading, round_off, sentences, step_text, styled, with_unit
+from canvas import MID
+from curves import ranks
+from families import style
+from figures import Drawing, heading, sentences, step_text, with_unit
+from lines import Line, Panel, draw, in_grey
 from scales import ErrorAxis, time_axis
-from canvas import plain
-from sheet import Sheet
-
-
-def drawings(experiment, case):
-    invariant = case.get("conserved")
-    if not case.get("seeds") or not invariant or experiment.expectation(case, invariant)[0] != "conserved":
-        return []
-    curves = spreads(experiment, case)
-    return [drawn(experiment, case, curves)] if curves else []
-
 
 STUDENT = {1: 12.71, 2: 4.30, 3: 3.18, 4: 2.78, 5: 2.57, 7: 2.36, 10: 2.23, 15: 2.13, 20: 2.09, 30: 2.04, 60: 2.0}  # 95 %
+
+
+def is_one(experiment, case):
+    """Whether the case has seeds, and a conserved quantity whose errors spread over them."""
+    invariant = case.get("conserved")
+    return bool(case.get("seeds") and invariant and experiment.expectation(case, invariant)[0] == "conserved"
+                and spreads(experiment, case))
 
 
 def squares(experiment, case):
@@ -77,7 +77,7 @@ def exponent(times, values):
 
 def findings(experiment, case):
     """[(subject, sentence, [items])]: the size of the spread at the end and the power of time it grows with."""
-    if not drawings(experiment, case):
+    if not is_one(experiment, case):
         return []
     items = [f"{run.method}: {values[-1]:.1e}, as " + ("–" if math.isnan(p) else f"t^{p:.2f}" + (
         "" if math.isnan(half) else f" ± {half:.2f}"))
@@ -86,32 +86,29 @@ def findings(experiment, case):
              "the power of time that it grows with in the second half of the decades:", items)]
 
 
-def drawn(experiment, case, curves):
-    invariant, target = case["conserved"], experiment.common_step(case)
-    unit = experiment.expectation(case, invariant)[1]
-    u, u_label = round_off(case)
-    axis = ErrorAxis([values for *_, values in curves], u)
-    title = f"{heading(case)}: rms error of {invariant} over {case['seeds']} seeds"
+def drawings(verdict):
+    experiment, case, name = verdict.experiment, verdict.case, verdict.invariant
+    if not is_one(experiment, case):
+        return []
+    by_label = {curve[0].method: curve for curve in spreads(experiment, case)}
+    curves = [by_label[label] for label in verdict.in_order(by_label)]
+    rows, rank = {r.label: r for r in verdict.rows}, ranks(verdict.curves)
+    axis = ErrorAxis([values for *_, values in curves], verdict.unit)
+    begin, end = min(c[1][0] for c in curves), max(c[1][-1] for c in curves)
+    largest = max((v for *_, values in curves for v in values if math.isfinite(v)), default=1.0)
+    lines = [Line(run.method, times, values, style(rows[run.method].curve.family, rank[run.method], rows[run.method].curve.fill),
+                  f"{run.method}: at the end {values[-1]:.1e}") for run, times, values in curves]
 
-    def draw(wide):
-        sheet = Sheet(1, wide, title)
-        axes = sheet.axes[0]
-        sheet.level(axes, u, u_label)
-        begin, end = min(c[1][0] for c in curves), max(c[1][-1] for c in curves)
-        largest = max((v for *_, values in curves for v in values if math.isfinite(v)), default=1.0)
+    def guides(_, axes):
+        axes.axhline(verdict.unit, color=MID, linewidth=0.8, linestyle=(0, (8, 2)), zorder=1)
         for power, dash in ((0.5, (0, (1, 1.5))), (1, (0, (4, 1.5)))):
-            line = [largest * (t / end) ** power for t in (begin, end)]
-            sheet.level(axes, ([begin, end], line), f"as t^{power:g}", linestyle=dash)
-        for n, (run, times, values) in enumerate(curves):
-            look, label = styled(experiment, run, target)
-            gap = max(1, len(times) // 6)
-            sheet.method(axes, times, axis.place(values), look, label, markevery=(n * gap // len(curves), gap))
-        time_axis(axes, begin, end)
-        axis.apply(axes)
-        axes.set(xlabel=plain(with_unit("time t", case.get("time_unit"))),
-                 ylabel=plain(with_unit(f"rms over seeds of {invariant}: I(t) − I(0)", unit)))
-        return sheet
-
-    return Drawing("ensemble", case, title, sentences(
-        f"Root mean square over the seeds that finished, {step_text(target, case)}. Independent errors without a bias "
-        "grow as t^0.5, errors with a bias as t^1.", *axis.remarks()), draw, "Root mean square")
+            axes.plot([begin, end], [largest * (t / end) ** power for t in (begin, end)], color=MID, linewidth=0.9, linestyle=dash,
+                      zorder=2)
+    panel = Panel(lines, axis, with_unit("t", case.get("time_unit") or ""),
+                  with_unit(f"rms of I(t) − I(0), {name}", experiment.expectation(case, name)[1]),
+                  lambda _, axes: time_axis(axes, begin, end), more=guides)
+    title = f"{heading(case)}: rms error of {name} over {case['seeds']} seeds"
+    return [Drawing("ensemble", case, title, sentences(
+        f"Root mean square over the seeds that finished, {step_text(experiment.common_step(case), case)}. Independent errors without a "
+        "bias grow as t^0.5, dotted, errors with a bias as t^1, short dashes. Long dashes: unit round-off.", in_grey([panel]),
+        *axis.remarks()), lambda wide: draw([panel], wide, title, tall=250), "Root mean square", printed=True)]

@@ -102,10 +102,6 @@ class Series:
     residual: list  # structure residual, nan where it was not measured
     error: list  # of what is not conserved: I(t) less that of the reference solution, nan where there is none
 
-    @property
-    def scale(self):
-        return max(1.0, abs(self.initial)) if math.isfinite(self.initial) else 1.0
-
     def setbacks(self, expected):
         """The largest move against the expected direction up to t: of a quantity that is expected to decrease the rise
         max of I(t2) - I(t1) over t1 <= t2 <= t, of one that is expected to increase the fall; zero where there is none.
@@ -307,18 +303,26 @@ class Experiment:
                                  if found else None)
         return self._series[key]
 
-    def expectation(self, case, invariant):
-        """(expected, unit) of an invariant as the runs' summaries state them; conserved where none does."""
+    def entries(self, case, invariant):
+        """What the summaries of the runs of a case state of an invariant, one after another."""
         for run in self.runs_of(case):
             path = self.folder / "runs" / run.slug / "summary.json"
             if not run.slug or not path.exists():
                 continue
             if run.slug not in self._summaries:
                 self._summaries[run.slug] = invariants_of(path)
-            for entry in self._summaries[run.slug]:
-                if entry.get("name") == invariant:
-                    return entry.get("expected") or "none", entry.get("unit") or ""
-        return "conserved", ""
+            yield from (entry for entry in self._summaries[run.slug] if entry.get("name") == invariant)
+
+    def expectation(self, case, invariant):
+        """(expected, unit) of an invariant as the runs' summaries state them; conserved where none does."""
+        entry = next(self.entries(case, invariant), {"expected": "conserved"})
+        return entry.get("expected") or "none", entry.get("unit") or ""
+
+    def scale(self, case, invariant):
+        """What a change of an invariant is compared with: the size of its terms, the least over the runs since a run that explodes
+        has any, or its size at the start where nothing is known of terms; one where that is zero."""
+        known = [[entry[key] for entry in self.entries(case, invariant) if entry.get(key)] for key in ("scale", "initial")]
+        return next((min(map(abs, sizes)) for sizes in known if sizes), 1.0)
 
 
 def invariants_of(path):

@@ -89,7 +89,7 @@ def sized(run, name, measure, rate):
 def largest_setback(experiment, run, name, expected):
     """The largest move of an invariant against its expected direction, over max(1, |I(0)|); nan without a series."""
     series = experiment.series(run, name)
-    return series.setbacks(expected)[-1] / series.scale if series and series.time else math.nan
+    return series.setbacks(expected)[-1] / max(1.0, abs(series.initial)) if series and series.time else math.nan
 
 
 def setbacks(experiment, case, name, runs, at):

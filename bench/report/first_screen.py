@@ -7,12 +7,12 @@ import json
 
 import answers
 import sentence
-from assertion import capital, said
+from assertion import said
 from equation import prose
 from figures import heading
 from files import InputError
 from verdict_data import rows
-from wording import counted, listed, plain_text, text
+from wording import counted, plain_text, text
 
 # What answers a question, what stands in the second line, and what is said where the runs do not answer.
 RANKED = (sentence.cheapest, sentence.bounded)

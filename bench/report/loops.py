@@ -7,13 +7,13 @@ half of them. A loop that winds up is drawn while the latter is below one in a m
 """
 import dataclasses
 
-from canvas import MID, Canvas
+from canvas import MID
 from curves import ranks
 from experiment import UNIT_ROUND_OFF
 from families import style
 from figures import Drawing, heading, sentences, step_text, with_unit
 from files import parse
-from labels import right_of
+from lines import Line, Panel, draw, in_grey
 from scales import ErrorAxis, time_axis
 
 RESOLVED = 1e-6
@@ -45,7 +45,8 @@ def loops(experiment, case):
 
 def drawings(verdict):
     case, found = verdict.case, loops(verdict.experiment, verdict.case)
-    shown = [(row, found[row.label]) for row in verdict.rows if row.label in found and len(found[row.label].times) > 2]
+    rows = {row.label: row for row in verdict.rows}
+    shown = [(rows[label], found[label]) for label in verdict.in_order(found) if len(found[label].times) > 2]
     if not shown:
         return []
     axis = ErrorAxis([one.deviations[1:] for _, one in shown], UNIT_ROUND_OFF["double"])
@@ -58,25 +59,15 @@ def drawings(verdict):
         "" if all(one.whole for _, one in shown) else
         "A line ends where the loop is so wound up that its 64 points no longer say where it is.",
         *axis.remarks())
-    return [Drawing("loop", case, f"{heading(case)}: Poincaré's integral invariant", told,
-                    lambda wide: draw(verdict, shown, axis, wide))]
+    rank, worst = ranks(verdict.curves), max(shown, key=lambda one: max(one[1].deviations))
+    lines = [Line(row.label, one.times[1:], one.deviations[1:], style(row.curve.family, rank[row.label], row.curve.fill),
+                  f"{row.label}: largest {max(one.deviations):.1e}") for row, one in shown]
+    panel = Panel(lines, axis, with_unit("t", case.get("time_unit") or ""), "|∮F·dz over the first − 1|",
+                  lambda _, axes: time_axis(axes, 0, max(one.times[-1] for _, one in shown)), more=unit_round_off)
+    return [Drawing("loop", case, f"{heading(case)}: Poincaré's integral invariant", sentences(told, in_grey([panel])),
+                    lambda wide: draw([panel], wide, f"The integral moves most for {worst[0].label}, by "
+                                                     f"{max(worst[1].deviations):.1e} of itself.", tall=250))]
 
 
-def draw(verdict, shown, axis, wide):
-    width, font = (1120, 12.5) if wide else (368, 11)
-    left, top, right, below, tall = (72, 14, 120, 46, 250) if wide else (56, 12, 92, 44, 200)
-    canvas = Canvas(width, top + tall + below, font)
-    worst = max(shown, key=lambda one: max(one[1].deviations))
-    canvas.description = f"The integral moves most for {worst[0].label}, by {max(worst[1].deviations):.1e} of itself."
-    axes, ends, rank = canvas.panel(left, top, width - left - right, tall), [], ranks(verdict.curves)
-    for row, one in shown:
-        look = style(row.curve.family, rank[row.label], row.curve.fill) | {"linewidth": 1.5, "marker": ""}
-        placed = axis.place(one.deviations[1:])
-        canvas.line(axes, one.times[1:], placed, f"{row.label}: largest {max(one.deviations):.1e}", **look)
-        ends.append((row.label, placed[-1], row.curve.family.light))
-    axis.apply(axes)
+def unit_round_off(_, axes):
     axes.axhline(UNIT_ROUND_OFF["double"], color=MID, linewidth=0.8, linestyle=(0, (4, 2)), zorder=1)
-    time_axis(axes, 0, max(one.times[-1] for _, one in shown))
-    canvas.labels(axes, with_unit("t", verdict.case.get("time_unit") or ""), "|∮F·dz over the first − 1|")
-    right_of(canvas, axes, ends)
-    return canvas

@@ -1,41 +1,54 @@
 """The motion of a case, as far as its system says what can be seen of it (recording.py): frames and an animation of points
-of the cheapest method; otherwise a portrait of each method, and a section where there is one.
+of the cheapest method; otherwise, or in the plane of the two coordinates that `motion` of the case names, a portrait of each method,
+and a section where there is one. Behind the portraits stands in grey the most accurate one, where its error is not seen.
 """
+import math
+
 from experiment import step_key
 from figures import Drawing, heading, sentences, step_text
 from frames import Animation, Figure, duration, strip
 from portraits import panels, remarks
 from recording import read_recording
+from wording import listed
 
-PANELS = 8
+PANELS = 6
+UNSEEN = 1e-3  # of the size of a motion, an error that nobody sees in a figure
 
 
 def drawings(verdict):
-    """The drawings of a case that names no coordinates in `motion`."""
-    shown = recorded(verdict)
+    names = verdict.case.get("motion")
+    shown = recorded(verdict, bool(names))
     if not shown:
         return []
-    if shown[0][1].points():
+    if shown[0][1].points() and not names:
         return of_points(verdict.case, *shown[0])
-    names = shown[0][1].plane()
+    names = names or shown[0][1].plane()
     return of_planes(verdict, shown, names) if names else []
 
 
-def recorded(verdict):
-    """[(row, recording)] of the methods that get colour, in the order of the verdict, at the step that most share."""
+def recorded(verdict, every=False):
+    """[(row, recording)] of the methods that get colour first and of those that are most wrong, in the order of the verdict, at the step
+    that most share; of points one method, unless `every` is asked for."""
     experiment, case = verdict.experiment, verdict.case
-    runs = {r.method: r for r in experiment.at_common_step(case) if not r.failed}
-    out = []
+    runs = {r.method: r for r in experiment.at_common_step(case)}
+    out, wrong = [], sorted((r for r in verdict.rows if r.label in runs), key=lambda r: -error_of(runs[r.label]))
+    chosen = list(dict.fromkeys(verdict.named(3) + [r.label for r in wrong]))[:PANELS]
     for row in sorted(verdict.rows, key=lambda r: r.curve.adaptive):  # whose samples lie far apart come last
-        run = runs.get(row.label) if row.label in verdict.named(PANELS) else None
+        run = runs.get(row.label) if row.label in chosen else None
         folder = experiment.folder / run.path if run and run.slug else None
         if folder and (folder / "series.csv").exists() and (folder / "summary.json").exists():
             recording = read_recording(folder)
             if len(recording.times) > 2:
                 out.append((row, recording))
-                if recording.points():
+                if recording.points() and not every:
                     break  # one method is shown
     return out
+
+
+def error_of(run):
+    """The largest error of the state, infinite where the run ended early, zero where none was measured."""
+    error = run.number("error_max")
+    return math.inf if run.failed else 0.0 if math.isnan(error) else error
 
 
 def at_which(case, recording):
@@ -67,13 +80,16 @@ def of_planes(verdict, shown, names):
     if not tracks:
         return []
     units = [first.units[name] for name in names]
+    exact, whose = as_exact(verdict, shown, names)
     steps = {step_key(float(r.summary["step"])) for _, r in shown if r.summary.get("step")}
     at = (f"Runs at {step_text(verdict.experiment.common_step(case), case)}, the largest step at which most methods finish, "
           "where they differ most." if len(steps) == 1 else "Runs at the step that most methods share or the nearest to it.")
     seed = "Shown is the first seed." if case.get("seeds") else ""
+    failed = [row.label for row, recording in shown if (recording.summary.get("status") or "converged") != "converged"]
+    early = f"Ended early: {listed(failed)}." if failed else ""
     title = f"{heading(case)}: {names[1]} against {names[0]}"
-    out = [Drawing("motion", case, title, sentences(at, remarks(tracks, units), seed),
-                   lambda wide: described(panels(tracks, names, units, wide), title), "Portrait")]
+    out = [Drawing("motion", case, title, sentences(at, whose, remarks(tracks, units), seed, early),
+                   lambda wide: described(panels(tracks, names, units, wide, exact), title), "Portrait")]
     cuts = [(row.label, row.curve.family.light, *zip(*cut)) for row, recording in shown if (cut := recording.section())]
     if 2 * len(cuts) > len(tracks):
         q1, q2, _, p2 = first.state
@@ -83,6 +99,16 @@ def of_planes(verdict, shown, names):
             f"Each point is a passage of {q1} = 0 upwards. A smooth curve is regular motion, a cloud is chaos, or a method that "
             "lets the energy drift.", at), lambda wide: described(panels(cuts, axes, scales, wide, start=False), named), "Section"))
     return out
+
+
+def as_exact(verdict, shown, names):
+    """(the track of the most accurate run, a sentence on it), where its error is too small to be seen; otherwise (None, "")."""
+    known = [(error, row, recording) for row, recording in shown
+             if (error := recording.summary.get("error_max")) is not None and error < UNSEEN]
+    if not verdict.of_state or not known:
+        return None, ""
+    error, row, recording = min(known, key=lambda one: one[0])
+    return recording.track(names), f"Behind, in grey, for the exact motion that of {row.label}, whose error is at most {error:.0e}."
 
 
 def described(canvas, said):

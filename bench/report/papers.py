@@ -21,7 +21,7 @@ def papers(experiment, verdicts, wanted):
     with settings(wanted, target):
         for verdict in verdicts:
             for drawing in drawn(verdict):
-                if drawing.paper:
+                if drawing.printed:
                     told = caption(experiment.head, drawing, plain_text(holds(verdict)), experiment.machine)
                     figure(drawing, wanted, target, told)
             write(target / f"verdict_{slug(verdict.case)}.tex", latex_table(verdict))
@@ -41,7 +41,7 @@ def figure(drawing, wanted, target, told):
     for kind in wanted.kinds:
         # LaTeX sets the text of a pgf figure in the fonts of the document, which it calls by family.
         with matplotlib.rc_context({"font.family": "sans-serif"} if kind == "pgf" else {}):
-            canvas = drawing.paper(wanted.width)
+            canvas = drawing.draw(wanted.width)
             canvas.printed = True
             write(target / f"{drawing.name}.{kind}", as_file(canvas, drawing.name, kind))
     write(target / f"{drawing.name}.txt", told)

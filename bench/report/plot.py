@@ -61,7 +61,7 @@ def plot(arguments):
     if wanted:
         with papers.settings(wanted, folder / "plot" / "paper"):
             for drawing in drawings:
-                if drawing.paper:
+                if drawing.printed:
                     papers.figure(drawing, wanted, folder / "plot" / "paper", f"{drawing.title}. {drawing.caption}\n{said}\n")
     return {"sentence": said, "left_out": wanted.left_out if wanted else ""}
 

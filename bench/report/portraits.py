@@ -5,7 +5,7 @@ chords of a curve that nobody sees.
 """
 import math
 
-from canvas import INK, Canvas, plain, sizes
+from canvas import GREY, INK, Canvas, plain, sizes
 from figures import limits, sentences, with_unit
 from recording import coarse
 
@@ -18,15 +18,16 @@ def widened(begin, size, least):
     return (begin, size) if size >= least else (begin - (least - size) / 2, least)
 
 
-def panels(tracks, names, units, wide, start=True):
-    """The tracks [(label, colour, xs, ys)] on a Canvas, each in a panel with the same axes; sections have no start."""
+def panels(tracks, names, units, wide, behind=None, start=True):
+    """The tracks [(label, colour, xs, ys)] on a Canvas, each in a panel with the same axes, with the track (xs, ys) `behind`; sections
+    have no start."""
     frame = limits([t[2:] for t in tracks], FRAME)
     equal = units[0] == units[1]
     pads = [0.06 * ((high - low) or 1) for low, high in frame]
     spans = [high - low + 2 * pad for (low, high), pad in zip(frame, pads)]
     look = sizes(wide)
     left, top, right, below, between = (x * look.unit for x in (72 if look.wide else 56, 24, 10, 46, 14))
-    columns = min(len(tracks), 4 if look.wide else 2)
+    columns = min(len(tracks), (3 if len(tracks) in (3, 5, 6) else 4) if look.wide else 2)
     most = (340 if wide else 300) if isinstance(wide, bool) else look.width  # on paper a figure is as wide as was asked for
     each = min(most, (look.width - left - right - between * (columns - 1)) / columns)
     tall = min(1.25 * each, max(0.45 * each, each * spans[1] / spans[0])) if equal else 0.8 * each
@@ -45,6 +46,10 @@ def panels(tracks, names, units, wide, start=True):
         style = ({"linestyle": "none", "marker": ".", "markersize": 2.2, "markeredgewidth": 0} if not start or coarse(x, y)
                  else {"linewidth": 0.9})
         canvas.line(axes, x[::step], y[::step], label, color=colour, **style)
+        if behind:
+            axes.plot(*behind, color=GREY, zorder=1, **(
+                {"linestyle": "none", "marker": ".", "markersize": 3.5, "markeredgewidth": 0} if coarse(*behind) else
+                {"linewidth": 3.0 * look.unit, "alpha": 0.55}))
         if start:
             axes.plot(x[:1], y[:1], marker="x", color=INK, markersize=6 * look.unit, markeredgewidth=1.4 * look.unit, zorder=5)
         axes.set_title(plain(label), fontsize=0.95 * look.font, color=colour, loc="left", pad=4 * look.unit)

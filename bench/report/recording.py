@@ -80,6 +80,9 @@ class Recording:
 
     def track(self, names):
         """(values of the first coordinate, values of the second), as far as both are finite."""
+        for name in names:
+            if name not in self.columns:
+                raise InputError(f"{self.folder.name}/series.csv: column '{name}' is missing")
         pairs = [p for p in zip(*(self.columns[name] for name in names)) if all(map(math.isfinite, p))]
         return [p[0] for p in pairs], [p[1] for p in pairs]
 

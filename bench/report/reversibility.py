@@ -9,13 +9,13 @@ such a number of their own are judged by that of the method in the middle, which
 import dataclasses
 import math
 
-from canvas import GREY, MID, Canvas
+from canvas import MID
 from curves import ranks
 from experiment import ROUND_OFF, UNIT_ROUND_OFF
 from families import style
 from figures import Drawing, heading, sentences, step_text, with_unit
 from files import InputError, parse
-from labels import right_of
+from lines import Line, Panel, draw, in_grey
 from scales import ErrorAxis, time_axis
 from verdict import Row
 from wording import listed
@@ -106,8 +106,9 @@ def drawings(verdict):
         left_out(verdict, found),
         "" if all(one.returns.whole for one in shown) else "A line has no point where a step of the way back fails.",
         *axis.remarks())
-    return [Drawing("reversibility", case, f"{heading(case)}: reversibility along the run", told,
-                    lambda wide: draw(verdict, shown, middle, axis, wide))]
+    panel = panel_of(verdict, shown, middle, axis)
+    return [Drawing("reversibility", case, f"{heading(case)}: reversibility along the run", sentences(told, in_grey([panel])),
+                    lambda wide: draw([panel], wide, finding(shown), tall=250))]
 
 
 def visible(one):
@@ -150,39 +151,17 @@ def left_out(verdict, found):
             "round by its state, and on some ways back a step fails.")
 
 
-def draw(verdict, shown, middle, axis, wide):
-    width, font = (1120, 12.5) if wide else (368, 11)
-    left, top, right, below, tall = (72, 14, 120, 46, 250) if wide else (56, 12, 92, 44, 200)
-    canvas = Canvas(width, top + tall + below, font)
-    canvas.description = finding(shown)
-    axes, rank = canvas.panel(left, top, width - left - right, tall), ranks(verdict.curves)
-    ends, several = [], sum(one.back for one in shown) > 1
-    for one in shown:
-        curve, placed = one.row.curve, axis.place(visible(one.returns))
-        look = style(curve.family, rank[one.label], "full") | {"linewidth": 1.5, "marker": "", "zorder": 4}
-        look |= {"color": GREY, "linestyle": "-", "linewidth": 0.8, "zorder": 3} if one.back and several else {}
-        canvas.line(axes, one.returns.times, placed, f"{one.label}: at most {one.returns.farthest:.1e}"
-                    + (", comes back" if one.back else ""), **look)
-        ends.append((one, placed[-1]))
-    axis.apply(axes)
-    axes.axhline(UNIT, color=MID, linewidth=0.8, linestyle=(0, (4, 2)), zorder=1)
-    if middle:
-        known = [(t, x) for t, x in zip(middle.times, middle.roundings) if not math.isnan(x)]
-        canvas.line(axes, [t for t, _ in known], [max(UNIT, x) for _, x in known], "one rounding at the turn", color=MID,
-                    linewidth=1.2, linestyle=(0, (1, 1.6)), zorder=2)
-    times = [t for one in shown for t in one.returns.times]
-    time_axis(axes, min(times), max(times))
-    canvas.labels(axes, with_unit("t at the turn", verdict.case.get("time_unit") or ""), "distance from the start")
-    name_ends(canvas, axes, ends)
-    return canvas
+def panel_of(verdict, shown, middle, axis):
+    rank, times = ranks(verdict.curves), [t for one in shown for t in one.returns.times]
+    group = f"{sum(one.back for one in shown)} come back"
+    lines = [Line(one.label, one.returns.times, visible(one.returns), style(one.row.curve.family, rank[one.label], one.row.curve.fill),
+                  f"{one.label}: at most {one.returns.farthest:.1e}" + (", comes back" if one.back else ""),
+                  group=group if one.back else "") for one in shown]
 
-
-def name_ends(canvas, axes, ends):
-    """Names at the lines' ends; one for all methods that come back."""
-    back = [(one, y) for one, y in ends if one.back]
-    named = [(one.label, y, one.row.curve.family.light) for one, y in ends if not one.back]
-    if len(back) == 1:
-        named.append((back[0][0].label, back[0][1], back[0][0].row.curve.family.light))
-    elif back:
-        named.append((f"{len(back)} come back", sorted(y for _, y in back)[len(back) // 2], MID))
-    right_of(canvas, axes, named)
+    def one_rounding(canvas, axes):
+        axes.axhline(UNIT, color=MID, linewidth=0.8, linestyle=(0, (4, 2)), zorder=1)
+        if middle:
+            known = [(t, max(UNIT, x)) for t, x in zip(middle.times, middle.roundings) if not math.isnan(x)]
+            canvas.line(axes, *zip(*known), "one rounding at the turn", color=MID, linewidth=1.2, linestyle=(0, (1, 1.6)), zorder=2)
+    return Panel(lines, axis, with_unit("t at the turn", verdict.case.get("time_unit") or ""), "distance from the start",
+                 lambda _, axes: time_axis(axes, min(times), max(times)), more=one_rounding)

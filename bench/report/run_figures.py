@@ -70,7 +70,7 @@ def drawings(recording, coordinates=None):
 
 
 def drawing(kind, what, caption, draw):
-    return Drawing(kind, {}, what, caption, draw, paper=draw)
+    return Drawing(kind, {}, what, caption, draw, printed=True)
 
 
 def plane(recording, names):

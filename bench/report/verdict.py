@@ -183,12 +183,14 @@ class Verdict:
     def cost_text(self, cost):
         return short_time(cost) if self.work == "time" else short_count(cost)
 
-    def named(self, limit=8):
-        """Labels of the methods that get colour: those the sentence may name, the best of each family, the front, and
-        then by the time to the largest target."""
+    def named(self, limit=6):
+        """Labels of the methods that get colour, the first ones first: those the sentence may name, one whose runs failed and the one that drifts most,
+        the best of each family, the front, and then by the time to the largest target."""
         target = self.target or LEAD
         ranked = sorted(self.rows, key=lambda r: r.sort_key(target, TARGETS[0]))
-        chosen = [r.label for r in self.best(target)]
+        chosen = [r.label for r in self.best(target)][:4]
+        chosen += [r.label for r in sorted(ranked, key=lambda r: -r.curve.failed)[:1] if r.curve.failed]
+        chosen += [r.label for r in sorted(ranked, key=lambda r: -r.drift if r.drifts else math.inf)[:1] if r.drifts]
         families = []
         for row in ranked:
             if row.curve.family not in families:
@@ -197,6 +199,10 @@ class Verdict:
         on_front = [p.run.method for p in front(self.curves)]
         chosen += sorted(set(on_front), key=lambda label: (-on_front.count(label), label))
         return list(dict.fromkeys(chosen + [r.label for r in ranked]))[:limit]
+
+    def in_order(self, labels):
+        """Labels in the order in which they get colour."""
+        return [label for label in self.named(len(self.rows)) if label in labels]
 
 
 def tied(one, other, target):

@@ -1,47 +1,22 @@
 """Work and precision of a case: the error of every run against what it cost, a line for each method over its steps.
 
-At most eight lines have the colour of their family, the rest is grey and behind them. Shaded: the Pareto front, which is
-what no other run beats in both cost and error; the band in which the phase is lost; and the band in which round-off rules.
-The fan of slopes says how steep an order is where cost goes with 1/h. The steps stand at the points of the cheapest method.
+At most LINES lines have the colour of their family and a name in the margin to which they are joined, and all of their runs are in
+the frame; the rest is grey and behind them. Shaded: the Pareto front, which is what no other run beats in both cost and error; the
+band in which the phase is lost; and the band in which round-off rules. The fan of slopes says how steep an order is where cost goes
+with 1/h.
 """
-import dataclasses
 import math
 
-from canvas import BAND, FRONT, GREY, MID, Canvas
+from canvas import BAND, FRONT, GREY, MID, Canvas, sizes
 from curves import LOST, ZERO, curves, front, ranks
 from families import style
 from first_screen import finding
 from figures import Drawing, heading, sentences, step_text
-from labels import Label, inside, place, sampled
+from labels import SIZE, right_of, sampled
 from scales import power_of_ten
 from wording import counted, listed, plain_text, short_count, short_time, tick_time
 
 CLIPPED = 4.0  # where relative errors end: what is above says the same, that all is lost
-
-
-@dataclasses.dataclass
-class Look:
-    """Sizes of a figure in pixels: margins are left, top, right, bottom."""
-    width: float
-    height: float
-    font: float
-    margins: tuple
-    scale: float = 1.0  # of lines and marks
-
-    def canvas(self):
-        canvas = Canvas(self.width, self.height, self.font, self.scale)
-        left, top, right, bottom = self.margins
-        axes = canvas.panel(left, top, self.width - left - right, self.height - top - bottom)
-        return canvas, axes
-
-
-WIDE = Look(704, 520, 12.5, (70, 14, 10, 46))
-NARROW = Look(368, 400, 11.5, (60, 10, 6, 42))
-
-
-def paper(width):
-    """For print, in points: 7 pt text, lines of 1 pt."""
-    return Look(width, 0.81 * width, 7, (40, 5, 4, 26), 0.6)
 
 
 def drawings(verdict):
@@ -73,7 +48,7 @@ def drawing(verdict, work, some):
         "Whiskers run from the fastest repetition to the median." if work == "time" else "",
         f"{contended} of {timed} timings were disturbed (median over 1.3 times the fastest)." if work == "time" and contended
         else "",
-        f"Steps at the points are those of {named[0]}." if named else "",
+        f"Steps of {named[0]}: {', '.join(step_label(p.run) for c in some if c.label == named[0] for p in c.measured())}." if named else "",
         f"In grey: {listed(grey)}." if grey else "",
         f"Not drawn, because they failed: {listed(failed)}." if len(failed) <= 4 and failed else
         f"{counted(len(failed), 'run')} failed and {'is' if len(failed) == 1 else 'are'} not drawn." if failed else "",
@@ -81,12 +56,24 @@ def drawing(verdict, work, some):
             p.error == ZERO * verdict.unit for c in some for p in c.points) else "")
     kind = "work_precision" if work == verdict.work else "work_precision_" + work.replace("right-hand sides", "evaluations")
     return Drawing(kind, case, f"{heading(case)}: work and precision", caption,
-                   lambda wide: draw(verdict, work, some, named, WIDE if wide else NARROW), work,
-                   lambda width: draw(verdict, work, some, named, paper(width)))
+                   lambda wide: draw(verdict, work, some, named, wide), work, printed=True)
 
 
-def draw(verdict, work, some, named, look):
-    canvas, axes = look.canvas()
+def frame_of(wide, names):
+    """(Canvas, its one panel, which leaves room for the names, sizes): 704 pixels on a wide screen, beside which a table stands."""
+    look = sizes(wide)
+    look = look._replace(width=704) if wide is True else look
+    tall = 520 if wide is True else look.width * (0.81 if wide is not False else 1.05)
+    canvas = Canvas(look.width, tall, look.font, look.unit if look.wide or wide is False else 0.6)
+    left, top, bottom, gap = (x * look.unit for x in (70 if wide is True else 60, 14, 46, 30))
+    right = max((canvas.measure(name, SIZE, "bold")[0] for name in names), default=0) + gap
+    return canvas, canvas.panel(left, top, look.width - left - right, tall - top - bottom)
+
+
+def draw(verdict, work, some, named, wide):
+    lost = [f"✗ {row.label}" for row in verdict.rows if row.curve.failed and not row.curve.points]
+    canvas, axes = frame_of(wide, [*named, *lost])
+    look = canvas
     canvas.description = plain_text(finding(verdict))
     low, high = frame(verdict, axes, some, named)
     rank = ranks(some)
@@ -111,8 +98,8 @@ def draw(verdict, work, some, named, look):
                 axes.plot([p.cost, p.slowest], [e, e], color=shown["color"], linewidth=0.7 * look.scale, zorder=2)
     words = {"time": "time of the run", "right-hand sides": "right-hand sides of the run", "steps": "steps of the run"}
     canvas.labels(axes, words[work], verdict.measure.axis)
-    ticks(canvas, axes, work, look)
-    annotate(canvas, axes, verdict, some, named, look, (low, high))
+    ticks(canvas, axes, work)
+    annotate(canvas, axes, verdict, some, named, lost, (low, high))
     return canvas
 
 
@@ -125,20 +112,19 @@ def clipped(verdict, errors):
 
 
 def frame(verdict, axes, some, named):
-    """Set the axes: decades of error, and costs up to the third quartile of the longest runs."""
+    """Set the axes: decades of error, and costs up to all runs with a name and the third quartile of the longest runs."""
     errors = [e for c in some for p in c.measured() for e in clipped(verdict, [p.error])]
     low = 10.0 ** math.floor(math.log10(min(errors)) - 0.3)
     high = 2 * CLIPPED if verdict.of_state and max(errors) > LOST / 2 else 10.0 ** math.ceil(math.log10(max(errors)) + 0.1)
     longest = sorted(max(p.cost for p in c.measured()) for c in some)
-    kept = max(longest[(3 * len(longest) - 1) // 4],
-               max((max(p.cost for p in c.measured()) for c in some if c.label in named[:1]), default=0))
+    kept = max(longest[(3 * len(longest) - 1) // 4], *(p.cost for c in some if c.label in named for p in c.measured()))
     kept = max(kept, max(p.cost for p in front(some)))
     begin = min(p.cost for c in some for p in c.measured())
     axes.set(xscale="log", yscale="log", xlim=(begin / 1.35, kept * 1.35), ylim=(low, high))
     return low, high
 
 
-def ticks(canvas, axes, work, look):
+def ticks(canvas, axes, work):
     low, high = axes.get_ylim()
     powers = [k for k in range(math.ceil(math.log10(low)), math.floor(math.log10(high)) + 1)]
     stride = 3 if len(powers) > 7 else 2 if len(powers) > 5 else 1
@@ -147,59 +133,46 @@ def ticks(canvas, axes, work, look):
     axes.set_yticks([], minor=True)
     low, high = axes.get_xlim()
     decades = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
-    room = look.width / (7.6 * look.font)
+    show = tick_time if work == "time" else short_count
+    decade = axes.get_window_extent(canvas.renderer).width / math.log10(high / low)
+
+    def have_room(at):
+        widest = max((canvas.measure(show(x), 0.92)[0] for x in at), default=0) + 0.6 * canvas.font
+        return all(decade * math.log10(b / a) >= widest for a, b in zip(at, at[1:]))
     for steps in ((1, 2, 5), (1, 3), (1,)):
         at = [m * 10.0**k for k in decades for m in steps if low <= m * 10.0**k <= high]
-        if len(at) <= room:
+        if have_room(at):
             break
-    else:
-        at = at[::math.ceil(len(at) / room)]
-    axes.set_xticks(at, [tick_time(x) if work == "time" else short_count(x) for x in at])
+    at = next(some for k in range(1, len(at) + 2) if have_room(some := at[::-k][::-1]))
+    axes.set_xticks(at, [show(x) for x in at])
     axes.set_xticks([], minor=True)
     for label in axes.get_xticklabels():  # the last one may stand at the edge of the figure
         if label.get_window_extent(canvas.renderer).x1 > canvas.width:
             label.set_horizontalalignment("right")
 
 
-def annotate(canvas, axes, verdict, some, named, look, limits):
-    """Bands, the fan of orders, labels at the lines and steps at the points."""
+def annotate(canvas, axes, verdict, some, named, lost, limits):
+    """Bands, the fan of orders, and names in the margin."""
     small = 0.88
     to_pixels = axes.transData.transform
     box = axes.get_window_extent(canvas.renderer)
-    area = (box.x0 + 2, box.y0 + 2, box.x1 - 2, box.y1 - 1)
-    lines = {c.label: [tuple(to_pixels(xy)) for xy in zip([p.cost for p in c.measured()], clipped(
-        verdict, [p.error for p in c.measured()]))] for c in some}
-    every = [pixel for line in lines.values() for pixel in sampled(line)]
-    taken = []
+    every = [pixel for c in some for pixel in sampled([tuple(to_pixels(xy)) for xy in zip(
+        [p.cost for p in c.measured()], clipped(verdict, [p.error for p in c.measured()]))])]
     if verdict.of_state and limits[1] > LOST:
         axes.axhspan(LOST, limits[1], color=BAND, zorder=0, linewidth=0)
-        taken.append(band_text(canvas, "phase lost", box, "top", small, every))
+        band_text(canvas, "phase lost", box, "top", small, every)
     floor = verdict.floor()
     if limits[0] < floor:
         axes.axhspan(limits[0], floor, color=BAND, zorder=0, linewidth=0)
-        taken.append(band_text(canvas, "round-off", box, "bottom", small, every))
-    fan = order_fan(canvas, axes, box, every, small) if verdict.relative else None
-    if fan:
-        taken.append(fan)
-    labels = []
-    for curve in sorted(some, key=lambda c: named.index(c.label) if c.label in named else len(named)):
-        within = [p for p in lines[curve.label] if area[0] <= p[0] <= area[2] and area[1] <= p[1] <= area[3]]
-        if within:
-            coloured = curve.label in named
-            size = canvas.measure(curve.label, 1.0 if coloured else small, "bold" if coloured else "normal")
-            labels.append(Label(curve.label, within, *size, needed=coloured))
-    steps = [Label(step_label(p.run), [pixel], *canvas.measure(step_label(p.run), 0.8), needed=False)
-             for c in some if named and c.label == named[0] for p, pixel in zip(c.measured(), lines[c.label])]
-    placed = place(labels + steps, area, list(lines.values()), taken)
-    families = {c.label: c.family for c in some}
-    for label in placed:
-        coloured = label.text in named
-        colour = families[label.text].light if coloured else MID
-        if label.far and label.text in families:
-            x, y = (min(max(a, low), high) for a, low, high in zip(label.anchor, label.box[:2], label.box[2:]))
-            canvas.leader((x, y), label.anchor, colour)
-        canvas.write(axes, label.box[0], label.box[1], label.text, 1.0 if coloured else small if label.text in families else 0.8,
-                     color=colour, weight="bold" if coloured else "normal", va="bottom", ha="left", zorder=6)
+        band_text(canvas, "round-off", box, "bottom", small, every)
+    if verdict.relative:
+        order_fan(canvas, axes, box, every, small)
+    ends = []
+    for curve in some:
+        if curve.label in named:
+            last = curve.measured()[-1]
+            ends.append((curve.label, last.cost, clipped(verdict, [last.error])[0], curve.family.light, ""))
+    right_of(canvas, axes, ends + [(name, axes.get_xlim()[1], limits[1], MID, "") for name in lost], "bold")
 
 
 def step_label(run):
@@ -207,17 +180,20 @@ def step_label(run):
 
 
 def band_text(canvas, text, box, side, small, every):
-    """What a band at the top or the bottom means, at that end of it which fewer lines cross; the box of the text."""
+    """What a band at the top or the bottom means, at that end of it which fewer lines cross."""
     width, height = canvas.measure(text, small)
     low = box.y1 - 3 - height if side == "top" else box.y0 + 2
     ends = [(x - 2, low - 2, x + width + 2, low + height + 2) for x in (box.x0 + 4, box.x1 - 4 - width)]
     found = min(ends, key=lambda end: inside(every, end))
     canvas.write(canvas.axes[0], found[0] + 2, low, text, small, color=MID, va="bottom", ha="left")
-    return found
+
+
+def inside(points, box):
+    return sum(box[0] <= x <= box[2] and box[1] <= y <= box[3] for x, y in points)
 
 
 def order_fan(canvas, axes, box, every, small):
-    """Slopes of the orders 2, 4 and 8, in the lower left; its box, or None where there is no room for it."""
+    """Slopes of the orders 2, 4 and 8, in the lower left, where there is room for them."""
     decade = [(box.x1 - box.x0) / math.log10(axes.get_xlim()[1] / axes.get_xlim()[0]),
               (box.y1 - box.y0) / math.log10(axes.get_ylim()[1] / axes.get_ylim()[0])]
     width = min(0.11 * (box.x1 - box.x0), 0.24 * (box.y1 - box.y0) / (8 * decade[1] / decade[0]))
@@ -237,5 +213,4 @@ def order_fan(canvas, axes, box, every, small):
             canvas.leader((x, y), (x + width, y - order * drop), MID)
             last = min(y - order * drop, last - 0.8 * line)
             canvas.write(axes, x + width + 4, last, str(order), small, color=MID, va="center")
-        return area
-    return None
+        return

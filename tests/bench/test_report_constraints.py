@@ -6,6 +6,7 @@ import unittest
 from synthetic import CLASSES, COLUMNS, Fresh, U, reading, run, save
 
 import constraints  # noqa: E402
+import verdict  # noqa: E402
 
 SEEDS = 3
 
@@ -79,7 +80,7 @@ class Ensembles(Fresh):
 
     def test_three_panels_have_room(self):
         shown = reading.Experiment(ensemble(self.folder))
-        drawing, = constraints.drawings(shown, shown.cases[0])
+        drawing, = constraints.drawings(verdict.Verdict(shown, shown.cases[0]))
         for wide in (True, False):
             sheet = drawing.draw(wide)
             sheet.png()

@@ -173,7 +173,7 @@ class Structure(unittest.TestCase):
         some = curve(power_law(4))
         self.assertEqual(some.fill, "half")
         some.structured = False
-        self.assertEqual(some.fill, "full")  # there is nothing to keep
+        self.assertEqual(some.fill, "open")  # there is nothing to keep
         self.assertEqual(curve(power_law(4), residuals=[(0.1, 1e-9)]).fill, "open")
 
     def test_round_off_may_grow_as_steps_become_smaller(self):

@@ -3,9 +3,9 @@ import json
 import math
 import unittest
 
-from synthetic import CLASSES, Fresh, figures, load, parsed, reading, run, save, synthetic
+from synthetic import CLASSES, Fresh, load, parsed, reading, run, save, synthetic
 
-import drift_at_cost  # noqa: E402
+import drift  # noqa: E402
 import findings  # noqa: E402
 import verdict  # noqa: E402
 
@@ -105,29 +105,29 @@ class Directed(Fresh):
         self.assertEqual(subject, "Increase")
         self.assertIn("energy is expected to increase", sentence)
         self.assertEqual(items, ["falls: mid (by 0.982), rk (by 0.982) and bad (by 0.982)"])  # 1 - exp(-4)
-        drawn = figures.drift_at_equal_step(self.shown, self.shown.cases[1])
+        drawn, = drift.at_equal_step(verdict.Verdict(self.shown, self.shown.cases[1]))
         self.assertIn("expected to increase", drawn.title)
-        self.assertIn("largest fall of energy so far", drawn.draw(True).axes[1].get_ylabel())
+        self.assertEqual("fall of energy / scale", drawn.draw(True).axes[0].get_ylabel())
         self.assertEqual(run(self.folder)[0], 0)
         self.assertIn("falls by 0.982", parsed(self.folder).text)
 
     def test_the_error_of_what_falls_is_drawn(self):
         self.expect("decreasing")
         said = verdict.Verdict(self.shown, self.shown.cases[1])
-        self.assertEqual(drift_at_cost.drawings(said), [])  # there is no reference solution, and no error
+        self.assertEqual(drift.drawings(said), [])  # there is no reference solution, and no error
         for path in self.folder.glob("runs/damped-*/series.csv"):
             rows = load(path)
             save(path, [rows[0] + ["energy:error [J]"]] + [row + [repr(1e-6 * math.sin(float(row[0])))] for row in rows[1:]])
         said = verdict.Verdict(reading.Experiment(self.folder), self.shown.cases[1])
-        found, told = drift_at_cost.deviations(said)
-        self.assertEqual(told, "Error of energy against the reference solution.")
+        found = drift.moved(said, [(row, row.run) for row in said.rows], lambda series: series.error)
         self.assertEqual({row.label for row, *_ in found}, {row.label for row in said.rows if row.run})
-        for _, times, errors in found:
+        for *_, times, errors, _ in found:
             self.assertGreater(len(times), 30)
             self.assertAlmostEqual(max(errors), 1e-6, places=9)
             for t, error in zip(times, errors):
                 self.assertAlmostEqual(error, abs(1e-6 * math.sin(t)), places=12)
-        self.assertEqual(len(drift_at_cost.drawings(said)), 1)
+        drawn, = drift.drawings(said)
+        self.assertIn("Error of energy against the reference solution, over its scale, 1 J.", drawn.caption)
 
     def test_a_run_without_a_series_is_named(self):
         self.expect("increasing")
@@ -136,16 +136,40 @@ class Directed(Fresh):
         items = findings.drift(self.shown, self.shown.cases[1])[0][2]
         self.assertEqual(items[-1], "not known, without a series: mid")
 
-    def test_the_frame_holds_what_goes_up(self):
-        self.expect("increasing")
-        rising = [(r, self.shown.series(r, "energy")) for r in self.shown.at_common_step(self.shown.cases[1])]
-        for _, series in rising:
-            series.change = [-x for x in series.change]  # from 1 to 1.98
-        sheet = figures.Sheet(2, True, "energy")
-        figures.values_of_directed(sheet, self.shown, 0.1, rising, "increasing")
-        low, high = sheet.axes[0].get_ylim()
-        self.assertAlmostEqual(low, 1 - 0.0982, places=3)
-        self.assertAlmostEqual(high, 1.982 + 0.0982, places=3)
+
+class Scale(Fresh):
+    def state(self, **of_energy):
+        """The summaries of the case `osc`, each with `scale` or `initial` of its energy, which are given by method."""
+        shown = reading.Experiment(synthetic(self.folder, steps=(0.1,)))
+        for path in self.folder.glob("runs/osc-*/summary.json"):
+            head = json.loads(path.read_text())
+            for key, sizes in of_energy.items():
+                head["invariants"][0][key] = sizes[int(path.parent.name.split("-")[1])]
+            path.write_text(json.dumps(head))
+        return shown
+
+    def test_it_is_the_least_size_of_the_terms(self):
+        self.assertEqual(self.state(scale=(4.0, 9e9, 5.0), initial=(0.5, 0.5, 0.5)).scale({"name": "osc"}, "energy"), 4.0)
+
+    def test_without_terms_it_is_the_size_at_the_start(self):
+        self.assertEqual(self.state(scale=(None,) * 3, initial=(-0.5,) * 3).scale({"name": "osc"}, "energy"), 0.5)
+
+    def test_without_either_it_is_one(self):
+        self.assertEqual(self.state(initial=(0.0,) * 3).scale({"name": "osc"}, "energy"), 1.0)
+
+    def test_drift_is_drawn_over_it_with_the_value_beside_the_name(self):
+        """rk drifts by 1e-3 h^4 = 1e-7 in its own unit, which is 2.5e-8 of a scale of 4."""
+        shown = self.state(scale=(4.0, 4.0, 4.0))
+        said = verdict.Verdict(shown, shown.cases[0])
+        found = {row.label: (values, most) for row, _, _, values, most in
+                 drift.moved(said, [(row, row.run) for row in said.rows], lambda series: series.change)}
+        values, most = found["rk"]
+        self.assertAlmostEqual(most / 1e-7, 1, places=6)  # energies near 1 hold seven digits of it
+        self.assertAlmostEqual(max(values) * 4, most, places=20)
+        drawn, = drift.at_equal_step(said)
+        canvas = drawn.draw(True)
+        self.assertIn("1e-7 J", [t.get_text() for axes in canvas.axes for t in axes.texts])
+        self.assertIn("over its scale, 4 J", drawn.caption)
 
 
 if __name__ == "__main__":

@@ -1,51 +1,79 @@
-"""bench/report: figures that fit their sheet, and the numbers and scales behind them."""
+"""bench/report: names of lines, and the numbers and scales behind them."""
 import math
 import unittest
 
-from synthetic import Fresh, U, figures, reading, save, scales, synthetic
+from synthetic import Fresh, U, reading, save, scales, synthetic
 
 import canvas  # noqa: E402
+import drift  # noqa: E402
+import families  # noqa: E402
+import lines  # noqa: E402
 import verdict  # noqa: E402
 import work_precision  # noqa: E402
 
 
-class Sheets(Fresh):
-    def test_many_methods_fit_the_sheet(self):
-        shown = reading.Experiment(synthetic(self.folder, extra_methods=9))
-        for case in shown.cases:
-            for drawing in [figures.drift_at_equal_step(shown, case)]:
-                for wide in (True, False):
-                    with self.subTest(drawing.name, wide=wide):
-                        self.check_layout(drawing.draw(wide))
+class Names(Fresh):
+    """Names of lines stand in the margin, are joined to their lines, and no two share a place."""
 
-    def check_layout(self, sheet):
-        """Legend below every panel; nothing sticks out of the sheet; no two tick labels of an axis overlap."""
-        sheet.png()
-        figure, renderer = sheet.figure, sheet.figure.canvas.get_renderer()
-        width, height = figure.bbox.size
-        legend = figure.legends[0].get_window_extent(renderer)
-        self.assertEqual(len(figure.legends[0].get_texts()), len(sheet.methods) + len(sheet.levels))
-        boxes = [a.get_tightbbox(renderer) for a in figure.axes]
-        self.assertLess(legend.y1, min(b.y0 for b in boxes))
-        for box in [legend, *boxes, *(t.get_window_extent(renderer) for t in figure.texts)]:
-            self.assertGreaterEqual(min(box.x0, box.y0), -0.5)
-            self.assertLessEqual(box.x1, width + 0.5)
-            self.assertLessEqual(box.y1, height + 0.5)
-        for i, box in enumerate(boxes):
-            self.assertFalse(any(box.overlaps(other) for other in boxes[:i]))
-        for axes in figure.axes:
-            for axis in (axes.xaxis, axes.yaxis):
-                low, high = sorted(axis.get_view_interval())
-                labels = [t.label1.get_window_extent(renderer) for t in axis.get_major_ticks()
-                          if low <= t.get_loc() <= high]
-                for i, box in enumerate(labels):
-                    self.assertFalse(any(box.overlaps(other) for other in labels[:i]))
+    def panel(self, count, **of_some):
+        """Lines that end at 1, 2, ..., of which some have other members."""
+        look = families.style(families.FAMILIES[0], 0, "full")
+        return [lines.Line(f"method {k}", [1.0, 2.0], [1e-9, 1e-9 * (k + 1)], look, **of_some.get(f"m{k}", {})) for k in range(count)]
+
+    def drawn(self, some, wide):
+        axis = scales.ErrorAxis([line.y for line in some], U)
+        one = lines.Panel(some, axis, "t", "error", lambda _, axes: scales.time_axis(axes, 0, 2))
+        canvas = lines.draw([one], wide)
+        return one, canvas, [t for t in canvas.axes[0].texts if t.get_text().strip()]
+
+    def test_names_touch_neither_each_other_nor_lines_nor_the_edge(self):
+        for wide in (True, False, 241.0):
+            one, canvas, names = self.drawn(self.panel(9), wide)
+            self.assertEqual(len(names), lines.LINES)
+            boxes = [t.get_window_extent(canvas.renderer) for t in names]
+            panel = canvas.axes[0].get_window_extent(canvas.renderer)
+            for k, box in enumerate(boxes):
+                self.assertGreater(box.x0, panel.x1)  # where no line is
+                self.assertLessEqual(box.x1, canvas.width)
+                self.assertFalse(any(box.y0 < other.y1 - 2 and other.y0 < box.y1 - 2 for other in boxes[:k]))  # but for descenders
+            self.assertEqual(len(canvas.figure.artists), 2 * len(names))  # to the margin, and in it to the name
+
+    def test_of_many_lines_the_worst_and_those_that_fail_are_named(self):
+        some = self.panel(9, m6={"fails": True}, m7={"ended": True})
+        one, canvas, names = self.drawn(some, True)
+        told = {t.get_text() for t in names}
+        self.assertLessEqual({"method 6", "method 7", "method 8"}, told)  # the last one is the worst
+        self.assertEqual(lines.in_grey([one]), "In grey: method 3, method 4 and method 5.")
+        self.assertIn("X", {line.get_marker() for line in canvas.axes[0].lines})  # where the run ended early
+        self.assertEqual(lines.in_grey([self.drawn(self.panel(6), True)[0]]), "")
+
+    def test_a_group_has_one_name(self):
+        group = {f"m{k}": {"group": "3 kept"} for k in range(3)}
+        _, _, names = self.drawn(self.panel(5, **group), True)
+        self.assertEqual(sorted(t.get_text() for t in names), ["3 kept", "method 3", "method 4"])
+        _, _, names = self.drawn(self.panel(2, m0={"group": "1 kept"}), True)
+        self.assertEqual(sorted(t.get_text() for t in names), ["method 0", "method 1"])  # one line is no group
 
     def test_failed_at_the_common_step_is_marked(self):
         shown = reading.Experiment(synthetic(self.folder, steps=(0.4,)))
-        sheet = figures.drift_at_equal_step(shown, shown.cases[0]).draw(True)
-        self.assertIn("run ended early", sheet.levels)
-        self.assertIn("bad at step 0.4 s", work_precision.drawings(verdict.Verdict(shown, shown.cases[0]))[0].caption)
+        said = verdict.Verdict(shown, shown.cases[0])
+        for drawing in drift.at_equal_step(said) + drift.drawings(said):
+            self.assertIn("A cross: the run ended early.", drawing.caption)
+            self.assertIn("X", {line.get_marker() for axes in drawing.draw(True).axes for line in axes.lines})
+        drawing = work_precision.drawings(said)[0]
+        self.assertIn("bad at step 0.4 s", drawing.caption)
+        self.assertIn("✗ bad", [t.get_text() for t in drawing.draw(True).axes[0].texts])
+
+    def test_lines_with_a_name_are_in_the_frame(self):
+        """One of whose runs failed, which is always named, takes longer than all others."""
+        synthetic(self.folder, extra_methods=9)
+        self.edit("cost.csv", "ns_per_step_min", lambda x: repr(1e4 * float(x)), lambda row: row[1] == "bad")
+        shown = reading.Experiment(self.folder)
+        said = verdict.Verdict(shown, shown.cases[0])
+        self.assertIn("bad", said.named())
+        low, high = work_precision.drawings(said)[0].draw(True).axes[0].get_xlim()
+        costs = [p.cost for c in said.curves if c.label in said.named() for p in c.measured()]
+        self.assertTrue(low < min(costs) and max(costs) < high)
 
 
 class Steps(unittest.TestCase):
@@ -72,11 +100,13 @@ class Steps(unittest.TestCase):
 class Times(unittest.TestCase):
     def test_no_label_of_a_time_leaves_the_figure(self):
         for end in (1e8, 1.3e8):  # the last tick at the edge of the panel, and inside
-            drawing, axes = work_precision.NARROW.canvas()
+            drawing, axes, *_ = work_precision.frame_of(False, ["a name"])
             axes.set(xscale="log", yscale="log", xlim=(1e5, end), ylim=(1e-9, 1))
-            work_precision.ticks(drawing, axes, "time", work_precision.NARROW)
+            work_precision.ticks(drawing, axes, "time")
             labels = axes.get_xticklabels()
             self.assertEqual(labels[-1].get_text(), "100 ms")
+            boxes = [label.get_window_extent(drawing.renderer) for label in labels]
+            self.assertTrue(all(b.x0 - a.x1 > 1 for a, b in zip(boxes, boxes[1:])))
             self.assertLessEqual(labels[-1].get_window_extent(drawing.renderer).x1, drawing.width)
             self.assertEqual([label.get_horizontalalignment() for label in labels[:-1]], ["center"] * (len(labels) - 1))
 

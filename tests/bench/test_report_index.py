@@ -26,8 +26,17 @@ class Data(Fresh):
         # A target counts as reached from 1 + 1e-8 times it on, which is 2.5e-9 of the cost.
         self.assertAlmostEqual(rows["rk"]["cost_to_1e-03"] / (40 * 40 * 10**0.5), 1, delta=3e-9)
         self.assertIsNone(rows["mid"]["cost_to_1e-12"])
-        best = [r for r in rows.values() if r["cheapest"]]
-        self.assertTrue(best and min(r["ratio"] for r in best) == 1.0)
+
+    def test_the_ratio_is_that_of_costs(self):
+        """At 1e-5 rk and bad have the same errors and are ranked, and bad is made to take twice as long."""
+        synthetic(self.folder)
+        self.edit("cost.csv", "ns_per_step_min", lambda x: "80", lambda row: row[1] == "bad")
+        shown = reading.Experiment(self.folder)
+        rows = {row["method"]: row for row in verdict_data.rows(verdict.Verdict(shown, shown.cases[0]))}
+        self.assertEqual({m: r["target"] for m, r in rows.items()}, dict.fromkeys(rows, 1e-5))
+        self.assertEqual([m for m, r in rows.items() if r["cheapest"]], ["rk"])
+        self.assertEqual((rows["rk"]["ratio"], rows["mid"]["ratio"]), (1.0, None))
+        self.assertAlmostEqual(rows["bad"]["ratio"], 2, places=12)
 
     def test_files_hold_the_rows(self):
         synthetic(self.folder)

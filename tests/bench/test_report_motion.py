@@ -7,18 +7,17 @@ from synthetic import CLASSES, COLUMNS, Fresh, load, reading, run, save
 
 import bands  # noqa: E402
 import ensembles  # noqa: E402
-import motion  # noqa: E402
 import moving  # noqa: E402
 import verdict  # noqa: E402
 
 SEEDS = 4
 
 
-def circles(folder, motion_of=("x", "y"), away=1e3, units=("m", "m")):
+def circles(folder, motion_of=("x", "y"), away=1e3, units=("m", "m"), more=0):
     """`round` runs on the unit circle, `small` on one of half its size, and `lost` runs away to `away`."""
     measures = [f"energy:{m}" for m in reading.MEASURES]
     rows = []
-    for label, size in (("round", 1.0), ("small", 0.5), ("lost", away)):
+    for label, size in (("round", 1.0), ("small", 0.5), ("lost", away), *((f"more {k}", 1.0) for k in range(more))):
         row = dict.fromkeys(COLUMNS + measures + ["run"], "")
         row.update({"case": "ball", "system": "ball", "method": label, "integrator": label, "step": 0.1, "time": 10,
                     "steps": 100, "precision": "double", "status": "converged", "rhs_per_step": 1, "run": label,
@@ -42,46 +41,66 @@ def circles(folder, motion_of=("x", "y"), away=1e3, units=("m", "m")):
 
 
 class Tracks(Fresh):
+    def portraits(self, **of_circles):
+        shown = reading.Experiment(circles(self.folder, **of_circles))
+        return moving.drawings(verdict.Verdict(shown, shown.cases[0]))[0]
+
     def test_tracks_are_the_coordinates_of_the_runs(self):
-        shown = reading.Experiment(circles(self.folder))
-        case = shown.cases[0]
-        x, y = motion.track(shown, case, shown.at_common_step(case)[0])
-        self.assertEqual(len(x), 101)
-        for a, b in zip(x, y):
+        line = self.portraits().draw(True).axes[0].lines[0]
+        self.assertEqual(len(line.get_xdata()), 101)
+        for a, b in zip(line.get_xdata(), line.get_ydata()):
             self.assertAlmostEqual(math.hypot(a - 3, b), 1)
 
     def test_frame_leaves_out_what_runs_away(self):
-        shown = reading.Experiment(circles(self.folder))
-        drawing, = motion.drawings(shown, shown.cases[0])
-        self.assertIn("Some tracks leave the frame.", drawing.caption)
-        axes = drawing.draw(True).axes[0]
-        self.assertLess(axes.get_xlim()[1], 10)
-        self.assertEqual(axes.get_aspect(), 1)
+        drawing = self.portraits()
+        self.assertIn("The track of lost leaves the frame.", drawing.caption)
+        self.assertLess(drawing.draw(True).axes[0].get_xlim()[1], 10)
 
     def test_nothing_leaves_the_frame_of_tracks_alike(self):
-        shown = reading.Experiment(circles(self.folder, away=1.1))
-        drawing, = motion.drawings(shown, shown.cases[0])
-        self.assertNotIn("leave the frame", drawing.caption)
+        self.assertNotIn("leaves the frame", self.portraits(away=1.1).caption)
+
+    def test_coordinates_are_those_that_the_case_names(self):
+        self.assertEqual(self.portraits(motion_of=("y", "x")).title, "Ball <b>: x against y")
 
     def test_different_units_have_scales_of_their_own(self):
-        shown = reading.Experiment(circles(self.folder, units=("m", "rad")))
-        drawing, = motion.drawings(shown, shown.cases[0])
-        self.assertNotIn("same scale", drawing.caption)
-        self.assertEqual(drawing.draw(False).axes[0].get_aspect(), "auto")
+        self.assertNotIn("same scale", self.portraits(units=("m", "rad")).caption)
 
-    def test_long_tracks_have_scales_of_their_own(self):
-        shown = reading.Experiment(circles(self.folder))
-        tracks = [(run, x, [20 * a for a in y]) for run, x, y in
-                  ((r, *motion.track(shown, shown.cases[0], r)) for r in shown.at_common_step(shown.cases[0]))]
-        drawing = motion.drawn(shown, shown.cases[0], tracks)
-        self.assertIn("different scales", drawing.caption)
-        self.assertEqual(drawing.draw(False).axes[0].get_aspect(), "auto")
+    def test_the_most_accurate_motion_stands_behind_where_its_error_is_not_seen(self):
+        for error, behind in (("1e-9", True), ("0.1", False)):
+            folder = circles(self.folder / error)
+            self.folder, before = folder, self.folder
+            self.edit("results.csv", "error_max", lambda x: error, lambda row: row[2] == "round")
+            self.folder = before
+            path = folder / "runs" / "round" / "summary.json"
+            path.write_text(json.dumps(json.loads(path.read_text()) | {"error_max": float(error)}))
+            shown = reading.Experiment(folder)
+            drawing = moving.drawings(verdict.Verdict(shown, shown.cases[0]))[0]
+            self.assertEqual("for the exact motion that of round, whose error is at most 1e-09" in drawing.caption, behind)
+            self.assertEqual({len(axes.lines) for axes in drawing.draw(True).axes}, {3 if behind else 2})  # track and start
+
+    def test_of_many_methods_the_most_wrong_are_shown(self):
+        circles(self.folder, more=9)
+        self.edit("results.csv", "error_max", lambda x: "1e-3")
+        for label, error in (("more 8", "0.5"), ("more 5", "0.2")):
+            self.edit("results.csv", "error_max", lambda x: error, lambda row: row[2] == label)
+        shown = reading.Experiment(self.folder)
+        titles = [axes.get_title(loc="left") for axes in moving.drawings(verdict.Verdict(shown, shown.cases[0]))[0].draw(True).axes]
+        self.assertEqual(len(titles), moving.PANELS)
+        self.assertLessEqual({"more 8", "more 5"}, set(titles))
+
+    def test_a_run_that_ended_early_is_shown(self):
+        folder = circles(self.folder)
+        self.edit("results.csv", "status", lambda x: "not_converged", lambda row: row[2] == "lost")
+        path = folder / "runs" / "lost" / "summary.json"
+        path.write_text(json.dumps(json.loads(path.read_text()) | {"status": "not_converged"}))
+        shown = reading.Experiment(folder)
+        self.assertIn("Ended early: lost.", moving.drawings(verdict.Verdict(shown, shown.cases[0]))[0].caption)
 
     def test_report_draws_the_motion_and_is_the_same_again(self):
         folder = circles(self.folder)
         self.assertEqual(run(folder)[0], 0)
         first = (folder / "figures" / "motion_ball.svg").read_bytes()
-        self.assertIn("Tracks of the motion", (folder / "report.html").read_text())
+        self.assertIn("A cross marks the start.", (folder / "report.html").read_text())
         self.assertEqual(run(folder)[0], 0)
         self.assertEqual((folder / "figures" / "motion_ball.svg").read_bytes(), first)
 

@@ -99,37 +99,20 @@ class Papers(Fresh):
 
 
 class Labels(Fresh):
-    def test_no_two_labels_share_a_place(self):
-        shown = reading.Experiment(synthetic(self.folder, extra_methods=9))
-        lines = [[(10 * k, 200 - 12 * k - 3 * n) for k in range(1, 9)] for n in range(6)]
-        some = [labels.Label(f"method {n}", line, 60, 12) for n, line in enumerate(lines)]
-        placed = labels.place(some, (0, 0, 300, 300), lines)
-        self.assertEqual(len(placed), 6)
-        for k, one in enumerate(placed):
-            self.assertTrue(labels.within(one.box, (0, 0, 300, 300)))
-            self.assertFalse(any(labels.overlap(one.box, other.box) for other in placed[:k]))
-        canvas = work_precision.drawings(verdict.Verdict(shown, shown.cases[0]))[0].draw(True)
-        canvas.png()
-        self.assertEqual(len(canvas.titles), 12)  # a line for each method, with its runs in the title
-
-    def test_a_label_that_may_be_left_out_is_left_out(self):
-        """A frame that a thick web of foreign lines fills: only what is needed finds a place."""
-        web = [[(0, y), (100, y)] for y in range(0, 60, 4)]
-        own = [(50, 30)]
-        self.assertEqual(labels.place([labels.Label("x", own, 40, 12, needed=False)], (0, 0, 100, 60), web + [own]), [])
-        self.assertEqual(len(labels.place([labels.Label("x", own, 40, 12)], (0, 0, 100, 60), web + [own])), 1)
-        self.assertEqual(len(labels.place([labels.Label("x", own, 40, 12, needed=False)], (0, 0, 100, 60), [own])), 1)
-
     def test_pushed_apart(self):
         out = labels.pushed_apart([5, 5, 5, 40], 10, 0, 60)
         ordered = sorted(out)
         self.assertTrue(all(b - a >= 10 - 1e-4 for a, b in zip(ordered, ordered[1:])), out)
         self.assertAlmostEqual(out[3], 40, delta=5)
 
-    def test_eight_lines_have_colour(self):
+    def test_six_lines_have_colour(self):
         shown = reading.Experiment(synthetic(self.folder, extra_methods=12))
         said = verdict.Verdict(shown, shown.cases[0])
-        self.assertEqual(len(said.named()), 8)
+        self.assertEqual(len(said.named()), 6)
+        self.assertIn("bad", said.named())  # whose run failed
+        self.assertEqual(len(set(said.in_order([r.label for r in said.rows]))), 15)
+        canvas = work_precision.drawings(said)[0].draw(True)
+        self.assertEqual(len(canvas.titles), 15)  # a line for each method, with its runs in the title
         self.assertEqual(said.named()[0], said.best(said.target)[0].label)
 
 
