@@ -293,24 +293,21 @@ class Experiment:
         return list(chosen.values())
 
     def series(self, run, invariant):
-        """The run's series with one invariant (or None), or None where the run left no series. The residuals of
-        constraints are None too where the run's motion has none, as vakonomic motion among others."""
+        """The run's series with one invariant (or None), or None where it left none, or of residuals of constraints where its
+        motion has no constraints, as vakonomic motion among others."""
         key = (run.path, invariant)
         if key not in self._series:
             path = self.folder / run.path / "series.csv"
-            found = bool(run.slug) and path.exists()
             self._series[key] = (read_series(path, invariant, run.cells["precision"], invariant in self.residuals)
-                                 if found else None)
+                                 if run.slug and path.exists() else None)
         return self._series[key]
 
     def entries(self, case, invariant):
         """What the summaries of the runs of a case state of an invariant, one after another."""
         for run in self.runs_of(case):
             path = self.folder / "runs" / run.slug / "summary.json"
-            if not run.slug or not path.exists():
-                continue
             if run.slug not in self._summaries:
-                self._summaries[run.slug] = invariants_of(path)
+                self._summaries[run.slug] = invariants_of(path) if run.slug and path.exists() else []
             yield from (entry for entry in self._summaries[run.slug] if entry.get("name") == invariant)
 
     def expectation(self, case, invariant):
@@ -319,8 +316,8 @@ class Experiment:
         return entry.get("expected") or "none", entry.get("unit") or ""
 
     def scale(self, case, invariant):
-        """What a change of an invariant is compared with: the size of its terms, the least over the runs since a run that explodes
-        has any, or its size at the start where nothing is known of terms; one where that is zero."""
+        """What a change of an invariant is compared with: the size of its terms, the least over the runs as one that explodes has
+        any, or else its size at the start; one where that is zero."""
         known = [[entry[key] for entry in self.entries(case, invariant) if entry.get(key)] for key in ("scale", "initial")]
         return next((min(map(abs, sizes)) for sizes in known if sizes), 1.0)
 

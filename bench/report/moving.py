@@ -80,7 +80,7 @@ def of_planes(verdict, shown, names):
     if not tracks:
         return []
     units = [first.units[name] for name in names]
-    exact, whose = as_exact(verdict, shown, names)
+    exact, whose = as_exact(verdict, names)
     steps = {step_key(float(r.summary["step"])) for _, r in shown if r.summary.get("step")}
     at = (f"Runs at {step_text(verdict.experiment.common_step(case), case)}, the largest step at which most methods finish, "
           "where they differ most." if len(steps) == 1 else "Runs at the step that most methods share or the nearest to it.")
@@ -101,14 +101,16 @@ def of_planes(verdict, shown, names):
     return out
 
 
-def as_exact(verdict, shown, names):
-    """(the track of the most accurate run, a sentence on it), where its error is too small to be seen; otherwise (None, "")."""
-    known = [(error, row, recording) for row, recording in shown
-             if (error := recording.summary.get("error_max")) is not None and error < UNSEEN]
-    if not verdict.of_state or not known:
+def as_exact(verdict, names):
+    """(the track of the most accurate of all runs, a sentence on it), where its error is too small to be seen; otherwise (None, "")."""
+    known = [p for c in verdict.curves for p in c.points if verdict.of_state and p.error < UNSEEN and not p.run.seed
+             and p.run.slug and (verdict.experiment.folder / p.run.path / "series.csv").exists()]
+    if not known:
         return None, ""
-    error, row, recording = min(known, key=lambda one: one[0])
-    return recording.track(names), f"Behind, in grey, for the exact motion that of {row.label}, whose error is at most {error:.0e}."
+    best = min(known, key=lambda p: p.error)
+    recording = read_recording(verdict.experiment.folder / best.run.path)
+    return recording.track(names), (f"Behind, in grey, for the exact motion that of {best.run.method} at {at_which(verdict.case, recording)}, "
+                                    f"whose error is at most {best.error:.0e}.")
 
 
 def described(canvas, said):

@@ -72,10 +72,10 @@ class Tracks(Fresh):
             self.edit("results.csv", "error_max", lambda x: error, lambda row: row[2] == "round")
             self.folder = before
             path = folder / "runs" / "round" / "summary.json"
-            path.write_text(json.dumps(json.loads(path.read_text()) | {"error_max": float(error)}))
+            path.write_text(json.dumps(json.loads(path.read_text()) | {"step": "0.1"}))
             shown = reading.Experiment(folder)
             drawing = moving.drawings(verdict.Verdict(shown, shown.cases[0]))[0]
-            self.assertEqual("for the exact motion that of round, whose error is at most 1e-09" in drawing.caption, behind)
+            self.assertEqual("for the exact motion that of round at step 0.1 s, whose error is at most 1e-09" in drawing.caption, behind)
             self.assertEqual({len(axes.lines) for axes in drawing.draw(True).axes}, {3 if behind else 2})  # track and start
 
     def test_of_many_methods_the_most_wrong_are_shown(self):
