@@ -84,10 +84,6 @@ class Run:
         return f"~{self.tolerance}" if self.tolerance else step_key(self.step)
 
     @property
-    def total_ns(self):
-        return self.cost.ns * self.steps if self.cost else math.nan
-
-    @property
     def total_rhs(self):
         return self.number("rhs_per_step") * self.steps
 

@@ -50,8 +50,8 @@ def sentence(recording):
                            f" and {move}s by at most {with_unit_after(against, 2, unit)}"))
         elif entry.get("expected") == "conserved" and most is not None and math.isfinite(most):
             scale = entry.get("scale")
-            relative = f", {most / scale:.2g} of its scale," if scale and most > 0 else ""
-            said.append(f"{name} moves by at most {with_unit_after(most, 2, unit)}{relative} from the start "
+            relative = f", which is {most / scale:.2g} of its scale" if scale and most > 0 else ""
+            said.append(f"{name} moves from the start by at most {with_unit_after(most, 2, unit)}{relative} "
                         f"({entry.get('class') or 'without a class'})")
     said += [f"the residual of the {entry['name']} is at most {entry['max']:.2g}" for entry in summary.get("constraints") or []
              if entry.get("max") is not None]

@@ -121,7 +121,7 @@ def results(experiment, case):
             text(r.method), size_text(r) + ("<br><small>equal cost</small>" if r in equal.values() else ""), ("✗ " if r.failed else "") + status, number(r.number("error_max")),
             number(r.number("error_final")), number(r.number("relative_drift_max")), number(r.drift(name, "max")) if name else "–",
             drift_class(experiment, r, name), slope(r, name), number(r.number("structure_residual")), per_step(r),
-            duration(r.total_ns), work(r), files(r)]))
+            duration(r.cost.ns * r.steps if r.cost else math.nan), work(r), files(r)]))
     about = ["Errors of the state are relative to the norm of the reference solution."] if case.get("reference_solution") else []
     if expected in DIRECTIONS:
         about.append(f"{text(name)} is expected to {DIRECTIONS[expected][0]}: its change is not an error.")

@@ -148,11 +148,24 @@ TEST(Experiment, KilledAndResumedItGivesTheSameResults) {
   EXPECT_GT(figures, 2U);
   expect_self_contained(text_of(files / "whole/report.html"), figures);
 
+  // The verdict of the report: a sentence and a row for each method of a case, the same in verdict.csv.
+  ASSERT_EQ(whole["verdict"].size(), 3U);
+  std::size_t rows = 1;
+  for (const auto& one : whole["verdict"]) {
+    EXPECT_TRUE(one["sentence"].get<std::string>().ends_with('.')) << one["sentence"];
+    EXPECT_FALSE(one.contains("assertions"));
+    rows += one["methods"].size();
+  }
+  const std::string verdict = text_of(files / "whole/verdict.csv");
+  EXPECT_EQ(std::count(verdict.begin(), verdict.end(), '\n'), static_cast<std::ptrdiff_t>(rows));
+  EXPECT_NE(verdict.find("\nlong,RK4,explicit,"), std::string::npos) << verdict;
+
   // A run whose summary is damaged is run again; the rest, costs included, stays.
   const fs::path damaged = files.path() / "whole/runs" / *done.begin() / "summary.json";
   write(damaged, text_of(damaged).substr(0, 100));
   EXPECT_EQ(completed(run_pfaff(compare_without_report(files, "whole")))["resumed"], all_runs - 1);
-  EXPECT_FALSE(fs::exists(files.path() / "whole/report.html")) << "the report of other runs is left";
+  for (const char* name : {"report.html", "verdict.csv"})
+    EXPECT_FALSE(fs::exists(files.path() / "whole" / name)) << name << " of other runs is left";
   EXPECT_EQ(text_of(files / "whole/results.csv"), results);
   EXPECT_EQ(text_of(files / "whole/cost.csv"), cost);
 
@@ -290,7 +303,8 @@ TEST(Experiment, QuickRunOfOneThatShips) {
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "");
   EXPECT_NE(outcome.out.find("52 runs (0 resumed, 0 ended early)"), std::string::npos);
-  for (const char* shown : {"GF 8", "Euler centre", "RK4", "ns/step", "drift of birkhoffian", "report.html"})
+  for (const char* shown : {"GF 8", "Euler centre", "RK4", "ns/step", "drift of birkhoffian", "report.html",
+                            "\nweak-damping: ", "\nstrong-damping: "})
     EXPECT_NE(outcome.out.find(shown), std::string::npos) << shown;
   std::istringstream lines(outcome.out);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100U) << line;

@@ -157,8 +157,8 @@ class Pages(Fresh):
                 {"name": "heat", "unit": "J", "expected": "decreasing", "initial": 3.0, "largest_rise": 0.0},
                 {"name": "entropy", "unit": "1", "expected": "conserved", "max": None}, {"name": "free", "expected": "free"}])
         self.assertEqual(ended(plot, folder)[1]["sentence"], (
-            "s, rk4: 5 steps to t = 0.5 s, where it ended early (the iteration); energy moves by at most 0.5 J, 0.12 of its scale, "
-            "from the start (linear); heat, which is expected to decrease, goes from 3 to 1 J and never rises; the relative error of "
+            "s, rk4: 5 steps to t = 0.5 s, where it ended early (the iteration); energy moves from the start by at most 0.5 J, "
+            "which is 0.12 of its scale (linear); heat, which is expected to decrease, goes from 3 to 1 J and never rises; the relative error of "
             "the state is at most 0.25."))
 
     def test_what_is_no_run_is_refused(self):
