@@ -53,7 +53,8 @@ def at_equal_step(verdict):
     else:
         kind = "drift" if verdict.expected == "conserved" else "change"
         title = f"drift of {name} ({at})" if kind == "drift" else f"change of {name}, not a conserved quantity ({at})"
-        what, told, values = f"|Δ {name}| / scale", f"Change of {name} since the start{over(verdict)}, at {at}.", lambda series: series.change
+        what, told = f"|Δ {name}| / scale", f"Change of {name} since the start{over(verdict)}, at {at}."
+        values = (lambda series: series.change)
     found = moved(verdict, [(row, runs[row.label]) for row in verdict.rows if row.label in runs], values)
     lost = [row.label for row in verdict.rows if row.label in runs and row.label not in {r.label for r, *_ in found}]
     return drawn(verdict, "drift_at_equal_step", title, found,
@@ -109,7 +110,8 @@ def drawn(verdict, kind, title, found, told, y):
                  for row, run, times, values, most in own]
         if lines:
             behind = [(times, values) for row, _, times, values, _ in found if row.curve.family is not family]
-            panels.append(Panel(lines, axis, with_unit("t", case.get("time_unit") or ""), y, x_axis, family.plural[:1].upper() + family.plural[1:], family.light, behind,
+            panels.append(Panel(lines, axis, with_unit("t", case.get("time_unit") or ""), y, x_axis,
+                                family.plural[:1].upper() + family.plural[1:], family.light, behind,
                                 guides(verdict, own, begin, end, family)))
     what = "" if verdict.expected in DIRECTIONS else (
         "Flat is bounded, slope ½ on logarithmic axes is the growth of round-off, slope 1 a loss in proportion to time. Dashed: "

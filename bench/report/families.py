@@ -3,9 +3,11 @@
 A method belongs to the family that its plug-in names, by the key below, and to the last one where it names none of these. Colours
 come in pairs, for light and for dark paper; that families also differ in their marks keeps them apart in grey and for every kind of
 sight. Within a family lines are solid, dashed, dotted and dash-dotted, by falling order. A filled mark says that the method keeps
-the structure of its problem, an open one that it does not, and one of which half is filled that this is not known.
+the structure of its problem, an open one that it does not or that there is none, and one of which half is filled that this is not known.
 """
 import dataclasses
+
+LINES = 6  # of a panel that have a colour and a name
 
 
 @dataclasses.dataclass(frozen=True)

@@ -84,7 +84,8 @@ def panel(verdict, vector, found, axis):
     def steps(canvas, axes):
         step_axis(axes, [h for line in lines for h in line.x], lambda label: canvas.measure(label, 0.92)[0])
         axes.invert_xaxis()
-    return Panel(lines, axis, with_unit("step h", unit) + ", finer to the right", f"|error| in rad per {unit_of(verdict.case)}", steps, vector)
+    return Panel(lines, axis, with_unit("step h", unit) + ", finer to the right",
+                 f"|error| in rad per {unit_of(verdict.case)}", steps, vector)
 
 
 def described(verdict, found):

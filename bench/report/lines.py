@@ -10,11 +10,10 @@ import math
 import typing
 
 from canvas import GREY, INK, MID, PAPER, RULE, Canvas, plain, sizes
+from families import LINES
 from labels import SIZE, SMALL, right_of
 from scales import positive
 from wording import listed
-
-LINES = 6
 
 
 @dataclasses.dataclass

@@ -109,8 +109,8 @@ def as_exact(verdict, names):
         return None, ""
     best = min(known, key=lambda p: p.error)
     recording = read_recording(verdict.experiment.folder / best.run.path)
-    return recording.track(names), (f"Behind, in grey, for the exact motion that of {best.run.method} at {at_which(verdict.case, recording)}, "
-                                    f"whose error is at most {best.error:.0e}.")
+    return recording.track(names), (f"Behind, in grey, for the exact motion that of {best.run.method} at "
+                                    f"{at_which(verdict.case, recording)}, whose error is at most {best.error:.0e}.")
 
 
 def described(canvas, said):

@@ -15,6 +15,7 @@ import statistics
 from curves import GROWN, ZERO, Curve, curves, front
 from error_measure import error_measure
 from experiment import DIRECTIONS, ROUND_OFF, UNIT_ROUND_OFF, Run
+from families import LINES
 from findings import largest_setback
 from wording import short_count, short_time
 
@@ -183,12 +184,12 @@ class Verdict:
     def cost_text(self, cost):
         return short_time(cost) if self.work == "time" else short_count(cost)
 
-    def named(self, limit=6):
-        """Labels of the methods that get colour, the first ones first: those the sentence may name, one whose runs failed and the one that drifts most,
-        the best of each family, the front, and then by the time to the largest target."""
+    def named(self, limit=LINES):
+        """Labels of the methods that get colour, the first ones first: those the sentence may name, one whose runs failed and the one
+        that drifts most, the best of each family, the front, and then by the time to the largest target."""
         target = self.target or LEAD
         ranked = sorted(self.rows, key=lambda r: r.sort_key(target, TARGETS[0]))
-        chosen = [r.label for r in self.best(target)][:4]
+        chosen = [r.label for r in self.best(target)][:LINES - 2]
         chosen += [r.label for r in sorted(ranked, key=lambda r: -r.curve.failed)[:1] if r.curve.failed]
         chosen += [r.label for r in sorted(ranked, key=lambda r: -r.drift if r.drifts else math.inf)[:1] if r.drifts]
         families = []
