@@ -141,7 +141,8 @@ nlohmann::json run_script(const std::string& name, const std::vector<std::string
   if (ending.succeeded())
     if (nlohmann::json made = nlohmann::json::parse(last, nullptr, false); made.is_object()) return made;
   if (what.empty() && last.starts_with(name + ": ")) throw InputError(last.substr(name.size() + 2));
-  throw RunError(what + ": " + (last.empty() ? python + " " + ending.in_words() : last));
+  throw RunError((what.empty() ? name : what) + ": " +
+                 (last.empty() ? python + " " + ending.in_words() : last));
 }
 
 // The options of figures for papers, none where no kind of file is asked for.

@@ -314,8 +314,9 @@ class Experiment:
     def scale(self, case, invariant):
         """What a change of an invariant is compared with: the size of its terms, the least over the runs as one that explodes has
         any, or else its size at the start; one where that is zero."""
-        known = [[entry[key] for entry in self.entries(case, invariant) if entry.get(key)] for key in ("scale", "initial")]
-        return next((min(map(abs, sizes)) for sizes in known if sizes), 1.0)
+        known = [[x for entry in self.entries(case, invariant) if (x := abs(float(entry.get(key) or 0))) > 0]  # quads are text
+                 for key in ("scale", "initial")]
+        return next((min(sizes) for sizes in known if sizes), 1.0)
 
 
 def invariants_of(path):

@@ -45,7 +45,7 @@ def sentence(recording):
         if entry.get("expected") in DIRECTIONS:
             verb, move = DIRECTIONS[entry["expected"]]
             against, last = entry.get(f"largest_{move}"), recording.columns[name][-1]
-            said.append(f"{name}, which is expected to {verb}, goes from {entry['initial']:.4g} to {with_unit_after(last, 4, unit)}"
+            said.append(f"{name}, which is expected to {verb}, goes from {float(entry['initial']):.4g} to {with_unit_after(last, 4, unit)}"
                         + ("" if against is None else f" and never {move}s" if against == 0 else
                            f" and {move}s by at most {with_unit_after(against, 2, unit)}"))
         elif entry.get("expected") == "conserved" and most is not None and math.isfinite(most):

@@ -154,6 +154,9 @@ class Scale(Fresh):
     def test_without_terms_it_is_the_size_at_the_start(self):
         self.assertEqual(self.state(scale=(None,) * 3, initial=(-0.5,) * 3).scale({"name": "osc"}, "energy"), 0.5)
 
+    def test_of_quads_it_is_text(self):
+        self.assertEqual(self.state(initial=("0", "-0.5", "0.75")).scale({"name": "osc"}, "energy"), 0.5)
+
     def test_without_either_it_is_one(self):
         self.assertEqual(self.state(initial=(0.0,) * 3).scale({"name": "osc"}, "energy"), 1.0)
 

@@ -154,7 +154,7 @@ class Pages(Fresh):
             [[0.0, 1.0, 0.0, 2.0, 3.0, 0.0, 0.0], [0.5, 1.0, 0.0, 2.5, 1.0, 0.0, 0.0]],
             completed=5, status="not_converged", message="the iteration", error_max=0.25, invariants=[
                 {"name": "energy", "unit": "J", "expected": "conserved", "class": "linear", "max": 0.5, "initial": 2.0, "scale": 4.0},
-                {"name": "heat", "unit": "J", "expected": "decreasing", "initial": 3.0, "largest_rise": 0.0},
+                {"name": "heat", "unit": "J", "expected": "decreasing", "initial": "3.0", "largest_rise": 0.0},
                 {"name": "entropy", "unit": "1", "expected": "conserved", "max": None}, {"name": "free", "expected": "free"}])
         self.assertEqual(ended(plot, folder)[1]["sentence"], (
             "s, rk4: 5 steps to t = 0.5 s, where it ended early (the iteration); energy moves from the start by at most 0.5 J, "
