@@ -53,16 +53,20 @@ def table(reported):
     heads = "".join(f'<th scope="col"><a href="{text(r.link)}#case-{slug({"name": case["case"]})}">'
                     f'{text(r.head["name"])}: {text(case["case"])}</a></th>' for r, case in columns)
     body = []
-    for family, method in sorted(rows, key=lambda key: order.index(family_named(key[0]).key)):
+    for family, method in sorted(rows, key=lambda key: (order.index(family_named(key[0]).key), claimed(rows[key]), key)):
         cells = "".join(cell(rows[family, method].get(k), case) for k, (_, case) in enumerate(columns))
         body.append(f'<tr><th scope="row"><span class="c-{family_named(family).key}">{text(method)}</span></th>{cells}</tr>')
     return ('<h2 id="methods">Methods and problems</h2><p class="where">Numbers say how many times as much as the cheapest method a '
             "method costs at the error that the sentence of the report speaks of; there is none where its runs do not lie on both "
             "sides of that error. A filled mark: it keeps the structure; an open one: it does not; half of one: this is not known. "
-            '<span class="bad"><span class="cls">Red</span></span>: at equal cost the conserved quantity drifts away. Pointed at, '
-            "a cell tells more.</p>"
+            "↗: at equal cost the conserved quantity drifts away. Pointed at, a cell tells more.</p>"
             '<div class="scroll" tabindex="0" role="region" aria-label="methods and problems">'
             f'<table class="overview"><thead><tr><th></th>{heads}</tr></thead><tbody>{"".join(body)}</tbody></table></div>')
+
+
+def claimed(row):
+    """The largest order that a method claims of the problems."""
+    return max(cells["order_claimed"] or 0 for cells in row.values())
 
 
 def cell(row, case):
@@ -75,6 +79,7 @@ def cell(row, case):
     failed = f"{row['failed']} of {row['runs']} runs failed" if row["failed"] else ""
     told = "; ".join(x for x in (f"{row['method']}, {case['title']}", kept, drift, error, failed) if x)
     ratio = f"{two_digits(row['ratio'])}" if row["ratio"] is not None else "–" if not failed else "failed"
-    classes = " ".join(x for x in ("best" if row["cheapest"] else "", "bad" if row["drifts"] == "yes" else "") if x)
+    drifts = row["drifts"] == "yes"
+    classes = " ".join(x for x in ("best" if row["cheapest"] else "", "bad" if drifts else "") if x)
     return (f'<td class="{classes}" title="{text(told)}">{mark(family_named(row["family"]), fill)}'
-            f'<span class="cls">{ratio}</span></td>')
+            f'<span class="cls">{ratio}{" ↗" if drifts else ""}</span></td>')

@@ -88,12 +88,19 @@ class Index(unittest.TestCase):
         shown = index_page.cell(row, {"title": "T<"})
         self.assertIn('title="m, T&lt;; does not keep the structure; energy linear 1.0e-03"', shown)
         self.assertIn('<td class="bad"', shown)
-        self.assertIn("2.4", shown)
+        self.assertIn("2.4 ↗<", shown)  # also where no colour is seen
+        self.assertNotIn("↗", index_page.cell(row | {"drifts": "not known"}, {"title": ""}))
         self.assertIn("mk open", shown)
         self.assertIn("mk full", index_page.cell(row | {"structure_kept": "yes"}, {"title": ""}))
         self.assertIn("mk open", index_page.cell(row | {"structure_kept": ""}, {"title": ""}))  # there is none to keep
         self.assertIn("failed", index_page.cell(row | {"ratio": None, "failed": 3}, {"title": ""}))
         self.assertEqual(index_page.cell(None, {}), "<td></td>")
+
+    def test_rows_stand_by_family_and_order(self):
+        """Of one family: mid claims at most 3, the others 4."""
+        source = (self.folder / "index.html").read_text()
+        places = [source.index(f'<th scope="row"><span class="c-other">{name}<') for name in ("mid", "bad", "rk")]
+        self.assertEqual(places, sorted(places))
 
     def test_exponents_are_raised(self):
         for said, shown in (("10^−6 x", "10<sup>−6</sup> x"), ("t^0.50 ± 0.1)", "t<sup>0.50 ± 0.1</sup>)"), ("e^0.04 K.", "e<sup>0.04 K</sup>."),
