@@ -7,7 +7,7 @@ import math
 
 from experiment import DIRECTIONS
 from families import mark
-from figures import slug, step_text, with_unit
+from figures import slug, step_text
 from verdict import TARGETS
 from wording import minus, power, raised, size, text, two_digits
 
@@ -68,8 +68,9 @@ def all_columns(verdict):
     if verdict.invariant:
         moves = DIRECTIONS.get(verdict.expected)
         unit = verdict.experiment.expectation(verdict.case, verdict.invariant)[1]
-        head = f"{moves[1]} of {verdict.invariant}" if moves else f"drift of {with_unit(verdict.invariant, unit)}"
-        columns.append(column(raised(text(head)), "", lambda r: drift_cell(verdict, r), level))
+        head = f"{moves[1]} of {verdict.invariant}" if moves else f"drift of {verdict.invariant} / scale"
+        beside = "" if moves else f" <small>and in {raised(text(unit))}</small>" if unit not in ("", "1") else " <small>and its size</small>"
+        columns.append(column(raised(text(head)) + beside, "", lambda r: drift_cell(verdict, r), level))
     for level_name in verdict.experiment.residuals:
         columns.append(column(text(level_name.replace("hidden-", "hidden ")), "r more",
                               lambda r, n=level_name: level_cell(verdict, r, n), level))
@@ -114,7 +115,9 @@ def drift_cell(verdict, row):
         return ("bad" if row.drifts else "", sorted_by,
                 f'<span class="cls">{move if row.drifts else "none"}</span> {size(row.drift)}{star(row)}', at_which(verdict, row))
     return ("bad" if row.drifts else "", sorted_by,
-            f'<span class="cls">{text(row.drift_class or "–")}</span> {size(row.drift)}{star(row)}', at_which(verdict, row))
+            f'<span class="cls">{text(row.drift_class or "–")}</span> '
+            f"{size(row.drift / verdict.experiment.scale(verdict.case, verdict.invariant))} <small>{size(row.drift)}</small>{star(row)}",
+            at_which(verdict, row))
 
 
 def star(row):

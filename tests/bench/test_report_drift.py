@@ -8,6 +8,7 @@ from synthetic import CLASSES, Fresh, load, parsed, reading, run, save, syntheti
 import drift  # noqa: E402
 import findings  # noqa: E402
 import verdict  # noqa: E402
+import verdict_table  # noqa: E402
 
 NAMES = [c["name"] for c in CLASSES]
 
@@ -169,6 +170,8 @@ class Scale(Fresh):
         values, most = found["rk"]
         self.assertAlmostEqual(most / 1e-7, 1, places=6)  # energies near 1 hold seven digits of it
         self.assertAlmostEqual(max(values) * 4, most, places=20)
+        row = next(row for row in said.rows if row.label == "rk")
+        self.assertIn("3·10<sup>−8</sup> <small>1·10<sup>−7</sup></small>", verdict_table.drift_cell(said, row)[2])
         drawn, = drift.at_equal_step(said)
         canvas = drawn.draw(True)
         self.assertIn("1e-7 J", [t.get_text() for axes in canvas.axes for t in axes.texts])
