@@ -137,7 +137,11 @@ std::int64_t taylor_flow(const Model& model, Quad t, Quad elapsed, std::vector<Q
 
 ReferenceSolution::ReferenceSolution(std::shared_ptr<const Model> model, Quad t0, std::vector<Quad> initial,
                                      Quad duration)
-    : model_(std::move(model)), t0_(t0), initial_(std::move(initial)), end_(t0) {
+    : model_(std::move(model)),
+      t0_(t0),
+      initial_(std::move(initial)),
+      backwards_(duration < Quad(0)),
+      end_(t0) {
   if (model_->facets().has(Facet::exact_solution)) {
     problem_ = std::make_shared<const Problem<Quad>>(model_);
     return;
@@ -156,7 +160,7 @@ void ReferenceSolution::solve(Quad duration) {
     reason = check.expand(goal);
     while (reason.empty() && end_ != goal) {
       if (reason = solution.expand(goal); !reason.empty()) break;
-      while (reason.empty() && check.after() < solution.after()) {
+      while (reason.empty() && precedes(check.after(), solution.after())) {
         check.advance();
         reason = check.expand(goal);
       }
@@ -181,7 +185,7 @@ void ReferenceSolution::solve(Quad duration) {
     if (spent.stopped()) throw;
     reason = spent.what();
   }
-  if (end_ < t0_ + duration) ended_ = solution_found_up_to(end_, reason);
+  if (precedes(end_, t0_ + duration)) ended_ = solution_found_up_to(end_, reason);
 }
 
 std::string ReferenceSolution::kind() const {
@@ -193,7 +197,7 @@ std::string ReferenceSolution::kind() const {
 }
 
 bool ReferenceSolution::covers(Quad t) const {
-  return problem_ != nullptr || (!pieces_.empty() && t <= end_);
+  return problem_ != nullptr || (!pieces_.empty() && !precedes(end_, t));
 }
 
 std::vector<Quad> ReferenceSolution::at(Quad t) const {
@@ -208,8 +212,9 @@ std::vector<Quad> ReferenceSolution::at(Quad t) const {
     return z;
   }
   if (!covers(t)) throw SolutionEnds(end_, "the state at t = " + to_string(t, 10) + " was asked for");
-  const auto after = std::upper_bound(pieces_.begin(), pieces_.end(), t,
-                                      [](Quad time, const Piece& piece) { return time < piece.begin; });
+  const auto after =
+      std::upper_bound(pieces_.begin(), pieces_.end(), t,
+                       [this](Quad time, const Piece& piece) { return precedes(time, piece.begin); });
   const Piece& piece = after == pieces_.begin() ? pieces_.front() : *std::prev(after);
   const Quad s = t - piece.begin;
   const std::size_t degrees = piece.coefficients.size() / n;

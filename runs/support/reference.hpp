@@ -39,10 +39,11 @@ std::int64_t taylor_flow(const Model& model, Quad t, Quad elapsed, std::vector<Q
 /// kept by the constructor; the object is immutable afterwards, so that threads can share it.
 class ReferenceSolution {
  public:
-  /// Solves from `initial` at `t0` to t0 + `duration` (> 0), or to where the first of these is: the end of
-  /// the domain of the formulas, a singularity, the time from which the two series agree in less than 20
-  /// digits, a million steps, 2^26 stored numbers (a gigabyte), the end of the budget of the thread, of which
-  /// a step of either series spends one. BudgetSpent where that was asked to stop.
+  /// Solves from `initial` at `t0` to t0 + `duration`, which goes back where it is negative, or to where the
+  /// first of these is: the end of the domain of the formulas, a singularity, the time from which the two
+  /// series agree in less than 20 digits, a million steps, 2^26 stored numbers (a gigabyte), the end of the
+  /// budget of the thread, of which a step of either series spends one. BudgetSpent where that was asked to
+  /// stop.
   ReferenceSolution(std::shared_ptr<const Model> model, Quad t0, std::vector<Quad> initial, Quad duration);
 
   /// "exact" for a closed form; of Taylor series, in how many digits of each coordinate the two agree,
@@ -52,9 +53,11 @@ class ReferenceSolution {
   /// Why the solution ends before it was asked to, with the time to which it was found, one line; empty where
   /// it does not.
   [[nodiscard]] const std::string& ended() const { return ended_; }
-  /// True for the times from t0 on to which the solution was found; not t0 alone.
+  /// True for the times from t0 on, in the direction of the duration, to which the solution was found; not t0
+  /// alone.
   [[nodiscard]] bool covers(Quad t) const;
-  /// The state at time t, not before t0. SolutionEnds where it does not cover t.
+  /// The state at time t, which is t0 or lies in the direction of the duration. SolutionEnds where it does
+  /// not cover t.
   [[nodiscard]] std::vector<Quad> at(Quad t) const;
 
  private:
@@ -63,10 +66,13 @@ class ReferenceSolution {
     std::vector<Quad> coefficients;
   };
   void solve(Quad duration);
+  // Whether the solution comes to time a before it comes to b.
+  [[nodiscard]] bool precedes(Quad a, Quad b) const { return backwards_ ? b < a : a < b; }
 
   std::shared_ptr<const Model> model_;
   Quad t0_;
   std::vector<Quad> initial_;
+  bool backwards_;
   std::shared_ptr<const Problem<Quad>> problem_;  // closed form only
   std::vector<Piece> pieces_;
   Quad end_;              // of the last piece

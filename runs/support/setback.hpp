@@ -32,6 +32,14 @@ constexpr std::optional<SetbackWords> setback_words(Behaviour behaviour) {
   return std::nullopt;
 }
 
+/// What is expected of a quantity along a run backwards in time: one that decreases with time increases
+/// there.
+constexpr Behaviour seen_backwards(Behaviour behaviour) {
+  if (behaviour == Behaviour::decreasing) return Behaviour::increasing;
+  if (behaviour == Behaviour::increasing) return Behaviour::decreasing;
+  return behaviour;
+}
+
 /// The largest move against the expected direction among the values so far.
 template <class T>
 class Setback {
