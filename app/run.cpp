@@ -91,7 +91,7 @@ ResolvedRun resolved_run(const RunOptions& options) {
 std::string of_the_last_step(const ResolvedRun& run) {
   if (run.adaptive()) return {};
   const Quad end = run.step.quad() * Quad(static_cast<double>(run.steps)), time = run.time.quad();
-  if (abs(end - time) < Quad(1e-9) * time) return {};
+  if (abs(end - time) < Quad(1e-9) * abs(time)) return {};
   return "the run lasts " + to_string(end, 12) + ", not " + to_string(time, 12) + ": " +
          std::to_string(run.steps) + (run.steps == 1 ? " step" : " whole steps") + " of " +
          to_string(run.step) + ", and none is shortened";
@@ -279,7 +279,7 @@ void add_run(CLI::App& app, Common& common, Action& action) {
                   "Motion of a system with constraints (without: " + dirac_formulation().name() + " or " +
                       nonholonomic_formulation().name() + ")")
       ->type_name("FORMULATION");
-  sub->add_option("--step", s.step, "Step h > 0; this and other numbers may be expressions: 2*pi/200")
+  sub->add_option("--step", s.step, "Size of the steps; this and other numbers may be expressions: 2*pi/200")
       ->type_name("h");
   sub->add_option("--tolerance", s.tolerance,
                   "Instead of --step, for methods that choose their steps: error per step, relative to the "
@@ -288,7 +288,8 @@ void add_run(CLI::App& app, Common& common, Action& action) {
   sub->add_option("--absolute", options->absolute,
                   "Error to allow beside --tolerance in every coordinate, or one for each")
       ->type_name("a[,a...]");
-  sub->add_option("--time", s.time, "Duration of the run; the last whole step ends within it")
+  sub->add_option("--time", s.time,
+                  "Duration of the run, negative to go back in time; the last whole step ends within it")
       ->type_name("T");
   sub->add_option("--every", options->every,
                   "Sample every k-th step (default: about a thousand samples, 200 of processed methods)")

@@ -9,6 +9,7 @@
 #include <pfaff/bench/experiment/error_measure.hpp>
 #include <pfaff/bench/runner/csv_cells.hpp>
 #include <pfaff/bench/runner/parallel.hpp>
+#include <pfaff/bench/runner/steps.hpp>
 #include <pfaff/runs/asked_for.hpp>
 
 namespace pfaff {
@@ -139,7 +140,7 @@ std::vector<const ExperimentRun*> runs_with_automatic_steps(const std::vector<Ex
 }
 
 std::string step_of_count(const ExperimentRun& run, std::int64_t count) {
-  return formatted("%.12g", run.resolved.time.value() / static_cast<double>(count));
+  return formatted("%.12g", std::abs(run.resolved.time.value()) / static_cast<double>(count));
 }
 
 std::vector<std::vector<std::int64_t>> automatic_step_counts(const Experiment& experiment,
@@ -151,7 +152,7 @@ std::vector<std::vector<std::int64_t>> automatic_step_counts(const Experiment& e
     const auto trial = [&](std::int64_t count, std::int64_t taken) {
       ResolvedRun run = like.resolved;
       run.settings.structure_residuals = false;
-      run.step = finite_number(step_of_count(like, count), "--step");
+      run.step = towards(run.time, finite_number(step_of_count(like, count), "--step"));
       run.steps = taken;
       run.every = (taken + 63) / 64;
       const ReferenceSolution* solution = like.which->error.empty() ? references.of(like) : nullptr;

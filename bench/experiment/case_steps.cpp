@@ -37,18 +37,23 @@ void read_steps(Keys& keys, ExperimentCase& one) {
     one.evaluations = keys.read("evaluations", text, evaluations_in);
 }
 
+std::string without_sign(const std::string& step) { return step.substr(step.starts_with('-') ? 1 : 0); }
+
 void evaluate_numbers(ExperimentCase& one, const std::string& where) {
   std::vector<std::pair<std::string*, const char*>> numbers{{&one.time, "time"}};
   for (std::string& step : one.steps) numbers.emplace_back(&step, "steps");
   for (std::string& x : one.initial) numbers.emplace_back(&x, "initial");
   for (std::string& x : one.initial_velocities) numbers.emplace_back(&x, "initial_velocities");
   // Making a system takes time, and most cases have numbers alone.
-  if (std::all_of(numbers.begin(), numbers.end(), [](const auto& n) { return Real::parse(*n.first); }))
-    return;
-  const SystemPlugin& system = system_asked_for(one.system);
-  const Assignments parameters =
-      system.make(split_settings(system, nullptr, nullptr, one.set).system)->parameters();
-  for (const auto& [text, key] : numbers) *text = evaluated(*text, where + ": key '" + key + "'", parameters);
+  if (!std::all_of(numbers.begin(), numbers.end(), [](const auto& n) { return Real::parse(*n.first); })) {
+    const SystemPlugin& system = system_asked_for(one.system);
+    const Assignments parameters =
+        system.make(split_settings(system, nullptr, nullptr, one.set).system)->parameters();
+    for (const auto& [text, key] : numbers)
+      *text = evaluated(*text, where + ": key '" + key + "'", parameters);
+  }
+  if (!one.time.starts_with('-')) return;
+  for (std::string& step : one.steps) step = without_sign(step);
 }
 
 void check_steps(const ExperimentCase& one, const std::string& where) {

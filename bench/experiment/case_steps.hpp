@@ -16,8 +16,12 @@ void read_steps(Keys& keys, ExperimentCase& one);
 /// solution, by whose distance they are chosen. `where` begins the message.
 void check_steps(const ExperimentCase& one, const std::string& where);
 
+/// The size of a step that is given with the sign of a duration: what experiments name it by.
+std::string without_sign(const std::string& step);
+
 /// Puts numbers in the place of the expressions among time, steps and initial state, which read the
-/// parameters of the case's system. TextError, which begins with `where`, for other names.
+/// parameters of the case's system; steps beside a negative time lose a sign that they have. TextError, which
+/// begins with `where`, for other names.
 void evaluate_numbers(ExperimentCase& one, const std::string& where);
 
 }  // namespace pfaff

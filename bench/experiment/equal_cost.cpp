@@ -41,12 +41,12 @@ double cost_of_target(const PricedRuns& runs) {
 }
 
 double size_of(const ExperimentRun& run) {
-  return (run.tolerance.empty() ? run.resolved.step : run.resolved.tolerance).value();
+  return std::abs((run.tolerance.empty() ? run.resolved.step : run.resolved.tolerance).value());
 }
 
 // A step that divides the duration into whole steps, with digits enough to be read as such.
 std::string step_text(const ExperimentRun& like, double step) {
-  const double time = like.resolved.time.value();
+  const double time = std::abs(like.resolved.time.value());
   return formatted("%.12g", time / std::max(1.0, std::round(time / step)));
 }
 

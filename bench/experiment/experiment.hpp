@@ -48,7 +48,7 @@ struct Asked {
 struct ExperimentCase {
   std::string name, title, system, time;
   Assignments set;
-  std::vector<std::string> initial, initial_velocities, steps;
+  std::vector<std::string> initial, initial_velocities, steps;  // steps are sizes, also where the time is < 0
   bool automatic = false;  // the steps are chosen for each method (automatic_steps.hpp), and `steps` is empty
   std::optional<double> evaluations;  // that a run at a chosen step may take; default_evaluations without it
   std::map<std::string, std::vector<std::string>> chosen;  // steps by the label of the method, once chosen

@@ -62,7 +62,7 @@ ExperimentClaim read_claim(const toml::table& table, const Experiment& experimen
   claim.second = f.text("than", "");
   const std::string bound = f.text("bound", "");
   claim.factor = positive(f.text("factor", "1"), where, "factor");
-  claim.step = f.text("step", "");
+  claim.step = without_sign(f.text("step", ""));
   std::string at_least = f.text("at_least", "0");
   if (const toml::table* less = f.table("quick")) {
     Keys q(*less, file + " [finding.quick]");

@@ -45,18 +45,18 @@ std::vector<std::pair<std::size_t, std::size_t>> pairs_of(const ExperimentClaim&
 }
 }  // namespace
 
-std::vector<std::string> measures_of(const Model& model, bool reference) {
+std::vector<std::string> measures_of(const ResolvedRun& run, bool reference) {
   std::vector<std::string> names;
   if (reference) names = {"error_max", "error_final"};
   const auto add = [&](const std::string& name, std::initializer_list<const char*> numbers) {
     for (const char* number : numbers) names.push_back(name + ":" + number);
   };
-  for (const Invariant& i : model.invariants()) {
+  for (const Invariant& i : run.model->invariants()) {
     if (i.behaviour == Behaviour::conserved) add(i.name, {"max", "rms", "final"});
-    if (const auto words = setback_words(i.behaviour))
+    if (const auto words = setback_words(run.expected(i)))
       names.push_back(i.name + ":" + std::string(words->move));
   }
-  for (const std::string& name : constraint_residual_names(model))
+  for (const std::string& name : constraint_residual_names(*run.model))
     add(name, {"max", "rms", "final", "growth", "growth_rate"});
   return names;
 }
@@ -108,7 +108,7 @@ std::string ensembles_csv(const std::vector<ExperimentRun>& runs,
   TextStream text;
   for (const ExperimentRun& run : runs) {
     if (run.seed != 1) continue;
-    for (const std::string& measure : measures_of(*run.resolved.model, run.which->reference)) {
+    for (const std::string& measure : measures_of(run.resolved, run.which->reference)) {
       const Spread s = spread_over_seeds(run, measure, runs, summaries);
       text << csv_quoted(run.which->name) << ',' << csv_quoted(run.method->label) << ',' << run.step << ','
            << run.tolerance << ',' << s.runs << ',' << s.finished << ',' << csv_quoted(measure) << ','
@@ -133,7 +133,7 @@ void check_claims(const Experiment& experiment, const std::vector<ExperimentRun>
       throw InputError(where + ": key 'at_least': expected at most " + std::to_string(pairs.size()) +
                        ", the runs to compare, got " + std::to_string(claim.at_least));
     for (const std::size_t k : {pairs.front().first, pairs.front().second}) {
-      const auto names = measures_of(*runs[k].resolved.model, runs[k].which->reference);
+      const auto names = measures_of(runs[k].resolved, runs[k].which->reference);
       if (std::find(names.begin(), names.end(), claim.measure) == names.end())
         throw InputError(where + ": " + unknown_name("measure", claim.measure, names));
     }

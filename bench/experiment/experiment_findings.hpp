@@ -10,11 +10,11 @@
 
 namespace pfaff {
 
-/// Names of the numbers that a run of this model measures: error_max and error_final, with a reference
+/// Names of the numbers that a run measures: error_max and error_final, with a reference
 /// solution; NAME:max, NAME:rms and NAME:final of conserved invariants and of constraint residuals;
-/// NAME:growth and NAME:growth_rate of residuals; NAME:rise of decreasing invariants and NAME:fall of
-/// increasing ones.
-std::vector<std::string> measures_of(const Model& model, bool reference);
+/// NAME:growth and NAME:growth_rate of residuals; NAME:rise of invariants that are to decrease in the
+/// direction of the run and NAME:fall of those that are to increase.
+std::vector<std::string> measures_of(const ResolvedRun& run, bool reference);
 /// The number named `measure` in a run's summary, without its sign for finals; nothing where the run has
 /// none.
 std::optional<double> measured(const nlohmann::json& summary, const std::string& measure);

@@ -73,10 +73,10 @@ std::shared_ptr<const Tape> vector_tape(const FrequencyVector& vector, const Mod
 Real time_of_frequencies(const std::vector<const ExperimentRun*>& of_case) {
   const ExperimentRun& largest =
       **std::max_element(of_case.begin(), of_case.end(), [](const ExperimentRun* a, const ExperimentRun* b) {
-        return a->resolved.step.value() < b->resolved.step.value();
+        return std::abs(a->resolved.step.value()) < std::abs(b->resolved.step.value());
       });
   const Real some = Real(largest_steps) * largest.resolved.step;
-  return some.value() < largest.resolved.time.value() ? some : largest.resolved.time;
+  return std::abs(some.value()) < std::abs(largest.resolved.time.value()) ? some : largest.resolved.time;
 }
 
 std::vector<FoundFrequency> frequencies_of(const ExperimentRun& run, const ReferenceSolution& solution,
@@ -98,7 +98,7 @@ std::vector<FoundFrequency> frequencies_of(const ExperimentRun& run, const Refer
     for (const Quad& x : solution.at(at)) exact.push_back(static_cast<double>(x));
     vectors.append(t0 + elapsed, exact, of_solution);
   }
-  const bool whole = !times.empty() && times.back() >= static_cast<double>(steps) * h * (1 - 1e-9);
+  const bool whole = !times.empty() && times.back() / h >= static_cast<double>(steps) * (1 - 1e-9);
   std::vector<FoundFrequency> found;
   for (std::size_t k = 0; k < of_method.size(); ++k) {
     const std::vector<double> angles = angles_of(of_solution[k]);

@@ -1,6 +1,7 @@
 #include <pfaff/bench/experiment/measured_runs.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include <pfaff/bench/runner/csv_cells.hpp>
@@ -32,7 +33,7 @@ std::vector<const ExperimentRun*> measured_runs(const MeasureInstance& measure,
     });
     if (measure.descriptor().over == Over::step || same == found.end()) {
       found.push_back(&run);
-    } else if ((*same)->resolved.step < run.resolved.step) {
+    } else if (std::abs((*same)->resolved.step.value()) < std::abs(run.resolved.step.value())) {
       *same = &run;
     }
   }

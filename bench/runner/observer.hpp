@@ -57,7 +57,8 @@ class Observer {
     if (reference != nullptr && changes(run)) exact_.emplace(run.model);
     drift_.resize(values_.size());
     constraint_drift_.resize(constraint_residual_names(*run.model).size());
-    for (const Invariant& invariant : run.model->invariants()) setbacks_.emplace_back(invariant.behaviour);
+    for (const Invariant& invariant : run.model->invariants())
+      setbacks_.emplace_back(run.expected(invariant));
   }
 
   /// Takes the state at time t. Every call counts for drift, setbacks and constraint residuals; `keep` also
@@ -151,7 +152,7 @@ class Observer {
           constraint_roundings_->largest(unit, record_.completed, i, constraint_drift_.size())));
     std::vector<double> times, values;
     for (const Sample& sample : record_.samples)
-      times.push_back(static_cast<double>(sample.t - run_.t0.quad()));
+      times.push_back(std::abs(static_cast<double>(sample.t - run_.t0.quad())));
     for (std::size_t i = 0; i < constraint_drift_.size(); ++i) {
       values.clear();
       for (const Sample& sample : record_.samples)

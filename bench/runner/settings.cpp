@@ -33,11 +33,6 @@ std::int64_t parse_every(const std::string& text, const std::string& where) {
 }
 std::string_view to_string(Precision precision) { return precision == Precision::quad ? "quad" : "double"; }
 
-ErrorsAgainst parse_errors_against(const std::string& text, const std::string& where) {
-  for (const ErrorsAgainst against : {ErrorsAgainst::none, ErrorsAgainst::exact, ErrorsAgainst::solution})
-    if (text == to_string(against)) return against;
-  throw InputError(where + ": " + unknown_name("reference", text, {"none", "exact", "solution"}));
-}
 std::string_view to_string(ErrorsAgainst against) {
   constexpr std::array<std::string_view, 3> names{"none", "exact", "solution"};
   return names[static_cast<std::size_t>(against)];
@@ -265,7 +260,8 @@ ResolvedRun resolve(const RunSettings& settings) {
     *number = evaluated(*number, what, parameters);
   run.t0 = finite_number(run.settings.t0, "initial time");
   run.time = finite_number(run.settings.time, "--time");
-  if (!(run.time > Real(0))) throw InputError("--time: expected a duration > 0, got '" + settings.time + "'");
+  if (run.time == Real(0))
+    throw InputError("--time: expected a duration other than 0, got '" + settings.time + "'");
 
   run.initial = initial_state(*run.model, asked_state(settings, split), run.t0);
   run.given_initial = run.initial;

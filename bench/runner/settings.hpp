@@ -10,6 +10,7 @@
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/runs/integration.hpp>
+#include <pfaff/runs/support/setback.hpp>
 
 namespace pfaff {
 
@@ -28,8 +29,6 @@ enum class ErrorsAgainst {
   exact,    // the exact solution, where the system has one
   solution  // the exact solution or else Taylor series in quad
 };
-/// "none", "exact" or "solution"; InputError, which begins with `where`, otherwise.
-ErrorsAgainst parse_errors_against(const std::string& text, const std::string& where);
 std::string_view to_string(ErrorsAgainst against);
 
 /// The number of steps that a run may take where nothing else is said.
@@ -60,6 +59,7 @@ std::vector<std::string> split_commas(const std::string& text);
 /// A plug-in with its parameters, as texts for the reader call it: "gauss stages=2".
 std::string called(std::string name, const Assignments& parameters);
 
+  // A duration that is negative goes back in time. The step is a size, or has the sign of the duration.
 /// A checked run, ready to start.
 struct ResolvedRun {
   RunSettings settings;
@@ -68,9 +68,9 @@ struct ResolvedRun {
   std::vector<Real> initial;
   std::vector<Real> given_initial;  // `initial` before it was moved onto the constraints
   double projected = 0;  // the relative change of the initial state where it was moved onto the constraints
-  Real t0, step, tolerance, time;
-  std::vector<Real> absolute;  // absolute tolerances: none, or one for each coordinate
-  std::int64_t steps = 0;      // fixed steps only
+  Real t0, step, tolerance, time;  // step and time are negative where the run goes back
+  std::vector<Real> absolute;      // absolute tolerances: none, or one for each coordinate
+  std::int64_t steps = 0;          // fixed steps only
   std::int64_t every = 1;
   Origins origins;  // the files and builds that it was made from
   [[nodiscard]] bool adaptive() const { return !settings.tolerance.empty(); }
@@ -94,6 +94,13 @@ Start<T> start_of(const ResolvedRun& run) {
     start.absolute = absolute_tolerances<T>(run);
   } else {
     start.h = T(run.step);
+  /// Of the series of a run with fixed steps, behind the first.
+  [[nodiscard]] std::int64_t rows() const { return (steps + every - 1) / every; }
+  [[nodiscard]] bool backwards() const { return time < Real(0); }
+  /// What is expected of an invariant in the direction of the run.
+  [[nodiscard]] Behaviour expected(const Invariant& invariant) const {
+    return backwards() ? seen_backwards(invariant.behaviour) : invariant.behaviour;
+  }
   }
   return start;
 }

@@ -21,9 +21,9 @@ namespace {
 // spacing of numbers at the latest time, nothing is off. `step_text` and `option` are the step as it was
 // asked for.
 template <class T>
-void check_times(const ResolvedRun& run, const T& step, const std::string& step_text,
+void check_times(const ResolvedRun& run, const T& signed_step, const std::string& step_text,
                  const std::string& option) {
-  const T t0(run.t0), end = t0 + T(run.time);
+  const T step = abs(signed_step), t0(run.t0), end = t0 + T(run.time);
   const T latest = std::max(abs(t0), abs(end));
   const std::string in = " in " + std::string(to_string(run.settings.precision)) + " precision";
   const std::string expected = std::is_same_v<T, Quad> ? "" : ", or --precision quad";
@@ -149,8 +149,12 @@ void resolve_fixed_steps(ResolvedRun& run) {
   if (settings.step.empty())
     throw InputError("--step is missing (or --tolerance for methods that choose their steps)");
   run.step = finite_number(settings.step, "--step");
-  if (!(run.step > Real(0))) throw InputError("--step: expected a number > 0, got '" + settings.step + "'");
-  if (run.step > run.time)
+  if (run.step == Real(0)) throw InputError("--step: expected a number > 0, got '" + settings.step + "'");
+  if (run.step < Real(0) && !run.backwards())
+    throw InputError("--step: expected a number > 0 beside the duration " + settings.time +
+                     ", which goes forwards, got '" + settings.step + "'; a run backwards has a --time < 0");
+  run.step = towards(run.time, run.step);
+  if (towards(Real(1), run.step) > towards(Real(1), run.time))
     throw InputError("--step: expected at most the duration " + settings.time + ", got '" + settings.step +
                      "'");
   const double ratio = (run.time / run.step).value();
@@ -174,6 +178,10 @@ void resolve_fixed_steps(ResolvedRun& run) {
   check_samples(run);
 }
 }  // namespace
+
+Real towards(const Real& duration, const Real& step) {
+  return (step < Real(0)) == (duration < Real(0)) ? step : -step;
+}
 
 void resolve_steps(ResolvedRun& run) {
   if (run.adaptive()) {

@@ -10,6 +10,9 @@ namespace pfaff {
 // The most intervals between samples of a run that chooses its steps.
 inline constexpr int most_intervals = 200;
 
+/// A step in the direction of a duration, which its size alone says nothing of.
+Real towards(const Real& duration, const Real& step);
+
 // Fills in the step or the tolerances of a run, the number of its steps and how many of them lie between
 // samples, from its settings and its times `t0` and `time`. Refuses (InputError) what does not fit the method
 // or what nothing is left of in the precision of the run.

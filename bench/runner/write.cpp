@@ -120,7 +120,7 @@ nlohmann::json summary(const ResolvedRun& run, const RunRecord& record) {
   for (std::size_t i = 0; i < run.model->invariants().size(); ++i) {
     const Invariant& invariant = run.model->invariants()[i];
     nlohmann::json entry{
-        {"name", invariant.name}, {"unit", invariant.unit}, {"expected", to_string(invariant.behaviour)}};
+        {"name", invariant.name}, {"unit", invariant.unit}, {"expected", to_string(run.expected(invariant))}};
     if (!record.samples.empty()) {
       const Quad& initial = record.samples.front().invariants[i];
       if (run.settings.precision == Precision::quad) {
@@ -147,7 +147,7 @@ nlohmann::json summary(const ResolvedRun& run, const RunRecord& record) {
       entry["propagated"] = optional(record.round_off[i].propagated);
       entry["range"] = optional(record.round_off[i].range);
       entry["samples"] = d.samples;
-    } else if (const auto words = setback_words(invariant.behaviour)) {
+    } else if (const auto words = setback_words(run.expected(invariant))) {
       entry[setback_key(*words)] = record.setback[i];
     }
     j["invariants"].push_back(entry);

@@ -29,11 +29,11 @@ struct Contraction {
     return contracts ? ""
                      : "needs one q and one p with a damping > 0, which " + model.name() + " does not state";
   }
-  // Until the law has come to e^{-folds}, or the run ends.
+  // Until the law has come to e^{-folds}, to e^{folds} on the way back in time, or the run ends.
   template <class T>
   [[nodiscard]] std::vector<std::int64_t> looks(const Measured<T>& run) const {
-    const double steps =
-        std::floor(folds / run.start.model()->damping().value() / static_cast<double>(run.start.step()));
+    const double steps = std::floor(folds / run.start.model()->damping().value() /
+                                    std::abs(static_cast<double>(run.start.step())));
     return evenly(static_cast<std::int64_t>(std::clamp(steps, 1.0, static_cast<double>(run.steps))), count);
   }
 

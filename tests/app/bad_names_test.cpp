@@ -58,9 +58,8 @@ TEST(BadNames, ARefusalSaysWhatToDo) {
   expect_refused(run("n-pendulum-angles", "verlet", "--step"),
                  {"verlet needs separable", "energies that are written apart make a system separable",
                   "methods that fit: ", "gauss"});
-  for (const char* time : {"0", "-1"})
-    expect_refused({"run", "kepler", "verlet", "--step", "0.1", "--time", time, "--out", "-"},
-                   {"--time: expected a duration > 0, got '" + std::string(time) + "'"});
+  expect_refused({"run", "kepler", "verlet", "--step", "0.1", "--time", "0", "--out", "-"},
+                 {"--time: expected a duration other than 0, got '0'"});
   // What lies outside of a range is told what the parameter is, and what else there is.
   const auto with = [&](const char* system, const char* setting) {
     return run(system, "gauss", "--step") + Arguments{"--set", setting};

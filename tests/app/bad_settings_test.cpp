@@ -133,9 +133,10 @@ TEST(BadSettings, Step) {
 
 TEST(BadSettings, Time) {
   expect_refused(refused_pendulum({"--step", "0.1"}), {"missing: --time, the duration of the run"});
-  for (const std::string bad : {"0", "-1"})
-    expect_refused(refused_pendulum({"--step", "0.1", "--time", bad}),
-                   {"--time: expected a duration > 0", "'" + bad + "'"});
+  expect_refused(refused_pendulum({"--step", "0.1", "--time", "0"}),
+                 {"--time: expected a duration other than 0", "'0'"});
+  expect_refused(refused_pendulum({"--step", "-0.1", "--time", "1"}),
+                 {"--step: expected a number > 0 beside the duration 1", "'-0.1'", "--time < 0"});
   for (const std::string bad : {"nan", "inf", "ten"})
     expect_refused(refused_pendulum({"--step", "0.1", "--time", bad}),
                    {"--time: expected a finite", "'" + bad + "'"});

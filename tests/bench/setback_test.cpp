@@ -61,7 +61,7 @@ TEST(Setback, RunsMeasureBothDirections) {
   EXPECT_FALSE(j["invariants"][1].contains("largest_rise"));
   EXPECT_EQ(j["invariants"][1]["expected"], "increasing");
 
-  EXPECT_EQ(measures_of(*run.model, false), (std::vector<std::string>{"falling:rise", "rising:fall"}));
+  EXPECT_EQ(measures_of(run, false), (std::vector<std::string>{"falling:rise", "rising:fall"}));
   EXPECT_EQ(measured(j, "falling:rise"), 0.0);
   EXPECT_EQ(measured(j, "rising:fall"), j["invariants"][1]["largest_fall"].get<double>());
   EXPECT_EQ(measured(j, "falling:fall"), std::nullopt);
