@@ -8,7 +8,7 @@ import math
 from canvas import MID, Canvas, plain
 from constraints import maxima
 from experiment import UNIT_ROUND_OFF
-from figures import Drawing, heading, sentences, step_text, with_unit
+from figures import Drawing, heading, sentences, step_text, time_label, with_unit
 from scales import ErrorAxis, time_axis
 
 
@@ -73,7 +73,7 @@ def draw(verdict, curves, axis, title, wide):
         time_axis(axes, begin, end)
         axes.set_title(plain(row.label), fontsize=0.95 * font, color=colour, loc="left", pad=4)
         last = k + columns >= len(curves)
-        canvas.labels(axes, with_unit("t", verdict.case.get("time_unit") or "") if last else "",
+        canvas.labels(axes, time_label(verdict.case) if last else "",
                       f"drift of {verdict.invariant}" if column == 0 else "")
         if not last:
             axes.tick_params(labelbottom=False)

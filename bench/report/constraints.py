@@ -11,7 +11,7 @@ import statistics
 from canvas import MID
 from curves import ranks
 from families import style
-from figures import Drawing, heading, sentences, step_text, with_unit
+from figures import Drawing, heading, sentences, step_text, time_label, with_unit
 from lines import Line, Panel, draw, in_grey
 from scales import ErrorAxis, logarithmic, time_axis
 from wording import listed
@@ -56,7 +56,7 @@ def panel(verdict, what, curves):
 
     def unit_round_off(_, axes):
         axes.axhline(verdict.unit, color=MID, linewidth=0.8, linestyle=(0, (4, 2)), zorder=1)
-    return Panel(lines, axis, with_unit("t", verdict.case.get("time_unit") or ""), "", lambda _, axes: time_axis(
+    return Panel(lines, axis, time_label(verdict.case), "", lambda _, axes: time_axis(
         axes, min(line.x[0] for line in lines), max(line.x[-1] for line in lines)), what, more=unit_round_off)
 
 

@@ -11,7 +11,7 @@ from canvas import MID, Canvas, plain
 from curves import ranks
 from experiment import UNIT_ROUND_OFF
 from families import style
-from figures import Drawing, heading, limits, sentences, step_text, with_unit
+from figures import Drawing, heading, limits, sentences, step_text, time_label
 from files import InputError, parse
 from lines import Line, Panel, fill
 from scales import ErrorAxis, time_axis
@@ -109,11 +109,11 @@ def draw(verdict, shown, axis, title, wide):
 
 def deviations(canvas, verdict, shown, axis, place):
     """Of each method, how far its area over the law is from 1, with its name at the end of the line."""
-    rank, unit = ranks(verdict.curves), verdict.case.get("time_unit") or ""
+    rank = ranks(verdict.curves)
     lines = [Line(row.label, one.times[1:], one.deviations[1:], style(row.curve.family, rank[row.label], row.curve.fill),
                   f"{row.label}: at the end {one.deviations[-1]:.1e}") for row, one in shown]
 
     def unit_round_off(_, axes):
         axes.axhline(verdict.unit, color=MID, linewidth=0.8, linestyle=(0, (4, 2)), zorder=1)
-    fill(canvas, canvas.panel(*place), Panel(lines, axis, with_unit("t", unit), "|area / exact − 1|", lambda _, axes: time_axis(
+    fill(canvas, canvas.panel(*place), Panel(lines, axis, time_label(verdict.case), "|area / exact − 1|", lambda _, axes: time_axis(
         axes, 0, max(one.times[-1] for _, one in shown)), more=unit_round_off))

@@ -16,7 +16,7 @@ from canvas import MID
 from curves import ranks
 from experiment import DIRECTIONS, UNIT_ROUND_OFF
 from families import FAMILIES, style
-from figures import Drawing, heading, sentences, step_text, with_unit
+from figures import Drawing, heading, sentences, step_text, time_label
 from first_screen import finding
 from lines import Line, Panel, draw, in_grey
 from scales import ErrorAxis, envelope, logarithmic, time_axis
@@ -110,7 +110,7 @@ def drawn(verdict, kind, title, found, told, y):
                  for row, run, times, values, most in own]
         if lines:
             behind = [(times, values) for row, _, times, values, _ in found if row.curve.family is not family]
-            panels.append(Panel(lines, axis, with_unit("t", case.get("time_unit") or ""), y, x_axis,
+            panels.append(Panel(lines, axis, time_label(case), y, x_axis,
                                 family.plural[:1].upper() + family.plural[1:], family.light, behind,
                                 guides(verdict, own, begin, end, family)))
     what = "" if verdict.expected in DIRECTIONS else (

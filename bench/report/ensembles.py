@@ -10,7 +10,7 @@ import math
 from canvas import MID
 from curves import ranks
 from families import style
-from figures import Drawing, heading, sentences, step_text, with_unit
+from figures import Drawing, heading, sentences, step_text, time_label, with_unit
 from lines import Line, Panel, draw, in_grey
 from scales import ErrorAxis, time_axis
 
@@ -104,7 +104,7 @@ def drawings(verdict):
         for power, dash in ((0.5, (0, (1, 1.5))), (1, (0, (4, 1.5)))):
             axes.plot([begin, end], [largest * (t / end) ** power for t in (begin, end)], color=MID, linewidth=0.9, linestyle=dash,
                       zorder=2)
-    panel = Panel(lines, axis, with_unit("t", case.get("time_unit") or ""),
+    panel = Panel(lines, axis, time_label(case),
                   with_unit(f"rms of I(t) − I(0), {name}", experiment.expectation(case, name)[1]),
                   lambda _, axes: time_axis(axes, begin, end), more=guides)
     title = f"{heading(case)}: rms error of {name} over {case['seeds']} seeds"

@@ -64,7 +64,7 @@ class Run:
         self.seed = int(self.cells.get("seed") or 0)  # of an ensemble, from 1; otherwise 0
         self.tolerance = self.cells.get("tolerance") or ""
         if self.tolerance:  # the method chose its steps: the mean one stands for them
-            self.step = self.number("time") / max(1.0, self.steps)
+            self.step = abs(self.number("time")) / max(1.0, self.steps)
         if not (self.step > 0 and math.isfinite(self.step)):
             raise InputError(f"{self.where}, column step: expected a positive number, got '{self.cells['step']}'")
 
@@ -90,7 +90,7 @@ class Run:
 
 @dataclasses.dataclass
 class Series:
-    time: list
+    time: list  # of a run that goes back in time that since its start
     time_unit: str
     initial: float  # I(0)
     change: list  # I(t) - I(0)
@@ -241,11 +241,13 @@ class Experiment:
         return found
 
     def table(self, name):
-        """[(where, cells)] of the table that a measure left; nothing where it was not asked for or says nothing of a run."""
+        """[(where, cells)] of the table that a measure left; nothing where it was not asked for or says nothing of a run. Times
+        are those since the start, also of runs that go back."""
         measure = self.measures.get(name)
         if measure is None:
             return []
-        return self._read_rows(measure["file"], ("case", "method", "step", "t", *(c["name"] for c in measure["columns"])))
+        rows = self._read_rows(measure["file"], ("case", "method", "step", "t", *(c["name"] for c in measure["columns"])))
+        return [(where, cells | {"t": cells["t"].removeprefix("-")}) for where, cells in rows]
 
     def spreads_of(self, case, measure):
         """[(method, size, median, low, high, finished, runs)] over the seeds of an ensemble, in order."""
@@ -327,6 +329,11 @@ def invariants_of(path):
     return summary.get("invariants") or []
 
 
+def run_times(times):
+    """Times that grow along a run: of one that goes back those since its start."""
+    return [times[0] - t for t in times] if len(times) > 1 and times[-1] < times[0] else times
+
+
 def read_series(path, invariant, precision, may_lack=False):
     where = "/".join(path.parts[-3:])
     columns, rows = read_csv(path, where)
@@ -353,7 +360,7 @@ def read_series(path, invariant, precision, may_lack=False):
         change = [float(decimal.Decimal(row[k]) - start) if math.isfinite(x) else x
                   for (_, row), x in zip(rows, values)]
     unit = units[names.index(invariant)] if invariant is not None else ""
-    return Series(column("t"), units[0], initial, change, unit, column("structure_residual"), column(f"{invariant}:error"))
+    return Series(run_times(column("t")), units[0], initial, change, unit, column("structure_residual"), column(f"{invariant}:error"))
 
 
 def split_unit(cell):

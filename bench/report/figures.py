@@ -55,6 +55,11 @@ def with_unit(label, unit):
     return f"{label} [{unit}]" if unit and unit != "1" else label
 
 
+def time_label(case, what="t"):
+    """The label of an axis of times, which are those since the start where the runs of the case go back."""
+    return with_unit(what.replace("t", "−t", 1) if str(case.get("time", "")).startswith("-") else what, case.get("time_unit") or "")
+
+
 def step_text(step, case):
     return f"step {step:.4g} {case.get('time_unit') or ''}".strip()
 

@@ -124,7 +124,7 @@ def ruler(canvas, axes, unit, scale):
 
 def duration(figure, time_unit):
     """(seconds that the animation takes, how that compares with the motion, in words)"""
-    whole = figure.times[-1] - figure.times[0]
+    whole = abs(figure.times[-1] - figure.times[0])
     slow = min(24.0, max(3.0, whole))
     if time_unit != "s":
         return slow, f"{number(slow / whole)} s for a unit of time"

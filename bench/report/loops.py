@@ -11,7 +11,7 @@ from canvas import MID
 from curves import ranks
 from experiment import UNIT_ROUND_OFF
 from families import style
-from figures import Drawing, heading, sentences, step_text, with_unit
+from figures import Drawing, heading, sentences, step_text, time_label
 from files import parse
 from lines import Line, Panel, draw, in_grey
 from scales import ErrorAxis, time_axis
@@ -62,7 +62,7 @@ def drawings(verdict):
     rank, worst = ranks(verdict.curves), max(shown, key=lambda one: max(one[1].deviations))
     lines = [Line(row.label, one.times[1:], one.deviations[1:], style(row.curve.family, rank[row.label], row.curve.fill),
                   f"{row.label}: largest {max(one.deviations):.1e}") for row, one in shown]
-    panel = Panel(lines, axis, with_unit("t", case.get("time_unit") or ""), "|∮F·dz over the first − 1|",
+    panel = Panel(lines, axis, time_label(case), "|∮F·dz over the first − 1|",
                   lambda _, axes: time_axis(axes, 0, max(one.times[-1] for _, one in shown)), more=unit_round_off)
     return [Drawing("loop", case, f"{heading(case)}: Poincaré's integral invariant", sentences(told, in_grey([panel])),
                     lambda wide: draw([panel], wide, f"The integral moves most for {worst[0].label}, by "

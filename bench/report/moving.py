@@ -53,7 +53,7 @@ def error_of(run):
 
 def at_which(case, recording):
     tolerance = recording.summary.get("tolerance")
-    return f"tolerance {tolerance}" if tolerance else step_text(float(recording.summary.get("step") or "nan"), case)
+    return f"tolerance {tolerance}" if tolerance else step_text(abs(float(recording.summary.get("step") or "nan")), case)
 
 
 def of_points(case, row, recording):

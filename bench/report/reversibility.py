@@ -13,7 +13,7 @@ from canvas import MID
 from curves import ranks
 from experiment import ROUND_OFF, UNIT_ROUND_OFF
 from families import style
-from figures import Drawing, heading, sentences, step_text, with_unit
+from figures import Drawing, heading, sentences, step_text, time_label
 from files import InputError, parse
 from lines import Line, Panel, draw, in_grey
 from scales import ErrorAxis, time_axis
@@ -163,5 +163,5 @@ def panel_of(verdict, shown, middle, axis):
         if middle:
             known = [(t, max(UNIT, x)) for t, x in zip(middle.times, middle.roundings) if not math.isnan(x)]
             canvas.line(axes, *zip(*known), "one rounding at the turn", color=MID, linewidth=1.2, linestyle=(0, (1, 1.6)), zorder=2)
-    return Panel(lines, axis, with_unit("t at the turn", verdict.case.get("time_unit") or ""), "distance from the start",
+    return Panel(lines, axis, time_label(verdict.case, "t at the turn"), "distance from the start",
                  lambda _, axes: time_axis(axes, min(times), max(times)), more=one_rounding)

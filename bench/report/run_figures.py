@@ -6,7 +6,7 @@ and the structure residual as they are.
 import math
 
 from canvas import INK, MID, Canvas, sizes
-from experiment import DIRECTIONS, UNIT_ROUND_OFF, read_series
+from experiment import DIRECTIONS, UNIT_ROUND_OFF, read_series, run_times
 from families import FAMILIES, family_named
 from figures import Drawing, sentences, with_unit
 from frames import Animation, Figure, duration, strip
@@ -109,11 +109,11 @@ def motion(recording):
 
 def quantities(recording):
     """One drawing of small panels, each with its lines [(label, times, values)] and whether its axis is logarithmic."""
-    shown, precision = [], recording.summary.get("precision") or "double"
+    shown, precision, times = [], recording.summary.get("precision") or "double", run_times(recording.times)
     if not recording.points() and len(recording.state) <= COORDINATES:
         for unit in dict.fromkeys(recording.units[n] for n in recording.state):
             names = [n for n in recording.state if recording.units[n] == unit]
-            shown.append((with_unit("coordinates", unit), [(n, recording.times, recording.columns[n]) for n in names], False))
+            shown.append((with_unit("coordinates", unit), [(n, times, recording.columns[n]) for n in names], False))
     for entry in recording.summary.get("invariants") or []:
         name, unit = entry["name"], entry.get("unit") or ""
         if entry.get("expected") == "conserved":
@@ -123,19 +123,20 @@ def quantities(recording):
         else:
             expected = entry.get("expected")
             told = f", expected to {DIRECTIONS[expected][0]}" if expected in DIRECTIONS else ""
-            shown.append((with_unit(name + told, unit), [("", recording.times, recording.columns[name])], False))
+            shown.append((with_unit(name + told, unit), [("", times, recording.columns[name])], False))
     measured = [e["name"] for e in recording.summary.get("constraints") or []] + ["error", "structure_residual"]
     measured += [name for name in recording.columns if name.endswith(":error")]
     for name in measured:
         if any(not math.isnan(v) for v in recording.columns.get(name, ())):
             what = name.replace("_", " ").replace("hidden-", "hidden ").replace(":error", ": error")
-            shown.append((what, [("", *envelope(recording.times, [abs(v) for v in recording.columns[name]], linear=True))],
+            shown.append((what, [("", *envelope(times, [abs(v) for v in recording.columns[name]], linear=True))],
                           True))
     shown = [(what, lines, log) for what, lines, log in shown if any(t for _, t, _ in lines)]
     if not shown:
         return []
     unit = UNIT_ROUND_OFF.get(precision, UNIT_ROUND_OFF["double"])
     colour = family_named(recording.summary.get("family")).light
+    label = "t" if times is recording.times else "time since the start"
     zeros = sorted({r for _, lines, log in shown if log
                     for r in ErrorAxis([v for *_, v in lines], unit).remarks()})
     return [drawing("quantities", "Against time", sentences(

@@ -8,7 +8,7 @@ from canvas import BAND
 from curves import ranks
 from experiment import ROUND_OFF, UNIT_ROUND_OFF
 from families import style
-from figures import Drawing, heading, sentences, with_unit
+from figures import Drawing, heading, sentences, time_label, with_unit
 from lines import Line, Panel, draw, in_grey
 from scales import ErrorAxis, envelope, step_axis, time_axis
 from sentence import structure as kept_by
@@ -69,6 +69,6 @@ def panels_of(verdict, judged, along, axis):
         by_step = lines([(r, *map(list, zip(*r.curve.residuals))) for r in judged], True)
         out.append(Panel(by_step, axis, with_unit("step h", unit) + ", finer to the right", what, steps, more=band))
     if along:
-        out.append(Panel(lines(along, False), axis, with_unit("t", unit), what,
+        out.append(Panel(lines(along, False), axis, time_label(verdict.case), what,
                          lambda _, axes: time_axis(axes, 0, max(x[-1] for _, x, _ in along)), more=band))
     return out
