@@ -64,7 +64,11 @@ RunConfig config_of(const RunOptions& options) {
   if (!options.precision.empty()) settings.precision = parse_precision(options.precision);
   if (!options.absolute.empty()) settings.absolute = split_commas(options.absolute);
   if (!options.every.empty()) settings.every = parse_every(options.every, "--every");
-  if (!options.reference.empty()) settings.reference = parse_errors_against(options.reference, "--reference");
+  if (!options.reference.empty()) {
+    const AskedReference reference = parse_reference(options.reference, "--reference", references_of_runs);
+    settings.reference = reference.against;
+    settings.errors_at_every_row = reference.every_row;
+  }
   if (!options.max_steps.empty()) settings.step_budget = parse_every(options.max_steps, "--max-steps");
   if (!options.state.empty()) {
     for (const auto& [key, value] : settings.set)
@@ -103,6 +107,13 @@ std::string of_the_reference(const nlohmann::json& j) {
          j["reference_ended"].get<std::string>();
 }
 
+// At how many rows errors are measured, where these are not all to which the reference solution reaches.
+std::string rows_with_errors(const nlohmann::json& j) {
+  if (!j.contains("error_rows")) return {};
+  const nlohmann::json& rows = j["error_rows"];
+  return ", at " + rows["measured"].dump() + " of " + rows["of"].dump() + " rows";
+}
+
 // A summary for the terminal.
 std::string summary_table(const nlohmann::json& j, const std::string& written, const std::string& out,
                           const TableRows& tables) {
@@ -113,7 +124,8 @@ std::string summary_table(const nlohmann::json& j, const std::string& written, c
       {"status", j["status"].get<std::string>() + " after " +
                      std::to_string(j["completed"].get<std::int64_t>()) + " steps"}};
   if (!j["error_max"].is_null())
-    rows.push_back({"error", "max " + number(j["error_max"]) + ", final " + number(j["error_final"])});
+    rows.push_back({"error", "max " + number(j["error_max"]) + ", final " + number(j["error_final"]) +
+                                 rows_with_errors(j)});
   if (j.contains("reference_ended")) rows.push_back({"reference", of_the_reference(j)});
   const int failures = j.value("structure_failures", 0);
   if (!j["structure_residual"].is_null() || failures > 0)
@@ -303,8 +315,9 @@ void add_run(CLI::App& app, Common& common, Action& action) {
       ->type_name("FILE");
   sub->add_option("--precision", options->precision, "The numbers; double without")->type_name("double|quad");
   sub->add_option("--reference", options->reference,
-                  "What errors are against: an exact solution (default), that or a 30-digit one, nothing")
-      ->type_name("exact|solution|none");
+                  "What errors are against: an exact solution (default), that or a 30-digit one, nothing; "
+                  "every: at every row, not at 200 of them")
+      ->type_name("exact|solution|none[,every]");
   sub->add_option("--max-steps", options->max_steps, "Steps that a run may take (default 1e12)")
       ->type_name("N");
   sub->add_flag("--compile", s.compile,

@@ -62,6 +62,7 @@ struct ExperimentCase {
   int seeds = 0;                     // > 0: an ensemble over the system's parameter `seed` = 1 ... seeds
   bool structure = true;             // false: no structure residuals; ensembles have none in any case
   bool reference = true;             // false: no reference solution, as for long chaotic runs
+  bool errors_at_every_row = false;  // otherwise at most_error_rows rows of a run at most
 };
 
 /// A statement of an experiment about a number that two of its methods (or one method and a bound) produce;

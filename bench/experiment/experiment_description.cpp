@@ -60,6 +60,11 @@ nlohmann::json description(const Experiment& experiment, const std::vector<Exper
                                                  : exact      ? "exact"
                                                               : "30-digit"}});
     if (!c.error.empty()) j["cases"].back()["error"] = c.error;
+    // Steps that are still to be chosen may make more rows than these.
+    const bool many = c.automatic || std::any_of(runs.begin(), runs.end(), [&](const ExperimentRun& r) {
+                        return r.which == &c && r.resolved.rows() > most_error_rows;
+                      });
+    if (many && c.reference && !c.errors_at_every_row) j["cases"].back()["error_rows"] = most_error_rows;
     for (const auto& [key, value] : {std::pair("equation", c.asked.equation),
                                      {"question", c.asked.question},
                                      {"answer", c.asked.answer}})

@@ -24,14 +24,6 @@ std::int64_t whole(const std::string& text, std::int64_t low, std::int64_t high,
   return number->numerator();
 }
 
-// Reads a key whose value is either `what`, which is also its default, or "none"; true for `what`.
-bool wanted(Keys& keys, const std::string& key, const std::string& what, const std::string& where) {
-  const std::string text = keys.text(key, what);
-  if (text != what && text != "none")
-    throw InputError(where + ": " + unknown_name(key, text, {what, "none"}));
-  return text == what;
-}
-
 double positive(const std::string& text, const std::string& where, const std::string& key) {
   const auto number = Real::parse(text);
   if (!number || !(number->value() > 0) || !std::isfinite(number->value()))
@@ -189,8 +181,16 @@ void read_case(const toml::table& table, const Part& part, Experiment& experimen
   one.precision = c.read("precision", "double", parse_precision);
   one.methods = c.list("methods");
   one.seeds = static_cast<int>(whole(c.text("seeds", "0"), 0, 10000, where, "seeds"));
-  one.reference = wanted(c, "reference", "solution", where);
-  one.structure = wanted(c, "structure", "residual", where);
+  const AskedReference reference =
+      parse_reference(c.text("reference", "solution"), where + ": key 'reference'",
+                      {ErrorsAgainst::solution, ErrorsAgainst::none});
+  one.reference = reference.against == ErrorsAgainst::solution;
+  one.errors_at_every_row = reference.every_row;
+  one.structure = c.read("structure", "residual", [](const std::string& text) {
+    if (text != "residual" && text != "none")
+      throw InputError(unknown_name("structure", text, {"residual", "none"}));
+    return text == "residual";
+  });
   if (error == "solution" && !one.reference)
     throw InputError(
         where +

@@ -49,6 +49,7 @@ ResolvedRun resolved(const Experiment& experiment, const ExperimentRun& run) {
   settings.time = c.time;
   settings.precision = c.precision;
   settings.reference = c.reference ? ErrorsAgainst::solution : ErrorsAgainst::none;
+  settings.errors_at_every_row = c.errors_at_every_row;
   settings.structure_residuals = c.structure && run.seed == 0;
   settings.of_case = c.name;
   settings.of_method = m.label;

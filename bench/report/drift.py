@@ -14,6 +14,7 @@ import statistics
 from assertion import said
 from canvas import MID
 from curves import ranks
+from error_measure import some_rows
 from experiment import DIRECTIONS, UNIT_ROUND_OFF
 from families import FAMILIES, style
 from figures import Drawing, heading, sentences, step_text, time_label
@@ -31,7 +32,7 @@ def drawings(verdict):
     directed = verdict.expected in DIRECTIONS
     found = moved(verdict, [(row, row.run or failed_run(verdict, row)) for row in verdict.rows],
                   (lambda series: series.error) if directed else (lambda series: series.change))
-    told = (f"Error of {verdict.invariant} against the reference solution" if directed else
+    told = (f"Error of {verdict.invariant} against the reference solution{some_rows(verdict.case)}" if directed else
             f"Deviation of {verdict.invariant} from its value at the start")
     return drawn(verdict, "drift", "drift at equal cost", found, sentences(f"{told}{over(verdict)}.", verdict.which_runs()),
                  f"|error of {verdict.invariant}| / scale" if directed else f"|Δ {verdict.invariant}| / scale")

@@ -38,11 +38,16 @@ class ErrorMeasure:
         return {"state": "largest relative error of the state", "quantity": f"largest relative error of {self.name}, |ΔI/I(0)|",
                 "drift": f"largest drift of {self.name}"}[self.kind]
 
-    def defined(self, solution):
-        """What it is, for the line that says for what a verdict holds."""
-        return {"state": f"state error is the largest error of the state relative to {solution}",
+    def defined(self, solution, rows=""):
+        """What it is, for the line that says for what a verdict holds; `rows` as some_rows() has them."""
+        return {"state": f"state error is the largest error of the state relative to {solution}{rows}",
                 "quantity": f"{self.noun} is the largest |I − I(0)| / |I(0)| of {self.name}, whatever the error of the state",
                 "drift": f"no reference solution, so that errors are the drift of {self.name}"}[self.kind]
+
+
+def some_rows(case):
+    """At how many rows errors of the state are measured, where runs of the case may have more; otherwise empty."""
+    return f" at {case['error_rows']} rows of a run at most" if case.get("error_rows") else ""
 
 
 def error_measure(experiment, case):

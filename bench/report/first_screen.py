@@ -9,6 +9,7 @@ import answers
 import sentence
 from assertion import said
 from equation import prose
+from error_measure import some_rows
 from figures import heading
 from files import InputError
 from verdict_data import rows
@@ -99,7 +100,7 @@ def holds(verdict):
     if verdict.measure:
         which = {"exact": "the exact solution", "30-digit": "a solution of up to 30 digits"}.get(
             case.get("reference_solution") or "", "the reference solution")
-        parts.append(text(verdict.measure.defined(which)))
+        parts.append(text(verdict.measure.defined(which, some_rows(case))))
     steps = sorted({r.step for r in runs if not r.tolerance}, reverse=True)
     between = ("" if not steps else f" at step {steps[0]:.4g}" if len(steps) == 1 else
                f" at {len(steps)} steps between {steps[0]:.4g} and {steps[-1]:.4g}") + (f" {unit}" if unit and steps else "")

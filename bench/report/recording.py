@@ -107,7 +107,8 @@ def read_recording(folder):
     """The run in a directory. InputError where it holds none."""
     folder = pathlib.Path(folder)
     summary, where = read_json(folder / "summary.json"), f"{folder.name}/summary.json"
-    allow(summary, where, system=str, integrator=str, family=str, method=str, invariants=list, links=list, constraints=list)
+    allow(summary, where, system=str, integrator=str, family=str, method=str, invariants=list, links=list, constraints=list,
+          error_rows=dict)
     columns, rows = read_csv(folder / "series.csv", f"{folder.name}/series.csv")
     names, units = zip(*map(split_unit, columns)) if columns else ((), ())
     if not names or names[0] != "t":

@@ -141,8 +141,14 @@ def quantities(recording):
                     for r in ErrorAxis([v for *_, v in lines], unit).remarks()})
     return [drawing("quantities", "Against time", sentences(
         "Grey: unit round-off." if any(log for *_, log in shown) else "",
-        "Lines join the largest values in short stretches of time." if any(log for *_, log in shown) else "", *zeros),
-        lambda wide: small_panels(shown, with_unit("t", recording.time_unit), unit, colour, wide))]
+        "Lines join the largest values in short stretches of time." if any(log for *_, log in shown) else "",
+        errors_at(recording.summary.get("error_rows")), *zeros),
+        lambda wide: small_panels(shown, with_unit(label, recording.time_unit), unit, colour, wide))]
+
+
+def errors_at(rows):
+    """A sentence on the rows at which errors are measured; empty where these are all."""
+    return f"Errors are measured at {rows['measured']} of {rows['of']} rows." if rows else ""
 
 
 def small_panels(shown, time_label, unit, colour, wide):

@@ -9,6 +9,7 @@ import math
 
 from canvas import BAND, FRONT, GREY, MID, Canvas, sizes
 from curves import LOST, ZERO, curves, front, ranks
+from error_measure import some_rows
 from families import style
 from first_screen import finding
 from figures import Drawing, heading, sentences, step_text
@@ -41,6 +42,7 @@ def drawing(verdict, work, some):
     caption = sentences(
         f"Errors are those of {verdict.measure.name}, relative to its value at the start." if verdict.measure.kind == "quantity"
         else "",
+        f"Errors are the largest{some_rows(case)}." if verdict.of_state and case.get("error_rows") else "",
         "Down and to the left is better: a point is a run, along a line the step becomes smaller.",
         "Shaded in yellow: the Pareto front.",
         f"Band at the top: error of at least {LOST}, the phase is lost." if verdict.of_state and any(

@@ -52,7 +52,7 @@ std::string settings_text(const ResolvedRun& run) {
     text << "every = " << run.every << '\n';
   }
   if (s.step_budget != default_step_budget) text << "max_steps = " << s.step_budget << '\n';
-  line("reference", to_string(s.reference));
+  line("reference", to_string(AskedReference{s.reference, s.errors_at_every_row}));
   line("structure", s.structure_residuals ? "residual" : "none");
   if (s.compile) line("compile", "yes");
   if (s.project_initial) line("project_initial", "yes");
@@ -105,7 +105,10 @@ RunConfig read_config(const std::string& path) {
     settings.every = parse_every(every, path + ": key 'every'");
   if (const std::string most = keys.text("max_steps", ""); !most.empty())
     settings.step_budget = parse_every(most, path + ": key 'max_steps'");
-  settings.reference = parse_errors_against(keys.text("reference", "exact"), path + ": key 'reference'");
+  const AskedReference reference =
+      parse_reference(keys.text("reference", "exact"), path + ": key 'reference'", references_of_runs);
+  settings.reference = reference.against;
+  settings.errors_at_every_row = reference.every_row;
   settings.structure_residuals = !choice("structure", "residual", "none");
   settings.compile = choice("compile", "no", "yes");
   settings.project_initial = choice("project_initial", "no", "yes");

@@ -131,6 +131,9 @@ class Observer {
   /// Puts into the record what follows from all that was observed.
   void finish() {
     if (singular_) record_.status = Status::singular;
+    compare_last();
+    record_.error_rows = std::max<std::int64_t>(0, compared_ - 1);
+    record_.reached_rows = std::max<std::int64_t>(0, reached_ - 1);
     // Of a solution that reaches no sample but the first, the error there says nothing of the method.
     if (compared_ == 1 && record_.samples.size() > 1) {
       record_.error_max = record_.error_final = std::nullopt;
@@ -214,24 +217,48 @@ class Observer {
       if (*roundings) (*roundings)->add(static_cast<double>(t), in_double_);
     if (record_.samples.empty()) first_state_ = in_double_;
     if (record_.samples.empty() && roundings_) first_terms_ = roundings_->terms();
-    std::string not_finite;
-    if (reference_ != nullptr && reference_->covers(exact_time)) {
-      ++compared_;
-      const std::vector<Quad> exact = reference_->at(exact_time);
-      if (exact_) sample.invariant_errors = errors_of_invariants(sample, exact_time, exact);
-      const Quad error = relative_error(sample, exact);
-      if (std::isfinite(static_cast<double>(error))) {
-        sample.error = error;
-        worst(record_.error_max, static_cast<double>(error));
-        record_.error_final = static_cast<double>(error);
-      } else {
-        not_finite = "the error against the " + std::string(reference_->kind()) +
-                     " solution (--reference none leaves it out) is not finite";
-      }
-    }
+    const std::string not_finite = compare_some(sample, exact_time);
     if (structure && residual_) measure_structure(t, z, sample);
     record_.samples.push_back(std::move(sample));
     return not_finite;
+  }
+  // Whether the error is measured at a row: at the last of each of so many equal parts of the rows behind the
+  // first, the last row of a whole run among them.
+  [[nodiscard]] bool compares(std::int64_t row) const {
+    const std::int64_t rows = run_.rows();
+    if (row == 0 || run_.adaptive() || rows <= most_error_rows || run_.settings.errors_at_every_row)
+      return true;
+    return row * most_error_rows / rows > (row - 1) * most_error_rows / rows;
+  }
+  // Compares the next sample with the solution, where that reaches to it and the row is one of those chosen.
+  std::string compare_some(Sample& sample, const Quad& exact_time) {
+    if (reference_ == nullptr) return {};
+    if (!reference_->covers(exact_time)) {
+      compare_last();
+      return {};
+    }
+    ++reached_;
+    if (compares(static_cast<std::int64_t>(record_.samples.size()))) return compare(sample, exact_time);
+    not_compared_ = exact_time;
+    return {};
+  }
+  // The last row to which the solution reaches is among those that are compared.
+  void compare_last() {
+    if (not_compared_) (void)compare(record_.samples.back(), *not_compared_);
+  }
+  std::string compare(Sample& sample, const Quad& exact_time) {
+    not_compared_.reset();
+    const std::vector<Quad> exact = reference_->at(exact_time);
+    if (exact_) sample.invariant_errors = errors_of_invariants(sample, exact_time, exact);
+    const Quad error = relative_error(sample, exact);
+    if (!std::isfinite(static_cast<double>(error)))
+      return "the error against the " + std::string(reference_->kind()) +
+             " solution (--reference none leaves it out) is not finite";
+    ++compared_;
+    sample.error = error;
+    worst(record_.error_max, static_cast<double>(error));
+    record_.error_final = static_cast<double>(error);
+    return {};
   }
   // What there is of each invariant to lose; the extents are those of the first tenth of the motion, since
   // what is lost or blows up changes them.
@@ -278,7 +305,9 @@ class Observer {
   const ReferenceSolution* reference_;
   RunRecord& record_;
   Problem<T> problem_;
-  std::size_t compared_ = 0;            // samples, with the reference solution
+  std::int64_t compared_ = 0;           // samples, with the reference solution,
+  std::int64_t reached_ = 0;            // of so many to which it reaches
+  std::optional<Quad> not_compared_;    // the time of the last sample, where it is one of the others
   std::optional<Problem<Quad>> exact_;  // of invariants that change, where there is a reference solution
   std::optional<StructureResidual<T>> residual_;
   ConstraintResiduals<T> constraints_;

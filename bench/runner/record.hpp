@@ -42,8 +42,10 @@ struct RunRecord {
   std::vector<std::optional<Growth>> growth;  // of the same residuals
   std::vector<double> setback;  // the largest move of each invariant against its expected direction
   std::optional<double> error_max, error_final, structure_residual;
-  std::string reference;        // what the errors are against, ReferenceSolution::kind; empty without
-  std::string reference_ended;  // why they are measured over a part of the run or not at all, one line
+  std::string reference;          // what the errors are against, ReferenceSolution::kind; empty without
+  std::string reference_ended;    // why they are measured over a part of the run or not at all, one line
+  std::int64_t error_rows = 0;    // at how many rows behind the first they are measured,
+  std::int64_t reached_rows = 0;  // of how many to which the solution reaches
   int structure_failures =
       0;  // samples from which no step could be differentiated, or not to a finite number
   Counters counters;
@@ -55,10 +57,11 @@ using Progress = std::function<void(double fraction)>;
 /// Runs to the end, or to where the method fails or something measured is not finite: the state, an
 /// invariant, its drift, a residual or the error. The samples completed by then are kept.
 /// `reference` may be null, and errors are then not measured; where it ends before the run, they are measured
-/// up to there. Structure residuals are measured at about fifty
-/// samples, where the model has a structure and at most 64 coordinates. Where `stop` becomes true, the run
-/// ends after the step (with steps of the method's choosing, at the sample) that it is at. RunError, naming
-/// the method, the system and the time, where a step or a formula throws.
+/// up to there. Of many rows some are compared with it (most_error_rows), the last one among them. Structure
+/// residuals are measured at about fifty samples, where the model has a structure and at most 64 coordinates.
+/// Where `stop` becomes true, the run ends after the step (with steps of the method's choosing, at the
+/// sample) that it is at. RunError, naming the method, the system and the time, where a step or a formula
+/// throws.
 RunRecord execute(const ResolvedRun& run, const ReferenceSolution* reference, const Progress& progress = {},
                   const std::atomic<bool>* stop = nullptr);
 

@@ -38,6 +38,39 @@ std::string_view to_string(ErrorsAgainst against) {
   return names[static_cast<std::size_t>(against)];
 }
 
+namespace {
+constexpr const char* every_row = "every";
+}
+
+std::string to_string(const AskedReference& asked) {
+  return std::string(to_string(asked.against)) + (asked.every_row ? std::string(",") + every_row : "");
+}
+
+AskedReference parse_reference(const std::string& text, const std::string& where,
+                               const std::vector<ErrorsAgainst>& known) {
+  AskedReference asked{known.front()};
+  std::vector<std::string> names;
+  for (const ErrorsAgainst against : known) names.emplace_back(to_string(against));
+  names.emplace_back(every_row);
+  bool named = false;
+  for (const std::string& part : split_commas(text)) {
+    const auto name = std::find(names.begin(), names.end(), part);
+    if (name == names.end()) throw InputError(where + ": " + unknown_name("reference", part, names));
+    const bool every = part == every_row;
+    if (every ? asked.every_row : named)
+      throw InputError(where + ": expected one reference, and '" + every_row + "' once, got '" + text + "'");
+    if (every) {
+      asked.every_row = true;
+    } else {
+      named = true;
+      asked.against = known[static_cast<std::size_t>(name - names.begin())];
+    }
+  }
+  if (asked.every_row && asked.against == ErrorsAgainst::none)
+    throw InputError(where + ": 'none' measures no errors; expected no '" + every_row + "' beside it");
+  return asked;
+}
+
 std::string called(std::string name, const Assignments& parameters) {
   for (const auto& [key, value] : parameters) name += " " + key + "=" + value;
   return name;

@@ -31,6 +31,25 @@ enum class ErrorsAgainst {
 };
 std::string_view to_string(ErrorsAgainst against);
 
+/// A reference as it is asked for. Errors are measured at most_error_rows rows of the series, or at every
+/// row.
+struct AskedReference {
+  ErrorsAgainst against = ErrorsAgainst::exact;
+  bool every_row = false;
+};
+/// One of the names of `known` and "every", or both with a comma between them: "every" alone takes the first
+/// name. InputError, which begins with `where`, otherwise.
+AskedReference parse_reference(const std::string& text, const std::string& where,
+                               const std::vector<ErrorsAgainst>& known);
+std::string to_string(const AskedReference& asked);
+/// The names that a run knows; the first is meant where nothing is said.
+inline const std::vector<ErrorsAgainst> references_of_runs{ErrorsAgainst::exact, ErrorsAgainst::solution,
+                                                           ErrorsAgainst::none};
+
+/// The most rows of a series behind the first at which errors are measured where not every row is asked for:
+/// a closed form in quad takes some ten times as long as a step.
+inline constexpr std::int64_t most_error_rows = 200;
+
 /// The number of steps that a run may take where nothing else is said.
 constexpr std::int64_t default_step_budget = 1000000000000;
 
@@ -40,6 +59,7 @@ struct RunSettings {
   std::string formulation;  // empty: that of formulation_for() where the integrator needs a vector field
   Assignments set;          // nu=0.3, system.nu=0.3, integrator.order=4, initial=1,0.5
   std::vector<std::string> initial, initial_velocities;  // where `set` says nothing of the state
+  // A duration that is negative goes back in time. The step is a size, or has the sign of the duration.
   std::string t0 = "0", step, tolerance, time;
   std::vector<std::string> absolute;  // beside the tolerance: none, one for all coordinates, or one for each
   std::int64_t every = 0;             // 0: chosen for about a thousand samples, 200 of processed methods
@@ -48,6 +68,7 @@ struct RunSettings {
   bool project_initial = false;     // move the initial state onto the constraints
   bool allow_inconsistent = false;  // or take it as it is though it is off them
   ErrorsAgainst reference = ErrorsAgainst::exact;
+  bool errors_at_every_row = false;                // otherwise at most_error_rows rows at most
   bool structure_residuals = true;                 // measured where the model has a structure
   std::int64_t step_budget = default_step_budget;  // more steps are refused, or end the run
   std::string of_case, of_method;                  // what an experiment calls the run; otherwise empty
@@ -59,7 +80,6 @@ std::vector<std::string> split_commas(const std::string& text);
 /// A plug-in with its parameters, as texts for the reader call it: "gauss stages=2".
 std::string called(std::string name, const Assignments& parameters);
 
-  // A duration that is negative goes back in time. The step is a size, or has the sign of the duration.
 /// A checked run, ready to start.
 struct ResolvedRun {
   RunSettings settings;
@@ -74,6 +94,13 @@ struct ResolvedRun {
   std::int64_t every = 1;
   Origins origins;  // the files and builds that it was made from
   [[nodiscard]] bool adaptive() const { return !settings.tolerance.empty(); }
+  /// Of the series of a run with fixed steps, behind the first.
+  [[nodiscard]] std::int64_t rows() const { return (steps + every - 1) / every; }
+  [[nodiscard]] bool backwards() const { return time < Real(0); }
+  /// What is expected of an invariant in the direction of the run.
+  [[nodiscard]] Behaviour expected(const Invariant& invariant) const {
+    return backwards() ? seen_backwards(invariant.behaviour) : invariant.behaviour;
+  }
 };
 
 /// The absolute tolerances of a run in its scalar, for a Tolerance of it.
@@ -94,13 +121,6 @@ Start<T> start_of(const ResolvedRun& run) {
     start.absolute = absolute_tolerances<T>(run);
   } else {
     start.h = T(run.step);
-  /// Of the series of a run with fixed steps, behind the first.
-  [[nodiscard]] std::int64_t rows() const { return (steps + every - 1) / every; }
-  [[nodiscard]] bool backwards() const { return time < Real(0); }
-  /// What is expected of an invariant in the direction of the run.
-  [[nodiscard]] Behaviour expected(const Invariant& invariant) const {
-    return backwards() ? seen_backwards(invariant.behaviour) : invariant.behaviour;
-  }
   }
   return start;
 }

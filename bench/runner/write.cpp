@@ -176,6 +176,8 @@ nlohmann::json summary(const ResolvedRun& run, const RunRecord& record) {
   if (nlohmann::json links = links_in(run); !links.empty()) j["links"] = std::move(links);
   if (!record.reference.empty()) j["reference"] = record.reference;
   if (!record.reference_ended.empty()) j["reference_ended"] = record.reference_ended;
+  if (record.error_max && record.error_rows < record.reached_rows)
+    j["error_rows"] = {{"measured", record.error_rows}, {"of", record.reached_rows}};
   j["error_max"] = optional(record.error_max);
   j["error_final"] = optional(record.error_final);
   j["structure_residual"] = optional(record.structure_residual);

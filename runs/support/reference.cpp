@@ -201,6 +201,7 @@ bool ReferenceSolution::covers(Quad t) const {
 }
 
 std::vector<Quad> ReferenceSolution::at(Quad t) const {
+  if (t == t0_) return initial_;
   const std::size_t n = initial_.size();
   std::vector<Quad> z(n);
   if (problem_ != nullptr) {
