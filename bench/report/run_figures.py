@@ -56,7 +56,7 @@ def sentence(recording):
     said += [f"the residual of the {entry['name']} is at most {entry['max']:.2g}" for entry in summary.get("constraints") or []
              if entry.get("max") is not None]
     if summary.get("error_max") is not None:
-        said.append(f"the relative error of the state is at most {summary['error_max']:.2g}")
+        said.append(f"the relative error of the state is at most {summary['error_max']:.2g}{at_rows(summary.get('error_rows'))}")
     return "; ".join(said) + "."
 
 
@@ -142,13 +142,13 @@ def quantities(recording):
     return [drawing("quantities", "Against time", sentences(
         "Grey: unit round-off." if any(log for *_, log in shown) else "",
         "Lines join the largest values in short stretches of time." if any(log for *_, log in shown) else "",
-        errors_at(recording.summary.get("error_rows")), *zeros),
+        f"Errors are measured{at}." if (at := at_rows(recording.summary.get("error_rows"))) else "", *zeros),
         lambda wide: small_panels(shown, with_unit(label, recording.time_unit), unit, colour, wide))]
 
 
-def errors_at(rows):
-    """A sentence on the rows at which errors are measured; empty where these are all."""
-    return f"Errors are measured at {rows['measured']} of {rows['of']} rows." if rows else ""
+def at_rows(rows):
+    """At how many rows errors are measured, as the summary has it; empty where these are all."""
+    return f" at {rows['measured']} of {rows['of']} rows" if rows else ""
 
 
 def small_panels(shown, time_label, unit, colour, wide):

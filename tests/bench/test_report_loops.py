@@ -3,6 +3,7 @@ import unittest
 
 from synthetic import Fresh, reading, run, measured, synthetic
 
+import figures  # noqa: E402
 import loops  # noqa: E402
 import verdict  # noqa: E402
 
@@ -26,6 +27,13 @@ class Loops(Fresh):
         self.assertAlmostEqual(max(found["mid"].deviations), 2e-13, places=15)
         self.assertAlmostEqual(max(found["rk"].deviations), 7e-5, places=12)
         self.assertEqual(loops.loops(shown, shown.cases[1]), {})
+
+    def test_times_of_runs_that_go_back_are_those_since_the_start(self):
+        shown = self.write([["osc", "back", "0.4", "-0.0", "1", "0"], ["osc", "back", "0.4", "-0.8", "1", "0"]])
+        self.assertEqual(loops.loops(shown, shown.cases[0])["back"].times, [0, 0.8])
+        self.assertEqual(figures.time_label({"time": "-40", "time_unit": "s"}), "−t [s]")
+        self.assertEqual(figures.time_label({"time": "-40"}, "t at the turn"), "−t at the turn")
+        self.assertEqual(figures.time_label({"time": 40}), "t")
 
     def test_the_page_shows_who_loses_it(self):
         shown = self.write()

@@ -17,6 +17,20 @@ import verdict  # noqa: E402
 import work_precision  # noqa: E402
 
 
+class Rows(Fresh):
+    def test_the_page_says_at_how_many_rows_errors_are_measured(self):
+        path = synthetic(self.folder) / "experiment.json"
+        head = json.loads(path.read_text())
+        head["cases"][0]["error_rows"] = 200
+        path.write_text(json.dumps(head))
+        self.assertEqual(run(self.folder)[0], 0)
+        page = (self.folder / "report.html").read_text(encoding="utf-8")
+        self.assertIn("relative to the exact solution at 200 rows of a run at most", page)
+        shown = reading.Experiment(self.folder)
+        captions = [d.caption for d in work_precision.drawings(verdict.Verdict(shown, shown.cases[0]))]
+        self.assertIn("Errors are the largest at 200 rows of a run at most.", captions[0])
+
+
 class Whole(unittest.TestCase):
     """One experiment, reported once."""
 

@@ -8,6 +8,7 @@ import xml.etree.ElementTree
 
 from synthetic import Balance, Fresh, ended, save
 
+import experiment  # noqa: E402
 import frames  # noqa: E402
 import plot  # noqa: E402
 import recording  # noqa: E402
@@ -160,6 +161,21 @@ class Pages(Fresh):
             "s, rk4: 5 steps to t = 0.5 s, where it ended early (the iteration); energy moves from the start by at most 0.5 J, "
             "which is 0.12 of its scale (linear); heat, which is expected to decrease, goes from 3 to 1 J and never rises; the relative error of "
             "the state is at most 0.25."))
+
+    def test_a_run_backwards_is_drawn_against_the_time_since_its_start(self):
+        rows = [[5.0 - 0.1 * k, math.cos(0.1 * k), 1 + 1e-6 * k, "" if k % 5 else 1e-4 * k] for k in range(21)]
+        folder = run_directory(self.folder, ["t [s]", "q [m]", "energy [J]", "error"], rows, error_max=2e-3,
+                               error_rows={"measured": 4, "of": 20})
+        (folder / "series.csv").write_text((folder / "series.csv").read_text().replace("''", ""))
+        series = experiment.read_series(folder / "series.csv", "energy", "double")
+        for k, t in enumerate(series.time):
+            self.assertAlmostEqual(t, 0.1 * k, places=12)
+        self.assertEqual(experiment.run_times([0, 1, 2]), [0, 1, 2])
+        drawn = run_figures.drawings(recording.read_recording(folder))[-1]
+        self.assertIn("Errors are measured at 4 of 20 rows.", drawn.caption)
+        svg = drawn.draw(True).svg("quantities")
+        self.assertIn("time since the start [s]", svg)
+        self.assertIn("at most 0.002 at 4 of 20 rows", ended(plot, folder)[1]["sentence"])
 
     def test_what_is_no_run_is_refused(self):
         for folder, said in ((self.folder / "nowhere", "expected the directory of a run"),
