@@ -61,7 +61,7 @@ std::string positive_number(Choices& choices) {
 }
 std::string duration(Choices& choices) {
   return choices.once_in(40) ? random_number(choices)
-                             : choices.one_of({"1", "0.5", "2", "3/2", "1.0", "1e0"});
+                             : choices.one_of({"1", "0.5", "2", "3/2", "1.0", "1e0", "-1", "-3/2"});
 }
 std::string precision(Choices& choices) { return choices.one_of({"double", "double", "double", "quad"}); }
 
@@ -96,6 +96,8 @@ std::string random_configuration(Choices& choices) {
     text << "step = " << quoted(positive_number(choices)) << '\n';
     if (choices.once_in(4)) text << "every = " << 1 + choices.below(3) << '\n';
   }
+  if (choices.once_in(8))
+    text << "reference = " << quoted(choices.one_of({"none", "exact", "every", "solution,every"})) << '\n';
   if (choices.once_in(8)) text << "compile = \"no\"\n";  // a compiler for each input would take minutes
   if (choices.once_in(8)) text << "allow_inconsistent = " << quoted(choices.one_of({"yes", "no"})) << '\n';
   if (choices.once_in(2)) text << "initial = " << list_of_numbers(choices, dimension_of(system)) << '\n';
@@ -159,7 +161,9 @@ std::string random_experiment(Choices& choices) {
     if (choices.once_in(6)) text << "motion = " << choices.one_of({R"(["q", "p"])", R"(["x"])"}) << '\n';
     if (choices.once_in(4)) text << "methods = [" << quoted(choices.one_of(labels)) << "]\n";
     if (choices.once_in(6)) text << "seeds = " << choices.below(3) << '\n';
-    if (choices.once_in(6)) text << "reference = " << quoted(choices.one_of({"none", "solution"})) << '\n';
+    if (choices.once_in(6))
+      text << "reference = " << quoted(choices.one_of({"none", "solution", "every", "solution,every"}))
+           << '\n';
     if (choices.once_in(6)) text << "structure = " << quoted(choices.one_of({"none", "residual"})) << '\n';
     if (choices.once_in(4)) text << "[case.quick]\ntime = " << quoted(duration(choices)) << '\n';
   }
