@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include <pfaff/bench/runner/record.hpp>
+#include <pfaff/core/errors/budget.hpp>
 #include <pfaff/core/system.hpp>
 
 #include "run_settings.hpp"
@@ -100,6 +101,19 @@ TEST(ReferenceRows, EndWithTheSolution) {
   ASSERT_GE(found.size(), 3U);
   EXPECT_EQ(found.back(), 501U);  // at t = 5.01, which is none of every fifth row
   EXPECT_EQ(found[found.size() - 2], 500U);
+}
+
+// Where the run ends before its time, its last row has an error: after 503 steps, of which each fifth has one.
+TEST(ReferenceRows, EndWithTheRun) {
+  const ResolvedRun run = resolve(of_rows(1000));
+  const auto solution = reference_asked_for(run);
+  const Budget budget({.steps = 503});
+  const RunRecord record = execute(run, solution.get());
+  EXPECT_NE(record.status, Status::converged);
+  const std::vector<std::size_t> found = rows_with_errors(record);
+  ASSERT_GE(found.size(), 3U);
+  EXPECT_EQ(found.back(), record.samples.size() - 1);
+  EXPECT_LT(found.size(), record.samples.size() / 2);
 }
 
 TEST(ReferenceRows, AreAskedFor) {
