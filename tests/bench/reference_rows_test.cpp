@@ -103,7 +103,8 @@ TEST(ReferenceRows, EndWithTheSolution) {
   EXPECT_EQ(found[found.size() - 2], 500U);
 }
 
-// Where the run ends before its time, its last row has an error: after 503 steps, of which each fifth has one.
+// Where the run ends before its time, its last row has an error: after 503 steps, of which each fifth has
+// one.
 TEST(ReferenceRows, EndWithTheRun) {
   const ResolvedRun run = resolve(of_rows(1000));
   const auto solution = reference_asked_for(run);

@@ -94,12 +94,12 @@ def save(path, rows):
         csv.writer(file).writerows(rows)
 
 
-def measured(folder, name, rows, texts=()):
+def measured(folder, name, rows, texts=(), over="time"):
     """Adds a measure to the experiment: the table that it left, whose first row is its head. `texts` are columns of text."""
     path = pathlib.Path(folder) / "experiment.json"
     head = json.loads(path.read_text())
     columns = [{"name": column, "kind": "text" if column in texts else "number"} for column in rows[0][4:]]
-    head.setdefault("measures", []).append({"name": name, "title": name, "over": "time", "columns": columns,
+    head.setdefault("measures", []).append({"name": name, "title": name, "over": over, "columns": columns,
                                             "file": f"measures/{name}.csv"})
     path.write_text(json.dumps(head))
     (path.parent / "measures").mkdir(exist_ok=True)
