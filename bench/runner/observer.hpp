@@ -217,7 +217,7 @@ class Observer {
       if (*roundings) (*roundings)->add(static_cast<double>(t), in_double_);
     if (record_.samples.empty()) first_state_ = in_double_;
     if (record_.samples.empty() && roundings_) first_terms_ = roundings_->terms();
-    const std::string not_finite = compare_some(sample, exact_time);
+    std::string not_finite = compare_some(sample, exact_time);
     if (structure && residual_) measure_structure(t, z, sample);
     record_.samples.push_back(std::move(sample));
     return not_finite;
