@@ -187,7 +187,8 @@ TEST(Nonsense, AnErrorThatIsNotFiniteEndsTheRun) {
   EXPECT_EQ(record.status, Status::non_finite);
   EXPECT_EQ(record.completed, 0);
   EXPECT_FALSE(record.error_max.has_value());
-  expect_said(record.message, {"the error against the exact solution", "is not finite", "at t = 0.1 (step 1)"});
+  expect_said(record.message,
+              {"the error against the exact solution", "is not finite", "at t = 0.1 (step 1)"});
   s.reference = ErrorsAgainst::none;
   EXPECT_EQ(executed(s).status, Status::converged);
   s.reference = ErrorsAgainst::exact;
