@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <pfaff/bench/runner/observer.hpp>
@@ -54,6 +55,8 @@ class Observing final : public Watcher<T> {
     (void)one(run, run.steps_taken(), run.time());
   }
   [[nodiscard]] bool ended() const { return ended_; }
+  /// Whether the run was ended because it was asked to stop while its states were looked at.
+  [[nodiscard]] bool interrupted() const { return interrupted_; }
 
  private:
   [[nodiscard]] bool keeps(std::int64_t step) const { return step % run_.every == 0 || step == run_.steps; }
@@ -65,9 +68,12 @@ class Observing final : public Watcher<T> {
     ++row_;
     return row_ % structure_rows_ == 0 || step == run_.steps;
   }
-  void passed(std::int64_t step) {
-    record_.completed = step;
+  // True where the run is to end with this step, whose successors in the block are steps in vain.
+  bool passed(std::int64_t step) {
     if (progress_ && keeps(step)) progress_(static_cast<double>(step) / static_cast<double>(run_.steps));
+    const Budget* const budget = Budget::current();
+    interrupted_ = budget != nullptr && budget->stop() != nullptr && budget->stop()->load();
+    return interrupted_;
   }
   // What a formula throws at several states is thrown anew at one of them.
   [[nodiscard]] bool seen_together(const Block<T>& block) {
@@ -83,6 +89,7 @@ class Observing final : public Watcher<T> {
     for (std::size_t row = 0; row < block.rows; ++row) {
       const std::int64_t step = block.step(row);
       if (!keeps(step)) continue;
+      record_.completed = step;  // also where what follows throws
       const std::string not_finite = observer_.sample(block, row, exact(run, step), structure_at(step));
       if (ended_by(not_finite, block.time(row), step, record_)) {
         ended_ = true;
@@ -90,7 +97,10 @@ class Observing final : public Watcher<T> {
         record_.completed = step - block.stride;  // the steps behind which all was finite
         return row;
       }
-      passed(step);
+      if (passed(step)) {
+        observer_.take(block, row + 1);
+        return row;
+      }
     }
     observer_.take(block, block.rows);
     record_.completed = block.step(block.rows - 1);
@@ -106,10 +116,11 @@ class Observing final : public Watcher<T> {
   // Observes z_; true where that ends the run.
   bool one(const Integration<T>& run, std::int64_t step, const T& t) {
     const bool keep = keeps(step), structure = keep && structure_at(step);
+    const std::int64_t before = std::exchange(record_.completed, step);
     ended_ = ended_by(observer_.observe(t, keep ? exact(run, step) : Quad(0), z_, keep, structure), t, step,
                       record_);
-    if (!ended_) passed(step);
-    return ended_;
+    if (ended_) record_.completed = before;  // the steps behind which all was finite
+    return ended_ || passed(step);
   }
 
   const ResolvedRun& run_;
@@ -117,7 +128,7 @@ class Observing final : public Watcher<T> {
   RunRecord& record_;
   const Progress& progress_;
   std::int64_t structure_rows_, row_ = 0;
-  bool ended_ = false;
+  bool ended_ = false, interrupted_ = false;
   std::vector<T> z_;
 };
 

@@ -66,6 +66,22 @@ Counters counters_up_to(const ResolvedRun& run, std::int64_t steps, bool fails) 
   return again.counters();
 }
 
+// Takes the steps of a run, so many at a time that whoever watches sees progress.
+template <class T>
+Outcome all_steps(Integration<T>& integration, std::int64_t steps, std::int64_t stride) {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::milliseconds little{20}, much{200};
+  std::int64_t rows = 16;
+  while (true) {
+    const auto begin = Clock::now();
+    Outcome outcome = integration.steps(std::min(rows * stride, steps - integration.steps_taken()));
+    if (!outcome.reached() || integration.steps_taken() == steps) return outcome;
+    const auto elapsed = Clock::now() - begin;
+    if (elapsed < little) rows = std::min<std::int64_t>(2 * rows, 65536);
+    if (elapsed > much) rows = std::max<std::int64_t>(1, rows / 2);
+  }
+}
+
 template <class T>
 void execute_fixed(const ResolvedRun& run, Observer<T>& observer, RunRecord& record,
                    const Progress& progress) {
@@ -76,10 +92,15 @@ void execute_fixed(const ResolvedRun& run, Observer<T>& observer, RunRecord& rec
   try {
     integration.watch(observing, stride);
     if (!observing.ended()) {
-      const Outcome outcome = integration.steps(run.steps);
+      const Outcome outcome = all_steps(integration, run.steps, stride);
       if (outcome.reached() && run.steps % stride != 0) observing.last(integration);
       failed = outcome.end() == Outcome::End::failed;
-      counts = outcome.reached() || (failed && outcome.status() != Status::non_finite);
+      counts =
+          outcome.reached() || observing.interrupted() || (failed && outcome.status() != Status::non_finite);
+      if (observing.interrupted() && !outcome.reached()) {
+        record.interrupted = true;
+        record.message = "it was interrupted " + at(integration.time(), integration.steps_taken());
+      }
       if (failed) {
         record.completed = integration.steps_taken();
         record.status = outcome.status();

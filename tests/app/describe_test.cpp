@@ -38,14 +38,14 @@ void expect_narrow(const std::string& text) {
 TEST(List, KindsAndNames) {
   const auto all = asked({"list"});
   EXPECT_EQ(keys_of(all), (std::set<std::string>{"schema", "systems", "integrators", "brackets",
-                                                 "formulations", "experiments"}));
+                                                 "formulations", "measures", "experiments"}));
   for (const char* name : {"damped-oscillator", "damped-pendulum", "henon-heiles", "kepler"})
     EXPECT_TRUE(names_of(all["systems"]).contains(name)) << name;
   for (const char* name : {"generating-function", "gauss", "verlet", "rk4"})
     EXPECT_TRUE(names_of(all["integrators"]).contains(name)) << name;
   for (const char* name : {"dirac", "simplified-dirac", "lmm", "ggl"})
     EXPECT_TRUE(names_of(all["formulations"]).contains(name)) << name;
-  for (const char* kind : {"systems", "integrators", "brackets", "formulations", "experiments"}) {
+  for (const char* kind : {"systems", "integrators", "brackets", "formulations", "measures", "experiments"}) {
     EXPECT_EQ(asked({"list", kind})[kind], all[kind]);
     const std::string text = printed({"list", kind});
     for (const auto& item : all[kind]) {

@@ -136,7 +136,7 @@ TEST(Documentation, TheTableOfFacetsIsThatOfTheProgram) {
 // Every text that begins like a path from the top of the tree, wherever a page has it.
 std::set<std::string> files_named(const std::string& page) {
   static const std::regex path(
-      R"((^|[^\w./-])((core|brackets|formulations|systems|integrators|runs|bench|verify|derive|papers|app|tests|docs|examples|cmake|\.ci)/[\w./-]*))");
+      R"((^|[^\w./-])((core|brackets|formulations|systems|integrators|runs(?=/[a-z])|bench|verify|derive|papers|app|tests|docs|examples|cmake|\.ci)/[\w./-]*))");
   std::set<std::string> files;
   for (std::sregex_iterator at(page.begin(), page.end(), path), end; at != end; ++at) {
     std::string file = (*at)[2];
