@@ -2,25 +2,37 @@
 // go by, or carries states of its own along, and leaves a table.
 //
 // M is a struct in an anonymous namespace that holds settings, and has
-//   std::vector<Column> columns(const Model& model) const;      of its table; the time stands before them
-//   template <class T> struct Work { Work(const M&, const Measured<T>& run); … };   what it keeps meanwhile
-// and looks at a run in one or several of three ways:
-//   std::vector<std::int64_t> looks(const Measured<T>& run) const;     numbers of steps, in increasing order,
-//   bool look(const Measured<T>& run, const RunState<T>& at, Work<T>& work, Row& row) const;        at each
-//   of
-//                                them, with a row of the table; false ends the table before it
-//   void block(const Measured<T>& run, const Block<T>& block, Work<T>& work) const;   every state, in blocks
-//   bool end(const Measured<T>& run, Work<T>& work, Row& row) const;   once all steps are taken, with a row;
-//                                false leaves none
-// each a template of the scalar T, double and Quad. Steps count from 0, which is the start.
+//   std::vector<Column> columns(const Model& model) const;
+//                                the columns of its table (a name, a unit, digits), behind the elapsed time
+//   template <class T> struct Work { Work(const M&, const Measured<T>& run); ... };
+//                                what it keeps meanwhile
+// It looks at a run in one or several of three ways, each a template of the scalar T, double and Quad. Steps
+// count from 0, which is the start.
+//   std::vector<std::int64_t> looks(const Measured<T>& run) const;
+//                                the numbers of steps at which it looks, in increasing order (evenly())
+//   bool look(const Measured<T>& run, const RunState<T>& at, Work<T>& work, Row& row) const;
+//                                called at each of them. It fills a row, a number or a text for each column;
+//                                false ends the table before it
+//   void block(const Measured<T>& run, const Block<T>& block, Work<T>& work) const;
+//                                called with every state, many at a time: block.states.get(row, z) is that
+//                                after block.step(row) steps
+//   bool end(const Measured<T>& run, Work<T>& work, Row& row) const;
+//                                called once all steps are taken. It fills a row; false leaves none
+//
+// What a system knows of itself is evaluated by a Problem<T>(run.start.model()), made in Work, as
+// problem.invariants(t, z, values) in the order of model->invariants(), which have names; `field`,
+// `hamiltonian` and others likewise (core/facets/problem.hpp). BlockValues evaluates a formula at all states
+// of a block. Constraints are those of model->holonomic_constraints<T>(). Another run, from a state beside
+// the start or backwards, is run.start.beside(state) or run.start.reversed().
 //
 // Optional members of M. One of the names with another signature is refused by the compiler, which says what
 // was expected.
 //   static parameters()          the settings of the measure
-//   refuses(model, method)       why it says nothing of a run, as a predicate ("needs a system with …"), or
+//   refuses(model, method)       why it says nothing of a run, as a predicate ("needs a system with ..."), or
 //                                empty
 //   static controls()            what it has to give on systems of which the answer is known, and faults that
-//                                it has to see: `pfaff verify` runs them
+//                                it has to see (MeasureControl): `pfaff verify` runs them, and a measure that
+//                                states none fails
 #pragma once
 
 #include <concepts>
