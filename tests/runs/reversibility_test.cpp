@@ -27,7 +27,8 @@ struct Returns {
 };
 Returns returns_to_start(const ToMeasure& run) {
   Returns returns;
-  for (const MeasuredTable::Line& line : table_of("reversibility", run).lines) {
+  const MeasuredTable table = table_of("reversibility", run);
+  for (const MeasuredTable::Line& line : table.lines) {
     returns.looks.push_back({time_of(line, run), testing::number(line, 0), testing::number(line, 1)});
     returns.by = std::get<std::string>(line.cells[2]);
   }
