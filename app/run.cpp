@@ -217,7 +217,7 @@ Measures fitting_measures(const RunOptions& options, const ResolvedRun& resolved
   return measures;
 }
 
-// Makes the tables of measures, and gives the rows that tell of them, their names in the summary too.
+// Makes the tables of measures of a run that has ended well, and gives the rows that tell of them.
 TableRows measured(const RunOptions& options, const ResolvedRun& resolved, const Measures& measures,
                    const nlohmann::json& summary) {
   TableRows rows;

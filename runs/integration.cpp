@@ -69,9 +69,7 @@ void Integration<T>::watch(Watcher<T>& watcher, std::int64_t every) {
 
 template <class T>
 Outcome Integration<T>::ended(std::int64_t begin, Outcome::End end, Status status) const {
-  const std::string where = end == Outcome::End::reached ? ""
-                                                         : "at t = " + to_string(Quad(value_of(time())), 10) +
-                                                               " (step " + std::to_string(taken_) + ")";
+  const std::string where = end == Outcome::End::reached ? "" : place_of(Quad(value_of(time())), taken_);
   return {end, status, taken_ - begin, where};
 }
 

@@ -23,7 +23,7 @@
 // problem.invariants(t, z, values) in the order of model->invariants(), which have names; `field`,
 // `hamiltonian` and others likewise (core/facets/problem.hpp). BlockValues evaluates a formula at all states
 // of a block. Constraints are those of model->holonomic_constraints<T>(). Another run, from a state beside
-// the start or backwards, is run.start.beside(state) or run.start.reversed().
+// the start or backwards, is run.start.beside(state) or run.start.reversed(), which carried_to() follows.
 //
 // Optional members of M. One of the names with another signature is refused by the compiler, which says what
 // was expected.
@@ -70,6 +70,12 @@ struct RunState {
 
 /// 0 and about `count` other numbers of steps, evenly spaced up to `steps`.
 std::vector<std::int64_t> evenly(std::int64_t steps, int count);
+
+/// Takes the steps that lead a run beside the measured one to `step`; false where one fails.
+template <class T>
+[[nodiscard]] bool carried_to(std::int64_t step, Integration<T>& run) {
+  return run.steps(step - run.steps_taken()).reached();
+}
 
 /// A measure at work on one run. What its author's code throws passes.
 template <class T>

@@ -4,6 +4,10 @@
 
 namespace pfaff {
 
+std::string place_of(const Quad& t, std::int64_t step) {
+  return "at t = " + to_string(t, 10) + " (step " + std::to_string(step) + ")";
+}
+
 std::string failure(Status status, const std::string& where) {
   switch (status) {
     case Status::not_converged:

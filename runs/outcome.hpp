@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <pfaff/core/errors/status.hpp>
+#include <pfaff/core/numbers/quad.hpp>
 
 namespace pfaff {
 
@@ -36,6 +37,9 @@ class [[nodiscard]] Outcome {
   std::int64_t steps_;
   std::string where_;
 };
+
+/// "at t = 0.5 (step 5)", for messages.
+[[nodiscard]] std::string place_of(const Quad& t, std::int64_t step);
 
 /// What kind of failure a status is, followed by where it happened; empty for Status::converged.
 [[nodiscard]] std::string failure(Status status, const std::string& where);

@@ -90,7 +90,7 @@ std::vector<FoundFrequency> frequencies_of(const ExperimentRun& run, const Refer
   Integration<double> carried(start_of<double>(resolved));
   for (const std::int64_t step : evenly(steps, looks_at_vectors)) {
     const Quad at = resolved.t0.quad() + Quad(static_cast<double>(step)) * resolved.step.quad();
-    if (!carried.steps(step - carried.steps_taken()).reached() || !solution.covers(at)) break;
+    if (!carried_to(step, carried) || !solution.covers(at)) break;
     const double elapsed = static_cast<double>(step) * h;
     times.push_back(elapsed);
     vectors.append(t0 + elapsed, {carried.state().begin(), carried.state().end()}, of_method);

@@ -13,8 +13,8 @@ import dataclasses
 import math
 import pathlib
 
-from experiment import split_unit
 from files import InputError, allow, parse, read_csv, read_json
+from series import split_unit
 
 CROSSINGS = 30  # fewer show nothing of a section
 SAMPLES_BETWEEN = 8  # crossings are interpolated between samples, which must follow the curve

@@ -6,13 +6,14 @@ and the structure residual as they are.
 import math
 
 from canvas import INK, MID, Canvas, sizes
-from experiment import DIRECTIONS, UNIT_ROUND_OFF, read_series, run_times
+from experiment import DIRECTIONS, UNIT_ROUND_OFF
 from families import FAMILIES, family_named
 from figures import Drawing, sentences, with_unit
 from frames import Animation, Figure, duration, strip
 from labels import pushed_apart
 from portraits import panels, remarks
 from scales import ErrorAxis, envelope, time_axis
+from series import read_series, run_times
 from wording import counted
 
 COORDINATES = 6  # of systems with more coordinates the coordinates are not drawn against time

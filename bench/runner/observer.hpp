@@ -25,8 +25,6 @@ namespace pfaff {
 // A structure residual needs the Jacobian of a step, whose cost grows as the cube of the dimension. Beyond
 // this dimension it would take most of a run, so it is not measured.
 inline constexpr int most_differentiated_in_runs = 64;
-/// The most states that a run looks at together.
-inline constexpr std::size_t most_rows = 256;
 
 /// Measures a run computed in the scalar T as it goes, into `record`.
 template <class T>
@@ -48,11 +46,7 @@ class Observer {
     if (run.settings.structure_residuals && StructureResidual<T>::applies(*run.model) && !run.adaptive() &&
         run.model->dimension() <= most_differentiated_in_runs && !remembers(run))
       residual_.emplace(*run.method, run.model);
-    if (!values_.empty()) {
-      roundings_.emplace(run.model->tape(Formula::invariants));
-      block_values_ =
-          std::make_unique<BlockValues<T>>(run.model, Formula::invariants, values_.size(), most_rows);
-    }
+    if (!values_.empty()) roundings_.emplace(run.model->tape(Formula::invariants));
     if (run.model->restricted()) constraint_roundings_.emplace(run.model->tape(Formula::constraints));
     if (reference != nullptr && changes(run)) exact_.emplace(run.model);
     drift_.resize(values_.size());
@@ -97,8 +91,11 @@ class Observer {
   /// Evaluates the invariants at all states of a block, for take() and sample(), which look at them as
   /// observe() does. False where one is not finite, or where states have to be observed one by one.
   [[nodiscard]] bool evaluate(const Block<T>& block) {
-    if (run_.model->restricted() || rank_.watches() || block.rows > most_rows) return false;
-    if (block_values_ == nullptr) return true;
+    if (run_.model->restricted() || rank_.watches()) return false;
+    if (values_.empty()) return true;
+    if (block_values_ == nullptr)
+      block_values_ =
+          std::make_unique<BlockValues<T>>(run_.model, Formula::invariants, values_.size(), block.capacity);
     in_block_ = &(*block_values_)(block);
     errors_.resize(values_.size() * block.rows);
     bool fit = true;
@@ -315,7 +312,7 @@ class Observer {
   StepperPointer<T> apart_;  // for steps that are not the run's own
   bool singular_ = false;
   std::optional<RoundingSizes> roundings_, constraint_roundings_;  // of invariants, and of constraints
-  std::unique_ptr<BlockValues<T>> block_values_;                   // null where there are no invariants
+  std::unique_ptr<BlockValues<T>> block_values_;                   // made with the first block
   const Tiles<T>* in_block_ = nullptr;                             // the invariants at the rows of a block,
   std::vector<double> errors_;                                     // and each less its first value
   std::vector<T> values_, initial_, residuals_;

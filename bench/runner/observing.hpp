@@ -13,18 +13,12 @@
 
 namespace pfaff {
 
-/// Where a run has ended, for messages.
-template <class T>
-std::string at(const T& t, std::int64_t step) {
-  return "at t = " + to_string(Quad(t), 10) + " (step " + std::to_string(step) + ")";
-}
-
 /// Ends a run at which something measured is not finite; true where there is such a thing.
 template <class T>
 bool ended_by(const std::string& not_finite, const T& t, std::int64_t step, RunRecord& record) {
   if (not_finite.empty()) return false;
   record.status = Status::non_finite;
-  record.message = not_finite + " " + at(t, step);
+  record.message = not_finite + " " + place_of(Quad(t), step);
   return true;
 }
 

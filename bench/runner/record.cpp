@@ -22,7 +22,8 @@ void end_by(const BudgetSpent& spent, const T& t, std::int64_t step, RunRecord& 
   if (record.status != Status::converged) return;
   record.interrupted = spent.stopped();
   if (!spent.stopped()) record.status = Status::not_converged;
-  record.message = (spent.stopped() ? "it was interrupted" : std::string(spent.what())) + " " + at(t, step);
+  record.message =
+      (spent.stopped() ? "it was interrupted" : std::string(spent.what())) + " " + place_of(Quad(t), step);
   if (spent.reason() == BudgetSpent::Reason::steps) record.message += "; --max-steps sets it";
 }
 
@@ -57,11 +58,14 @@ std::int64_t steps_between_looks(const ResolvedRun& run) {
   return stride;
 }
 
-// The work of so many steps and of one more that fails, where a block of steps has gone on behind that.
+// The work of so many steps and of one more that fails, where a block of steps has gone on behind that. A
+// processed method takes its processor at every look again.
 template <class T>
 Counters counters_up_to(const ResolvedRun& run, std::int64_t steps, bool fails) {
   Integration<T> again(start_of<T>(run));
-  (void)again.steps(steps);
+  const std::int64_t at_a_time = run.method->processed() ? steps_between_looks(run) : steps;
+  while (again.steps_taken() < steps)
+    if (!again.steps(std::min(at_a_time, steps - again.steps_taken())).reached()) break;
   if (fails) (void)again.steps(1);
   return again.counters();
 }
@@ -97,10 +101,7 @@ void execute_fixed(const ResolvedRun& run, Observer<T>& observer, RunRecord& rec
       failed = outcome.end() == Outcome::End::failed;
       counts =
           outcome.reached() || observing.interrupted() || (failed && outcome.status() != Status::non_finite);
-      if (observing.interrupted() && !outcome.reached()) {
-        record.interrupted = true;
-        record.message = "it was interrupted " + at(integration.time(), integration.steps_taken());
-      }
+      if (observing.interrupted() && !outcome.reached()) spend(0, 0);  // which throws
       if (failed) {
         record.completed = integration.steps_taken();
         record.status = outcome.status();
@@ -149,7 +150,7 @@ void execute_adaptive(const ResolvedRun& run, Observer<T>& observer, RunRecord& 
       const Outcome outcome = integration.to(T(run.t0) + T(run.time) * T(k) / T(intervals));
       if (!outcome.reached()) {
         record.status = outcome.status();
-        record.message = "the step control gave up " + at(integration.time(), steps()) +
+        record.message = "the step control gave up " + place_of(Quad(integration.time()), steps()) +
                          ": no step meets the tolerance in every coordinate (what counts in small ones, "
                          "--absolute says)";
         break;

@@ -62,7 +62,7 @@ struct Contraction {
     const bool shown = std::find(work.shown.begin(), work.shown.end(), at.step) != work.shown.end();
     T twice(0);
     for (Integration<T>& point : work.outline) {
-      if (!point.steps(at.step - point.steps_taken()).reached()) return false;
+      if (!carried_to(at.step, point)) return false;
       if (shown) text += (text.empty() ? "" : ";") + in_six_digits(point.state());
     }
     for (std::size_t k = 0; k < work.outline.size(); ++k) {

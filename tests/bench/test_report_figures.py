@@ -8,6 +8,7 @@ import canvas  # noqa: E402
 import drift  # noqa: E402
 import families  # noqa: E402
 import lines  # noqa: E402
+import series as series_of_runs  # noqa: E402
 import verdict  # noqa: E402
 import work_precision  # noqa: E402
 
@@ -116,8 +117,8 @@ class Numbers(Fresh):
         path = self.folder / "series.csv"
         save(path, [["t [s]", "H [J]"], ["0", "1.333333333333333333333333333333333331"],
                     ["1", "1.333333333333333333333333333333333335"]])
-        self.assertEqual(reading.read_series(path, "H", "quad").change, [0, 4e-36])
-        self.assertEqual(reading.read_series(path, "H", "double").change, [0, 0])  # control: double cannot see it
+        self.assertEqual(series_of_runs.read_series(path, "H", "quad").change, [0, 4e-36])
+        self.assertEqual(series_of_runs.read_series(path, "H", "double").change, [0, 0])  # control: double cannot see it
 
     def test_zero_has_a_line_of_its_own(self):
         axis = scales.ErrorAxis([[0.0, 1e-12, math.nan], [1e-3, 1e9]], U)
@@ -136,7 +137,7 @@ class Numbers(Fresh):
         self.assertEqual(t, sorted(t))
 
     def test_largest_move_against_the_expected_direction(self):
-        series = reading.Series([0, 1, 2, 3, 4], "s", 5, [0, -2, -1, -4, -3.5], "J", [], [])
+        series = series_of_runs.Series([0, 1, 2, 3, 4], "s", 5, [0, -2, -1, -4, -3.5], "J", [], [])
         self.assertEqual(series.setbacks("decreasing"), [0, 0, 1, 1, 1])
         self.assertEqual(series.setbacks("increasing"), [0, 2, 2, 4, 4])
 

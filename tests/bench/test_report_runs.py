@@ -8,11 +8,11 @@ import xml.etree.ElementTree
 
 from synthetic import Balance, Fresh, ended, save
 
-import experiment  # noqa: E402
 import frames  # noqa: E402
 import plot  # noqa: E402
 import recording  # noqa: E402
 import run_figures  # noqa: E402
+import series  # noqa: E402
 
 
 def run_directory(folder, columns, rows, **summary):
@@ -167,10 +167,10 @@ class Pages(Fresh):
         folder = run_directory(self.folder, ["t [s]", "q [m]", "energy [J]", "error"], rows, error_max=2e-3,
                                error_rows={"measured": 4, "of": 20})
         (folder / "series.csv").write_text((folder / "series.csv").read_text().replace("''", ""))
-        series = experiment.read_series(folder / "series.csv", "energy", "double")
-        for k, t in enumerate(series.time):
+        one = series.read_series(folder / "series.csv", "energy", "double")
+        for k, t in enumerate(one.time):
             self.assertAlmostEqual(t, 0.1 * k, places=12)
-        self.assertEqual(experiment.run_times([0, 1, 2]), [0, 1, 2])
+        self.assertEqual(series.run_times([0, 1, 2]), [0, 1, 2])
         drawn = run_figures.drawings(recording.read_recording(folder))[-1]
         self.assertIn("Errors are measured at 4 of 20 rows.", drawn.caption)
         svg = drawn.draw(True).svg("quantities")
