@@ -84,7 +84,9 @@ TEST_F(BackwardsExperiments, NameStepsByTheirSizes) {
   EXPECT_EQ(runs[1].step, "0.05");
   EXPECT_THAT(runs[2].step, ::testing::StartsWith("0.0314159"));
   for (const ExperimentRun& run : runs)
-    if (run.tolerance.empty()) EXPECT_LT(run.resolved.step, Real(0));
+    if (run.tolerance.empty()) {
+      EXPECT_LT(run.resolved.step, Real(0));
+    }
   EXPECT_THROW((void)expand(read(swing("4", "[\"-0.1\"]"))), InputError);
 }
 
