@@ -13,6 +13,7 @@
 #include <pfaff/bench/runner/measure_tables.hpp>
 #include <pfaff/bench/runner/run_directory.hpp>
 #include <pfaff/bench/runner/terminal.hpp>
+#include <pfaff/core/errors/budget.hpp>
 #include <pfaff/runs/motion.hpp>
 
 namespace pfaff::app {
@@ -224,7 +225,13 @@ TableRows measured(const RunOptions& options, const ResolvedRun& resolved, const
   if (measures.empty() || summary["status"] != "converged") return rows;
   const Interruption interruption;
   const Budget budget({}, &Interruption::stop());
-  const auto tables = tables_of(options.out, resolved, summary["checksum"], measures);
+  std::vector<MeasureTable> tables;
+  try {
+    tables = tables_of(options.out, resolved, summary["checksum"], measures);
+  } catch (const BudgetSpent& spent) {
+    if (!spent.stopped()) throw;
+    throw RunError("interrupted while the run was measured; the run in '" + options.out + "' is complete");
+  }
   for (std::size_t m = 0; m < measures.size(); ++m) {
     const std::string& name = measures[m]->descriptor().name;
     rows.push_back({name, std::to_string(tables[m].lines.size()) + " rows in " + options.out + "/" +
