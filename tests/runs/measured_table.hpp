@@ -24,7 +24,8 @@ inline ToMeasure to_measure(const std::string& system, const std::string& method
   AskedIntegration asked{.step = step};
   for (auto one = set.begin(); one != set.end(); ++one)
     if (one->first == "initial") {
-      for (const Real& x : *parse_list(one->second)) asked.initial.push_back(to_string(x));
+      const std::vector<Real> initial = parse_list(one->second).value();
+      for (const Real& x : initial) asked.initial.push_back(to_string(x));
       set.erase(one);
       break;
     }
