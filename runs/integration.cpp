@@ -31,6 +31,17 @@ Integration<T> Integration<T>::beside(std::vector<T> state, const T& t0, const T
 }
 
 template <class T>
+Integration<StepDual<T>> Integration<T>::differentiated(std::size_t first) const
+    requires(derivative_depth<T> == 0) {
+  Start<StepDual<T>> start{start_.model, start_.method, {state_.begin(), state_.end()},
+                           start_.h,     time(),        start_.tolerance};
+  start.absolute.assign(start_.absolute.begin(), start_.absolute.end());
+  for (std::size_t k = 0; k < step_directions && first + k < state_.size(); ++k)
+    start.state[first + k].derivative[k] = T(1);
+  return Integration<StepDual<T>>(std::move(start));
+}
+
+template <class T>
 Integration<T> Integration<T>::reversed() const {
   return beside(state_, time(), -start_.h);
 }

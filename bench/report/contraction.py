@@ -1,5 +1,5 @@
-"""How methods contract areas, of the systems that state by which law they do: measures/contraction.csv has the outlines of a disc of
-states that each method carries along, and its area beside the law.
+"""How methods contract areas, of the systems that state by which law they do: measures/contraction.csv has the area that each method
+makes of a small one, beside the law, and the outlines of a disc of states that it carries along.
 
 The law shrinks whatever is drawn. Outlines are therefore seen through a lens: positions and momenta over the square root of
 the law, so that the image of a disc keeps its area where the method keeps the law.
@@ -67,8 +67,8 @@ def drawings(verdict):
         f"A disc of states around the start, carried along by each method, {at}, at six times. Positions and momenta are "
         "divided by the square root of the exact contraction, so that the images of all times have one area where a method "
         "contracts as the system does; beside the name stands the last area over the exact one.",
-        "Below, how far that ratio is from 1; dashed is unit round-off. A straight-sided figure of 96 points stands for the disc: of "
-        "a nonlinear system its sides bend, and ratios say nothing below about one in a thousand.", *axis.remarks())
+        "Areas are those that the tangent map of the steps makes of a small one around the start. "
+        "Below, how far that ratio is from 1; dashed is unit round-off.", *axis.remarks())
     return [Drawing("contraction", case, title, told, lambda wide: draw(verdict, shown, axis, title, wide))]
 
 

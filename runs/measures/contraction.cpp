@@ -1,8 +1,10 @@
-// How a method contracts the plane: a disc of states, carried along.
+// How a method contracts the plane.
 //
 // A system of one q and one p with friction, q' = T_p, p' = -V_q - nu p, states by its damping nu how it
-// contracts areas: dq ^ dp shrinks as e^{-nu t}, whatever the potential is. The outline of a disc around the
-// initial state is moved point by point; its area is that of the polygon of these points.
+// contracts areas: dq ^ dp shrinks as e^{-nu t}, whatever the potential is. What a method makes of an area
+// around the initial state is the determinant of the tangent map of its steps, whose columns are the
+// derivatives of the state with respect to the first q and p. For the eye the outline of a disc is moved
+// point by point beside it.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -41,9 +43,9 @@ struct Contraction {
   struct Work {
     std::vector<Integration<T>> outline;
     std::vector<std::int64_t> shown;  // the looks at which the table has the outline
-    T first{1};
+    Integration<StepDual<T>> tangent;
 
-    Work(const Contraction& measure, const Measured<T>& run) {
+    Work(const Contraction& measure, const Measured<T>& run) : tangent(run.start.differentiated()) {
       const T q = run.start.state()[0], p = run.start.state()[1], size = length(q, p);
       const T r = T(radius) * (size > T(0) ? size : T(1));
       for (int k = 0; k < measure.corners; ++k) {
@@ -59,21 +61,18 @@ struct Contraction {
   template <class T>
   bool look(const Measured<T>& run, const RunState<T>& at, Work<T>& work, Row& row) const {
     std::string text;
-    const bool shown = std::find(work.shown.begin(), work.shown.end(), at.step) != work.shown.end();
-    T twice(0);
-    for (Integration<T>& point : work.outline) {
-      if (!carried_to(at.step, point)) return false;
-      if (shown) text += (text.empty() ? "" : ";") + in_six_digits(point.state());
-    }
-    for (std::size_t k = 0; k < work.outline.size(); ++k) {
-      const auto a = work.outline[k].state(), b = work.outline[(k + 1) % work.outline.size()].state();
-      twice += a[0] * b[1] - b[0] * a[1];
-    }
-    if (at.step == 0) work.first = twice / T(2);
+    if (!carried_to(at.step, work.tangent)) return false;
+    if (std::find(work.shown.begin(), work.shown.end(), at.step) != work.shown.end())
+      for (Integration<T>& point : work.outline) {
+        if (!carried_to(at.step, point)) return false;
+        text += (text.empty() ? "" : ";") + in_six_digits(point.state());
+      }
+    const auto& q = work.tangent.state()[0].derivative;
+    const auto& p = work.tangent.state()[1].derivative;
+    const T area = q[0] * p[1] - q[1] * p[0];
     const T elapsed = T(static_cast<double>(at.step)) * run.start.step();
-    row = {at.step == 0 ? T(1) : T(twice / T(2) / work.first),
-           exp(-T(run.start.model()->damping()) * elapsed), text};
-    return isfinite(twice);
+    row = {area, exp(-T(run.start.model()->damping()) * elapsed), text};
+    return isfinite(area);
   }
 
   // Areas of r'' + nu r' + r = 0 shrink by e^{-nu t} in a scheme that keeps the structure, and by the
@@ -91,7 +90,7 @@ struct Contraction {
                             .steps = steps,
                             .column = "area",
                             .expected = expected,
-                            .allowed = 1e-12,  // a polygon of 96 corners, moved by linear steps
+                            .allowed = 1e-12,  // round-off of fifty linear steps
                             .fault = fault};
     };
     const double law = std::exp(-nu * h * steps);
@@ -118,9 +117,11 @@ const Measure<Contraction> registered{
      .title = "How a method contracts areas of the plane, beside the law of the motion",
      .reference = "mclachlan-perlmutter2001",
      .description =
-         "The area of a disc of states that the method carries along, over that at the start, beside "
-         "e^{-nu t}, which is the law of every system of one q and one p with the damping nu. The "
-         "disc is the polygon of its corners.",
+         "The area that the method makes of a small one around the initial state, over that at first, beside "
+         "e^{-nu t}, which is the law of every system of one q and one p with the damping nu: the "
+         "determinant of the tangent map of its steps. The outline is that of a disc whose points are "
+         "carried "
+         "along.",
      .watches = {Claim::conformal},
      .usual = true}};
 }  // namespace
