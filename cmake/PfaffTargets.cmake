@@ -57,7 +57,8 @@ endfunction()
 # them, `batch` at a time. Plug-ins are not: each has to be compiled again in seconds.
 function(pfaff_joined target batch)
   if(PFAFF_JOINED)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch})
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch}
+      UNITY_BUILD_CODE_BEFORE_INCLUDE "// NOLINTNEXTLINE(bugprone-suspicious-include)")
     # A local variable may have the name of what only another source declares, and what is joined is no header,
     # whose types must not depend on unnamed namespaces.
     target_compile_options(${target} PRIVATE
