@@ -31,14 +31,14 @@ Integration<T> Integration<T>::beside(std::vector<T> state, const T& t0, const T
 }
 
 template <class T>
-Integration<StepDual<T>> Integration<T>::differentiated(std::size_t first) const
-    requires(derivative_depth<T> == 0) {
-  Start<StepDual<T>> start{start_.model, start_.method, {state_.begin(), state_.end()},
-                           start_.h,     time(),        start_.tolerance};
+template <class Of>
+Integration<StepDual<Of>> Integration<T>::differentiated(std::size_t first) const {
+  Start<StepDual<Of>> start{start_.model, start_.method, {state_.begin(), state_.end()},
+                            start_.h,     time(),        start_.tolerance};
   start.absolute.assign(start_.absolute.begin(), start_.absolute.end());
   for (std::size_t k = 0; k < step_directions && first + k < state_.size(); ++k)
     start.state[first + k].derivative[k] = T(1);
-  return Integration<StepDual<T>>(std::move(start));
+  return Integration<StepDual<Of>>(std::move(start));
 }
 
 template <class T>
@@ -301,6 +301,8 @@ Outcome Integration<T>::to(const T& t) {
 
 template class Integration<double>;
 template class Integration<Quad>;
+template Integration<StepDual<double>> Integration<double>::differentiated(std::size_t) const;
+template Integration<StepDual<Quad>> Integration<Quad>::differentiated(std::size_t) const;
 template class Integration<StepDual<double>>;
 template class Integration<StepDual<Quad>>;
 

@@ -72,9 +72,9 @@ class Integration {
   [[nodiscard]] Integration beside(std::vector<T> state, const T& t0, const T& h) const;
   /// The same from here with derivatives: component i of the state has in its direction k the derivative with
   /// respect to component first + k, for as many of them as there are directions. Nobody watches it and it
-  /// remembers nothing.
-  [[nodiscard]] Integration<StepDual<T>> differentiated(std::size_t first = 0) const
-      requires(derivative_depth<T> == 0);
+  /// remembers nothing. It is there for integrations in double and in quad.
+  template <class Of = T>
+  [[nodiscard]] Integration<StepDual<Of>> differentiated(std::size_t first = 0) const;
   /// From here back, with steps of -h; it remembers nothing.
   [[nodiscard]] Integration reversed() const;
   /// The same integration after `step` steps, at a state that is known: times are those of this one.
