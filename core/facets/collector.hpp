@@ -94,10 +94,11 @@ class Collector {
 #define PFAFF_BRACKET(name, ...) take<name>();
 #include <pfaff/core/facets/formula_rows.hpp>
 
-    constexpr bool energies = writes<S, kinetic> && writes<S, potential>;
-    if constexpr (energies && WritesDamping<S>) source_.damping = s.damping();
-    source_.canonical = is_canonical<S>();
-    if constexpr (energies && is_batched<S>()) program(hamiltonian, {source_.dimension, 1}, EnergyObject());
+    constexpr FormulaMembers has = energy_members<S>();
+    if constexpr (has.conformal()) source_.damping = s.damping();
+    source_.canonical = has.canonical();
+    if constexpr (has.energies() && is_batched<S>())
+      program(hamiltonian, {source_.dimension, 1}, EnergyObject());
     if constexpr (WritesConstraintEvaluator<S>)
       source_.holonomic = std::make_shared<const HolonomicFactoryOf<S>>(system_);
     // A part count of zero means that with these parameters there are no parts to be solved exactly.
@@ -127,8 +128,7 @@ class Collector {
   if constexpr (writes<S, name>) Program<BatchedFormula<S, FormulaObject<name>>>::leave_code();
 #define PFAFF_BRACKET(name, ...) PFAFF_FORMULA(name)
 #include <pfaff/core/facets/formula_rows.hpp>
-      if constexpr (writes<S, kinetic> && writes<S, potential>)
-        Program<BatchedFormula<S, EnergyObject>>::leave_code();
+      if constexpr (energy_members<S>().energies()) Program<BatchedFormula<S, EnergyObject>>::leave_code();
     }
     if constexpr (WritesConstraintEvaluator<S>) leave_code_of<HolonomicFactoryOf<S>>();
     if constexpr (WritesPartFlow<S>) leave_code_of<ExactFlowsFactoryOf<S>>();

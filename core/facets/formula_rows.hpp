@@ -2,9 +2,9 @@
 //
 // An X-macro, included without a guard by whoever defines the macros whose rows it reads; the others expand
 // to nothing, and all are undefined at the end. Readers: the enumerators, names and `formula_table`
-// (facet.hpp), what a system's struct writes (written_formulas.hpp) and what is refused
-// (system_formulas.hpp), how it is recorded (collector.hpp), the members of a problem (problem.hpp), the
-// names of constraints (model.hpp).
+// (facet.hpp), which members there are (formula_rules.hpp), what a system's struct writes
+// (written_formulas.hpp) and what is refused (system_formulas.hpp), how it is recorded (collector.hpp), the
+// members of a problem (problem.hpp), the names of constraints (model.hpp).
 //
 //   PFAFF_FACET(name, "text", "meaning", "operation")
 //       the operation, where there is one, is a member of the author's struct that belongs to the facet and

@@ -21,18 +21,6 @@ int dimension_of(const S& s) {
   }
 }
 
-/// True where S writes H = T + V and no damping.
-template <class S>
-constexpr bool writes_undamped_energies() {
-  return writes<S, Formula::kinetic> && writes<S, Formula::potential> && !WritesDamping<S>;
-}
-/// True where the coordinates of S are canonical.
-template <class S>
-constexpr bool is_canonical() {
-  return writes_undamped_energies<S>() ||
-         (writes<S, Formula::hamiltonian> && !writes<S, Formula::poisson_tensor>);
-}
-
 struct FormulasInDouble {
   std::array<CompiledCode, formula_count> code{};
   const CompiledSeries* chart_field_series = nullptr;
@@ -51,7 +39,7 @@ class CollectorInDouble {
 #include <pfaff/core/facets/formula_rows.hpp>
     // The field of the energy alone, which is not the motion where a second bracket or applied forces take
     // part.
-    if constexpr (writes_undamped_energies<S>() && !writes<S, symmetric_tensor> &&
+    if constexpr (energy_members<S>().separable() && !writes<S, symmetric_tensor> &&
                   !writes<S, applied_force> && writes<S, force> && writes<S, velocity>)
       c.template compile<writes<S, force, Pack<8>> && writes<S, velocity, Pack<8>>>(
           field, []<class T>(const S& self, const T& t, const T* z, T* o) {
@@ -59,7 +47,7 @@ class CollectorInDouble {
             self.velocity(t, In<T>(z + m, m), Out<T>(o, m));
             self.force(t, In<T>(z, m), Out<T>(o + m, m));
           });
-    if constexpr (is_canonical<S>() && !writes<S, chart>) c.compile_identity_chart();
+    if constexpr (energy_members<S>().canonical() && !writes<S, chart>) c.compile_identity_chart();
     if constexpr (CompilesChartField<S> && (writes<S, chart_field> || !writes<S, chart>))
       c.compile_chart_field();
     return c.made_;

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include <pfaff/core/facets/formula_rules.hpp>
 #include <pfaff/core/facets/joined_velocity_constraints.hpp>
 #include <pfaff/core/facets/taped_constraints.hpp>
 #include <pfaff/core/facets/taped_velocity_constraints.hpp>
@@ -18,31 +19,27 @@ std::string to_string(FacetSet set) {
 }
 
 FacetSet Model::content_of_formulas() const {
+  const FormulaMembers has = members_of(source_);
+  const bool energy = has.energy(), canonical = source_.canonical && energy;
   FacetSet content;
-  const auto has = [&](Formula f) { return given(f); };
-  const auto offer = [&](Facet f) { content = content.with(f); };
-  const bool energies = has(Formula::kinetic) && has(Formula::potential);
-  const bool conformal = energies && source_.damping.has_value(), separable = energies && !conformal;
-  const bool hamiltonian = separable || has(Formula::hamiltonian);
-  const bool birkhoffian = has(Formula::birkhoffian) && has(Formula::one_form);
-  if (hamiltonian) offer(Facet::hamiltonian);
-  if (separable) offer(Facet::separable);
-  if (conformal) offer(Facet::conformal);
-  const bool structure = birkhoffian || (has(Formula::structure) && has(Formula::covector));
-  if (structure) offer(Facet::structure);
-  if (birkhoffian) offer(Facet::birkhoffian);
-  if (has(Formula::field) || hamiltonian || conformal || structure) offer(Facet::vector_field);
-  if ((has(Formula::chart) && has(Formula::chart_inverse)) || (source_.canonical && hamiltonian))
-    offer(Facet::darboux_chart);
-  if (has(Formula::alpha) && (structure || source_.canonical)) offer(Facet::generating_map);
-  if (hamiltonian && has(Formula::symmetric_tensor)) offer(Facet::metriplectic);
-  if (hamiltonian && source_.canonical && has(Formula::holonomic)) offer(Facet::holonomic);
-  if (hamiltonian && (has(Formula::holonomic) || has(Formula::constraints))) offer(Facet::constraints);
-  if (hamiltonian && source_.canonical && has(Formula::velocity_constraints))
-    offer(Facet::velocity_constraints);
-  if (!source_.invariants.empty()) offer(Facet::invariants);
-  if (has(Formula::exact_solution)) offer(Facet::exact_solution);
-  if (source_.flows != nullptr) offer(Facet::exact_flows);
+  const auto offer = [&](bool made, Facet facet) {
+    if (made) content = content.with(facet);
+  };
+  offer(energy, Facet::hamiltonian);
+  offer(has.separable(), Facet::separable);
+  offer(has.conformal(), Facet::conformal);
+  offer(has.form(), Facet::structure);
+  offer(has.birkhoffian, Facet::birkhoffian);
+  offer(has.field || energy || has.conformal() || has.form(), Facet::vector_field);
+  offer(has.chart || canonical, Facet::darboux_chart);
+  offer(has.alpha && (has.form() || source_.canonical), Facet::generating_map);
+  offer(energy && has.symmetric_bracket, Facet::metriplectic);
+  offer(canonical && has.holonomic, Facet::holonomic);
+  offer(energy && (has.holonomic || has.constraints), Facet::constraints);
+  offer(canonical && has.velocity_constraints, Facet::velocity_constraints);
+  offer(!source_.invariants.empty(), Facet::invariants);
+  offer(has.exact_solution, Facet::exact_solution);
+  offer(has.part_flow, Facet::exact_flows);
   return content;
 }
 
@@ -54,6 +51,7 @@ ModelSource& ModelSource::operator=(ModelSource&&) noexcept = default;
 ModelSource::~ModelSource() = default;
 
 Model::Model(ModelSource source) : source_(std::move(source)) {
+  check_source(source_);
   content_ = content_of_formulas();
   if (content_.has(Facet::structure) && !content_.has(Facet::darboux_chart)) {
     pivots_ = pivots_of_structure();

@@ -129,6 +129,7 @@ struct ModelSource {
 
 class Model {
  public:
+  /// InputError, naming the system, where formulas of the source do not belong together.
   explicit Model(ModelSource source);
 
   [[nodiscard]] const std::string& name() const { return source_.name; }

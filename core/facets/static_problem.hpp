@@ -68,12 +68,9 @@ class StaticProblem {
   // motion.
   static constexpr bool alone = !constrained && !detail::writes<S, Formula::symmetric_tensor> &&
                                 !detail::writes<S, Formula::applied_force>;
-  static constexpr bool energies =
-      detail::writes<S, Formula::kinetic, T> && detail::writes<S, Formula::potential, T>;
-  static constexpr bool conformal = alone && energies && detail::WritesDamping<S>;
-  static constexpr bool separable = alone && energies && !conformal;
-  static constexpr bool canonical = separable || (alone && detail::writes<S, Formula::hamiltonian, T> &&
-                                                  !detail::writes<S, Formula::poisson_tensor>);
+  static constexpr FormulaMembers members = detail::energy_members<S, T>();
+  static constexpr bool conformal = alone && members.conformal(), separable = alone && members.separable(),
+                        canonical = alone && members.canonical();
   template <Formula F, int W>
   static constexpr bool written_in_lanes = std::is_same_v<T, double>&& detail::writes<S, F, Pack<W>>;
   static constexpr bool has_field =

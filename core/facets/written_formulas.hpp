@@ -18,7 +18,7 @@
 #include <vector>
 
 #include <pfaff/core/errors/status.hpp>
-#include <pfaff/core/facets/facet.hpp>
+#include <pfaff/core/facets/formula_rules.hpp>
 #include <pfaff/core/numbers/functions.hpp>
 #include <pfaff/core/registry/member_names.hpp>
 #include <pfaff/core/tape/recorder.hpp>
@@ -270,5 +270,33 @@ concept WritesInitial = requires(const S& s, Out<Recorded> o) {
     return result;                                                                                  \
   }
 #include <pfaff/core/facets/formula_rows.hpp>
+
+/// The members of S by their names, whatever their signatures.
+template <class S>
+constexpr FormulaMembers named_members() {
+  FormulaMembers has;
+#define PFAFF_FORMULA(name, ...) has.name = names<S, Formula::name>;
+#define PFAFF_COUNT(name, member, ...) has.member = counts_##name<S>;
+#include <pfaff/core/facets/formula_rows.hpp>
+  has.bracket = names<S, Formula::poisson_tensor>;
+  has.symmetric_bracket = names<S, Formula::symmetric_tensor>;
+  has.damping = NamedDamping::named<S>;
+  has.constraint_evaluator = NamedConstraintEvaluator::named<S>;
+  has.part_flow = NamedPartFlow::named<S>;
+  has.small_part = WritesSmallPart<S>;
+  return has;
+}
+/// The members of S that a motion of its energy is made of, as far as they can be called with the scalar T.
+template <class S, class T = Recorded>
+constexpr FormulaMembers energy_members() {
+  using enum Formula;
+  FormulaMembers has;
+  has.kinetic = writes<S, kinetic, T>;
+  has.potential = writes<S, potential, T>;
+  has.hamiltonian = writes<S, hamiltonian, T>;
+  has.bracket = writes<S, poisson_tensor>;
+  has.damping = WritesDamping<S>;
+  return has;
+}
 
 }  // namespace pfaff::detail

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <pfaff/core/facets/formula_rules.hpp>
 #include <pfaff/core/facets/momenta_of_velocities.hpp>
 #include <pfaff/core/facets/redundant_constraints.hpp>
 #include <pfaff/core/facets/taped_flows.hpp>
@@ -45,9 +46,7 @@ class Builder {
     if (!d_.parts.empty()) take_parts();
     if (d_.kepler_parts) take_kepler_parts();
     if (!d_.invariants.empty()) take_invariants();
-    const auto given = [&](Formula f) { return source_.given[index(f)] != nullptr; };
-    source_.canonical =
-        (given(Formula::kinetic) && !d_.damping) || (given(Formula::hamiltonian) && !d_.bracket);
+    source_.canonical = members_of(source_).canonical();
     if (source_.canonical || d_.damping) require_pairs();
     if (d_.initial_velocities) take_initial_velocities();
     leave_out_redundant(source_);

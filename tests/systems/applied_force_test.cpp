@@ -242,7 +242,8 @@ TEST(AppliedForce, WhatItDoesNotStandBesideIsRefused) {
   const std::string state = "coordinates = [\"q\", \"p\"]\n", force = "applied_force = [\"-p\"]\n",
                     energies = "kinetic = \"p^2/2\"\npotential = \"q^2/2\"\n";
   EXPECT_EQ(refusal_written(state + "field = [\"p\", \"-q\"]\n" + force),
-            "model.toml:3:1: applied_force is written beside a canonical energy, which is missing");
+            "model.toml:3:1: applied_force is written beside a canonical energy (kinetic and potential, or "
+            "hamiltonian without bracket), which is missing");
   EXPECT_EQ(
       refusal_written(state + energies + force + "damping = 0.1\n"),
       "model.toml:5:1: damping beside applied_force: expected -nu p as a part of applied_force instead");

@@ -45,10 +45,11 @@ TEST(TextModelRefusals, Parts) {
 TEST(TextModelRefusals, KeysAndFiles) {
   expect_refused(spring + "holonomical = [\"q\"]\n",
                  "model.toml:4:1: unknown key 'holonomical'; did you mean 'holonomic'?");
-  expect_refused(two + "kinetic = \"p^2/2\"\n",
-                 "model.toml:2:1: kinetic belongs together with potential, which is missing");
+  expect_refused(
+      two + "kinetic = \"p^2/2\"\n",
+      "model.toml:2:1: kinetic belongs together with potential, which is missing: H = T(p, t) + V(q, t)");
   expect_refused("kinetic = 1\n", "model.toml:1:1: a text model: the key 'coordinates' is missing");
-  expect_refused(two, "model.toml:1:1: a text model without motion");
+  expect_refused(two, "model.toml:1:1: this system has no vector field; expected one of");
   expect_refused(two + "field = [\n", "model.toml:");
   expect_refused(two + "jacobi = tr\nfield = [1, 1]\n", "model.toml:2:");  // in one line
   expect_refused(spring + "let = 3\n", "model.toml:4:7: let: expected a table");

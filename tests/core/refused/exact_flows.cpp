@@ -21,7 +21,7 @@ struct WithoutStatus : Spring {
     change[0] = h * z[1];
   }
 };
-// refused: part_count (a static constexpr int or a member function) and part_flow belong together
+// refused: part_flow belongs together with part_count, which is missing: a static constexpr int or a member
 struct NotCounted : Spring {
   template <class T>
   Status part_flow(std::size_t /*part*/, const T& h, In<T> z, Out<T> change) const {

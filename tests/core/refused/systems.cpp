@@ -42,7 +42,7 @@ struct InvariantsReturned {
     return z[0];
   }
 };
-// refused: kinetic and potential belong together
+// refused: kinetic belongs together with potential, which is missing: H = T(p, t) + V(q, t)
 struct NoPotential {
   static constexpr int dimension = 2;
   template <class T>
@@ -50,7 +50,7 @@ struct NoPotential {
     return p[0] * p[0] / 2;
   }
 };
-// refused: birkhoffian and one_form belong together
+// refused: birkhoffian belongs together with one_form, which is missing: the action form F.dz - B dt
 struct NoOneForm {
   static constexpr int dimension = 2;
   template <class T>
@@ -58,7 +58,7 @@ struct NoOneForm {
     return z[0] * z[0] / 2;
   }
 };
-// refused: structure and covector belong together
+// refused: structure belongs together with covector, which is missing
 // refused: structure: expected template <class T> void structure(const T& t, In<T> z, Out<T> k) const
 struct StructureAlone {
   static constexpr int dimension = 2;
@@ -90,7 +90,7 @@ struct BothForms {
     return z[0];
   }
 };
-// refused: force and velocity are written beside kinetic and potential
+// refused: force is written beside kinetic and potential (what is something else needs another name)
 struct ForceAlone {
   static constexpr int dimension = 2;
   template <class T>
@@ -115,8 +115,7 @@ struct AlphaOfOneTime {
     w[0] = new_z[0];
   }
 };
-// refused: alpha is written for the structure K of birkhoffian and one_form, of structure and covector, or of
-// canonical
+// refused: alpha is written beside birkhoffian and one_form, structure and covector, or a canonical energy
 struct AlphaWithoutStructure {
   static constexpr int dimension = 2;
   template <class T>

@@ -12,7 +12,7 @@ struct Particle {
     return (z[2] * z[2] + z[3] * z[3]) / 2;
   }
 };
-// refused: velocity_constraint_count and velocity_constraints belong together
+// refused: velocity_constraints belongs together with velocity_constraint_count, which is missing
 struct NotCounted : Particle {
   template <class T>
   void velocity_constraints(const T& /*t*/, In<T> q, Out<T> rows) const {
@@ -34,7 +34,7 @@ struct OffsetsAlone : Particle {
     b[0] = t;
   }
 };
-// refused: velocity_constraints is written beside kinetic and potential, or hamiltonian without bracket
+// refused: velocity_constraints is written beside a canonical energy (kinetic and potential, or hamiltonian
 struct WithoutEnergy {
   static constexpr int dimension = 4, velocity_constraint_count = 1;
   template <class T>
