@@ -11,9 +11,8 @@ constexpr std::size_t longest_tape = 300;
 // Products of coefficients that are written without loops, which the compiler's time grows with.
 constexpr std::size_t most_products = 2000;
 
-// One coefficient of each operation from the coefficients of its operands below and at level l. L is an int,
-// or a Level, with which the loops have known lengths. P is one double or a vector of them.
-constexpr const char* prelude = R"(
+// Numbers side by side, before the text of the recurrences: P is one double or a vector of them.
+constexpr const char* numbers = R"(
 #define INLINE __attribute__((always_inline)) static inline
 template <int n> struct Level { constexpr operator int() const { return n; } };
 typedef double pack1;
@@ -43,6 +42,12 @@ template <class P> INLINE bool nothing(const P& x) {
   for (unsigned lane = 0; lane < sizeof(P) / sizeof(double); ++lane) all = all && x[lane] == 0.0;
   return all;
 }
+)";
+
+// One coefficient of each operation from the coefficients of its operands below and at level l. L is an int,
+// or a Level, with which the loops have known lengths.
+constexpr const char* operations = R"(
+using namespace pfaff::recurrences;
 INLINE double number_power(double x, double e) {
   const int n = e > -17.0 && e < 17.0 ? static_cast<int>(2.0 * e) : 0;
   return n % 2 != 0 && n == 2.0 * e ? half_power(x, n) : pow(x, e);
@@ -50,72 +55,28 @@ INLINE double number_power(double x, double e) {
 template <class P, class L> INLINE P constant(double c, L l) { return P{} + (l == 0 ? c : 0.0); }
 template <class P, class L> INLINE P shifted(double c, const P* a, L l) { return l == 0 ? c + a[0] : a[l]; }
 template <class P, class L> INLINE P reflected(double c, const P* a, L l) { return l == 0 ? c - a[0] : -a[l]; }
-template <class P, class L> INLINE P product(const P* a, const P* b, L l) {
-  P sum = a[0] * b[l];
-  for (int i = 1; i <= l; ++i) sum = sum + a[i] * b[l - i];
-  return sum;
-}
-template <class P, class L> INLINE P square(const P* a, L l) {
-  if (l == 0) return a[0] * a[0];
-  P sum = a[0] * a[l];
-  for (int i = 1; 2 * i < l; ++i) sum = sum + a[i] * a[l - i];
-  sum = sum + sum;
-  if (l % 2 == 0) sum = sum + a[l / 2] * a[l / 2];
-  return sum;
-}
-template <class P, class L> INLINE P quotient(P sum, const P* b, const P* r, L l) {
-  for (int i = 1; i <= l; ++i) sum = sum - b[i] * r[l - i];
-  return sum / b[0];
-}
 template <class P, class L> INLINE P root(const P* a, const P* r, L l) {
-  if (l == 0) return each(a[0], [](double x) { return sqrt(x); });
-  P sum = a[l];
-  for (int i = 1; i < l; ++i) sum = sum - r[i] * r[l - i];
-  return sum / (2.0 * r[0]);
-}
-template <class P, class L> INLINE P exponential(const P* a, const P* r, L l) {
-  if (l == 0) return each(a[0], [](double x) { return exp(x); });
-  P sum = a[1] * r[l - 1];
-  for (int i = 2; i <= l; ++i) sum = sum + (1.0 * i) * a[i] * r[l - i];
-  return sum * (1.0 / l);
-}
-template <class P, class L> INLINE P logarithm(const P* a, const P* r, L l) {
-  if (l == 0) return each(a[0], [](double x) { return log(x); });
-  P sum = P{};
-  for (int i = 1; i < l; ++i) sum = sum + (1.0 * i) * r[i] * a[l - i];
-  return (a[l] - sum * (1.0 / l)) / a[0];
-}
-template <class P, class L> INLINE P power(const P* a, double e, const P* r, L l) {
-  if (l == 0) return each(a[0], [e](double x) { return number_power(x, e); });
-  if (nothing(a[0])) {
-    int m = 1;
-    while (m <= l && nothing(a[m])) ++m;
-    if (m * e > l) return P{};
-  }
-  P sum = P{};
-  for (int i = 1; i <= l; ++i) sum = sum + (i * e - (l - i)) * a[i] * r[l - i];
-  return sum / ((1.0 * l) * a[0]);
+  return l == 0 ? each(a[0], [](double x) { return sqrt(x); }) : square_root(a, r, l);
 }
 template <class P, class F, class L> INLINE P special(const P* a, const P* slope, F f, L l) {
-  if (l == 0) return each(a[0], f);
-  P sum = a[1] * slope[l - 1];
-  for (int i = 2; i <= l; ++i) sum = sum + (1.0 * i) * a[i] * slope[l - i];
-  return sum * (1.0 / l);
+  return l == 0 ? each(a[0], f) : from_slope(a, slope, l, l);
+}
+template <class P, class L> INLINE P exponential(const P* a, const P* r, L l) {
+  return special(a, r, [](double x) { return exp(x); }, l);
+}
+template <class P, class L> INLINE P log_of(const P* a, const P* r, L l) {
+  return l == 0 ? each(a[0], [](double x) { return log(x); }) : logarithm(a, r, l);
+}
+template <class P, class L> INLINE P power_of(const P* a, double e, const P* r, L l) {
+  return l == 0 ? each(a[0], [e](double x) { return number_power(x, e); }) : power(a, e, r, l);
 }
 template <class P, class L> INLINE void circle(const P* a, P* s, P* c, L l) {
   if (l == 0) {
     s[0] = each(a[0], [](double x) { return sin(x); });
     c[0] = each(a[0], [](double x) { return cos(x); });
-    return;
+  } else {
+    sine_cosine(a, s, c, l, l);
   }
-  P p = a[1] * c[l - 1], q = a[1] * s[l - 1];
-  for (int i = 2; i <= l; ++i) {
-    const P scaled = (1.0 * i) * a[i];
-    p = p + scaled * c[l - i];
-    q = q + scaled * s[l - i];
-  }
-  s[l] = p * (1.0 / l);
-  c[l] = q * (-1.0 / l);
 }
 )";
 
@@ -140,7 +101,7 @@ class SeriesWriter {
     for (const int slot : tape_.outputs) result.outputs.push_back(slot_[at(slot)]);
     result.slots = next_;
     result.timed = !timed.empty();
-    result.text = prelude;
+    result.text = std::string(numbers) + recurrences_text() + operations;
     result.text += "template <class P, class L> INLINE void timed(P* s, L l) {\n" + timed + "}\n";
     result.text += "template <class P, class L> INLINE void level(P* s, L l) {\n" + state + "}\n";
     result.text += advance(result.outputs);
@@ -234,9 +195,9 @@ class SeriesWriter {
       case Operation::exponential:
         return "exponential(" + series(i.a) + of_result;
       case Operation::logarithm:
-        return "logarithm(" + series(i.a) + of_result;
+        return "log_of(" + series(i.a) + of_result;
       case Operation::power:
-        return "power(" + series(i.a) + ", " + value(i.b) + of_result;
+        return "power_of(" + series(i.a) + ", " + value(i.b) + of_result;
       case Operation::special:
         return "special(" + series(i.a) + ", " + series(i.b) + ", [](double x) { return " +
                std::string(emit::usual_name(i)) + "(x); }, l)";

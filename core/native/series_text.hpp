@@ -1,6 +1,5 @@
 // The field in the Darboux chart as C++ for truncated series, in 1, 2 and 4 lanes: what OnlineSeries
-// (core/tape/online_series.hpp) makes of an author's formula, made of a tape. The recurrences are those of
-// core/tape/series.hpp.
+// (core/tape/online_series.hpp) makes of an author's formula, made of a tape, by the same recurrences.
 #pragma once
 
 #include <string>
@@ -20,6 +19,9 @@ struct SeriesText {
   bool timed = false;
   std::vector<int> outputs;  // slots
 };
+
+/// The text of core/tape/recurrences.hpp, which the build puts into a source.
+const char* recurrences_text();
 
 /// The functions pfaff_level_W and pfaff_time_W and, for up to the known levels, pfaff_collocate_W, for W =
 /// 1, 2, 4.

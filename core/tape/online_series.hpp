@@ -1,6 +1,6 @@
 // OnlineSeries: a scalar for truncated power series, in W lanes at once. A formula that is run with it once
 // for each level extends its own series by one coefficient each time. It is the compiled counterpart of
-// SeriesReplay (series.hpp, where the recurrences are).
+// SeriesReplay (series.hpp).
 //
 // Every operation of the formula takes the next slot of the workspace, slot[levels], and computes one
 // coefficient there from the coefficients below it. Slots are counted in the order in which the formula runs,
@@ -18,6 +18,7 @@
 
 #include <pfaff/core/numbers/functions.hpp>
 #include <pfaff/core/numbers/pack.hpp>
+#include <pfaff/core/tape/recurrences.hpp>
 
 namespace pfaff {
 
@@ -38,6 +39,14 @@ struct SeriesRun {
   int timed = 0;              // how many of them depend on time alone, the time itself not counted
   int angle = -1, sine = -1;  // the last argument of a sine or cosine, and the slot of its sine
 };
+
+/// True where all lanes are zero.
+template <int W>
+bool nothing(const Pack<W>& x) {
+  bool all = true;
+  for (std::size_t lane = 0; lane < W; ++lane) all = all && x[lane] == 0;
+  return all;
+}
 
 template <int W>
 class OnlineSeries {
@@ -90,14 +99,8 @@ class OnlineSeries {
     if (b.is_constant()) return a.scaled(b.constant_);
     const OnlineSeries r = a.kind_with(b);
     if (!r.active()) return r;
-    const int l = a.level();
-    if (a.slot_ == b.slot_) {
-      r.store(square(a, l));
-    } else {
-      P sum = a.at(0) * b.at(l);
-      for (int i = 1; i <= l; ++i) sum = sum + a.at(i) * b.at(l - i);
-      r.store(sum);
-    }
+    r.store(a.slot_ == b.slot_ ? recurrences::square(a.all(), a.level())
+                               : recurrences::product(a.all(), b.all(), a.level()));
     return r;
   }
   friend OnlineSeries operator/(const OnlineSeries& a, const OnlineSeries& b) {
@@ -106,82 +109,30 @@ class OnlineSeries {
     const OnlineSeries r = b.kind_with(a);
     if (!r.active()) return r;
     const int l = b.level();
-    P sum = !a.is_constant() ? a.at(l) : l == 0 ? P(a.constant_) : P(0);
-    for (int i = 1; i <= l; ++i) sum = sum - b.at(i) * r.at(l - i);
-    r.store(sum / b.at(0));
+    r.store(recurrences::quotient(a.coefficient(l), b.all(), r.all(), l));
     return r;
   }
   friend OnlineSeries sqrt(const OnlineSeries& a) {
-    if (a.is_constant()) return number(std::sqrt(a.constant_));
-    const OnlineSeries r = a.same_kind();
-    if (!r.active()) return r;
-    const int l = a.level();
-    if (l == 0) {
-      r.store(a.first([](double x) { return std::sqrt(x); }));
-      return r;
-    }
-    P sum = a.at(l);
-    for (int i = 1; i < l; ++i) sum = sum - r.at(i) * r.at(l - i);
-    r.store(sum / (P(2) * r.at(0)));
-    return r;
+    return a.extended([](double x) { return std::sqrt(x); },
+                      [&](const P* r, int l) { return recurrences::square_root(a.all(), r, l); });
   }
   friend OnlineSeries exp(const OnlineSeries& a) {
-    if (a.is_constant()) return number(std::exp(a.constant_));
-    const OnlineSeries r = a.same_kind();
-    if (!r.active()) return r;
-    const int l = a.level();
-    if (l == 0) {
-      r.store(a.first([](double x) { return std::exp(x); }));
-      return r;
-    }
-    P sum = a.at(1) * r.at(l - 1);
-    for (int i = 2; i <= a.last(l); ++i) sum = sum + P(i) * a.at(i) * r.at(l - i);
-    r.store(sum * P(1.0 / l));
-    return r;
+    return a.extended([](double x) { return std::exp(x); },
+                      [&](const P* r, int l) { return recurrences::from_slope(a.all(), r, l, a.last(l)); });
   }
   friend OnlineSeries log(const OnlineSeries& a) {
-    if (a.is_constant()) return number(std::log(a.constant_));
-    const OnlineSeries r = a.same_kind();
-    if (!r.active()) return r;
-    const int l = a.level();
-    if (l == 0) {
-      r.store(a.first([](double x) { return std::log(x); }));
-      return r;
-    }
-    P sum(0);
-    for (int i = 1; i < l; ++i) sum = sum + P(i) * r.at(i) * a.at(l - i);
-    r.store((a.at(l) - sum * P(1.0 / l)) / a.at(0));
-    return r;
+    return a.extended([](double x) { return std::log(x); },
+                      [&](const P* r, int l) { return recurrences::logarithm(a.all(), r, l); });
   }
   /// a^y for a constant exponent.
   friend OnlineSeries pow(const OnlineSeries& a, const Real& y) {
-    const double e = y.value();
-    if (a.is_constant()) return number(pow(a.constant_, y));
-    const OnlineSeries r = a.same_kind();
-    if (!r.active()) return r;
-    const int l = a.level();
-    if (l == 0) {
-      r.store(a.first([&y](double x) { return pow(x, y); }));
-      return r;
-    }
-    P sum(0);
-    for (int i = 1; i <= l; ++i) sum = sum + P(i * e - (l - i)) * a.at(i) * r.at(l - i);
-    r.store(a.flat(l, e) ? P(0) : sum / (P(l) * a.at(0)));
-    return r;
+    return a.extended([&y](double x) { return pow(x, y); },
+                      [&](const P* r, int l) { return recurrences::power(a.all(), y.value(), r, l); });
   }
   friend OnlineSeries special(SpecialFunction which, const OnlineSeries& a, const OnlineSeries& slope) {
-    if (a.is_constant()) return number(special(which, a.constant_, 0.0));
-    const OnlineSeries r = a.same_kind();
-    if (!r.active()) return r;
-    const int l = a.level();
-    if (l == 0) {
-      r.store(a.first([which](double x) { return special(which, x, 0.0); }));
-      return r;
-    }
-    P sum = a.at(1) * slope.at(l - 1);
-    for (int i = 2; i <= a.last(l); ++i) sum = sum + P(i) * a.at(i) * slope.at(l - i);
-    r.store(sum * P(1.0 / l));
-    return r;
+    return a.extended(
+        [which](double x) { return special(which, x, 0.0); },
+        [&](const P*, int l) { return recurrences::from_slope(a.all(), slope.all(), l, a.last(l)); });
   }
   friend OnlineSeries sin(const OnlineSeries& a) {
     if (a.is_constant()) return number(std::sin(a.constant_));
@@ -215,11 +166,13 @@ class OnlineSeries {
   [[nodiscard]] bool is_constant() const { return run_ == nullptr; }
   [[nodiscard]] bool of_time() const { return is_constant() || of_time_; }
   [[nodiscard]] int level() const { return run_->level; }
-  [[nodiscard]] const P& at(int level) const { return run_->slots[slot_ * series_capacity + level]; }
+  // All coefficients.
+  [[nodiscard]] P* all() const { return run_->slots + slot_ * series_capacity; }
+  [[nodiscard]] const P& at(int level) const { return all()[level]; }
   [[nodiscard]] P coefficient(int level) const {
     return !is_constant() ? at(level) : level == 0 ? P(constant_) : P(0);
   }
-  void store(const P& value) const { run_->slots[slot_ * series_capacity + level()] = value; }
+  void store(const P& value) const { all()[level()] = value; }
   [[nodiscard]] bool active() const {
     return run_->pass == (of_time_ ? SeriesPass::time : SeriesPass::state);
   }
@@ -248,29 +201,18 @@ class OnlineSeries {
   [[nodiscard]] OnlineSeries kind_with(const OnlineSeries& o) const {
     return next_slot(of_time_ && o.of_time());
   }
-  // True where coefficient l of this to the power e is 0 because the series begins with 0 (series.hpp).
-  [[nodiscard]] bool flat(int l, double e) const {
-    if (at(0)[0] != 0) return false;
-    int m = 1;
-    const auto zero = [](const P& x) {
-      bool all = true;
-      for (std::size_t lane = 0; lane < W; ++lane) all = all && x[lane] == 0;
-      return all;
-    };
-    while (m <= l && zero(at(m))) ++m;
-    return m * e > l;
-  }
   // f at level 0, where all lanes have the same number.
   template <class F>
   [[nodiscard]] P first(F f) const {
     return P(f(at(0)[0]));
   }
-  static P square(const OnlineSeries& a, int l) {
-    if (l == 0) return a.at(0) * a.at(0);
-    P sum = a.at(0) * a.at(l);
-    for (int i = 1; 2 * i < l; ++i) sum = sum + a.at(i) * a.at(l - i);
-    sum = sum + sum;
-    return l % 2 == 0 ? sum + a.at(l / 2) * a.at(l / 2) : sum;
+  // A function of this, f of its value and next(coefficients of the function, l) at the levels l above.
+  template <class F, class Next>
+  [[nodiscard]] OnlineSeries extended(F f, Next next) const {
+    if (is_constant()) return number(f(constant_));
+    const OnlineSeries r = same_kind();
+    if (r.active()) r.store(level() == 0 ? first(f) : next(r.all(), level()));
+    return r;
   }
   // The slot of the sine; that of the cosine follows.
   [[nodiscard]] int sine_and_cosine() const {
@@ -285,14 +227,7 @@ class OnlineSeries {
       c.store(first([](double x) { return std::cos(x); }));
       return s.slot_;
     }
-    P p = at(1) * c.at(l - 1), q = at(1) * s.at(l - 1);
-    for (int i = 2; i <= last(l); ++i) {
-      const P scaled = P(i) * at(i);
-      p = p + scaled * c.at(l - i);
-      q = q + scaled * s.at(l - i);
-    }
-    s.store(p * P(1.0 / l));
-    c.store(q * P(-1.0 / l));
+    recurrences::sine_cosine(all(), s.all(), c.all(), l, last(l));
     return s.slot_;
   }
 

@@ -6,10 +6,8 @@
 // and an ODE into its Taylor series. Slots that depend on time alone are computed for all levels when the
 // time is set.
 //
-// Recurrences at level l, sums over i: product sum a_i b_{l-i}; quotient (a_l - sum_{i>=1} b_i q_{l-i}) /
-// b_0; exp (1/l) sum i a_i e_{l-i}; sine and cosine coupled; log, sqrt; a^r: sum (i r - (l - i)) a_i p_{l-i}
-// / (l a_0); a special function whose derivative at a is d: (1/l) sum i a_i d_{l-i}; linear solve A_0 x_l =
-// b_l - sum_{i>=1} A_i x_{l-i} with one factorisation of A_0.
+// The recurrences are those of recurrences.hpp, with sums that are added up for all lanes together; a linear
+// solve is A_0 x_l = b_l - sum_{i>=1} A_i x_{l-i} with one factorisation of A_0.
 //
 // Where a_0 = 0 and a_m is the first coefficient that is not, a^r is of degree m r: its coefficients below
 // are 0, and others are given only where a_0 is not 0.
