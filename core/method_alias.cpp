@@ -1,5 +1,7 @@
 #include <pfaff/core/method_alias.hpp>
 
+#include <pfaff/core/forwarding_instance.hpp>
+
 namespace pfaff::detail {
 
 namespace {
@@ -54,15 +56,15 @@ MethodDescriptor descriptor_of(const MethodPlugin& method, const std::string& na
 }
 
 // An instance of the method under the alias's name and with the alias's parameters.
-class AliasInstance final : public MakerOf<AliasInstance, MethodInstance> {
+class AliasInstance final : public ForwardingInstance<AliasInstance> {
  public:
   AliasInstance(const AliasPlugin& alias, const Assignments& shortened,
                 std::unique_ptr<MethodInstance> instance)
-      : alias_(alias), shortened_(shortened), instance_(std::move(instance)) {}
+      : ForwardingInstance(std::move(instance)), alias_(alias), shortened_(shortened) {}
 
   [[nodiscard]] const MethodDescriptor& descriptor() const override { return alias_.descriptor(); }
   [[nodiscard]] Assignments parameters() const override {
-    const Assignments all = instance_->parameters();
+    const Assignments all = method().parameters();
     Assignments own;
     for (const Parameter& p : alias_.parameters()) {
       const std::string* path = value_of_key(shortened_, p.name);
@@ -70,36 +72,10 @@ class AliasInstance final : public MakerOf<AliasInstance, MethodInstance> {
     }
     return own;
   }
-  [[nodiscard]] FacetSet needs() const override { return instance_->needs(); }
-  [[nodiscard]] std::string family() const override { return instance_->family(); }
-  [[nodiscard]] int order(const Model& model) const override { return instance_->order(model); }
-  [[nodiscard]] std::vector<Claim> preserves(const Model& model) const override {
-    return instance_->preserves(model);
-  }
-  [[nodiscard]] std::string objection(const Model& model) const override {
-    return instance_->objection(model);
-  }
-  [[nodiscard]] bool adaptive() const override { return instance_->adaptive(); }
-  [[nodiscard]] bool processed() const override { return instance_->processed(); }
-  [[nodiscard]] std::size_t coefficient_count() const override { return instance_->coefficient_count(); }
-  [[nodiscard]] std::unique_ptr<MethodInstance> with_changed_coefficient(std::size_t index,
-                                                                         Quad amount) const override {
-    return std::make_unique<AliasInstance>(alias_, shortened_,
-                                           instance_->with_changed_coefficient(index, amount));
-  }
-  [[nodiscard]] std::unique_ptr<MethodInstance> composed(std::vector<Quad> weights,
-                                                         std::size_t processor) const override {
-    return instance_->composed(std::move(weights), processor);
-  }
-  template <class T>
-  [[nodiscard]] StepperPointer<T> made(std::shared_ptr<const Model> model) const {
-    return instance_->stepper(std::move(model), T());
-  }
 
  private:
   const AliasPlugin& alias_;
   const Assignments& shortened_;  // the alias's, which lives as long as its plug-in
-  std::unique_ptr<MethodInstance> instance_;
 };
 
 }  // namespace

@@ -3,32 +3,20 @@
 // lets a parasitic oscillation grow, a single step, which has no past, does not show it.
 #pragma once
 
-#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/forwarding_instance.hpp>
 
 namespace pfaff {
 
 /// `count` steps of `method`, each of the length h/count, as one step of the length h.
-class ManySteps final : public MakerOf<ManySteps, MethodInstance> {
+class ManySteps final : public ForwardingInstance<ManySteps> {
  public:
   /// `method` must outlive the object.
-  ManySteps(const MethodInstance& method, int count) : method_(method), count_(count) {}
+  ManySteps(const MethodInstance& method, int count)
+      : ForwardingInstance(std::shared_ptr<const MethodInstance>(std::shared_ptr<void>(), &method)),
+        count_(count) {}
 
-  [[nodiscard]] const MethodDescriptor& descriptor() const override { return method_.descriptor(); }
-  [[nodiscard]] Assignments parameters() const override { return method_.parameters(); }
-  [[nodiscard]] FacetSet needs() const override { return method_.needs(); }
-  [[nodiscard]] int order(const Model& model) const override { return method_.order(model); }
-  [[nodiscard]] std::vector<Claim> preserves(const Model& model) const override {
-    return method_.preserves(model);
-  }
-  [[nodiscard]] std::string objection(const Model& model) const override { return method_.objection(model); }
   [[nodiscard]] bool adaptive() const override { return false; }
-  [[nodiscard]] bool processed() const override { return method_.processed(); }
-  [[nodiscard]] std::size_t coefficient_count() const override { return method_.coefficient_count(); }
-  /// None: the object does not own the method that a changed one would have to refer to.
-  [[nodiscard]] std::unique_ptr<MethodInstance> with_changed_coefficient(std::size_t /*index*/,
-                                                                         Quad /*amount*/) const override {
-    return nullptr;
-  }
+  /// None: compositions are of single steps.
   [[nodiscard]] std::unique_ptr<MethodInstance> composed(std::vector<Quad> /*weights*/,
                                                          std::size_t /*processor*/) const override {
     return nullptr;
@@ -36,7 +24,7 @@ class ManySteps final : public MakerOf<ManySteps, MethodInstance> {
 
   template <class T>
   [[nodiscard]] StepperPointer<T> made(std::shared_ptr<const Model> model) const {
-    return std::make_unique<Stepping<T>>(method_.stepper(std::move(model), T()), count_);
+    return std::make_unique<Stepping<T>>(ForwardingInstance::made<T>(std::move(model)), count_);
   }
 
  private:
@@ -79,7 +67,6 @@ class ManySteps final : public MakerOf<ManySteps, MethodInstance> {
     int count_;
   };
 
-  const MethodInstance& method_;
   int count_;
 };
 
