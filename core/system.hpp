@@ -39,6 +39,9 @@
 //   reversal(t, z, reversed)                 the involution rho that reverses the motion, rho o flow_h =
 //                                            flow_-h o rho
 //   shared_model(descriptor, parameters)     the whole model, for families of systems that share one
+//   prepared<T>(), fits_lanes()              of a batched system: an object with some of its formulas that
+//                                            keeps what does not change, for each scalar and, where
+//                                            fits_lanes(), for Pack<8>
 //   initial(z)                               instead of the descriptor's list, when it depends on parameters
 //   coordinates(), invariant_list(),         instead of the descriptor's lists, when they do
 //   constraint_names(), velocity_constraint_names()

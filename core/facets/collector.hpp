@@ -28,6 +28,8 @@ constexpr bool is_batched() {
 template <Formula F>
 struct FormulaObject {
   template <class S, class T>
+  static constexpr bool written = writes<S, F, T>;
+  template <class S, class T>
   void operator()(const S& system, const T& t, In<T> x, Out<T> out) const {
     write<F>(system, t, x, out);
   }
@@ -35,23 +37,38 @@ struct FormulaObject {
 /// H = T + V as one.
 struct EnergyObject {
   template <class S, class T>
+  static constexpr bool written = writes<S, Formula::kinetic, T>&& writes<S, Formula::potential, T>;
+  template <class S, class T>
   void operator()(const S& system, const T& t, In<T> z, Out<T> out) const {
     const std::size_t half = z.size() / 2;
     out[0] = system.kinetic(t, z.subspan(half)) + system.potential(t, z.first(half));
   }
 };
 
-/// A formula f(system, t, arguments, results) as a program.
+/// A formula f(system, t, arguments, results) as a program. Where a system has prepared<T>(), an object with
+/// the same formulas that keeps what does not change in the scalar T, every evaluator has one of its own; in
+/// packs too, where fits_lanes() of the system says that it may.
 template <class S, class F>
 struct BatchedFormula {
   std::shared_ptr<const S> system;
   F formula;
   FormulaSize size;
+  template <class T>
+  static constexpr bool prepared = requires(const S& s) {
+    requires F::template written<decltype(s.template prepared<T>()), T>;
+  };
+  static constexpr bool in_lanes = prepared<Pack<8>>;
+  [[nodiscard]] bool fits_lanes() const { return system->fits_lanes(); }
   [[nodiscard]] int inputs() const { return size.inputs; }
   [[nodiscard]] int outputs() const { return size.outputs; }
   template <class T>
   [[nodiscard]] auto make() const {
-    return [self = system, f = formula](const T& t, In<T> x, Out<T> out) { f(*self, t, x, out); };
+    if constexpr (prepared<T>)
+      return [own = system->template prepared<T>(), f = formula](const T& t, In<T> x, Out<T> out) {
+        f(own, t, x, out);
+      };
+    else
+      return [self = system, f = formula](const T& t, In<T> x, Out<T> out) { f(*self, t, x, out); };
   }
 };
 

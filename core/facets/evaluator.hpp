@@ -10,6 +10,7 @@
 #include <utility>
 
 #include <pfaff/core/facets/scalar_units.hpp>
+#include <pfaff/core/numbers/pack.hpp>
 #include <pfaff/core/tape/recorder.hpp>
 
 namespace pfaff {
@@ -29,6 +30,9 @@ class FormulaProgram : public Maker<Evaluator, StepScalars> {
   [[nodiscard]] Evaluator<T> evaluator(T /*scalar*/) const {
     return make_for(std::type_identity<T>());
   }
+  /// The formula at eight points side by side, each with the bits that it has alone; `call` is null where it
+  /// is not compiled for them.
+  [[nodiscard]] virtual Evaluator<Pack<8>> in_lanes() const = 0;
   /// The same formula as a tape.
   [[nodiscard]] virtual Tape record() const = 0;
 };
@@ -58,6 +62,8 @@ class ProgramCode {
                          });
   }
 
+  [[nodiscard]] bool fits_lanes() const { return formula_->fits_lanes(); }
+
  private:
   template <class T>
   struct Bound {
@@ -77,7 +83,8 @@ class ProgramCode {
 
 /// A program made of F, which says how many numbers it reads and writes (inputs(), outputs()) and makes for
 /// every scalar T, the recording one included, an object with buffers of its own: make<T>(), to be called as
-/// object(t, In<T> arguments, Out<T> results).
+/// object(t, In<T> arguments, Out<T> results). Where F::in_lanes is true it makes one for packs too, unless
+/// fits_lanes() is false.
 template <class F>
 class Program final : public detail::MakerInUnits<Program<F>, FormulaProgram>, public detail::ProgramCode<F> {
  public:
@@ -91,9 +98,25 @@ class Program final : public detail::MakerInUnits<Program<F>, FormulaProgram>, p
       return reinterpret_cast<Code>(code)(*this);  // NOLINT
     }
   }
+  [[nodiscard]] Evaluator<Pack<8>> in_lanes() const override {
+    if constexpr (requires { requires F::in_lanes; }) {
+      if (!this->fits_lanes()) return {};
+      if constexpr (detail::ThisUnit::makes<double>) {
+        return this->template made<Pack<8>>();
+      } else {
+        using Code = Evaluator<Pack<8>> (*)(const Program&);
+        return reinterpret_cast<Code>(detail::code_left(typeid(Program), typeid(Pack<8>)))(*this);  // NOLINT
+      }
+    } else {
+      return {};
+    }
+  }
   /// What the two units that compile F leave each other.
   static void leave_code() {
     detail::leave_code_of<Program>();
+    if constexpr (std::is_same_v<detail::ThisUnit, detail::InDouble> && requires { requires F::in_lanes; })
+      detail::leave<Program, Pack<8>>(
+          +[](const Program& self) -> Evaluator<Pack<8>> { return self.template made<Pack<8>>(); });
     if constexpr (std::is_same_v<detail::ThisUnit, detail::InOthers>)
       detail::leave<Program, Recorded>(+[](const Program& self) -> Tape { return self.recorded(); });
   }

@@ -10,7 +10,10 @@ Evaluator<Pack<W>> make_evaluator_in_lanes(const std::shared_ptr<const Model>& m
     if (const auto compiled = model->compiled_in_lanes<W>(formula)) return {compiled, model->system(), model};
     return {};
   }
-  if (model->program(formula) != nullptr) return {};
+  if (const FormulaProgram* program = model->program(formula)) {
+    if constexpr (W == 8) return program->in_lanes();
+    return {};
+  }
   return replaying<Pack<W>>(model->tape(formula));
 }
 template Evaluator<Pack<4>> make_evaluator_in_lanes(const std::shared_ptr<const Model>&, Formula);

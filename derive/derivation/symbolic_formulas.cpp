@@ -86,8 +86,10 @@ SymbolicFormulas rod_formulas(const BeadRodDescription& d, bool friction) {
   const Tape energy = *record_list(
       static_cast<int>(2 * n + count), [&](const Recorded& /*t*/, const Numbers& x, Numbers& out) {
         const In<Recorded> z(x);
-        out.push_back(rod_kinetic_energy<Recorded>(d, symbols.masses(x, 2 * n), z.subspan(n, n)) +
-                      potential_energy<Recorded>(parts, z.first(n)) + symbols.weight(x, 2 * n));
+        const auto mass = symbols.masses(x, 2 * n);
+        const auto twice = [&mass](std::size_t i) { return 2 * mass(i); };
+        out.push_back(rod_kinetic_energy<Recorded>(d, twice, z.subspan(n, n)) +
+                      (*potential_energy<Recorded>(parts))(z.first(n)) + symbols.weight(x, 2 * n));
       });
   SymbolicFormulas result;
   result.formulas.degrees = n;

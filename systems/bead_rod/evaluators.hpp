@@ -6,7 +6,7 @@
 namespace pfaff::detail {
 
 template <class T, int D>
-T potential_energy(const BeadRodParts& parts, In<T> q);
+std::unique_ptr<PotentialEnergy<T>> potential_energy(const BeadRodParts& parts);
 template <class T, int D>
 std::unique_ptr<HolonomicConstraints<T>> rod_constraints(const BeadRodParts& parts);
 

@@ -9,8 +9,18 @@
 namespace pfaff::detail {
 
 template <class T, int D>
-T potential_energy(const BeadRodParts& parts, In<T> q) {
-  return Potentials<T, D>(parts.description, *parts.graph).energy(q);
+class PotentialEnergyIn final : public PotentialEnergy<T> {
+ public:
+  explicit PotentialEnergyIn(const BeadRodParts& parts) : potentials_(parts.description, *parts.graph) {}
+  T operator()(In<T> q) override { return potentials_.energy(q); }
+
+ private:
+  Potentials<T, D> potentials_;
+};
+
+template <class T, int D>
+std::unique_ptr<PotentialEnergy<T>> potential_energy(const BeadRodParts& parts) {
+  return std::make_unique<PotentialEnergyIn<T, D>>(parts);
 }
 
 template <class T, int D>

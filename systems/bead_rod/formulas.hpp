@@ -7,14 +7,14 @@
 
 namespace pfaff {
 
-/// sum_i |p_i|^2/(2 m_i), with m_i = mass(i).
+/// sum_i |p_i|^2/(2 m_i), with 2 m_i = twice_mass(i).
 template <class T, class Mass>
-T rod_kinetic_energy(const BeadRodDescription& d, const Mass& mass, In<T> p) {
+T rod_kinetic_energy(const BeadRodDescription& d, const Mass& twice_mass, In<T> p) {
   T sum(0);
   for (std::size_t i = 0, at = 0, axes = d.axes(); i < d.beads(); ++i) {
     T square(0);
     for (std::size_t x = 0; x < axes; ++x, ++at) square = square + p[at] * p[at];
-    sum = sum + square / (2 * mass(i));
+    sum = sum + square / twice_mass(i);
   }
   return sum;
 }

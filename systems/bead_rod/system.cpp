@@ -20,10 +20,11 @@ BeadRodParts::BeadRodParts(BeadRodDescription d)
     : description(checked(std::move(d))), graph(std::make_shared<const RodGraph>(*description)) {}
 
 template <class T>
-T potential_energy(const BeadRodParts& parts, In<T> q) {
-  return parts.description->dimension == 2 ? detail::potential_energy<T, 2>(parts, q)
-                                           : detail::potential_energy<T, 3>(parts, q);
+std::unique_ptr<PotentialEnergy<T>> potential_energy(const BeadRodParts& parts) {
+  return parts.description->dimension == 2 ? detail::potential_energy<T, 2>(parts)
+                                           : detail::potential_energy<T, 3>(parts);
 }
+template std::unique_ptr<PotentialEnergy<Pack<8>>> potential_energy(const BeadRodParts& parts);
 template <class T>
 std::unique_ptr<HolonomicConstraints<T>> rod_constraints(const BeadRodParts& parts) {
   return parts.description->dimension == 2 ? detail::rod_constraints<T, 2>(parts)

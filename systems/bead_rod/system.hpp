@@ -6,41 +6,22 @@
 // derives from BeadRods<itself> and writes describe().
 #pragma once
 
+#include <algorithm>
 #include <memory>
 
 #include <pfaff/core/facets/holonomic.hpp>
 #include <pfaff/core/system.hpp>
-#include <pfaff/systems/bead_rod/description.hpp>
-#include <pfaff/systems/bead_rod/formulas.hpp>
-#include <pfaff/systems/bead_rod/graph.hpp>
+#include <pfaff/systems/bead_rod/energies.hpp>
 
 namespace pfaff {
 
-/// A checked description and the graph of its rods, shared by all formulas of a model.
-struct BeadRodParts {
-  /// InputError as BeadRodDescription::check().
-  explicit BeadRodParts(BeadRodDescription d);
-  std::shared_ptr<const BeadRodDescription> description;
-  std::shared_ptr<const RodGraph> graph;
-};
-
-/// V(q). Instantiated, like the next, for the scalars of methods and for recording.
-template <class T>
-T potential_energy(const BeadRodParts& parts, In<T> q);
+/// Instantiated for the scalars of methods and for recording.
 template <class T>
 std::unique_ptr<HolonomicConstraints<T>> rod_constraints(const BeadRodParts& parts);
 
 /// Momenta of velocities in -1 .. 1 m/s from a seed, made consistent with the rods by M^-1-orthogonal
 /// projection in quad precision.
 void start_at_random(BeadRodDescription& description, int seed);
-
-/// What the symmetries of a description keep, beside the energy: momenta along `axes`, and angular momenta
-/// in the planes of pairs of axes.
-struct Momenta {
-  explicit Momenta(const BeadRodDescription& description);
-  std::vector<std::size_t> axes;
-  std::vector<std::pair<std::size_t, std::size_t>> planes;
-};
 
 template <class S>
 class BeadRodSystem {
@@ -64,7 +45,7 @@ class BeadRodSystem {
     return names;
   }
   [[nodiscard]] std::vector<Invariant> invariant_list() const {
-    const Momenta momenta(description());
+    const Momenta momenta = kept();
     const BeadRodDescription& d = description();
     // Without forces the energy is kinetic, a quadratic form.
     const bool free = d.gravity.empty() && d.pairs.empty() && d.springs.empty() && d.angles.empty() &&
@@ -86,14 +67,25 @@ class BeadRodSystem {
       z[degrees() + k] = T(description().momenta[k]);
     }
   }
+  /// What the symmetries of the rods keep, unless S says otherwise.
+  [[nodiscard]] Momenta momenta() const { return Momenta(description()); }
   template <class T>
-  T kinetic(const T& /*t*/, In<T> p) const {
-    return rod_kinetic_energy<T>(
-        description(), [this](std::size_t i) -> const Real& { return description().masses[i]; }, p);
+  [[nodiscard]] BeadRodEnergies<T> prepared() const {
+    return {parts(), kept()};
+  }
+  /// Pairs within a cut-off are added up in the order in which they are found, which packs cannot.
+  [[nodiscard]] bool fits_lanes() const {
+    const auto& pairs = description().pairs;
+    return std::none_of(pairs.begin(), pairs.end(),
+                        [](const PairPotential& p) { return p.cutoff.has_value(); });
   }
   template <class T>
-  T potential(const T& /*t*/, In<T> q) const {
-    return potential_energy<T>(parts(), q);
+  T kinetic(const T& t, In<T> p) const {
+    return prepared<T>().kinetic(t, p);
+  }
+  template <class T>
+  T potential(const T& t, In<T> q) const {
+    return prepared<T>().potential(t, q);
   }
   template <class T>
   void holonomic(const T& /*t*/, In<T> q, Out<T> phi) const {
@@ -112,26 +104,13 @@ class BeadRodSystem {
   }
   template <class T>
   void invariants(const T& t, In<T> z, Out<T> values) const {
-    const std::size_t n = degrees(), axes = description().axes();
-    const Momenta momenta(description());
-    values[0] = kinetic(t, z.subspan(n)) + potential(t, z.first(n));
-    std::size_t at = 1;
-    for (const std::size_t x : momenta.axes) {
-      T sum(0);
-      for (std::size_t k = x; k < n; k += axes) sum = sum + z[n + k];
-      values[at++] = sum;
-    }
-    for (const auto& [x, y] : momenta.planes) {
-      T sum(0);
-      for (std::size_t k = 0; k < n; k += axes)
-        sum = sum + (z[k + x] * z[n + k + y] - z[k + y] * z[n + k + x]);
-      values[at++] = sum;
-    }
+    prepared<T>().invariants(t, z, values);
   }
 
   [[nodiscard]] const BeadRodDescription& description() const { return *parts().description; }
 
  private:
+  [[nodiscard]] Momenta kept() const { return static_cast<const S*>(this)->momenta(); }
   // Made when it is first asked for. That is while the model is made, when the parameters are fixed.
   [[nodiscard]] const BeadRodParts& parts() const {
     if (parts_ == nullptr)

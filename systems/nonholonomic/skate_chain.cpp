@@ -34,7 +34,7 @@ struct SkateChain : BeadRodSystem<SkateChain> {
   }
   static std::vector<std::string> velocity_constraint_names() { return {"skate"}; }
   // Momenta that the rods alone would keep are not kept: the skate pushes.
-  static std::vector<Invariant> invariant_list() { return {conserved("energy", "J")}; }
+  [[nodiscard]] static Momenta momenta() { return {}; }
 
   // Rods in directions (3, -4)/5 and (4, -3)/5 by turns, which turn at 2 and -6/5 rad/s by turns; that at
   // the skate turns as the skate lets it.
@@ -72,10 +72,6 @@ struct SkateChain : BeadRodSystem<SkateChain> {
   template <class T>
   void reversal(const T& /*t*/, In<T> z, Out<T> reversed) const {
     reverse_momenta<T>(z, reversed);
-  }
-  template <class T>
-  void invariants(const T& t, In<T> z, Out<T> values) const {
-    values[0] = kinetic(t, z.subspan(z.size() / 2)) + potential(t, z.first(z.size() / 2));
   }
 
  private:
