@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that Pfaff is built from, where any is missing; otherwise does nothing, quickly.
-# `--lint` adds what .ci/run checks the sources with. PFAFF_SKIP_SETUP=1 skips all of it.
+# `--lint` adds what .ci/run checks the sources with, and MPI, which one test needs. PFAFF_SKIP_SETUP=1 skips all of it.
 #
 # Exit status: 0 everything is there; 2 something is missing and cannot be installed from here, or nothing can be built.
 set -euo pipefail
@@ -43,6 +43,8 @@ needed=(
   "shellcheck program:shellcheck"
   "groff-base program:groff"
   "python3-markdown module:markdown"
+  "libopenmpi-dev program:mpicxx"
+  "openmpi-bin program:mpirun"
 )
 
 # Can it be seen at all, however it came here?
