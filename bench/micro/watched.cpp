@@ -4,16 +4,18 @@
 #include <pfaff/runs/invariant_errors.hpp>
 
 #include "cases.hpp"
+#include "rods.hpp"
 
 namespace {
 using namespace pfaff;
 using namespace pfaff::micro;
 
 struct Watched {
-  Watched(const char* system, const char* method, const Assignments& parameters, bool watch)
-      : run(integrate(system, {}, method, parameters, {.step = "0.01"})) {
+  Watched(Integration<double> made, bool watch) : run(std::move(made)) {
     if (watch) run.watch(errors);
   }
+  Watched(const char* system, const char* method, const Assignments& parameters, bool watch)
+      : Watched(integrate(system, {}, method, parameters, {.step = "0.01"}), watch) {}
   Integration<double> run;
   InvariantErrors<double> errors;
 };
@@ -33,11 +35,27 @@ void add_integration(const std::string& name, const char* method, const Assignme
   }
 }
 
+// The chain and the steps of chain-2d-16/rattle/registered (rods_registered.cpp), which starts over as often.
+void add_rattle() {
+  constexpr int steps = 100, count = 16;
+  for (const bool watch : {false, true}) {
+    const auto fresh = std::make_shared<Integration<double>>(
+        integrate("n-pendulum", {{"bobs", std::to_string(count)}}, "rattle", {}, {.step = "1e-3"}));
+    const std::vector<double> start(fresh->state().begin(), fresh->state().end());
+    add_rods("chain-2d-16", "rattle", watch ? "watched" : "integration", steps * count,
+             [=, run = std::shared_ptr<Watched>()]() mutable {
+               if (run == nullptr || run->run.steps_taken() >= 5000)
+                 run = std::make_shared<Watched>(fresh->at(0, start), watch);
+               run->run.steps(steps).expect_reached();
+             });
+  }
+}
+
 [[maybe_unused]] const bool added =
     (add_integration<HarmonicOscillator>("verlet", "verlet"), add_integration<Kepler>("verlet", "verlet"),
      add_integration<Kepler>("gauss-4", "gauss", {{"stages", "2"}}),
      add_integration<Kepler>("gauss-8", "gauss", {{"stages", "4"}}),
      add_integration<DampedPendulum>("generating-function-8", "generating-function",
                                      {{"order", "8"}, {"extra", "0"}}, true),
-     true);
+     add_rattle(), true);
 }  // namespace
