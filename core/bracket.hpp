@@ -10,7 +10,7 @@
 #include <concepts>
 #include <memory>
 
-#include <pfaff/core/registry/member_names.hpp>
+#include <pfaff/core/registry/optional_member.hpp>
 #include <pfaff/core/registry/plugin.hpp>
 #include <pfaff/core/registry/registry.hpp>
 #include <pfaff/core/tape/recorder.hpp>
@@ -59,8 +59,11 @@ class BracketPlugin : public Plugin {
 
 // Kinds share some names: each kind looks its own up in a namespace of its own.
 namespace detail::bracket {
-PFAFF_MEMBER_NAME(casimir_count)
-PFAFF_MEMBER_NAME(casimirs)
+// clang-format off
+PFAFF_OPTIONAL_MEMBER(casimir_count, "int casimir_count() const", (const S& s) { { s.casimir_count() } -> std::convertible_to<int>; })
+PFAFF_OPTIONAL_MEMBER(casimirs, "template <class T> void casimirs(const T& t, In<T> z, Out<T> values) const",
+                      (const S& s, const Recorded& t, In<Recorded> z, Out<Recorded> values) { s.casimirs(t, z, values); })
+// clang-format on
 }  // namespace detail::bracket
 
 namespace detail {
@@ -76,15 +79,6 @@ concept WritesDimension = requires(const B& b) {
 || requires {
   { B::dimension } -> std::convertible_to<int>;
 };
-template <class B>
-concept WritesCasimirCount = requires(const B& b) {
-  { b.casimir_count() } -> std::convertible_to<int>;
-};
-template <class B>
-concept WritesCasimirs = requires(const B& b, const Recorded& t, In<Recorded> z, Out<Recorded> values) {
-  b.casimirs(t, z, values);
-};
-
 /// Refuses, while B is compiled, a struct that is no bracket, and members that bear the name of an optional
 /// one and cannot be used as one.
 template <class B>
@@ -94,11 +88,7 @@ constexpr void check_bracket_members() {
                 "vector) const");
   static_assert(WritesDimension<B>,
                 "dimension: expected static constexpr int dimension or int dimension() const");
-  static_assert(WritesCasimirCount<B> || !bracket::has_casimir_count<B>,
-                "casimir_count: expected int casimir_count() const");
-  static_assert(
-      WritesCasimirs<B> || !bracket::has_casimirs<B>,
-      "casimirs: expected template <class T> void casimirs(const T& t, In<T> z, Out<T> values) const");
+  bracket::check_casimir_count<B>(), bracket::check_casimirs<B>();
   static_assert(bracket::has_casimir_count<B> == bracket::has_casimirs<B>,
                 "casimir_count and casimirs belong together: one of them is missing");
 }

@@ -129,7 +129,7 @@ struct FormulatedField {
 /// What two units leave each other of F.
 template <class F>
 void leave_code_of_formulation() {
-  if constexpr (!WritesHamiltonianTape<F>) Program<FormulatedField<F>>::leave_code();
+  if constexpr (!formulation::writes_hamiltonian_tape<F>) Program<FormulatedField<F>>::leave_code();
 }
 
 }  // namespace detail
@@ -155,7 +155,7 @@ class Formulation final : public FormulationPlugin {
   }
   [[nodiscard]] std::string refuses(const Model& model) const override {
     std::string reason = misfit(model);
-    if constexpr (detail::WritesReason<F>)
+    if constexpr (detail::formulation::writes_refuses<F>)
       if (reason.empty()) reason = F().refuses(model);
     return reason;
   }
@@ -172,23 +172,23 @@ class Formulation final : public FormulationPlugin {
   }
   [[nodiscard]] FormulationStatement states(const Assignments& assignments) const override {
     FormulationStatement statement{descriptor().reactions, FrictionForm::none, descriptor().keeps,
-                                   detail::WritesHamiltonianTape<F>};
+                                   detail::formulation::writes_hamiltonian_tape<F>};
     const F object = make(assignments);
-    if constexpr (detail::WritesFrictionForm<F>) statement.friction = object.friction();
-    if constexpr (detail::WritesKeeps<F>) statement.keeps = object.keeps();
+    if constexpr (detail::formulation::writes_friction<F>) statement.friction = object.friction();
+    if constexpr (detail::formulation::writes_keeps<F>) statement.keeps = object.keeps();
     return statement;
   }
   [[nodiscard]] std::vector<Assignments> instances([[maybe_unused]] bool full) const override {
-    if constexpr (detail::WritesFormulationInstances<F>) return F::instances(full);
+    if constexpr (detail::formulation::writes_instances<F>) return F::instances(full);
     return {{}};
   }
 
  private:
-  static constexpr bool of_phase_space = detail::WritesFieldTape<F>;
+  static constexpr bool of_phase_space = detail::formulation::writes_field_tape<F>;
 
   // What the formulated model is made of.
   static ModelSource motion(const F& object, const std::shared_ptr<const Model>& model) {
-    if constexpr (detail::WritesHamiltonianTape<F>) {
+    if constexpr (detail::formulation::writes_hamiltonian_tape<F>) {
       return motion_of_energy(*model, object.hamiltonian_tape(*model));
     } else {
       ModelSource source = model->source();

@@ -7,7 +7,7 @@
 
 #include <pfaff/core/facets/model.hpp>
 #include <pfaff/core/formulation_statement.hpp>
-#include <pfaff/core/registry/member_names.hpp>
+#include <pfaff/core/registry/optional_member.hpp>
 #include <pfaff/core/registry/parameter.hpp>
 
 namespace pfaff {
@@ -15,12 +15,19 @@ namespace pfaff {
 // Kinds share some names: each kind looks its own up in a namespace of its own.
 namespace detail::formulation {
 PFAFF_MEMBER_NAME(field)
-PFAFF_MEMBER_NAME(hamiltonian_tape)
-PFAFF_MEMBER_NAME(field_tape)
-PFAFF_MEMBER_NAME(keeps)
-PFAFF_MEMBER_NAME(refuses)
-PFAFF_MEMBER_NAME(friction)
-PFAFF_MEMBER_NAME(instances)
+// clang-format off
+PFAFF_OPTIONAL_MEMBER(hamiltonian_tape, "Tape hamiltonian_tape(const Model& model) const",
+                      (const S& s, const Model& model) { { s.hamiltonian_tape(model) } -> std::same_as<Tape>; })
+PFAFF_OPTIONAL_MEMBER(field_tape, "Tape field_tape(const Model& model) const",
+                      (const S& s, const Model& model) { { s.field_tape(model) } -> std::same_as<Tape>; })
+PFAFF_OPTIONAL_MEMBER(refuses, "std::string refuses(const Model& model) const",
+                      (const S& s, const Model& model) { { s.refuses(model) } -> std::same_as<std::string>; })
+PFAFF_OPTIONAL_MEMBER(keeps, "std::vector<FormulationClaim> keeps() const",
+                      (const S& s) { { s.keeps() } -> std::convertible_to<std::vector<FormulationClaim>>; })
+PFAFF_OPTIONAL_MEMBER(friction, "FrictionForm friction() const", (const S& s) { { s.friction() } -> std::same_as<FrictionForm>; })
+PFAFF_OPTIONAL_MEMBER(instances, "static std::vector<Assignments> instances(bool full)",
+                      (bool full) { { S::instances(full) } -> std::convertible_to<std::vector<Assignments>>; })
+// clang-format on
 }  // namespace detail::formulation
 
 namespace detail {
@@ -40,41 +47,16 @@ concept WritesFormulationField = requires(const F& f, Constraints<double>& const
 };
 template <class F, template <class> class Constraints>
 concept MovesConstraints = WritesFormulationWork<F, Constraints> && WritesFormulationField<F, Constraints>;
-template <class F>
-concept WritesHamiltonianTape = requires(const F& f, const Model& model) {
-  { f.hamiltonian_tape(model) } -> std::same_as<Tape>;
-};
 /// True for formulations of velocity constraints, whether they make a field or an energy.
 template <class F>
-constexpr bool of_velocities = WritesHamiltonianTape<F> || (MovesConstraints<F, VelocityConstraints> &&
-                                                            !MovesConstraints<F, HolonomicConstraints>);
-template <class F>
-concept WritesReason = requires(const F& f, const Model& model) {
-  { f.refuses(model) } -> std::same_as<std::string>;
-};
-template <class F>
-concept WritesFieldTape = requires(const F& f, const Model& model) {
-  { f.field_tape(model) } -> std::same_as<Tape>;
-};
-template <class F>
-concept WritesKeeps = requires(const F& f) {
-  { f.keeps() } -> std::convertible_to<std::vector<FormulationClaim>>;
-};
-template <class F>
-concept WritesFrictionForm = requires(const F& f) {
-  { f.friction() } -> std::same_as<FrictionForm>;
-};
-template <class F>
-concept WritesFormulationInstances = requires(bool full) {
-  { F::instances(full) } -> std::convertible_to<std::vector<Assignments>>;
-};
-
+constexpr bool of_velocities = formulation::writes_hamiltonian_tape<F> ||
+                               (MovesConstraints<F, VelocityConstraints> &&
+                                !MovesConstraints<F, HolonomicConstraints>);
 /// Refuses, while F is compiled, a struct that makes no field, and members that bear the name of an optional
 /// one and cannot be used as one.
 template <class F>
 constexpr void check_formulation_members() {
-  static_assert(WritesHamiltonianTape<F> || !formulation::has_hamiltonian_tape<F>,
-                "hamiltonian_tape: expected Tape hamiltonian_tape(const Model& model) const");
+  formulation::check_hamiltonian_tape<F>(), formulation::check_field_tape<F>();
   static_assert(
       !formulation::has_hamiltonian_tape<F> || !(formulation::has_field<F> || formulation::has_field_tape<F>),
       "hamiltonian_tape and field or field_tape make two motions of a system: expected one of them");
@@ -89,18 +71,10 @@ constexpr void check_formulation_members() {
         "T& t, In<T> q, In<T> p, Out<T> q_rate, Out<T> p_rate, Work<T>& work) const, or the same of "
         "VelocityConstraints<T>& where Work takes these");
   }
-  static_assert(WritesFieldTape<F> || !formulation::has_field_tape<F>,
-                "field_tape: expected Tape field_tape(const Model& model) const");
   static_assert(!(formulation::has_field_tape<F> && of_velocities<F>),
                 "field_tape is written beside a field of holonomic constraints, which is missing");
-  static_assert(WritesReason<F> || !formulation::has_refuses<F>,
-                "refuses: expected std::string refuses(const Model& model) const");
-  static_assert(WritesKeeps<F> || !formulation::has_keeps<F>,
-                "keeps: expected std::vector<FormulationClaim> keeps() const");
-  static_assert(WritesFrictionForm<F> || !formulation::has_friction<F>,
-                "friction: expected FrictionForm friction() const");
-  static_assert(WritesFormulationInstances<F> || !formulation::has_instances<F>,
-                "instances: expected static std::vector<Assignments> instances(bool full)");
+  formulation::check_refuses<F>(), formulation::check_keeps<F>();
+  formulation::check_friction<F>(), formulation::check_instances<F>();
 }
 
 }  // namespace detail

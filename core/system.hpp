@@ -55,7 +55,7 @@
 
 #include <pfaff/core/facets/collector.hpp>
 #include <pfaff/core/facets/redundant_constraints.hpp>
-#include <pfaff/core/registry/member_names.hpp>
+#include <pfaff/core/registry/optional_member.hpp>
 #include <pfaff/core/registry/plugin.hpp>
 #include <pfaff/core/registry/registry.hpp>
 
@@ -137,19 +137,17 @@ struct CodeOfSystem {
 }  // namespace detail
 
 namespace detail::system {
-PFAFF_MEMBER_NAME(instances)
-template <class S>
-concept WritesInstances = requires(bool full) {
-  { S::instances(full) } -> std::convertible_to<std::vector<Assignments>>;
-};
+PFAFF_OPTIONAL_MEMBER(
+    instances, "static std::vector<Assignments> instances(bool full)", (bool full) {
+      { S::instances(full) } -> std::convertible_to<std::vector<Assignments>>;
+    })
 }  // namespace detail::system
 
 /// The parameters that S is verified with: those of its static member instances(full), or the defaults.
 template <class S>
 std::vector<Assignments> instances_of(bool full) {
-  static_assert(detail::system::WritesInstances<S> || !detail::system::has_instances<S>,
-                "instances: expected static std::vector<Assignments> instances(bool full)");
-  if constexpr (detail::system::WritesInstances<S>) return S::instances(full);
+  detail::system::check_instances<S>();
+  if constexpr (detail::system::writes_instances<S>) return S::instances(full);
   return {{}};
 }
 

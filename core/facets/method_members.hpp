@@ -10,7 +10,7 @@
 
 #include <pfaff/core/facets/advance.hpp>
 #include <pfaff/core/facets/tolerance.hpp>
-#include <pfaff/core/registry/member_names.hpp>
+#include <pfaff/core/registry/optional_member.hpp>
 #include <pfaff/core/registry/parameter.hpp>
 
 namespace pfaff {
@@ -19,22 +19,29 @@ enum class Claim;
 // Kinds share some names: each kind looks its own up in a namespace of its own.
 namespace detail::method {
 PFAFF_MEMBER_NAME(Work)
-PFAFF_MEMBER_NAME(order)
-PFAFF_MEMBER_NAME(preserves)
-PFAFF_MEMBER_NAME(validate)
-PFAFF_MEMBER_NAME(coefficients)
-PFAFF_MEMBER_NAME(refuses)
-PFAFF_MEMBER_NAME(instances)
 PFAFF_MEMBER_NAME(advance_to)
 PFAFF_MEMBER_NAME(processed)
 PFAFF_MEMBER_NAME(preprocess)
 PFAFF_MEMBER_NAME(kernel)
 PFAFF_MEMBER_NAME(postprocess)
-PFAFF_MEMBER_NAME(fixed_sizes)
-PFAFF_MEMBER_NAME(compensated)
 PFAFF_MEMBER_NAME(Composed)
 PFAFF_MEMBER_NAME(restart)
 PFAFF_MEMBER_NAME(hand_over)
+// clang-format off
+PFAFF_OPTIONAL_MEMBER(order, "int order(const Model& model) const",
+                      (const S& s, const Model& model) { { s.order(model) } -> std::same_as<int>; })
+PFAFF_OPTIONAL_MEMBER(preserves, "std::vector<Claim> preserves(const Model& model) const",
+                      (const S& s, const Model& model) { { s.preserves(model) } -> std::convertible_to<std::vector<Claim>>; })
+PFAFF_OPTIONAL_MEMBER(validate, "void validate()", (S& s) { s.validate(); })
+PFAFF_OPTIONAL_MEMBER(coefficients, "std::span<Quad> coefficients()",
+                      (S& s) { { s.coefficients() } -> std::convertible_to<std::span<Quad>>; })
+PFAFF_OPTIONAL_MEMBER(refuses, "std::string refuses(const Model& model) const",
+                      (const S& s, const Model& model) { { s.refuses(model) } -> std::convertible_to<std::string>; })
+PFAFF_OPTIONAL_MEMBER(instances, "static std::vector<Assignments> instances(bool full)",
+                      (bool full) { { S::instances(full) } -> std::convertible_to<std::vector<Assignments>>; })
+PFAFF_OPTIONAL_MEMBER(fixed_sizes, "static constexpr bool fixed_sizes", { requires std::same_as<decltype(S::fixed_sizes), const bool>; })
+PFAFF_OPTIONAL_MEMBER(compensated, "a member bool compensated", (S& s) { requires std::same_as<decltype((s.compensated)), bool&>; })
+// clang-format on
 }  // namespace detail::method
 
 namespace detail {
@@ -54,30 +61,6 @@ concept WritesWork = requires {
   const M&, const TriedProblem& > ;
 };
 template <class M>
-concept WritesOrder = requires(const M& m, const Model& model) {
-  { m.order(model) } -> std::same_as<int>;
-};
-template <class M>
-concept WritesPreserves = requires(const M& m, const Model& model) {
-  { m.preserves(model) } -> std::convertible_to<std::vector<Claim>>;
-};
-template <class M>
-concept WritesValidate = requires(M& m) {
-  m.validate();
-};
-template <class M>
-concept WritesCoefficients = requires(M& m) {
-  { m.coefficients() } -> std::convertible_to<std::span<Quad>>;
-};
-template <class M>
-concept WritesRefuses = requires(const M& m, const Model& model) {
-  { m.refuses(model) } -> std::convertible_to<std::string>;
-};
-template <class M>
-concept WritesInstances = requires(bool full) {
-  { M::instances(full) } -> std::convertible_to<std::vector<Assignments>>;
-};
-template <class M>
 concept WritesAdvanceTo = requires(const M& m, const TriedProblem& p, double& t, double end,
                                    const Tolerance<double>& tolerance, State<TriedProblem>& z,
                                    Work<M, TriedProblem>& w) {
@@ -88,14 +71,6 @@ constexpr bool names_processor() {
   return method::has_processed<M> || method::has_preprocess<M> || method::has_kernel<M> ||
          method::has_postprocess<M>;
 }
-template <class M>
-concept WritesFixedSizes = requires {
-  requires std::same_as<decltype(M::fixed_sizes), const bool>;
-};
-template <class M>
-concept WritesCompensated = requires(M& m) {
-  requires std::same_as<decltype((m.compensated)), bool&>;
-};
 template <class M>
 concept WritesComposed = requires(typename M::Composed& composed, const TriedProblem& p, double t,
                                   State<TriedProblem>& z, Work<typename M::Composed, TriedProblem>& w) {
@@ -137,17 +112,9 @@ constexpr void check_method_members() {
   static_assert(StepsInScalars<M> || !Steps<M, TriedProblem>,
                 "step: expected const Scalar<P>& t, const Scalar<P>& h and State<P>& z, and not doubles: "
                 "methods step in quad too");
-  static_assert(WritesOrder<M> || !method::has_order<M>,
-                "order: expected int order(const Model& model) const");
-  static_assert(WritesPreserves<M> || !method::has_preserves<M>,
-                "preserves: expected std::vector<Claim> preserves(const Model& model) const");
-  static_assert(WritesValidate<M> || !method::has_validate<M>, "validate: expected void validate()");
-  static_assert(WritesCoefficients<M> || !method::has_coefficients<M>,
-                "coefficients: expected std::span<Quad> coefficients()");
-  static_assert(WritesRefuses<M> || !method::has_refuses<M>,
-                "refuses: expected std::string refuses(const Model& model) const");
-  static_assert(WritesInstances<M> || !method::has_instances<M>,
-                "instances: expected static std::vector<Assignments> instances(bool full)");
+  method::check_order<M>(), method::check_preserves<M>(), method::check_validate<M>();
+  method::check_coefficients<M>(), method::check_refuses<M>(), method::check_instances<M>();
+  method::check_fixed_sizes<M>(), method::check_compensated<M>();
   static_assert(
       WritesAdvanceTo<M> || !method::has_advance_to<M>,
       "advance_to: expected template <class P> Status advance_to(const P& p, double& t, double end, "
@@ -159,10 +126,6 @@ constexpr void check_method_members() {
       "processed, preprocess, kernel, postprocess: expected bool processed() const and, all three of them, "
       "template <class P> Status preprocess(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, "
       "Work<P>& work) const, with whatever facet's concept they need");
-  static_assert(WritesFixedSizes<M> || !method::has_fixed_sizes<M>,
-                "fixed_sizes: expected static constexpr bool fixed_sizes");
-  static_assert(WritesCompensated<M> || !method::has_compensated<M>,
-                "compensated: expected a member bool compensated");
   static_assert(
       WritesComposed<M> || !method::has_Composed<M>,
       "Composed: expected using Composed = Composition<the method without Composed>, or another method "
