@@ -10,6 +10,9 @@
 //   PFAFF_WITHOUT(member, other, "sentence")       two members are not written together
 
 // clang-format off
+#ifndef PFAFF_RULE
+#define PFAFF_RULE(...)
+#endif
 #define PFAFF_TOGETHER(a, b, sense) \
   PFAFF_RULE(#a, !has.a || has.b, #a " belongs together with " #b ", which is missing: " sense) \
   PFAFF_RULE(#b, !has.b || has.a, #b " belongs together with " #a ", which is missing: " sense)
