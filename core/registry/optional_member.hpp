@@ -11,7 +11,7 @@
 #define PFAFF_OPTIONAL_MEMBER(name, expected, ...)                                   \
   PFAFF_MEMBER_NAME(name)                                                            \
   template <class S>                                                                 \
-  concept writes_##name = requires __VA_ARGS__;                                      \
+  constexpr bool writes_##name = requires __VA_ARGS__;                               \
   template <class S>                                                                 \
   constexpr void check_##name() {                                                    \
     static_assert(writes_##name<S> || !has_##name<S>, #name ": expected " expected); \
