@@ -43,9 +43,9 @@ struct SeriesRun {
 /// True where all lanes are zero.
 template <int W>
 bool nothing(const Pack<W>& x) {
-  bool all = true;
-  for (std::size_t lane = 0; lane < W; ++lane) all = all && x[lane] == 0;
-  return all;
+  for (std::size_t lane = 0; lane < W; ++lane)
+    if (x[lane] != 0) return false;
+  return true;
 }
 
 template <int W>
