@@ -11,19 +11,21 @@
 //   std::vector<std::int64_t> looks(const Measured<T>& run) const;
 //                                the numbers of steps at which it looks, in increasing order (evenly())
 //   bool look(const Measured<T>& run, const RunState<T>& at, Work<T>& work, Row& row) const;
-//                                called at each of them. It fills a row, a number or a text for each column;
-//                                false ends the table before it
+//                                called at each of them. It fills a row, a number or a text for each column,
+//                                or clears it to leave none; false ends the table before it
 //   void block(const Measured<T>& run, const Block<T>& block, Work<T>& work) const;
 //                                called with every state, many at a time: block.states.get(row, z) is that
 //                                after block.step(row) steps
-//   bool end(const Measured<T>& run, Work<T>& work, Row& row) const;
-//                                called once all steps are taken. It fills a row; false leaves none
+//   std::vector<Row> end(const Measured<T>& run, Work<T>& work) const;
+//                                the rows that stand below: called behind the last look, or where there is
+//                                block() or no look() once all steps are taken
 //
 // What a system knows of itself is evaluated by a Problem<T>(run.start.model()), made in Work, as
 // problem.invariants(t, z, values) in the order of model->invariants(), which have names; `field`,
 // `hamiltonian` and others likewise (core/facets/problem.hpp). BlockValues evaluates a formula at all states
 // of a block. Constraints are those of model->holonomic_constraints<T>(). Another run, from a state beside
 // the start or backwards, is run.start.beside(state) or run.start.reversed(), which carried_to() follows.
+// What the motion itself does, to 30 digits, is run.solution.to(duration)->at(t).
 //
 // Optional members of M. One of the names with another signature is refused by the compiler, which says what
 // was expected.
@@ -50,6 +52,7 @@
 #include <pfaff/core/registry/registry.hpp>
 #include <pfaff/runs/integration.hpp>
 #include <pfaff/runs/measure_statement.hpp>
+#include <pfaff/runs/shared_solution.hpp>
 
 namespace pfaff {
 
@@ -57,7 +60,8 @@ namespace pfaff {
 template <class T>
 struct Measured {
   const Integration<T>& start;  // at the start, to take others from with beside() and reversed()
-  std::int64_t steps = 0;       // that the run has
+  std::int64_t steps;           // that the run has
+  const SharedSolution& solution;
 };
 
 /// A state of the run, after `step` steps.
@@ -87,7 +91,7 @@ class Measuring {
   [[nodiscard]] virtual bool sees_blocks() const = 0;
   virtual void block(const Block<T>& block) = 0;
   [[nodiscard]] virtual bool has_end() const = 0;
-  virtual bool end(Row& row) = 0;
+  virtual std::vector<Row> end() = 0;
 };
 
 /// A measure with its settings fixed.
@@ -172,8 +176,8 @@ concept WritesBlock = requires(const M& m, const Measured<double>& run, const Bl
   { m.block(run, block, work) } -> std::same_as<void>;
 };
 template <class M>
-concept WritesEnd = requires(const M& m, const Measured<double>& run, WorkOfMeasure<M>& work, Row& row) {
-  { m.end(run, work, row) } -> std::same_as<bool>;
+concept WritesEnd = requires(const M& m, const Measured<double>& run, WorkOfMeasure<M>& work) {
+  { m.end(run, work) } -> std::same_as<std::vector<Row>>;
 };
 template <class M>
 concept WritesObjection = requires(const M& m, const Model& model, const MethodInstance& method) {
@@ -204,8 +208,8 @@ constexpr void check_measure_members() {
                 "block: expected template <class T> void block(const Measured<T>& run, const Block<T>& "
                 "block, Work<T>& work) const");
   static_assert(WritesEnd<M> || !measure::has_end<M>,
-                "end: expected template <class T> bool end(const Measured<T>& run, Work<T>& work, Row& row) "
-                "const");
+                "end: expected template <class T> std::vector<Row> end(const Measured<T>& run, Work<T>& "
+                "work) const");
   static_assert(measure::has_look<M> || measure::has_end<M>,
                 "a measure without rows: expected look and looks, or end");
   static_assert(WritesObjection<M> || !measure::has_refuses<M>,
@@ -232,9 +236,9 @@ class MeasuringWith final : public Measuring<T> {
     if constexpr (WritesBlock<M>) measure_.block(run_, block, work_);
   }
   [[nodiscard]] bool has_end() const override { return WritesEnd<M>; }
-  bool end([[maybe_unused]] Row& row) override {
-    if constexpr (WritesEnd<M>) return measure_.end(run_, work_, row);
-    return false;
+  std::vector<Row> end() override {
+    if constexpr (WritesEnd<M>) return measure_.end(run_, work_);
+    return {};
   }
 
  private:

@@ -40,18 +40,19 @@ struct AtWork {
     guarded([&] {
       Row row(table->columns.size());
       if (!measuring->look(at, row)) return end("");
-      add(at.step, std::move(row));
+      if (!row.empty()) add(at.step, std::move(row));
     });
   }
   void look_at_the_end(std::int64_t step) {
     if (measuring == nullptr || !measuring->has_end()) return;
     guarded([&] {
-      Row row(table->columns.size());
-      if (measuring->end(row)) add(step, std::move(row));
+      for (Row& row : measuring->end()) add(step, std::move(row));
     });
   }
+  // A measure that looks at some states alone is done with the last of them.
   [[nodiscard]] bool sees_all() const {
-    return measuring != nullptr && (measuring->sees_blocks() || measuring->has_end());
+    return measuring != nullptr &&
+           (measuring->sees_blocks() || (measuring->has_end() && measuring->looks().empty()));
   }
 
  private:
@@ -62,6 +63,12 @@ struct AtWork {
     table->lines.push_back({step, std::move(row)});
   }
 };
+
+template <class T>
+SharedSolution solution_from(const Integration<T>& start) {
+  const std::span<const T> z = start.state();
+  return {start.model(), Quad(start.time()), {z.begin(), z.end()}};
+}
 
 template <class T>
 class SeesBlocks final : public Watcher<T> {
@@ -88,10 +95,12 @@ class SeesBlocks final : public Watcher<T> {
 
 template <class T>
 std::vector<MeasuredTable> measured(const Integration<T>& start, std::int64_t steps,
-                                    const std::vector<const MeasureInstance*>& measures) {
+                                    const std::vector<const MeasureInstance*>& measures,
+                                    const SharedSolution* solution) {
+  const SharedSolution of_start = solution_from(start);
   std::vector<MeasuredTable> tables(measures.size());
   std::vector<AtWork<T>> all(measures.size());
-  const Measured<T> of{start, steps};
+  const Measured<T> of{start, steps, solution == nullptr ? of_start : *solution};
   for (std::size_t m = 0; m < measures.size(); ++m) {
     all[m].table = &tables[m];
     all[m].guarded([&] {
@@ -112,7 +121,10 @@ std::vector<MeasuredTable> measured(const Integration<T>& start, std::int64_t st
     std::int64_t until = std::numeric_limits<std::int64_t>::max();
     for (const AtWork<T>& one : all) until = std::min(until, one.next_look());
     const bool to_the_end = until > steps;
-    if (to_the_end && !any([](const AtWork<T>& one) { return one.sees_all(); })) break;
+    if (to_the_end && !any([](const AtWork<T>& one) { return one.sees_all(); })) {
+      for (AtWork<T>& one : all) one.look_at_the_end(run.steps_taken());
+      break;
+    }
     const Outcome outcome = run.steps(std::min(until, steps) - run.steps_taken());
     if (!outcome.reached()) {
       for (AtWork<T>& one : all)
@@ -129,9 +141,11 @@ std::vector<MeasuredTable> measured(const Integration<T>& start, std::int64_t st
 }
 
 template std::vector<MeasuredTable> measured(const Integration<double>&, std::int64_t,
-                                             const std::vector<const MeasureInstance*>&);
+                                             const std::vector<const MeasureInstance*>&,
+                                             const SharedSolution*);
 template std::vector<MeasuredTable> measured(const Integration<Quad>&, std::int64_t,
-                                             const std::vector<const MeasureInstance*>&);
+                                             const std::vector<const MeasureInstance*>&,
+                                             const SharedSolution*);
 
 std::string text_of(const Cell& cell, const Column& column) {
   if (const auto* text = std::get_if<std::string>(&cell)) return *text;

@@ -33,6 +33,10 @@ std::shared_ptr<const Model> motion_of(const std::shared_ptr<const Model>& model
   return model->moves() || !model->restricted() ? model : default_formulation(*model).apply(model, {});
 }
 
+std::shared_ptr<const Model> solved_model(const std::shared_ptr<const Model>& model) {
+  return model->facets().has(Facet::exact_solution) ? model : motion_of(model);
+}
+
 std::shared_ptr<const Model> motion_for(const MethodInstance& method,
                                         const std::shared_ptr<const Model>& model) {
   return method.refuses(*model).empty() ? model : motion_of(model);

@@ -30,6 +30,10 @@ const FormulationPlugin* formulation_for(const SystemPlugin& system, const std::
 /// otherwise the model in its default formulation.
 std::shared_ptr<const Model> motion_of(const std::shared_ptr<const Model>& model);
 
+/// The model whose solution is compared with: the model itself where it has a closed form, otherwise its
+/// motion, of which Taylor series need the vector field.
+std::shared_ptr<const Model> solved_model(const std::shared_ptr<const Model>& model);
+
 /// The model that a method runs on: `model` itself where the method accepts it, as a method that steps on the
 /// constraints does, otherwise the motion of the model.
 std::shared_ptr<const Model> motion_for(const MethodInstance& method,

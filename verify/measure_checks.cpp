@@ -22,7 +22,9 @@ double last_number(const MeasuredTable& table, const std::string& column) {
   throw InputError("its table has no column of numbers '" + column + "'");
 }
 
-Check judged(const MeasureInstance& measure, const MeasureControl& control) {
+Check judged(const MeasurePlugin& plugin, const MeasureControl& control) {
+  const auto made = plugin.make(control.settings);
+  const MeasureInstance& measure = *made;
   Check check;
   check.plugin = measure.descriptor().name;
   check.parameters = measure.parameters();
@@ -58,11 +60,10 @@ Check judged(const MeasureInstance& measure, const MeasureControl& control) {
 }  // namespace
 
 std::vector<Check> check_measure(const MeasurePlugin& plugin) {
-  const auto measure = plugin.make({});
   std::vector<Check> checks;
   int answers = 0, faults = 0;
   for (const MeasureControl& control : plugin.controls()) {
-    checks.push_back(judged(*measure, control));
+    checks.push_back(judged(plugin, control));
     (control.fault ? faults : answers) += 1;
   }
   Check stated;

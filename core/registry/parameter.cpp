@@ -129,7 +129,7 @@ std::string range_text(const Range& range, const std::string& unit) {
 }
 
 std::string range_of(const Parameter& p) {
-  if (p.kind == Parameter::Kind::file) return "FILE";
+  if (p.kind == Parameter::Kind::file) return p.choices.empty() ? "FILE" : p.choices.front();
   if (p.kind == Parameter::Kind::choice || p.kind == Parameter::Kind::plugin) {
     std::string text;
     for (const std::string& choice : p.kind == Parameter::Kind::plugin ? p.plugins.names() : p.choices)

@@ -2,8 +2,8 @@
 //
 // Copy to runs/measures/<name>.cpp. What a measure looks at, and what its table has, is all there is to
 // write; the table is made for every run that it fits, drawn in reports, and what controls() states is tested
-// by `pfaff verify NAME`. Leave out looks() and look() where a row at the end of the run is all, and add
-// block() to see every state (runs/measure.hpp).
+// by `pfaff verify NAME`. end() adds rows at the end, in the place of looks() and look() or beside them, and
+// block() sees every state (runs/measure.hpp).
 #include <cmath>
 
 #include <pfaff/runs/measure.hpp>

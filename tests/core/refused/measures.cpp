@@ -20,8 +20,8 @@ struct WithoutColumns {
     using NoWorkOf<WithoutColumns, T>::NoWorkOf;
   };
   template <class T>
-  bool end(const Measured<T>& /*run*/, Work<T>& /*work*/, Row& /*row*/) const {
-    return false;
+  std::vector<Row> end(const Measured<T>& /*run*/, Work<T>& /*work*/) const {
+    return {};
   }
 };
 const Measure<WithoutColumns> without_columns{{.name = "without-columns", .title = ""}};
@@ -50,8 +50,8 @@ struct LooksWithoutLook : Sound {
     return {};
   }
   template <class T>
-  bool end(const Measured<T>& /*run*/, Work<T>& /*work*/, Row& /*row*/) const {
-    return false;
+  std::vector<Row> end(const Measured<T>& /*run*/, Work<T>& /*work*/) const {
+    return {};
   }
 };
 const Measure<LooksWithoutLook> looks_without_look{{.name = "looks-without-look", .title = ""}};
