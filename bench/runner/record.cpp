@@ -9,7 +9,6 @@
 #include <pfaff/bench/runner/steps.hpp>
 #include <pfaff/core/errors/budget.hpp>
 #include <pfaff/runs/integration.hpp>
-#include <pfaff/runs/motion.hpp>
 
 namespace pfaff {
 
@@ -167,17 +166,17 @@ void execute_adaptive(const ResolvedRun& run, Observer<T>& observer, RunRecord& 
 
 }  // namespace
 
-std::unique_ptr<ReferenceSolution> reference_of(const ResolvedRun& run) {
+std::unique_ptr<SharedSolution> solution_of(const ResolvedRun& run) {
   std::vector<Quad> initial;
   for (const Real& x : run.initial) initial.push_back(x.quad());
-  // A method that steps on the constraints runs on a model without a vector field. The Taylor reference needs
-  // one, so it is computed from the motion of that model.
-  const bool exact = run.model->facets().has(Facet::exact_solution);
-  return std::make_unique<ReferenceSolution>(exact ? run.model : motion_of(run.model), run.t0.quad(), initial,
-                                             run.time.quad());
+  return std::make_unique<SharedSolution>(run.model, run.t0.quad(), std::move(initial));
 }
 
-std::unique_ptr<ReferenceSolution> reference_asked_for(const ResolvedRun& run) {
+std::shared_ptr<const ReferenceSolution> reference_of(const ResolvedRun& run) {
+  return solution_of(run)->to(run.time.quad());
+}
+
+std::shared_ptr<const ReferenceSolution> reference_asked_for(const ResolvedRun& run) {
   const ErrorsAgainst against = run.settings.reference;
   const bool exact = run.model->facets().has(Facet::exact_solution);
   const bool wanted = against == ErrorsAgainst::solution || (against == ErrorsAgainst::exact && exact);

@@ -12,6 +12,7 @@
 #include <pfaff/bench/runner/json.hpp>
 
 #include <pfaff/bench/runner/settings.hpp>
+#include <pfaff/runs/shared_solution.hpp>
 #include <pfaff/runs/support/drift.hpp>
 #include <pfaff/runs/support/growth.hpp>
 #include <pfaff/runs/support/reference.hpp>
@@ -65,13 +66,15 @@ using Progress = std::function<void(double fraction)>;
 RunRecord execute(const ResolvedRun& run, const ReferenceSolution* reference, const Progress& progress = {},
                   const std::atomic<bool>* stop = nullptr);
 
+/// The solution of the problem of a run, over any time.
+std::unique_ptr<SharedSolution> solution_of(const ResolvedRun& run);
 /// The solution that a run is compared with: the exact one where the system has it, otherwise Taylor steps of
 /// its motion in quad.
-std::unique_ptr<ReferenceSolution> reference_of(const ResolvedRun& run);
+std::shared_ptr<const ReferenceSolution> reference_of(const ResolvedRun& run);
 
 /// The same, or null where the settings of the run ask for no errors or the system has no exact solution that
 /// they ask for.
-std::unique_ptr<ReferenceSolution> reference_asked_for(const ResolvedRun& run);
+std::shared_ptr<const ReferenceSolution> reference_asked_for(const ResolvedRun& run);
 
 /// Nanoseconds per step, measured while nothing else runs: one warm-up, then repeated runs from the initial
 /// state. For a method that chooses its steps, these are the steps it takes over a stretch of the run.
