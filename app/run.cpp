@@ -227,7 +227,7 @@ TableRows measured(const RunOptions& options, const ResolvedRun& resolved, const
   const Budget budget({}, &Interruption::stop());
   std::vector<MeasureTable> tables;
   try {
-    tables = tables_of(options.out, resolved, summary["checksum"], measures);
+    tables = tables_of(options.out, resolved, summary["checksum"], measures, *solution_of(resolved));
   } catch (const BudgetSpent& spent) {
     if (!spent.stopped()) throw;
     throw RunError("interrupted while the run was measured; the run in '" + options.out + "' is complete");

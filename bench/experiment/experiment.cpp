@@ -9,7 +9,6 @@
 #include <pfaff/bench/experiment/experiment_description.hpp>
 #include <pfaff/bench/experiment/experiment_directory.hpp>
 #include <pfaff/bench/experiment/experiment_findings.hpp>
-#include <pfaff/bench/experiment/frequencies.hpp>
 #include <pfaff/bench/experiment/measured_runs.hpp>
 #include <pfaff/bench/experiment/references.hpp>
 #include <pfaff/bench/experiment/results.hpp>
@@ -225,9 +224,7 @@ void make_all(Experiment experiment, const fs::path& directory, const Experiment
   write_or_remove(directory / "ensembles.csv", ensembles_csv(runs, summaries));
   report(ExperimentStage::phases, "measures", 0);
   std::string notes;
-  write_measures(directory, measures_of(experiment), runs, summaries, notes);
-  report(ExperimentStage::phases, "frequencies", 0);
-  write_or_remove(directory / "frequencies.csv", frequencies_csv(runs, summaries));
+  write_measures(directory, experiment, runs, summaries, references, notes);
   const std::vector<Finding> findings = findings_of(experiment, runs, summaries);
   write_or_remove(directory / "findings.csv", findings.empty() ? "" : findings_csv(findings));
   for (const Finding& finding : findings) outcome.findings.push_back(to_json(finding));

@@ -32,13 +32,6 @@ struct ExperimentMethod {
   std::vector<std::string> absolute;  // beside each of them: none, one for all coordinates, or one for each
 };
 
-/// A vector in a plane whose frequency is measured (frequencies.hpp): two expressions of the coordinates, and
-/// names for expressions that they have in common.
-struct FrequencyVector {
-  std::string name, x, y;
-  Assignments definitions;
-};
-
 /// What stands above the sentence of a report: the equation of the motion in prose
 /// (bench/report/equation.py), the question that it asks and the kind of its answer; each may be empty.
 struct Asked {
@@ -56,7 +49,7 @@ struct ExperimentCase {
   Asked asked;
   std::string error;  // the invariant whose relative drift is the error of a run (error_measure.hpp); or none
   std::vector<std::string> motion;  // two coordinates, whose tracks in their plane are drawn; or none
-  std::vector<FrequencyVector> frequencies;
+  Assignments frequencies;  // the settings of the measure `frequency`; none where the case names no vectors
   Precision precision = Precision::double_precision;
   std::vector<std::string> methods;  // labels; empty: all
   int seeds = 0;                     // > 0: an ensemble over the system's parameter `seed` = 1 ... seeds

@@ -29,12 +29,16 @@ nlohmann::json description(const Experiment& experiment, const std::vector<Exper
                                   {"keeps", entry.keeps}});
   // The measures that say something of a run.
   j["measures"] = nlohmann::json::array();
-  for (const auto& measure : measures_of(experiment))
-    if (const auto run = std::find_if(
-            runs.begin(), runs.end(),
-            [&](const ExperimentRun& r) { return r.seed == 0 && refuses(*measure, r.resolved).empty(); });
-        run != runs.end())
-      j["measures"].push_back(description_of(*measure, *run->resolved.model));
+  std::vector<std::string> described;
+  for (const ExperimentRun& run : runs)
+    for (const auto& measure : measures_of(experiment, *run.which)) {
+      const std::string& name = measure->descriptor().name;
+      if (run.seed > 0 || !refuses(*measure, run.resolved).empty() ||
+          std::find(described.begin(), described.end(), name) != described.end())
+        continue;
+      described.push_back(name);
+      j["measures"].push_back(description_of(*measure, *run.resolved.model));
+    }
   j["citation"] = nlohmann::json::array();
   for (const std::string& key : experiment.reference) j["citation"].push_back(citation(key));
   for (const ExperimentCase& c : experiment.cases) {
@@ -69,12 +73,7 @@ nlohmann::json description(const Experiment& experiment, const std::vector<Exper
                                      {"question", c.asked.question},
                                      {"answer", c.asked.answer}})
       if (!value.empty()) j["cases"].back()[key] = value;
-    for (const FrequencyVector& vector : c.frequencies) {
-      nlohmann::json definitions = nlohmann::json::object();
-      for (const auto& [name, expression] : vector.definitions) definitions[name] = expression;
-      j["cases"].back()["frequencies"].push_back(
-          {{"name", vector.name}, {"x", vector.x}, {"y", vector.y}, {"let", definitions}});
-    }
+    for (const auto& [key, value] : c.frequencies) j["cases"].back()["frequencies"][key] = value;
     if (c.seeds > 0) j["cases"].back()["seeds"] = c.seeds;
     if (c.automatic) {
       j["cases"].back()["steps"] = "auto";

@@ -32,8 +32,8 @@ void refuse_another_experiment(const fs::path& directory, const nlohmann::json& 
 void remove_derived(const fs::path& directory) {
   std::error_code error;
   for (const char* name :
-       {"results.csv", "equal_cost.csv", "ensembles.csv", measures_directory, "frequencies.csv",
-        "findings.csv", "fits.csv", "report.html", "report.json", "verdict.csv", "figures"})
+       {"results.csv", "equal_cost.csv", "ensembles.csv", measures_directory, "findings.csv", "fits.csv",
+        "report.html", "report.json", "verdict.csv", "figures"})
     fs::remove_all(directory / name, error);
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <deque>
 
+#include <pfaff/bench/experiment/case_frequencies.hpp>
 #include <pfaff/bench/experiment/case_steps.hpp>
 #include <pfaff/bench/experiment/experiment.hpp>
 #include <pfaff/bench/experiment/method_selection.hpp>
@@ -172,12 +173,7 @@ void read_case(const toml::table& table, const Part& part, Experiment& experimen
   if (!one.motion.empty() && one.motion.size() != 2)
     throw InputError(where + ": key 'motion': expected two coordinates, got " +
                      std::to_string(one.motion.size()));
-  for (const toml::table* entry : c.tables("frequency", false)) {
-    Keys f(*entry, part.name() + " [[case.frequency]]");
-    FrequencyVector vector{f.required("name"), f.required("x"), f.required("y"), f.assignments("let")};
-    f.finish();
-    one.frequencies.push_back(std::move(vector));
-  }
+  one.frequencies = read_vectors(c, part.name());
   one.precision = c.read("precision", "double", parse_precision);
   one.methods = c.list("methods");
   one.seeds = static_cast<int>(whole(c.text("seeds", "0"), 0, 10000, where, "seeds"));

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <map>
 
+#include <pfaff/bench/experiment/case_frequencies.hpp>
 #include <pfaff/bench/experiment/error_measure.hpp>
 #include <pfaff/bench/experiment/experiment.hpp>
 #include <pfaff/bench/experiment/experiment_findings.hpp>
-#include <pfaff/bench/experiment/frequencies.hpp>
 #include <pfaff/bench/experiment/method_selection.hpp>
 #include <pfaff/core/text/source.hpp>
 #include <pfaff/systems/text/text_system.hpp>
@@ -88,10 +88,14 @@ void check_names(const Experiment& experiment, const ExperimentCase& c, const Ex
     if (std::find(coordinates.begin(), coordinates.end(), name) == coordinates.end())
       throw InputError(experiment.name + ", case " + c.name + ": " +
                        unknown_name("coordinate", name, coordinates));
+  if (c.frequencies.empty()) return;
   try {
-    for (const FrequencyVector& vector : c.frequencies) (void)vector_tape(vector, *run.resolved.model);
+    const std::string reason = frequencies_of(c)->refuses(*run.resolved.model, *run.resolved.method);
+    if (!reason.empty()) throw InputError(reason);
   } catch (const text::TextError& error) {
     throw text::TextError(experiment.name + ", case " + c.name + ": " + error.what(), error.excerpt());
+  } catch (const InputError& error) {
+    throw InputError(experiment.name + ", case " + c.name + ": " + error.what());
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include <pfaff/bench/experiment/case_frequencies.hpp>
 #include <pfaff/bench/runner/csv_cells.hpp>
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/bench/runner/parallel.hpp>
@@ -12,12 +13,20 @@ namespace pfaff {
 
 namespace fs = std::filesystem;
 
-Measures measures_of(const Experiment& experiment) {
-  if (experiment.measures) return *experiment.measures;
-  Measures usual;
-  for (const MeasurePlugin* measure : measures().all())
-    if (measure->descriptor().usual) usual.push_back(measure->make({}));
-  return usual;
+Measures measures_of(const Experiment& experiment, const ExperimentCase& one) {
+  Measures found;
+  if (experiment.measures) {
+    found = *experiment.measures;
+  } else {
+    for (const MeasurePlugin* measure : measures().all())
+      if (measure->descriptor().usual) found.push_back(measure->make({}));
+  }
+  if (auto vectors = frequencies_of(one)) {
+    std::erase_if(
+        found, [&](const auto& measure) { return measure->descriptor().name == vectors->descriptor().name; });
+    found.push_back(std::move(vectors));
+  }
+  return found;
 }
 
 std::vector<const ExperimentRun*> measured_runs(const MeasureInstance& measure,
@@ -57,34 +66,44 @@ void join(const ExperimentRun& run, const MeasureInstance& measure, const Measur
 }
 }  // namespace
 
-void write_measures(const fs::path& directory, const Measures& measures,
+void write_measures(const fs::path& directory, const Experiment& experiment,
                     const std::vector<ExperimentRun>& runs, const std::vector<nlohmann::json>& summaries,
-                    std::string& notes) {
+                    References& references, std::string& notes) {
   std::map<const ExperimentRun*, Measures> wanted;
-  for (const auto& measure : measures)
-    for (const ExperimentRun* run : measured_runs(*measure, runs, summaries)) wanted[run].push_back(measure);
+  std::vector<std::string> names;  // of the tables
+  for (const ExperimentCase& one : experiment.cases) {
+    const Measures found = measures_of(experiment, one);
+    for (auto measure : found) {
+      const std::string& name = measure->descriptor().name;
+      if (measure == found.back() && !one.frequencies.empty())
+        measure = frequencies_of(one, time_of_frequencies(one, runs, summaries));
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+      for (const ExperimentRun* run : measured_runs(*measure, runs, summaries))
+        if (run->which == &one) wanted[run].push_back(measure);
+    }
+  }
   std::vector<std::vector<MeasureTable>> tables(runs.size());
   in_parallel(runs.size(), [&](std::size_t k) {
     if (const auto found = wanted.find(&runs[k]); found != wanted.end())
-      tables[k] = tables_of(directory / "runs" / runs[k].slug, runs[k].resolved,
-                            summaries[k]["checksum"].get<std::string>(), found->second);
+      tables[k] =
+          tables_of(directory / "runs" / runs[k].slug, runs[k].resolved,
+                    summaries[k]["checksum"].get<std::string>(), found->second, references.problem(runs[k]));
   });
   std::error_code error;
   fs::remove_all(directory / measures_directory, error);
-  for (const auto& measure : measures) {
+  for (const std::string& name : names) {
     MeasureTable joined;
     for (std::size_t k = 0; k < runs.size(); ++k) {
       const Measures& of_run = wanted[&runs[k]];
-      const auto place = std::find(of_run.begin(), of_run.end(), measure);
-      if (place != of_run.end())
-        join(runs[k], *measure, tables[k][static_cast<std::size_t>(place - of_run.begin())], joined, notes);
+      for (std::size_t m = 0; m < of_run.size(); ++m)
+        if (of_run[m]->descriptor().name == name) join(runs[k], *of_run[m], tables[k][m], joined, notes);
     }
     if (joined.lines.empty()) continue;
     std::string text = "case,method,step";
-    for (const std::string& name : joined.columns) text += "," + csv_quoted(name);
+    for (const std::string& column : joined.columns) text += "," + csv_quoted(column);
     for (const std::string& line : joined.lines) text += "\n" + line;
     fs::create_directories(directory / measures_directory, error);
-    write_file(directory / measures_directory / (measure->descriptor().name + ".csv"), text + "\n");
+    write_file(directory / measures_directory / (name + ".csv"), text + "\n");
   }
 }
 

@@ -5,11 +5,13 @@
 #include <vector>
 
 #include <pfaff/bench/experiment/experiment.hpp>
+#include <pfaff/bench/experiment/references.hpp>
 
 namespace pfaff {
 
-/// The measures of an experiment: those that it names, or without a list all that say they are usual.
-Measures measures_of(const Experiment& experiment);
+/// The measures of a case of an experiment: those that the experiment names, or without a list all that say
+/// they are usual, and that of the vectors of the case.
+Measures measures_of(const Experiment& experiment, const ExperimentCase& one);
 
 /// True where a run is one of which a measure has a table: of cases without seeds, and of measures over time
 /// each method at the largest step at which its run has ended well, of others each run that has.
@@ -20,8 +22,8 @@ std::vector<const ExperimentRun*> measured_runs(const MeasureInstance& measure,
 /// Makes the tables of the runs that are not there yet, several at a time, and writes measures/NAME.csv of
 /// each measure that says something of a run: the columns case, method and step, then those of the measure.
 /// What a table ended for is a note in `notes`.
-void write_measures(const std::filesystem::path& directory, const Measures& measures,
+void write_measures(const std::filesystem::path& directory, const Experiment& experiment,
                     const std::vector<ExperimentRun>& runs, const std::vector<nlohmann::json>& summaries,
-                    std::string& notes);
+                    References& references, std::string& notes);
 
 }  // namespace pfaff

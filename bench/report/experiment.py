@@ -22,7 +22,6 @@ RUN_COLUMNS = ("case", "method", "step", "time", "steps", "precision", "status",
 COST_COLUMNS = ("case", "method", "step", "ns_per_step", "ns_per_step_min", "ns_per_step_max")
 SPREAD_COLUMNS = ("case", "method", "step", "tolerance", "runs", "finished", "measure", "measured", "median", "low",
                   "high")
-FREQUENCY_COLUMNS = ("case", "method", "step", "vector", "frequency", "error", "change")
 CLAIM_COLUMNS = ("case", "measure", "method", "relation", "factor", "than", "bound", "step", "runs", "holding", "needed",
                  "holds", "ratio_median")
 MEASURES = ("max", "rms", "final", "slope", "slope_low", "slope_high", "oscillation", "exponent", "class")
@@ -130,7 +129,6 @@ class Experiment:
         self.equal = self._read_equal()
         self.spreads = self._read_rows("ensembles.csv", SPREAD_COLUMNS)
         self.measures = self._read_measures()
-        self.frequencies = self._read_rows("frequencies.csv", FREQUENCY_COLUMNS)
         self.claims = self._read_rows("findings.csv", CLAIM_COLUMNS)
         self._series, self._summaries = {}, {}
 

@@ -11,7 +11,7 @@ from figures import heading
 from findings import findings
 from wording import counted, text
 
-DATA = ("experiment.json", "results.csv", "cost.csv", "fits.csv", "equal_cost.csv", "ensembles.csv", "frequencies.csv",
+DATA = ("experiment.json", "results.csv", "cost.csv", "fits.csv", "equal_cost.csv", "ensembles.csv",
         "findings.csv", "machine.json")
 
 

@@ -1,6 +1,6 @@
 """Frequencies of the motion: how much faster or slower the vectors that a case names turn with each method than in the reference
-solution, against the step. frequencies.csv has the rate of the solution, the error of the method's, and by how much that error
-differs between the first half of the time and the second.
+solution, against the step. The measure `frequency` gives the rate of the solution, the error of the method's, and by how much that
+error differs between the first half of the time and the second.
 
 A wrong frequency is a phase that is lost in proportion to time. A method that keeps the energy at a fixed step may have any
 frequency error, and one that loses energy has one that grows.
@@ -32,7 +32,7 @@ class Errors:
 def frequencies(experiment, case):
     """{vector: (rate of the solution, {method: Errors})}, in the experiment's order, from the largest step to the finest."""
     found = {}
-    for where, cells in experiment.frequencies:
+    for where, cells in experiment.table("frequency"):
         if cells["case"] != case["name"]:
             continue
         step, rate, error, change = (parse(cells[k], f"{where}, column {k}") for k in ("step", "frequency", "error", "change"))

@@ -8,7 +8,7 @@ from files import parse
 from lines import Line, Panel, draw, in_grey
 from scales import ErrorAxis, positive, step_axis, time_axis
 
-OWN = ("poincare-loop", "reversibility", "contraction")  # which loops.py and others draw
+OWN = ("poincare-loop", "reversibility", "contraction", "frequency")  # which loops.py and others draw
 DECADES = 2  # from which on numbers that are not negative stand on a logarithmic axis
 
 

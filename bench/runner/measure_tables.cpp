@@ -95,12 +95,13 @@ std::string elapsed(std::int64_t step, const T& h) {
 }
 
 template <class T>
-std::vector<MeasureTable> measured_in(const ResolvedRun& run, const Measures& measures) {
+std::vector<MeasureTable> measured_in(const ResolvedRun& run, const Measures& measures,
+                                      const SharedSolution& solution) {
   std::vector<const MeasureInstance*> asked;
   for (const auto& measure : measures) asked.push_back(measure.get());
   const Integration<T> start(start_of<T>(run));
   std::vector<MeasureTable> tables;
-  for (const MeasuredTable& measured : pfaff::measured(start, run.steps, asked)) {
+  for (const MeasuredTable& measured : pfaff::measured(start, run.steps, asked, &solution)) {
     MeasureTable& table = tables.emplace_back();
     table.columns = {"t"};
     table.ended = measured.ended;
@@ -117,7 +118,8 @@ std::vector<MeasureTable> measured_in(const ResolvedRun& run, const Measures& me
 }  // namespace
 
 std::vector<MeasureTable> tables_of(const fs::path& directory, const ResolvedRun& run,
-                                    const std::string& made_of, const Measures& measures) {
+                                    const std::string& made_of, const Measures& measures,
+                                    const SharedSolution& solution) {
   std::vector<MeasureTable> tables(measures.size());
   Measures missing;
   std::vector<std::size_t> places;
@@ -131,8 +133,8 @@ std::vector<MeasureTable> tables_of(const fs::path& directory, const ResolvedRun
   }
   if (missing.empty()) return tables;
   std::vector<MeasureTable> made = run.settings.precision == Precision::quad
-                                       ? measured_in<Quad>(run, missing)
-                                       : measured_in<double>(run, missing);
+                                       ? measured_in<Quad>(run, missing, solution)
+                                       : measured_in<double>(run, missing, solution);
   for (std::size_t k = 0; k < missing.size(); ++k) {
     leave(directory, *missing[k], made_of, made[k]);
     tables[places[k]] = std::move(made[k]);

@@ -34,9 +34,11 @@ struct MeasureTable {
 
 /// The tables of a run whose files have the checksum `made_of`, in the order of the measures, none of which
 /// refuses it. Those that its directory holds are read, unless they were made of other files or by another
-/// version, are cut or were edited; the others are made and left there. BudgetSpent passes.
+/// version, are cut or were edited; the others are made and left there. BudgetSpent passes. `solution` is
+/// that of the run's problem.
 std::vector<MeasureTable> tables_of(const std::filesystem::path& directory, const ResolvedRun& run,
-                                    const std::string& made_of, const Measures& measures);
+                                    const std::string& made_of, const Measures& measures,
+                                    const SharedSolution& solution);
 
 /// What a report has to know of a measure: its name, title, description and columns, as JSON.
 nlohmann::json description_of(const MeasureInstance& measure, const Model& model);

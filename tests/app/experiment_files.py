@@ -15,7 +15,7 @@ class Files:
         self.folder, self.head = pathlib.Path(folder), json.loads((pathlib.Path(folder) / "experiment.json").read_text("utf-8"))
         self.cases = {c["name"]: c | {"unit": {"double": 2.0**-53, "quad": 2.0**-113}[c["precision"]]} for c in self.head["cases"]}
         self.classes = {c["name"]: c for c in self.head["drift_classes"]} | {"": {"grows": False, "keeps": False}}
-        self.results, equal, cost, self.turns = map(self.read, ("results", "equal_cost", "cost", "frequencies"))
+        self.results, equal, cost, self.turns = map(self.read, ("results", "equal_cost", "cost", "measures/frequency"))
         self.rows, self.ns = self.results | equal, {(r["case"], r["method"], self.size(r)): r for r in cost.values()}
 
     def read(self, name):

@@ -127,8 +127,8 @@ TEST_F(BackwardsExperiments, Frequencies) {
            "\"energy\"\nset = { eccentricity = 0.1 }\nsteps = [0.1, 0.05]\ntime = " +
            time + "\n[[case.frequency]]\nname = \"position\"\nx = \"q1\"\ny = \"q2\"\n";
   };
-  const auto there = table(made("there", orbit("-30")) / "frequencies.csv"),
-             here = table(made("here", orbit("30")) / "frequencies.csv");
+  const auto there = table(made("there", orbit("-30")) / "measures/frequency.csv"),
+             here = table(made("here", orbit("30")) / "measures/frequency.csv");
   ASSERT_EQ(there.size(), 4U);
   ASSERT_EQ(here.size(), 4U);
   for (std::size_t k = 0; k < there.size(); ++k) {

@@ -5,9 +5,12 @@
 #include <cmath>
 #include <sstream>
 
-#include <pfaff/bench/experiment/frequencies.hpp>
+#include <pfaff/bench/experiment/case_frequencies.hpp>
+#include <pfaff/bench/experiment/measured_runs.hpp>
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/core/text/source.hpp>
+#include <pfaff/runs/measuring.hpp>
+#include <pfaff/runs/support/turning.hpp>
 
 #include "../temporary_directory.hpp"
 
@@ -81,6 +84,10 @@ TEST(Turning, IsNotANumberWithoutAngles) {
   EXPECT_TRUE(std::isnan(turning_rate(few, angles_of(swinging(few, 1, 0))).rate));
 }
 
+struct FoundFrequency {
+  double of_reference, error, change;
+};
+
 class Frequencies : public ::testing::Test {
  protected:
   Experiment read(const std::string& methods, const std::string& of_case) {
@@ -90,12 +97,20 @@ class Frequencies : public ::testing::Test {
   static std::vector<std::vector<FoundFrequency>> found(const Experiment& experiment) {
     std::vector<std::vector<FoundFrequency>> result;
     const auto runs = expand(experiment);
-    for (const ExperimentRun& run : runs)
-      result.push_back(frequencies_of(run, *reference_of(run.resolved), run.resolved.time));
+    for (const ExperimentRun& run : runs) {
+      const auto measure = frequencies_of(*run.which, run.resolved.time);
+      const Integration<double> start(start_of<double>(run.resolved));
+      const auto table =
+          measured(start, run.resolved.steps, {measure.get()}, solution_of(run.resolved).get()).front();
+      std::vector<FoundFrequency>& of_run = result.emplace_back();
+      for (const auto& line : table.lines) {
+        const auto number = [&](std::size_t column) { return std::get<double>(line.cells[column]); };
+        of_run.push_back({number(1), number(2), number(3)});
+      }
+    }
     return result;
   }
 
- private:
   pfaff::testing::TemporaryDirectory files_;
 };
 
@@ -223,19 +238,23 @@ steps = [0.2, 0.1]
 methods = ["Verlet", "RK4"]
 )" + pericentre);
   const auto runs = expand(experiment);
-  std::vector<nlohmann::json> summaries(runs.size(), {{"status", "converged"}});
+  std::vector<nlohmann::json> summaries(runs.size(), {{"status", "converged"}, {"checksum", "a"}});
   summaries[3]["status"] = "not_converged";
-  std::istringstream lines(frequencies_csv(runs, summaries));
+  References references;
+  std::string notes;
+  write_measures(files_.path(), experiment, runs, summaries, references, notes);
+  EXPECT_EQ(notes, "");
+  std::istringstream lines(text_in(files_.path() / "measures" / "frequency.csv").value_or(""));
   std::vector<std::string> begins;
   for (std::string line; std::getline(lines, line);) {
     std::size_t comma = 0;
-    for (int k = 0; k < 4; ++k) comma = line.find(',', comma) + 1;
+    for (int k = 0; k < 5; ++k) comma = line.find(',', comma) + 1;
     begins.push_back(line.substr(0, comma));
   }
-  EXPECT_EQ(begins, (std::vector<std::string>{"case,method,step,vector,", "orbit,Verlet,0.2,orbit,",
-                                              "orbit,Verlet,0.2,pericentre,", "orbit,Verlet,0.1,orbit,",
-                                              "orbit,Verlet,0.1,pericentre,", "orbit,RK4,0.2,orbit,",
-                                              "orbit,RK4,0.2,pericentre,"}));
+  EXPECT_EQ(begins, (std::vector<std::string>{"case,method,step,t,vector,", "orbit,Verlet,0.2,60,orbit,",
+                                              "orbit,Verlet,0.2,60,pericentre,", "orbit,Verlet,0.1,60,orbit,",
+                                              "orbit,Verlet,0.1,60,pericentre,", "orbit,RK4,0.2,60,orbit,",
+                                              "orbit,RK4,0.2,60,pericentre,"}));
 }
 
 // With few samples a turn nobody knows how often it has turned.

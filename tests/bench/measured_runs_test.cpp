@@ -65,7 +65,8 @@ class MeasuredRuns : public ::testing::Test {
     for (std::size_t k = 0; k < runs.size(); ++k)
       if (failed_step == "all" || runs[k].step == failed_step) summaries[k]["status"] = "non_finite";
     std::string notes;
-    write_measures(files.path(), measures_of(of), runs, summaries, notes);
+    References references;
+    write_measures(files.path(), of, runs, summaries, references, notes);
     EXPECT_EQ(notes, "");
     return joined("reversibility");
   }
@@ -118,7 +119,7 @@ TEST_F(MeasuredRuns, KeepTheirTables) {
   const ResolvedRun run = resolve(settings);
   const Measures measures = measures_asked_for({"poincare-loop"});
   const auto table = [&](const std::string& made_of, const Measures& asked) {
-    return tables_of(files.path(), run, made_of, asked).front();
+    return tables_of(files.path(), run, made_of, asked, *solution_of(run)).front();
   };
   const fs::path file = files.path() / "measures" / "poincare-loop.csv";
   const MeasureTable first = table("a", measures);
@@ -155,8 +156,9 @@ TEST_F(MeasuredRuns, AreInThePrecisionOfTheRun) {
   RunSettings settings = pfaff::testing::settings_of("pendulum", "0.1", "1");
   settings.integrator = "verlet";
   settings.precision = Precision::quad;
-  const auto tables =
-      tables_of(files.path(), resolve(settings), "a", measures_asked_for({"poincare-loop", "reversibility"}));
+  const ResolvedRun run = resolve(settings);
+  const auto tables = tables_of(files.path(), run, "a", measures_asked_for({"poincare-loop", "reversibility"}),
+                                *solution_of(run));
   EXPECT_GT(tables[0].lines.back().size(), 40U);
   EXPECT_THAT(tables[1].lines.back(), HasSubstr("e-3"));  // distances and roundings of 1e-3x
 }

@@ -5,7 +5,7 @@ import pathlib
 import sys
 import unittest
 
-from synthetic import CLASSES, COLUMNS, Fresh, load, reading, save, synthetic
+from synthetic import CLASSES, COLUMNS, Fresh, load, measured, reading, save, synthetic
 from test_report_constraints import ensemble
 from test_report_motion import walks
 
@@ -150,10 +150,10 @@ class Agreement(Answers):
 class Turning(Answers):
     def test_errors_that_are_not_steady_are_not_ranked(self):
         synthetic(self.folder)
-        rows = [["case", "method", "step", "vector", "frequency", "error", "change"]]
-        rows += [["osc", m, h, "phase", "1", e, c] for h in ("0.2", "0.1") for m, e, c in (
+        rows = [["case", "method", "step", "t", "vector", "frequency", "error", "change"]]
+        rows += [["osc", m, h, "40", "phase", "1", e, c] for h in ("0.2", "0.1") for m, e, c in (
             ("mid", "1e-3", "1e-6"), ("rk", "-1e-9", "1e-9"), ("bad", "1e-5", "1e-8"))]
-        save(self.folder / "frequencies.csv", rows)
+        measured(self.folder, "frequency", rows, texts=("vector",), over="step")
         self.assertEqual(self.said("frequencies"), "At step 0.1 phase, of 2 steady methods, turns best with bad, off by 1·10^−5, "
                          "and worst with mid, by 1·10^−3 rad per unit of time.")
         self.denied(subject=["mid"])

@@ -1,7 +1,7 @@
 """bench/report: errors of frequencies against the step, and who has an error that grows."""
 import unittest
 
-from synthetic import Fresh, load, reading, run, save, synthetic
+from synthetic import Fresh, load, measured, reading, run, save, synthetic
 
 import frequencies  # noqa: E402
 import verdict  # noqa: E402
@@ -11,12 +11,12 @@ class Frequencies(Fresh):
     def write(self, rows=()):
         """The synthetic experiment: `mid` is wrong by h^2 steadily, `rk` by less and more and more; `bad` is not followed."""
         synthetic(self.folder)
-        table = [["case", "method", "step", "vector", "frequency", "error", "change"]]
+        table = [["case", "method", "step", "t", "vector", "frequency", "error", "change"]]
         for h in (0.1, 0.4, 0.2):
-            table.append(["osc", "mid", repr(h), "phase", "-1.5", repr(1e-2 * h * h), repr(1e-5 * h * h)])
-            table.append(["osc", "rk", repr(h), "phase", "-1.5", repr(-1e-3 * h**4), repr(1e-3 * h**4)])
-        table.append(["osc", "bad", "0.1", "phase", "nan", "nan", "nan"])
-        save(self.folder / "frequencies.csv", table + list(rows))
+            table.append(["osc", "mid", repr(h), "40", "phase", "-1.5", repr(1e-2 * h * h), repr(1e-5 * h * h)])
+            table.append(["osc", "rk", repr(h), "40", "phase", "-1.5", repr(-1e-3 * h**4), repr(1e-3 * h**4)])
+        table.append(["osc", "bad", "0.1", "40", "phase", "nan", "nan", "nan"])
+        measured(self.folder, "frequency", table + list(rows), texts=("vector",), over="step")
         return reading.Experiment(self.folder)
 
     def test_lines_go_from_the_largest_step_to_the_finest(self):
@@ -38,8 +38,8 @@ class Frequencies(Fresh):
         page = (self.folder / "report.html").read_text(encoding="utf-8")
         self.assertTrue("<desc>Errors of frequencies against the step.</desc>" in page)  # one method alone is steady
         self.assertTrue((self.folder / "figures" / "frequencies_osc.svg").exists())
-        save(self.folder / "frequencies.csv", [*load(self.folder / "frequencies.csv"),
-                                               ["osc", "bad", "0.4", "phase", "-1.5", "1e-4", "1e-7"]])
+        path = self.folder / "measures" / "frequency.csv"
+        save(path, [*load(path), ["osc", "bad", "0.4", "40", "phase", "-1.5", "1e-4", "1e-7"]])
         shown = reading.Experiment(self.folder)
         told = frequencies.described(verdict.Verdict(shown, shown.cases[0]), frequencies.frequencies(shown, shown.cases[0]))
         self.assertEqual(told, "At step 0.4 the frequency of phase is best with bad, wrong by 1.0e-04, and worst with mid, by 1.6e-03 "
@@ -47,10 +47,10 @@ class Frequencies(Fresh):
         self.assertFalse((self.folder / "figures" / "frequencies_damped.svg").exists())
 
     def test_what_is_no_number_is_refused(self):
-        self.write([["osc", "mid", "0.4", "phase", "1", "one", "0"]])
+        self.write([["osc", "mid", "0.4", "40", "phase", "1", "one", "0"]])
         status, stderr = run(self.folder)
         self.assertEqual(status, 2)
-        self.assertIn("frequencies.csv, line 9, column error", stderr)
+        self.assertIn("frequency.csv, line 9, column error", stderr)
 
 
 if __name__ == "__main__":
