@@ -86,6 +86,8 @@ StepTime time_steps(const ResolvedRun& run, double seconds);
 
 /// The text of series.csv.
 std::string series_csv(const ResolvedRun& run, const RunRecord& record);
+/// The schema of summary.json and of experiment.json. Runs of an older one are made anew.
+inline constexpr int schema_of_runs = 2;
 /// The content of summary.json, but for the checksum that write_run adds.
 nlohmann::json summary(const ResolvedRun& run, const RunRecord& record);
 

@@ -28,7 +28,9 @@ nlohmann::json verified_summary(const fs::path& directory, const std::string& co
   const auto series = text_in(directory / series_name), text = text_in(directory / summary_name);
   if (!series || !text) return nullptr;
   nlohmann::json summary = nlohmann::json::parse(*text, nullptr, false);
-  if (!summary.is_object() || !summary.contains(checksum_key) || text_of(summary) != *text) return nullptr;
+  if (!summary.is_object() || summary.value("schema", 0) != schema_of_runs ||
+      !summary.contains(checksum_key) || text_of(summary) != *text)
+    return nullptr;
   if (summary[checksum_key] != checksum(config, *series, summary)) return nullptr;
   return summary;
 }

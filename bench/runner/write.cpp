@@ -6,6 +6,7 @@
 #include <pfaff/runs/support/constraints.hpp>
 #include <pfaff/runs/support/links.hpp>
 #include <pfaff/runs/support/setback.hpp>
+#include <pfaff/runs/support/watched_quantity.hpp>
 
 namespace pfaff {
 
@@ -19,12 +20,14 @@ std::string header(const std::string& name, const std::string& unit) {
 nlohmann::json optional(const std::optional<double>& x) {
   return x ? nlohmann::json(*x) : nlohmann::json(nullptr);
 }
-// The value of an estimate, and its interval; null where there is none.
-nlohmann::json value_of(const std::optional<windows::Estimate>& x) {
-  return x ? nlohmann::json(x->value) : nlohmann::json(nullptr);
-}
-nlohmann::json interval_of(const std::optional<windows::Estimate>& x) {
-  return x ? nlohmann::json{x->low, x->high} : nlohmann::json(nullptr);
+// The fields of a quantity, null where a number is not known.
+void add_fields(const WatchedQuantity& quantity, nlohmann::json& entry) {
+  const auto put = [](nlohmann::json& place, const auto& value) {
+    if constexpr (!std::is_same_v<decltype(value), const std::monostate&>) place = value;
+  };
+  for (const QuantityField& field : quantity_fields())
+    if (field.is_of(quantity.residual))
+      std::visit([&](const auto& value) { put(entry[field.name], value); }, field.value(quantity));
 }
 // What the constraints join, for pictures: an end is the number of a point, or the coordinates of a place.
 nlohmann::json links_in(const ResolvedRun& run) {
@@ -87,7 +90,7 @@ nlohmann::json versions() {
 
 nlohmann::json summary(const ResolvedRun& run, const RunRecord& record) {
   nlohmann::json j;
-  j["schema"] = 1;
+  j["schema"] = schema_of_runs;
   j["system"] = run.model->name();
   j["integrator"] = run.settings.integrator;
   j["family"] = run.method->family();
@@ -130,23 +133,7 @@ nlohmann::json summary(const ResolvedRun& run, const RunRecord& record) {
       }
     }
     if (invariant.behaviour == Behaviour::conserved) {
-      const Drift& d = record.drift[i];
-      entry["max"] = d.maximum;
-      entry["rms"] = d.rms;
-      entry["final"] = d.final_value;
-      entry["slope"] = d.slope;
-      entry["slope_interval"] = {d.slope_low, d.slope_high};
-      entry["oscillation"] = d.oscillation_amplitude;
-      entry["exponent"] = value_of(d.exponent);
-      entry["exponent_interval"] = interval_of(d.exponent);
-      entry["rate"] = value_of(d.rate);
-      entry["rate_interval"] = interval_of(d.rate);
-      entry["class"] = to_string(d.drift_class);
-      entry["evidence"] = d.evidence;
-      entry["scale"] = record.round_off[i].scale;
-      entry["propagated"] = optional(record.round_off[i].propagated);
-      entry["range"] = optional(record.round_off[i].range);
-      entry["samples"] = d.samples;
+      add_fields({.drift = record.drift[i], .round_off = record.round_off[i]}, entry);
     } else if (const auto words = setback_words(run.expected(invariant))) {
       entry[setback_key(*words)] = record.setback[i];
     }
@@ -155,22 +142,9 @@ nlohmann::json summary(const ResolvedRun& run, const RunRecord& record) {
   if (const auto names = constraint_residual_names(*run.model); !names.empty()) {
     j["constraints"] = nlohmann::json::array();
     for (std::size_t i = 0; i < names.size(); ++i) {
-      const Drift& d = record.constraints[i];
-      const auto& growth = record.growth[i];
-      j["constraints"].push_back(
-          {{"name", names[i]},
-           {"max", d.maximum},
-           {"rms", d.rms},
-           {"final", d.final_value},
-           {"slope", d.slope},
-           {"slope_interval", {d.slope_low, d.slope_high}},
-           {"oscillation", d.oscillation_amplitude},
-           {"exponent", value_of(d.exponent)},
-           {"rate", value_of(d.rate)},
-           {"class", to_string(d.drift_class)},
-           {"evidence", d.evidence},
-           {"growth", growth ? nlohmann::json(growth->exponent) : nlohmann::json(nullptr)},
-           {"growth_rate", growth ? nlohmann::json(growth->rate) : nlohmann::json(nullptr)}});
+      nlohmann::json entry{{"name", names[i]}};
+      add_fields({.drift = record.constraints[i], .growth = record.growth[i], .residual = true}, entry);
+      j["constraints"].push_back(std::move(entry));
     }
   }
   if (nlohmann::json links = links_in(run); !links.empty()) j["links"] = std::move(links);

@@ -181,7 +181,7 @@ TEST(Run, LeavesThreeFilesAndSummarisesThem) {
   EXPECT_EQ(text_of(files / "deep/er/run/series.csv"), run_pfaff(pendulum_to("-", run)).out);
   EXPECT_EQ(text_of(files / "deep/er/run/summary.json"), outcome.out);
   const auto j = json_of(outcome.out);
-  EXPECT_EQ(j["schema"], 1);
+  EXPECT_EQ(j["schema"], 2);
   EXPECT_EQ(j["status"], "converged");
   EXPECT_EQ(j["completed"], 100);
   EXPECT_EQ(j["steps"], 100);
@@ -246,7 +246,7 @@ TEST(Run, AdaptiveStepsInQuad) {
 TEST(Run, TheSeriesAsJson) {
   const Arguments run{"generating-function", "--step", "0.1", "--time", "10"};
   const auto j = json_of(run_pfaff(pendulum_to("-", run + Arguments{"--json"})).out);
-  EXPECT_EQ(j["schema"], 1);
+  EXPECT_EQ(j["schema"], 2);
   EXPECT_EQ(j["status"], "converged");
   EXPECT_EQ(j["columns"][1], "r [rad]");
   std::istringstream lines(run_pfaff(pendulum_to("-", run)).out);
