@@ -12,19 +12,14 @@
 #include <pfaff/bench/runner/watched_error.hpp>
 #include <pfaff/core/errors/budget.hpp>
 #include <pfaff/runs/block_values.hpp>
+#include <pfaff/runs/measure.hpp>
 #include <pfaff/runs/support/constraints.hpp>
 #include <pfaff/runs/support/growth.hpp>
-#include <pfaff/runs/support/history.hpp>
 #include <pfaff/runs/support/own_range.hpp>
 #include <pfaff/runs/support/rank_watch.hpp>
 #include <pfaff/runs/support/setback.hpp>
-#include <pfaff/runs/support/structure.hpp>
 
 namespace pfaff {
-
-// A structure residual needs the Jacobian of a step, whose cost grows as the cube of the dimension. Beyond
-// this dimension it would take most of a run, so it is not measured.
-inline constexpr int most_differentiated_in_runs = 64;
 
 /// Measures a run computed in the scalar T as it goes, into `record`.
 template <class T>
@@ -43,9 +38,7 @@ class Observer {
       record.reference = reference->kind();
       record.reference_ended = reference->ended();
     }
-    if (run.settings.structure_residuals && StructureResidual<T>::applies(*run.model) && !run.adaptive() &&
-        run.model->dimension() <= most_differentiated_in_runs && !remembers(run))
-      residual_.emplace(*run.method, run.model);
+    if (run.settings.structure_residuals && !run.adaptive()) watch_structure();
     if (!values_.empty()) roundings_.emplace(run.model->tape(Formula::invariants));
     if (run.model->restricted()) constraint_roundings_.emplace(run.model->tape(Formula::constraints));
     if (reference != nullptr && changes(run)) exact_.emplace(run.model);
@@ -180,18 +173,20 @@ class Observer {
     return std::any_of(invariants.begin(), invariants.end(),
                        [](const Invariant& i) { return i.behaviour != Behaviour::conserved; });
   }
-  // The Jacobian of a single step says nothing about the map of several states that a method with history is.
-  // A run that is told to end before that is known ends before its first step.
-  static bool remembers(const ResolvedRun& run) try {
-    std::vector<Quad> z;
-    for (const Real& x : run.initial) z.push_back(x.quad());
-    return keeps_history(*run.method, run.model, run.t0.quad(), run.step.quad(), z);
+  // A run that is told to end meanwhile ends before its first step.
+  void watch_structure() try {
+    const auto measure = measure_asked_for("structure");
+    if (!measure->refuses(*run_.model, *run_.method).empty()) return;
+    start_.emplace(start_of<T>(run_));
+    solution_ = solution_of(run_);
+    structure_ = measure->on({*start_, run_.steps, *solution_});
   } catch (const BudgetSpent&) {
-    return true;
   }
   // A run that is told to end meanwhile keeps the sample without its residual, and ends at its next step.
   void measure_structure(const T& t, const std::vector<T>& z, Sample& sample) try {
-    const T r = (*residual_)(t, T(run_.step), z);
+    Row row(1);
+    if (!structure_->look({record_.completed, t, z}, row)) return;
+    const T r = std::get<T>(row[0]);
     if (std::isfinite(static_cast<double>(r))) {
       sample.structure = Quad(r);
       worst(record_.structure_residual, static_cast<double>(r));
@@ -215,7 +210,7 @@ class Observer {
     if (record_.samples.empty()) first_state_ = in_double_;
     if (record_.samples.empty() && roundings_) first_terms_ = roundings_->terms();
     std::string not_finite = compare_some(sample, exact_time);
-    if (structure && residual_) measure_structure(t, z, sample);
+    if (structure && structure_) measure_structure(t, z, sample);
     record_.samples.push_back(std::move(sample));
     return not_finite;
   }
@@ -302,11 +297,13 @@ class Observer {
   const ReferenceSolution* reference_;
   RunRecord& record_;
   Problem<T> problem_;
-  std::int64_t compared_ = 0;           // samples, with the reference solution,
-  std::int64_t reached_ = 0;            // of so many to which it reaches
-  std::optional<Quad> not_compared_;    // the time of the last sample, where it is one of the others
-  std::optional<Problem<Quad>> exact_;  // of invariants that change, where there is a reference solution
-  std::optional<StructureResidual<T>> residual_;
+  std::int64_t compared_ = 0;            // samples, with the reference solution,
+  std::int64_t reached_ = 0;             // of so many to which it reaches
+  std::optional<Quad> not_compared_;     // the time of the last sample, where it is one of the others
+  std::optional<Problem<Quad>> exact_;   // of invariants that change, where there is a reference solution
+  std::optional<Integration<T>> start_;  // of the run, for the measure of its structure
+  std::unique_ptr<SharedSolution> solution_;
+  std::unique_ptr<Measuring<T>> structure_;
   ConstraintResiduals<T> constraints_;
   RankWatch<T> rank_;
   StepperPointer<T> apart_;  // for steps that are not the run's own
