@@ -110,6 +110,57 @@ TEST(Measuring, AFaultOfAMeasureIsItsOwn) {
   EXPECT_THAT(tables[5].ended, HasSubstr("in increasing order"));
 }
 
+// Looks at every fourth step, leaves no row there and two at the end.
+struct AtTheEnd {
+  [[nodiscard]] std::vector<Column> columns(const Model& /*model*/) const { return {{"x"}}; }
+  template <class T>
+  [[nodiscard]] std::vector<std::int64_t> looks(const Measured<T>& /*run*/) const {
+    return {0, 4, 8};
+  }
+  template <class T>
+  struct Work {
+    std::shared_ptr<const ReferenceSolution> solution;
+    Work(const AtTheEnd& /*measure*/, const Measured<T>& run) : solution(run.solution.to(Quad(1))) {}
+  };
+  template <class T>
+  bool look(const Measured<T>& /*run*/, const RunState<T>& /*at*/, Work<T>& /*work*/, Row& row) const {
+    row.clear();
+    return true;
+  }
+  template <class T>
+  std::vector<Row> end(const Measured<T>& /*run*/, Work<T>& work) const {
+    return {{work.solution->at(Quad(1))[0]}, {2.0}};
+  }
+};
+
+// They stand behind the last look: no step is taken behind that. The solution is that of the run.
+TEST(Measuring, LeavesSeveralRowsAtTheEnd) {
+  static const Measure<AtTheEnd> plugin{{.name = "at-the-end", .title = ""}};
+  const auto run = integrate("harmonic-oscillator", {}, "verlet", {}, {.step = "0.1"});
+  const auto measure = plugin.make({});
+  const MeasuredTable table = measured(run, 100, {measure.get()}).front();
+  ASSERT_EQ(table.lines.size(), 2U);
+  EXPECT_EQ(table.lines[0].step, 8);
+  EXPECT_EQ(table.lines[1].step, 8);
+  const double q = run.state()[0], p = run.state()[1];
+  EXPECT_NEAR(static_cast<double>(std::get<Quad>(table.lines[0].cells[0])),
+              q * std::cos(1.0) + p * std::sin(1.0), 1e-15);  // the last digit of the right-hand side
+  EXPECT_EQ(std::get<double>(table.lines[1].cells[0]), 2);
+}
+
+// A shorter solution is the one that is there; a longer one is made anew, and both agree.
+TEST(SharedSolution, IsMadeOnce) {
+  const auto run = integrate("pendulum", {}, "verlet", {}, {.step = "0.1"});
+  const SharedSolution solution(run.model(), Quad(0), {Quad(1), Quad(0)});
+  const auto first = solution.to(Quad(2));
+  EXPECT_EQ(solution.to(Quad(1)), first);
+  const auto longer = solution.to(Quad(3));
+  EXPECT_NE(longer, first);
+  EXPECT_EQ(solution.to(Quad(2)), longer);
+  EXPECT_LT(abs(first->at(Quad(1.5))[0] - longer->at(Quad(1.5))[0]), Quad(1e-28));
+  EXPECT_TRUE(solution.to(Quad(-1))->covers(Quad(-1)));
+}
+
 // Where the run fails, tables end and say so.
 TEST(Measuring, TablesEndWhereTheRunDoes) {
   const MeasuredTable table = tables_of({Deed::nothing}, 1000, testing::explosion()).front();
