@@ -27,13 +27,9 @@ std::string key_of(const ExperimentRun& run, bool tolerances) {
   return csv_quoted(run.which->name) + "," + csv_quoted(run.method->label) + "," + csv_quoted(run.step) +
          (tolerances ? "," + csv_quoted(run.tolerance) : "");
 }
-std::string header(bool tolerances) {
-  return std::string("case,method,step,") + (tolerances ? "tolerance," : "") +
-         "ns_per_step,ns_per_step_min,ns_per_step_max,repetitions,seconds,host";
-}
 std::string costs_csv(const std::vector<ExperimentRun>& runs, const Costs& costs) {
   const bool tolerances = any_tolerance(runs);
-  std::string text = header(tolerances) + "\n";
+  std::string text = head_of(cost_columns(runs)) + "\n";
   for (const ExperimentRun& run : runs)
     if (const auto row = costs.find(key_of(run, tolerances)); run.seed <= 1 && row != costs.end())
       text += row->second.text + "\n";
@@ -69,6 +65,18 @@ std::optional<CostRow> row_of(const std::string& line, std::size_t begin) {
 }
 }  // namespace
 
+Columns cost_columns(const std::vector<ExperimentRun>& runs) {
+  const std::string time = runs.empty() ? "" : runs.front().resolved.model->time_unit();
+  Columns columns = columns_named({"case*", "method*", "step", "ns_per_step", "ns_per_step_min",
+                                   "ns_per_step_max", "repetitions", "seconds", "host*"});
+  columns[2].unit = time;
+  for (Column& column : columns)
+    if (column.name.starts_with("ns_")) column.unit = "ns";
+  columns[7].unit = "s";
+  if (any_tolerance(runs)) columns.insert(columns.begin() + 3, {"tolerance"});
+  return columns;
+}
+
 bool plausible_seconds(double seconds) {
   constexpr double thirty_years = 1e9;
   return seconds > 0 && seconds < thirty_years;
@@ -82,8 +90,8 @@ Costs read_costs(const fs::path& path, const std::vector<ExperimentRun>& runs) {
   std::istringstream stream(read_file(path));
   std::string line;
   std::getline(stream, line);
-  if (line != header(tolerances)) return costs;        // of a version with other columns
-  while (std::getline(stream, line) && !stream.eof())  // the last line is cut where nothing ends it
+  if (line != head_of(cost_columns(runs))) return costs;  // of a version with other columns
+  while (std::getline(stream, line) && !stream.eof())     // the last line is cut where nothing ends it
     for (const ExperimentRun& run : runs)
       if (const std::string key = key_of(run, tolerances); line.starts_with(key + ","))
         if (const auto row = row_of(line, key.size() + 1)) costs[key] = *row;
@@ -99,7 +107,7 @@ std::optional<double> cost_of(const ExperimentRun& run, const Costs& costs,
 
 void keep_costs(const fs::path& directory, const std::vector<ExperimentRun>& runs,
                 const std::function<bool(const ExperimentRun&)>& keeps) {
-  const fs::path path = directory / "cost.csv";
+  const fs::path path = directory / costs_file;
   std::error_code error;
   if (!fs::exists(path, error)) return;
   const bool tolerances = any_tolerance(runs);
@@ -111,7 +119,7 @@ void keep_costs(const fs::path& directory, const std::vector<ExperimentRun>& run
 
 void write_costs(const fs::path& directory, const std::vector<ExperimentRun>& runs, double seconds,
                  const ExperimentProgress& progress) {
-  const fs::path path = directory / "cost.csv";
+  const fs::path path = directory / costs_file;
   const bool tolerances = any_tolerance(runs);
   const fs::path of_machine = directory / "machine.json";
   // Timings say something together with the machine that they were taken on. Those of a program that was

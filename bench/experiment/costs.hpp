@@ -9,9 +9,12 @@
 #include <string>
 #include <vector>
 
-#include <pfaff/bench/experiment/experiment.hpp>
+#include <pfaff/bench/experiment/tables.hpp>
 
 namespace pfaff {
+
+/// The columns of cost.csv.
+Columns cost_columns(const std::vector<ExperimentRun>& runs);
 
 /// A row of cost.csv as text, and nanoseconds per step in it: of the median and of the fastest repetition.
 struct CostRow {

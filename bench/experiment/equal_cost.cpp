@@ -142,10 +142,16 @@ void tell_apart(std::vector<ExperimentRun>& runs) {
     if (sharing.at(runs[k].slug).size() > 1) runs[k].slug += "-" + sha1_of(settings[k]).substr(0, digits);
 }
 
+Columns equal_cost_columns(const std::vector<ExperimentRun>& runs) {
+  Columns columns = results_columns(runs);
+  columns.insert(columns.begin(), {"level_ns", "ns"});
+  return columns;
+}
+
 void write_equal_cost(const fs::path& directory, const Experiment& experiment,
                       const std::vector<ExperimentRun>& runs, const std::vector<nlohmann::json>& summaries,
                       References& references, const ExperimentProgress& progress) {
-  const Costs costs = read_costs(directory / "cost.csv", runs);
+  const Costs costs = read_costs(directory / costs_file, runs);
   std::vector<Chosen> chosen;
   for (const ExperimentCase& one : experiment.cases)
     for (Chosen& c : chosen_runs(experiment, one, runs, summaries, costs)) chosen.push_back(std::move(c));
@@ -166,15 +172,14 @@ void write_equal_cost(const fs::path& directory, const Experiment& experiment,
     if (record.interrupted) spend(0, 0);
     leave(directory / made_in / run.slug, run.resolved, record);
   });
-  const fs::path path = directory / "equal_cost.csv";
+  const fs::path path = directory / equal_cost_file;
   if (all.empty()) {
     fs::remove(path, error);
     return;
   }
-  std::istringstream lines(results_csv(all, read_summaries(directory, all, made_in)));
-  std::string text, line;
+  std::istringstream lines(results_csv(all, read_summaries(directory, all, made_in), runs));
+  std::string text = head_of(equal_cost_columns(runs)) + "\n", line;
   std::getline(lines, line);
-  text = "level_ns," + line + "\n";
   for (std::size_t k = 0; std::getline(lines, line); ++k)
     text += formatted("%.6g", chosen[k].level) + "," + line + "\n";
   write_file(path, text);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <pfaff/bench/experiment/references.hpp>
+#include <pfaff/bench/experiment/tables.hpp>
 
 namespace pfaff {
 
@@ -35,6 +36,9 @@ double size_at_cost(const PricedRuns& runs, double level);
 /// checksum of its settings behind it. Only what is the same run, as of two cases that differ in their lists
 /// of steps alone, has one directory.
 void tell_apart(std::vector<ExperimentRun>& runs);
+
+/// The columns of equal_cost.csv.
+Columns equal_cost_columns(const std::vector<ExperimentRun>& runs);
 
 /// Chooses, from the timings of cost.csv, a level for each case without seeds and the step of each method
 /// there, makes the runs that `directory` does not hold, under equal-cost/, and writes equal_cost.csv: the

@@ -31,6 +31,12 @@ bool replaces_another(const fs::path& directory, const nlohmann::json& mine, boo
   nlohmann::json theirs = nlohmann::json::parse(read_file(identity), nullptr, false);
   // A damaged file says nothing about the runs beside it, each of which says by itself what it is.
   if (!theirs.is_object() || !theirs.contains("schema")) return false;
+  if (theirs["schema"] != mine["schema"]) {
+    if (force && theirs.value("name", "") == mine["name"]) return true;
+    throw InputError("output directory '" + directory.string() + "' holds an experiment of schema " +
+                     theirs["schema"].dump() + ", whose tables are others than those of schema " +
+                     mine["schema"].dump() + "; expected a new directory, or --force to make its runs anew");
+  }
   const nlohmann::json their_classes = theirs["drift_classes"];
   theirs["versions"] = mine["versions"];
   theirs["drift_classes"] = mine["drift_classes"];
@@ -220,13 +226,13 @@ void make_all(Experiment experiment, const fs::path& directory, const Experiment
   const std::vector<nlohmann::json> summaries = read_summaries(directory, runs);
   for (const nlohmann::json& s : summaries)
     if (s["status"] != "converged") ++outcome.failed;
-  write_file(directory / "results.csv", results_csv(runs, summaries));
-  write_or_remove(directory / "ensembles.csv", ensembles_csv(runs, summaries));
+  write_file(directory / results_file, results_csv(runs, summaries, runs));
+  write_or_remove(directory / ensembles_file, ensembles_csv(runs, summaries));
   report(ExperimentStage::phases, "measures", 0);
   std::string notes;
   write_measures(directory, experiment, runs, summaries, references, notes);
   const std::vector<Finding> findings = findings_of(experiment, runs, summaries);
-  write_or_remove(directory / "findings.csv", findings.empty() ? "" : findings_csv(findings));
+  write_or_remove(directory / findings_file, findings.empty() ? "" : findings_csv(findings));
   for (const Finding& finding : findings) outcome.findings.push_back(to_json(finding));
   outcome.failed_claims = failed_claims(findings);
   write_equal_cost(directory, experiment, runs, summaries, references, progress);

@@ -4,20 +4,16 @@
 
 #include <pfaff/bench/experiment/automatic_steps.hpp>
 #include <pfaff/bench/experiment/citations.hpp>
-#include <pfaff/bench/experiment/measured_runs.hpp>
+#include <pfaff/bench/experiment/tables.hpp>
 
 namespace pfaff {
 
 nlohmann::json description(const Experiment& experiment, const std::vector<ExperimentRun>& runs,
                            const std::vector<LeftOut>& left_out) {
-  nlohmann::json j{{"schema", 1},
-                   {"name", experiment.name},
-                   {"title", experiment.title},
-                   {"description", experiment.description},
-                   {"reference", experiment.reference},
-                   {"notes", experiment.notes},
-                   {"quick", experiment.quick},
-                   {"versions", versions()}};
+  nlohmann::json j{{"schema", schema_of_runs},          {"name", experiment.name},
+                   {"title", experiment.title},         {"description", experiment.description},
+                   {"reference", experiment.reference}, {"notes", experiment.notes},
+                   {"quick", experiment.quick},         {"versions", versions()}};
   if (experiment.compile) j["compile"] = true;
   for (const LeftOut& one : left_out)
     j["left_out"].push_back({{"case", one.of_case}, {"method", one.method}, {"reason", one.reason}});
@@ -27,18 +23,7 @@ nlohmann::json description(const Experiment& experiment, const std::vector<Exper
                                   {"measure", entry.measure},
                                   {"grows", entry.grows},
                                   {"keeps", entry.keeps}});
-  // The measures that say something of a run.
-  j["measures"] = nlohmann::json::array();
-  std::vector<std::string> described;
-  for (const ExperimentRun& run : runs)
-    for (const auto& measure : measures_of(experiment, *run.which)) {
-      const std::string& name = measure->descriptor().name;
-      if (run.seed > 0 || !refuses(*measure, run.resolved).empty() ||
-          std::find(described.begin(), described.end(), name) != described.end())
-        continue;
-      described.push_back(name);
-      j["measures"].push_back(description_of(*measure, *run.resolved.model));
-    }
+  describe_tables(experiment, runs, j);
   j["citation"] = nlohmann::json::array();
   for (const std::string& key : experiment.reference) j["citation"].push_back(citation(key));
   for (const ExperimentCase& c : experiment.cases) {

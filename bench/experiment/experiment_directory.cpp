@@ -1,5 +1,6 @@
 #include <pfaff/bench/experiment/experiment_directory.hpp>
 
+#include <pfaff/bench/experiment/tables.hpp>
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/bench/runner/measure_tables.hpp>
 #include <pfaff/core/errors/errors.hpp>
@@ -31,9 +32,8 @@ void refuse_another_experiment(const fs::path& directory, const nlohmann::json& 
 
 void remove_derived(const fs::path& directory) {
   std::error_code error;
-  for (const char* name :
-       {"results.csv", "equal_cost.csv", "ensembles.csv", measures_directory, "findings.csv", "fits.csv",
-        "report.html", "report.json", "verdict.csv", "figures"})
+  for (const char* name : {results_file, equal_cost_file, ensembles_file, measures_directory, findings_file,
+                           "fits.csv", "report.html", "report.json", "verdict.csv", "figures"})
     fs::remove_all(directory / name, error);
 }
 

@@ -7,6 +7,7 @@
 #include <pfaff/bench/runner/text_table.hpp>
 #include <pfaff/runs/support/constraints.hpp>
 #include <pfaff/runs/support/setback.hpp>
+#include <pfaff/runs/support/watched_quantity.hpp>
 
 namespace pfaff {
 
@@ -48,16 +49,16 @@ std::vector<std::pair<std::size_t, std::size_t>> pairs_of(const ExperimentClaim&
 std::vector<std::string> measures_of(const ResolvedRun& run, bool reference) {
   std::vector<std::string> names;
   if (reference) names = {"error_max", "error_final"};
-  const auto add = [&](const std::string& name, std::initializer_list<const char*> numbers) {
-    for (const char* number : numbers) names.push_back(name + ":" + number);
+  const auto add = [&](const std::string& name, bool residual) {
+    for (const QuantityField& field : quantity_fields())
+      if (field.compared && field.is_of(residual)) names.push_back(name + ":" + field.name);
   };
   for (const Invariant& i : run.model->invariants()) {
-    if (i.behaviour == Behaviour::conserved) add(i.name, {"max", "rms", "final"});
+    if (i.behaviour == Behaviour::conserved) add(i.name, false);
     if (const auto words = setback_words(run.expected(i)))
       names.push_back(i.name + ":" + std::string(words->move));
   }
-  for (const std::string& name : constraint_residual_names(*run.model))
-    add(name, {"max", "rms", "final", "growth", "growth_rate"});
+  for (const std::string& name : constraint_residual_names(*run.model)) add(name, true);
   return names;
 }
 
@@ -119,7 +120,17 @@ std::string ensembles_csv(const std::vector<ExperimentRun>& runs,
     }
   }
   if (text.str().empty()) return {};
-  return "case,method,step,tolerance,runs,finished,measure,measured,median,low,high\n" + text.str();
+  return head_of(ensemble_columns()) + "\n" + text.str();
+}
+
+Columns ensemble_columns() {
+  return columns_named({"case*", "method*", "step", "tolerance", "runs", "finished", "measure*", "measured",
+                        "median", "low", "high"});
+}
+
+Columns finding_columns() {
+  return columns_named({"case*", "measure*", "method*", "relation*", "factor", "than*", "bound", "step",
+                        "runs", "holding", "needed", "holds*", "median", "than_median", "ratio_median"});
 }
 
 void check_claims(const Experiment& experiment, const std::vector<ExperimentRun>& runs) {
@@ -181,8 +192,7 @@ std::string in_words(const Finding& finding) {
 
 std::string findings_csv(const std::vector<Finding>& findings) {
   TextStream text;
-  text << "case,measure,method,relation,factor,than,bound,step,runs,holding,needed,holds,median,than_median,"
-          "ratio_median\n";
+  text << head_of(finding_columns()) << '\n';
   for (const Finding& f : findings) {
     const ExperimentClaim& c = *f.claim;
     text << csv_quoted(c.of) << ',' << csv_quoted(c.measure) << ',' << csv_quoted(c.first) << ','

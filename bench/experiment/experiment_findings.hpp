@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
-#include <pfaff/bench/experiment/experiment.hpp>
+#include <pfaff/bench/experiment/tables.hpp>
 
 namespace pfaff {
 
 /// Names of the numbers that a run measures: error_max and error_final, with a reference
-/// solution; NAME:max, NAME:rms and NAME:final of conserved invariants and of constraint residuals;
-/// NAME:growth and NAME:growth_rate of residuals; NAME:rise of invariants that are to decrease in the
-/// direction of the run and NAME:fall of those that are to increase.
+/// solution; NAME:FIELD of conserved invariants and of constraint residuals, with the fields that are
+/// compared (quantity_fields); NAME:rise of invariants that are to decrease in the direction of the run and
+/// NAME:fall of those that are to increase.
 std::vector<std::string> measures_of(const ResolvedRun& run, bool reference);
 /// The number named `measure` in a run's summary, without its sign for finals; nothing where the run has
 /// none.
@@ -28,6 +28,10 @@ struct Spread {
 Spread spread_over_seeds(const ExperimentRun& of, const std::string& measure,
                          const std::vector<ExperimentRun>& runs,
                          const std::vector<nlohmann::json>& summaries);
+
+/// The columns of ensembles.csv and of findings.csv.
+Columns ensemble_columns();
+Columns finding_columns();
 
 /// The text of ensembles.csv: one row for every measure of every method and step of an ensemble; empty where
 /// there is no ensemble.

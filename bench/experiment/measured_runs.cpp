@@ -66,6 +66,13 @@ void join(const ExperimentRun& run, const MeasureInstance& measure, const Measur
 }
 }  // namespace
 
+Columns columns_before_measures(const std::string& time_unit) {
+  return {{.name = "case", .kind = Column::Kind::text},
+          {.name = "method", .kind = Column::Kind::text},
+          {"step", time_unit},
+          {"t", time_unit}};
+}
+
 void write_measures(const fs::path& directory, const Experiment& experiment,
                     const std::vector<ExperimentRun>& runs, const std::vector<nlohmann::json>& summaries,
                     References& references, std::string& notes) {
@@ -99,8 +106,9 @@ void write_measures(const fs::path& directory, const Experiment& experiment,
         if (of_run[m]->descriptor().name == name) join(runs[k], *of_run[m], tables[k][m], joined, notes);
     }
     if (joined.lines.empty()) continue;
-    std::string text = "case,method,step";
-    for (const std::string& column : joined.columns) text += "," + csv_quoted(column);
+    Columns columns = columns_before_measures("");
+    for (auto own = joined.columns.begin() + 1; own != joined.columns.end(); ++own) columns.push_back({*own});
+    std::string text = head_of(columns);
     for (const std::string& line : joined.lines) text += "\n" + line;
     fs::create_directories(directory / measures_directory, error);
     write_file(directory / measures_directory / (name + ".csv"), text + "\n");

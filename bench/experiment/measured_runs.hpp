@@ -6,6 +6,7 @@
 
 #include <pfaff/bench/experiment/experiment.hpp>
 #include <pfaff/bench/experiment/references.hpp>
+#include <pfaff/bench/experiment/tables.hpp>
 
 namespace pfaff {
 
@@ -19,8 +20,11 @@ std::vector<const ExperimentRun*> measured_runs(const MeasureInstance& measure,
                                                 const std::vector<ExperimentRun>& runs,
                                                 const std::vector<nlohmann::json>& summaries);
 
+/// The columns of a joined table before those of its measure; the elapsed time is the last of them.
+Columns columns_before_measures(const std::string& time_unit);
+
 /// Makes the tables of the runs that are not there yet, several at a time, and writes measures/NAME.csv of
-/// each measure that says something of a run: the columns case, method and step, then those of the measure.
+/// each measure that says something of a run.
 /// What a table ended for is a note in `notes`.
 void write_measures(const std::filesystem::path& directory, const Experiment& experiment,
                     const std::vector<ExperimentRun>& runs, const std::vector<nlohmann::json>& summaries,

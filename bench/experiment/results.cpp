@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include <pfaff/bench/experiment/error_measure.hpp>
 #include <pfaff/bench/runner/csv_cells.hpp>
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/core/process/child_program.hpp>
+#include <pfaff/runs/support/watched_quantity.hpp>
 
 namespace pfaff {
 
@@ -26,21 +28,75 @@ std::string parameters_of(const ExperimentRun& run) {
     text += (text.empty() ? "" : " ") + ("formulation." + key) + "=" + value;
   return text;
 }
-// The cells of an invariant or a residual, as many as it has column heads; all of them empty where the
-// summary has no entry for it.
-std::string drift_cells(const nlohmann::json* found) {
-  std::string text;
-  for (const char* m : {"max", "rms", "final", "slope"}) text += "," + (found ? cell((*found)[m]) : "");
-  for (const std::size_t end : {0U, 1U}) text += "," + (found ? cell((*found)["slope_interval"][end]) : "");
-  for (const char* m : {"oscillation", "exponent", "class"}) text += "," + (found ? cell((*found)[m]) : "");
-  return text;
-}
 std::string measured(double number) { return std::isfinite(number) ? formatted("%.17g", number) : ""; }
-const nlohmann::json* entry(const nlohmann::json& summary, const char* list, const std::string& name) {
-  if (!summary.contains(list)) return nullptr;
-  for (const nlohmann::json& e : summary[list])
-    if (e["name"] == name && e.contains("max")) return &e;
+// A field of a quantity; null where the summary has no such entry.
+nlohmann::json field_of(const nlohmann::json& summary, const TableQuantity& quantity,
+                        const std::string& field) {
+  const char* const list = quantity.residual ? "constraints" : "invariants";
+  if (summary.contains(list))
+    for (const nlohmann::json& e : summary[list])
+      if (e["name"] == quantity.name && e.contains(field)) return e[field];
   return nullptr;
+}
+
+// A column of results.csv with its cells.
+struct ResultColumn {
+  Column column;
+  std::function<std::string(const ExperimentRun& run, const nlohmann::json& summary)> cell;
+};
+
+std::vector<ResultColumn> columns_of(const std::vector<ExperimentRun>& runs) {
+  using Run = ExperimentRun;
+  using Json = nlohmann::json;
+  std::vector<ResultColumn> columns;
+  const auto text = [&](const char* name, auto&& cell) {
+    columns.push_back({{.name = name, .kind = Column::Kind::text}, cell});
+  };
+  const auto number = [&](const std::string& name, const std::string& unit, auto&& cell) {
+    columns.push_back({{name, unit}, cell});
+  };
+  const auto any = [&](const auto& holds) { return std::any_of(runs.begin(), runs.end(), holds); };
+  const std::string time = runs.empty() ? "" : runs.front().resolved.model->time_unit();
+  text("case", [](const Run& r, const Json&) { return csv_quoted(r.which->name); });
+  text("system", [](const Run& r, const Json&) { return csv_quoted(r.which->system); });
+  text("method", [](const Run& r, const Json&) { return csv_quoted(r.method->label); });
+  text("integrator", [](const Run& r, const Json&) { return csv_quoted(r.method->integrator); });
+  text("parameters", [](const Run& r, const Json&) { return csv_quoted(parameters_of(r)); });
+  number("step", time, [](const Run& r, const Json&) { return csv_quoted(r.step); });
+  number("time", time, [](const Run& r, const Json&) { return to_string(r.resolved.time); });
+  number("steps", "", [](const Run&, const Json& s) { return s["completed"].dump(); });
+  text("precision", [](const Run&, const Json& s) { return s["precision"].get<std::string>(); });
+  text("status", [](const Run&, const Json& s) { return s["status"].get<std::string>(); });
+  text("message", [](const Run&, const Json& s) { return csv_quoted(s["message"]); });
+  for (const char* name : {"error_max", "error_final", "structure_residual"})
+    number(name, "", [name](const Run&, const Json& s) { return cell(s[name]); });
+  for (const auto& [name, count] : {std::pair("rhs_per_step", "right_hand_sides"),
+                                    {"jacobians_per_step", "jacobians"},
+                                    {"iterations_per_step", "iterations"},
+                                    {"factorisations_per_step", "factorisations"}})
+    number(name, "", [count = count](const Run&, const Json& s) {
+      const double steps = std::max(1.0, s["counts"]["steps"].get<double>());
+      return formatted("%.6g", s["counts"][count].get<double>() / steps);
+    });
+  for (const TableQuantity& quantity : quantities_of(runs))
+    for (const QuantityField& field : quantity_fields())
+      if (field.column && field.is_of(quantity.residual))
+        number(quantity.name + ":" + field.name, unit_of(field, quantity.unit, quantity.time),
+               [quantity, name = field.name](const Run&, const Json& s) {
+                 return cell(field_of(s, quantity, name));
+               });
+  if (any([](const Run& r) { return !r.which->error.empty(); }))
+    number("relative_drift_max", "", [](const Run& r, const Json& s) {
+      return r.which->error.empty() ? "" : measured(error_of(*r.which, s));
+    });
+  if (any([](const Run& r) { return !r.tolerance.empty(); }))
+    number("tolerance", "", [](const Run& r, const Json&) { return r.tolerance; });
+  if (any([](const Run& r) { return r.seed > 0; }))
+    number("seed", "", [](const Run& r, const Json&) { return r.seed > 0 ? std::to_string(r.seed) : ""; });
+  if (any([](const Run& r) { return !r.resolved.settings.formulation.empty(); }))
+    text("formulation", [](const Run& r, const Json&) { return r.resolved.settings.formulation; });
+  text("run", [](const Run& r, const Json&) { return r.slug; });
+  return columns;
 }
 }  // namespace
 
@@ -52,67 +108,20 @@ std::vector<nlohmann::json> read_summaries(const fs::path& directory, const std:
   return summaries;
 }
 
-std::string results_csv(const std::vector<ExperimentRun>& runs,
-                        const std::vector<nlohmann::json>& summaries) {
-  std::vector<std::string> invariants;
-  for (const nlohmann::json& s : summaries)
-    for (const nlohmann::json& i : s["invariants"])
-      if (i["expected"] != "free" &&
-          std::find(invariants.begin(), invariants.end(), i["name"]) == invariants.end())
-        invariants.push_back(i["name"]);
-  std::vector<std::string> residuals;
-  for (const nlohmann::json& s : summaries)
-    if (s.contains("constraints"))
-      for (const nlohmann::json& c : s["constraints"])
-        if (std::find(residuals.begin(), residuals.end(), c["name"]) == residuals.end())
-          residuals.push_back(c["name"]);
-  const bool tolerances =
-      std::any_of(runs.begin(), runs.end(), [](const ExperimentRun& r) { return !r.tolerance.empty(); });
-  const bool seeds = std::any_of(runs.begin(), runs.end(), [](const ExperimentRun& r) { return r.seed > 0; });
-  const bool by_quantity =
-      std::any_of(runs.begin(), runs.end(), [](const ExperimentRun& r) { return !r.which->error.empty(); });
-  const bool formulated = std::any_of(runs.begin(), runs.end(), [](const ExperimentRun& r) {
-    return !r.resolved.settings.formulation.empty();
-  });
+Columns results_columns(const std::vector<ExperimentRun>& runs) {
+  Columns columns;
+  for (const ResultColumn& one : columns_of(runs)) columns.push_back(one.column);
+  return columns;
+}
 
-  TextStream text;
-  text << "case,system,method,integrator,parameters,step,time,steps,precision,status,message,error_max,error_"
-          "final,"
-          "structure_residual,rhs_per_step,jacobians_per_step,iterations_per_step,factorisations_per_step";
-  for (const auto* names : {&invariants, &residuals})
-    for (const std::string& name : *names) {
-      for (const char* m :
-           {"max", "rms", "final", "slope", "slope_low", "slope_high", "oscillation", "exponent", "class"})
-        text << ',' << name << ':' << m;
-      if (names == &residuals) text << ',' << name << ":growth," << name << ":growth_rate";
-    }
-  text << (by_quantity ? ",relative_drift_max" : "") << (tolerances ? ",tolerance" : "")
-       << (seeds ? ",seed" : "") << (formulated ? ",formulation" : "") << ",run\n";
-  for (std::size_t k = 0; k < runs.size(); ++k) {
-    const ExperimentRun& run = runs[k];
-    const nlohmann::json& s = summaries[k];
-    const double steps = std::max(1.0, s["counts"]["steps"].get<double>());
-    text << csv_quoted(run.which->name) << ',' << csv_quoted(run.which->system) << ','
-         << csv_quoted(run.method->label) << ',' << csv_quoted(run.method->integrator) << ','
-         << csv_quoted(parameters_of(run)) << ',' << csv_quoted(run.step) << ','
-         << to_string(run.resolved.time) << ',' << s["completed"] << ',' << s["precision"].get<std::string>()
-         << ',' << s["status"].get<std::string>() << ',' << csv_quoted(s["message"]) << ','
-         << cell(s["error_max"]) << ',' << cell(s["error_final"]) << ',' << cell(s["structure_residual"]);
-    for (const char* count : {"right_hand_sides", "jacobians", "iterations", "factorisations"})
-      text << ',' << formatted("%.6g", s["counts"][count].get<double>() / steps);
-    for (const std::string& name : invariants) text << drift_cells(entry(s, "invariants", name));
-    for (const std::string& name : residuals) {
-      const nlohmann::json* found = entry(s, "constraints", name);
-      text << drift_cells(found);
-      for (const char* m : {"growth", "growth_rate"}) text << ',' << (found ? cell((*found)[m]) : "");
-    }
-    if (by_quantity) text << ',' << (run.which->error.empty() ? "" : measured(error_of(*run.which, s)));
-    if (tolerances) text << ',' << run.tolerance;
-    if (seeds) text << ',' << (run.seed > 0 ? std::to_string(run.seed) : "");
-    if (formulated) text << ',' << run.resolved.settings.formulation;
-    text << ',' << run.slug << '\n';
-  }
-  return text.str();
+std::string results_csv(const std::vector<ExperimentRun>& runs, const std::vector<nlohmann::json>& summaries,
+                        const std::vector<ExperimentRun>& all) {
+  const std::vector<ResultColumn> columns = columns_of(all);
+  std::string text = head_of(results_columns(all)) + "\n";
+  for (std::size_t k = 0; k < runs.size(); ++k)
+    for (const ResultColumn& one : columns)
+      text += one.cell(runs[k], summaries[k]) + (&one == &columns.back() ? "\n" : ",");
+  return text;
 }
 
 namespace {

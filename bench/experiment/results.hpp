@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <pfaff/bench/experiment/experiment.hpp>
+#include <pfaff/bench/experiment/tables.hpp>
 
 namespace pfaff {
 
@@ -14,9 +14,12 @@ std::vector<nlohmann::json> read_summaries(const std::filesystem::path& director
                                            const std::vector<ExperimentRun>& runs,
                                            const std::string& folder = "runs");
 
-/// The text of results.csv, one row per run. It has deterministic columns only, so that the same experiment
-/// gives the same file; timings are in cost.csv.
-std::string results_csv(const std::vector<ExperimentRun>& runs, const std::vector<nlohmann::json>& summaries);
+/// The columns of results.csv. They are deterministic only, so that the same experiment gives the same file;
+/// timings are in cost.csv.
+Columns results_columns(const std::vector<ExperimentRun>& runs);
+/// The text of such a table, one row per run, with the columns that `all` runs of the experiment need.
+std::string results_csv(const std::vector<ExperimentRun>& runs, const std::vector<nlohmann::json>& summaries,
+                        const std::vector<ExperimentRun>& all);
 
 /// The table for the terminal, with error, drift, structure residual or constraints, and cost of every run,
 /// as wide as the terminal allows.

@@ -172,7 +172,7 @@ std::string Runs::ensemble() const {
 std::string results_table(const fs::path& directory, const Experiment& experiment,
                           const std::vector<ExperimentRun>& runs,
                           const std::vector<nlohmann::json>& summaries) {
-  const Costs costs = read_costs(directory / "cost.csv", runs);
+  const Costs costs = read_costs(directory / costs_file, runs);
   std::string text;
   bool marked = false;
   for (const ExperimentCase& c : experiment.cases) {

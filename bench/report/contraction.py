@@ -34,10 +34,8 @@ class Carried:
 def carried(experiment, case):
     """{method: Carried}"""
     found = {}
-    for where, cells in experiment.table("contraction"):
-        if cells["case"] != case["name"]:
-            continue
-        step, t, area, law = (parse(cells[k], f"{where}, column {k}") for k in ("step", "t", "area", "law"))
+    for where, cells in experiment.table("contraction", case):
+        step, t, area, law = (cells[k] for k in ("step", "t", "area", "law"))
         if not law > 0:
             raise InputError(f"{where}, column law: expected a positive number, got '{cells['law']}'")
         one = found.setdefault(cells["method"], Carried(step))

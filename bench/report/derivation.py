@@ -52,7 +52,7 @@ class Study:
     def __init__(self, folder):
         self.folder = pathlib.Path(folder)
         self.head = read_json(self.folder / "experiment.json")
-        self.measures = {}  # of runs, of which there are none
+        self.tables = ("results.csv", "cost.csv", "fits.csv")
         require(self.head, "experiment.json", name=str, title=str, system=str, methods=list, published=list)
         allow(self.head, "experiment.json", description=str, reference=list, citation=list, notes=list, versions=dict)
         if self.head.get("schema") != 1:

@@ -1,4 +1,4 @@
-"""An experiment as the runner left it: experiment.json, results.csv, cost.csv and the series of its runs.
+"""An experiment as the runner left it: experiment.json, the tables that it names, with their columns, and the series of its runs.
 
 Everything that is read is checked here, so that figures and page can trust it.
 
@@ -16,15 +16,7 @@ from series import read_series
 
 UNIT_ROUND_OFF = {"double": 2.0**-53, "quad": 2.0**-113}
 ROUND_OFF, ABOVE_ROUND_OFF = 1000, 1e5  # units up to which a residual is round-off, and above which an error owes nothing to it
-RUN_COLUMNS = ("case", "method", "step", "time", "steps", "precision", "status", "message", "error_max",
-               "error_final", "structure_residual", "rhs_per_step", "jacobians_per_step", "iterations_per_step",
-               "factorisations_per_step", "run")
-COST_COLUMNS = ("case", "method", "step", "ns_per_step", "ns_per_step_min", "ns_per_step_max")
-SPREAD_COLUMNS = ("case", "method", "step", "tolerance", "runs", "finished", "measure", "measured", "median", "low",
-                  "high")
-CLAIM_COLUMNS = ("case", "measure", "method", "relation", "factor", "than", "bound", "step", "runs", "holding", "needed",
-                 "holds", "ratio_median")
-MEASURES = ("max", "rms", "final", "slope", "slope_low", "slope_high", "oscillation", "exponent", "class")
+SCHEMA = 2
 
 # Of a quantity that is expected to move in one direction: the verb for that, and its moves in the other direction.
 DIRECTIONS = {"decreasing": ("decrease", "rise"), "increasing": ("increase", "fall")}
@@ -94,8 +86,8 @@ class Experiment:
         self.head = read_json(self.folder / "experiment.json")
         require(self.head, "experiment.json", name=str, title=str, cases=list, methods=list, drift_classes=list)
         allow(self.head, "experiment.json", description=str, reference=list, citation=list, notes=list, versions=dict)
-        if self.head.get("schema") != 1:
-            raise InputError(f"experiment.json: expected \"schema\": 1, got {self.head.get('schema')!r}")
+        if self.head.get("schema") != SCHEMA:
+            raise InputError(f"experiment.json: expected \"schema\": {SCHEMA}, got {self.head.get('schema')!r}")
         if self.head.get("reference") and "citation" not in self.head:
             raise InputError("experiment.json: 'reference' names sources, but the list 'citation' is missing")
         self.drift_classes = drift_classes.read(self.head["drift_classes"])
@@ -122,23 +114,38 @@ class Experiment:
             for name, n in collections.Counter(names).items():
                 if n > 1:
                     raise InputError(f"experiment.json: {kind} '{name}' appears {n} times, expected once")
-        self.runs, self.invariants = self._read_runs()
-        self.residuals = [n for n in self.invariants if f"{n}:growth" in self.runs[0].cells]
+        self._read_description()
+        self.runs = self._read_runs()
         self.timed = self._read_costs()
         self.machine = self._read_machine()
         self.equal = self._read_equal()
-        self.spreads = self._read_rows("ensembles.csv", SPREAD_COLUMNS)
-        self.measures = self._read_measures()
-        self.claims = self._read_rows("findings.csv", CLAIM_COLUMNS)
+        self.spreads, self.claims = self._rows("ensembles.csv"), self._rows("findings.csv")
         self._series, self._summaries = {}, {}
 
+    def _read_description(self):
+        """What experiment.json says of tables, {file: table}, those of measures among them, {name: table}, and of quantities."""
+        require(self.head, "experiment.json", tables=list)
+        allow(self.head, "experiment.json", quantities=list, fields=list)
+        for i, table in enumerate(self.head["tables"]):
+            where = f"experiment.json, table {i + 1}"
+            require(table, where, file=str, columns=list)
+            if "measure" in table:
+                require(table, where, name=str, title=str, view=str, keys=list)
+            allow(table, where, description=str)
+            for k, column in enumerate(table["columns"]):
+                require(column, f"{where}, column {k + 1}", name=str, kind=str)
+        self.tables = {table["file"]: table for table in self.head["tables"]}
+        self.measures = {table["name"]: table for table in self.head["tables"] if "measure" in table}
+        quantities, fields = self.head.get("quantities") or [], self.head.get("fields") or []
+        for kind, rows in (("quantity", quantities), ("field", fields)):
+            for i, row in enumerate(rows):
+                require(row, f"experiment.json, {kind} {i + 1}", name=str)
+        self.invariants = list(dict.fromkeys(q["name"] for q in quantities))
+        self.residuals = [q["name"] for q in quantities if q.get("residual")]
+        self.fields = fields
+
     def _read_runs(self):
-        columns, rows = read_table(self.folder / "results.csv", RUN_COLUMNS)
-        invariants = [c[:-len(":max")] for c in columns if c.endswith(":max")]
-        for name in invariants:
-            for m in MEASURES:
-                if f"{name}:{m}" not in columns:
-                    raise InputError(f"results.csv: column '{name}:{m}' is missing")
+        rows = self._rows("results.csv", needed=True)
         runs, known = [], {c["name"] for c in self.cases}
         for where, cells in rows:
             run = Run(cells, where)
@@ -146,7 +153,7 @@ class Experiment:
                 raise InputError(f"{where}: case '{run.case}' is not in experiment.json")
             if run.method not in self.labels:
                 raise InputError(f"{where}: method '{run.method}' is not in experiment.json")
-            for name in invariants:
+            for name in self.invariants:
                 drift_classes.check(run.drift_class(name), self.drift_classes, f"{where}, column {name}:class")
             runs.append(run)
         if not runs:
@@ -155,20 +162,16 @@ class Experiment:
                   (self.labels.index(r.method), -float(r.tolerance)))
         for case in self.cases:
             name = case.get("conserved")
-            if name and name not in invariants:
-                raise InputError(f"results.csv: column '{name}:max' is missing (the conserved quantity of case "
-                                 f"{case['name']})")
-            if case.get("error") and "relative_drift_max" not in columns:
+            if name and name not in self.invariants:
+                raise InputError(f"experiment.json: quantity '{name}' is missing, the conserved one of case {case['name']}")
+            if case.get("error") and "relative_drift_max" not in rows[0][1]:
                 raise InputError(f"results.csv: column 'relative_drift_max' is missing (the error of case {case['name']})")
-        return runs, invariants
+        return runs
 
     def _read_costs(self):
         """Attach timings to runs; False where there is none at all."""
-        path = self.folder / "cost.csv"
-        if not path.exists():
-            return False
         costs = {}
-        for where, cells in read_table(path, COST_COLUMNS)[1]:
+        for where, cells in self._rows("cost.csv"):
             step, ns, low, high = (parse(cells[k], f"{where}, column {k}")
                                    for k in ("step", "ns_per_step", "ns_per_step_min", "ns_per_step_max"))
             if ns > 0:
@@ -188,7 +191,7 @@ class Experiment:
     def _read_equal(self):
         """{case: (level in ns, {method: run at that cost})} of the runs that were made at equal cost."""
         equal = {}
-        for where, cells in self._read_rows("equal_cost.csv", ("level_ns", *RUN_COLUMNS)):
+        for where, cells in self._rows("equal_cost.csv"):
             level, run = parse(cells["level_ns"], f"{where}, column level_ns"), Run(cells, where, "equal-cost")
             if not level > 0 or equal.setdefault(run.case, (level, {}))[0] != level:
                 raise InputError(f"{where}, column level_ns: expected one positive number for a case")
@@ -197,31 +200,27 @@ class Experiment:
             equal[run.case][1][run.method] = run
         return equal
 
-    def _read_rows(self, name, columns):
-        """[(where, cells)] of a file that only some experiments have."""
-        path = self.folder / name
-        return read_table(path, columns)[1] if path.exists() else []
-
-    def _read_measures(self):
-        """{name: what experiment.json says of a measure}"""
-        found = {}
-        for i, measure in enumerate(self.head.get("measures") or []):
-            where = f"experiment.json, measure {i + 1}"
-            require(measure, where, name=str, title=str, file=str, over=str, columns=list)
-            allow(measure, where, description=str)
-            for k, column in enumerate(measure["columns"]):
-                require(column, f"{where}, column {k + 1}", name=str, kind=str)
-            found[measure["name"]] = measure
-        return found
-
-    def table(self, name):
-        """[(where, cells)] of the table that a measure left; nothing where it was not asked for or says nothing of a run. Times
-        are those since the start, also of runs that go back."""
-        measure = self.measures.get(name)
-        if measure is None:
+    def _rows(self, file, needed=False):
+        """[(where, cells)] of a table of experiment.json with the columns that it names; nothing where it is not there, as with
+        most experiments some."""
+        path = self.folder / file
+        if not needed and (file not in self.tables or not path.exists()):
             return []
-        rows = self._read_rows(measure["file"], ("case", "method", "step", "t", *(c["name"] for c in measure["columns"])))
-        return [(where, cells | {"t": cells["t"].removeprefix("-")}) for where, cells in rows]
+        if file not in self.tables:
+            raise InputError(f"experiment.json: table '{file}' is missing")
+        return read_table(path, [column["name"] for column in self.tables[file]["columns"]])[1]
+
+    def table(self, name, case):
+        """[(where, cells)] of the rows of a case in the table that a measure left, with numbers where its columns have them; nothing
+        where it was not asked for or says nothing of a run. Times are those since the start, also of runs that go back."""
+        if name not in self.measures:
+            return []
+        numbers, rows = [c["name"] for c in self.measures[name]["columns"] if c["kind"] == "number"], []
+        for where, cells in self._rows(self.measures[name]["file"]):
+            if cells["case"] == case["name"]:
+                rows.append((where, cells | {k: parse(cells[k], f"{where}, column {k}") for k in numbers}))
+                rows[-1][1]["t"] = abs(rows[-1][1]["t"])
+        return rows
 
     def spreads_of(self, case, measure):
         """[(method, size, median, low, high, finished, runs)] over the seeds of an ensemble, in order."""

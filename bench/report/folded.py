@@ -11,9 +11,6 @@ from figures import heading
 from findings import findings
 from wording import counted, text
 
-DATA = ("experiment.json", "results.csv", "cost.csv", "fits.csv", "equal_cost.csv", "ensembles.csv",
-        "findings.csv", "machine.json")
-
 
 def footer(experiment, verdicts, drawn, picture):
     head = experiment.head
@@ -31,6 +28,7 @@ def footer(experiment, verdicts, drawn, picture):
                    tables.results(experiment, case) + tables.invariants(experiment, case))
         out.append(folds(f"Every run: {name} ({len(runs)})", results))
     out += [folds("Commands", commands(experiment)), folds("Classes of drift", tables.drift_classes(experiment)),
+            folds("Numbers of a quantity", tables.fields(experiment)),
             folds("Provenance", provenance(experiment)), folds("Notes and sources", notes(head) + citations(head)), "</footer>"]
     return "\n".join(filter(None, out))
 
@@ -84,8 +82,7 @@ def provenance(experiment):
     spread = spreads_of_timings(experiment)
     if spread:
         rows.append(("spread of timings", spread))
-    tables = [measure["file"] for measure in experiment.measures.values()]
-    files = [name for name in [*DATA, *tables] if (experiment.folder / name).exists()]
+    files = [name for name in ("experiment.json", *experiment.tables, "machine.json") if (experiment.folder / name).exists()]
     links = ", ".join(f'<a href="{name}">{name}</a>' for name in files)
     return ("<dl>" + "\n".join(f"<dt>{text(k)}</dt><dd>{text(v)}</dd>" for k, v in rows)
             + f"<dt>data</dt><dd>beside this page: {links}; runs/ with a directory for each run</dd>"

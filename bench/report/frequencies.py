@@ -11,7 +11,6 @@ import math
 from curves import ranks
 from families import style
 from figures import Drawing, heading, sentences, with_unit
-from files import parse
 from lines import Line, Panel, draw, in_grey
 from scales import ErrorAxis, step_axis
 
@@ -32,10 +31,8 @@ class Errors:
 def frequencies(experiment, case):
     """{vector: (rate of the solution, {method: Errors})}, in the experiment's order, from the largest step to the finest."""
     found = {}
-    for where, cells in experiment.table("frequency"):
-        if cells["case"] != case["name"]:
-            continue
-        step, rate, error, change = (parse(cells[k], f"{where}, column {k}") for k in ("step", "frequency", "error", "change"))
+    for _, cells in experiment.table("frequency", case):
+        step, rate, error, change = (cells[k] for k in ("step", "frequency", "error", "change"))
         if math.isnan(error):
             continue
         _, lines = found.setdefault(cells["vector"], (rate, {}))

@@ -12,7 +12,6 @@ from curves import ranks
 from experiment import UNIT_ROUND_OFF
 from families import style
 from figures import Drawing, heading, sentences, step_text, time_label
-from files import parse
 from lines import Line, Panel, draw, in_grey
 from scales import ErrorAxis, time_axis
 
@@ -30,16 +29,12 @@ class Loop:
 def loops(experiment, case):
     """{method: Loop}, each up to the time at which it is no longer resolved."""
     found = {}
-    for where, cells in experiment.table("poincare-loop"):
-        if cells["case"] != case["name"]:
-            continue
-        step, t, integral, uncertainty = (parse(cells[k], f"{where}, column {k}")
-                                          for k in ("step", "t", "integral", "uncertainty"))
-        one = found.setdefault(cells["method"], Loop(step))
-        one.whole = one.whole and uncertainty <= RESOLVED
+    for _, cells in experiment.table("poincare-loop", case):
+        one = found.setdefault(cells["method"], Loop(cells["step"]))
+        one.whole = one.whole and cells["uncertainty"] <= RESOLVED
         if one.whole:
-            one.times.append(t)
-            one.deviations.append(abs(integral - 1))
+            one.times.append(cells["t"])
+            one.deviations.append(abs(cells["integral"] - 1))
     return found
 
 

@@ -4,7 +4,6 @@ import math
 from curves import ranks
 from families import style
 from figures import Drawing, heading, sentences, step_text, with_unit
-from files import parse
 from lines import Line, Panel, draw, in_grey
 from scales import ErrorAxis, positive, step_axis, time_axis
 
@@ -38,17 +37,15 @@ def drawings(verdict):
 
 
 def of_measure(verdict, measure):
-    case, over_step = verdict.case, measure["over"] == "step"
+    case, over_step = verdict.case, measure["view"] == "step"
     x, steps, found = "step" if over_step else "t", set(), {}
-    numbers = [column for column in measure["columns"] if column["kind"] == "number"]
-    for where, cells in verdict.experiment.table(measure["name"]):
-        if cells["case"] != case["name"]:
-            continue
-        steps.add(parse(cells["step"], f"{where}, column step"))
+    numbers = [c for c in measure["columns"] if c["kind"] == "number" and c["name"] not in measure["keys"]]
+    for _, cells in verdict.experiment.table(measure["name"], case):
+        steps.add(cells["step"])
         at = found.setdefault(cells["method"], {"x": [], **{column["name"]: [] for column in numbers}})
-        at["x"].append(parse(cells[x], f"{where}, column {x}"))
+        at["x"].append(cells[x])
         for column in numbers:
-            at[column["name"]].append(parse(cells[column["name"]], f"{where}, column {column['name']}"))
+            at[column["name"]].append(cells[column["name"]])
     rows, rank = {row.label: row for row in verdict.rows}, ranks(verdict.curves)
     shown = [label for label in verdict.in_order(found) if found[label]["x"]]
     if not shown:

@@ -14,7 +14,7 @@ from curves import ranks
 from experiment import ROUND_OFF, UNIT_ROUND_OFF
 from families import style
 from figures import Drawing, heading, sentences, step_text, time_label
-from files import InputError, parse
+from files import InputError
 from lines import Line, Panel, draw, in_grey
 from scales import ErrorAxis, time_axis
 from verdict import Row
@@ -65,10 +65,8 @@ class Shown:
 def returns(experiment, case):
     """{method: Returns}"""
     found = {}
-    for where, cells in experiment.table("reversibility"):
-        if cells["case"] != case["name"]:
-            continue
-        step, t, distance, rounding = (parse(cells[k], f"{where}, column {k}") for k in ("step", "t", "distance", "rounding"))
+    for where, cells in experiment.table("reversibility", case):
+        step, t, distance, rounding = (cells[k] for k in ("step", "t", "distance", "rounding"))
         if cells["by"] not in WAYS:
             raise InputError(f"{where}, column by: expected {' or '.join(WAYS)}, got '{cells['by']}'")
         one = found.setdefault(cells["method"], Returns(step, cells["by"]))

@@ -167,6 +167,13 @@ def drift_classes(experiment):
                  "question.", [("Class", ""), ("What the error does", "")], [rows]) if rows else ""
 
 
+def fields(experiment):
+    """What the numbers of a quantity are."""
+    rows = [("", [text(f["name"]), text(f.get("unit") or "1"), text(f.get("meaning") or "")]) for f in experiment.fields]
+    return table("<strong>Numbers of a quantity.</strong> Columns of results.csv, behind the name of the quantity and a colon. The unit "
+                 "of the quantity is [e], that of the time [t].", [("Number", ""), ("Unit", ""), ("What it is", "")], [rows]) if rows else ""
+
+
 def drift_class(experiment, run, name):
     name_of_class = run.drift_class(name) if name else ""
     kind = text(name_of_class)

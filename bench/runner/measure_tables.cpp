@@ -142,7 +142,7 @@ std::vector<MeasureTable> tables_of(const fs::path& directory, const ResolvedRun
   return tables;
 }
 
-nlohmann::json description_of(const MeasureInstance& measure, const Model& model) {
+nlohmann::json description_of(const MeasureInstance& measure) {
   const MeasureDescriptor& d = measure.descriptor();
   nlohmann::json j{{"name", d.name},
                    {"measure", measure.called()},
@@ -150,15 +150,10 @@ nlohmann::json description_of(const MeasureInstance& measure, const Model& model
                    {"description", d.description},
                    {"reference", d.reference},
                    {"version", d.version},
-                   {"over", d.over == Over::time ? "time" : "step"},
+                   {"view", d.over == Over::time ? "time" : "step"},
                    {"watches", nlohmann::json::array()},
-                   {"columns", nlohmann::json::array()},
                    {"file", std::string(measures_directory) + "/" + d.name + ".csv"}};
   for (const Claim claim : d.watches) j["watches"].push_back(to_string(claim));
-  for (const Column& column : measure.columns(model))
-    j["columns"].push_back({{"name", column.name},
-                            {"unit", column.unit},
-                            {"kind", column.kind == Column::Kind::number ? "number" : "text"}});
   return j;
 }
 

@@ -40,7 +40,7 @@ std::vector<MeasureTable> tables_of(const std::filesystem::path& directory, cons
                                     const std::string& made_of, const Measures& measures,
                                     const SharedSolution& solution);
 
-/// What a report has to know of a measure: its name, title, description and columns, as JSON.
-nlohmann::json description_of(const MeasureInstance& measure, const Model& model);
+/// What a report has to know of a measure: its name, title, description and the file of its table, as JSON.
+nlohmann::json description_of(const MeasureInstance& measure);
 
 }  // namespace pfaff

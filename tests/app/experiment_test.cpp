@@ -106,7 +106,7 @@ TEST(Experiment, KilledAndResumedItGivesTheSameResults) {
   EXPECT_FALSE(fs::exists(files.path() / "killed/results.csv"));
   for (const std::string& run : done) {  // what counts as done is whole
     const fs::path directory = files.path() / "killed/runs" / run;
-    EXPECT_EQ(json_of(text_of(directory / "summary.json"))["schema"], 1);
+    EXPECT_EQ(json_of(text_of(directory / "summary.json"))["schema"], 2);
     EXPECT_TRUE(text_of(directory / "series.csv").ends_with('\n'));
   }
   const auto resumed = completed(run_pfaff(compare_without_report(files, "killed")));

@@ -48,7 +48,7 @@ steps = [0.5]
   }
   /// The finding on drift in the report made of the summaries: its items, as HTML.
   std::vector<std::string> items() {
-    write_file(directory / "results.csv", results_csv(runs, summaries));
+    write_file(directory / "results.csv", results_csv(runs, summaries, runs));
     const std::string page = read_file(make_report(directory));
     const std::size_t begin = page.find("<ul>", page.find("<li><strong>Drift.</strong>"));
     if (begin == std::string::npos) return {};

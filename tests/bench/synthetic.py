@@ -21,6 +21,9 @@ import scales  # noqa: E402, F401
 COLUMNS = ("case,system,method,integrator,parameters,step,time,steps,precision,status,message,error_max,error_final,"
            "structure_residual,rhs_per_step,jacobians_per_step,iterations_per_step,factorisations_per_step").split(",")
 U = 2.0**-53
+FIELDS = ("max", "rms", "final", "slope", "slope_low", "slope_high", "oscillation", "exponent", "class")
+OF_RESIDUALS = ("growth", "growth_rate")
+CLAIM_COLUMNS = "case,measure,method,relation,factor,than,bound,step,runs,holding,needed,holds,ratio_median".split(",")
 # Classes of drift of a program that nobody has written: the report knows those that experiment.json lists, no others.
 CLASSES = [{"name": "still", "meaning": "does not move & never will", "measure": "", "grows": False, "keeps": True},
            {"name": "near", "meaning": "stays near", "measure": "max", "grows": False, "keeps": True},
@@ -39,7 +42,7 @@ def synthetic(folder, steps=(0.4, 0.2, 0.1), extra_methods=0):
              {"name": "damped", "title": "Damped <b>", "system": "damped", "parameters": {}, "time": 40,
               "time_unit": "s", "precision": "quad", "conserved": "energy", "structure": "K-symplectic",
               "reference_solution": None}]
-    measures = [f"{i}:{m}" for i in ("energy", "momentum") for m in reading.MEASURES]
+    measures = [f"{i}:{m}" for i in ("energy", "momentum") for m in FIELDS]
     rows, costs = [], []
     for case in cases:
         for label in labels:
@@ -62,7 +65,7 @@ def synthetic(folder, steps=(0.4, 0.2, 0.1), extra_methods=0):
                 if not fails:
                     costs.append([case["name"], label, h, 100 if label == "mid" else 50, 40, 120, 5, 0.1])
                 write_run(folder / "runs" / slug, case, label, h, size, 12 if fails else 40)
-    head = {"schema": 1, "name": "synthetic", "title": "A & B <script>", "description": "Made up.", "quick": False,
+    head = {"schema": reading.SCHEMA, "name": "synthetic", "title": "A & B <script>", "description": "Made up.", "quick": False,
             "drift_classes": CLASSES, "reference": ["su-qin"], "citation": ["Su and Qin, 2004."], "cases": cases, "notes": ["A note."],
             "versions": {"pfaff": "0.1", "compiler": "GCC 12", "flags": "-O3", "eigen": "3.4", "boost": "1.74"},
             "methods": [{"label": m, "integrator": m, "parameters": {}, "systems": [
@@ -70,10 +73,27 @@ def synthetic(folder, steps=(0.4, 0.2, 0.1), extra_methods=0):
                  "preserves": ["symmetric", "symplectic"] if m == "mid" else ["none"]},
                 {"name": "damped", "order": 3 if m == "mid" else 4,
                  "preserves": ["symmetric"] if m == "mid" else ["none"]}]} for m in labels]}
-    (folder / "experiment.json").write_text(json.dumps(head))
     save(folder / "results.csv", [list(rows[0])] + [list(r.values()) for r in rows])
-    save(folder / "cost.csv", [list(reading.COST_COLUMNS) + ["repetitions", "seconds"]] + costs)
+    save(folder / "cost.csv", ["case,method,step,ns_per_step,ns_per_step_min,ns_per_step_max,repetitions,seconds".split(","), *costs])
+    describe(folder, head)
     return folder
+
+
+def describe(folder, head=None):
+    """Writes experiment.json, with the tables that stand in the folder and the quantities of results.csv."""
+    path = pathlib.Path(folder) / "experiment.json"
+    head = head or json.loads(path.read_text())
+    of_measures = [table for table in head.get("tables", []) if "measure" in table]
+    tables = {csv_file.name: load(csv_file)[0] for csv_file in sorted(path.parent.glob("*.csv"))}
+    head["tables"] = of_measures + [{"file": name, "columns": columns_of(columns)} for name, columns in tables.items()]
+    results = tables["results.csv"]
+    head["quantities"] = [{"name": c[:-4], "residual": f"{c[:-4]}:growth" in results} for c in results if c.endswith(":max")]
+    head["fields"] = [{"name": name, "meaning": f"the {name}"} for name in FIELDS + OF_RESIDUALS]
+    path.write_text(json.dumps(head))
+
+
+def columns_of(names, texts=()):
+    return [{"name": name, "kind": "text" if name in texts else "number"} for name in names]
 
 
 def write_run(folder, case, label, h, size, end):
@@ -98,9 +118,9 @@ def measured(folder, name, rows, texts=(), over="time"):
     """Adds a measure to the experiment: the table that it left, whose first row is its head. `texts` are columns of text."""
     path = pathlib.Path(folder) / "experiment.json"
     head = json.loads(path.read_text())
-    columns = [{"name": column, "kind": "text" if column in texts else "number"} for column in rows[0][4:]]
-    head.setdefault("measures", []).append({"name": name, "title": name, "over": over, "columns": columns,
-                                            "file": f"measures/{name}.csv"})
+    head.setdefault("tables", []).append({
+        "name": name, "measure": name, "title": name, "view": over, "keys": list(rows[0][:4]), "file": f"measures/{name}.csv",
+        "columns": columns_of(rows[0], ("case", "method", *texts))})
     path.write_text(json.dumps(head))
     (path.parent / "measures").mkdir(exist_ok=True)
     save(path.parent / "measures" / f"{name}.csv", rows)

@@ -5,7 +5,7 @@ import pathlib
 import sys
 import unittest
 
-from synthetic import CLASSES, COLUMNS, Fresh, load, measured, reading, save, synthetic
+from synthetic import CLASSES, COLUMNS, Fresh, describe, load, measured, reading, save, synthetic
 from test_report_constraints import ensemble
 from test_report_motion import walks
 
@@ -123,10 +123,10 @@ class Agreement(Answers):
                     [repr(0.1 * k), repr(math.cos(0.1 * k + offset + own)), repr(math.sin(0.1 * k + offset + own))]
                     for k in range(101)])
                 (path / "summary.json").write_text(json.dumps({"schema": 1, "invariants": []}))
-        head = {"schema": 1, "name": "balls", "title": "Balls", "drift_classes": CLASSES, "methods": methods,
+        head = {"schema": reading.SCHEMA, "name": "balls", "title": "Balls", "drift_classes": CLASSES, "methods": methods,
                 "cases": [{"name": "ball", "system": "ball", "precision": "double"}]}
-        (self.folder / "experiment.json").write_text(json.dumps(head))
         save(self.folder / "results.csv", [list(rows[0])] + [list(r.values()) for r in rows])
+        describe(self.folder, head)
 
     def test_groups_agree_and_differ(self):
         self.write({"a": 0, "b": 1e-4, "c": 0.2})

@@ -5,7 +5,7 @@ import pathlib
 import sys
 import unittest
 
-from synthetic import Fresh, load, parsed, reading, run, save, synthetic
+from synthetic import CLAIM_COLUMNS, Fresh, describe, load, parsed, reading, run, save, synthetic
 
 import first_screen  # noqa: E402
 import sentence  # noqa: E402
@@ -200,8 +200,9 @@ class Bare(Fresh):
 
     def test_a_finding_that_fails_stands_beside_the_sentence(self):
         synthetic(self.folder)
-        save(self.folder / "findings.csv", [list(reading.CLAIM_COLUMNS), [
+        save(self.folder / "findings.csv", [CLAIM_COLUMNS, [
             "osc", "energy:max", "rk", "stays-below", "1", "", "1e-9", "", "3", "0", "3", "no", "1000"]])
+        describe(self.folder)
         self.assertIn("1 finding that the experiment states does not hold.", self.report()[0][0])
 
 

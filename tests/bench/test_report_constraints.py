@@ -3,7 +3,7 @@ import json
 import math
 import unittest
 
-from synthetic import CLASSES, COLUMNS, Fresh, U, reading, run, save
+from synthetic import CLAIM_COLUMNS, CLASSES, COLUMNS, FIELDS, Fresh, U, describe, reading, run, save
 
 import constraints  # noqa: E402
 import verdict  # noqa: E402
@@ -14,7 +14,7 @@ SEEDS = 3
 def ensemble(folder):
     """`mild` grows like t and `wild` like t^2, three seeds each, a tolerance instead of steps."""
     names = ("energy", "constraint")
-    measures = [f"{n}:{m}" for n in names for m in reading.MEASURES]
+    measures = [f"{n}:{m}" for n in names for m in FIELDS]
     rows, spreads = [], []
     for label, power in (("mild", 1), ("wild", 2)):
         for seed in range(1, SEEDS + 1):
@@ -35,14 +35,14 @@ def ensemble(folder):
                 {"name": "energy", "unit": "J", "expected": "conserved"}]}))
         for measure, scale in (("constraint:max", 1e-9 * 20**power), ("constraint:growth", power)):
             spreads.append(["many", label, "", "1e-8", SEEDS, SEEDS, measure, SEEDS, 2 * scale, scale, 3 * scale])
-    head = {"schema": 1, "name": "ensemble", "title": "Many", "drift_classes": CLASSES, "cases": [
+    head = {"schema": reading.SCHEMA, "name": "ensemble", "title": "Many", "drift_classes": CLASSES, "cases": [
         {"name": "many", "title": "Many <b>", "system": "pendula", "precision": "double", "time_unit": "s",
          "conserved": "energy", "seeds": SEEDS}], "methods": [{"label": m} for m in ("mild", "wild")]}
-    (folder / "experiment.json").write_text(json.dumps(head))
     save(folder / "results.csv", [list(rows[0])] + [list(r.values()) for r in rows])
-    save(folder / "ensembles.csv", [list(reading.SPREAD_COLUMNS)] + spreads)
-    save(folder / "findings.csv", [list(reading.CLAIM_COLUMNS), [
+    save(folder / "ensembles.csv", ["case,method,step,tolerance,runs,finished,measure,measured,median,low,high".split(","), *spreads])
+    save(folder / "findings.csv", [CLAIM_COLUMNS, [
         "many", "constraint:max", "wild", "exceeds", 1, "mild", "", "", SEEDS, SEEDS, SEEDS, "yes", 20]])
+    describe(folder, head)
     return folder
 
 

@@ -3,7 +3,7 @@ import json
 import math
 import unittest
 
-from synthetic import Fresh, load, parsed, reading, run, save, synthetic
+from synthetic import Fresh, describe, load, parsed, reading, run, save, synthetic
 
 import bibliography  # noqa: E402
 import verdict  # noqa: E402
@@ -17,6 +17,7 @@ def at_equal_cost(folder, level=2e4):
     one = next(dict(zip(heads, r)) for r in rows[1:] if r[heads.index("method")] == "rk" and r[heads.index("case")] == "osc")
     one |= {"step": "0.07", "error_max": "1.23e-5", "energy:max": "4.5e-7", "run": "osc-rk"}
     save(folder / "equal_cost.csv", [["level_ns", *heads], [level, *one.values()]])
+    describe(folder)
     return folder
 
 

@@ -3,7 +3,7 @@ import json
 import math
 import unittest
 
-from synthetic import CLASSES, COLUMNS, Fresh, load, reading, run, save
+from synthetic import CLASSES, COLUMNS, FIELDS, Fresh, describe, load, reading, run, save
 
 import bands  # noqa: E402
 import ensembles  # noqa: E402
@@ -15,7 +15,7 @@ SEEDS = 4
 
 def circles(folder, motion_of=("x", "y"), away=1e3, units=("m", "m"), more=0):
     """`round` runs on the unit circle, `small` on one of half its size, and `lost` runs away to `away`."""
-    measures = [f"energy:{m}" for m in reading.MEASURES]
+    measures = [f"energy:{m}" for m in FIELDS]
     rows = []
     for label, size in (("round", 1.0), ("small", 0.5), ("lost", away), *((f"more {k}", 1.0) for k in range(more))):
         row = dict.fromkeys(COLUMNS + measures + ["run"], "")
@@ -32,11 +32,11 @@ def circles(folder, motion_of=("x", "y"), away=1e3, units=("m", "m"), more=0):
         save(path / "series.csv", table)
         (path / "summary.json").write_text(json.dumps({"schema": 1, "invariants": [
             {"name": "energy", "unit": "J", "expected": "conserved"}]}))
-    head = {"schema": 1, "name": "ball", "title": "Ball", "drift_classes": CLASSES, "cases": [
+    head = {"schema": reading.SCHEMA, "name": "ball", "title": "Ball", "drift_classes": CLASSES, "cases": [
         {"name": "ball", "title": "Ball <b>", "system": "ball", "precision": "double", "time_unit": "s",
          "conserved": "energy", "motion": list(motion_of)}], "methods": [{"label": r["method"]} for r in rows]}
-    (folder / "experiment.json").write_text(json.dumps(head))
     save(folder / "results.csv", [list(rows[0])] + [list(r.values()) for r in rows])
+    describe(folder, head)
     return folder
 
 
@@ -127,7 +127,7 @@ class Tracks(Fresh):
 
 def walks(folder, fails=""):
     """`walk` has errors +-1e-9 t^0.5, `drift` 1e-9 t, of either sign over the seeds; `fails` names a run that failed."""
-    measures = [f"energy:{m}" for m in reading.MEASURES]
+    measures = [f"energy:{m}" for m in FIELDS]
     rows = []
     for label, power in (("walk", 0.5), ("drift", 1)):
         for seed in range(1, SEEDS + 1):
@@ -145,11 +145,11 @@ def walks(folder, fails=""):
                 [repr(0.5 * k), repr(1 + scale * (0.5 * k) ** power)] for k in range(201)])
             (path / "summary.json").write_text(json.dumps({"schema": 1, "invariants": [
                 {"name": "energy", "unit": "J", "expected": "conserved"}]}))
-    head = {"schema": 1, "name": "many", "title": "Many", "drift_classes": CLASSES, "cases": [
+    head = {"schema": reading.SCHEMA, "name": "many", "title": "Many", "drift_classes": CLASSES, "cases": [
         {"name": "many", "title": "Many", "system": "chaos", "precision": "double", "time_unit": "s",
          "conserved": "energy", "seeds": SEEDS}], "methods": [{"label": m} for m in ("walk", "drift")]}
-    (folder / "experiment.json").write_text(json.dumps(head))
     save(folder / "results.csv", [list(rows[0])] + [list(r.values()) for r in rows])
+    describe(folder, head)
     return folder
 
 

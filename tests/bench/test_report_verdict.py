@@ -4,7 +4,7 @@ import math
 import re
 import unittest
 
-from synthetic import SCRIPTS, Fresh, load, parsed, reading, run, save, synthetic
+from synthetic import SCRIPTS, Fresh, describe, load, parsed, reading, run, save, synthetic
 
 import families  # noqa: E402
 import first_screen  # noqa: E402
@@ -159,6 +159,7 @@ class Said(Fresh):
             row.append("relative_drift_max" if row is rows[0] else "" if row[9] != "converged" else
                        repr(steps[row[2]][row[5]]) if row[2] in steps else "0.5" if row[0] == "osc" else "")
         save(self.folder / "results.csv", rows)
+        describe(self.folder)
 
     def test_the_error_of_a_conserved_quantity(self):
         synthetic(self.folder)
