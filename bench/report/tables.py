@@ -170,8 +170,8 @@ def drift_classes(experiment):
 def fields(experiment):
     """What the numbers of a quantity are."""
     rows = [("", [text(f["name"]), text(f.get("unit") or "1"), text(f.get("meaning") or "")]) for f in experiment.fields]
-    return table("<strong>Numbers of a quantity.</strong> Columns of results.csv, behind the name of the quantity and a colon. The unit "
-                 "of the quantity is [e], that of the time [t].", [("Number", ""), ("Unit", ""), ("What it is", "")], [rows]) if rows else ""
+    return table("<strong>Numbers of a quantity.</strong> Columns of results.csv, behind the name of the quantity and a colon. The unit of "
+                 "the quantity is [e], that of the time [t].", [("Number", ""), ("Unit", ""), ("What it is", "")], [rows]) if rows else ""
 
 
 def drift_class(experiment, run, name):

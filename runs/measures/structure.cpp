@@ -27,8 +27,8 @@ struct Structure {
   [[nodiscard]] std::string refuses(const Model& model, const MethodInstance& /*method*/) const {
     return StructureResidual<double>::applies(model) && model.dimension() <= most_coordinates
                ? ""
-               : "needs a structure that motions keep, of at most " + std::to_string(most_coordinates) +
-                     " coordinates; " + model.name() + " does not have it";
+               : "needs a symplectic, K-symplectic or Poisson system of at most " +
+                     std::to_string(most_coordinates) + " coordinates; " + model.name() + " is none";
   }
   template <class T>
   [[nodiscard]] std::vector<std::int64_t> looks(const Measured<T>& run) const {

@@ -9,6 +9,7 @@
 #include <pfaff/bench/experiment/measured_runs.hpp>
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/core/text/source.hpp>
+#include <pfaff/runs/integrate.hpp>
 #include <pfaff/runs/measuring.hpp>
 #include <pfaff/runs/support/turning.hpp>
 
@@ -271,6 +272,27 @@ x = "q"
 y = "p"
 )");
   EXPECT_TRUE(std::isnan(found(experiment)[0][0].error));
+}
+
+// What the settings of the measure lack, in words; several vectors are told apart by a |.
+TEST(FrequencyMeasure, SaysWhatItNeeds) {
+  using ::testing::HasSubstr;
+  const auto run = integrate("harmonic-oscillator", {}, "verlet", {}, {.step = "0.1"});
+  const auto refused = [&](const std::string& text) -> std::string {
+    try {
+      return measure_asked_for(text)->refuses(*run.model(), run.method());
+    } catch (const InputError& error) {
+      return error.what();
+    }
+  };
+  for (const char* text : {"frequency(x=q, y=p)", "frequency(name=a | b, x=q | q, y=p | a*p, let=| a = 2)"})
+    EXPECT_EQ(refused(text), "") << text;
+  EXPECT_THAT(refused("frequency"), HasSubstr("needs the components of a vector"));
+  EXPECT_THAT(refused("frequency(x=q)"), HasSubstr("needs the components of a vector"));
+  EXPECT_THAT(refused("frequency(x=q | q, y=p)"), HasSubstr("as many of y and of name as of x, which are 2"));
+  EXPECT_THAT(refused("frequency(x=q, y=p, let=| a = 2)"), HasSubstr("a list 'let' for each vector at most"));
+  EXPECT_THAT(refused("frequency(x=q, y=p, let=a)"), HasSubstr("expected NAME = EXPRESSION, got 'a'"));
+  EXPECT_THAT(refused("frequency(x=q, y=a*p)"), HasSubstr("unknown name 'a'"));
 }
 
 TEST_F(Frequencies, ExpressionsAreReadBeforeAnythingRuns) {

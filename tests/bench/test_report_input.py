@@ -5,7 +5,7 @@ import subprocess
 import sys
 import unittest
 
-from synthetic import SCRIPTS, Fresh, load, reading, run, save, synthetic
+from synthetic import SCRIPTS, Fresh, load, run, save, synthetic
 
 
 class Refused(Fresh):
