@@ -7,7 +7,7 @@ points   coordinates x0, y0, x1, ... (or x0, y0, z0, x1, ...) of one unit are po
          frames of the motion and an animation.
 plane    otherwise the track in the plane of two coordinates: of q and p where these are all, else of the first two that have
          the same unit.
-section  of two positions and two momenta also where the track passes q1 = 0 upwards, as p2 against q2.
+section  of two positions and two momenta also where the track passes q1 = 0 upwards as time goes on, as p2 against q2.
 """
 import dataclasses
 import math
@@ -66,11 +66,13 @@ class Recording:
         return (names[0], names[1]) if len(names) > 1 else None
 
     def section(self):
-        """[(q2, p2)] where q1 passes zero upwards; empty where the state is not two positions and two momenta, where the
-        track seldom passes, and where samples lie too far apart."""
+        """[(q2, p2)] where q1 passes zero upwards as time goes on, in a run back in time too, whose section is that of the same
+        motion; empty where the state is not two positions and two momenta, where the track seldom passes, and where samples lie
+        too far apart."""
         if len(self.state) != 4 or self.points() or self.units[self.state[0]] != self.units[self.state[1]]:
             return []
-        q1, q2, _, p2 = (self.columns[name] for name in self.state)
+        forwards = 1 if self.times[-1:] >= self.times[:1] else -1
+        q1, q2, _, p2 = (self.columns[name][::forwards] for name in self.state)
         out = []
         for k in range(1, len(q1) - 2):
             if q1[k] < 0 <= q1[k + 1] and all(map(math.isfinite, q1[k - 1:k + 3])):

@@ -61,6 +61,13 @@ class Recordings(Fresh):
             self.assertAlmostEqual(q2, math.cos(w * 2 * math.pi * k), delta=1e-5)
             self.assertAlmostEqual(p2, -w * math.sin(w * 2 * math.pi * k), delta=2e-5)
 
+    def test_a_section_of_a_run_back_in_time_is_that_of_the_motion(self):
+        found, w = recording.read_recording(oscillators(self.folder, step=-0.05)).section(), math.sqrt(2)
+        self.assertEqual(len(found), 31)
+        for k, (q2, p2) in enumerate(reversed(found), 1):  # errors as above
+            self.assertAlmostEqual(q2, math.cos(w * 2 * math.pi * k), delta=1e-5)
+            self.assertAlmostEqual(p2, w * math.sin(w * 2 * math.pi * k), delta=2e-5)
+
     def test_too_few_passages_and_samples_too_far_apart_make_no_section(self):
         self.assertEqual(recording.read_recording(oscillators(self.folder / "few", samples=900)).section(), [])
         self.assertEqual(recording.read_recording(oscillators(self.folder / "far", step=1.6)).section(), [])
