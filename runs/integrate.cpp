@@ -1,5 +1,7 @@
 #include <pfaff/runs/integrate.hpp>
 
+#include <type_traits>
+
 #include <pfaff/runs/asked_for.hpp>
 #include <pfaff/runs/motion.hpp>
 #include <pfaff/runs/state_checks.hpp>
@@ -16,6 +18,9 @@ Integration<T> begun(Start<T> start) {
       throw InputError(found.where + "; expected a state on the constraints");
   }
   check_domain(run.model(), run.time(), state);
+  if (std::is_same_v<T, Quad> && run.method().descriptor().double_coefficients)
+    throw InputError(run.method().called() +
+                     " has coefficients in double only; expected an integration in double");
   return run;
 }
 template Integration<double> begun(Start<double>);
@@ -39,13 +44,11 @@ Integration<T> integrate(const std::string& system, const Assignments& system_pa
   if (asked.initial.empty())
     for (const Real& x : start.model->initial()) start.state.push_back(T(x));
   for (const std::string& text : asked.initial) start.state.push_back(T(finite_number(text, "initial")));
-  const std::size_t n = start.state.size();
   start.h = T(finite_number(asked.step, "step"));
   start.t0 = T(finite_number(asked.t0, "initial time"));
   if (!asked.tolerance.empty()) start.tolerance = T(finite_number(asked.tolerance, "tolerance"));
   for (const std::string& text : asked.absolute)
     start.absolute.push_back(T(finite_number(text, "absolute tolerance")));
-  if (start.absolute.size() == 1) start.absolute.assign(n, T(start.absolute.front()));
   start.block_rows = asked.block_rows;
   return begun(std::move(start));
 }

@@ -9,7 +9,8 @@
 namespace pfaff {
 
 /// The integration that begins so. InputError for what Integration refuses, for a state off the constraints,
-/// and for one at which the vector field or an invariant is not finite.
+/// for one at which the vector field or an invariant is not finite, and for a method that has coefficients in
+/// double where the integration is in quad.
 template <class T>
 [[nodiscard]] Integration<T> begun(Start<T> start);
 extern template Integration<double> begun(Start<double>);

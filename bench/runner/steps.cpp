@@ -77,37 +77,21 @@ void check_adaptive(const ResolvedRun& run) {
   check_scales<T>(run);
 }
 
-// Fills in the absolute tolerances of a run.
-void resolve_absolute(ResolvedRun& run) {
-  const std::vector<std::string>& texts = run.settings.absolute;
-  const std::size_t n = run.initial.size();
-  if (texts.empty()) return;
-  if (texts.size() != 1 && texts.size() != n)
-    throw InputError("--absolute: expected one number, or one for each of the " + std::to_string(n) +
-                     " coordinates of " + run.model->name() + ", got " + std::to_string(texts.size()));
-  for (const std::string& text : texts) {
-    run.absolute.push_back(finite_number(text, "--absolute"));
-    if (run.absolute.back() < Real(0))
-      throw InputError("--absolute: expected numbers >= 0, got '" + text + "'");
-  }
-  if (texts.size() < n) run.absolute.assign(n, Real(run.absolute.front()));
-}
-
 // For a run that chooses its steps: fills in its tolerances.
 void resolve_tolerance(ResolvedRun& run) {
   const RunSettings& settings = run.settings;
   if (!settings.step.empty()) throw InputError("--step and --tolerance exclude each other");
   run.tolerance = finite_number(settings.tolerance, "--tolerance");
-  if (!(run.tolerance > Real(0)) || run.tolerance > Real(1))
-    throw InputError("--tolerance: expected a number in (0, 1], got '" + settings.tolerance + "'");
   if (settings.every > 0)
     throw InputError(
         "--every counts steps of one length; with --tolerance samples are evenly spaced in time");
-  resolve_absolute(run);
-  if (!run.method->adaptive())
-    throw InputError(run.method->called() +
-                     " takes fixed steps only; expected --step instead of --tolerance" +
-                     or_methods_that_choose(*run.model));
+  for (const std::string& text : settings.absolute) run.absolute.push_back(finite_number(text, "--absolute"));
+  if (run.absolute.size() == 1) run.absolute.assign(run.initial.size(), Real(run.absolute.front()));
+  check_tolerances(*run.method, *run.model, run.tolerance.quad(), {run.absolute.begin(), run.absolute.end()},
+                   {.tolerance = "--tolerance",
+                    .absolute = "--absolute",
+                    .got = ", got '" + settings.tolerance + "'",
+                    .without = "--step instead of --tolerance"});
   if (settings.precision == Precision::quad && !adaptive_in_quad(*run.method, run.model))
     throw InputError(run.method->called() + " chooses its steps in double only; expected --precision double");
   if (settings.precision == Precision::quad) {

@@ -108,7 +108,7 @@ TEST(Nonsense, AbsoluteTolerances) {
   s.tolerance = "1e-6";
   for (const auto& [wrong, said] : {std::pair<std::vector<std::string>, std::string>{
                                         {"1e-9", "1e-9"}, "one for each of the 4 coordinates"},
-                                    {{"-1e-9"}, "expected numbers >= 0, got '-1e-9'"},
+                                    {{"-1e-9"}, "expected finite numbers >= 0, got -1"},
                                     {{"1e-9", "0", "", "0"}, "expected a finite decimal number"},
                                     {{"nan"}, "expected a finite decimal number"}}) {
     s.absolute = wrong;

@@ -225,7 +225,7 @@ TEST(IntegrationEnds, RefusesObjectsThatDoNotFit) {
   expect_refused(taylor(nan, {}), "tolerance: expected a number in (0, 1]");
   expect_refused(taylor(2, {}), "tolerance: expected a number in (0, 1]");
   expect_refused(taylor(0, {1e-9, 1e-9}), "expected a tolerance beside them");
-  expect_refused(taylor(1e-9, {1e-9}), "one for each of the 2 coordinates of thrower, got 1");
+  expect_refused(taylor(1e-9, {1e-9, 0, 0}), "one for each of the 2 coordinates of thrower, got 3");
   expect_refused(taylor(1e-9, {1e-9, -1}), "expected finite numbers >= 0");
   expect_refused({nullptr, method_of("rk4"), {1, 0}, 0.1}, "integration: expected a model");
   expect_refused({thrower(), nullptr, {1, 0}, 0.1}, "integration: expected a method");
