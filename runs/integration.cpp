@@ -61,9 +61,8 @@ void Integration<T>::turn() {
 
 template <class T>
 void Integration<T>::go_on_from(std::vector<T> state, const T& t0, const T& h) {
-  Start<T> start = start_;
-  start.state = std::move(state), start.t0 = t0, start.h = h;
-  start_ = checked(std::move(start));
+  check_place(*start_.model, state, h, t0, adaptive());
+  start_.state = std::move(state), start_.t0 = t0, start_.h = h;
   state_ = start_.state;
   reached_ = start_.t0;
   taken_ = 0;
@@ -75,7 +74,7 @@ void Integration<T>::watch(Watcher<T>& watcher, std::int64_t every) {
   if (adaptive() && value_of(start_.h) == Value<T>(0))
     throw InputError("step: expected the time between two looks beside the tolerance, got 0");
   watcher.start(*this);  // one that throws does not watch
-  watching_.push_back({&watcher, every});
+  watching_.push_back({.watcher = &watcher, .every = every});
 }
 
 template <class T>
@@ -139,18 +138,19 @@ Status Integration<T>::fill_adaptive(std::int64_t rows) {
   return Status::converged;
 }
 
-// The rows of the block that somebody who watches is to see.
+// Gives somebody who watches the rows of the block that are to be seen.
 template <class T>
-const Block<T>& Integration<T>::shown_to(const Watching& watching) {
+void Integration<T>::thin(Watching& watching) {
   const std::int64_t every = adaptive() ? watching.every : watching.every / block_.stride;
-  if (every == 1) return block_;
-  if (thinned_ == nullptr) thinned_ = std::make_unique<Block<T>>(state_.size(), block_.capacity);
-  Block<T>& thinned = *thinned_;
+  watching.shown = &block_;
+  if (every == 1) return;
+  if (watching.thinned == nullptr)
+    watching.thinned = std::make_unique<Block<T>>(state_.size(), block_.capacity);
+  Block<T>& thinned = *(watching.shown = watching.thinned.get());
   thinned.t0 = block_.t0, thinned.h = block_.h, thinned.stride = watching.every;
   thinned.rows = 0;
   thinned.times.clear();
-  const std::int64_t behind = lattice_behind(block_.first, watching.every);
-  thinned.first = block_.first + behind;
+  thinned.first = block_.first + lattice_behind(block_.first, watching.every);
   std::vector<T> z(state_.size());
   for (std::size_t row = block_.row_of(thinned.first); row < block_.rows;
        row += static_cast<std::size_t>(every)) {
@@ -159,8 +159,17 @@ const Block<T>& Integration<T>::shown_to(const Watching& watching) {
     if (!block_.times.empty()) thinned.times.push_back(block_.times[row]);
   }
   thinned.states.fill_behind(thinned.rows);
-  return thinned;
 }
+
+namespace {
+// Leaves out the rows behind those after `step` steps.
+template <class T>
+void end_at(std::int64_t step, Block<T>& block) {
+  while (block.rows > 0 && block.step(block.rows - 1) > step) --block.rows;
+  if (!block.times.empty()) block.times.resize(block.rows);
+  block.states.fill_behind(block.rows);
+}
+}  // namespace
 
 // Shows the block to the watchers; true where one of them ends the run at a row of it.
 template <class T>
@@ -168,11 +177,11 @@ bool Integration<T>::look() {
   const std::size_t filled = block_.rows;
   std::size_t last = filled;
   block_.states.fill_behind(filled);
-  for (const Watching& w : watching_) {
-    const Block<T>& shown = shown_to(w);
-    if (shown.rows == 0) continue;
-    const std::size_t row = w.watcher->end(*this, shown);
-    if (row < shown.rows) last = std::min(last, block_.row_of(shown.step(row)));
+  for (Watching& w : watching_) {
+    thin(w);
+    if (w.shown->rows == 0) continue;
+    const std::size_t row = w.watcher->end(*this, *w.shown);
+    if (row < w.shown->rows) last = std::min(last, block_.row_of(w.shown->step(row)));
   }
   const bool ends = last < filled;
   if (ends) {
@@ -181,12 +190,10 @@ bool Integration<T>::look() {
     if (adaptive()) reached_ = block_.time(last);
     block_.states.get(last, state_);
     stepper_->forget();
-    block_.rows = last + 1;
-    if (!block_.times.empty()) block_.times.resize(block_.rows);
-    block_.states.fill_behind(block_.rows);
+    for (const Watching& w : watching_) end_at(taken_, *w.shown);
   }
   for (const Watching& w : watching_)
-    if (const Block<T>& shown = shown_to(w); shown.rows > 0) w.watcher->look(*this, shown);
+    if (w.shown->rows > 0) w.watcher->look(*this, *w.shown);
   return ends;
 }
 

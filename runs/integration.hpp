@@ -41,10 +41,9 @@ class Watcher {
 template <class T>
 class Integration {
  public:
-  /// InputError where there is no model or no method, where the method refuses the model or has coefficients
-  /// in double for an integration in quad, where the state has another size or a number that is not finite,
-  /// where the step is zero or not finite, for tolerances out of range, and where one is given to a method
-  /// that takes fixed steps.
+  /// InputError where there is no model or no method, where the method refuses the model, where the state has
+  /// another size or a number that is not finite, where the step is zero or not finite, for tolerances out of
+  /// range, and where one is given to a method that takes fixed steps.
   explicit Integration(Start<T> start);
 
   [[nodiscard]] const std::shared_ptr<const Model>& model() const { return start_.model; }
@@ -85,6 +84,8 @@ class Integration {
   /// Goes on from another state, at another time and with another step; steps are counted from there. What
   /// the method remembers stays with it, which is how methods with a past are led back.
   void go_on_from(std::vector<T> state, const T& t0, const T& h);
+  /// What the method remembers is forgotten: the next step is the one that a new integration takes from here.
+  void forget() { stepper_->forget(); }
 
   /// Shows `watcher`, which must outlive the integration, the states after each `every` steps, counted from
   /// t0.
@@ -106,13 +107,15 @@ class Integration {
   struct Watching {
     Watcher<T>* watcher;
     std::int64_t every;
+    std::unique_ptr<Block<T>> thinned{};  // where it looks at fewer steps than a block has
+    Block<T>* shown = nullptr;            // what it sees of the block
   };
   Outcome ended(std::int64_t begin, Outcome::End end, Status status) const;
   Status fill(std::int64_t stride, std::int64_t rows);
   Status fill_adaptive(std::int64_t rows);
   Status fill_and_look(std::int64_t stride, std::int64_t rows, bool& ends);
   void up_to_the_failure(std::int64_t steps);
-  const Block<T>& shown_to(const Watching& watching);
+  void thin(Watching& watching);
   bool look();
   Status advance_to(const T& t);
   Outcome to_between(const T& t, std::int64_t begin);
@@ -125,7 +128,6 @@ class Integration {
   std::int64_t taken_ = 0;
   StepperPointer<T> stepper_;
   Block<T> block_;
-  std::unique_ptr<Block<T>> thinned_;  // for watchers that look at fewer steps than others
   std::vector<Watching> watching_;
   const std::atomic<bool>* asked_ = nullptr;
 };

@@ -129,6 +129,22 @@ TEST(Integration, TurnsRound) {
   EXPECT_GT(back("rk4", {}), 1e-9);
 }
 
+// A leap-frog leaps from the state before the last; where that is forgotten, it steps as one that begins
+// there.
+TEST(Integration, ForgetsWhatTheMethodRemembers) {
+  const auto third = [](bool forgets) {
+    auto run = integrate("kepler", {}, "leap-frog", {}, {.step = "0.1"});
+    run.steps(2).expect_reached();
+    auto fresh = run.beside({run.state().begin(), run.state().end()});
+    if (forgets) run.forget();
+    run.steps(1).expect_reached();
+    fresh.steps(1).expect_reached();
+    return std::abs(run.state()[0] - fresh.state()[0]);
+  };
+  EXPECT_EQ(third(true), 0);
+  EXPECT_GT(third(false), 1e-6);  // control
+}
+
 // Negative steps, by names: the harmonic motion backwards is that of -p. The error is the method's, h^8.
 TEST(Integration, GoesBackwardsInTime) {
   auto back = integrate("harmonic-oscillator", {}, "gauss", {{"stages", "4"}},
