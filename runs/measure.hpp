@@ -149,34 +149,34 @@ PFAFF_MEMBER_NAME(controls)
 }  // namespace measure
 
 template <class M>
-using WorkOfMeasure = typename M::template Work<double>;
-
-template <class M>
 concept WritesColumns = requires(const M& m, const Model& model) {
   { m.columns(model) } -> std::same_as<std::vector<Column>>;
 };
-template <class M>
+// What the struct has in the scalar T.
+template <class M, class T>
+using WorkOfMeasure = typename M::template Work<T>;
+template <class M, class T>
 concept WritesMeasureWork = requires {
-  typename WorkOfMeasure<M>;
-  requires std::constructible_from < WorkOfMeasure<M>,
-  const M&, const Measured<double>& > ;
+  typename WorkOfMeasure<M, T>;
+  requires std::constructible_from < WorkOfMeasure<M, T>,
+  const M&, const Measured<T>& > ;
 };
-template <class M>
-concept WritesLooks = requires(const M& m, const Measured<double>& run) {
+template <class M, class T>
+concept WritesLooks = requires(const M& m, const Measured<T>& run) {
   { m.looks(run) } -> std::same_as<std::vector<std::int64_t>>;
 };
-template <class M>
-concept WritesLook = requires(const M& m, const Measured<double>& run, const RunState<double>& at,
-                              WorkOfMeasure<M>& work, Row& row) {
+template <class M, class T>
+concept WritesLook = requires(const M& m, const Measured<T>& run, const RunState<T>& at,
+                              WorkOfMeasure<M, T>& work, Row& row) {
   { m.look(run, at, work, row) } -> std::same_as<bool>;
 };
-template <class M>
-concept WritesBlock = requires(const M& m, const Measured<double>& run, const Block<double>& block,
-                               WorkOfMeasure<M>& work) {
+template <class M, class T>
+concept WritesBlock = requires(const M& m, const Measured<T>& run, const Block<T>& block,
+                               WorkOfMeasure<M, T>& work) {
   { m.block(run, block, work) } -> std::same_as<void>;
 };
-template <class M>
-concept WritesEnd = requires(const M& m, const Measured<double>& run, WorkOfMeasure<M>& work) {
+template <class M, class T>
+concept WritesEnd = requires(const M& m, const Measured<T>& run, WorkOfMeasure<M, T>& work) {
   { m.end(run, work) } -> std::same_as<std::vector<Row>>;
 };
 template <class M>
@@ -193,21 +193,21 @@ concept WritesControls = requires {
 template <class M>
 constexpr void check_measure_members() {
   static_assert(WritesColumns<M>, "columns: expected std::vector<Column> columns(const Model& model) const");
-  static_assert(WritesMeasureWork<M>,
+  static_assert(WritesMeasureWork<M, double> && WritesMeasureWork<M, Quad>,
                 "Work: expected template <class T> struct Work with a constructor Work(const M&, const "
                 "Measured<T>& run)");
-  static_assert(WritesLook<M> || !measure::has_look<M>,
+  static_assert((WritesLook<M, double> && WritesLook<M, Quad>) || !measure::has_look<M>,
                 "look: expected template <class T> bool look(const Measured<T>& run, const RunState<T>& at, "
                 "Work<T>& work, Row& row) const");
-  static_assert(WritesLooks<M> || !measure::has_looks<M>,
+  static_assert((WritesLooks<M, double> && WritesLooks<M, Quad>) || !measure::has_looks<M>,
                 "looks: expected template <class T> std::vector<std::int64_t> looks(const Measured<T>& run) "
                 "const");
   static_assert(measure::has_look<M> == measure::has_looks<M>,
                 "look and looks belong together: expected both of them or neither");
-  static_assert(WritesBlock<M> || !measure::has_block<M>,
+  static_assert((WritesBlock<M, double> && WritesBlock<M, Quad>) || !measure::has_block<M>,
                 "block: expected template <class T> void block(const Measured<T>& run, const Block<T>& "
                 "block, Work<T>& work) const");
-  static_assert(WritesEnd<M> || !measure::has_end<M>,
+  static_assert((WritesEnd<M, double> && WritesEnd<M, Quad>) || !measure::has_end<M>,
                 "end: expected template <class T> std::vector<Row> end(const Measured<T>& run, Work<T>& "
                 "work) const");
   static_assert(measure::has_look<M> || measure::has_end<M>,
@@ -224,20 +224,20 @@ class MeasuringWith final : public Measuring<T> {
  public:
   MeasuringWith(const M& measure, const Measured<T>& run)
       : measure_(measure), run_(run), work_(measure_, run_) {
-    if constexpr (WritesLooks<M>) looks_ = measure_.looks(run_);
+    if constexpr (WritesLooks<M, T>) looks_ = measure_.looks(run_);
   }
   [[nodiscard]] const std::vector<std::int64_t>& looks() const override { return looks_; }
   bool look([[maybe_unused]] const RunState<T>& at, [[maybe_unused]] Row& row) override {
-    if constexpr (WritesLook<M>) return measure_.look(run_, at, work_, row);
+    if constexpr (WritesLook<M, T>) return measure_.look(run_, at, work_, row);
     return false;
   }
-  [[nodiscard]] bool sees_blocks() const override { return WritesBlock<M>; }
+  [[nodiscard]] bool sees_blocks() const override { return WritesBlock<M, T>; }
   void block([[maybe_unused]] const Block<T>& block) override {
-    if constexpr (WritesBlock<M>) measure_.block(run_, block, work_);
+    if constexpr (WritesBlock<M, T>) measure_.block(run_, block, work_);
   }
-  [[nodiscard]] bool has_end() const override { return WritesEnd<M>; }
+  [[nodiscard]] bool has_end() const override { return WritesEnd<M, T>; }
   std::vector<Row> end() override {
-    if constexpr (WritesEnd<M>) return measure_.end(run_, work_);
+    if constexpr (WritesEnd<M, T>) return measure_.end(run_, work_);
     return {};
   }
 
