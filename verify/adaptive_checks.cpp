@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <pfaff/core/numbers/formatted.hpp>
+#include <pfaff/runs/integration.hpp>
 #include <pfaff/runs/support/chosen_steps.hpp>
 #include <pfaff/runs/support/reference.hpp>
 #include <pfaff/verify/check_budget.hpp>
@@ -54,18 +55,20 @@ struct Stretch {
 // One run at a tolerance. Fills `error`, in units of the tolerance, and returns what is wrong, or nothing.
 template <class T>
 std::string run_wrong(const MethodOnModel& on, const Stretch<T>& stretch, double tolerance, double& error) {
-  const auto stepper = on.method().stepper(on.model(), T());
-  std::vector<T> z = stretch.start;
-  T t = stretch.begin;
+  Start<T> start = start_with(on.method(), on.model(), stretch.start, T(0), stretch.begin);
+  start.tolerance = T(tolerance);
+  Integration<T> run(std::move(start));
   // In two parts, so that the step with which the second begins is that with which the first ended.
   for (const T& to : {stretch.begin + (stretch.end - stretch.begin) / T(3), stretch.end}) {
-    const Status status = stepper->advance_to(t, to, T(tolerance), z);
-    if (status != Status::converged) return "ended with '" + std::string(to_string(status)) + "'";
-    if (t != to) return "went to " + to_string(Quad(t), 17) + " instead of " + to_string(Quad(to), 17);
+    if (const Status status = run.to(to).status(); status != Status::converged)
+      return "ended with '" + std::string(to_string(status)) + "'";
+    if (run.time() != to)
+      return "went to " + to_string(Quad(run.time()), 17) + " instead of " + to_string(Quad(to), 17);
   }
-  const auto steps = static_cast<double>(stepper->counters().steps);
+  const auto steps = static_cast<double>(run.counters().steps);
   if (!(steps >= 1 && steps <= most_steps)) return "took " + formatted("%.0f", steps) + " steps";
   Quad difference(0), size(0);
+  const std::span<const T> z = run.state();
   for (std::size_t k = 0; k < z.size(); ++k) {
     difference = std::max(difference, abs(Quad(z[k]) - stretch.exact[k]));
     size = std::max(size, abs(stretch.exact[k]));

@@ -29,8 +29,10 @@ struct FalseClaim {
 /// How one claim is measured.
 struct ClaimCheck {
   Claim claim;
-  double (*in_double)(MeasuredStep<double>& step) = nullptr;
-  double (*in_quad)(MeasuredStep<Quad>& step) = nullptr;
+  struct {
+    double (*in_double)(MeasuredStep<double>& step);
+    double (*in_quad)(MeasuredStep<Quad>& step);
+  } measure;
   FalseClaim control;
   /// True where the claim is about the rounding of double itself, so that there is no measure in quad. It
   /// takes long runs: it is measured only of methods that make the claim, and not on random systems, most of
@@ -49,9 +51,9 @@ struct ClaimCheck {
 template <class T>
 double residual_of(const ClaimCheck& row, MeasuredStep<T>& step) {
   if constexpr (std::is_same_v<T, Quad>) {
-    return row.in_quad != nullptr ? row.in_quad(step) : no_step;
+    return row.measure.in_quad != nullptr ? row.measure.in_quad(step) : no_step;
   } else {
-    return row.in_double(step);
+    return row.measure.in_double(step);
   }
 }
 /// The largest residual of the claim with which it holds.

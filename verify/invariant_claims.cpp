@@ -8,24 +8,14 @@ namespace pfaff {
 
 namespace {
 
-// The values of a formula at a state that is known to the rounding of the step, with their bounds.
-template <class T>
-std::vector<WithRounding<T>> with_rounding(Replay<WithRounding<T>>& values, const T& t,
-                                           const std::vector<T>& z, const std::vector<T>& scales) {
-  std::vector<WithRounding<T>> state, out(values.tape().outputs.size());
-  for (std::size_t k = 0; k < z.size(); ++k) state.emplace_back(z[k], scales[k]);
-  values(WithRounding<T>(t), state.data(), out.data());
-  return out;
-}
-
 // The largest change over the step among those values of a formula for which `meant` is true, each relative
 // to what the rounding of the step and of the formula's own terms amounts to in it.
 template <class T, class Meant>
 double largest_change(MeasuredStep<T>& step, Formula formula, const Meant& meant) {
   if (!step.end()) return no_step;
   Replay<WithRounding<T>> values(step.model()->tape(formula));
-  const auto before = with_rounding(values, step.t(), step.start(), step.scales());
-  const auto after = with_rounding(values, step.t() + step.h(), *step.end(), step.scales());
+  const auto before = with_rounding<T>(values, step.t(), step.start(), step.scales());
+  const auto after = with_rounding<T>(values, step.t() + step.h(), *step.end(), step.scales());
   double worst = 0;
   for (std::size_t k = 0; k < before.size(); ++k) {
     if (!meant(k)) continue;
@@ -114,14 +104,12 @@ template <class T>
 double entropy_residual(MeasuredStep<T>& step) {
   Replay<WithRounding<T>> entropy(step.model()->tape(Formula::entropy));
   if (!step.end()) return no_step;
-  std::vector<T> z = step.start();
-  auto before = with_rounding(entropy, step.t(), z, step.scales()).front();
+  auto before = with_rounding<T>(entropy, step.t(), step.start(), step.scales()).front();
   double worst = 0;
-  step.stepper().forget();
+  Integration<T>& run = step.from(step.t(), step.h(), step.start());
   for (int k = 0; k < steps_of_entropy; ++k) {
-    std::int64_t completed = 0;
-    if (step.stepper().advance(step.t(), k, step.h(), 1, z, completed) != Status::converged) return no_step;
-    const auto after = with_rounding(entropy, step.t() + T(k + 1) * step.h(), z, step.scales()).front();
+    if (!run.steps(1).reached()) return no_step;
+    const auto after = with_rounding<T>(entropy, run.time(), run.state(), step.scales()).front();
     const WithRounding<T> fall = before - after;
     if (isnan(fall.value)) return no_step;
     if (fall.value > T(0)) worst = std::max(worst, relative_to_rounding(fall));

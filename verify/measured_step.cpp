@@ -22,17 +22,26 @@ MeasuredStep<T>::MeasuredStep(const MethodInstance& method, std::shared_ptr<cons
 }
 
 template <class T>
+Integration<T>& MeasuredStep<T>::from(const T& time, const T& length, std::vector<T> z) {
+  if (run_) {
+    run_->forget();
+    run_->go_on_from(std::move(z), time, length);
+  } else {
+    Start<T> start = start_with(method_, model_, std::move(z), length, time);
+    start.block_rows = 1;
+    run_.emplace(std::move(start));
+  }
+  return *run_;
+}
+
+template <class T>
 const std::optional<std::vector<T>>& MeasuredStep<T>::end() {
   if (taken_) return end_;
-  stepper().forget();
-  std::int64_t completed = 0;
-  start_ = begin_state_;
-  status_ = stepper().advance(begin_, 0, h_, warm_up_, start_, completed);
-  if (status_ == Status::converged) {
-    std::vector<T> z = start_;
-    status_ = stepper().advance(begin_, warm_up_, h_, 1, z, completed);
-    if (status_ == Status::converged) end_ = std::move(z);
-  }
+  Integration<T>& run = from(begin_, h_, begin_state_);
+  status_ = run.steps(warm_up_).status();
+  start_.assign(run.state().begin(), run.state().end());
+  if (status_ == Status::converged) status_ = run.steps(1).status();
+  if (status_ == Status::converged) end_.emplace(run.state().begin(), run.state().end());
   taken_ = true;  // not before, since the budget of a check may end in between
   return end_;
 }
@@ -40,21 +49,17 @@ const std::optional<std::vector<T>>& MeasuredStep<T>::end() {
 template <class T>
 std::optional<std::vector<T>> MeasuredStep<T>::after(const T& time, const T& length, std::vector<T> z,
                                                      int count) {
-  stepper().forget();
-  std::int64_t completed = 0;
-  if (stepper().advance(time, 0, length, count, z, completed) != Status::converged) return std::nullopt;
-  return z;
+  Integration<T>& run = from(time, length, std::move(z));
+  if (!run.steps(count).reached()) return std::nullopt;
+  return std::vector<T>(run.state().begin(), run.state().end());
 }
 
 template <class T>
-std::optional<std::vector<T>> MeasuredStep<T>::then(const T& length, std::vector<T> z) {
-  stepper().forget();
-  std::int64_t completed = 0;
-  std::vector<T> before = begin_state_;
-  if (stepper().advance(begin_, 0, h_, warm_up_ + 1, before, completed) != Status::converged ||
-      stepper().advance(t_ + h_, 0, length, 1, z, completed) != Status::converged)
-    return std::nullopt;
-  return z;
+Integration<T>* MeasuredStep<T>::at_end() {
+  if (!end()) return nullptr;
+  if (!carried_) return &from(t_ + h_, h_, *end_);
+  Integration<T>& run = from(begin_, h_, begin_state_);
+  return run.steps(warm_up_ + 1).reached() ? &run : nullptr;
 }
 
 template <class T>

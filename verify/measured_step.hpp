@@ -8,7 +8,8 @@
 #include <type_traits>
 #include <vector>
 
-#include <pfaff/runs/support/history.hpp>
+#include <pfaff/runs/history.hpp>
+#include <pfaff/runs/integration.hpp>
 #include <pfaff/runs/support/structure.hpp>
 #include <pfaff/verify/step_scale.hpp>
 
@@ -64,9 +65,12 @@ class MeasuredStep {
   /// The state after `count` steps of size `length` from z at `time`, without history; nullopt where one does
   /// not converge.
   std::optional<std::vector<T>> after(const T& time, const T& length, std::vector<T> z, int count = 1);
-  /// The state after one more step of size `length` from z at the time where the measured step ends, by the
-  /// stepper that has just taken the warm-up and the measured step; nullopt where one does not converge.
-  std::optional<std::vector<T>> then(const T& length, std::vector<T> z);
+  /// The method at a state, without history, to take steps of size `length` from there. There is one run for
+  /// all calls, which every member that takes steps moves on.
+  Integration<T>& from(const T& time, const T& length, std::vector<T> z);
+  /// The run where the measured step ends, with the history of the warm-up and that step where it is carried;
+  /// null where the step does not converge.
+  Integration<T>* at_end();
   /// The Jacobian of the step without history, from dual numbers carried through the converged step.
   const StepJacobian<T>& jacobian();
   /// The sizes against which residuals of the step are judged, one for each coordinate (step_scales).
@@ -75,13 +79,6 @@ class MeasuredStep {
   T distance(const std::vector<T>& a, const std::vector<T>& b);
   /// The number of steps taken before the one that is measured.
   [[nodiscard]] int warm_up() const { return warm_up_; }
-  /// True where a step that follows is taken with the history of this one (then).
-  [[nodiscard]] bool carried() const { return carried_; }
-  /// The stepper that takes the steps.
-  Stepper<T>& stepper() {
-    if (stepper_ == nullptr) stepper_ = method_.stepper(model_, T());
-    return *stepper_;
-  }
 
  private:
   const MethodInstance& method_;
@@ -90,7 +87,7 @@ class MeasuredStep {
   int warm_up_;
   bool carried_;
   std::vector<T> begin_state_, start_;  // before the warm-up and after it
-  std::unique_ptr<Stepper<T>> stepper_;
+  std::optional<Integration<T>> run_;
   bool taken_ = false;
   Status status_ = Status::converged;
   std::optional<std::vector<T>> end_;

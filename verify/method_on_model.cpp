@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <pfaff/runs/support/history.hpp>
+#include <pfaff/runs/history.hpp>
 
 namespace pfaff {
 

@@ -3,7 +3,8 @@
 #include <cmath>
 
 #include <pfaff/core/numbers/formatted.hpp>
-#include <pfaff/runs/support/history.hpp>
+#include <pfaff/runs/history.hpp>
+#include <pfaff/runs/integration.hpp>
 #include <pfaff/runs/support/reference.hpp>
 #include <pfaff/verify/check.hpp>
 #include <pfaff/verify/check_budget.hpp>
@@ -33,15 +34,10 @@ class Errors {
   /// The error after time `elapsed`, taken in so many equal steps, relative to the norm of the start, which
   /// does not depend on the step as that of the end does; negative when a step fails.
   [[nodiscard]] Quad after(Quad elapsed, std::int64_t steps) {
-    const auto stepper = method_.stepper(model_, Quad());
-    std::vector<Quad> z = start_;
-    std::int64_t completed = 0;
-    const Quad h = elapsed / Quad(static_cast<double>(steps));
-    if (stepper->advance(begin_.quad(), 0, h, steps, z, completed) != Status::converged) return Quad(-1);
+    Integration<Quad> run = in_steps(elapsed, steps);
+    if (!run.steps(steps).reached()) return Quad(-1);
     find_solution(elapsed);
-    std::vector<Quad> difference(z.size());
-    for (std::size_t k = 0; k < z.size(); ++k) difference[k] = z[k] - exact_[k];
-    return norm(difference) / norm(start_);
+    return error_at(run, exact_);
   }
 
   /// The same of one step. One that leads over the end of the motion is too long, and fails too.
@@ -69,21 +65,16 @@ class Errors {
   /// The root mean square of the errors after the last quarter of so many equal steps, at eight times;
   /// negative when a step fails. `steps` is a multiple of 32.
   [[nodiscard]] Quad late(Quad elapsed, std::int64_t steps) const {
-    const auto stepper = method_.stepper(model_, Quad());
-    std::vector<Quad> z = start_, exact = start_;
-    const Quad h = elapsed / Quad(static_cast<double>(steps));
-    Quad sum(0), t = begin_.quad();
-    std::int64_t done = 0;
+    Integration<Quad> run = in_steps(elapsed, steps);
+    std::vector<Quad> exact = start_;
+    Quad sum(0), t = run.time();
     for (std::int64_t part = 25; part <= 32; ++part) {
-      const std::int64_t more = steps / 32 * part - done;
-      std::int64_t completed = 0;
-      if (stepper->advance(begin_.quad(), done, h, more, z, completed) != Status::converged) return Quad(-1);
-      short_flow(*motion_, t, h * Quad(static_cast<double>(more)), exact);
-      done += more;
-      t += h * Quad(static_cast<double>(more));
-      std::vector<Quad> difference(z.size());
-      for (std::size_t k = 0; k < z.size(); ++k) difference[k] = z[k] - exact[k];
-      const Quad error = norm(difference) / norm(start_);
+      const std::int64_t more = steps / 32 * part - run.steps_taken();
+      if (!run.steps(more).reached()) return Quad(-1);
+      const Quad stretch = run.step() * Quad(static_cast<double>(more));
+      short_flow(*motion_, t, stretch, exact);
+      t += stretch;
+      const Quad error = error_at(run, exact);
       sum += error * error;
     }
     return sqrt(sum / Quad(8));
@@ -98,6 +89,15 @@ class Errors {
   }
 
  private:
+  [[nodiscard]] Integration<Quad> in_steps(const Quad& elapsed, std::int64_t steps) const {
+    const Quad h = elapsed / Quad(static_cast<double>(steps));
+    return Integration<Quad>(start_with(method_, model_, start_, h, begin_.quad()));
+  }
+  [[nodiscard]] Quad error_at(const Integration<Quad>& run, const std::vector<Quad>& exact) const {
+    std::vector<Quad> difference(exact.size());
+    for (std::size_t k = 0; k < exact.size(); ++k) difference[k] = run.state()[k] - exact[k];
+    return norm(difference) / norm(start_);
+  }
   [[nodiscard]] Quad norm(const std::vector<Quad>& z) const {
     Quad sum(0);
     for (std::size_t k = 0; k < z.size(); ++k) sum += z[k] / scales_[k] * (z[k] / scales_[k]);

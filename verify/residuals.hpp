@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -142,6 +143,16 @@ class NearbyStates {
   std::mt19937_64 random_{20041};
   std::uniform_real_distribution<double> offset_{-0.05, 0.05};
 };
+
+// The values of a formula at a state that is known to the rounding of a step, with their bounds.
+template <class T>
+std::vector<WithRounding<T>> with_rounding(Replay<WithRounding<T>>& values, const T& t, std::span<const T> z,
+                                           const std::vector<T>& scales) {
+  std::vector<WithRounding<T>> state, out(values.tape().outputs.size());
+  for (std::size_t k = 0; k < z.size(); ++k) state.emplace_back(z[k], scales[k]);
+  values(WithRounding<T>(t), state.data(), out.data());
+  return out;
+}
 
 // The largest output of a tape at random states of a region, each relative to the sizes of the terms that
 // it is made of. A formula that is zero stays below a few units of round-off, however large, small or badly

@@ -8,6 +8,7 @@
 #include <pfaff/core/numbers/with_rounding.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/replay.hpp>
+#include <pfaff/runs/integration.hpp>
 #include <pfaff/verify/step_scale.hpp>
 
 namespace pfaff {
@@ -55,7 +56,7 @@ class Quantities {
   // u / sqrt 3 sum_k |dI/dz_k| a_k for each quantity I, where a_k is what the step of size h adds to a
   // coordinate, with the rounding of the field that it is made of, which is evaluated at a rounded state.
   std::vector<double> roundings(double t, double h, const std::vector<double>& before,
-                                const std::vector<double>& after) {
+                                std::span<const double> after) {
     std::vector<WithRounding<double>> z, rate(size_);
     for (const double x : before) z.emplace_back(x, std::abs(x));
     field_(WithRounding<double>(t), z.data(), rate.data());
@@ -95,34 +96,11 @@ class Quantities {
   std::vector<bool> conserved_;
 };
 
-// A run of a method.
+// The quantities where a run is.
 template <class T>
-class Run {
- public:
-  Run(Stepper<T>& stepper, std::vector<T> z, const T& t, const T& h)
-      : stepper_(stepper), z_(std::move(z)), t_(t), h_(h) {
-    stepper_.forget();
-  }
-  // Takes so many steps more; false where one does not converge.
-  bool step(std::int64_t count) {
-    std::int64_t completed = 0;
-    const Status status = stepper_.advance(t_, taken_, h_, count, z_, completed);
-    taken_ += completed;
-    return status == Status::converged;
-  }
-  [[nodiscard]] T time() const { return t_ + T(static_cast<double>(taken_)) * h_; }
-  [[nodiscard]] const std::vector<T>& state() const { return z_; }
-  [[nodiscard]] const T& step_size() const { return h_; }
-  std::vector<Quad> values(Quantities& quantities) const {
-    return quantities.at(Quad(time()), {z_.begin(), z_.end()});
-  }
-
- private:
-  Stepper<T>& stepper_;
-  std::vector<T> z_;
-  T t_, h_;
-  std::int64_t taken_ = 0;
-};
+std::vector<Quad> values_of(const Integration<T>& run, Quantities& quantities) {
+  return quantities.at(Quad(run.time()), {run.state().begin(), run.state().end()});
+}
 
 // What is gathered of one quantity over all runs.
 struct Samples {
@@ -182,18 +160,18 @@ RoundOffGrowth growth_of(const std::string& quantity, const Samples& samples, st
 struct Look {
   std::vector<double> mean, rounding, at_rest;
 };
-bool look(Run<double>& run, Quantities& quantities, const std::vector<Quad>& origin, Look& seen) {
+bool look(Integration<double>& run, Quantities& quantities, const std::vector<Quad>& origin, Look& seen) {
   const std::size_t count = quantities.count();
   seen.mean.assign(count, 0);
   for (int k = 0; k < averaged_steps; ++k) {
-    const std::vector<double> before = run.state();
+    const std::vector<double> before(run.state().begin(), run.state().end());
     const double time = run.time();
-    if (!run.step(1)) return false;
-    const std::vector<Quad> now = run.values(quantities);
+    if (!run.steps(1).reached()) return false;
+    const std::vector<Quad> now = values_of(run, quantities);
     for (std::size_t i = 0; i < count; ++i)
       seen.mean[i] += static_cast<double>(now[i] - origin[i]) / averaged_steps;
     if (k + 1 < averaged_steps) continue;
-    seen.rounding = quantities.roundings(time, run.step_size(), before, run.state());
+    seen.rounding = quantities.roundings(time, run.step(), before, run.state());
     seen.at_rest = quantities.roundings_of_state(time, before);
   }
   return true;
@@ -220,8 +198,6 @@ std::optional<RoundOffStep> round_off_step(const MethodInstance& method,
     start.push_back(x.quad());
     rounded.push_back(x.value());
   }
-  const auto in_quad = method.stepper(model, Quad());
-  const auto in_double = method.stepper(model, 0.0);
   // What truncation may amount to in the steps in quad, in units of the rounding of a step: where it has no
   // trend, a part of the walk over the shortest times that the exponent is taken from; else of that over the
   // whole run, by the end of which a trend would have grown in proportion.
@@ -231,16 +207,16 @@ std::optional<RoundOffStep> round_off_step(const MethodInstance& method,
   const bool energy_stays = without_trend(method, *model);
   Real h = time * Real::fraction(2, 5);
   for (int halving = 0; halving < tried_steps; ++halving, h = h / Real(2)) {
-    Run<double> rough(*in_double, rounded, t.value(), h.value());
-    Run<Quad> exact(*in_quad, start, t.quad(), h.quad());
-    if (!rough.step(1)) continue;
+    Integration<double> rough(start_with(method, model, rounded, h.value(), t.value()));
+    Integration<Quad> exact(start_with(method, model, start, h.quad(), t.quad()));
+    if (!rough.steps(1).reached()) continue;
     const std::vector<double> rounding = quantities.roundings(t.value(), h.value(), rounded, rough.state());
-    const std::vector<Quad> first = exact.values(quantities);
+    const std::vector<Quad> first = values_of(exact, quantities);
     std::vector<double> truncation(quantities.count());
     bool steps_on = true;
     for (int k = 0; k < truncation_steps && steps_on; ++k) {
-      steps_on = exact.step(1);
-      const std::vector<Quad> now = exact.values(quantities);
+      steps_on = exact.steps(1).reached();
+      const std::vector<Quad> now = values_of(exact, quantities);
       for (std::size_t i = 0; i < now.size(); ++i)
         truncation[i] = std::max(truncation[i], std::abs(static_cast<double>(now[i] - first[i])));
     }
@@ -265,18 +241,17 @@ std::optional<std::vector<RoundOffGrowth>> round_off_growth(const MethodInstance
   const std::vector<double> scales = coordinate_scales(centre);
   std::mt19937_64 random(ensemble.seed);
   std::uniform_real_distribution<double> offset(-ensemble.spread, ensemble.spread);
-  const auto stepper = method.stepper(model, 0.0);
   for (int k = 0; k < ensemble.starts; ++k) {
     std::vector<double> z;
     for (std::size_t i = 0; i < centre.size(); ++i)
       z.push_back(centre[i].value() + scales[i] * offset(random));
-    Run<double> run(*stepper, z, t.value(), step.h.value());
-    const std::vector<Quad> origin = run.values(quantities);
+    Integration<double> run(start_with(method, model, z, step.h.value(), t.value()));
+    const std::vector<Quad> origin = values_of(run, quantities);
     Look first, now;
-    if (!run.step(first_steps) || !look(run, quantities, origin, first)) return std::nullopt;
+    if (!run.steps(first_steps).reached() || !look(run, quantities, origin, first)) return std::nullopt;
     for (Samples& s : samples) s.errors.push_back({0});
     for (std::size_t block = 0; block < blocks; ++block) {
-      if (!run.step(ensemble.steps / round_off_blocks - averaged_steps) ||
+      if (!run.steps(ensemble.steps / round_off_blocks - averaged_steps).reached() ||
           !look(run, quantities, origin, now))
         return std::nullopt;
       for (std::size_t i = 0; i < samples.size(); ++i) {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include <pfaff/core/system.hpp>
-#include <pfaff/runs/support/history.hpp>
+#include <pfaff/runs/history.hpp>
 #include <pfaff/verify/check_budget.hpp>
 #include <pfaff/verify/claim_checks.hpp>
 #include <pfaff/verify/method_on_model.hpp>
@@ -27,7 +27,7 @@ struct Place {
   int steps = 0;  // before it
 };
 
-std::vector<Real> as_reals(const std::vector<double>& z) {
+std::vector<Real> as_reals(std::span<const double> z) {
   std::vector<Real> reals;
   for (const double x : z) reals.emplace_back(Quad(x));
   return reals;
@@ -43,7 +43,7 @@ struct RunInDouble {
 
 // The largest difference of two states over the largest coordinate of the first.
 template <class T>
-double relative_difference(const std::vector<T>& z, const std::vector<T>& other) {
+double relative_difference(std::span<const T> z, std::span<const T> other) {
   T difference(0);
   for (std::size_t k = 0; k < z.size(); ++k) difference = std::max(difference, T(abs(z[k] - other[k])));
   return static_cast<double>(difference / largest_of(z));
@@ -65,19 +65,13 @@ double spread(const MethodOnModel& on, const Place& place, const Real& h) {
 // True where the same two steps differ by less in quad, by as much as the precisions differ: the step of a
 // run begins its iteration from what it remembers, and what the stopping rule leaves differs.
 bool left_by_stopping(const MethodOnModel& on, const Real& size, int steps, double in_double) {
-  const auto stepper = on.method().stepper(on.model(), Quad()),
-             single = on.method().stepper(on.model(), Quad());
   std::vector<Quad> z;
   for (const Real& x : on.start()) z.push_back(x.quad());
-  const Quad t0 = on.time().quad(), h = size.quad();
-  std::int64_t completed = 0;
-  if (stepper->advance(t0, 0, h, steps, z, completed) != Status::converged) return false;
-  std::vector<Quad> alone = z;
-  single->forget();
-  if (stepper->advance(t0, steps, h, 1, z, completed) != Status::converged ||
-      single->advance(t0, steps, h, 1, alone, completed) != Status::converged)
-    return false;
-  return falls_with_the_precision(in_double, relative_difference(z, alone));
+  Integration<Quad> run(start_with(on.method(), on.model(), std::move(z), size.quad(), on.time().quad()));
+  if (!run.steps(steps).reached()) return false;
+  Integration<Quad> alone = run.beside({run.state().begin(), run.state().end()});
+  return run.steps(1).reached() && alone.steps(1).reached() &&
+         falls_with_the_precision(in_double, relative_difference(run.state(), alone.state()));
 }
 
 // True where a step from a place ends within a fiftieth of the state from where two of half its size do.
@@ -85,7 +79,7 @@ bool follows_the_motion(const MethodOnModel& on, const Place& place, const Real&
   constexpr double most_rough = 0.02;
   MeasuredStep<double> step(on.method(), on.model(), place.z, place.t, h);
   const auto halves = step.after(step.t(), step.h() / 2, step.start(), 2);
-  return step.end() && halves && relative_difference(*halves, *step.end()) <= most_rough;
+  return step.end() && halves && relative_difference<double>(*halves, *step.end()) <= most_rough;
 }
 
 // True of a method that remembers earlier steps on the pendulum. Where the force is constant, as it is on one
@@ -102,32 +96,34 @@ RunInDouble follow(const MethodOnModel& on, const Real& step, bool compared) {
   constexpr double most_moved = 8, most_growth = 64, most_shrinking = 1024;
   double allowed =
       most_left_by_stopping * tolerance<double>();  // more where that has been found to be rounding
-  RunInDouble run;
-  const auto stepper = on.method().stepper(on.model(), 0.0), single = on.method().stepper(on.model(), 0.0);
-  std::vector<double> z;
-  for (const Real& x : on.start()) z.push_back(x.value());
-  const double t0 = on.time().value(), h = step.value(), first = largest_of(z);
+  RunInDouble found;
+  std::vector<double> start;
+  for (const Real& x : on.start()) start.push_back(x.value());
+  Integration<double> run(start_with(on.method(), on.model(), start, step.value(), on.time().value()));
+  Integration<double> alone = run.beside(start);
+  const std::span<const double> z = run.state();
+  const double first = largest_of(z);
   std::vector<double> largest(z.size());
   for (int n = 0; n < steps_of_run; ++n) {
-    const double t = t0 + n * h;
-    const Place place{as_reals(z), Real(Quad(t)), n};
+    const Place place{as_reals(z), Real(Quad(run.time())), n};
     // A coordinate that has become small beside what it was has no size by which a residual could be judged.
     bool small = false;
     for (std::size_t k = 0; k < z.size(); ++k) {
       largest[k] = std::max(largest[k], std::abs(z[k]));
       small = small || std::abs(z[k]) * most_shrinking < largest[k];
     }
-    if (!small) run.places.push_back(place);
-    std::vector<double> alone = z;
-    std::int64_t completed = 0;
-    if (stepper->advance(t0, n, h, 1, z, completed) != Status::converged) break;
+    if (!small) found.places.push_back(place);
+    if (compared) {
+      alone.go_on_from({z.begin(), z.end()}, run.time(), step.value());
+      alone.forget();
+    }
+    if (!run.steps(1).reached()) break;
     // Far from where it started a motion has other sizes, for which the step was not chosen.
     const double size = largest_of(z);
     if (!(size <= most_growth * first) || !(first <= most_growth * size)) break;
     if (!compared) continue;
-    single->forget();
-    if (single->advance(t0, n, h, 1, alone, completed) != Status::converged) break;
-    const double difference = relative_difference(z, alone);
+    if (!alone.steps(1).reached()) break;
+    const double difference = relative_difference<double>(z, alone.state());
     if (!(difference > allowed)) continue;
     if (difference <= most_moved * spread(on, place, step) || left_by_stopping(on, step, n, difference)) {
       allowed = most_moved * difference;
@@ -137,11 +133,11 @@ RunInDouble follow(const MethodOnModel& on, const Real& step, bool compared) {
     // another one.
     if (!follows_the_motion(on, place, step)) break;
     if (remembers_elsewhere(on.method())) break;
-    run.differs = n + 1;
-    run.difference = difference;
+    found.differs = n + 1;
+    found.difference = difference;
     compared = false;
   }
-  return run;
+  return found;
 }
 
 // The claim in the step from a place, once more where its residual may be rounding.

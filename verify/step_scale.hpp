@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include <pfaff/core/facets/model.hpp>
@@ -14,8 +15,9 @@
 namespace pfaff {
 
 /// The size of the largest coordinate.
-template <class T>
-T largest_of(const std::vector<T>& z) {
+template <class State>
+auto largest_of(const State& z) {
+  using T = std::remove_cvref_t<decltype(z[0])>;
   T largest(0);
   for (const T& x : z) largest = std::max(largest, T(abs(x)));
   return largest;

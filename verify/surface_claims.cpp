@@ -13,9 +13,7 @@ template <class T>
 double largest_at_end(MeasuredStep<T>& step, Formula formula, std::size_t first) {
   if (!step.end()) return no_step;
   Replay<WithRounding<T>> values(step.model()->tape(formula));
-  std::vector<WithRounding<T>> z, out(values.tape().outputs.size());
-  for (std::size_t k = 0; k < step.end()->size(); ++k) z.emplace_back((*step.end())[k], step.scales()[k]);
-  values(WithRounding<T>(step.t() + step.h()), z.data(), out.data());
+  const auto out = with_rounding<T>(values, step.t() + step.h(), *step.end(), step.scales());
   double worst = 0;
   for (std::size_t k = first; k < out.size(); ++k) {
     const double size = relative_to_rounding(out[k]);

@@ -9,9 +9,9 @@
 #include <limits>
 #include <optional>
 
-#include <pfaff/core/facets/problem.hpp>
 #include <pfaff/runs/measure.hpp>
-#include <pfaff/runs/support/history.hpp>
+#include <pfaff/runs/history.hpp>
+#include <pfaff/runs/way_back.hpp>
 
 namespace {
 using namespace pfaff;
@@ -43,14 +43,11 @@ struct Reversibility {
     return found;
   }
 
-  enum class WayBack { negative_steps, reversal };
-
   template <class T>
   struct Work {
     std::vector<T> start;
-    bool remembers = false;     // what is remembered belongs to the state that was reached, and to no other
-    std::optional<WayBack> by;  // nothing leads the method back
-    Evaluator<T> reversal;
+    bool remembers = false;  // what is remembered belongs to the state that was reached, and to no other
+    std::optional<WayBack<T>> back;  // nothing leads the method back
 
     Work(const Reversibility& /*measure*/, const Measured<T>& run)
         : start(run.start.state().begin(), run.start.state().end()) {
@@ -64,10 +61,9 @@ struct Reversibility {
         return std::find(claims.begin(), claims.end(), claim) != claims.end();
       };
       if (stated && (!remembers || claimed(Claim::reversible))) {
-        by = WayBack::reversal;
-        reversal = make_evaluator<T>(run.start.model(), Formula::reversal);
+        back = WayBack<T>(run.start.model());
       } else if (!remembers || claimed(Claim::symmetric)) {
-        by = WayBack::negative_steps;
+        back = WayBack<T>();
       }
     }
   };
@@ -75,18 +71,22 @@ struct Reversibility {
   // Each turn has a run of its own, so that it is what a run of so many steps would be, with its history.
   template <class T>
   bool look(const Measured<T>& run, const RunState<T>& at, Work<T>& work, Row& row) const {
-    if (!work.by) return false;
+    if (!work.back) return false;
     Integration<T> there = run.start.beside(work.start);
     if (!there.steps(at.step).reached()) return false;
-    const std::vector<T> turn(there.state().begin(), there.state().end());
-    const auto end = back(work, there, turn);
-    const auto other = end && !work.remembers ? back(work, there, changed(turn)) : std::nullopt;
+    std::optional<std::vector<T>> other;
+    if (!work.remembers) {
+      Integration<T> moved = there.beside(changed(there.state()));
+      other = (*work.back)(moved, at.step);
+      there.forget();
+    }
+    const auto end = (*work.back)(there, at.step);
     const T norm = apart(work.start, std::vector<T>(work.start.size(), T(0)));
     const T size = norm > T(0) ? norm : T(1), unit = std::numeric_limits<T>::epsilon() / T(2);
     const T not_known(std::numeric_limits<double>::quiet_NaN());
     row = {end ? apart(*end, work.start) / size : not_known,
-           other ? apart(*other, *end) / size * (unit / change<T>()) : not_known,
-           *work.by == WayBack::reversal ? "reversal" : "negative steps"};
+           end && other ? apart(*other, *end) / size * (unit / change<T>()) : not_known,
+           work.back->by_reversal() ? "reversal" : "negative steps"};
     return true;
   }
 
@@ -115,37 +115,11 @@ struct Reversibility {
   static T change() {
     return sqrt(std::numeric_limits<T>::epsilon());
   }
-  // The end of the way back from a state, with what is remembered there or without; nullopt where a step
-  // fails.
-  template <class T>
-  static std::optional<std::vector<T>> back(const Work<T>& work, Integration<T>& there,
-                                            const std::vector<T>& turn) {
-    const bool reverses = *work.by == WayBack::reversal;
-    const std::int64_t steps = there.steps_taken();
-    const T t = there.time();
-    const std::vector<T> begin = reverses ? reversed(work, turn) : turn;
-    const auto walked = [&](Integration<T>& run) -> std::optional<std::vector<T>> {
-      if (!run.steps(steps).reached()) return std::nullopt;
-      const std::vector<T> end(run.state().begin(), run.state().end());
-      return reverses ? reversed(work, end) : end;
-    };
-    if (work.remembers) {
-      there.go_on_from(begin, t, reverses ? there.step() : T(-there.step()));
-      return walked(there);
-    }
-    Integration<T> other = there.beside(begin, t, reverses ? there.step() : T(-there.step()));
-    return walked(other);
-  }
-  template <class T>
-  static std::vector<T> reversed(const Work<T>& work, const std::vector<T>& z) {
-    std::vector<T> image(z.size());
-    work.reversal.call(work.reversal.context, T(0), z.data(), image.data());
-    return image;
-  }
   // What a rounding of each coordinate may be: relative changes of either sign, without a pattern that
   // symmetric states have.
   template <class T>
-  static std::vector<T> changed(std::vector<T> z) {
+  static std::vector<T> changed(std::span<const T> state) {
+    std::vector<T> z(state.begin(), state.end());
     for (std::size_t i = 0; i < z.size(); ++i)
       z[i] *= std::cos(1 + 2 * static_cast<double>(i)) > 0 ? T(1) + change<T>() : T(1) - change<T>();
     return z;

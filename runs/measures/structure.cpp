@@ -7,7 +7,7 @@
 #include <optional>
 
 #include <pfaff/runs/measure.hpp>
-#include <pfaff/runs/support/history.hpp>
+#include <pfaff/runs/history.hpp>
 #include <pfaff/runs/support/structure.hpp>
 
 namespace {

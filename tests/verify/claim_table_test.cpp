@@ -25,8 +25,8 @@ using ::testing::HasSubstr;
 // A claim about rounding is measured in double alone, every other one in quad too.
 TEST(ClaimTable, EveryClaimHasItsMeasures) {
   for (const ClaimCheck& check : claim_checks()) {
-    EXPECT_NE(check.in_double, nullptr) << to_string(check.claim);
-    EXPECT_EQ(check.in_quad == nullptr, check.of_rounding) << to_string(check.claim);
+    EXPECT_NE(check.measure.in_double, nullptr) << to_string(check.claim);
+    EXPECT_EQ(check.measure.in_quad == nullptr, check.of_rounding) << to_string(check.claim);
   }
 }
 

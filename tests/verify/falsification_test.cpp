@@ -7,6 +7,7 @@
 
 #include <pfaff/core/system.hpp>
 #include <pfaff/integrators/tables/method_table.hpp>
+#include <pfaff/runs/way_back.hpp>
 #include <pfaff/verify/falsification/drawn_parameters.hpp>
 #include <pfaff/verify/falsification/falsify.hpp>
 #include <pfaff/verify/falsification/judgement.hpp>
@@ -162,7 +163,7 @@ TEST(Falsify, WhatAMethodCarriesGoesBackWithTheState) {
     MeasuredStep<Quad> step(many, particle, particle->initial(), 0, length, 0, true);
     const auto there = step.end();
     ASSERT_TRUE(there) << name;
-    const auto back = step.then(-step.h(), *there), fresh = step.after(step.h(), -step.h(), *there);
+    const auto back = WayBack<Quad>()(*step.at_end(), 1), fresh = step.after(step.h(), -step.h(), *there);
     ASSERT_TRUE(back && fresh) << name;
     EXPECT_LE(static_cast<double>(step.distance(*back, step.start())), 1e-31) << name;
     EXPECT_GT(static_cast<double>(step.distance(*fresh, step.start())), 1e-9) << name;  // control
@@ -174,14 +175,14 @@ TEST(Falsify, ManyStepsAreThoseOfTheMethod) {
   const auto instance = method_plugin("verlet").make({});
   const auto model = systems().get("pendulum", "system").make({});
   const ManySteps many(*instance, 4);
-  std::vector<Quad> one{Quad(1), Quad(0.5)}, other = one;
-  std::int64_t completed = 0;
-  EXPECT_EQ(instance->stepper(model, Quad())->advance(Quad(0), 0, Quad(0.25), 8, one, completed),
-            Status::converged);
-  EXPECT_EQ(many.stepper(model, Quad())->advance(Quad(0), 0, Quad(1), 2, other, completed),
-            Status::converged);
-  EXPECT_EQ(completed, 2);
-  for (std::size_t k = 0; k < 2; ++k) EXPECT_EQ(one[k], other[k]);
+  const std::vector<Quad> start{Quad(1), Quad(0.5)};
+  Integration<Quad> one(start_with(*instance, model, start, Quad(0.25), Quad(0)));
+  Integration<Quad> other(start_with<Quad>(many, model, start, Quad(1), Quad(0)));
+  one.steps(8).expect_reached();
+  const Outcome outcome = other.steps(2);
+  EXPECT_EQ(outcome.status(), Status::converged);
+  EXPECT_EQ(outcome.steps(), 2);
+  for (std::size_t k = 0; k < 2; ++k) EXPECT_EQ(one.state()[k], other.state()[k]);
 }
 
 TEST(Falsify, EveryClaimIsFalsifiedOfAMethodThatKeepsNothing) {

@@ -7,8 +7,8 @@
 
 #include <pfaff/bench/runner/record.hpp>
 #include <pfaff/core/integrator.hpp>
+#include <pfaff/runs/history.hpp>
 #include <pfaff/runs/support/chosen_steps.hpp>
-#include <pfaff/runs/support/history.hpp>
 
 #include "judged.hpp"
 

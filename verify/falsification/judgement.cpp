@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <pfaff/runs/support/history.hpp>
+#include <pfaff/runs/history.hpp>
 #include <pfaff/verify/claim_checks.hpp>
 #include <pfaff/verify/falsification/many_steps.hpp>
 

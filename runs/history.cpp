@@ -1,8 +1,9 @@
-#include <pfaff/runs/support/history.hpp>
+#include <pfaff/runs/history.hpp>
 
 #include <algorithm>
 
 #include <pfaff/core/errors/budget.hpp>
+#include <pfaff/runs/integration.hpp>
 
 namespace pfaff {
 
@@ -11,7 +12,7 @@ constexpr std::int64_t first_look = 3;
 // Predictors and compensated sums remember earlier steps too, and change a step by its round-off.
 constexpr double more_than_round_off = 1e-24;
 
-bool differ(const std::vector<Quad>& a, const std::vector<Quad>& b) {
+bool differ(std::span<const Quad> a, std::span<const Quad> b) {
   Quad difference(0), size(0);
   for (std::size_t k = 0; k < a.size(); ++k) {
     difference = std::max(difference, abs(a[k] - b[k]));
@@ -21,17 +22,13 @@ bool differ(const std::vector<Quad>& a, const std::vector<Quad>& b) {
 }
 bool remembers_steps(const MethodInstance& method, const std::shared_ptr<const Model>& model, Quad t, Quad h,
                      const std::vector<Quad>& z) {
-  const auto running = method.stepper(model, Quad()), fresh = method.stepper(model, Quad());
-  std::vector<Quad> remembering = z;
-  std::int64_t done = 0, completed = 0;
+  Integration<Quad> remembering(start_with(method, model, z, h, t)), forgetting = remembering.beside(z);
   for (const std::int64_t look : {first_look, longest_beginning}) {
-    if (running->advance(t, done, h, look - done, remembering, completed) != Status::converged) return false;
-    std::vector<Quad> forgetting = remembering;
-    fresh->forget();
-    if (running->advance(t, look, h, 1, remembering, completed) != Status::converged) return false;
-    if (fresh->advance(t, look, h, 1, forgetting, completed) != Status::converged) return false;
-    if (differ(remembering, forgetting)) return true;
-    done = look + 1;
+    if (!remembering.steps(look - remembering.steps_taken()).reached()) return false;
+    forgetting.go_on_from({remembering.state().begin(), remembering.state().end()}, remembering.time(), h);
+    forgetting.forget();
+    if (!remembering.steps(1).reached() || !forgetting.steps(1).reached()) return false;
+    if (differ(remembering.state(), forgetting.state())) return true;
   }
   return false;
 }
