@@ -8,7 +8,7 @@
 
 #include <pfaff/core/errors/errors.hpp>
 #include <pfaff/derive/derivation/named_parameters.hpp>
-#include <pfaff/papers/su_qin/generating_expansion.hpp>
+#include <pfaff/tests/generating/generating_expansion.hpp>
 #include <pfaff/systems/text/text_system.hpp>
 
 #include "../temporary_directory.hpp"

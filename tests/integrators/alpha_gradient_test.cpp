@@ -6,7 +6,7 @@
 #include <pfaff/core/system.hpp>
 #include <pfaff/integrators/generating/alpha_gradient.hpp>
 #include <pfaff/integrators/generating/generating_gradient.hpp>
-#include <pfaff/papers/su_qin/generating_expansion.hpp>
+#include <pfaff/tests/generating/generating_expansion.hpp>
 
 #include "generating_samples.hpp"
 #include "mixed_alpha.hpp"

@@ -9,8 +9,8 @@
 #include <pfaff/examples/templates/alpha.hpp>
 #include <pfaff/integrators/generating/generating_gradient.hpp>
 #include <pfaff/integrators/generating/lagrangian_transformation.hpp>
-#include <pfaff/papers/su_qin/generating_expansion.hpp>
 #include <pfaff/runs/support/structure.hpp>
+#include <pfaff/tests/generating/generating_expansion.hpp>
 
 #include "bent.hpp"
 #include "generating_samples.hpp"

@@ -1,4 +1,4 @@
-#include <pfaff/papers/su_qin/generating_evolution.hpp>
+#include <pfaff/tests/generating/generating_evolution.hpp>
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include <pfaff/papers/su_qin/generating_expansion.hpp>
+#include <pfaff/tests/generating/generating_expansion.hpp>
 
 #include <functional>
 #include <map>

@@ -12,7 +12,7 @@
 
 #include <vector>
 
-#include <pfaff/papers/su_qin/generating_evolution.hpp>
+#include <pfaff/tests/generating/generating_evolution.hpp>
 
 namespace pfaff {
 
