@@ -10,7 +10,7 @@
 #include <pfaff/core/errors/budget.hpp>
 
 #include "../temporary_directory.hpp"
-#include "reference_samples.hpp"
+#include "../runs/reference_samples.hpp"
 #include "run_settings.hpp"
 
 namespace {

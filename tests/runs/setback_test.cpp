@@ -6,7 +6,7 @@
 #include <pfaff/bench/experiment/experiment_findings.hpp>
 #include <pfaff/runs/support/setback.hpp>
 
-#include "run_settings.hpp"
+#include "../bench/run_settings.hpp"
 
 namespace {
 
