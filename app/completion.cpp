@@ -9,6 +9,7 @@
 #include <pfaff/core/errors/errors.hpp>
 #include <pfaff/core/numbers/formatted.hpp>
 #include <pfaff/runs/asked_for.hpp>
+#include <pfaff/runs/kinds.hpp>
 
 namespace pfaff::app {
 
@@ -50,8 +51,10 @@ struct Values {
 Values values_of(const CLI::App& app, const std::string& type) {
   Values values;
   if (type == "COMMAND") values.words = commands_of(app);
-  if (type.find('|') == std::string::npos && type != "SYSTEM" && type != "INTEGRATOR" &&
-      type != "FORMULATION" && type != "EXPERIMENT" && type != "NAME" && type != "FILE" && type != "DIR")
+  Names known = names_of_kinds();
+  known.insert(known.end(), {"experiments", "names", "files", "dirs"});
+  if (type.find('|') == std::string::npos &&
+      std::find(known.begin(), known.end(), in_small_letters(type + "s")) == known.end())
     return values;
   std::istringstream parts(type);
   for (std::string part; std::getline(parts, part, '|');) {

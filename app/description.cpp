@@ -5,14 +5,12 @@
 #include <pfaff/bench/experiment/automatic_steps.hpp>
 #include <pfaff/bench/experiment/experiment.hpp>
 #include <pfaff/bench/runner/terminal.hpp>
-#include <pfaff/core/bracket.hpp>
 #include <pfaff/core/facets/derivations/derivation.hpp>
 #include <pfaff/core/facets/stated_ranges.hpp>
-#include <pfaff/core/formulation.hpp>
 #include <pfaff/core/registry/range_text.hpp>
 #include <pfaff/integrators/tables/method_table.hpp>
 #include <pfaff/runs/asked_for.hpp>
-#include <pfaff/runs/measure.hpp>
+#include <pfaff/runs/kinds.hpp>
 #include <pfaff/runs/motion.hpp>
 #include <pfaff/systems/text/text_system.hpp>
 
@@ -168,14 +166,9 @@ void add_methods(nlohmann::json& j, const std::shared_ptr<const Model>& model) {
   }
 }
 
-nlohmann::json describe_system(const SystemPlugin& plugin) {
+nlohmann::json described(const SystemPlugin& plugin) {
   const auto model = plugin.make({});
-  nlohmann::json j{{"kind", "system"},
-                   {"name", plugin.name()},
-                   {"title", plugin.descriptor().title},
-                   {"reference", plugin.descriptor().reference},
-                   {"description", plugin.descriptor().description},
-                   {"dimension", model->dimension()},
+  nlohmann::json j{{"dimension", model->dimension()},
                    {"time_unit", model->time_unit()},
                    {"facets", to_string(model->facets())},
                    {"autonomous", model->autonomous()},
@@ -208,14 +201,9 @@ nlohmann::json describe_system(const SystemPlugin& plugin) {
   return j;
 }
 
-nlohmann::json describe_method(const MethodPlugin& plugin) {
+nlohmann::json described(const MethodPlugin& plugin) {
   const auto method = plugin.make({});
-  nlohmann::json j{{"kind", "integrator"},
-                   {"name", plugin.name()},
-                   {"title", plugin.descriptor().title},
-                   {"reference", plugin.descriptor().reference},
-                   {"description", plugin.descriptor().description},
-                   {"needs", to_string(method->needs())},
+  nlohmann::json j{{"needs", to_string(method->needs())},
                    {"adaptive", method->adaptive()},
                    {"parameters", parameters_of(plugin, method->parameters())}};
   if (const auto* table = dynamic_cast<const MethodTable*>(&plugin)) j["file"] = table->path();
@@ -244,26 +232,16 @@ nlohmann::json describe_method(const MethodPlugin& plugin) {
   return j;
 }
 
-nlohmann::json describe_bracket(const BracketPlugin& plugin) {
+nlohmann::json described(const BracketPlugin& plugin) {
   const BracketInstance bracket = plugin.make({});
-  return {{"kind", "bracket"},
-          {"name", plugin.name()},
-          {"title", plugin.descriptor().title},
-          {"reference", plugin.descriptor().reference},
-          {"description", plugin.descriptor().description},
-          {"dimension", bracket.dimension},
+  return {{"dimension", bracket.dimension},
           {"symmetry", to_string(plugin.descriptor().symmetry)},
           {"jacobi", plugin.descriptor().jacobi},
           {"parameters", parameters_of(plugin, bracket.parameters)}};
 }
 
-nlohmann::json describe_formulation(const FormulationPlugin& plugin) {
-  nlohmann::json j{{"kind", "formulation"},
-                   {"name", plugin.name()},
-                   {"title", plugin.descriptor().title},
-                   {"reference", plugin.descriptor().reference},
-                   {"description", plugin.descriptor().description},
-                   {"parameters", parameters_of(plugin, plugin.resolve({}))}};
+nlohmann::json described(const FormulationPlugin& plugin) {
+  nlohmann::json j{{"parameters", parameters_of(plugin, plugin.resolve({}))}};
   const FormulationStatement statement = plugin.states({});
   j["reactions"] = to_string(statement.reactions);
   j["friction"] = to_string(statement.friction);
@@ -276,19 +254,27 @@ nlohmann::json describe_formulation(const FormulationPlugin& plugin) {
   return j;
 }
 
-nlohmann::json describe_measure(const MeasurePlugin& plugin) {
+nlohmann::json described(const MeasurePlugin& plugin) {
   const auto measure = plugin.make({});
   const MeasureDescriptor& d = plugin.descriptor();
-  nlohmann::json j{{"kind", "measure"},
-                   {"name", plugin.name()},
-                   {"title", d.title},
-                   {"reference", d.reference},
-                   {"description", d.description},
-                   {"over", d.over == Over::time ? "time" : "step"},
+  nlohmann::json j{{"over", d.over == Over::time ? "time" : "step"},
                    {"usual", d.usual},
                    {"parameters", parameters_of(plugin, measure->parameters())},
                    {"watches", nlohmann::json::array()}};
   for (const Claim claim : d.watches) j["watches"].push_back(to_string(claim));
+  return j;
+}
+
+// A plug-in, with what all kinds have.
+template <class P>
+nlohmann::json describe_plugin(const char* kind, const P& plugin) {
+  nlohmann::json j = described(plugin);
+  const auto& d = plugin.descriptor();
+  j.update({{"kind", kind},
+            {"name", plugin.name()},
+            {"title", d.title},
+            {"reference", d.reference},
+            {"description", d.description}});
   return j;
 }
 
@@ -317,24 +303,20 @@ nlohmann::json describe_experiment(const std::string& name) {
 
 std::vector<nlohmann::json> describe(const std::string& asked, const std::vector<std::string>& also_known) {
   const std::string name = spelled(asked);
-  if (names_method_table(name)) return {describe_method(integrator_named(name))};
+  if (names_method_table(name)) return {describe_plugin("integrator", integrator_named(name))};
   std::vector<nlohmann::json> found;
   if (text::is_text_file(name))
-    return {is_text_bracket(name) ? describe_bracket(bracket_named(name))
-                                  : describe_system(system_named(name))};
-  if (const auto* system = systems().find(name)) found.push_back(describe_system(*system));
-  if (const auto* method = integrators().find(name)) found.push_back(describe_method(*method));
-  if (const auto* bracket = brackets().find(name)) found.push_back(describe_bracket(*bracket));
-  if (const auto* formulation = formulations().find(name))
-    found.push_back(describe_formulation(*formulation));
-  if (const auto* measure = measures().find(name)) found.push_back(describe_measure(*measure));
+    return {is_text_bracket(name) ? describe_plugin("bracket", bracket_named(name))
+                                  : describe_plugin("system", system_named(name))};
+  for_each_kind([&](const char* kind, const char*, const auto& registry) {
+    if (const auto* plugin = registry.find(name)) found.push_back(describe_plugin(kind, *plugin));
+  });
   const std::vector<std::string> experiments = experiment_names();
   if (std::find(experiments.begin(), experiments.end(), name) != experiments.end())
     found.push_back(describe_experiment(name));
   if (!found.empty()) return found;
   std::vector<std::string> names;
-  for (const auto& more : {systems().names(), integrators().names_and_aliases(), brackets().names(),
-                           formulations().names(), measures().names(), experiments, also_known})
+  for (const auto& more : {names_of_plugins(), experiments, also_known})
     for (const std::string& one : more)
       if (std::find(names.begin(), names.end(), one) == names.end()) names.push_back(one);
   throw InputError(unknown_name("name", name, names));

@@ -1,6 +1,7 @@
 // pfaff list: shows all plug-ins by kind and folder, and for each facet which plug-ins offer and need it. In
 // Markdown the list is the page docs/plugins.md, that of integrators with what they keep docs/methods.md.
 #include <algorithm>
+#include <cctype>
 #include <iostream>
 #include <map>
 #include <pfaff/bench/runner/json.hpp>
@@ -10,17 +11,16 @@
 #include <pfaff/app/method_survey.hpp>
 #include <pfaff/bench/experiment/experiment.hpp>
 #include <pfaff/bench/runner/terminal.hpp>
-#include <pfaff/core/bracket.hpp>
-#include <pfaff/core/formulation.hpp>
-#include <pfaff/core/integrator.hpp>
-#include <pfaff/core/system.hpp>
-#include <pfaff/runs/measure.hpp>
+#include <pfaff/runs/kinds.hpp>
 
 namespace pfaff::app {
 
 namespace {
-const std::vector<std::string> kinds{"systems",      "integrators", "brackets",
-                                     "formulations", "measures",    "experiments"};
+std::vector<std::string> listed_kinds() {
+  std::vector<std::string> kinds = names_of_kinds();
+  kinds.emplace_back("experiments");
+  return kinds;
+}
 
 // The plug-ins of a kind with title and folder, in the order of folders.
 template <class P>
@@ -37,12 +37,11 @@ nlohmann::json entries_of(const Registry<P>& registry, const std::string& room) 
 }
 
 nlohmann::json entries_of_kind(const std::string& kind) {
-  if (kind == "systems") return entries_of(systems(), kind);
-  if (kind == "brackets") return entries_of(brackets(), kind);
-  if (kind == "formulations") return entries_of(formulations(), kind);
-  if (kind == "measures") return entries_of(measures(), kind);
+  nlohmann::json entries = nlohmann::json::array();
+  for_each_kind([&](const char*, const char* several, const auto& registry) {
+    if (kind == several) entries = entries_of(registry, kind);
+  });
   if (kind == "integrators") {
-    nlohmann::json entries = entries_of(integrators(), kind);
     const SurveyedSystems known;
     for (auto& entry : entries) {
       const MethodSurvey survey = known.of(*integrators().find(entry["name"].get<std::string>()), {{}});
@@ -50,21 +49,20 @@ nlohmann::json entries_of_kind(const std::string& kind) {
       entry["preserves"] = nlohmann::json::array();
       for (const auto& [claim, orders] : survey.kept) entry["preserves"].push_back(to_string(claim));
     }
-    return entries;
   }
-  nlohmann::json entries = nlohmann::json::array();
-  for (const std::string& name : experiment_names())
-    entries.push_back({{"name", name}, {"title", read_experiment(name, false).title}});
+  if (kind == "experiments")
+    for (const std::string& name : experiment_names())
+      entries.push_back({{"name", name}, {"title", read_experiment(name, false).title}});
   return entries;
 }
 
 std::vector<std::string> names_of_kind(const std::string& kind) {
-  if (kind == "systems") return systems().names();
-  if (kind == "integrators") return integrators().names();
-  if (kind == "brackets") return brackets().names();
-  if (kind == "formulations") return formulations().names();
-  if (kind == "measures") return measures().names();
-  return experiment_names();
+  if (kind == "experiments") return experiment_names();
+  std::vector<std::string> names;
+  for_each_kind([&](const char*, const char* several, const auto& registry) {
+    if (kind == several) names = registry.names();
+  });
+  return names;
 }
 
 // The names of the plug-ins of a kind for which holds(plugin) is true.
@@ -142,7 +140,8 @@ std::string first_sentence(const std::string& text) {
 }
 
 template <class P>
-void print_markdown(const std::string& heading, const Registry<P>& registry) {
+void print_markdown(std::string heading, const Registry<P>& registry) {
+  heading.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(heading.front())));
   std::cout << "\n## " << heading << "\n\n| Name | Title | What it is | Reference |\n|---|---|---|---|\n";
   for (const P* plugin : registry.all()) {
     const auto& d = plugin->descriptor();
@@ -156,11 +155,8 @@ int plugins_in_markdown() {
       << "# Plug-ins\n\nWhat is registered, kind by kind. This page is what `pfaff list --markdown` prints: "
          "write descriptors, not\nthis page. `pfaff describe NAME` says more, `pfaff cite NAME` gives the "
          "reference in full.\n";
-  print_markdown("Systems", systems());
-  print_markdown("Integrators", integrators());
-  print_markdown("Brackets", brackets());
-  print_markdown("Formulations", formulations());
-  print_markdown("Measures", measures());
+  for_each_kind(
+      [](const char*, const char* several, const auto& registry) { print_markdown(several, registry); });
   return 0;
 }
 
@@ -238,6 +234,7 @@ struct ListOptions {
 
 int list(const ListOptions& options, bool json) {
   const std::string& kind = options.kind;
+  const std::vector<std::string> kinds = listed_kinds();
   std::vector<std::string> known = kinds;
   known.emplace_back("facets");
   if (!kind.empty() && std::find(known.begin(), known.end(), kind) == known.end())
@@ -266,11 +263,12 @@ int list(const ListOptions& options, bool json) {
 }  // namespace
 
 void add_list(CLI::App& app, Common& common, Action& action) {
-  CLI::App* sub = subcommand(app, common, "list",
-                             "List systems, integrators, brackets, formulations, measures and experiments");
+  std::string types;
+  for (const std::string& kind : listed_kinds()) types += kind + "|";
+  CLI::App* sub = subcommand(app, common, "list", "List " + kinds_in_words() + " and experiments");
   auto options = std::make_shared<ListOptions>();
   sub->add_option("kind", options->kind, "What is listed; all kinds without, but for facets")
-      ->type_name("systems|integrators|brackets|formulations|measures|experiments|facets");
+      ->type_name(types + "facets");
   sub->add_flag("--names", options->names, "The names alone, one a line")->excludes("--json");
   sub->add_flag("--markdown", options->markdown,
                 "All plug-ins as a page of Markdown, or integrators and what they keep")

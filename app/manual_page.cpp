@@ -7,6 +7,7 @@
 
 #include <pfaff/core/numbers/formatted.hpp>
 #include <pfaff/core/registry/version.hpp>
+#include <pfaff/runs/kinds.hpp>
 
 namespace pfaff::app {
 
@@ -81,7 +82,8 @@ std::string manual_page(const CLI::App& app) {
        << ".SH DESCRIPTION\n"
           "Pfaff integrates mechanical systems with methods that keep their structure, and measures what "
           "drifts\n"
-          "and what it costs.\nSystems, integrators, brackets and formulations are plug\\-ins, which\n"
+          "and what it costs.\nPlug\\-ins are "
+       << kinds_in_words() << ", which\n"
        << bold("pfaff list") << " names and\n"
        << bold("pfaff describe") << " explains.\n.SH COMMANDS\n";
   const auto commands = app.get_subcommands(nullptr);

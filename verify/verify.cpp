@@ -6,9 +6,9 @@
 #include <pfaff/bench/runner/interruption.hpp>
 #include <pfaff/bench/runner/parallel.hpp>
 #include <pfaff/bench/runner/settings.hpp>
-#include <pfaff/core/formulation.hpp>
 #include <pfaff/integrators/tables/method_table.hpp>
 #include <pfaff/runs/asked_for.hpp>
+#include <pfaff/runs/kinds.hpp>
 #include <pfaff/systems/text/text_system.hpp>
 #include <pfaff/verify/check.hpp>
 #include <pfaff/verify/check_budget.hpp>
@@ -41,12 +41,9 @@ nlohmann::json to_json(const Check& c) {
 namespace {
 // Refuses names that nothing has, and parameters that are not those of one plug-in.
 void validate(const VerificationSettings& settings) {
-  const std::vector<std::string> kinds{"systems",      "brackets", "integrators",
-                                       "formulations", "measures", "controls"};
-  std::vector<std::string> known = kinds;
-  for (const auto& more : {systems().names(), integrators().names_and_aliases(), brackets().names(),
-                           formulations().names(), measures().names()})
-    known.insert(known.end(), more.begin(), more.end());
+  std::vector<std::string> kinds = names_of_kinds(), known = names_of_plugins();
+  kinds.emplace_back("controls");
+  known.insert(known.end(), kinds.begin(), kinds.end());
   for (const std::string& name : settings.names)
     if (!text::is_text_file(name) && std::find(known.begin(), known.end(), name) == known.end())
       throw InputError(unknown_name("name", name, known));
