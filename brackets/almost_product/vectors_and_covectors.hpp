@@ -176,17 +176,11 @@ T value_on(const LinearMap<T, From, DualSpace<From>>& tensor, const Element<T, S
   return gram(tensor, std::vector<Element<T, Space>>{x}, std::vector<Element<T, Space>>{y})(0, 0);
 }
 
-/// The rows of a K x n matrix as covectors, the columns of an n x K matrix as vectors.
+/// The rows of a K x n matrix as covectors.
 template <class T>
 std::vector<Covector<T>> covectors_in_rows(const Matrix<T>& a) {
   std::vector<Covector<T>> list;
   for (std::size_t i = 0; i < a.rows(); ++i) list.emplace_back(a.block(i, 0, 1, a.columns()).entries());
-  return list;
-}
-template <class T>
-std::vector<TangentVector<T>> vectors_in_columns(const Matrix<T>& a) {
-  std::vector<TangentVector<T>> list;
-  for (std::size_t j = 0; j < a.columns(); ++j) list.emplace_back(a.block(0, j, a.rows(), 1).entries());
   return list;
 }
 
