@@ -26,17 +26,13 @@ void end_by(const BudgetSpent& spent, const T& t, std::int64_t step, RunRecord& 
   if (spent.reason() == BudgetSpent::Reason::steps) record.message += "; --max-steps sets it";
 }
 
-// For a step of size h that failed at (t, z): a phrase that names the largest smaller step that still works,
+// For a run that stands where a step failed: a phrase that names the largest smaller step that still works,
 // to a few percent.
 template <class T>
-std::string smaller_step(const ResolvedRun& run, const T& t, const T& h, const std::vector<T>& z) {
-  const auto works = [&](const T& step) {
-    std::vector<T> copy = z;
-    std::int64_t completed = 0;
-    const Status status = run.method->stepper(run.model, T())->advance(t, 0, step, 1, copy, completed);
-    return status == Status::converged;
-  };
-  T good = h / T(2), bad = h;
+std::string smaller_step(const Integration<T>& run) {
+  const std::vector<T> z(run.state().begin(), run.state().end());
+  const auto works = [&](const T& step) { return run.beside(z, run.time(), step).steps(1).reached(); };
+  T good = run.step() / T(2), bad = run.step();
   for (int halvings = 0; !works(good); good = good / T(2), ++halvings) {
     if (halvings == 20) return "; nor does any smaller step work from there";
     bad = good;
@@ -104,9 +100,7 @@ void execute_fixed(const ResolvedRun& run, Observer<T>& observer, RunRecord& rec
       if (failed) {
         record.completed = integration.steps_taken();
         record.status = outcome.status();
-        record.message =
-            outcome.message() + smaller_step(run, integration.time(), integration.step(),
-                                             {integration.state().begin(), integration.state().end()});
+        record.message = outcome.message() + smaller_step(integration);
       }
     }
   } catch (const BudgetSpent& spent) {
@@ -249,26 +243,19 @@ namespace {
 template <class T>
 StepTime time_in(const ResolvedRun& run, double seconds) {
   using Clock = std::chrono::steady_clock;
-  const auto stepper = run.method->stepper(run.model, T());
-  const std::vector<T> absolute = absolute_tolerances<T>(run);
+  const Start<T> start = start_of<T>(run);
+  Integration<T> timed(start);
   // Seconds per step over the first `count` steps, or, for a run that chooses its steps, over a tenth of the
   // run.
   const auto elapsed = [&](std::int64_t count) {
-    std::vector<T> z;
-    for (const Real& x : run.initial) z.push_back(T(x));
-    stepper->forget();
-    std::int64_t completed = 0;
-    const std::int64_t before = stepper->counters().steps;
+    timed.forget();
+    timed.go_on_from(start.state, start.t0, start.h);
+    const std::int64_t before = timed.counters().steps;
     const auto begin = Clock::now();
-    if (run.adaptive()) {
-      T t(run.t0);
-      const T end = t + T(run.time) / T(10);
-      (void)stepper->advance_to(t, end, {T(run.tolerance), absolute}, z);
-    } else {
-      (void)stepper->advance(T(run.t0), 0, T(run.step), count, z, completed);
-    }
+    const Outcome outcome = run.adaptive() ? timed.to(start.t0 + T(run.time) / T(10)) : timed.steps(count);
     const std::chrono::duration<double> time = Clock::now() - begin;
-    if (run.adaptive()) completed = stepper->counters().steps - before;
+    if (outcome.status() == Status::non_finite) return 0.0;
+    const std::int64_t completed = run.adaptive() ? timed.counters().steps - before : outcome.steps();
     return completed > 0 ? time.count() / static_cast<double>(completed) : 0.0;
   };
   // Nothing is timed where the steps leave the range of numbers; fewer of them may not.
