@@ -9,6 +9,7 @@
 #include <pfaff/core/system.hpp>
 #include <pfaff/integrators/runge_kutta/collocation_coefficients.hpp>
 #include <pfaff/integrators/runge_kutta/stage_convergence.hpp>
+#include <pfaff/runs/integrate.hpp>
 
 namespace pfaff {
 namespace {
@@ -106,14 +107,10 @@ struct CollocationRun {
 template <class T>
 CollocationRun<T> run_collocation(const std::string& method, const std::shared_ptr<const Model>& model,
                                   int stages, const Real& step, std::int64_t steps) {
-  const auto stepper =
-      integrators().get(method, "").make({{"stages", std::to_string(stages)}})->stepper(model, T(0));
-  CollocationRun<T> result;
-  for (const Real& x : model->initial()) result.z.push_back(T(x));
-  std::int64_t completed = 0;
-  EXPECT_EQ(stepper->advance(T(0), 0, T(step), steps, result.z, completed), Status::converged);
-  result.counters = stepper->counters();
-  return result;
+  auto run =
+      integrate<T>(model, integrators().get(method, "").make({{"stages", std::to_string(stages)}}), T(step));
+  run.steps(steps).expect_reached();
+  return {{run.state().begin(), run.state().end()}, run.counters()};
 }
 
 // In canonical coordinates gauss-darboux is the method in its form of first order. Both solve their stages to

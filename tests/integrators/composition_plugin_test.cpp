@@ -47,12 +47,7 @@ template <class T>
 std::vector<T> steps_on(const MethodInstance& method, const char* system) {
   const auto model = systems().get(system, "system").make({});
   EXPECT_EQ(method.refuses(*model), "");
-  const auto stepper = method.stepper(model, T());
-  std::vector<T> z;
-  for (const Real& x : model->initial()) z.push_back(T(x));
-  std::int64_t completed = 0;
-  EXPECT_EQ(stepper->advance(T(0), 0, T(Real::fraction(1, 64)), 20, z, completed), Status::converged);
-  return z;
+  return testing::after_steps(method, model, T(Real::fraction(1, 64)), 20);
 }
 
 TEST(Aliases, AreCompositionsInReportsUnlessTheyStepOnConstraints) {

@@ -150,14 +150,11 @@ TEST(Composition, IsItsSubSteps) {
   const auto pendulum = model_named("damped-pendulum");
   const Quad h(0.1);
   const auto whole = after_steps<Quad>(*method_named("yoshida", {{"order", "4"}}), pendulum, h, 1);
-  const auto stepper = method_named("generating-function", {{"order", "2"}, {"variant", "S"}, {"extra", "0"}})
-                           ->stepper(pendulum, Quad());
-  std::vector<Quad> parts;
-  for (const Real& x : pendulum->initial()) parts.push_back(x.quad());
+  const auto base = method_named("generating-function", {{"order", "2"}, {"variant", "S"}, {"extra", "0"}});
+  auto parts = testing::initial_state<Quad>(*pendulum);
   Quad t(0);
   for (const Quad& gamma : yoshida_weights(4)) {
-    std::int64_t completed = 0;
-    ASSERT_EQ(stepper->advance(t, 0, gamma * h, 1, parts, completed), Status::converged);
+    parts = after_steps<Quad>(*base, pendulum, gamma * h, 1, parts, t);
     t += gamma * h;
   }
   for (std::size_t k = 0; k < 2; ++k) EXPECT_LE(static_cast<double>(abs(whole[k] - parts[k])), 1e-32);
@@ -203,14 +200,13 @@ TEST(InDarbouxChart, IsTheMethodItselfInCanonicalCoordinates) {
 
 std::int64_t iterations_of(const char* name, bool forgetting) {
   const auto pendulum = model_named("damped-pendulum");
-  const auto stepper = method_named(name)->stepper(pendulum, double());
-  std::vector<double> z{1, 0.5};
-  std::int64_t completed = 0;
+  const auto method = method_named(name);
+  Integration<double> run(start_with(*method, pendulum, {1, 0.5}, 0.02, 0.0));
   for (std::int64_t k = 0; k < 100; ++k) {
-    if (forgetting) stepper->forget();
-    stepper->advance(0.0, k, 0.02, 1, z, completed);
+    if (forgetting) run.forget();
+    run.steps(1).expect_reached();
   }
-  return stepper->counters().iterations;
+  return run.counters().iterations;
 }
 
 TEST(InDarbouxChart, HistorySavesIterations) {

@@ -133,24 +133,18 @@ TEST(ConformalSplitting, TransitionMatrixOfTheOscillatorInQuad) { expect_conform
 TEST(ConformalSplitting, WithoutFrictionIsVerlet) {
   const auto damped = systems().get("damped-pendulum", "system").make({{"nu", "0"}});
   const auto free = systems().get("pendulum", "system").make({});
-  std::vector<double> a{1, 0.5}, b{1, 0.5};
-  std::int64_t completed = 0;
-  method_named("conformal-splitting")->stepper(damped, double())->advance(0.0, 0, 0.1, 100, a, completed);
-  method_named("verlet")->stepper(free, double())->advance(0.0, 0, 0.1, 100, b, completed);
+  const auto a = after_steps<double>(*method_named("conformal-splitting"), damped, 0.1, 100, {1, 0.5}),
+             b = after_steps<double>(*method_named("verlet"), free, 0.1, 100, {1, 0.5});
   for (std::size_t k = 0; k < 2; ++k) EXPECT_NEAR(a[k], b[k], 1e-14);
 }
 
 TEST(ConformalSplitting, ALongRunDecaysToRoundOff) {
   // e^{-nu h/2} rounded a million times the same way would be off by 1e6 units.
   const auto model = systems().get("damped-pendulum", "system").make({{"nu", "0.001"}});
-  std::vector<double> z{1, 0.5};
-  std::vector<Quad> exact{Quad(1), Quad(0.5)};
-  std::int64_t completed = 0;
   const double h = 1.0 / 64;
-  method_named("conformal-splitting")->stepper(model, double())->advance(0.0, 0, h, 200000, z, completed);
-  method_named("conformal-splitting")
-      ->stepper(model, Quad())
-      ->advance(Quad(0), 0, Quad(h), 200000, exact, completed);
+  const auto method = method_named("conformal-splitting");
+  const auto z = after_steps<double>(*method, model, h, 200000, {1, 0.5});
+  const auto exact = after_steps<Quad>(*method, model, Quad(h), 200000, {Quad(1), Quad(0.5)});
   for (std::size_t k = 0; k < 2; ++k) EXPECT_NEAR(z[k], static_cast<double>(exact[k]), 1e-14);
 }
 
@@ -206,13 +200,12 @@ TEST(ConformalFacet, TheStaticPathTakesTheSameSteps) {
   const ConformalSplitting splitting;
   Work<ConformalSplitting, P> work(splitting, problem);
   P::State z;
-  std::vector<double> other{0.3, 0.5, -0.2, 0.1};
-  std::copy(other.begin(), other.end(), z.begin());
+  const std::vector<double> start{0.3, 0.5, -0.2, 0.1};
+  std::copy(start.begin(), start.end(), z.begin());
   std::int64_t completed = 0;
   EXPECT_EQ(advance(splitting, problem, 0.0, 0, 0.1, 100, z, work, completed), Status::converged);
-  method_named("conformal-splitting")
-      ->stepper(driven_pair<true>(), double())
-      ->advance(0.0, 0, 0.1, 100, other, completed);
+  const auto other =
+      after_steps<double>(*method_named("conformal-splitting"), driven_pair<true>(), 0.1, 100, start);
   for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(z[k], other[k], 1e-14);
 }
 

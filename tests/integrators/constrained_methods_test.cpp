@@ -31,14 +31,10 @@ template <class T>
 ConstrainedRun<T> run_constrained(const MethodInstance& method, const std::shared_ptr<const Model>& model,
                                   const T& h, std::int64_t steps, std::vector<T> start = {}) {
   const auto motion = motion_for(method, model);
-  const auto stepper = method.stepper(motion, T());
-  ConstrainedRun<T> result;
-  result.z = std::move(start);
-  if (result.z.empty())
-    for (const Real& x : model->initial()) result.z.push_back(T(x));
-  result.status = stepper->advance(T(0), 0, h, steps, result.z, result.completed);
-  result.counters = stepper->counters();
-  return result;
+  if (start.empty()) start = testing::initial_state<T>(*model);
+  Integration<T> run(start_with<T>(method, motion, std::move(start), h, T(0)));
+  const Outcome outcome = run.steps(steps);
+  return {{run.state().begin(), run.state().end()}, outcome.steps(), outcome.status(), run.counters()};
 }
 
 template <class T>
@@ -170,16 +166,14 @@ TEST(ConstrainedMethods, EnergyDoesNotDriftWhereTheStepIsSymplectic) {
   const auto largest_error = [&](const char* name, const Assignments& parameters, double h) {
     const auto m = method_named(name, parameters);
     const auto motion = motion_for(*m, on);
-    const auto stepper = m->stepper(motion, double());
-    std::vector<double> z;
-    for (const Real& x : on->initial()) z.push_back(x.value());
-    const double start = energy(*on, 0, z);
+    Integration<double> run(start_with(*m, motion, testing::initial_state<double>(*on), h, 0.0));
+    const auto energy_now = [&] { return energy(*on, 0, {run.state().begin(), run.state().end()}); };
+    const double start = energy_now();
     std::array<double, 4> quarters{};
     for (std::int64_t k = 0; k < 20000; ++k) {
-      std::int64_t completed = 0;
-      EXPECT_EQ(stepper->advance(0, k, h, 1, z, completed), Status::converged);
+      run.steps(1).expect_reached();
       double& worst = quarters[static_cast<std::size_t>(k / 5000)];
-      worst = std::max(worst, std::abs(energy(*on, 0, z) - start));
+      worst = std::max(worst, std::abs(energy_now() - start));
     }
     return quarters;
   };
@@ -212,15 +206,13 @@ TEST(ConstrainedMethods, RunBackToWhereTheyCameFrom) {
   for (const Named& n : keeping_both) {
     const auto m = method_named(n.name, n.parameters);
     const auto motion = motion_for(*m, on);
-    const auto stepper = m->stepper(motion, Quad());
-    std::vector<Quad> z, start;
-    for (const Real& x : on->initial()) start.push_back(x.quad());
-    z = start;
-    std::int64_t completed = 0;
+    const auto start = testing::initial_state<Quad>(*on);
     const Quad h = Quad(1) / Quad(16);  // so that the times of the way back are those of the way there
-    EXPECT_EQ(stepper->advance(Quad(0), 0, h, 16, z, completed), Status::converged);
-    stepper->forget();
-    EXPECT_EQ(stepper->advance(Quad(1), 0, -h, 16, z, completed), Status::converged);
+    Integration<Quad> there(start_with(*m, motion, start, h, Quad(0)));
+    there.steps(16).expect_reached();
+    Integration<Quad> back = there.reversed();
+    back.steps(16).expect_reached();
+    const std::vector<Quad> z(back.state().begin(), back.state().end());
     if (std::string(n.name) == "projected-rk4") {
       EXPECT_GT(distance_of_first(z, start, 6), 1e-9);  // control
     } else {

@@ -72,12 +72,12 @@ Cost cost_of(const Assignments& parameters, int steps) {
   const States start{3, 1};
   const States exact =
       after_steps<double>(*method_named("gauss-darboux", {{"stages", "8"}}), model, 20.0 / 400, 400, start);
-  const auto stepper = method_named("generating-function", parameters)->stepper(model, 0.0);
-  States z = start;
-  std::int64_t completed = 0;
-  EXPECT_EQ(stepper->advance(0.0, 0, 20.0 / steps, steps, z, completed), Status::converged);
+  const auto method = method_named("generating-function", parameters);
+  Integration<double> run(start_with(*method, model, start, 20.0 / steps, 0.0));
+  run.steps(steps).expect_reached();
+  const std::span<const double> z = run.state();
   return {std::hypot(z[0] - exact[0], z[1] - exact[1]) / std::hypot(exact[0], exact[1]),
-          static_cast<double>(stepper->counters().fields)};
+          static_cast<double>(run.counters().fields)};
 }
 
 // The numbers of steps bring both to nearly the same error, the smaller of the two with the degrees beyond m.

@@ -8,6 +8,7 @@
 #include <pfaff/core/system.hpp>
 
 #include "adaptive_samples.hpp"
+#include "methods.hpp"
 
 namespace pfaff {
 namespace {
@@ -32,11 +33,8 @@ TEST(Extrapolation, StepsAreTheClosedForm) {
              d3 = d1 + half * (Quad(1) + d2), d4 = d2 + half * (Quad(1) + d3);
   const std::vector<Quad> expected{Quad(1) + two, Quad(1) + d4 + (d4 - two) / Quad(3)};
   for (std::size_t columns = 1; columns <= 2; ++columns) {
-    const auto stepper =
-        extrapolation({{"columns", std::to_string(columns)}})->stepper(sample_of(Growth{}), Quad());
-    std::vector<Quad> z{Quad(1)};
-    std::int64_t completed = 0;
-    EXPECT_EQ(stepper->advance(Quad(0), 0, h, 1, z, completed), Status::converged);
+    const auto method = extrapolation({{"columns", std::to_string(columns)}});
+    const auto z = testing::after_steps<Quad>(*method, sample_of(Growth{}), h, 1, {Quad(1)});
     EXPECT_LE(static_cast<double>(abs(z[0] - expected[columns - 1])), 1e-33) << columns;
   }
 }

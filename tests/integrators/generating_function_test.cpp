@@ -8,6 +8,7 @@
 
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
+#include <pfaff/runs/integration.hpp>
 #include <pfaff/runs/support/structure.hpp>
 
 namespace pfaff {
@@ -30,17 +31,15 @@ Measured measured(const Motion& motion, const Assignments& method_parameters) {
   const auto model = systems().get(motion.system, "").make(motion.parameters);
   const auto method = integrators().get("generating-function", "").make(method_parameters);
   StructureResidual<T> residual(*method, model);
-  const auto stepper = method->stepper(model, T(0));
-  std::vector<T> z(motion.start.begin(), motion.start.end());
   const T h(motion.h);
+  Integration<T> run(start_with<T>(*method, model, {motion.start.begin(), motion.start.end()}, h, T(0)));
   Measured result;
   for (int n = 0; n < motion.steps; ++n) {
-    const auto now = static_cast<double>(residual(T(n) * h, h, z));
+    const auto now = static_cast<double>(residual(run.time(), h, {run.state().begin(), run.state().end()}));
     if (!(now <= result.residual)) result.residual = now;
-    std::int64_t completed = 0;
-    EXPECT_EQ(stepper->advance(T(0), n, h, 1, z, completed), Status::converged) << motion.system << " " << n;
+    run.steps(1).expect_reached();
   }
-  result.iterations = static_cast<double>(stepper->counters().iterations) / motion.steps;
+  result.iterations = static_cast<double>(run.counters().iterations) / motion.steps;
   return result;
 }
 
@@ -88,16 +87,15 @@ TEST(GeneratingFunction, IsNotMisledByComponentsThatBeginAtAlmostNothing) {
   for (const double least : {1e-300, 1e-30, 1e-12})
     for (const char* order : {"1", "4"}) {
       const auto method = integrators().get("generating-function", "").make({{"order", order}});
-      const auto going_on = method->stepper(model, 0.0), anew = method->stepper(model, 0.0);
-      std::vector<double> z{least, 0, 0, 0, 0, 0.5}, other = z;
+      Integration<double> going_on(start_with(*method, model, {least, 0, 0, 0, 0, 0.5}, 0.1, 0.0)),
+          anew = going_on.beside({least, 0, 0, 0, 0, 0.5});
       for (int n = 0; n < 40; ++n) {
-        std::int64_t completed = 0;
-        ASSERT_EQ(going_on->advance(0.0, n, 0.1, 1, z, completed), Status::converged);
-        anew->forget();
-        ASSERT_EQ(anew->advance(0.0, n, 0.1, 1, other, completed), Status::converged);
+        going_on.steps(1).expect_reached();
+        anew.forget();
+        anew.steps(1).expect_reached();
         // Roundings of so many steps without compensation, each of a few units of the largest component.
-        for (std::size_t k = 0; k < z.size(); ++k)
-          ASSERT_NEAR(z[k], other[k], 40 * 4 * unit_roundoff<double>())
+        for (std::size_t k = 0; k < 6; ++k)
+          ASSERT_NEAR(going_on.state()[k], anew.state()[k], 40 * 4 * unit_roundoff<double>())
               << least << " order " << order << " step " << n << " component " << k;
       }
     }

@@ -13,18 +13,19 @@
 namespace pfaff {
 namespace {
 
+using testing::after_steps;
 using testing::method_named;
 
 TEST(LeapFrog, LeapsFromTheStateBefore) {
   const auto model = systems().get("damped-pendulum", "system").make({});
   const Problem<Quad> problem(model);
-  const auto stepper = method_named("leap-frog")->stepper(model, Quad());
+  const auto method = method_named("leap-frog");
   const Quad h(0.05);
   std::vector<std::vector<Quad>> z{{Quad(1), Quad(0.5)}};
+  Integration<Quad> run(start_with(*method, model, z.front(), h, Quad(0)));
   for (std::int64_t n = 0; n < 6; ++n) {
-    z.push_back(z.back());
-    std::int64_t completed = 0;
-    ASSERT_EQ(stepper->advance(Quad(0), n, h, 1, z.back(), completed), Status::converged);
+    run.steps(1).expect_reached();
+    z.emplace_back(run.state().begin(), run.state().end());
   }
   std::vector<Quad> rate(2);
   for (std::size_t n = 1; n < 6; ++n) {
@@ -32,7 +33,7 @@ TEST(LeapFrog, LeapsFromTheStateBefore) {
     for (std::size_t k = 0; k < 2; ++k)
       EXPECT_LE(static_cast<double>(abs(z[n + 1][k] - z[n - 1][k] - Quad(2) * h * rate[k])), 1e-33);
   }
-  EXPECT_EQ(stepper->counters().fields, 7);  // one a step, and one more to start
+  EXPECT_EQ(run.counters().fields, 7);  // one a step, and one more to start
 }
 
 TEST(LeapFrog, IsOfOrderTwoOverManySteps) {
@@ -40,11 +41,8 @@ TEST(LeapFrog, IsOfOrderTwoOverManySteps) {
   std::vector<Quad> exact{Quad(1), Quad(0.5)};
   for (int k = 0; k < 20; ++k) taylor_flow(*model, Quad(k) / Quad(10), Quad(1) / Quad(10), exact);
   const auto error = [&](std::int64_t steps) {
-    std::vector<Quad> z{Quad(1), Quad(0.5)};
-    std::int64_t completed = 0;
-    method_named("leap-frog")
-        ->stepper(model, Quad())
-        ->advance(Quad(0), 0, Quad(2) / Quad(int(steps)), steps, z, completed);
+    const auto z = after_steps<Quad>(*method_named("leap-frog"), model, Quad(2) / Quad(int(steps)), steps,
+                                     {Quad(1), Quad(0.5)});
     return static_cast<double>(
         sqrt((z[0] - exact[0]) * (z[0] - exact[0]) + (z[1] - exact[1]) * (z[1] - exact[1])));
   };
@@ -68,11 +66,8 @@ TEST(LeapFrog, BothSumsAreCompensated) {
   const double h = 0.1, expected = static_cast<double>(steps / 2) * (2 * h * 0.1);
   const double unit = std::ldexp(1.0, -43);  // in the last place of 1000
   for (const bool compensated : {true, false}) {
-    std::vector<double> z{0};
-    std::int64_t completed = 0;
     const auto leaps = method_named("leap-frog", {{"compensated", compensated ? "yes" : "no"}});
-    ASSERT_EQ(leaps->stepper(plugin.make({}), double())->advance(0, 0, h, steps, z, completed),
-              Status::converged);
+    const auto z = after_steps<double>(*leaps, plugin.make({}), h, steps, {0});
     EXPECT_EQ(std::abs(z[0] - expected) <= unit, compensated) << z[0] - expected;
   }
 }
@@ -87,10 +82,7 @@ TEST(LeapFrog, IsUnstableWhereMotionIsDamped) {
   // The motion decays as e^{-nu t/2}, the parasitic oscillation grows as e^{nu t/2} from about h^3.
   const auto model = systems().get("damped-oscillator", "system").make({});
   const auto size = [&](const char* name) {
-    std::vector<double> z{1, 0};
-    std::int64_t completed = 0;
-    EXPECT_EQ(method_named(name)->stepper(model, double())->advance(0.0, 0, 0.1, 1000, z, completed),
-              Status::converged);
+    const auto z = after_steps<double>(*method_named(name), model, 0.1, 1000, {1, 0});
     return std::hypot(z[0], z[1]);
   };
   EXPECT_GT(size("leap-frog"), 1);

@@ -10,6 +10,7 @@
 #include <pfaff/core/system.hpp>
 
 #include "method_files.hpp"
+#include "methods.hpp"
 
 namespace {
 using namespace pfaff;
@@ -34,13 +35,9 @@ using Names = std::vector<std::string>;
 template <class T>
 double run_difference(const MethodInstance& a, const MethodInstance& b, const std::string& system) {
   const std::shared_ptr<const Model> model = systems().get(system, "system").make({});
-  std::vector<T> za, zb;
-  for (const Real& x : model->initial()) za.push_back(T(x));
-  zb = za;
-  std::int64_t completed = 0;
   const T h = T(Real::fraction(1, 20));
-  EXPECT_EQ(a.stepper(model, T())->advance(T(0), 0, h, 20, za, completed), Status::converged);
-  EXPECT_EQ(b.stepper(model, T())->advance(T(0), 0, h, 20, zb, completed), Status::converged);
+  const auto za = pfaff::testing::after_steps(a, model, h, 20),
+             zb = pfaff::testing::after_steps(b, model, h, 20);
   double largest = 0, size = 0;
   for (std::size_t k = 0; k < za.size(); ++k) {
     largest = std::max(largest, static_cast<double>(abs(za[k] - zb[k])));

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <pfaff/core/integrator.hpp>
+#include <pfaff/runs/integration.hpp>
 
 #include "../formula_values.hpp"
 
@@ -23,11 +24,10 @@ inline std::unique_ptr<MethodInstance> generating_scheme(int order, const char* 
 template <class T>
 std::vector<T> after_steps(const MethodInstance& method, const std::shared_ptr<const Model>& model,
                            const T& h, std::int64_t count, std::vector<T> z, const T& t = T(0)) {
-  const auto stepper = method.stepper(model, T());
-  std::int64_t completed = 0;
-  EXPECT_EQ(stepper->advance(t, 0, h, count, z, completed), Status::converged)
-      << method.called() << " on " << model->name() << " after " << completed;
-  return z;
+  Integration<T> run(start_with<T>(method, model, std::move(z), h, t));
+  const Outcome outcome = run.steps(count);
+  EXPECT_TRUE(outcome.reached()) << method.called() << " on " << model->name() << ": " << outcome.message();
+  return {run.state().begin(), run.state().end()};
 }
 /// The same from the initial state of the model.
 template <class T>

@@ -9,6 +9,10 @@
 #include <pfaff/core/numbers/dual.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/integrators/splitting/near_integrable_schemes.hpp>
+#include <pfaff/runs/block_values.hpp>
+#include <pfaff/runs/integrate.hpp>
+
+#include "methods.hpp"
 
 namespace {
 using namespace pfaff;
@@ -179,18 +183,14 @@ double planetary_energy_error(const std::string& scheme, const Quad& scale, cons
                                    {"pluto", Real::fraction(1, 130000000)}})
     masses.emplace_back(name, to_string(Real(mass.quad() * scale)));
   const auto model = system_of("outer-solar-system", masses);
-  const auto stepper = splitting_of(scheme)->stepper(model, Quad());
-  std::vector<Quad> z, values(model->invariants().size());
-  for (const Real& x : model->initial()) z.push_back(x.quad());
-  const Problem<Quad> problem(model);
-  problem.invariants(Quad(0), z, values);
-  const Quad start = values[0];
+  auto run = integrate<Quad>(model, splitting_of(scheme), h);
+  BlockValues<Quad> invariants(model, Formula::invariants, model->invariants().size(), 1);
+  const Quad start = invariants.at(run.time(), run.state())[0];
   double worst = 0;
-  std::int64_t completed = 0;
   for (int k = 0; k < steps; ++k) {
-    EXPECT_EQ(stepper->advance(Quad(0), k, h, 1, z, completed), Status::converged);
-    problem.invariants(Quad(0), z, values);
-    worst = std::max(worst, static_cast<double>(abs(values[0] / start - Quad(1))));
+    run.steps(1).expect_reached();
+    const Quad energy = invariants.at(run.time(), run.state())[0];
+    worst = std::max(worst, static_cast<double>(abs(energy / start - Quad(1))));
   }
   return worst;
 }
@@ -229,11 +229,8 @@ TEST(NearIntegrable, TheMapOfWisdomAndHolmanIsHalfAKeplerStepAKickAndHalfAKepler
   const auto model = system_of("outer-solar-system");
   std::vector<Quad> z, change(36);
   for (const Real& x : model->initial()) z.push_back(x.quad());
-  std::vector<Quad> stepped = z;
-  std::int64_t completed = 0;
-  const auto plugin = integrators().get("wisdom-holman", "integrator").make({});
-  ASSERT_EQ(plugin->stepper(model, Quad())->advance(Quad(0), 0, Quad(30), 1, stepped, completed),
-            Status::converged);
+  const auto stepped =
+      pfaff::testing::after_steps(*pfaff::testing::method_named("wisdom-holman"), model, Quad(30), 1, z);
   const auto flows = model->exact_flows<Quad>();
   for (const auto& [part, h] : {std::pair{0U, 15}, {1U, 30}, {0U, 15}}) {
     ASSERT_EQ(flows->change(part, Quad(h), z, change), Status::converged);

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include <pfaff/core/facets/claims.hpp>
+#include <pfaff/runs/integration.hpp>
 #include <pfaff/tests/integrators/nonholonomic_samples.hpp>
 
 namespace pfaff {
@@ -143,15 +144,16 @@ struct ErrorSpread {
       auto model = systems().get(system, "system").make(settings);
       if (!m->refuses(*model).empty())
         model = formulations().get("nonholonomic", "formulation").apply(model, {});
-      auto z = initial_state<double>(*model);
-      const auto energy = [&] { return values(*model, Formula::hamiltonian, 0.0, z).front(); };
+      Integration<double> run(start_with(*m, model, initial_state<double>(*model), h, 0.0));
+      const auto energy = [&] {
+        return values<double>(*model, Formula::hamiltonian, 0.0, {run.state().begin(), run.state().end()})
+            .front();
+      };
       const double before = energy();
-      const auto stepper = m->stepper(model, double());
-      std::int64_t done = 0;
-      EXPECT_EQ(stepper->advance(0.0, 0, h, early, z, done), Status::converged);
-      squares[0] += (energy() - before) * (energy() - before);
-      EXPECT_EQ(stepper->advance(0.0, early, h, late - early, z, done), Status::converged);
-      squares[1] += (energy() - before) * (energy() - before);
+      for (const std::size_t k : {0U, 1U}) {
+        run.steps(k == 0 ? early : late - early).expect_reached();
+        squares[k] += (energy() - before) * (energy() - before);
+      }
     }
     return std::log(squares[1] / squares[0]) /
            std::log(static_cast<double>(late) / static_cast<double>(early)) / 2;

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include <pfaff/runs/way_back.hpp>
 #include <pfaff/tests/integrators/nonholonomic_samples.hpp>
 
 namespace pfaff {
@@ -143,15 +144,11 @@ TEST(Nonholonomic, StaggeredStepsAreSymmetricWithTheReactionTheyCarry) {
       const Quad h(0.0625);
       const auto start = initial_state<Quad>(*model);
       for (const bool by_reversal : {false, true}) {
-        const auto stepper = m->stepper(model, Quad());
-        auto z = start;
-        std::int64_t done = 0;
-        ASSERT_EQ(stepper->advance(Quad(0), 0, h, 10, z, done), Status::converged);
-        if (by_reversal) z = values(*model, Formula::reversal, Quad(0), z);
-        const Quad back = by_reversal ? h : Quad(-h);
-        ASSERT_EQ(stepper->advance(Quad(10) * h, 0, back, 10, z, done), Status::converged);
-        if (by_reversal) z = values(*model, Formula::reversal, Quad(0), z);
-        EXPECT_LE(distance(z, start), 1e-31) << name << ' ' << model->name() << ' ' << by_reversal;
+        Integration<Quad> run(start_with(*m, model, start, h, Quad(0)));
+        run.steps(10).expect_reached();
+        const auto z = WayBack<Quad>(by_reversal ? model : nullptr)(run, 10);
+        ASSERT_TRUE(z);
+        EXPECT_LE(distance(*z, start), 1e-31) << name << ' ' << model->name() << ' ' << by_reversal;
       }
       // Control: forgetting the reaction spoils it.
       const auto there = after_steps(*m, model, h, 10, start);

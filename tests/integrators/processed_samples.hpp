@@ -7,6 +7,7 @@
 
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
+#include <pfaff/runs/integration.hpp>
 
 namespace pfaff::testing {
 
@@ -38,15 +39,11 @@ struct Ended {
 template <class T>
 Ended<T> ended(const MethodInstance& method, const std::shared_ptr<const Model>& model, int calls, int steps,
                const T& h) {
-  const auto stepper = method.stepper(model, T());
   std::vector<T> z;
   for (const Real& x : model->initial()) z.push_back(T(x));
-  std::int64_t completed = 0;
-  for (int k = 0; k < calls; ++k) {
-    EXPECT_EQ(stepper->advance(T(0.4), k * steps, h, steps, z, completed), Status::converged);
-    EXPECT_EQ(completed, steps);
-  }
-  return {z, stepper->counters().fields};
+  Integration<T> run(start_with<T>(method, model, std::move(z), h, T(0.4)));
+  for (int k = 0; k < calls; ++k) run.steps(steps).expect_reached();
+  return {{run.state().begin(), run.state().end()}, run.counters().fields};
 }
 
 inline double distance(const std::vector<Quad>& a, const std::vector<Quad>& b) {

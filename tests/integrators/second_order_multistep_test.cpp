@@ -8,6 +8,7 @@
 #include <pfaff/integrators/order_conditions/multistep_conditions.hpp>
 
 #include "method_files.hpp"
+#include "methods.hpp"
 
 namespace {
 using namespace pfaff;
@@ -28,15 +29,14 @@ struct MultistepRun {
 template <class T>
 MultistepRun<T> kepler_run(const MethodInstance& method, const T& h, int steps) {
   const auto model = systems().get("kepler", "system").make({});
-  const auto stepper = method.stepper(model, T());
-  std::vector<T> z{T(9) / T(10), T(0), T(0), sqrt(T(11) / T(9))};
-  MultistepRun<T> run{{z}};
-  for (int n = 0; n < steps && run.status == Status::converged; ++n) {
-    std::int64_t completed = 0;
-    run.status = stepper->advance(T(0), n, h, 1, z, completed);
-    run.states.push_back(z);
+  const std::vector<T> start{T(9) / T(10), T(0), T(0), sqrt(T(11) / T(9))};
+  Integration<T> run(start_with(method, model, start, h, T(0)));
+  MultistepRun<T> all{{start}};
+  for (int n = 0; n < steps && all.status == Status::converged; ++n) {
+    all.status = run.steps(1).status();
+    all.states.emplace_back(run.state().begin(), run.state().end());
   }
-  return run;
+  return all;
 }
 
 // sum_j rho_j q_{n+j} - h^2 sum_j sigma_j a(q_{n+j}), with a written down here once more, over the size of
@@ -137,15 +137,9 @@ TEST(SecondOrderMultistep, MassesMayBeOneForEachCoordinateOrAMatrix) {
     springs.coupling = coupling;
     const auto model = make_model(
         {.name = "two-springs", .title = "", .reference = "", .initial = {1, 0.5_r, 0.2_r, 0.3_r}}, springs);
-    const auto end_of = [&](const MethodInstance& instance) {
-      std::vector<Quad> z;
-      for (const Real& x : model->initial()) z.push_back(x.quad());
-      std::int64_t completed = 0;
-      EXPECT_EQ(instance.stepper(model, Quad())->advance(Quad(0), 0, Quad(1) / Quad(64), 128, z, completed),
-                Status::converged);
-      return z;
-    };
-    const std::vector<Quad> ours = end_of(*method), theirs = end_of(*gauss);
+    const Quad h = Quad(1) / Quad(64);
+    const auto ours = pfaff::testing::after_steps(*method, model, h, 128),
+               theirs = pfaff::testing::after_steps(*gauss, model, h, 128);
     for (std::size_t k = 0; k < 4; ++k)  // the error of order 8 at this step
       EXPECT_LT(static_cast<double>(abs(ours[k] - theirs[k])), 1e-12) << k;
     ends.push_back(ours);

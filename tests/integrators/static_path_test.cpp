@@ -16,6 +16,8 @@
 #include <pfaff/systems/canonical/kepler.hpp>
 #include <pfaff/systems/canonical/pendulum.hpp>
 
+#include "methods.hpp"
+
 namespace pfaff {
 namespace {
 
@@ -68,11 +70,7 @@ std::vector<T> run_registered(const std::string& method, const Assignments& para
                               const std::string& system, const std::vector<T>& start, const T& h,
                               std::int64_t steps) {
   const auto model = systems().get(system, "system").make({});
-  const auto stepper = integrators().get(method, "integrator").make(parameters)->stepper(model, T(0));
-  std::vector<T> z = start;
-  std::int64_t completed = 0;
-  EXPECT_EQ(stepper->advance(T(0), 0, h, steps, z, completed), Status::converged);
-  return z;
+  return testing::after_steps(*testing::method_named(method, parameters), model, h, steps, start);
 }
 
 const std::vector<double> kepler_start{0.4, 0, 0, 2};

@@ -7,8 +7,9 @@
 #include <filesystem>
 
 #include <pfaff/core/facets/problem.hpp>
-#include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
+#include <pfaff/runs/block_values.hpp>
+#include <pfaff/runs/integrate.hpp>
 #include <pfaff/systems/text/text_system.hpp>
 
 #include "../formula_values.hpp"
@@ -105,38 +106,30 @@ TEST(FermiPastaUlamTsingou, ModesOfTheLinearLatticeAreOscillators) {
 
 class Motion {
  public:
-  Motion() : model_(lattice()), invariants_(make_evaluator<double>(model_, Formula::invariants)) {
-    stepper_ =
-        integrators().get("kahan-li-verlet", "integrator").make({{"order", "8"}})->stepper(model_, 0.0);
-    for (const Real& x : model_->initial()) z_.push_back(x.value());
-  }
-  [[nodiscard]] std::vector<double> harmonic_energies() const {
-    std::vector<double> found(5);
-    invariants_.call(invariants_.context, 0.0, z_.data(), found.data());
+  explicit Motion(const char* h)
+      : run_(integrate("fermi-pasta-ulam-tsingou", {}, "kahan-li-verlet", {{"order", "8"}}, {.step = h})),
+        invariants_(run_.model(), Formula::invariants, 5, 1) {}
+  [[nodiscard]] std::vector<double> harmonic_energies() {
+    const std::span<const double> found = invariants_.at(run_.time(), run_.state());
     return {found.begin() + 1, found.end()};
   }
-  void advance(double h, std::int64_t steps) {
-    std::int64_t completed = 0;
-    ASSERT_EQ(stepper_->advance(0.0, 0, h, steps, z_, completed), Status::converged);
-  }
+  void steps(std::int64_t count) { run_.steps(count).expect_reached(); }
 
  private:
-  std::shared_ptr<const Model> model_;
-  Evaluator<double> invariants_;
-  std::unique_ptr<Stepper<double>> stepper_;
-  std::vector<double> z_;
+  Integration<double> run_;
+  BlockValues<double> invariants_;
 };
 
 // The golden values are of a program of its own in Python: forces from differences of the positions, Verlet
 // steps composed three at a time to order 8, h = 1/16; with h = 1/8 they differ by 1e-12.
 TEST(FermiPastaUlamTsingou, HarmonicEnergiesAreThoseOfAnotherProgram) {
-  Motion motion;
-  motion.advance(0.125, 8000);
+  Motion motion("0.125");
+  motion.steps(8000);
   const std::vector<double> found = motion.harmonic_energies();
   const std::vector<double> golden{0.05404491154641182, 0.01026979361577754, 0.004323846731360385,
                                    0.002659537756128374};
   for (std::size_t k = 0; k < golden.size(); ++k) EXPECT_NEAR(found[k], golden[k], 1e-11) << k;
-  motion.advance(0.125, 8);  // control: one unit of time later they are others
+  motion.steps(8);  // control: one unit of time later they are others
   EXPECT_GT(std::abs(motion.harmonic_energies()[0] - golden[0]), 1e-6);
 }
 
@@ -144,14 +137,14 @@ TEST(FermiPastaUlamTsingou, HarmonicEnergiesAreThoseOfAnotherProgram) {
 // of that mode nearly all of it is back (fermi-pasta-ulam1955, figure 1). The numbers are those of the same
 // program in Python.
 TEST(FermiPastaUlamTsingou, EnergyComesBackToTheLowestMode) {
-  Motion motion;
+  Motion motion("0.5");
   const double start = motion.harmonic_energies()[0];
   double least = 1, back = 0, at = 0;
   for (double t = 0; t <= 12000; t += 10) {
     const double part = motion.harmonic_energies()[0] / start;
     if (t > 9000 && part > back) back = part, at = t;
     if (t < 9000) least = std::min(least, part);
-    motion.advance(0.5, 20);
+    motion.steps(20);
   }
   EXPECT_NEAR(least, 0.0857, 0.0005);
   EXPECT_NEAR(back, 0.9807, 0.0005);

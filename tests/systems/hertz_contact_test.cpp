@@ -9,9 +9,8 @@
 #include <pfaff/systems/text/text_system.hpp>
 
 #include "../formula_values.hpp"
+#include "../integrators/methods.hpp"
 #include "../temporary_directory.hpp"
-
-#include <pfaff/core/integrator.hpp>
 
 namespace pfaff {
 namespace {
@@ -19,10 +18,7 @@ namespace {
 std::vector<Quad> state_after(const std::string& name, const Assignments& parameters,
                               const std::shared_ptr<const Model>& model, const Quad& h, int count,
                               std::vector<Quad> z) {
-  const auto stepper = integrators().get(name, "integrator").make(parameters)->stepper(model, Quad());
-  std::int64_t completed = 0;
-  EXPECT_EQ(stepper->advance(Quad(0), 0, h, count, z, completed), Status::converged) << name;
-  return z;
+  return testing::after_steps(*testing::method_named(name, parameters), model, h, count, std::move(z));
 }
 
 // A force that is not smooth at the start costs methods their order beyond 3 there, in the first step alone:

@@ -4,13 +4,13 @@
 
 #include <array>
 #include <cmath>
-#include <memory>
 #include <numbers>
 #include <random>
 
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/core/tape/replay.hpp>
+#include <pfaff/runs/integration.hpp>
 
 namespace {
 using namespace pfaff;
@@ -44,20 +44,15 @@ double size_of_walk(const Assignments& parameters) {
   std::mt19937_64 draw(7);
   double changes = 0, roundings = 0;
   for (int run = 0; run < pendulum_runs; ++run) {
-    Swing z = start_on_sphere(draw);
-    const auto stepper = std::shared_ptr<Stepper<double>>(method->stepper(model, 0.0));
-    std::int64_t done = 0;
-    const auto advance = [&](std::int64_t count) {
-      std::int64_t completed = 0;
-      EXPECT_EQ(stepper->advance(0, done, swing_step, count, z, completed), Status::converged);
-      done += count;
-    };
+    const Swing start = start_on_sphere(draw);
+    Integration<double> swing(start_with(*method, model, {start.begin(), start.end()}, swing_step, 0.0));
+    const std::span<const double> z = swing.state();
     // The mean energy of some steps in a row, since states are rounded when they are looked at.
     const auto energy = [&] {
       Quad sum(0);
       for (int k = 0; k < averaged_states; ++k) {
-        const Swing before = z;
-        advance(1);
+        const std::vector<double> before(z.begin(), z.end());
+        swing.steps(1).expect_reached();
         const std::array<Quad, 6> exact{z[0], z[1], z[2], z[3], z[4], z[5]};
         Quad value;
         hamiltonian(Quad(0), exact.data(), &value);
@@ -68,9 +63,9 @@ double size_of_walk(const Assignments& parameters) {
       }
       return sum / Quad(averaged_states);
     };
-    advance(averaged_states);
+    swing.steps(averaged_states).expect_reached();
     const Quad first = energy();
-    advance(steps_of_a_run - averaged_states);
+    swing.steps(steps_of_a_run - averaged_states).expect_reached();
     const auto change = static_cast<double>(energy() - first);
     changes += change * change;
   }
