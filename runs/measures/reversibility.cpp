@@ -9,8 +9,8 @@
 #include <limits>
 #include <optional>
 
-#include <pfaff/runs/measure.hpp>
 #include <pfaff/runs/history.hpp>
+#include <pfaff/runs/measure.hpp>
 #include <pfaff/runs/way_back.hpp>
 
 namespace {

@@ -9,8 +9,8 @@
 #include <pfaff/bench/runner/record.hpp>
 #include <pfaff/core/errors/budget.hpp>
 
-#include "../temporary_directory.hpp"
 #include "../runs/reference_samples.hpp"
+#include "../temporary_directory.hpp"
 #include "run_settings.hpp"
 
 namespace {

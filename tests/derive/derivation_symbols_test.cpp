@@ -8,8 +8,8 @@
 
 #include <pfaff/core/errors/errors.hpp>
 #include <pfaff/derive/derivation/named_parameters.hpp>
-#include <pfaff/tests/generating/generating_expansion.hpp>
 #include <pfaff/systems/text/text_system.hpp>
+#include <pfaff/tests/generating/generating_expansion.hpp>
 
 #include "../temporary_directory.hpp"
 #include "derived.hpp"
