@@ -6,8 +6,8 @@
 #include <cmath>
 #include <optional>
 
-#include <pfaff/runs/measure.hpp>
 #include <pfaff/runs/history.hpp>
+#include <pfaff/runs/measure.hpp>
 #include <pfaff/runs/support/structure.hpp>
 
 namespace {
