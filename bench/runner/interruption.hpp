@@ -2,6 +2,7 @@
 // work ends between two steps and says what was done by then.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <csignal>
 #include <string>
@@ -10,8 +11,8 @@
 
 namespace pfaff {
 
-/// While it lives, the first SIGINT or SIGTERM only sets stop(), which ends the budget that is in force on
-/// this thread as long; a second one ends the process as usual. At most one object at a time.
+/// While it lives, the first SIGINT, SIGTERM or SIGHUP only sets stop(), which ends the budget that is in
+/// force on this thread as long; a second one ends the process as usual. At most one object at a time.
 class Interruption {
  public:
   Interruption();
@@ -22,8 +23,8 @@ class Interruption {
   [[nodiscard]] static const std::atomic<bool>& stop();
 
  private:
-  struct sigaction interrupt_before_ {
-  }, terminate_before_{};
+  static constexpr std::array<int, 3> signals{SIGINT, SIGTERM, SIGHUP};
+  std::array<struct sigaction, signals.size()> before_{};
   Budget budget_;
 };
 
