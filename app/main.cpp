@@ -17,6 +17,7 @@
 #include <pfaff/app/command.hpp>
 #include <pfaff/app/heap.hpp>
 #include <pfaff/app/help_formatter.hpp>
+#include <pfaff/bench/runner/row_file.hpp>
 #include <pfaff/bench/runner/terminal.hpp>
 #include <pfaff/core/bracket.hpp>
 #include <pfaff/core/errors/budget.hpp>
@@ -27,11 +28,6 @@
 #include <pfaff/integrators/tables/method_table.hpp>
 
 namespace pfaff::app {
-
-namespace {
-// Thrown where the reader of standard output has closed its end.
-struct ReaderIsGone {};
-}  // namespace
 
 CLI::App* subcommand(CLI::App& app, Common& common, const std::string& name, const std::string& what) {
   CLI::App* sub = app.add_subcommand(name, what);
@@ -213,6 +209,7 @@ int run(int argc, char** argv) {
   // When the reader of stdout closes its end early, the write fails and the work ends
   // (require_written_output); without this the signal would end the program in the middle of it.
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);  // likewise where a file becomes longer than it may be
   CLI::App app{"Pfaff: structure-preserving integration, what drifts and what it costs", "pfaff"};
   app.formatter(std::make_shared<HelpFormatter>());
   app.set_version_flag("--version", std::string("pfaff ") + PFAFF_VERSION_TEXT);

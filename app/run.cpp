@@ -1,9 +1,11 @@
 // pfaff run: makes one run and writes it to a directory or to standard output.
-#include <cmath>
+#include <unistd.h>
+
 #include <iostream>
 #include <sstream>
 
 #include <pfaff/app/command.hpp>
+#include <pfaff/app/run_summary.hpp>
 #include <pfaff/app/state_file.hpp>
 #include <pfaff/bench/experiment/experiment_directory.hpp>
 #include <pfaff/bench/experiment/results.hpp>
@@ -11,6 +13,7 @@
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/bench/runner/interruption.hpp>
 #include <pfaff/bench/runner/measure_tables.hpp>
+#include <pfaff/bench/runner/row_file.hpp>
 #include <pfaff/bench/runner/run_directory.hpp>
 #include <pfaff/bench/runner/terminal.hpp>
 #include <pfaff/core/errors/budget.hpp>
@@ -102,79 +105,25 @@ std::string of_the_last_step(const ResolvedRun& run) {
          to_string(run.step) + ", and none is shortened";
 }
 
-// What is said of a reference solution that ends before the run.
-std::string of_the_reference(const nlohmann::json& j) {
-  return (j["error_max"].is_null() ? "no reference: " : "errors end early: ") +
-         j["reference_ended"].get<std::string>();
-}
-
-// At how many rows errors are measured, where these are not all to which the reference solution reaches.
-std::string rows_with_errors(const nlohmann::json& j) {
-  if (!j.contains("error_rows")) return {};
-  const nlohmann::json& rows = j["error_rows"];
-  return ", at " + rows["measured"].dump() + " of " + rows["of"].dump() + " rows";
-}
-
-// A summary for the terminal.
-std::string summary_table(const nlohmann::json& j, const std::string& written, const std::string& out,
-                          const TableRows& tables) {
-  const auto number = [&](const nlohmann::json& x) {
-    return x.is_number() && std::isfinite(x.get<double>()) ? scientific(x.get<double>()) : "not finite";
-  };
-  std::vector<std::vector<std::string>> rows{
-      {"status", j["status"].get<std::string>() + " after " +
-                     std::to_string(j["completed"].get<std::int64_t>()) + " steps"}};
-  if (!j["error_max"].is_null())
-    rows.push_back({"error", "max " + number(j["error_max"]) + ", final " + number(j["error_final"]) +
-                                 rows_with_errors(j)});
-  if (j.contains("reference_ended")) rows.push_back({"reference", of_the_reference(j)});
-  const int failures = j.value("structure_failures", 0);
-  if (!j["structure_residual"].is_null() || failures > 0)
-    rows.push_back({"structure", "residual " + number(j["structure_residual"]) +
-                                     (failures > 0 ? ", not finite at " + std::to_string(failures) +
-                                                         (failures == 1 ? " sample" : " samples")
-                                                   : "")});
-  for (const auto& i : j["invariants"])
-    if (i.contains("max"))
-      rows.push_back({i["name"], "drift max " + number(i["max"]) + ", rms " + number(i["rms"]) + ", slope " +
-                                     number(i["slope"]) + ", " + i["class"].get<std::string>()});
-    else if (const auto setback = setback_in(i))
-      rows.push_back({i["name"], "largest " + setback->move + " " + number(setback->size) + ", expected to " +
-                                     setback->expected});
-  if (j.contains("constraints"))
-    for (const auto& c : j["constraints"])
-      rows.push_back({c["name"], "residual max " + number(c["max"]) + ", final " + number(c["final"]) + ", " +
-                                     c["class"].get<std::string>()});
-  if (j.contains("projected_initial"))
-    rows.push_back(
-        {"initial", "moved onto the constraints, relative change " + number(j["projected_initial"])});
-  if (j.contains("redundant_constraints")) {
-    std::string names;
-    for (const auto& name : j["redundant_constraints"])
-      names += (names.empty() ? "" : ", ") + name.get<std::string>();
-    rows.push_back(
-        {"redundant", names + (j["redundant_constraints"].size() == 1
-                                   ? ", which follows from the other constraints, has no reaction"
-                                   : ", which follow from the other constraints, have no reactions")});
-  }
-  rows.insert(rows.end(), tables.begin(), tables.end());
-  rows.push_back({written, out + "/{config.toml, series.csv, summary.json}"});
-  return facts(rows);
+// True of a run of which measures have nothing to say, or of which nobody waits for what they say.
+bool left_unmeasured(const nlohmann::json& summary) {
+  return summary["status"] == "interrupted" || summary["completed"] == 0;
 }
 
 // Prints what a run left, made now or before, and gives the exit status.
-int finish(const nlohmann::json& j, const std::string& text) {
+int finish(const nlohmann::json& j, const std::string& text, bool measures = false) {
   std::cout << text;
   if (j["status"] == "converged") return 0;
   std::cerr << "pfaff: the run ended early: " << j["message"].get<std::string>() << " ("
-            << j["status"].get<std::string>() << "); completed samples are kept\n";
+            << j["status"].get<std::string>() << "); completed samples are kept"
+            << (measures && left_unmeasured(j) ? ", nothing was measured\n" : "\n");
   return 1;
 }
 
 // The series as one object: the summary, the columns with their units, and the rows.
-nlohmann::json series_json(const ResolvedRun& run, const RunRecord& record, nlohmann::json summary) {
+nlohmann::json series_json(const ResolvedRun& run, const std::string& series, nlohmann::json summary) {
   summary.erase("series");  // the name of the file, of which there is none
-  std::istringstream lines(series_csv(run, record));
+  std::istringstream lines(series);
   std::string line;
   for (bool head = true; std::getline(lines, line); head = false) {
     nlohmann::json row = nlohmann::json::array();
@@ -195,16 +144,74 @@ nlohmann::json series_json(const ResolvedRun& run, const RunRecord& record, nloh
   return summary;
 }
 
-RunRecord executed(const ResolvedRun& resolved, bool quiet) {
-  const Interruption interruption;
-  const auto reference = reference_asked_for(resolved);
-  ProgressLine line(quiet);
-  return execute(
-      resolved, reference.get(),
-      [&](double fraction) {
-        line.show(resolved.model->name() + ", " + resolved.settings.integrator, fraction);
-      },
-      &Interruption::stop());
+// What stands around a run while it is made: the handling of signals, the reference solution, progress.
+class Attended {
+ public:
+  Attended(const ResolvedRun& run, bool quiet) : run_(run), line_(quiet) {}
+  [[nodiscard]] const ReferenceSolution* reference() const { return reference_.get(); }
+  [[nodiscard]] Progress progress() {
+    return [this, what = run_.model->name() + ", " + run_.settings.integrator](double fraction) {
+      line_.show(what, fraction);
+    };
+  }
+
+ private:
+  Interruption interruption_;
+  const ResolvedRun& run_;
+  std::unique_ptr<ReferenceSolution> reference_ = reference_asked_for(run_);
+  ProgressLine line_;
+};
+
+// Makes a run whose series goes to standard output.
+int run_to_standard_output(const ResolvedRun& resolved, const Common& common) {
+  nlohmann::json j;
+  if (common.json) {  // one object, which begins with the end of the run
+    std::string series;
+    {
+      SeriesWriter writer(resolved, [&](std::string_view rows) { series += rows; });
+      Attended attended(resolved, common.quiet);
+      j = summary(resolved, execute(resolved, attended.reference(), attended.progress(),
+                                    &Interruption::stop(), &writer));
+    }
+    std::cout << json_text(series_json(resolved, series, j));
+  } else {
+    RowFile out;
+    SeriesWriter writer(resolved, [&](std::string_view rows) { out.take(rows); });
+    Attended attended(resolved, common.quiet || isatty(STDOUT_FILENO) != 0);
+    j = summary(resolved,
+                execute(resolved, attended.reference(), attended.progress(), &Interruption::stop(), &writer));
+    writer.finish();
+  }
+  require_written_output();
+  if (j.contains("reference_ended") && !common.quiet) std::cerr << "pfaff: " << of_the_reference(j) << '\n';
+  return finish(j, "");
+}
+
+// Makes a run in a directory; its summary.
+nlohmann::json made_in(const std::filesystem::path& directory, const ResolvedRun& resolved, bool quiet) {
+  // Figures and tables of the run before would stand beside this one.
+  std::error_code error;
+  for (const char* of_the_run_before : {run_figures_directory, measures_directory})
+    std::filesystem::remove_all(directory / of_the_run_before, error);
+  Attended attended(resolved, quiet);
+  return write_run(directory, resolved, attended.reference(), attended.progress(), &Interruption::stop());
+}
+
+// Refuses to replace what a directory holds, unless that is forced.
+void refuse_to_replace(const KeptRun& kept, const std::string& out) {
+  const std::string where = "output directory '" + out + "' holds ",
+                    longer = kept.longer.empty() ? "" : " that is longer, " + kept.longer;
+  if (kept.other)
+    throw InputError(where + "another run" + longer +
+                     "; expected a new directory, an empty one, the settings of that run, or --force to "
+                     "replace it");
+  if (!kept.known && !longer.empty())
+    throw InputError(
+        where + "a run" + longer +
+        ", whose config.toml cannot be read; expected a new directory, or --force to replace it");
+  if (kept.outdated())
+    throw InputError(where + "this run, but " + in_one_line(kept.changed) +
+                     "; expected a new directory, or --force to run it anew");
 }
 
 // The measures that are asked for, all of which fit the run.
@@ -218,16 +225,18 @@ Measures fitting_measures(const RunOptions& options, const ResolvedRun& resolved
   return measures;
 }
 
-// Makes the tables of measures of a run that has ended well, and gives the rows that tell of them.
+// Makes the tables of measures of a run, as far as it came, and gives the rows that tell of them.
 TableRows measured(const RunOptions& options, const ResolvedRun& resolved, const Measures& measures,
                    const nlohmann::json& summary) {
   TableRows rows;
-  if (measures.empty() || summary["status"] != "converged") return rows;
+  if (measures.empty() || left_unmeasured(summary)) return rows;
+  ResolvedRun as_far = resolved;
+  as_far.steps = summary["completed"];
   const Interruption interruption;
   const Budget budget({}, &Interruption::stop());
   std::vector<MeasureTable> tables;
   try {
-    tables = tables_of(options.out, resolved, summary["checksum"], measures, *solution_of(resolved));
+    tables = tables_of(options.out, as_far, summary["checksum"], measures, *solution_of(as_far));
   } catch (const BudgetSpent& spent) {
     if (!spent.stopped()) throw;
     throw RunError("interrupted while the run was measured; the run in '" + options.out + "' is complete");
@@ -246,40 +255,21 @@ int run(const RunOptions& options, const Common& common) {
   const Measures measures = fitting_measures(options, resolved);
   if (const std::string end = of_the_last_step(resolved); !end.empty() && !common.quiet)
     std::cerr << "pfaff: " << end << '\n';
-  if (options.out == "-") {
-    const RunRecord record = executed(resolved, common.quiet);
-    const nlohmann::json j = summary(resolved, record);
-    if (common.json)
-      std::cout << json_text(series_json(resolved, record, j));
-    else
-      std::cout << series_csv(resolved, record);
-    require_written_output();
-    if (j.contains("reference_ended") && !common.quiet) std::cerr << "pfaff: " << of_the_reference(j) << '\n';
-    return finish(j, "");
-  }
+  if (options.out == "-") return run_to_standard_output(resolved, common);
   const std::filesystem::path directory = options.out;
   std::vector<std::string> ours = run_file_names();
   ours.insert(ours.end(), {run_figures_directory, measures_directory});
   const auto experiment = take_experiment_of(directory, "pfaff run");
   const auto held = take_output_directory(directory, "pfaff run", ours);
   const KeptRun kept = kept_run(directory, resolved);
-  const std::string where = "output directory '" + options.out + "' holds ";
-  if (kept.other)
-    throw InputError(where +
-                     "another run; expected a new directory, an empty one, or the settings of that run");
-  if (kept.outdated() && !options.force)
-    throw InputError(where + "this run, but " + in_one_line(kept.changed) +
-                     "; expected a new directory, or --force to run it anew");
-  if (!kept.current()) {  // figures of the run before would stand beside this one
-    std::error_code error;
-    std::filesystem::remove_all(directory / run_figures_directory, error);
-  }
-  const nlohmann::json j =
-      kept.current() ? kept.summary : write_run(directory, resolved, executed(resolved, common.quiet));
+  if (!options.force) refuse_to_replace(kept, options.out);
+  const nlohmann::json j = kept.current() ? kept.summary : made_in(directory, resolved, common.quiet);
   const TableRows tables = measured(options, resolved, measures, j);
-  if (common.quiet) return finish(j, "");
-  return finish(j, common.json ? json_text(j)
-                               : summary_table(j, kept.current() ? "kept" : "written", options.out, tables));
+  if (common.quiet) return finish(j, "", !measures.empty());
+  return finish(
+      j,
+      common.json ? json_text(j) : summary_table(j, kept.current() ? "kept" : "written", options.out, tables),
+      !measures.empty());
 }
 
 }  // namespace
@@ -338,7 +328,8 @@ void add_run(CLI::App& app, Common& common, Action& action) {
       ->take_all();
   sub->add_option("--config", options->config, "config.toml of an earlier run, to run it again")
       ->type_name("FILE");
-  sub->add_flag("--force", options->force, "Run anew what was made from other files or builds");
+  sub->add_flag("--force", options->force,
+                "Replace what the directory holds: another run, or one of other files or builds");
   sub->add_option("--out", options->out, "New directory for the run, or - for its series on standard output")
       ->type_name("DIR|-");
   sub->callback(

@@ -168,9 +168,7 @@ void write_equal_cost(const fs::path& directory, const Experiment& experiment,
   if (progress && !open.empty()) progress({2, "runs at equal cost", 0, open.size()});
   in_parallel(open.size(), [&](std::size_t k) {
     const ExperimentRun& run = *open[k];
-    const RunRecord record = execute(run.resolved, references.of(run));
-    if (record.interrupted) spend(0, 0);
-    leave(directory / made_in / run.slug, run.resolved, record);
+    if (!make_run(directory / made_in / run.slug, run.resolved, references.of(run))) spend(0, 0);
   });
   const fs::path path = directory / equal_cost_file;
   if (all.empty()) {

@@ -38,9 +38,9 @@ double error_of(const ExperimentCase& one, const nlohmann::json& summary) {
 double error_of(const ExperimentCase& one, const ResolvedRun& run, const RunRecord& record) {
   if (one.error.empty()) return record.error_max.value_or(not_known);
   const std::vector<Invariant>& invariants = run.model->invariants();
-  for (std::size_t k = 0; k < invariants.size() && !record.samples.empty(); ++k)
+  for (std::size_t k = 0; k < invariants.size() && record.sample_count > 0; ++k)
     if (invariants[k].name == one.error)
-      return record.drift[k].maximum / std::abs(static_cast<double>(record.samples.front().invariants[k]));
+      return record.drift[k].maximum / std::abs(static_cast<double>(record.first_invariants[k]));
   return not_known;
 }
 

@@ -171,9 +171,7 @@ std::string ended_references(const std::vector<ExperimentRun>& runs,
 
 // Makes the run and leaves it in the directory; false where it was asked to stop before its end.
 bool made(const ExperimentRun& run, References& references, const fs::path& directory) try {
-  const RunRecord record = execute(run.resolved, references.of(run));
-  if (!record.interrupted) leave(directory / "runs" / run.slug, run.resolved, record);
-  return !record.interrupted;
+  return make_run(directory / "runs" / run.slug, run.resolved, references.of(run));
 } catch (const BudgetSpent& spent) {
   if (!spent.stopped()) throw;
   return false;
@@ -245,14 +243,15 @@ void make_all(Experiment experiment, const fs::path& directory, const Experiment
 }
 }  // namespace
 
-void leave(const fs::path& directory, const ResolvedRun& run, const RunRecord& record) {
+bool make_run(const fs::path& directory, const ResolvedRun& run, const ReferenceSolution* reference) {
   const fs::path unfinished = directory.string() + ".part";
   std::error_code error;
   fs::remove_all(unfinished, error);
   fs::create_directories(unfinished, error);
-  (void)write_run(unfinished, run, record);
-  fs::remove_all(directory, error);
-  rename_directory(unfinished, directory);
+  const bool whole = write_run(unfinished, run, reference)["status"] != "interrupted";
+  fs::remove_all(whole ? directory : unfinished, error);
+  if (whole) rename_directory(unfinished, directory);
+  return whole;
 }
 
 ProblemKey problem_of(const ExperimentRun& run) {

@@ -135,8 +135,10 @@ ExperimentRun at_size(const Experiment& experiment, const ExperimentRun& like, c
 using ProblemKey = std::tuple<const ExperimentCase*, int, std::string>;
 ProblemKey problem_of(const ExperimentRun& run);
 
-/// Writes a run's directory under another name and renames it, so that it is whole wherever it exists.
-void leave(const std::filesystem::path& directory, const ResolvedRun& run, const RunRecord& record);
+/// Makes a run in a directory of another name and renames it, so that it is whole wherever it exists. False
+/// where the run was asked to stop, and nothing is left.
+bool make_run(const std::filesystem::path& directory, const ResolvedRun& run,
+              const ReferenceSolution* reference);
 
 struct ExperimentOutcome {
   std::size_t runs = 0, resumed = 0, failed = 0;

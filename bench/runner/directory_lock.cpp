@@ -53,16 +53,14 @@ bool left_by_a_lock(int file) {
   if (fstat(file, &status) != 0 || !S_ISREG(status.st_mode) || status.st_nlink != 1) return false;
   return status.st_size == 0 || content(file).starts_with(beginning);
 }
+}  // namespace
 
-// True where `path` still names the open file. The holder before removes the file, and who opened it before
-// that would lock a file that nobody else can find.
 bool still_named(const std::filesystem::path& path, int file) {
   struct stat opened {
   }, named{};
   return fstat(file, &opened) == 0 && lstat(path.c_str(), &named) == 0 && opened.st_dev == named.st_dev &&
          opened.st_ino == named.st_ino;
 }
-}  // namespace
 
 DirectoryLock::DirectoryLock(const std::filesystem::path& directory, const std::string& work)
     : path_(directory / file_name) {
@@ -82,6 +80,8 @@ DirectoryLock::DirectoryLock(const std::filesystem::path& directory, const std::
       refuse("is in use by " + (holder.empty() ? "another process" : holder) +
              "; expected another directory, or to start when that one has ended");
     }
+    // The holder before removes the file, and who opened it before that would lock one that nobody else
+    // finds.
     if (still_named(path_, file_)) break;
   }
   if (!left_by_a_lock(file_)) refuse(not_ours);

@@ -6,6 +6,9 @@
 
 namespace pfaff {
 
+/// True where `path` still names the open file.
+[[nodiscard]] bool still_named(const std::filesystem::path& path, int file);
+
 /// Holds a directory while it lives. The lock is one of the operating system (flock) on a file in the
 /// directory, so that it ends with its process, however that ends; a file that is left over locks nothing.
 class DirectoryLock {

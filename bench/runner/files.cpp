@@ -14,11 +14,14 @@ namespace pfaff {
 
 namespace fs = std::filesystem;
 
-namespace {
-// Puts a file, or the names that a directory holds, onto the disk; true where that worked. Some file systems
-// cannot do it for directories and say EINVAL, which is no failure.
+// Some file systems cannot do it for directories and say EINVAL, which is no failure.
 bool brought_to_disk(int file) { return fsync(file) == 0 || errno == EINVAL; }
 
+int new_file(const fs::path& path) {
+  return open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+}
+
+namespace {
 bool directory_brought_to_disk(const fs::path& path) {
   const int directory = open(path.empty() ? "." : path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (directory < 0) return false;
@@ -35,11 +38,6 @@ bool written(int file, const std::string& text) {
     if (count > 0) at += static_cast<std::size_t>(count);
   }
   return brought_to_disk(file);
-}
-
-// Opens a file that is not there yet; negative where there is anything of this name, or none can be made.
-int new_file(const fs::path& path) {
-  return open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
 }
 }  // namespace
 

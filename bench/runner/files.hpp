@@ -13,6 +13,12 @@
 
 namespace pfaff {
 
+/// Opens a file that is not there yet, to write to it; negative where there is anything of this name, or none
+/// can be made.
+[[nodiscard]] int new_file(const std::filesystem::path& path);
+/// Puts an open file, or the names that an open directory holds, onto the disk; true where that worked.
+[[nodiscard]] bool brought_to_disk(int file);
+
 /// Writes `text` to `path`, in a directory of ours, by way of a temporary file beside it, `path`.part, which
 /// is a new one whatever stands there. RunError when the disk is full or not writable.
 void write_file(const std::filesystem::path& path, const std::string& text);

@@ -6,9 +6,12 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include <pfaff/bench/runner/early_extents.hpp>
 #include <pfaff/bench/runner/record.hpp>
+#include <pfaff/bench/runner/steps.hpp>
 #include <pfaff/bench/runner/watched_error.hpp>
 #include <pfaff/core/errors/budget.hpp>
 #include <pfaff/runs/block_values.hpp>
@@ -25,15 +28,19 @@ namespace pfaff {
 template <class T>
 class Observer {
  public:
-  Observer(const ResolvedRun& run, const ReferenceSolution* reference, RunRecord& record)
+  Observer(const ResolvedRun& run, const ReferenceSolution* reference, SampleTaker* samples,
+           RunRecord& record)
       : run_(run),
         reference_(reference),
+        samples_(samples),
         record_(record),
         problem_(run.model),
         constraints_(*run.model),
         rank_(run.model, [this](const T& t, const T& span, std::vector<T>& z) { return move(t, span, z); }),
         values_(run.model->invariants().size()),
-        in_double_(static_cast<std::size_t>(run.model->dimension())) {
+        in_double_(static_cast<std::size_t>(run.model->dimension())),
+        state_(in_double_.size()),
+        extents_(static_cast<std::size_t>(run.adaptive() ? most_intervals : run.rows()) + 1) {
     if (reference != nullptr) {
       record.reference = reference->kind();
       record.reference_ended = reference->ended();
@@ -44,6 +51,7 @@ class Observer {
     if (reference != nullptr && changes(run)) exact_.emplace(run.model);
     drift_.resize(values_.size());
     constraint_drift_.resize(constraint_residual_names(*run.model).size());
+    growth_.resize(constraint_drift_.size());
     for (const Invariant& invariant : run.model->invariants())
       setbacks_.emplace_back(run.expected(invariant));
   }
@@ -81,6 +89,8 @@ class Observer {
     return keep ? observe_sample(t, exact, z, structure) : std::string();
   }
 
+  [[nodiscard]] bool measures_errors() const { return reference_ != nullptr; }
+
   /// Evaluates the invariants at all states of a block, for take() and sample(), which look at them as
   /// observe() does. False where one is not finite, or where states have to be observed one by one.
   [[nodiscard]] bool evaluate(const Block<T>& block) {
@@ -113,9 +123,8 @@ class Observer {
   [[nodiscard]] std::string sample(const Block<T>& block, std::size_t row, const Quad& exact,
                                    bool structure) {
     for (std::size_t i = 0; i < values_.size(); ++i) values_[i] = in_block_->at(row, i);
-    std::vector<T> z(block.states.components());
-    block.states.get(row, z);
-    return observe_sample(block.time(row), exact, z, structure);
+    block.states.get(row, state_);
+    return observe_sample(block.time(row), exact, state_, structure);
   }
 
   /// Puts into the record what follows from all that was observed.
@@ -125,11 +134,10 @@ class Observer {
     record_.error_rows = std::max<std::int64_t>(0, compared_ - 1);
     record_.reached_rows = std::max<std::int64_t>(0, reached_ - 1);
     // Of a solution that reaches no sample but the first, the error there says nothing of the method.
-    if (compared_ == 1 && record_.samples.size() > 1) {
-      record_.error_max = record_.error_final = std::nullopt;
-      record_.samples.front().error.reset();
-      record_.samples.front().invariant_errors.clear();
-    }
+    if (compared_ == 1 && record_.sample_count > 1) record_.error_max = record_.error_final = std::nullopt;
+    finished_ = true;
+    pass_on();
+    if (!begun_) begin(false);
     const double unit = std::is_same_v<T, Quad> ? 0x1p-113 : 0x1p-53;
     const std::vector<double> ranges = ranges_of_invariants();
     for (std::size_t i = 0; i < drift_.size(); ++i) {
@@ -143,15 +151,7 @@ class Observer {
     for (std::size_t i = 0; i < constraint_drift_.size(); ++i)
       record_.constraints.push_back(constraint_drift_[i].result(
           constraint_roundings_->largest(unit, record_.completed, i, constraint_drift_.size())));
-    std::vector<double> times, values;
-    for (const Sample& sample : record_.samples)
-      times.push_back(std::abs(static_cast<double>(sample.t - run_.t0.quad())));
-    for (std::size_t i = 0; i < constraint_drift_.size(); ++i) {
-      values.clear();
-      for (const Sample& sample : record_.samples)
-        values.push_back(static_cast<double>(sample.constraints[i]));
-      record_.growth.push_back(growth(times, values));
-    }
+    for (const GrowthFit& fit : growth_) record_.growth.push_back(fit.growth());
   }
 
  private:
@@ -183,12 +183,12 @@ class Observer {
   } catch (const BudgetSpent&) {
   }
   // A run that is told to end meanwhile keeps the sample without its residual, and ends at its next step.
-  void measure_structure(const T& t, const std::vector<T>& z, Sample& sample) try {
+  void measure_structure(const T& t, const std::vector<T>& z, Sample<T>& sample) try {
     Row row(1);
     if (!structure_->look({record_.completed, t, z}, row)) return;
     const T r = std::get<T>(row[0]);
     if (std::isfinite(static_cast<double>(r))) {
-      sample.structure = Quad(r);
+      sample.structure = r;
       worst(record_.structure_residual, static_cast<double>(r));
     } else {
       ++record_.structure_failures;
@@ -197,22 +197,45 @@ class Observer {
   }
 
   std::string observe_sample(const T& t, const Quad& exact_time, const std::vector<T>& z, bool structure) {
-    Sample sample{Quad(t),
-                  {z.begin(), z.end()},
-                  {values_.begin(), values_.end()},
-                  {residuals_.begin(), residuals_.end()},
-                  {},
-                  {},
-                  {}};
     for (std::size_t k = 0; k < z.size(); ++k) in_double_[k] = static_cast<double>(z[k]);
     for (auto* roundings : {&roundings_, &constraint_roundings_})
       if (*roundings) (*roundings)->add(static_cast<double>(t), in_double_);
-    if (record_.samples.empty()) first_state_ = in_double_;
-    if (record_.samples.empty() && roundings_) first_terms_ = roundings_->terms();
+    extents_.add(in_double_);
+    if (record_.sample_count == 0) {
+      first_state_ = in_double_;
+      if (roundings_) first_terms_ = roundings_->terms();
+      record_.first_invariants.assign(values_.begin(), values_.end());
+    }
+    for (std::size_t i = 0; i < growth_.size(); ++i)
+      growth_[i].add(std::abs(static_cast<double>(Quad(t) - run_.t0.quad())),
+                     static_cast<double>(residuals_[i]));
+    Sample<T>& sample = last_ == &one_ ? other_ : one_;
+    sample.t = t;
+    sample.state = z, sample.invariants = values_, sample.constraints = residuals_;
+    sample.structure.reset(), sample.error.reset();
+    sample.invariant_errors.clear();
     std::string not_finite = compare_some(sample, exact_time);
     if (structure && structure_) measure_structure(t, z, sample);
-    record_.samples.push_back(std::move(sample));
+    pass_on();
+    last_ = &sample;
+    waits_ = true;
+    record_.last_sample = Quad(t);
+    ++record_.sample_count;
+    // With a reference solution the second sample says whether there are errors, and one that is not compared
+    // is if it turns out to be the last to which the solution reaches.
+    if (reference_ == nullptr || (begun_ && !not_compared_)) pass_on();
     return not_finite;
+  }
+  // Passes on the last sample, if it waits for that.
+  void pass_on() {
+    if (!std::exchange(waits_, false)) return;
+    if (!begun_) begin(compared_ > 1 || not_compared_ || (compared_ == 1 && finished_));
+    if (samples_ != nullptr) samples_->take(*last_);
+  }
+  void begin(bool error) {
+    begun_ = true;
+    if (!error && last_ != nullptr) last_->error.reset(), last_->invariant_errors.clear();
+    if (samples_ != nullptr) samples_->begin({error, error && exact_, structure_ != nullptr});
   }
   // Whether the error is measured at a row: at the last of each of so many equal parts of the rows behind the
   // first, the last row of a whole run among them.
@@ -223,22 +246,22 @@ class Observer {
     return row * most_error_rows / rows > (row - 1) * most_error_rows / rows;
   }
   // Compares the next sample with the solution, where that reaches to it and the row is one of those chosen.
-  std::string compare_some(Sample& sample, const Quad& exact_time) {
+  std::string compare_some(Sample<T>& sample, const Quad& exact_time) {
     if (reference_ == nullptr) return {};
     if (!reference_->covers(exact_time)) {
       compare_last();
       return {};
     }
     ++reached_;
-    if (compares(static_cast<std::int64_t>(record_.samples.size()))) return compare(sample, exact_time);
+    if (compares(record_.sample_count)) return compare(sample, exact_time);
     not_compared_ = exact_time;
     return {};
   }
   // The last row to which the solution reaches is among those that are compared.
   void compare_last() {
-    if (not_compared_) (void)compare(record_.samples.back(), *not_compared_);
+    if (not_compared_) (void)compare(*last_, *not_compared_);
   }
-  std::string compare(Sample& sample, const Quad& exact_time) {
+  std::string compare(Sample<T>& sample, const Quad& exact_time) {
     not_compared_.reset();
     const std::vector<Quad> exact = reference_->at(exact_time);
     if (exact_) sample.invariant_errors = errors_of_invariants(sample, exact_time, exact);
@@ -255,38 +278,28 @@ class Observer {
   // What there is of each invariant to lose; the extents are those of the first tenth of the motion, since
   // what is lost or blows up changes them.
   [[nodiscard]] std::vector<double> ranges_of_invariants() const {
-    if (record_.samples.empty() || !roundings_) return {};
-    const Sample& first = record_.samples.front();
-    StartOfMotion start{static_cast<double>(first.t),
-                        first_state_,
-                        std::vector<double>(first_state_.size()),
-                        {},
-                        first_terms_};
-    for (const Quad& value : first.invariants) start.values.push_back(static_cast<double>(value));
-    const std::size_t early =
-        std::min(record_.samples.size(), std::max<std::size_t>(8, record_.samples.size() / 10));
-    for (std::size_t k = 0; k < early; ++k)
-      for (std::size_t i = 0; i < start.extents.size(); ++i)
-        start.extents[i] =
-            std::max(start.extents[i], std::abs(static_cast<double>(record_.samples[k].state[i])));
+    if (record_.sample_count == 0 || !roundings_) return {};
+    StartOfMotion start{
+        static_cast<double>(T(run_.t0)), first_state_, extents_.first_tenth(), {}, first_terms_};
+    for (const Quad& value : record_.first_invariants) start.values.push_back(static_cast<double>(value));
     return own_ranges(*run_.model, start);
   }
   static void worst(std::optional<double>& slot, double value) {
     if (!slot || value > *slot) slot = value;
   }
-  [[nodiscard]] std::vector<Quad> errors_of_invariants(const Sample& sample, const Quad& exact_time,
+  [[nodiscard]] std::vector<Quad> errors_of_invariants(const Sample<T>& sample, const Quad& exact_time,
                                                        const std::vector<Quad>& exact) {
     std::vector<Quad> off, values(sample.invariants.size());
     exact_->invariants(exact_time, exact, values);
     for (std::size_t i = 0; i < values.size(); ++i)
       if (run_.model->invariants()[i].behaviour != Behaviour::conserved)
-        off.push_back(sample.invariants[i] - values[i]);
+        off.push_back(Quad(sample.invariants[i]) - values[i]);
     return off;
   }
-  [[nodiscard]] static Quad relative_error(const Sample& sample, const std::vector<Quad>& exact) {
+  [[nodiscard]] static Quad relative_error(const Sample<T>& sample, const std::vector<Quad>& exact) {
     Quad distance(0), norm(0);
     for (std::size_t k = 0; k < exact.size(); ++k) {
-      const Quad d = sample.state[k] - exact[k];
+      const Quad d = Quad(sample.state[k]) - exact[k];
       distance += d * d;
       norm += exact[k] * exact[k];
     }
@@ -295,6 +308,7 @@ class Observer {
 
   const ResolvedRun& run_;
   const ReferenceSolution* reference_;
+  SampleTaker* samples_;
   RunRecord& record_;
   Problem<T> problem_;
   std::int64_t compared_ = 0;            // samples, with the reference solution,
@@ -314,9 +328,16 @@ class Observer {
   std::vector<double> errors_;                                     // and each less its first value
   std::vector<T> values_, initial_, residuals_;
   std::vector<double> in_double_, first_state_;  // the state
+  std::vector<T> state_;                         // at a row of a block
   std::vector<double> first_terms_;              // of the invariants: the magnitudes of their terms at first
   std::vector<Setback<T>> setbacks_;
   std::vector<WatchedError> drift_, constraint_drift_;
+  std::vector<GrowthFit> growth_;  // of the residuals of constraints
+  EarlyExtents extents_;
+  Sample<T> one_, other_;      // the last sample and the one before, by turns
+  Sample<T>* last_ = nullptr;  // one of them,
+  bool waits_ = false;         // which is not passed on yet
+  bool begun_ = false, finished_ = false;
 };
 
 }  // namespace pfaff

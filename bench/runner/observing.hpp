@@ -49,25 +49,20 @@ class Observing final : public Watcher<T> {
     (void)one(run, run.steps_taken(), run.time());
   }
   [[nodiscard]] bool ended() const { return ended_; }
-  /// Whether the run was ended because it was asked to stop while its states were looked at.
-  [[nodiscard]] bool interrupted() const { return interrupted_; }
 
  private:
   [[nodiscard]] bool keeps(std::int64_t step) const { return step % run_.every == 0 || step == run_.steps; }
-  // The time without rounding, of samples that are kept: in quad it costs as much as a short step.
-  [[nodiscard]] static Quad exact(const Integration<T>& run, std::int64_t step) {
+  // The time without rounding, which costs as much as a short step and which errors alone are measured at.
+  [[nodiscard]] Quad exact(const Integration<T>& run, std::int64_t step) const {
+    if (!observer_.measures_errors()) return Quad(0);
     return Quad(value_of(run.time_of(0))) + Quad(static_cast<double>(step)) * Quad(value_of(run.step()));
   }
   [[nodiscard]] bool structure_at(std::int64_t step) {
     ++row_;
     return row_ % structure_rows_ == 0 || step == run_.steps;
   }
-  // True where the run is to end with this step, whose successors in the block are steps in vain.
-  bool passed(std::int64_t step) {
+  void passed(std::int64_t step) const {
     if (progress_ && keeps(step)) progress_(static_cast<double>(step) / static_cast<double>(run_.steps));
-    const Budget* const budget = Budget::current();
-    interrupted_ = budget != nullptr && budget->stop() != nullptr && budget->stop()->load();
-    return interrupted_;
   }
   // What a formula throws at several states is thrown anew at one of them.
   [[nodiscard]] bool seen_together(const Block<T>& block) {
@@ -91,10 +86,7 @@ class Observing final : public Watcher<T> {
         record_.completed = step - block.stride;  // the steps behind which all was finite
         return row;
       }
-      if (passed(step)) {
-        observer_.take(block, row + 1);
-        return row;
-      }
+      passed(step);
     }
     observer_.take(block, block.rows);
     record_.completed = block.step(block.rows - 1);
@@ -114,7 +106,8 @@ class Observing final : public Watcher<T> {
     ended_ = ended_by(observer_.observe(t, keep ? exact(run, step) : Quad(0), z_, keep, structure), t, step,
                       record_);
     if (ended_) record_.completed = before;  // the steps behind which all was finite
-    return ended_ || passed(step);
+    passed(step);
+    return ended_;
   }
 
   const ResolvedRun& run_;
@@ -122,7 +115,7 @@ class Observing final : public Watcher<T> {
   RunRecord& record_;
   const Progress& progress_;
   std::int64_t structure_rows_, row_ = 0;
-  bool ended_ = false, interrupted_ = false;
+  bool ended_ = false;
   std::vector<T> z_;
 };
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <utility>
 
 #include <pfaff/bench/runner/observer.hpp>
 #include <pfaff/bench/runner/observing.hpp>
@@ -70,7 +69,7 @@ template <class T>
 Outcome all_steps(Integration<T>& integration, std::int64_t steps, std::int64_t stride) {
   using Clock = std::chrono::steady_clock;
   constexpr std::chrono::milliseconds little{20}, much{200};
-  std::int64_t rows = 16;
+  std::int64_t rows = integration.method().processed() ? 1 : 16;  // all steps between two rows are one call
   while (true) {
     const auto begin = Clock::now();
     Outcome outcome = integration.steps(std::min(rows * stride, steps - integration.steps_taken()));
@@ -94,9 +93,7 @@ void execute_fixed(const ResolvedRun& run, Observer<T>& observer, RunRecord& rec
       const Outcome outcome = all_steps(integration, run.steps, stride);
       if (outcome.reached() && run.steps % stride != 0) observing.last(integration);
       failed = outcome.end() == Outcome::End::failed;
-      counts =
-          outcome.reached() || observing.interrupted() || (failed && outcome.status() != Status::non_finite);
-      if (observing.interrupted() && !outcome.reached()) spend(0, 0);  // which throws
+      counts = outcome.reached() || (failed && outcome.status() != Status::non_finite);
       if (failed) {
         record.completed = integration.steps_taken();
         record.status = outcome.status();
@@ -184,24 +181,16 @@ namespace {
 [[noreturn]] void report_thrown(const ResolvedRun& run, const RunRecord& record) {
   const std::string words = words_of_current_exception();
   const Quad reached = run.adaptive()
-                           ? (record.samples.empty() ? run.t0.quad() : record.samples.back().t)
+                           ? (record.sample_count == 0 ? run.t0.quad() : record.last_sample)
                            : run.t0.quad() + Quad(static_cast<double>(record.completed)) * run.step.quad();
   throw RunError("integrator " + run.settings.integrator + " on system " + run.model->name() +
                  ": thrown after t = " + to_string(reached, 10) + ": " + words);
 }
 
-// What is said where the samples of a run have used up the memory.
-RunError out_of_memory(const ResolvedRun& run, RunRecord& record) {
-  const std::size_t samples = std::exchange(record.samples, {}).size();
-  return RunError("integrator " + run.settings.integrator + " on system " + run.model->name() +
-                  ": the memory was used up after " + std::to_string(samples) +
-                  " samples; --every keeps fewer of them");
-}
-
 template <class T>
 void execute_in(const ResolvedRun& run, const ReferenceSolution* reference, const Progress& progress,
-                RunRecord& record) {
-  Observer<T> observer(run, reference, record);
+                SampleTaker* samples, RunRecord& record) {
+  Observer<T> observer(run, reference, samples, record);
   if (run.adaptive()) {
     execute_adaptive(run, observer, record, progress);
   } else {
@@ -210,28 +199,24 @@ void execute_in(const ResolvedRun& run, const ReferenceSolution* reference, cons
   observer.finish();
 }
 
-void execute_into(const ResolvedRun& run, const ReferenceSolution* reference, const Progress& progress,
-                  RunRecord& record) {
-  if (run.settings.precision == Precision::quad) {
-    execute_in<Quad>(run, reference, progress, record);
-  } else {
-    execute_in<double>(run, reference, progress, record);
-  }
-}
 }  // namespace
 
 RunRecord execute(const ResolvedRun& run, const ReferenceSolution* reference, const Progress& progress,
-                  const std::atomic<bool>* stop) {
+                  const std::atomic<bool>* stop, SampleTaker* samples) {
   RunRecord record;
   const Budget budget({}, stop);
   try {
-    execute_into(run, reference, progress, record);
+    if (run.settings.precision == Precision::quad) {
+      execute_in<Quad>(run, reference, progress, samples, record);
+    } else {
+      execute_in<double>(run, reference, progress, samples, record);
+    }
   } catch (const std::bad_alloc&) {
-    throw out_of_memory(run, record);
+    throw;
   } catch (const RunError&) {
     throw;
   } catch (const InputError&) {
-    if (record.samples.empty()) throw;  // what a method refuses before its first step
+    if (record.sample_count == 0) throw;  // what a method refuses before its first step
     report_thrown(run, record);
   } catch (...) {
     report_thrown(run, record);

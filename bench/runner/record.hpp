@@ -1,5 +1,5 @@
-// Running a method on a system and what the run leaves in memory: samples, drift, accuracy, structure
-// residuals and cost counts.
+// Running a method on a system and what is known of the run when it has ended: drift, accuracy, structure
+// residuals and cost counts. Its samples are passed on while it goes.
 #pragma once
 
 #include <atomic>
@@ -11,6 +11,7 @@
 
 #include <pfaff/bench/runner/json.hpp>
 
+#include <pfaff/bench/runner/series.hpp>
 #include <pfaff/bench/runner/settings.hpp>
 #include <pfaff/runs/shared_solution.hpp>
 #include <pfaff/runs/support/drift.hpp>
@@ -20,22 +21,14 @@
 
 namespace pfaff {
 
-/// The run at one instant. Numbers are kept in quad whatever the run's precision, and printed in that
-/// precision.
-struct Sample {
-  Quad t;
-  std::vector<Quad> state, invariants, constraints;  // `constraints`: the largest residual of each level
-  std::optional<Quad> error;                         // relative to the reference solution's norm
-  std::optional<Quad> structure;                     // structure residual of one step from here
-  std::vector<Quad> invariant_errors;  // of those that are not conserved: I(z) less that of the reference
-};
-
 struct RunRecord {
   Status status = Status::converged;
   bool interrupted = false;  // it was asked to stop, and did so after `completed` steps
   std::string message;       // why a run ended early, one line
   std::int64_t completed = 0;
-  std::vector<Sample> samples;
+  std::int64_t sample_count = 0;       // the first one is at the start,
+  Quad last_sample;                    // the last one at this time
+  std::vector<Quad> first_invariants;  // at the first sample
   std::vector<Drift>
       drift;  // of every invariant, in the model's order; meaningful for those expected to be conserved
   std::vector<RoundOff> round_off;            // of the invariants: what round-off and loss mean for them
@@ -60,11 +53,11 @@ using Progress = std::function<void(double fraction)>;
 /// `reference` may be null, and errors are then not measured; where it ends before the run, they are measured
 /// up to there. Of many rows some are compared with it (most_error_rows), the last one among them. Structure
 /// residuals are measured at about fifty samples, where the model has a structure and at most 64 coordinates.
-/// Where `stop` becomes true, the run ends after the step (with steps of the method's choosing, at the
-/// sample) that it is at. RunError, naming the method, the system and the time, where a step or a formula
-/// throws.
+/// Where `stop` becomes true, the run ends after the step that it is at. `samples`, where there is one, takes
+/// the samples while the run goes. RunError, naming the method, the system and the time, where a step or a
+/// formula throws.
 RunRecord execute(const ResolvedRun& run, const ReferenceSolution* reference, const Progress& progress = {},
-                  const std::atomic<bool>* stop = nullptr);
+                  const std::atomic<bool>* stop = nullptr, SampleTaker* samples = nullptr);
 
 /// The solution of the problem of a run, over any time.
 std::unique_ptr<SharedSolution> solution_of(const ResolvedRun& run);
@@ -84,8 +77,6 @@ struct StepTime {
 };
 StepTime time_steps(const ResolvedRun& run, double seconds);
 
-/// The text of series.csv.
-std::string series_csv(const ResolvedRun& run, const RunRecord& record);
 /// The schema of summary.json and of experiment.json. Runs of an older one are made anew.
 inline constexpr int schema_of_runs = 2;
 /// The content of summary.json, but for the checksum that write_run adds.

@@ -1,9 +1,14 @@
 #include <pfaff/bench/runner/run_directory.hpp>
 
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
 #include <optional>
 
 #include <pfaff/bench/runner/config_file.hpp>
 #include <pfaff/bench/runner/files.hpp>
+#include <pfaff/bench/runner/row_file.hpp>
 #include <pfaff/core/process/checksum.hpp>
 
 namespace pfaff {
@@ -17,21 +22,65 @@ constexpr const char* checksum_key = "checksum";
 
 std::string text_of(const nlohmann::json& summary) { return summary.dump(1) + "\n"; }
 
-// The checksum of the three files, of the summary without the checksum itself.
+// The checksum of the three files, of the summary without the checksum itself. `series` is that of the second
+// one.
 std::string checksum(const std::string& config, const std::string& series, nlohmann::json summary) {
   summary.erase(checksum_key);
-  return sha1_of(sha1_of(config) + sha1_of(series) + sha1_of(text_of(summary)));
+  return sha1_of(sha1_of(config) + series + sha1_of(text_of(summary)));
+}
+
+// The time of a row; 0 where there is none.
+double time_of(std::string_view row) {
+  double t = 0;
+  (void)std::from_chars(row.data(), row.data() + row.size(), t);
+  return t;
+}
+
+// What is known of a series from reading it once.
+struct SeriesRead {
+  std::int64_t rows = 0;  // behind the head
+  double begin = 0, end = 0;
+  std::string checksum;
+};
+
+// Nothing where there is no file that can be read.
+std::optional<SeriesRead> read_series(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) return std::nullopt;
+  std::ifstream file(path, std::ios::binary);
+  SeriesRead read;
+  RunningChecksum sum;
+  std::int64_t lines = 0;
+  for (std::string line; std::getline(file, line); ++lines) {
+    if (lines > 0) read.end = time_of(line);
+    if (lines == 1) read.begin = read.end;
+    if (!file.eof()) line += '\n';
+    sum.add(line);
+  }
+  if (file.bad()) return std::nullopt;
+  read.rows = std::max<std::int64_t>(0, lines - 1);
+  read.checksum = sum.digits();
+  return read;
+}
+
+// How the series of a directory is longer than that of a run will be; empty where it is not.
+std::string longer_than(const ResolvedRun& run, const SeriesRead& series) {
+  const double lasts = std::abs(series.end - series.begin), asked = std::abs(run.time.value());
+  const bool farther = lasts > asked * (1 + 1e-9), more = !run.adaptive() && series.rows > run.rows() + 1;
+  if (!farther && !more) return {};
+  return std::to_string(series.rows) + " rows to t = " + to_string(Quad(series.end), 10);
 }
 
 // The summary of a directory whose files belong together and are undamaged; null otherwise.
-nlohmann::json verified_summary(const fs::path& directory, const std::string& config) {
-  const auto series = text_in(directory / series_name), text = text_in(directory / summary_name);
+nlohmann::json verified_summary(const fs::path& directory, const std::string& config,
+                                const std::optional<SeriesRead>& series) {
+  const auto text = text_in(directory / summary_name);
   if (!series || !text) return nullptr;
   nlohmann::json summary = nlohmann::json::parse(*text, nullptr, false);
   if (!summary.is_object() || summary.value("schema", 0) != schema_of_runs ||
       !summary.contains(checksum_key) || text_of(summary) != *text)
     return nullptr;
-  if (summary[checksum_key] != checksum(config, *series, summary)) return nullptr;
+  if (summary[checksum_key] != checksum(config, series->checksum, summary)) return nullptr;
   return summary;
 }
 }  // namespace
@@ -41,12 +90,25 @@ const std::vector<std::string>& run_file_names() {
   return names;
 }
 
-nlohmann::json write_run(const fs::path& directory, const ResolvedRun& run, const RunRecord& record) {
-  const std::string config = config_text(run), series = series_csv(run, record);
+nlohmann::json write_run(const fs::path& directory, const ResolvedRun& run,
+                         const ReferenceSolution* reference, const Progress& progress,
+                         const std::atomic<bool>* stop) {
+  const std::string config = config_text(run);
+  std::optional<RowFile> file;
+  SeriesWriter series(run, [&](std::string_view rows) {
+    if (!file) {  // what is replaced stays until there is something in its place
+      std::error_code error;
+      fs::remove(directory / summary_name, error);
+      write_file(directory / config_name, config);
+      file.emplace(directory / series_name);
+    }
+    file->take(rows);
+  });
+  const RunRecord record = execute(run, reference, progress, stop, &series);
+  series.finish();
+  file->finish();
   nlohmann::json j = summary(run, record);
-  j[checksum_key] = checksum(config, series, j);
-  write_file(directory / config_name, config);
-  write_file(directory / series_name, series);
+  j[checksum_key] = checksum(config, file->checksum(), j);
   write_file(directory / summary_name, text_of(j));
   return j;
 }
@@ -54,6 +116,8 @@ nlohmann::json write_run(const fs::path& directory, const ResolvedRun& run, cons
 KeptRun kept_run(const fs::path& directory, const ResolvedRun& run) {
   KeptRun kept;
   const auto config = text_in(directory / config_name);
+  const auto series = read_series(directory / series_name);
+  if (series) kept.longer = longer_than(run, *series);
   if (!config) return kept;
   try {
     const RunConfig read = read_config((directory / config_name).string());
@@ -66,7 +130,7 @@ KeptRun kept_run(const fs::path& directory, const ResolvedRun& run) {
   } catch (const InputError&) {
     return kept;  // a config.toml that cannot be read says nothing about the rest
   }
-  nlohmann::json summary = verified_summary(directory, *config);
+  nlohmann::json summary = verified_summary(directory, *config, series);
   kept.whole = !summary.is_null() && summary.value("status", "interrupted") != "interrupted";
   if (kept.whole) kept.summary = std::move(summary);
   return kept;

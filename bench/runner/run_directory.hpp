@@ -13,17 +13,20 @@ namespace pfaff {
 /// The names of the files of a run.
 const std::vector<std::string>& run_file_names();
 
-/// Writes the files of a run into an existing directory, the summary last. summary.json gets a key `checksum`
-/// of the contents of all three files, so that a mixture of old and new files, or a damaged one, is noticed.
-/// Returns the summary as it is written. RunError when the disk is full or not writable.
+/// Makes a run and leaves its files in an existing directory: config.toml and the rows of series.csv while it
+/// goes, and summary.json when it has ended. That gets a key `checksum` of the contents of all three files,
+/// so that a mixture of old and new files, or a damaged one, is noticed. Returns the summary as it is
+/// written. RunError when the disk is full or not writable; the rows that were written by then stay.
 nlohmann::json write_run(const std::filesystem::path& directory, const ResolvedRun& run,
-                         const RunRecord& record);
+                         const ReferenceSolution* reference, const Progress& progress = {},
+                         const std::atomic<bool>* stop = nullptr);
 
 /// What a directory holds of a run.
 struct KeptRun {
-  bool known = false;                // there is a config.toml that can be read
-  bool whole = false;                // all files are as they were written, and the run was not interrupted
-  bool other = false;                // its settings are other ones than those asked for
+  bool known = false;  // there is a config.toml that can be read
+  bool whole = false;  // all files are as they were written, and the run was not interrupted
+  bool other = false;  // its settings are other ones than those asked for
+  std::string longer;  // where its series has more rows or reaches farther than the run will: how far
   std::vector<std::string> changed;  // what has changed of the files and builds it was made from
   nlohmann::json summary;            // of a whole run
   /// True where it is a run of the same settings, files and builds, whole or not.

@@ -1,8 +1,5 @@
 #include <pfaff/bench/runner/steps.hpp>
 
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,7 +7,6 @@
 #include <pfaff/bench/runner/record.hpp>
 #include <pfaff/runs/asked_for.hpp>
 #include <pfaff/runs/support/chosen_steps.hpp>
-#include <pfaff/runs/support/constraints.hpp>
 
 namespace pfaff {
 
@@ -101,32 +97,6 @@ void resolve_tolerance(ResolvedRun& run) {
   }
 }
 
-// The bytes that this process may have.
-double most_memory() {
-  const double there =
-      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-  rlimit limit{};
-  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return there;
-  return std::min(there, static_cast<double>(limit.rlim_cur));
-}
-
-// Refuses more samples than the memory holds, before any work: in memory, and as the text of series.csv.
-void check_samples(const ResolvedRun& run) {
-  constexpr double digits = 24;  // with a comma
-  const std::size_t numbers = 1 + static_cast<std::size_t>(run.model->dimension()) +
-                              run.model->invariants().size() + constraint_residual_names(*run.model).size();
-  const double size = static_cast<double>(sizeof(Sample)) +
-                      static_cast<double>(numbers) * (static_cast<double>(sizeof(Quad)) + digits);
-  const double samples = std::floor(static_cast<double>(run.steps) / static_cast<double>(run.every)) + 1;
-  if (samples * size <= most_memory()) return;
-  throw InputError(
-      "--every: one sample for " + std::to_string(run.every) + " of " + std::to_string(run.steps) +
-      " steps makes " + to_string(Quad(samples), 3) +
-      " samples, which do not fit into the memory; expected --every " +
-      to_string(Quad(std::ceil(static_cast<double>(run.every) * samples * size / most_memory())), 6) +
-      " or more");
-}
-
 // For a run with steps of one length: fills in the step, how many there are and after how many to sample.
 void resolve_fixed_steps(ResolvedRun& run) {
   const RunSettings& settings = run.settings;
@@ -159,7 +129,6 @@ void resolve_fixed_steps(ResolvedRun& run) {
   const std::int64_t states = run.method->processed() ? 200 : 1000;
   run.every =
       settings.every > 0 ? settings.every : std::max<std::int64_t>(1, (run.steps + states - 1) / states);
-  check_samples(run);
 }
 }  // namespace
 

@@ -1,8 +1,7 @@
-// The texts of a run's files.
+// The content of summary.json.
 #include <boost/version.hpp>
 
 #include <pfaff/bench/runner/record.hpp>
-#include <pfaff/core/numbers/formatted.hpp>
 #include <pfaff/runs/support/constraints.hpp>
 #include <pfaff/runs/support/links.hpp>
 #include <pfaff/runs/support/setback.hpp>
@@ -11,12 +10,6 @@
 namespace pfaff {
 
 namespace {
-std::string number(const Quad& x, Precision precision) {
-  return precision == Precision::quad ? to_string(x, 36) : to_string(Quad(static_cast<double>(x)), 17);
-}
-std::string header(const std::string& name, const std::string& unit) {
-  return name + " [" + (unit.empty() ? "1" : unit) + "]";
-}
 nlohmann::json optional(const std::optional<double>& x) {
   return x ? nlohmann::json(*x) : nlohmann::json(nullptr);
 }
@@ -47,37 +40,6 @@ std::optional<SetbackInSummary> setback_in(const nlohmann::json& invariant) {
       return SetbackInSummary{std::string(words->move), std::string(words->expected),
                               invariant[setback_key(*words)]};
   return std::nullopt;
-}
-
-std::string series_csv(const ResolvedRun& run, const RunRecord& record) {
-  const bool error = !record.samples.empty() && record.samples.front().error.has_value();
-  const bool structure = record.structure_residual.has_value();
-  TextStream text;
-  text << header("t", run.model->time_unit());
-  for (const Coordinate& c : run.model->coordinates()) text << ',' << header(c.name, c.unit);
-  for (const Invariant& i : run.model->invariants()) text << ',' << header(i.name, i.unit);
-  for (const std::string& name : constraint_residual_names(*run.model)) text << ',' << header(name, "1");
-  if (error) text << ",error [1]";
-  // What is conserved has its drift for an error; of what changes the error is written.
-  const std::size_t errors = record.samples.empty() ? 0 : record.samples.front().invariant_errors.size();
-  if (errors > 0)
-    for (const Invariant& i : run.model->invariants())
-      if (i.behaviour != Behaviour::conserved) text << ',' << header(i.name + ":error", i.unit);
-  if (structure) text << ",structure_residual [1]";
-  text << '\n';
-  const Precision p = run.settings.precision;
-  for (const Sample& sample : record.samples) {
-    text << number(sample.t, p);
-    for (const Quad& x : sample.state) text << ',' << number(x, p);
-    for (const Quad& x : sample.invariants) text << ',' << number(x, p);
-    for (const Quad& x : sample.constraints) text << ',' << to_string(x, 6);
-    if (error) text << ',' << (sample.error ? to_string(*sample.error, 6) : "");
-    for (std::size_t i = 0; i < errors; ++i)  // none where the reference solution has ended
-      text << ',' << (sample.invariant_errors.empty() ? "" : to_string(sample.invariant_errors[i], 6));
-    if (structure) text << ',' << (sample.structure ? to_string(*sample.structure, 6) : "");
-    text << '\n';
-  }
-  return text.str();
 }
 
 nlohmann::json versions() {
@@ -124,8 +86,8 @@ nlohmann::json summary(const ResolvedRun& run, const RunRecord& record) {
     const Invariant& invariant = run.model->invariants()[i];
     nlohmann::json entry{
         {"name", invariant.name}, {"unit", invariant.unit}, {"expected", to_string(run.expected(invariant))}};
-    if (!record.samples.empty()) {
-      const Quad& initial = record.samples.front().invariants[i];
+    if (record.sample_count > 0) {
+      const Quad& initial = record.first_invariants[i];
       if (run.settings.precision == Precision::quad) {
         entry["initial"] = to_string(initial, 36);
       } else {

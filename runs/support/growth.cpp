@@ -5,44 +5,31 @@
 
 namespace pfaff {
 
-namespace {
-double weighted_slope(const std::vector<double>& x, const std::vector<double>& y,
-                      const std::vector<double>& weight) {
-  double sum = 0, mean_x = 0, mean_y = 0;
-  for (std::size_t k = 0; k < x.size(); ++k) {
-    sum += weight[k];
-    mean_x += weight[k] * x[k];
-    mean_y += weight[k] * y[k];
-  }
-  mean_x /= sum;
-  mean_y /= sum;
-  double above = 0, below = 0;
-  for (std::size_t k = 0; k < x.size(); ++k) {
-    above += weight[k] * (x[k] - mean_x) * (y[k] - mean_y);
-    below += weight[k] * (x[k] - mean_x) * (x[k] - mean_x);
-  }
-  return above / below;
+void GrowthFit::Line::add(double x, double y, double weight) {
+  weights += weight;
+  const double dx = x - mean_x, dy = y - mean_y;
+  mean_x += dx * weight / weights;
+  mean_y += dy * weight / weights;
+  products += weight * dx * (y - mean_y);
+  squares += weight * dx * (x - mean_x);
 }
-}  // namespace
 
-std::optional<Growth> growth(const std::vector<double>& times, const std::vector<double>& values) {
-  std::vector<double> t, log_t, log_r, alike_in_t, alike_in_log;
-  double largest = 0, before = 0;
-  for (std::size_t k = 0; k < times.size(); ++k) {
-    if (!std::isfinite(values[k])) return std::nullopt;
-    if (times[k] <= 0) continue;
-    largest = std::max(largest, std::abs(values[k]));
-    if (largest > 0) {
-      t.push_back(times[k]);
-      log_t.push_back(std::log(times[k]));
-      log_r.push_back(std::log(largest));
-      alike_in_t.push_back(times[k] - before);
-      alike_in_log.push_back((times[k] - before) / times[k]);
-    }
-    before = times[k];
-  }
-  if (t.size() < 8 || t.back() < 4 * t.front()) return std::nullopt;
-  return Growth{weighted_slope(log_t, log_r, alike_in_log), weighted_slope(t, log_r, alike_in_t)};
+void GrowthFit::add(double time, double value) {
+  finite_ = finite_ && std::isfinite(value);
+  if (!finite_ || time <= 0) return;
+  largest_ = std::max(largest_, std::abs(value));
+  const double weight = time - before_;
+  before_ = time;
+  if (largest_ == 0) return;
+  in_log_.add(std::log(time), std::log(largest_), weight / time);
+  in_t_.add(time, std::log(largest_), weight);
+  if (taken_++ == 0) first_ = time;
+  last_ = time;
+}
+
+std::optional<Growth> GrowthFit::growth() const {
+  if (!finite_ || taken_ < 8 || last_ < 4 * first_) return std::nullopt;
+  return Growth{in_log_.slope(), in_t_.slope()};
 }
 
 }  // namespace pfaff

@@ -1,5 +1,7 @@
-// Output that cannot be written is refused before work starts (exit status 2) or reported after it (1), and
-// never leaves half a file.
+// Output that cannot be written is refused before work starts (exit status 2) or reported where it happens
+// (1), and never leaves half a row.
+#include <algorithm>
+
 #include "command.hpp"
 
 namespace {
@@ -47,19 +49,25 @@ TEST(BadOutput, AParentThatCannotBeWritten) {
   expect_refused({"compare", "kepler", "--quick", "--out", "/proc/run"}, {"'/proc/run'", "cannot be made"});
 }
 
-TEST(BadOutput, FullDiskAfterTheWork) {
+TEST(BadOutput, FullDiskAmidTheWork) {
   // Room for config.toml and summary.json, not for a series of 1001 samples.
   const TemporaryDirectory files;
   Circumstances full;
   full.largest_file = 16384;
-  expect_complaint(run_pfaff(pendulum_run_to(files / "run", "100"), full), 1, {"cannot write", "series.csv"},
+  const Outcome outcome = run_pfaff(pendulum_run_to(files / "run", "100"), full);
+  const std::string series = text_of(files / "run/series.csv");
+  const auto rows = std::count(series.begin(), series.end(), '\n') - 1;
+  expect_complaint(outcome, 1, {"cannot write", "series.csv", std::to_string(rows) + " rows were written"},
                    "full disk");
-  for (const auto& entry : fs::directory_iterator(files.path() / "run"))
-    EXPECT_EQ(entry.path().filename(), "config.toml") << "half-written: " << entry.path();
+  EXPECT_FALSE(fs::exists(files.path() / "run/summary.json"));
   // Control: with room for it, the same run is written.
   full.largest_file = 1 << 20;
   EXPECT_EQ(run_pfaff(pendulum_run_to(files / "again", "100"), full).status, 0);
-  EXPECT_GT(fs::file_size(files.path() / "again/series.csv"), 16384U);
+  const std::string whole = text_of(files / "again/series.csv");
+  EXPECT_GT(whole.size(), 16384U);
+  // What was written is the beginning of it, up to the last row for which there was room.
+  EXPECT_TRUE(whole.starts_with(series) && series.ends_with('\n'));
+  EXPECT_GT(whole.find('\n', series.size()) + 1, 16384U);
 }
 
 TEST(BadOutput, FullDiskBeforeTheWork) {

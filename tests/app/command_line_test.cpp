@@ -70,7 +70,8 @@ TEST(CommandLine, HelpHasToArrive) {
   }
 }
 
-TEST(CommandLine, MemoryThatIsNotThere) {
+// Two million rows take more bytes than there are; none of them is kept.
+TEST(CommandLine, ALongSeriesNeedsNoMemory) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "the address sanitizer reserves more addresses than any such limit allows";
 #endif
@@ -79,12 +80,8 @@ TEST(CommandLine, MemoryThatIsNotThere) {
   const Arguments long_run{
       "run",  "--out",   "-", "--system", "harmonic-oscillator", "--integrator", "rk4", "--step",
       "1e-6", "--every", "1", "--time"};
-  // Ten million samples are refused before any work; seven hundred thousand might fit, and do not.
-  expect_complaint(run_pfaff(long_run + Arguments{"10"}, little), 2,
-                   {"--every", "1e+07 samples", "do not fit into the memory"}, "ten million samples");
-  expect_complaint(run_pfaff(long_run + Arguments{"0.7"}, little), 1,
-                   {"harmonic-oscillator", "the memory was used up after ", "--every"}, "a million samples");
-  EXPECT_EQ(run_pfaff(long_run + Arguments{"1e-3"}, little).status, 0);
+  little.standard_output = "/dev/null";
+  EXPECT_EQ(run_pfaff(long_run + Arguments{"2"}, little).status, 0);
 }
 
 TEST(CommandLine, StatesAreWrittenOnce) {

@@ -41,8 +41,8 @@ TEST(Identity, ARunThatIsThereAlreadyIsKept) {
   EXPECT_EQ(fs::last_write_time(files.path() / "run/series.csv"), written);
   // Other settings are another run, whose files stay.
   const std::string series = text_of(files / "run/series.csv");
-  for (const Arguments& other : {Arguments{"--every", "2"}, Arguments{"--set", "nu=0.4"},
-                                 Arguments{"--reference", "none"}, Arguments{"--force", "--every", "2"}})
+  for (const Arguments& other :
+       {Arguments{"--every", "2"}, Arguments{"--set", "nu=0.4"}, Arguments{"--reference", "none"}})
     expect_complaint(run_pfaff(run + other), 2, {"holds another run"}, joined(other));
   EXPECT_EQ(text_of(files / "run/series.csv"), series);
 }

@@ -12,6 +12,7 @@
 #include <pfaff/runs/motion.hpp>
 
 #include "../temporary_directory.hpp"
+#include "kept_samples.hpp"
 #include "run_settings.hpp"
 
 namespace {
@@ -25,13 +26,13 @@ RunSettings back(const std::string& system, const std::string& integrator, const
   s.integrator = integrator;
   return s;
 }
-RunRecord made(const RunSettings& settings) {
+pfaff::testing::RecordWithSamples made(const RunSettings& settings) {
   const ResolvedRun run = resolve(settings);
-  return execute(run, reference_asked_for(run).get());
+  return pfaff::testing::execute_and_keep(run, reference_asked_for(run).get());
 }
 
 // The largest difference of coordinates of two samples, one of them with the momenta times `sign`.
-double difference(const Sample& a, const Sample& b, double sign) {
+double difference(const Sample<Quad>& a, const Sample<Quad>& b, double sign) {
   double largest = 0;
   for (std::size_t k = 0; k < a.state.size(); ++k) {
     const double of_b = static_cast<double>(b.state[k]) * (k < a.state.size() / 2 ? 1 : sign);
@@ -46,9 +47,10 @@ double difference(const Sample& a, const Sample& b, double sign) {
 TEST(Backwards, DampedOscillatorGrows) {
   const ResolvedRun run = resolve(back("damped-oscillator", "gauss", "1,0.5"));
   EXPECT_EQ(run.step, -*Real::parse("0.1"));
-  const RunRecord record = execute(run, reference_asked_for(run).get());
+  const pfaff::testing::RecordWithSamples record =
+      pfaff::testing::execute_and_keep(run, reference_asked_for(run).get());
   ASSERT_EQ(record.status, Status::converged) << record.message;
-  const Sample& last = record.samples.back();
+  const Sample<Quad>& last = record.samples.back();
   EXPECT_EQ(static_cast<double>(last.t), -10);
   EXPECT_NEAR(static_cast<double>(last.state[0]), -2.698119825057866753661, 1e-5);
   EXPECT_NEAR(static_cast<double>(last.state[1]), -4.178261159989996890851, 1e-5);
@@ -71,9 +73,9 @@ TEST(Backwards, MethodsThatChooseTheirSteps) {
     RunSettings settings = back("harmonic-oscillator", method, "1,0");
     settings.step.clear();
     settings.tolerance = "1e-9";
-    const RunRecord record = made(settings);
+    const pfaff::testing::RecordWithSamples record = made(settings);
     ASSERT_EQ(record.status, Status::converged) << method << ": " << record.message;
-    const Sample& last = record.samples.back();
+    const Sample<Quad>& last = record.samples.back();
     EXPECT_EQ(static_cast<double>(last.t), -10) << method;
     EXPECT_NEAR(static_cast<double>(last.state[0]), std::cos(10.0), 1e-6) << method;
     EXPECT_NEAR(static_cast<double>(last.state[1]), std::sin(10.0), 1e-6) << method;
@@ -88,7 +90,7 @@ TEST(Backwards, TaylorReferences) {
     RunSettings settings = back("henon-heiles", "gauss", "0.3,0.1,0.2,0.1");
     settings.step = step;
     settings.reference = ErrorsAgainst::solution;
-    const RunRecord record = made(settings);
+    const pfaff::testing::RecordWithSamples record = made(settings);
     EXPECT_EQ(record.reference, "30-digit");
     EXPECT_EQ(record.reference_ended, "");
     return record.error_max.value();
@@ -147,10 +149,10 @@ TEST(Backwards, ARunBackwardsIsTheReversedRunForwards) {
       settings.structure_residuals = false;
       settings.time = "-5";
       settings.step = "0.05";
-      const RunRecord there = made(settings);
+      const pfaff::testing::RecordWithSamples there = made(settings);
       settings.time = "5";
       settings.set.front().second = "1,-0.5";
-      const RunRecord here = made(settings);
+      const pfaff::testing::RecordWithSamples here = made(settings);
       const std::string name = called(plugin->name(), parameters);
       ASSERT_EQ(there.samples.size(), here.samples.size()) << name << ": " << there.message << here.message;
       for (std::size_t k = 0; k < there.samples.size(); ++k) {
@@ -186,12 +188,12 @@ TEST(Backwards, ForthAndBackAgain) {
   const auto missed = [](const char* method) {
     RunSettings settings = settings_of("pendulum", "0.1", "10", {{"initial", "1,0.5"}});
     settings.integrator = method;
-    const RunRecord forth = made(settings);
+    const pfaff::testing::RecordWithSamples forth = made(settings);
     settings.t0 = "10";
     settings.time = "-10";
     settings.set.clear();
     for (const Quad& x : forth.samples.back().state) settings.initial.push_back(to_string(x, 36));
-    const RunRecord again = made(settings);
+    const pfaff::testing::RecordWithSamples again = made(settings);
     EXPECT_EQ(static_cast<double>(again.samples.back().t), 0);
     return difference(again.samples.back(), forth.samples.front(), 1);
   };
@@ -217,7 +219,7 @@ TEST(Backwards, Drift) {
 // Residuals of constraints grow along the run, whichever way it goes.
 TEST(Backwards, Constraints) {
   RunSettings settings = settings_of("n-pendulum", "0.01", "-5");
-  const RunRecord record = made(settings);
+  const pfaff::testing::RecordWithSamples record = made(settings);
   ASSERT_EQ(record.status, Status::converged) << record.message;
   ASSERT_TRUE(record.growth.front().has_value());
   EXPECT_GT(record.growth.front()->exponent, 0);
@@ -225,8 +227,10 @@ TEST(Backwards, Constraints) {
 
 TEST(Backwards, StructureOfAStep) {
   const ResolvedRun run = resolve(back("pendulum", "verlet", "1,0.5"));
-  EXPECT_LT(execute(run, nullptr).structure_residual.value(), 1e-14);
-  EXPECT_GT(execute(resolve(back("pendulum", "rk4", "1,0.5")), nullptr).structure_residual.value(), 1e-9);
+  EXPECT_LT(pfaff::testing::execute_and_keep(run, nullptr).structure_residual.value(), 1e-14);
+  EXPECT_GT(pfaff::testing::execute_and_keep(resolve(back("pendulum", "rk4", "1,0.5")), nullptr)
+                .structure_residual.value(),
+            1e-9);
 }
 
 TEST(Backwards, StepsAreSizesOrHaveTheSignOfTheDuration) {
@@ -252,7 +256,7 @@ TEST(Backwards, AreMadeAgainFromTheirConfig) {
   write_file(directory / "config.toml", config_text(run));
   const ResolvedRun again = resolve(read_config(directory / "config.toml").settings);
   EXPECT_EQ(settings_text(again), settings_text(run));
-  EXPECT_EQ(series_csv(again, execute(again, nullptr)), series_csv(run, execute(run, nullptr)));
+  EXPECT_EQ(pfaff::testing::series_csv(again), pfaff::testing::series_csv(run));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <pfaff/bench/runner/record.hpp>
 
 #include "../temporary_directory.hpp"
+#include "kept_samples.hpp"
 
 namespace pfaff {
 namespace {
@@ -19,14 +20,14 @@ struct Lost {
   std::vector<std::string> initial = {};
 };
 
-RunRecord executed(const Lost& run) {
+testing::RecordWithSamples executed(const Lost& run) {
   RunSettings settings;
   settings.system = run.system;
   settings.integrator = run.integrator;
   settings.step = run.step;
   settings.time = run.time;
   settings.initial = run.initial;
-  return execute(resolve(settings), nullptr);
+  return testing::execute_and_keep(resolve(settings), nullptr);
 }
 
 // A method of order 1, as a table: `a` is 1 for the implicit and 0 for the explicit method of Euler.
@@ -40,7 +41,8 @@ std::string euler(const std::filesystem::path& folder, const std::string& a) {
 }
 
 // `least`: of the range that is known, how much is gone at the end.
-void expect_lost(const RunRecord& record, double range, double least, const std::string& what) {
+void expect_lost(const testing::RecordWithSamples& record, double range, double least,
+                 const std::string& what) {
   ASSERT_EQ(record.status, Status::converged) << what << record.message;
   const Drift& energy = record.drift.at(0);
   ASSERT_GE(std::abs(energy.final_value), least * range) << what;
@@ -55,7 +57,7 @@ void expect_lost(const RunRecord& record, double range, double least, const std:
 }
 
 TEST(DriftLost, ByRungeKuttaOnThePendulum) {
-  const RunRecord record = executed({"pendulum", "rk4", "0.5", "200000"});
+  const testing::RecordWithSamples record = executed({"pendulum", "rk4", "0.5", "200000"});
   const double q = static_cast<double>(record.samples.front().state[0]),
                p = static_cast<double>(record.samples.front().state[1]);
   expect_lost(record, p * p / 2 + 1 - std::cos(q), 0.95, "h = .5");
@@ -88,7 +90,7 @@ TEST(DriftLost, ByTheExplicitMethodOfEulerOnKepler) {
   const testing::TemporaryDirectory folder;
   const std::string method = euler(folder.path(), "0");
   for (const auto& [step, time] : {std::pair{"0.01", "1000"}, {"0.02", "2000"}}) {
-    const RunRecord record = executed({"kepler", method, step, time});
+    const testing::RecordWithSamples record = executed({"kepler", method, step, time});
     EXPECT_GT(record.round_off[0].scale, 2) << step;
     expect_lost(record, 0.5, 0.7, step);
   }
@@ -118,7 +120,7 @@ TEST(DriftLost, BesideARestEnergy) {
     return file.string();
   };
   for (const char* rest : {"1000000", "20000", "0"}) {
-    const RunRecord record = executed({system(rest), "rk4", "0.05", "23.05"});
+    const testing::RecordWithSamples record = executed({system(rest), "rk4", "0.05", "23.05"});
     const Drift& energy = record.drift.at(0);
     const double expected = 0.5 * 461 * (std::pow(0.05, 6) / 72 - std::pow(0.05, 8) / 576);
     EXPECT_NEAR(energy.final_value, -expected, 1e-3 * expected + 2.3e-16 * std::stod(rest)) << rest;

@@ -9,6 +9,7 @@
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/bench/runner/record.hpp>
 #include "../temporary_directory.hpp"
+#include "kept_samples.hpp"
 
 namespace pfaff {
 namespace {
@@ -60,7 +61,8 @@ TEST_F(FailedSteps, AreNotCountedAndTheSearchBeginsBeforeThem) {
       const double middle = (works + fails) / 2;
       (std::isfinite(rk4_step(x, middle)) ? works : fails) = middle;
     }
-    const RunRecord record = execute(resolved("root", "rk4", step, "3", 1), nullptr);
+    const testing::RecordWithSamples record =
+        testing::execute_and_keep(resolved("root", "rk4", step, "3", 1), nullptr);
     EXPECT_EQ(record.status, Status::non_finite);
     EXPECT_EQ(record.completed, taken);
     ASSERT_EQ(record.samples.size(), static_cast<std::size_t>(taken) + 1);
@@ -86,12 +88,14 @@ TEST_F(FailedSteps, WithinABlockAreFoundOneByOne) {
         std::pair{"root", "leap-frog"}, std::pair{"well", "verlet"}, std::pair{"well", "rk4"},
         std::pair{"well", "composition"}, std::pair{"well", "odeint-mclachlan"},
         std::pair{"well", "extrapolation"}}) {
-    const RunRecord one = execute(resolved(model, method, "0.013", "10", 1), nullptr);
+    const testing::RecordWithSamples one =
+        testing::execute_and_keep(resolved(model, method, "0.013", "10", 1), nullptr);
     EXPECT_EQ(one.status, Status::non_finite) << one.message;
     for (const std::int64_t block : {2, 7, 20}) {
       SCOPED_TRACE(std::string(method) + " on " + model + ", blocks of " + std::to_string(block));
       const std::string time = std::to_string(26000 * block);  // 2e6 steps for each of a block
-      const RunRecord several = execute(resolved(model, method, "0.013", time, block), nullptr);
+      const testing::RecordWithSamples several =
+          testing::execute_and_keep(resolved(model, method, "0.013", time, block), nullptr);
       EXPECT_EQ(several.status, one.status);
       EXPECT_EQ(several.completed, one.completed);
       EXPECT_EQ(several.message, one.message);
@@ -128,10 +132,10 @@ TEST_F(FailedSteps, OfAStepControlAreNotCounted) {
         std::pair{"root", "odeint-bulirsch-stoer"}, std::pair{"well", "taylor"}}) {
     SCOPED_TRACE(std::string(method) + " on " + model);
     const ResolvedRun run = resolved(model, method, "", "3", 1, "1e-6");
-    const RunRecord record = execute(run, nullptr);
+    const testing::RecordWithSamples record = testing::execute_and_keep(run, nullptr);
     EXPECT_NE(record.status, Status::converged);
     EXPECT_EQ(record.completed, record.counters.steps);
-    for (const Sample& sample : record.samples)
+    for (const Sample<Quad>& sample : record.samples)
       for (const Quad& x : sample.state) EXPECT_TRUE(isfinite(x));
     const auto stepper = run.method->stepper(run.model, double());
     std::vector<double> z;

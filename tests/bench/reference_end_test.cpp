@@ -11,6 +11,7 @@
 
 #include "../runs/reference_samples.hpp"
 #include "../temporary_directory.hpp"
+#include "kept_samples.hpp"
 #include "run_settings.hpp"
 
 namespace {
@@ -134,7 +135,7 @@ TEST(ReferenceEnd, ErrorsOfARunEndWithTheSolution) {
   settings.reference = ErrorsAgainst::solution;
   const ResolvedRun run = resolve(settings);
   const auto solution = reference_asked_for(run);
-  const RunRecord record = execute(run, solution.get());
+  const pfaff::testing::RecordWithSamples record = pfaff::testing::execute_and_keep(run, solution.get());
   ASSERT_GT(record.samples.size(), 36U);
   EXPECT_TRUE(record.samples[37].error.has_value());  // t = 3.7
   for (std::size_t k = 38; k < record.samples.size(); ++k) EXPECT_FALSE(record.samples[k].error.has_value());
@@ -157,7 +158,7 @@ TEST(ReferenceEnd, NoErrorsWithoutASolution) {
       const Budget budget({.steps = steps});
       return reference_asked_for(run);
     }();
-    const RunRecord record = execute(run, solution.get());
+    const pfaff::testing::RecordWithSamples record = pfaff::testing::execute_and_keep(run, solution.get());
     const nlohmann::json j = summary(run, record);
     EXPECT_EQ(j["error_max"].is_null(), steps < 1000) << j["error_max"];
     EXPECT_EQ(j.contains("reference_ended"), steps < 1000);

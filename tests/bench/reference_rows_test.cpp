@@ -7,6 +7,7 @@
 #include <pfaff/core/errors/budget.hpp>
 #include <pfaff/core/system.hpp>
 
+#include "kept_samples.hpp"
 #include "run_settings.hpp"
 
 namespace {
@@ -29,12 +30,12 @@ RunSettings of_rows(int rows) {
   settings.structure_residuals = false;
   return settings;
 }
-RunRecord made(RunSettings settings, bool every_row) {
+pfaff::testing::RecordWithSamples made(RunSettings settings, bool every_row) {
   settings.errors_at_every_row = every_row;
   const ResolvedRun run = resolve(settings);
-  return execute(run, reference_asked_for(run).get());
+  return pfaff::testing::execute_and_keep(run, reference_asked_for(run).get());
 }
-std::vector<std::size_t> rows_with_errors(const RunRecord& record) {
+std::vector<std::size_t> rows_with_errors(const pfaff::testing::RecordWithSamples& record) {
   std::vector<std::size_t> rows;
   for (std::size_t k = 0; k < record.samples.size(); ++k)
     if (record.samples[k].error) rows.push_back(k);
@@ -45,7 +46,8 @@ std::vector<std::size_t> rows_with_errors(const RunRecord& record) {
 // errors there are those that are measured at every row.
 TEST(ReferenceRows, AreEvenlySpacedAndEndWithTheLast) {
   for (const int rows : {201, 333, 1000, 1999}) {
-    const RunRecord some = made(of_rows(rows), false), all = made(of_rows(rows), true);
+    const pfaff::testing::RecordWithSamples some = made(of_rows(rows), false),
+                                            all = made(of_rows(rows), true);
     const std::vector<std::size_t> found = rows_with_errors(some);
     ASSERT_EQ(found.size(), 201U) << rows;
     EXPECT_EQ(found.front(), 0U);
@@ -74,7 +76,7 @@ TEST(ReferenceRows, TheStart) {
 }
 
 TEST(ReferenceRows, AreAllWhereTheyAreFew) {
-  const RunRecord record = made(of_rows(200), false);
+  const pfaff::testing::RecordWithSamples record = made(of_rows(200), false);
   EXPECT_EQ(rows_with_errors(record).size(), 201U);
   const ResolvedRun run = resolve(of_rows(200));
   EXPECT_FALSE(summary(run, record).contains("error_rows"));
@@ -82,9 +84,11 @@ TEST(ReferenceRows, AreAllWhereTheyAreFew) {
 
 TEST(ReferenceRows, AreSaidInTheSummary) {
   const ResolvedRun run = resolve(of_rows(1000));
-  const RunRecord record = execute(run, reference_asked_for(run).get());
+  const pfaff::testing::RecordWithSamples record =
+      pfaff::testing::execute_and_keep(run, reference_asked_for(run).get());
   EXPECT_EQ(summary(run, record)["error_rows"], (nlohmann::json{{"measured", 200}, {"of", 1000}}));
-  EXPECT_NE(series_csv(run, record).find(",error [1]"), std::string::npos);
+  EXPECT_NE(pfaff::testing::series_csv(run, reference_asked_for(run).get()).find(",error [1]"),
+            std::string::npos);
 }
 
 // Where the solution ends before the run, the last row to which it reaches has an error.
@@ -97,7 +101,7 @@ TEST(ReferenceRows, EndWithTheSolution) {
   const auto model = make_model({.name = "falling", .title = "", .reference = "", .initial = run.initial},
                                 FallingPendulum{});
   const ReferenceSolution half(model, Quad(0), initial, Quad(5.0119));
-  const std::vector<std::size_t> found = rows_with_errors(execute(run, &half));
+  const std::vector<std::size_t> found = rows_with_errors(pfaff::testing::execute_and_keep(run, &half));
   ASSERT_GE(found.size(), 3U);
   EXPECT_EQ(found.back(), 501U);  // at t = 5.01, which is none of every fifth row
   EXPECT_EQ(found[found.size() - 2], 500U);
@@ -109,7 +113,7 @@ TEST(ReferenceRows, EndWithTheRun) {
   const ResolvedRun run = resolve(of_rows(1000));
   const auto solution = reference_asked_for(run);
   const Budget budget({.steps = 503});
-  const RunRecord record = execute(run, solution.get());
+  const pfaff::testing::RecordWithSamples record = pfaff::testing::execute_and_keep(run, solution.get());
   EXPECT_NE(record.status, Status::converged);
   const std::vector<std::size_t> found = rows_with_errors(record);
   ASSERT_GE(found.size(), 3U);

@@ -9,6 +9,7 @@
 #include <pfaff/core/errors/budget.hpp>
 
 #include "../temporary_directory.hpp"
+#include "kept_samples.hpp"
 #include "run_settings.hpp"
 
 namespace pfaff {
@@ -23,11 +24,11 @@ RunSettings adaptive(const std::string& system, const std::string& integrator, c
   return s;
 }
 
-bool says(const RunRecord& record, const std::string& part) {
+bool says(const testing::RecordWithSamples& record, const std::string& part) {
   return record.message.find(part) != std::string::npos;
 }
 
-void expect_the_samples_of(const RunRecord& whole, const RunRecord& part) {
+void expect_the_samples_of(const testing::RecordWithSamples& whole, const testing::RecordWithSamples& part) {
   ASSERT_LE(part.samples.size(), whole.samples.size());
   for (std::size_t k = 0; k < part.samples.size(); ++k) {
     EXPECT_EQ(part.samples[k].t, whole.samples[k].t) << k;
@@ -39,10 +40,10 @@ TEST(RunBudget, MaxStepsEndsARunAfterThatStep) {
   for (const char* name : {"taylor", "odeint-dopri5", "extrapolation"}) {
     SCOPED_TRACE(name);
     RunSettings s = adaptive("kepler", name, "20");
-    const RunRecord whole = execute(resolve(s), nullptr);
+    const testing::RecordWithSamples whole = testing::execute_and_keep(resolve(s), nullptr);
     ASSERT_EQ(whole.status, Status::converged) << whole.message;
     s.step_budget = whole.completed / 2;
-    const RunRecord part = execute(resolve(s), nullptr);
+    const testing::RecordWithSamples part = testing::execute_and_keep(resolve(s), nullptr);
     EXPECT_EQ(part.status, Status::not_converged);
     EXPECT_FALSE(part.interrupted);
     EXPECT_EQ(part.completed, s.step_budget);
@@ -55,9 +56,9 @@ TEST(RunBudget, MaxStepsEndsARunAfterThatStep) {
 
 TEST(RunBudget, AStopEndsARunWhoseMethodChoosesItsSteps) {
   const ResolvedRun run = resolve(adaptive("kepler", "odeint-dopri5", "100"));
-  const RunRecord whole = execute(run, nullptr);
+  const testing::RecordWithSamples whole = testing::execute_and_keep(run, nullptr);
   std::atomic<bool> stop{false};
-  const RunRecord part = execute(
+  const testing::RecordWithSamples part = testing::execute_and_keep(
       run, nullptr, [&](double fraction) { stop = fraction >= 0.25; }, &stop);
   EXPECT_TRUE(part.interrupted);
   EXPECT_TRUE(says(part, "it was interrupted at t = 2")) << part.message;
@@ -72,7 +73,7 @@ TEST(RunBudget, AStopEndsARunBetweenItsSamples) {
   std::atomic<bool> stop{false};
   const ResolvedRun run = resolve(s);
   stop = true;
-  const RunRecord part = execute(run, nullptr, {}, &stop);
+  const testing::RecordWithSamples part = testing::execute_and_keep(run, nullptr, {}, &stop);
   EXPECT_TRUE(part.interrupted);
   EXPECT_EQ(part.completed, 0);
   EXPECT_EQ(part.samples.size(), 1U);
@@ -81,9 +82,9 @@ TEST(RunBudget, AStopEndsARunBetweenItsSamples) {
 
 TEST(RunBudget, ABudgetAroundTheRunEndsIt) {
   const ResolvedRun run = resolve(settings_of("kepler", "0.1", "100"));
-  const RunRecord whole = execute(run, nullptr);
+  const testing::RecordWithSamples whole = testing::execute_and_keep(run, nullptr);
   const Budget budget({.evaluations = 2000});
-  const RunRecord part = execute(run, nullptr);
+  const testing::RecordWithSamples part = testing::execute_and_keep(run, nullptr);
   EXPECT_EQ(part.status, Status::not_converged);
   EXPECT_TRUE(says(part, "the budget of 2000 evaluations has run out at t = ")) << part.message;
   EXPECT_LE(part.completed, 500);  // four evaluations a step, and some for the structure of a sample
@@ -134,7 +135,7 @@ TEST(RunBudget, RunsIntoABlowUpEndThere) {
       SCOPED_TRACE(motion.text + name);
       RunSettings s = adaptive(file, name, "20");
       s.step_budget = 100000;
-      const RunRecord record = execute(resolve(s), nullptr);
+      const testing::RecordWithSamples record = testing::execute_and_keep(resolve(s), nullptr);
       EXPECT_NE(record.status, Status::converged);
       EXPECT_TRUE(says(record, " at t = ")) << record.message;
       EXPECT_EQ(record.message.find('\n'), std::string::npos);
@@ -142,7 +143,8 @@ TEST(RunBudget, RunsIntoABlowUpEndThere) {
       EXPECT_LE(record.samples.back().t, Quad(motion.to));
     }
     // With steps of one length a method jumps over what it cannot see, until the numbers run out.
-    const RunRecord record = execute(resolve(settings_of(file, "0.1", "20")), nullptr);
+    const testing::RecordWithSamples record =
+        testing::execute_and_keep(resolve(settings_of(file, "0.1", "20")), nullptr);
     if (record.status != Status::converged) {
       EXPECT_TRUE(says(record, " at t = ")) << record.message;
     }

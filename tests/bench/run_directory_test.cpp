@@ -38,7 +38,7 @@ TEST(Checksum, IsSha1) {  // FIPS 180-2, appendix A
 TEST(RunDirectory, AnyDamagedByteIsNoticed) {
   const TemporaryDirectory files;
   const ResolvedRun run = resolved_pendulum("2");
-  (void)write_run(files.path(), run, execute(run, nullptr));
+  (void)write_run(files.path(), run, nullptr);
   ASSERT_TRUE(kept_run(files.path(), run).current());
   for (const std::string& name : run_file_names()) {
     const std::string whole = read_file(files.path() / name);
@@ -71,7 +71,7 @@ TEST(RunDirectory, AnyDamagedByteIsNoticed) {
 TEST(RunDirectory, IsThatOfOneRun) {
   const TemporaryDirectory files;
   const ResolvedRun run = resolved_pendulum("2");
-  (void)write_run(files.path(), run, execute(run, nullptr));
+  (void)write_run(files.path(), run, nullptr);
   EXPECT_TRUE(kept_run(files.path(), resolved_pendulum("2")).current());
   const KeptRun of_another = kept_run(files.path(), resolved_pendulum("3"));
   EXPECT_TRUE(of_another.whole);
@@ -81,12 +81,11 @@ TEST(RunDirectory, IsThatOfOneRun) {
   // The text of one run may begin with that of another.
   ResolvedRun longer = run;
   longer.origins = {};
-  (void)write_run(files.path(), longer, execute(longer, nullptr));
+  (void)write_run(files.path(), longer, nullptr);
   EXPECT_FALSE(kept_run(files.path(), longer).other);
 
-  RunRecord interrupted = execute(run, nullptr);
-  interrupted.interrupted = true;
-  (void)write_run(files.path(), run, interrupted);
+  const std::atomic<bool> stop{true};
+  EXPECT_EQ(write_run(files.path(), run, nullptr, {}, &stop)["status"], "interrupted");
   EXPECT_TRUE(kept_run(files.path(), run).same());
   EXPECT_FALSE(kept_run(files.path(), run).whole);
 }
@@ -97,7 +96,7 @@ TEST(RunDirectory, OriginsThatChangeMakeItOutdated) {
   EXPECT_GE(run.origins.libraries.size(), 2U);
   run.origins.files = {{"/models/a.toml", "1"}};
   run.origins.plugins = {{"/plugins/b.so", "2"}};
-  (void)write_run(files.path(), run, execute(run, nullptr));
+  (void)write_run(files.path(), run, nullptr);
   EXPECT_TRUE(kept_run(files.path(), run).current());
   const auto changed = [&](const ResolvedRun& now) {
     const KeptRun kept = kept_run(files.path(), now);

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include <pfaff/runs/support/growth.hpp>
 
 namespace {
-using pfaff::growth;
+using pfaff::Growth;
+using pfaff::GrowthFit;
 
 struct Samples {
   std::vector<double> times, values;
@@ -21,6 +23,12 @@ Samples sampled(F&& f, int count = 200) {
     s.values.push_back(f(0.1 * k));
   }
   return s;
+}
+
+std::optional<Growth> growth(const std::vector<double>& times, const std::vector<double>& values) {
+  GrowthFit fit;
+  for (std::size_t k = 0; k < times.size(); ++k) fit.add(times[k], values[k]);
+  return fit.growth();
 }
 
 TEST(Growth, PowersAndRates) {

@@ -8,12 +8,15 @@
 #include <pfaff/runs/support/output_gradients.hpp>
 #include <pfaff/runs/support/own_range.hpp>
 
+#include "kept_samples.hpp"
+
 namespace pfaff {
 namespace {
 
-RunRecord executed(const std::string& system, const std::string& integrator,
-                   const std::vector<std::string>& initial, const char* step, const char* time,
-                   const Assignments& set = {}, const std::string& formulation = "") {
+testing::RecordWithSamples executed(const std::string& system, const std::string& integrator,
+                                    const std::vector<std::string>& initial, const char* step,
+                                    const char* time, const Assignments& set = {},
+                                    const std::string& formulation = "") {
   RunSettings settings;
   settings.system = system;
   settings.integrator = integrator;
@@ -22,7 +25,7 @@ RunRecord executed(const std::string& system, const std::string& integrator,
   settings.time = time;
   settings.initial = initial;
   settings.set = set;
-  return execute(resolve(settings), nullptr);
+  return testing::execute_and_keep(resolve(settings), nullptr);
 }
 double range_of(const std::string& system, const std::vector<std::string>& initial,
                 std::size_t invariant = 0) {
@@ -39,7 +42,7 @@ TEST(OwnRange, IsTheDistanceFromTheEquilibrium) {
 }
 
 TEST(OwnRange, IsTheSizeWhereThereIsNoEquilibrium) {
-  const RunRecord kepler = executed("kepler", "gauss", {}, "0.05", "10");
+  const testing::RecordWithSamples kepler = executed("kepler", "gauss", {}, "0.05", "10");
   for (std::size_t i = 0; i < 2; ++i) {  // energy and angular momentum
     const double size = std::abs(static_cast<double>(kepler.samples.front().invariants[i]));
     EXPECT_NEAR(kepler.round_off[i].range.value(), size, 0.06 * size) << i;
@@ -53,9 +56,9 @@ TEST(PropagatedRoundings, AreThoseOfTheGradient) {
   EXPECT_NEAR(
       executed("harmonic-oscillator", "gauss", {"3", "4"}, "0.05", "1").round_off[0].propagated.value(), 25,
       1e-6);
-  const RunRecord pendulum = executed("pendulum", "gauss", {"1", "0.5"}, "0.05", "10");
+  const testing::RecordWithSamples pendulum = executed("pendulum", "gauss", {"1", "0.5"}, "0.05", "10");
   double largest = 0;
-  for (const Sample& sample : pendulum.samples) {
+  for (const Sample<Quad>& sample : pendulum.samples) {
     const auto q = static_cast<double>(sample.state[0]), p = static_cast<double>(sample.state[1]);
     largest = std::max(largest, p * p + std::abs(q * std::sin(q)));
   }
@@ -65,12 +68,12 @@ TEST(PropagatedRoundings, AreThoseOfTheGradient) {
 // Residuals that RATTLE leaves are roundings of q.q and q.p; those of a method that knows nothing of
 // constraints are not.
 TEST(ConstraintRoundings, AreCalledSo) {
-  const RunRecord kept = executed("n-pendulum", "rattle", {}, "0.01", "40");
+  const testing::RecordWithSamples kept = executed("n-pendulum", "rattle", {}, "0.01", "40");
   for (const Drift& d : kept.constraints)
     EXPECT_TRUE(to_string(d.drift_class) == "round-off" || to_string(d.drift_class) == "exact")
         << d.evidence << ' ' << d.maximum;
   EXPECT_EQ(kept.constraints.size(), 2U);
-  const RunRecord lost = executed("n-pendulum", "rk4", {}, "0.01", "40", {}, "dirac");
+  const testing::RecordWithSamples lost = executed("n-pendulum", "rk4", {}, "0.01", "40", {}, "dirac");
   for (const Drift& d : lost.constraints) EXPECT_NE(to_string(d.drift_class), "round-off") << d.maximum;
 }
 

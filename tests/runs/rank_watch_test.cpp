@@ -8,6 +8,8 @@
 #include <pfaff/runs/support/rank_watch.hpp>
 #include <pfaff/tests/temporary_directory.hpp>
 
+#include "kept_samples.hpp"
+
 namespace pfaff {
 namespace {
 using namespace pfaff::testing;
@@ -16,13 +18,14 @@ using ::testing::HasSubstr;
 
 class RankAlongRuns : public ::testing::Test {
  protected:
-  RunRecord run_of(const std::string& text, const std::string& method, const std::string& step,
-                   const std::string& time, Precision precision = Precision::double_precision) {
+  RecordWithSamples run_of(const std::string& text, const std::string& method, const std::string& step,
+                           const std::string& time, Precision precision = Precision::double_precision) {
     write_file(files_ / "model.toml", text);
     return run_named(files_ / "model.toml", method, step, time, precision);
   }
-  static RunRecord run_named(const std::string& system, const std::string& method, const std::string& step,
-                             const std::string& time, Precision precision = Precision::double_precision) {
+  static RecordWithSamples run_named(const std::string& system, const std::string& method,
+                                     const std::string& step, const std::string& time,
+                                     Precision precision = Precision::double_precision) {
     RunSettings s;
     s.system = system;
     s.integrator = method;
@@ -31,7 +34,7 @@ class RankAlongRuns : public ::testing::Test {
     s.precision = precision;
     s.reference = ErrorsAgainst::none;
     s.structure_residuals = false;
-    return execute(resolve(s), nullptr);
+    return execute_and_keep(resolve(s), nullptr);
   }
 
  private:
@@ -60,7 +63,7 @@ TEST_F(RankAlongRuns, EndsRunsThroughAPointWhereARowOfConstraintsVanishes) {
                                        {"-1.03, -0.515, 0, 1, 0.5, 0.25", turning},
                                        {"-1.07, 0, 0, 1, 0, 0.25", R"(row = ["0", "x^2", "0"])"}}) {
       SCOPED_TRACE(std::string(method) + ": " + initial + ", " + row);
-      const RunRecord record = run_of(planar(initial, row), method, "0.1", "3");
+      const RecordWithSamples record = run_of(planar(initial, row), method, "0.1", "3");
       EXPECT_EQ(record.status, Status::singular);
       EXPECT_THAT(record.message, AllOf(HasSubstr("S = A H_pp A^T of the constraints of velocities is "
                                                   "singular between t = "),
@@ -81,7 +84,7 @@ TEST_F(RankAlongRuns, LetsRunsPassNearby) {
   const std::string model = planar("-1.03, 0, 0, 1, -0.00097087378640776699029126213592233, 0.25",
                                    R"(row = ["-y", "x", "0"], b = "-0.001")");
   for (const char* step : {"0.1", "0.01", "0.001"}) {
-    const RunRecord record = run_of(model, "rk4", step, "3");
+    const RecordWithSamples record = run_of(model, "rk4", step, "3");
     EXPECT_EQ(record.status, Status::converged) << step << ": " << record.message;
   }
 }
@@ -94,8 +97,9 @@ std::string line(int power) {
 }
 TEST_F(RankAlongRuns, EndsRunsThroughAStructureThatIsSingular) {
   for (const char* method : {"rk4", "gauss", "leap-frog"}) {
-    const RunRecord odd = run_of(line(1), method, "0.1", "3"), third = run_of(line(3), method, "0.1", "3"),
-                    even = run_of(line(2), method, "0.1", "3");
+    const RecordWithSamples odd = run_of(line(1), method, "0.1", "3"),
+                            third = run_of(line(3), method, "0.1", "3"),
+                            even = run_of(line(2), method, "0.1", "3");
     EXPECT_EQ(odd.status, Status::singular) << method;
     EXPECT_THAT(odd.message, HasSubstr("the structure K is singular between t = 1 and t = 1.1, where its "
                                        "Pfaffian changes its sign"));
@@ -121,28 +125,29 @@ TEST_F(RankAlongRuns, EndsRunsThroughConstraintsThatStopBeingSecondClass) {
                                     {"q_1^3 + q_1", "its Pfaffian changes its sign"},
                                     {"q_1^2", "its smallest pivot vanishes"}})
     for (const Precision precision : {Precision::double_precision, Precision::quad}) {
-      const RunRecord record = run_of(second_class(of_q1), "rk4", "0.1", "3", precision);
+      const RecordWithSamples record = run_of(second_class(of_q1), "rk4", "0.1", "3", precision);
       EXPECT_EQ(record.status, Status::singular) << of_q1;
       EXPECT_THAT(record.message, HasSubstr("the matrix C of the constraints' Poisson brackets is singular"));
       EXPECT_THAT(record.message, HasSubstr(sign));
     }
   // Controls: a pivot that merely gets small, by a factor of a million and more, and comes back.
   for (const char* of_q1 : {"q_1^2 + 1/1000000", "exp(-20*q_1)", "1/(1 + 1000*exp(-100*q_1^2))"}) {
-    const RunRecord record = run_of(second_class(of_q1), "rk4", "0.01", "3");
+    const RecordWithSamples record = run_of(second_class(of_q1), "rk4", "0.01", "3");
     EXPECT_EQ(record.status, Status::converged) << of_q1 << ": " << record.message;
   }
 }
 
 // K = e^{nu t} J leaves the range of doubles at t = 2365, where it is as regular as before.
 TEST_F(RankAlongRuns, DoesNotTakeALargeStructureForASingularOne) {
-  const RunRecord record = run_named("damped-pendulum", "rk4", "0.5", "3000");
+  const RecordWithSamples record = run_named("damped-pendulum", "rk4", "0.5", "3000");
   EXPECT_EQ(record.completed, 6000) << record.message;
 }
 
 // The blade turns by 2 radians in a step: its row points back and forth, and is never zero.
 TEST_F(RankAlongRuns, DoesNotTakeATurnForASingularRow) {
-  const RunRecord record = run_of(planar("0, 0, 0, 1, 0, 20", R"row(row = ["-sin(z)", "cos(z)", "0"])row"),
-                                  "velocity-projected-rk4", "0.1", "5");
+  const RecordWithSamples record =
+      run_of(planar("0, 0, 0, 1, 0, 20", R"row(row = ["-sin(z)", "cos(z)", "0"])row"),
+             "velocity-projected-rk4", "0.1", "5");
   EXPECT_EQ(record.status, Status::converged) << record.message;
 }
 // Shipped systems, over a time in which each of them is far from its start.
@@ -177,7 +182,7 @@ TEST_F(RankAlongRuns, FindsNothingInRegularRuns) {
                              "magnetic-induction",
                              "magnetic-planar",
                              "point-vortices"}) {
-    const RunRecord record = run_named(system, "rk4", "0.01", "5");
+    const RecordWithSamples record = run_named(system, "rk4", "0.01", "5");
     EXPECT_EQ(record.status, Status::converged) << system << ": " << record.message;
   }
   // The control: the snakeboard's wheels come to stand in line, after which its constraints are dependent.

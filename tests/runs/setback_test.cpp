@@ -6,6 +6,7 @@
 #include <pfaff/bench/experiment/experiment_findings.hpp>
 #include <pfaff/runs/support/setback.hpp>
 
+#include "../bench/kept_samples.hpp"
 #include "../bench/run_settings.hpp"
 
 namespace {
@@ -54,7 +55,7 @@ TEST(Setback, RunsMeasureBothDirections) {
                                                          {"rising", "m", Behaviour::increasing}}},
                          FallingOscillator{});
   run.initial = {1, 0};
-  const nlohmann::json j = summary(run, execute(run, nullptr));
+  const nlohmann::json j = summary(run, pfaff::testing::execute_and_keep(run, nullptr));
   EXPECT_EQ(j["invariants"][0]["largest_rise"], 0.0);
   EXPECT_FALSE(j["invariants"][0].contains("largest_fall"));
   EXPECT_NEAR(j["invariants"][1]["largest_fall"].get<double>(), 1 - std::cos(3), 1e-9);  // the control
@@ -70,7 +71,7 @@ TEST(Setback, RunsMeasureBothDirections) {
 
 TEST(Setback, EntropyOfARelaxingBodyNeverFalls) {
   const ResolvedRun run = resolve(settings_of("relaxing-rigid-body", "0.01", "3"));
-  const RunRecord record = execute(run, nullptr);
+  const pfaff::testing::RecordWithSamples record = pfaff::testing::execute_and_keep(run, nullptr);
   ASSERT_EQ(run.model->invariants()[1].behaviour, Behaviour::increasing);
   EXPECT_EQ(record.setback[1], 0);
   EXPECT_GT(record.samples.back().invariants[1], record.samples.front().invariants[1]);
@@ -80,13 +81,14 @@ TEST(Setback, EntropyOfARelaxingBodyNeverFalls) {
 // nu = 1/2.
 TEST(Setback, TheErrorOfWhatFallsIsWritten) {
   const ResolvedRun run = resolve(settings_of("damped-oscillator", "0.1", "3", {{"nu", "1/2"}}));
-  const RunRecord record = execute(run, reference_of(run).get());
-  const std::string series = series_csv(run, record);
+  const pfaff::testing::RecordWithSamples record =
+      pfaff::testing::execute_and_keep(run, reference_of(run).get());
+  const std::string series = pfaff::testing::series_csv(run, reference_of(run).get());
   const std::string header = series.substr(0, series.find('\n'));
   EXPECT_NE(header.find(",error [1],energy:error [m^2/s^2]"), std::string::npos) << header;
   EXPECT_EQ(header.find("birkhoffian:error"), std::string::npos) << header;  // it is conserved
   double worst = 0;
-  for (const Sample& sample : record.samples) {
+  for (const Sample<Quad>& sample : record.samples) {
     ASSERT_EQ(sample.invariant_errors.size(), 1U);
     const double t = static_cast<double>(sample.t), w = std::sqrt(1 - 0.0625), decay = std::exp(-t / 4);
     const double r = decay * (std::cos(w * t) + std::sin(w * t) / (4 * w)), p = -decay * std::sin(w * t) / w;
@@ -97,7 +99,7 @@ TEST(Setback, TheErrorOfWhatFallsIsWritten) {
   }
   EXPECT_GT(worst, 1e-8);  // there is an error to be seen
   // Without a reference solution there is no such column.
-  EXPECT_EQ(series_csv(run, execute(run, nullptr)).find(":error"), std::string::npos);
+  EXPECT_EQ(pfaff::testing::series_csv(run).find(":error"), std::string::npos);
 }
 
 }  // namespace

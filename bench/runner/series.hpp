@@ -1,0 +1,58 @@
+// The samples of a run while it goes, and series.csv, which is made of them.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <pfaff/bench/runner/row_writer.hpp>
+#include <pfaff/bench/runner/settings.hpp>
+#include <pfaff/core/numbers/quad.hpp>
+
+namespace pfaff {
+
+/// The run at one instant, in its scalar.
+template <class T>
+struct Sample {
+  T t{};
+  std::vector<T> state, invariants, constraints;  // `constraints`: the largest residual of each level
+  std::optional<T> structure;                     // structure residual of one step from here
+  std::optional<Quad> error;                      // relative to the reference solution's norm
+  std::vector<Quad> invariant_errors;  // of those that are not conserved: I(z) less that of the reference
+};
+
+/// What the samples of a run hold beside states, invariants and residuals of constraints; some of them.
+struct MeasuredBeside {
+  bool error = false, invariant_errors = false, structure = false;
+};
+
+/// Takes the samples of a run, each as soon as all of it is known.
+class SampleTaker {
+ public:
+  virtual ~SampleTaker() = default;
+  /// Called once, before the first sample; also where there is none.
+  virtual void begin(const MeasuredBeside& measured) = 0;
+  virtual void take(const Sample<double>& sample) = 0;
+  virtual void take(const Sample<Quad>& sample) = 0;
+};
+
+/// Writes samples as rows of series.csv.
+class SeriesWriter final : public SampleTaker {
+ public:
+  SeriesWriter(const ResolvedRun& run, RowWriter::Destination destination);
+  void begin(const MeasuredBeside& measured) override;
+  void take(const Sample<double>& sample) override { row(sample); }
+  void take(const Sample<Quad>& sample) override { row(sample); }
+  /// Passes on what is not yet.
+  void finish() { rows_.flush(); }
+
+ private:
+  template <class T>
+  void row(const Sample<T>& sample);
+
+  const Model& model_;
+  MeasuredBeside measured_;
+  std::size_t changing_ = 0;  // how many invariants are not conserved
+  RowWriter rows_;
+};
+
+}  // namespace pfaff
