@@ -53,9 +53,9 @@ using Progress = std::function<void(double fraction)>;
 /// `reference` may be null, and errors are then not measured; where it ends before the run, they are measured
 /// up to there. Of many rows some are compared with it (most_error_rows), the last one among them. Structure
 /// residuals are measured at about fifty samples, where the model has a structure and at most 64 coordinates.
-/// Where `stop` becomes true, the run ends after the step that it is at. `samples`, where there is one, takes
-/// the samples while the run goes. RunError, naming the method, the system and the time, where a step or a
-/// formula throws.
+/// Where `stop` becomes true, the run ends after the steps that it has taken by then, which are looked at in
+/// blocks. `samples`, where there is one, takes the samples while the run goes. RunError, naming the method,
+/// the system and the time, where a step or a formula throws.
 RunRecord execute(const ResolvedRun& run, const ReferenceSolution* reference, const Progress& progress = {},
                   const std::atomic<bool>* stop = nullptr, SampleTaker* samples = nullptr);
 
