@@ -8,7 +8,7 @@
 #include <pfaff/runs/support/output_gradients.hpp>
 #include <pfaff/runs/support/own_range.hpp>
 
-#include "kept_samples.hpp"
+#include "../bench/kept_samples.hpp"
 
 namespace pfaff {
 namespace {

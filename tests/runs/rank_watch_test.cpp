@@ -8,7 +8,7 @@
 #include <pfaff/runs/support/rank_watch.hpp>
 #include <pfaff/tests/temporary_directory.hpp>
 
-#include "kept_samples.hpp"
+#include "../bench/kept_samples.hpp"
 
 namespace pfaff {
 namespace {
