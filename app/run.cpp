@@ -158,7 +158,7 @@ class Attended {
  private:
   Interruption interruption_;
   const ResolvedRun& run_;
-  std::unique_ptr<ReferenceSolution> reference_ = reference_asked_for(run_);
+  std::shared_ptr<const ReferenceSolution> reference_ = reference_asked_for(run_);
   ProgressLine line_;
 };
 

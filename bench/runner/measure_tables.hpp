@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <pfaff/bench/runner/json.hpp>
 #include <pfaff/bench/runner/settings.hpp>
 #include <pfaff/runs/measure.hpp>
 

@@ -40,13 +40,13 @@ struct WrongLooks : Sound {
 const Measure<WrongLooks> wrong_looks{{.name = "wrong-looks", .title = ""}};
 
 // refused: Work: expected template <class T> struct Work with a constructor Work(const M&, const Measured<T>&
-// refused: end: expected template <class T> bool end(const Measured<T>& run, Work<T>& work, Row& row) const
+// refused: end: expected template <class T> std::vector<Row> end(const Measured<T>& run, Work<T>& work) const
 struct InDoubleAlone : Sound {
   template <class T>
   struct Work {
     Work(const InDoubleAlone& /*measure*/, const Measured<double>& /*run*/) {}
   };
-  bool end(const Measured<double>& /*run*/, Work<double>& /*work*/, Row& /*row*/) const { return false; }
+  std::vector<Row> end(const Measured<double>& /*run*/, Work<double>& /*work*/) const { return {}; }
 };
 const Measure<InDoubleAlone> in_double_alone{{.name = "in-double-alone", .title = ""}};
 
