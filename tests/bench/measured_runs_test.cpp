@@ -157,8 +157,8 @@ TEST_F(MeasuredRuns, AreInThePrecisionOfTheRun) {
   settings.integrator = "verlet";
   settings.precision = Precision::quad;
   const ResolvedRun run = resolve(settings);
-  const auto tables = tables_of(files.path(), run, "a", measures_asked_for({"poincare-loop", "reversibility"}),
-                                *solution_of(run));
+  const auto tables = tables_of(files.path(), run, "a",
+                                measures_asked_for({"poincare-loop", "reversibility"}), *solution_of(run));
   EXPECT_GT(tables[0].lines.back().size(), 40U);
   EXPECT_THAT(tables[1].lines.back(), HasSubstr("e-3"));  // distances and roundings of 1e-3x
 }

@@ -37,10 +37,15 @@ ModelPointer relativistic(const Assignments& parameters = {}) {
 template <class T>
 constexpr double step_round_off = std::is_same_v<T, Quad> ? 1e-31 : 1e-14;
 
+// By the stepper itself: one of the systems has an alpha that the method refuses.
 template <class T>
 std::vector<T> steps(const MethodInstance& method, const ModelPointer& model, int count) {
-  return after_steps(method, model, T(Real::fraction(1, 20)), count, initial_state<T>(*model),
-                     T(Real::fraction(7, 10)));
+  std::vector<T> z = initial_state<T>(*model);
+  std::int64_t completed = 0;
+  EXPECT_EQ(method.stepper(model, T())
+                ->advance(T(Real::fraction(7, 10)), 0, T(Real::fraction(1, 20)), count, z, completed),
+            Status::converged);
+  return z;
 }
 
 template <class T>
@@ -175,7 +180,7 @@ TEST(GeneratingFunctionAlpha, LongRunsSolveEveryStep) {
   for (const int order : {1, 4, 6})
     for (const std::vector<double>& start : {std::vector<double>{0.5, 0}, {0, 0.4}, {1, -0.5}}) {
       const auto model = relativistic({{"nu", "0"}});
-      (void)testing::after_steps(*alpha_scheme(order), model, 0.05, 4000, start);
+      (void)after_steps(*alpha_scheme(order), model, 0.05, 4000, start);
     }
 }
 

@@ -270,32 +270,6 @@ TEST(Integration, KeepsTheLastFiniteState) {
   EXPECT_EQ(run.beside(state_of(run)).steps(1).status(), Status::non_finite);
 }
 
-// Steps of the midpoint rule turn the harmonic oscillator by twice the angle whose tangent is h / 2.
-TEST(Integration, DifferentiatedIsTheTangentMap) {
-  auto run = integrate("harmonic-oscillator", {}, "implicit-midpoint", {}, {.step = "0.1"}).differentiated();
-  EXPECT_TRUE(run.steps(50).reached());
-  const double angle = 100 * std::atan(0.05), round_off = 100 * 0x1p-52;
-  EXPECT_NEAR(run.state()[0].derivative[0], std::cos(angle), round_off);
-  EXPECT_NEAR(run.state()[0].derivative[1], std::sin(angle), round_off);
-  EXPECT_NEAR(run.state()[1].derivative[0], -std::sin(angle), round_off);
-  EXPECT_NEAR(run.state()[1].derivative[1], std::cos(angle), round_off);
-
-  // From where the run is, and from any component on.
-  auto kepler = integrate("kepler", {}, "verlet", {}, {.step = "0.1"});
-  EXPECT_TRUE(kepler.steps(3).reached());
-  auto all = kepler.differentiated(), last_two = kepler.differentiated(2);
-  EXPECT_TRUE(all.steps(20).reached());
-  EXPECT_TRUE(last_two.steps(20).reached());
-  EXPECT_TRUE(kepler.steps(20).reached());
-  for (std::size_t i = 0; i < 4; ++i) {
-    EXPECT_NEAR(all.state()[i].value, kepler.state()[i], 64 * 0x1p-52);  // the dual division rounds otherwise
-    EXPECT_EQ(all.state()[i].derivative[2], last_two.state()[i].derivative[0]);
-    EXPECT_EQ(all.state()[i].derivative[3], last_two.state()[i].derivative[1]);
-    EXPECT_EQ(last_two.state()[i].derivative[2], 0);
-  }
-  EXPECT_EQ(all.time(), kepler.time());
-}
-
 // Cannot begin, and counts what it is shown all the same.
 class Unable final : public Watcher<double> {
  public:
