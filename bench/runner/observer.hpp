@@ -180,6 +180,7 @@ class Observer {
     start_.emplace(start_of<T>(run_));
     solution_ = solution_of(run_);
     structure_ = measure->on({*start_, run_.steps, *solution_});
+    if (structure_->looks().empty()) structure_.reset();
   } catch (const BudgetSpent&) {
   }
   // A run that is told to end meanwhile keeps the sample without its residual, and ends at its next step.

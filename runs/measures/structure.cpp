@@ -4,7 +4,6 @@
 // the size of the terms that it is the difference of (KeptStructure). A method that keeps the structure has
 // it at round-off at every step size; where it falls with the step it is accuracy.
 #include <cmath>
-#include <optional>
 
 #include <pfaff/runs/history.hpp>
 #include <pfaff/runs/measure.hpp>
@@ -30,26 +29,25 @@ struct Structure {
                : "needs a symplectic, K-symplectic or Poisson system of at most " +
                      std::to_string(most_coordinates) + " coordinates; " + model.name() + " is none";
   }
+  // The Jacobian of a single step says nothing of the map of several states that a method with history is.
   template <class T>
   [[nodiscard]] std::vector<std::int64_t> looks(const Measured<T>& run) const {
+    const Integration<T>& start = run.start;
+    if (keeps_history(start.method(), start.model(), Quad(start.time()), Quad(start.step()),
+                      {start.state().begin(), start.state().end()}))
+      return {};
     return evenly(run.steps, count);
   }
 
-  // The Jacobian of a single step says nothing of the map of several states that a method with history is.
   template <class T>
   struct Work {
-    std::optional<StructureResidual<T>> residual;
-    Work(const Structure& /*measure*/, const Measured<T>& run) {
-      const Integration<T>& start = run.start;
-      if (!keeps_history(start.method(), start.model(), Quad(start.time()), Quad(start.step()),
-                         {start.state().begin(), start.state().end()}))
-        residual.emplace(start.method(), start.model());
-    }
+    StructureResidual<T> residual;
+    Work(const Structure& /*measure*/, const Measured<T>& run)
+        : residual(run.start.method(), run.start.model()) {}
   };
   template <class T>
   bool look(const Measured<T>& run, const RunState<T>& at, Work<T>& work, Row& row) const {
-    if (!work.residual) return false;
-    row = {(*work.residual)(at.t, run.start.step(), {at.z.begin(), at.z.end()})};
+    row = {work.residual(at.t, run.start.step(), {at.z.begin(), at.z.end()})};
     return true;
   }
 

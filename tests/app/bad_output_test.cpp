@@ -81,7 +81,7 @@ TEST(BadOutput, FullDiskBeforeTheWork) {
 TEST(BadOutput, FullDiskInAnExperiment) {
   const TemporaryDirectory files;
   Circumstances full;
-  full.largest_file = 16384;
+  full.largest_file = 32768;  // more than the description of the experiment, less than a series
   const Arguments compare{"compare", "kepler", "--quick", "--out", files / "kepler"};
   expect_complaint(run_pfaff(compare, full), 1, {"cannot write", "series.csv"}, "compare");
   EXPECT_FALSE(fs::exists(files.path() / "kepler/results.csv"));

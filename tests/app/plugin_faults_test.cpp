@@ -29,12 +29,19 @@ TEST(PluginFaults, AnElementPastTheEndOfAnArgument) {
       {"system reads-its-neighbour", "exact_solution(elapsed, t0, z0, z)", "element [2]", "2 elements"});
 }
 
+// What a run that printed rows has besides them.
+Outcome behind_rows(Outcome outcome) {
+  EXPECT_TRUE(outcome.out.starts_with("t [s],q [m],p [") && outcome.out.ends_with("\n")) << outcome.out;
+  outcome.out.clear();
+  return outcome;
+}
+
 TEST(PluginFaults, WhatAFormulaThrows) {
   expect_refused(faulty_run("throws-while-recorded", "rk4"),
                  {"system throws-while-recorded", "field(t, z, rate)", "exception of type", "Odd"});
   expect_refused({"describe", "--plugin", faulty, "throws-while-recorded"}, {"throws-while-recorded", "Odd"});
   expect_complaint(
-      run_pfaff(faulty_run("throws-when-compiled", "rk4")), 1,
+      behind_rows(run_pfaff(faulty_run("throws-when-compiled", "rk4"))), 1,
       {"integrator rk4", "system throws-when-compiled", "after t = 0.25", "no formula after a quarter"},
       "a compiled formula");
 }
@@ -45,10 +52,10 @@ TEST(PluginFaults, WhatAStepThrows) {
                                "harmonic-oscillator", "--integrator", "throws-late", "--step", "0.125"} +
                      more);
   };
-  expect_complaint(run({"--time", "1"}), 1,
+  expect_complaint(behind_rows(run({"--time", "1"})), 1,
                    {"integrator throws-late", "system harmonic-oscillator", "after t = 0.5", "Odd"},
                    "a step");
-  expect_complaint(run({"--time", "1", "--precision", "quad"}), 1,
+  expect_complaint(behind_rows(run({"--time", "1", "--precision", "quad"})), 1,
                    {"integrator throws-late", "after t = 0.5"}, "a step in quad");
   expect_complaint(run_pfaff({"verify", "--plugin", throws_late, "throws-late"}), 1,
                    {"throws-late on ", "Odd"}, "verify");
