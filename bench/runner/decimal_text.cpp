@@ -129,7 +129,8 @@ char* put_decimal(char* to, double x) {
   const int e = biased - 1075;
   int decimal = tens_in(e + 52);  // or one more
   for (int attempt = 0; attempt < 2; ++attempt) {
-    const PowerOfTen& power = powers_of_ten[static_cast<std::size_t>(16 - decimal + most_tens)];
+    const int tens = 16 - decimal + most_tens;
+    const PowerOfTen& power = powers_of_ten[static_cast<std::size_t>(tens)];
     // The leading 128 bits of the power are enough. The product has 180 or 181, of which `shift` are behind
     // the point.
     const TwoWords low = TwoWords(m) * power.words[1], high = TwoWords(m) * power.words[2] + (low >> 64U);
@@ -163,7 +164,8 @@ char* put_decimal(char* to, const Quad& value) {
   const TwoWords m = (bits & ((TwoWords(1) << 112U) - 1)) | (TwoWords(1) << 112U);
   int decimal = tens_in(e + 112);  // or one more
   for (int attempt = 0; attempt < 2; ++attempt) {
-    const PowerOfTen& power = powers_of_ten[static_cast<std::size_t>(35 - decimal + most_tens)];
+    const int tens = 35 - decimal + most_tens;
+    const PowerOfTen& power = powers_of_ten[static_cast<std::size_t>(tens)];
     std::array<Word, 5> product{};
     for (std::size_t i = 0; i < 2; ++i) {
       Word carry = 0;
