@@ -50,10 +50,10 @@ std::vector<ResultColumn> columns_of(const std::vector<ExperimentRun>& runs) {
   using Json = nlohmann::json;
   std::vector<ResultColumn> columns;
   const auto text = [&](const char* name, auto&& cell) {
-    columns.push_back({{.name = name, .kind = Column::Kind::text}, cell});
+    columns.push_back({Column{.name = name, .kind = Column::Kind::text}, cell});
   };
   const auto number = [&](const std::string& name, const std::string& unit, auto&& cell) {
-    columns.push_back({{name, unit}, cell});
+    columns.push_back({Column{name, unit}, cell});
   };
   const auto any = [&](const auto& holds) { return std::any_of(runs.begin(), runs.end(), holds); };
   const std::string time = runs.empty() ? "" : runs.front().resolved.model->time_unit();
