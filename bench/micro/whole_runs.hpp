@@ -4,17 +4,13 @@
 
 #include <benchmark/benchmark.h>
 
-#include <array>
-#include <cstdio>
 #include <string>
+
+#include <pfaff/core/numbers/formatted.hpp>
 
 namespace pfaff::micro {
 
-inline std::string step_name(double h) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%g", h);
-  return text.data();
-}
+inline std::string step_name(double h) { return formatted("%g", h); }
 
 // Adds the benchmark of run(z), which goes from z to the end of the run.
 template <class Start, class Run>
