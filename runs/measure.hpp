@@ -62,6 +62,7 @@ struct Measured {
   const Integration<T>& start;  // at the start, to take others from with beside() and reversed()
   std::int64_t steps;           // that the run has
   const SharedSolution& solution;
+  const Integration<T>& now;  // as it goes: what its steps have cost so far
 };
 
 /// A state of the run, after `step` steps.

@@ -100,7 +100,8 @@ std::vector<MeasuredTable> measured(const Integration<T>& start, std::int64_t st
   const SharedSolution of_start = solution_from(start);
   std::vector<MeasuredTable> tables(measures.size());
   std::vector<AtWork<T>> all(measures.size());
-  const Measured<T> of{start, steps, solution == nullptr ? of_start : *solution};
+  Integration<T> run = start.beside({start.state().begin(), start.state().end()});
+  const Measured<T> of{start, steps, solution == nullptr ? of_start : *solution, run};
   for (std::size_t m = 0; m < measures.size(); ++m) {
     all[m].table = &tables[m];
     all[m].guarded([&] {
@@ -112,7 +113,6 @@ std::vector<MeasuredTable> measured(const Integration<T>& start, std::int64_t st
         throw InputError("looks: expected numbers of steps >= 0 in increasing order");
     });
   }
-  Integration<T> run = start.beside({start.state().begin(), start.state().end()});
   SeesBlocks<T> blocks(all);
   const auto any = [&](const auto& holds) { return std::any_of(all.begin(), all.end(), holds); };
   if (any([](const AtWork<T>& one) { return one.measuring != nullptr && one.measuring->sees_blocks(); }))

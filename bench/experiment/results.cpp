@@ -8,6 +8,7 @@
 #include <pfaff/bench/runner/csv_cells.hpp>
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/core/process/child_program.hpp>
+#include <pfaff/runs/support/counter_fields.hpp>
 #include <pfaff/runs/support/watched_quantity.hpp>
 
 namespace pfaff {
@@ -70,13 +71,10 @@ std::vector<ResultColumn> columns_of(const std::vector<ExperimentRun>& runs) {
   text("message", [](const Run&, const Json& s) { return csv_quoted(s["message"]); });
   for (const char* name : {"error_max", "error_final", "structure_residual"})
     number(name, "", [name](const Run&, const Json& s) { return cell(s[name]); });
-  for (const auto& [name, count] : {std::pair("rhs_per_step", "right_hand_sides"),
-                                    {"jacobians_per_step", "jacobians"},
-                                    {"iterations_per_step", "iterations"},
-                                    {"factorisations_per_step", "factorisations"}})
-    number(name, "", [count = count](const Run&, const Json& s) {
+  for (const CounterField& field : counter_fields)
+    number(std::string(field.per_step), "", [name = field.name](const Run&, const Json& s) {
       const double steps = std::max(1.0, s["counts"]["steps"].get<double>());
-      return formatted("%.6g", s["counts"][count].get<double>() / steps);
+      return formatted("%.6g", s["counts"][name].get<double>() / steps);
     });
   for (const TableQuantity& quantity : quantities_of(runs))
     for (const QuantityField& field : quantity_fields())

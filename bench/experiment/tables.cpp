@@ -38,7 +38,13 @@ void describe_measures(const Experiment& experiment, const std::vector<Experimen
       nlohmann::json table = description_of(*measure);
       Columns columns = columns_before_measures(model.time_unit());
       for (const Column& key : columns) table["keys"].push_back(key.name);
-      for (const Column& column : measure->columns(model)) columns.push_back(column);
+      // What a table names first is what its rows belong to.
+      bool names = true;
+      for (const Column& column : measure->columns(model)) {
+        names = names && column.kind == Column::Kind::text;
+        if (names) table["keys"].push_back(column.name);
+        columns.push_back(column);
+      }
       table["columns"] = columns_in_json(columns);
       tables.push_back(std::move(table));
     }

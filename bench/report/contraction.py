@@ -16,6 +16,7 @@ from files import InputError, parse
 from lines import Line, Panel, fill
 from scales import ErrorAxis, time_axis
 
+MEASURE = "contraction"  # whose table it draws
 FRAME = 1.5  # images that leave the middle method's by this many of their width leave the frame
 
 
@@ -34,7 +35,7 @@ class Carried:
 def carried(experiment, case):
     """{method: Carried}"""
     found = {}
-    for where, cells in experiment.table("contraction", case):
+    for where, cells in experiment.table(MEASURE, case):
         step, t, area, law = (cells[k] for k in ("step", "t", "area", "law"))
         if not law > 0:
             raise InputError(f"{where}, column law: expected a positive number, got '{cells['law']}'")

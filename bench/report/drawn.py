@@ -15,5 +15,7 @@ import work_precision
 
 def drawn(verdict):
     """[Drawing]"""
-    makers = (work_precision, drift, structure, loops, reversibility, frequencies, moving, contraction, measured, constraints, bands, ensembles)
-    return [drawing for maker in makers for drawing in maker.drawings(verdict)] + drift.at_equal_step(verdict)
+    before = (work_precision, drift, structure, loops, reversibility, frequencies, moving, contraction)
+    others = measured.drawings(verdict, {maker.MEASURE for maker in before if hasattr(maker, "MEASURE")})
+    return [drawing for maker in before for drawing in maker.drawings(verdict)] + others + \
+        [drawing for maker in (constraints, bands, ensembles) for drawing in maker.drawings(verdict)] + drift.at_equal_step(verdict)

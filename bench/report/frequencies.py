@@ -14,6 +14,7 @@ from figures import Drawing, heading, sentences, with_unit
 from lines import Line, Panel, draw, in_grey
 from scales import ErrorAxis, step_axis
 
+MEASURE = "frequency"  # whose table it draws
 STEADY = 1 / 3  # of the error, by which it may change from half to half
 
 
@@ -31,7 +32,7 @@ class Errors:
 def frequencies(experiment, case):
     """{vector: (rate of the solution, {method: Errors})}, in the experiment's order, from the largest step to the finest."""
     found = {}
-    for _, cells in experiment.table("frequency", case):
+    for _, cells in experiment.table(MEASURE, case):
         step, rate, error, change = (cells[k] for k in ("step", "frequency", "error", "change"))
         if math.isnan(error):
             continue

@@ -15,6 +15,7 @@ from figures import Drawing, heading, sentences, step_text, time_label
 from lines import Line, Panel, draw, in_grey
 from scales import ErrorAxis, time_axis
 
+MEASURE = "poincare-loop"  # whose table it draws
 RESOLVED = 1e-6
 
 
@@ -29,7 +30,7 @@ class Loop:
 def loops(experiment, case):
     """{method: Loop}, each up to the time at which it is no longer resolved."""
     found = {}
-    for _, cells in experiment.table("poincare-loop", case):
+    for _, cells in experiment.table(MEASURE, case):
         one = found.setdefault(cells["method"], Loop(cells["step"]))
         one.whole = one.whole and cells["uncertainty"] <= RESOLVED
         if one.whole:

@@ -20,6 +20,7 @@ from scales import ErrorAxis, time_axis
 from verdict import Row
 from wording import listed
 
+MEASURE = "reversibility"  # whose table it draws
 WAYS = ("reversal", "negative steps")
 UNIT = UNIT_ROUND_OFF["double"]  # whatever the precision of the case
 NAMED = 4  # methods that miss the start, with by how much
@@ -65,7 +66,7 @@ class Shown:
 def returns(experiment, case):
     """{method: Returns}"""
     found = {}
-    for where, cells in experiment.table("reversibility", case):
+    for where, cells in experiment.table(MEASURE, case):
         step, t, distance, rounding = (cells[k] for k in ("step", "t", "distance", "rounding"))
         if cells["by"] not in WAYS:
             raise InputError(f"{where}, column by: expected {' or '.join(WAYS)}, got '{cells['by']}'")

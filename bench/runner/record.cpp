@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 
-#include <pfaff/bench/runner/observer.hpp>
 #include <pfaff/bench/runner/observing.hpp>
 #include <pfaff/bench/runner/steps.hpp>
 #include <pfaff/core/errors/budget.hpp>
@@ -81,10 +80,8 @@ Outcome all_steps(Integration<T>& integration, std::int64_t steps, std::int64_t 
 }
 
 template <class T>
-void execute_fixed(const ResolvedRun& run, Observer<T>& observer, RunRecord& record,
-                   const Progress& progress) {
+void execute_fixed(const ResolvedRun& run, Observing<T>& observing, RunRecord& record) {
   Integration<T> integration(start_of<T>(run));
-  Observing<T> observing(run, observer, record, progress);
   const std::int64_t stride = steps_between_looks(run);
   bool failed = false, counts = true;  // counts: no step was taken in vain
   try {
@@ -123,19 +120,14 @@ int sample_intervals(const ResolvedRun& run) {
 }
 
 template <class T>
-void execute_adaptive(const ResolvedRun& run, Observer<T>& observer, RunRecord& record,
+void execute_adaptive(const ResolvedRun& run, Observing<T>& observing, RunRecord& record,
                       const Progress& progress) {
   const int intervals = sample_intervals<T>(run);
   const Budget budget({.steps = run.settings.step_budget});
   Integration<T> integration(start_of<T>(run));
   const auto steps = [&] { return integration.counters().steps; };
-  const auto observed = [&] {
-    const T t = integration.time();
-    const std::vector<T> z(integration.state().begin(), integration.state().end());
-    return ended_by(observer.observe(t, Quad(t), z, true, false), t, steps(), record);
-  };
   try {
-    bool ended = observed();
+    bool ended = observing.chosen(integration);
     for (int k = 1; k <= intervals && !ended; ++k) {
       const Outcome outcome = integration.to(T(run.t0) + T(run.time) * T(k) / T(intervals));
       if (!outcome.reached()) {
@@ -145,7 +137,7 @@ void execute_adaptive(const ResolvedRun& run, Observer<T>& observer, RunRecord& 
                          "--absolute says)";
         break;
       }
-      ended = observed();
+      ended = observing.chosen(integration);
       if (progress) progress(static_cast<double>(k) / intervals);
     }
   } catch (const BudgetSpent& spent) {
@@ -190,13 +182,13 @@ namespace {
 template <class T>
 void execute_in(const ResolvedRun& run, const ReferenceSolution* reference, const Progress& progress,
                 SampleTaker* samples, RunRecord& record) {
-  Observer<T> observer(run, reference, samples, record);
+  Observing<T> observing(run, reference, samples, progress, record);
   if (run.adaptive()) {
-    execute_adaptive(run, observer, record, progress);
+    execute_adaptive(run, observing, record, progress);
   } else {
-    execute_fixed(run, observer, record, progress);
+    execute_fixed(run, observing, record);
   }
-  observer.finish();
+  observing.finish();
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <pfaff/bench/runner/record.hpp>
 #include <pfaff/runs/support/constraints.hpp>
+#include <pfaff/runs/support/counter_fields.hpp>
 #include <pfaff/runs/support/links.hpp>
 #include <pfaff/runs/support/setback.hpp>
 #include <pfaff/runs/support/watched_quantity.hpp>
@@ -118,12 +119,8 @@ nlohmann::json summary(const ResolvedRun& run, const RunRecord& record) {
   j["error_final"] = optional(record.error_final);
   j["structure_residual"] = optional(record.structure_residual);
   if (record.structure_failures > 0) j["structure_failures"] = record.structure_failures;
-  const Counters& c = record.counters;
-  j["counts"] = {{"steps", c.steps},
-                 {"right_hand_sides", c.fields},
-                 {"jacobians", c.jacobians},
-                 {"iterations", c.iterations},
-                 {"factorisations", c.factorisations}};
+  j["counts"]["steps"] = record.counters.steps;
+  for (const CounterField& field : counter_fields) j["counts"][field.name] = record.counters.*field.count;
   j["versions"] = versions();
   return j;
 }

@@ -54,8 +54,10 @@ WindowMatrix covariance(const WindowMatrix& r) {
   const std::size_t n = r.rows;
   WindowMatrix c{n, n};
   for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j < n; ++j)
+    for (std::size_t j = 0; j <= i; ++j) {
       for (std::size_t g = 0; g < r.columns; ++g) c(i, j) += r(i, g) * r(j, g);
+      c(j, i) = c(i, j);
+    }
   double trace = 0, of_mean = 0, of_line = 0, norm = 0;
   const auto centred = [n](std::size_t i) { return double(i) - double(n - 1) / 2; };
   for (std::size_t i = 0; i < n; ++i) {
@@ -148,12 +150,16 @@ Covariance seen_through(Noise noise, const WindowMatrix& c, const std::vector<Ve
     for (double& value : x) result.columns.push_back(value / norm);
     result.norms.push_back(norm);
   }
+  // Those of one column with all others together, which the compiler makes several of at once.
   const std::size_t count = raw.size();
+  Vector by_window(n * count);
+  for (std::size_t a = 0; a < count; ++a)
+    for (std::size_t i = 0; i < n; ++i) by_window[i * count + a] = result.columns[a * n + i];
   result.products.resize(count * count);
   for (std::size_t a = 0; a < count; ++a)
-    for (std::size_t b = 0; b <= a; ++b)
-      result.products[a * count + b] = result.products[b * count + a] =
-          dot(&result.columns[a * n], &result.columns[b * n], n);
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t b = 0; b < count; ++b)
+        result.products[a * count + b] += result.columns[a * n + i] * by_window[i * count + b];
   return result;
 }
 

@@ -161,14 +161,18 @@ double Scores::best_with_line(std::size_t frequency, bool beside_shapes) const {
     const double parameters = walk_parameter(noise) + line_parameters;
     if (beside_shapes || noise != Noise::smooth) top = std::max(top, score(k, square, parameters));
     if (!beside_shapes || noise == Noise::smooth) continue;
+    // Of shapes with as many parameters the one that leaves least has the best score.
+    std::array<double, 2> least{infinity, infinity};
     for (std::size_t a = 0; a<models_.shapes.size(); a += a> power_count ? 3 : (a == 0 ? 1 : 2)) {
       const double xc = product(a, c), xs = product(a, s);
       const double pivot = product(a, a) - taken(xc, xs, xc, xs);
       if (!(pivot > least_pivot)) continue;
       const double xy = seen.data[a] - taken(xc, xs, yc, ys);
-      top =
-          std::max(top, score(k, square - xy * xy / pivot, parameters + shape_parameters(models_.shapes[a])));
+      double& of_as_many = least[models_.shapes[a].kind == Shape::Kind::line ? 0 : 1];
+      of_as_many = std::min(of_as_many, square - xy * xy / pivot);
     }
+    for (const std::size_t more : {0, 1})
+      if (least[more] < infinity) top = std::max(top, score(k, least[more], parameters + 1 + double(more)));
   }
   return top;
 }

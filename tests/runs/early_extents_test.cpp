@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include <pfaff/bench/runner/early_extents.hpp>
+#include <pfaff/runs/support/early_extents.hpp>
 
 namespace {
 using pfaff::EarlyExtents;
