@@ -34,6 +34,7 @@ ROOMS = {
     "derive": {"core", "brackets", "formulations", "integrators", "systems", "runs", "bench", "verify"},
     "papers": {"core", "brackets", "formulations", "integrators", "systems", "runs", "bench", "verify", "derive"},
     "app": {"core", "brackets", "formulations", "integrators", "systems", "runs", "bench", "verify", "derive", "papers"},
+    "python": {"core", "brackets", "formulations", "integrators", "systems", "runs", "bench", "verify", "derive", "papers"},
 }
 # The rooms that are the library of studies (CMakeLists.txt), which the program is not linked to.
 STUDIES = {"verify", "derive", "papers"}

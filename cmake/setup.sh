@@ -33,6 +33,15 @@ needed=(
   "python3 program:python3"
   "python3-matplotlib module:matplotlib"
   "python3-sympy module:sympy"
+  "python3-dev program:python3-config"
+  "pybind11-dev header:pybind11/pybind11.h"
+  "python3-numpy module:numpy"
+  "python3-scipy module:scipy"
+  "python3-pandas module:pandas"
+  "python3-pytest module:pytest"
+  "python3-ipykernel module:ipykernel"
+  "jupyter-nbconvert module:nbconvert"
+  "mypy program:stubgen"
 )
 [[ ${1:-} == --lint ]] && needed+=(
   "git program:git"

@@ -1,0 +1,14 @@
+"""Structure-preserving integration of mechanical systems: define, run, verify and compare.
+
+What the program `pfaff` does, at the speed of C++, from Python:
+
+>>> import pfaff
+>>> pfaff.__version__
+'0.1.0'
+"""
+from . import _pfaff
+from ._errors import InputError, Interrupted, NotConverged, RunFailed, TraceError
+
+__version__: str = _pfaff.__version__
+
+__all__ = ["InputError", "Interrupted", "NotConverged", "RunFailed", "TraceError", "__version__"]

@@ -1,0 +1,29 @@
+"""Exceptions. Each is also one of Python's own kinds, so that code that knows nothing of Pfaff can catch it."""
+
+
+class InputError(ValueError):
+    """Wrong usage or input, refused before work starts: one line that says what, where and what was expected."""
+
+
+class TraceError(TypeError):
+    """A formula did something with a value that has none while it is recorded, such as comparing it."""
+
+
+class NotConverged(RuntimeError):
+    """An iteration did not converge, or met a number that is not finite."""
+
+
+class RunFailed(RuntimeError):
+    """Work that had begun ended early. `run` holds the samples up to there, or None where there are none."""
+
+    def __init__(self, message: str, run: object = None) -> None:
+        super().__init__(message)
+        self.run = run
+
+
+class Interrupted(KeyboardInterrupt):
+    """Ctrl-C ended the work. `run` holds the samples up to there, or None where there are none."""
+
+    def __init__(self, message: str = "interrupted", run: object = None) -> None:
+        super().__init__(message)
+        self.run = run

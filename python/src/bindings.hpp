@@ -1,0 +1,10 @@
+// What the extension module consists of: a function for each subject, which adds its classes and functions.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace pfaff::python {
+
+void bind_errors(pybind11::module_& module);
+
+}  // namespace pfaff::python

@@ -1,0 +1,10 @@
+// The extension module pfaff._pfaff: what the package pfaff calls of the C++ libraries. It is no interface of
+// its own; users import the package.
+#include <pfaff/core/registry/version.hpp>
+#include <pfaff/python/src/bindings.hpp>
+
+PYBIND11_MODULE(_pfaff, module) {
+  module.doc() = "What the package pfaff calls of the C++ libraries; import pfaff instead.";
+  module.attr("__version__") = PFAFF_VERSION_TEXT;
+  pfaff::python::bind_errors(module);
+}
