@@ -1,0 +1,54 @@
+#include <pfaff/python/src/interruption.hpp>
+
+namespace py = pybind11;
+
+namespace pfaff::python {
+
+namespace {
+std::atomic<bool> asked_to_stop{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may set it");
+
+bool handles = false;  // of the main thread alone
+struct sigaction handler_of_python {};
+
+void note_and_pass_on(int number) {
+  asked_to_stop.store(true);
+  handler_of_python.sa_handler(number);
+}
+
+bool on_main_thread() {
+  const py::object main = py::module_::import("threading").attr("main_thread")().attr("ident");
+  return main.cast<unsigned long>() == PyThread_get_thread_ident();
+}
+}  // namespace
+
+Interruption::Interruption() {
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  if (!on_main_thread() || handles) return;
+  asked_to_stop.store(false);
+  struct sigaction action {};
+  sigaction(SIGINT, nullptr, &handler_of_python);
+  const auto handler = handler_of_python.sa_handler;
+  if (handler == SIG_IGN || handler == SIG_DFL || (handler_of_python.sa_flags & SA_SIGINFO) != 0) return;
+  action = handler_of_python;
+  action.sa_handler = &note_and_pass_on;
+  sigaction(SIGINT, &action, nullptr);
+  handles = installed_ = true;
+}
+
+Interruption::~Interruption() {
+  if (!installed_) return;
+  sigaction(SIGINT, &handler_of_python, nullptr);
+  handles = false;
+}
+
+const std::atomic<bool>& Interruption::stop() { return asked_to_stop; }
+
+bool Interruption::taken() {
+  if (!asked_to_stop.load()) return false;
+  // Where a handler of the user's own raises nothing, the work has ended all the same.
+  if (PyErr_CheckSignals() != 0) PyErr_Clear();
+  return true;
+}
+
+}  // namespace pfaff::python
