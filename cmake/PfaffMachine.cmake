@@ -17,28 +17,25 @@ if(PFAFF_MARCH)
 endif()
 
 # Compiles `source`, which compares the instructions that the library needs with those of the machine that runs it, for
-# every machine of the architecture; elsewhere it would be the first to use an instruction that is missing. `compiler`,
-# which compiles formulas while programs run, is told the options that ask for the same instructions, each by its name:
-# what it leaves in its cache may be found by a program on another machine.
-function(pfaff_check_machine source compiler)
+# every machine of the architecture; elsewhere it would be the first to use an instruction that is missing. `result`
+# becomes the options that ask for the same instructions, each by its name.
+function(pfaff_check_machine source result)
   set(macros "")
   if(PFAFF_MARCH AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     execute_process(COMMAND ${CMAKE_CXX_COMPILER} ${pfaff_march_option} -dM -E -x c++ /dev/null
                     OUTPUT_VARIABLE macros COMMAND_ERROR_IS_FATAL ANY)
     set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS -march=x86-64)
   endif()
-  set(needs "")
+  set(required "")
   set(options "")
   foreach(set IN ITEMS popcnt bmi bmi2 avx avx2 fma avx512f avx512cd avx512bw avx512dq avx512vl avx512ifma
                        avx512vbmi avx512vbmi2 avx512vnni avx512bitalg avx512vpopcntdq)
     string(TOUPPER ${set} macro)
     if(macros MATCHES "#define __${macro}__ ")
-      list(APPEND needs PFAFF_NEEDS_${set}=true)
+      string(APPEND required "PFAFF_REQUIRE(${set})")
       string(APPEND options " -m${set}")
-    else()
-      list(APPEND needs PFAFF_NEEDS_${set}=false)
     endif()
   endforeach()
-  set_source_files_properties(${source} PROPERTIES COMPILE_DEFINITIONS "${needs}" SKIP_PRECOMPILE_HEADERS ON)
-  set_source_files_properties(${compiler} PROPERTIES COMPILE_DEFINITIONS "PFAFF_INSTRUCTIONS=\"${options}\"")
+  set_source_files_properties(${source} PROPERTIES COMPILE_DEFINITIONS "PFAFF_REQUIRED=${required}" SKIP_PRECOMPILE_HEADERS ON)
+  set(${result} "${options}" PARENT_SCOPE)
 endfunction()

@@ -34,12 +34,12 @@ if(missing)
   return()
 endif()
 
-# Where packages of the interpreter stand below a prefix such as /usr/local.
+# Where the package is installed below a prefix such as /usr/local. In a wheel it is the prefix itself.
 execute_process(
   COMMAND ${PFAFF_PYTHON_PROGRAM} -c
           "import sysconfig; print(sysconfig.get_path('platlib', vars={'base': '', 'platbase': ''}).replace('/local/', '/', 1)[1:])"
-  OUTPUT_VARIABLE pfaff_python_packages OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
-set(PFAFF_INSTALL_PYTHONDIR ${pfaff_python_packages} CACHE STRING "Where packages of Python are installed, below the prefix")
+  OUTPUT_VARIABLE packages OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+set(PFAFF_PYTHON_DESTINATION ${packages}/pfaff CACHE STRING "Where the package of Python is installed, below the prefix")
 
 file(GLOB pfaff_python_sources CONFIGURE_DEPENDS python/src/*.cpp)
 add_library(pfaff_python MODULE ${pfaff_python_sources})
@@ -54,10 +54,23 @@ set_target_properties(pfaff_python PROPERTIES
   CXX_VISIBILITY_PRESET hidden)
 target_precompile_headers(pfaff_python PRIVATE <pybind11/numpy.h> <pybind11/stl.h> <pfaff/core/system.hpp> <pfaff/core/integrator.hpp>)
 
+# What is imported before it, and says where the machine lacks instructions that the libraries are compiled for. Loading
+# them would end the interpreter.
+pfaff_check_machine(python/machine/machine.cpp unused)
+add_library(pfaff_python_machine MODULE python/machine/machine.cpp)
+target_include_directories(pfaff_python_machine PRIVATE ${pfaff_include})
+target_link_libraries(pfaff_python_machine PRIVATE Python::Module)
+pfaff_target(pfaff_python_machine)
+set_target_properties(pfaff_python_machine PROPERTIES
+  OUTPUT_NAME _machine PREFIX "" SUFFIX ".${Python_SOABI}.so" LIBRARY_OUTPUT_DIRECTORY ${pfaff_python_package})
+
 # `lib` beside the extension is the folder of the libraries, in a wheel a folder of its own; installed by
 # `cmake --install` they stand where those of the program do.
-file(RELATIVE_PATH pfaff_python_libraries /prefix/${PFAFF_INSTALL_PYTHONDIR}/pfaff /prefix/${CMAKE_INSTALL_LIBDIR})
-pfaff_run_path(pfaff_python "$ORIGIN/lib" "$ORIGIN/${pfaff_python_libraries}")
+file(RELATIVE_PATH pfaff_python_libraries /prefix/${PFAFF_PYTHON_DESTINATION} /prefix/${CMAKE_INSTALL_LIBDIR})
+string(REGEX REPLACE "/$" "" pfaff_python_libraries "${pfaff_python_libraries}")
+set(pfaff_python_run_path "$ORIGIN/lib" "$ORIGIN/${pfaff_python_libraries}")
+list(REMOVE_DUPLICATES pfaff_python_run_path)
+pfaff_run_path(pfaff_python ${pfaff_python_run_path})
 
 # In the build tree the files are links to those of the source tree, so that an edited one needs no build.
 file(GLOB_RECURSE pfaff_python_files RELATIVE ${PROJECT_SOURCE_DIR}/python/pfaff CONFIGURE_DEPENDS
@@ -69,3 +82,6 @@ foreach(file ${pfaff_python_files})
   file(MAKE_DIRECTORY ${pfaff_python_package}/${folder})
   file(CREATE_LINK ${PROJECT_SOURCE_DIR}/python/pfaff/${file} ${pfaff_python_package}/${file} SYMBOLIC)
 endforeach()
+
+install(TARGETS pfaff_python pfaff_python_machine LIBRARY DESTINATION ${PFAFF_PYTHON_DESTINATION} COMPONENT python)
+install(DIRECTORY python/pfaff/ DESTINATION ${PFAFF_PYTHON_DESTINATION} COMPONENT python PATTERN "__pycache__" EXCLUDE)

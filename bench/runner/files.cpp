@@ -1,5 +1,6 @@
 #include <pfaff/bench/runner/files.hpp>
 
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -147,13 +148,33 @@ fs::path program_path() {
 }
 
 namespace {
-fs::path installed_data() { return program_path().parent_path().parent_path() / PFAFF_INSTALLED_DATA; }
+// The folder of this library. The program may be anybody's, such as an interpreter.
+fs::path library_folder() {
+  static const fs::path found = [] {
+    Dl_info library{};
+    std::error_code error;
+    if (dladdr(reinterpret_cast<const void*>(&data_directory), &library) == 0 || library.dli_fname == nullptr)
+      return fs::path();
+    return fs::canonical(library.dli_fname, error).parent_path();
+  }();
+  return found;
+}
 
-// True of a program in a build tree of the source tree, which is known by its cache.
+// Beside the folder of the library, which may be one of several below `lib`.
+fs::path installed_data() {
+  const fs::path folder = library_folder().parent_path();
+  std::error_code error;
+  if (const fs::path above = folder.parent_path() / PFAFF_INSTALLED_DATA;
+      folder.filename() == "lib" && fs::exists(above / "experiments", error))
+    return above;
+  return folder / PFAFF_INSTALLED_DATA;
+}
+
+// True of a library in a build tree of the source tree, which is known by its cache.
 bool stands_in_build_tree() {
   const std::string line = "\nCMAKE_HOME_DIRECTORY:INTERNAL=" PFAFF_SOURCE_DIRECTORY "\n";
   std::error_code error;
-  for (fs::path folder = program_path().parent_path();; folder = folder.parent_path()) {
+  for (fs::path folder = library_folder();; folder = folder.parent_path()) {
     if (const fs::path cache = folder / "CMakeCache.txt"; fs::is_regular_file(cache, error))
       return read_file(cache).find(line) != std::string::npos;
     if (!folder.has_relative_path()) return false;

@@ -50,9 +50,9 @@ std::unique_ptr<DirectoryLock> take_output_directory(const std::filesystem::path
 /// The file of the running program; empty where the system does not tell.
 std::filesystem::path program_path();
 
-/// Where the experiments, the report scripts and references.bib are: beside the installed program or, of a
-/// program that stands in its build tree, in the tree that it was built from. Empty for a program that was
-/// copied without them.
+/// Where the experiments, the report scripts and references.bib are: beside the installed library or, of one
+/// that stands in its build tree, in the tree that it was built from. Empty for a library that was copied
+/// without them.
 std::optional<std::filesystem::path> find_data_directory();
 /// The same; InputError where there is none.
 std::filesystem::path data_directory();

@@ -3,10 +3,14 @@
 #include <cxxabi.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdlib>
 #include <exception>
+#include <iostream>
 #include <memory>
 #include <numeric>
+
+#include <pfaff/core/errors/notices.hpp>
 
 namespace pfaff {
 
@@ -27,7 +31,14 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   }
   return row[b.size()];
 }
+
+std::atomic<void (*)(const std::string&)> say_notice{
+    [](const std::string& text) { std::cerr << "pfaff: " << text << '\n'; }};
 }  // namespace
+
+void notice(const std::string& text) { say_notice.load()(text); }
+
+void say_notices_by(void (*say)(const std::string& text)) { say_notice = say; }
 
 std::string on_one_line(std::string_view text) {
   std::string line(text);

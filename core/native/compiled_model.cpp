@@ -1,10 +1,10 @@
 #include <pfaff/core/native/compiled_model.hpp>
 
-#include <iostream>
-#include <mutex>
+#include <atomic>
 
 #include <pfaff/core/emit/cpp_function.hpp>
 #include <pfaff/core/emit/names.hpp>
+#include <pfaff/core/errors/notices.hpp>
 #include <pfaff/core/native/native_series.hpp>
 
 namespace pfaff {
@@ -171,9 +171,8 @@ std::string native_text(const Model& model) { return text_of(model).text; }
 
 std::shared_ptr<const Model> compiled(const std::shared_ptr<const Model>& model) {
   if (native::compiler_version().empty()) {
-    static std::once_flag said;
-    std::call_once(said,
-                   [] { std::cerr << "pfaff: there is no C++ compiler here; formulas are interpreted\n"; });
+    static std::atomic<bool> said{false};
+    if (!said.exchange(true)) notice("there is no C++ compiler here; formulas are interpreted");
     return model;
   }
   const NativeText text = text_of(*model);

@@ -6,6 +6,7 @@ What the program `pfaff` does, at the speed of C++, from Python:
 >>> pfaff.__version__
 '0.1.0'
 """
+from . import _machine  # noqa: F401  first: it refuses machines that lack instructions
 from . import _pfaff
 from ._errors import InputError, Interrupted, NotConverged, RunFailed, TraceError
 

@@ -1,5 +1,5 @@
-// Exceptions: those of the libraries as exceptions of Python, which stand in pfaff/_errors.py, where they have
-// their docstrings and what they carry besides a message.
+// Exceptions: those of the libraries as exceptions of Python, which stand in pfaff/_errors.py, where they
+// have their docstrings and what they carry besides a message.
 #include <pfaff/core/errors/budget.hpp>
 #include <pfaff/core/errors/errors.hpp>
 #include <pfaff/python/src/bindings.hpp>
