@@ -9,7 +9,21 @@ What the program `pfaff` does, at the speed of C++, from Python:
 from . import _machine  # noqa: F401  first: it refuses machines that lack instructions
 from . import _pfaff
 from ._errors import InputError, Interrupted, NotConverged, RunFailed, TraceError
+from ._system import System, system, systems
+from ._tracing import solve, where
 
 __version__: str = _pfaff.__version__
 
-__all__ = ["InputError", "Interrupted", "NotConverged", "RunFailed", "TraceError", "__version__"]
+__all__ = [
+    "InputError",
+    "Interrupted",
+    "NotConverged",
+    "RunFailed",
+    "System",
+    "TraceError",
+    "__version__",
+    "solve",
+    "system",
+    "systems",
+    "where",
+]

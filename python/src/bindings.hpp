@@ -6,5 +6,8 @@
 namespace pfaff::python {
 
 void bind_errors(pybind11::module_& module);
+void bind_recording(pybind11::module_& module);
+void bind_model_source(pybind11::module_& module);
+void bind_systems(pybind11::module_& module);
 
 }  // namespace pfaff::python

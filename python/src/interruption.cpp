@@ -6,6 +6,7 @@ namespace pfaff::python {
 
 namespace {
 std::atomic<bool> asked_to_stop{false};
+const std::atomic<bool> never_asked{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may set it");
 
 bool handles = false;  // of the main thread alone
@@ -16,15 +17,15 @@ void note_and_pass_on(int number) {
   handler_of_python.sa_handler(number);
 }
 
-bool on_main_thread() {
+bool is_main_thread() {
   const py::object main = py::module_::import("threading").attr("main_thread")().attr("ident");
   return main.cast<unsigned long>() == PyThread_get_thread_ident();
 }
 }  // namespace
 
-Interruption::Interruption() {
+Interruption::Interruption() : on_main_thread_(is_main_thread()) {
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-  if (!on_main_thread() || handles) return;
+  if (!on_main_thread_ || handles) return;
   asked_to_stop.store(false);
   struct sigaction action {};
   sigaction(SIGINT, nullptr, &handler_of_python);
@@ -42,10 +43,10 @@ Interruption::~Interruption() {
   handles = false;
 }
 
-const std::atomic<bool>& Interruption::stop() { return asked_to_stop; }
+const std::atomic<bool>& Interruption::stop() const { return on_main_thread_ ? asked_to_stop : never_asked; }
 
-bool Interruption::taken() {
-  if (!asked_to_stop.load()) return false;
+bool Interruption::taken() const {
+  if (!stop().load()) return false;
   // Where a handler of the user's own raises nothing, the work has ended all the same.
   if (PyErr_CheckSignals() != 0) PyErr_Clear();
   return true;

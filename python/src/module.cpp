@@ -7,4 +7,7 @@ PYBIND11_MODULE(_pfaff, module) {
   module.doc() = "What the package pfaff calls of the C++ libraries; import pfaff instead.";
   module.attr("__version__") = PFAFF_VERSION_TEXT;
   pfaff::python::bind_errors(module);
+  pfaff::python::bind_recording(module);
+  pfaff::python::bind_model_source(module);
+  pfaff::python::bind_systems(module);
 }

@@ -1,0 +1,63 @@
+"""Numbers as texts, in which every digit counts: a float stands for the decimal that it is printed as."""
+from __future__ import annotations
+
+import decimal
+import fractions
+from typing import Any
+
+import numpy as np
+
+from . import _pfaff
+from ._errors import InputError
+
+
+def text_of_constant(value: Any) -> str | None:
+    """The text of a number, such as "0.1" or "1/3"; None for what is no real number."""
+    if isinstance(value, np.ndarray) and value.ndim == 0:
+        value = value.item()
+    if isinstance(value, (bool, np.bool_)):
+        return None
+    if isinstance(value, (int, np.integer)):
+        return str(int(value))
+    if isinstance(value, float):  # numpy.float64 among them
+        return repr(float(value))
+    if isinstance(value, np.floating):
+        return str(value)
+    if isinstance(value, fractions.Fraction):
+        return f"{value.numerator}/{value.denominator}"
+    if isinstance(value, decimal.Decimal):
+        return str(value)
+    if isinstance(value, _pfaff.Number):
+        return value.constant
+    return None
+
+
+def text_of_number(value: Any, what: str) -> str:
+    """The text of a number that is a setting: a number, or a text such as "1/3"."""
+    text = value if isinstance(value, str) else text_of_constant(value)
+    if text is None:
+        raise InputError(f"{what}: expected a number, got {value!r}")
+    return text
+
+
+def text_of_setting(value: Any, what: str) -> str:
+    """The text of the value of a parameter: a number, a name, yes or no, or a list of these."""
+    if isinstance(value, (bool, np.bool_)):
+        return "yes" if value else "no"
+    if isinstance(value, str):
+        return value
+    if isinstance(value, (list, tuple, np.ndarray)) and np.ndim(value) == 1:
+        return ",".join(text_of_setting(one, what) for one in value)
+    text = text_of_constant(value)
+    if text is None and hasattr(value, "__fspath__"):
+        text = str(value)
+    if text is None:
+        raise InputError(f"{what}: expected a number, a text, True or False, or a list of numbers, got {value!r}")
+    return text
+
+
+def texts_of_state(values: Any, what: str) -> list[str]:
+    """The texts of the numbers of a state, an array of one dimension."""
+    if isinstance(values, str) or np.ndim(values) != 1:
+        raise InputError(f"{what}: expected a list or an array of one dimension, got {values!r}")
+    return [text_of_number(value, what) for value in values]

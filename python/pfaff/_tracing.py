@@ -1,0 +1,156 @@
+"""Tracing: a function is called once with numbers that record what is done with them."""
+from __future__ import annotations
+
+import inspect
+import os
+import sys
+import traceback
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+
+from . import _pfaff
+from ._errors import InputError, TraceError
+from ._numbers import text_of_constant
+
+# Code that stands between a user's formula and the numbers in it.
+_OWN = (os.path.dirname(os.path.abspath(__file__)) + os.sep, os.path.dirname(os.path.abspath(np.__file__)) + os.sep, "<__array_function__")
+
+
+def place_of_caller() -> str:
+    """FILE:LINE of the innermost line of the user's code that is being run; empty where there is none."""
+    frame = sys._getframe(1)
+    while frame is not None:
+        if not frame.f_code.co_filename.startswith(_OWN):
+            return f"{frame.f_code.co_filename}:{frame.f_lineno}"
+        frame = frame.f_back
+    return ""
+
+
+def trace_error(message: str) -> TraceError:
+    """The error of an operation that has no meaning while a formula is recorded, with the user's line."""
+    place = place_of_caller()
+    return TraceError(f"{place}: {message}" if place else message)
+
+
+def _innermost_place(error: BaseException) -> str:
+    """FILE:LINE of the user's code in which an exception was raised, with a colon behind it."""
+    lines = [(frame.f_code.co_filename, line) for frame, line in traceback.walk_tb(error.__traceback__)]
+    users = [f"{file}:{line}: " for file, line in lines if not file.startswith(_OWN)]
+    return users[-1] if users else ""
+
+
+def place_of(function: Callable) -> str:
+    """FILE:LINE of a function, with a colon behind it; empty where it has none."""
+    code = getattr(inspect.unwrap(function), "__code__", None)
+    return f"{code.co_filename}:{code.co_firstlineno}: " if code else ""
+
+
+def array_of(numbers: Any) -> np.ndarray:
+    """An array of one dimension of numbers of a recording."""
+    array = np.empty(len(numbers), dtype=object)
+    for k, number in enumerate(numbers):
+        array[k] = number
+    return array
+
+
+def argument_names(function: Callable) -> dict[str, Any]:
+    """The names of a function's arguments, each with its default, or inspect.Parameter.empty."""
+    parameters = inspect.signature(function).parameters.values()
+    for parameter in parameters:
+        if parameter.kind in (parameter.VAR_POSITIONAL, parameter.VAR_KEYWORD, parameter.POSITIONAL_ONLY):
+            raise InputError(f"{place_of(function)}expected arguments with names, got '{parameter}'")
+    return {parameter.name: parameter.default for parameter in parameters}
+
+
+def call_by_names(function: Callable, known: Mapping[str, Any], what: str) -> Any:
+    """Calls a function with those of the known arguments that it names."""
+    arguments = {}
+    for name, default in argument_names(function).items():
+        if name in known:
+            arguments[name] = known[name]
+        elif default is inspect.Parameter.empty:
+            problem = _pfaff.unknown_name("argument", name, sorted(known))
+            raise InputError(f"{what}: {problem}")
+    return function(**arguments)
+
+
+def flat(results: Any, what: str) -> list:
+    """The numbers of a result: a number, or lists and arrays of them, row by row."""
+    if results is None:
+        raise InputError(f"{what} returned nothing; expected numbers")
+    if isinstance(results, dict):
+        results = list(results.values())
+    try:
+        numbers = list(np.asarray(results, dtype=object).ravel())
+    except ValueError:
+        raise InputError(f"{what} returned rows of different lengths") from None
+    for number in numbers:
+        if not isinstance(number, _pfaff.Number) and text_of_constant(number) is None:
+            raise InputError(f"{what} returned {number!r}; expected numbers")
+    return numbers
+
+
+def recorded(inputs: int, formula: Callable[[Any, list], list], what: str) -> _pfaff.Tape:
+    """The tape of a formula of the time and `inputs` numbers, which gives a list of numbers.
+
+    It is recorded twice: one that gives something else the second time, by random numbers or a counter, is
+    refused (TraceError), since a run would see only what it gave once.
+    """
+    tapes = []
+    for _ in range(2):
+        recording = _pfaff.Recording(inputs)
+        try:
+            tapes.append(recording.finish(formula(recording.time, recording.inputs)))
+        except TypeError as error:
+            # NumPy's own refusals of numbers that are no floats.
+            if isinstance(error, TraceError) or "ufunc" not in str(error):
+                raise
+            raise TraceError(
+                f"{_innermost_place(error)}{what}: NumPy cannot do this with numbers that are recorded ({error}); expected "
+                "+ - * / **, functions such as numpy.sin, pfaff.where, and pfaff.solve for linear systems and inverses"
+            ) from error
+        finally:
+            recording.close()
+    if not tapes[0].same(tapes[1]):
+        raise TraceError(
+            f"{what} is another formula each time that it is called (random numbers, counters, the clock); expected one "
+            "that depends on its arguments alone, since it is recorded once"
+        )
+    return tapes[0]
+
+
+def where(condition: Any, positive: Any, otherwise: Any) -> Any:
+    """`positive` where `condition` > 0, and `otherwise` elsewhere.
+
+    In formulas it takes the place of `if` and of comparisons: where(x - y, a, b) is a where x > y. Arguments are
+    numbers or arrays of one shape; both branches are evaluated.
+
+    >>> import numpy as np
+    >>> where(np.array([1.0, -1.0]), 2, 3)
+    array([2, 3])
+    """
+    arguments = (condition, positive, otherwise)
+    if not any(isinstance(x, _pfaff.Number) or np.asarray(x).dtype == object for x in arguments):
+        return np.where(np.asarray(condition) > 0, positive, otherwise)
+    if all(np.ndim(x) == 0 for x in arguments):
+        return _pfaff.where(*arguments)
+    return np.vectorize(_pfaff.where, otypes=[object])(*arguments)
+
+
+def solve(matrix: Any, right_hand_side: Any) -> np.ndarray:
+    """x of the linear system `matrix` x = `right_hand_side`, of shapes (n, n) and (n,).
+
+    In formulas it takes the place of numpy.linalg.solve and inv: the system is solved, with pivots, whenever the
+    formula is evaluated.
+
+    >>> solve([[2, 0], [0, 4]], [2, 2])
+    array([1. , 0.5])
+    """
+    a, b = np.asarray(matrix), np.asarray(right_hand_side)
+    if a.ndim != 2 or a.shape[0] != a.shape[1] or b.shape != a.shape[:1]:
+        raise InputError(f"solve: expected shapes (n, n) and (n,), got {a.shape} and {b.shape}")
+    if object not in (a.dtype, b.dtype):
+        return np.linalg.solve(a, b)
+    return array_of(_pfaff.solve(list(a.ravel()), list(b)))

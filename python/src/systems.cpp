@@ -1,0 +1,89 @@
+// Models: `_pfaff.Model`, what it says of itself, and those of registered systems and text models.
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <pfaff/core/native/compiled_model.hpp>
+#include <pfaff/core/native/compiler.hpp>
+#include <pfaff/python/src/bindings.hpp>
+#include <pfaff/python/src/interruption.hpp>
+#include <pfaff/python/src/objects.hpp>
+#include <pfaff/runs/asked_for.hpp>
+
+namespace py = pybind11;
+
+namespace pfaff::python {
+
+namespace {
+py::list coordinates_of(const PySystem& system) {
+  py::list list;
+  for (const Coordinate& c : system.model->coordinates()) list.append(py::make_tuple(c.name, c.unit));
+  return list;
+}
+py::list invariants_of(const PySystem& system) {
+  py::list list;
+  for (const Invariant& i : system.model->invariants())
+    list.append(py::make_tuple(i.name, i.unit, std::string(to_string(i.behaviour)), i.quadratic));
+  return list;
+}
+py::array_t<double> initial_of(const PySystem& system) {
+  const auto& initial = system.model->initial();
+  py::array_t<double> z(static_cast<py::ssize_t>(initial.size()));
+  for (std::size_t k = 0; k < initial.size(); ++k) z.mutable_data()[k] = initial[k].value();
+  return z;
+}
+std::vector<std::string> exact_initial_of(const PySystem& system) {
+  std::vector<std::string> texts;
+  for (const Real& x : system.model->initial()) texts.push_back(to_string(x));
+  return texts;
+}
+std::vector<std::string> facets_of(const PySystem& system) {
+  std::vector<std::string> names;
+  for (unsigned k = 0; k < static_cast<unsigned>(Facet::count); ++k)
+    if (system.model->facets().has(static_cast<Facet>(k)))
+      names.emplace_back(to_string(static_cast<Facet>(k)));
+  return names;
+}
+
+py::list parameters_of_plugin(const Plugin& plugin, const Assignments& defaults) {
+  py::list list;
+  for (const Parameter& p : plugin.parameters()) {
+    std::string value;
+    for (const auto& [key, text] : defaults)
+      if (key == p.name) value = text;
+    list.append(py::make_tuple(p.name, value, p.unit, range_of(p), p.meaning));
+  }
+  return list;
+}
+}  // namespace
+
+void bind_systems(py::module_& module) {
+  py::class_<PySystem>(module, "Model", "A system with its parameters.")
+      .def_property_readonly("name", [](const PySystem& s) { return s.model->name(); })
+      .def_property_readonly("dimension", [](const PySystem& s) { return s.model->dimension(); })
+      .def_property_readonly("coordinates", &coordinates_of)
+      .def_property_readonly("invariants", &invariants_of)
+      .def_property_readonly("initial", &initial_of)
+      .def_property_readonly("exact_initial", &exact_initial_of)
+      .def_property_readonly("parameters", [](const PySystem& s) { return s.model->parameters(); })
+      .def_property_readonly("facets", &facets_of)
+      .def_property_readonly("time_unit", [](const PySystem& s) { return s.model->time_unit(); })
+      .def_property_readonly("formulation", [](const PySystem& s) { return s.model->source().formulation; })
+      .def_property_readonly("constraint_names",
+                             [](const PySystem& s) { return s.model->constraint_names(); })
+      .def("compiled",
+           [](const PySystem& s) { return PySystem{without_lock([&] { return compiled(s.model); })}; });
+  module.def("has_compiler", [] { return !native::compiler_version().empty(); });
+  module.def("make_system", [](const std::string& name, const Assignments& parameters) {
+    const SystemPlugin& plugin = system_asked_for(name);
+    return PySystem{without_lock([&] { return plugin.make(parameters); })};
+  });
+  module.def("system_names", [] { return systems().names(); });
+  module.def("system_parameters", [](const std::string& name) {
+    const SystemPlugin& plugin = system_asked_for(name);
+    return parameters_of_plugin(plugin, plugin.make({})->parameters());
+  });
+  module.def("system_title",
+             [](const std::string& name) { return system_asked_for(name).descriptor().title; });
+}
+
+}  // namespace pfaff::python
