@@ -98,6 +98,12 @@ template <class P, class A, class B> inline P choose_lanes(const P& condition, c
 }
 )";
 
+const std::string library_functions =
+    "extern \"C\" {\ndouble sqrt(double) noexcept;\ndouble exp(double) noexcept;\ndouble log(double) "
+    "noexcept;\n"
+    "double sin(double) noexcept;\ndouble cos(double) noexcept;\ndouble atan(double) noexcept;\n"
+    "double erf(double) noexcept;\ndouble pow(double, double) noexcept;\n}\n\n";
+
 std::string symbol_of(Formula formula, const std::string& lanes = "") {
   return "pfaff_" + std::string(row_of(formula).name) + lanes;
 }
@@ -150,12 +156,7 @@ NativeText text_of(const Model& model) {
           function_text(tape, symbol_of(formula, "_" + width), language_in_lanes, "lanes" + width) + "\n";
   }
   if (functions.empty() && !anew) return result;
-  result.text =
-      "extern \"C\" {\ndouble sqrt(double) noexcept;\ndouble exp(double) noexcept;\ndouble log(double) "
-      "noexcept;\n"
-      "double sin(double) noexcept;\ndouble cos(double) noexcept;\ndouble atan(double) noexcept;\n"
-      "double erf(double) noexcept;\ndouble pow(double, double) noexcept;\n}\n\n" +
-      in_lanes + cpp_half_power("") + solver + functions + result.series.text;
+  result.text = library_functions + in_lanes + cpp_half_power("") + solver + functions + result.series.text;
   return result;
 }
 
@@ -167,14 +168,29 @@ struct Owner {
 };
 }  // namespace
 
+namespace {
+bool compiles() {
+  if (!native::compiler_version().empty()) return true;
+  static std::atomic<bool> said{false};
+  if (!said.exchange(true)) notice("there is no C++ compiler here; formulas are interpreted");
+  return false;
+}
+}  // namespace
+
+CompiledTape compiled(const Tape& tape, const std::string& what) {
+  if (tape.code.size() > longest_tape || !compiles()) return {};
+  const Cpp language("");
+  const std::string symbol = "pfaff_tape";
+  auto library = native::library_of(
+      library_functions + cpp_half_power("") + cpp_solver(tape) + function_text(tape, symbol, language),
+      what);
+  return {reinterpret_cast<CompiledFormula>(library->symbol(symbol)), std::move(library)};
+}
+
 std::string native_text(const Model& model) { return text_of(model).text; }
 
 std::shared_ptr<const Model> compiled(const std::shared_ptr<const Model>& model) {
-  if (native::compiler_version().empty()) {
-    static std::atomic<bool> said{false};
-    if (!said.exchange(true)) notice("there is no C++ compiler here; formulas are interpreted");
-    return model;
-  }
+  if (!compiles()) return model;
   const NativeText text = text_of(*model);
   if (text.text.empty()) return model;
   ModelSource source = model->source();

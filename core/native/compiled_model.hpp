@@ -19,6 +19,15 @@ namespace pfaff {
 /// compiler this is the model itself, which is said once on stderr. RunError where the compiler fails.
 std::shared_ptr<const Model> compiled(const std::shared_ptr<const Model>& model);
 
+/// The code of one tape for doubles, called with nothing for a system; without a call where the machine has
+/// no compiler, which is said as above, and where the tape is longer than 200000 operations. RunError, naming
+/// `what`, where the compiler fails.
+struct CompiledTape {
+  CompiledFormula call = nullptr;
+  std::shared_ptr<const void> library{};  // that holds it
+};
+CompiledTape compiled(const Tape& tape, const std::string& what);
+
 /// The C++ text of what `compiled` compiles; empty where there is nothing.
 std::string native_text(const Model& model);
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 import inspect
 import os
 import sys
-import traceback
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -32,13 +31,6 @@ def trace_error(message: str) -> TraceError:
     """The error of an operation that has no meaning while a formula is recorded, with the user's line."""
     place = place_of_caller()
     return TraceError(f"{place}: {message}" if place else message)
-
-
-def _innermost_place(error: BaseException) -> str:
-    """FILE:LINE of the user's code in which an exception was raised, with a colon behind it."""
-    lines = [(frame.f_code.co_filename, line) for frame, line in traceback.walk_tb(error.__traceback__)]
-    users = [f"{file}:{line}: " for file, line in lines if not file.startswith(_OWN)]
-    return users[-1] if users else ""
 
 
 def place_of(function: Callable) -> str:
@@ -108,7 +100,7 @@ def recorded(inputs: int, formula: Callable[[Any, list], list], what: str) -> _p
             if isinstance(error, TraceError) or "ufunc" not in str(error):
                 raise
             raise TraceError(
-                f"{_innermost_place(error)}{what}: NumPy cannot do this with numbers that are recorded ({error}); expected "
+                f"{what}: NumPy cannot do this with numbers that are recorded ({error}); expected "
                 "+ - * / **, functions such as numpy.sin, pfaff.where, and pfaff.solve for linear systems and inverses"
             ) from error
         finally:
