@@ -17,24 +17,36 @@ struct ReplayedStep {
   template <class P>
   struct Work {
     using T = Scalar<P>;
-    std::vector<T> arguments;
+    std::vector<T> arguments, results;  // the state, the memory and h; the same without h
     Replay<T> replay;
-    Work(const ReplayedStep& method, const P& p) : arguments(p.size() + 1), replay(method.step_tape.tape) {}
+    Work(const ReplayedStep& method, const P& p)
+        : arguments(p.size() + method.step_tape.memory + 1, T(0)),
+          results(arguments.size() - 1),
+          replay(method.step_tape.tape) {}
   };
 
   template <class P>
   Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
+    const std::size_t size = p.size();
     std::copy(z.begin(), z.end(), w.arguments.begin());
     w.arguments.back() = h;
     p.counters().fields += step_tape.fields;
-    if constexpr (std::is_same_v<Scalar<P>, double>) {
-      if (code.call != nullptr) {
-        code.call(nullptr, t, w.arguments.data(), z.data());
-        return Status::converged;
-      }
-    }
-    w.replay(t, w.arguments.data(), z.data());
+    evaluate<P>(t, w);
+    std::copy_n(w.results.begin(), size, z.begin());
+    std::copy(w.results.begin() + static_cast<std::ptrdiff_t>(size), w.results.end(),
+              w.arguments.begin() + static_cast<std::ptrdiff_t>(size));
     return Status::converged;
+  }
+
+ private:
+  template <class P>
+  void evaluate(const Scalar<P>& t, Work<P>& w) const {
+    if constexpr (std::is_same_v<Scalar<P>, double>)
+      if (code.call != nullptr) {
+        code.call(nullptr, t, w.arguments.data(), w.results.data());
+        return;
+      }
+    w.replay(t, w.arguments.data(), w.results.data());
   }
 };
 }  // namespace

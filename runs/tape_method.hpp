@@ -19,8 +19,9 @@ namespace pfaff {
 
 /// A step on one model.
 struct StepTape {
-  std::shared_ptr<const Tape> tape;  // of the state and, behind it, the step h, at the time t
+  std::shared_ptr<const Tape> tape;  // of the state, the memory and the step h, at the time t
   std::int64_t fields = 0;           // right-hand sides that a step counts as
+  std::size_t memory = 0;            // numbers that a step keeps for the next one, zeros at first
 };
 
 /// What is said of such a method beside its step.

@@ -9,6 +9,7 @@ What the program `pfaff` does, at the speed of C++, from Python:
 from . import _machine  # noqa: F401  first: it refuses machines that lack instructions
 from . import _pfaff
 from ._errors import InputError, Interrupted, NotConverged, RunFailed, TraceError
+from ._method import Method, Problem, method, methods, table
 from ._system import System, system, systems
 from ._tracing import solve, where
 
@@ -17,13 +18,18 @@ __version__: str = _pfaff.__version__
 __all__ = [
     "InputError",
     "Interrupted",
+    "Method",
     "NotConverged",
+    "Problem",
     "RunFailed",
     "System",
     "TraceError",
     "__version__",
+    "method",
+    "methods",
     "solve",
     "system",
     "systems",
+    "table",
     "where",
 ]

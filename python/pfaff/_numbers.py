@@ -1,14 +1,40 @@
 """Numbers as texts, in which every digit counts: a float stands for the decimal that it is printed as."""
 from __future__ import annotations
 
+import contextlib
 import decimal
 import fractions
+import threading
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 
 from . import _pfaff
 from ._errors import InputError
+
+
+class _Noted(threading.local):
+    list: list[tuple[str, str]] | None = None
+
+
+_noted = _Noted()
+
+
+@contextlib.contextmanager
+def noted_constants() -> Iterator[list[tuple[str, str]]]:
+    """Notes the floats of sixteen digits and more that become constants meanwhile, as (place, text): a float that
+    was computed, such as 1/3, is rounded, and not the constant that was meant."""
+    before, _noted.list = _noted.list, []
+    try:
+        yield _noted.list
+    finally:
+        _noted.list = before
+
+
+def _digits(text: str) -> int:
+    """The significant digits of a number as Python prints it."""
+    return len(text.lower().split("e")[0].lstrip("-").replace(".", "").strip("0"))
 
 
 def text_of_constant(value: Any) -> str | None:
@@ -20,7 +46,12 @@ def text_of_constant(value: Any) -> str | None:
     if isinstance(value, (int, np.integer)):
         return str(int(value))
     if isinstance(value, float):  # numpy.float64 among them
-        return repr(float(value))
+        text = repr(float(value))
+        if _noted.list is not None and _digits(text) >= 16:
+            from ._tracing import place_of_caller
+
+            _noted.list.append((place_of_caller(), text))
+        return text
     if isinstance(value, np.floating):
         return str(value)
     if isinstance(value, fractions.Fraction):

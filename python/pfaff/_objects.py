@@ -1,9 +1,11 @@
 """What stands for a system or a method wherever one is expected."""
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from ._errors import InputError
+from ._method import Method, table
 from ._system import System
 
 
@@ -20,3 +22,19 @@ def as_system(x: Any, **parameters: Any) -> System:
     if isinstance(x, str) or hasattr(x, "__fspath__"):
         return System(str(x), **parameters)
     raise InputError(f"expected a system: a name, the path of a text model, or a pfaff.System, got {x!r}")
+
+
+def as_method(x: Any, **parameters: Any) -> Method:
+    """The method of a registered name, the path of a table, a dictionary of coefficients or a Method, with these
+    parameters.
+
+    Raises:
+        InputError: for anything else, unknown names and wrong values.
+    """
+    if isinstance(x, Method):
+        return x(**parameters) if parameters else x
+    if isinstance(x, str) or hasattr(x, "__fspath__"):
+        return Method(str(x), **parameters)
+    if isinstance(x, Mapping):
+        return table(x, **parameters)
+    raise InputError(f"expected a method: a name, the path of a table, a dictionary of coefficients or a pfaff.Method, got {x!r}")

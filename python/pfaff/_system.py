@@ -4,7 +4,6 @@ from __future__ import annotations
 import functools
 import importlib
 import inspect
-import warnings
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -13,6 +12,7 @@ import numpy as np
 from . import _pfaff
 from ._definition import MEMBERS, Definition
 from ._errors import InputError
+from ._naming import kebab
 from ._numbers import text_of_setting
 from ._tracer import Tracer
 from ._tracing import argument_names, place_of
@@ -214,12 +214,7 @@ class Frozen:
 
 
 def _compiled(model: _pfaff.Model, compile: bool) -> _pfaff.Model:
-    if not compile:
-        return model
-    if not _pfaff.has_compiler():
-        warnings.warn("there is no C++ compiler here; formulas are interpreted", RuntimeWarning, stacklevel=6)
-        return model
-    return model.compiled()
+    return model.compiled() if compile else model
 
 
 def _referred(module: str, name: str) -> Any:
@@ -242,12 +237,6 @@ def _by_reference(module: str, name: str, parameters: Mapping[str, Any], compile
 
 def _frozen(source: dict, compile: bool) -> System:
     return System._made(Frozen(source), {}, compile)
-
-
-def _kebab(name: str) -> str:
-    """A name as systems have them: DampedPendulum and damped_pendulum are damped-pendulum."""
-    words = "".join("-" + c.lower() if c.isupper() and k and not name[k - 1].isupper() else c.lower() for k, c in enumerate(name))
-    return words.replace("_", "-").strip("-")
 
 
 _DESCRIBING = ("units", "behaviours", "time_unit", "part_names", "small_part", "chart_coordinates", "title")
@@ -273,7 +262,7 @@ def _definition_of_class(cls: type) -> Traced:
     coordinates, initial, invariants = (members.pop(key, None) for key in ("coordinates", "initial", "invariants"))
     if coordinates is None:
         raise InputError(f"{cls.__name__}: expected coordinates, such as coordinates = [\"q\", \"p\"]")
-    name = described.pop("system_name", _kebab(cls.__name__))
+    name = described.pop("system_name", kebab(cls.__name__))
     definition = Definition(name, coordinates, members, initial=initial, invariants=invariants, parameters=parameters, of_class=cls, **described)
     return Traced(definition, (cls.__module__, cls.__qualname__))
 
@@ -323,7 +312,7 @@ def system(*, coordinates: Sequence[str] | Mapping[str, Any], initial: Any = Non
 
     def decorate(function: Callable) -> System:
         argument_names(function)
-        own = name or _kebab(function.__name__)
+        own = name or kebab(function.__name__)
         definition = Definition(own, coordinates, {**members, formula: function}, initial=initial, invariants=invariants, **described)
         made = System._made(Traced(definition, (function.__module__, function.__qualname__)), {}, compile)
         made.__doc__ = function.__doc__

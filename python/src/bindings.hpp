@@ -9,5 +9,7 @@ void bind_errors(pybind11::module_& module);
 void bind_recording(pybind11::module_& module);
 void bind_model_source(pybind11::module_& module);
 void bind_systems(pybind11::module_& module);
+void bind_scalars(pybind11::module_& module);
+void bind_methods(pybind11::module_& module);
 
 }  // namespace pfaff::python

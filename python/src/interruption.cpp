@@ -52,4 +52,16 @@ bool Interruption::taken() const {
   return true;
 }
 
+void raise_saved(SavedError& saved) {
+  if (!saved.holds()) return;
+  const py::object error = saved.taken();
+  if (PyErr_GivenExceptionMatches(error.ptr(), PyExc_KeyboardInterrupt) != 0) {
+    const py::object interrupted = py::module_::import("pfaff._errors").attr("Interrupted");
+    PyErr_SetObject(interrupted.ptr(), interrupted().ptr());
+  } else {
+    PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(error.ptr())), error.ptr());
+  }
+  throw py::error_already_set();
+}
+
 }  // namespace pfaff::python

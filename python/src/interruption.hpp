@@ -5,8 +5,10 @@
 
 #include <atomic>
 #include <csignal>
+#include <type_traits>
 
 #include <pfaff/core/errors/budget.hpp>
+#include <pfaff/python/src/callbacks.hpp>
 
 namespace pfaff::python {
 
@@ -31,17 +33,40 @@ class Interruption {
   bool on_main_thread_, installed_ = false;
 };
 
+/// Raises what callbacks have raised, if there is anything: Ctrl-C as Interrupted, all else as it is. With
+/// Python's lock.
+void raise_saved(SavedError& saved);
+
 /// work() without Python's lock. Whatever spends from the budget of its thread ends with BudgetSpent once
-/// Ctrl-C has come, which becomes Interrupted.
+/// Ctrl-C has come, which becomes Interrupted. What a callback has raised is
+/// raised in place of whatever the library makes of it.
 template <class Work>
 auto without_lock(Work&& work) {
   const Interruption interruption;
+  SavedError saved;
   try {
-    const pybind11::gil_scoped_release released;
-    const Budget budget({}, &interruption.stop());
-    return work();
+    const auto worked = [&] {
+      const SavedError::Scope scope(saved);
+      const pybind11::gil_scoped_release released;
+      const Budget budget({}, &interruption.stop());
+      return work();
+    };
+    if constexpr (std::is_void_v<decltype(worked())>) {
+      worked();
+      raise_saved(saved);
+    } else {
+      auto result = worked();
+      raise_saved(saved);
+      return result;
+    }
+  } catch (const pybind11::error_already_set&) {
+    throw;
   } catch (const BudgetSpent& spent) {
+    raise_saved(saved);
     if (spent.stopped()) (void)interruption.taken();
+    throw;
+  } catch (...) {
+    raise_saved(saved);
     throw;
   }
 }

@@ -13,6 +13,7 @@
 #include <pfaff/core/tape/replay.hpp>
 #include <pfaff/python/src/bindings.hpp>
 #include <pfaff/python/src/objects.hpp>
+#include <pfaff/python/src/recording.hpp>
 #include <pfaff/python/src/separable_energy.hpp>
 #include <pfaff/runs/asked_for.hpp>
 #include <pfaff/systems/text/followed_quantities.hpp>
@@ -205,6 +206,27 @@ PyTape tape_of(const py::tuple& data) {
   return {std::make_shared<const Tape>(std::move(t))};
 }
 
+// The results of a tape as numbers of the recording that its arguments belong to.
+std::vector<Number> recorded_anew(const PyTape& tape, const py::object& time,
+                                  const std::vector<py::object>& arguments) {
+  Number all{0};
+  std::vector<Recorded> x;
+  const auto number = [&](const py::object& object) {
+    const auto found = number_from(object);
+    if (!found) refuse_traced("expected numbers as arguments of a formula of the system");
+    all.recording = recording_of(all, *found);
+    return found->value;
+  };
+  const Recorded t = number(time);
+  for (const py::object& one : arguments) x.push_back(number(one));
+  if (x.size() != static_cast<std::size_t>(tape.tape->inputs))
+    throw InputError("a formula of the system: expected " + std::to_string(tape.tape->inputs) +
+                     " numbers, got " + std::to_string(x.size()));
+  std::vector<Number> results;
+  for (Recorded& value : evaluate(*tape.tape, t, x)) results.push_back({std::move(value), all.recording});
+  return results;
+}
+
 std::vector<double> values_of(const PyTape& tape, double t, const std::vector<double>& arguments) {
   if (arguments.size() != static_cast<std::size_t>(tape.tape->inputs))
     throw InputError("tape: expected " + std::to_string(tape.tape->inputs) + " numbers, got " +
@@ -227,6 +249,7 @@ void bind_model_source(py::module_& module) {
                                return texts;
                              })
       .def("same", &same_tape)
+      .def("record", &recorded_anew)
       .def("__call__", &values_of)
       .def(py::pickle(&data_of, &tape_of));
   module.def("traced_model", &traced_model);

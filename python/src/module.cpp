@@ -10,4 +10,6 @@ PYBIND11_MODULE(_pfaff, module) {
   pfaff::python::bind_recording(module);
   pfaff::python::bind_model_source(module);
   pfaff::python::bind_systems(module);
+  pfaff::python::bind_scalars(module);
+  pfaff::python::bind_methods(module);
 }

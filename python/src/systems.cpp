@@ -3,7 +3,6 @@
 #include <pybind11/stl.h>
 
 #include <pfaff/core/native/compiled_model.hpp>
-#include <pfaff/core/native/compiler.hpp>
 #include <pfaff/python/src/bindings.hpp>
 #include <pfaff/python/src/interruption.hpp>
 #include <pfaff/python/src/objects.hpp>
@@ -72,7 +71,6 @@ void bind_systems(py::module_& module) {
                              [](const PySystem& s) { return s.model->constraint_names(); })
       .def("compiled",
            [](const PySystem& s) { return PySystem{without_lock([&] { return compiled(s.model); })}; });
-  module.def("has_compiler", [] { return !native::compiler_version().empty(); });
   module.def("make_system", [](const std::string& name, const Assignments& parameters) {
     const SystemPlugin& plugin = system_asked_for(name);
     return PySystem{without_lock([&] { return plugin.make(parameters); })};

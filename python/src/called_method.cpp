@@ -1,0 +1,115 @@
+#include <pfaff/python/src/called_method.hpp>
+
+#include <pfaff/python/src/objects.hpp>
+#include <pfaff/python/src/scalars.hpp>
+
+namespace py = pybind11;
+
+namespace pfaff::python {
+
+namespace {
+// The formulas of a problem, for Python; empty once the stepper is gone.
+template <class P>
+struct Formulas {
+  const P* problem = nullptr;
+  py::array operator()(const std::string& name, const py::object& time, const py::object& arguments) const;
+};
+
+// Evaluates the formula of a row, where the problem has a member of its name.
+template <class P, class T>
+void evaluate(const P& p, Formula formula, const T& t, In<T> x, Out<T> out) {
+  switch (formula) {
+#define PFAFF_DERIVED(name, ...)                                      \
+  case Formula::name:                                                 \
+    if constexpr (requires { p.name(t, x, out); }) p.name(t, x, out); \
+    break;
+#define PFAFF_BRACKET(name, ...) PFAFF_DERIVED(name)
+#define PFAFF_FORMULA(name, result, ...)                 \
+  case Formula::name:                                    \
+    if constexpr (requires {                             \
+                    { p.name(t, x) } -> std::same_as<T>; \
+                  })                                     \
+      out[0] = p.name(t, x);                             \
+    else if constexpr (requires { p.name(t, x, out); })  \
+      p.name(t, x, out);                                 \
+    break;
+#include <pfaff/core/facets/formula_rows.hpp>
+    default:
+      break;
+  }
+}
+
+template <class P>
+py::array Formulas<P>::operator()(const std::string& name, const py::object& time,
+                                  const py::object& arguments) const {
+  using T = Scalar<P>;
+  if (problem == nullptr)
+    throw InputError("problem: its integration has ended; expected that it is not kept");
+  const Model& model = *problem->model();
+  for (const FormulaRow& row : formula_table) {
+    if (row.name != name || !model.facets().meets(row.traits.offered_by)) continue;
+    const auto tape = model.tape(row.formula);
+    std::vector<T> x(static_cast<std::size_t>(tape->inputs)), out(tape->outputs.size());
+    write_numbers(arguments, std::span<T>(x), name.c_str());
+    evaluate(*problem, row.formula, scalar_from<T>(time), In<T>(x), Out<T>(out));
+    return array_of(std::span<const T>(out));
+  }
+  throw InputError("system " + model.name() + " offers no " + name);
+}
+
+// The method as the loop over steps sees it.
+struct CalledStep {
+  SharedObject function;
+
+  template <class P>
+  struct Work {
+    std::shared_ptr<Formulas<P>> formulas = std::make_shared<Formulas<P>>();
+    SharedObject evaluate, memory, model;
+
+    Work(const CalledStep& /*method*/, const P& p) {
+      formulas->problem = &p;
+      const py::gil_scoped_acquire lock;
+      evaluate =
+          SharedObject(py::cpp_function([f = formulas](const std::string& name, const py::object& t,
+                                                       const py::object& x) { return (*f)(name, t, x); }));
+      memory = SharedObject(py::dict());
+      model = SharedObject(py::cast(PySystem{p.model()}));
+    }
+    Work(const Work&) = delete;
+    Work& operator=(const Work&) = delete;
+    ~Work() { formulas->problem = nullptr; }
+  };
+
+  template <class P>
+  Status step(const P& /*p*/, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
+    using T = Scalar<P>;
+    with_lock([&] {
+      try {
+        const py::object made =
+            function.get()(w.evaluate.get(), w.model.get(), t, h,
+                           array_of(std::span<const T>(z.data(), z.size())), w.memory.get());
+        std::vector<T> next(z.size());
+        write_numbers(made, std::span<T>(next), "state that a step returned");
+        std::copy(next.begin(), next.end(), z.begin());
+      } catch (const InputError& error) {
+        const py::object kind = py::module_::import("pfaff._errors").attr("InputError");
+        PyErr_SetString(kind.ptr(), error.what());
+        throw py::error_already_set();
+      }
+    });
+    return Status::converged;
+  }
+};
+}  // namespace
+
+template <class T>
+StepperPointer<T> CalledMethod::made(std::shared_ptr<const Model> model) const {
+  return std::make_unique<detail::SteppingOn<CalledStep, Problem<T>>>(CalledStep{step_}, std::move(model));
+}
+
+template StepperPointer<double> CalledMethod::made(std::shared_ptr<const Model>) const;
+template StepperPointer<Quad> CalledMethod::made(std::shared_ptr<const Model>) const;
+template StepperPointer<StepDual<double>> CalledMethod::made(std::shared_ptr<const Model>) const;
+template StepperPointer<StepDual<Quad>> CalledMethod::made(std::shared_ptr<const Model>) const;
+
+}  // namespace pfaff::python

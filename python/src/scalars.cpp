@@ -1,0 +1,138 @@
+#include <pfaff/python/src/scalars.hpp>
+
+#include <cstdlib>
+#include <optional>
+#include <string>
+
+#include <pfaff/core/errors/errors.hpp>
+#include <pfaff/core/numbers/formula_scalar.hpp>
+#include <pfaff/core/numbers/special.hpp>
+#include <pfaff/python/src/bindings.hpp>
+
+namespace py = pybind11;
+
+namespace pfaff::python {
+
+namespace {
+// The constant that a number of Python is, exact to quad; nullopt for what is none.
+std::optional<Real> real_from(py::handle object) {
+  const py::object text = py::module_::import("pfaff._numbers").attr("text_of_constant")(object);
+  if (text.is_none()) return std::nullopt;
+  if (auto value = Real::parse(text.cast<std::string>())) return value;
+  if (PyFloat_Check(object.ptr()) != 0) return Real(Quad(PyFloat_AS_DOUBLE(object.ptr())));  // inf and nan
+  return std::nullopt;
+}
+template <class T>
+std::optional<T> known_scalar(py::handle object) {
+  if (py::isinstance<T>(object)) return object.cast<const T&>();
+  if (const auto value = real_from(object)) return T(*value);
+  return std::nullopt;
+}
+
+template <class T, class Operation>
+void define(py::class_<T>& c, const char* name, Operation operation, bool reversed = false) {
+  c.def(name, [operation, reversed](const T& a, const py::object& other) -> py::object {
+    const std::optional<T> b = known_scalar<T>(other);
+    if (!b) return py::reinterpret_borrow<py::object>(Py_NotImplemented);
+    return py::cast(reversed ? operation(*b, a) : operation(a, *b));
+  });
+}
+
+template <class T>
+T power(const T& x, const T& y) {
+  return exp(y * log(x));
+}
+
+// Whole and other constant powers, which negative numbers have too.
+template <class T>
+py::object power_of(const T& x, const py::object& exponent) {
+  if (py::isinstance<T>(exponent)) return py::cast(power(x, exponent.cast<const T&>()));
+  const auto value = real_from(exponent);
+  if (!value) return py::reinterpret_borrow<py::object>(Py_NotImplemented);
+  const auto whole = value->is_fraction() && value->denominator() == 1 ? value->numerator() : 0;
+  if (whole == 0 || std::abs(whole) > 32) return py::cast(pow(x, *value));
+  T product = x;
+  for (std::int64_t k = 1; k < std::abs(whole); ++k) product = product * x;
+  return py::cast(whole < 0 ? T(1) / product : product);
+}
+
+template <class T>
+void bind_scalar(py::module_& module, const char* name, const char* meaning) {
+  py::class_<T> c(module, name, meaning);
+  define(c, "__add__", [](const T& x, const T& y) { return x + y; });
+  define(
+      c, "__radd__", [](const T& x, const T& y) { return x + y; }, true);
+  define(c, "__sub__", [](const T& x, const T& y) { return x - y; });
+  define(
+      c, "__rsub__", [](const T& x, const T& y) { return x - y; }, true);
+  define(c, "__mul__", [](const T& x, const T& y) { return x * y; });
+  define(
+      c, "__rmul__", [](const T& x, const T& y) { return x * y; }, true);
+  define(c, "__truediv__", [](const T& x, const T& y) { return x / y; });
+  define(
+      c, "__rtruediv__", [](const T& x, const T& y) { return x / y; }, true);
+  define(c, "__lt__", [](const T& x, const T& y) { return value_of(x) < value_of(y); });
+  define(c, "__le__", [](const T& x, const T& y) { return value_of(x) <= value_of(y); });
+  define(c, "__gt__", [](const T& x, const T& y) { return value_of(x) > value_of(y); });
+  define(c, "__ge__", [](const T& x, const T& y) { return value_of(x) >= value_of(y); });
+  define(c, "__eq__", [](const T& x, const T& y) { return value_of(x) == value_of(y); });
+  define(
+      c, "__rpow__", [](const T& x, const T& y) { return power(x, y); }, true);
+  c.def("__pow__", &power_of<T>)
+      .def("__neg__", [](const T& x) { return -x; })
+      .def("__abs__", [](const T& x) { return value_of(x) < Value<T>(0) ? -x : x; })
+      .def("__float__", [](const T& x) { return static_cast<double>(value_of(x)); })
+      .def("__repr__", [](const T& x) { return to_string(Quad(value_of(x)), 36); })
+      .def("sqrt", [](const T& x) { return sqrt(x); })
+      .def("exp", [](const T& x) { return exp(x); })
+      .def("log", [](const T& x) { return log(x); })
+      .def("sin", [](const T& x) { return sin(x); })
+      .def("cos", [](const T& x) { return cos(x); })
+      .def("conjugate", [](const T& x) { return x; });
+  c.attr("__hash__") = py::none();
+}
+}  // namespace
+
+template <class T>
+T scalar_from(py::handle object) {
+  if constexpr (std::is_same_v<T, double>) {
+    const double value = PyFloat_AsDouble(object.ptr());
+    if (PyErr_Occurred() != nullptr) throw py::error_already_set();
+    return value;
+  } else {
+    if (auto value = known_scalar<T>(object)) return *value;
+    throw py::type_error("expected a number, got " + py::str(py::type::of(object)).cast<std::string>());
+  }
+}
+
+template <class T>
+void write_numbers(const py::object& numbers, std::span<T> to, const char* what) {
+  if (!py::isinstance<py::sequence>(numbers) && !py::isinstance<py::array>(numbers))
+    throw InputError(std::string(what) + ": expected a list or an array of " + std::to_string(to.size()) +
+                     " numbers, got " + py::str(py::type::of(numbers)).cast<std::string>());
+  const std::size_t size = py::len(numbers);
+  if (size != to.size())
+    throw InputError(std::string(what) + ": expected " + std::to_string(to.size()) + " numbers, got " +
+                     std::to_string(size));
+  for (std::size_t k = 0; k < size; ++k) {
+    const py::object one = numbers[py::int_(k)];
+    to[k] = scalar_from<T>(one);
+  }
+}
+
+template double scalar_from(py::handle);
+template Quad scalar_from(py::handle);
+template StepDual<double> scalar_from(py::handle);
+template StepDual<Quad> scalar_from(py::handle);
+template void write_numbers(const py::object&, std::span<double>, const char*);
+template void write_numbers(const py::object&, std::span<Quad>, const char*);
+template void write_numbers(const py::object&, std::span<StepDual<double>>, const char*);
+template void write_numbers(const py::object&, std::span<StepDual<Quad>>, const char*);
+
+void bind_scalars(py::module_& module) {
+  bind_scalar<Quad>(module, "Quad", "A number of quad precision.");
+  bind_scalar<StepDual<double>>(module, "Dual", "A number with its derivatives in four directions.");
+  bind_scalar<StepDual<Quad>>(module, "QuadDual", "A number of quad precision with its derivatives.");
+}
+
+}  // namespace pfaff::python
