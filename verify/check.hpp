@@ -44,6 +44,9 @@ bool good(const Check& check);
 
 nlohmann::json to_json(const Check& check);
 
+/// The plug-in with its parameters, and the system where there is one: "gauss stages=3 on kepler".
+std::string place_of(const Check& check);
+
 /// A state of a system at which claims are measured, for use with `generic_time_of`: the initial state, moved
 /// off any symmetry that could hide an error, and moved back onto the constraints where there are any.
 /// InputError when the model has no initial state, or when no such point was found.
@@ -96,6 +99,9 @@ std::vector<Check> check_changed_coefficient(const MethodPlugin& plugin, const A
 std::vector<Check> check_coefficients(const MethodPlugin& plugin, const Assignments& parameters);
 /// Checks the structure, chart, overrides, invariants and exact solution of a system with these parameters.
 std::vector<Check> check_system(const SystemPlugin& system, const Assignments& parameters = {});
+/// The same of a model, listed under the name.
+std::vector<Check> check_system(const std::string& name, const std::shared_ptr<const Model>& model,
+                                const Assignments& parameters);
 /// Checks of a system with constraints: the initial state is on them, they are second class there, the
 /// author's own evaluator computes what is derived from the formulas, and Dirac's formulation keeps the
 /// constraints, off their surface too.
@@ -142,5 +148,25 @@ std::vector<Check> check_false_methods();
 std::vector<Check> verify(
     const VerificationSettings& settings,
     const std::function<void(const std::string& what, std::size_t done, std::size_t all)>& progress = {});
+
+/// A method that need not be registered, and the parameters that it was made with.
+struct MethodToVerify {
+  std::shared_ptr<const MethodInstance> method;
+  Assignments parameters{};
+};
+/// The same of objects. Methods are verified on the models `on`, where there are any, and else on random
+/// systems and on every registered system that they fit; systems are verified themselves. InputError for a
+/// method that does not fit a model of `on`.
+std::vector<Check> verify(const std::vector<MethodToVerify>& methods,
+                          const std::vector<std::shared_ptr<const Model>>& systems,
+                          const std::vector<std::shared_ptr<const Model>>& on);
+
+/// What checks come to.
+struct Verdict {
+  bool ok = false;       // something was checked, and all is as it should be
+  bool checked = false;  // something was
+  std::string line;      // in a sentence: what holds, what was not judged and, first, whether all is well
+};
+Verdict verdict_of(const std::vector<Check>& checks);
 
 }  // namespace pfaff

@@ -44,9 +44,8 @@ std::shared_ptr<const Model> model_claimed_on(const MethodInstance& method, Clai
   return std::find(made.begin(), made.end(), claim) != made.end() ? fitting : nullptr;
 }
 
-std::vector<Check> check_on_random_systems(const MethodPlugin& plugin, const Assignments& parameters,
+std::vector<Check> check_on_random_systems(const MethodInstance& method, const Assignments& parameters,
                                            std::size_t turn, bool every_kind) {
-  const auto method = plugin.make(parameters);
   std::set<SystemKind> chosen;
   for (const ClaimRow& row : claim_table) {
     std::vector<SystemKind> kinds;
@@ -55,7 +54,7 @@ std::vector<Check> check_on_random_systems(const MethodPlugin& plugin, const Ass
       if (kind == SystemKind::transcendental) continue;
       const Recipe recipe = random_recipe(kind, seed, verified_size);
       if (recipe.dimension <= most_variables &&
-          model_claimed_on(*method, row.claim, model_of(system_of(recipe))) != nullptr)
+          model_claimed_on(method, row.claim, model_of(system_of(recipe))) != nullptr)
         kinds.push_back(kind);
     }
     if (every_kind)
@@ -66,8 +65,8 @@ std::vector<Check> check_on_random_systems(const MethodPlugin& plugin, const Ass
   std::vector<Check> checks;
   for (const SystemKind kind : chosen) {
     const PolynomialSystem system = system_of(random_recipe(kind, seed, verified_size));
-    const auto model = motion_for(*method, model_of(system));
-    for (Check& check : check_in_short_runs(*method, parameters, system.name, model))
+    const auto model = motion_for(method, model_of(system));
+    for (Check& check : check_in_short_runs(method, parameters, system.name, model))
       checks.push_back(std::move(check));
   }
   return checks;

@@ -18,7 +18,7 @@ std::shared_ptr<const Model> model_claimed_on(const MethodInstance& method, Clai
 /// claims, or as many as there are; none for a method that claims nothing. A quick verification of a method
 /// with many parameters numbers these by `turn`, from 0; after the first, each claim is checked on one kind,
 /// another one from turn to turn. With `every_kind` each claim is checked on all kinds in its scope.
-std::vector<Check> check_on_random_systems(const MethodPlugin& plugin, const Assignments& parameters,
+std::vector<Check> check_on_random_systems(const MethodInstance& method, const Assignments& parameters,
                                            std::size_t turn = 0, bool every_kind = false);
 
 }  // namespace pfaff

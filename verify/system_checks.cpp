@@ -40,7 +40,7 @@ Check varies(const std::string& system, const std::string& invariant,
   return check;
 }
 
-void invariants(std::vector<Check>& checks, const SystemPlugin& plugin, const Model& model,
+void invariants(std::vector<Check>& checks, const std::string& name, const Model& model,
                 const Region& region) {
   const auto& list = model.invariants();
   if (list.empty()) return;
@@ -56,11 +56,10 @@ void invariants(std::vector<Check>& checks, const SystemPlugin& plugin, const Mo
       // A constraint that follows from the others is zero on all of their surface, and is to be.
       const auto& redundant = model.source().redundant_constraints;
       if (std::find(redundant.begin(), redundant.end(), list[k].name) == redundant.end())
-        checks.push_back(varies(plugin.name(), list[k].name, values, k, region));
+        checks.push_back(varies(name, list[k].name, values, k, region));
       if (list[k].quadratic)
-        both(checks, plugin.name(), list[k].name + " is quadratic", plugin.name(),
-             third_difference(*values, k), region);
-      both(checks, plugin.name(), "conserves " + list[k].name, plugin.name(), rate, region);
+        both(checks, name, list[k].name + " is quadratic", name, third_difference(*values, k), region);
+      both(checks, name, "conserves " + list[k].name, name, rate, region);
     } else if (list[k].behaviour == Behaviour::decreasing || list[k].behaviour == Behaviour::increasing) {
       const bool falls = list[k].behaviour == Behaviour::decreasing;
       // The part of the rate that has the forbidden sign, made positive.
@@ -68,14 +67,13 @@ void invariants(std::vector<Check>& checks, const SystemPlugin& plugin, const Mo
         const Recorded r = evaluate(*rate, t, z)[0];
         out[0] = falls ? select(r, r, Recorded(0)) : select(r, Recorded(0), -r);
       });
-      both(checks, plugin.name(), (falls ? "decreases " : "increases ") + list[k].name, plugin.name(), wrong,
-           region);
+      both(checks, name, (falls ? "decreases " : "increases ") + list[k].name, name, wrong, region);
     }
   }
 }
 
 // The exact solution satisfies the differential equation and starts at its initial state.
-void exact_solution(std::vector<Check>& checks, const SystemPlugin& plugin, const Model& model,
+void exact_solution(std::vector<Check>& checks, const std::string& name, const Model& model,
                     const Region& region) {
   const int n = model.dimension();
   const auto size = static_cast<std::size_t>(n);
@@ -90,21 +88,20 @@ void exact_solution(std::vector<Check>& checks, const SystemPlugin& plugin, cons
       out[size + k] = start[k] - z[k];
     }
   });
-  both(checks, plugin.name(), "exact solution", plugin.name(), defect, region.with_zero());
+  both(checks, name, "exact solution", name, defect, region.with_zero());
 }
 
-void darboux(std::vector<Check>& checks, const SystemPlugin& plugin, const Model& model,
-             const Region& region) {
+void darboux(std::vector<Check>& checks, const std::string& name, const Model& model, const Region& region) {
   const int n = model.dimension();
   const auto size = static_cast<std::size_t>(n);
   const auto chart = model.tape(Formula::chart), inverse = model.tape(Formula::chart_inverse);
-  both(checks, plugin.name(), "chart is Darboux", plugin.name(),
-       darboux_residual(*chart, *model.tape(Formula::structure)), region);
+  both(checks, name, "chart is Darboux", name, darboux_residual(*chart, *model.tape(Formula::structure)),
+       region);
   const auto round_trip = expression(n, n, [&](const Recorded& t, Arguments z, Results out) {
     const auto back = evaluate(*inverse, t, evaluate(*chart, t, z));
     for (std::size_t k = 0; k < size; ++k) out[k] = back[k] - z[k];
   });
-  both(checks, plugin.name(), "chart inverse", plugin.name(), round_trip, region);
+  both(checks, name, "chart inverse", name, round_trip, region);
   // The chart carries the field X of the system into the field of the chart: Y_z X + Y_t.
   const auto field = model.tape(Formula::field), in_chart = model.tape(Formula::chart_field);
   const auto carried = expression(n, n, [&](const Recorded& t, Arguments z, Results out) {
@@ -113,11 +110,11 @@ void darboux(std::vector<Check>& checks, const SystemPlugin& plugin, const Model
     const auto y = evaluate(*in_chart, t, evaluate(*chart, t, z));
     for (std::size_t k = 0; k < size; ++k) out[k] = moved[k] - y[k];
   });
-  both(checks, plugin.name(), "field in the chart", plugin.name(), carried, region);
+  both(checks, name, "field in the chart", name, carried, region);
 }
 
 // The field made from T + V and the rate of friction agrees with the field of the system.
-void conformal(std::vector<Check>& checks, const SystemPlugin& plugin, const Model& model,
+void conformal(std::vector<Check>& checks, const std::string& name, const Model& model,
                const Region& region) {
   const Tape damped = damped_field(model);
   const auto field = model.tape(Formula::field);
@@ -126,54 +123,56 @@ void conformal(std::vector<Check>& checks, const SystemPlugin& plugin, const Mod
         const auto a = evaluate(*field, t, z), b = evaluate(damped, t, z);
         for (std::size_t k = 0; k < a.size(); ++k) out[k] = a[k] - b[k];
       });
-  both(checks, plugin.name(), "field of the damped energies", plugin.name(), difference, region);
+  both(checks, name, "field of the damped energies", name, difference, region);
 }
 
 }  // namespace
 
 std::vector<Check> check_system(const SystemPlugin& plugin, const Assignments& parameters) {
-  const auto model = plugin.make(parameters);
+  return check_system(plugin.name(), plugin.make(parameters), parameters);
+}
+
+std::vector<Check> check_system(const std::string& name, const std::shared_ptr<const Model>& model,
+                                const Assignments& parameters) {
   const int n = model->dimension();
   std::vector<Check> checks;
   // With constraints, the claims about invariants, solutions and reversals are claims about the motion in the
   // default formulation, which keeps invariants and has closed forms on the surface of the constraints.
   const auto motion = motion_of(model);
   const Region region = region_of(*motion, model->restricted() ? model->initial() : generic_state(*model));
-  for (Check& check : check_overrides(plugin.name(), *model, region)) checks.push_back(std::move(check));
+  for (Check& check : check_overrides(name, *model, region)) checks.push_back(std::move(check));
   if (model->facets().has(Facet::hamiltonian) || model->facets().has(Facet::structure) ||
       model->given(Formula::poisson_tensor)) {
     const auto tensor = model->tape(Formula::poisson_tensor);
-    both(checks, plugin.name(), "bracket is skew", plugin.name(), symmetric_part(*tensor, n), region);
-    both(checks, plugin.name(), "Jacobi identity", plugin.name(), jacobiator(*tensor, n), region);
+    both(checks, name, "bracket is skew", name, symmetric_part(*tensor, n), region);
+    both(checks, name, "Jacobi identity", name, jacobiator(*tensor, n), region);
     if (model->given(Formula::casimirs))
-      both(checks, plugin.name(), "Casimirs", plugin.name(),
-           sharp_of_casimirs(*tensor, *model->tape(Formula::casimirs)), region);
+      both(checks, name, "Casimirs", name, sharp_of_casimirs(*tensor, *model->tape(Formula::casimirs)),
+           region);
   }
   if (model->facets().has(Facet::structure)) {
-    for (Check& check : check_self_adjointness(plugin.name(), *model)) checks.push_back(std::move(check));
+    for (Check& check : check_self_adjointness(name, *model)) checks.push_back(std::move(check));
   }
-  if (model->facets().has(Facet::darboux_chart)) darboux(checks, plugin, *model, region);
-  if (model->facets().has(Facet::conformal)) conformal(checks, plugin, *model, region);
+  if (model->facets().has(Facet::darboux_chart)) darboux(checks, name, *model, region);
+  if (model->facets().has(Facet::conformal)) conformal(checks, name, *model, region);
   if (model->facets().has(Facet::generating_map)) {
     const GeneratingMapCheck alpha = check_generating_map(*model);
-    checks.push_back(
-        named(plugin.name(), "alpha satisfies (34)", plugin.name(), "quad", alpha.residual, 1e-31));
+    checks.push_back(named(name, "alpha satisfies (34)", name, "quad", alpha.residual, 1e-31));
     if (!alpha.holds) checks.back().result = CheckResult::fail;
     checks.back().reason = alpha.message;
   }
   if (model->restricted())
-    for (Check& check : check_constraints(plugin.name(), model)) checks.push_back(std::move(check));
+    for (Check& check : check_constraints(name, model)) checks.push_back(std::move(check));
   if (model->facets().has(Facet::metriplectic))
-    for (Check& check : check_metriplectic(plugin.name(), *model)) checks.push_back(std::move(check));
+    for (Check& check : check_metriplectic(name, *model)) checks.push_back(std::move(check));
   Region on_surface = region;
   if (model->restricted()) on_surface.surface = model;
-  invariants(checks, plugin, *motion, on_surface);
-  if (model->facets().has(Facet::exact_solution)) exact_solution(checks, plugin, *motion, on_surface);
+  invariants(checks, name, *motion, on_surface);
+  if (model->facets().has(Facet::exact_solution)) exact_solution(checks, name, *motion, on_surface);
   if (model->given(Formula::reversal))
-    for (Check& check : check_reversal(plugin.name(), *motion, region)) checks.push_back(std::move(check));
+    for (Check& check : check_reversal(name, *motion, region)) checks.push_back(std::move(check));
   if (model->facets().has(Facet::exact_flows))
-    for (Check& check : check_flows(plugin.name(), model, region.centres.front()))
-      checks.push_back(std::move(check));
+    for (Check& check : check_flows(name, model, region.centres.front())) checks.push_back(std::move(check));
   for (Check& check : checks) check.parameters = parameters;
   return checks;
 }

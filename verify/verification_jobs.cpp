@@ -8,6 +8,7 @@
 #include <pfaff/core/formulation.hpp>
 #include <pfaff/integrators/order_conditions/order_condition.hpp>
 #include <pfaff/integrators/tables/method_table.hpp>
+#include <pfaff/runs/asked_for.hpp>
 #include <pfaff/systems/text/text_system.hpp>
 #include <pfaff/verify/check_budget.hpp>
 #include <pfaff/verify/formulation_checks.hpp>
@@ -205,8 +206,9 @@ class Jobs {
     std::size_t turn = 0;
     bool every_kind = named(method.name());
     for (const Assignments& p : parameters(method.name(), method.instances(settings_.full))) {
-      jobs_.push_back({called(method.name(), p) + " on random systems",
-                       [=, &method] { return check_on_random_systems(method, p, turn, every_kind); }});
+      jobs_.push_back({called(method.name(), p) + " on random systems", [=, &method] {
+                         return check_on_random_systems(*method.make(p), p, turn, every_kind);
+                       }});
       every_kind = false;
       if (!settings_.full) ++turn;
     }
@@ -258,6 +260,45 @@ class Jobs {
 
 std::vector<VerificationJob> verification_jobs(const VerificationSettings& settings) {
   return Jobs(settings).take();
+}
+
+std::vector<VerificationJob> verification_jobs(const std::vector<MethodToVerify>& methods,
+                                               const std::vector<std::shared_ptr<const Model>>& systems,
+                                               const std::vector<std::shared_ptr<const Model>>& on) {
+  std::vector<VerificationJob> jobs;
+  for (const auto& model : systems) {
+    if (model->initial().empty())
+      throw InputError("system " + model->name() +
+                       " has no initial state, near which its claims are measured");
+    jobs.push_back({model->name(), [=] { return check_system(model->name(), model, {}); }});
+  }
+  for (const auto& [made, parameters] : methods) {
+    const auto& method = made;
+    const auto& p = parameters;
+    const std::string name = called(method->descriptor().name, p);
+    const auto add = [&](const std::shared_ptr<const Model>& motion) {
+      jobs.push_back(
+          {name + " on " + motion->name(), [=] { return check_method(*method, p, motion->name(), motion); }});
+    };
+    for (const auto& model : on) {
+      const auto motion = motion_for(*method, model);
+      if (const std::string reason = method->refuses(*motion); !reason.empty())
+        throw InputError(reason + what_to_do(*method, *motion));
+      add(motion);
+    }
+    if (!on.empty()) continue;
+    jobs.push_back(
+        {name + " on random systems", [=] { return check_on_random_systems(*method, p, 0, true); }});
+    for (const SystemPlugin* system : pfaff::systems().all()) {
+      const auto model = system->make({});
+      const auto motion = motion_for(*method, model);
+      if (model->initial().empty() || !method->refuses(*motion).empty()) continue;
+      // What methods for vector fields do on constraints they claim nothing of.
+      if (motion != model && !method->needs_constraints()) continue;
+      add(motion);
+    }
+  }
+  return jobs;
 }
 
 }  // namespace pfaff

@@ -18,5 +18,9 @@ struct VerificationJob {
 /// The checks that the settings ask for, in their order. InputError where a system without an initial state
 /// is asked for by name.
 std::vector<VerificationJob> verification_jobs(const VerificationSettings& settings);
+/// Those of objects (verify() in check.hpp).
+std::vector<VerificationJob> verification_jobs(const std::vector<MethodToVerify>& methods,
+                                               const std::vector<std::shared_ptr<const Model>>& systems,
+                                               const std::vector<std::shared_ptr<const Model>>& on);
 
 }  // namespace pfaff

@@ -55,18 +55,12 @@ void validate(const VerificationSettings& settings) {
 
 // A claim that could be judged on no system is no sound one. Added for methods that were tried on every
 // system; the order counts as judged where one of its checks is.
-void add_claims_judged_nowhere(std::vector<Check>& checks, const VerificationSettings& settings) {
-  const auto& names = settings.names;
-  const auto tried = [&](const std::string& plugin) {
-    return names.empty() || std::find(names.begin(), names.end(), "integrators") != names.end() ||
-           std::find(names.begin(), names.end(), plugin) != names.end();
-  };
-  const std::vector<std::string> methods = integrators().names_and_aliases();
+void add_claims_judged_nowhere(std::vector<Check>& checks,
+                               const std::function<bool(const std::string& method)>& tried) {
   std::map<std::pair<std::string, std::string>, std::pair<int, Check>>
       claims;  // judged, and one that was not
   for (const Check& c : checks) {
-    if (c.control || !tried(c.plugin) || std::find(methods.begin(), methods.end(), c.plugin) == methods.end())
-      continue;
+    if (c.control || !tried(c.plugin)) continue;
     const bool judged = c.result == CheckResult::pass || c.result == CheckResult::fail;
     if (!judged && !unjudged(c)) continue;
     const std::string claim = c.claim.starts_with("order") ? "order" : c.claim;
@@ -84,15 +78,10 @@ void add_claims_judged_nowhere(std::vector<Check>& checks, const VerificationSet
     checks.push_back(check);
   }
 }
-}  // namespace
 
-std::vector<Check> verify(const VerificationSettings& given,
-                          const std::function<void(const std::string&, std::size_t, std::size_t)>& progress) {
-  VerificationSettings settings = given;
-  for (std::string& name : settings.names)
-    name = names_method_table(name) ? integrator_named(name).name() : spelled(name);
-  validate(settings);
-  const std::vector<VerificationJob> jobs = verification_jobs(settings);
+using Progress = std::function<void(const std::string&, std::size_t, std::size_t)>;
+
+std::vector<Check> results_of(const std::vector<VerificationJob>& jobs, const Progress& progress) {
   std::vector<std::vector<Check>> results(jobs.size());
   std::mutex mutex;
   std::size_t done = 0;
@@ -121,8 +110,36 @@ std::vector<Check> verify(const VerificationSettings& given,
   }
   std::vector<Check> all;
   for (auto& part : results) all.insert(all.end(), part.begin(), part.end());
-  add_claims_judged_nowhere(all, settings);
   return all;
+}
+}  // namespace
+
+std::vector<Check> verify(const VerificationSettings& given, const Progress& progress) {
+  VerificationSettings settings = given;
+  for (std::string& name : settings.names)
+    name = names_method_table(name) ? integrator_named(name).name() : spelled(name);
+  validate(settings);
+  std::vector<Check> checks = results_of(verification_jobs(settings), progress);
+  const auto& names = settings.names;
+  const std::vector<std::string> methods = integrators().names_and_aliases();
+  add_claims_judged_nowhere(checks, [&](const std::string& plugin) {
+    return std::find(methods.begin(), methods.end(), plugin) != methods.end() &&
+           (names.empty() || std::find(names.begin(), names.end(), "integrators") != names.end() ||
+            std::find(names.begin(), names.end(), plugin) != names.end());
+  });
+  return checks;
+}
+
+std::vector<Check> verify(const std::vector<MethodToVerify>& methods,
+                          const std::vector<std::shared_ptr<const Model>>& systems,
+                          const std::vector<std::shared_ptr<const Model>>& on) {
+  std::vector<Check> checks = results_of(verification_jobs(methods, systems, on), {});
+  if (on.empty())
+    add_claims_judged_nowhere(checks, [&](const std::string& plugin) {
+      return std::any_of(methods.begin(), methods.end(),
+                         [&](const auto& one) { return one.method->descriptor().name == plugin; });
+    });
+  return checks;
 }
 
 }  // namespace pfaff

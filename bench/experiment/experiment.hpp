@@ -27,6 +27,7 @@ struct ExperimentMethod {
   std::string of_grid;    // the label of the table that it is a point of, where it is one of several
   bool selected = false;  // taken from the registry, and left out of cases that it does not fit
   Assignments set;        // parameters of the integrator, or of the formulation as formulation.KEY
+  std::shared_ptr<const MethodInstance> object;  // in the place of what is registered as `integrator`
   std::vector<std::string>
       tolerances;  // of a method that chooses its steps; such a method ignores the case's steps
   std::vector<std::string> absolute;  // beside each of them: none, one for all coordinates, or one for each

@@ -35,6 +35,7 @@ ResolvedRun resolved(const Experiment& experiment, const ExperimentRun& run) {
   RunSettings settings;
   settings.system = c.system;
   settings.integrator = m.integrator;
+  settings.method = m.object;
   settings.formulation = m.formulation;
   for (const auto& [key, value] : c.set) settings.set.emplace_back("system." + key, value);
   if (run.seed > 0) settings.set.emplace_back("system.seed", std::to_string(run.seed));

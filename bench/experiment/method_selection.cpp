@@ -113,12 +113,12 @@ std::vector<ExperimentMethod> selected_methods(const MethodSelection& selection)
 
 std::string reason_to_leave_out(const MethodSelection& selection, const ExperimentMethod& method,
                                 const ExperimentCase& of, const std::shared_ptr<const Model>& system) {
-  std::unique_ptr<MethodInstance> instance;
-  try {
-    instance = integrators().get(method.integrator, "integrator").make(method.set);
-  } catch (const InputError& error) {
-    return error.what();
-  }
+  std::shared_ptr<const MethodInstance> instance = method.object;
+  if (instance == nullptr) try {
+      instance = integrators().get(method.integrator, "integrator").make(method.set);
+    } catch (const InputError& error) {
+      return error.what();
+    }
   const std::shared_ptr<const Model> model = motion_for(*instance, system);
   if (std::string reason = instance->refuses(*model); !reason.empty()) return reason;
   if (of.precision == Precision::quad && instance->descriptor().double_coefficients)

@@ -220,7 +220,7 @@ ResolvedState resolve_state(const RunSettings& settings) {
 
 namespace {
 // Fills in run.origins. `read` are the files as they were before the model was made of them.
-void note_origins(ResolvedRun& run, const SystemPlugin& system, const MethodPlugin& method,
+void note_origins(ResolvedRun& run, const SystemPlugin& system, const MethodPlugin* method,
                   const Assignments& read) {
   // A text model is made when its file is read and belongs to no shared object.
   if (const auto* text = dynamic_cast<const TextSystem*>(&system)) {
@@ -233,7 +233,7 @@ void note_origins(ResolvedRun& run, const SystemPlugin& system, const MethodPlug
     if (std::find(run.origins.files.begin(), run.origins.files.end(), std::pair(path, hash)) ==
         run.origins.files.end())
       throw InputError(path + ": changed while it was read; expected a file that stays as it is");
-  add_origins(method, run.method->parameters(), run.origins);
+  if (method != nullptr) add_origins(*method, run.method->parameters(), run.origins);
   if (!run.settings.formulation.empty())
     add_origins(formulations().get(run.settings.formulation, "formulation"),
                 run.model->source().formulation_parameters, run.origins);
@@ -258,29 +258,31 @@ ResolvedRun resolve(const RunSettings& settings) {
   const SystemPlugin& system = system_asked_for(settings.system);
   const auto* text = dynamic_cast<const TextSystem*>(&system);
   run.settings.system = text != nullptr ? text->files().front().first : system.name();
-  const MethodPlugin& method = integrator_asked_for(settings.integrator);
-  const auto* table = dynamic_cast<const MethodTable*>(&method);
-  run.settings.integrator = table != nullptr ? table->path() : method.name();
+  const MethodPlugin* method =
+      settings.method != nullptr ? nullptr : &integrator_asked_for(settings.integrator);
+  const auto* table = dynamic_cast<const MethodTable*>(method);
+  if (method != nullptr) run.settings.integrator = table != nullptr ? table->path() : method->name();
   const FormulationPlugin* formulation = formulation_for(system, settings.formulation);
-  SplitSettings split = split_settings(system, formulation, &method, settings.set);
+  SplitSettings split = split_settings(system, formulation, method, settings.set);
   split.system = with_absolute_paths(system.parameters(), std::move(split.system));
-  split.integrator = with_absolute_paths(method.parameters(), std::move(split.integrator));
+  if (method != nullptr)
+    split.integrator = with_absolute_paths(method->parameters(), std::move(split.integrator));
   if (formulation != nullptr)
     split.formulation = with_absolute_paths(formulation->parameters(), std::move(split.formulation));
   const Assignments read = files_of(system.parameters(), split.system);
   const auto whole = run.model = system.make(split.system);
-  run.method = method.make(split.integrator);
+  run.method = method != nullptr ? method->make(split.integrator) : settings.method;
   if (formulation != nullptr && !run.method->refuses(*run.model).empty()) {
     run.settings.formulation = formulation->name();
     run.model = formulation->apply(run.model, split.formulation);
   } else if (!settings.formulation.empty() || !split.formulation.empty()) {
-    throw InputError(method.name() + " steps on the constraints of " + system.name() +
+    throw InputError(run.method->called() + " steps on the constraints of " + system.name() +
                      " themselves; expected no --formulation and no parameter of one");
   }
   if (const std::string reason = run.method->refuses(*run.model); !reason.empty())
     throw InputError(reason + what_to_do(*run.method, *run.model));
   if (settings.precision == Precision::quad && run.method->descriptor().double_coefficients)
-    throw InputError(method.name() + " has coefficients in double only; expected --precision double");
+    throw InputError(run.method->called() + " has coefficients in double only; expected --precision double");
 
   if (settings.compile && settings.precision == Precision::double_precision) run.model = compiled(run.model);
 

@@ -20,18 +20,6 @@ std::vector<std::string> chosen_papers(const ReproductionOptions& options) {
   return options.paper.empty() ? papers() : std::vector<std::string>{options.paper};
 }
 
-// The rows in the order of the paper: by the first item that each names. Sections write theirs by subject.
-void put_in_order(std::vector<ReproducedRow>& rows, const std::vector<PaperItem>& items) {
-  const auto place = [&](const ReproducedRow& row) {
-    const std::string first = named_items(row.equation, items).front();
-    return std::find_if(items.begin(), items.end(),
-                        [&](const PaperItem& item) { return item.name == first; }) -
-           items.begin();
-  };
-  std::stable_sort(rows.begin(), rows.end(),
-                   [&](const ReproducedRow& a, const ReproducedRow& b) { return place(a) < place(b); });
-}
-
 // Rows on lines of four columns, whose widths are the same in the whole output, and those that are too wide
 // for one in blocks of lines between them. A line says nothing of the difference, which is seen.
 class RowPrinter {

@@ -145,4 +145,15 @@ nlohmann::json to_json(const Coverage& coverage) {
           {"faults", coverage.faults}};
 }
 
+void put_in_order(std::vector<ReproducedRow>& rows, const std::vector<PaperItem>& items) {
+  const auto place = [&](const ReproducedRow& row) {
+    const std::string first = named_items(row.equation, items).front();
+    return std::find_if(items.begin(), items.end(),
+                        [&](const PaperItem& item) { return item.name == first; }) -
+           items.begin();
+  };
+  std::stable_sort(rows.begin(), rows.end(),
+                   [&](const ReproducedRow& a, const ReproducedRow& b) { return place(a) < place(b); });
+}
+
 }  // namespace pfaff

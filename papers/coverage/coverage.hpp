@@ -57,6 +57,8 @@ struct PaperItem {
 
 /// The items that a file lists. InputError, with file and line, where it is not as above.
 std::vector<PaperItem> read_items(const std::filesystem::path& path);
+/// Puts rows in the order of the paper, by the first item that each names. Sections write theirs by subject.
+void put_in_order(std::vector<ReproducedRow>& rows, const std::vector<PaperItem>& items);
 /// The items of a paper; InputError for an unknown name too.
 std::vector<PaperItem> items_of(const std::string& paper);
 

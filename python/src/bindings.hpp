@@ -5,11 +5,16 @@
 
 namespace pfaff::python {
 
+void bind_derivation(pybind11::module_& module);
 void bind_errors(pybind11::module_& module);
-void bind_recording(pybind11::module_& module);
-void bind_model_source(pybind11::module_& module);
-void bind_systems(pybind11::module_& module);
-void bind_scalars(pybind11::module_& module);
+void bind_evaluation(pybind11::module_& module);
+void bind_experiments(pybind11::module_& module);
 void bind_methods(pybind11::module_& module);
+void bind_model_source(pybind11::module_& module);
+void bind_papers(pybind11::module_& module);
+void bind_recording(pybind11::module_& module);
+void bind_scalars(pybind11::module_& module);
+void bind_systems(pybind11::module_& module);
+void bind_verification(pybind11::module_& module);
 
 }  // namespace pfaff::python

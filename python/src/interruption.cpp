@@ -64,4 +64,9 @@ void raise_saved(SavedError& saved) {
   throw py::error_already_set();
 }
 
+void raise_interrupted(const char* message) {
+  PyErr_SetString(py::module_::import("pfaff._errors").attr("Interrupted").ptr(), message);
+  throw py::error_already_set();
+}
+
 }  // namespace pfaff::python

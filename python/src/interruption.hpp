@@ -37,9 +37,12 @@ class Interruption {
 /// Python's lock.
 void raise_saved(SavedError& saved);
 
+/// Raises Interrupted, with Python's lock.
+[[noreturn]] void raise_interrupted(const char* message);
+
 /// work() without Python's lock. Whatever spends from the budget of its thread ends with BudgetSpent once
-/// Ctrl-C has come, which becomes Interrupted. What a callback has raised is
-/// raised in place of whatever the library makes of it.
+/// Ctrl-C has come, which, and what the library makes of it, becomes Interrupted. What a callback has raised
+/// is raised in place of whatever the library makes of it.
 template <class Work>
 auto without_lock(Work&& work) {
   const Interruption interruption;
@@ -61,9 +64,9 @@ auto without_lock(Work&& work) {
     }
   } catch (const pybind11::error_already_set&) {
     throw;
-  } catch (const BudgetSpent& spent) {
+  } catch (const RunError& error) {
     raise_saved(saved);
-    if (spent.stopped()) (void)interruption.taken();
+    if (interruption.taken()) raise_interrupted(error.what());
     throw;
   } catch (...) {
     raise_saved(saved);

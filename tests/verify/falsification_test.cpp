@@ -226,7 +226,7 @@ TEST(Falsify, CounterexamplesAreMinimal) {
 TEST(Falsify, VerificationOnRandomSystemsRejectsFalseClaims) {
   const auto failed = [](const MethodPlugin& plugin) {
     std::set<std::string> claims;
-    for (const Check& check : check_on_random_systems(plugin, {}))
+    for (const Check& check : check_on_random_systems(*plugin.make({}), {}))
       if (!good(check)) claims.insert(check.claim);
     return claims;
   };

@@ -118,10 +118,6 @@ std::string found_of(const Check& c) {
   return c.claim == "order" ? scientific(c.measured) + " of " + scientific(c.expected) + " claimed"
                             : scientific(c.measured) + " of " + scientific(c.tolerance) + " allowed";
 }
-std::string place_of(const Check& c) {
-  const std::string plugin = called(c.plugin, c.parameters);
-  return c.system.empty() || c.system == c.plugin ? plugin : plugin + " on " + c.system;
-}
 
 // A row for each claim, with its worst case; an order is allowed to be what is claimed, or more.
 void print_claims(const std::vector<Check>& checks) {
@@ -184,38 +180,6 @@ void print_causes(const std::vector<Check>& checks) {
   std::cout << '\n';
 }
 
-// The verdict in one line: what holds, what was not judged and, first, whether all is well.
-std::string verdict(const std::vector<Check>& checks, bool ok) {
-  int held = 0, failed = 0, left = 0, controls = 0, rejected = 0;
-  for (const Check& c : checks) {
-    if (c.control) {
-      ++controls;
-      rejected += c.result == CheckResult::rejected;
-    } else if (good(c)) {
-      held += c.result == CheckResult::pass;
-      left += unjudged(c);
-    } else {
-      ++failed;
-    }
-  }
-  if (held + failed == 0 && controls == 0) return "NOT OK: nothing could be checked";
-  std::string line =
-      ok ? "ok: "
-         : "NOT OK: " + std::to_string(failed) + " of " + std::to_string(held + failed) + " checks fail, ";
-  line += std::to_string(held) + (ok ? " checks hold" : " hold");
-  if (left > 0) line += ", " + std::to_string(left) + " could not be judged";
-  if (controls > 0)
-    line += ", " + std::to_string(rejected) + " of " + std::to_string(controls) + " false claims rejected";
-  return line;
-}
-
-// Why nothing was checked: the reasons that there are, or that nothing fits.
-std::string why_nothing(const std::vector<Check>& checks) {
-  for (const Check& c : checks)
-    if (!c.reason.empty()) return "because of " + c.claim + " of " + place_of(c) + ": " + c.reason;
-  return "because no system that is registered fits it, and nothing is known of its coefficients";
-}
-
 }  // namespace
 
 int verify_command(const VerificationSettings& settings, const Common& common) {
@@ -229,16 +193,11 @@ int verify_command(const VerificationSettings& settings, const Common& common) {
   }
   std::map<std::string, int> totals{{"pass", 0},     {"fail", 0},    {"measured", 0},
                                     {"rejected", 0}, {"skipped", 0}, {"not_judged", 0}};
-  bool ok = true, any = false;
   for (const Check& c : checks) {
     ++totals[std::string(to_string(c.result))];
     totals["not_judged"] += unjudged(c);
-    ok = ok && good(c);
-    any = any || c.result == CheckResult::pass || c.result == CheckResult::fail || c.control;
   }
-  ok = ok && any;
-  std::string line = verdict(checks, ok);
-  if (!any) line += ", " + why_nothing(checks);
+  const auto [ok, any, line] = verdict_of(checks);
   if (common.json) {
     nlohmann::json list = nlohmann::json::array();
     for (const Check& c : checks) list.push_back(to_json(c));

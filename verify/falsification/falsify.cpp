@@ -91,19 +91,27 @@ void try_next(Search& search, std::uint64_t seed) {
 
 }  // namespace
 
+std::vector<ClaimUnderTest> claims_under_test(const std::shared_ptr<const MethodInstance>& method,
+                                              const Assignments& parameters, std::optional<Claim> claim,
+                                              bool not_made_too) {
+  std::vector<ClaimUnderTest> tests;
+  // What a method claims may depend on the system: all that it claims on some system is put to the test.
+  for (const ClaimRow& row : claim_table) {
+    spend(0, 0);
+    if (claim && *claim != row.claim) continue;
+    const ClaimUnderTest made{method, parameters, row.claim, true};
+    const bool makes = !kinds_for(made).empty();
+    if (makes || (claim && not_made_too)) tests.push_back({method, parameters, row.claim, makes});
+  }
+  return tests;
+}
+
 std::vector<ClaimUnderTest> claims_under_test(const MethodPlugin& plugin, const Assignments& parameters,
                                               std::optional<Claim> claim, std::uint64_t seed) {
   std::vector<ClaimUnderTest> tests;
   const auto add = [&](const Assignments& assignments, bool drawn) {
-    const std::shared_ptr<const MethodInstance> method = plugin.make(assignments);
-    // What a method claims may depend on the system: all that it claims on some system is put to the test.
-    for (const ClaimRow& row : claim_table) {
-      spend(0, 0);
-      if (claim && *claim != row.claim) continue;
-      const ClaimUnderTest made{method, assignments, row.claim, true};
-      const bool makes = !kinds_for(made).empty();
-      if (makes || (claim && !drawn)) tests.push_back({method, assignments, row.claim, makes});
-    }
+    for (ClaimUnderTest& test : claims_under_test(plugin.make(assignments), assignments, claim, !drawn))
+      tests.push_back(std::move(test));
   };
   if (!parameters.empty()) {
     add(parameters, false);

@@ -43,6 +43,12 @@ struct FalsificationResult {
 std::vector<ClaimUnderTest> claims_under_test(const MethodPlugin& plugin, const Assignments& parameters,
                                               std::optional<Claim> claim, std::uint64_t seed = 1);
 
+/// The same of a method that need not be registered and was made with the parameters; those that it makes
+/// and, where that is asked for, `claim` if it does not make it.
+std::vector<ClaimUnderTest> claims_under_test(const std::shared_ptr<const MethodInstance>& method,
+                                              const Assignments& parameters, std::optional<Claim> claim,
+                                              bool not_made_too = true);
+
 /// The claim of that name; InputError with the nearest name, and for claims that have no check yet.
 Claim claim_named(const std::string& name);
 

@@ -1,0 +1,79 @@
+// Evaluation: a system at one state and time, as `pfaff evaluate` shows it, and brackets of functions.
+#include <pybind11/stl.h>
+
+#include <pfaff/bench/evaluation/evaluation.hpp>
+#include <pfaff/bench/runner/initial_state.hpp>
+#include <pfaff/core/formulation.hpp>
+#include <pfaff/core/tape/derivatives.hpp>
+#include <pfaff/core/tape/replay.hpp>
+#include <pfaff/python/src/bindings.hpp>
+#include <pfaff/python/src/interruption.hpp>
+#include <pfaff/python/src/json_value.hpp>
+#include <pfaff/python/src/objects.hpp>
+#include <pfaff/runs/asked_for.hpp>
+#include <pfaff/runs/motion.hpp>
+
+namespace py = pybind11;
+
+namespace pfaff::python {
+
+namespace {
+
+// A system with constraints is taken in the formulation that is named, or in the default one.
+std::shared_ptr<const Model> motion_in(const std::shared_ptr<const Model>& model,
+                                       const std::string& formulation) {
+  if (formulation.empty()) return motion_of(model);
+  const FormulationPlugin& plugin = formulations().get(formulation, "formulation");
+  if (const std::string reason = plugin.refuses(*model); !reason.empty()) throw InputError(reason);
+  return plugin.apply(model, {});
+}
+
+py::object evaluated_at(const PySystem& system, const std::vector<std::string>& state, const std::string& t,
+                        const std::string& formulation, const std::string& precision,
+                        const std::optional<std::vector<std::string>>& centre) {
+  return python_value(without_lock([&] {
+    EvaluationSettings settings;
+    settings.at.model = motion_in(system.model, formulation);
+    settings.at.t = finite_number(t, "t");
+    settings.at.state = initial_state(*settings.at.model, {state, {}}, settings.at.t);
+    settings.precision = parse_precision(precision);
+    if (centre) settings.centre = state_numbers(*settings.at.model, *centre, "centre");
+    return evaluation(settings);
+  }));
+}
+
+std::vector<double> values_of(std::shared_ptr<const Tape> tape, double t, const std::vector<double>& z) {
+  Replay<double> replay(std::move(tape));
+  std::vector<double> values(replay.tape().outputs.size());
+  replay(t, z.data(), values.data());
+  return values;
+}
+
+// {f, g} = df . Pi dg, with the tensor of the system, in its motion where it has constraints.
+double bracket_of(const PySystem& system, const PyTape& f, const PyTape& g, double t,
+                  const std::vector<double>& z) {
+  return without_lock([&] {
+    const auto model = motion_of(system.model);
+    if (static_cast<std::size_t>(model->dimension()) != z.size())
+      throw InputError("z: expected " + std::to_string(model->dimension()) + " numbers, got " +
+                       std::to_string(z.size()));
+    const auto gradient = [&](const PyTape& of) {
+      return values_of(std::make_shared<const Tape>(jacobian_tape(*of.tape)), t, z);
+    };
+    const std::vector<double> tensor = values_of(model->tape(Formula::poisson_tensor), t, z);
+    const std::vector<double> df = gradient(f), dg = gradient(g);
+    double sum = 0;
+    for (std::size_t i = 0; i < z.size(); ++i)
+      for (std::size_t j = 0; j < z.size(); ++j) sum += df[i] * tensor[i * z.size() + j] * dg[j];
+    return sum;
+  });
+}
+
+}  // namespace
+
+void bind_evaluation(py::module_& module) {
+  module.def("evaluate", &evaluated_at);
+  module.def("bracket", &bracket_of);
+}
+
+}  // namespace pfaff::python
