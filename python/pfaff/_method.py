@@ -343,7 +343,7 @@ def table(coefficients: Mapping[str, Any], /, **parameters: Any) -> Method:
     """Makes a method of a table of coefficients, a dictionary with the keys of the files that docs/tables.md describes.
 
     >>> import pfaff
-    >>> pfaff.table({"kind": "runge-kutta", "name": "ralston", "order": 2, "A": [[], ["2/3"]], "b": ["1/4", "3/4"]}).name
+    >>> pfaff.table({"kind": "runge-kutta", "name": "ralston", "order": 2, "a": [[], ["2/3"]], "b": ["1/4", "3/4"]}).name
     'ralston'
 
     Numbers are exact as texts and as fractions.Fraction; the order that the table states is checked.

@@ -17,9 +17,11 @@ void note_and_pass_on(int number) {
   handler_of_python.sa_handler(number);
 }
 
+// Looked up once, since it takes as long as a short call.
 bool is_main_thread() {
-  const py::object main = py::module_::import("threading").attr("main_thread")().attr("ident");
-  return main.cast<unsigned long>() == PyThread_get_thread_ident();
+  static const auto main =
+      py::module_::import("threading").attr("main_thread")().attr("ident").cast<unsigned long>();
+  return main == PyThread_get_thread_ident();
 }
 }  // namespace
 

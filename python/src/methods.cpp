@@ -123,6 +123,11 @@ void bind_methods(py::module_& module) {
   module.def("make_method", [](const std::string& name, const Assignments& parameters) {
     return PyMethod{integrator_asked_for(name).make(parameters)};
   });
+  module.def("method_parameter_names", [](const std::string& name) {
+    std::vector<std::string> names;
+    for (const Parameter& p : integrator_asked_for(name).parameters()) names.push_back(p.name);
+    return names;
+  });
   module.def("method_names", [] { return integrators().names(); });
   module.def("table_method", &table_method);
   module.def("traced_method", &traced_method);

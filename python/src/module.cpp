@@ -10,6 +10,7 @@ PYBIND11_MODULE(_pfaff, module) {
   pfaff::python::bind_errors(module);
   pfaff::python::bind_evaluation(module);
   pfaff::python::bind_experiments(module);
+  pfaff::python::bind_integrations(module);
   pfaff::python::bind_methods(module);
   pfaff::python::bind_model_source(module);
   pfaff::python::bind_papers(module);

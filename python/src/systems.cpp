@@ -80,6 +80,11 @@ void bind_systems(py::module_& module) {
     const SystemPlugin& plugin = system_asked_for(name);
     return parameters_of_plugin(plugin, plugin.make({})->parameters());
   });
+  module.def("system_parameter_names", [](const std::string& name) {
+    std::vector<std::string> names;
+    for (const Parameter& p : system_asked_for(name).parameters()) names.push_back(p.name);
+    return names;
+  });
   module.def("system_title",
              [](const std::string& name) { return system_asked_for(name).descriptor().title; });
 }

@@ -1,0 +1,72 @@
+// NumPy arrays that own the memory of results, so that these reach Python without a copy.
+#pragma once
+
+#include <pybind11/numpy.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <new>
+#include <utility>
+#include <vector>
+
+namespace pfaff::python {
+
+/// Doubles that grow in number. A vector would set new ones to zero and copy them where they move, which
+/// costs as much as a step of a cheap method; large memory moves here without being copied.
+class Numbers {
+ public:
+  Numbers() = default;
+  Numbers(Numbers&& other) noexcept { swap(other); }
+  Numbers& operator=(Numbers&& other) noexcept {
+    Numbers taken(std::move(other));
+    swap(taken);
+    return *this;
+  }
+  ~Numbers() { std::free(data_); }
+
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] const double* data() const { return data_; }
+  /// Room for so many more, which the caller writes.
+  [[nodiscard]] double* extend(std::size_t count) {
+    if (size_ + count > capacity_) reserve(std::max(size_ + count, 2 * capacity_));
+    size_ += count;
+    return data_ + size_ - count;
+  }
+  void reserve(std::size_t capacity) {
+    if (capacity <= capacity_) return;
+    void* const moved = std::realloc(data_, capacity * sizeof(double));
+    if (moved == nullptr) throw std::bad_alloc();
+    data_ = static_cast<double*>(moved);
+    capacity_ = capacity;
+  }
+  /// The memory, to be given to std::free.
+  [[nodiscard]] double* release() {
+    size_ = capacity_ = 0;
+    return std::exchange(data_, nullptr);
+  }
+
+ private:
+  void swap(Numbers& other) noexcept {
+    std::swap(data_, other.data_);
+    std::swap(size_, other.size_);
+    std::swap(capacity_, other.capacity_);
+  }
+  double* data_ = nullptr;
+  std::size_t size_ = 0, capacity_ = 0;
+};
+
+/// An array of that shape, which has as many numbers.
+inline pybind11::array_t<double> array_owning(Numbers numbers, std::vector<pybind11::ssize_t> shape) {
+  if (numbers.data() == nullptr) return pybind11::array_t<double>(std::move(shape));
+  double* const data = numbers.release();
+  const pybind11::capsule owner(data, [](void* held) { std::free(held); });
+  return pybind11::array_t<double>(std::move(shape), data, owner);
+}
+
+/// The array of a few numbers.
+inline pybind11::array_t<double> array_of_numbers(const std::vector<double>& numbers,
+                                                  std::vector<pybind11::ssize_t> shape) {
+  return pybind11::array_t<double>(std::move(shape), numbers.data());
+}
+
+}  // namespace pfaff::python

@@ -1,0 +1,91 @@
+// Integrations: `_pfaff.Integration`.
+#include <pybind11/stl.h>
+
+#include <pfaff/python/src/arrays.hpp>
+#include <pfaff/python/src/bindings.hpp>
+#include <pfaff/python/src/interruption.hpp>
+#include <pfaff/python/src/objects.hpp>
+#include <pfaff/python/src/stepping.hpp>
+
+namespace py = pybind11;
+
+namespace pfaff::python {
+
+namespace {
+std::vector<Real> numbers_of(const std::vector<std::string>& texts, const std::string& what) {
+  std::vector<Real> numbers;
+  for (const std::string& text : texts) numbers.push_back(number_of(text, what));
+  return numbers;
+}
+
+std::unique_ptr<Stepping> stepping_of(const PySystem& system, const PyMethod& method, const py::dict& asked) {
+  const auto text = [&](const char* key) { return asked[key].cast<std::string>(); };
+  const auto texts = [&](const char* key) { return asked[key].cast<std::vector<std::string>>(); };
+  AskedStepping start;
+  start.method = method.method;
+  start.model = without_lock([&, formulation = text("formulation")] {
+    return model_for(*method.method, system.model, formulation);
+  });
+  start.state = numbers_of(texts("initial"), "initial");
+  start.h = number_of(text("step"), "step");
+  start.t0 = number_of(text("t0"), "t0");
+  start.tolerance = number_of(text("tolerance"), "tolerance");
+  start.absolute = numbers_of(texts("absolute"), "absolute");
+  return make_stepping(start, asked["quad"].cast<bool>());
+}
+
+py::dict counters_of(const Stepping& run) {
+  const Counters c = run.counters();
+  py::dict counts;
+  counts["steps"] = c.steps, counts["fields"] = c.fields, counts["jacobians"] = c.jacobians;
+  counts["iterations"] = c.iterations, counts["factorisations"] = c.factorisations;
+  return counts;
+}
+
+py::tuple taken_of(Stepping& run) {
+  StepsTaken taken = run.taken();
+  const auto rows = static_cast<py::ssize_t>(taken.t.size()),
+             n = static_cast<py::ssize_t>(run.model()->dimension());
+  return py::make_tuple(taken.reached, taken.status, taken.message, taken.steps,
+                        array_owning(std::move(taken.t), {rows}),
+                        array_owning(std::move(taken.y), {rows, n}));
+}
+
+py::array_t<double> array_of_state(const std::vector<double>& z) {
+  return array_of_numbers(z, {static_cast<py::ssize_t>(z.size())});
+}
+}  // namespace
+
+void bind_integrations(py::module_& module) {
+  py::class_<Stepping>(module, "Integration", "A motion, a method, a state and the time it has reached.")
+      .def(py::init(&stepping_of))
+      .def("steps", &Stepping::steps)
+      .def("to",
+           [](Stepping& r, const std::string& t, std::int64_t every) { r.to(number_of(t, "t"), every); })
+      .def("taken", &taken_of)
+      .def_property_readonly("time", &Stepping::time)
+      .def_property_readonly("step", &Stepping::step)
+      .def_property_readonly("steps_taken", &Stepping::steps_taken)
+      .def_property_readonly("state", [](const Stepping& r) { return array_of_state(r.state()); })
+      .def_property_readonly("texts", &Stepping::state_as_texts)
+      .def_property_readonly("counters", &counters_of)
+      .def_property_readonly("model", [](const Stepping& r) { return PySystem{r.model()}; })
+      .def("beside", [](const Stepping& r,
+                        const std::vector<std::string>& z) { return r.beside(numbers_of(z, "state")); })
+      .def("reversed", &Stepping::reversed)
+      .def("turn", &Stepping::turn)
+      .def("forget", &Stepping::forget)
+      .def("go_on_from",
+           [](Stepping& r, const std::vector<std::string>& z, const std::string& t0, const std::string& h) {
+             r.go_on_from(numbers_of(z, "state"), number_of(t0, "t0"), number_of(h, "step"));
+           })
+      .def("watch", [](Stepping& r, py::object callback,
+                       std::int64_t every) { r.watch(SharedObject(std::move(callback)), every); })
+      .def("jacobian", [](const Stepping& r, std::int64_t count) {
+        const auto [end, rows] = r.jacobian(count);
+        const auto n = static_cast<py::ssize_t>(end.size());
+        return py::make_tuple(array_of_numbers(end, {n}), array_of_numbers(rows, {n, n}));
+      });
+}
+
+}  // namespace pfaff::python

@@ -1,0 +1,234 @@
+#include <pfaff/python/src/stepping.hpp>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include <pfaff/core/formulation.hpp>
+#include <pfaff/python/src/interruption.hpp>
+#include <pfaff/python/src/scalars.hpp>
+#include <pfaff/runs/integrate.hpp>
+#include <pfaff/runs/motion.hpp>
+
+namespace py = pybind11;
+
+namespace pfaff::python {
+
+namespace {
+// Keeps the states that go by, while it is told to.
+template <class T>
+class Keeper final : public Watcher<T> {
+ public:
+  void start(const Integration<T>& /*run*/) override {}
+  void look(const Integration<T>& /*run*/, const Block<T>& block) override {
+    if (!keeps) return;
+    const std::size_t n = block.states.components();
+    double *const times = t.extend(block.rows), *const rows = y.extend(n * block.rows);
+    for (std::size_t row = 0; row < block.rows; ++row) times[row] = static_cast<double>(block.time(row));
+    for (std::size_t first = 0; first < block.rows; first += lanes<T>) {
+      const T* const tile = block.states.tile(first / lanes<T>);
+      const std::size_t filled = std::min(lanes<T>, block.rows - first);
+      for (std::size_t lane = 0; lane < filled; ++lane)
+        for (std::size_t i = 0; i < n; ++i)
+          rows[(first + lane) * n + i] = static_cast<double>(tile[i * lanes<T> + lane]);
+    }
+  }
+  bool keeps = false;
+  Numbers t, y;
+};
+
+// Calls a function of Python.
+template <class T>
+class Caller final : public Watcher<T> {
+ public:
+  explicit Caller(SharedObject callback) : callback_(std::move(callback)) {}
+  void start(const Integration<T>& /*run*/) override {}
+  // It is asked here, before others look, so that an integration ends at the state at which it gives True or
+  // raises something.
+  std::size_t end(const Integration<T>& /*run*/, const Block<T>& block) override {
+    std::size_t row = 0;
+    try {
+      with_lock([&] {
+        std::vector<T> z(block.states.components());
+        std::vector<double> in_double(z.size());
+        for (; row < block.rows; ++row) {
+          block.states.get(row, z);
+          std::transform(z.begin(), z.end(), in_double.begin(),
+                         [](const T& x) { return static_cast<double>(x); });
+          const py::object answer = callback_.get()(static_cast<double>(block.time(row)),
+                                                    array_of(std::span<const double>(in_double)));
+          if (answer.is(py::bool_(true))) return;
+        }
+      });
+    } catch (const PythonError&) {
+      // Whoever asked for the steps raises it.
+    }
+    return row;
+  }
+  void look(const Integration<T>& /*run*/, const Block<T>& /*block*/) override {}
+
+ private:
+  SharedObject callback_;
+};
+
+template <class T>
+std::vector<T> scalars_of(const std::vector<Real>& numbers) {
+  std::vector<T> result;
+  for (const Real& x : numbers) result.push_back(T(x));
+  return result;
+}
+
+template <class T>
+class SteppingIn final : public Stepping {
+ public:
+  explicit SteppingIn(Integration<T> run) : run_(std::move(run)) {}
+
+  void steps(std::int64_t count, std::int64_t every) override {
+    take(every, [&] { return run_.steps(count); });
+  }
+  void to(const Real& t, std::int64_t every) override {
+    take(every, [&] { return run_.to(T(t)); });
+  }
+  StepsTaken taken() override { return std::move(last_); }
+
+  double time() const override { return static_cast<double>(run_.time()); }
+  std::vector<double> state() const override {
+    std::vector<double> z;
+    for (const T& x : run_.state()) z.push_back(static_cast<double>(x));
+    return z;
+  }
+  std::vector<std::string> state_as_texts() const override {
+    std::vector<std::string> texts;
+    for (const T& x : run_.state()) texts.push_back(to_string(Quad(x), std::is_same_v<T, Quad> ? 36 : 17));
+    return texts;
+  }
+  double step() const override { return static_cast<double>(run_.step()); }
+  std::int64_t steps_taken() const override { return run_.steps_taken(); }
+  Counters counters() const override { return run_.counters(); }
+  std::shared_ptr<const Model> model() const override { return run_.model(); }
+  std::unique_ptr<Stepping> beside(const std::vector<Real>& state) const override {
+    return std::make_unique<SteppingIn>(run_.beside(scalars_of<T>(state)));
+  }
+  std::unique_ptr<Stepping> reversed() const override {
+    return std::make_unique<SteppingIn>(run_.reversed());
+  }
+  void turn() override {
+    const Using use(*this);
+    run_.turn();
+  }
+  void forget() override {
+    const Using use(*this);
+    run_.forget();
+  }
+  void go_on_from(const std::vector<Real>& state, const Real& t0, const Real& h) override {
+    const Using use(*this);
+    run_.go_on_from(scalars_of<T>(state), T(t0), T(h));
+  }
+  void watch(SharedObject callback, std::int64_t every) override {
+    const Using use(*this);
+    callers_.push_back(std::make_unique<Caller<T>>(std::move(callback)));
+    run_.watch(*callers_.back(), every);
+  }
+
+  std::pair<std::vector<double>, std::vector<double>> jacobian(std::int64_t count) const override {
+    const std::size_t n = run_.state().size();
+    std::vector<double> end(n), rows(n * n);
+    without_lock([&] {
+      for (std::size_t first = 0; first < n; first += step_directions) {
+        Integration<StepDual<T>> run = run_.differentiated(first);
+        run.steps(count).expect_reached();
+        for (std::size_t i = 0; i < n; ++i) {
+          end[i] = static_cast<double>(value_of(run.state()[i]));
+          for (std::size_t k = 0; k < step_directions && first + k < n; ++k)
+            rows[i * n + first + k] = static_cast<double>(run.state()[i].derivative[k]);
+        }
+      }
+    });
+    return {std::move(end), std::move(rows)};
+  }
+
+ private:
+  // An integration is used by one call at a time: not by a callback of its own, and not by two threads.
+  class Using {
+   public:
+    explicit Using(SteppingIn& of) : of_(of) {
+      if (std::exchange(of_.in_use_, true))
+        throw InputError(
+            "this integration is taking steps in another call; expected one at a time, and none from its own "
+            "callbacks");
+    }
+    ~Using() { of_.in_use_ = false; }
+    Using(const Using&) = delete;
+    Using& operator=(const Using&) = delete;
+
+   private:
+    SteppingIn& of_;
+  };
+
+  Keeper<T>& keeper_of(std::int64_t every) {
+    auto& keeper = keepers_[every];
+    if (keeper == nullptr) {
+      keeper = std::make_unique<Keeper<T>>();
+      run_.watch(*keeper, every);
+    }
+    return *keeper;
+  }
+
+  template <class Take>
+  void take(std::int64_t every, const Take& steps) {
+    const Using use(*this);
+    last_ = {};
+    Keeper<T>* const keeper = every > 0 ? &keeper_of(every) : nullptr;
+    if (keeper != nullptr) keeper->keeps = true;
+    const std::int64_t begin = run_.steps_taken();
+    // However the call ends: what was kept, and how far it came.
+    const auto note = [&] {
+      last_.steps = run_.steps_taken() - begin;
+      if (keeper == nullptr) return;
+      keeper->keeps = false;
+      last_.t = std::move(keeper->t), last_.y = std::move(keeper->y);
+    };
+    try {
+      without_lock([&] {
+        const Outcome outcome = steps();
+        last_.reached = outcome.reached();
+        last_.status = to_string(outcome.status());
+        last_.message = outcome.message();
+      });
+    } catch (const std::exception& error) {
+      note();
+      const std::string words = error.what();
+      last_.message = words.substr(0, words.find('\n'));
+      throw;
+    }
+    note();
+  }
+
+  Integration<T> run_;
+  std::map<std::int64_t, std::unique_ptr<Keeper<T>>> keepers_;  // by their number of steps
+  std::vector<std::unique_ptr<Caller<T>>> callers_;
+  StepsTaken last_;
+  bool in_use_ = false;  // under Python's lock
+};
+
+template <class T>
+std::unique_ptr<Stepping> made(const AskedStepping& asked) {
+  Start<T> start{asked.model, asked.method, scalars_of<T>(asked.state),
+                 T(asked.h),  T(asked.t0),  T(asked.tolerance)};
+  start.absolute = scalars_of<T>(asked.absolute);
+  return std::make_unique<SteppingIn<T>>(begun(std::move(start)));
+}
+}  // namespace
+
+std::unique_ptr<Stepping> make_stepping(const AskedStepping& asked, bool quad) {
+  return without_lock([&] { return quad ? made<Quad>(asked) : made<double>(asked); });
+}
+
+std::shared_ptr<const Model> model_for(const MethodInstance& method,
+                                       const std::shared_ptr<const Model>& model,
+                                       const std::string& formulation) {
+  if (formulation.empty()) return motion_for(method, model);
+  return formulations().get(formulation, "formulation").apply(model, {});
+}
+
+}  // namespace pfaff::python
