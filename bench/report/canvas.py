@@ -10,6 +10,7 @@ import html
 import io
 import re
 import typing
+from pathlib import Path
 
 import matplotlib
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -24,15 +25,7 @@ VARIABLES = {PAPER: "paper", INK: "ink", MID: "mid", RULE: "rule", GREY: "grey",
 FONTS = "'Liberation Sans', Arial, Helvetica, 'DejaVu Sans', sans-serif"
 
 matplotlib.rcdefaults()
-matplotlib.rcParams.update({
-    "svg.hashsalt": "pfaff", "svg.fonttype": "none", "font.family": "DejaVu Sans", "mathtext.fontset": "dejavusans",
-    "font.size": 9, "axes.labelsize": 9, "axes.titlesize": 9, "xtick.labelsize": 8, "ytick.labelsize": 8,
-    "legend.fontsize": 8, "axes.linewidth": 0.7, "lines.linewidth": 1.3, "lines.markersize": 5,
-    "axes.grid": True, "grid.color": RULE, "grid.linewidth": 0.5, "axes.axisbelow": True,
-    "axes.spines.top": False, "axes.spines.right": False, "axes.unicode_minus": True,
-    "figure.facecolor": PAPER, "axes.facecolor": "none", "axes.edgecolor": MID, "axes.labelcolor": INK, "text.color": INK,
-    "xtick.color": MID, "ytick.color": MID, "xtick.labelcolor": MID, "ytick.labelcolor": MID,
-})
+matplotlib.rcParams.update(matplotlib.rc_params_from_file(Path(__file__).with_name("screen.mplstyle"), use_default_template=False))
 
 
 class Sizes(typing.NamedTuple):

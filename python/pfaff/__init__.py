@@ -7,16 +7,30 @@ What the program `pfaff` does, at the speed of C++, from Python:
 '0.1.0'
 """
 from . import _machine  # noqa: F401  first: it refuses machines that lack instructions
-from . import _pfaff
+from . import _pfaff, plots
+from ._derivation import Equations, derivation_methods, derive
 from ._errors import InputError, Interrupted, NotConverged, RunFailed, TraceError
+from ._evaluation import Evaluation, bracket, evaluate
+from ._experiments import Comparison, Table, WorkPrecision, compare, experiments
 from ._integration import Integration, Outcome
 from ._method import Method, Problem, method, methods, table
+from ._papers import Reproduced, Reproduction, papers, reproduce
+from ._solve_ivp import solve_ivp
 from ._system import System, system, systems
 from ._tracing import solve, where
+from ._verification import Check, Checks, Counterexample, Falsification, Falsifications, falsify, verify
 
 __version__: str = _pfaff.__version__
 
 __all__ = [
+    "Check",
+    "Checks",
+    "Comparison",
+    "Counterexample",
+    "Equations",
+    "Evaluation",
+    "Falsification",
+    "Falsifications",
     "InputError",
     "Integration",
     "Interrupted",
@@ -24,15 +38,31 @@ __all__ = [
     "NotConverged",
     "Outcome",
     "Problem",
+    "Reproduced",
+    "Reproduction",
     "RunFailed",
     "System",
+    "Table",
     "TraceError",
+    "WorkPrecision",
     "__version__",
+    "bracket",
+    "compare",
+    "derivation_methods",
+    "derive",
+    "evaluate",
+    "experiments",
+    "falsify",
     "method",
     "methods",
+    "papers",
+    "plots",
+    "reproduce",
     "solve",
+    "solve_ivp",
     "system",
     "systems",
     "table",
+    "verify",
     "where",
 ]

@@ -5,6 +5,7 @@
 
 #include <pfaff/bench/experiment/experiment.hpp>
 #include <pfaff/bench/experiment/results.hpp>
+#include <pfaff/bench/runner/files.hpp>
 #include <pfaff/python/src/bindings.hpp>
 #include <pfaff/python/src/interruption.hpp>
 #include <pfaff/python/src/json_value.hpp>
@@ -74,6 +75,8 @@ py::dict compared(const std::string& name, const NamedMethods& methods, const st
 
 void bind_experiments(py::module_& module) {
   module.def("experiment_names", &experiment_names);
+  // Where what ships stands, under its name in the source tree, such as examples/models.
+  module.def("shipped_path", [](const std::string& name) { return shipped_path(name).string(); });
   module.def("compare", &compared);
 }
 

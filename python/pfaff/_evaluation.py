@@ -1,0 +1,136 @@
+"""Evaluation of a system at one state: its field, energy, structure and constraints, and brackets of functions."""
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from . import _pfaff
+from ._errors import InputError
+from ._numbers import text_of_number, texts_of_state
+from ._objects import as_system
+from ._system import System
+from ._tables import html_table, text_table
+from ._tracing import array_of, call_by_names, flat, recorded
+
+
+class Evaluation(Mapping[str, Any]):
+    """What the formulas of a system give at one state and time, by name.
+
+    `evaluation["rhs"]` is the rate of the state, others are energy, K, constraints, W, dirac_bracket and so on;
+    docs/birkhoffian-tools.md and docs/formulations.md say which there are. Numbers are floats and arrays; in quad they
+    are texts with all digits. What does not exist is None.
+    """
+
+    def __init__(self, values: Mapping[str, Any]) -> None:
+        self._values = {key: _array(value) for key, value in values.items() if key != "schema"}
+
+    def __getitem__(self, key: str) -> Any:
+        if key not in self._values:
+            raise InputError(_pfaff.unknown_name("quantity", key, list(self._values)))
+        return self._values[key]
+
+    def __iter__(self):
+        return iter(self._values)
+
+    def __len__(self) -> int:
+        return len(self._values)
+
+    def __contains__(self, key: object) -> bool:
+        return key in self._values
+
+    def _rows(self) -> list[tuple[str, Any]]:
+        return [(key, str(value).replace("\n", "")) for key, value in self._values.items()]
+
+    def __repr__(self) -> str:
+        return text_table(("quantity", "value"), self._rows())
+
+    def _repr_html_(self) -> str:
+        return html_table(("quantity", "value"), self._rows())
+
+
+def _array(value: Any) -> Any:
+    """Lists of numbers, and lists of such lists, as arrays."""
+    if isinstance(value, list) and value:
+        try:
+            array = np.array(value)
+        except ValueError:
+            return value
+        return array if array.dtype.kind == "f" or array.dtype.kind == "i" else value
+    return value
+
+
+def evaluate(
+    system: str | System, state: Sequence[Any] | None = None, *, time: Any = 0, formulation: str | None = None,
+    precision: str = "double", centre: Sequence[Any] | None = None, **parameters: Any
+) -> Evaluation:
+    """Everything that the formulas of a system give at one state and time.
+
+    Args:
+        system: a registered name, the path of a text model, or a `pfaff.System`.
+        state: shape (dimension,); the system's own initial state without it. Texts such as "1/3" are exact.
+        time: the time.
+        formulation: of the motion of a system with constraints; the default one without.
+        precision: "double" or "quad".
+        centre: the point about which F and B are made of K and D, shape (dimension,).
+        **parameters: of the system.
+
+    Raises:
+        InputError: unknown names, a state of another size, a formulation that does not fit.
+
+    >>> import pfaff
+    >>> at = pfaff.evaluate("pendulum", [1, 0])
+    >>> at["status"], at["rhs"].shape
+    ('converged', (2,))
+    """
+    model = as_system(system, **parameters).model
+    numbers = [] if state is None else texts_of_state(state, "state")
+    about = None if centre is None else texts_of_state(centre, "centre")
+    return Evaluation(_pfaff.evaluate(model, numbers, text_of_number(time, "time"), formulation or "", precision, about))
+
+
+def bracket(
+    f: Callable[..., Any], g: Callable[..., Any], z: Sequence[float], *, on: str | System, time: float = 0.0, **parameters: Any
+) -> float:
+    """The bracket {f, g} of two functions at a state, of the structure of a system.
+
+    That is df . Pi(z, t) dg with exact derivatives. A system with constraints has the Dirac bracket of its motion, in
+    its default formulation.
+
+    Args:
+        f, g: functions of the state: their arguments are coordinates by their names, or the state `z`, and the time `t`.
+            They are recorded once, as formulas of a system are.
+        z: the state, shape (dimension,).
+        on: the system: a name, the path of a text model, or a `pfaff.System`.
+        time: the time.
+        **parameters: of the system.
+
+    Raises:
+        InputError: a state of another size, a function that returns other than one number.
+        TraceError: a function that compares values or calls `math`.
+
+    >>> import pfaff
+    >>> pfaff.bracket(lambda q: q, lambda p: p, [0.5, 0.2], on="pendulum")
+    1.0
+    """
+    model = as_system(on, **parameters).model
+    names = [name for name, _ in model.coordinates]
+    state = np.asarray(z, float)
+    if state.shape != (len(names),):
+        raise InputError(f"z: expected shape ({len(names)},), a number for each of {', '.join(names)}, got {state.shape}")
+    tapes = [_tape(function, what, names) for function, what in ((f, "f"), (g, "g"))]
+    return _pfaff.bracket(model, *tapes, float(time), list(state))
+
+
+def _tape(function: Callable[..., Any], what: str, names: Sequence[str]) -> _pfaff.Tape:
+    """A function of the state as a tape with one output."""
+
+    def formula(t: Any, inputs: Sequence[Any]) -> list[Any]:
+        known = {"t": t, "z": array_of(inputs), **dict(zip(names, inputs))}
+        values = flat(call_by_names(function, known, what), what)
+        if len(values) != 1:
+            raise InputError(f"{what}: expected a function that returns one number, got {len(values)}")
+        return values
+
+    return recorded(len(names), formula, what)

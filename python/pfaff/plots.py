@@ -1,0 +1,266 @@
+"""Figures in the style of the report, one line each. They need matplotlib.
+
+Each function takes arrays, draws into `axes` where these are given and into a new figure otherwise, and returns the axes.
+Times are of shape (n,) and states of shape (n, dimension), in the order of time.
+"""
+from __future__ import annotations
+
+import functools
+import pathlib
+import runpy
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import _pfaff
+from ._errors import InputError
+
+if TYPE_CHECKING:
+    from matplotlib.animation import FuncAnimation
+    from matplotlib.axes import Axes
+
+
+@functools.cache
+def _families() -> dict[str, Any]:
+    """What the scripts of the report say of families of methods: colours, marks and dashes."""
+    return runpy.run_path(_pfaff.shipped_path("report/families.py"))
+
+
+def _style() -> Any:
+    """The style of the report, as a context; ImportError, which says what is missing, without matplotlib."""
+    try:
+        import matplotlib.style
+    except ImportError:
+        raise ImportError("plots need matplotlib, which is not installed (Debian's python3-matplotlib)") from None
+    from cycler import cycler
+
+    colours = [family.light for family in _families()["FAMILIES"]]
+    return matplotlib.style.context([_pfaff.shipped_path("report/screen.mplstyle"), {"axes.prop_cycle": cycler(color=colours)}])
+
+
+def _styled(draw: Callable[..., Any]) -> Callable[..., Any]:
+    """Draws in the style of the report, and leaves the settings of the caller as they were."""
+
+    @functools.wraps(draw)
+    def drawn(*arguments: Any, **keywords: Any) -> Any:
+        with _style():
+            return draw(*arguments, **keywords)
+
+    return drawn
+
+
+def _axes(axes: Axes | None, size: tuple[float, float] = (6.4, 4.0), **keywords: Any) -> Axes:
+    if axes is not None:
+        return axes
+    from matplotlib import pyplot
+
+    return pyplot.subplots(figsize=size, layout="constrained", **keywords)[1]
+
+
+def _arrays(t: Any, z: Any) -> tuple[np.ndarray, np.ndarray]:
+    times, states = np.asarray(t, float), np.asarray(z, float)
+    if times.ndim != 1 or states.ndim != 2 or len(times) != len(states):
+        raise InputError(f"plot: expected times of shape (n,) and states of shape (n, dimension), got {times.shape} and {states.shape}")
+    return times, states
+
+
+def _chosen(names: Sequence[str], chosen: str | Sequence[str] | None, default: Sequence[str]) -> list[int]:
+    """The numbers of the columns that are chosen by name."""
+    wanted = [chosen] if isinstance(chosen, str) else list(default if chosen is None else chosen)
+    for name in wanted:
+        if name not in names:
+            raise InputError(_pfaff.unknown_name("coordinate", name, list(names)))
+    return [list(names).index(name) for name in wanted]
+
+
+def _label(name: str, unit: str = "") -> str:
+    return f"{name} [{unit}]" if unit not in ("", "1") else name
+
+
+@_styled
+def trajectory(
+    t: Any, z: Any, names: Sequence[str], *, coordinates: str | Sequence[str] | None = None, time_unit: str = "",
+    axes: Axes | None = None
+) -> Axes:
+    """Coordinates against time; all of them without `coordinates`.
+
+    >>> import numpy as np, matplotlib
+    >>> matplotlib.use("agg")
+    >>> t = np.linspace(0, 6, 50)
+    >>> axes = trajectory(t, np.column_stack([np.cos(t), -np.sin(t)]), ["q", "p"])
+    >>> [line.get_label() for line in axes.get_lines()]
+    ['q', 'p']
+    """
+    times, states = _arrays(t, z)
+    axes = _axes(axes)
+    for k in _chosen(names, coordinates, names):
+        axes.plot(times, states[:, k], label=names[k])
+    axes.set_xlabel(_label("t", time_unit))
+    if len(axes.get_lines()) > 1:
+        axes.legend(frameon=False)
+    else:
+        axes.set_ylabel(axes.get_lines()[0].get_label())
+    return axes
+
+
+@_styled
+def phase_portrait(
+    t: Any, z: Any, names: Sequence[str], *, coordinates: Sequence[str] | None = None, axes: Axes | None = None
+) -> Axes:
+    """One coordinate against another: the first position and its momentum, the first of each half of the coordinates.
+
+    `coordinates` names two others, such as ["q1", "q2"].
+    """
+    _, states = _arrays(t, z)
+    pair = _chosen(names, coordinates, [names[0], names[max(1, len(names) // 2)]] if len(names) > 1 else names)
+    if len(pair) != 2:
+        raise InputError(f"phase portrait: expected two coordinates, got {len(pair)}")
+    axes = _axes(axes, (4.6, 4.2))
+    axes.plot(states[:, pair[0]], states[:, pair[1]])
+    axes.plot(states[0, pair[0]], states[0, pair[1]], marker="o", fillstyle="none", linestyle="none", color=axes.get_lines()[-1].get_color())
+    axes.set(xlabel=names[pair[0]], ylabel=names[pair[1]])
+    return axes
+
+
+@_styled
+def drift(t: Any, values: Mapping[str, Any], *, time_unit: str = "", relative: bool = False, axes: Axes | None = None) -> Axes:
+    """By how much each named quantity differs from its value at the start, |I(t) - I(0)|, on a logarithmic scale.
+
+    Args:
+        t: times, shape (n,).
+        values: arrays of shape (n,) by their names, such as run.invariants.
+        relative: divided by |I(0)|, where that is not 0.
+    """
+    times = np.asarray(t, float)
+    axes = _axes(axes)
+    for name, series in values.items():
+        series = np.asarray(series, float)
+        if series.shape != times.shape:
+            raise InputError(f"drift: expected {len(times)} values of {name}, got shape {series.shape}")
+        difference = np.abs(series - series[0])
+        if relative and series[0] != 0:
+            difference = difference / abs(series[0])
+        _logarithmic(axes, times[1:], difference[1:], name)
+    axes.set(xlabel=_label("t", time_unit), ylabel="relative difference from the start" if relative else "difference from the start")
+    axes.legend(frameon=False)
+    return axes
+
+
+@_styled
+def measure(t: Any, values: Any, name: str, *, unit: str = "", time_unit: str = "", axes: Axes | None = None) -> Axes:
+    """A measured series against time, such as the structure residual: on a logarithmic scale where nothing is negative.
+
+    What was not measured is not-a-number, and is left out.
+    """
+    times, series = np.asarray(t, float), np.asarray(values, float)
+    known = np.isfinite(series)
+    axes = _axes(axes)
+    if known.any() and (series[known] >= 0).all() and (series[known] > 0).any():
+        _logarithmic(axes, times[known], series[known], name)
+    else:
+        axes.plot(times[known], series[known], label=name)
+    axes.set(xlabel=_label("t", time_unit), ylabel=_label(name, unit))
+    return axes
+
+
+def _logarithmic(axes: Axes, times: np.ndarray, values: np.ndarray, name: str) -> None:
+    """A line on a logarithmic scale. Zeros, which have no place on it, stand a tenth below the smallest of the others."""
+    positive = values[values > 0]
+    least = positive.min() / 10 if len(positive) else 1e-17
+    axes.plot(times, np.where(values > 0, values, least), label=name)
+    axes.set_yscale("log")
+
+
+@_styled
+def work_precision(
+    curves: Mapping[str, tuple[Any, Any]], *, families: Mapping[str, str] | None = None, work: str = "time per unit of time [ns]",
+    error: str = "largest error", axes: Axes | None = None
+) -> Axes:
+    """Error against work, a line for each method over its steps. Down and to the left is better.
+
+    Args:
+        curves: (work, error), two arrays of one shape, by the label of the method.
+        families: the family of each method, which gives its colour and its mark.
+    """
+    axes = _axes(axes, (6.4, 4.6))
+    ranks: dict[str, int] = {}
+    for label, (cost, errors) in curves.items():
+        family = _families()["family_named"]((families or {}).get(label, "other"))
+        ranks[family.key] = ranks.get(family.key, -1) + 1
+        axes.loglog(cost, errors, label=label, **_families()["style"](family, ranks[family.key], "full"))
+    axes.set(xlabel=work, ylabel=error)
+    axes.legend(frameon=False, loc="center left", bbox_to_anchor=(1, 0.5))
+    return axes
+
+
+@_styled
+def bodies(
+    t: Any, positions: Any, rods: Sequence[tuple[int, int]] | None = None, *, origin: bool = True, frames: int = 120,
+    seconds: float = 6.0
+) -> FuncAnimation:
+    """An animation of bodies that rods join, such as pendula and chains: `.to_jshtml()` shows it in a notebook.
+
+    Args:
+        t: times, shape (n,).
+        positions: shape (n, bodies, 2) or (n, bodies, 3), of which the first and the last component are drawn.
+        rods: pairs of numbers of bodies, counted from 0, of which -1 is the origin; without, each body hangs on the one
+            before it, and the first on the origin where `origin` is True.
+        frames: how many pictures there are at most, evenly spaced in the samples.
+        seconds: how long it takes.
+    """
+    from matplotlib import pyplot
+    from matplotlib.animation import FuncAnimation
+
+    times, places = np.asarray(t, float), np.asarray(positions, float)
+    if places.ndim != 3 or places.shape[2] not in (2, 3) or len(places) != len(times):
+        raise InputError(f"bodies: expected positions of shape (n, bodies, 2 or 3) beside {len(times)} times, got {places.shape}")
+    places = places[:, :, [0, -1]]
+    count = places.shape[1]
+    pairs = rods if rods is not None else [(k - 1, k) for k in range(0 if origin else 1, count)]
+    for pair in pairs:
+        if not all(-1 <= k < count for k in pair):
+            raise InputError(f"bodies: expected rods between bodies 0 .. {count - 1}, or -1 for the origin, got {pair}")
+    pinned = np.concatenate([np.zeros((len(times), 1, 2)), places], axis=1)
+    shown = np.unique(np.linspace(0, len(times) - 1, min(frames, len(times))).astype(int))
+    figure, axes = pyplot.subplots(figsize=(4.6, 4.6), layout="constrained")
+    joined = {k for pair in pairs for k in pair}
+    extent = pinned if -1 in joined else places
+    low, high = extent.min(axis=(0, 1)), extent.max(axis=(0, 1))
+    reach = 0.55 * max(high - low) + 1e-12
+    centre = (low + high) / 2
+    axes.set(xlim=(centre[0] - reach, centre[0] + reach), ylim=(centre[1] - reach, centre[1] + reach), aspect="equal")
+    lines = [axes.plot([], [], color="#63636a", linewidth=1.2)[0] for _ in pairs]
+    (dots,) = axes.plot([], [], linestyle="none", marker="o", markersize=7)
+    title = axes.set_title("")
+
+    def draw(frame: int) -> list:
+        state = pinned[frame]
+        for line, (a, b) in zip(lines, pairs):
+            line.set_data(state[[a + 1, b + 1], 0], state[[a + 1, b + 1], 1])
+        dots.set_data(state[1:, 0], state[1:, 1])
+        title.set_text(f"t = {times[frame]:.3g}")
+        return [*lines, dots, title]
+
+    animation = FuncAnimation(figure, draw, frames=shown, interval=1000 * seconds / len(shown), blit=False)
+    pyplot.close(figure)  # a notebook would also show its first picture
+    return animation
+
+
+def svg(axes: Axes) -> str:
+    """A figure as an SVG element, for pages; the figure is closed."""
+    import io
+
+    from matplotlib import pyplot
+
+    text = io.StringIO()
+    with _style():
+        axes.figure.savefig(text, format="svg")
+    pyplot.close(axes.figure)
+    return text.getvalue()[text.getvalue().index("<svg") :]
+
+
+def save(axes: Axes, path: str | pathlib.Path) -> None:
+    """Writes the figure to a file, whose ending says what kind it is: .svg, .pdf or .png."""
+    with _style():
+        axes.figure.savefig(path)

@@ -1,0 +1,90 @@
+"""solve_ivp against closed forms and SciPy's own."""
+import math
+
+import numpy as np
+import pytest
+
+import pfaff
+
+integrate = pytest.importorskip("scipy.integrate")
+
+
+def oscillator(t, y, omega=1.0):
+    return [y[1], -(omega**2) * y[0]]
+
+
+def test_the_error_is_as_asked_and_the_result_is_scipys():
+    for tolerance in (1e-4, 1e-8, 1e-11):
+        result = pfaff.solve_ivp(oscillator, (0, 20), [1, 0], "gauss", stages=3, rtol=tolerance, atol=tolerance)
+        exact = np.array([np.cos(result.t), -np.sin(result.t)])
+        assert result.success and result.status == 0 and result.t[-1] == 20 and result.y.shape == (2, len(result.t))
+        assert np.abs(result.y - exact).max() < 2 * tolerance  # rtol |y| + atol, |y| <= 1
+    assert isinstance(result, integrate._ivp.ivp.OdeResult) and result.nfev > 0 and result.sol is None
+
+
+def test_times_between_steps_are_as_accurate_as_steps():
+    times = np.sort(np.random.default_rng(1).uniform(0, 20, 50))
+    result = pfaff.solve_ivp(oscillator, (0, 20), [1, 0], "gauss", times, stages=3, step=0.1)
+    assert np.array_equal(result.t, times)
+    # h^6 times the length of the run over 6! and more is 3e-9; seen are 1e-9
+    assert np.abs(result.y[0] - np.cos(times)).max() < 3e-9
+
+
+def test_fixed_steps_keep_the_energy_over_a_long_time_where_scipy_does_not():
+    result = pfaff.solve_ivp(oscillator, (0, 2000), [1, 0], "gauss", stages=2, step=0.2)
+    energy = (result.y**2).sum(axis=0) / 2
+    assert np.abs(energy - 0.5).max() < 1e-13  # quadratic, which Gauss keeps; ten thousand roundings, compensated
+    other = integrate.solve_ivp(oscillator, (0, 2000), [1, 0])
+    assert abs((other.y[:, -1] ** 2).sum() / 2 - 0.5) > 1e-3
+
+
+def test_args_are_passed_and_time_runs_back():
+    result = pfaff.solve_ivp(oscillator, (0, -3), [0, 2], args=(2.0,), rtol=1e-9, atol=1e-9)
+    assert result.y[0, -1] == pytest.approx(math.sin(-6), abs=3e-9)
+
+
+def test_driven_motion_has_its_time():
+    result = pfaff.solve_ivp(lambda t, y: [np.cos(t)], (1, 4), [0.0], rtol=1e-10, atol=1e-10)
+    assert result.y[0, -1] == pytest.approx(math.sin(4) - math.sin(1), abs=1e-9)
+
+
+def test_a_method_that_chooses_its_steps_takes_the_tolerances():
+    times = [0.5, 3.0, 7.0]
+    result = pfaff.solve_ivp(oscillator, (0, 7), [1, 0], "taylor", times, rtol=1e-10, atol=1e-12)
+    assert list(result.t) == times and np.abs(result.y[0] - np.cos(times)).max() < 1e-9 and result.step is None
+
+
+def test_systems_take_methods_that_need_more_than_a_field():
+    result = pfaff.solve_ivp("kepler", (0, 1), None, "verlet", step=0.01)
+    assert result.y.shape == (4, 101)
+    assert result.y[:, 0] == pytest.approx(pfaff.System("kepler").initial)
+
+
+def test_a_run_that_fails_says_so_and_keeps_what_there_is():
+    # y' = y^2 from 1 has a pole at t = 1.
+    result = pfaff.solve_ivp(lambda t, y: [y[0] ** 2], (0, 3), [1.0], "gauss", step=0.05)
+    assert not result.success and result.status == -1 and result.message and 0.8 < result.t[-1] < 1.2
+
+
+@pytest.mark.parametrize("call, words", [
+    (lambda: pfaff.solve_ivp(oscillator, (0, 1), [1, 0], events=lambda t, y: y[0]), "events: not there; expected pfaff.Integration"),
+    (lambda: pfaff.solve_ivp(oscillator, (0, 1), [1, 0], dense_output=True), "dense_output: not there"),
+    (lambda: pfaff.solve_ivp(oscillator, (0, 1), [1, 0], t_eval=[0, 2]), "t_eval: expected times in 0.0 .. 1.0"),
+    (lambda: pfaff.solve_ivp(oscillator, (0, 0), [1, 0]), "t_span: expected two different"),
+    (lambda: pfaff.solve_ivp(oscillator, (0, 1), [1j, 0]), "y0: expected real numbers"),
+    (lambda: pfaff.solve_ivp(oscillator, (0, 1), [1, 0], rtol=-1), "rtol, atol: expected"),
+    (lambda: pfaff.solve_ivp(oscillator, (0, 1), [1, 0], "gaus"), "did you mean 'gauss'?"),
+    (lambda: pfaff.solve_ivp(oscillator, (0, 1), [1, 0], "verlet"), "verlet needs separable"),
+    (lambda: pfaff.solve_ivp(oscillator, (0, 1), [1, 0, 0]), "3"),
+    (lambda: pfaff.solve_ivp("kepler", (0, 1), args=(1,)), "args: expected them beside a function alone"),
+    (lambda: pfaff.solve_ivp(oscillator, (0, 1), [1, 0], step=-0.1), "step: expected a size above 0"),
+])
+def test_bad_input_is_refused_in_one_line(call, words):
+    with pytest.raises(pfaff.InputError) as refused:
+        call()
+    assert words in str(refused.value) and "\n" not in str(refused.value)
+
+
+def test_a_function_that_compares_values_is_refused_with_its_line():
+    with pytest.raises(pfaff.TraceError, match="test_solve_ivp.py"):
+        pfaff.solve_ivp(lambda t, y: [y[0] if y[0] > 0 else 0], (0, 1), [1.0])

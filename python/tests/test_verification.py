@@ -1,0 +1,134 @@
+"""Verification and falsification: of names and of objects, true and false."""
+import math
+import signal
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import pfaff
+
+
+@pytest.fixture
+def pendulum():
+    @pfaff.system(coordinates=["q", "p"], initial=[0.5, 0.2])
+    def swing(q, p):
+        return p**2 / 2 - np.cos(q)
+
+    return swing
+
+
+@pfaff.method(order=2, needs=["vector-field"])
+def heun(problem, t, h, z):
+    k = problem.field(t, z)
+    return z + h / 2 * (k + problem.field(t + h, z + h * k))
+
+
+@pfaff.method(order=2, preserves=["symplectic"], needs=["vector-field"])
+def false_heun(problem, t, h, z):
+    k = problem.field(t, z)
+    return z + h / 2 * (k + problem.field(t + h, z + h * k))
+
+
+def test_a_sound_method_is_found_sound_and_says_so():
+    checks = pfaff.verify("verlet", on="henon-heiles")
+    assert checks.ok and bool(checks) and checks.failed == ()
+    order = next(check for check in checks if check.claim == "order")
+    assert order.expected == 2 and abs(order.measured - 2) < 0.05  # the slope settles to a hundredth
+    assert checks.verdict.startswith("ok: ") and checks.verdict in repr(checks) and checks.verdict in checks._repr_html_()
+
+
+def test_names_are_verified_as_by_the_program():
+    checks = pfaff.verify("verlet")
+    assert checks.ok and any(check.control and check.result == "rejected" for check in checks)
+    assert {check.precision for check in checks} >= {"double", "quad"}
+
+
+def test_a_method_of_python_is_verified_on_a_system_of_python(pendulum):
+    checks = pfaff.verify(heun, on=pendulum)
+    assert checks.ok and {check.system for check in checks} == {"swing"}
+
+
+def test_a_false_claim_fails(pendulum):
+    checks = pfaff.verify(false_heun, on=[pendulum, "henon-heiles"])
+    assert not checks.ok and not bool(checks)
+    assert {check.claim for check in checks.failed} == {"symplectic"}
+    assert checks.verdict.startswith("NOT OK") and '#b3261e' in checks._repr_html_()
+
+
+def test_without_systems_a_method_is_tried_on_all_that_it_fits_and_on_random_ones():
+    checks = pfaff.verify(false_heun)
+    systems = {check.system for check in checks}
+    assert not checks.ok and "kepler" in systems and any(system.startswith("random") for system in systems)
+
+
+def test_a_system_of_python_is_verified_itself(pendulum):
+    assert pfaff.verify(pendulum).ok
+
+    @pfaff.system(coordinates=["q", "p"], initial=[0.5, 0.2], invariants={"energy": lambda q, p: p**2 / 2 + q**4})
+    def wrong(q, p):
+        return p**2 / 2 - np.cos(q)
+
+    assert "conserves energy" in {check.claim for check in pfaff.verify(wrong).failed}
+
+
+def test_checks_become_a_data_frame():
+    pandas = pytest.importorskip("pandas")
+    checks = pfaff.verify("verlet", on="pendulum")
+    frame = checks.to_pandas()
+    assert isinstance(frame, pandas.DataFrame) and len(frame) == len(checks)
+    assert list(frame["claim"]) == [check.claim for check in checks] and frame["good"].all()
+
+
+@pytest.mark.parametrize("call, words", [
+    (lambda: pfaff.verify("verlt"), "unknown name 'verlt'; did you mean 'verlet'?"),
+    (lambda: pfaff.verify("verlet", on="damped-pendulum"), "verlet needs"),
+    (lambda: pfaff.verify(on="kepler"), "expected a method"),
+    (lambda: pfaff.verify("gauss", "verlet", on="kepler", stages=2), "alone"),
+    (lambda: pfaff.falsify("verlet", "symplectc"), "did you mean 'symplectic'?"),
+    (lambda: pfaff.falsify("verlet", budget=0), "budget: expected a time above 0 s"),
+])
+def test_bad_input_is_refused_in_one_line(call, words):
+    with pytest.raises(pfaff.InputError) as refused:
+        call()
+    assert words in str(refused.value) and "\n" not in str(refused.value)
+
+
+def test_a_counterexample_is_small_and_shows_the_failure(tmp_path):
+    found = pfaff.falsify("rk4", "symplectic", systems=5)
+    assert not found.ok and found[0].result == "falsified" and not found[0].claimed
+    example = found[0].counterexample
+    # rk4 leaves a residual of the order h^5 or so, which halving makes 2^5 times smaller at least.
+    assert example.dimension <= 2 and example.exponent > 4.5
+    path = tmp_path / f"{example.name}.toml"
+    path.write_text(example.model)
+    again = pfaff.verify(pfaff.Method("rk4"), on=str(path))
+    residual = next(check for check in again if check.claim == "symplectic" and check.precision == "double")
+    assert residual.measured > 1e-12 and residual.result == "measured"
+    assert "falsified" in repr(found) and "<table>" in found._repr_html_()
+
+
+def test_a_true_claim_holds_and_a_false_one_of_an_object_does_not():
+    held = pfaff.falsify("verlet", "symplectic", systems=5)
+    assert held.ok and all(one.tried > 0 and one.result == "held" for one in held)
+    false = pfaff.falsify(false_heun, systems=5)
+    assert [(one.claim, one.claimed) for one in false.failed] == [("symplectic", True)]
+    assert math.isfinite(false.failed[0].counterexample.residuals[0])
+
+
+def test_an_interruption_comes_soon():
+    main = threading.main_thread().ident
+    sent = []
+
+    def interrupt():
+        sent.append(time.monotonic())
+        signal.pthread_kill(main, signal.SIGINT)
+
+    timer = threading.Timer(0.3, interrupt)
+    timer.start()
+    with pytest.raises(KeyboardInterrupt) as stopped:
+        pfaff.verify("integrators")
+    late = time.monotonic() - sent[0]
+    assert isinstance(stopped.value, pfaff.Interrupted)
+    assert late < 0.5  # .1 s on an idle machine; tests share theirs
