@@ -219,15 +219,16 @@ ResolvedState resolve_state(const RunSettings& settings) {
 }
 
 namespace {
-// Fills in run.origins. `read` are the files as they were before the model was made of them.
-void note_origins(ResolvedRun& run, const SystemPlugin& system, const MethodPlugin* method,
+// Fills in run.origins, of plug-ins that are null for what was made in a program nothing. `read` are the
+// files as they were before the model was made of them.
+void note_origins(ResolvedRun& run, const SystemPlugin* system, const MethodPlugin* method,
                   const Assignments& read) {
   // A text model is made when its file is read and belongs to no shared object.
-  if (const auto* text = dynamic_cast<const TextSystem*>(&system)) {
+  if (const auto* text = dynamic_cast<const TextSystem*>(system)) {
     for (const auto& [path, contents] : text->files()) add_file(run.origins, path, sha1_of(contents));
     for (const auto& [plugin, values] : text->rests_on()) add_origins(*plugin, values, run.origins);
-  } else {
-    add_origins(system, run.model->parameters(), run.origins);
+  } else if (system != nullptr) {
+    add_origins(*system, run.model->parameters(), run.origins);
   }
   for (const auto& [path, hash] : read)
     if (std::find(run.origins.files.begin(), run.origins.files.end(), std::pair(path, hash)) ==
@@ -241,74 +242,112 @@ void note_origins(ResolvedRun& run, const SystemPlugin& system, const MethodPlug
   if (run.settings.compile && run.settings.precision == Precision::double_precision)
     add_compiler(run.origins);
 }
-}  // namespace
 
-namespace {
 template <class T>
 void check_domain_of(const ResolvedRun& run) {
   std::vector<T> z;
   for (const Real& x : run.initial) z.push_back(T(x));
   check_domain(run.model, T(run.t0), z);
 }
-}  // namespace
 
-ResolvedRun resolve(const RunSettings& settings) {
-  ResolvedRun run;
-  run.settings = settings;
-  const SystemPlugin& system = system_asked_for(settings.system);
-  const auto* text = dynamic_cast<const TextSystem*>(&system);
-  run.settings.system = text != nullptr ? text->files().front().first : system.name();
-  const MethodPlugin* method =
-      settings.method != nullptr ? nullptr : &integrator_asked_for(settings.integrator);
-  const auto* table = dynamic_cast<const MethodTable*>(method);
-  if (method != nullptr) run.settings.integrator = table != nullptr ? table->path() : method->name();
-  const FormulationPlugin* formulation = formulation_for(system, settings.formulation);
-  SplitSettings split = split_settings(system, formulation, method, settings.set);
-  split.system = with_absolute_paths(system.parameters(), std::move(split.system));
-  if (method != nullptr)
-    split.integrator = with_absolute_paths(method->parameters(), std::move(split.integrator));
-  if (formulation != nullptr)
-    split.formulation = with_absolute_paths(formulation->parameters(), std::move(split.formulation));
-  const Assignments read = files_of(system.parameters(), split.system);
-  const auto whole = run.model = system.make(split.system);
-  run.method = method != nullptr ? method->make(split.integrator) : settings.method;
-  if (formulation != nullptr && !run.method->refuses(*run.model).empty()) {
-    run.settings.formulation = formulation->name();
-    run.model = formulation->apply(run.model, split.formulation);
-  } else if (!settings.formulation.empty() || !split.formulation.empty()) {
-    throw InputError(run.method->called() + " steps on the constraints of " + system.name() +
+// What the names and parameters of a run stand for.
+struct RunObjects {
+  std::shared_ptr<const Model> whole;  // the system, before a formulation
+  std::shared_ptr<const MethodInstance> method;
+  const FormulationPlugin* formulation;  // the one that makes a motion where the method needs that; or null
+  Assignments of_formulation;
+  AskedState state;
+};
+
+// The model that the method steps on, with all checks of whether the two fit.
+void choose_model(ResolvedRun& run, const RunObjects& objects) {
+  const RunSettings& settings = run.settings;
+  run.model = objects.whole;
+  run.method = objects.method;
+  if (objects.formulation != nullptr && !run.method->refuses(*run.model).empty()) {
+    run.model = objects.formulation->apply(run.model, objects.of_formulation);
+    run.settings.formulation = objects.formulation->name();
+  } else if (!settings.formulation.empty() || !objects.of_formulation.empty()) {
+    throw InputError(run.method->called() + " steps on the constraints of " + run.model->name() +
                      " themselves; expected no --formulation and no parameter of one");
   }
   if (const std::string reason = run.method->refuses(*run.model); !reason.empty())
     throw InputError(reason + what_to_do(*run.method, *run.model));
   if (settings.precision == Precision::quad && run.method->descriptor().double_coefficients)
     throw InputError(run.method->called() + " has coefficients in double only; expected --precision double");
-
   if (settings.compile && settings.precision == Precision::double_precision) run.model = compiled(run.model);
+}
 
-  note_origins(run, system, method, read);
-  const Assignments& parameters = run.model->parameters();
-  for (const auto& [number, what] : {std::pair(&run.settings.t0, "initial time"),
-                                     {&run.settings.time, "--time"},
-                                     {&run.settings.step, "--step"},
-                                     {&run.settings.tolerance, "--tolerance"}})
-    *number = evaluated(*number, what, parameters);
-  run.t0 = finite_number(run.settings.t0, "initial time");
-  run.time = finite_number(run.settings.time, "--time");
+// Times, the state, the step: all that is asked of objects that fit.
+void check_objects(ResolvedRun& run, const RunObjects& objects) {
+  RunSettings& settings = run.settings;
+  const std::string asked_time = settings.time;
+  for (const auto& [number, what] : {std::pair(&settings.t0, "initial time"),
+                                     {&settings.time, "--time"},
+                                     {&settings.step, "--step"},
+                                     {&settings.tolerance, "--tolerance"}})
+    *number = evaluated(*number, what, run.model->parameters());
+  run.t0 = finite_number(settings.t0, "initial time");
+  run.time = finite_number(settings.time, "--time");
   if (run.time == Real(0))
-    throw InputError("--time: expected a duration other than 0, got '" + settings.time + "'");
+    throw InputError("--time: expected a duration other than 0, got '" + asked_time + "'");
 
-  run.initial = initial_state(*run.model, asked_state(settings, split), run.t0);
+  run.initial = initial_state(*run.model, objects.state, run.t0);
   run.given_initial = run.initial;
-  check_independence(*whole, run);
+  check_independence(*objects.whole, run);
   check_consistency(settings, run);
   if (settings.precision == Precision::quad) {
     check_domain_of<Quad>(run);
   } else {
     check_domain_of<double>(run);
   }
-  check_stated_identities(*whole, run.t0, run.initial);
+  check_stated_identities(*objects.whole, run.t0, run.initial);
   resolve_steps(run);
+}
+
+// Whether an object has a surface that its states lie on and no motion yet.
+const FormulationPlugin* formulation_of(const Model& model, const std::string& name) {
+  if (!name.empty()) return &formulations().get(name, "formulation");
+  return model.restricted() && !model.moves() ? &default_formulation(model) : nullptr;
+}
+}  // namespace
+
+ResolvedRun resolve(const RunSettings& settings) {
+  ResolvedRun run;
+  run.settings = settings;
+  RunObjects objects{settings.model, settings.method, nullptr, {}, {}};
+  const SystemPlugin* const system = settings.model ? nullptr : &system_asked_for(settings.system);
+  const MethodPlugin* const method = settings.method ? nullptr : &integrator_asked_for(settings.integrator);
+  const auto* table = dynamic_cast<const MethodTable*>(method);
+  run.settings.integrator = method == nullptr  ? settings.method->called()
+                            : table != nullptr ? table->path()
+                                               : method->name();
+  SplitSettings split;
+  Assignments read;
+  if (system != nullptr) {
+    const auto* text = dynamic_cast<const TextSystem*>(system);
+    run.settings.system = text != nullptr ? text->files().front().first : system->name();
+    objects.formulation = formulation_for(*system, settings.formulation);
+    split = split_settings(*system, objects.formulation, method, settings.set);
+    split.system = with_absolute_paths(system->parameters(), std::move(split.system));
+    read = files_of(system->parameters(), split.system);
+    objects.whole = system->make(split.system);
+  } else {
+    if (!settings.set.empty())
+      throw InputError("'" + settings.set.front().first +
+                       "': expected the parameters of objects to be set where these are made");
+    run.settings.system = settings.model->name();
+    objects.formulation = formulation_of(*settings.model, settings.formulation);
+  }
+  if (method != nullptr)
+    objects.method = method->make(with_absolute_paths(method->parameters(), std::move(split.integrator)));
+  if (objects.formulation != nullptr)
+    objects.of_formulation =
+        with_absolute_paths(objects.formulation->parameters(), std::move(split.formulation));
+  objects.state = asked_state(settings, split);
+  choose_model(run, objects);
+  note_origins(run, system, method, read);
+  check_objects(run, objects);
   return run;
 }
 

@@ -56,7 +56,9 @@ constexpr std::int64_t default_step_budget = 1000000000000;
 /// A run as it is asked for. All numbers are text, so that each precision parses every digit.
 struct RunSettings {
   std::string system, integrator;
-  // In the place of what is registered as `integrator`. A run with it cannot be made again from its files.
+  // In the place of what is registered as `system` and as `integrator`, with their parameters. A run with one
+  // of them cannot be made again from its files.
+  std::shared_ptr<const Model> model{};
   std::shared_ptr<const MethodInstance> method{};
   std::string formulation;  // empty: that of formulation_for() where the integrator needs a vector field
   Assignments set;          // nu=0.3, system.nu=0.3, integrator.order=4, initial=1,0.5

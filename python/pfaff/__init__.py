@@ -9,12 +9,14 @@ What the program `pfaff` does, at the speed of C++, from Python:
 from . import _machine  # noqa: F401  first: it refuses machines that lack instructions
 from . import _pfaff, plots
 from ._derivation import Equations, derivation_methods, derive
+from ._ensemble import Ensemble, ensemble
 from ._errors import InputError, Interrupted, NotConverged, RunFailed, TraceError
 from ._evaluation import Evaluation, bracket, evaluate
 from ._experiments import Comparison, Table, WorkPrecision, compare, experiments
 from ._integration import Integration, Outcome
 from ._method import Method, Problem, method, methods, table
 from ._papers import Reproduced, Reproduction, papers, reproduce
+from ._run import Run, Watched, run
 from ._solve_ivp import solve_ivp
 from ._system import System, system, systems
 from ._tracing import solve, where
@@ -27,6 +29,7 @@ __all__ = [
     "Checks",
     "Comparison",
     "Counterexample",
+    "Ensemble",
     "Equations",
     "Evaluation",
     "Falsification",
@@ -40,16 +43,19 @@ __all__ = [
     "Problem",
     "Reproduced",
     "Reproduction",
+    "Run",
     "RunFailed",
     "System",
     "Table",
     "TraceError",
+    "Watched",
     "WorkPrecision",
     "__version__",
     "bracket",
     "compare",
     "derivation_methods",
     "derive",
+    "ensemble",
     "evaluate",
     "experiments",
     "falsify",
@@ -58,6 +64,7 @@ __all__ = [
     "papers",
     "plots",
     "reproduce",
+    "run",
     "solve",
     "solve_ivp",
     "system",

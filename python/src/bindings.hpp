@@ -6,6 +6,7 @@
 namespace pfaff::python {
 
 void bind_derivation(pybind11::module_& module);
+void bind_ensembles(pybind11::module_& module);
 void bind_errors(pybind11::module_& module);
 void bind_evaluation(pybind11::module_& module);
 void bind_experiments(pybind11::module_& module);
@@ -14,6 +15,7 @@ void bind_methods(pybind11::module_& module);
 void bind_model_source(pybind11::module_& module);
 void bind_papers(pybind11::module_& module);
 void bind_recording(pybind11::module_& module);
+void bind_runs(pybind11::module_& module);
 void bind_scalars(pybind11::module_& module);
 void bind_systems(pybind11::module_& module);
 void bind_verification(pybind11::module_& module);

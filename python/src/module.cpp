@@ -7,6 +7,7 @@ PYBIND11_MODULE(_pfaff, module) {
   module.doc() = "What the package pfaff calls of the C++ libraries; import pfaff instead.";
   module.attr("__version__") = PFAFF_VERSION_TEXT;
   pfaff::python::bind_derivation(module);
+  pfaff::python::bind_ensembles(module);
   pfaff::python::bind_errors(module);
   pfaff::python::bind_evaluation(module);
   pfaff::python::bind_experiments(module);
@@ -15,6 +16,7 @@ PYBIND11_MODULE(_pfaff, module) {
   pfaff::python::bind_model_source(module);
   pfaff::python::bind_papers(module);
   pfaff::python::bind_recording(module);
+  pfaff::python::bind_runs(module);
   pfaff::python::bind_scalars(module);
   pfaff::python::bind_systems(module);
   pfaff::python::bind_verification(module);

@@ -1,0 +1,96 @@
+"""Many initial states at once."""
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from . import _pfaff
+from ._errors import InputError
+from ._integration import attach, whole, with_parameters
+
+
+@dataclass(slots=True)
+class Ensemble:
+    """Trajectories from many initial states."""
+
+    t: np.ndarray = field(repr=False)
+    """The times of the rows, shape (rows,); the first is that of the start."""
+    y: np.ndarray = field(repr=False)
+    """The states, shape (N, rows, dimension); NaN behind the end of a trajectory that ended early."""
+    failures: dict[int, str]
+    """Why trajectories ended early, by their index."""
+    done: np.ndarray = field(repr=False)
+    """Which trajectories have come to their end or to their failure, shape (N,): all unless something was raised."""
+
+
+def ensemble(system: Any, method: Any, states: Any, *, step: Any, steps: int, every: int = 0, t0: Any = 0, threads: int | None = None,
+             callback: Callable[[int], Any] | None = None, system_parameters: Mapping[str, Any] | None = None,
+             method_parameters: Mapping[str, Any] | None = None, **parameters: Any) -> Ensemble:
+    """Takes `steps` steps from each of many initial states, over threads and without Python, in double precision.
+
+    >>> import numpy as np, pfaff
+    >>> states = np.random.default_rng(1).normal(scale=0.1, size=(100, 4))
+    >>> pfaff.ensemble("henon-heiles", "verlet", states, step=0.01, steps=1000, every=100).y.shape
+    (100, 11, 4)
+
+    Each trajectory has the bits that an Integration from its state has; none depends on the number of threads.
+
+    Args:
+        system, method: names, paths, or objects.
+        states: initial states, shape (N, dimension), converted to doubles.
+        step, steps, t0: the step, how many, and the time at the start.
+        every: the steps between two rows; 0 keeps the start and the end alone.
+        threads: how many; without it as many as the process may use.
+        callback: called with the index of each trajectory that has ended, from any of the threads.
+        system_parameters, method_parameters: dictionaries, where both know a name.
+        **parameters: of the system or the method, by their names.
+
+    Raises:
+        InputError: a method that does not fit, wrong shapes, and a first state that cannot be begun at.
+        Interrupted: Ctrl-C was pressed.
+
+    Whatever is raised, by the callback too, has the Ensemble so far as its attribute `run`.
+    """
+    base, tool = with_parameters(system, method, parameters, system_parameters, method_parameters)
+    try:
+        array = np.asarray(states, dtype=float)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"states: expected numbers, an array of shape (N, {base.dimension}): {error}") from None
+    if array.ndim != 2 or array.shape[1] != base.dimension:
+        raise InputError(f"states: expected shape (N, {base.dimension}), got {array.shape}")
+    if np.iscomplexobj(np.asarray(states)):
+        raise InputError("states: expected real numbers, got complex ones")
+    if not np.isfinite(array).all():
+        raise InputError(f"states: expected finite numbers; state {int(np.argwhere(~np.isfinite(array))[0][0])} has others")
+    count = whole(steps, "steps", 1)
+    stride = whole(every, "every", 0) or count
+    if stride > count:
+        raise InputError(f"every: expected at most {count}, the number of steps, got {stride}")
+    workers = whole(threads, "threads", 1) if threads is not None else len(os.sched_getaffinity(0))
+    h, start = _number(step, "step"), _number(t0, "t0")
+    y = np.empty((len(array), 1 + count // stride, base.dimension))
+    result = Ensemble(start + stride * np.arange(y.shape[1]) * h, y, {}, np.zeros(len(array), dtype=bool))
+
+    def report(failures: list[str], done: list[int]) -> None:
+        result.failures.update({k: message for k, message in enumerate(failures) if message})
+        result.done[:] = done
+
+    try:
+        _pfaff.ensemble(base.model, tool.instance, np.ascontiguousarray(array), y, h, start, count, stride, workers, callback, report)
+    except InputError:
+        raise
+    except BaseException as error:
+        attach(error, result)
+        raise
+    return result
+
+
+def _number(value: Any, what: str) -> float:
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise InputError(f"{what}: expected a number, got {value!r}") from None

@@ -1,0 +1,291 @@
+"""Runs: a system integrated by a method, with all that is measured of it."""
+from __future__ import annotations
+
+import functools
+import html
+import os
+import pickle
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import _pfaff
+from ._errors import InputError, NotConverged, RunFailed
+from ._integration import Integration, attach, whole, with_parameters
+from ._numbers import text_of_number, texts_of_state
+from ._tables import data_frame, html_table, text_table
+
+if TYPE_CHECKING:
+    import pandas
+
+
+class Watched(Mapping):
+    """What is left of a quantity that was watched along a run: the fields that docs/drift-and-cost.md lists.
+
+    They are read as items, drift["class"], or, but for the class, as attributes: drift.slope, drift.slope_low,
+    drift.slope_high, drift.max, drift.rms, drift.evidence. A number that is not known is None.
+    """
+
+    def __init__(self, fields: Mapping[str, Any]) -> None:
+        self._fields = dict(fields)
+
+    def __getitem__(self, name: str) -> Any:
+        if name not in self._fields:
+            raise KeyError(_pfaff.unknown_name("field", name, list(self._fields)))
+        return self._fields[name]
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("__") or "_fields" not in self.__dict__ or name not in self._fields:
+            raise AttributeError(name)
+        return self._fields[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._fields)
+
+    def __len__(self) -> int:
+        return len(self._fields)
+
+    def __repr__(self) -> str:
+        named = self._fields.get("class")
+        return f"<{named or 'watched'}: {', '.join(f'{key} {value:.3g}' for key, value in self._fields.items() if isinstance(value, float))}>"
+
+
+class Run:
+    """What a run has left: samples as arrays, and what was measured.
+
+    `run[name]` is a coordinate, a block of coordinates (shape (rows, count)), or an invariant.
+    """
+
+    def __init__(self, system: Any, method: Any, of: dict[str, Any], asked: dict[str, Any]) -> None:
+        self.system, self.method, self._asked = system, method, asked
+        self.t: np.ndarray = of["t"]
+        """The times of the samples, shape (rows,)."""
+        self.y: np.ndarray = of["y"]
+        """The states, shape (rows, dimension)."""
+        self.invariants: dict[str, np.ndarray] = dict(zip(of["invariant_names"], of["invariants"].T))
+        """The values of each invariant, shape (rows,)."""
+        self.constraints: dict[str, np.ndarray] = dict(zip(of["constraint_names"], of["constraints"].T))
+        """The largest residual of each level of constraints, shape (rows,)."""
+        self.error: np.ndarray | None = of["error"]
+        """The relative error against the reference, shape (rows,), NaN where it was not measured; None without one."""
+        self.structure: np.ndarray | None = of["structure"]
+        """The residual of the structure of one step, shape (rows,), NaN where it was not measured; or None."""
+        self.summary: dict[str, Any] = of["summary"]
+        """All that summary.json of `pfaff run` holds."""
+        self.measures: dict[str, dict[str, list]] = {name: columns for name, (columns, _) in of["tables"].items()}
+        """The tables of the measures that were asked for, each a dictionary of columns."""
+        self.status: str = of["status"]
+        """'converged', or how the last step failed."""
+        self.message: str = of["message"]
+        """Why the run ended early; empty where it did not."""
+        self.coordinates: list[str] = of["coordinates"]
+        self.units: dict[str, str] = of["units"]
+        self._steps, self._initial, self._step = of["steps"], of["initial"], of["step"]
+
+    @functools.cached_property
+    def drift(self) -> dict[str, Watched]:
+        """Of each invariant that is conserved its drift: class, slope with its interval, max, rms, ..."""
+        return {one["name"]: Watched(one) for one in self.summary.get("invariants", []) if "class" in one}
+
+    @functools.cached_property
+    def constraint_drift(self) -> dict[str, Watched]:
+        """The same of the residual of each level of constraints."""
+        return {one["name"]: Watched(one) for one in self.summary.get("constraints", [])}
+
+    @property
+    def error_max(self) -> float | None:
+        """The largest error against the reference, relative; None where none was measured."""
+        return self.summary.get("error_max")
+
+    @property
+    def error_final(self) -> float | None:
+        """The last error that was measured."""
+        return self.summary.get("error_final")
+
+    @property
+    def counters(self) -> dict[str, int]:
+        """The work that was done: steps, right_hand_sides, jacobians, iterations, factorisations."""
+        return dict(self.summary.get("counts", {}))
+
+    @functools.cached_property
+    def jacobian(self) -> np.ndarray:
+        """The derivative of the last state with respect to the first, shape (dimension, dimension), through all steps.
+
+        InputError for a run whose method chose its steps.
+        """
+        if self._asked["tolerance"]:
+            raise InputError("jacobian: expected a run with steps of one size")
+        return self._integration().jacobian(self.summary.get("completed", self._steps))[1]
+
+    def sensitivity(self, parameter: str) -> np.ndarray:
+        """The derivative of the last state with respect to a parameter of the system, shape (dimension,).
+
+        It is a central difference of two runs in quad precision, of which 1e-10 of the parameter is the step: its error
+        is about 1e-20 of the third derivative, and the result as good as one of derivatives through the steps.
+        """
+        values = self.system.parameters
+        if parameter not in values:
+            raise InputError(_pfaff.unknown_name("parameter", parameter, list(values)) + f" (of {self.system.name})")
+        if self._asked["tolerance"]:
+            raise InputError("sensitivity: expected a run with steps of one size")
+        from fractions import Fraction
+
+        value = Fraction(values[parameter])
+        change = (abs(value) or 1) * Fraction(1, 10**10)
+        ends = []
+        for moved in (value + change, value - change):
+            run = self._integration(self.system(**{parameter: f"{moved.numerator}/{moved.denominator}"}), precision="quad")
+            run.steps(self.summary.get("completed", self._steps))
+            ends.append([Fraction(x) for x in run.decimals])
+        return np.array([float((a - b) / (2 * change)) for a, b in zip(*ends)])
+
+    def _integration(self, system: Any = None, precision: str | None = None) -> Integration:
+        return Integration(system or self.system, self.method, step=self._step, initial=self._initial, t0=self._asked["t0"],
+                           precision=precision or self._asked["precision"], formulation=self._asked["formulation"])
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        if name in self.coordinates:
+            return self.y[:, self.coordinates.index(name)]
+        block = [k for k, one in enumerate(self.coordinates) if re.fullmatch(re.escape(name) + r"\[\d+\]|" + re.escape(name) + r"\d+", one)]
+        if block:
+            return self.y[:, block[0] : block[-1] + 1] if block == list(range(block[0], block[-1] + 1)) else self.y[:, block]
+        if name in self.invariants:
+            return self.invariants[name]
+        raise KeyError(_pfaff.unknown_name("column", name, [*self.coordinates, *self.invariants]))
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A row for each sample: t, the coordinates, invariants, residuals of constraints, and the error where there is one."""
+        columns = {"t": self.t, **dict(zip(self.coordinates, self.y.T)), **self.invariants, **self.constraints}
+        if self.error is not None:
+            columns["error"] = self.error
+        return data_frame(list(columns), list(zip(*columns.values())))
+
+    def _rows(self) -> list[list[Any]]:
+        rows = [[name, one["class"], one["max"], one["slope"], one["slope_low"], one["slope_high"]] for name, one in self.drift.items()]
+        return rows + [[name, one["class"], one["max"], one["slope"], one["slope_low"], one["slope_high"]] for name, one in self.constraint_drift.items()]
+
+    def _head(self) -> str:
+        span = f"t = {self.t[0]:g} .. {self.t[-1]:g}, {len(self.t)} samples" if len(self.t) else "no samples"
+        error = f", largest error {self.error_max:.3g}" if self.error_max is not None else ""
+        ended = f"; {self.message}" if self.message else ""
+        return f"run of {self.system.name} by {self.method.name}: {span}{error}{ended}"
+
+    _COLUMNS = ("quantity", "class", "max", "slope", "slope_low", "slope_high")
+
+    def __repr__(self) -> str:
+        rows = self._rows()
+        return self._head() + ("\n" + text_table(self._COLUMNS, rows) if rows else "")
+
+    def _repr_html_(self) -> str:
+        rows = self._rows()
+        return f"<p>{html.escape(self._head())}</p>" + (html_table(self._COLUMNS, rows) if rows else "")
+
+    def __getstate__(self) -> dict[str, Any]:
+        state = dict(self.__dict__)
+        for key in ("system", "method"):
+            try:
+                pickle.dumps(state[key])
+            except (pickle.PicklingError, AttributeError, TypeError):
+                state[key] = Unavailable(state[key].name)  # its samples are worth keeping without it
+        return state
+
+
+class Unavailable:
+    """A system or a method of a pickled run that could not be pickled itself: its name is what is left."""
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+
+
+def run(system: Any, method: Any, *, step: Any = None, tolerance: Any = None, time: Any = None, every: int = 0, initial: Any = None, t0: Any = 0,
+        absolute: Any = (), precision: str = "double", reference: str | None = "exact", measures: Sequence[str] = (), structure: bool = True,
+        project_initial: bool = False, formulation: str = "", out: Any = None, system_parameters: Mapping[str, Any] | None = None,
+        method_parameters: Mapping[str, Any] | None = None, **parameters: Any) -> Run:
+    """Runs a method on a system, and measures what drifts and what it costs, as `pfaff run` does.
+
+    >>> import pfaff
+    >>> result = pfaff.run("kepler", "gauss", stages=3, eccentricity=0.3, step=0.05, time=100)
+    >>> result.y.shape, result["q"].shape, result.drift["energy"]["class"]
+    ((1001, 4), (1001, 2), 'random-walk')
+
+    Args:
+        system: a name, the path of a text model, or a pfaff.System.
+        method: a name, the path of a table, a dictionary of coefficients, or a pfaff.Method.
+        step: the step, > 0; or `tolerance`, the relative error of a step of a method that chooses its steps.
+        time: the duration; a negative one goes back in time.
+        every: the steps between two samples; 0 chooses for about a thousand samples.
+        initial: the state, shape (dimension,); without it the system's own.
+        t0: the time at the start.
+        absolute: absolute tolerances beside `tolerance`, one number or one for each coordinate.
+        precision: "double", or "quad" with 113 bits; samples are doubles in both, drift and errors are found in quad.
+        reference: what errors are measured against: "exact", the system's own solution where it has one; "solution",
+            that or Taylor series in quad; None. "solution,every" measures them at every sample, else at 200 at most.
+        measures: names of measures (`pfaff list measures`), whose tables are in `measures` of the result.
+        structure: measure the residual of the structure of steps, where the system has one.
+        project_initial: move the initial state onto the constraints.
+        formulation: of a system with constraints, for a method that needs a vector field; without it the usual one.
+        out: a directory in which the samples, series.csv, and the summary, summary.json, are left.
+        system_parameters, method_parameters: dictionaries, where both know a name.
+        **parameters: of the system or the method, by their names.
+
+    Returns:
+        A Run, with samples as NumPy arrays.
+
+    Raises:
+        InputError: whatever does not fit, before work starts.
+        NotConverged, RunFailed: a step failed.
+        Interrupted: Ctrl-C was pressed.
+
+    All but InputError have the Run with the samples so far as their attribute `run`.
+    """
+    base, tool = with_parameters(system, method, parameters, system_parameters, method_parameters)
+    if time is None:
+        raise InputError("time: expected the duration of the run")
+    texts = lambda values, what: texts_of_state([values] if np.ndim(values) == 0 else values, what)  # noqa: E731
+    asked = {
+        "step": "" if step is None else text_of_number(step, "step"),
+        "tolerance": "" if tolerance is None else text_of_number(tolerance, "tolerance"),
+        "time": text_of_number(time, "time"),
+        "every": whole(every, "every", 0),
+        "initial": [] if initial is None else texts(initial, "initial"),
+        "t0": text_of_number(t0, "t0"),
+        "absolute": texts(absolute, "absolute"),
+        "precision": precision,
+        "reference": reference or "none",
+        "measures": [measures] if isinstance(measures, str) else list(measures),
+        "structure": bool(structure),
+        "project_initial": bool(project_initial),
+        "formulation": formulation,
+        "out": "" if out is None else os.fspath(out),
+    }
+    with _words_of_python():
+        going = _pfaff.RunInProgress(base.model, tool.instance, asked)
+    try:
+        going.execute()
+    except InputError:
+        raise
+    except BaseException as error:
+        attach(error, Run(base, tool, going.samples(), asked))
+        raise
+    result = Run(base, tool, going.samples(), asked)
+    if result.status != "converged":
+        failed = (RunFailed if result.status == "non_finite" else NotConverged)(result.message)
+        attach(failed, result)
+        raise failed
+    return result
+
+
+class _words_of_python:
+    """Messages of the command line name options, --step; in Python these are arguments, step."""
+
+    def __enter__(self) -> None:
+        pass
+
+    def __exit__(self, kind: Any, error: BaseException | None, trace: Any) -> None:
+        if isinstance(error, InputError):
+            words = re.sub(r"--set (\w+)=", r"\1=", str(error))
+            words = re.sub(r"--([a-z][a-z-]*)", lambda option: option[1].replace("-", "_"), words)
+            if words != str(error):
+                raise InputError(words) from None

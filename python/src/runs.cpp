@@ -1,0 +1,241 @@
+// Runs: `_pfaff.RunInProgress`, a run of the library's runner whose samples are arrays. What is used of the
+// runner's record stands here alone.
+#include <pybind11/stl.h>
+
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <pfaff/bench/runner/files.hpp>
+#include <pfaff/bench/runner/measure_tables.hpp>
+#include <pfaff/bench/runner/record.hpp>
+#include <pfaff/bench/runner/row_file.hpp>
+#include <pfaff/bench/runner/run_directory.hpp>
+#include <pfaff/bench/runner/settings.hpp>
+#include <pfaff/python/src/arrays.hpp>
+#include <pfaff/python/src/bindings.hpp>
+#include <pfaff/python/src/interruption.hpp>
+#include <pfaff/python/src/json_value.hpp>
+#include <pfaff/python/src/objects.hpp>
+#include <pfaff/runs/measuring.hpp>
+#include <pfaff/runs/support/constraints.hpp>
+
+namespace py = pybind11;
+
+namespace pfaff::python {
+
+namespace {
+// Takes samples as columns of doubles, in which NaN stands for what was not measured, and passes them on.
+class Columns final : public SampleTaker {
+ public:
+  void begin(const MeasuredBeside& of) override {
+    measured = of;
+    if (also != nullptr) also->begin(of);
+  }
+  void take(const Sample<double>& sample) override {
+    add(sample);
+    if (also != nullptr) also->take(sample);
+  }
+  void take(const Sample<Quad>& sample) override {
+    add(sample);
+    if (also != nullptr) also->take(sample);
+  }
+
+  SampleTaker* also = nullptr;
+  MeasuredBeside measured;
+  Numbers t, y, invariants, constraints, error, structure;
+
+ private:
+  static void put(Numbers& to, double value) { *to.extend(1) = value; }
+  template <class T>
+  static void put(Numbers& to, const std::vector<T>& values) {
+    double* place = to.extend(values.size());
+    for (const T& x : values) *place++ = static_cast<double>(x);
+  }
+  template <class T>
+  static void put(Numbers& to, const std::optional<T>& value) {
+    put(to, value ? static_cast<double>(*value) : std::numeric_limits<double>::quiet_NaN());
+  }
+  template <class T>
+  void add(const Sample<T>& sample) {
+    put(t, static_cast<double>(sample.t));
+    put(y, sample.state);
+    put(invariants, sample.invariants);
+    put(constraints, sample.constraints);
+    if (measured.error) put(error, sample.error);
+    if (measured.structure) put(structure, sample.structure);
+  }
+};
+
+// The samples and the summary in a directory of the user's. There is no config.toml, since objects of a
+// program cannot be made again from one.
+class Files {
+ public:
+  Files(const ResolvedRun& run, const std::filesystem::path& directory)
+      : directory_(directory),
+        lock_(take_output_directory(directory, "pfaff.run", run_file_names())),
+        rows_(directory / "series.csv"),
+        series_(run, [this](std::string_view rows) { rows_.take(rows); }) {}
+  [[nodiscard]] SampleTaker& series() { return series_; }
+  void finish(const nlohmann::json& summary) {
+    series_.finish();
+    rows_.finish();
+    write_file(directory_ / "summary.json", summary.dump(1) + "\n");
+  }
+
+ private:
+  std::filesystem::path directory_;
+  std::unique_ptr<DirectoryLock> lock_;
+  RowFile rows_;
+  SeriesWriter series_;  // the last, since its end passes on rows that are left
+};
+
+RunSettings settings_of(const PySystem& system, const PyMethod& method, const py::dict& asked) {
+  const auto text = [&](const char* key) { return asked[key].cast<std::string>(); };
+  const auto texts = [&](const char* key) { return asked[key].cast<std::vector<std::string>>(); };
+  RunSettings settings;
+  settings.model = system.model;
+  settings.method = method.method;
+  settings.formulation = text("formulation");
+  settings.initial = texts("initial");
+  settings.t0 = text("t0"), settings.step = text("step"), settings.tolerance = text("tolerance");
+  settings.time = text("time");
+  settings.absolute = texts("absolute");
+  settings.every = asked["every"].cast<std::int64_t>();
+  settings.precision = parse_precision(text("precision"));
+  settings.project_initial = asked["project_initial"].cast<bool>();
+  settings.structure_residuals = asked["structure"].cast<bool>();
+  const AskedReference reference = parse_reference(text("reference"), "reference", references_of_runs);
+  settings.reference = reference.against;
+  settings.errors_at_every_row = reference.every_row;
+  return settings;
+}
+
+class RunInProgress {
+ public:
+  RunInProgress(const PySystem& system, const PyMethod& method, const py::dict& asked)
+      : run_(without_lock([settings = settings_of(system, method, asked)] { return resolve(settings); })),
+        measures_(measures_asked_for(asked["measures"].cast<std::vector<std::string>>())),
+        out_(asked["out"].cast<std::string>()) {
+    for (const auto& measure : measures_)
+      if (const std::string reason = refuses(*measure, run_); !reason.empty()) throw InputError(reason);
+  }
+
+  // Whatever is thrown, the samples up to there are kept.
+  void execute() {
+    const Interruption interruption;
+    without_lock([&] {
+      const auto reference = reference_asked_for(run_);
+      std::optional<Files> files;
+      if (!out_.empty()) columns_.also = &files.emplace(run_, out_).series();
+      record_ = pfaff::execute(run_, reference.get(), {}, &interruption.stop(), &columns_);
+      if (files) files->finish(summary(run_, *record_));
+      if (!record_->interrupted && !measures_.empty()) tables_ = measured_tables();
+    });
+    if (record_->interrupted && interruption.taken()) raise_interrupted(record_->message.c_str());
+  }
+
+  [[nodiscard]] py::dict samples() {
+    const auto rows = static_cast<py::ssize_t>(columns_.t.size());
+    const auto n = static_cast<py::ssize_t>(run_.model->dimension());
+    py::dict result, invariants, constraints;
+    const auto column_names = [](const auto& list) {
+      std::vector<std::string> names;
+      for (const auto& one : list) names.push_back(one.name);
+      return names;
+    };
+    result["t"] = array_owning(std::move(columns_.t), {rows});
+    result["y"] = array_owning(std::move(columns_.y), {rows, n});
+    const auto names = column_names(run_.model->invariants());
+    result["invariant_names"] = names;
+    result["invariants"] =
+        array_owning(std::move(columns_.invariants), {rows, static_cast<py::ssize_t>(names.size())});
+    const auto levels = constraint_residual_names(*run_.model);
+    result["constraint_names"] = levels;
+    result["constraints"] =
+        array_owning(std::move(columns_.constraints), {rows, static_cast<py::ssize_t>(levels.size())});
+    const bool begun = rows > 0;
+    result["error"] = begun && columns_.measured.error
+                          ? py::object(array_owning(std::move(columns_.error), {rows}))
+                          : py::none();
+    result["structure"] = begun && columns_.measured.structure
+                              ? py::object(array_owning(std::move(columns_.structure), {rows}))
+                              : py::none();
+    result["summary"] = record_ ? python_value(summary(run_, *record_)) : py::dict();
+    result["coordinates"] = column_names(run_.model->coordinates());
+    result["units"] = units();
+    result["steps"] = run_.steps;
+    result["initial"] = texts_of(run_.initial);
+    result["step"] = to_string(run_.step);
+    result["status"] = record_ ? std::string(to_string(record_->status)) : "";
+    result["message"] = record_ ? record_->message : "";
+    result["tables"] = tables_of_measures();
+    return result;
+  }
+
+ private:
+  [[nodiscard]] std::vector<MeasuredTable> measured_tables() const {
+    if (run_.adaptive())
+      throw InputError("measures: expected a run with steps of one size, and no tolerance");
+    std::vector<const MeasureInstance*> pointers;
+    for (const auto& one : measures_) pointers.push_back(one.get());
+    const auto solution = solution_of(run_);
+    if (run_.settings.precision == Precision::quad)
+      return measured(Integration<Quad>(start_of<Quad>(run_)), record_->completed, pointers, solution.get());
+    return measured(Integration<double>(start_of<double>(run_)), record_->completed, pointers,
+                    solution.get());
+  }
+  [[nodiscard]] py::dict tables_of_measures() const {
+    py::dict result;
+    for (std::size_t k = 0; k < tables_.size(); ++k) {
+      const MeasuredTable& table = tables_[k];
+      py::dict columns;
+      py::list steps;
+      for (const MeasuredTable::Line& line : table.lines) steps.append(line.step);
+      columns["step"] = std::move(steps);
+      for (std::size_t i = 0; i < table.columns.size(); ++i) {
+        py::list cells;
+        for (const MeasuredTable::Line& line : table.lines) cells.append(cell_of(line.cells[i]));
+        columns[py::str(table.columns[i].name)] = std::move(cells);
+      }
+      result[py::str(measures_[k]->descriptor().name)] = py::make_tuple(columns, table.ended);
+    }
+    return result;
+  }
+  static py::object cell_of(const Cell& cell) {
+    if (const auto* text = std::get_if<std::string>(&cell)) return py::str(*text);
+    if (const auto* quad = std::get_if<Quad>(&cell)) return py::float_(static_cast<double>(*quad));
+    return py::float_(std::get<double>(cell));
+  }
+  [[nodiscard]] std::map<std::string, std::string> units() const {
+    std::map<std::string, std::string> result{{"t", run_.model->time_unit()}};
+    for (const Coordinate& c : run_.model->coordinates()) result[c.name] = c.unit;
+    for (const Invariant& i : run_.model->invariants()) result[i.name] = i.unit;
+    return result;
+  }
+  static std::vector<std::string> texts_of(const std::vector<Real>& numbers) {
+    std::vector<std::string> texts;
+    for (const Real& x : numbers) texts.push_back(to_string(x));
+    return texts;
+  }
+
+  ResolvedRun run_;
+  Measures measures_;
+  std::string out_;  // the directory in which files are left; or empty
+  Columns columns_;
+  std::optional<RunRecord> record_;
+  std::vector<MeasuredTable> tables_;
+};
+}  // namespace
+
+void bind_runs(py::module_& module) {
+  py::class_<RunInProgress>(module, "RunInProgress", "A run, checked, with the samples that it has left.")
+      .def(py::init<const PySystem&, const PyMethod&, const py::dict&>())
+      .def("execute", &RunInProgress::execute)
+      .def("samples", &RunInProgress::samples);
+}
+
+}  // namespace pfaff::python
