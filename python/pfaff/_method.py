@@ -5,6 +5,7 @@ import functools
 import importlib
 import inspect
 import os
+import pickle
 import tempfile
 import warnings
 from collections.abc import Callable, Mapping, Sequence
@@ -273,12 +274,25 @@ class StepFunction:
             )
 
     def pickled(self) -> tuple:
+        if _found(*self.reference) is not self:
+            raise pickle.PicklingError(
+                f"method {self.claims['name']}: its function {'.'.join(self.reference)} cannot be imported by another process; expected "
+                "one at the top of a module"
+            )
         return _step_function, self.reference
 
 
+def _found(module: str, name: str) -> Any:
+    """The definition of the method that a module has under a name; None where there is none."""
+    try:
+        found = functools.reduce(getattr, name.split("."), importlib.import_module(module))
+    except (ImportError, AttributeError):
+        return None
+    return getattr(found, "_definition", None)
+
+
 def _step_function(module: str, name: str) -> StepFunction:
-    found = functools.reduce(getattr, name.split("."), importlib.import_module(module))
-    return found._definition
+    return _found(module, name)
 
 
 def _rebuilt(definition: tuple, parameters: Mapping[str, Any]) -> Method:

@@ -201,7 +201,7 @@ class Unavailable:
 
 def run(system: Any, method: Any, *, step: Any = None, tolerance: Any = None, time: Any = None, every: int = 0, initial: Any = None, t0: Any = 0,
         absolute: Any = (), precision: str = "double", reference: str | None = "exact", measures: Sequence[str] = (), structure: bool = True,
-        project_initial: bool = False, formulation: str = "", out: Any = None, system_parameters: Mapping[str, Any] | None = None,
+        project_initial: bool = False, allow_inconsistent: bool = False, formulation: str = "", out: Any = None, system_parameters: Mapping[str, Any] | None = None,
         method_parameters: Mapping[str, Any] | None = None, **parameters: Any) -> Run:
     """Runs a method on a system, and measures what drifts and what it costs, as `pfaff run` does.
 
@@ -224,7 +224,8 @@ def run(system: Any, method: Any, *, step: Any = None, tolerance: Any = None, ti
             that or Taylor series in quad; None. "solution,every" measures them at every sample, else at 200 at most.
         measures: names of measures (`pfaff list measures`), whose tables are in `measures` of the result.
         structure: measure the residual of the structure of steps, where the system has one.
-        project_initial: move the initial state onto the constraints.
+        project_initial: move an initial state that is off the constraints onto them.
+        allow_inconsistent: or take it as it is.
         formulation: of a system with constraints, for a method that needs a vector field; without it the usual one.
         out: a directory in which the samples, series.csv, and the summary, summary.json, are left.
         system_parameters, method_parameters: dictionaries, where both know a name.
@@ -257,6 +258,7 @@ def run(system: Any, method: Any, *, step: Any = None, tolerance: Any = None, ti
         "measures": [measures] if isinstance(measures, str) else list(measures),
         "structure": bool(structure),
         "project_initial": bool(project_initial),
+        "allow_inconsistent": bool(allow_inconsistent),
         "formulation": formulation,
         "out": "" if out is None else os.fspath(out),
     }

@@ -252,13 +252,14 @@ def _definition_of_class(cls: type) -> Traced:
                 parameters[key] = vars(base)[key]
         for key, value in vars(base).items():
             if key in MEMBERS or key in ("coordinates", "initial", "invariants"):
-                members[key] = value
+                members[key] = value  # None takes back what a base class writes
             elif key in _DESCRIBING or key == "system_name":
                 described[key] = value
             elif inspect.isfunction(value) and not key.startswith("_"):
                 near = _pfaff.nearest(key, [*MEMBERS, "invariants", "initial"])
                 if near:
                     raise InputError(f"{place_of(value)}{cls.__name__}: unknown formula '{key}'; did you mean '{near}'? (a name of your own begins with _)")
+    members = {key: value for key, value in members.items() if value is not None}
     coordinates, initial, invariants = (members.pop(key, None) for key in ("coordinates", "initial", "invariants"))
     if coordinates is None:
         raise InputError(f"{cls.__name__}: expected coordinates, such as coordinates = [\"q\", \"p\"]")

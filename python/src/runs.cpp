@@ -107,6 +107,7 @@ RunSettings settings_of(const PySystem& system, const PyMethod& method, const py
   settings.every = asked["every"].cast<std::int64_t>();
   settings.precision = parse_precision(text("precision"));
   settings.project_initial = asked["project_initial"].cast<bool>();
+  settings.allow_inconsistent = asked["allow_inconsistent"].cast<bool>();
   settings.structure_residuals = asked["structure"].cast<bool>();
   const AskedReference reference = parse_reference(text("reference"), "reference", references_of_runs);
   settings.reference = reference.against;

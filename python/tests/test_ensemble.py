@@ -1,0 +1,81 @@
+"""Arrays of initial states: the same bits as one by one, whatever the threads, and samples where they end early."""
+import numpy as np
+import pytest
+from definitions import henon_heiles, kick
+from test_integration import interrupted_after
+
+import pfaff
+
+STATES = np.random.default_rng(1).normal(scale=0.1, size=(20, 4))
+
+
+@pytest.mark.parametrize("method", ["verlet", "gauss", kick])
+def test_trajectories_have_the_bits_of_integrations(method):
+    ensemble = pfaff.ensemble(henon_heiles, method, STATES, step=0.05, steps=100, every=10, threads=3)
+    assert ensemble.y.shape == (20, 11, 4) and ensemble.done.all() and not ensemble.failures
+    for k in (0, 7, 19):
+        it = pfaff.Integration(henon_heiles, method, step=0.05, initial=STATES[k])
+        rows = it.steps(100, every=10)
+        assert np.array_equal(ensemble.y[k, 1:], rows.y) and np.array_equal(ensemble.y[k, 0], STATES[k])
+        assert np.array_equal(ensemble.t[1:], rows.t)
+    one = pfaff.ensemble(henon_heiles, method, STATES, step=0.05, steps=100, every=10, threads=1)
+    assert np.array_equal(one.y, ensemble.y)
+
+
+def test_start_and_end_alone_are_kept_without_every():
+    assert pfaff.ensemble(henon_heiles, "verlet", STATES, step=0.05, steps=7).y.shape == (20, 2, 4)
+    assert pfaff.ensemble(henon_heiles, "verlet", np.empty((0, 4)), step=0.05, steps=7).y.shape == (0, 2, 4)
+
+
+def test_a_trajectory_that_fails_says_so_and_leaves_the_others():
+    @pfaff.system(coordinates=["x"], formula="field")
+    def explosion(x):
+        return [x**2]
+
+    ensemble = pfaff.ensemble(explosion, "rk4", [[0.1], [1.0], [-1.0]], step=0.01, steps=200, every=20)
+    assert list(ensemble.failures) == [1] and "range of numbers" in ensemble.failures[1]
+    assert np.isnan(ensemble.y[1, -1, 0]) and np.isfinite(ensemble.y[1, :5]).all()
+    # x = 1/(1/x0 - t); rk4 with h x = 0.01 is right to 1e-8 and better.
+    assert abs(ensemble.y[2, -1, 0] + 1 / 3) < 1e-8
+
+
+def test_callbacks_and_ctrl_c():
+    seen = []
+    pfaff.ensemble(henon_heiles, "verlet", STATES, step=0.05, steps=10, callback=seen.append)
+    assert sorted(seen) == list(range(20))
+
+    def raising(k):
+        if k == 5:
+            raise LookupError(k)
+
+    with pytest.raises(LookupError) as caught:
+        pfaff.ensemble(henon_heiles, "verlet", STATES, step=0.05, steps=10, callback=raising)
+    assert caught.value.run.done[5] and np.isfinite(caught.value.run.y[5]).all()
+    error, late = interrupted_after(0.3, lambda: pfaff.ensemble(henon_heiles, "verlet", STATES, step=0.05, steps=10**9, every=10**5, threads=2))
+    assert late < 0.1 and np.isfinite(error.run.y[0, 1]).all() and not error.run.done.all()
+
+
+@pytest.mark.parametrize(
+    "states, settings, words",
+    [
+        ([1, 2, 3, 4], {}, r"expected shape \(N, 4\), got \(4,\)"),
+        ([[1, 2]], {}, r"got \(1, 2\)"),
+        ([["a", 1, 2, 3]], {}, "expected numbers"),
+        ([[np.nan, 0, 0, 0]], {}, "expected finite numbers; state 0"),
+        (STATES, {"steps": 0}, "steps: expected a whole number >= 1"),
+        (STATES, {"every": 20}, "at most 10"),
+        (STATES, {"threads": 0}, "threads"),
+        (STATES, {"step": "x"}, "step"),
+    ],
+)
+def test_bad_input_is_refused(states, settings, words):
+    with pytest.raises(pfaff.InputError, match=words):
+        pfaff.ensemble(henon_heiles, "verlet", states, **{"step": 0.05, "steps": 10, **settings})
+
+
+def test_arrays_of_any_layout_are_taken():
+    wide = np.asfortranarray(np.repeat(STATES, 2, axis=0))
+    strided = pfaff.ensemble(henon_heiles, "verlet", wide[::2], step=0.05, steps=10)
+    assert np.array_equal(strided.y, pfaff.ensemble(henon_heiles, "verlet", STATES, step=0.05, steps=10).y)
+    with pytest.raises(pfaff.InputError, match="verlet needs separable"):
+        pfaff.ensemble("lotka-volterra", "verlet", [[1, 2]], step=0.05, steps=10)

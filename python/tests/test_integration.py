@@ -1,0 +1,205 @@
+"""Integrations as objects: steps, samples, callbacks, ways back, Ctrl-C, and derivatives through the steps."""
+import math
+import os
+import signal
+import threading
+import time
+
+import numpy as np
+import pytest
+from definitions import duffing, henon_heiles, kick, oscillator
+
+import pfaff
+
+
+def interrupted_after(seconds, work):
+    """Presses Ctrl-C after so many seconds; gives the exception and how long after that it came."""
+    timer = threading.Timer(seconds, lambda: os.kill(os.getpid(), signal.SIGINT))
+    timer.start()
+    begin = time.perf_counter()
+    with pytest.raises(pfaff.Interrupted) as caught:
+        work()
+    late = time.perf_counter() - begin - seconds
+    timer.join()
+    return caught.value, late
+
+
+def test_samples_are_the_states_that_go_by():
+    it = pfaff.Integration(duffing, "verlet", step=0.1)
+    rows = it.steps(25, every=10)
+    assert rows.reached and rows.t.tolist() == [1.0, 2.0] and rows.y.shape == (2, 2) and it.time == 2.5
+    one = pfaff.Integration(duffing, "verlet", step=0.1)
+    one.steps(10)
+    assert np.array_equal(rows.y[0], one.state)
+    assert it.to(3.05, every=10).t.tolist() == [3.0] and it.steps_taken == 31 and it.steps(0, every=5).y.shape == (0, 2)
+    assert it.steps(9, every=1).y.shape == (9, 2)  # another number of steps between rows, beside the first
+    assert "verlet" in repr(it) and it.counters["steps"] == 40
+
+
+def test_ways_back():
+    it = pfaff.Integration(henon_heiles, "gauss", step=0.1)
+    start = it.state
+    it.steps(100)
+    back = it.reversed()
+    back.steps(100)
+    # A symmetric method returns but for round-off, a unit a step; one that is not symmetric does not.
+    assert np.abs(back.state - start).max() < 1e-13 and back.step == -0.1
+    euler = pfaff.Integration(henon_heiles, "rk4", step=0.1)
+    euler.steps(100)
+    lost = euler.reversed()
+    lost.steps(100)
+    assert np.abs(lost.state - start).max() > 1e-8
+    it.turn()
+    it.steps(100)
+    assert np.abs(it.state - start).max() < 1e-13
+    beside = it.beside([0.1, 0.1, 0.1, 0.1])
+    assert beside.state.tolist() == [0.1] * 4
+    it.go_on_from([0, 0, 0, 0], t0=5, step=-0.5)
+    assert it.time == 5 and it.step == -0.5 and it.steps(2).reached and it.time == 4
+
+
+def test_callbacks_see_copies_and_may_end_the_integration():
+    seen = []
+    it = pfaff.Integration(duffing, "verlet", step=0.1)
+    it.watch(lambda t, z: seen.append((t, z)), every=5)
+    rows = it.steps(20, every=5)
+    assert [t for t, _ in seen] == rows.t.tolist() and np.array_equal([z for _, z in seen], rows.y)
+    ends = pfaff.Integration(duffing, "verlet", step=0.1)
+    ends.watch(lambda t, z: t > 0.95)
+    outcome = ends.steps(1000, every=1)
+    assert not outcome.reached and "watcher" in outcome.message and outcome.steps == 10 == len(outcome.t) and ends.time == 1.0
+
+
+def test_what_a_callback_raises_reaches_the_caller_with_the_samples():
+    def raising(t, z):
+        if t >= 2:
+            raise LookupError("far enough")
+
+    it = pfaff.Integration(duffing, "verlet", step=0.1)
+    it.watch(raising, every=10)
+    with pytest.raises(LookupError, match="far enough") as caught:
+        it.steps(1000, every=10)
+    assert caught.value.run.t.tolist() == [1.0, 2.0] and it.time == 2.0
+    nested = pfaff.Integration(duffing, "verlet", step=0.1)
+    nested.watch(lambda t, z: nested.steps(1))
+    with pytest.raises(pfaff.InputError, match="one at a time"):
+        nested.steps(1)
+
+
+def test_ctrl_c_ends_steps_and_leaves_the_samples():
+    it = pfaff.Integration(henon_heiles, "gauss", step=0.01)
+    error, late = interrupted_after(0.2, lambda: it.steps(10**12, every=1000))
+    assert late < 0.1 and len(error.run.t) > 0 and it.steps_taken > 0 and isinstance(error, KeyboardInterrupt)
+    it.steps(10)  # it goes on from there
+    called = pfaff.method(order=2, needs=["separable"], traced=False, name="called")(kick._definition.function)
+    error, late = interrupted_after(0.2, lambda: pfaff.Integration(henon_heiles, called, step=0.01).steps(10**9))
+    assert late < 0.1
+    with_callback = pfaff.Integration(henon_heiles, "gauss", step=0.01)
+    with_callback.watch(lambda t, z: None)
+    error, late = interrupted_after(0.2, lambda: with_callback.steps(10**9))
+    assert late < 0.1
+
+
+def test_other_threads_run_meanwhile():
+    stop = threading.Event()
+    turns = []
+
+    def turning():
+        while not stop.is_set():
+            turns.append(0)
+            time.sleep(0.001)
+
+    thread = threading.Thread(target=turning)
+    thread.start()
+    it = pfaff.Integration(henon_heiles, "gauss", step=0.01)
+    begin = time.perf_counter()
+    while time.perf_counter() - begin < 0.2:
+        it.steps(20000)
+    stop.set()
+    thread.join()
+    assert len(turns) > 20  # with Python's lock held it would be one for each of the few calls
+
+
+def test_steps_that_fail_raise_with_the_last_good_state():
+    @pfaff.system(coordinates=["x"], initial=[1], formula="field")
+    def explosion(x):
+        return [x**2]
+
+    it = pfaff.Integration(explosion, "rk4", step=0.01)
+    with pytest.raises(pfaff.RunFailed, match="range of numbers") as caught:
+        it.steps(1000, every=10)
+    assert caught.value.run.status == "non_finite" and 0.9 < it.time < 1.2 and np.isfinite(it.state).all()
+    implicit = pfaff.Integration(explosion, "gauss", step=0.3)
+    with pytest.raises((pfaff.NotConverged, pfaff.RunFailed)):
+        implicit.steps(100)
+
+
+def test_quad_has_all_digits():
+    it = pfaff.Integration(oscillator, pfaff.Method("gauss", stages=8), step="1/10", precision="quad")
+    it.steps(10)
+    cos2 = "-0.41614683654714238699756822950076"  # cos 2
+    # The error of sixteen orders of h omega = 0.2 over ten steps is below 1e-24.
+    assert abs(float(it.decimals[0]) - math.cos(2)) < 1e-16 and str(it.decimals[0])[:24] == cos2[:24]
+
+
+def test_jacobians_of_the_map_have_their_closed_form():
+    it = pfaff.Integration(oscillator, pfaff.Method("gauss", stages=4), step=0.01)
+    z, m = it.jacobian(100)
+    c, s = math.cos(2), math.sin(2)
+    assert np.abs(m - [[c, s / 2], [-2 * s, c]]).max() < 1e-13 and it.time == 0
+    # Of more coordinates than a dual has directions: against differences of two runs.
+    it = pfaff.Integration("fermi-pasta-ulam-tsingou", "verlet", step=0.01)
+    n = it.system.dimension
+    m = it.jacobian(20)[1]
+    assert n > 4
+    for k in (0, n - 1):
+        ends = []
+        for sign in (1, -1):
+            beside = it.beside(it.state + sign * 1e-5 * np.eye(n)[k])
+            beside.steps(20)
+            ends.append(beside.state)
+        # The error of the difference is its step squared times a third derivative, and round-off over the step.
+        assert np.abs((ends[0] - ends[1]) / 2e-5 - m[:, k]).max() < 1e-5 * np.abs(m).max()
+
+
+@pytest.mark.parametrize(
+    "settings, words",
+    [
+        ({}, "step: expected"),
+        ({"step": 0}, "other than 0"),
+        ({"step": "a"}, "got 'a'"),
+        ({"step": 0.1, "initial": [1]}, r"expected shape \(2,\)"),
+        ({"step": 0.1, "initial": [[1, 2]]}, "one dimension"),
+        ({"step": 0.1, "initial": [1, float("nan")]}, "initial"),
+        ({"step": 0.1, "initial": [1, 1j]}, "expected a number, got 1j"),
+        ({"step": 0.1, "initial": "1,2"}, "expected a list"),
+        ({"step": 0.1, "precision": "quadd"}, "did you mean 'quad'"),
+        ({"step": 0.1, "tolerance": 1e-6}, "takes fixed steps only"),
+        ({"step": 0.1, "alpa": 1}, "did you mean 'alpha'"),
+        ({"step": 0.1, "formulation": "dirak"}, "formulation"),
+    ],
+)
+def test_bad_input_is_refused(settings, words):
+    with pytest.raises(pfaff.InputError, match=words):
+        pfaff.Integration(duffing, "verlet", **settings)
+
+
+def test_calls_with_bad_numbers_are_refused():
+    it = pfaff.Integration(duffing, "verlet", step=0.1)
+    for call in (lambda: it.steps(-1), lambda: it.steps(1.5), lambda: it.steps(5, every=-1), lambda: it.watch(3), lambda: it.watch(print, every=0),
+                 lambda: it.to("x"), lambda: it.beside([1]), lambda: it.jacobian(-1)):
+        with pytest.raises(pfaff.InputError):
+            call()
+    it.steps(10)
+    with pytest.raises(pfaff.InputError, match="lies behind"):
+        it.to(0)
+
+
+def test_arrays_of_any_layout_and_kind_are_taken():
+    expected = pfaff.Integration(duffing, "verlet", step=0.1, initial=[0.5, 0.25])
+    for state in (np.array([0.5, 9, 0.25, 9])[::2], np.array([0.5, 0.25], dtype=np.float32), (0.5, "0.25"), np.array([0.5, 0.25], dtype=object)):
+        it = pfaff.Integration(duffing, "verlet", step=0.1, initial=state)
+        it.steps(5)
+        other = expected.beside([0.5, 0.25])
+        other.steps(5)
+        assert np.array_equal(it.state, other.state)

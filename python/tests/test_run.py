@@ -1,0 +1,141 @@
+"""Runs: samples, drift, errors, gradients and measures, and what is left where a run ends early."""
+import math
+
+import numpy as np
+import pytest
+from definitions import duffing, kick, oscillator, runge_kutta
+from test_integration import interrupted_after
+
+import pfaff
+
+
+def test_samples_are_those_of_the_integration():
+    result = pfaff.run(duffing, "verlet", step=0.05, time=10, every=10)
+    it = pfaff.Integration(duffing, "verlet", step=0.05)
+    rows = it.steps(200, every=10)
+    assert np.array_equal(result.t[1:], rows.t) and np.array_equal(result.y[1:], rows.y) and result.t[0] == 0
+    assert np.array_equal(result.y[0], duffing.initial) and np.array_equal(result["q"], result.y[:, 0])
+    q, p = result.y.T
+    # The energy is computed from the same states; a unit of round-off of its terms.
+    assert np.abs(result.invariants["energy"] - (p**2 / 2 - q**2 / 2 + q**4 / 4)).max() < 1e-15
+    assert not result.y.flags.owndata and result.y.flags.writeable  # the memory of the library's samples, without a copy
+
+
+def test_drift_tells_kept_energies_from_lost_ones():
+    kept, lost = (pfaff.run("henon-heiles", method, step=0.1, time=2000) for method in (kick, "rk4"))
+    assert kept.drift["energy"]["class"] == "bounded" and lost.drift["energy"]["class"] != "bounded"
+    energy = lost.drift["energy"]
+    assert energy.slope_low < energy.slope < energy.slope_high < 0 and energy.max >= abs(energy.final) and energy.evidence
+    assert "energy" in repr(lost) and "<table>" in lost._repr_html_()
+    with pytest.raises(KeyError, match="did you mean 'slope'"):
+        energy["slop"]
+
+
+def test_errors_are_measured_against_what_is_known():
+    result = pfaff.run("kepler", "gauss", stages=3, eccentricity=0.3, step=0.05, time=20)
+    q, error = result["q"], result.error
+    assert result.error_max == np.nanmax(error) and 0 < result.error_max < 1e-7 and q.shape == (len(result.t), 2)
+    against = pfaff.run(oscillator, runge_kutta, step=0.01, time=5, reference="solution,every", every=50)
+    exact = np.array([[math.cos(2 * t), -2 * math.sin(2 * t)] for t in against.t])
+    expected = np.linalg.norm(against.y - exact, axis=1) / np.linalg.norm(exact, axis=1)
+    # The closed form in double is off by a unit of round-off, where errors are 1e-8.
+    assert np.abs(against.error - expected).max() < 1e-15 and against.error_max > 1e-9
+    assert pfaff.run(oscillator, "verlet", step=0.1, time=1, reference=None).error is None
+
+
+def test_gradients_have_their_closed_form():
+    result = pfaff.run(oscillator, pfaff.Method("gauss", stages=6), step=0.02, time=1)
+    w, t = 2, 1
+    c, s = math.cos(w * t), math.sin(w * t)
+    # Of the flow; the method of order 12 is exact to round-off here.
+    assert np.abs(result.jacobian - [[c, s / w], [-w * s, c]]).max() < 1e-13
+
+    @pfaff.system(coordinates=["q", "p"], initial=[1, 0])
+    def real(q, p, omega=2.0):
+        return p**2 / 2 + omega**2 * q**2 / 2
+
+    result = pfaff.run(real, pfaff.Method("gauss", stages=6), step=0.02, time=1)
+    assert np.abs(result.sensitivity("omega") - [-t * s, -s - w * t * c]).max() < 1e-13
+    other = pfaff.run(real, "verlet", step=0.1, time=1)
+    assert np.abs(other.sensitivity("omega") - [-t * s, -s - w * t * c]).max() > 1e-4  # of the map, not of the flow
+    with pytest.raises(pfaff.InputError, match="did you mean 'omega'"):
+        result.sensitivity("omga")
+
+
+def test_measures_and_quad():
+    result = pfaff.run(duffing, "verlet", step=0.05, time=10, precision="quad", measures=["structure"])
+    table = result.measures["structure"]
+    assert len(table["step"]) == len(table["residual"]) > 10 and max(table["residual"]) < 1e-30  # structure, to the round-off of quad
+    euler = pfaff.run(duffing, runge_kutta, step=0.05, time=10, measures=["structure"])
+    assert max(euler.measures["structure"]["residual"]) > 1e-9
+
+
+def test_files_are_left(tmp_path):
+    folder = tmp_path / "out"
+    result = pfaff.run(duffing, "verlet", step=0.1, time=1, out=folder)
+    table = np.loadtxt(folder / "series.csv", delimiter=",", skiprows=1, usecols=(0, 1, 2))
+    assert np.array_equal(table, np.column_stack([result.t, result.y])) and (folder / "summary.json").exists()
+    (tmp_path / "other").mkdir()
+    (tmp_path / "other" / "mine.txt").write_text("mine")
+    with pytest.raises(pfaff.InputError, match="other"):
+        pfaff.run(duffing, "verlet", step=0.1, time=1, out=tmp_path / "other")
+
+
+def test_runs_that_end_early_keep_their_samples():
+    @pfaff.system(coordinates=["x"], initial=[1], formula="field")
+    def explosion(x):
+        return [x**2]
+
+    with pytest.raises(pfaff.RunFailed) as caught:
+        pfaff.run(explosion, "rk4", step=0.01, time=5)
+    run = caught.value.run
+    assert 10 < len(run.t) and run.t[-1] < 1.3 and run.message and run.status == "non_finite"
+    error, late = interrupted_after(0.3, lambda: pfaff.run(duffing, "gauss", step=1e-3, time=1e7, every=1000))
+    assert late < 0.1 and len(error.run.t) > 1 and "interrupted" in error.run.message
+
+    @pfaff.method(order=1, traced=False)
+    def breaking(problem, t, h, z):
+        if t > 0.5:
+            raise LookupError("broken")
+        return z + h * problem.field(t, z)
+
+    with pytest.raises(LookupError, match="broken") as caught:
+        pfaff.run(duffing, breaking, step=0.01, time=1, every=1)
+    assert abs(caught.value.run.t[-1] - 0.5) < 0.02
+
+
+def test_pandas_has_a_row_for_each_sample():
+    pytest.importorskip("pandas")
+    frame = pfaff.run("kepler", "verlet", step=0.05, time=1, eccentricity=0.1).to_pandas()
+    assert list(frame.columns)[:5] == ["t", "q1", "q2", "p1", "p2"] and len(frame) == 21
+
+
+@pytest.mark.parametrize(
+    "settings, words",
+    [
+        ({"step": 0.1}, "time: expected the duration"),
+        ({"time": 1}, "step is missing"),
+        ({"step": 0.1, "time": 0}, "other than 0"),
+        ({"step": 0.1, "time": 1, "initial": [1]}, "expected 2 numbers, got 1"),
+        ({"step": 0.1, "time": 1, "precision": "dubble"}, "did you mean 'double'"),
+        ({"step": 0.1, "time": 1, "reference": "exat"}, "did you mean 'exact'"),
+        ({"step": 0.1, "time": 1, "every": 1.5}, "whole number"),
+        ({"step": 0.1, "time": 1, "measures": ["structre"]}, "did you mean 'structure'"),
+        ({"step": 0.1, "time": 1, "bta": 2}, "did you mean 'beta'"),
+        ({"step": 2, "time": 1}, "at most the duration"),
+        ({"step": 0.1, "tolerance": 1e-6, "time": 1}, "exclude each other"),
+    ],
+)
+def test_bad_input_is_refused_without_options_of_the_command_line(settings, words):
+    with pytest.raises(pfaff.InputError, match=words) as caught:
+        pfaff.run(duffing, "verlet", **settings)
+    assert "--" not in str(caught.value)
+
+
+def test_names_that_both_know_are_asked_for(tmp_path):
+    text = 'name = "one"\ncoordinates = ["q", "p"]\ninitial = [1, 0]\nparameters = { stages = 1 }\nkinetic = "p^2/2"\npotential = "stages*q^2/2"\n'
+    path = tmp_path / "stages.toml"
+    path.write_text(text)
+    with pytest.raises(pfaff.InputError, match="belongs to both"):
+        pfaff.run(path, "gauss", step=0.1, time=1, stages=2)
+    assert pfaff.run(path, "gauss", step=0.1, time=1, method_parameters={"stages": 2}).method.parameters["stages"] == "2"
