@@ -99,7 +99,8 @@ def bracket(
     its default formulation.
 
     Args:
-        f, g: functions of the state: their arguments are coordinates by their names, or the state `z`, and the time `t`.
+        f, g: functions of the state: their arguments are coordinates by their names, the time `t` and, where no coordinate
+            has that name, the whole state `z`.
             They are recorded once, as formulas of a system are.
         z: the state, shape (dimension,).
         on: the system: a name, the path of a text model, or a `pfaff.System`.

@@ -37,7 +37,7 @@ def test_brackets_of_functions():
     assert pfaff.bracket(spin, lambda q1: q1, z, on="henon-heiles") == pytest.approx(z[1], abs=1e-15)
     assert pfaff.bracket(lambda z: z[2] ** 2 / 2, lambda q1: q1, z, on="henon-heiles") == pytest.approx(-0.5, abs=1e-15)
     # the structure of so(3)*, {x, y} = -z or z by its convention, and it depends on the state
-    body = "rigid-body"
+    body = "free-rigid-body"
     names = pfaff.System(body).coordinates
     value = pfaff.bracket(lambda z: z[0], lambda z: z[1], [0.1, 0.2, 0.3], on=body)
     assert len(names) == 3 and abs(value) == pytest.approx(0.3, abs=1e-16)
@@ -46,8 +46,10 @@ def test_brackets_of_functions():
 
 def test_a_constraint_is_a_casimir_of_the_dirac_bracket():
     system = pfaff.System("spherical-pendulum")
-    at = pfaff.bracket(lambda z: z[:3] @ z[:3], lambda z: z[3] * z[1], system.initial, on=system)
+    at = pfaff.bracket(lambda x, y, z: x**2 + y**2 + z**2, lambda p_x, y: p_x * y, system.initial, on=system)
     assert abs(at) < 1e-14  # round-off of numbers of the size of 1
+    free = pfaff.bracket(lambda x, y, z: y, lambda p_y: p_y, system.initial, on=system)
+    assert abs(free) > 0.1  # a pair that is canonical but for the constraint
 
 
 @pytest.mark.parametrize("call, words", [

@@ -19,9 +19,9 @@ SWING = {
 def leap(problem, t, h, z):
     n = len(z) // 2
     q, p = z[:n], z[n:]
-    p = p + h / 2 * problem.force(t, q)
-    q = q + h * problem.velocity(t + h / 2, p)
-    return np.concatenate([q, p + h / 2 * problem.force(t + h, q)])
+    q = q + h / 2 * problem.velocity(t, p)
+    p = p + h * problem.force(t + h / 2, q)
+    return np.concatenate([q + h / 2 * problem.velocity(t + h, p), p])
 
 
 @pytest.fixture(scope="module")

@@ -20,9 +20,10 @@ print(*pfaff.experiments())
 def test_an_installed_package_can_be_moved(tmp_path):
     made, moved = tmp_path / "made", tmp_path / "moved"
     for component in ("libraries", "data", "python"):
-        subprocess.run(["cmake", "--install", BUILD, "--prefix", made, "--component", component], check=True, capture_output=True)
+        subprocess.run(["cmake", "--install", BUILD, "--prefix", made / "pfaff", "--component", component], check=True, capture_output=True)
     made.rename(moved)
     package = next(moved.rglob("_pfaff.*.so")).parent
+    assert package.name == "pfaff"
     environment = {**os.environ, "PYTHONPATH": str(package.parent)}
     done = subprocess.run([sys.executable, "-c", LOOK], env=environment, capture_output=True, text=True, check=True, cwd=tmp_path)
     assert done.stderr == ""

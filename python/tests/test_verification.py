@@ -53,7 +53,7 @@ def test_a_method_of_python_is_verified_on_a_system_of_python(pendulum):
 def test_a_false_claim_fails(pendulum):
     checks = pfaff.verify(false_heun, on=[pendulum, "henon-heiles"])
     assert not checks.ok and not bool(checks)
-    assert {check.claim for check in checks.failed} == {"symplectic"}
+    assert {check.claim.removesuffix(" along a run").removesuffix(" in a large step") for check in checks.failed} == {"symplectic"}
     assert checks.verdict.startswith("NOT OK") and '#b3261e' in checks._repr_html_()
 
 
