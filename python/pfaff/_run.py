@@ -162,6 +162,25 @@ class Run:
             columns["error"] = self.error
         return data_frame(list(columns), list(zip(*columns.values())))
 
+    def plot(self, kind: str = "trajectory", **keywords: Any) -> Any:
+        """Draws the run in the style of the report, and returns matplotlib's axes, or an animation.
+
+        The kinds are "trajectory", "phase portrait", "drift", "constraints", "structure residual", "error", "animation" and
+        "MEASURE: COLUMN" of the measures that were asked for; `pfaff.plots` has what each takes besides.
+
+        >>> import matplotlib, pfaff
+        >>> matplotlib.use("agg")
+        >>> pfaff.run("pendulum", "verlet", step=0.1, time=10).plot("drift").get_xlabel()
+        't'
+
+        Raises:
+            InputError: an unknown kind, and one that the run has nothing for.
+            ImportError: matplotlib is not installed.
+        """
+        from . import plots
+
+        return plots.of_run(self, kind, **keywords)
+
     def _rows(self) -> list[list[Any]]:
         rows = [[name, one["class"], one["max"], one["slope"], one["slope_low"], one["slope_high"]] for name, one in self.drift.items()]
         return rows + [[name, one["class"], one["max"], one["slope"], one["slope_low"], one["slope_high"]] for name, one in self.constraint_drift.items()]

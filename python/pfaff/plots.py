@@ -5,10 +5,11 @@ Times are of shape (n,) and states of shape (n, dimension), in the order of time
 """
 from __future__ import annotations
 
+import contextlib
 import functools
 import pathlib
 import runpy
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -20,6 +21,8 @@ if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
     from matplotlib.axes import Axes
 
+    from ._run import Run
+
 
 @functools.cache
 def _families() -> dict[str, Any]:
@@ -27,16 +30,27 @@ def _families() -> dict[str, Any]:
     return runpy.run_path(_pfaff.shipped_path("report/families.py"))
 
 
-def _style() -> Any:
-    """The style of the report, as a context; ImportError, which says what is missing, without matplotlib."""
+@contextlib.contextmanager
+def _style() -> Iterator[None]:
+    """The style of the report; ImportError, which says what is missing, without matplotlib.
+
+    What is put back is what the style changes, and not all settings, as matplotlib's own context does: a notebook's
+    backend turns others on when the first figure is made.
+    """
     try:
-        import matplotlib.style
+        import matplotlib
     except ImportError:
         raise ImportError("plots need matplotlib, which is not installed (Debian's python3-matplotlib)") from None
     from cycler import cycler
 
-    colours = [family.light for family in _families()["FAMILIES"]]
-    return matplotlib.style.context([_pfaff.shipped_path("report/screen.mplstyle"), {"axes.prop_cycle": cycler(color=colours)}])
+    style = matplotlib.rc_params_from_file(_pfaff.shipped_path("report/screen.mplstyle"), use_default_template=False)
+    style["axes.prop_cycle"] = cycler(color=[family.light for family in _families()["FAMILIES"]])
+    before = {key: matplotlib.rcParams[key] for key in style}
+    try:
+        matplotlib.rcParams.update(style)
+        yield
+    finally:
+        matplotlib.rcParams.update(before)
 
 
 def _styled(draw: Callable[..., Any]) -> Callable[..., Any]:
@@ -174,7 +188,7 @@ def _logarithmic(axes: Axes, times: np.ndarray, values: np.ndarray, name: str) -
 
 @_styled
 def work_precision(
-    curves: Mapping[str, tuple[Any, Any]], *, families: Mapping[str, str] | None = None, work: str = "time per unit of time [ns]",
+    curves: Mapping[str, tuple[Any, Any]], *, families: Mapping[str, str] | None = None, work: str = "time of computation for a unit of time [ns]",
     error: str = "largest error", axes: Axes | None = None
 ) -> Axes:
     """Error against work, a line for each method over its steps. Down and to the left is better.
@@ -192,6 +206,53 @@ def work_precision(
     axes.set(xlabel=work, ylabel=error)
     axes.legend(frameon=False, loc="center left", bbox_to_anchor=(1, 0.5))
     return axes
+
+
+def of_run(run: Run, kind: str = "trajectory", **keywords: Any) -> Any:
+    """What `run.plot(kind, ...)` draws; further arguments are those of the function that draws it.
+
+    The kinds are "trajectory", "phase portrait", "drift" (of the invariants), "constraints", "structure residual", "error",
+    "animation" (of beads and rods, see bodies()), and every column of a measure that was asked for, "MEASURE: COLUMN".
+
+    Raises:
+        InputError: an unknown kind, with the nearest, and one that the run has nothing for.
+    """
+    unit = run.units.get("t", "")
+    series = {"error": run.error, "structure residual": run.structure}
+    columns = {f"{name}: {column}": (table, column) for name, table in run.measures.items() for column in list(table)[1:]}
+    if kind == "trajectory":
+        return trajectory(run.t, run.y, run.coordinates, time_unit=unit, **keywords)
+    if kind == "phase portrait":
+        return phase_portrait(run.t, run.y, run.coordinates, **keywords)
+    if kind == "drift" and run.invariants:
+        return drift(run.t, run.invariants, time_unit=unit, **keywords)
+    if kind == "constraints" and run.constraints:
+        axes = keywords.pop("axes", None)
+        for name, values in run.constraints.items():
+            axes = measure(run.t, values, name, time_unit=unit, axes=axes, **keywords)
+        axes.set_ylabel("residual")
+        axes.legend(frameon=False)
+        return axes
+    if series.get(kind) is not None:
+        return measure(run.t, series[kind], kind, time_unit=unit, **keywords)
+    if kind == "animation":
+        return _animation_of(run, **keywords)
+    if kind in columns:
+        table, column = columns[kind]
+        return measure(table[next(iter(table))], table[column], kind, time_unit=unit, **keywords)
+    known = ["trajectory", "phase portrait", "drift", "constraints", *series, "animation", *columns]
+    if kind in known:
+        raise InputError(f"plot: the run has no {kind}")
+    raise InputError(_pfaff.unknown_name("plot", kind, known))
+
+
+def _animation_of(run: Run, **keywords: Any) -> FuncAnimation:
+    """The positions of beads are the coordinates x0, y0, z0, x1, ... of a state."""
+    of_beads = [name for name in run.coordinates if name[0] in "xyz" and name[1:].isdigit()]
+    dimension = len({name[0] for name in of_beads})
+    if dimension not in (2, 3) or run.coordinates[: len(of_beads)] != of_beads:
+        raise InputError(f"plot: expected a system of beads and rods, got {run.system.name}; plots.bodies draws any positions")
+    return bodies(run.t, run.y[:, : len(of_beads)].reshape(len(run.t), -1, dimension), **keywords)
 
 
 @_styled

@@ -67,6 +67,33 @@ def test_bodies_move_as_they_are_told():
     assert html.count("data:image/png") >= 5
 
 
+def test_a_run_is_drawn_by_the_kind_of_plot():
+    run = pfaff.run("spherical-pendulum", "rattle", step=0.01, time=1, measures=["reversibility"])
+    assert np.array_equal(drawn(run.plot(coordinates="x").get_lines()[0]), [run.t, run["x"]])
+    assert run.plot("phase portrait", coordinates=["x", "y"]).get_ylabel() == "y"
+    assert {line.get_label() for line in run.plot("drift").get_lines()} == set(run.invariants)
+    assert {line.get_label() for line in run.plot("constraints").get_lines()} == set(run.constraints)
+    column = next(f"reversibility: {name}" for name in list(run.measures["reversibility"])[1:])
+    assert run.plot(column).get_ylabel() == column
+    with pytest.raises(pfaff.InputError, match="did you mean 'drift'"):
+        run.plot("drfit")
+    with pytest.raises(pfaff.InputError, match="expected a system of beads and rods"):
+        run.plot("animation")
+
+
+def test_the_structure_residual_and_pendula_are_drawn():
+    run = pfaff.run("pendulum", "verlet", step=0.1, time=5)
+    axes = run.plot("structure residual")
+    known = np.isfinite(run.structure)
+    assert np.array_equal(drawn(axes.get_lines()[0])[0], run.t[known]) and axes.get_ylabel() == "structure residual"
+    swinging = pfaff.run("n-pendulum", "rattle", bobs=2, step=0.01, time=1)
+    animation = swinging.plot("animation", frames=3)
+    animation._draw_frame(len(swinging.t) - 1)
+    animation._draw_was_started = True  # nothing is shown
+    dots = np.array(animation._fig.axes[0].get_lines()[-1].get_data()).T
+    assert dots.ravel() == pytest.approx(swinging.y[-1, :4])
+
+
 def test_the_settings_of_the_caller_stay():
     before = dict(matplotlib.rcParams)
     plots.trajectory(T, Z, ["q", "p"])
