@@ -23,12 +23,13 @@ MEMBERS = (*FORMULAS, *BRACKETS, "casimirs", "damping", "part_flow")
 class Coordinates:
     """The names of the coordinates, one by one and in blocks.
 
-    `of` is a list of names, ["q", "p"], or a dictionary of blocks, {"q": 2, "p": 2}, whose coordinates are q[1],
-    q[2], p[1], p[2]. A count may be the name of a whole-number parameter.
+    `of` is a list of names, ["q", "p"], or a dictionary of blocks, {"q": 2, "p": 2}, whose coordinates are q1, q2, p1
+    and p2. A count may be the name of a whole-number parameter.
     """
 
     def __init__(self, of: Any, values: Mapping[str, Any], what: str) -> None:
         self.names: list[str] = []
+        self.in_texts: list[str] = []  # as text models call them
         self.blocks: dict[str, slice | int] = {}
         if isinstance(of, Mapping):
             for block, count in of.items():
@@ -36,13 +37,17 @@ class Coordinates:
                 if not isinstance(count, (int, np.integer)) or isinstance(count, bool) or count < 1:
                     raise InputError(f"{what}: coordinates['{block}']: expected a whole number >= 1, or the name of a parameter that is one, got {count!r}")
                 self._take(block, slice(len(self.names), len(self.names) + int(count)), what)
-                self.names += [f"{block}[{k}]" for k in range(1, int(count) + 1)]
+                self.names += [f"{block}{k}" for k in range(1, int(count) + 1)]
+                self.in_texts += [f"{block}[{k}]" for k in range(1, int(count) + 1)]
         elif isinstance(of, Sequence) and not isinstance(of, str) and all(isinstance(name, str) for name in of):
             for name in of:
                 self._take(name, len(self.names), what)
                 self.names.append(name)
+                self.in_texts.append(name)
         else:
             raise InputError(f"{what}: coordinates: expected names, such as [\"q\", \"p\"], or blocks, such as {{\"q\": 2, \"p\": 2}}, got {of!r}")
+        if len(set(self.names)) < len(self.names):
+            raise InputError(f"{what}: coordinates: expected different names, got {', '.join(self.names)}")
         if not self.names:
             raise InputError(f"{what}: coordinates: expected one at least")
 

@@ -148,7 +148,7 @@ class Run:
     def __getitem__(self, name: str) -> np.ndarray:
         if name in self.coordinates:
             return self.y[:, self.coordinates.index(name)]
-        block = [k for k, one in enumerate(self.coordinates) if re.fullmatch(re.escape(name) + r"\[\d+\]|" + re.escape(name) + r"\d+", one)]
+        block = [k for k, one in enumerate(self.coordinates) if re.fullmatch(re.escape(name) + r"\d+", one)]
         if block:
             return self.y[:, block[0] : block[-1] + 1] if block == list(range(block[0], block[-1] + 1)) else self.y[:, block]
         if name in self.invariants:

@@ -58,6 +58,7 @@ class System:
     """
 
     _definition: Any = None
+    _written: dict[str, Any] = {}
 
     def __init__(self, name: Any = None, /, *, compile: bool = False, **parameters: Any) -> None:
         cls = type(self)
@@ -75,6 +76,10 @@ class System:
 
     def __init_subclass__(cls, **keywords: Any) -> None:
         super().__init_subclass__(**keywords)
+        # What a class writes of itself is kept apart, where instances have properties of these names.
+        cls._written = {key: vars(cls)[key] for key in ("coordinates", "initial", "invariants") if key in vars(cls)}
+        for key in cls._written:
+            delattr(cls, key)
         cls._definition = _definition_of_class(cls)
 
     def _begin(self, definition: Any, parameters: Mapping[str, Any], compile: bool) -> None:
@@ -250,7 +255,7 @@ def _definition_of_class(cls: type) -> Traced:
         for key in inspect.get_annotations(base):
             if key in vars(base) and key not in (*_DESCRIBING, *MEMBERS, "coordinates", "initial", "invariants"):
                 parameters[key] = vars(base)[key]
-        for key, value in vars(base).items():
+        for key, value in (*vars(base).items(), *getattr(base, "_written", {}).items()):
             if key in MEMBERS or key in ("coordinates", "initial", "invariants"):
                 members[key] = value  # None takes back what a base class writes
             elif key in _DESCRIBING or key == "system_name":
@@ -287,7 +292,7 @@ def system(*, coordinates: Sequence[str] | Mapping[str, Any], initial: Any = Non
 
     Args:
         coordinates: names, ["q", "p"], or blocks, {"q": 2, "p": 2}, which are arrays in formulas and whose coordinates
-            are q[1], q[2], p[1], p[2]. Of canonical systems positions stand before momenta. A count may be the name of a
+            are q1, q2, p1 and p2. Of canonical systems positions stand before momenta. A count may be the name of a
             whole-number parameter.
         initial: the state from which runs start, shape (dimension,); or a dictionary by the names of coordinates; or a
             function of the parameters.

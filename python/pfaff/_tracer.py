@@ -43,6 +43,10 @@ class Tracer:
         vars(owner).update(self.given)
         return owner
 
+    def recorded(self, inputs: int, results: Callable[[Any, list], list], what: str) -> _pfaff.Tape:
+        """The tape of a formula of so many numbers, with the parameters that it is recorded with."""
+        return recorded(inputs, results, what)
+
     def called(self, member: Any, known: Mapping[str, Any], what: str) -> Any:
         function = member.__get__(self.owner) if self.owner is not None and hasattr(member, "__get__") else member
         known = dict(known) if self.owner is not None else {**self.given, **known}
@@ -63,10 +67,18 @@ class Tracer:
         invariants, tape = self.invariants()
         if tape is not None:
             formulas["invariants"] = tape
-        return {"name": d.name, "time_unit": d.time_unit, "coordinates": [(name, d.units.get(name, d.units.get(name.split("[")[0], ""))) for name in self.coordinates.names],
+        return {"name": d.name, "time_unit": d.time_unit, "coordinates": self.coordinates_with_units(),
                 "initial": self.initial(), "parameters": [(key, text_of_number(value, key)) for key, value in self.values.items()],
                 "formulas": formulas, **self.names, "invariants": invariants, "damping": self.constant("damping"),
                 "parts": self.parts(), "small_part": d.small_part}
+
+    def coordinates_with_units(self) -> list[tuple[str, str]]:
+        """Names and units; a block has one unit for all of its coordinates."""
+        units, pairs = self.definition.units, []
+        for block, place in self.coordinates.blocks.items():
+            for name in self.coordinates.names[place] if isinstance(place, slice) else [block]:
+                pairs.append((name, units.get(name, units.get(block, ""))))
+        return pairs
 
     def formula(self, key: str, member: Any) -> _pfaff.Tape:
         """The tape of a formula that has a row in the library's table."""
@@ -90,7 +102,7 @@ class Tracer:
                 raise InputError(f"{what} returned {len(values)} results; expected {expected}")
             return values
 
-        return recorded(inputs, results, what)
+        return self.recorded(inputs, results, what)
 
     def named(self, argument: str, numbers: list) -> dict[str, Any]:
         """What the numbers of one argument of a formula may be called."""
@@ -113,7 +125,7 @@ class Tracer:
                 raise InputError(f"{what} returned {len(values)} results; expected {expected}")
             return values
 
-        return recorded(self.n, results, what)
+        return self.recorded(self.n, results, what)
 
     def bracket(self, member: Any, key: str) -> _pfaff.Tape:
         """The tensor of a bracket: of its rows, or column by column of its map of covectors to vectors."""
@@ -133,7 +145,7 @@ class Tracer:
                     raise InputError(f"{what} returned {len(columns[-1])} results; expected {self.n}")
             return [columns[j][i] for i in range(self.n) for j in range(self.n)]
 
-        return recorded(self.n, results, what)
+        return self.recorded(self.n, results, what)
 
     def invariants(self) -> tuple[list[tuple[str, str, str]], _pfaff.Tape | None]:
         """Names, units and behaviours of the invariants, and their tape."""
@@ -157,7 +169,7 @@ class Tracer:
                     raise InputError(f"invariants of {self.definition.what}: expected names without quotation marks and commas, got {name!r}")
             return [flat(value, f"invariant {name}")[0] for name, value in values.items()]
 
-        tape = recorded(self.n, results, f"invariants of {self.definition.what}")
+        tape = self.recorded(self.n, results, f"invariants of {self.definition.what}")
         d = self.definition
         return [(name, d.units.get(name, ""), d.behaviours.get(name, "conserved")) for name in names], tape
 
@@ -214,7 +226,7 @@ class Tracer:
 
             return results
 
-        return [recorded(self.n, change(part), f"part {name} of {self.definition.what}") for part, name in enumerate(names)]
+        return [self.recorded(self.n, change(part), f"part {name} of {self.definition.what}") for part, name in enumerate(names)]
 
     def _name_results(self, member: str, results: Any, key: str) -> None:
         count = len(results) if isinstance(results, Mapping) else None

@@ -18,6 +18,7 @@ void bind_recording(pybind11::module_& module);
 void bind_runs(pybind11::module_& module);
 void bind_scalars(pybind11::module_& module);
 void bind_systems(pybind11::module_& module);
+void bind_text_formulas(pybind11::module_& module);
 void bind_verification(pybind11::module_& module);
 
 }  // namespace pfaff::python

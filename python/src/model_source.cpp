@@ -106,7 +106,7 @@ void take_separable_energy(ModelSource& source) {
   auto& hamiltonian = source.given[index(Formula::hamiltonian)];
   auto &kinetic = source.given[index(Formula::kinetic)], &potential = source.given[index(Formula::potential)];
   if (!source.canonical || hamiltonian == nullptr || kinetic != nullptr || potential != nullptr) return;
-  if (const auto found = separable_energy(*hamiltonian)) {
+  if (const auto found = separable_energy(*hamiltonian, source.dimension)) {
     kinetic = found->kinetic, potential = found->potential;
     hamiltonian = nullptr;
   }

@@ -19,5 +19,6 @@ PYBIND11_MODULE(_pfaff, module) {
   pfaff::python::bind_runs(module);
   pfaff::python::bind_scalars(module);
   pfaff::python::bind_systems(module);
+  pfaff::python::bind_text_formulas(module);
   pfaff::python::bind_verification(module);
 }

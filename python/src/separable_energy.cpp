@@ -13,11 +13,12 @@ namespace {
 enum Reads : unsigned char { neither = 0, positions = 1, momenta = 2, both = 3 };
 
 // What every slot of a tape reads.
-std::vector<unsigned char> what_slots_read(const Tape& tape) {
+std::vector<unsigned char> what_slots_read(const Tape& tape, int dimension) {
   std::vector<unsigned char> reads(tape.code.size(), neither);
   for (std::size_t k = 0; k < tape.code.size(); ++k) {
     const Instruction& i = tape.code[k];
-    if (i.operation == Operation::input) reads[k] = i.a < tape.inputs / 2 ? positions : momenta;
+    if (i.operation == Operation::input && i.a < dimension)
+      reads[k] = i.a < dimension / 2 ? positions : momenta;
     operands(i, tape.solves, [&](int slot) {
       reads[k] = static_cast<unsigned char>(reads[k] | reads[static_cast<std::size_t>(slot)]);
     });
@@ -31,8 +32,8 @@ using Parts = std::pair<Recorded, Recorded>;
 
 class Splitter {
  public:
-  Splitter(const Tape& tape, const std::vector<Recorded>& values)
-      : tape_(tape), values_(values), reads_(what_slots_read(tape)) {}
+  Splitter(const Tape& tape, const std::vector<Recorded>& values, int dimension)
+      : tape_(tape), values_(values), reads_(what_slots_read(tape, dimension)) {}
 
   [[nodiscard]] std::optional<Parts> operator()(int slot) const {
     const auto k = static_cast<std::size_t>(slot);
@@ -78,29 +79,30 @@ class Splitter {
   std::vector<unsigned char> reads_;
 };
 
-// A tape of the inputs behind the first ones alone, which are all that it reads.
-std::shared_ptr<const Tape> of_half(Tape tape, int first) {
-  tape.inputs /= 2;
+// A tape without the half of the coordinates that it does not read, which begins at `unread`.
+std::shared_ptr<const Tape> of_half(Tape tape, int dimension, int unread) {
+  const int half = dimension / 2;
+  tape.inputs -= half;
   for (Instruction& i : tape.code)
-    if (i.operation == Operation::input) i.a -= first;
+    if (i.operation == Operation::input && i.a >= unread + half) i.a -= half;
   return std::make_shared<const Tape>(std::move(tape));
 }
 }  // namespace
 
-std::optional<SeparableEnergy> separable_energy(const Tape& hamiltonian) {
-  if (hamiltonian.inputs % 2 != 0) return std::nullopt;
+std::optional<SeparableEnergy> separable_energy(const Tape& hamiltonian, int dimension) {
+  if (dimension % 2 != 0) return std::nullopt;
   Recorder recorder(hamiltonian.inputs);
   const std::vector<Recorded> z = recorder.inputs();
   Replay<Recorded> replay(std::make_shared<const Tape>(hamiltonian));
   std::vector<Recorded> whole(hamiltonian.outputs.size());
   replay(recorder.time(), z.data(), whole.data());
-  const auto parts = Splitter(hamiltonian, replay.slots())(hamiltonian.outputs.front());
+  const auto parts = Splitter(hamiltonian, replay.slots(), dimension)(hamiltonian.outputs.front());
   if (!parts) return std::nullopt;
   // Each tape takes of the recording what its output needs.
-  const auto alone = [&](const Recorded& part, int first) {
-    return of_half(recorder.finish(std::vector<Recorded>{part}), first);
+  const auto alone = [&](const Recorded& part, int unread) {
+    return of_half(recorder.finish(std::vector<Recorded>{part}), dimension, unread);
   };
-  return SeparableEnergy{alone(parts->first, hamiltonian.inputs / 2), alone(parts->second, 0)};
+  return SeparableEnergy{alone(parts->first, 0), alone(parts->second, dimension / 2)};
 }
 
 }  // namespace pfaff::python

@@ -14,10 +14,11 @@
 namespace pfaff::python {
 
 struct SeparableEnergy {
-  std::shared_ptr<const Tape> kinetic, potential;  // of half of the coordinates each
+  std::shared_ptr<const Tape> kinetic, potential;  // of half of the coordinates each, and of the parameters
 };
 
-/// The two parts of an energy of (q, p); nullopt where the tape shows no sum.
-std::optional<SeparableEnergy> separable_energy(const Tape& hamiltonian);
+/// The two parts of an energy of (q, p), `dimension` numbers, behind which there may be parameters; nullopt
+/// where the tape shows no sum.
+std::optional<SeparableEnergy> separable_energy(const Tape& hamiltonian, int dimension);
 
 }  // namespace pfaff::python
