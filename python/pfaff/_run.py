@@ -227,7 +227,7 @@ def run(system: Any, method: Any, *, step: Any = None, tolerance: Any = None, ti
     >>> import pfaff
     >>> result = pfaff.run("kepler", "gauss", stages=3, eccentricity=0.3, step=0.05, time=100)
     >>> result.y.shape, result["q"].shape, result.drift["energy"]["class"]
-    ((1001, 4), (1001, 2), 'random-walk')
+    ((1001, 4), (1001, 2), 'bounded')
 
     Args:
         system: a name, the path of a text model, or a pfaff.System.

@@ -32,9 +32,9 @@ class System:
     ...     initial = [1, 0]
     ...     g: float = 9.81
     ...     def kinetic(self, p):
-    ...         return p[0] ** 2 / 2
+    ...         return p**2 / 2
     ...     def potential(self, q):
-    ...         return -self.g * np.cos(q[0])
+    ...         return -self.g * np.cos(q)
     >>> Pendulum(g=1).parameters
     {'g': '1'}
 
