@@ -34,7 +34,11 @@ StepTape euler(const std::shared_ptr<const Model>& model, bool remembers) {
 
 std::shared_ptr<const TapeMethod> method_of(bool compiled, bool remembers = false) {
   return std::make_shared<const TapeMethod>(
-      TapeMethodStatement{{.name = "recorded-euler", .reference = "", .order = 1, .preserves = {Claim::none}},
+      TapeMethodStatement{{.name = "recorded-euler",
+                           .title = "Euler",
+                           .reference = "",
+                           .order = 1,
+                           .preserves = {Claim::none}},
                           {},
                           facets(Facet::vector_field),
                           compiled},
@@ -68,9 +72,9 @@ std::vector<T> by_hand(int steps, bool remembers = false) {
 // The field of Kepler's problem is compiled in C++ and recorded in the tape: a few roundings apart.
 TEST(TapeMethod, TakesTheStepThatItsTapeSays) {
   const std::vector<double> one = after<double>(method_of(false), 3), other = by_hand<double>(3);
-  EXPECT_THAT(one, testing::Pointwise(testing::DoubleNear(1e-14), other));
+  EXPECT_THAT(one, ::testing::Pointwise(::testing::DoubleNear(1e-14), other));
   EXPECT_THAT(after<double>(method_of(false), 2),
-              testing::Not(testing::Pointwise(testing::DoubleNear(1e-3), other)));
+              ::testing::Not(::testing::Pointwise(::testing::DoubleNear(1e-3), other)));
   const std::vector<Quad> quad = after<Quad>(method_of(false), 3), exact = by_hand<Quad>(3);
   for (std::size_t i = 0; i < quad.size(); ++i)
     EXPECT_LT(static_cast<double>(abs(quad[i] - exact[i])), 1e-32);
@@ -78,8 +82,8 @@ TEST(TapeMethod, TakesTheStepThatItsTapeSays) {
 
 TEST(TapeMethod, KeepsItsMemoryBetweenSteps) {
   const std::vector<double> one = after<double>(method_of(false, true), 3), other = by_hand<double>(3, true);
-  EXPECT_THAT(one, testing::Pointwise(testing::DoubleNear(1e-14), other));
-  EXPECT_THAT(one, testing::Not(testing::Pointwise(testing::DoubleNear(1e-3), by_hand<double>(3))));
+  EXPECT_THAT(one, ::testing::Pointwise(::testing::DoubleNear(1e-14), other));
+  EXPECT_THAT(one, ::testing::Not(::testing::Pointwise(::testing::DoubleNear(1e-3), by_hand<double>(3))));
 }
 
 TEST(TapeMethod, HasTheSameBitsCompiled) {
@@ -91,7 +95,9 @@ TEST(TapeMethod, HasTheSameBitsCompiled) {
 TEST(TapeMethod, CountsRightHandSidesAndIsRecordedOnceForEachModel) {
   int recorded = 0;
   const auto method = std::make_shared<const TapeMethod>(
-      TapeMethodStatement{{.name = "counted", .reference = "", .order = 1}, {}, facets(Facet::vector_field)},
+      TapeMethodStatement{{.name = "counted", .title = "Euler", .reference = "", .order = 1},
+                          {},
+                          facets(Facet::vector_field)},
       [&](const std::shared_ptr<const Model>& model) {
         ++recorded;
         return euler(model, false);
