@@ -80,7 +80,7 @@ def ensemble(system: Any, method: Any, states: Any, *, step: Any, steps: int, ev
         result.done[:] = done
 
     try:
-        _pfaff.ensemble(base.model, tool.instance, np.ascontiguousarray(array), y, h, start, count, stride, workers, callback, report)
+        _pfaff.ensemble(base.model, tool.instance, array, y, h, start, count, stride, workers, callback, report)
     except InputError:
         raise
     except BaseException as error:

@@ -171,7 +171,7 @@ class Run:
         >>> import matplotlib, pfaff
         >>> matplotlib.use("agg")
         >>> pfaff.run("pendulum", "verlet", step=0.1, time=10).plot("drift").get_xlabel()
-        't'
+        't [s]'
 
         Raises:
             InputError: an unknown kind, and one that the run has nothing for.
@@ -199,7 +199,19 @@ class Run:
 
     def _repr_html_(self) -> str:
         rows = self._rows()
-        return f"<p>{html.escape(self._head())}</p>" + (html_table(self._COLUMNS, rows) if rows else "")
+        table = html_table(self._COLUMNS, rows) if rows else ""
+        return f"<p>{html.escape(self._head())}</p>{table}{self._picture()}"
+
+    def _picture(self) -> str:
+        """Its drift or its trajectory as SVG; empty where there is nothing to draw, and without matplotlib."""
+        from . import plots
+
+        if len(self.t) < 2:
+            return ""
+        try:
+            return plots.svg(self.plot("drift" if self.invariants else "trajectory"))
+        except ImportError:
+            return ""
 
     def __getstate__(self) -> dict[str, Any]:
         state = dict(self.__dict__)

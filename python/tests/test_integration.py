@@ -33,7 +33,8 @@ def test_samples_are_the_states_that_go_by():
     assert np.array_equal(rows.y[0], one.state)
     assert it.to(3.05, every=10).t.tolist() == [3.0] and it.steps_taken == 31 and it.steps(0, every=5).y.shape == (0, 2)
     assert it.steps(9, every=1).y.shape == (9, 2)  # another number of steps between rows, beside the first
-    assert "verlet" in repr(it) and it.counters["steps"] == 40
+    assert it.steps(5).y.shape == (0, 2) and it.steps_taken == 45  # none are kept that nobody asked for
+    assert "verlet" in repr(it) and it.counters["steps"] == 45
 
 
 def test_ways_back():

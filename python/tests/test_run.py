@@ -26,7 +26,7 @@ def test_drift_tells_kept_energies_from_lost_ones():
     assert kept.drift["energy"]["class"] == "bounded" and lost.drift["energy"]["class"] != "bounded"
     energy = lost.drift["energy"]
     assert energy.slope_low < energy.slope < energy.slope_high < 0 and energy.max >= abs(energy.final) and energy.evidence
-    assert "energy" in repr(lost) and "<table>" in lost._repr_html_()
+    assert "energy" in repr(lost) and "<table>" in lost._repr_html_() and "<svg" in lost._repr_html_()
     with pytest.raises(KeyError, match="did you mean 'slope'"):
         energy["slop"]
 

@@ -1,4 +1,6 @@
 """to_toml(): the text model of a system in Python gives the same numbers, and its parameters stay parameters."""
+import pathlib
+
 import numpy as np
 import pytest
 from definitions import Pendulum, duffing, henon_heiles
@@ -114,7 +116,27 @@ class Damped(pfaff.System):
         return [growth * (q + (p + self.nu * q) * elapsed), growth * (p - self.nu * (p + self.nu * q) * elapsed)]
 
 
+class Alpha(pfaff.System):
+    """The damped pendulum with a transformation alpha of pairs of states, as examples/models/damped-pendulum.toml has it."""
+
+    coordinates = ["r", "p"]
+    initial = [1, 0.5]
+    nu: float = 0.3
+
+    def birkhoffian(self, t, r, p):
+        return np.exp(self.nu * t) * (p**2 / 2 + self.nu * r * p / 2 - np.cos(r))
+
+    def one_form(self, t, r, p):
+        return [np.exp(self.nu * t) * p / 2, -np.exp(self.nu * t) * r / 2]
+
+    def alpha(self, t, t0, new_z, old_z, new_r, old_p):
+        growth, before = np.exp(self.nu * t), np.exp(self.nu * t0)
+        rise, turn = growth * new_z[1] - before * old_p, new_r - old_z[0]
+        return [[rise, turn], [(new_r + old_z[0] + turn**2) / 2, rise * turn - (growth * new_z[1] + before * old_p) / 2]]
+
+
 CASES = [
+    (Alpha(), "nu", "generating-function-alpha"),
     (duffing, "alpha", "verlet"),
     (Pendulum(), "g", "gauss"),
     (Everything(), "g", "rattle"),
@@ -155,6 +177,13 @@ def test_parts_and_separable_energies(tmp_path):
     ours, other = end(Parts(), "verlet"), end(text, "verlet")
     assert np.abs(ours - other).max() < 1e-14
     assert np.abs(end(henon_heiles, "verlet") - end(as_text(henon_heiles, tmp_path), "verlet")).max() < 1e-14
+
+
+def test_an_alpha_is_that_of_the_text_model():
+    path = pathlib.Path(__file__).resolve().parents[2] / "examples" / "models" / "damped-pendulum.toml"
+    method = pfaff.Method("generating-function-alpha")
+    ours, other = end(Alpha(), method, steps=10), end(pfaff.System(path), method, steps=10)
+    assert np.abs(ours - other).max() < 1e-13 and "generating-map" in Alpha().facets
 
 
 def test_what_has_no_text_is_refused():
