@@ -14,10 +14,11 @@ from ._errors import InputError, Interrupted, NotConverged, RunFailed, TraceErro
 from ._evaluation import Evaluation, bracket, evaluate
 from ._experiments import Comparison, Table, WorkPrecision, compare, experiments
 from ._integration import Integration, Outcome
-from ._method import Method, Problem, method, methods, table
+from ._method import Method, method, methods, table
 from ._papers import Reproduced, Reproduction, papers, reproduce
 from ._run import Run, Watched, run
 from ._solve_ivp import solve_ivp
+from ._step import Problem
 from ._system import System, system, systems
 from ._tracing import solve, where
 from ._verification import Check, Checks, Counterexample, Falsification, Falsifications, falsify, verify
