@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import csv
 import dataclasses
+import hashlib
 import html
 import json
 import os
@@ -250,28 +251,34 @@ def _label(method: Any) -> str:
 
 
 def _written(experiment: Mapping[str, Any], folder: pathlib.Path) -> pathlib.Path:
-    """The file of an experiment that is a dictionary, and beside it those of systems that are objects."""
-    document = {"schema": 1, **experiment}
-    cases = []
-    for number, case in enumerate(document.get("case", [])):
-        case = dict(case)
-        if isinstance(case.get("system"), System):
-            path = folder / f"{case['system'].name}-{number}.toml"
-            path.write_text(case["system"].to_toml(), encoding="utf-8")
-            case["system"] = str(path)
-        cases.append(_from_here(case, "system"))
-    if cases:
-        document["case"] = cases
-    if "method" in document:
-        document["method"] = [_from_here(method, "integrator") for method in document["method"]]
+    """The file of an experiment that is a dictionary."""
+    document: dict[str, Any] = {"schema": 1, **experiment}
+    for table, key in (("case", "system"), ("method", "integrator")):
+        if table in document:
+            document[table] = [_with_path(one, key) for one in document[table]]
     path = folder / "experiment.toml"
     path.write_text(toml_of(document, "experiment"), encoding="utf-8")
     return path
 
 
-def _from_here(table: Mapping[str, Any], key: str) -> dict[str, Any]:
-    """The table with the path of a file, if it is one, made absolute: it is one from the working directory."""
+def _with_path(table: Mapping[str, Any], key: str) -> dict[str, Any]:
+    """The table with the path of a file, if it is one, made absolute, since it is one from the working directory."""
     value = table.get(key)
+    if isinstance(value, System):
+        return {**table, key: str(_model_file(value))}
     if isinstance(value, os.PathLike) or isinstance(value, str) and value.endswith(".toml"):
         return {**table, key: os.path.abspath(value)}
     return dict(table)
+
+
+def _model_file(system: System) -> pathlib.Path:
+    """The system as a text model, in a file named by its contents, which runs can be resumed with and made again from."""
+    text = system.to_toml()
+    cache = pathlib.Path(os.environ.get("XDG_CACHE_HOME") or pathlib.Path.home() / ".cache")
+    path = cache / "pfaff" / "models" / f"{system.name}-{hashlib.sha1(text.encode()).hexdigest()[:16]}.toml"
+    if not path.exists():
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with tempfile.NamedTemporaryFile("w", dir=path.parent, delete=False, encoding="utf-8") as file:
+            file.write(text)
+        os.replace(file.name, path)
+    return path

@@ -211,7 +211,7 @@ def work_precision(
 def of_run(run: Run, kind: str = "trajectory", **keywords: Any) -> Any:
     """What `run.plot(kind, ...)` draws; further arguments are those of the function that draws it.
 
-    The kinds are "trajectory", "phase portrait", "drift" (of the invariants), "constraints", "structure residual", "error",
+    The kinds are "trajectory", "phase portrait", "drift" (of conserved invariants), "constraints", "structure residual", "error",
     "animation" (of beads and rods, see bodies()), and every column of a measure that was asked for, "MEASURE: COLUMN".
 
     Raises:
@@ -219,13 +219,18 @@ def of_run(run: Run, kind: str = "trajectory", **keywords: Any) -> Any:
     """
     unit = run.units.get("t", "")
     series = {"error": run.error, "structure residual": run.structure}
-    columns = {f"{name}: {column}": (table, column) for name, table in run.measures.items() for column in list(table)[1:]}
+    columns = {
+        f"{name}: {column}": (table, column)
+        for name, table in run.measures.items()
+        for column, values in table.items()
+        if column != "step" and "step" in table and not any(isinstance(value, str) for value in values)
+    }
     if kind == "trajectory":
         return trajectory(run.t, run.y, run.coordinates, time_unit=unit, **keywords)
     if kind == "phase portrait":
         return phase_portrait(run.t, run.y, run.coordinates, **keywords)
-    if kind == "drift" and run.invariants:
-        return drift(run.t, run.invariants, time_unit=unit, **keywords)
+    if kind == "drift" and run.drift:
+        return drift(run.t, {name: run.invariants[name] for name in run.drift}, time_unit=unit, **keywords)
     if kind == "constraints" and run.constraints:
         axes = keywords.pop("axes", None)
         for name, values in run.constraints.items():
@@ -239,7 +244,8 @@ def of_run(run: Run, kind: str = "trajectory", **keywords: Any) -> Any:
         return _animation_of(run, **keywords)
     if kind in columns:
         table, column = columns[kind]
-        return measure(table[next(iter(table))], table[column], kind, time_unit=unit, **keywords)
+        times = run.t[0] + np.asarray(table["step"], float) * float(run.summary["step"])
+        return measure(times, table[column], kind, time_unit=unit, **keywords)
     known = ["trajectory", "phase portrait", "drift", "constraints", *series, "animation", *columns]
     if kind in known:
         raise InputError(f"plot: the run has no {kind}")

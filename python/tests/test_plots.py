@@ -71,10 +71,11 @@ def test_a_run_is_drawn_by_the_kind_of_plot():
     run = pfaff.run("spherical-pendulum", "rattle", step=0.01, time=1, measures=["reversibility"])
     assert np.array_equal(drawn(run.plot(coordinates="x").get_lines()[0]), [run.t, run["x"]])
     assert run.plot("phase portrait", coordinates=["x", "y"]).get_ylabel() == "y"
-    assert {line.get_label() for line in run.plot("drift").get_lines()} == set(run.invariants)
+    assert {line.get_label() for line in run.plot("drift").get_lines()} == set(run.drift)
     assert {line.get_label() for line in run.plot("constraints").get_lines()} == set(run.constraints)
-    column = next(f"reversibility: {name}" for name in list(run.measures["reversibility"])[1:])
-    assert run.plot(column).get_ylabel() == column
+    axes = run.plot("reversibility: distance")
+    steps = np.asarray(run.measures["reversibility"]["step"])
+    assert axes.get_ylabel() == "reversibility: distance" and drawn(axes.get_lines()[0])[0] == pytest.approx(0.01 * steps)
     with pytest.raises(pfaff.InputError, match="did you mean 'drift'"):
         run.plot("drfit")
     with pytest.raises(pfaff.InputError, match="expected a system of beads and rods"):
