@@ -20,9 +20,10 @@ def test_examples_in_docstrings(name):
     assert doctest.testmod(module, extraglobs=names, optionflags=FLAGS).failed == 0
 
 
-def test_examples_of_the_page_on_systems_and_methods():
-    page = pathlib.Path(__file__).resolve().parents[2] / "docs" / "python-systems.md"
+@pytest.mark.parametrize("name", ["python", "python-systems"])
+def test_examples_of_pages(name):
+    page = pathlib.Path(__file__).resolve().parents[2] / "docs" / f"{name}.md"
     text = "\n".join(line for line in page.read_text().splitlines() if not line.startswith("```"))
     test = doctest.DocTestParser().get_doctest(text, {"__name__": "page"}, page.name, str(page), 0)
-    assert len(test.examples) > 15
+    assert len(test.examples) > 10
     assert doctest.DocTestRunner(optionflags=FLAGS).run(test).failed == 0
