@@ -56,14 +56,14 @@ def ensemble(system: Any, method: Any, states: Any, *, step: Any, steps: int, ev
     Whatever is raised, by the callback too, has the Ensemble so far as its attribute `run`.
     """
     base, tool = with_parameters(system, method, parameters, system_parameters, method_parameters)
+    if np.iscomplexobj(states):
+        raise InputError("states: expected real numbers, got complex ones")
     try:
         array = np.asarray(states, dtype=float)
     except (TypeError, ValueError) as error:
         raise InputError(f"states: expected numbers, an array of shape (N, {base.dimension}): {error}") from None
     if array.ndim != 2 or array.shape[1] != base.dimension:
         raise InputError(f"states: expected shape (N, {base.dimension}), got {array.shape}")
-    if np.iscomplexobj(np.asarray(states)):
-        raise InputError("states: expected real numbers, got complex ones")
     if not np.isfinite(array).all():
         raise InputError(f"states: expected finite numbers; state {int(np.argwhere(~np.isfinite(array))[0][0])} has others")
     count = whole(steps, "steps", 1)

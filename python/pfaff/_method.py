@@ -13,6 +13,7 @@ from ._numbers import text_of_setting
 from ._step import StepFunction
 from ._toml import toml_of
 
+
 class Method:
     """A method with its parameters: what takes the steps.
 

@@ -6,7 +6,7 @@ import html
 import os
 import pickle
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,6 +14,7 @@ import numpy as np
 from . import _pfaff
 from ._errors import InputError, NotConverged, RunFailed
 from ._integration import Integration, attach, whole, with_parameters
+from ._naming import kebab
 from ._numbers import text_of_number, texts_of_state
 from ._tables import data_frame, html_table, text_table
 
@@ -74,7 +75,7 @@ class Run:
         """The residual of the structure of one step, shape (rows,), NaN where it was not measured; or None."""
         self.summary: dict[str, Any] = of["summary"]
         """All that summary.json of `pfaff run` holds."""
-        self.measures: dict[str, dict[str, list]] = {name: columns for name, (columns, _) in of["tables"].items()}
+        self.measures: dict[str, dict[str, Any]] = {name: columns for name, (columns, _) in of["tables"].items()}
         """The tables of the measures that were asked for, each a dictionary of columns."""
         self.status: str = of["status"]
         """'converged', or how the last step failed."""
@@ -231,7 +232,7 @@ class Unavailable:
 
 
 def run(system: Any, method: Any, *, step: Any = None, tolerance: Any = None, time: Any = None, every: int = 0, initial: Any = None, t0: Any = 0,
-        absolute: Any = (), precision: str = "double", reference: str | None = "exact", measures: Sequence[str] = (), structure: bool = True,
+        absolute: Any = (), precision: str = "double", reference: str | None = "exact", measures: Sequence[str | Callable[[Run], Any]] = (), structure: bool = True,
         project_initial: bool = False, allow_inconsistent: bool = False, formulation: str = "", out: Any = None, system_parameters: Mapping[str, Any] | None = None,
         method_parameters: Mapping[str, Any] | None = None, **parameters: Any) -> Run:
     """Runs a method on a system, and measures what drifts and what it costs, as `pfaff run` does.
@@ -253,7 +254,8 @@ def run(system: Any, method: Any, *, step: Any = None, tolerance: Any = None, ti
         precision: "double", or "quad" with 113 bits; samples are doubles in both, drift and errors are found in quad.
         reference: what errors are measured against: "exact", the system's own solution where it has one; "solution",
             that or Taylor series in quad; None. "solution,every" measures them at every sample, else at 200 at most.
-        measures: names of measures (`pfaff list measures`), whose tables are in `measures` of the result.
+        measures: names of measures (`pfaff list measures`), whose tables are in `measures` of the result; and functions
+            of the run that give an array of shape (rows,), or a dictionary of such arrays.
         structure: measure the residual of the structure of steps, where the system has one.
         project_initial: move an initial state that is off the constraints onto them.
         allow_inconsistent: or take it as it is.
@@ -275,6 +277,10 @@ def run(system: Any, method: Any, *, step: Any = None, tolerance: Any = None, ti
     base, tool = with_parameters(system, method, parameters, system_parameters, method_parameters)
     if time is None:
         raise InputError("time: expected the duration of the run")
+    wanted = [measures] if isinstance(measures, str) or callable(measures) else list(measures)
+    for one in wanted:
+        if not isinstance(one, str) and not callable(one):
+            raise InputError(f"measures: expected names of measures and functions of the run, got {one!r}")
     texts = lambda values, what: texts_of_state([values] if np.ndim(values) == 0 else values, what)  # noqa: E731
     asked = {
         "step": "" if step is None else text_of_number(step, "step"),
@@ -286,7 +292,7 @@ def run(system: Any, method: Any, *, step: Any = None, tolerance: Any = None, ti
         "absolute": texts(absolute, "absolute"),
         "precision": precision,
         "reference": reference or "none",
-        "measures": [measures] if isinstance(measures, str) else list(measures),
+        "measures": [one for one in wanted if isinstance(one, str)],
         "structure": bool(structure),
         "project_initial": bool(project_initial),
         "allow_inconsistent": bool(allow_inconsistent),
@@ -303,11 +309,30 @@ def run(system: Any, method: Any, *, step: Any = None, tolerance: Any = None, ti
         attach(error, Run(base, tool, going.samples(), asked))
         raise
     result = Run(base, tool, going.samples(), asked)
+    try:
+        for function in wanted:
+            if callable(function):
+                result.measures[kebab(function.__name__)] = _measured(function, result)
+    except BaseException as error:
+        attach(error, result)
+        raise
     if result.status != "converged":
         failed = (RunFailed if result.status == "non_finite" else NotConverged)(result.message)
         attach(failed, result)
         raise failed
     return result
+
+
+def _measured(function: Callable[[Run], Any], result: Run) -> dict[str, Any]:
+    """The table of a measure that is a function of the run."""
+    given = function(result)
+    columns = dict(given) if isinstance(given, Mapping) else {kebab(function.__name__): given}
+    table = {"t": result.t}
+    for name, values in columns.items():
+        table[name] = np.asarray(values, dtype=float)
+        if table[name].shape != result.t.shape:
+            raise InputError(f"measure {kebab(function.__name__)}: expected {len(result.t)} numbers of {name}, one for each sample, got shape {table[name].shape}")
+    return table
 
 
 class _words_of_python:

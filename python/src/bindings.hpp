@@ -11,6 +11,7 @@ void bind_errors(pybind11::module_& module);
 void bind_evaluation(pybind11::module_& module);
 void bind_experiments(pybind11::module_& module);
 void bind_integrations(pybind11::module_& module);
+void bind_interruption(pybind11::module_& module);
 void bind_methods(pybind11::module_& module);
 void bind_model_source(pybind11::module_& module);
 void bind_papers(pybind11::module_& module);

@@ -1,12 +1,18 @@
 #include <pfaff/python/src/interruption.hpp>
 
+#include <chrono>
+#include <thread>
+
+#include <pfaff/python/src/bindings.hpp>
+
 namespace py = pybind11;
 
 namespace pfaff::python {
 
 namespace {
 std::atomic<bool> asked_to_stop{false};
-const std::atomic<bool> never_asked{false};
+std::atomic<bool> interpreter_ends{false};
+std::atomic<int> under_way{0};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may set it");
 
 bool handles = false;  // of the main thread alone
@@ -27,6 +33,7 @@ bool is_main_thread() {
 
 Interruption::Interruption() : on_main_thread_(is_main_thread()) {
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  ++under_way;
   if (!on_main_thread_ || handles) return;
   asked_to_stop.store(false);
   struct sigaction action {};
@@ -40,18 +47,35 @@ Interruption::Interruption() : on_main_thread_(is_main_thread()) {
 }
 
 Interruption::~Interruption() {
+  --under_way;
   if (!installed_) return;
   sigaction(SIGINT, &handler_of_python, nullptr);
   handles = false;
 }
 
-const std::atomic<bool>& Interruption::stop() const { return on_main_thread_ ? asked_to_stop : never_asked; }
+const std::atomic<bool>& Interruption::stop() const {
+  return on_main_thread_ ? asked_to_stop : interpreter_ends;
+}
 
 bool Interruption::taken() const {
   if (!stop().load()) return false;
   // Where a handler of the user's own raises nothing, the work has ended all the same.
   if (PyErr_CheckSignals() != 0) PyErr_Clear();
   return true;
+}
+
+namespace {
+// A thread that comes back from its work when the interpreter has ended would be ended in the middle of C++.
+void end_all_work() {
+  interpreter_ends.store(true);
+  const py::gil_scoped_release released;
+  using namespace std::chrono_literals;
+  for (int k = 0; k < 5000 && under_way.load() > 0; ++k) std::this_thread::sleep_for(1ms);
+}
+}  // namespace
+
+void bind_interruption(py::module_& /*module*/) {
+  py::module_::import("atexit").attr("register")(py::cpp_function(&end_all_work));
 }
 
 void raise_saved(SavedError& saved) {

@@ -23,7 +23,7 @@ class Interruption {
   ~Interruption();
   Interruption(const Interruption&) = delete;
   Interruption& operator=(const Interruption&) = delete;
-  /// The flag that work looks at; on other threads one that nobody sets.
+  /// The flag that work looks at; on other threads one that is set when the interpreter ends.
   [[nodiscard]] const std::atomic<bool>& stop() const;
   /// True where Ctrl-C has come; its exception is then taken from Python, so that the caller can raise
   /// Interrupted with what was done by then. With Python's lock held.

@@ -14,6 +14,7 @@ PYBIND11_MODULE(_pfaff, module) {
   pfaff::python::bind_scalars(module);
   pfaff::python::bind_methods(module);
   pfaff::python::bind_integrations(module);
+  pfaff::python::bind_interruption(module);
   pfaff::python::bind_runs(module);
   pfaff::python::bind_ensembles(module);
   pfaff::python::bind_derivation(module);

@@ -2,6 +2,8 @@
 import math
 import os
 import signal
+import subprocess
+import sys
 import threading
 import time
 
@@ -204,3 +206,23 @@ def test_arrays_of_any_layout_and_kind_are_taken():
         other = expected.beside([0.5, 0.25])
         other.steps(5)
         assert np.array_equal(it.state, other.state)
+
+
+def test_threads_that_work_end_with_the_interpreter():
+    # A thread that came back to an interpreter that has ended would be ended in the middle of C++, which aborts.
+    code = """
+import sys, threading, time
+import pfaff
+from definitions import henon_heiles, kick
+called = pfaff.method(order=2, needs=["separable"], traced=False, name="called")(kick._definition.function)
+threading.excepthook = lambda *_: None
+watched = pfaff.Integration(henon_heiles, "gauss", step=0.01)
+watched.watch(lambda t, z: None)
+jobs = [watched, pfaff.Integration(henon_heiles, "gauss", step=0.01), pfaff.Integration(henon_heiles, called, step=0.01)]
+for job in jobs:
+    threading.Thread(target=lambda job=job: job.steps(10**12), daemon=True).start()
+time.sleep(0.2)
+"""
+    paths = os.pathsep.join([os.path.dirname(__file__), *filter(None, sys.path)])
+    ended = subprocess.run([sys.executable, "-B", "-c", code], env={**os.environ, "PYTHONPATH": paths}, capture_output=True, text=True, timeout=30)
+    assert ended.returncode == 0 and not ended.stderr

@@ -70,6 +70,25 @@ def test_measures_and_quad():
     assert max(euler.measures["structure"]["residual"]) > 1e-9
 
 
+def test_measures_may_be_functions_of_the_run():
+    def half_speed(run):
+        return run["p"] / 2
+
+    def both(run):
+        return {"sum": run["q"] + run["p"], "square": run["q"] ** 2}
+
+    result = pfaff.run(duffing, "verlet", step=0.05, time=10, measures=[half_speed, both, "structure"])
+    assert np.array_equal(result.measures["half-speed"]["half-speed"], result.y[:, 1] / 2) and set(result.measures["both"]) == {"t", "sum", "square"}
+    assert "residual" in result.measures["structure"]
+    with pytest.raises(pfaff.InputError, match="one for each sample"):
+        pfaff.run(duffing, "verlet", step=0.05, time=10, measures=[lambda run: [1, 2]])
+    with pytest.raises(ZeroDivisionError) as caught:
+        pfaff.run(duffing, "verlet", step=0.05, time=10, measures=lambda run: 1 // 0)
+    assert len(caught.value.run.t) == 201
+    with pytest.raises(pfaff.InputError, match="names of measures and functions"):
+        pfaff.run(duffing, "verlet", step=0.05, time=10, measures=[3])
+
+
 def test_files_are_left(tmp_path):
     folder = tmp_path / "out"
     result = pfaff.run(duffing, "verlet", step=0.1, time=1, out=folder)
