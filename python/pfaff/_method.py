@@ -79,6 +79,12 @@ class Method:
         """Why the method cannot step on a system, a sentence without a full stop; empty where it can."""
         return self.instance.refuses(_model(system))
 
+    def as_value(self) -> str:
+        """The method as the value of a parameter of another one, such as the base of a composition."""
+        if not isinstance(self._definition, RegisteredMethod):
+            raise InputError(f"method {self.name}: expected a registered method as a part of another one")
+        return f"{self.name}({', '.join(f'{key}={value}' for key, value in self.parameters.items())})"
+
     def __call__(self, **parameters: Any) -> Method:
         """The method with other values of some of its parameters."""
         return self._made(self._definition, {**self._given, **parameters})

@@ -72,13 +72,15 @@ def text_of_number(value: Any, what: str) -> str:
 
 
 def text_of_setting(value: Any, what: str) -> str:
-    """The text of the value of a parameter: a number, a name, yes or no, or a list of these."""
+    """The text of the value of a parameter: a number, a name, a registered method, yes or no, or a list of these."""
     if isinstance(value, (bool, np.bool_)):
         return "yes" if value else "no"
     if isinstance(value, str):
         return value
     if isinstance(value, (list, tuple, np.ndarray)) and np.ndim(value) == 1:
         return ",".join(text_of_setting(one, what) for one in value)
+    if hasattr(value, "as_value"):  # another method, as of a composition
+        return value.as_value()
     text = text_of_constant(value)
     if text is None and hasattr(value, "__fspath__"):
         text = str(value)

@@ -9,7 +9,7 @@ from ._method import Method, table
 from ._system import System
 
 
-def as_system(x: Any, **parameters: Any) -> System:
+def as_system(x: Any, /, **parameters: Any) -> System:
     """The system of a registered name, the path of a text model, a System or a subclass of it, with these parameters.
 
     Raises:
@@ -24,7 +24,7 @@ def as_system(x: Any, **parameters: Any) -> System:
     raise InputError(f"expected a system: a name, the path of a text model, or a pfaff.System, got {x!r}")
 
 
-def as_method(x: Any, **parameters: Any) -> Method:
+def as_method(x: Any, /, **parameters: Any) -> Method:
     """The method of a registered name, the path of a table, a dictionary of coefficients or a Method, with these
     parameters.
 

@@ -228,6 +228,8 @@ std::shared_ptr<const Model> model_for(const MethodInstance& method,
                                        const std::shared_ptr<const Model>& model,
                                        const std::string& formulation) {
   if (formulation.empty()) return motion_for(method, model);
+  if (method.refuses(*model).empty())
+    throw InputError(method.called() + " steps on " + model->name() + " itself; expected no formulation");
   return formulations().get(formulation, "formulation").apply(model, {});
 }
 

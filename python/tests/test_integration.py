@@ -187,6 +187,21 @@ def test_bad_input_is_refused(settings, words):
         pfaff.Integration(duffing, "verlet", **settings)
 
 
+def test_formulations_make_motions_of_constraints():
+    dirac = pfaff.Integration("n-pendulum", "gauss", stages=4, bobs=2, step=0.01, formulation="dirac")
+    usual = pfaff.Integration("n-pendulum", "gauss", stages=4, bobs=2, step=0.01)
+    own = pfaff.Integration("n-pendulum", "rattle", bobs=2, step=0.01)
+    for it in (dirac, usual, own):
+        it.steps(50)
+    # The method of order 8 is exact to round-off here; that on the constraints has order 2.
+    assert np.array_equal(dirac.state, usual.state) and 1e-8 < np.abs(own.state - usual.state).max() < 1e-2
+    for method, words in (("rattle", "expected no formulation"), ("verlet", "needs separable")):
+        with pytest.raises(pfaff.InputError, match=words):
+            pfaff.Integration("n-pendulum", method, step=0.01, formulation="dirac")
+    with pytest.raises(pfaff.InputError, match="unknown parameter 'x'"):
+        pfaff.run("kepler", "gauss", step=0.1, time=1, system_parameters={"x": 1})
+
+
 def test_calls_with_bad_numbers_are_refused():
     it = pfaff.Integration(duffing, "verlet", step=0.1)
     for call in (lambda: it.steps(-1), lambda: it.steps(1.5), lambda: it.steps(5, every=-1), lambda: it.watch(3), lambda: it.watch(print, every=0),

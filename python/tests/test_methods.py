@@ -121,6 +121,15 @@ def test_parameters_and_memory():
     assert np.abs(again.state - (z + 0.1 * rate(z))).max() < 1e-15
 
 
+def test_methods_are_parts_of_others():
+    whole = pfaff.Method("composition", scheme="yoshida", order=4, base=pfaff.Method("verlet", compensated=False))
+    named = pfaff.Method("composition", scheme="yoshida", order=4, base="verlet(compensated=no)")
+    assert whole.parameters == named.parameters and np.array_equal(end(duffing, whole), end(duffing, named))
+    assert abs(order_of(whole, duffing) - 4) < 0.1
+    with pytest.raises(pfaff.InputError, match="expected a registered method"):
+        pfaff.Method("composition", base=kick)
+
+
 def test_tables_are_checked_as_files_are():
     ralston = {"kind": "runge-kutta", "name": "ralston", "order": 2, "a": [[], ["2/3"]], "b": [Fraction(1, 4), "3/4"]}
     z, rate = np.array([0.5, 0.0]), lambda z: np.array([z[1], z[0] - z[0] ** 3])
