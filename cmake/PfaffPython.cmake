@@ -76,7 +76,9 @@ pfaff_run_path(pfaff_python ${pfaff_python_run_path})
 file(GLOB_RECURSE pfaff_python_files RELATIVE ${PROJECT_SOURCE_DIR}/python/pfaff CONFIGURE_DEPENDS
      python/pfaff/*.py python/pfaff/*.pyi python/pfaff/py.typed python/pfaff/*.css python/pfaff/*.mplstyle)
 file(GLOB former ${pfaff_python_package}/*.py)  # perhaps of files that are no more
-file(REMOVE ${former})
+if(former)
+  file(REMOVE ${former})
+endif()
 file(MAKE_DIRECTORY ${pfaff_python_package})
 file(CREATE_LINK ${PROJECT_BINARY_DIR} ${pfaff_python_package}/lib SYMBOLIC)
 foreach(file ${pfaff_python_files})

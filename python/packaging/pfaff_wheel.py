@@ -55,6 +55,21 @@ def get_requires_for_build_wheel(config_settings=None):
     return []
 
 
+def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
+    """Leaves what is known before anything is built, so that pip does not build twice. Returns its folder."""
+    return write_information(Path(metadata_directory)).name
+
+
+def write_information(folder):
+    """The folder with what pip reads of a wheel."""
+    information = folder / f"pfaff-{version()}.dist-info"
+    information.mkdir()
+    (information / "METADATA").write_text(METADATA.format(version=version()))
+    (information / "WHEEL").write_text(WHEEL.format(tag=tag()))
+    (information / "LICENSE").write_text((ROOT / "LICENSE").read_text())
+    return information
+
+
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     """Builds, and leaves the wheel in the directory. Returns its name."""
     chosen = (config_settings or {}).get("build-dir")
@@ -72,11 +87,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
         for link in (Path(folder) / "pfaff" / "lib").glob("*.so.*"):
             if link.is_symlink():  # wheels have no links: the library itself takes the name that is asked for
                 link.resolve().rename(link)
-        information = Path(folder) / f"pfaff-{version()}.dist-info"
-        information.mkdir()
-        (information / "METADATA").write_text(METADATA.format(version=version()))
-        (information / "WHEEL").write_text(WHEEL.format(tag=tag()))
-        (information / "LICENSE").write_text((ROOT / "LICENSE").read_text())
+        write_information(Path(folder))
         with WheelFile(Path(wheel_directory) / name, "w") as wheel:
             wheel.write_files(folder)
     return name

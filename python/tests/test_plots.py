@@ -96,6 +96,8 @@ def test_the_structure_residual_and_pendula_are_drawn():
 
 
 def test_the_settings_of_the_caller_stay():
+    matplotlib.rcdefaults()
+    matplotlib.use("agg")
     before = dict(matplotlib.rcParams)
     plots.trajectory(T, Z, ["q", "p"])
     assert dict(matplotlib.rcParams) == before
