@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _pfaff, plots
-from ._errors import InputError
+from ._errors import InputError, Interrupted
 from ._objects import as_method
 from ._system import System
 from ._tables import data_frame
@@ -234,7 +234,12 @@ def compare(
         raise InputError(
             f"out: expected a new directory, because runs of methods that are objects are not told apart from earlier ones, got {directory}"
         )
-    found = _pfaff.compare(path, objects, str(directory), quick, force, compile, report, timing)
+    try:
+        found = _pfaff.compare(path, objects, str(directory), quick, force, compile, report, timing)
+    except Interrupted:
+        if out is not None:
+            raise
+        raise Interrupted("interrupted; its runs are gone, and with out= they would be there to be resumed") from None
     report_path = found["report"] and pathlib.Path(found["report"])
     return Comparison(
         name=found["name"], title=found["title"], directory=directory, runs=found["runs"], resumed=found["resumed"],

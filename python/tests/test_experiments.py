@@ -115,3 +115,18 @@ def test_objects_are_not_mixed_with_earlier_runs(tmp_path):
 def test_a_column_that_is_not_there_is_named(swing):
     with pytest.raises(pfaff.InputError, match="did you mean 'error_max'"):
         swing.table["eror_max"]
+
+
+def test_an_interrupted_experiment_is_resumed(tmp_path):
+    import signal
+    import threading
+
+    main = threading.main_thread().ident
+    long = {**SWING, "case": [{"name": "swing", "system": "pendulum", "time": 1000, "steps": [0.1, 0.01, 0.001, 0.0001]}]}
+    for out, words in ((None, "with out="), (tmp_path, "the same call resumes")):
+        timer = threading.Timer(0.4, lambda: signal.pthread_kill(main, signal.SIGINT))
+        timer.start()
+        with pytest.raises(pfaff.Interrupted, match=words):
+            pfaff.compare(long, out=out, timing=0.3)
+    short = pfaff.compare(long, out=tmp_path, timing=0.005)
+    assert short.ok and short.runs == 8
