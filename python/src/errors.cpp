@@ -1,8 +1,10 @@
 // Exceptions: those of the libraries as exceptions of Python, which stand in pfaff/_errors.py, where they
-// have their docstrings and what they carry besides a message.
+// have their docstrings and what they carry besides a message. Notices of the libraries are warnings.
 #include <pfaff/core/errors/budget.hpp>
 #include <pfaff/core/errors/errors.hpp>
+#include <pfaff/core/errors/notices.hpp>
 #include <pfaff/python/src/bindings.hpp>
+#include <pfaff/python/src/callbacks.hpp>
 
 namespace py = pybind11;
 
@@ -18,6 +20,12 @@ void raise(const char* name, const std::exception& error) {
 }  // namespace
 
 void bind_errors(py::module_& /*module*/) {
+  // Where warnings are errors, the error is raised once the work that gave the notice has ended.
+  say_notices_by([](const std::string& text) {
+    with_lock([&] {
+      if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) throw py::error_already_set();
+    });
+  });
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);
