@@ -22,7 +22,7 @@ def stub():
         subprocess.run(["stubgen", "-m", "pfaff._pfaff", "-o", folder], check=True, capture_output=True)
         text = (pathlib.Path(folder) / "pfaff" / "_pfaff.pyi").read_text()
     text = text.replace("numpy.ndarray[numpy.float64]", "numpy.typing.NDArray[numpy.float64]").replace(": handle", ": object")
-    return HEAD + text.replace("import numpy\n", "import numpy\nimport numpy.typing\n")
+    return HEAD + text.replace("import numpy\n", "import numpy\nimport numpy.typing\n\n__version__: str\n")
 
 
 if __name__ == "__main__":

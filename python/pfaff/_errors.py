@@ -1,4 +1,5 @@
 """Exceptions. Each is also one of Python's own kinds, so that code that knows nothing of Pfaff can catch it."""
+from typing import Any
 
 
 class InputError(ValueError):
@@ -10,13 +11,15 @@ class TraceError(TypeError):
 
 
 class NotConverged(RuntimeError):
-    """An iteration did not converge, or met a number that is not finite."""
+    """An iteration did not converge, or met a number that is not finite. `run` holds the samples up to there, or None."""
+
+    run: Any = None
 
 
 class RunFailed(RuntimeError):
     """Work that had begun ended early. `run` holds the samples up to there, or None where there are none."""
 
-    def __init__(self, message: str, run: object = None) -> None:
+    def __init__(self, message: str, run: Any = None) -> None:
         super().__init__(message)
         self.run = run
 
@@ -24,6 +27,6 @@ class RunFailed(RuntimeError):
 class Interrupted(KeyboardInterrupt):
     """Ctrl-C ended the work. `run` holds the samples up to there, or None where there are none."""
 
-    def __init__(self, message: str = "interrupted", run: object = None) -> None:
+    def __init__(self, message: str = "interrupted", run: Any = None) -> None:
         super().__init__(message)
         self.run = run

@@ -120,8 +120,7 @@ def bracket(
     state = np.asarray(z, float)
     if state.shape != (len(names),):
         raise InputError(f"z: expected shape ({len(names)},), a number for each of {', '.join(names)}, got {state.shape}")
-    tapes = [_tape(function, what, names) for function, what in ((f, "f"), (g, "g"))]
-    return _pfaff.bracket(model, *tapes, float(time), list(state))
+    return _pfaff.bracket(model, _tape(f, "f", names), _tape(g, "g", names), float(time), list(state))
 
 
 def _tape(function: Callable[..., Any], what: str, names: Sequence[str]) -> _pfaff.Tape:

@@ -117,7 +117,7 @@ def _times(t_eval: Sequence[float], begin: float, end: float) -> np.ndarray:
 
 def _tolerances(rtol: float, atol: float | Sequence[float], size: int) -> tuple[float, np.ndarray]:
     absolute = np.asarray(atol, float)
-    if not (np.isscalar(rtol) and rtol > 0) or absolute.ndim > 1 or absolute.size not in (1, size) or not (absolute >= 0).all():
+    if not (isinstance(rtol, (int, float, np.floating)) and rtol > 0) or absolute.ndim > 1 or absolute.size not in (1, size) or not (absolute >= 0).all():
         raise InputError(f"rtol, atol: expected rtol > 0 and atol >= 0, one number or {size}, got {rtol!r} and {atol!r}")
     return float(rtol), np.broadcast_to(absolute, (size,))
 

@@ -99,13 +99,13 @@ class Checks(Sequence[Check]):
     def __bool__(self) -> bool:
         return self.ok
 
-    def _rows(self) -> list[tuple]:
+    def _rows(self) -> list[tuple[Any, ...]]:
         """(claim, holds, fails, not judged, the worst check or None) for every claim, in the order of the checks."""
         claims: dict[str, list[Check]] = {}
         for check in self._checks:
             if not check.control and (check.result in ("pass", "fail") or check.not_judged):
                 claims.setdefault(check.claim, []).append(check)
-        rows = []
+        rows: list[tuple[Any, ...]] = []
         for claim, group in claims.items():
             judged = [check for check in group if check.result in ("pass", "fail")]
             worst = max(judged, key=_nearness, default=None)
@@ -144,7 +144,7 @@ def _assignments(parameters: dict[str, Any]) -> list[tuple[str, str]]:
     return [(key, text_of_setting(value, f"parameter '{key}'")) for key, value in parameters.items()]
 
 
-def _checks(result: tuple[list[dict[str, Any]], bool, str]) -> Checks:
+def _checks(result: tuple[Any, ...]) -> Checks:
     dictionaries, ok, verdict = result
     return Checks([Check(**one) for one in dictionaries], ok, verdict)
 
@@ -275,8 +275,8 @@ class Falsifications(Sequence[Falsification]):
     def __bool__(self) -> bool:
         return self.ok
 
-    def _rows(self) -> list[tuple]:
-        rows = []
+    def _rows(self) -> list[tuple[Any, ...]]:
+        rows: list[tuple[Any, ...]] = []
         for one in self._results:
             found = one.counterexample
             name = " ".join([one.method, *(f"{key}={value}" for key, value in one.parameters.items())])
@@ -325,12 +325,12 @@ def falsify(
     """
     if not budget > 0:
         raise InputError(f"budget: expected a time above 0 s, got {budget}")
-    by_name = isinstance(method, str)
-    instance = None if by_name else as_method(method, **parameters)
-    values = _assignments(parameters) if by_name else list(instance.parameters.items())
-    found = _pfaff.falsify(
-        None if by_name else instance.instance, method if by_name else "", values, claim or "", budget, systems, seed
-    )
+    how = (claim or "", budget, systems, seed)
+    if isinstance(method, str):
+        found = _pfaff.falsify(None, method, _assignments(parameters), *how)
+    else:
+        made = as_method(method, **parameters)
+        found = _pfaff.falsify(made.instance, "", list(made.parameters.items()), *how)
     results = []
     for one in found:
         example = one.pop("counterexample")

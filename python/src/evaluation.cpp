@@ -28,18 +28,19 @@ std::shared_ptr<const Model> motion_in(const std::shared_ptr<const Model>& model
   return plugin.apply(model, {});
 }
 
-py::object evaluated_at(const PySystem& system, const std::vector<std::string>& state, const std::string& t,
-                        const std::string& formulation, const std::string& precision,
-                        const std::optional<std::vector<std::string>>& centre) {
+py::dict evaluated_at(const PySystem& system, const std::vector<std::string>& state, const std::string& t,
+                      const std::string& formulation, const std::string& precision,
+                      const std::optional<std::vector<std::string>>& centre) {
   return python_value(without_lock([&] {
-    EvaluationSettings settings;
-    settings.at.model = motion_in(system.model, formulation);
-    settings.at.t = finite_number(t, "t");
-    settings.at.state = initial_state(*settings.at.model, {state, {}}, settings.at.t);
-    settings.precision = parse_precision(precision);
-    if (centre) settings.centre = state_numbers(*settings.at.model, *centre, "centre");
-    return evaluation(settings);
-  }));
+           EvaluationSettings settings;
+           settings.at.model = motion_in(system.model, formulation);
+           settings.at.t = finite_number(t, "t");
+           settings.at.state = initial_state(*settings.at.model, {state, {}}, settings.at.t);
+           settings.precision = parse_precision(precision);
+           if (centre) settings.centre = state_numbers(*settings.at.model, *centre, "centre");
+           return evaluation(settings);
+         }))
+      .cast<py::dict>();
 }
 
 std::vector<double> values_of(std::shared_ptr<const Tape> tape, double t, const std::vector<double>& z) {

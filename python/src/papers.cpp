@@ -12,13 +12,14 @@ namespace py = pybind11;
 namespace pfaff::python {
 
 namespace {
-py::object reproduced(const std::string& paper, const std::string& section) {
+py::dict reproduced(const std::string& paper, const std::string& section) {
   return python_value(without_lock([&] {
-    const std::vector<PaperItem> items = items_of(paper);
-    std::vector<ReproducedRow> rows = reproduce(paper, section);
-    put_in_order(rows, items);
-    return to_json(paper, rows);
-  }));
+           const std::vector<PaperItem> items = items_of(paper);
+           std::vector<ReproducedRow> rows = reproduce(paper, section);
+           put_in_order(rows, items);
+           return to_json(paper, rows);
+         }))
+      .cast<py::dict>();
 }
 }  // namespace
 
