@@ -2,6 +2,10 @@
 find_program(PFAFF_PYTHON_PROGRAM python3 PATHS /usr/bin NO_DEFAULT_PATH)  # the one that Debian's packages are for
 find_program(PFAFF_PYTHON_PROGRAM python3)
 
+# In older build folders the program had this name.
+if(IS_ABSOLUTE "${PFAFF_PYTHON}")
+  unset(PFAFF_PYTHON CACHE)
+endif()
 set(PFAFF_PYTHON ${pfaff_python_default} CACHE STRING "Build the Python module: ON, OFF, or AUTO, where what it needs is there")
 set_property(CACHE PFAFF_PYTHON PROPERTY STRINGS AUTO ON OFF)
 if(PFAFF_PYTHON STREQUAL "OFF")

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that Pfaff is built from, where any is missing; otherwise does nothing, quickly.
-# `--lint` adds what .ci/run checks the sources with, and MPI, which one test needs. PFAFF_SKIP_SETUP=1 skips all of it.
+# `--tests` adds what the Python module is built from and tested with, `--lint` besides what .ci/run checks the sources
+# with, and MPI, which one test needs. PFAFF_SKIP_SETUP=1 skips all of it.
 #
 # Exit status: 0 everything is there; 2 something is missing and cannot be installed from here, or nothing can be built.
 set -euo pipefail
@@ -33,6 +34,8 @@ needed=(
   "python3 program:python3"
   "python3-matplotlib module:matplotlib"
   "python3-sympy module:sympy"
+)
+[[ ${1:-} == --tests || ${1:-} == --lint ]] && needed+=(
   "python3-dev program:python3-config"
   "pybind11-dev header:pybind11/pybind11.h"
   "python3-numpy module:numpy"
