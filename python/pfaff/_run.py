@@ -183,8 +183,8 @@ class Run:
         return plots.of_run(self, kind, **keywords)
 
     def _rows(self) -> list[list[Any]]:
-        rows = [[name, one["class"], one["max"], one["slope"], one["slope_low"], one["slope_high"]] for name, one in self.drift.items()]
-        return rows + [[name, one["class"], one["max"], one["slope"], one["slope_low"], one["slope_high"]] for name, one in self.constraint_drift.items()]
+        watched = [*self.drift.items(), *self.constraint_drift.items()]
+        return [[name, *(one[field] for field in self._COLUMNS[1:])] for name, one in watched]
 
     def _head(self) -> str:
         span = f"t = {self.t[0]:g} .. {self.t[-1]:g}, {len(self.t)} samples" if len(self.t) else "no samples"
@@ -231,7 +231,7 @@ class Unavailable:
         self.name = name
 
 
-def run(system: Any, method: Any, *, step: Any = None, tolerance: Any = None, time: Any = None, every: int = 0, initial: Any = None, t0: Any = 0,
+def run(system: Any, method: Any, *, step: Any = None, tolerance: Any = None, time: Any = None, every: int = 0, initial: Any = None, initial_velocities: Any = None, t0: Any = 0,
         absolute: Any = (), precision: str = "double", reference: str | None = "exact", measures: Sequence[str | Callable[[Run], Any]] = (), structure: bool = True,
         project_initial: bool = False, allow_inconsistent: bool = False, formulation: str = "", out: Any = None, system_parameters: Mapping[str, Any] | None = None,
         method_parameters: Mapping[str, Any] | None = None, **parameters: Any) -> Run:
@@ -249,6 +249,7 @@ def run(system: Any, method: Any, *, step: Any = None, tolerance: Any = None, ti
         time: the duration; a negative one goes back in time.
         every: the steps between two samples; 0 chooses for about a thousand samples.
         initial: the state, shape (dimension,); without it the system's own.
+        initial_velocities: beside it, with the positions alone: the velocities, from which the momenta follow.
         t0: the time at the start.
         absolute: absolute tolerances beside `tolerance`, one number or one for each coordinate.
         precision: "double", or "quad" with 113 bits; samples are doubles in both, drift and errors are found in quad.
@@ -288,6 +289,7 @@ def run(system: Any, method: Any, *, step: Any = None, tolerance: Any = None, ti
         "time": text_of_number(time, "time"),
         "every": whole(every, "every", 0),
         "initial": [] if initial is None else texts(initial, "initial"),
+        "initial_velocities": [] if initial_velocities is None else texts(initial_velocities, "initial_velocities"),
         "t0": text_of_number(t0, "t0"),
         "absolute": texts(absolute, "absolute"),
         "precision": precision,

@@ -101,6 +101,7 @@ RunSettings settings_of(const PySystem& system, const PyMethod& method, const py
   settings.method = method.method;
   settings.formulation = text("formulation");
   settings.initial = texts("initial");
+  settings.initial_velocities = texts("initial_velocities");
   settings.t0 = text("t0"), settings.step = text("step"), settings.tolerance = text("tolerance");
   settings.time = text("time");
   settings.absolute = texts("absolute");

@@ -62,6 +62,15 @@ def test_gradients_have_their_closed_form():
         result.sensitivity("omga")
 
 
+def test_velocities_stand_for_momenta():
+    @pfaff.system(coordinates=["q", "p"], initial=[0.5, 0])
+    def heavy(q, p, mass=4.0):
+        return p**2 / (2 * mass) + q**2 / 2
+
+    result = pfaff.run(heavy, "verlet", step=0.1, time=1, initial=[1], initial_velocities=[0.25])
+    assert result.y[0].tolist() == [1, 1] and pfaff.run(heavy, "verlet", step=0.1, time=1, initial_velocities=[2]).y[0].tolist() == [0.5, 8]
+
+
 def test_measures_and_quad():
     result = pfaff.run(duffing, "verlet", step=0.05, time=10, precision="quad", measures=["structure"])
     table = result.measures["structure"]
