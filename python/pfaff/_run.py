@@ -1,6 +1,7 @@
 """Runs: a system integrated by a method, with all that is measured of it."""
 from __future__ import annotations
 
+import contextlib
 import functools
 import html
 import os
@@ -337,15 +338,11 @@ def _measured(function: Callable[[Run], Any], result: Run) -> dict[str, Any]:
     return table
 
 
-class _words_of_python:
+@contextlib.contextmanager
+def _words_of_python() -> Iterator[None]:
     """Messages of the command line name options, --step; in Python these are arguments, step."""
-
-    def __enter__(self) -> None:
-        pass
-
-    def __exit__(self, kind: Any, error: BaseException | None, trace: Any) -> None:
-        if isinstance(error, InputError):
-            words = re.sub(r"--set (\w+)=", r"\1=", str(error))
-            words = re.sub(r"--([a-z][a-z-]*)", lambda option: option[1].replace("-", "_"), words)
-            if words != str(error):
-                raise InputError(words) from None
+    try:
+        yield
+    except InputError as error:
+        words = re.sub(r"--set (\w+)=", r"\1=", str(error))
+        raise InputError(re.sub(r"--([a-z][a-z-]*)", lambda option: option[1].replace("-", "_"), words)) from None
