@@ -202,23 +202,6 @@ AskedState asked_state(const RunSettings& settings, const SplitSettings& split) 
   return {either(settings.initial, split.initial, "initial"),
           either(settings.initial_velocities, split.initial_velocities, "initial_velocities")};
 }
-}  // namespace
-
-ResolvedState resolve_state(const RunSettings& settings) {
-  const SystemPlugin& system = system_asked_for(settings.system);
-  const FormulationPlugin* formulation = formulation_for(system, settings.formulation);
-  const SplitSettings split = split_settings(system, formulation, nullptr, settings.set);
-  ResolvedState result;
-  result.model = system.make(split.system);
-  if (formulation != nullptr) result.model = formulation->apply(result.model, split.formulation);
-  if (settings.compile) result.model = compiled(result.model);
-  const Assignments& parameters = result.model->parameters();
-  result.t = finite_number(evaluated(settings.t0, "time", parameters), "time");
-  result.state = initial_state(*result.model, asked_state(settings, split), result.t);
-  return result;
-}
-
-namespace {
 // Fills in run.origins, of plug-ins that are null for what was made in a program nothing. `read` are the
 // files as they were before the model was made of them.
 void note_origins(ResolvedRun& run, const SystemPlugin* system, const MethodPlugin* method,
@@ -296,11 +279,7 @@ void check_objects(ResolvedRun& run, const RunObjects& objects) {
   run.given_initial = run.initial;
   check_independence(*objects.whole, run);
   check_consistency(settings, run);
-  if (settings.precision == Precision::quad) {
-    check_domain_of<Quad>(run);
-  } else {
-    check_domain_of<double>(run);
-  }
+  settings.precision == Precision::quad ? check_domain_of<Quad>(run) : check_domain_of<double>(run);
   check_stated_identities(*objects.whole, run.t0, run.initial);
   resolve_steps(run);
 }
@@ -311,6 +290,20 @@ const FormulationPlugin* formulation_of(const Model& model, const std::string& n
   return model.restricted() && !model.moves() ? &default_formulation(model) : nullptr;
 }
 }  // namespace
+
+ResolvedState resolve_state(const RunSettings& settings) {
+  const SystemPlugin& system = system_asked_for(settings.system);
+  const FormulationPlugin* formulation = formulation_for(system, settings.formulation);
+  const SplitSettings split = split_settings(system, formulation, nullptr, settings.set);
+  ResolvedState result;
+  result.model = system.make(split.system);
+  if (formulation != nullptr) result.model = formulation->apply(result.model, split.formulation);
+  if (settings.compile) result.model = compiled(result.model);
+  const Assignments& parameters = result.model->parameters();
+  result.t = finite_number(evaluated(settings.t0, "time", parameters), "time");
+  result.state = initial_state(*result.model, asked_state(settings, split), result.t);
+  return result;
+}
 
 ResolvedRun resolve(const RunSettings& settings) {
   ResolvedRun run;
