@@ -4,6 +4,7 @@ from __future__ import annotations
 import functools
 import importlib
 import inspect
+import weakref
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -171,27 +172,35 @@ class Registered:
 
 
 class Traced:
-    """A system written in Python; what its formulas are with given parameters is recorded once."""
+    """A system written in Python; what its formulas are with given parameters is recorded once.
+
+    Models are kept as long as somebody has them, and recordings of the last sets of parameters.
+    """
+
+    MOST = 64
 
     def __init__(self, definition: Definition, reference: tuple[str, str] | None) -> None:
         self.definition, self.reference = definition, reference
         self._sources: dict[tuple, dict] = {}
-        self._models: dict[tuple, _pfaff.Model] = {}
+        self._models: weakref.WeakValueDictionary[tuple, _pfaff.Model] = weakref.WeakValueDictionary()
 
     def source(self, parameters: Mapping[str, Any]) -> dict:
         """What the library makes a model of, with these parameters."""
         values = self.definition.values(parameters)
         key = tuple(text_of_setting(value, name) for name, value in values.items())
         if key not in self._sources:
+            if len(self._sources) >= self.MOST:
+                del self._sources[next(iter(self._sources))]
             self._sources[key] = Tracer(self.definition, values).source()
         return self._sources[key]
 
     def model(self, parameters: Mapping[str, Any], compile: bool) -> _pfaff.Model:
         source = self.source(parameters)
         key = (tuple(source["parameters"]), compile)
-        if key not in self._models:
-            self._models[key] = _compiled(_pfaff.traced_model(source), compile)
-        return self._models[key]
+        model = self._models.get(key)
+        if model is None:
+            model = self._models[key] = _compiled(_pfaff.traced_model(source), compile)
+        return model
 
     def pickled(self, parameters: Mapping[str, Any], compile: bool) -> tuple:
         # By reference where the other process can import it, as pickle does with functions; otherwise what was recorded.

@@ -79,6 +79,21 @@ def test_parameters_are_exact_and_shape_loops():
         chain(n=2.5)
 
 
+def test_a_system_is_recorded_once_for_each_set_of_parameters_and_not_kept_for_ever():
+    calls = []
+
+    @pfaff.system(coordinates=["q", "p"], initial=[1, 0])
+    def counted(q, p, k=1.0):
+        calls.append(float(k))
+        return p**2 / 2 + k * q**2 / 2
+
+    again = counted(k=1.0)
+    assert calls == [1, 1] and again.model is counted.model  # twice for the comparison of the two
+    for step in range(200):
+        counted(k=step / 7)
+    assert len(counted._definition._sources) == 64 and len(counted._definition._models) < 5
+
+
 def test_rows_of_the_library_can_be_written():
     class Top(pfaff.System):
         coordinates = ["x", "y", "z"]
