@@ -17,6 +17,7 @@ import os
 import re
 import subprocess
 import sys
+import sysconfig
 import tempfile
 from collections import defaultdict
 from pathlib import Path
@@ -128,7 +129,8 @@ def compiled_alone(root, headers, arrows):
         graph[source].add(target)
     with tempfile.TemporaryDirectory() as folder:
         (Path(folder) / "pfaff").symlink_to(root)
-        compiler = [os.environ.get("CXX", "c++"), "-std=c++20", "-w", "-I", folder, "-isystem", "/usr/include/eigen3"]
+        compiler = [os.environ.get("CXX", "c++"), "-std=c++20", "-w", "-I", folder, "-isystem", "/usr/include/eigen3",
+                    "-isystem", sysconfig.get_path("include")]  # of Python, for the bindings
 
         def run(*options):
             return subprocess.run([*compiler, *options], capture_output=True, text=True, check=False)
