@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace pfaff::windows {
 
@@ -35,6 +36,19 @@ double student(double x, std::size_t n) {
   }
   sum *= std::sin(angle);
   return 0.5 + 0.5 * (n % 2 == 1 ? 2 / std::numbers::pi * (angle + sum) : sum);
+}
+
+/// Tables of products are large, so that the system takes long to give the memory. A thread keeps those that
+/// it has had for the quantity that it classes next.
+thread_local std::vector<std::vector<double>> spare_tables;
+std::vector<double> copied(const std::vector<double>& table) {
+  std::vector<double> copy;
+  if (!spare_tables.empty()) {
+    copy = std::move(spare_tables.back());
+    spare_tables.pop_back();
+  }
+  copy.assign(table.begin(), table.end());
+  return copy;
 }
 
 /// The solution of the symmetric positive system a x = b, row by row; b is overwritten by x.
@@ -89,6 +103,11 @@ Scores::Scores(const std::vector<double>& means, double resolution, double shape
     join(line);
     rank_explanations();
   }
+}
+
+Scores::~Scores() {
+  for (Seen& seen : seen_)
+    if (!seen.products.empty()) spare_tables.push_back(std::move(seen.products));
 }
 
 double Scores::score(std::size_t covariance, double square, double parameters) const {
@@ -187,7 +206,7 @@ void Scores::join(std::size_t frequency) {
   const std::size_t columns = models_.column_count();
   for (std::size_t k = 0; k < seen_.size(); ++k) {
     Seen& seen = seen_[k];
-    if (joined_.empty()) seen.products = models_.covariances[k].products;
+    if (joined_.empty()) seen.products = copied(models_.covariances[k].products);
     for (const std::size_t c : {models_.cosine(frequency), models_.cosine(frequency) + 1}) {
       const double pivot = seen.products[c * columns + c];
       if (!(pivot > least_pivot)) continue;

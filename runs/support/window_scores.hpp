@@ -45,6 +45,9 @@ class Scores {
   /// `means`: those of few_windows or many_windows; `resolution` > 0: the size below which nothing counts as
   /// evidence; `shape_resolution`: the same, as a part of the range of the means.
   Scores(const std::vector<double>& means, double resolution, double shape_resolution);
+  ~Scores();
+  Scores(const Scores&) = delete;
+  Scores& operator=(const Scores&) = delete;
 
   /// The best explanation without a trend, by kind of noise.
   [[nodiscard]] const Explanation& without_trend(Noise noise) const { return plain_[std::size_t(noise)]; }
