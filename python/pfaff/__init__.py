@@ -6,8 +6,13 @@ What the program `pfaff` does, at the speed of C++, from Python:
 >>> pfaff.__version__
 '0.1.0'
 """
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
 from . import _machine  # noqa: F401  first: it refuses machines that lack instructions
-from . import _pfaff, plots
+from . import _pfaff
 from ._derivation import Equations, derivation_methods, derive
 from ._ensemble import Ensemble, ensemble
 from ._errors import InputError, Interrupted, NotConverged, RunFailed, TraceError
@@ -22,6 +27,9 @@ from ._step import Problem
 from ._system import System, system, systems
 from ._tracing import solve, where
 from ._verification import Check, Checks, Counterexample, Falsification, Falsifications, falsify, verify
+
+if TYPE_CHECKING:
+    from . import plots
 
 __version__: str = _pfaff.__version__
 
@@ -74,3 +82,10 @@ __all__ = [
     "verify",
     "where",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """`pfaff.plots`, which is imported when it is first asked for, since it is what takes longest."""
+    if name == "plots":
+        return importlib.import_module(".plots", __name__)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

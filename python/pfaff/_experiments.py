@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from . import _pfaff, plots
+from . import _pfaff
 from ._errors import InputError, Interrupted
 from ._objects import as_method
 from ._system import System
@@ -102,6 +102,8 @@ class WorkPrecision:
         case = next(iter(self.curves)) if case is None else case
         if case not in self.curves:
             raise InputError(_pfaff.unknown_name("case", case, list(self.curves)))
+        from . import plots
+
         axes = plots.work_precision(self.curves[case], families=self._families, axes=axes)
         axes.set_title(self._titles[case])
         return axes
@@ -111,6 +113,8 @@ class WorkPrecision:
 
     def _repr_html_(self) -> str:
         try:
+            from . import plots
+
             return "".join(plots.svg(self.plot(case)) for case in self.curves)
         except ImportError as missing:
             return f"<p>{html.escape(str(missing))}</p>"

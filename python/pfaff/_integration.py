@@ -204,7 +204,8 @@ class Integration:
         >>> bool(abs(np.linalg.det(M) - 1) < 1e-13)
         True
         """
-        return self._it.jacobian(whole(n, "n", 0))
+        end, derivative = self._it.jacobian(whole(n, "n", 0))
+        return end, derivative
 
     def __repr__(self) -> str:
         return f"<integration of {self.system.name} by {self.method.name}, step {self.step:g}, at t = {self.time:g}>"

@@ -279,6 +279,7 @@ def run(system: Any, method: Any, *, step: Any = None, tolerance: Any = None, ti
     base, tool = with_parameters(system, method, parameters, system_parameters, method_parameters)
     if time is None:
         raise InputError("time: expected the duration of the run")
+    wanted: list[str | Callable[[Run], Any]]
     wanted = [measures] if isinstance(measures, str) or callable(measures) else list(measures)
     for one in wanted:
         if not isinstance(one, str) and not callable(one):

@@ -6,7 +6,7 @@ import importlib
 import inspect
 import pickle
 import warnings
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -28,7 +28,7 @@ class Problem:
     besides is what the facets offer that the method needs: `pfaff list facets`.
     """
 
-    def __init__(self, system: _pfaff.Model, allowed: frozenset[str], evaluate: Callable[[str, Any, Any], Sequence]) -> None:
+    def __init__(self, system: _pfaff.Model, allowed: frozenset[str], evaluate: Callable[[str, Any, Any], np.ndarray]) -> None:
         self._system, self._allowed, self._evaluate = system, allowed, evaluate
 
     @property

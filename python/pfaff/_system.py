@@ -245,7 +245,7 @@ def _registered(name: str, parameters: Mapping[str, Any], compile: bool) -> Syst
 
 
 def _by_reference(module: str, name: str, parameters: Mapping[str, Any], compile: bool) -> System:
-    found = functools.reduce(getattr, name.split("."), importlib.import_module(module))
+    found: Any = functools.reduce(getattr, name.split("."), importlib.import_module(module))
     return System._made(found._definition, parameters, compile) if isinstance(found, System) else found(compile=compile, **parameters)
 
 

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from . import _pfaff
@@ -152,7 +152,7 @@ class Writer:
         t = self.tracer
         half = t.n // 2
         rows = self.texts(formulas["velocity_constraints"], t.coordinates.in_texts[:half], "velocity_constraints")
-        offsets = [None] * (len(rows) // half)
+        offsets: Sequence[str | None] = [None] * (len(rows) // half)
         if "velocity_offsets" in formulas:
             offsets = self.texts(formulas["velocity_offsets"], t.coordinates.in_texts[:half], "velocity_offsets")
         return [

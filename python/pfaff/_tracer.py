@@ -39,7 +39,7 @@ class Tracer:
         cls = self.definition.of_class
         if cls is None:
             return None
-        owner = object.__new__(cls)
+        owner: Any = object.__new__(cls)
         vars(owner).update(self.given)
         return owner
 
@@ -149,7 +149,8 @@ class Tracer:
 
     def invariants(self) -> tuple[list[tuple[str, str, str]], _pfaff.Tape | None]:
         """Names, units and behaviours of the invariants, and their tape."""
-        written, names = self.definition.invariants, []
+        written = self.definition.invariants
+        names: list[str] = []
         if not written:
             return [], None
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 import inspect
 import os
 import sys
+import types
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -19,7 +20,7 @@ _OWN = (os.path.dirname(os.path.abspath(__file__)) + os.sep, os.path.dirname(os.
 
 def place_of_caller() -> str:
     """FILE:LINE of the innermost line of the user's code that is being run; empty where there is none."""
-    frame = sys._getframe(1)
+    frame: types.FrameType | None = sys._getframe(1)
     while frame is not None:
         if not frame.f_code.co_filename.startswith(_OWN):
             return f"{frame.f_code.co_filename}:{frame.f_lineno}"
