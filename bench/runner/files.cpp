@@ -164,7 +164,7 @@ fs::path library_folder() {
 fs::path installed_data() {
   const fs::path folder = library_folder().parent_path();
   std::error_code error;
-  if (const fs::path above = folder.parent_path() / PFAFF_INSTALLED_DATA;
+  if (fs::path above = folder.parent_path() / PFAFF_INSTALLED_DATA;
       folder.filename() == "lib" && fs::exists(above / "experiments", error))
     return above;
   return folder / PFAFF_INSTALLED_DATA;
