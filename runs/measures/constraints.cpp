@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include <pfaff/runs/measure.hpp>
-#include <pfaff/runs/watched/watched_columns.hpp>
 #include <pfaff/runs/watched/constraints.hpp>
+#include <pfaff/runs/watched/watched_columns.hpp>
 
 namespace {
 using namespace pfaff;

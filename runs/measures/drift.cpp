@@ -4,8 +4,8 @@
 
 #include <pfaff/core/errors/errors.hpp>
 #include <pfaff/runs/measure.hpp>
-#include <pfaff/runs/watched/watched_columns.hpp>
 #include <pfaff/runs/watched/invariants.hpp>
+#include <pfaff/runs/watched/watched_columns.hpp>
 
 namespace {
 using namespace pfaff;
