@@ -11,6 +11,7 @@
 
 #include <pfaff/core/numbers/formatted.hpp>
 #include <pfaff/runs/measure.hpp>
+#include <pfaff/runs/support/linear_step.hpp>
 
 namespace {
 using namespace pfaff;
@@ -81,7 +82,7 @@ struct Contraction {
     constexpr double nu = 0.3, h = 0.1;
     constexpr int steps = 50;
     const std::complex<double> x = h * std::complex<double>(-nu / 2, std::sqrt(1 - nu * nu / 4));
-    const double step_of_rk4 = std::norm(1.0 + x * (1.0 + x / 2.0 * (1.0 + x / 3.0 * (1.0 + x / 4.0))));
+    const double step_of_rk4 = std::norm(factor_of_rk4(x));
     const auto damped = [&](const char* method, double expected, bool fault) {
       return MeasureControl{.system = "damped-oscillator",
                             .system_parameters = {{"nu", "0.3"}},

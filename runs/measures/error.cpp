@@ -3,6 +3,7 @@
 
 #include <pfaff/core/errors/errors.hpp>
 #include <pfaff/runs/measure.hpp>
+#include <pfaff/runs/support/linear_step.hpp>
 #include <pfaff/runs/watched/solution_errors.hpp>
 
 namespace {
@@ -54,15 +55,14 @@ struct ErrorOfRun {
     return true;
   }
 
-  // Of the oscillator a step of RK4 is a turn by the angle of even + i odd, times the size of that. With the
-  // implicit midpoint rule it is a turn, too fast or too slow.
+  // Of the oscillator a step of RK4 is a turn that also shrinks. With the implicit midpoint rule it is a
+  // turn, too fast or too slow.
   static std::vector<MeasureControl> controls() {
     constexpr double h = 0.1;
     constexpr int steps = 100;
-    const double even = 1 - h * h / 2 + std::pow(h, 4) / 24, odd = h - h * h * h / 6;
-    const double size = std::pow(even * even + odd * odd, steps / 2.0);
-    const double angle = steps * (std::atan2(odd, even) - h);
-    const double of_rk4 = std::hypot(size * std::cos(angle) - 1, size * std::sin(angle));
+    const std::complex<double> rk4 = factor_of_rk4({0, h});
+    const double of_rk4 =
+        std::abs(std::polar(std::pow(std::abs(rk4), steps), steps * (std::arg(rk4) - h)) - 1.0);
     const double of_midpoint = 2 * std::abs(std::sin(steps * (2 * std::atan(h / 2) - h) / 2));
     const auto of = [](const char* method, double expected, bool fault) {
       return MeasureControl{.system = "harmonic-oscillator",

@@ -11,6 +11,7 @@
 
 #include <pfaff/core/facets/problem.hpp>
 #include <pfaff/runs/measure.hpp>
+#include <pfaff/runs/support/linear_step.hpp>
 
 namespace {
 using namespace pfaff;
@@ -86,8 +87,7 @@ struct PoincareLoop {
   // Errors add up over the run: of a loop of 64 points and of size 1/1000 in double the integral is known to
   // 1e-16 * 1000 * 64, a few times over. A step of RK4 of the oscillator changes areas by its determinant.
   static std::vector<MeasureControl> controls() {
-    const double h = 0.1, even = 1 - h * h / 2 + std::pow(h, 4) / 24, odd = h - h * h * h / 6;
-    const double by_rk4 = std::pow(even * even + odd * odd, 200);
+    const double by_rk4 = std::pow(std::norm(factor_of_rk4({0, 0.1})), 200);
     const auto oscillator = [](const char* method, double expected, bool fault) {
       return MeasureControl{.system = "harmonic-oscillator",
                             .method = method,

@@ -7,6 +7,7 @@
 
 #include <pfaff/runs/history.hpp>
 #include <pfaff/runs/measure.hpp>
+#include <pfaff/runs/support/linear_step.hpp>
 #include <pfaff/runs/support/structure.hpp>
 
 namespace {
@@ -54,8 +55,7 @@ struct Structure {
   // A step of RK4 of the oscillator is a turn times the root of its determinant d = even^2 + odd^2, which is
   // also the largest of the terms: the residual is |d - 1|/d.
   static std::vector<MeasureControl> controls() {
-    const double h = 0.1, even = 1 - h * h / 2 + std::pow(h, 4) / 24, odd = h - h * h * h / 6;
-    const double determinant = even * even + odd * odd;
+    const double determinant = std::norm(factor_of_rk4({0, 0.1}));
     const auto oscillator = [](const char* method, double expected, bool fault) {
       return MeasureControl{.system = "harmonic-oscillator",
                             .method = method,
