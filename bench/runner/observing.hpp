@@ -38,7 +38,7 @@ class Observing final : public Watcher<T> {
         in_double_(z_.size()) {}
 
   void start(const Integration<T>& run) override {
-    z_.assign(run.state().begin(), run.state().end());
+    stand_at(run);
     (void)ended_by(observe(run.time(), exact(run, 0), true, true), run.time(), 0);
   }
   // Nobody else watches, so that what is seen here may be kept.
@@ -48,13 +48,13 @@ class Observing final : public Watcher<T> {
   void look(const Integration<T>& /*run*/, const Block<T>& /*block*/) override {}
   /// The state that is reached, where it is none of those that are shown.
   void last(const Integration<T>& run) {
-    z_.assign(run.state().begin(), run.state().end());
+    stand_at(run);
     (void)one(run, run.steps_taken(), run.time());
   }
   /// The state that a method that chooses its steps has come to, where a sample is due; true where that ends
   /// the run.
   [[nodiscard]] bool chosen(const Integration<T>& run) {
-    z_.assign(run.state().begin(), run.state().end());
+    stand_at(run);
     return ended_by(observe(run.time(), Quad(run.time()), true, false), run.time(), run.counters().steps);
   }
   [[nodiscard]] bool ended() const { return ended_; }
@@ -73,6 +73,8 @@ class Observing final : public Watcher<T> {
   }
 
  private:
+  // Makes z_ the state that the run has come to.
+  void stand_at(const Integration<T>& run) { z_.assign(run.state().begin(), run.state().end()); }
   // Moves z from t over a span that is at most a few steps long, without the history of the run.
   Status move(const T& t, const T& span, std::vector<T>& z) {
     if (!apart_) apart_ = run_.method->stepper(run_.model, T());

@@ -37,20 +37,20 @@ class WatchedStates {
   void look(const Block<T>& block, std::size_t row) {
     block.states.get(row, state_);
     for (std::size_t k = 0; k < state_.size(); ++k) in_double_[k] = static_cast<double>(state_[k]);
-    place_ = place_of(Quad(block.time(row)), block.step(row));
+    t_ = block.time(row), step_ = block.step(row);
   }
   [[nodiscard]] const std::vector<T>& state() const { return state_; }
   [[nodiscard]] const std::vector<double>& in_double() const { return in_double_; }
   /// Ends a table with a phrase that is not empty, what is not finite at the state.
   void require(const std::string& not_finite) const {
-    if (!not_finite.empty()) throw RunError(not_finite + " " + place_);
+    if (!not_finite.empty()) throw RunError(not_finite + " " + place_of(Quad(t_), step_));
   }
 
  private:
-  std::int64_t every_, steps_;
+  std::int64_t every_, steps_, step_ = 0;
+  T t_{0};
   std::vector<T> state_;
   std::vector<double> in_double_;
-  std::string place_;
 };
 
 }  // namespace pfaff
