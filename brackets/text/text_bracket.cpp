@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include <pfaff/core/facets/stated_ranges.hpp>
+#include <pfaff/core/tape/derivatives.hpp>
 
 namespace pfaff {
 
@@ -138,6 +139,32 @@ const BracketPlugin& bracket_named(const std::string& name) {
   if (!is_text_file(name)) return brackets().get(name, "bracket");
   static PluginFiles<TextBracket> files;
   return files.get(name, TextBracket::read);
+}
+
+std::string tensor_refused(const BracketInstance& bracket, std::size_t dimension) {
+  if (static_cast<std::size_t>(bracket.dimension) != dimension)
+    return "it has dimension " + std::to_string(bracket.dimension) + "; expected " +
+           std::to_string(dimension) + ", the number of coordinates";
+  constexpr int most = 2000;  // coordinates; the tensor is recorded entry by entry
+  if (bracket.dimension <= most) return {};
+  return "expected at most " + std::to_string(most) + " coordinates beside a bracket by name, got " +
+         std::to_string(bracket.dimension);
+}
+
+std::shared_ptr<const Tape> recorded_tensor(const BracketInstance& bracket) {
+  const auto n = static_cast<std::size_t>(bracket.dimension);
+  return std::make_shared<const Tape>(record(bracket.dimension, bracket.dimension * bracket.dimension,
+                                             [&](const Recorded& t, In<Recorded> z, Out<Recorded> out) {
+                                               for (std::size_t j = 0; j < n; ++j) {
+                                                 std::vector<Recorded> point(z.begin(), z.end());
+                                                 point.resize(2 * n, Recorded(0));
+                                                 point[n + j] = Recorded(1);
+                                                 const std::vector<Recorded> column =
+                                                     evaluate(*bracket.sharp, t, point);
+                                                 for (std::size_t i = 0; i < n; ++i)
+                                                   out[i * n + j] = column[i];
+                                               }
+                                             }));
 }
 
 ChosenBracket chosen_bracket(const std::string& text, const std::string& of) {

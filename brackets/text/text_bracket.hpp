@@ -56,6 +56,12 @@ struct ChosenBracket {
   BracketInstance instance{};
 };
 
+/// Why the tensor of a bracket cannot be recorded for a system of so many coordinates, as a phrase; empty
+/// where it can.
+std::string tensor_refused(const BracketInstance& bracket, std::size_t dimension);
+/// Its tensor as a tape, recorded column by column from what it makes of unit covectors, row by row.
+std::shared_ptr<const Tape> recorded_tensor(const BracketInstance& bracket);
+
 /// The bracket of the text NAME, NAME(key=value, ...) or FILE.toml, from the folder of the file `of` that
 /// names it.
 ChosenBracket chosen_bracket(const std::string& text, const std::string& of);

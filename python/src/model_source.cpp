@@ -16,6 +16,7 @@
 #include <pfaff/python/src/recording.hpp>
 #include <pfaff/python/src/separable_energy.hpp>
 #include <pfaff/runs/asked_for.hpp>
+#include <pfaff/systems/text/declaration.hpp>
 #include <pfaff/systems/text/followed_quantities.hpp>
 
 namespace py = pybind11;
@@ -80,16 +81,6 @@ std::pair<int, int> formula_size(const std::string& name, const std::map<std::st
 
 using Texts = std::vector<std::pair<std::string, std::string>>;
 
-Behaviour behaviour_named(const std::string& name) {
-  std::vector<std::string> names;
-  for (const Behaviour b :
-       {Behaviour::conserved, Behaviour::decreasing, Behaviour::increasing, Behaviour::free}) {
-    if (to_string(b) == name) return b;
-    names.emplace_back(to_string(b));
-  }
-  throw InputError(unknown_name("behaviour", name, names));
-}
-
 // Invariants that are polynomials of degree two are marked as such: methods are held to keeping them.
 void mark_quadratic(ModelSource& source) {
   const auto& values = source.given[index(Formula::invariants)];
@@ -127,7 +118,7 @@ PySystem traced_model(const py::dict& of) {
 #include <pfaff/core/facets/formula_rows.hpp>
   for (const auto& [name, unit, behaviour] :
        of["invariants"].cast<std::vector<std::tuple<std::string, std::string, std::string>>>())
-    source.invariants.push_back({name, unit, behaviour_named(behaviour), false});
+    source.invariants.push_back({name, unit, text::behaviour_named(behaviour), false});
   if (!of["damping"].is_none()) source.damping = number_of(of["damping"].cast<std::string>(), "damping");
   if (const auto parts = of["parts"].cast<std::vector<PyTape>>(); !parts.empty()) {
     std::vector<std::shared_ptr<const Tape>> changes;
@@ -161,23 +152,12 @@ bool same_tape(const PyTape& a, const PyTape& b) {
                     b.tape->solves.end(), same_system);
 }
 
-// The tensor of a bracket that is named as in text models, "lie-poisson(algebra=so3)", column by column.
-PyTape bracket_tensor(const std::string& text, int dimension) {
+// The tensor of a bracket that is named as in text models, "lie-poisson(algebra=so3)", row by row.
+PyTape bracket_tensor(const std::string& text, std::size_t dimension) {
   const BracketInstance made = chosen_bracket(text, "").instance;
-  if (made.dimension != dimension)
-    throw InputError("bracket " + text + ": it has dimension " + std::to_string(made.dimension) +
-                     "; expected " + std::to_string(dimension) + ", the number of coordinates");
-  const auto n = static_cast<std::size_t>(dimension);
-  return {std::make_shared<const Tape>(
-      record(dimension, dimension * dimension, [&](const Recorded& t, In<Recorded> z, Out<Recorded> out) {
-        for (std::size_t j = 0; j < n; ++j) {
-          std::vector<Recorded> point(z.begin(), z.end());
-          point.resize(2 * n, Recorded(0));
-          point[n + j] = Recorded(1);
-          const std::vector<Recorded> column = evaluate(*made.sharp, t, point);
-          for (std::size_t i = 0; i < n; ++i) out[i * n + j] = column[i];
-        }
-      }))};
+  if (const std::string reason = tensor_refused(made, dimension); !reason.empty())
+    throw InputError("bracket " + text + ": " + reason);
+  return {recorded_tensor(made)};
 }
 
 // A tape as plain data, for pickle.

@@ -180,8 +180,6 @@ class RunInProgress {
 
  private:
   [[nodiscard]] std::vector<MeasuredTable> measured_tables() const {
-    if (run_.adaptive())
-      throw InputError("measures: expected a run with steps of one size, and no tolerance");
     std::vector<const MeasureInstance*> pointers;
     for (const auto& one : measures_) pointers.push_back(one.get());
     const auto solution = solution_of(run_);

@@ -8,6 +8,16 @@
 
 namespace pfaff::text {
 
+Behaviour behaviour_named(const std::string& name) {
+  std::vector<std::string> names;
+  for (const Behaviour b :
+       {Behaviour::conserved, Behaviour::decreasing, Behaviour::increasing, Behaviour::free}) {
+    if (name == to_string(b)) return b;
+    names.emplace_back(to_string(b));
+  }
+  throw InputError(unknown_name("behaviour", name, names));
+}
+
 namespace {
 using Kind = Item::Kind;
 
@@ -77,13 +87,11 @@ GivenBracket read_bracket(const Item& value, const std::string& key, const std::
 
 Behaviour read_behaviour(const Item& value) {
   const std::string& text = text_of(value, "behaviour");
-  std::vector<std::string> names;
-  for (const Behaviour b :
-       {Behaviour::conserved, Behaviour::decreasing, Behaviour::increasing, Behaviour::free}) {
-    if (text == to_string(b)) return b;
-    names.emplace_back(to_string(b));
+  try {
+    return behaviour_named(text);
+  } catch (const InputError& error) {
+    refuse(value, error.what());
   }
-  refuse(value, unknown_name("behaviour", text, names));
 }
 
 TextInvariant read_invariant(const Member& member) {

@@ -15,6 +15,9 @@
 
 namespace pfaff::text {
 
+/// What is expected of an invariant, by its name. InputError with the nearest one where there is none.
+Behaviour behaviour_named(const std::string& name);
+
 struct TextInvariant {
   Invariant invariant;
   Expression of;

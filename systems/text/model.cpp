@@ -204,26 +204,9 @@ class Builder {
       return;
     }
     const BracketInstance& made = bracket.chosen.instance;
-    if (static_cast<std::size_t>(made.dimension) != n_)
-      refuse(bracket.place, 0,
-             what + ": it has dimension " + std::to_string(made.dimension) + "; expected " +
-                 std::to_string(n_) + ", the number of coordinates");
-    constexpr int most = 2000;  // coordinates; the tensor is recorded entry by entry
-    if (made.dimension > most)
-      refuse(bracket.place, 0,
-             what + ": expected at most " + std::to_string(most) +
-                 " coordinates beside a bracket by name, got " + std::to_string(made.dimension));
-    const int n = made.dimension;
-    source_.given[index(formula)] = std::make_shared<const Tape>(
-        record(n, n * n, [&](const Recorded& t, In<Recorded> z, Out<Recorded> out) {
-          for (std::size_t j = 0; j < n_; ++j) {
-            std::vector<Recorded> point(z.begin(), z.end());
-            point.resize(2 * n_, Recorded(0));
-            point[n_ + j] = Recorded(1);
-            const std::vector<Recorded> column = evaluate(*made.sharp, t, point);
-            for (std::size_t i = 0; i < n_; ++i) out[i * n_ + j] = column[i];
-          }
-        }));
+    if (const std::string reason = tensor_refused(made, n_); !reason.empty())
+      refuse(bracket.place, 0, what + ": " + reason);
+    source_.given[index(formula)] = recorded_tensor(made);
     if (formula == Formula::poisson_tensor) source_.given[index(Formula::casimirs)] = made.casimirs;
   }
 
