@@ -21,6 +21,16 @@ Measures measures_of(const Experiment& experiment, const ExperimentCase& one) {
     for (const MeasurePlugin* measure : measures().all())
       if (measure->descriptor().usual) found.push_back(measure->make({}));
   }
+  for (auto& measure : found) {
+    if (measure->descriptor().name != "motion") continue;
+    Assignments settings = measure->parameters();
+    for (auto& [name, value] : settings) {
+      if (name == "x" && !one.motion.empty()) value = one.motion[0];
+      if (name == "y" && !one.motion.empty()) value = one.motion[1];
+      if (name == "exact" && !one.reference) value = "no";
+    }
+    measure = measures().get("motion", "measure").make(settings);
+  }
   if (auto vectors = frequencies_of(one)) {
     std::erase_if(
         found, [&](const auto& measure) { return measure->descriptor().name == vectors->descriptor().name; });

@@ -9,6 +9,7 @@ import loops
 import measured
 import moving
 import reversibility
+import stretches
 import structure
 import work_precision
 
@@ -16,6 +17,6 @@ import work_precision
 def drawn(verdict):
     """[Drawing]"""
     before = (work_precision, drift, structure, loops, reversibility, frequencies, moving, contraction)
-    others = measured.drawings(verdict, {maker.MEASURE for maker in before if hasattr(maker, "MEASURE")})
+    others = measured.drawings(verdict, {maker.MEASURE for maker in (*before, stretches) if hasattr(maker, "MEASURE")})
     return [drawing for maker in before for drawing in maker.drawings(verdict)] + others + \
         [drawing for maker in (constraints, bands, ensembles) for drawing in maker.drawings(verdict)] + drift.at_equal_step(verdict)

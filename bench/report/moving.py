@@ -1,9 +1,11 @@
 """The motion of a case, as far as its system says what can be seen of it (recording.py): frames and an animation of points
-of the cheapest method; otherwise, or in the plane of the two coordinates that `motion` of the case names, a portrait of each method,
-and a section where there is one. Behind the portraits stands in grey the most accurate one, where its error is not seen.
+of the cheapest method; otherwise, or in the plane of the two coordinates that `motion` of the case names, every step early and late
+(stretches.py), and a section where there is one. Where no run was measured so, as in ensembles, there are portraits of what series
+hold, and behind them in grey the most accurate one, where its error is not seen.
 """
 import math
 
+import stretches
 from experiment import step_key
 from figures import Drawing, heading, sentences, step_text
 from frames import Animation, Figure, duration, strip
@@ -18,23 +20,33 @@ UNSEEN = 1e-3  # of the size of a motion, an error that nobody sees in a figure
 def drawings(verdict):
     names = verdict.case.get("motion")
     shown = recorded(verdict, bool(names))
-    if not shown:
-        return []
-    if shown[0][1].points() and not names:
+    if shown and shown[0][1].points() and not names:
         return of_points(verdict.case, *shown[0])
-    names = names or shown[0][1].plane()
-    return of_planes(verdict, shown, names) if names else []
+    found, out = stretches.followed(verdict), []
+    rows = stretches.rows_of(found, chosen(verdict))
+    if rows:
+        title = f"{heading(verdict.case)}: the motion, early and late"
+        out.append(Drawing("motion", verdict.case, title, stretches.told(verdict, found, rows),
+                           lambda wide: described(stretches.draw(found, rows, wide), title), "Early and late"))
+    names = names or shown[0][1].plane() if shown else None
+    return out + (([] if out else portraits(verdict, shown, names)) + sections(verdict, shown) if names else [])
+
+
+def chosen(verdict):
+    """Rows of the verdict in its order: of the methods that get colour first, and of those that are most wrong at the step that most
+    share. Methods with steps of their own choice come last."""
+    runs = {r.method: r for r in verdict.experiment.at_common_step(verdict.case)}
+    wrong = sorted((r for r in verdict.rows if r.label in runs), key=lambda r: -error_of(runs[r.label]))
+    labels = list(dict.fromkeys(verdict.named(3) + [r.label for r in wrong]))[:PANELS]
+    return sorted((r for r in verdict.rows if r.label in labels), key=lambda r: r.curve.adaptive)
 
 
 def recorded(verdict, every=False):
-    """[(row, recording)] of the methods that get colour first and of those that are most wrong, in the order of the verdict, at the step
-    that most share; of points one method, unless `every` is asked for."""
-    experiment, case = verdict.experiment, verdict.case
-    runs = {r.method: r for r in experiment.at_common_step(case)}
-    out, wrong = [], sorted((r for r in verdict.rows if r.label in runs), key=lambda r: -error_of(runs[r.label]))
-    chosen = list(dict.fromkeys(verdict.named(3) + [r.label for r in wrong]))[:PANELS]
-    for row in sorted(verdict.rows, key=lambda r: r.curve.adaptive):  # whose samples lie far apart come last
-        run = runs.get(row.label) if row.label in chosen else None
+    """[(row, recording)] of the chosen methods, at the step that most share; of points one method, unless `every` is asked for."""
+    experiment, out = verdict.experiment, []
+    runs = {r.method: r for r in experiment.at_common_step(verdict.case)}
+    for row in chosen(verdict):
+        run = runs.get(row.label)
         folder = experiment.folder / run.path if run and run.slug else None
         if folder and (folder / "series.csv").exists() and (folder / "summary.json").exists():
             recording = read_recording(folder)
@@ -73,7 +85,14 @@ def of_points(case, row, recording):
                     lambda _: Animation(figure, family.light, family.key, said, seconds))]
 
 
-def of_planes(verdict, shown, names):
+def common(verdict, shown):
+    """A sentence on the step of the runs that are shown."""
+    steps = {step_key(float(r.summary["step"])) for _, r in shown if r.summary.get("step")}
+    return (f"Runs at {step_text(verdict.experiment.common_step(verdict.case), verdict.case)}, the largest step at which most methods "
+            "finish, where they differ most." if len(steps) == 1 else "Runs at the step that most methods share or the nearest to it.")
+
+
+def portraits(verdict, shown, names):
     case, first = verdict.case, shown[0][1]
     tracks = [(row.label, row.curve.family.light, *recording.track(names)) for row, recording in shown]
     tracks = [t for t in tracks if len(t[2]) > 1]
@@ -81,24 +100,25 @@ def of_planes(verdict, shown, names):
         return []
     units = [first.units[name] for name in names]
     exact, whose = as_exact(verdict, names)
-    steps = {step_key(float(r.summary["step"])) for _, r in shown if r.summary.get("step")}
-    at = (f"Runs at {step_text(verdict.experiment.common_step(case), case)}, the largest step at which most methods finish, "
-          "where they differ most." if len(steps) == 1 else "Runs at the step that most methods share or the nearest to it.")
     seed = "Shown is the first seed." if case.get("seeds") else ""
     failed = [row.label for row, recording in shown if (recording.summary.get("status") or "converged") != "converged"]
     early = f"Ended early: {listed(failed)}." if failed else ""
     title = f"{heading(case)}: {names[1]} against {names[0]}"
-    out = [Drawing("motion", case, title, sentences(at, whose, remarks(tracks, units), seed, early),
-                   lambda wide: described(panels(tracks, names, units, wide, exact), title), "Portrait")]
+    told = sentences(common(verdict, shown), whose, remarks(tracks, units), seed, early)
+    return [Drawing("motion", case, title, told, lambda wide: described(panels(tracks, names, units, wide, exact), title), "Portrait")]
+
+
+def sections(verdict, shown):
+    case, first = verdict.case, shown[0][1]
     cuts = [(row.label, row.curve.family.light, *zip(*cut)) for row, recording in shown if (cut := recording.section())]
-    if 2 * len(cuts) > len(tracks):
-        q1, q2, _, p2 = first.state
-        axes, scales = (q2, p2), (first.units[q2], first.units[p2])
-        named = f"{heading(case)}: section at {q1} = 0, passed upwards"
-        out.append(Drawing("section", case, named, sentences(
-            f"Each point is a passage of {q1} = 0 upwards. A smooth curve is regular motion, a cloud is chaos, or a method that "
-            "lets the energy drift.", at), lambda wide: described(panels(cuts, axes, scales, wide, start=False), named), "Section"))
-    return out
+    if 2 * len(cuts) <= len(shown):
+        return []
+    q1, q2, _, p2 = first.state
+    axes, scales = (q2, p2), (first.units[q2], first.units[p2])
+    named = f"{heading(case)}: section at {q1} = 0, passed upwards"
+    told = sentences(f"Each point is a passage of {q1} = 0 upwards. A smooth curve is regular motion, a cloud is chaos, or a method that "
+                     "lets the energy drift.", common(verdict, shown))
+    return [Drawing("section", case, named, told, lambda wide: described(panels(cuts, axes, scales, wide, start=False), named), "Section")]
 
 
 def as_exact(verdict, names):

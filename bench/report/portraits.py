@@ -18,24 +18,40 @@ def widened(begin, size, least):
     return (begin, size) if size >= least else (begin - (least - size) / 2, least)
 
 
+class Frame:
+    """The axes that all panels have: of tracks [(xs, ys)], but those that leave the middle one."""
+
+    def __init__(self, tracks, units):
+        frame = limits(tracks, FRAME)
+        self.equal = units[0] == units[1]
+        pads = [0.06 * ((high - low) or 1) for low, high in frame]
+        self.begin = [low - pad for (low, _), pad in zip(frame, pads)]
+        self.span = [high - low + 2 * pad for (low, high), pad in zip(frame, pads)]
+
+    def height(self, width):
+        """Of a panel of that width. Where both axes have one unit, a circle is a circle in it: the frame is widened to fill the panel."""
+        if not self.equal:
+            return 0.8 * width
+        tall = min(1.25 * width, max(0.45 * width, width * self.span[1] / self.span[0]))
+        for k, least in ((0, self.span[1] * width / tall), (1, self.span[0] * tall / width)):
+            self.begin[k], self.span[k] = widened(self.begin[k], self.span[k], least)
+        return tall
+
+    def apply(self, axes, ticks=4):
+        axes.set_xlim(self.begin[0], self.begin[0] + self.span[0])
+        axes.set_ylim(self.begin[1], self.begin[1] + self.span[1])
+        axes.locator_params(nbins=ticks)
+
+
 def panels(tracks, names, units, wide, behind=None, start=True):
     """The tracks [(label, colour, xs, ys)] on a Canvas, each in a panel with the same axes, with the track (xs, ys) `behind`; sections
     have no start."""
-    frame = limits([t[2:] for t in tracks], FRAME)
-    equal = units[0] == units[1]
-    pads = [0.06 * ((high - low) or 1) for low, high in frame]
-    spans = [high - low + 2 * pad for (low, high), pad in zip(frame, pads)]
-    look = sizes(wide)
+    frame, look = Frame([t[2:] for t in tracks], units), sizes(wide)
     left, top, right, below, between = (x * look.unit for x in (72 if look.wide else 56, 24, 10, 46, 14))
     columns = min(len(tracks), (3 if len(tracks) in (3, 5, 6) else 4) if look.wide else 2)
     most = (340 if wide else 300) if isinstance(wide, bool) else look.width  # on paper a figure is as wide as was asked for
     each = min(most, (look.width - left - right - between * (columns - 1)) / columns)
-    tall = min(1.25 * each, max(0.45 * each, each * spans[1] / spans[0])) if equal else 0.8 * each
-    low = [bounds[0] - pad for bounds, pad in zip(frame, pads)]
-    if equal:  # the frame is filled, so that a circle is a circle
-        (low[0], spans[0]), (low[1], spans[1]) = (widened(low[0], spans[0], spans[1] * each / tall),
-                                                  widened(low[1], spans[1], spans[0] * tall / each))
-    rows = math.ceil(len(tracks) / columns)
+    tall, rows = frame.height(each), math.ceil(len(tracks) / columns)
     canvas = Canvas(left + columns * each + between * (columns - 1) + right, rows * (top + tall) + below,
                     look.font, look.unit)
     for k, (label, colour, x, y) in enumerate(tracks):
@@ -53,16 +69,15 @@ def panels(tracks, names, units, wide, behind=None, start=True):
         if start:
             axes.plot(x[:1], y[:1], marker="x", color=INK, markersize=6 * look.unit, markeredgewidth=1.4 * look.unit, zorder=5)
         axes.set_title(plain(label), fontsize=0.95 * look.font, color=colour, loc="left", pad=4 * look.unit)
-        axes.set_xlim(low[0], low[0] + spans[0])
-        axes.set_ylim(low[1], low[1] + spans[1])
-        axes.locator_params(nbins=4)
-        last = k + columns >= len(tracks)
-        canvas.labels(axes, with_unit(names[0], units[0]) if last else "", with_unit(names[1], units[1]) if column == 0 else "")
-        if not last:
-            axes.tick_params(labelbottom=False)
-        if column:
-            axes.tick_params(labelleft=False)
+        frame.apply(axes)
+        outer(canvas, axes, names, units, last=k + columns >= len(tracks), first=column == 0)
     return canvas
+
+
+def outer(canvas, axes, names, units, last, first):
+    """Axes named and numbered at the edge of the panels alone: in the last row, and in the first column."""
+    canvas.labels(axes, with_unit(names[0], units[0]) if last else "", with_unit(names[1], units[1]) if first else "")
+    axes.tick_params(labelbottom=last, labelleft=first)
 
 
 def remarks(tracks, units):

@@ -5,8 +5,7 @@ that a new system is drawn without a word about pictures:
 
 points   coordinates x0, y0, x1, ... (or x0, y0, z0, x1, ...) of one unit are points, which `links` of summary.json joins:
          frames of the motion and an animation.
-plane    otherwise the track in the plane of two coordinates: of q and p where these are all, else of the first two that have
-         the same unit.
+plane    otherwise the track in the plane of two coordinates, which `plane` of summary.json names.
 section  of two positions and two momenta also where the track passes q1 = 0 upwards as time goes on, as p2 against q2.
 """
 import dataclasses
@@ -54,16 +53,8 @@ class Recording:
         return []
 
     def plane(self):
-        """The names of the two coordinates in whose plane the track is drawn, or None where there are none."""
-        names = self.state
-        if len(names) == 2:
-            return names[0], names[1]
-        half = names[:len(names) // 2] if len(names) % 2 == 0 else names
-        for k, first in enumerate(half):
-            for second in half[k + 1:]:
-                if self.units[first] == self.units[second]:
-                    return first, second
-        return (names[0], names[1]) if len(names) > 1 else None
+        """The names of the two coordinates in whose plane the track is drawn, which the run states, or None where there are none."""
+        return tuple(self.summary.get("plane") or ()) or None
 
     def section(self):
         """[(q2, p2)] where q1 passes zero upwards as time goes on, in a run back in time too, whose section is that of the same
@@ -109,7 +100,7 @@ def read_recording(folder):
     """The run in a directory. InputError where it holds none."""
     folder = pathlib.Path(folder)
     summary, where = read_json(folder / "summary.json"), f"{folder.name}/summary.json"
-    allow(summary, where, system=str, integrator=str, family=str, method=str, invariants=list, links=list, constraints=list,
+    allow(summary, where, system=str, integrator=str, family=str, method=str, invariants=list, links=list, plane=list, constraints=list,
           error_rows=dict)
     columns, rows = read_csv(folder / "series.csv", f"{folder.name}/series.csv")
     names, units = zip(*map(split_unit, columns)) if columns else ((), ())

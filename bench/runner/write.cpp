@@ -5,6 +5,7 @@
 #include <pfaff/runs/support/constraints.hpp>
 #include <pfaff/runs/support/counter_fields.hpp>
 #include <pfaff/runs/support/links.hpp>
+#include <pfaff/runs/support/plane.hpp>
 #include <pfaff/runs/support/setback.hpp>
 #include <pfaff/runs/support/watched_quantity.hpp>
 
@@ -111,6 +112,10 @@ nlohmann::json summary(const ResolvedRun& run, const RunRecord& record) {
     }
   }
   if (nlohmann::json links = links_in(run); !links.empty()) j["links"] = std::move(links);
+  if (const auto plane = plane_of(*run.model)) {
+    const std::vector<Coordinate>& all = run.model->coordinates();
+    j["plane"] = {all[plane->first].name, all[plane->second].name};
+  }
   if (!record.reference.empty()) j["reference"] = record.reference;
   if (!record.reference_ended.empty()) j["reference_ended"] = record.reference_ended;
   if (record.error_max && record.error_rows < record.reached_rows)

@@ -23,11 +23,6 @@ struct ErrorOfRun {
         columns.push_back({.name = i.name + ":error", .unit = i.unit, .digits = 6});
     return columns;
   }
-  [[nodiscard]] std::string refuses(const Model& model, const MethodInstance& /*method*/) const {
-    return model.dimension() > 0 && model.moves()
-               ? ""
-               : "needs a system that moves; " + model.name() + " does not";
-  }
   template <class T>
   [[nodiscard]] std::vector<std::int64_t> looks(const Measured<T>& run) const {
     return evenly(run.steps, count);

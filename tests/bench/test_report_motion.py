@@ -3,7 +3,7 @@ import json
 import math
 import unittest
 
-from synthetic import CLASSES, COLUMNS, FIELDS, Fresh, describe, load, reading, run, save
+from synthetic import CLASSES, COLUMNS, FIELDS, Fresh, describe, load, measured, reading, run, save
 
 import bands  # noqa: E402
 import ensembles  # noqa: E402
@@ -30,7 +30,7 @@ def circles(folder, motion_of=("x", "y"), away=1e3, units=("m", "m"), more=0):
             t = 0.1 * k
             table.append([repr(t), repr(3 + size * math.cos(t)), repr(size * math.sin(t)), "1"])
         save(path / "series.csv", table)
-        (path / "summary.json").write_text(json.dumps({"schema": 1, "invariants": [
+        (path / "summary.json").write_text(json.dumps({"schema": 1, "plane": ["x", "y"], "invariants": [
             {"name": "energy", "unit": "J", "expected": "conserved"}]}))
     head = {"schema": reading.SCHEMA, "name": "ball", "title": "Ball", "drift_classes": CLASSES, "cases": [
         {"name": "ball", "title": "Ball <b>", "system": "ball", "precision": "double", "time_unit": "s",
@@ -123,6 +123,65 @@ class Tracks(Fresh):
                 status, said = run(self.folder / names[-1])
                 self.assertEqual(status, 2)
                 self.assertIn(told, said)
+
+
+def turning(folder, stretches=5, lost=1e3, more=0):
+    """`circles` with stretches of twelve steps: `round` on the exact unit circle, `small` on one of half its size, `lost` far away."""
+    circles(folder, more=more)
+    rows = [["case", "method", "step", "t", "x axis", "y axis", "stretch", "x", "y", "exact_x", "exact_y"]]
+    for label, size in (("round", 1.0), ("small", 0.5), ("lost", lost), *((f"more {k}", 1.0) for k in range(more))):
+        for stretch in range(1, stretches + 1):
+            for k in range(13):
+                t = 20 * (stretch - 1) + k / 2
+                cells = [size * math.cos(t), size * math.sin(t), math.cos(t), math.sin(t)]
+                rows.append(["ball", label, "0.5", repr(t), "x [m]", "y [m]", str(stretch), *map(repr, cells)])
+    measured(folder, "motion", rows, texts=("x axis", "y axis"))
+    return folder
+
+
+class Stretches(Fresh):
+    def drawing(self, **of_turning):
+        shown = reading.Experiment(turning(self.folder, **of_turning))
+        return moving.drawings(verdict.Verdict(shown, shown.cases[0]))[0]
+
+    def test_a_row_for_each_method_and_a_column_for_each_stretch(self):
+        canvas = self.drawing().draw(True)
+        self.assertEqual(len(canvas.axes), 15)
+        for k, axes in enumerate(canvas.axes):
+            exact, line = axes.lines
+            size, begin = (1.0, 0.5, 1e3)[k // 5], 20 * (k % 5)
+            for n, (x, y) in enumerate(zip(*line.get_data())):
+                self.assertAlmostEqual(x, size * math.cos(begin + n / 2))
+                self.assertAlmostEqual(y, size * math.sin(begin + n / 2))
+            self.assertAlmostEqual(exact.get_xdata()[3], math.cos(begin + 1.5))
+        self.assertEqual([axes.get_title(loc="left") for axes in canvas.axes if axes.get_title(loc="left")], ["round", "small", "lost"])
+        self.assertEqual([text.get_text() for text in canvas.axes[1].texts], ["t = 20 to 26"])
+        self.assertEqual(len({(axes.get_xlim(), axes.get_ylim()) for axes in canvas.axes}), 1)
+
+    def test_a_narrow_screen_has_the_first_the_middle_and_the_last(self):
+        canvas = self.drawing().draw(False)
+        self.assertEqual([text.get_text() for axes in canvas.axes for text in axes.texts], ["t = 0 to 6", "t = 40 to 46", "t = 80 to 86"])
+
+    def test_what_is_far_away_leaves_the_frame_and_is_named(self):
+        drawing = self.drawing()
+        self.assertIn("The track of lost leaves the frame.", drawing.caption)
+        self.assertLess(drawing.draw(True).axes[0].get_xlim()[1], 10)
+
+    def test_nothing_leaves_the_frame_of_motions_alike(self):
+        self.assertNotIn("leaves the frame", self.drawing(lost=1.1).caption)
+
+    def test_of_many_methods_the_first_and_the_last_are_drawn(self):
+        self.assertEqual(len(self.drawing(more=9).draw(True).axes), 4 * 5)
+
+    def test_one_stretch_is_drawn_side_by_side(self):
+        drawing = self.drawing(stretches=1)
+        self.assertIn("Every step of the run from its start.", drawing.caption)
+        self.assertEqual([axes.get_title(loc="left") for axes in drawing.draw(True).axes], ["round", "small", "lost"])
+
+    def test_the_table_has_no_second_figure(self):
+        self.assertEqual(run(turning(self.folder))[0], 0)
+        self.assertTrue((self.folder / "figures" / "motion_ball.svg").exists())
+        self.assertFalse((self.folder / "figures" / "measure-motion_ball.svg").exists())
 
 
 def walks(folder, fails=""):

@@ -41,7 +41,7 @@ def oscillators(folder, samples=4000, step=0.05, slow=1.0):
     w = math.sqrt(2) * slow
     rows = [[t, math.sin(t), math.cos(w * t), math.cos(t), -w * math.sin(w * t), 1.5]
             for t in (0.03 + step * k for k in range(samples))]
-    return run_directory(folder, ["t [s]", "q1 [m]", "q2 [m]", "p1 [kg m/s]", "p2 [kg m/s]", "energy [J]"], rows)
+    return run_directory(folder, ["t [s]", "q1 [m]", "q2 [m]", "p1 [kg m/s]", "p2 [kg m/s]", "energy [J]"], rows, plane=["q1", "q2"])
 
 
 class Recordings(Fresh):

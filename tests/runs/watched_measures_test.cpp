@@ -156,6 +156,19 @@ TEST(ErrorMeasure, TellsWhatChangesAlongTheMotion) {
   }
 }
 
+// Methods on constraints step on a model without a field of its own; its motion is that of the multipliers.
+TEST(ErrorMeasure, IsOfRunsOnConstraintsToo) {
+  const ToMeasure run = to_measure("spherical-pendulum", "rattle", "0.01", {}, 1);
+  const MeasuredTable table = table_of("error(looks=2)", run);
+  ASSERT_EQ(table.lines.size(), 3U);
+  EXPECT_EQ(table.ended, "");
+  const double error = cell(table, 2, "error");
+  const MeasuredTable half =
+      table_of("error(looks=2)", to_measure("spherical-pendulum", "rattle", "0.005", {}, 1));
+  EXPECT_GT(error, 1e-6);
+  EXPECT_NEAR(error / cell(half, 2, "error"), 4, 0.1);  // of order 2, and the next term is h^2 smaller
+}
+
 TEST(CostMeasure, CountsWhatTheRunCounts) {
   const ToMeasure run = to_measure("pendulum", "gauss", "0.1", {}, 10);
   const MeasuredTable table = table_of("cost", run);

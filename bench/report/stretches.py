@@ -1,0 +1,107 @@
+"""The motion early and late: every step of some stretches of a run, as measures/motion.csv has them, a row of panels for each method
+and a column for each stretch, with the exact motion behind. All panels have the same axes.
+"""
+import math
+
+from canvas import GREY, INK, Canvas, sizes
+from figures import limits, sentences, step_text
+from portraits import FRAME, Frame, outer, panels
+from series import split_unit
+from wording import listed
+
+MEASURE = "motion"  # whose table it draws
+ROWS = 4
+
+
+class Followed:
+    """The stretches of one method: {number: (times, xs, ys, exact xs, exact ys)}."""
+
+    def __init__(self):
+        self.step, self.axes, self.stretches = math.nan, ("", ""), {}
+
+    def add(self, cells):
+        self.step, self.axes = cells["step"], (cells["x axis"], cells["y axis"])
+        stretch = self.stretches.setdefault(int(cells["stretch"]), ([], [], [], [], []))
+        for values, name in zip(stretch, ("t", "x", "y", "exact_x", "exact_y")):
+            values.append(cells[name])
+
+
+def followed(verdict):
+    """{method: Followed}"""
+    found = {}
+    for _, cells in verdict.experiment.table(MEASURE, verdict.case):
+        found.setdefault(cells["method"], Followed()).add(cells)
+    return {label: one for label, one in found.items() if any(len(s[0]) > 2 for s in one.stretches.values())}
+
+
+def finite(x, y):
+    pairs = [p for p in zip(x, y) if all(map(math.isfinite, p))]
+    return [p[0] for p in pairs], [p[1] for p in pairs]
+
+
+def rows_of(found, rows):
+    """Of the rows of a verdict those that are drawn: with several stretches as many of the first as of the last ones, which differ most."""
+    rows = [row for row in rows if row.label in found]
+    several = any(len(found[row.label].stretches) > 1 for row in rows)
+    return rows[:ROWS // 2] + rows[max(ROWS // 2, len(rows) - ROWS // 2):] if several else rows
+
+
+def draw(found, rows, wide):
+    """Of {method: Followed} those of the rows of a verdict, on a Canvas."""
+    shown = [(row, found[row.label]) for row in rows]
+    (names, units) = zip(*map(split_unit, shown[0][1].axes))
+    if all(len(one.stretches) == 1 for _, one in shown):  # side by side
+        first = next(iter(shown[0][1].stretches.values()))
+        tracks = [(row.label, row.curve.family.light, *finite(*next(iter(one.stretches.values()))[1:3])) for row, one in shown]
+        behind = finite(*first[3:])
+        return panels(tracks, names, units, wide, behind if len(behind[0]) > 1 else None)
+    numbers = sorted({number for _, one in shown for number in one.stretches})
+    look = sizes(wide)
+    if not look.wide and len(numbers) > 3:
+        numbers = [numbers[0], numbers[len(numbers) // 2], numbers[-1]]
+    frame = Frame(tracks_of(shown), units)
+    left, top, right, below, between = (x * look.unit for x in (72 if look.wide else 56, 24, 10, 46, 12))
+    each = min(200 * look.unit, (look.width - left - right - between * (len(numbers) - 1)) / len(numbers))
+    tall = frame.height(each)
+    canvas = Canvas(left + len(numbers) * (each + between) - between + right, top + len(shown) * (top + tall) + below, look.font, look.unit)
+    for k, (row, one) in enumerate(shown):
+        colour = row.curve.family.light
+        for column, number in enumerate(numbers):
+            axes = canvas.panel(left + column * (each + between), top + k * (top + tall) + top, each, tall)
+            axes.grid(False)
+            frame.apply(axes, 3)
+            outer(canvas, axes, names, units, last=k == len(shown) - 1, first=column == 0)
+            if column == 0:
+                axes.set_title(row.label.replace("$", r"\$"), fontsize=0.95 * look.font, color=colour, loc="left", pad=4 * look.unit)
+            if number not in one.stretches:
+                continue
+            times, x, y, exact_x, exact_y = one.stretches[number]
+            axes.plot(*finite(exact_x, exact_y), color=GREY, linewidth=2.6 * look.unit, alpha=0.6, zorder=1)
+            canvas.line(axes, *finite(x, y), f"{row.label}, t = {times[0]:g} to {times[-1]:g}", color=colour, linewidth=1.0)
+            if k == 0:
+                box = axes.get_window_extent()
+                canvas.write(axes, box.x0, box.y1 + top, f"t = {times[0]:.4g} to {times[-1]:.4g}", 0.92, color=INK)
+    return canvas
+
+
+def tracks_of(shown):
+    """[(xs, ys)] of all stretches of a method together: what leaves the frame is a method, not a late stretch."""
+    return [tuple(sum((list(finite(*s[1:3])[k]) for s in one.stretches.values()), []) for k in (0, 1)) for _, one in shown]
+
+
+def told(verdict, found, rows):
+    """What stands below, in sentences."""
+    shown = [(row, found[row.label]) for row in rows]
+    steps = {one.step for _, one in shown}
+    frame = limits(tracks_of(shown), FRAME)
+    several = any(len(one.stretches) > 1 for _, one in shown)
+    outside = [row.label for (row, _), track in zip(shown, tracks_of(shown))
+               if any(min(v) < low or max(v) > high for v, (low, high) in zip(track, frame))]
+    exact = any(math.isfinite(v) for _, one in shown for s in one.stretches.values() for v in s[3])
+    return sentences(
+        "Every step of the run, early and late: a stretch is one turn of the track, as far as it turns." if several else
+        "Every step of the run from its start.",
+        f"At {step_text(steps.pop(), verdict.case)}." if len(steps) == 1 else "At the largest step at which each method finishes.",
+        "Behind, in grey, the exact motion at the same times." if exact else "",
+        "Axes are the same in all panels." if several or len(shown) > 1 else "",
+        f"The track of {listed(outside)} leaves the frame." if outside else "")

@@ -1,0 +1,148 @@
+// What a motion looks like early and late: all steps of some stretches of a run, beside the exact motion.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <pfaff/runs/measure.hpp>
+#include <pfaff/runs/support/plane.hpp>
+
+namespace {
+using namespace pfaff;
+
+struct MotionOfRun {
+  std::string x, y;
+  int stretches = 5, most = 400;
+  bool exact = true;
+
+  static std::vector<Parameter> parameters() {
+    return {text_parameter(&MotionOfRun::x, "x", "COORDINATE", "to the right; none: found from the units"),
+            text_parameter(&MotionOfRun::y, "y", "COORDINATE", "upwards, where x is named"),
+            parameter(&MotionOfRun::stretches, "stretches", "", 1, 100, "of consecutive steps"),
+            parameter(&MotionOfRun::most, "most", "", 1, 1000000, "steps of a stretch"),
+            parameter(&MotionOfRun::exact, "exact", "whether the exact motion is beside")};
+  }
+  [[nodiscard]] std::vector<Column> columns(const Model& /*model*/) const {
+    return {{.name = "x axis", .kind = Column::Kind::text},
+            {.name = "y axis", .kind = Column::Kind::text},
+            {.name = "stretch", .digits = 3},
+            {.name = "x", .digits = 8},
+            {.name = "y", .digits = 8},
+            {.name = "exact_x", .digits = 8},
+            {.name = "exact_y", .digits = 8}};
+  }
+  [[nodiscard]] std::string refuses(const Model& model, const MethodInstance& /*method*/) const {
+    if (model.dimension() < 2)
+      return "needs a system of two coordinates, of which " + model.name() + " has one";
+    if (x.empty() != y.empty()) return "needs both or neither of x and y";
+    (void)plane_of(model, x, y);
+    return "";
+  }
+
+  // Stretches lie as far apart as they are long, or there is one, which begins with the run.
+  template <class T>
+  [[nodiscard]] std::vector<std::int64_t> looks(const Measured<T>& run) const {
+    std::int64_t length = one_turn(run);
+    const std::int64_t count = std::clamp<std::int64_t>(run.steps / (2 * length), 1, stretches);
+    if (count == 1) length = std::min<std::int64_t>(run.steps, most);
+    std::vector<std::int64_t> found;
+    for (std::int64_t k = 0; k < count; ++k) {
+      const std::int64_t begin = count == 1 ? 0 : (run.steps - length) * k / (count - 1);
+      for (std::int64_t step = begin; step <= begin + length; ++step) found.push_back(step);
+    }
+    return found;
+  }
+  template <class T>
+  struct Work {
+    std::pair<std::size_t, std::size_t> plane;
+    std::shared_ptr<const ReferenceSolution> solution;  // null where it is not asked for
+    std::int64_t before = -1;                           // the step looked at last
+    int stretch = 0;
+    Work(const MotionOfRun& measure, const Measured<T>& run)
+        : plane(plane_of(*run.start.model(), measure.x, measure.y)) {
+      if (measure.exact)
+        solution = run.solution.to(Quad(static_cast<double>(run.steps)) * Quad(run.start.step()));
+    }
+  };
+  template <class T>
+  bool look(const Measured<T>& run, const RunState<T>& at, Work<T>& work, Row& row) const {
+    if (at.step != work.before + 1 || work.stretch == 0) ++work.stretch;
+    work.before = at.step;
+    const auto [first, second] = work.plane;
+    const std::vector<Coordinate>& all = run.start.model()->coordinates();
+    row = {with_unit(all[first]), with_unit(all[second]), double(work.stretch), at.z[first], at.z[second]};
+    const Quad t = Quad(run.start.time()) + Quad(static_cast<double>(at.step)) * Quad(run.start.step());
+    row.resize(columns(*run.start.model()).size(), std::numeric_limits<double>::quiet_NaN());
+    if (work.solution == nullptr || !work.solution->covers(t)) return true;
+    const std::vector<Quad> solved = work.solution->at(t);
+    row[5] = static_cast<T>(solved[first]), row[6] = static_cast<T>(solved[second]);
+    return true;
+  }
+
+  // The implicit midpoint rule turns the oscillator, by another angle than the motion does.
+  static std::vector<MeasureControl> controls() {
+    constexpr double h = 0.1;
+    constexpr int steps = 500;
+    const auto of = [](const char* column, double expected, bool fault) {
+      return MeasureControl{.system = "harmonic-oscillator",
+                            .method = "implicit-midpoint",
+                            .step = "0.1",
+                            .steps = steps,
+                            .column = column,
+                            .expected = expected,
+                            .allowed = 5e-8,  // eight digits are written
+                            .fault = fault};
+    };
+    return {of("x", std::cos(steps * 2 * std::atan(h / 2)), false), of("exact_x", std::cos(steps * h), false),
+            of("x", std::cos(steps * h), true)};
+  }
+
+ private:
+  static constexpr std::int64_t fewest = 20;
+
+  // The number of steps in which the track in the plane has turned once, either way: that of the exact
+  // motion, so that the stretches of all methods are alike, or else of the run itself.
+  template <class T>
+  [[nodiscard]] std::int64_t one_turn(const Measured<T>& run) const {
+    const std::int64_t longest = std::min<std::int64_t>(run.steps, most);
+    const auto [first, second] = plane_of(*run.start.model(), x, y);
+    const std::span<const T> z = run.start.state();
+    Integration<T> along = run.start.beside({z.begin(), z.end()});
+    const Quad t0 = Quad(run.start.time()), h = Quad(run.start.step());
+    const auto solution = exact ? run.solution.to(Quad(static_cast<double>(longest)) * h) : nullptr;
+    std::array<double, 2> last{double(z[first]), double(z[second])}, before{};
+    double turned = 0;  // the sum of the angles between steps
+    for (std::int64_t step = 1; step <= longest; ++step) {
+      const Quad t = t0 + Quad(static_cast<double>(step)) * h;
+      std::array<double, 2> here{};
+      if (solution != nullptr) {
+        if (!solution->covers(t)) return longest;
+        const std::vector<Quad> solved = solution->at(t);
+        here = {double(solved[first]), double(solved[second])};
+      } else {
+        if (!carried_to(step, along)) return step;
+        here = {double(along.state()[first]), double(along.state()[second])};
+      }
+      const double u = here[0] - last[0], v = here[1] - last[1];
+      if (step > 1)
+        turned += std::abs(std::atan2(before[0] * v - before[1] * u, before[0] * u + before[1] * v));
+      before = {u, v}, last = here;
+      if (step >= fewest && turned >= 2 * std::numbers::pi) return step;
+    }
+    return longest;
+  }
+};
+
+const Measure<MotionOfRun> registered{
+    {.name = "motion",
+     .title = "What the motion looks like early and late, beside the exact one",
+     .description = "Every step of some stretches of the run, from its start to its end, in the plane of two "
+                    "coordinates, "
+                    "and the solution at the same times. The first stretch ends where the track has turned "
+                    "once; all have as "
+                    "many steps. The solution is the exact one where the system has it, otherwise a Taylor "
+                    "series in quad; its "
+                    "cells are empty where that ends.",
+     .usual = true}};
+}  // namespace
