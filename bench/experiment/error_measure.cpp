@@ -40,7 +40,7 @@ double error_of(const ExperimentCase& one, const ResolvedRun& run, const RunReco
   const std::vector<Invariant>& invariants = run.model->invariants();
   for (std::size_t k = 0; k < invariants.size() && record.sample_count > 0; ++k)
     if (invariants[k].name == one.error)
-      return record.drift[k].maximum / std::abs(static_cast<double>(record.first_invariants[k]));
+      return record.invariants().drift[k].maximum / std::abs(static_cast<double>(record.first_invariants[k]));
   return not_known;
 }
 

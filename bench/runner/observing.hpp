@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -63,13 +65,14 @@ class Observing final : public Watcher<T> {
   void finish() {
     if (singular_) record_.status = Status::singular;
     sampler_.finish();
-    InvariantsLeft invariants = invariants_.left(record_.completed);
-    record_.drift = std::move(invariants.drift);
-    record_.round_off = std::move(invariants.round_off);
-    record_.setback = std::move(invariants.setback);
-    ConstraintsLeft constraints = constraints_.left(record_.completed);
-    record_.constraints = std::move(constraints.drift);
-    record_.growth = std::move(constraints.growth);
+    const auto later = [steps = record_.completed](auto& watched) {
+      return
+          [steps, kept = std::make_shared<std::remove_reference_t<decltype(watched)>>(std::move(watched))] {
+            return kept->left(steps);
+          };
+    };
+    record_.invariants = Later<InvariantsLeft>(later(invariants_));
+    record_.constraints = Later<ConstraintsLeft>(later(constraints_));
   }
 
  private:
@@ -144,6 +147,13 @@ class Observing final : public Watcher<T> {
   [[nodiscard]] std::size_t together(const Integration<T>& run, const Block<T>& block) {
     for (std::size_t row = 0; row < block.rows; ++row) {
       const std::int64_t step = block.step(row);
+      if (const std::size_t rows = plain_rows(block, row); rows > 0) {
+        record_.completed = step;
+        sampler_.sample({block, invariants_.rows(), row, rows});
+        row += rows - 1;
+        passed(block.step(row));
+        continue;
+      }
       if (!keeps(step)) continue;
       record_.completed = step;  // also where what follows throws
       block.states.get(row, z_);
@@ -159,6 +169,19 @@ class Observing final : public Watcher<T> {
     invariants_.take(block, block.rows);
     record_.completed = block.step(block.rows - 1);
     return block.rows;
+  }
+  // How many samples from a row on are passed on together, and counted: those of which each is the next state
+  // and nothing is looked at but the invariants, which were evaluated.
+  [[nodiscard]] std::size_t plain_rows(const Block<T>& block, std::size_t row) {
+    if (run_.every != block.stride || !sampler_.takes_rows()) return 0;
+    std::size_t count = 0;
+    for (; row + count < block.rows; ++count) {
+      const bool structure = sampler_.measures_structure() &&
+                             ((row_ + 1) % structure_rows_ == 0 || block.step(row + count) == run_.steps);
+      if (structure || !invariants_.sample(block, row + count)) break;
+      ++row_;
+    }
+    return count;
   }
   [[nodiscard]] std::size_t one_by_one(const Integration<T>& run, const Block<T>& block) {
     for (std::size_t row = 0; row < block.rows; ++row) {

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <pfaff/bench/runner/json.hpp>
@@ -14,12 +15,29 @@
 #include <pfaff/bench/runner/series.hpp>
 #include <pfaff/bench/runner/settings.hpp>
 #include <pfaff/runs/shared_solution.hpp>
-#include <pfaff/runs/support/drift.hpp>
-#include <pfaff/runs/support/growth.hpp>
 #include <pfaff/runs/support/reference.hpp>
 #include <pfaff/runs/support/structure.hpp>
+#include <pfaff/runs/watched/constraints.hpp>
+#include <pfaff/runs/watched/invariants.hpp>
 
 namespace pfaff {
+
+/// What is found when it is first asked for, and kept; not by several threads at once. A default value where
+/// there is no way to find it.
+template <class V>
+class Later {
+ public:
+  Later() = default;
+  explicit Later(std::function<V()> find) : find_(std::move(find)) {}
+  const V& operator()() const {
+    if (find_) found_ = std::exchange(find_, nullptr)();
+    return found_;
+  }
+
+ private:
+  mutable std::function<V()> find_;
+  mutable V found_{};
+};
 
 struct RunRecord {
   Status status = Status::converged;
@@ -29,12 +47,8 @@ struct RunRecord {
   std::int64_t sample_count = 0;       // the first one is at the start,
   Quad last_sample;                    // the last one at this time
   std::vector<Quad> first_invariants;  // at the first sample
-  std::vector<Drift>
-      drift;  // of every invariant, in the model's order; meaningful for those expected to be conserved
-  std::vector<RoundOff> round_off;            // of the invariants: what round-off and loss mean for them
-  std::vector<Drift> constraints;             // of the residuals, in the order of constraint_residual_names
-  std::vector<std::optional<Growth>> growth;  // of the same residuals
-  std::vector<double> setback;  // the largest move of each invariant against its expected direction
+  Later<InvariantsLeft> invariants;    // classing drifts takes longer than a short run
+  Later<ConstraintsLeft> constraints;  // likewise
   std::optional<double> error_max, error_final, structure_residual;
   std::string reference;          // what the errors are against, ReferenceSolution::kind; empty without
   std::string reference_ended;    // why they are measured over a part of the run or not at all, one line

@@ -60,6 +60,17 @@ class Sampler {
     return not_finite;
   }
 
+  /// Whether samples without residuals of the structure may be passed on as rows, since nothing else is
+  /// measured of them.
+  [[nodiscard]] bool takes_rows() const { return begun_ && !errors_; }
+  [[nodiscard]] bool measures_structure() const { return structure_ != nullptr; }
+  /// Makes samples of rows.
+  void sample(const SampleRows<T>& rows) {
+    if (taker_ != nullptr) taker_->take(rows);
+    record_.last_sample = Quad(rows.block.time(rows.first + rows.count - 1));
+    record_.sample_count += static_cast<std::int64_t>(rows.count);
+  }
+
   /// Passes on what waits, and puts into the record what follows from all samples.
   void finish() {
     compare_last();

@@ -6,6 +6,7 @@
 
 #include <pfaff/bench/runner/row_writer.hpp>
 #include <pfaff/bench/runner/settings.hpp>
+#include <pfaff/core/facets/block.hpp>
 #include <pfaff/core/numbers/quad.hpp>
 
 namespace pfaff {
@@ -18,6 +19,14 @@ struct Sample {
   std::optional<T> structure;                     // structure residual of one step from here
   std::optional<Quad> error;                      // relative to the reference solution's norm
   std::vector<Quad> invariant_errors;  // of those that are not conserved: I(z) less that of the reference
+};
+
+/// Samples at `count` rows of a block from `first` on, of which nothing is measured beside.
+template <class T>
+struct SampleRows {
+  const Block<T>& block;
+  const Tiles<T>* invariants;  // at the rows of the block; null where the system has none
+  std::size_t first, count;
 };
 
 /// What the samples of a run hold beside states, invariants and residuals of constraints; some of them.
@@ -33,6 +42,23 @@ class SampleTaker {
   virtual void begin(const MeasuredBeside& measured) = 0;
   virtual void take(const Sample<double>& sample) = 0;
   virtual void take(const Sample<Quad>& sample) = 0;
+  /// Many samples at once, in runs of which each state is one: the same as one after another.
+  virtual void take(const SampleRows<double>& rows) { one_by_one(rows); }
+  virtual void take(const SampleRows<Quad>& rows) { one_by_one(rows); }
+
+ protected:
+  template <class T>
+  void one_by_one(const SampleRows<T>& rows) {
+    Sample<T> sample;
+    sample.state.resize(rows.block.states.components());
+    sample.invariants.resize(rows.invariants == nullptr ? 0 : rows.invariants->components());
+    for (std::size_t row = rows.first; row < rows.first + rows.count; ++row) {
+      sample.t = rows.block.time(row);
+      rows.block.states.get(row, sample.state);
+      if (rows.invariants != nullptr) rows.invariants->get(row, sample.invariants);
+      take(sample);
+    }
+  }
 };
 
 /// Writes samples as rows of series.csv.
@@ -42,6 +68,7 @@ class SeriesWriter final : public SampleTaker {
   void begin(const MeasuredBeside& measured) override;
   void take(const Sample<double>& sample) override { row(sample); }
   void take(const Sample<Quad>& sample) override { row(sample); }
+  using SampleTaker::take;
   /// Passes on what is not yet.
   void finish() { rows_.flush(); }
 

@@ -30,9 +30,10 @@ Errors largest_errors(const std::string& formulation, int seed) {
   const RunRecord record = execute(run, nullptr);
   if (record.status != Status::converged) return {};
   Errors errors;
-  errors.constraint = record.constraints.front().maximum;
-  for (std::size_t k = 0; k < record.drift.size(); ++k)
-    if (run.model->invariants()[k].name == "energy") errors.energy = record.drift[k].maximum;
+  errors.constraint = record.constraints().drift.front().maximum;
+  const std::vector<Drift>& drift = record.invariants().drift;
+  for (std::size_t k = 0; k < drift.size(); ++k)
+    if (run.model->invariants()[k].name == "energy") errors.energy = drift[k].maximum;
   return errors;
 }
 

@@ -60,7 +60,9 @@ class Run:
     `run[name]` is a coordinate, a block of coordinates (shape (rows, count)), or an invariant.
     """
 
-    def __init__(self, system: Any, method: Any, of: dict[str, Any], asked: dict[str, Any]) -> None:
+    def __init__(self, system: Any, method: Any, going: Any, asked: dict[str, Any]) -> None:
+        of = going.samples()
+        self._going = going  # for the summary
         self.system, self.method, self._asked = system, method, asked
         self.t: np.ndarray = of["t"]
         """The times of the samples, shape (rows,)."""
@@ -74,8 +76,6 @@ class Run:
         """The relative error against the reference, shape (rows,), NaN where it was not measured; None without one."""
         self.structure: np.ndarray | None = of["structure"]
         """The residual of the structure of one step, shape (rows,), NaN where it was not measured; or None."""
-        self.summary: dict[str, Any] = of["summary"]
-        """All that summary.json of `pfaff run` holds."""
         self.measures: dict[str, dict[str, Any]] = {name: columns for name, (columns, _) in of["tables"].items()}
         """The tables of the measures that were asked for, each a dictionary of columns."""
         self.status: str = of["status"]
@@ -85,6 +85,14 @@ class Run:
         self.coordinates: list[str] = of["coordinates"]
         self.units: dict[str, str] = of["units"]
         self._steps, self._initial, self._step = of["steps"], of["initial"], of["step"]
+
+    @functools.cached_property
+    def summary(self) -> dict[str, Any]:
+        """All that summary.json of `pfaff run` holds. It is made when it is first asked for, since classing drifts takes some
+        milliseconds a quantity."""
+        found: dict[str, Any] = self._going.summary()
+        self._going = None
+        return found
 
     @functools.cached_property
     def drift(self) -> dict[str, Watched]:
@@ -216,6 +224,7 @@ class Run:
             return ""
 
     def __getstate__(self) -> dict[str, Any]:
+        _ = self.summary
         state = dict(self.__dict__)
         for key in ("system", "method"):
             try:
@@ -310,9 +319,9 @@ def run(system: Any, method: Any, *, step: Any = None, tolerance: Any = None, ti
     except InputError:
         raise
     except BaseException as error:
-        attach(error, Run(base, tool, going.samples(), asked))
+        attach(error, Run(base, tool, going, asked))
         raise
-    result = Run(base, tool, going.samples(), asked)
+    result = Run(base, tool, going, asked)
     try:
         for function in wanted:
             if callable(function):

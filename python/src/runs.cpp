@@ -2,6 +2,7 @@
 // runner's record stands here alone.
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <limits>
 #include <map>
@@ -33,6 +34,9 @@ class Columns final : public SampleTaker {
  public:
   void begin(const MeasuredBeside& of) override {
     measured = of;
+    t.reserve(rows);
+    y.reserve(rows * coordinates);
+    invariants.reserve(rows * conserved);
     if (also != nullptr) also->begin(of);
   }
   void take(const Sample<double>& sample) override {
@@ -44,8 +48,20 @@ class Columns final : public SampleTaker {
     if (also != nullptr) also->take(sample);
   }
 
+  void take(const SampleRows<double>& rows) override {
+    double* const times = t.extend(rows.count);
+    for (std::size_t k = 0; k < rows.count; ++k) times[k] = rows.block.time(rows.first + k);
+    put(y, rows.block.states, rows);
+    if (rows.invariants != nullptr) put(invariants, *rows.invariants, rows);
+    if (measured.structure)
+      std::fill_n(structure.extend(rows.count), rows.count, std::numeric_limits<double>::quiet_NaN());
+    if (also != nullptr) also->take(rows);
+  }
+  using SampleTaker::take;
+
   SampleTaker* also = nullptr;
   MeasuredBeside measured;
+  std::size_t rows = 0, coordinates = 0, conserved = 0;  // that are expected
   Numbers t, y, invariants, constraints, error, structure;
 
  private:
@@ -54,6 +70,12 @@ class Columns final : public SampleTaker {
   static void put(Numbers& to, const std::vector<T>& values) {
     double* place = to.extend(values.size());
     for (const T& x : values) *place++ = static_cast<double>(x);
+  }
+  static void put(Numbers& to, const Tiles<double>& from, const SampleRows<double>& rows) {
+    const std::size_t n = from.components();
+    double* place = to.extend(n * rows.count);
+    for (std::size_t row = rows.first; row < rows.first + rows.count; ++row, place += n)
+      from.get(row, {place, n});
   }
   template <class T>
   static void put(Numbers& to, const std::optional<T>& value) {
@@ -132,6 +154,10 @@ class RunInProgress {
     without_lock([&] {
       const auto reference = reference_asked_for(run_);
       std::optional<Files> files;
+      columns_.rows =
+          run_.adaptive() ? 0 : static_cast<std::size_t>(std::min(run_.rows(), most_reserved) + 1);
+      columns_.coordinates = static_cast<std::size_t>(run_.model->dimension());
+      columns_.conserved = run_.model->invariants().size();
       if (!out_.empty()) columns_.also = &files.emplace(run_, out_).series();
       record_ = pfaff::execute(run_, reference.get(), {}, &interruption.stop(), &columns_);
       if (files) files->finish(summary(run_, *record_));
@@ -140,6 +166,10 @@ class RunInProgress {
     if (record_->interrupted && interruption.taken()) raise_interrupted(record_->message.c_str());
   }
 
+  // Drifts are classed when this is first asked for.
+  [[nodiscard]] py::object summary_of_run() const {
+    return record_ ? python_value(summary(run_, *record_)) : py::dict();
+  }
   [[nodiscard]] py::dict samples() {
     const auto rows = static_cast<py::ssize_t>(columns_.t.size());
     const auto n = static_cast<py::ssize_t>(run_.model->dimension());
@@ -166,7 +196,6 @@ class RunInProgress {
     result["structure"] = begun && columns_.measured.structure
                               ? py::object(array_owning(std::move(columns_.structure), {rows}))
                               : py::none();
-    result["summary"] = record_ ? python_value(summary(run_, *record_)) : py::dict();
     result["coordinates"] = column_names(run_.model->coordinates());
     result["units"] = units();
     result["steps"] = run_.steps;
@@ -222,6 +251,8 @@ class RunInProgress {
     return texts;
   }
 
+  static constexpr std::int64_t most_reserved = 1 << 20;  // a run may end early
+
   ResolvedRun run_;
   Measures measures_;
   std::string out_;  // the directory in which files are left; or empty
@@ -235,7 +266,8 @@ void bind_runs(py::module_& module) {
   py::class_<RunInProgress>(module, "RunInProgress", "A run, checked, with the samples that it has left.")
       .def(py::init<const PySystem&, const PyMethod&, const py::dict&>())
       .def("execute", &RunInProgress::execute)
-      .def("samples", &RunInProgress::samples);
+      .def("samples", &RunInProgress::samples)
+      .def("summary", &RunInProgress::summary_of_run);
 }
 
 }  // namespace pfaff::python

@@ -30,6 +30,8 @@ class EarlyExtents {
     kept_.push_back({samples_, extents_});
     changed_ = false;
   }
+  /// Whether the next sample is looked at.
+  [[nodiscard]] bool looks() const { return samples_ < planned_; }
   /// Those of the first tenth of all samples, and of eight at least.
   [[nodiscard]] std::vector<double> first_tenth() const {
     std::vector<double> extents(extents_.size());

@@ -75,12 +75,31 @@ void WatchedInvariants<T>::at_row(std::size_t row) {
 
 template <class T>
 void WatchedInvariants<T>::sample(double t, const std::vector<double>& z) {
-  if (roundings_) roundings_->add(t, z);
+  if (roundings_ && samples_ % apart_ == 0) roundings_->add(t, z);
+  count_sample();
   extents_.add(z);
   if (!first_state_.empty()) return;
   first_time_ = t;
   first_state_ = z;
   if (roundings_) first_terms_ = roundings_->terms();
+}
+
+template <class T>
+bool WatchedInvariants<T>::sample(const Block<T>& block, std::size_t row) {
+  if (first_state_.empty() || (roundings_ && samples_ % apart_ == 0)) return false;
+  if (extents_.looks()) {
+    at_row_.resize(first_state_.size());
+    for (std::size_t i = 0; i < at_row_.size(); ++i)
+      at_row_[i] = static_cast<double>(block.states.at(row, i));
+  }
+  extents_.add(at_row_);
+  count_sample();
+  return true;
+}
+
+template <class T>
+void WatchedInvariants<T>::count_sample() {
+  if (++samples_ == most_roundings * apart_) apart_ *= 2;
 }
 
 // What there is of each invariant to lose; the extents are those of the first tenth of the motion, since what

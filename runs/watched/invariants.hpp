@@ -25,8 +25,8 @@ struct InvariantsLeft {
 };
 
 /// Watches the invariants of one run in the scalar T. States are taken in their order, the start first: one
-/// by one, or many of a block together. Some of them are samples too, at which it is found what roundings do;
-/// that takes longer than a short step.
+/// by one, or many of a block together. Some of them are samples too, at which it is found what roundings do:
+/// that takes longer than a short step, so that of many samples those at ever larger distances are taken.
 template <class T>
 class WatchedInvariants {
  public:
@@ -46,14 +46,21 @@ class WatchedInvariants {
   [[nodiscard]] const std::vector<T>& values() const { return values_; }
   [[nodiscard]] const std::vector<T>& initial() const { return initial_; }
 
+  /// Those at all rows of it; null where the model has none.
+  [[nodiscard]] const Tiles<T>* rows() const { return in_block_; }
+
   /// Samples a state, of which values() are the invariants.
   void sample(double t, const std::vector<double>& z);
+  /// Samples a row of a block at which roundings are not looked at; false where they are, and it has to be
+  /// sampled as above.
+  [[nodiscard]] bool sample(const Block<T>& block, std::size_t row);
 
   /// After so many steps.
   [[nodiscard]] InvariantsLeft left(std::int64_t steps) const;
 
  private:
   [[nodiscard]] std::vector<double> ranges() const;
+  void count_sample();
 
   std::shared_ptr<const Model> model_;
   std::optional<Problem<T>> problem_;  // none where the model has no invariants, as is the next
@@ -64,8 +71,11 @@ class WatchedInvariants {
   std::vector<T> values_, initial_;
   std::vector<WatchedError> drift_;
   std::vector<Setback<T>> setbacks_;
+  static constexpr std::size_t most_roundings = 1024;  // at one distance
+  std::size_t samples_ = 0, apart_ = 1;  // the distance, in samples, of those at which roundings are found
   EarlyExtents extents_;
   double first_time_ = 0;
+  std::vector<double> at_row_;                     // the state
   std::vector<double> first_state_, first_terms_;  // of the first sample; terms: the sizes of those summed
 };
 

@@ -207,10 +207,10 @@ TEST(Backwards, ForthAndBackAgain) {
 TEST(Backwards, Drift) {
   RunSettings settings = back("pendulum", "rk4", "1,0.5");
   settings.time = "-200";
-  const Drift there = made(settings).drift.front();
+  const Drift there = made(settings).invariants().drift.front();
   settings.time = "200";
   settings.set.front().second = "1,-0.5";
-  const Drift here = made(settings).drift.front();
+  const Drift here = made(settings).invariants().drift.front();
   EXPECT_EQ(there.drift_class, here.drift_class);
   EXPECT_NEAR(there.slope / here.slope, -1, 1e-6);
   EXPECT_NEAR(there.maximum / here.maximum, 1, 1e-6);
@@ -221,8 +221,8 @@ TEST(Backwards, Constraints) {
   RunSettings settings = settings_of("n-pendulum", "0.01", "-5");
   const pfaff::testing::RecordWithSamples record = made(settings);
   ASSERT_EQ(record.status, Status::converged) << record.message;
-  ASSERT_TRUE(record.growth.front().has_value());
-  EXPECT_GT(record.growth.front()->exponent, 0);
+  ASSERT_TRUE(record.constraints().growth.front().has_value());
+  EXPECT_GT(record.constraints().growth.front()->exponent, 0);
 }
 
 TEST(Backwards, StructureOfAStep) {

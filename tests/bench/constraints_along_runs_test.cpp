@@ -62,9 +62,9 @@ WholeRun whole_run(const std::string& system, const std::string& method, const s
 void expect_at_round_off(const WholeRun& run, double positions, double momenta, double structure) {
   EXPECT_EQ(run.record.status, Status::converged) << run.record.message;
   EXPECT_EQ(run.record.completed, run.steps);
-  ASSERT_EQ(run.record.constraints.size(), 2U);
-  EXPECT_LE(run.record.constraints[0].maximum, positions * run.unit);
-  EXPECT_LE(run.record.constraints[1].maximum, momenta * run.unit);
+  ASSERT_EQ(run.record.constraints().drift.size(), 2U);
+  EXPECT_LE(run.record.constraints().drift[0].maximum, positions * run.unit);
+  EXPECT_LE(run.record.constraints().drift[1].maximum, momenta * run.unit);
   ASSERT_TRUE(run.record.structure_residual);
   EXPECT_LE(*run.record.structure_residual, structure * run.unit);
 }
@@ -110,8 +110,8 @@ TEST(ConstraintsAlongRuns, AreKeptUpToAStepThatDoesNotConverge) {
       whole_run(files / "five-bar.toml", "lobatto-spark", "0.02", "1.9", {}, Precision::double_precision);
   EXPECT_EQ(run.record.status, Status::not_converged);
   EXPECT_GT(run.record.completed, 50);
-  EXPECT_LE(run.record.constraints[0].maximum, 64 * run.unit);
-  EXPECT_LE(run.record.constraints[1].maximum, 256 * run.unit);
+  EXPECT_LE(run.record.constraints().drift[0].maximum, 64 * run.unit);
+  EXPECT_LE(run.record.constraints().drift[1].maximum, 256 * run.unit);
 }
 TEST(ConstraintsAlongRuns, AreKeptByEveryMethodThatClaimsThem) {
   for (const char* method : {"lobatto-spark", "rattle"})
@@ -125,8 +125,8 @@ TEST(ConstraintsAlongRuns, AreKeptByEveryMethodThatClaimsThem) {
 TEST(ConstraintsAlongRuns, AreSeenToBeMissed) {
   const WholeRun run = whole_run("four-bar", "shake", "0.01", "5", {}, Precision::double_precision);
   EXPECT_EQ(run.record.status, Status::converged);
-  EXPECT_LE(run.record.constraints[0].maximum, 32 * run.unit);
-  EXPECT_GT(run.record.constraints[1].maximum, 1e-5);
+  EXPECT_LE(run.record.constraints().drift[0].maximum, 32 * run.unit);
+  EXPECT_GT(run.record.constraints().drift[1].maximum, 1e-5);
 }
 
 // A straight chain whose bobs move at random is stiff: its reactions change within a step by as much as they
@@ -140,7 +140,7 @@ TEST(ConstraintsAlongRuns, AreFoundAfreshWhereThePastMisleads) {
     EXPECT_EQ(run.record.status, Status::converged) << run.record.message;
     EXPECT_EQ(run.record.completed, run.steps);
     // Positions are as large as there are bobs, and so is what they are rounded by.
-    EXPECT_LE(run.record.constraints[0].maximum, 8 * std::stod(bobs) * run.unit);
+    EXPECT_LE(run.record.constraints().drift[0].maximum, 8 * std::stod(bobs) * run.unit);
   }
   // The control: a step that is too long from the state alone is not taken.
   const WholeRun long_steps = whole_run("n-pendulum", "rattle", "0.05", "4", {}, Precision::double_precision);
@@ -153,7 +153,8 @@ TEST(ConstraintsAlongRuns, AreFoundAfreshWhereThePastMisleads) {
 TEST(ConstraintsAlongRuns, AtRoundOffHaveNoTrend) {
   const auto classes = [](const char* method, Precision precision) {
     const WholeRun run = whole_run("sphere-particle", method, "0.01", "10", {}, precision);
-    return std::pair(run.record.constraints[0].drift_class, run.record.constraints[1].drift_class);
+    return std::pair(run.record.constraints().drift[0].drift_class,
+                     run.record.constraints().drift[1].drift_class);
   };
   const std::pair none(DriftClass::round_off, DriftClass::round_off);
   EXPECT_EQ(classes("gauss", Precision::double_precision), none);

@@ -44,11 +44,11 @@ std::string euler(const std::filesystem::path& folder, const std::string& a) {
 void expect_lost(const testing::RecordWithSamples& record, double range, double least,
                  const std::string& what) {
   ASSERT_EQ(record.status, Status::converged) << what << record.message;
-  const Drift& energy = record.drift.at(0);
+  const Drift& energy = record.invariants().drift.at(0);
   ASSERT_GE(std::abs(energy.final_value), least * range) << what;
   // Of its own range: the equilibrium is found to some per cent.
-  ASSERT_TRUE(record.round_off[0].range.has_value());
-  EXPECT_NEAR(*record.round_off[0].range, range, 0.1 * range) << what;
+  ASSERT_TRUE(record.invariants().round_off[0].range.has_value());
+  EXPECT_NEAR(*record.invariants().round_off[0].range, range, 0.1 * range) << what;
   const std::string_view name = to_string(energy.drift_class);
   EXPECT_TRUE(name == "linear" || name == "polynomial" || name == "exponential" || name == "undetermined")
       << what << ": " << name << ": " << energy.evidence;
@@ -61,7 +61,8 @@ TEST(DriftLost, ByRungeKuttaOnThePendulum) {
   const double q = static_cast<double>(record.samples.front().state[0]),
                p = static_cast<double>(record.samples.front().state[1]);
   expect_lost(record, p * p / 2 + 1 - std::cos(q), 0.95, "h = .5");
-  EXPECT_EQ(to_string(record.drift[0].drift_class), "linear") << record.drift[0].evidence;
+  EXPECT_EQ(to_string(record.invariants().drift[0].drift_class), "linear")
+      << record.invariants().drift[0].evidence;
   expect_lost(executed({"pendulum", "rk4", "0.7", "20000"}), p * p / 2 + 1 - std::cos(q), 0.9, "h = .7");
   expect_lost(executed({"pendulum", "rk4", "0.6", "50000", {"0.5", "0"}}), 1 - std::cos(0.5), 0.5,
               "from q = .5");
@@ -91,7 +92,7 @@ TEST(DriftLost, ByTheExplicitMethodOfEulerOnKepler) {
   const std::string method = euler(folder.path(), "0");
   for (const auto& [step, time] : {std::pair{"0.01", "1000"}, {"0.02", "2000"}}) {
     const testing::RecordWithSamples record = executed({"kepler", method, step, time});
-    EXPECT_GT(record.round_off[0].scale, 2) << step;
+    EXPECT_GT(record.invariants().round_off[0].scale, 2) << step;
     expect_lost(record, 0.5, 0.7, step);
   }
 }
@@ -100,7 +101,7 @@ TEST(DriftLost, ByTheExplicitMethodOfEulerOnKepler) {
 TEST(DriftLost, NotBySymplecticMethods) {
   for (const char* system : {"pendulum", "harmonic-oscillator", "kepler"})
     for (const char* method : {"verlet", "gauss"}) {
-      const Drift energy = executed({system, method, "0.05", "2000"}).drift.at(0);
+      const Drift energy = executed({system, method, "0.05", "2000"}).invariants().drift.at(0);
       const std::string_view name = to_string(energy.drift_class);
       EXPECT_TRUE(name == "bounded" || name == "round-off")
           << system << ", " << method << ": " << name << ": " << energy.evidence;
@@ -121,11 +122,11 @@ TEST(DriftLost, BesideARestEnergy) {
   };
   for (const char* rest : {"1000000", "20000", "0"}) {
     const testing::RecordWithSamples record = executed({system(rest), "rk4", "0.05", "23.05"});
-    const Drift& energy = record.drift.at(0);
+    const Drift& energy = record.invariants().drift.at(0);
     const double expected = 0.5 * 461 * (std::pow(0.05, 6) / 72 - std::pow(0.05, 8) / 576);
     EXPECT_NEAR(energy.final_value, -expected, 1e-3 * expected + 2.3e-16 * std::stod(rest)) << rest;
-    EXPECT_LE(record.round_off[0].propagated.value(), 1.0001) << rest;  // q^2 + p^2
-    EXPECT_NEAR(*record.round_off[0].range, 0.5, 0.05) << rest;
+    EXPECT_LE(record.invariants().round_off[0].propagated.value(), 1.0001) << rest;  // q^2 + p^2
+    EXPECT_NEAR(*record.invariants().round_off[0].range, 0.5, 0.05) << rest;
     EXPECT_EQ(to_string(energy.drift_class), "linear") << rest << ": " << energy.evidence;
   }
 }

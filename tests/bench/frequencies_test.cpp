@@ -226,7 +226,7 @@ whole = "central + 2"
   const auto energy = [&](const ExperimentRun& run) {
     const RunRecord record = execute(run.resolved, nullptr);
     EXPECT_EQ(run.resolved.model->invariants()[0].name, "energy");
-    return record.drift[0].maximum;
+    return record.invariants().drift[0].maximum;
   };
   EXPECT_GT(energy(runs[0]), 100 * energy(runs[1]));
 }

@@ -34,9 +34,9 @@ TEST(InvariantScale, IsTheSizeOfTermsThatCancel) {
     largest_terms = std::max(largest_terms, p * p / 2 + std::abs(std::cos(q)));
     largest_energy = std::max(largest_energy, std::abs(static_cast<double>(sample.invariants[0])));
   }
-  ASSERT_EQ(record.round_off.size(), record.samples.front().invariants.size());
+  ASSERT_EQ(record.invariants().round_off.size(), record.samples.front().invariants.size());
   EXPECT_LT(largest_energy, 1e-3);
-  EXPECT_NEAR(record.round_off[0].scale, largest_terms, 1e-14 * largest_terms);
+  EXPECT_NEAR(record.invariants().round_off[0].scale, largest_terms, 1e-14 * largest_terms);
 }
 
 // The energy of a harmonic oscillator is homogeneous of degree two, and multiplying its state by a power of
@@ -45,8 +45,9 @@ TEST(InvariantScale, HasTheUnitOfTheInvariant) {
   const testing::RecordWithSamples one = executed_by_gauss("harmonic-oscillator", {"1", "0.5"});
   const testing::RecordWithSamples small =
       executed_by_gauss("harmonic-oscillator", {"0.0009765625", "0.00048828125"});  // 2^-10
-  ASSERT_GT(one.round_off.at(0).scale, 0);
-  EXPECT_EQ(small.round_off.at(0).scale, std::ldexp(one.round_off.at(0).scale, -20));
+  ASSERT_GT(one.invariants().round_off.at(0).scale, 0);
+  EXPECT_EQ(small.invariants().round_off.at(0).scale,
+            std::ldexp(one.invariants().round_off.at(0).scale, -20));
 }
 
 // In quad the same run has the same scale, since it is in units of the precision's own round-off.
@@ -54,9 +55,11 @@ TEST(InvariantScale, IsTheSameInBothPrecisions) {
   for (const char* system : {"pendulum", "kepler", "henon-heiles"}) {
     const testing::RecordWithSamples in_double = executed_by_gauss(system, {}),
                                      in_quad = executed_by_gauss(system, {}, Precision::quad);
-    ASSERT_FALSE(in_double.round_off.empty());
-    for (std::size_t i = 0; i < in_double.round_off.size(); ++i)
-      EXPECT_NEAR(in_double.round_off[i].scale / in_quad.round_off[i].scale, 1, 1e-10) << system << " " << i;
+    ASSERT_FALSE(in_double.invariants().round_off.empty());
+    for (std::size_t i = 0; i < in_double.invariants().round_off.size(); ++i)
+      EXPECT_NEAR(in_double.invariants().round_off[i].scale / in_quad.invariants().round_off[i].scale, 1,
+                  1e-10)
+          << system << " " << i;
   }
 }
 

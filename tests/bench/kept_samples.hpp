@@ -28,6 +28,7 @@ class KeptSamples final : public SampleTaker {
     kept.invariant_errors = sample.invariant_errors;
   }
   void take(const Sample<Quad>& sample) override { samples.push_back(sample); }
+  using SampleTaker::take;
   std::vector<Sample<Quad>> samples;
 };
 

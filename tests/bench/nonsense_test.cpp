@@ -175,7 +175,7 @@ TEST(Nonsense, AnInvariantThatIsNotFiniteEndsTheRun) {
                                "(step " + std::to_string(record.completed + 1) + ")"});
   for (const Sample<Quad>& sample : record.samples)
     for (const Quad& value : sample.invariants) EXPECT_TRUE(isfinite(value));
-  for (const Drift& drift : record.drift) EXPECT_TRUE(std::isfinite(drift.maximum));
+  for (const Drift& drift : record.invariants().drift) EXPECT_TRUE(std::isfinite(drift.maximum));
   // Control: the run that ends before.
   const testing::RecordWithSamples shorter =
       executed(settings_of("damped-oscillator", "0.1", "470", {{"nu", "1.5"}}));
@@ -233,7 +233,7 @@ TEST(Nonsense, ADriftThatIsNotFiniteEndsTheRun) {
   const testing::RecordWithSamples record = executed(s);
   EXPECT_EQ(record.status, Status::non_finite);
   expect_said(record.message, {"the drift of x is not finite", "at t = 709."});
-  EXPECT_TRUE(std::isfinite(record.drift[0].maximum));
+  EXPECT_TRUE(std::isfinite(record.invariants().drift[0].maximum));
   s.time = "700";
   EXPECT_EQ(executed(s).status, Status::converged);
 }
@@ -244,10 +244,10 @@ TEST(Nonsense, TheMaximumIsThatOfAllErrors) {
   EXPECT_EQ(record.status, Status::converged);
   const double last = static_cast<double>(record.samples.back().invariants[0]);
   EXPECT_GT(last, 1e170);
-  EXPECT_EQ(record.drift[0].maximum, last - 1);
-  EXPECT_EQ(record.drift[0].final_value, last - 1);
-  EXPECT_TRUE(std::isinf(record.drift[0].rms));
-  EXPECT_EQ(record.drift[0].drift_class, DriftClass::exponential);
+  EXPECT_EQ(record.invariants().drift[0].maximum, last - 1);
+  EXPECT_EQ(record.invariants().drift[0].final_value, last - 1);
+  EXPECT_TRUE(std::isinf(record.invariants().drift[0].rms));
+  EXPECT_EQ(record.invariants().drift[0].drift_class, DriftClass::exponential);
 }
 
 TEST(Nonsense, AStopEndsTheRunAfterItsStep) {

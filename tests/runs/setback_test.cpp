@@ -73,7 +73,7 @@ TEST(Setback, EntropyOfARelaxingBodyNeverFalls) {
   const ResolvedRun run = resolve(settings_of("relaxing-rigid-body", "0.01", "3"));
   const pfaff::testing::RecordWithSamples record = pfaff::testing::execute_and_keep(run, nullptr);
   ASSERT_EQ(run.model->invariants()[1].behaviour, Behaviour::increasing);
-  EXPECT_EQ(record.setback[1], 0);
+  EXPECT_EQ(record.invariants().setback[1], 0);
   EXPECT_GT(record.samples.back().invariants[1], record.samples.front().invariants[1]);
 }
 

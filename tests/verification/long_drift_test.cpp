@@ -28,9 +28,9 @@ TEST(LongDrift, RattleOverAMillionSteps) {
     ASSERT_EQ(record.status, Status::converged) << record.message;
     ASSERT_EQ(record.completed, 1000000);
     // Positions up to 4 m and velocities up to some 10 m/s: their spacing is 4.4e-16 and 1.8e-15.
-    EXPECT_LE(record.constraints[0].maximum, 1e-14) << seed;
-    EXPECT_LE(record.constraints[1].maximum, 1e-14) << seed;
-    without_trend += trend_is_none(record.drift[0]);
+    EXPECT_LE(record.constraints().drift[0].maximum, 1e-14) << seed;
+    EXPECT_LE(record.constraints().drift[1].maximum, 1e-14) << seed;
+    without_trend += trend_is_none(record.invariants().drift[0]);
   }
   EXPECT_GE(without_trend, 28);
 }
@@ -39,7 +39,7 @@ TEST(LongDrift, RattleOverAMillionSteps) {
 TEST(LongDrift, RungeKuttaHasATrend) {
   int with_trend = 0;
   for (int seed = 1; seed <= 4; ++seed)
-    with_trend += !trend_is_none(run("rk4", "dirac", seed, "0.01", "1000").drift[0]);
+    with_trend += !trend_is_none(run("rk4", "dirac", seed, "0.01", "1000").invariants().drift[0]);
   EXPECT_EQ(with_trend, 4);
 }
 
