@@ -74,6 +74,7 @@ int compare(const CompareOptions& options, const Common& common) {
   std::vector<Experiment> experiments;
   for (const std::string& name : names) {
     experiments.push_back(read_experiment(name, options.quick));
+    for (const std::string& plugin : common.plugins) experiments.back().asked_for += " --plugin " + plugin;
     if (experiments.back().derivation) (void)studies();  // whether it is there is seen before anything is run
   }
   for (Experiment& experiment : experiments) {

@@ -225,11 +225,11 @@ Measures fitting_measures(const RunOptions& options, const ResolvedRun& resolved
   return measures;
 }
 
-// Makes the tables of measures of a run, as far as it came, and gives the rows that tell of them.
-TableRows measured(const RunOptions& options, const ResolvedRun& resolved, const Measures& measures,
-                   const nlohmann::json& summary) {
-  TableRows rows;
-  if (measures.empty() || left_unmeasured(summary)) return rows;
+// Makes the tables of measures of a run, as far as it came, and says of each what it is.
+nlohmann::json measured(const RunOptions& options, const ResolvedRun& resolved, const Measures& measures,
+                        const nlohmann::json& summary) {
+  nlohmann::json list = nlohmann::json::array();
+  if (measures.empty() || left_unmeasured(summary)) return list;
   ResolvedRun as_far = resolved;
   as_far.steps = summary["completed"];
   const Interruption interruption;
@@ -243,10 +243,22 @@ TableRows measured(const RunOptions& options, const ResolvedRun& resolved, const
   }
   for (std::size_t m = 0; m < measures.size(); ++m) {
     const std::string& name = measures[m]->descriptor().name;
-    rows.push_back({name, std::to_string(tables[m].lines.size()) + " rows in " + options.out + "/" +
-                              measures_directory + "/" + name + ".csv" +
-                              (tables[m].ended.empty() ? "" : "; ended early: " + tables[m].ended)});
+    list.push_back({{"name", name},
+                    {"rows", tables[m].lines.size()},
+                    {"file", options.out + "/" + measures_directory + "/" + name + ".csv"}});
+    if (!tables[m].ended.empty()) list.back()["ended"] = tables[m].ended;
   }
+  return list;
+}
+
+// A row for each table.
+TableRows rows_on(const nlohmann::json& tables) {
+  TableRows rows;
+  for (const nlohmann::json& table : tables)
+    rows.push_back(
+        {table["name"],
+         table["rows"].dump() + " rows in " + table["file"].get<std::string>() +
+             (table.contains("ended") ? "; ended early: " + table["ended"].get<std::string>() : "")});
   return rows;
 }
 
@@ -264,12 +276,15 @@ int run(const RunOptions& options, const Common& common) {
   const KeptRun kept = kept_run(directory, resolved);
   if (!options.force) refuse_to_replace(kept, options.out);
   const nlohmann::json j = kept.current() ? kept.summary : made_in(directory, resolved, common.quiet);
-  const TableRows tables = measured(options, resolved, measures, j);
+  nlohmann::json tables = measured(options, resolved, measures, j);
   if (common.quiet) return finish(j, "", !measures.empty());
-  return finish(
-      j,
-      common.json ? json_text(j) : summary_table(j, kept.current() ? "kept" : "written", options.out, tables),
-      !measures.empty());
+  const TableRows rows = rows_on(tables);
+  nlohmann::json with_tables = j;
+  if (!tables.empty()) with_tables["measures"] = std::move(tables);
+  return finish(j,
+                common.json ? json_text(with_tables)
+                            : summary_table(j, kept.current() ? "kept" : "written", options.out, rows),
+                !measures.empty());
 }
 
 }  // namespace

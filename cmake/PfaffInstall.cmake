@@ -29,7 +29,7 @@ install(DIRECTORY ${PROJECT_BINARY_DIR}/installed/experiments DESTINATION ${CMAK
 # Which items of papers have rows, and models and tables that rows of `pfaff reproduce others` run.
 install(DIRECTORY papers/coverage DESTINATION ${CMAKE_INSTALL_DATADIR}/pfaff/papers COMPONENT data
         FILES_MATCHING PATTERN "*.toml")
-install(DIRECTORY examples/models examples/tables DESTINATION ${CMAKE_INSTALL_DATADIR}/pfaff/examples COMPONENT data)
+install(DIRECTORY examples/models examples/tables examples/templates examples/plugin DESTINATION ${CMAKE_INSTALL_DATADIR}/pfaff/examples COMPONENT data)
 install(FILES ${pfaff_written}/pfaff.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(FILES ${pfaff_written}/pfaff DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
 install(FILES ${pfaff_written}/_pfaff DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)

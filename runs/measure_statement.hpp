@@ -41,21 +41,13 @@ struct MeasureDescriptor {
   bool usual = false;            // is taken by experiments that name no measures
 };
 
-/// A setting of a measure that is a text, of which `placeholder` says what it is, such as EXPRESSION.
-template <class M>
-Parameter text_parameter(std::string M::*member, std::string name, std::string placeholder,
-                         std::string meaning) {
-  Parameter p = file_parameter(member, std::move(name), std::move(meaning));
-  p.choices = {std::move(placeholder)};
-  return p;
-}
-
 /// A run of which a measure's answer is known.
 struct MeasureControl {
   std::string system;
   Assignments system_parameters{};
   std::string method;
   Assignments method_parameters{}, settings{};  // settings: of the measure
+  std::vector<std::string> initial{};           // the state it begins at; none: the system's own
   std::string step;
   std::int64_t steps = 0;
   std::string column;                // the number of which in the last row

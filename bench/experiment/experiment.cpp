@@ -27,7 +27,8 @@ bool replaces_another(const fs::path& directory, const nlohmann::json& mine, boo
   const fs::path identity = directory / experiment_file;
   std::error_code error;
   if (!fs::exists(identity, error)) return false;
-  // Builds are left out of the comparison here; they belong to the identity of each run.
+  // Builds are left out of the comparison here; they belong to the identity of each run. A file may be named
+  // by several paths.
   nlohmann::json theirs = nlohmann::json::parse(read_file(identity), nullptr, false);
   // A damaged file says nothing about the runs beside it, each of which says by itself what it is.
   if (!theirs.is_object() || !theirs.contains("schema")) return false;
@@ -39,6 +40,7 @@ bool replaces_another(const fs::path& directory, const nlohmann::json& mine, boo
   }
   const nlohmann::json their_classes = theirs["drift_classes"];
   theirs["versions"] = mine["versions"];
+  theirs["asked_for"] = mine["asked_for"];
   theirs["drift_classes"] = mine["drift_classes"];
   refuse_another_experiment(directory, theirs, mine, force);
   if (their_classes != mine["drift_classes"])
@@ -227,7 +229,7 @@ void make_all(Experiment experiment, const fs::path& directory, const Experiment
   write_file(directory / results_file, results_csv(runs, summaries, runs));
   write_or_remove(directory / ensembles_file, ensembles_csv(runs, summaries));
   report(ExperimentStage::phases, "measures", 0);
-  std::string notes;
+  std::string notes;  // on tables
   write_measures(directory, experiment, runs, summaries, references, notes);
   const std::vector<Finding> findings = findings_of(experiment, runs, summaries);
   write_or_remove(directory / findings_file, findings.empty() ? "" : findings_csv(findings));

@@ -90,7 +90,8 @@ struct Experiment {
   std::optional<Measures> measures;           // that it names; without a list the usual ones
   std::optional<DerivationStudy> derivation;  // in the place of methods, cases and claims
   bool quick = false;
-  bool compile = false;  // as `compile = yes` of every run
+  bool compile = false;   // as `compile = yes` of every run
+  std::string asked_for;  // by which words of the command line, such as its name
 };
 
 /// A registered method that a selection leaves out of a case, and why.

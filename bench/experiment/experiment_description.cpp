@@ -13,7 +13,8 @@ nlohmann::json description(const Experiment& experiment, const std::vector<Exper
   nlohmann::json j{{"schema", schema_of_runs},          {"name", experiment.name},
                    {"title", experiment.title},         {"description", experiment.description},
                    {"reference", experiment.reference}, {"notes", experiment.notes},
-                   {"quick", experiment.quick},         {"versions", versions()}};
+                   {"quick", experiment.quick},         {"versions", versions()},
+                   {"asked_for", experiment.asked_for}};
   if (experiment.compile) j["compile"] = true;
   for (const LeftOut& one : left_out)
     j["left_out"].push_back({{"case", one.of_case}, {"method", one.method}, {"reason", one.reason}});

@@ -311,6 +311,7 @@ Experiment read_experiment(const std::string& name_or_path, bool quick) {
   Experiment experiment;
   experiment.name = path.stem().string();
   experiment.quick = quick;
+  experiment.asked_for = name_or_path;
   std::deque<Keys> keys;
   for (const Part& part : parts) {
     keys.emplace_back(part.root, part.name());

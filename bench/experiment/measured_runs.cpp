@@ -76,6 +76,22 @@ void join(const ExperimentRun& run, const MeasureInstance& measure, const Measur
 }
 }  // namespace
 
+namespace {
+// Why a measure that was asked for says nothing of a case.
+std::string why(const MeasureInstance& measure, const ExperimentCase& one,
+                const std::vector<ExperimentRun>& runs) {
+  if (one.seeds > 0) return ": its runs have seeds\n";
+  std::string reason;
+  for (const ExperimentRun& run : runs)
+    if (run.which == &one) {
+      const std::string of_run = refuses(measure, run.resolved);
+      if (of_run.empty()) return ": no run of it ended well\n";
+      if (reason.empty()) reason = of_run;
+    }
+  return ": " + reason + '\n';
+}
+}  // namespace
+
 Columns columns_before_measures(const std::string& time_unit) {
   return {{.name = "case", .kind = Column::Kind::text},
           {.name = "method", .kind = Column::Kind::text},
@@ -95,8 +111,11 @@ void write_measures(const fs::path& directory, const Experiment& experiment,
       if (measure == found.back() && !one.frequencies.empty())
         measure = frequencies_of(one, time_of_frequencies(one, runs, summaries));
       if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+      bool fits = false;
       for (const ExperimentRun* run : measured_runs(*measure, runs, summaries))
-        if (run->which == &one) wanted[run].push_back(measure);
+        if (run->which == &one) wanted[run].push_back(measure), fits = true;
+      if (!fits && experiment.measures)
+        notes += name + " of " + one.name + " is left out" + why(*measure, one, runs);
     }
   }
   std::vector<std::vector<MeasureTable>> tables(runs.size());
@@ -123,6 +142,9 @@ void write_measures(const fs::path& directory, const Experiment& experiment,
     fs::create_directories(directory / measures_directory, error);
     write_file(directory / measures_directory / (name + ".csv"), text + "\n");
   }
+  if (notes.empty()) return;
+  fs::create_directories(directory / measures_directory, error);
+  write_file(directory / measures_directory / "notes.txt", notes);
 }
 
 }  // namespace pfaff

@@ -25,7 +25,8 @@ Columns columns_before_measures(const std::string& time_unit);
 
 /// Makes the tables of the runs that are not there yet, several at a time, and writes measures/NAME.csv of
 /// each measure that says something of a run.
-/// What a table ended for is a note in `notes`.
+/// Why a table ends early, or a measure that was asked for says nothing of a case, is a line of `notes`,
+/// which also go to measures/notes.txt.
 void write_measures(const std::filesystem::path& directory, const Experiment& experiment,
                     const std::vector<ExperimentRun>& runs, const std::vector<nlohmann::json>& summaries,
                     References& references, std::string& notes);

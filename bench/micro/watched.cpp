@@ -20,15 +20,16 @@ struct Watched {
   InvariantErrors<double> errors;
 };
 
-// An integration goes on from chunk to chunk, as runs do: making one costs as much as 50 steps of Verlet.
-// What is damped begins anew in every chunk, before it dies away.
+// An integration goes on from chunk to chunk, as runs do. What is damped begins anew in every chunk, before
+// it dies away, as the registered step does.
 template <class S>
 void add_integration(const std::string& name, const char* method, const Assignments& parameters = {},
                      bool anew = false) {
   for (const bool watch : {false, true}) {
-    const auto make = [=] { return std::make_shared<Watched>(Case<S>::name, method, parameters, watch); };
-    add<S>(name, watch ? "watched" : "integration", [=, watched = make()](auto& z, double) mutable {
-      if (anew) watched = make();
+    const auto watched = std::make_shared<Watched>(Case<S>::name, method, parameters, watch);
+    const std::vector<double> start(watched->run.state().begin(), watched->run.state().end());
+    add<S>(name, watch ? "watched" : "integration", [=](auto& z, double) {
+      if (anew) watched->run.go_on_from(start, 0, watched->run.step());
       watched->run.steps(chunk).expect_reached();
       z[0] = watched->run.state()[0];
     });

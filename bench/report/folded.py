@@ -29,7 +29,7 @@ def footer(experiment, verdicts, drawn, picture):
         out.append(folds(f"Every run: {name} ({len(runs)})", results))
     out += [folds("Commands", commands(experiment)), folds("Classes of drift", tables.drift_classes(experiment)),
             folds("Numbers of a quantity", tables.fields(experiment)),
-            folds("Provenance", provenance(experiment)), folds("Notes and sources", notes(head) + citations(head)), "</footer>"]
+            folds("Provenance", provenance(experiment)), folds("Notes and sources", notes(head, on_tables(experiment)) + citations(head)), "</footer>"]
     return "\n".join(filter(None, out))
 
 
@@ -60,7 +60,7 @@ def powers(escaped):
 
 def commands(experiment):
     head = experiment.head
-    again = f"pfaff compare {head['name']}" + (" --quick" if head.get("quick") else "")
+    again = f"pfaff compare {head.get('asked_for') or head['name']}" + (" --quick" if head.get("quick") else "")
     slug = next((r.slug for r in experiment.runs if r.slug), "")
     out = f"<p>The experiment again:</p><pre>{text(again)}</pre>"
     if not slug:
@@ -110,8 +110,14 @@ def spreads_of_timings(experiment):
             f"{len(ratios)} timings {ratios[-1]:.2f} times; {disturbed} above {CONTENDED}")
 
 
-def notes(head):
-    lines = head.get("notes") or []
+def on_tables(experiment):
+    """Why tables of measures end early or are left out, a line each."""
+    path = experiment.folder / "measures" / "notes.txt"
+    return path.read_text(encoding="utf-8").splitlines() if path.exists() else []
+
+
+def notes(head, more=()):
+    lines = [*(head.get("notes") or []), *more]
     return "<ul>" + "\n".join(f"<li>{prose(n)}</li>" for n in lines) + "</ul>" if lines else ""
 
 

@@ -33,6 +33,12 @@ SECTIONS = (("work", "Work and precision", ("work_precision", "work_precision_ev
             ("spread", "Spread over the seeds", ("bands", "ensemble")))
 
 
+def sections(experiment):
+    """SECTIONS, and before the last one for each measure that has no figure of its own."""
+    measures = [(f"measure-{name}", measure["title"], (f"measure-{name}",)) for name, measure in experiment.measures.items()]
+    return (*SECTIONS[:-1], *((key, text(title), kinds) for key, title, kinds in measures), SECTIONS[-1])
+
+
 def page(experiment, verdicts, drawn):
     """The page; `drawn` maps a case's name to its [(drawing, wide svg, narrow svg)]."""
     body = [opening(experiment, verdicts, drawn), "<main>"]
@@ -80,7 +86,7 @@ def opening(experiment, verdicts, drawn):
     else:
         name = slug(first.case)
         kinds = {d.kind for d, *_ in drawn[first.case["name"]]}
-        links = " ".join(f'<a href="#{key}-{name}">{title}</a>' for key, title, some in SECTIONS if kinds & set(some))
+        links = " ".join(f'<a href="#{key}-{name}">{title}</a>' for key, title, some in sections(experiment) if kinds & set(some))
         out.append(f'<nav><a href="#case-{name}">Verdict</a> {links} <a href="#runs">Runs and provenance</a></nav></header>')
     return "\n".join(out)
 
@@ -97,7 +103,7 @@ def section(experiment, verdict, drawn, first):
     out.append(table(verdict))
     for _, said, items in constraints.claims(experiment, case):
         out.append(f"<h3>Claims</h3><p class=\"lede\">{text(said)}</p><ul>{''.join(f'<li>{text(i)}</li>' for i in items)}</ul>")
-    for key, title, kinds in SECTIONS:
+    for key, title, kinds in sections(experiment):
         some = [d for d in drawn if d[0].kind in kinds]
         if some:
             out.append(f'<h3 id="{key}-{name}">{title}</h3>')

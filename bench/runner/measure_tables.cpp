@@ -8,6 +8,7 @@
 #include <pfaff/bench/runner/origins.hpp>
 #include <pfaff/core/process/checksum.hpp>
 #include <pfaff/runs/measuring.hpp>
+#include <pfaff/runs/support/plane.hpp>
 
 namespace pfaff {
 
@@ -36,7 +37,7 @@ namespace {
 nlohmann::json identity(const MeasureInstance& measure, const std::string& made_of) {
   Origins origins;
   add_origins(measures().get(measure.descriptor().name, "measure"), {}, origins);
-  nlohmann::json j{{"schema", 1},
+  nlohmann::json j{{"schema", 2},
                    {"measure", measure.called()},
                    {"version", measure.descriptor().version},
                    {"run", made_of}};
@@ -50,7 +51,8 @@ fs::path file_of(const fs::path& directory, const MeasureInstance& measure, cons
 
 std::string text_of(const MeasureTable& table) {
   std::string text;
-  for (const std::string& name : table.columns) text += (text.empty() ? "" : ",") + csv_quoted(name);
+  for (std::size_t k = 0; k < table.columns.size(); ++k)
+    text += (k == 0 ? "" : ",") + csv_quoted(with_unit({.name = table.columns[k], .unit = table.units[k]}));
   text += '\n';
   for (const std::string& line : table.lines) text += line + '\n';
   return text;
@@ -63,10 +65,11 @@ std::optional<MeasureTable> kept_table(const fs::path& directory, const MeasureI
              about = text_in(file_of(directory, measure, ".json"));
   if (!text || !about) return std::nullopt;
   nlohmann::json j = nlohmann::json::parse(*about, nullptr, false);
-  if (!j.is_object() || j.value("table", "") != sha1_of(*text) || !j["columns"].is_array())
+  if (!j.is_object() || j.value("table", "") != sha1_of(*text) || !j["columns"].is_array() ||
+      !j["units"].is_array())
     return std::nullopt;
-  MeasureTable table{j["columns"], {}, j.value("ended", "")};
-  for (const char* key : {"table", "columns", "ended"}) j.erase(key);
+  MeasureTable table{j["columns"], j["units"], {}, j.value("ended", "")};
+  for (const char* key : {"table", "columns", "units", "ended"}) j.erase(key);
   if (j != identity(measure, made_of)) return std::nullopt;
   std::istringstream lines(text->substr(text->find('\n') + 1));
   for (std::string line; std::getline(lines, line);) table.lines.push_back(line);
@@ -84,6 +87,7 @@ void leave(const fs::path& directory, const MeasureInstance& measure, const std:
   nlohmann::json j = identity(measure, made_of);
   j["table"] = sha1_of(text);
   j["columns"] = table.columns;
+  j["units"] = table.units;
   if (!table.ended.empty()) j["ended"] = table.ended;
   write_file(file_of(directory, measure, ".json"), j.dump(1) + "\n");
 }
@@ -103,9 +107,10 @@ std::vector<MeasureTable> measured_in(const ResolvedRun& run, const Measures& me
   std::vector<MeasureTable> tables;
   for (const MeasuredTable& measured : pfaff::measured(start, run.steps, asked, &solution)) {
     MeasureTable& table = tables.emplace_back();
-    table.columns = {"t"};
+    table.columns = {"t"}, table.units = {start.model()->time_unit()};
     table.ended = measured.ended;
-    for (const Column& column : measured.columns) table.columns.push_back(column.name);
+    for (const Column& column : measured.columns)
+      table.columns.push_back(column.name), table.units.push_back(column.unit);
     for (const MeasuredTable::Line& line : measured.lines) {
       std::string text = elapsed(line.step, start.step());
       for (std::size_t k = 0; k < line.cells.size(); ++k)

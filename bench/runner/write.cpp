@@ -97,7 +97,8 @@ nlohmann::json summary(const ResolvedRun& run, const RunRecord& record) {
       }
     }
     if (invariant.behaviour == Behaviour::conserved) {
-      add_fields({.drift = record.invariants().drift[i], .round_off = record.invariants().round_off[i]}, entry);
+      add_fields({.drift = record.invariants().drift[i], .round_off = record.invariants().round_off[i]},
+                 entry);
     } else if (const auto words = setback_words(run.expected(invariant))) {
       entry[setback_key(*words)] = record.invariants().setback[i];
     }
@@ -107,7 +108,10 @@ nlohmann::json summary(const ResolvedRun& run, const RunRecord& record) {
     j["constraints"] = nlohmann::json::array();
     for (std::size_t i = 0; i < names.size(); ++i) {
       nlohmann::json entry{{"name", names[i]}};
-      add_fields({.drift = record.constraints().drift[i], .growth = record.constraints().growth[i], .residual = true}, entry);
+      add_fields({.drift = record.constraints().drift[i],
+                  .growth = record.constraints().growth[i],
+                  .residual = true},
+                 entry);
       j["constraints"].push_back(std::move(entry));
     }
   }

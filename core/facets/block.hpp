@@ -6,6 +6,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -53,16 +54,10 @@ class Tiles {
   }
   /// The first of `rows` rows that has a number which is not finite; `rows` where none has.
   [[nodiscard]] std::size_t first_not_finite(std::size_t rows) const {
-    // Zero times a number is zero, or no number where that is not finite, and one sum tells of all of them.
-    // Lanes behind the last row may hold anything and are left out.
     for (std::size_t begin = 0; begin < rows; begin += lanes<T>) {
-      const T* const numbers = tile(begin / lanes<T>);
-      Value<T> sum(0);
+      // Lanes behind the last row may hold anything and are left out.
       const std::size_t filled = std::min(lanes<T>, rows - begin);
-      for (std::size_t i = 0; i < components_; ++i)
-        for (std::size_t lane = 0; lane < filled; ++lane)
-          sum += value_of(numbers[i * lanes<T> + lane]) * Value<T>(0);
-      if (sum == Value<T>(0)) continue;
+      if (filled == lanes<T> && finite(tile(begin / lanes<T>))) continue;
       for (std::size_t row = begin; row < begin + filled; ++row)
         for (std::size_t i = 0; i < components_; ++i)
           if (!isfinite(value_of(at(row, i)))) return row;
@@ -71,6 +66,16 @@ class Tiles {
   }
 
  private:
+  // Zero times a number is zero, or no number where that is not finite. Sums of the lanes do not wait for
+  // each other.
+  [[nodiscard]] bool finite(const T* tile_of_all) const {
+    std::array<Value<T>, lanes<T>> sums{};
+    for (std::size_t i = 0; i < components_; ++i)
+      for (std::size_t lane = 0; lane < lanes<T>; ++lane)
+        sums[lane] += value_of(tile_of_all[i * lanes<T> + lane]) * Value<T>(0);
+    return std::all_of(sums.begin(), sums.end(), [](const Value<T>& sum) { return sum == Value<T>(0); });
+  }
+
   static constexpr std::align_val_t alignment{64};
   static constexpr std::size_t whole(std::size_t rows) { return (rows + lanes<T> - 1) / lanes<T> * lanes<T>; }
   struct Free {

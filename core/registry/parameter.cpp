@@ -129,7 +129,8 @@ std::string range_text(const Range& range, const std::string& unit) {
 }
 
 std::string range_of(const Parameter& p) {
-  if (p.kind == Parameter::Kind::file) return p.choices.empty() ? "FILE" : p.choices.front();
+  if (p.kind == Parameter::Kind::file) return "FILE";
+  if (p.kind == Parameter::Kind::text) return p.choices.front();
   if (p.kind == Parameter::Kind::choice || p.kind == Parameter::Kind::plugin) {
     std::string text;
     for (const std::string& choice : p.kind == Parameter::Kind::plugin ? p.plugins.names() : p.choices)
@@ -145,7 +146,7 @@ void Parameter::assign(void* object, const std::string& text, std::string_view o
                      range_of(*this) + ", got '" + text + "'" +
                      (meaning.empty() ? "" : " (" + meaning + ")"));
   };
-  if (kind == Kind::file) {
+  if (kind == Kind::file || kind == Kind::text) {
     write(object, text);
     return;
   }

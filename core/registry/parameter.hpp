@@ -54,14 +54,14 @@ struct PluginChoice {
 
 /// A named, ranged setting of a plug-in.
 struct Parameter {
-  enum class Kind { real, integer, choice, list, file, plugin };
+  enum class Kind { real, integer, choice, list, file, text, plugin };
 
   std::string name;
   std::string unit;  // empty for pure numbers
   std::string meaning;
   Kind kind = Kind::real;
   double minimum = 0, maximum = 0;   // numbers only, both ends included
-  std::vector<std::string> choices;  // choices only
+  std::vector<std::string> choices;  // of choices; of a text what it is, such as EXPRESSION
   PluginChoice plugins{};            // plug-ins only
 
   /// Writes and reads the member of the plug-in object this parameter stands for.
@@ -150,6 +150,16 @@ Parameter file_parameter(std::string S::*member, std::string name, std::string m
   Parameter p{std::move(name), {}, std::move(meaning), Parameter::Kind::file, 0, 0, {}, {}, {}, {}};
   p.write = [member](void* object, const std::string& text) { static_cast<S*>(object)->*member = text; };
   p.read = [member](const void* object) { return static_cast<const S*>(object)->*member; };
+  return p;
+}
+
+/// A text that the plug-in reads itself, of which `placeholder` says what it is, such as EXPRESSION.
+template <class S>
+Parameter text_parameter(std::string S::*member, std::string name, std::string placeholder,
+                         std::string meaning = {}) {
+  Parameter p = file_parameter(member, std::move(name), std::move(meaning));
+  p.kind = Parameter::Kind::text;
+  p.choices = {std::move(placeholder)};
   return p;
 }
 

@@ -14,7 +14,7 @@ using namespace pfaff;
 struct Separation {
   int count = 50;
   static std::vector<Parameter> parameters() {
-    return {parameter(&Separation::count, "looks", "", 1, 1000, "at the neighbour")};
+    return {parameter(&Separation::count, "looks", "", 1, 1000, "at both runs")};
   }
 
   [[nodiscard]] std::vector<Column> columns(const Model& /*model*/) const { return {{"separation"}}; }

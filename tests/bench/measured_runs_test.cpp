@@ -59,7 +59,8 @@ class MeasuredRuns : public ::testing::Test {
     for (std::string line; std::getline(stream, line);) lines.push_back(line);
     return lines;
   }
-  std::vector<std::string> written(const Experiment& of, const std::string& failed_step = "") {
+  std::vector<std::string> written(const Experiment& of, const std::string& failed_step = "",
+                                   const std::string& expected_notes = "") {
     const auto runs = expand(of);
     std::vector<nlohmann::json> summaries(runs.size(), {{"status", "converged"}, {"checksum", "a"}});
     for (std::size_t k = 0; k < runs.size(); ++k)
@@ -67,7 +68,8 @@ class MeasuredRuns : public ::testing::Test {
     std::string notes;
     References references;
     write_measures(files.path(), of, runs, summaries, references, notes);
-    EXPECT_EQ(notes, "");
+    EXPECT_EQ(notes, expected_notes);
+    EXPECT_EQ(text_in(files.path() / "measures" / "notes.txt").value_or(""), expected_notes);
     return joined("reversibility");
   }
   static std::ptrdiff_t beginning_with(const std::vector<std::string>& lines, const std::string& begin) {
@@ -95,8 +97,11 @@ TEST_F(MeasuredRuns, AreThoseAtTheLargestStepThatEndsWell) {
 }
 
 TEST_F(MeasuredRuns, AreThoseOfTheMeasuresThatAreNamed) {
-  (void)written(read("measures = [\"contraction(looks=2)\"]\n"));
+  const std::string of_seeds = "contraction of many is left out: its runs have seeds\n";
+  (void)written(read("measures = [\"contraction(looks=2)\"]\n"), "", of_seeds);
   EXPECT_EQ(joined("contraction").size(), 1 + 2 * 3U);
+  (void)written(read("measures = [\"contraction(looks=2)\"]\n"), "all",
+                "contraction of swing is left out: no run of it ended well\n" + of_seeds);
   EXPECT_TRUE(joined("reversibility").empty());
   EXPECT_TRUE(written(read("measures = []\n")).empty());
   EXPECT_TRUE(joined("contraction").empty());

@@ -30,7 +30,9 @@ class Measured(Fresh):
         self.assertEqual(run(self.folder)[0], 0)
         page = (self.folder / "report.html").read_text()
         self.assertIn('href="measures/spread.csv"', page)
-        self.assertIn("measure-spread_osc", page)
+        self.assertEqual(page.count('<h3 id="measure-spread-osc">spread</h3>'), 1)
+        section = page[page.index('<h3 id="measure-spread-osc">'):]
+        self.assertEqual(section[:section.index("</figure>")].count("<svg"), 2)  # for wide screens and for narrow ones
 
     def test_decades_stand_on_a_logarithmic_axis_and_signs_do_not(self):
         drawing, = self.drawing(["spread"], self.rows(lambda k, n: 10.0 ** (k - 9)))

@@ -115,6 +115,7 @@ bool own_identity(const Check& c) { return !c.control && (c.system.empty() || c.
 
 // "1.2e-15 of 1e-14 allowed", "4 of 4 claimed".
 std::string found_of(const Check& c) {
+  if (std::isnan(c.measured)) return "not measured";
   return c.claim == "order" ? scientific(c.measured) + " of " + scientific(c.expected) + " claimed"
                             : scientific(c.measured) + " of " + scientific(c.tolerance) + " allowed";
 }
@@ -166,10 +167,10 @@ void print_causes(const std::vector<Check>& checks) {
   std::vector<std::vector<std::string>> rows{{"  failed", "found", "where", "precision"}};
   for (std::size_t k = 0; k < std::min(most_rows, shown.size()); ++k) {
     const Check& c = *shown[k];
-    rows.push_back(
-        {"  " + c.claim,
-         c.control ? "a false claim, not rejected" : found_of(c) + (c.reason.empty() ? "" : ": " + c.reason),
-         place_of(c), c.precision});
+    rows.push_back({"  " + c.claim,
+                    (c.control ? "a false claim, not rejected" : found_of(c)) +
+                        (c.reason.empty() ? "" : ": " + c.reason),
+                    place_of(c), c.precision});
   }
   std::cout << table(rows);
   if (shown.size() > most_rows) std::cout << "  and " << shown.size() - most_rows << " more (--verbose)\n";
