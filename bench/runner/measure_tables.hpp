@@ -29,8 +29,8 @@ std::string refuses(const MeasureInstance& measure, const ResolvedRun& run);
 /// The table of one run.
 struct MeasureTable {
   std::vector<std::string> columns, units;  // names and units; the first is t
-  std::vector<std::string> lines;    // the text of each row
-  std::string ended;                 // why it ends before the run does; or empty
+  std::vector<std::string> lines;           // the text of each row
+  std::string ended;                        // why it ends before the run does; or empty
 };
 
 /// The tables of a run whose files have the checksum `made_of`, in the order of the measures, none of which
