@@ -46,6 +46,7 @@ Check judged(const MeasurePlugin& plugin, const MeasureControl& control) {
   check.precision = "double";
   check.tolerance = control.allowed;  // of how far the number is from the one that is stated
   check.control = control.fault;
+  const std::string run_of = check.scope + ": ";
   double number = 0;
   try {
     const auto run = integrate(control.system, control.system_parameters, control.method,
@@ -54,7 +55,7 @@ Check judged(const MeasurePlugin& plugin, const MeasureControl& control) {
       throw InputError(reason);
     number = last_number(measured(run, control.steps, {&measure}).front(), control.column);
   } catch (const InputError& error) {
-    return not_measured(std::move(check), check.scope + ": " + error.what());
+    return not_measured(std::move(check), run_of + error.what());
   }
   check.measured = std::abs(number - control.expected);
   const bool as_stated = check.measured <= control.allowed;
@@ -62,7 +63,7 @@ Check judged(const MeasurePlugin& plugin, const MeasureControl& control) {
                  : as_stated   ? CheckResult::pass
                                : CheckResult::fail;
   if (check.result == CheckResult::fail)
-    check.reason = check.scope + ": it gives " + formatted("%.10g", number) +
+    check.reason = run_of + "it gives " + formatted("%.10g", number) +
                    (control.fault ? " as if the method kept it" : ", expected ") +
                    (control.fault ? "" : formatted("%.10g", control.expected));
   return check;
