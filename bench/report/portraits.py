@@ -43,9 +43,12 @@ class Frame:
         axes.locator_params(nbins=ticks)
 
 
-def panels(tracks, names, units, wide, behind=None, start=True):
+STEPS = {"linewidth": 0.9, "marker": ".", "markersize": 3.0, "markeredgewidth": 0}  # of a track that has every step
+
+
+def panels(tracks, names, units, wide, behind=None, start=True, every_step=False):
     """The tracks [(label, colour, xs, ys)] on a Canvas, each in a panel with the same axes, with the track (xs, ys) `behind`; sections
-    have no start."""
+    have no start. What has every step is joined, however far these lie apart."""
     frame, look = Frame([t[2:] for t in tracks], units), sizes(wide)
     left, top, right, below, between = (x * look.unit for x in (72 if look.wide else 56, 24, 10, 46, 14))
     columns = min(len(tracks), (3 if len(tracks) in (3, 5, 6) else 4) if look.wide else 2)
@@ -59,12 +62,12 @@ def panels(tracks, names, units, wide, behind=None, start=True):
         axes = canvas.panel(left + column * (each + between), top + row * (top + tall), each, tall)
         axes.grid(False)
         step = max(1, len(x) // SHOWN)
-        style = ({"linestyle": "none", "marker": ".", "markersize": 2.2, "markeredgewidth": 0} if not start or coarse(x, y)
-                 else {"linewidth": 0.9})
+        alone = {"linestyle": "none", "marker": ".", "markersize": 2.2, "markeredgewidth": 0}
+        style = STEPS if every_step else alone if not start or coarse(x, y) else {"linewidth": 0.9}
         canvas.line(axes, x[::step], y[::step], label, color=colour, **style)
         if behind:
             axes.plot(*behind, color=GREY, zorder=1, **(
-                {"linestyle": "none", "marker": ".", "markersize": 3.5, "markeredgewidth": 0} if coarse(*behind) else
+                {"linestyle": "none", "marker": ".", "markersize": 3.5, "markeredgewidth": 0} if coarse(*behind) and not every_step else
                 {"linewidth": 3.0 * look.unit, "alpha": 0.55}))
         if start:
             axes.plot(x[:1], y[:1], marker="x", color=INK, markersize=6 * look.unit, markeredgewidth=1.4 * look.unit, zorder=5)

@@ -5,7 +5,7 @@ import math
 
 from canvas import GREY, INK, Canvas, sizes
 from figures import limits, sentences, step_text
-from portraits import FRAME, Frame, outer, panels
+from portraits import FRAME, STEPS, Frame, outer, panels
 from series import split_unit
 from wording import listed
 
@@ -54,7 +54,7 @@ def draw(found, rows, wide):
         first = next(iter(shown[0][1].stretches.values()))
         tracks = [(row.label, row.curve.family.light, *finite(*next(iter(one.stretches.values()))[1:3])) for row, one in shown]
         behind = finite(*first[3:])
-        return panels(tracks, names, units, wide, behind if len(behind[0]) > 1 else None)
+        return panels(tracks, names, units, wide, behind if len(behind[0]) > 1 else None, every_step=True)
     numbers = sorted({number for _, one in shown for number in one.stretches})
     look = sizes(wide)
     if not look.wide and len(numbers) > 3:
@@ -77,7 +77,7 @@ def draw(found, rows, wide):
                 continue
             times, x, y, exact_x, exact_y = one.stretches[number]
             axes.plot(*finite(exact_x, exact_y), color=GREY, linewidth=2.6 * look.unit, alpha=0.6, zorder=1)
-            canvas.line(axes, *finite(x, y), f"{row.label}, t = {times[0]:g} to {times[-1]:g}", color=colour, linewidth=1.0)
+            canvas.line(axes, *finite(x, y), f"{row.label}, t = {times[0]:g} to {times[-1]:g}", color=colour, **STEPS)
             if k == 0:
                 box = axes.get_window_extent()
                 canvas.write(axes, box.x0, box.y1 + top, f"t = {times[0]:.4g} to {times[-1]:.4g}", 0.92, color=INK)
@@ -101,6 +101,7 @@ def told(verdict, found, rows):
     return sentences(
         "Every step of the run, early and late: a stretch is one turn of the track, as far as it turns." if several else
         "Every step of the run from its start.",
+        "Points are the steps.",
         f"At {step_text(steps.pop(), verdict.case)}." if len(steps) == 1 else "At the largest step at which each method finishes.",
         "Behind, in grey, the exact motion at the same times." if exact else "",
         "Axes are the same in all panels." if several or len(shown) > 1 else "",

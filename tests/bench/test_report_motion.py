@@ -176,7 +176,9 @@ class Stretches(Fresh):
     def test_one_stretch_is_drawn_side_by_side(self):
         drawing = self.drawing(stretches=1)
         self.assertIn("Every step of the run from its start.", drawing.caption)
-        self.assertEqual([axes.get_title(loc="left") for axes in drawing.draw(True).axes], ["round", "small", "lost"])
+        axes = drawing.draw(True).axes
+        self.assertEqual([one.get_title(loc="left") for one in axes], ["round", "small", "lost"])
+        self.assertEqual({line.get_linestyle() for one in axes for line in one.lines[:2]}, {"-"})  # also where steps turn by half a radian
 
     def test_the_table_has_no_second_figure(self):
         self.assertEqual(run(turning(self.folder))[0], 0)
