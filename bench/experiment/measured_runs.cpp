@@ -39,17 +39,17 @@ Measures measures_of(const Experiment& experiment, const ExperimentCase& one) {
   return found;
 }
 
-std::vector<const ExperimentRun*> measured_runs(const MeasureInstance& measure,
+std::vector<const ExperimentRun*> measured_runs(const MeasureInstance& measure, const ExperimentCase& one,
                                                 const std::vector<ExperimentRun>& runs,
                                                 const std::vector<nlohmann::json>& summaries) {
   std::vector<const ExperimentRun*> found;
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const ExperimentRun& run = runs[k];
-    if (run.seed > 0 || summaries[k]["status"] != "converged" || !refuses(measure, run.resolved).empty())
+    if (run.which != &one || run.seed > 0 || summaries[k]["status"] != "converged" ||
+        !refuses(measure, run.resolved).empty())
       continue;
-    const auto same = std::find_if(found.begin(), found.end(), [&](const ExperimentRun* other) {
-      return other->which == run.which && other->method == run.method;
-    });
+    const auto same = std::find_if(found.begin(), found.end(),
+                                   [&](const ExperimentRun* other) { return other->method == run.method; });
     if (measure.descriptor().over == Over::step || same == found.end()) {
       found.push_back(&run);
     } else if (std::abs((*same)->resolved.step.value()) < std::abs(run.resolved.step.value())) {
@@ -111,10 +111,9 @@ void write_measures(const fs::path& directory, const Experiment& experiment,
       if (measure == found.back() && !one.frequencies.empty())
         measure = frequencies_of(one, time_of_frequencies(one, runs, summaries));
       if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-      bool fits = false;
-      for (const ExperimentRun* run : measured_runs(*measure, runs, summaries))
-        if (run->which == &one) wanted[run].push_back(measure), fits = true;
-      if (!fits && experiment.measures)
+      const std::vector<const ExperimentRun*> fitting = measured_runs(*measure, one, runs, summaries);
+      for (const ExperimentRun* run : fitting) wanted[run].push_back(measure);
+      if (fitting.empty() && experiment.measures)
         notes += name + " of " + one.name + " is left out" + why(*measure, one, runs);
     }
   }

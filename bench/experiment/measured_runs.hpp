@@ -14,9 +14,9 @@ namespace pfaff {
 /// they are usual, and that of the vectors of the case.
 Measures measures_of(const Experiment& experiment, const ExperimentCase& one);
 
-/// True where a run is one of which a measure has a table: of cases without seeds, and of measures over time
-/// each method at the largest step at which its run has ended well, of others each run that has.
-std::vector<const ExperimentRun*> measured_runs(const MeasureInstance& measure,
+/// The runs of a case of which a measure has a table: none of one with seeds, and of measures over time each
+/// method at the largest step at which its run has ended well, of others each run that has.
+std::vector<const ExperimentRun*> measured_runs(const MeasureInstance& measure, const ExperimentCase& one,
                                                 const std::vector<ExperimentRun>& runs,
                                                 const std::vector<nlohmann::json>& summaries);
 

@@ -96,6 +96,40 @@ TEST_F(MeasuredRuns, AreThoseAtTheLargestStepThatEndsWell) {
   EXPECT_TRUE(written(of, "all").empty());
 }
 
+// Coordinates that one case names are those of no other case.
+TEST_F(MeasuredRuns, HaveThePlaneOfTheirCase) {
+  const char* const two = R"(schema = 1
+title = "A test"
+[[method]]
+label = "RK4"
+integrator = "rk4"
+[[case]]
+name = "orbit"
+system = "kepler"
+time = 4
+steps = [0.1]
+motion = ["q1", "p1"]
+[[case]]
+name = "swing"
+system = "damped-oscillator"
+time = 4
+steps = [0.1]
+[[case]]
+name = "away"
+system = "kepler"
+time = 4
+steps = [0.1]
+reference = "none"
+)";
+  write_file(files / "test.toml", two);
+  (void)written(read_experiment(files / "test.toml", false));
+  const auto lines = joined("motion");
+  EXPECT_EQ(lines.size(), 1 + 3 * 41U);
+  EXPECT_EQ(beginning_with(lines, "orbit,RK4,0.1,0,q1,p1,1,0.4,0,0.4,0"), 1);
+  EXPECT_EQ(beginning_with(lines, "swing,RK4,0.1,0,r [m],p [m/s],1,"), 1);
+  EXPECT_EQ(beginning_with(lines, "away,RK4,0.1,0,q1,q2,1,0.4,0,,"), 1);  // without a solution
+}
+
 TEST_F(MeasuredRuns, AreThoseOfTheMeasuresThatAreNamed) {
   const std::string of_seeds = "contraction of many is left out: its runs have seeds\n";
   (void)written(read("measures = [\"contraction(looks=2)\"]\n"), "", of_seeds);
