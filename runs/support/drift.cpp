@@ -143,6 +143,16 @@ Drift DriftAccumulator::result(const RoundOff& round_off) const {
   return whole.result_of_taken(round_off);
 }
 
+namespace {
+// Of all errors in blocks, the largest less the smallest.
+double range_of(const std::vector<windows::Block>& blocks) {
+  double smallest = infinity, largest = -infinity;
+  for (const windows::Block& block : blocks)
+    smallest = std::min(smallest, block.minimum), largest = std::max(largest, block.maximum);
+  return largest - smallest;
+}
+}  // namespace
+
 Drift DriftAccumulator::result_of_taken(const RoundOff& round_off) const {
   Drift drift;
   drift.samples = samples_;
@@ -180,6 +190,13 @@ Drift DriftAccumulator::result_of_taken(const RoundOff& round_off) const {
   if (verdict.slope) {
     const windows::Estimate slope = per_time({verdict.slope->value, verdict.slope->low, verdict.slope->high});
     drift.slope = slope.value, drift.slope_low = slope.low, drift.slope_high = slope.high;
+    if (const double whole = range_of(blocks_); std::abs(slope.value * span) > 1.5 * whole) {
+      // No line of least squares through errors in such a range is so steep (at most by 3/2). What models of
+      // correlated noise make of errors that leave their start and then stay, say, is no trend.
+      drift.slope = line;
+      drift.slope_low = std::min({slope.low, line, 0.0}),
+      drift.slope_high = std::max({slope.high, line, 0.0});
+    }
   }
   double above = -infinity, below = infinity;
   for (const windows::Block& block : blocks_) {

@@ -224,4 +224,26 @@ TEST(Drift, UnitsAndDirectionOfTimeDoNotMatter) {
   EXPECT_EQ(scaled.slope_low, measure(errors, -0x1p10).slope_low);  // deterministic
 }
 
+// No line of least squares through errors in a range is steeper than 3/2 of that over the time.
+TEST(Drift, SlopesStayWithinTheErrors) {
+  for (const int count : {100, 1000, 15000})
+    for (const double leaves : {0.001, 0.01, 0.05, 0.2})
+      for (const double swing : {0.0, 1e-3, 1e-2}) {
+        DriftAccumulator errors;
+        double smallest = 0, largest = 0;
+        for (int k = 0; k <= count; ++k) {
+          const double t = static_cast<double>(k) / count;
+          const double e = -std::exp(-0.5 * t) * (1 - std::exp(-t / leaves)) + swing * std::sin(300 * t);
+          errors.add(t, e);
+          smallest = std::min(smallest, e), largest = std::max(largest, e);
+        }
+        const Drift drift = errors.result();
+        EXPECT_LE(std::abs(drift.slope), 1.5 * (largest - smallest))
+            << count << ' ' << leaves << ' ' << swing;
+        EXPECT_LE(drift.slope_low, drift.slope);
+        EXPECT_GE(drift.slope_high, drift.slope);
+        EXPECT_LE(drift.oscillation_amplitude, 1.5 * (largest - smallest));
+      }
+}
+
 }  // namespace
