@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that Pfaff is built from, where any is missing; otherwise does nothing, quickly.
-# `--tests` adds what the Python module is built from and tested with, `--lint` besides what .ci/run checks the sources
-# with, and MPI, which one test needs. PFAFF_SKIP_SETUP=1 skips all of it.
+# `--tests` adds what the Python module is built from and tested with, and what other tests use; `--lint` besides what
+# .ci/run checks the sources with, and MPI, which one test needs. PFAFF_SKIP_SETUP=1 skips all of it.
 #
 # Exit status: 0 everything is there; 2 something is missing and cannot be installed from here, or nothing can be built.
 set -euo pipefail
@@ -45,9 +45,9 @@ needed=(
   "python3-ipykernel module:ipykernel"
   "jupyter-nbconvert module:nbconvert"
   "mypy program:stubgen"
+  "git program:git"
 )
 [[ ${1:-} == --lint ]] && needed+=(
-  "git program:git"
   "clang-format program:clang-format"
   "clang-tidy program:clang-tidy"
   "libclang-dev header:clang-c/Index.h"
