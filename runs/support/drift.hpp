@@ -66,9 +66,10 @@ struct Drift {
 
   /// Linear trend and its 95 % interval, [e/t]. Below 32 samples the slope is that of least squares and the
   /// interval infinite (null in JSON); below 2 the slope is 0. A slope by which the errors would leave their
-  /// range is none: then that of least squares stands here, and the interval has it and 0 in it. For polynomial and exponential growth the
-  /// slope is a mean rate and the interval wide, because a line does not fit. Where the quantity is lost and
-  /// the class is that of a part of the run, so are slope, exponent and rate.
+  /// range is none: then that of least squares stands here, and the interval has it and 0 in it. For
+  /// polynomial and exponential growth the slope is a mean rate and the interval wide, because a line does
+  /// not fit. Where the quantity is lost and the class is that of a part of the run, so are slope, exponent
+  /// and rate.
   double slope = 0, slope_low = 0, slope_high = 0;
 
   double oscillation_amplitude = 0;  // half peak-to-peak about the trend, [e]
