@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include <pfaff/app/command.hpp>
+#include <pfaff/app/run_measures.hpp>
 #include <pfaff/app/run_summary.hpp>
 #include <pfaff/app/state_file.hpp>
 #include <pfaff/bench/experiment/experiment_directory.hpp>
@@ -16,7 +17,6 @@
 #include <pfaff/bench/runner/row_file.hpp>
 #include <pfaff/bench/runner/run_directory.hpp>
 #include <pfaff/bench/runner/terminal.hpp>
-#include <pfaff/core/errors/budget.hpp>
 #include <pfaff/runs/motion.hpp>
 
 namespace pfaff::app {
@@ -103,11 +103,6 @@ std::string of_the_last_step(const ResolvedRun& run) {
   return "the run lasts " + to_string(end, 12) + ", not " + to_string(time, 12) + ": " +
          std::to_string(run.steps) + (run.steps == 1 ? " step" : " whole steps") + " of " +
          to_string(run.step) + ", and none is shortened";
-}
-
-// True of a run of which measures have nothing to say, or of which nobody waits for what they say.
-bool left_unmeasured(const nlohmann::json& summary) {
-  return summary["status"] == "interrupted" || summary["completed"] == 0;
 }
 
 // Prints what a run left, made now or before, and gives the exit status.
@@ -214,57 +209,9 @@ void refuse_to_replace(const KeptRun& kept, const std::string& out) {
                      "; expected a new directory, or --force to run it anew");
 }
 
-// The measures that are asked for, all of which fit the run.
-Measures fitting_measures(const RunOptions& options, const ResolvedRun& resolved) {
-  Measures measures = measures_asked_for(options.measures);
-  if (!measures.empty() && options.out == "-")
-    throw InputError("--measure: tables of measures go to the directory of the run; expected --out DIR");
-  for (const auto& measure : measures)
-    if (const std::string reason = refuses(*measure, resolved); !reason.empty())
-      throw InputError("--measure: " + reason);
-  return measures;
-}
-
-// Makes the tables of measures of a run, as far as it came, and says of each what it is.
-nlohmann::json measured(const RunOptions& options, const ResolvedRun& resolved, const Measures& measures,
-                        const nlohmann::json& summary) {
-  nlohmann::json list = nlohmann::json::array();
-  if (measures.empty() || left_unmeasured(summary)) return list;
-  ResolvedRun as_far = resolved;
-  as_far.steps = summary["completed"];
-  const Interruption interruption;
-  const Budget budget({}, &Interruption::stop());
-  std::vector<MeasureTable> tables;
-  try {
-    tables = tables_of(options.out, as_far, summary["checksum"], measures, *solution_of(as_far));
-  } catch (const BudgetSpent& spent) {
-    if (!spent.stopped()) throw;
-    throw RunError("interrupted while the run was measured; the run in '" + options.out + "' is complete");
-  }
-  for (std::size_t m = 0; m < measures.size(); ++m) {
-    const std::string& name = measures[m]->descriptor().name;
-    list.push_back({{"name", name},
-                    {"rows", tables[m].lines.size()},
-                    {"file", options.out + "/" + measures_directory + "/" + name + ".csv"}});
-    if (!tables[m].ended.empty()) list.back()["ended"] = tables[m].ended;
-  }
-  return list;
-}
-
-// A row for each table.
-TableRows rows_on(const nlohmann::json& tables) {
-  TableRows rows;
-  for (const nlohmann::json& table : tables)
-    rows.push_back(
-        {table["name"],
-         table["rows"].dump() + " rows in " + table["file"].get<std::string>() +
-             (table.contains("ended") ? "; ended early: " + table["ended"].get<std::string>() : "")});
-  return rows;
-}
-
 int run(const RunOptions& options, const Common& common) {
   const ResolvedRun resolved = resolved_run(options);
-  const Measures measures = fitting_measures(options, resolved);
+  const Measures measures = fitting_measures(options.measures, options.out, resolved);
   if (const std::string end = of_the_last_step(resolved); !end.empty() && !common.quiet)
     std::cerr << "pfaff: " << end << '\n';
   if (options.out == "-") return run_to_standard_output(resolved, common);
@@ -276,7 +223,7 @@ int run(const RunOptions& options, const Common& common) {
   const KeptRun kept = kept_run(directory, resolved);
   if (!options.force) refuse_to_replace(kept, options.out);
   const nlohmann::json j = kept.current() ? kept.summary : made_in(directory, resolved, common.quiet);
-  nlohmann::json tables = measured(options, resolved, measures, j);
+  nlohmann::json tables = tables_of_measures(options.out, resolved, measures, j);
   if (common.quiet) return finish(j, "", !measures.empty());
   const TableRows rows = rows_on(tables);
   nlohmann::json with_tables = j;
