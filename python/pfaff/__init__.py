@@ -21,12 +21,13 @@ from ._experiments import Comparison, Table, WorkPrecision, compare, experiments
 from ._integration import Integration, Outcome
 from ._method import Method, method, methods, table
 from ._papers import Reproduced, Reproduction, papers, reproduce
-from ._run import Run, Watched, run
+from ._run import Run, run
 from ._solve_ivp import solve_ivp
 from ._step import Problem
 from ._system import System, system, systems
 from ._tracing import solve, where
 from ._verification import Check, Checks, Counterexample, Falsification, Falsifications, falsify, verify
+from ._watched import Watched
 
 if TYPE_CHECKING:
     from . import plots
