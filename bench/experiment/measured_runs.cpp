@@ -21,14 +21,12 @@ Measures measures_of(const Experiment& experiment, const ExperimentCase& one) {
     for (const MeasurePlugin* measure : measures().all())
       if (measure->descriptor().usual) found.push_back(measure->make({}));
   }
+  // The motion is looked at in the plane that the case names; of what is set twice the last counts.
   for (auto& measure : found) {
     if (measure->descriptor().name != "motion") continue;
     Assignments settings = measure->parameters();
-    for (auto& [name, value] : settings) {
-      if (name == "x" && !one.motion.empty()) value = one.motion[0];
-      if (name == "y" && !one.motion.empty()) value = one.motion[1];
-      if (name == "exact" && !one.reference) value = "no";
-    }
+    if (!one.motion.empty()) settings.insert(settings.end(), {{"x", one.motion[0]}, {"y", one.motion[1]}});
+    if (!one.reference) settings.emplace_back("exact", "no");
     measure = measures().get("motion", "measure").make(settings);
   }
   if (auto vectors = frequencies_of(one)) {
@@ -74,9 +72,7 @@ void join(const ExperimentRun& run, const MeasureInstance& measure, const Measur
       csv_quoted(run.which->name) + "," + csv_quoted(run.method->label) + "," + csv_quoted(run.step) + ",";
   for (const std::string& line : table.lines) joined.lines.push_back(begin + line);
 }
-}  // namespace
 
-namespace {
 // Why a measure that was asked for says nothing of a case.
 std::string why(const MeasureInstance& measure, const ExperimentCase& one,
                 const std::vector<ExperimentRun>& runs) {

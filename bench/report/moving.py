@@ -28,8 +28,10 @@ def drawings(verdict):
         title = f"{heading(verdict.case)}: the motion, early and late"
         out.append(Drawing("motion", verdict.case, title, stretches.told(verdict, found, rows),
                            lambda wide: described(stretches.draw(found, rows, wide), title), "Early and late"))
-    names = names or shown[0][1].plane() if shown else None
-    return out + (([] if out else portraits(verdict, shown, names)) + sections(verdict, shown) if names else [])
+    names = (names or shown[0][1].plane()) if shown else None
+    if not names:
+        return out
+    return (out or portraits(verdict, shown, names)) + sections(verdict, shown)
 
 
 def chosen(verdict):

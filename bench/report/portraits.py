@@ -83,12 +83,17 @@ def outer(canvas, axes, names, units, last, first):
     axes.tick_params(labelbottom=last, labelleft=first)
 
 
+def leaving(tracks):
+    """A sentence on the tracks [(label, xs, ys)] that leave the frame of all; empty where none does."""
+    frame = limits([t[1:] for t in tracks], FRAME)
+    outside = [label for label, *track in tracks
+               if any(min(v) < low or max(v) > high for v, (low, high) in zip(track, frame))]
+    return f"The track of {', '.join(outside)} leaves the frame." if outside else ""
+
+
 def remarks(tracks, units):
     """What a reader must know of tracks in panels, in sentences."""
-    frame = limits([t[2:] for t in tracks], FRAME)
-    outside = [label for label, _, x, y in tracks
-               if any(min(v) < low or max(v) > high for v, (low, high) in zip((x, y), frame))]
     return sentences("Axes are the same in all panels." if len(tracks) > 1 else "",
                      "Both axes have the same scale." if units[0] == units[1] else "", "A cross marks the start.",
                      "Points are samples that lie too far apart to be joined." if any(coarse(x, y) for *_, x, y in tracks)
-                     else "", f"The track of {', '.join(outside)} leaves the frame." if outside else "")
+                     else "", leaving([(label, x, y) for label, _, x, y in tracks]))

@@ -76,8 +76,13 @@ class Recording:
         for name in names:
             if name not in self.columns:
                 raise InputError(f"{self.folder.name}/series.csv: column '{name}' is missing")
-        pairs = [p for p in zip(*(self.columns[name] for name in names)) if all(map(math.isfinite, p))]
-        return [p[0] for p in pairs], [p[1] for p in pairs]
+        return finite(*(self.columns[name] for name in names))
+
+
+def finite(x, y):
+    """(xs, ys) of the pairs of which both numbers are finite."""
+    pairs = [p for p in zip(x, y) if all(map(math.isfinite, p))]
+    return [p[0] for p in pairs], [p[1] for p in pairs]
 
 
 def cubic(values, s):

@@ -3,14 +3,14 @@ and a column for each stretch, with the exact motion behind. All panels have the
 """
 import math
 
-from canvas import GREY, INK, Canvas, sizes
-from figures import limits, sentences, step_text
-from portraits import FRAME, STEPS, Frame, outer, panels
+from canvas import GREY, INK, Canvas, plain, sizes
+from figures import sentences, step_text
+from portraits import STEPS, Frame, leaving, outer, panels
+from recording import finite
 from series import split_unit
-from wording import listed
 
 MEASURE = "motion"  # whose table it draws
-ROWS = 4
+ROWS = 4  # of panels
 
 
 class Followed:
@@ -32,11 +32,6 @@ def followed(verdict):
     for _, cells in verdict.experiment.table(MEASURE, verdict.case):
         found.setdefault(cells["method"], Followed()).add(cells)
     return {label: one for label, one in found.items() if any(len(s[0]) > 2 for s in one.stretches.values())}
-
-
-def finite(x, y):
-    pairs = [p for p in zip(x, y) if all(map(math.isfinite, p))]
-    return [p[0] for p in pairs], [p[1] for p in pairs]
 
 
 def rows_of(found, rows):
@@ -72,7 +67,7 @@ def draw(found, rows, wide):
             frame.apply(axes, 3)
             outer(canvas, axes, names, units, last=k == len(shown) - 1, first=column == 0)
             if column == 0:
-                axes.set_title(row.label.replace("$", r"\$"), fontsize=0.95 * look.font, color=colour, loc="left", pad=4 * look.unit)
+                axes.set_title(plain(row.label), fontsize=0.95 * look.font, color=colour, loc="left", pad=4 * look.unit)
             if number not in one.stretches:
                 continue
             times, x, y, exact_x, exact_y = one.stretches[number]
@@ -93,10 +88,7 @@ def told(verdict, found, rows):
     """What stands below, in sentences."""
     shown = [(row, found[row.label]) for row in rows]
     steps = {one.step for _, one in shown}
-    frame = limits(tracks_of(shown), FRAME)
     several = any(len(one.stretches) > 1 for _, one in shown)
-    outside = [row.label for (row, _), track in zip(shown, tracks_of(shown))
-               if any(min(v) < low or max(v) > high for v, (low, high) in zip(track, frame))]
     exact = any(math.isfinite(v) for _, one in shown for s in one.stretches.values() for v in s[3])
     return sentences(
         "Every step of the run, early and late: a stretch is one turn of the track, as far as it turns." if several else
@@ -105,4 +97,4 @@ def told(verdict, found, rows):
         f"At {step_text(steps.pop(), verdict.case)}." if len(steps) == 1 else "At the largest step at which each method finishes.",
         "Behind, in grey, the exact motion at the same times." if exact else "",
         "Axes are the same in all panels." if several or len(shown) > 1 else "",
-        f"The track of {listed(outside)} leaves the frame." if outside else "")
+        leaving([(row.label, *track) for (row, _), track in zip(shown, tracks_of(shown))]))

@@ -8,7 +8,7 @@
 #include <pfaff/bench/runner/origins.hpp>
 #include <pfaff/core/process/checksum.hpp>
 #include <pfaff/runs/measuring.hpp>
-#include <pfaff/runs/support/plane.hpp>
+#include <pfaff/runs/support/with_unit.hpp>
 
 namespace pfaff {
 
@@ -52,7 +52,7 @@ fs::path file_of(const fs::path& directory, const MeasureInstance& measure, cons
 std::string text_of(const MeasureTable& table) {
   std::string text;
   for (std::size_t k = 0; k < table.columns.size(); ++k)
-    text += (k == 0 ? "" : ",") + csv_quoted(with_unit({.name = table.columns[k], .unit = table.units[k]}));
+    text += (k == 0 ? "" : ",") + csv_quoted(with_unit(table.columns[k], table.units[k]));
   text += '\n';
   for (const std::string& line : table.lines) text += line + '\n';
   return text;

@@ -98,9 +98,15 @@ class Observing final : public Watcher<T> {
     if (!sampler_.measures_errors()) return Quad(0);
     return Quad(value_of(run.time_of(0))) + Quad(static_cast<double>(step)) * Quad(value_of(run.step()));
   }
+  // Whether the residual of the structure is due at the next sample, after `step` steps.
+  [[nodiscard]] bool structure_next(std::int64_t step) const {
+    return (row_ + 1) % structure_rows_ == 0 || step == run_.steps;
+  }
+  // The same, and counts the sample.
   [[nodiscard]] bool structure_at(std::int64_t step) {
+    const bool due = structure_next(step);
     ++row_;
-    return row_ % structure_rows_ == 0 || step == run_.steps;
+    return due;
   }
   void passed(std::int64_t step) const {
     if (progress_ && keeps(step)) progress_(static_cast<double>(step) / static_cast<double>(run_.steps));
@@ -176,9 +182,8 @@ class Observing final : public Watcher<T> {
     if (run_.every != block.stride || !sampler_.takes_rows()) return 0;
     std::size_t count = 0;
     for (; row + count < block.rows; ++count) {
-      const bool structure = sampler_.measures_structure() &&
-                             ((row_ + 1) % structure_rows_ == 0 || block.step(row + count) == run_.steps);
-      if (structure || !invariants_.sample(block, row + count)) break;
+      if (sampler_.measures_structure() && structure_next(block.step(row + count))) break;
+      if (!invariants_.sample(block, row + count)) break;
       ++row_;
     }
     return count;

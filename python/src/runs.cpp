@@ -34,9 +34,6 @@ class Columns final : public SampleTaker {
  public:
   void begin(const MeasuredBeside& of) override {
     measured = of;
-    t.reserve(rows);
-    y.reserve(rows * coordinates);
-    invariants.reserve(rows * conserved);
     if (also != nullptr) also->begin(of);
   }
   void take(const Sample<double>& sample) override {
@@ -59,9 +56,15 @@ class Columns final : public SampleTaker {
   }
   using SampleTaker::take;
 
+  // Room for so many samples of a model.
+  void reserve(std::size_t rows, const Model& model) {
+    t.reserve(rows);
+    y.reserve(rows * static_cast<std::size_t>(model.dimension()));
+    invariants.reserve(rows * model.invariants().size());
+  }
+
   SampleTaker* also = nullptr;
   MeasuredBeside measured;
-  std::size_t rows = 0, coordinates = 0, conserved = 0;  // that are expected
   Numbers t, y, invariants, constraints, error, structure;
 
  private:
@@ -154,10 +157,8 @@ class RunInProgress {
     without_lock([&] {
       const auto reference = reference_asked_for(run_);
       std::optional<Files> files;
-      columns_.rows =
-          run_.adaptive() ? 0 : static_cast<std::size_t>(std::min(run_.rows(), most_reserved) + 1);
-      columns_.coordinates = static_cast<std::size_t>(run_.model->dimension());
-      columns_.conserved = run_.model->invariants().size();
+      if (!run_.adaptive())
+        columns_.reserve(static_cast<std::size_t>(std::min(run_.rows(), most_reserved) + 1), *run_.model);
       if (!out_.empty()) columns_.also = &files.emplace(run_, out_).series();
       record_ = pfaff::execute(run_, reference.get(), {}, &interruption.stop(), &columns_);
       if (files) files->finish(summary(run_, *record_));

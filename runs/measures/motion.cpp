@@ -4,9 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include <pfaff/runs/measure.hpp>
 #include <pfaff/runs/support/plane.hpp>
+#include <pfaff/runs/support/with_unit.hpp>
 
 namespace {
 using namespace pfaff;
@@ -71,7 +73,8 @@ struct MotionOfRun {
     work.before = at.step;
     const auto [first, second] = work.plane;
     const std::vector<Coordinate>& all = run.start.model()->coordinates();
-    row = {with_unit(all[first]), with_unit(all[second]), double(work.stretch), at.z[first], at.z[second]};
+    row = {with_unit(all[first].name, all[first].unit), with_unit(all[second].name, all[second].unit),
+           double(work.stretch), at.z[first], at.z[second]};
     const Quad t = Quad(run.start.time()) + Quad(static_cast<double>(at.step)) * Quad(run.start.step());
     row.resize(columns(*run.start.model()).size(), std::numeric_limits<double>::quiet_NaN());
     if (work.solution == nullptr || !work.solution->covers(t)) return true;
@@ -108,21 +111,22 @@ struct MotionOfRun {
     const std::int64_t longest = std::min<std::int64_t>(run.steps, most);
     const auto [first, second] = plane_of(*run.start.model(), x, y);
     const std::span<const T> z = run.start.state();
-    Integration<T> along = run.start.beside({z.begin(), z.end()});
     const Quad t0 = Quad(run.start.time()), h = Quad(run.start.step());
     const auto solution = exact ? run.solution.to(Quad(static_cast<double>(longest)) * h) : nullptr;
+    std::optional<Integration<T>> along;
+    if (solution == nullptr) along.emplace(run.start.beside({z.begin(), z.end()}));
     std::array<double, 2> last{double(z[first]), double(z[second])}, before{};
     double turned = 0;  // the sum of the angles between steps
     for (std::int64_t step = 1; step <= longest; ++step) {
-      const Quad t = t0 + Quad(static_cast<double>(step)) * h;
       std::array<double, 2> here{};
-      if (solution != nullptr) {
+      if (along) {
+        if (!carried_to(step, *along)) return step;
+        here = {double(along->state()[first]), double(along->state()[second])};
+      } else {
+        const Quad t = t0 + Quad(static_cast<double>(step)) * h;
         if (!solution->covers(t)) return longest;
         const std::vector<Quad> solved = solution->at(t);
         here = {double(solved[first]), double(solved[second])};
-      } else {
-        if (!carried_to(step, along)) return step;
-        here = {double(along.state()[first]), double(along.state()[second])};
       }
       const double u = here[0] - last[0], v = here[1] - last[1];
       if (step > 1)
@@ -137,12 +141,12 @@ struct MotionOfRun {
 const Measure<MotionOfRun> registered{
     {.name = "motion",
      .title = "What the motion looks like early and late, beside the exact one",
-     .description = "Every step of some stretches of the run, from its start to its end, in the plane of two "
-                    "coordinates, "
-                    "and the solution at the same times. The first stretch ends where the track has turned "
-                    "once; all have as "
-                    "many steps. The solution is the exact one where the system has it, otherwise a Taylor "
-                    "series in quad; its "
-                    "cells are empty where that ends.",
+     .description =
+         "Every step of some stretches of the run, from its start to its end, in the plane of two "
+         "coordinates, "
+         "and the solution at the same times. The first stretch ends where the track has turned once; all "
+         "have "
+         "as many steps. The solution is the exact one where the system has it, otherwise a Taylor series in "
+         "quad; its cells are empty where that ends.",
      .usual = true}};
 }  // namespace

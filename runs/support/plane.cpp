@@ -29,8 +29,4 @@ std::pair<std::size_t, std::size_t> plane_of(const Model& model, const std::stri
   return {number(x), number(y)};
 }
 
-std::string with_unit(const Coordinate& coordinate) {
-  return coordinate.unit.empty() ? coordinate.name : coordinate.name + " [" + coordinate.unit + "]";
-}
-
 }  // namespace pfaff

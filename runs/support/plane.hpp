@@ -19,7 +19,4 @@ std::optional<std::pair<std::size_t, std::size_t>> plane_of(const Model& model);
 /// InputError where one is none, with the nearest.
 std::pair<std::size_t, std::size_t> plane_of(const Model& model, const std::string& x, const std::string& y);
 
-/// A coordinate as the heads of tables name it, "x [m]"; without a unit its name alone.
-std::string with_unit(const Coordinate& coordinate);
-
 }  // namespace pfaff
