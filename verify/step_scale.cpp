@@ -6,6 +6,7 @@
 #include <pfaff/core/numbers/with_rounding.hpp>
 #include <pfaff/core/tape/replay.hpp>
 #include <pfaff/core/tape/taylor_expansion.hpp>
+#include <pfaff/runs/support/scales.hpp>
 #include <pfaff/verify/check.hpp>
 
 namespace pfaff {
@@ -13,15 +14,9 @@ namespace pfaff {
 namespace {
 // The field of a constrained motion may be a formula of a million operations.
 constexpr std::size_t few_coordinates = 16, few_operations = 8192;
-// Sizes and rates between 1/ordinary and ordinary are taken as one; other rates are brought to ordinary_rate.
-constexpr double ordinary = 64, ordinary_rates = 32, ordinary_rate = 8;
+// Rates between 1/ordinary_rates and ordinary_rates are taken as one; others are brought to ordinary_rate.
+constexpr double ordinary_rates = 32, ordinary_rate = 8;
 constexpr int degrees = 10;
-
-// The size of a coordinate as a power of two, or one where it is ordinary or not known.
-double as_scale(double size) {
-  const bool is_ordinary = !(size > 0) || !std::isfinite(size) || (size >= 1 / ordinary && size <= ordinary);
-  return is_ordinary ? 1 : std::exp2(std::round(std::log2(size)));
-}
 
 TaylorExpansion<Quad> expanded(const Model& motion, const Real& t, const std::vector<Real>& z) {
   TaylorExpansion<Quad> expansion(motion.tape(Formula::field), degrees);
@@ -54,11 +49,9 @@ bool is_short(const Model& motion) {
 }
 
 std::vector<double> coordinate_scales(const std::vector<Real>& centre) {
-  double largest = 0;
-  for (const Real& x : centre) largest = std::max(largest, std::abs(x.value()));
-  std::vector<double> scales;
-  for (const Real& x : centre) scales.push_back(as_scale(x.value() == 0 ? largest : std::abs(x.value())));
-  return scales;
+  std::vector<double> sizes;
+  for (const Real& x : centre) sizes.push_back(std::abs(x.value()));
+  return scales_of(sizes);
 }
 
 std::vector<double> coordinate_scales(const Model& motion, const Real& t, const std::vector<Real>& z) {
@@ -78,7 +71,7 @@ std::vector<double> coordinate_scales(const Model& motion, const Real& t, const 
       power = power / Quad(rate);
       size = std::max(size, abs(expansion.coefficients()[static_cast<std::size_t>(degree) * n + k]) * power);
     }
-    if (size > Quad(0) && isfinite(size)) scales[k] = as_scale(static_cast<double>(size));
+    if (size > Quad(0) && isfinite(size)) scales[k] = scales_of({static_cast<double>(size)}).front();
   }
   return scales;
 }

@@ -12,6 +12,7 @@
 #include <pfaff/core/numbers/formatted.hpp>
 #include <pfaff/runs/measure.hpp>
 #include <pfaff/runs/support/linear_step.hpp>
+#include <pfaff/runs/support/scales_at_start.hpp>
 
 namespace {
 using namespace pfaff;
@@ -47,11 +48,14 @@ struct Contraction {
     Integration<StepDual<T>> tangent;
 
     Work(const Contraction& measure, const Measured<T>& run) : tangent(run.start.differentiated()) {
-      const T q = run.start.state()[0], p = run.start.state()[1], size = length(q, p);
+      const T q = run.start.state()[0], p = run.start.state()[1];
+      const std::vector<double> scales = scales_at_start(run);
+      const T size = scaled_norm<T>(run.start.state(), scales);
       const T r = T(radius) * (size > T(0) ? size : T(1));
       for (int k = 0; k < measure.corners; ++k) {
         const T angle = T(2) * T(pi) * T(k) / T(measure.corners);
-        outline.push_back(run.start.beside({q + r * cos(angle), p + r * sin(angle)}));
+        outline.push_back(
+            run.start.beside({q + T(scales[0]) * r * cos(angle), p + T(scales[1]) * r * sin(angle)}));
       }
       const std::vector<std::int64_t> looks = measure.looks(run);
       for (std::size_t j = 0; j < outlines; ++j)
@@ -101,12 +105,10 @@ struct Contraction {
 
  private:
   static constexpr std::size_t outlines = 6;
-  static constexpr double radius = 0.25;  // over the size of the initial state
+  static constexpr double radius = 0.25;  // over the size of the initial state, in the scales of q and p
   static constexpr double folds = 3;
   static inline const Real pi = 3.141592653589793238462643383279502884_r;
 
-  static double length(double q, double p) { return std::hypot(q, p); }
-  static Quad length(const Quad& q, const Quad& p) { return sqrt(q * q + p * p); }
   template <class T>
   static std::string in_six_digits(std::span<const T> z) {
     return formatted("%.6g %.6g", static_cast<double>(z[0]), static_cast<double>(z[1]));

@@ -12,6 +12,7 @@
 #include <pfaff/core/facets/problem.hpp>
 #include <pfaff/runs/measure.hpp>
 #include <pfaff/runs/support/linear_step.hpp>
+#include <pfaff/runs/support/scales_at_start.hpp>
 
 namespace {
 using namespace pfaff;
@@ -52,14 +53,14 @@ struct PoincareLoop {
       const auto n = static_cast<double>(z.size());
       if (!run.start.model()->source().canonical)
         one_form = make_evaluator<T>(run.start.model(), Formula::one_form);
-      T square(0);
-      for (const T& x : z) square += x * x;
-      const T size = square > T(0) ? sqrt(square / T(n)) : T(1);
+      const std::vector<double> scales = scales_at_start(run);
+      const T norm = scaled_norm<T>(z, scales);
+      const T size = norm > T(0) ? norm / sqrt(T(n)) : T(1);
       for (int j = 0; j < measure.points; ++j) {
         const T angle = T(2) * T(pi) * T(j) / T(measure.points);
         std::vector<T> point;
         for (std::size_t i = 0; i < z.size(); ++i) {
-          const T scale = T(extent) * std::max(T(abs(z[i])), T(size / T(2)));
+          const T scale = T(extent) * std::max(T(abs(z[i])), T(T(scales[i]) * size / T(2)));
           const auto turn = static_cast<double>(i);
           point.push_back(z[i] + scale * (T(std::cos(1 + 2 * turn)) * cos(angle) +
                                           T(std::sin(2 + 3 * turn)) * sin(angle)));

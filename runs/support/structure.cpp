@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace pfaff {
 
@@ -29,6 +30,36 @@ std::vector<T> product(const std::vector<T>& a, const std::vector<T>& b, std::si
   return c;
 }
 
+// Units of coordinates in which the largest size in each row is about one, as powers of two: a symmetric
+// matrix is divided by roots of the largest numbers of its rows until these are alike. Where units would
+// differ by less than `ordinary` all are one, so that the residuals of ordinary systems are those of their
+// own coordinates.
+template <class T>
+std::vector<T> equilibrating_units(const std::vector<T>& sizes, const std::vector<T>& k0, std::size_t n) {
+  constexpr int passes = 20;
+  constexpr double ordinary = 64;
+  constexpr double none = -std::numeric_limits<double>::infinity();
+  std::vector<double> logarithms(n * n), exponent(n), change(n);
+  for (std::size_t k = 0; k < n * n; ++k) {
+    const auto size = static_cast<double>(std::max(sizes[k], T(abs(k0[k]))));
+    logarithms[k] = size > 0 && std::isfinite(size) ? std::log2(size) : none;
+  }
+  for (int pass = 0; pass < passes; ++pass) {
+    for (std::size_t i = 0; i < n; ++i) {
+      double largest = none;
+      for (std::size_t j = 0; j < n; ++j)
+        largest = std::max(largest, logarithms[i * n + j] - exponent[i] - exponent[j]);
+      change[i] = largest == none ? 0 : largest / 2;
+    }
+    for (std::size_t i = 0; i < n; ++i) exponent[i] += change[i];
+  }
+  const auto [least, most] = std::minmax_element(exponent.begin(), exponent.end());
+  std::vector<T> units(n, T(1));
+  if (*most - *least > std::log2(ordinary))
+    for (std::size_t i = 0; i < n; ++i) units[i] = T(std::exp2(std::round(exponent[i])));
+  return units;
+}
+
 template <class T>
 std::vector<T> absolute(std::vector<T> a) {
   for (T& x : a) x = abs(x);
@@ -41,7 +72,7 @@ T congruence_residual(const std::vector<T>& m, const std::vector<T>& k1, const s
   const auto n = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(m.size()))));
   const std::vector<T> image = product(k1, m, n);  // image_size sums the absolute values of the same terms
   const std::vector<T> image_size = product(absolute(k1), absolute(m), n);
-  T worst(0), scale(0);
+  std::vector<T> differences(n * n), sizes(n * n);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j) {
       T sum(0), size(0);
@@ -49,10 +80,16 @@ T congruence_residual(const std::vector<T>& m, const std::vector<T>& k1, const s
         sum = sum + m[a * n + i] * image[a * n + j];
         size = size + abs(m[a * n + i]) * image_size[a * n + j];
       }
-      const T difference = abs(sum - k0[i * n + j]);
-      if (isnan(difference)) return difference;
-      worst = std::max(worst, difference);
-      scale = std::max(scale, size);
+      differences[i * n + j] = abs(sum - k0[i * n + j]);
+      sizes[i * n + j] = size;
+      if (isnan(differences[i * n + j])) return differences[i * n + j];
+    }
+  const std::vector<T> units = equilibrating_units(sizes, k0, n);
+  T worst(0), scale(0);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j) {
+      worst = std::max(worst, T(differences[i * n + j] / units[i] / units[j]));
+      scale = std::max(scale, T(sizes[i * n + j] / units[i] / units[j]));
     }
   return worst / scale;
 }

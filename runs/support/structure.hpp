@@ -120,7 +120,8 @@ std::vector<T> in_units(std::vector<T> a, const std::vector<T>& units, int row, 
 }
 
 /// The relative residual of KeptStructure for given matrices: max |M^T K1 M - K0| / max |M|^T |K1| |M|, all n
-/// x n row-major.
+/// x n row-major. Where the largest numbers in the rows of |M|^T |K1| |M| differ by much, coordinates are
+/// taken in units in which they are alike: what small coordinates lose does not hide behind large ones.
 template <class T>
 T congruence_residual(const std::vector<T>& m, const std::vector<T>& k1, const std::vector<T>& k0);
 

@@ -1,0 +1,27 @@
+// Scales of coordinates, by which what is measured does not depend on the units in which a system is written.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <pfaff/core/numbers/functions.hpp>
+
+namespace pfaff {
+
+/// The powers of two nearest to sizes of coordinates. Sizes within a factor of 64 of one are taken as one, so
+/// that the numbers of ordinary systems stay what they are; so are sizes that are not finite. A size of zero
+/// is not known, and taken for the largest one.
+std::vector<double> scales_of(const std::vector<double>& sizes);
+
+/// A state in coordinates divided by their scales: the root of the sum of the squares.
+template <class T, class State>
+T scaled_norm(const State& z, const std::vector<double>& scales) {
+  T square(0);
+  for (std::size_t k = 0; k < scales.size(); ++k) {
+    const T x = z[k] / T(scales[k]);
+    square += x * x;
+  }
+  return sqrt(square);
+}
+
+}  // namespace pfaff
