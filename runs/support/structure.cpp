@@ -30,18 +30,30 @@ std::vector<T> product(const std::vector<T>& a, const std::vector<T>& b, std::si
   return c;
 }
 
-// Units of coordinates in which the largest size in each row is about one, as powers of two: a symmetric
-// matrix is divided by roots of the largest numbers of its rows until these are alike. Where units would
-// differ by less than `ordinary` all are one, so that the residuals of ordinary systems are those of their
-// own coordinates.
 template <class T>
-std::vector<T> equilibrating_units(const std::vector<T>& sizes, const std::vector<T>& k0, std::size_t n) {
+std::vector<T> absolute(std::vector<T> a) {
+  for (T& x : a) x = abs(x);
+  return a;
+}
+
+// Units of coordinates, as powers of two, in which the largest entry in each row of A^T |K1| A is about one,
+// A being |M| + 1: a symmetric matrix is divided by roots of the largest numbers of its rows until these are
+// alike. The unit matrix is there for directions that M leads to nothing, whose entries are round-off. Where
+// units would differ by less than `ordinary` all are one, so that the residuals of ordinary systems are those
+// of their own coordinates.
+template <class T>
+std::vector<T> equilibrating_units(const std::vector<T>& m, const std::vector<T>& k1, std::size_t n) {
   constexpr int passes = 20;
   constexpr double ordinary = 64;
   constexpr double none = -std::numeric_limits<double>::infinity();
+  std::vector<T> moved = absolute(m), transposed(n * n);
+  for (std::size_t i = 0; i < n; ++i) moved[i * n + i] = moved[i * n + i] + T(1);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j) transposed[j * n + i] = moved[i * n + j];
+  const std::vector<T> sizes = product(transposed, product(absolute(k1), moved, n), n);
   std::vector<double> logarithms(n * n), exponent(n), change(n);
   for (std::size_t k = 0; k < n * n; ++k) {
-    const auto size = static_cast<double>(std::max(sizes[k], T(abs(k0[k]))));
+    const auto size = static_cast<double>(sizes[k]);
     logarithms[k] = size > 0 && std::isfinite(size) ? std::log2(size) : none;
   }
   for (int pass = 0; pass < passes; ++pass) {
@@ -60,11 +72,6 @@ std::vector<T> equilibrating_units(const std::vector<T>& sizes, const std::vecto
   return units;
 }
 
-template <class T>
-std::vector<T> absolute(std::vector<T> a) {
-  for (T& x : a) x = abs(x);
-  return a;
-}
 }  // namespace
 
 template <class T>
@@ -84,7 +91,7 @@ T congruence_residual(const std::vector<T>& m, const std::vector<T>& k1, const s
       sizes[i * n + j] = size;
       if (isnan(differences[i * n + j])) return differences[i * n + j];
     }
-  const std::vector<T> units = equilibrating_units(sizes, k0, n);
+  const std::vector<T> units = equilibrating_units(m, k1, n);
   T worst(0), scale(0);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j) {
