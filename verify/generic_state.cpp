@@ -66,6 +66,12 @@ void add_states(Region& region, const Model& motion, const Real& t, const Quad& 
 }
 }  // namespace
 
+int own_times_followed(const Model& motion) {
+  // The Taylor series of long formulas take most of the time of these checks.
+  constexpr std::size_t few_operations = 512;
+  return motion.tape(Formula::field)->code.size() <= few_operations ? 32 : 4;
+}
+
 Region region_of(const Model& motion, std::vector<Real> centre) {
   Region region(std::move(centre));
   if (!motion.restricted() && motion.source().formulation.empty())
@@ -73,10 +79,7 @@ Region region_of(const Model& motion, std::vector<Real> centre) {
   if (!motion.moves() || !is_short(motion)) return region;
   const Real t = generic_time_of(motion);
   const Quad time = own_time(motion, t, region.centres.front());
-  // The Taylor series of long formulas take most of the time of these checks; there four times the own time
-  // has to do.
-  constexpr std::size_t few_operations = 512;
-  const int states = motion.tape(Formula::field)->code.size() <= few_operations ? 6 : 3;
+  const int states = 1 + static_cast<int>(std::log2(own_times_followed(motion)));
   for (const double direction : {1.0, -1.0}) add_states(region, motion, t, Quad(direction) * time, states);
   return region;
 }

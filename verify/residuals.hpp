@@ -70,11 +70,14 @@ struct Region {
   [[nodiscard]] Region with_zero() const;
 };
 
+/// Over how many times the system's own time checks follow a motion: 32, and four where the field takes more
+/// than 512 operations.
+int own_times_followed(const Model& motion);
+
 /// A state of a motion and the states that the motion reaches from there, forwards and backwards in time, up
-/// to 32 times the system's own time, four times where the field takes more than 512 operations, or until a
-/// coordinate has grown by eight. What holds near the initial state alone does not hold there. Of a field
-/// that is not short the first alone. The box is that of the ranges which coordinates state; a motion on
-/// constraints has none, since the states of a box are not on them.
+/// to own_times_followed, or until a coordinate has grown by eight. What holds near the initial state alone
+/// does not hold there. Of a field that is not short the first alone. The box is that of the ranges which
+/// coordinates state; a motion on constraints has none, since the states of a box are not on them.
 Region region_of(const Model& motion, std::vector<Real> centre);
 
 // Random states near the centres of a region, drawn with a fixed seed. Near the first one each coordinate is

@@ -9,7 +9,10 @@
 #include <pfaff/integrators/generating/generating_map_check.hpp>
 #include <pfaff/runs/support/reference.hpp>
 #include <pfaff/verify/check.hpp>
+#include <pfaff/verify/check_budget.hpp>
 #include <pfaff/verify/residuals.hpp>
+#include <pfaff/verify/sign_along_motion.hpp>
+#include <pfaff/verify/step_scale.hpp>
 
 namespace pfaff {
 
@@ -40,8 +43,9 @@ Check varies(const std::string& system, const std::string& invariant,
   return check;
 }
 
-void invariants(std::vector<Check>& checks, const std::string& name, const Model& model,
-                const Region& region) {
+void invariants(std::vector<Check>& checks, const std::string& name,
+                const std::shared_ptr<const Model>& motion, const Region& region) {
+  const Model& model = *motion;
   const auto& list = model.invariants();
   if (list.empty()) return;
   const int n = model.dimension();
@@ -62,12 +66,24 @@ void invariants(std::vector<Check>& checks, const std::string& name, const Model
       both(checks, name, "conserves " + list[k].name, name, rate, region);
     } else if (list[k].behaviour == Behaviour::decreasing || list[k].behaviour == Behaviour::increasing) {
       const bool falls = list[k].behaviour == Behaviour::decreasing;
-      // The part of the rate that has the forbidden sign, made positive.
-      const auto wrong = expression(n, 1, [&](const Recorded& t, Arguments z, Results out) {
+      // Positive where the rate has the forbidden sign, and what is positive of it.
+      const auto forbidden = expression(n, 1, [&](const Recorded& t, Arguments z, Results out) {
         const Recorded r = evaluate(*rate, t, z)[0];
-        out[0] = falls ? select(r, r, Recorded(0)) : select(r, Recorded(0), -r);
+        out[0] = falls ? r : -r;
       });
-      both(checks, name, (falls ? "decreases " : "increases ") + list[k].name, name, wrong, region);
+      const auto wrong = expression(n, 1, [&](const Recorded& t, Arguments z, Results out) {
+        const Recorded r = evaluate(*forbidden, t, z)[0];
+        out[0] = select(r, r, Recorded(0));
+      });
+      const std::string claim = (falls ? "decreases " : "increases ") + list[k].name;
+      both(checks, name, claim, name, wrong, region);
+      if (!is_short(model)) continue;
+      const Check along =
+          named(name, claim + " along the motion", name, "quad", 0, residual_tolerance<Quad>());
+      checks.push_back(within_budget(along, [&] {
+        return named(name, along.claim, name, "quad", largest_along(motion, forbidden, region),
+                     residual_tolerance<Quad>());
+      }));
     }
   }
 }
@@ -167,7 +183,7 @@ std::vector<Check> check_system(const std::string& name, const std::shared_ptr<c
     for (Check& check : check_metriplectic(name, *model)) checks.push_back(std::move(check));
   Region on_surface = region;
   if (model->restricted()) on_surface.surface = model;
-  invariants(checks, name, *motion, on_surface);
+  invariants(checks, name, motion, on_surface);
   if (model->facets().has(Facet::exact_solution)) exact_solution(checks, name, *motion, on_surface);
   if (model->given(Formula::reversal))
     for (Check& check : check_reversal(name, *motion, region)) checks.push_back(std::move(check));

@@ -1,0 +1,103 @@
+#include <pfaff/verify/sign_along_motion.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <pfaff/core/tape/replay.hpp>
+#include <pfaff/runs/support/reference.hpp>
+#include <pfaff/verify/step_scale.hpp>
+
+namespace pfaff {
+
+namespace {
+// The rate at times of the motion.
+class RateOfMotion {
+ public:
+  RateOfMotion(const std::shared_ptr<const Model>& motion, const std::shared_ptr<const Tape>& rate,
+               const Region& region, const Quad& duration)
+      : begin_(generic_time_of(*motion).quad()),
+        duration_(duration),
+        solution_(motion, begin_, start_of(region), duration),
+        rate_(rate) {}
+
+  // How far it is found, in parts of the duration.
+  [[nodiscard]] double reach(int parts) const {
+    int k = parts;
+    while (k > 0 && !solution_.covers(begin_ + duration_ * Quad(k) / Quad(parts))) --k;
+    return static_cast<double>(k) / parts;
+  }
+  // At a part of the duration.
+  WithRounding<Quad> operator()(double part) {
+    const Quad t = begin_ + duration_ * Quad(part);
+    const std::vector<Quad> at = solution_.at(t);
+    const std::vector<WithRounding<Quad>> z(at.begin(), at.end());
+    WithRounding<Quad> rate;
+    rate_(WithRounding<Quad>(t), z.data(), &rate);
+    return rate;
+  }
+
+ private:
+  static std::vector<Quad> start_of(const Region& region) {
+    std::vector<Quad> z;
+    for (const Real& x : region.centres.front()) z.push_back(x.quad());
+    return z;
+  }
+
+  Quad begin_, duration_;
+  ReferenceSolution solution_;
+  Replay<WithRounding<Quad>> rate_;
+};
+
+// The largest rate found between two parts of the duration by golden sections.
+WithRounding<Quad> highest_between(RateOfMotion& rate, double low, double high) {
+  constexpr int sections = 40;
+  constexpr double golden = 0.6180339887498949;
+  double left = high - golden * (high - low), right = low + golden * (high - low);
+  WithRounding<Quad> at_left = rate(left), at_right = rate(right);
+  for (int k = 0; k < sections; ++k) {
+    if (at_left.value > at_right.value) {
+      high = right, right = left, at_right = at_left;
+      left = high - golden * (high - low);
+      at_left = rate(left);
+    } else {
+      low = left, left = right, at_left = at_right;
+      right = low + golden * (high - low);
+      at_right = rate(right);
+    }
+  }
+  return at_left.value > at_right.value ? at_left : at_right;
+}
+}  // namespace
+
+double largest_along(const std::shared_ptr<const Model>& motion, const std::shared_ptr<const Tape>& rate,
+                     const Region& region) {
+  constexpr std::size_t most_operations = std::size_t{1} << 18;  // at all times together
+  constexpr std::size_t most_maxima = 32;
+  const Quad duration =
+      Quad(own_times_followed(*motion)) * own_time(*motion, generic_time_of(*motion), region.centres.front());
+  const auto looks = static_cast<int>(
+      std::clamp<std::size_t>(most_operations / std::max<std::size_t>(1, rate->code.size()), 64, 512));
+  RateOfMotion along(motion, rate, region, duration);
+  const double reach = along.reach(looks);
+  std::vector<WithRounding<Quad>> seen;
+  for (int k = 0; k <= looks; ++k) seen.push_back(along(reach * k / looks));
+  double worst = 0;
+  const auto take = [&](const WithRounding<Quad>& x) {
+    if (x.value > Quad(0)) worst = std::max(worst, relative_to_rounding(x));
+  };
+  std::vector<int> maxima;
+  for (int k = 0; k <= looks; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    take(seen[at]);
+    if (k > 0 && k < looks && seen[at].value >= seen[at - 1].value && seen[at].value >= seen[at + 1].value)
+      maxima.push_back(k);
+  }
+  std::sort(maxima.begin(), maxima.end(), [&](int a, int b) {
+    return seen[static_cast<std::size_t>(a)].value > seen[static_cast<std::size_t>(b)].value;
+  });
+  if (maxima.size() > most_maxima) maxima.resize(most_maxima);
+  for (const int k : maxima) take(highest_between(along, reach * (k - 1) / looks, reach * (k + 1) / looks));
+  return worst;
+}
+
+}  // namespace pfaff
