@@ -42,6 +42,9 @@ struct Check {
 /// any measured value is good. A skipped check is good when it gives its reason.
 bool good(const Check& check);
 
+/// True where a check looks at a system or a bracket itself, whatever methods do with it.
+bool own_identity(const Check& check);
+
 nlohmann::json to_json(const Check& check);
 
 /// The plug-in with its parameters, and the system where there is one: "gauss stages=3 on kepler".

@@ -238,14 +238,16 @@ class Jobs {
       if (in_passing && model->dimension() > most_formulated) continue;
       const std::string on = called(system.name(), parameters_of(system));
       const bool along_runs = std::find(of_runs.begin(), of_runs.end(), p) != of_runs.end();
-      jobs_.push_back({called(method.name(), p) + " on " + on, [=, &method, &system] {
+      jobs_.push_back({called(method.name(), p) + " on " + on,
+                       [=, &method, &system] {
                          const auto made = method.make(p);
                          auto checks = check_method(*made, p, on, motion, along_runs);
                          if (system.name() == controlled_on(*made))
                            for (Check& check : check_changed_coefficient(method, p, system))
                              checks.push_back(std::move(check));
                          return checks;
-                       }});
+                       },
+                       system.name()});
     }
   }
 
@@ -277,8 +279,8 @@ std::vector<VerificationJob> verification_jobs(const std::vector<MethodToVerify>
     const auto& p = parameters;
     const std::string name = called(method->descriptor().name, p);
     const auto add = [&](const std::shared_ptr<const Model>& motion) {
-      jobs.push_back(
-          {name + " on " + motion->name(), [=] { return check_method(*method, p, motion->name(), motion); }});
+      jobs.push_back({name + " on " + motion->name(),
+                      [=] { return check_method(*method, p, motion->name(), motion); }, motion->name()});
     };
     for (const auto& model : on) {
       const auto motion = motion_for(*method, model);

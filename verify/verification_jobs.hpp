@@ -13,6 +13,7 @@ namespace pfaff {
 struct VerificationJob {
   std::string what;  // as progress names it
   std::function<std::vector<Check>()> run;
+  std::string on{};  // of a method: the name of the system
 };
 
 /// The checks that the settings ask for, in their order. InputError where a system without an initial state

@@ -110,9 +110,6 @@ double nearness(const Check& c) {
   return std::isnan(size) ? HUGE_VAL : size;
 }
 
-// True where a check looks at a system or a bracket itself, whatever methods do with it.
-bool own_identity(const Check& c) { return !c.control && (c.system.empty() || c.plugin == c.system); }
-
 // "1.2e-15 of 1e-14 allowed", "4 of 4 claimed".
 std::string found_of(const Check& c) {
   if (std::isnan(c.measured)) return "not measured";
@@ -155,15 +152,13 @@ void print_claims(const std::vector<Check>& checks) {
   std::cout << table(rows);
 }
 
-// The failed checks: those of systems and brackets themselves, and where there are none, of methods. What
-// methods do on a system that is wrong says nothing of the methods.
+// The failed checks, those of systems and brackets themselves first.
 void print_causes(const std::vector<Check>& checks) {
   constexpr std::size_t most_rows = 20;
-  std::vector<const Check*> causes, others;
+  std::vector<const Check*> shown;
   for (const Check& c : checks)
-    if (!good(c)) (own_identity(c) ? causes : others).push_back(&c);
-  const std::size_t left_out = causes.empty() ? 0 : others.size();
-  const std::vector<const Check*>& shown = causes.empty() ? others : causes;
+    if (!good(c)) shown.push_back(&c);
+  std::stable_partition(shown.begin(), shown.end(), [](const Check* c) { return own_identity(*c); });
   std::vector<std::vector<std::string>> rows{{"  failed", "found", "where", "precision"}};
   for (std::size_t k = 0; k < std::min(most_rows, shown.size()); ++k) {
     const Check& c = *shown[k];
@@ -174,10 +169,6 @@ void print_causes(const std::vector<Check>& checks) {
   }
   std::cout << table(rows);
   if (shown.size() > most_rows) std::cout << "  and " << shown.size() - most_rows << " more (--verbose)\n";
-  if (left_out > 0)
-    std::cout << paragraph(
-        std::to_string(left_out) +
-        " checks of methods failed there too, which says nothing of the methods (--verbose)");
   std::cout << '\n';
 }
 
