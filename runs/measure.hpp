@@ -24,7 +24,7 @@
 // problem.invariants(t, z, values) in the order of model->invariants(), which have names; `field`,
 // `hamiltonian` and others likewise (core/facets/problem.hpp). BlockValues evaluates a formula at all states
 // of a block. Constraints are those of model->holonomic_constraints<T>(). Another run, from a state beside
-// the start or backwards, is run.start.beside(state) or run.start.reversed(), which carried_to() follows.
+// the start or backwards, is run.start.beside(state) or run.start.reversed(), which carry_to() follows.
 // What the motion itself does, to 30 digits, is run.solution.to(duration)->at(t).
 //
 // Optional members of M. One of the names with another signature is refused by the compiler, which says what
@@ -47,6 +47,7 @@
 #include <variant>
 #include <vector>
 
+#include <pfaff/core/errors/errors.hpp>
 #include <pfaff/core/facets/claims.hpp>
 #include <pfaff/core/registry/plugin.hpp>
 #include <pfaff/core/registry/registry.hpp>
@@ -76,10 +77,12 @@ struct RunState {
 /// 0 and about `count` other numbers of steps, evenly spaced up to `steps`.
 std::vector<std::int64_t> evenly(std::int64_t steps, int count);
 
-/// Takes the steps that lead a run beside the measured one to `step`; false where one fails.
+/// Takes the steps that lead a run beside the measured one to `step`. RunError where one fails, which ends
+/// the table of the measure and says why.
 template <class T>
-[[nodiscard]] bool carried_to(std::int64_t step, Integration<T>& run) {
-  return run.steps(step - run.steps_taken()).reached();
+void carry_to(std::int64_t step, Integration<T>& run) {
+  const Outcome outcome = run.steps(step - run.steps_taken());
+  if (!outcome.reached()) throw RunError("beside the run " + outcome.message());
 }
 
 /// A measure at work on one run. What its author's code throws passes.

@@ -39,7 +39,8 @@ struct AtWork {
     ++next;
     guarded([&] {
       Row row(table->columns.size());
-      if (!measuring->look(at, row)) return end("");
+      if (!measuring->look(at, row))
+        return end("the measure has no row from t = " + to_string(Quad(at.t), 10) + " on");
       if (!row.empty()) add(at.step, std::move(row));
     });
   }

@@ -45,7 +45,7 @@ struct Separation {
   // table.
   template <class T>
   bool look(const Measured<T>& /*run*/, const RunState<T>& at, Work<T>& work, Row& row) const {
-    if (!carried_to(at.step, work.neighbour)) return false;
+    carry_to(at.step, work.neighbour);
     T square(0);
     for (std::size_t i = 0; i < at.z.size(); ++i) {
       const T apart = work.neighbour.state()[i] - at.z[i];

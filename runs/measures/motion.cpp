@@ -120,7 +120,7 @@ struct MotionOfRun {
     for (std::int64_t step = 1; step <= longest; ++step) {
       std::array<double, 2> here{};
       if (along) {
-        if (!carried_to(step, *along)) return step;
+        if (!along->steps(step - along->steps_taken()).reached()) return step;
         here = {double(along->state()[first]), double(along->state()[second])};
       } else {
         const Quad t = t0 + Quad(static_cast<double>(step)) * h;

@@ -16,7 +16,7 @@ namespace {
 using ::testing::HasSubstr;
 
 // What a measure of a test does at a look.
-enum class Deed { nothing, throws, is_not_finite, few_cells, ends, looks_back };
+enum class Deed { nothing, throws, is_not_finite, few_cells, ends, looks_back, goes_beside };
 
 // Looks at every third step, at all blocks, and at the end.
 struct Trial {
@@ -32,7 +32,13 @@ struct Trial {
   template <class T>
   struct Work {
     T seen{0};
-    Work(const Trial& /*trial*/, const Measured<T>& /*run*/) {}
+    Integration<T> beside;  // from twice as far
+    Work(const Trial& /*trial*/, const Measured<T>& run) : beside(run.start.beside(twice(run))) {}
+    static std::vector<T> twice(const Measured<T>& run) {
+      std::vector<T> z(run.start.state().begin(), run.start.state().end());
+      for (T& x : z) x *= T(2);
+      return z;
+    }
   };
   template <class T>
   void block(const Measured<T>& /*run*/, const Block<T>& block, Work<T>& work) const {
@@ -43,6 +49,7 @@ struct Trial {
     const bool now = at.step == 6;
     if (now && deed == Deed::throws) throw std::runtime_error("no more");
     if (now && deed == Deed::ends) return false;
+    if (deed == Deed::goes_beside) carry_to(at.step, work.beside);
     row = {now && deed == Deed::is_not_finite ? T(std::nan("")) : at.z[0], work.seen};
     if (now && deed == Deed::few_cells) row.pop_back();
     return true;
@@ -105,7 +112,7 @@ TEST(Measuring, AFaultOfAMeasureIsItsOwn) {
   EXPECT_EQ(tables[3].lines.size(), 2U);
   EXPECT_THAT(tables[3].ended, HasSubstr("expected a row of 2 cells, got 1"));
   EXPECT_EQ(tables[4].lines.size(), 2U);
-  EXPECT_EQ(tables[4].ended, "");
+  EXPECT_THAT(tables[4].ended, HasSubstr("the measure has no row from t = "));
   EXPECT_EQ(tables[5].lines.size(), 0U);
   EXPECT_THAT(tables[5].ended, HasSubstr("in increasing order"));
 }
@@ -159,6 +166,14 @@ TEST(SharedSolution, IsMadeOnce) {
   EXPECT_EQ(solution.to(Quad(2)), longer);
   EXPECT_LT(abs(first->at(Quad(1.5))[0] - longer->at(Quad(1.5))[0]), Quad(1e-28));
   EXPECT_TRUE(solution.to(Quad(-1))->covers(Quad(-1)));
+}
+
+// A state beside the run may leave the range of numbers before the run does.
+TEST(Measuring, TablesSayWhatEndedAStateBesideTheRun) {
+  const auto tables = tables_of({Deed::nothing, Deed::goes_beside}, 9, testing::explosion());
+  EXPECT_GT(tables[0].lines.size(), tables[1].lines.size());
+  EXPECT_GT(tables[1].lines.size(), 1U);
+  EXPECT_THAT(tables[1].ended, HasSubstr("beside the run the state or the structure left the range"));
 }
 
 // Where the run fails, tables end and say so.
