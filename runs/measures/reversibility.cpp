@@ -72,7 +72,8 @@ struct Reversibility {
   // Each turn has a run of its own, so that it is what a run of so many steps would be, with its history.
   template <class T>
   bool look(const Measured<T>& run, const RunState<T>& at, Work<T>& work, Row& row) const {
-    if (!work.back) return false;
+    if (!work.back)
+      throw RunError("the method remembers earlier steps, and nothing is known to lead it back");
     Integration<T> there = run.start.beside(work.start);
     if (!there.steps(at.step).reached()) return false;
     std::optional<std::vector<T>> other;

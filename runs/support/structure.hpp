@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <pfaff/core/integrator.hpp>
+#include <pfaff/runs/support/congruence.hpp>
 
 namespace pfaff {
 
@@ -20,9 +21,12 @@ struct StepJacobian {
 };
 
 /// The Jacobian at z of a map, some columns at a time: map(state) moves a state of dual numbers and says how
-/// that ended. The status is the last one that is not `converged`.
+/// that ended. The status is the last one that is not `converged`. The map is differentiated by coordinates
+/// divided by `units`, powers of two, where these are given: iterations of a step then end when derivatives
+/// have converged in these units.
 template <class T, class Map>
-StepJacobian<T> jacobian_of_map(const std::vector<T>& z, const Map& map) {
+StepJacobian<T> jacobian_of_map(const std::vector<T>& z, const Map& map, const std::vector<T>& units = {}) {
+  const auto unit = [&](std::size_t k) { return units.empty() ? T(1) : units[k]; };
   const std::size_t n = z.size();
   StepJacobian<T> result;
   result.z.resize(n);
@@ -31,11 +35,12 @@ StepJacobian<T> jacobian_of_map(const std::vector<T>& z, const Map& map) {
   for (std::size_t first = 0; first < n; first += step_directions) {
     const std::size_t count = std::min<std::size_t>(step_directions, n - first);
     for (std::size_t k = 0; k < n; ++k) dual[k] = StepDual<T>(z[k]);
-    for (std::size_t k = 0; k < count; ++k) dual[first + k].derivative[k] = T(1);
+    for (std::size_t k = 0; k < count; ++k) dual[first + k].derivative[k] = unit(first + k);
     if (const Status status = map(dual); status != Status::converged) result.status = status;
     for (std::size_t i = 0; i < n; ++i) {
       result.z[i] = dual[i].value;
-      for (std::size_t k = 0; k < count; ++k) result.jacobian[i * n + first + k] = dual[i].derivative[k];
+      for (std::size_t k = 0; k < count; ++k)
+        result.jacobian[i * n + first + k] = dual[i].derivative[k] / unit(first + k);
     }
   }
   return result;
@@ -48,7 +53,9 @@ template <class T>
 class StepDifferentiator {
  public:
   StepDifferentiator(const MethodInstance& method, std::shared_ptr<const Model> model);
-  StepJacobian<T> operator()(const T& t, const T& h, const std::vector<T>& z);
+  /// By coordinates divided by `units`, where these are given (jacobian_of_map).
+  StepJacobian<T> operator()(const T& t, const T& h, const std::vector<T>& z,
+                             const std::vector<T>& units = {});
 
  private:
   std::unique_ptr<Stepper<StepDual<T>>> stepper_;
@@ -76,23 +83,27 @@ class KeptStructure {
   /// that the residual does not depend on the units in which the system is written.
   T operator()(const StepJacobian<T>& step, const T& t, const T& h, const std::vector<T>& z,
                const std::vector<T>& units = {});
+  /// The congruence that a step keeping the structure satisfies, for a step that has converged.
+  Congruence<T> congruence(const StepJacobian<T>& step, const T& t, const T& h, const std::vector<T>& z,
+                           const std::vector<T>& units = {});
 
  private:
   Problem<T> problem_;
   bool poisson_, constrained_;
 };
 
-/// Takes a step, differentiates it and measures how well it preserves the structure.
+/// Takes a step, differentiates it and measures how well it preserves the structure. The residual is that of
+/// KeptStructure, in coordinates whose units make the sizes of its terms alike (equilibrating_units), so that
+/// neither units nor light bodies hide what a step loses; and in the system's own coordinates where it is
+/// only the rounding of the step there.
 template <class T>
 class StructureResidual {
  public:
   StructureResidual(const MethodInstance& method, const std::shared_ptr<const Model>& model)
       : differentiate_(method, model), kept_(model) {}
   [[nodiscard]] static bool applies(const Model& model) { return KeptStructure<T>::applies(model); }
-  /// The residual that KeptStructure defines, of the step of size h from z at time t.
-  T operator()(const T& t, const T& h, const std::vector<T>& z) {
-    return kept_(differentiate_(t, h, z), t, h, z);
-  }
+  /// Of the step of size h from z at time t; NaN where it has failed.
+  T operator()(const T& t, const T& h, const std::vector<T>& z);
 
  private:
   StepDifferentiator<T> differentiate_;
@@ -104,25 +115,5 @@ class StructureResidual {
 /// from momenta along B^T. Singular constraints give NaN.
 template <class T>
 std::vector<T> tangent_projection(const Model& model, const T& t, const std::vector<T>& z);
-
-/// The matrix in coordinates divided by `units`: a_ij u_i^row u_j^column. A Jacobian has the exponents -1 and
-/// 1, a two-form 1 and 1, a Poisson tensor -1 and -1. Without units the matrix is returned as it is.
-template <class T>
-std::vector<T> in_units(std::vector<T> a, const std::vector<T>& units, int row, int column) {
-  const std::size_t n = units.size();
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j < n; ++j) {
-      T& x = a[i * n + j];
-      x = row > 0 ? T(x * units[i]) : T(x / units[i]);
-      x = column > 0 ? T(x * units[j]) : T(x / units[j]);
-    }
-  return a;
-}
-
-/// The relative residual of KeptStructure for given matrices: max |M^T K1 M - K0| / max |M|^T |K1| |M|, all n
-/// x n row-major. Where the largest numbers in the rows of |M|^T |K1| |M| differ by much, coordinates are
-/// taken in units in which they are alike: what small coordinates lose does not hide behind large ones.
-template <class T>
-T congruence_residual(const std::vector<T>& m, const std::vector<T>& k1, const std::vector<T>& k0);
 
 }  // namespace pfaff

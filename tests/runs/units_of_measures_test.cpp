@@ -84,6 +84,53 @@ TEST(UnitsOfMeasures, DoNotHideWhetherTheStructureIsKept) {
   }
 }
 
+// A stiff spring of frequency 1e5 on a soft one: in units in which both count alike a step of Gauss shows
+// what it rounds, which is not said to be its structure.
+struct StiffSpring {
+  static constexpr int dimension = 4;
+  template <class T>
+  T kinetic(const T& /*t*/, In<T> p) const {
+    return (p[0] * p[0] + p[1] * p[1]) / 2;
+  }
+  template <class T>
+  T potential(const T& /*t*/, In<T> q) const {
+    return T(Real(1000000) * Real(10000)) * q[0] * q[0] / 2 + q[1] * q[1] * q[1] * q[1] / 4 +
+           q[0] * q[1] * q[1];
+  }
+};
+
+TEST(UnitsOfMeasures, RoundingOfStiffStepsIsNoLossOfStructure) {
+  static const System<StiffSpring> plugin{
+      {.name = "stiff-spring", .title = "", .reference = "", .initial = {1_r / 1000, 1, 0, 0}}};
+  const ToMeasure run{integrate(plugin.make({}), integrators().get("gauss", "").make({}), 0.0641025641026),
+                      100};
+  EXPECT_LT(largest(table_of("structure", run)), 1e5 * 0x1p-53);
+}
+
+// The particle runs off to infinity at t = 0.77; what it does later says nothing of the size of a loop.
+struct RunningOff {
+  static constexpr int dimension = 2;
+  template <class T>
+  T kinetic(const T& /*t*/, In<T> p) const {
+    return p[0] * p[0] / 2;
+  }
+  template <class T>
+  T potential(const T& /*t*/, In<T> q) const {
+    return -(q[0] * q[0] * q[0] * q[0] / 4);
+  }
+};
+
+TEST(UnitsOfMeasures, ALoopHasTheSizeOfTheStart) {
+  static const System<RunningOff> plugin{
+      {.name = "running-off", .title = "", .reference = "", .initial = {1, 1}}};
+  const ToMeasure run{integrate(plugin.make({}), integrators().get("rk4", "").make({}), 0.01), 1000};
+  const MeasuredTable table = table_of("poincare-loop(looks=1000)", run);
+  ASSERT_GT(table.lines.size(), 40U);
+  EXPECT_NEAR(number(table.lines[40], 0), 1, 1e-3);
+  EXPECT_LT(number(table.lines[40], 1), 1e-9);
+  EXPECT_NE(table.ended, "");
+}
+
 // Scales are powers of two: every point of the loop is the same to the last bit.
 TEST(UnitsOfMeasures, DoNotChangeALoop) {
   for (const char* method : {"verlet", "rk4", "gauss"}) {
