@@ -1,4 +1,5 @@
 // The state at which claims are measured.
+#include <algorithm>
 #include <cmath>
 
 #include <pfaff/core/facets/stated_ranges.hpp>
@@ -12,6 +13,23 @@ namespace pfaff {
 Real generic_time_of(const Model& model) {
   const Real fraction = Real::fraction(37, 100);
   return model.moves() ? fraction * Real(own_time(model, Real(0), model.initial())) : fraction;
+}
+
+namespace {
+bool within(const Range& range, const Real& x) { return x.value() >= range[0] && x.value() <= range[1]; }
+// A coordinate that was moved from `centre`: on the other side of it where it has left its range, or not
+// moved.
+Real inside(const Range& range, const Real& centre, const Real& moved) {
+  if (within(range, moved)) return moved;
+  const Real mirrored = centre + centre - moved;
+  return within(range, mirrored) ? mirrored : centre;
+}
+}  // namespace
+
+bool Region::contains(std::span<const Quad> z) const {
+  for (std::size_t k = 0; k < std::min(z.size(), box.size()); ++k)
+    if (!within(box[k], Real(z[k]))) return false;
+  return true;
 }
 
 std::vector<Real> generic_state(const Model& model) {
@@ -28,6 +46,7 @@ std::vector<Real> generic_state(const Model& model) {
     const std::int64_t amount = model.restricted() || scales[k] != 1 ? i % 5 : i;
     const Real offset = Real::fraction(i % 2 == 0 ? 7 + 2 * amount : -5 - 3 * amount, 101);
     z[k] = z[k] + (scales[k] == 1 ? offset : Real(Quad(scales[k])) * offset);
+    if (k < model.coordinates().size()) z[k] = inside(model.coordinates()[k].range, model.initial()[k], z[k]);
   }
   if (model.restricted()) {
     std::vector<Quad> moved;
@@ -59,7 +78,7 @@ void add_states(Region& region, const Model& motion, const Real& t, const Quad& 
       return;
     }
     done = next;
-    if (!(largest_of(z) <= Quad(most_growth) * first)) return;
+    if (!(largest_of(z) <= Quad(most_growth) * first) || !region.contains(z)) return;
     region.centres.emplace_back(z.begin(), z.end());
     region.times.push_back(static_cast<double>(t.quad() + done));
   }

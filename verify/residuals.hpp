@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <random>
 #include <span>
 #include <stdexcept>
@@ -61,9 +62,12 @@ void add_controls(std::vector<Check>& controls, const std::string& fault, const 
 struct Region {
   Region(std::vector<Real> centre) : centres{std::move(centre)} {}  // NOLINT(google-explicit-constructor)
   std::vector<std::vector<Real>> centres;
-  std::vector<double> times{1};  // near which they are drawn, that of a motion where it reaches them
-  std::vector<Range> box{};      // a range for each coordinate; empty where no coordinate states one
+  std::vector<double> times{1};          // near which they are drawn, that of a motion where it reaches them
+  std::vector<Range> box{};              // a range for each coordinate; empty where no coordinate states one
+  std::shared_ptr<const Tape> domain{};  // outputs without which a far state does not count; null: all count
   std::shared_ptr<const Model> surface{};  // on whose constraints states are brought; null: they stay
+  // Whether the coordinates are in the ranges that they state.
+  [[nodiscard]] bool contains(std::span<const Quad> z) const;
   // The region in the first `count` coordinates.
   [[nodiscard]] Region first(std::size_t count) const;
   // The region with one more coordinate, which is zero.
@@ -122,10 +126,16 @@ class NearbyStates {
     const std::vector<Real>& centre = region_.centres[place];
     for (std::size_t i = 0; i < z_.size(); ++i) {
       const double reach = far_ ? std::abs(centre[i].value()) * (drawn_ % 2 == 0 ? 10 : 1) : scales_[i];
-      z_[i] = T(centre[i]) + T(offset_(random_) * reach);
+      const T offset = T(offset_(random_) * reach);
+      z_[i] = T(centre[i]) + offset;
+      if (i < region_.box.size() && !in(region_.box[i], z_[i])) z_[i] = T(centre[i]) - offset;
+      if (i < region_.box.size() && !in(region_.box[i], z_[i])) z_[i] = T(centre[i]);
     }
     time = T(region_.times[place] + offset_(random_));
     return z_;
+  }
+  static bool in(const Range& range, const T& x) {
+    return static_cast<double>(x) >= range[0] && static_cast<double>(x) <= range[1];
   }
   const std::vector<T>& in_box(T& time) {
     for (std::size_t i = 0; i < z_.size(); ++i) {
@@ -165,7 +175,10 @@ double largest(const std::shared_ptr<const Tape>& tape, const Region& region) {
   using W = WithRounding<T>;
   NearbyStates<T> states(region);
   Replay<W> replay(tape);
-  std::vector<W> out(tape->outputs.size());
+  std::optional<Replay<W>> domain;
+  std::vector<W> out(tape->outputs.size()), needed;
+  if (region.domain != nullptr) domain.emplace(region.domain), needed.resize(region.domain->outputs.size());
+  const auto finite = [](const W& x) { return isfinite(x.value); };
   double worst = 0;
   for (int k = 0; k < states.count(); ++k) {
     T time;
@@ -175,8 +188,11 @@ double largest(const std::shared_ptr<const Tape>& tape, const Region& region) {
     for (W& x : exact)
       if (region.surface != nullptr) x.error = T(abs(x.value));
     replay(W(time), exact.data(), out.data());
-    if (states.far() && !std::all_of(out.begin(), out.end(), [](const W& x) { return isfinite(x.value); }))
-      continue;
+    if (states.far()) {
+      if (domain) (*domain)(W(time), exact.data(), needed.data());
+      if (!std::all_of(out.begin(), out.end(), finite) || !std::all_of(needed.begin(), needed.end(), finite))
+        continue;
+    }
     for (const W& x : out) {
       const double size = relative_to_rounding(x);
       worst = std::isnan(size) || std::isnan(worst) ? NAN : std::max(worst, size);

@@ -18,7 +18,10 @@ class RateOfMotion {
       : begin_(generic_time_of(*motion).quad()),
         duration_(duration),
         solution_(motion, begin_, start_of(region), duration),
-        rate_(rate) {}
+        region_(region),
+        rate_(rate),
+        domain_(region.domain != nullptr ? region.domain : rate),
+        needed_(domain_.tape().outputs.size()) {}
 
   // How far it is found, in parts of the duration.
   [[nodiscard]] double reach(int parts) const {
@@ -26,12 +29,16 @@ class RateOfMotion {
     while (k > 0 && !solution_.covers(begin_ + duration_ * Quad(k) / Quad(parts))) --k;
     return static_cast<double>(k) / parts;
   }
-  // At a part of the duration.
+  // At a part of the duration; negative where the state does not count.
   WithRounding<Quad> operator()(double part) {
     const Quad t = begin_ + duration_ * Quad(part);
     const std::vector<Quad> at = solution_.at(t);
     const std::vector<WithRounding<Quad>> z(at.begin(), at.end());
-    WithRounding<Quad> rate;
+    WithRounding<Quad> rate(-1);
+    domain_(WithRounding<Quad>(t), z.data(), needed_.data());
+    if (!region_.contains(at) ||
+        !std::all_of(needed_.begin(), needed_.end(), [](const auto& x) { return isfinite(x.value); }))
+      return rate;
     rate_(WithRounding<Quad>(t), z.data(), &rate);
     return rate;
   }
@@ -45,7 +52,9 @@ class RateOfMotion {
 
   Quad begin_, duration_;
   ReferenceSolution solution_;
-  Replay<WithRounding<Quad>> rate_;
+  const Region& region_;
+  Replay<WithRounding<Quad>> rate_, domain_;
+  std::vector<WithRounding<Quad>> needed_;
 };
 
 // The largest rate found between two parts of the duration by golden sections.

@@ -44,12 +44,13 @@ Check varies(const std::string& system, const std::string& invariant,
 }
 
 void invariants(std::vector<Check>& checks, const std::string& name,
-                const std::shared_ptr<const Model>& motion, const Region& region) {
+                const std::shared_ptr<const Model>& motion, Region region) {
   const Model& model = *motion;
   const auto& list = model.invariants();
   if (list.empty()) return;
   const int n = model.dimension();
   const auto values = model.tape(Formula::invariants), field = model.tape(Formula::field);
+  region.domain = values;  // a rate may have a value where the quantity has none
   for (std::size_t k = 0; k < list.size(); ++k) {
     // dI/dt along the field.
     const auto rate = expression(n, 1, [&](const Recorded& t, Arguments z, Results out) {

@@ -131,10 +131,12 @@ class Jobs {
   void add_identities(const P& plugin, std::vector<Assignments> instances,
                       std::vector<Check> (*check)(const P&, const Assignments&)) {
     for (const Assignments& p : parameters(asked_as(plugin), std::move(instances)))
-      jobs_.push_back({called(plugin.name(), p), [=, &plugin] { return check(plugin, p); }});
+      jobs_.push_back(
+          {called(plugin.name(), p), [=, &plugin] { return check(plugin, p); }, asked_as(plugin)});
     if (!settings_.set.empty()) return;
     for (const Assignments& p : parameters_near_defaults(plugin, 2))
-      jobs_.push_back({called(plugin.name(), p), [=, &plugin] { return inside_domain(check(plugin, p)); }});
+      jobs_.push_back({called(plugin.name(), p), [=, &plugin] { return inside_domain(check(plugin, p)); },
+                       asked_as(plugin)});
   }
 
   // On every system that they fit, on random systems of constraints, and on models with velocity constraints
@@ -247,7 +249,8 @@ class Jobs {
                              checks.push_back(std::move(check));
                          return checks;
                        },
-                       system.name()});
+                       {},
+                       asked_as(system)});
     }
   }
 
@@ -264,6 +267,11 @@ std::vector<VerificationJob> verification_jobs(const VerificationSettings& setti
   return Jobs(settings).take();
 }
 
+namespace {
+// What a system that is an object is asked for by, which no registered one is.
+std::string as_object(const Model& model) { return "object " + model.name(); }
+}  // namespace
+
 std::vector<VerificationJob> verification_jobs(const std::vector<MethodToVerify>& methods,
                                                const std::vector<std::shared_ptr<const Model>>& systems,
                                                const std::vector<std::shared_ptr<const Model>>& on) {
@@ -272,21 +280,24 @@ std::vector<VerificationJob> verification_jobs(const std::vector<MethodToVerify>
     if (model->initial().empty())
       throw InputError("system " + model->name() +
                        " has no initial state, near which its claims are measured");
-    jobs.push_back({model->name(), [=] { return check_system(model->name(), model, {}); }});
+    jobs.push_back(
+        {model->name(), [=] { return check_system(model->name(), model, {}); }, as_object(*model)});
   }
   for (const auto& [made, parameters] : methods) {
     const auto& method = made;
     const auto& p = parameters;
     const std::string name = called(method->descriptor().name, p);
-    const auto add = [&](const std::shared_ptr<const Model>& motion) {
+    const auto add = [&](const std::shared_ptr<const Model>& motion, const std::string& asked_as) {
       jobs.push_back({name + " on " + motion->name(),
-                      [=] { return check_method(*method, p, motion->name(), motion); }, motion->name()});
+                      [=] { return check_method(*method, p, motion->name(), motion); },
+                      {},
+                      asked_as});
     };
     for (const auto& model : on) {
       const auto motion = motion_for(*method, model);
       if (const std::string reason = method->refuses(*motion); !reason.empty())
         throw InputError(reason + what_to_do(*method, *motion));
-      add(motion);
+      add(motion, as_object(*model));
     }
     if (!on.empty()) continue;
     jobs.push_back(
@@ -297,7 +308,7 @@ std::vector<VerificationJob> verification_jobs(const std::vector<MethodToVerify>
       if (model->initial().empty() || !method->refuses(*motion).empty()) continue;
       // What methods for vector fields do on constraints they claim nothing of.
       if (motion != model && !method->needs_constraints()) continue;
-      add(motion);
+      add(motion, system->name());
     }
   }
   return jobs;

@@ -13,7 +13,8 @@ namespace pfaff {
 struct VerificationJob {
   std::string what;  // as progress names it
   std::function<std::vector<Check>()> run;
-  std::string on{};  // of a method: the name of the system
+  std::string of{};  // of a system: what it is asked for by
+  std::string on{};  // of a method: what the system is asked for by
 };
 
 /// The checks that the settings ask for, in their order. InputError where a system without an initial state

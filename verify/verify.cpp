@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <map>
 #include <mutex>
-#include <set>
 
 #include <pfaff/bench/runner/interruption.hpp>
 #include <pfaff/bench/runner/parallel.hpp>
@@ -92,19 +91,21 @@ std::vector<Check> results_of(const std::vector<VerificationJob>& jobs, const Pr
   std::vector<std::vector<Check>> results(jobs.size());
   std::vector<std::size_t> first, of_methods;
   for (std::size_t k = 0; k < jobs.size(); ++k) (jobs[k].on.empty() ? first : of_methods).push_back(k);
-  std::set<std::string> wrong;  // systems
+  std::map<std::string, std::string> wrong;  // systems, as they were asked for, and their names
   std::mutex mutex;
   std::size_t done = 0;
   const auto run = [&](std::size_t k) {
     Check whole;
     whole.plugin = jobs[k].what;
     whole.claim = "checks";
-    if (wrong.contains(jobs[k].on)) {
-      results[k] = {not_judged(whole, jobs[k].on + " is itself not what it states")};
+    if (const auto system = wrong.find(jobs[k].on); system != wrong.end()) {
+      results[k] = {not_judged(whole, system->second + " is itself not what it states")};
       return;
     }
     try {
       results[k] = within_budget(whole, jobs[k].run, {});
+    } catch (const InputError& error) {
+      results[k] = {not_judged(whole, error.what())};
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const BudgetSpent&) {
@@ -118,9 +119,9 @@ std::vector<Check> results_of(const std::vector<VerificationJob>& jobs, const Pr
   };
   try {
     in_parallel(first.size(), [&](std::size_t k) { run(first[k]); });
-    for (const std::vector<Check>& checks : results)
-      for (const Check& c : checks)
-        if (own_identity(c) && !good(c)) wrong.insert(c.system);
+    for (const std::size_t k : first)
+      for (const Check& c : results[k])
+        if (!jobs[k].of.empty() && own_identity(c) && !good(c)) wrong[jobs[k].of] = c.system;
     in_parallel(of_methods.size(), [&](std::size_t k) { run(of_methods[k]); });
   } catch (const BudgetSpent& spent) {
     end_interrupted(spent, std::to_string(done) + " of " + std::to_string(jobs.size()) +
@@ -129,6 +130,19 @@ std::vector<Check> results_of(const std::vector<VerificationJob>& jobs, const Pr
   std::vector<Check> all;
   for (auto& part : results) all.insert(all.end(), part.begin(), part.end());
   return all;
+}
+// Where a method fails on a system that was not itself to be verified, the system is looked at too: if it is
+// not what it states, the method is not judged there.
+void look_for_fault_of_system(std::vector<Check>& checks, const std::shared_ptr<const Model>& model) {
+  const auto of_method = [&](const Check& c) { return c.system == model->name() && c.plugin != c.system; };
+  if (std::none_of(checks.begin(), checks.end(), [&](const Check& c) { return of_method(c) && !good(c); }))
+    return;
+  std::vector<Check> own = check_system(model->name(), model, {});
+  std::erase_if(own, [](const Check& c) { return good(c) || !own_identity(c); });
+  if (own.empty()) return;
+  for (Check& c : checks)
+    if (of_method(c) && !good(c)) c = not_judged(c, model->name() + " is itself not what it states");
+  checks.insert(checks.begin(), own.begin(), own.end());
 }
 }  // namespace
 
@@ -152,6 +166,9 @@ std::vector<Check> verify(const std::vector<MethodToVerify>& methods,
                           const std::vector<std::shared_ptr<const Model>>& systems,
                           const std::vector<std::shared_ptr<const Model>>& on) {
   std::vector<Check> checks = results_of(verification_jobs(methods, systems, on), {});
+  for (const auto& model : on)
+    if (std::find(systems.begin(), systems.end(), model) == systems.end())
+      look_for_fault_of_system(checks, model);
   if (on.empty())
     add_claims_judged_nowhere(checks, [&](const std::string& plugin) {
       return std::any_of(methods.begin(), methods.end(),

@@ -172,6 +172,21 @@ TEST(Verify, MethodsAreNotBlamedForASystem) {
   EXPECT_GT(left, 10);
 }
 
+// Systems are told apart by what they are asked for by.
+TEST(Verify, ASystemIsNotBlamedForAnotherOfItsName) {
+  const TemporaryDirectory files;
+  const std::string wrong = files / "wrong.toml", right = files / "right.toml";
+  const std::string model =
+      "name = \"twin\"\ncoordinates = [\"q\", \"p\"]\ninitial = [0.5, 0.3]\n"
+      "kinetic = \"p^2/2\"\npotential = \"q^4/4\"\n";
+  std::ofstream(wrong) << model << "force = [\"-q^3 - 1e-6*q\"]\n";
+  std::ofstream(right) << model;
+  const auto checks = nlohmann::json::parse(run_pfaff({"verify", wrong, right, "--json"}).out)["checks"];
+  int judged = 0;
+  for (const auto& check : checks) judged += check["plugin"] == "verlet" && check["result"] == "pass";
+  EXPECT_GT(judged, 5);
+}
+
 TEST(Verify, NothingCheckedIsNotOk) {
   const TemporaryDirectory files;
   const std::string file = files / "map.toml";

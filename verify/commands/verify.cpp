@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iostream>
 #include <map>
+#include <set>
 
 #include <pfaff/bench/runner/interruption.hpp>
 #include <pfaff/bench/runner/settings.hpp>
@@ -169,6 +170,10 @@ void print_causes(const std::vector<Check>& checks) {
   }
   std::cout << table(rows);
   if (shown.size() > most_rows) std::cout << "  and " << shown.size() - most_rows << " more (--verbose)\n";
+  std::set<std::string> why;  // methods are not judged at all on some systems
+  for (const Check& c : checks)
+    if (c.claim == "checks" && unjudged(c) && why.insert(c.reason).second)
+      std::cout << paragraph("methods were " + c.reason);
   std::cout << '\n';
 }
 
