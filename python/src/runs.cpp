@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include <pfaff/bench/runner/config_file.hpp>
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/bench/runner/measure_tables.hpp>
 #include <pfaff/bench/runner/record.hpp>
@@ -95,15 +96,19 @@ class Columns final : public SampleTaker {
   }
 };
 
-// The samples and the summary in a directory of the user's. There is no config.toml, since objects of a
-// program cannot be made again from one.
+// The samples and the summary in a directory of the user's. Where system and method have names or can be
+// written as text, a config.toml says how to make them again: systems written in Python are left beside it.
 class Files {
  public:
-  Files(const ResolvedRun& run, const std::filesystem::path& directory)
+  Files(const ResolvedRun& run, const std::filesystem::path& directory, const std::string& system_text)
       : directory_(directory),
-        lock_(take_output_directory(directory, "pfaff.run", run_file_names())),
+        lock_(take_output_directory(directory, "pfaff.run", names())),
         rows_(directory / "series.csv"),
-        series_(run, [this](std::string_view rows) { rows_.take(rows); }) {}
+        series_(run, [this](std::string_view rows) { rows_.take(rows); }) {
+    if (!system_text.empty()) write_file(directory_ / system_name, system_text);
+    if (!run.settings.system.empty()) write_file(directory_ / "config.toml", config_text(run));
+  }
+  static constexpr const char* system_name = "system.toml";
   [[nodiscard]] SampleTaker& series() { return series_; }
   void finish(const nlohmann::json& summary) {
     series_.finish();
@@ -112,6 +117,12 @@ class Files {
   }
 
  private:
+  static std::vector<std::string> names() {
+    std::vector<std::string> names = run_file_names();
+    names.emplace_back(system_name);
+    return names;
+  }
+
   std::filesystem::path directory_;
   std::unique_ptr<DirectoryLock> lock_;
   RowFile rows_;
@@ -124,6 +135,7 @@ RunSettings settings_of(const PySystem& system, const PyMethod& method, const py
   RunSettings settings;
   settings.model = system.model;
   settings.method = method.method;
+  settings.system = text("system"), settings.integrator = text("integrator");
   settings.formulation = text("formulation");
   settings.initial = texts("initial");
   settings.initial_velocities = texts("initial_velocities");
@@ -146,7 +158,8 @@ class RunInProgress {
   RunInProgress(const PySystem& system, const PyMethod& method, const py::dict& asked)
       : run_(without_lock([settings = settings_of(system, method, asked)] { return resolve(settings); })),
         measures_(measures_asked_for(asked["measures"].cast<std::vector<std::string>>())),
-        out_(asked["out"].cast<std::string>()) {
+        out_(asked["out"].cast<std::string>()),
+        system_text_(asked["system_text"].cast<std::string>()) {
     for (const auto& measure : measures_)
       if (const std::string reason = refuses(*measure, run_); !reason.empty()) throw InputError(reason);
   }
@@ -159,7 +172,7 @@ class RunInProgress {
       std::optional<Files> files;
       if (!run_.adaptive())
         columns_.reserve(static_cast<std::size_t>(std::min(run_.rows(), most_reserved) + 1), *run_.model);
-      if (!out_.empty()) columns_.also = &files.emplace(run_, out_).series();
+      if (!out_.empty()) columns_.also = &files.emplace(run_, out_, system_text_).series();
       record_ = pfaff::execute(run_, reference.get(), {}, &interruption.stop(), &columns_);
       if (files) files->finish(summary(run_, *record_));
       if (!record_->interrupted && !measures_.empty()) tables_ = measured_tables();
@@ -256,7 +269,8 @@ class RunInProgress {
 
   ResolvedRun run_;
   Measures measures_;
-  std::string out_;  // the directory in which files are left; or empty
+  std::string out_;          // the directory in which files are left; or empty
+  std::string system_text_;  // of a system written in Python, to be left beside the samples
   Columns columns_;
   std::optional<RunRecord> record_;
   std::vector<MeasuredTable> tables_;
