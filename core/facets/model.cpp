@@ -166,3 +166,6 @@ std::shared_ptr<const Tape> Model::tape(Formula formula) const {
 }
 
 }  // namespace pfaff
+
+template class std::vector<pfaff::Coordinate>;
+template class std::vector<pfaff::Invariant>;

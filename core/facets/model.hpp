@@ -273,3 +273,7 @@ const Derivation* derivation_of(Formula formula, const Model& model);
 Tape damped_field(const Model& model);
 
 }  // namespace pfaff
+
+// Vectors that every plug-in holds are compiled once.
+extern template class std::vector<pfaff::Coordinate>;
+extern template class std::vector<pfaff::Invariant>;

@@ -208,3 +208,5 @@ Real operator""_r(const char* text) { return *Real::parse(text); }
 }  // namespace literals
 
 }  // namespace pfaff
+
+template class std::vector<pfaff::Real>;

@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include <pfaff/core/numbers/quad.hpp>
 
@@ -122,3 +123,6 @@ T operator/(const T& a, const Real& b) {
 }
 
 }  // namespace pfaff
+
+// Every plug-in holds such vectors: they are compiled once.
+extern template class std::vector<pfaff::Real>;

@@ -223,3 +223,5 @@ Assignments resolved(const std::vector<Parameter>& parameters, const void* objec
 }
 
 }  // namespace pfaff
+
+template class std::vector<pfaff::Parameter>;

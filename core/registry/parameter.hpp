@@ -247,3 +247,6 @@ std::vector<Parameter> parameters_of() {
 }
 
 }  // namespace pfaff
+
+// Every plug-in holds such vectors: they are compiled once.
+extern template class std::vector<pfaff::Parameter>;

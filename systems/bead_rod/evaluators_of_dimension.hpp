@@ -28,7 +28,8 @@ std::unique_ptr<HolonomicConstraints<T>> rod_constraints(const BeadRodParts& par
   return std::make_unique<RodConstraints<T, D>>(parts.description, parts.graph);
 }
 
-/// Emits both for every scalar of the list.
+/// Emits both for every scalar of the list, ScalarsHere in each of the two units
+/// (core/facets/scalar_units.hpp).
 template <int D, class List>
 struct EvaluatorInstances;
 template <int D, class... T>
