@@ -11,8 +11,8 @@
 
 #include <pfaff/core/numbers/formatted.hpp>
 #include <pfaff/runs/measure.hpp>
+#include <pfaff/runs/scales_at_start.hpp>
 #include <pfaff/runs/support/linear_step.hpp>
-#include <pfaff/runs/support/scales_at_start.hpp>
 
 namespace {
 using namespace pfaff;

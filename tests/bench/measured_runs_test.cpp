@@ -82,7 +82,11 @@ class MeasuredRuns : public ::testing::Test {
 // Of cases without seeds, of methods with fixed steps, of those that the measure fits.
 TEST_F(MeasuredRuns, AreThoseAtTheLargestStepThatEndsWell) {
   const Experiment of = read();
-  const auto lines = written(of);
+  const auto not_led_back = [](const std::string& step) {
+    return "reversibility of case swing, method two states, step " + step +
+           " ends early: the method remembers earlier steps, and nothing is known to lead it back\n";
+  };
+  const auto lines = written(of, "", not_led_back("0.4"));
   EXPECT_EQ(lines.front(), "case,method,step,t,distance,rounding,by");
   const std::ptrdiff_t turns = 9;  // after 1 to 8 and 10 steps, as 10^(k/12) is rounded
   EXPECT_EQ(beginning_with(lines, "swing,\"RK4, one\",0.4,"), turns);
@@ -90,7 +94,7 @@ TEST_F(MeasuredRuns, AreThoseAtTheLargestStepThatEndsWell) {
   EXPECT_EQ(joined("contraction").size(), 1 + 2 * 11U);  // two methods, the start and ten steps
   EXPECT_EQ(joined("poincare-loop").size(), 1 + 2 * 11U);
   EXPECT_EQ(beginning_with(joined("contraction"), "swing,two states,0.4,"), 11);
-  const auto smaller = written(of, "0.4");
+  const auto smaller = written(of, "0.4", not_led_back("0.2"));
   EXPECT_GT(beginning_with(smaller, "swing,\"RK4, one\",0.2,"), 0);
   EXPECT_EQ(beginning_with(smaller, "swing,\"RK4, one\",0.4,"), 0);
   EXPECT_TRUE(written(of, "all").empty());
