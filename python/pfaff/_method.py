@@ -85,6 +85,14 @@ class Method:
             raise InputError(f"method {self.name}: expected a registered method as a part of another one")
         return f"{self.name}({', '.join(f'{key}={value}' for key, value in self.parameters.items())})"
 
+    @property
+    def registered_name(self) -> str:
+        """The name of a registered method, or the path of a table; empty for methods written in Python."""
+        if not isinstance(self._definition, RegisteredMethod):
+            return ""
+        name = self._definition.name
+        return os.path.abspath(name) if name.endswith(".toml") else name
+
     def __call__(self, **parameters: Any) -> Method:
         """The method with other values of some of its parameters."""
         return self._made(self._definition, {**self._given, **parameters})

@@ -241,7 +241,9 @@ def run(system: Any, method: Any, *, step: Any = None, tolerance: Any = None, ti
         project_initial: move an initial state that is off the constraints onto them.
         allow_inconsistent: or take it as it is.
         formulation: of a system with constraints, for a method that needs a vector field; without it the usual one.
-        out: a directory in which the samples, series.csv, and the summary, summary.json, are left.
+        out: a directory in which the samples, series.csv, and the summary, summary.json, are left; with a registered
+            method also what `pfaff run --config` makes the run again from, config.toml, and a system written in
+            Python as the text model system.toml.
         system_parameters, method_parameters: dictionaries, where both know a name.
         **parameters: of the system or the method, by their names.
 
@@ -281,6 +283,7 @@ def run(system: Any, method: Any, *, step: Any = None, tolerance: Any = None, ti
         "allow_inconsistent": bool(allow_inconsistent),
         "formulation": formulation,
         "out": "" if out is None else os.fspath(out),
+        **_written_as(base, tool, out),
     }
     with _words_of_python():
         going = _pfaff.RunInProgress(base.model, tool.instance, asked)
@@ -316,6 +319,20 @@ def _measured(function: Callable[[Run], Any], result: Run) -> dict[str, Any]:
         if table[name].shape != result.t.shape:
             raise InputError(f"measure {kebab(function.__name__)}: expected {len(result.t)} numbers of {name}, one for each sample, got shape {table[name].shape}")
     return table
+
+
+def _written_as(system: Any, method: Any, out: Any) -> dict[str, str]:
+    """What a config.toml calls a system and a method, both empty where one of them has no name; and the text of a system that is written in Python."""
+    names = {"system": "", "integrator": "", "system_text": ""}
+    if out is None or not method.registered_name:
+        return names
+    if system.registered_name:
+        return {**names, "system": system.registered_name, "integrator": method.registered_name}
+    try:
+        text = system.to_toml()
+    except InputError:  # its formulas are not written as text
+        return names
+    return {"system": os.path.join(os.path.abspath(os.fspath(out)), "system.toml"), "integrator": method.registered_name, "system_text": text}
 
 
 @contextlib.contextmanager

@@ -4,6 +4,7 @@ from __future__ import annotations
 import functools
 import importlib
 import inspect
+import os
 import weakref
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
@@ -130,6 +131,11 @@ class System:
         """What the system offers to methods, such as 'vector-field' and 'separable'."""
         return tuple(self.model.facets)
 
+    @property
+    def registered_name(self) -> str:
+        """The name of a registered system, or the path of a text model; empty for systems written in Python."""
+        return _name_or_path(self._definition.name) if isinstance(self._definition, Registered) else ""
+
     def compiled(self) -> System:
         """The same system with compiled formulas; the same object where they are, or where there is no compiler."""
         return self if self._compile else self._made(self._definition, self._given, True)
@@ -225,6 +231,10 @@ class Frozen:
 
     def pickled(self, parameters: Mapping[str, Any], compile: bool) -> tuple:
         return _frozen, (self.recorded, compile)
+
+
+def _name_or_path(name: str) -> str:
+    return os.path.abspath(name) if name.endswith(".toml") else name
 
 
 def _compiled(model: _pfaff.Model, compile: bool) -> _pfaff.Model:

@@ -98,15 +98,21 @@ class Columns final : public SampleTaker {
 
 // The samples and the summary in a directory of the user's. Where system and method have names or can be
 // written as text, a config.toml says how to make them again: systems written in Python are left beside it.
+struct WrittenAs {
+  std::string system, integrator, system_text;
+};
 class Files {
  public:
-  Files(const ResolvedRun& run, const std::filesystem::path& directory, const std::string& system_text)
+  Files(const ResolvedRun& run, const std::filesystem::path& directory, const WrittenAs& written)
       : directory_(directory),
         lock_(take_output_directory(directory, "pfaff.run", names())),
         rows_(directory / "series.csv"),
         series_(run, [this](std::string_view rows) { rows_.take(rows); }) {
-    if (!system_text.empty()) write_file(directory_ / system_name, system_text);
-    if (!run.settings.system.empty()) write_file(directory_ / "config.toml", config_text(run));
+    if (written.system.empty()) return;
+    if (!written.system_text.empty()) write_file(directory_ / system_name, written.system_text);
+    ResolvedRun named = run;
+    named.settings.system = written.system, named.settings.integrator = written.integrator;
+    write_file(directory_ / "config.toml", config_text(named));
   }
   static constexpr const char* system_name = "system.toml";
   [[nodiscard]] SampleTaker& series() { return series_; }
@@ -135,7 +141,6 @@ RunSettings settings_of(const PySystem& system, const PyMethod& method, const py
   RunSettings settings;
   settings.model = system.model;
   settings.method = method.method;
-  settings.system = text("system"), settings.integrator = text("integrator");
   settings.formulation = text("formulation");
   settings.initial = texts("initial");
   settings.initial_velocities = texts("initial_velocities");
@@ -159,7 +164,8 @@ class RunInProgress {
       : run_(without_lock([settings = settings_of(system, method, asked)] { return resolve(settings); })),
         measures_(measures_asked_for(asked["measures"].cast<std::vector<std::string>>())),
         out_(asked["out"].cast<std::string>()),
-        system_text_(asked["system_text"].cast<std::string>()) {
+        written_{asked["system"].cast<std::string>(), asked["integrator"].cast<std::string>(),
+                 asked["system_text"].cast<std::string>()} {
     for (const auto& measure : measures_)
       if (const std::string reason = refuses(*measure, run_); !reason.empty()) throw InputError(reason);
   }
@@ -172,7 +178,7 @@ class RunInProgress {
       std::optional<Files> files;
       if (!run_.adaptive())
         columns_.reserve(static_cast<std::size_t>(std::min(run_.rows(), most_reserved) + 1), *run_.model);
-      if (!out_.empty()) columns_.also = &files.emplace(run_, out_, system_text_).series();
+      if (!out_.empty()) columns_.also = &files.emplace(run_, out_, written_).series();
       record_ = pfaff::execute(run_, reference.get(), {}, &interruption.stop(), &columns_);
       if (files) files->finish(summary(run_, *record_));
       if (!record_->interrupted && !measures_.empty()) tables_ = measured_tables();
@@ -269,8 +275,8 @@ class RunInProgress {
 
   ResolvedRun run_;
   Measures measures_;
-  std::string out_;          // the directory in which files are left; or empty
-  std::string system_text_;  // of a system written in Python, to be left beside the samples
+  std::string out_;    // the directory in which files are left; or empty
+  WrittenAs written_;  // what its config.toml calls system and method
   Columns columns_;
   std::optional<RunRecord> record_;
   std::vector<MeasuredTable> tables_;

@@ -1,5 +1,6 @@
 """Runs: samples, drift, errors, gradients and measures, and what is left where a run ends early."""
 import math
+import tomllib
 
 import numpy as np
 import pytest
@@ -167,3 +168,28 @@ def test_names_that_both_know_are_asked_for(tmp_path):
     with pytest.raises(pfaff.InputError, match="belongs to both"):
         pfaff.run(path, "gauss", step=0.1, time=1, stages=2)
     assert pfaff.run(path, "gauss", step=0.1, time=1, method_parameters={"stages": 2}).method.parameters["stages"] == "2"
+
+
+def test_out_leaves_what_the_run_is_made_again_from(tmp_path):
+    """By names, and with a system that is written in Python; a method that is written in Python has no name."""
+    @pfaff.system(coordinates=["q", "p"], initial=[0.5, 0.1], name="quartic")
+    def quartic(q, p, a: float = 1.0):
+        return p**2 / 2 + a * q**4 / 4
+
+    runs = {"names": lambda out: pfaff.run("kepler", "gauss", stages=3, step="0.05", time=1, every=1, out=out),
+            "traced": lambda out: pfaff.run(quartic, "verlet", a=2, step="0.05", time=1, every=1, out=out)}
+    for name, run in runs.items():
+        run(tmp_path / name)
+        text = (tmp_path / name / "config.toml").read_text(encoding="utf-8")
+        config = tomllib.loads(text)
+        again = pfaff.run(config["system"], config["integrator"], step=config["step"], time=config["time"], every=1,
+                          system_parameters={key[7:]: value for key, value in config["set"].items() if key.startswith("system.")},
+                          method_parameters={key[11:]: value for key, value in config["set"].items() if key.startswith("integrator.")},
+                          out=tmp_path / (name + "-again"))
+        assert again.status == "converged"
+        series = [(tmp_path / folder / "series.csv").read_bytes() for folder in (name, name + "-again")]
+        assert series[0] == series[1] and len(series[0]) > 100
+    assert (tmp_path / "traced" / "system.toml").exists()
+
+    pfaff.run(quartic, kick, step=0.05, time=1, out=tmp_path / "method")
+    assert not (tmp_path / "method" / "config.toml").exists()
