@@ -132,3 +132,13 @@ def test_an_interruption_comes_soon():
     late = time.monotonic() - sent[0]
     assert isinstance(stopped.value, pfaff.Interrupted)
     assert late < 0.5  # .1 s on an idle machine; tests share theirs
+
+
+def test_a_method_is_not_blamed_for_a_system_that_is_wrong(tmp_path):
+    """The stated reversal is none, so that no method is reversible under it."""
+    file = tmp_path / "turned.toml"
+    file.write_text('name = "turned"\ncoordinates = ["q", "p"]\ninitial = [0.5, 0.3]\nkinetic = "p^2/2"\npotential = "q^4/4"\n'
+                    'reversal = ["q", "p"]\n', encoding="utf-8")
+    checks = pfaff.verify("verlet", on=str(file))
+    assert not checks.ok
+    assert {check.plugin for check in checks.failed} == {"turned"}
