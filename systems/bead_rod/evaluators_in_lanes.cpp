@@ -1,4 +1,5 @@
-// Energies of beads at eight states side by side.
+// Energies of beads at eight states side by side, in a file of their own: what GCC inlines of the other
+// scalars depends on what it compiles with them.
 #include <pfaff/systems/bead_rod/evaluators_of_dimension.hpp>
 
 namespace pfaff::detail {

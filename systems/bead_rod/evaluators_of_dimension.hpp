@@ -28,8 +28,7 @@ std::unique_ptr<HolonomicConstraints<T>> rod_constraints(const BeadRodParts& par
   return std::make_unique<RodConstraints<T, D>>(parts.description, parts.graph);
 }
 
-/// Emits both for every scalar of the list, ScalarsHere in each of the two units
-/// (core/facets/scalar_units.hpp).
+/// Emits both for every scalar of the list.
 template <int D, class List>
 struct EvaluatorInstances;
 template <int D, class... T>

@@ -277,10 +277,7 @@ class FoldedPath {
     for (std::size_t k = 0; k < D; ++k)
       store_one(half_, 0, pull[k].sum(), push[k].sum(), k, p, rate_q, rate_p);
   }
-  // Inlined into the sweeps, this and the rest of the rods' ends take registers from their loops: right-hand
-  // sides of rings take 5 to 18 % longer.
-  [[gnu::noinline]] void store_ends(const Vec& pull, const Vec& push, const double* p, double* rate_q,
-                                    double* rate_p) const {
+  void store_ends(const Vec& pull, const Vec& push, const double* p, double* rate_q, double* rate_p) const {
     for (std::size_t k = 0; k < D; ++k) {
       if (offsets_[0].left != fixed) store_one(0, 0, -pull[k][0], -push[k][0], k, p, rate_q, rate_p);
       if (offsets_[0].right != fixed) store_one(0, 1, -pull[k][1], -push[k][1], k, p, rate_q, rate_p);

@@ -249,9 +249,8 @@ class RodConstraints final : public HolonomicConstraints<T>, public DescribedByR
     const bool regular = (folded_.*operation)(q, p, q_rate, p_rate);
     return regular || status != Status::converged ? status : Status::singular;
   }
-  // Forces and accelerations of the beads; where they are constant, only when there are none yet. Not
-  // inlined, as FoldedPath::store_ends.
-  [[gnu::noinline]] Status set_forces(In<T> q) {
+  // Forces and accelerations of the beads; where they are constant, only when there are none yet.
+  Status set_forces(In<T> q) {
     if (potentials_.constant() && placed_) return Status::converged;
     placed_ = true;
     const Status status = potentials_.forces(q, Out<T>(forces_).first(degrees_));
