@@ -1,30 +1,34 @@
 // Congruences M^T K1 M = K0 of matrices, by which structures are kept, and how far matrices are from one.
 #pragma once
 
+#include <utility>
 #include <vector>
+
+#include <pfaff/core/linear/matrix.hpp>
 
 namespace pfaff {
 
-/// All n x n, row-major.
+/// All square, of one size.
 template <class T>
 struct Congruence {
-  std::vector<T> m, k1, k0;
+  Matrix<T> m, k1, k0;
 };
 
 /// M^T K1 M - K0, and for each entry the sum of the magnitudes of the terms of M^T K1 M.
 template <class T>
 struct CongruenceDifference {
   explicit CongruenceDifference(const Congruence<T>& of);
-  std::vector<T> entries, sizes;
+  CongruenceDifference(Matrix<T> entries_of, Matrix<T> sizes_of)
+      : entries(std::move(entries_of)), sizes(std::move(sizes_of)) {}
+  Matrix<T> entries, sizes;
 };
 
 /// The relative residual max |M^T K1 M - K0| / max |M|^T |K1| |M|.
 template <class T>
 T congruence_residual(const CongruenceDifference<T>& difference);
+/// The same of n x n matrices, row-major.
 template <class T>
-T congruence_residual(const std::vector<T>& m, const std::vector<T>& k1, const std::vector<T>& k0) {
-  return congruence_residual(CongruenceDifference<T>({m, k1, k0}));
-}
+T congruence_residual(const std::vector<T>& m, const std::vector<T>& k1, const std::vector<T>& k0);
 
 /// Units of the coordinates, as powers of two, in which the largest entries in the rows of A^T |K1| A are
 /// alike, A being |M| + 1: what small coordinates lose does not hide behind large ones there. The unit matrix
@@ -35,17 +39,7 @@ std::vector<T> equilibrating_units(const Congruence<T>& of);
 
 /// A difference in coordinates divided by `units`.
 template <class T>
-CongruenceDifference<T> in_units(CongruenceDifference<T> difference, const std::vector<T>& units);
-
-/// The product a b of n x n matrices.
-template <class T>
-std::vector<T> product(const std::vector<T>& a, const std::vector<T>& b, std::size_t n) {
-  std::vector<T> c(n * n);
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t k = 0; k < n; ++k)
-      for (std::size_t j = 0; j < n; ++j) c[i * n + j] = c[i * n + j] + a[i * n + k] * b[k * n + j];
-  return c;
-}
+CongruenceDifference<T> in_units(const CongruenceDifference<T>& difference, const std::vector<T>& units);
 
 /// The matrix in coordinates divided by `units`: a_ij u_i^row u_j^column. A Jacobian has the exponents -1 and
 /// 1, a two-form 1 and 1, a Poisson tensor -1 and -1. Without units the matrix is returned as it is.

@@ -73,35 +73,29 @@ template <class T>
 Congruence<T> KeptStructure<T>::congruence(const StepJacobian<T>& step, const T& t, const T& h,
                                            const std::vector<T>& z, const std::vector<T>& units) {
   const std::size_t n = z.size();
-  const auto transposed = [n](const std::vector<T>& a) {
-    std::vector<T> b(n * n);
-    for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t j = 0; j < n; ++j) b[j * n + i] = a[i * n + j];
-    return b;
+  const auto matrix = [&](const std::vector<T>& a, int row, int column) {
+    return Matrix<T>(n, in_units(a, units, row, column));
   };
-  std::vector<T> jacobian = in_units(step.jacobian, units, -1, 1);
+  const Matrix<T> jacobian = matrix(step.jacobian, -1, 1);
   std::vector<T> before(n * n), after(n * n);
   if (constrained_) {
     // (M U)^T J (M U) = U^T J U, where U is the projection onto the tangent space.
-    const std::vector<T> u = in_units(tangent_projection(*problem_.model(), t, z), units, -1, 1);
+    const Matrix<T> u = matrix(tangent_projection(*problem_.model(), t, z), -1, 1);
     for (std::size_t k = 0; k < n / 2; ++k) {
       after[k * n + n / 2 + k] = T(-1);
       after[(n / 2 + k) * n + k] = T(1);
     }
-    after = in_units(std::move(after), units, 1, 1);
-    before = product(transposed(u), product(after, u, n), n);
-    return {product(jacobian, u, n), std::move(after), std::move(before)};
+    const Matrix<T> j = matrix(after, 1, 1);
+    return {jacobian * u, j, u.transposed() * (j * u)};
   }
   if (!poisson_) {
     problem_.structure(t, z, before);
     problem_.structure(t + h, step.z, after);
-    return {std::move(jacobian), in_units(std::move(after), units, 1, 1),
-            in_units(std::move(before), units, 1, 1)};
+    return {jacobian, matrix(after, 1, 1), matrix(before, 1, 1)};
   }
   problem_.poisson_tensor(t, z, before);
   problem_.poisson_tensor(t + h, step.z, after);
-  return {transposed(jacobian), in_units(std::move(before), units, -1, -1),
-          in_units(std::move(after), units, -1, -1)};
+  return {jacobian.transposed(), matrix(before, -1, -1), matrix(after, -1, -1)};
 }
 
 template <class T>
@@ -118,9 +112,9 @@ T StructureResidual<T>::operator()(const T& t, const T& h, const std::vector<T>&
   constexpr double at_round_off = 1000, most_change = 0.125;
   const StepJacobian<T> own = differentiate_(t, h, z);
   if (own.status != Status::converged) return std::numeric_limits<T>::quiet_NaN();
-  const CongruenceDifference<T> in_own(kept_.congruence(own, t, h, z));
-  const T residual = congruence_residual(in_own);
-  const std::vector<T> units = equilibrating_units(kept_.congruence(own, t, h, z));
+  const Congruence<T> congruence = kept_.congruence(own, t, h, z);
+  const T residual = congruence_residual(CongruenceDifference<T>(congruence));
+  const std::vector<T> units = equilibrating_units(congruence);
   if (units.empty()) return residual;
   // The derivatives of a step are converged in the units in which they are made.
   const auto difference = [&](const T& step) {
@@ -136,8 +130,7 @@ T StructureResidual<T>::operator()(const T& t, const T& h, const std::vector<T>&
   if (!(in_alike > T(at_round_off) * unit_roundoff<T>())) return in_alike;
   auto change = difference(h * (T(1) + T(0x1p-30)));
   if (!change) return in_alike;
-  for (std::size_t k = 0; k < change->entries.size(); ++k)
-    change->entries[k] = change->entries[k] - here->entries[k];
+  change->entries = change->entries - here->entries;
   return congruence_residual(*change) > T(most_change) * in_alike ? residual : in_alike;
 }
 
