@@ -37,4 +37,8 @@ Check not_judged(Check check, const SolutionEnds& ends) {
   return not_judged(std::move(check), std::string(ends.what()));
 }
 
+Check not_judged_on_wrong(Check check, const std::string& system) {
+  return not_judged(std::move(check), system + " is itself not what it states");
+}
+
 }  // namespace pfaff

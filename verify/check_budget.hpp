@@ -29,6 +29,9 @@ Check not_judged(Check check, const SolutionEnds& ends);
 /// The same for any other reason, such as errors that round-off hides.
 Check not_judged(Check check, const std::string& why);
 
+/// A check of a method on a system that is wrong, which says nothing of the method.
+Check not_judged_on_wrong(Check check, const std::string& system);
+
 /// Why a claim about the size or the order of errors is not judged across a kink of the field.
 inline constexpr const char* across_a_kink =
     "the motion meets a kink of the field, behind which errors are not those of a smooth motion";

@@ -15,20 +15,9 @@ Real generic_time_of(const Model& model) {
   return model.moves() ? fraction * Real(own_time(model, Real(0), model.initial())) : fraction;
 }
 
-namespace {
-bool within(const Range& range, const Real& x) { return x.value() >= range[0] && x.value() <= range[1]; }
-// A coordinate that was moved from `centre`: on the other side of it where it has left its range, or not
-// moved.
-Real inside(const Range& range, const Real& centre, const Real& moved) {
-  if (within(range, moved)) return moved;
-  const Real mirrored = centre + centre - moved;
-  return within(range, mirrored) ? mirrored : centre;
-}
-}  // namespace
-
 bool Region::contains(std::span<const Quad> z) const {
   for (std::size_t k = 0; k < std::min(z.size(), box.size()); ++k)
-    if (!within(box[k], Real(z[k]))) return false;
+    if (!within(box[k], z[k])) return false;
   return true;
 }
 

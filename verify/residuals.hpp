@@ -57,6 +57,19 @@ void add_controls(std::vector<Check>& controls, const std::string& fault, const 
   if (controls.size() == before) throw std::logic_error(fault + ": no claim is called " + claim);
 }
 
+template <class T>
+bool within(const Range& range, const T& x) {
+  return static_cast<double>(x) >= range[0] && static_cast<double>(x) <= range[1];
+}
+// A coordinate that was moved from `centre`: on the other side of it where it has left its range, or not
+// moved.
+template <class T>
+T inside(const Range& range, const T& centre, const T& moved) {
+  if (within(range, moved)) return moved;
+  const T mirrored = centre + (centre - moved);
+  return within(range, mirrored) ? mirrored : centre;
+}
+
 // The centres near which states are drawn: one, or those of the region that a motion reaches (region_of); and
 // the box from which they are drawn besides.
 struct Region {
@@ -126,16 +139,11 @@ class NearbyStates {
     const std::vector<Real>& centre = region_.centres[place];
     for (std::size_t i = 0; i < z_.size(); ++i) {
       const double reach = far_ ? std::abs(centre[i].value()) * (drawn_ % 2 == 0 ? 10 : 1) : scales_[i];
-      const T offset = T(offset_(random_) * reach);
-      z_[i] = T(centre[i]) + offset;
-      if (i < region_.box.size() && !in(region_.box[i], z_[i])) z_[i] = T(centre[i]) - offset;
-      if (i < region_.box.size() && !in(region_.box[i], z_[i])) z_[i] = T(centre[i]);
+      z_[i] = T(centre[i]) + T(offset_(random_) * reach);
+      if (i < region_.box.size()) z_[i] = inside(region_.box[i], T(centre[i]), z_[i]);
     }
     time = T(region_.times[place] + offset_(random_));
     return z_;
-  }
-  static bool in(const Range& range, const T& x) {
-    return static_cast<double>(x) >= range[0] && static_cast<double>(x) <= range[1];
   }
   const std::vector<T>& in_box(T& time) {
     for (std::size_t i = 0; i < z_.size(); ++i) {

@@ -17,7 +17,7 @@ class RateOfMotion {
                const Region& region, const Quad& duration)
       : begin_(generic_time_of(*motion).quad()),
         duration_(duration),
-        solution_(motion, begin_, start_of(region), duration),
+        solution_(motion, begin_, {region.centres.front().begin(), region.centres.front().end()}, duration),
         region_(region),
         rate_(rate),
         domain_(region.domain != nullptr ? region.domain : rate),
@@ -44,12 +44,6 @@ class RateOfMotion {
   }
 
  private:
-  static std::vector<Quad> start_of(const Region& region) {
-    std::vector<Quad> z;
-    for (const Real& x : region.centres.front()) z.push_back(x.quad());
-    return z;
-  }
-
   Quad begin_, duration_;
   ReferenceSolution solution_;
   const Region& region_;

@@ -99,7 +99,7 @@ std::vector<Check> results_of(const std::vector<VerificationJob>& jobs, const Pr
     whole.plugin = jobs[k].what;
     whole.claim = "checks";
     if (const auto system = wrong.find(jobs[k].on); system != wrong.end()) {
-      results[k] = {not_judged(whole, system->second + " is itself not what it states")};
+      results[k] = {not_judged_on_wrong(whole, system->second)};
       return;
     }
     try {
@@ -131,6 +131,7 @@ std::vector<Check> results_of(const std::vector<VerificationJob>& jobs, const Pr
   for (auto& part : results) all.insert(all.end(), part.begin(), part.end());
   return all;
 }
+
 // Where a method fails on a system that was not itself to be verified, the system is looked at too: if it is
 // not what it states, the method is not judged there.
 void look_for_fault_of_system(std::vector<Check>& checks, const std::shared_ptr<const Model>& model) {
@@ -141,7 +142,7 @@ void look_for_fault_of_system(std::vector<Check>& checks, const std::shared_ptr<
   std::erase_if(own, [](const Check& c) { return good(c) || !own_identity(c); });
   if (own.empty()) return;
   for (Check& c : checks)
-    if (of_method(c) && !good(c)) c = not_judged(c, model->name() + " is itself not what it states");
+    if (of_method(c) && !good(c)) c = not_judged_on_wrong(c, model->name());
   checks.insert(checks.begin(), own.begin(), own.end());
 }
 }  // namespace

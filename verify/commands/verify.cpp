@@ -170,10 +170,9 @@ void print_causes(const std::vector<Check>& checks) {
   }
   std::cout << table(rows);
   if (shown.size() > most_rows) std::cout << "  and " << shown.size() - most_rows << " more (--verbose)\n";
-  std::set<std::string> why;  // methods are not judged at all on some systems
+  std::set<std::string> why;  // of groups of checks that were not made at all
   for (const Check& c : checks)
-    if (c.claim == "checks" && unjudged(c) && why.insert(c.reason).second)
-      std::cout << paragraph("methods were " + c.reason);
+    if (c.claim == "checks" && unjudged(c) && why.insert(c.reason).second) std::cout << paragraph(c.reason);
   std::cout << '\n';
 }
 
