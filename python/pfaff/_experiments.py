@@ -16,6 +16,7 @@ import numpy as np
 
 from . import _pfaff
 from ._errors import InputError, Interrupted
+from ._naming import absolute
 from ._objects import as_method
 from ._system import System
 from ._tables import data_frame
@@ -275,9 +276,7 @@ def _with_path(table: Mapping[str, Any], key: str) -> dict[str, Any]:
     value = table.get(key)
     if isinstance(value, System):
         return {**table, key: str(_model_file(value))}
-    if isinstance(value, os.PathLike) or isinstance(value, str) and value.endswith(".toml"):
-        return {**table, key: os.path.abspath(value)}
-    return dict(table)
+    return {**table, key: absolute(value)} if value is not None else dict(table)
 
 
 def _model_file(system: System) -> pathlib.Path:

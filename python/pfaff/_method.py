@@ -8,7 +8,7 @@ from typing import Any
 
 from . import _pfaff
 from ._errors import InputError
-from ._naming import kebab
+from ._naming import absolute, kebab
 from ._numbers import text_of_setting
 from ._step import StepFunction
 from ._toml import toml_of
@@ -88,10 +88,7 @@ class Method:
     @property
     def registered_name(self) -> str:
         """The name of a registered method, or the path of a table; empty for methods written in Python."""
-        if not isinstance(self._definition, RegisteredMethod):
-            return ""
-        name = self._definition.name
-        return os.path.abspath(name) if name.endswith(".toml") else name
+        return absolute(self._definition.name) if isinstance(self._definition, RegisteredMethod) else ""
 
     def __call__(self, **parameters: Any) -> Method:
         """The method with other values of some of its parameters."""

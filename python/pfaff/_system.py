@@ -4,7 +4,6 @@ from __future__ import annotations
 import functools
 import importlib
 import inspect
-import os
 import weakref
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
@@ -14,7 +13,7 @@ import numpy as np
 from . import _pfaff
 from ._definition import MEMBERS, Definition
 from ._errors import InputError
-from ._naming import kebab
+from ._naming import absolute, kebab
 from ._numbers import text_of_setting
 from ._tracer import Tracer
 from ._tracing import argument_names, place_of
@@ -134,7 +133,7 @@ class System:
     @property
     def registered_name(self) -> str:
         """The name of a registered system, or the path of a text model; empty for systems written in Python."""
-        return _name_or_path(self._definition.name) if isinstance(self._definition, Registered) else ""
+        return absolute(self._definition.name) if isinstance(self._definition, Registered) else ""
 
     def compiled(self) -> System:
         """The same system with compiled formulas; the same object where they are, or where there is no compiler."""
@@ -231,10 +230,6 @@ class Frozen:
 
     def pickled(self, parameters: Mapping[str, Any], compile: bool) -> tuple:
         return _frozen, (self.recorded, compile)
-
-
-def _name_or_path(name: str) -> str:
-    return os.path.abspath(name) if name.endswith(".toml") else name
 
 
 def _compiled(model: _pfaff.Model, compile: bool) -> _pfaff.Model:
