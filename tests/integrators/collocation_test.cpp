@@ -2,6 +2,7 @@
 // the steps of the form of first order in half the iterations.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -10,6 +11,8 @@
 #include <pfaff/integrators/runge_kutta/collocation_coefficients.hpp>
 #include <pfaff/integrators/runge_kutta/stage_convergence.hpp>
 #include <pfaff/runs/integrate.hpp>
+
+#include "../formula_values.hpp"
 
 namespace pfaff {
 namespace {
@@ -188,6 +191,20 @@ TEST(Collocation, AStateChangedFromOutsideStartsAfresh) {
     fresh->advance(0.0, 7, 0.1, 1, other, completed);
     EXPECT_EQ(z, other) << model->name();
   }
+}
+
+// Round-off without a bias is claimed of steps of second order, with enough stages and compensation.
+TEST(Collocation, ClaimsUnbiasedRoundOffOfStepsOfSecondOrder) {
+  const auto claimed = [](const std::shared_ptr<const Model>& model, const Assignments& parameters) {
+    const std::vector<Claim> claims = integrators().get("gauss", "").make(parameters)->preserves(*model);
+    return std::find(claims.begin(), claims.end(), Claim::unbiased_round_off) != claims.end();
+  };
+  EXPECT_TRUE(claimed(testing::model_named("pendulum"), {{"stages", "6"}}));
+  EXPECT_TRUE(claimed(testing::model_named("kepler"), {{"stages", "6"}}));
+  EXPECT_FALSE(claimed(testing::model_named("pendulum"), {{"stages", "5"}}));
+  EXPECT_FALSE(claimed(testing::model_named("pendulum"), {{"stages", "6"}, {"compensated", "no"}}));
+  EXPECT_FALSE(claimed(fast(), {{"stages", "6"}}));
+  EXPECT_FALSE(claimed(testing::model_named("free-rigid-body"), {{"stages", "6"}}));
 }
 
 }  // namespace
