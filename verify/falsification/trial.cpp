@@ -1,5 +1,6 @@
 #include <pfaff/verify/falsification/trial.hpp>
 
+#include <pfaff/runs/support/reference.hpp>
 #include <pfaff/verify/check_budget.hpp>
 #include <pfaff/verify/random_checks.hpp>
 
@@ -13,8 +14,8 @@ std::shared_ptr<const Model> model_under_test(const ClaimUnderTest& test,
 
 namespace {
 
-// The system judged at its initial state; nullopt where the claim holds or does not speak of it, and where
-// the budget of a check is spent before that is known.
+// The system judged at its initial state; nullopt where the claim holds or does not speak of it, where the
+// motion ends before a method can follow it, and where the budget of a check is spent before that is known.
 std::optional<Counterexample> judged(const ClaimUnderTest& test, const Recipe& recipe,
                                      PolynomialSystem system, const JudgedStep& at) {
   const auto model = model_under_test(test, model_of(system));
@@ -27,6 +28,8 @@ std::optional<Counterexample> judged(const ClaimUnderTest& test, const Recipe& r
     return Counterexample{recipe, std::move(system), here, std::move(judgement)};
   } catch (const BudgetSpent& spent) {
     if (spent.stopped()) throw;
+    return std::nullopt;
+  } catch (const SolutionEnds&) {
     return std::nullopt;
   }
 }
