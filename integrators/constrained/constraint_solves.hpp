@@ -3,7 +3,9 @@
 // linear in the momenta.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -66,6 +68,86 @@ bool velocity_is_steady(Constraints& constraints) {
   for (std::size_t k = 0; k < n; ++k) same = same && value_of(now[k]) == value_of(later[k]);
   return same;
 }
+
+/// The sizes of the terms of phi, by which positions in very different units are found to be on the surface.
+///
+/// Corrections of positions are judged by the largest of them, against the largest position (Largest). Where
+/// one coordinate is counted in millionths of the units of another this passes over the corrections that
+/// matter. phi_i is then judged against the sum over k of |B_ik| (|q_k| + |dq_k|), which is independent of
+/// all units.
+template <class T>
+class ConstraintSizes {
+ public:
+  /// Leaves the constraints placed elsewhere.
+  explicit ConstraintSizes(PositionConstraints<T>& c)
+      : unit_(c.degrees()), column_(c.count()), values_(c.count()), sizes_(c.count()) {
+    differ_ = coordinates_differ(c);
+  }
+
+  /// True where coordinates are in so different units that phi has to be judged.
+  [[nodiscard]] bool units_differ() const { return differ_; }
+  /// Takes the sizes at q, where the constraints are placed, and of what a step adds to it: at the origin of
+  /// the coordinates there is nothing else to judge by.
+  void place(PositionConstraints<T>& c, In<T> q, In<T> displacement) {
+    std::fill(sizes_.begin(), sizes_.end(), T(0));
+    for (std::size_t k = 0; k < q.size(); ++k) {
+      take_column(c, k);
+      for (std::size_t i = 0; i < sizes_.size(); ++i)
+        sizes_[i] =
+            sizes_[i] + T(abs(value_of(column_[i]))) * (size_of_parts(q[k]) + size_of_parts(displacement[k]));
+    }
+  }
+  /// Keeps phi, before it is overwritten by what it leads to.
+  void keep(In<T> phi) { std::copy(phi.begin(), phi.end(), values_.begin()); }
+  /// Adds what was kept to the corrections of an iteration, and returns the largest.
+  Value<T> add_to(Convergence<T>& convergence) const {
+    Value<T> largest(0);
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+      convergence.add(values_[i], sizes_[i], sizes_[i]);
+      largest = std::max(largest, relative_size(values_[i], sizes_[i], sizes_[i]));
+    }
+    return largest;
+  }
+
+ private:
+  // At generic positions the slopes of a constraint differ by what the shape of the surface makes of them,
+  // which is less than this where all coordinates are lengths or angles. Larger systems are not looked at:
+  // they are molecules and chains, and looking would take longer than many steps.
+  static constexpr double least_ratio = 16384;
+  static constexpr std::size_t most_entries = 4096;
+
+  bool coordinates_differ(PositionConstraints<T>& c) {
+    const std::size_t n = c.degrees();
+    if (n * c.count() > most_entries) return false;
+    // S may be singular there; B is what is looked at.
+    (void)c.linearise(generic_time<T>(), generic_positions<T>(n), std::vector<T>(n));
+    std::vector<Value<T>> least(c.count(), std::numeric_limits<Value<T>>::infinity()), most(c.count());
+    for (std::size_t k = 0; k < n; ++k) {
+      take_column(c, k);
+      for (std::size_t i = 0; i < column_.size(); ++i) {
+        const Value<T> slope = abs(value_of(column_[i]));
+        if (slope > Value<T>(0)) least[i] = std::min(least[i], slope);
+        most[i] = std::max(most[i], slope);
+      }
+    }
+    for (std::size_t i = 0; i < most.size(); ++i)
+      if (isfinite(most[i]) && most[i] > Value<T>(least_ratio) * least[i]) return true;
+    return false;
+  }
+  void take_column(PositionConstraints<T>& c, std::size_t k) {
+    unit_[k] = T(1);
+    c.apply(unit_, column_);
+    unit_[k] = T(0);
+  }
+  static T size_of_parts(const T& x) {
+    Largest<T> size;
+    size.add(x);
+    return size.get();
+  }
+
+  std::vector<T> unit_, column_, values_, sizes_;
+  bool differ_ = false;
+};
 
 namespace detail {
 // What constraints leave of the velocities' equations: phi~ of holonomic ones, psi of those of velocities.

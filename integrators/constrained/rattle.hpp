@@ -52,6 +52,7 @@ struct Rattle : ConstrainedVerlet {
     std::vector<T> multiplier, residual, correction;
     DifferencePredictor<T, dynamic, dynamic> predictor;
     MomentumProjection<T> onto_hidden;
+    ConstraintSizes<T> sizes;
     Continuation<P> continuation;  // the state at which the constraints are placed and the force is known
     T last_h{0};
     RememberedContraction<Value<T>> contraction;  // of Newton's method, from the last step that measured it
@@ -66,6 +67,7 @@ struct Rattle : ConstrainedVerlet {
           correction(multiplier.size()),
           predictor(multiplier.size(), static_cast<std::size_t>(difference_levels<T>)),
           onto_hidden(p.holonomic()),
+          sizes(p.holonomic()),
           continuation(p) {
       linear = velocity_is_linear<T>(p.holonomic(), generic_time<T>(), generic_positions<T>(n()));
       steady = velocity_is_steady<T>(p.holonomic());
@@ -172,20 +174,24 @@ struct Rattle : ConstrainedVerlet {
     }
     const T reference = positions.get();
     for (T& x : w.correction) x = T(0);
+    const bool units_differ = w.sizes.units_differ();
+    if (units_differ) w.sizes.place(c, q, w.displacement);
     Convergence<T> convergence;
     bool settled = false;
     do {
       c.values(t + h, w.position, w.residual);
+      if (units_differ) w.sizes.keep(w.residual);
       c.solve(w.residual, w.residual);
       const T moved = w.linear && w.steady ? move<P>(c, z, w) : kick_back<P>(c, middle, length, z, w);
       convergence.begin_iteration();
-      convergence.add(moved, reference, reference);
+      if (!units_differ) convergence.add(moved, reference, reference);
+      const Value<T> size =
+          units_differ ? w.sizes.add_to(convergence) : relative_size(moved, reference, reference);
       ++p.counters().iterations;
       // Settled where the next correction, this one times the contraction, would be lost in the rounding of
       // phi.
       const Value<T> ratio = convergence.iterations() == 1 ? w.expected_contraction() : convergence.ratio();
-      settled = ratio < Value<T>(0.1) &&
-                ratio * relative_size(moved, reference, reference) <= unit_roundoff<T>() / 8;
+      settled = ratio < Value<T>(0.1) && ratio * size <= unit_roundoff<T>() / 8;
     } while (!convergence.finished(50) && !settled);
     w.remember_contraction(convergence);
     // Iterates that overflow come from a step that is too large, and are reported as not converged, too.

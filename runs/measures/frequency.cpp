@@ -75,7 +75,6 @@ struct Frequency {
     std::shared_ptr<const ReferenceSolution> solution;
     std::vector<double> times;  // elapsed
     std::vector<std::vector<TurningVector>> of_method, of_solution;
-    bool whole = true;  // the solution reaches to the last look
 
     Work(const Frequency& measure, const Measured<T>& run)
         : solution(
@@ -102,8 +101,7 @@ struct Frequency {
     row.clear();
     const Quad elapsed = Quad(static_cast<double>(at.step)) * Quad(run.start.step());
     const Quad exact = Quad(run.start.time()) + elapsed;
-    work.whole = work.whole && work.solution->covers(exact);
-    if (!work.whole) return true;
+    if (!work.solution->covers(exact)) throw RunError(work.solution->ended());
     work.times.push_back(static_cast<double>(elapsed));
     work.append(static_cast<double>(at.t), at.z, work.of_method);
     work.append(static_cast<double>(at.t), work.solution->at(exact), work.of_solution);
@@ -115,7 +113,7 @@ struct Frequency {
     const std::vector<std::string> called = parts_of(names, between_vectors);
     for (std::size_t k = 0; k < work.vectors.size(); ++k) {
       const std::vector<double> angles = angles_of(work.of_solution[k]);
-      bool followed = work.whole;
+      bool followed = true;
       for (std::size_t i = 1; i < angles.size(); ++i)
         followed = followed && std::abs(angles[i] - angles[i - 1]) <= largest_turn;
       const TurningRate of_solution = turning_rate(work.times, angles);
@@ -202,6 +200,6 @@ const Measure<Frequency> registered{
          "The rate at which a vector of the state turns in the exact motion, and by how much more with the "
          "method, over the same time: the phase that a method loses is this times the time. The change is "
          "that of the error from the first half of the time to the second. Cells are empty where the vector "
-         "of the solution turns by more than a third of a turn between two looks, or the solution ends.",
+         "of the solution turns by more than a third of a turn between two looks.",
      .over = Over::step}};
 }  // namespace
