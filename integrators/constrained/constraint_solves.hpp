@@ -69,84 +69,87 @@ bool velocity_is_steady(Constraints& constraints) {
   return same;
 }
 
-/// The sizes of the terms of phi, by which positions in very different units are found to be on the surface.
+/// Whether an iteration still brings positions nearer to the surface, where their units do not let the sizes
+/// of corrections tell it.
 ///
 /// Corrections of positions are judged by the largest of them, against the largest position (Largest). Where
 /// one coordinate is counted in millionths of the units of another this passes over the corrections that
-/// matter. phi_i is then judged against the sum over k of |B_ik| (|q_k| + |dq_k|), which is independent of
-/// all units.
+/// matter. There an iteration that has converged by that measure goes on while a constraint, or a derivative
+/// of it, is left at less than half of the smallest value that it has been left at. This depends on no units,
+/// and needs no bound for the rounding of phi, which only its formula has.
 template <class T>
-class ConstraintSizes {
+class ApproachToSurface {
  public:
   /// Leaves the constraints placed elsewhere.
-  explicit ConstraintSizes(PositionConstraints<T>& c)
-      : unit_(c.degrees()), column_(c.count()), values_(c.count()), sizes_(c.count()) {
-    differ_ = coordinates_differ(c);
-  }
+  explicit ApproachToSurface(PositionConstraints<T>& c) : smallest_(c.count()) { watches_ = units_differ(c); }
 
-  /// True where coordinates are in so different units that phi has to be judged.
-  [[nodiscard]] bool units_differ() const { return differ_; }
-  /// Takes the sizes at q, where the constraints are placed, and of what a step adds to it: at the origin of
-  /// the coordinates there is nothing else to judge by.
-  void place(PositionConstraints<T>& c, In<T> q, In<T> displacement) {
-    std::fill(sizes_.begin(), sizes_.end(), T(0));
-    for (std::size_t k = 0; k < q.size(); ++k) {
-      take_column(c, k);
-      for (std::size_t i = 0; i < sizes_.size(); ++i)
-        sizes_[i] =
-            sizes_[i] + T(abs(value_of(column_[i]))) * (size_of_parts(q[k]) + size_of_parts(displacement[k]));
-    }
+  void begin() {
+    if (!watches_) return;
+    more_ = 0;
+    std::fill(smallest_.begin(), smallest_.end(), all_parts(std::numeric_limits<Value<T>>::infinity()));
   }
-  /// Keeps phi, before it is overwritten by what it leads to.
-  void keep(In<T> phi) { std::copy(phi.begin(), phi.end(), values_.begin()); }
-  /// Adds what was kept to the corrections of an iteration, and returns the largest.
-  Value<T> add_to(Convergence<T>& convergence) const {
-    Value<T> largest(0);
-    for (std::size_t i = 0; i < values_.size(); ++i) {
-      convergence.add(values_[i], sizes_[i], sizes_[i]);
-      largest = std::max(largest, relative_size(values_[i], sizes_[i], sizes_[i]));
-    }
-    return largest;
+  /// Takes phi of one iteration more.
+  void take(In<T> phi) {
+    if (!watches_) return;
+    nearer_ = false;
+    for (std::size_t i = 0; i < smallest_.size(); ++i)
+      for_each_part(phi[i], smallest_[i], [this](const Value<T>& left, Value<T>& smallest) {
+        nearer_ = nearer_ || abs(left) < smallest / Value<T>(2);
+        smallest = std::min(smallest, Value<T>(abs(left)));
+      });
   }
+  /// True where an iteration that has converged goes on.
+  [[nodiscard]] bool goes_on() { return watches_ && nearer_ && ++more_ <= most_more; }
 
  private:
-  // At generic positions the slopes of a constraint differ by what the shape of the surface makes of them,
+  // At generic positions the slopes of constraints differ by what the shape of the surface makes of them,
   // which is less than this where all coordinates are lengths or angles. Larger systems are not looked at:
   // they are molecules and chains, and looking would take longer than many steps.
   static constexpr double least_ratio = 16384;
   static constexpr std::size_t most_entries = 4096;
+  static constexpr int most_more = 16;
 
-  bool coordinates_differ(PositionConstraints<T>& c) {
+  static bool units_differ(PositionConstraints<T>& c) {
     const std::size_t n = c.degrees();
     if (n * c.count() > most_entries) return false;
     // S may be singular there; B is what is looked at.
     (void)c.linearise(generic_time<T>(), generic_positions<T>(n), std::vector<T>(n));
-    std::vector<Value<T>> least(c.count(), std::numeric_limits<Value<T>>::infinity()), most(c.count());
+    Value<T> least = std::numeric_limits<Value<T>>::infinity(), most(0);
+    std::vector<T> unit(n), column(c.count());
     for (std::size_t k = 0; k < n; ++k) {
-      take_column(c, k);
-      for (std::size_t i = 0; i < column_.size(); ++i) {
-        const Value<T> slope = abs(value_of(column_[i]));
-        if (slope > Value<T>(0)) least[i] = std::min(least[i], slope);
-        most[i] = std::max(most[i], slope);
+      unit[k] = T(1);
+      c.apply(unit, column);
+      unit[k] = T(0);
+      Value<T> largest(0);
+      for (const T& entry : column) {
+        const Value<T> slope = abs(value_of(entry));
+        if (slope > Value<T>(0)) least = std::min(least, slope);
+        largest = std::max(largest, slope);
       }
+      if (largest == Value<T>(0)) return true;  // of a position that is not in phi nothing is known
+      most = std::max(most, largest);
     }
-    for (std::size_t i = 0; i < most.size(); ++i)
-      if (isfinite(most[i]) && most[i] > Value<T>(least_ratio) * least[i]) return true;
-    return false;
+    return isfinite(most) && most > Value<T>(least_ratio) * least;
   }
-  void take_column(PositionConstraints<T>& c, std::size_t k) {
-    unit_[k] = T(1);
-    c.apply(unit_, column_);
-    unit_[k] = T(0);
+  static T all_parts(const Value<T>& x) {
+    T all(x);
+    if constexpr (derivative_depth < T >> 0)
+      for (auto& part : all.derivative) part = x;
+    return all;
   }
-  static T size_of_parts(const T& x) {
-    Largest<T> size;
-    size.add(x);
-    return size.get();
+  template <class Do>
+  static void for_each_part(const T& a, T& b, const Do& act) {
+    if constexpr (derivative_depth < T >> 0) {
+      act(a.value, b.value);
+      for (std::size_t k = 0; k < a.derivative.size(); ++k) act(a.derivative[k], b.derivative[k]);
+    } else {
+      act(a, b);
+    }
   }
 
-  std::vector<T> unit_, column_, values_, sizes_;
-  bool differ_ = false;
+  std::vector<T> smallest_;  // of |phi| and of its derivatives, since begin()
+  bool watches_ = false, nearer_ = false;
+  int more_ = 0;
 };
 
 namespace detail {

@@ -52,7 +52,7 @@ struct Rattle : ConstrainedVerlet {
     std::vector<T> multiplier, residual, correction;
     DifferencePredictor<T, dynamic, dynamic> predictor;
     MomentumProjection<T> onto_hidden;
-    ConstraintSizes<T> sizes;
+    ApproachToSurface<T> approach;
     Continuation<P> continuation;  // the state at which the constraints are placed and the force is known
     T last_h{0};
     RememberedContraction<Value<T>> contraction;  // of Newton's method, from the last step that measured it
@@ -67,7 +67,7 @@ struct Rattle : ConstrainedVerlet {
           correction(multiplier.size()),
           predictor(multiplier.size(), static_cast<std::size_t>(difference_levels<T>)),
           onto_hidden(p.holonomic()),
-          sizes(p.holonomic()),
+          approach(p.holonomic()),
           continuation(p) {
       linear = velocity_is_linear<T>(p.holonomic(), generic_time<T>(), generic_positions<T>(n()));
       steady = velocity_is_steady<T>(p.holonomic());
@@ -174,25 +174,24 @@ struct Rattle : ConstrainedVerlet {
     }
     const T reference = positions.get();
     for (T& x : w.correction) x = T(0);
-    const bool units_differ = w.sizes.units_differ();
-    if (units_differ) w.sizes.place(c, q, w.displacement);
     Convergence<T> convergence;
-    bool settled = false;
+    bool settled = false, finished = false;
+    w.approach.begin();
     do {
       c.values(t + h, w.position, w.residual);
-      if (units_differ) w.sizes.keep(w.residual);
+      w.approach.take(w.residual);
       c.solve(w.residual, w.residual);
       const T moved = w.linear && w.steady ? move<P>(c, z, w) : kick_back<P>(c, middle, length, z, w);
       convergence.begin_iteration();
-      if (!units_differ) convergence.add(moved, reference, reference);
-      const Value<T> size =
-          units_differ ? w.sizes.add_to(convergence) : relative_size(moved, reference, reference);
+      convergence.add(moved, reference, reference);
       ++p.counters().iterations;
       // Settled where the next correction, this one times the contraction, would be lost in the rounding of
       // phi.
       const Value<T> ratio = convergence.iterations() == 1 ? w.expected_contraction() : convergence.ratio();
-      settled = ratio < Value<T>(0.1) && ratio * size <= unit_roundoff<T>() / 8;
-    } while (!convergence.finished(50) && !settled);
+      settled = settled || (ratio < Value<T>(0.1) &&
+                            ratio * relative_size(moved, reference, reference) <= unit_roundoff<T>() / 8);
+      finished = finished || convergence.finished(50) || settled;
+    } while (!finished || w.approach.goes_on());
     w.remember_contraction(convergence);
     // Iterates that overflow come from a step that is too large, and are reported as not converged, too.
     if (!settled && convergence.status() != Status::converged) return Status::not_converged;

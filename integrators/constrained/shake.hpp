@@ -56,9 +56,9 @@ struct Shake : Rattle {
       w.next_momentum[k] = z[n + k] + (w.impulse[k] + w.carry[n + k]) + (first * w.force[k] - w.reaction[k]);
       w.next[k] = w.position[k];
     }
-    const bool units_differ = w.sizes.units_differ();
-    if (units_differ) w.sizes.place(c, w.position, w.displacement);
     Convergence<T> convergence;
+    bool finished = false;
+    w.approach.begin();
     do {
       c.velocity(t + first, w.position, w.next_momentum, w.velocity);
       Largest<T> correction, reference;
@@ -69,11 +69,12 @@ struct Shake : Rattle {
         w.next[k] = next;
       }
       if (convergence.iterations() > 0) {
-        if (!units_differ) convergence.add(correction.get(), reference.get(), reference.get());
-        if (convergence.finished(50)) break;
+        convergence.add(correction.get(), reference.get(), reference.get());
+        finished = finished || convergence.finished(50);
+        if (finished && !w.approach.goes_on()) break;
       }
       c.values(t + h, w.next, w.residual);
-      if (units_differ) w.sizes.keep(w.residual);
+      w.approach.take(w.residual);
       c.solve(w.residual, w.residual);
       for (std::size_t i = 0; i < w.residual.size(); ++i) {  // the multipliers act in both half kicks
         w.residual[i] = w.residual[i] / (length + length);
@@ -85,7 +86,6 @@ struct Shake : Rattle {
         w.next_momentum[k] = w.next_momentum[k] - (w.reaction[k] + w.reaction[k]);
       }
       convergence.begin_iteration();
-      if (units_differ) w.sizes.add_to(convergence);
       ++p.counters().iterations;
     } while (true);
     return convergence.status() == Status::converged ? Status::converged : Status::not_converged;
