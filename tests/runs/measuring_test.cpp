@@ -184,6 +184,20 @@ TEST(Measuring, TablesEndWhereTheRunDoes) {
   EXPECT_THAT(table.ended, HasSubstr("left the range of numbers at t = "));
 }
 
+// So they do where the solution ends, x' = x^2 at t = 1, before the steps of the method do. The control: over
+// the half of that time the same vector has a row.
+TEST(Measuring, AFrequencySaysThatItsSolutionEnds) {
+  const auto run =
+      integrate<double>(testing::explosion(), integrators().get("rk4", "integrator").make({}), 0.125);
+  const auto frequency = measure_asked_for("frequency(x=cos(x), y=sin(x))");
+  const MeasuredTable ended = measured(run, 9, {frequency.get()}).front();
+  EXPECT_TRUE(ended.lines.empty());
+  EXPECT_THAT(ended.ended, HasSubstr("the solution was found up to t = "));
+  const MeasuredTable whole = measured(run, 4, {frequency.get()}).front();
+  EXPECT_EQ(whole.lines.size(), 1U);
+  EXPECT_EQ(whole.ended, "");
+}
+
 TEST(Measuring, EndsWithTheBudget) {
   const Budget budget({.steps = 5});
   EXPECT_THROW((void)tables_of({Deed::nothing}), BudgetSpent);
