@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include <pfaff/core/facets/holonomic.hpp>
@@ -86,7 +87,10 @@ class ApproachToSurface {
   void begin() {
     if (!watches_) return;
     more_ = 0;
-    std::fill(smallest_.begin(), smallest_.end(), all_parts(std::numeric_limits<Value<T>>::infinity()));
+    for (T& x : smallest_)
+      for_each_part(x, x, [](const Value<T>&, Value<T>& smallest) {
+        smallest = std::numeric_limits<Value<T>>::infinity();
+      });
   }
   /// Takes phi of one iteration more.
   void take(In<T> phi) {
@@ -131,19 +135,14 @@ class ApproachToSurface {
     }
     return isfinite(most) && most > Value<T>(least_ratio) * least;
   }
-  static T all_parts(const Value<T>& x) {
-    T all(x);
-    if constexpr (derivative_depth < T >> 0)
-      for (auto& part : all.derivative) part = x;
-    return all;
-  }
+  // The values of two numbers, and their derivatives in each direction.
   template <class Do>
   static void for_each_part(const T& a, T& b, const Do& act) {
-    if constexpr (derivative_depth < T >> 0) {
+    if constexpr (std::is_same_v<T, Value<T>>) {
+      act(a, b);
+    } else {
       act(a.value, b.value);
       for (std::size_t k = 0; k < a.derivative.size(); ++k) act(a.derivative[k], b.derivative[k]);
-    } else {
-      act(a, b);
     }
   }
 
