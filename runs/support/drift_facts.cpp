@@ -20,6 +20,8 @@ constexpr std::size_t twentieths = 20;
 /// range, in which a power between two of the grid would be taken for an oscillation. The slope of a line has
 /// no grid, and is as precise as the means.
 constexpr double shape_resolution = 2e-3;
+/// What the squares of the spreads must add to the best score to be taken for a part of it.
+constexpr double modulation_gain = 4;
 
 /// Least and largest of some values.
 struct Range {
@@ -65,6 +67,28 @@ std::vector<double> extremes_of(const Series& series) {
       extremes.insert(extremes.end(), {block.maximum, block.minimum});
     }
   return extremes;
+}
+
+/// The number of periods of a regular oscillation: how often the values rise from the lowest third of their
+/// range to the highest. 0 where the longest time between two of these is more than 1.5 times the shortest.
+std::size_t periods_of(const Series& series, double range) {
+  double low = infinity;
+  for (const Block& block : series.blocks) low = std::min(low, block.minimum);
+  std::size_t periods = 0;
+  bool below = false;
+  double last = 0;
+  Range between;
+  for (std::size_t i = 0; i < series.blocks.size(); ++i) {
+    const Block& block = series.blocks[i];
+    const bool high = block.maximum > low + range * 2 / 3;
+    if (below && high) {
+      if (periods++ > 0) between.add(series.s[i] - last, series.s[i] - last);
+      last = series.s[i];
+      below = false;
+    }
+    if (block.minimum < low + range / 3 && !(high && block.minimum_first)) below = true;
+  }
+  return between.high <= 1.5 * between.low ? periods : 0;
 }
 
 /// max |e| in each twentieth of the run.
@@ -117,17 +141,24 @@ double away_at_last(const Series& series, const std::vector<double>& means, doub
   return nearest > near ? std::max(away, 0.0) : 0;
 }
 
+/// What a trend has to beat: a smooth wander is taken for noise only where it is clearly better, since a
+/// power is smooth too.
+double noise_of(const windows::Scores& scores) {
+  return std::max({scores.without_trend(Noise::white).score, scores.without_trend(Noise::walk).score,
+                   scores.without_trend(Noise::smooth).score - 5});
+}
+
 /// The best trend and what it has to beat, with handicaps: a line is likelier than a power, and an
-/// exponential less likely; a smooth wander is taken for noise only where it is clearly better, since a power
-/// is smooth too.
+/// exponential less likely.
 void compare(const windows::Scores& scores, const Series& series, Facts& facts) {
   facts.white = scores.without_trend(Noise::white).score;
   facts.walk = scores.without_trend(Noise::walk).score;
   facts.smooth = scores.without_trend(Noise::smooth).score;
-  facts.noise = std::max({facts.white, facts.walk, facts.smooth - 5});
+  facts.noise = noise_of(scores);
   facts.shape_scores = scores.shape_scores();
   facts.shapes = scores.models().shapes;
   facts.trend = -infinity;
+  facts.slowest = 0;
   windows::Explanation best{};
   for (const auto& [kind, handicap] :
        {std::pair{Shape::Kind::line, 2.0}, {Shape::Kind::power, 0.0}, {Shape::Kind::exponential, -2.0}})
@@ -149,6 +180,24 @@ void compare(const windows::Scores& scores, const Series& series, Facts& facts) 
       facts.slowest = frequencies[k];
 }
 
+/// Scores, and the slope. An oscillation whose size is modulated, as by a beat, moves the means with the
+/// square of its size. Where means move by less than half of the range of e, noise or a trend beside that is
+/// asked for too.
+void scores_of(const windows::Windows& seen, double resolution, const Series& series, Facts& facts) {
+  const windows::Scores alone(seen.mean, resolution, shape_resolution);
+  facts.slope = windows::Scores(seen.mean, resolution, 0).slope();
+  compare(alone, series, facts);
+  if (facts.range_of_means >= 0.5 * facts.range || std::max(facts.trend, facts.walk) <= facts.white + 4)
+    return;
+  std::vector<double> squares;
+  for (const double spread : seen.spread) squares.push_back(spread * spread);
+  const windows::Scores modulated(seen.mean, resolution, shape_resolution, squares);
+  facts.modulation = noise_of(modulated);
+  if (modulated.best() <= alone.best() + modulation_gain) return;
+  facts.slope = windows::Scores(seen.mean, resolution, 0, squares).slope();
+  compare(modulated, series, facts);
+}
+
 }  // namespace
 
 Facts facts_of(const Observed& observed) {
@@ -164,17 +213,17 @@ Facts facts_of(const Observed& observed) {
   const double resolution = observed.round_off.scale > 0
                                 ? 0.3 * observed.round_off.unit * observed.round_off.scale
                                 : std::numeric_limits<double>::epsilon() / 2 * observed.maximum;
-  facts.slope = windows::Scores(windows.mean, resolution, 0).slope();
-  compare(windows::Scores(windows.mean, resolution, shape_resolution), series, facts);
   ranges_of(series, windows.mean, facts);
+  scores_of(windows, resolution, series, facts);
   maxima_of(series, facts);
   facts.spreads = spreads.spread;
   facts.turns = turns_of(extremes_of(series), 0.02 * facts.range);
+  facts.periods = periods_of(series, facts.range);
   facts.turns_of_means = turns_of(windows.mean, 0.2 * facts.range_of_means);
   facts.curve = facts.turns < 16 && !(facts.slowest >= 2);
   const auto steps = double(observed.rises + observed.falls);
   facts.one_sided = double(std::max(observed.rises, observed.falls)) >= 0.85 * steps;
-  if (const double range = observed.round_off.own_range(); range > 0)
+  if (const double range = observed.round_off.own_range(); range > 0 && facts.periods < 2)
     facts.lost = away_at_last(series, windows.mean, 0.25 * range) / range;
   return facts;
 }

@@ -1,6 +1,7 @@
 // drift_facts: the numbers that the rules of drift_rules.hpp ask for, of one series.
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include <pfaff/runs/support/drift_rules.hpp>
@@ -18,6 +19,7 @@ struct Facts {
   windows::Slope slope;                // per unit of scaled time
   double trend = 0, noise = 0;         // scores with handicaps: of the best trend, of what it has to beat
   std::size_t shape = 0;               // of the best trend
+  double modulation = -HUGE_VAL;       // what noise beside a modulated oscillation scores, where asked for
   double arc = 0;                      // score of the best arc of an oscillation
   double jump = 0, rest = 0;           // its change over the run, and half the range of e beside it
   double oscillation = 0;              // half the range of e beside the line
@@ -28,6 +30,7 @@ struct Facts {
   double first_half = 0, shared = 0;  // shares of the range of e: of the first half; what both halves have
   std::size_t turns = 0,
               turns_of_means = 0;  // by more than 2 % of the range; of the means, by 20 % of theirs
+  std::size_t periods = 0;         // of a regular oscillation of the size of e
   bool curve = false, one_sided = false;
   windows::ExponentialFit maxima;  // of twentieths
   std::vector<double> spreads;     // in few_windows windows

@@ -89,12 +89,24 @@ std::optional<Verdict> growing_spread(const Facts& facts) {
   return undetermined(told("oscillation grows %.2g-fold but neither as a power nor exponentially", growth));
 }
 
+/// Whether the spread rises or falls throughout, by half of the trend's change or more: then the trend may be
+/// what an oscillation does to the means whose size changes slowly.
+bool swells(const Facts& facts) {
+  return std::abs(windows::rank_correlation(facts.spreads)) > 0.8 &&
+         2 * std::abs(facts.spreads.back() - facts.spreads.front()) > facts.jump;
+}
+
 /// The class of a trend that noise does not explain; nothing where the trend has none.
 std::optional<Verdict> accepted_trend(const Facts& facts) {
   const double gate = facts.slowest > 0 && facts.slowest < 8 ? 1 / facts.slowest : 0.01;
-  if (facts.jump < gate * facts.rest)
+  const bool faint = facts.jump < 0.03 * facts.rest &&
+                     std::abs(facts.slope.value) < 6 * (facts.slope.high - facts.slope.low);
+  if (facts.jump < gate * facts.rest || faint)
     return bounded(told("trend of %.2g %% of the oscillation", 100 * facts.jump / facts.rest));
   const Shape::Kind kind = facts.shapes[facts.shape].kind;
+  if (kind != Shape::Kind::line && facts.jump < facts.rest &&
+      !(facts.jump > 0.3 * facts.rest && facts.evidence() > 15))
+    return {};
   const std::string moves = told("moves by %.2g = %.2g x oscillation; log evidence %.2g", facts.jump,
                                  facts.jump / facts.rest, facts.evidence());
   const bool bent = facts.curve && facts.rest > (kind == Shape::Kind::line ? 0.12 : 0.03) * facts.jump;
@@ -116,6 +128,10 @@ std::optional<Verdict> accepted_trend(const Facts& facts) {
   }
   if (bent) return undetermined("a curve and no line; " + moves);
   if (facts.slope.low <= 0 && facts.slope.high >= 0) return {};
+  if (facts.jump < facts.rest && (swells(facts) || facts.modulation > facts.trend - 2))
+    return undetermined("the means move as the size of the oscillation does; " + moves);
+  if (facts.jump < facts.rest && facts.evidence() < 6)
+    return undetermined("too small a trend to be sure of; " + moves);
   return of_power(power.estimate, moves);
 }
 
@@ -139,10 +155,11 @@ Verdict decide(const Facts& facts) {
     return undetermined(told("only %.3g periods of a slow oscillation", facts.slowest));
   const bool straight =
       facts.shape == 0 && facts.jump > 20 * facts.rest && facts.trend > std::max(facts.white, facts.walk) + 4;
-  if (facts.accepted() && facts.arc > facts.trend + 2)
+  const bool arc = facts.accepted() && facts.arc > facts.trend + 2;
+  if (arc && facts.range_of_means > 0.02 * facts.range)
     return undetermined(
         told("less than a period of a slow oscillation; log evidence %.2g", facts.arc - facts.trend));
-  if (facts.accepted() || straight)
+  if (!arc && (facts.accepted() || straight))
     if (auto verdict = accepted_trend(facts)) return *verdict;
   if (facts.range_of_means < 0.1 * facts.range)
     return bounded_throughout(
@@ -160,6 +177,12 @@ Verdict decide(const Facts& facts) {
   if (facts.slowest >= 2 && facts.shared >= 0.75)
     return bounded_throughout(facts,
                               told("halves of the run share %.0f %% of the range", 100 * facts.shared));
+  if (facts.periods >= 4 && facts.shared >= 0.6)
+    return bounded_throughout(facts, told("%zu periods of an oscillation", facts.periods));
+  if (facts.range_of_means < 0.5 * facts.range && facts.shared >= 0.75)
+    return bounded_throughout(
+        facts, told("means wander by %.2g %% of the range; halves of the run share %.0f %% of it",
+                    100 * facts.range_of_means / facts.range, 100 * facts.shared));
   if (facts.samples < few_samples) return undetermined("too few samples to tell a walk from an oscillation");
   if (facts.one_sided) return undetermined("nearly all steps have one sign: no walk");
   if (facts.curve) return undetermined(told("turns only %zu times: a curve and no walk", facts.turns));

@@ -51,6 +51,12 @@ std::vector<double> copied(const std::vector<double>& table) {
   return copy;
 }
 
+double product(const double* x, const double* y, std::size_t n) {
+  double sum = 0;
+  for (std::size_t i = 0; i < n; ++i) sum += x[i] * y[i];
+  return sum;
+}
+
 /// The solution of the symmetric positive system a x = b, row by row; b is overwritten by x.
 void solve(std::vector<double>& a, std::vector<double>& b) {
   const std::size_t n = b.size();
@@ -68,30 +74,51 @@ void solve(std::vector<double>& a, std::vector<double>& b) {
 
 }  // namespace
 
-Scores::Scores(const std::vector<double>& means, double resolution, double shape_resolution)
+// In units of `scale_`, without the constant.
+void Scores::through(const Covariance& c, const std::vector<double>& values, double origin,
+                     std::vector<double>& result) const {
+  const std::size_t n = values.size();
+  double mean = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    result[i] = 0;
+    for (std::size_t j = 0; j <= i; ++j) result[i] += c.whitener[i * n + j] * ((values[j] - origin) / scale_);
+    mean += result[i] * c.constant[i];
+  }
+  for (std::size_t i = 0; i < n; ++i) result[i] -= mean * c.constant[i];
+}
+
+Scores::Scores(const std::vector<double>& means, double resolution, double shape_resolution,
+               const std::vector<double>& beside)
     : models_(window_models(means.size())), shape_square_(shape_resolution * shape_resolution) {
   const std::size_t n = means.size(), columns = models_.column_count();
   const auto [low, high] = std::minmax_element(means.begin(), means.end());
   scale_ = *high > *low ? *high - *low : 1;
   least_square_ = resolution * resolution / (scale_ * scale_);
-  std::vector<double> data(n);
+  std::vector<double> data(n), along(n);
   for (const Covariance& c : models_.covariances) {
-    Seen seen{std::vector<double>(columns), {}, 0, 2 * std::log(c.constant_norm), {}};
-    double mean = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      data[i] = 0;
-      for (std::size_t j = 0; j <= i; ++j) data[i] += c.whitener[i * n + j] * ((means[j] - *low) / scale_);
-      mean += data[i] * c.constant[i];
+    Seen seen{std::vector<double>(columns), {}, 0, 2 * std::log(c.constant_norm), {}, {}};
+    through(c, means, *low, data);
+    if (!beside.empty()) {
+      through(c, beside, 0, along);
+      if (const double square = product(along.data(), along.data(), n); square > 0) {
+        for (double& x : along) x /= std::sqrt(square);
+        const double part = product(along.data(), data.data(), n);
+        for (std::size_t i = 0; i < n; ++i) data[i] -= part * along[i];
+        for (std::size_t a = 0; a < columns; ++a)
+          seen.beside.push_back(product(&c.columns[a * n], along.data(), n));
+        seen.products = copied(c.products);
+        for (std::size_t a = 0; a < columns; ++a)
+          for (std::size_t b = 0; b < columns; ++b)
+            seen.products[a * columns + b] -= seen.beside[a] * seen.beside[b];
+        seen.log_pivots += std::log(square);
+      }
     }
-    for (std::size_t i = 0; i < n; ++i) {
-      data[i] -= mean * c.constant[i];
-      seen.square += data[i] * data[i];
-    }
-    for (std::size_t a = 0; a < columns; ++a)
-      for (std::size_t i = 0; i < n; ++i) seen.data[a] += c.columns[a * n + i] * data[i];
+    seen.square = product(data.data(), data.data(), n);
+    for (std::size_t a = 0; a < columns; ++a) seen.data[a] = product(&c.columns[a * n], data.data(), n);
     seen.original = seen.data;
     seen_.push_back(std::move(seen));
   }
+  if (!beside.empty()) total_ = 1;
   rank_explanations();
   while (joined_.size() < std::min(most_lines, models_.windows / 6)) {
     const double before = best();
@@ -120,7 +147,8 @@ double Scores::score(std::size_t covariance, double square, double parameters) c
 }
 
 const std::vector<double>& Scores::products(std::size_t covariance) const {
-  return joined_.empty() ? models_.covariances[covariance].products : seen_[covariance].products;
+  const std::vector<double>& own = seen_[covariance].products;
+  return own.empty() ? models_.covariances[covariance].products : own;
 }
 
 double Scores::square_with(std::size_t covariance, std::size_t column) const {
@@ -206,7 +234,7 @@ void Scores::join(std::size_t frequency) {
   const std::size_t columns = models_.column_count();
   for (std::size_t k = 0; k < seen_.size(); ++k) {
     Seen& seen = seen_[k];
-    if (joined_.empty()) seen.products = copied(models_.covariances[k].products);
+    if (seen.products.empty()) seen.products = copied(models_.covariances[k].products);
     for (const std::size_t c : {models_.cosine(frequency), models_.cosine(frequency) + 1}) {
       const double pivot = seen.products[c * columns + c];
       if (!(pivot > least_pivot)) continue;
@@ -237,11 +265,14 @@ Scores::Fit Scores::fit(const Explanation& explanation) const {
   if (explanation.shape != no_shape) used.push_back(explanation.shape);
   for (const std::size_t f : joined_) used.insert(used.end(), {models_.cosine(f), models_.cosine(f) + 1});
   const Covariance& c = models_.covariances[explanation.covariance];
+  const Seen& seen = seen_[explanation.covariance];
   const std::size_t columns = models_.column_count();
   std::vector<double> matrix, x;
   for (const std::size_t a : used) {
-    for (const std::size_t b : used) matrix.push_back(c.products[a * columns + b]);
-    x.push_back(seen_[explanation.covariance].original[a]);
+    for (const std::size_t b : used)
+      matrix.push_back(c.products[a * columns + b] -
+                       (seen.beside.empty() ? 0 : seen.beside[a] * seen.beside[b]));
+    x.push_back(seen.original[a]);
   }
   solve(matrix, x);
   for (std::size_t i = 0; i < used.size(); ++i) x[i] *= scale_ / c.norms[used[i]];
@@ -253,7 +284,8 @@ Scores::Fit Scores::fit(const Explanation& explanation) const {
 }
 
 Slope Scores::slope() const {
-  const std::size_t freedom = models_.windows - 2 - 2 * joined_.size();
+  const std::size_t beside = total_ > line_parameters * double(joined_.size()) ? 1 : 0;
+  const std::size_t freedom = models_.windows - 2 - 2 * joined_.size() - beside;
   std::array<double, 3> members{};
   for (const Covariance& c : models_.covariances) members[std::size_t(c.noise)] += 1;
   std::vector<double> value, width, weight;

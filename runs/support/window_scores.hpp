@@ -13,6 +13,9 @@
 // Slow lines (a cosine and a sine of one frequency) join every explanation, one after the other and at most
 // three, as long as one raises the best score by more than 8: some 45 frequencies are tried.
 //
+// Beside the constant there may be a given number for each window, as one more parameter: what a modulated
+// oscillation does to the means goes with the square of its size.
+//
 // Slope. Generalised least squares of (1, s, slow lines) gives for each covariance a slope and a Student
 // interval; the mixture of them has the weights of the restricted likelihood times prior weights of the kinds
 // of noise, W .5, R .4, S .1. Its 95 % interval is widened by 1.2: that brings the worst kind of series
@@ -43,8 +46,10 @@ struct Slope {
 class Scores {
  public:
   /// `means`: those of few_windows or many_windows; `resolution` > 0: the size below which nothing counts as
-  /// evidence; `shape_resolution`: the same, as a part of the range of the means.
-  Scores(const std::vector<double>& means, double resolution, double shape_resolution);
+  /// evidence; `shape_resolution`: the same, as a part of the range of the means; `beside`: for each window a
+  /// number whose multiples are a part of every explanation, or none.
+  Scores(const std::vector<double>& means, double resolution, double shape_resolution,
+         const std::vector<double>& beside = {});
   ~Scores();
   Scores(const Scores&) = delete;
   Scores& operator=(const Scores&) = delete;
@@ -59,6 +64,8 @@ class Scores {
   [[nodiscard]] double arc() const;
   /// The slow lines that joined: their frequencies in periods a run.
   [[nodiscard]] std::vector<double> frequencies() const;
+  /// The best score of all explanations.
+  [[nodiscard]] double best() const;
   [[nodiscard]] const WindowModels& models() const { return models_; }
 
   /// Amplitudes of an explanation's shape (0 for none) and of its slow lines.
@@ -71,26 +78,30 @@ class Scores {
   [[nodiscard]] Slope slope() const;
 
  private:
-  /// The series through one covariance, freed of the constant and of the slow lines that have joined.
+  /// The series through one covariance, freed of the constant, of what is beside it and of the slow lines
+  /// that have joined.
   struct Seen {
     std::vector<double> data;      // inner products with the columns
-    std::vector<double> products;  // of the columns with each other, once a slow line has joined
+    std::vector<double> products;  // of the columns with each other, where they are not the models' own
     double square = 0;             // of the data
     double log_pivots = 0;         // log of the determinant of X' C^(-1) X for the constant and the lines
     std::vector<double> original;  // `data` before any slow line joined
+    std::vector<double> beside;    // inner products of the columns with what is beside, of unit length
   };
+  void through(const Covariance& c, const std::vector<double>& values, double origin,
+               std::vector<double>& result) const;
   [[nodiscard]] double score(std::size_t covariance, double square, double parameters) const;
   [[nodiscard]] const std::vector<double>& products(std::size_t covariance) const;
   [[nodiscard]] double square_with(std::size_t covariance, std::size_t column) const;
   [[nodiscard]] double least_square_of(std::size_t covariance) const;
   void rank_explanations();
-  [[nodiscard]] double best() const;
   [[nodiscard]] double best_with_line(std::size_t frequency, bool beside_shapes) const;
   void join(std::size_t frequency);
 
   const WindowModels& models_;
   double shape_square_;
-  double scale_ = 1, least_square_ = 0, total_ = 0;  // unit of the data; smallest v; parameters of the lines
+  double scale_ = 1, least_square_ = 0,
+         total_ = 0;  // unit of the data; smallest v; parameters of what joined
   std::vector<Seen> seen_;
   std::vector<std::size_t> joined_;  // slow lines, as indices of frequencies
   std::vector<Explanation> plain_, trend_;

@@ -154,6 +154,20 @@ SyntheticSeries make_series(std::size_t kind, std::uint64_t seed, std::size_t fe
       fill([=](double s) { return std::sin(2 * pi * periods * s + phase); }, a, fast());
       break;
     }
+    case 13:
+    case 14: {
+      const double periods = random.log_uniform(10, length / 4);
+      const double beat = kind == 13 ? random.log_uniform(2, 8) : random.log_uniform(0.3, 2);
+      const double r = random.uniform(0.1, 1), c = random.sign() * random.log_uniform(0.05, 2);
+      const double phase = random.uniform(0, 2 * pi), other = random.uniform(0, 2 * pi);
+      fill(none, 1, [=](double s) {
+        const double x =
+            std::sin(2 * pi * periods * s + phase) + r * std::sin(2 * pi * (periods + beat) * s + other);
+        return x + c * x * x;
+      });
+      series.slope = 0;
+      break;
+    }
     default: {
       const double periods = random.uniform(0.15, 1.2), phase = random.uniform(0, 2 * pi);
       fill([=](double s) { return std::sin(2 * pi * periods * s + phase); }, 1, {});

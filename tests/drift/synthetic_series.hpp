@@ -23,7 +23,7 @@ struct SeriesKind {
   double required;            // per cent that must be right: 2 points below what a prototype reached
 };
 
-inline constexpr std::array<SeriesKind, 13> series_kinds{{
+inline constexpr std::array<SeriesKind, 15> series_kinds{{
     {"bounded", "fast + noise", "bounded", 96.6},
     {"bounded, slow", "slow + noise", "bounded", 95.4},
     {"AR(1)", "first-order autoregression with a correlation time below T/30", "bounded", 97.1},
@@ -39,6 +39,8 @@ inline constexpr std::array<SeriesKind, 13> series_kinds{{
     {"round-off", "running sum of roundings of at most 3 units", "round-off", 98.0},
     {"part of a period", "sine of .15 ... 1.2 periods + noise", "undetermined", 87.9},
     {"part, fast", "sine of .6 ... 1.2 periods + a fast + noise, a .1 ... 1", "undetermined", 95.0},
+    {"beats", "x + c x^2, c .05 ... 2, x two sines whose beat has 2 ... 8 periods, + noise", "bounded", 90.0},
+    {"part of a beat", "the same, of .3 ... 2 periods of the beat", "bounded", 50.0},
 }};
 
 /// A series and what is known of it.

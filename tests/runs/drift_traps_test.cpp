@@ -242,4 +242,28 @@ TEST(DriftTraps, OfUndetermined) {
   });
 }
 
+// An oscillation about one level of a quantity that it exceeds, with a phase, a number of periods and a
+// second harmonic that are drawn: it loses nothing, since it comes back, and what its windows leave is no arc
+// of a slow one. Runs of hardly three periods may be too short to tell.
+TEST(DriftTraps, PureOscillationsAreBounded) {
+  std::mt19937_64 random(7);
+  const auto uniform = [&random](double low, double high) {
+    return low + (high - low) * double(random() >> 11) * 0x1p-53;
+  };
+  constexpr int count = 600;
+  int other = 0;
+  for (int k = 0; k < count; ++k) {
+    const double samples = std::floor(100 * std::pow(20.0, uniform(0, 1)));
+    const double periods = 3 * std::pow(samples / 12, uniform(0, 1)), phase = uniform(0, 2 * pi);
+    const double second = uniform(0, 0.5);
+    const auto value = [&](double s) {
+      return std::cos(2 * pi * periods * s + phase) + second * std::cos(2 * (2 * pi * periods * s + phase));
+    };
+    const Drift drift = drift_of(
+        {"", std::size_t(samples), [&](double s) { return value(s) - value(0); }, {}, of_range(1, 1)});
+    other += drift.drift_class != DriftClass::bounded;
+  }
+  EXPECT_LE(other, count / 100);
+}
+
 }  // namespace
