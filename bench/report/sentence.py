@@ -142,6 +142,7 @@ def structure(verdict):
         return []
     who, whose = collective(keep, lose + unknown), collective(lose, keep + unknown)
     scope = f"of {known} methods of which it is known " if unknown else ""
+    rest = f"; of {collective(unknown, keep + lose)} it is not known" if unknown else ""
     verb = "keeps" if len(keep) == 1 else "keep"
     if not lose:
         out = f"{scope}all keep {what}" if unknown else f"{'both' if known == 2 else 'all'} methods keep {what}"
@@ -154,7 +155,7 @@ def structure(verdict):
     else:
         out = f"{scope}only {who} {verb} {what}"
     rows = {r.label: [p.run.where for p in r.curve.points] for r in verdict.rivals}
-    return [Clause(out, "keeps", labels(keep), ["structure_residual", error_columns(verdict)[0] if verdict.of_state else ""],
+    return [Clause(out + rest, "keeps", labels(keep), ["structure_residual", error_columns(verdict)[0] if verdict.of_state else ""],
                    rows, {"not": labels(lose), "unknown": labels(unknown)})]
 
 

@@ -8,6 +8,7 @@ from synthetic import SCRIPTS, Fresh, describe, load, parsed, reading, run, save
 
 import families  # noqa: E402
 import first_screen  # noqa: E402
+import sentence  # noqa: E402
 import verdict  # noqa: E402
 import verdict_table  # noqa: E402
 import wording  # noqa: E402
@@ -211,6 +212,13 @@ class Said(Fresh):
         head = page[:page.index("method structure")]
         for told in ("cost the same, of 2 ranked methods, 16 µs", "At equal cost, 10 µs", "Holds for Oscillator to t = 40 s"):
             self.assertIn(told, head)
+
+    def test_methods_of_which_it_is_not_known_what_they_keep_are_named(self):
+        synthetic(self.folder)
+        self.edit("results.csv", "structure_residual", lambda x: "1e-6", lambda row: row[2] == "rk")
+        self.edit("results.csv", "structure_residual", lambda x: "", lambda row: row[2] == "bad")
+        told = [wording.plain_text(c.words) for c in sentence.structure(self.verdict())]
+        self.assertEqual(told, ["of 2 methods of which it is known only mid keeps the symplectic structure; of bad it is not known"])
 
     def test_no_method_keeps_a_quantity_of_which_it_is_not_known(self):
         synthetic(self.folder)
