@@ -12,8 +12,7 @@
 
 #include <pfaff/core/facets/holonomic.hpp>
 #include <pfaff/core/facets/velocity_constraints.hpp>
-#include <pfaff/core/solve/convergence.hpp>
-#include <pfaff/integrators/support/largest.hpp>
+#include <pfaff/integrators/support/coordinate_convergence.hpp>
 
 namespace pfaff {
 
@@ -70,87 +69,6 @@ bool velocity_is_steady(Constraints& constraints) {
   return same;
 }
 
-/// Whether an iteration still brings positions nearer to the surface, where their units do not let the sizes
-/// of corrections tell it.
-///
-/// Corrections of positions are judged by the largest of them, against the largest position (Largest). Where
-/// one coordinate is counted in millionths of the units of another this passes over the corrections that
-/// matter. There an iteration that has converged by that measure goes on while a constraint, or a derivative
-/// of it, is left at less than half of the smallest value that it has been left at. This depends on no units,
-/// and needs no bound for the rounding of phi, which only its formula has.
-template <class T>
-class ApproachToSurface {
- public:
-  /// Leaves the constraints placed elsewhere.
-  explicit ApproachToSurface(PositionConstraints<T>& c) : smallest_(c.count()) { watches_ = units_differ(c); }
-
-  void begin() {
-    if (!watches_) return;
-    more_ = 0;
-    for (T& x : smallest_)
-      for_each_part(x, x, [](const Value<T>&, Value<T>& smallest) {
-        smallest = std::numeric_limits<Value<T>>::infinity();
-      });
-  }
-  /// Takes phi of one iteration more.
-  void take(In<T> phi) {
-    if (!watches_) return;
-    nearer_ = false;
-    for (std::size_t i = 0; i < smallest_.size(); ++i)
-      for_each_part(phi[i], smallest_[i], [this](const Value<T>& left, Value<T>& smallest) {
-        nearer_ = nearer_ || abs(left) < smallest / Value<T>(2);
-        smallest = std::min(smallest, Value<T>(abs(left)));
-      });
-  }
-  /// True where an iteration that has converged goes on.
-  [[nodiscard]] bool goes_on() { return watches_ && nearer_ && ++more_ <= most_more; }
-
- private:
-  // At generic positions the slopes of constraints differ by what the shape of the surface makes of them,
-  // which is less than this where all coordinates are lengths or angles. Larger systems are not looked at:
-  // they are molecules and chains, and looking would take longer than many steps.
-  static constexpr double least_ratio = 16384;
-  static constexpr std::size_t most_entries = 4096;
-  static constexpr int most_more = 16;
-
-  static bool units_differ(PositionConstraints<T>& c) {
-    const std::size_t n = c.degrees();
-    if (n * c.count() > most_entries) return false;
-    // S may be singular there; B is what is looked at.
-    (void)c.linearise(generic_time<T>(), generic_positions<T>(n), std::vector<T>(n));
-    Value<T> least = std::numeric_limits<Value<T>>::infinity(), most(0);
-    std::vector<T> unit(n), column(c.count());
-    for (std::size_t k = 0; k < n; ++k) {
-      unit[k] = T(1);
-      c.apply(unit, column);
-      unit[k] = T(0);
-      Value<T> largest(0);
-      for (const T& entry : column) {
-        const Value<T> slope = abs(value_of(entry));
-        if (slope > Value<T>(0)) least = std::min(least, slope);
-        largest = std::max(largest, slope);
-      }
-      if (largest == Value<T>(0)) return true;  // of a position that is not in phi nothing is known
-      most = std::max(most, largest);
-    }
-    return isfinite(most) && most > Value<T>(least_ratio) * least;
-  }
-  // The values of two numbers, and their derivatives in each direction.
-  template <class Do>
-  static void for_each_part(const T& a, T& b, const Do& act) {
-    if constexpr (std::is_same_v<T, Value<T>>) {
-      act(a, b);
-    } else {
-      act(a.value, b.value);
-      for (std::size_t k = 0; k < a.derivative.size(); ++k) act(a.derivative[k], b.derivative[k]);
-    }
-  }
-
-  std::vector<T> smallest_;  // of |phi| and of its derivatives, since begin()
-  bool watches_ = false, nearer_ = false;
-  int more_ = 0;
-};
-
 namespace detail {
 // What constraints leave of the velocities' equations: phi~ of holonomic ones, psi of those of velocities.
 template <class T>
@@ -179,24 +97,25 @@ struct MomentumProjection {
   template <class Constraints>
   Status operator()(Constraints& constraints, const T& t, In<T> q, In<T> p, In<T> carry, Out<T> change,
                     Out<T> moved, bool linear) {
-    Convergence<T> convergence;
+    CoordinateConvergence<T> convergence;
     do {
       for (std::size_t k = 0; k < moved.size(); ++k) moved[k] = p[k] + (change[k] + carry[k]);
       detail::velocity_residuals<T>(constraints, t, q, moved, hidden);
       constraints.solve(hidden, hidden);
+      convergence.kick(hidden);
       constraints.apply_transpose(hidden, reaction);
-      Largest<T> correction, reference;
+      VectorCorrections<T> kicked(convergence.each());
       for (std::size_t k = 0; k < moved.size(); ++k) {
         change[k] = change[k] - reaction[k];
         if (!linear) {
-          correction.add(reaction[k]);
-          reference.add(p[k]);
-          reference.add(change[k]);
+          kicked.against(p[k]);
+          kicked.against(change[k]);
+          kicked.add(reaction[k], p[k], change[k]);
         }
       }
       if (linear) break;
       convergence.begin_iteration();
-      convergence.add(correction.get(), reference.get(), reference.get());
+      convergence.add(kicked);
     } while (!convergence.finished(50));
     return linear ? Status::converged : convergence.status();
   }

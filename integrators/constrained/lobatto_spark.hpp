@@ -92,10 +92,10 @@ struct LobattoSpark {
     const std::size_t n = w.n(), s = w.s();
     if (const Status status = w.begin(p, *w.at[0], t, h, z); status != Status::converged) return status;
     for (std::size_t k = 0; k < n; ++k) w.position[k] = z[k] + w.carry[k];
-    Convergence<T> convergence(Corrections::in_turns);
+    CoordinateConvergence<T> convergence(Corrections::in_turns);
     bool first = true;
     do {
-      Largest<T> moved, positions;
+      VectorCorrections<T> moved(convergence.each());
       set_momenta<P>(h, z, w);
       if (first)
         for (std::size_t i = 1; i < s; ++i)
@@ -111,18 +111,19 @@ struct LobattoSpark {
         const Out<T> solution = w.constraint(w.solution, i - 1);
         w.at[0]->values(t + w.c[i] * h, w.end, solution);
         w.at[0]->solve(solution, solution);
+        convergence.kick(solution);
         w.at[0]->hidden_by_momentum_transpose(solution, w.impulse);
         for (std::size_t k = 0; k < n; ++k) {
           w.move[k] = w.move[k] - w.impulse[k];
           const T next = z[k] + (w.move[k] + w.carry[k]);
-          moved.add(next - w.position[i * n + k]);
-          positions.add(next);
+          moved.against(next);
+          moved.add(next - w.position[i * n + k], next, w.move[k]);
           w.position[i * n + k] = next;
         }
       }
       if (const Status status = react(p, t, h, w); status != Status::converged) return status;
       convergence.begin_iteration();
-      convergence.add(moved.get(), positions.get(), positions.get());
+      convergence.add(moved);
       ++p.counters().iterations;
       first = false;
     } while (!convergence.finished(100));

@@ -59,10 +59,12 @@ class SurfaceShift {
   }
   /// Corrects the multipliers by what the constraints lack at (q, p). They act at both ends of the step, so
   /// that half the correction at each is enough. `move` and `kick` are what is to be taken from (q, p).
-  void correct(Constraints& c, const T& t, In<T> q, In<T> p) {
+  void correct(Constraints& c, const T& t, In<T> q, In<T> p, const CoordinateConvergence<T>& convergence) {
     c.values(t, q, residual_);
     c.hidden_values(t, q, p, rate_);
     c.solve(residual_, residual_, rate_, rate_);
+    convergence.kick(residual_);
+    convergence.kick(rate_);
     for (std::size_t i = 0; i < rate_.size(); ++i) {
       by_position_[i] = by_position_[i] - residual_[i] / T(2);
       by_momentum_[i] = by_momentum_[i] - rate_[i] / T(2);
@@ -70,21 +72,22 @@ class SurfaceShift {
     c.hidden_by_momentum_transpose(residual_, move_);
     c.apply_transpose(rate_, kick_);
   }
-  /// Moves positions onto phi = 0, along H_pp B^T as it is placed.
-  Status project_positions(Constraints& c, const T& t, Out<T> q, auto& iterations) {
-    Convergence<T> convergence;
+  /// Moves positions onto phi = 0, along H_pp B^T as it is placed. The step began at `start`.
+  Status project_positions(Constraints& c, const T& t, const auto& start, Out<T> q, auto& iterations) {
+    CoordinateConvergence<T> convergence;
     do {
       c.values(t, q, residual_);
       c.solve(residual_, residual_);
+      convergence.kick(residual_);
       c.hidden_by_momentum_transpose(residual_, move_);
-      Largest<T> correction, reference;
+      VectorCorrections<T> moved(convergence.each());
       for (std::size_t k = 0; k < q.size(); ++k) {
-        correction.add(move_[k]);
-        reference.add(q[k]);
+        moved.against(q[k]);
+        moved.add(move_[k], q[k], q[k] - start[k]);
         q[k] = q[k] - move_[k];
       }
       convergence.begin_iteration();
-      convergence.add(correction.get(), reference.get(), reference.get());
+      convergence.add(moved);
       ++iterations;
     } while (!convergence.finished(50));
     return convergence.status() == Status::converged ? Status::converged : Status::not_converged;
@@ -139,7 +142,7 @@ struct Projected : Base {
     Status status = c.linearise(t + h, q, momentum);
     if constexpr (Shift<T>::moves_positions) {
       if (status == Status::converged)
-        status = w.shift.project_positions(c, t + h, q, p.counters().iterations);
+        status = w.shift.project_positions(c, t + h, z, q, p.counters().iterations);
       if (status == Status::converged) {
         ++p.counters().factorisations;
         status = c.linearise(t + h, q, momentum);
@@ -194,7 +197,7 @@ struct SymmetricallyProjected : Base {
     if (status == Status::converged) status = c.linearise(t, In<T>(z.data(), n), In<T>(z.data() + n, n));
     p.counters().factorisations += 2;
     // z1 and D(z1) are improved in turns: D(z1) is one iteration behind.
-    Convergence<T> convergence(Corrections::in_turns);
+    CoordinateConvergence<T> convergence(Corrections::in_turns);
     while (status == Status::converged) {
       std::copy(z.begin(), z.end(), w.start.begin());
       w.shift.apply(*w.at_start, w.start);
@@ -207,19 +210,19 @@ struct SymmetricallyProjected : Base {
       status = c.linearise(t + h, q, momentum);
       if (status != Status::converged) break;
       if constexpr (!moves_positions) w.shift.apply(c, w.end);
-      w.shift.correct(c, t + h, q, momentum);
-      Largest<T> moved, positions, kicked, momenta;
+      w.shift.correct(c, t + h, q, momentum, convergence);
+      VectorCorrections<T> moved(convergence.each()), kicked(convergence.each());
       for (std::size_t k = 0; k < n; ++k) {
         if constexpr (moves_positions) {
-          moved.add(w.shift.move(k));
-          positions.add(q[k]);
+          moved.against(q[k]);
+          moved.add(w.shift.move(k), q[k], q[k] - z[k]);
         }
-        kicked.add(w.shift.kick(k));
-        momenta.add(momentum[k]);
+        kicked.against(momentum[k]);
+        kicked.add(w.shift.kick(k), momentum[k], momentum[k] - z[n + k]);
       }
       convergence.begin_iteration();
-      if constexpr (moves_positions) convergence.add(moved.get(), positions.get(), positions.get());
-      convergence.add(kicked.get(), momenta.get(), momenta.get());
+      if constexpr (moves_positions) convergence.add(moved);
+      convergence.add(kicked);
       ++p.counters().iterations;
       if (convergence.finished(50)) {
         status = convergence.status() == Status::converged ? Status::converged : Status::not_converged;

@@ -52,7 +52,6 @@ struct Rattle : ConstrainedVerlet {
     std::vector<T> multiplier, residual, correction;
     DifferencePredictor<T, dynamic, dynamic> predictor;
     MomentumProjection<T> onto_hidden;
-    ApproachToSurface<T> approach;
     Continuation<P> continuation;  // the state at which the constraints are placed and the force is known
     T last_h{0};
     RememberedContraction<Value<T>> contraction;  // of Newton's method, from the last step that measured it
@@ -67,7 +66,6 @@ struct Rattle : ConstrainedVerlet {
           correction(multiplier.size()),
           predictor(multiplier.size(), static_cast<std::size_t>(difference_levels<T>)),
           onto_hidden(p.holonomic()),
-          approach(p.holonomic()),
           continuation(p) {
       linear = velocity_is_linear<T>(p.holonomic(), generic_time<T>(), generic_positions<T>(n()));
       steady = velocity_is_steady<T>(p.holonomic());
@@ -93,7 +91,7 @@ struct Rattle : ConstrainedVerlet {
       for (std::size_t i = 0; i < multiplier.size(); ++i)
         multiplier[i] = measure ? predictor.latest(i) : predictor.expected(i);
     }
-    void remember_contraction(const Convergence<T>& convergence) {
+    void remember_contraction(const CoordinateConvergence<T>& convergence) {
       if (contraction.remember_last(convergence.contraction())) age = 0;
     }
     /// The contraction to be expected, with a factor of 2 to spare; 1 where it is not known, or is too old.
@@ -166,35 +164,35 @@ struct Rattle : ConstrainedVerlet {
     }
     const T middle = t + kick;  // the time of T that the kick has reached
     c.velocity(middle, q, w.momentum, w.velocity);
-    Largest<T> positions;
+    CoordinateConvergence<T> convergence;
+    VectorCorrections<T> moved(convergence.each());
     for (std::size_t k = 0; k < n; ++k) {
       w.displacement[k] = length * w.velocity[k];
       w.position[k] = z[k] + (w.displacement[k] + w.carry[k]);
-      positions.add(w.position[k]);
+      moved.against(w.position[k]);
     }
-    const T reference = positions.get();
     for (T& x : w.correction) x = T(0);
-    Convergence<T> convergence;
-    bool settled = false, finished = false;
-    w.approach.begin();
     do {
       c.values(t + h, w.position, w.residual);
-      w.approach.take(w.residual);
       c.solve(w.residual, w.residual);
-      const T moved = w.linear && w.steady ? move<P>(c, z, w) : kick_back<P>(c, middle, length, z, w);
+      convergence.kick(w.residual);
+      moved.next(convergence.each());
+      if (w.linear && w.steady) {
+        move<P>(c, z, w, moved);
+      } else {
+        kick_back<P>(c, middle, length, z, w, moved);
+      }
       convergence.begin_iteration();
-      convergence.add(moved, reference, reference);
+      convergence.add(moved);
       ++p.counters().iterations;
       // Settled where the next correction, this one times the contraction, would be lost in the rounding of
       // phi.
       const Value<T> ratio = convergence.iterations() == 1 ? w.expected_contraction() : convergence.ratio();
-      settled = settled || (ratio < Value<T>(0.1) &&
-                            ratio * relative_size(moved, reference, reference) <= unit_roundoff<T>() / 8);
-      finished = finished || convergence.finished(50) || settled;
-    } while (!finished || w.approach.goes_on());
+      if (ratio < Value<T>(0.1) && ratio * convergence.size() <= unit_roundoff<T>() / 8) convergence.settle();
+    } while (!convergence.finished(50));
     w.remember_contraction(convergence);
     // Iterates that overflow come from a step that is too large, and are reported as not converged, too.
-    if (!settled && convergence.status() != Status::converged) return Status::not_converged;
+    if (convergence.status() != Status::converged) return Status::not_converged;
     const T per_length = T(1) / length;
     for (std::size_t i = 0; i < w.multiplier.size(); ++i) {
       w.correction[i] = w.correction[i] * per_length;
@@ -209,25 +207,21 @@ struct Rattle : ConstrainedVerlet {
 
   // Corrects the positions where H_p is linear in p and steady, so that H_pp is that of the point where the
   // constraints are placed: by H_pp B^T times the solution x of S x = phi, which stands in `residual`.
-  // Returns the largest component of the correction.
   template <class P, class T = Scalar<P>>
-  static T move(PositionConstraints<T>& c, const State<P>& z, Work<P>& w) {
+  static void move(PositionConstraints<T>& c, const State<P>& z, Work<P>& w, VectorCorrections<T>& moved) {
     c.hidden_by_momentum_transpose(w.residual, w.reaction);
     for (std::size_t i = 0; i < w.residual.size(); ++i) w.correction[i] = w.correction[i] + w.residual[i];
-    Largest<T> largest;
     for (std::size_t k = 0; k < w.n(); ++k) {
-      largest.add(w.reaction[k]);
       w.displacement[k] = w.displacement[k] - w.reaction[k];
       w.position[k] = z[k] + (w.displacement[k] + w.carry[k]);
+      moved.add(w.reaction[k], w.position[k], w.displacement[k]);
     }
-    return largest.get();
   }
   // Corrects the positions where H_p is anything else: the multipliers change p', and the positions follow
-  // from a new drift with H_p at this p' and the time `middle`. Returns the largest component of the
-  // correction.
+  // from a new drift with H_p at this p' and the time `middle`.
   template <class P, class T = Scalar<P>>
-  static T kick_back(PositionConstraints<T>& c, const T& middle, const T& length, const State<P>& z,
-                     Work<P>& w) {
+  static void kick_back(PositionConstraints<T>& c, const T& middle, const T& length, const State<P>& z,
+                        Work<P>& w, VectorCorrections<T>& moved) {
     const std::size_t n = w.n();
     for (std::size_t i = 0; i < w.residual.size(); ++i) {
       w.correction[i] = w.correction[i] + w.residual[i];
@@ -237,14 +231,12 @@ struct Rattle : ConstrainedVerlet {
     for (std::size_t k = 0; k < n; ++k)
       w.momentum[k] = z[n + k] + ((w.impulse[k] - w.reaction[k]) + w.carry[n + k]);
     c.velocity(middle, In<T>(z.data(), n), w.momentum, w.velocity);
-    Largest<T> largest;
     for (std::size_t k = 0; k < n; ++k) {
-      const T displacement = length * w.velocity[k];
-      largest.add(displacement - w.displacement[k]);
+      const T displacement = length * w.velocity[k], before = w.displacement[k];
       w.displacement[k] = displacement;
       w.position[k] = z[k] + (displacement + w.carry[k]);
+      moved.add(displacement - before, w.position[k], displacement);
     }
-    return largest.get();
   }
 
   // Finds p1: adds to the impulse the second kick, projected onto the hidden constraints.

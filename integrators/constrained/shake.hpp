@@ -56,26 +56,26 @@ struct Shake : Rattle {
       w.next_momentum[k] = z[n + k] + (w.impulse[k] + w.carry[n + k]) + (first * w.force[k] - w.reaction[k]);
       w.next[k] = w.position[k];
     }
-    Convergence<T> convergence;
-    bool finished = false;
-    w.approach.begin();
+    CoordinateConvergence<T> convergence;
+    bool first_time = true;
     do {
       c.velocity(t + first, w.position, w.next_momentum, w.velocity);
-      Largest<T> correction, reference;
+      VectorCorrections<T> moved(convergence.each());
       for (std::size_t k = 0; k < n; ++k) {
-        const T next = w.position[k] + length * w.velocity[k];
-        correction.add(next - w.next[k]);
-        reference.add(next);
+        const T change = length * w.velocity[k], next = w.position[k] + change;
+        moved.against(next);
+        moved.add(next - w.next[k], next, change);
         w.next[k] = next;
       }
-      if (convergence.iterations() > 0) {
-        convergence.add(correction.get(), reference.get(), reference.get());
-        finished = finished || convergence.finished(50);
-        if (finished && !w.approach.goes_on()) break;
+      if (!first_time) {
+        convergence.begin_iteration();
+        convergence.add(moved);
+        if (convergence.finished(50)) break;
       }
+      first_time = false;
       c.values(t + h, w.next, w.residual);
-      w.approach.take(w.residual);
       c.solve(w.residual, w.residual);
+      convergence.kick(w.residual);
       for (std::size_t i = 0; i < w.residual.size(); ++i) {  // the multipliers act in both half kicks
         w.residual[i] = w.residual[i] / (length + length);
         w.multiplier[i] = w.multiplier[i] + w.residual[i];
@@ -85,7 +85,6 @@ struct Shake : Rattle {
         w.impulse[k] = w.impulse[k] - w.reaction[k];
         w.next_momentum[k] = w.next_momentum[k] - (w.reaction[k] + w.reaction[k]);
       }
-      convergence.begin_iteration();
       ++p.counters().iterations;
     } while (true);
     return convergence.status() == Status::converged ? Status::converged : Status::not_converged;

@@ -27,8 +27,8 @@
 #include <pfaff/integrators/nonholonomic/kernel_coordinates.hpp>
 #include <pfaff/integrators/nonholonomic/mean_value.hpp>
 #include <pfaff/integrators/support/continuation.hpp>
+#include <pfaff/integrators/support/coordinate_convergence.hpp>
 #include <pfaff/integrators/support/difference_predictor.hpp>
-#include <pfaff/integrators/support/largest.hpp>
 #include <pfaff/integrators/support/remembered_contraction.hpp>
 #include <pfaff/integrators/support/settling_convergence.hpp>
 
@@ -103,7 +103,7 @@ struct KernelDiscreteGradient {
       w.at_middle(middle_time, w.end.data(), w.slopes.data());
       rates(w.length * h, T(0), w, w.change);
     }
-    SettlingConvergence<T> convergence(Corrections::uneven);
+    CoordinateConvergence<T, SettlingConvergence<T>> convergence(Corrections::uneven);
     do {
       ++p.counters().fields;
       for (std::size_t k = 0; k < size; ++k) {
@@ -205,30 +205,19 @@ struct KernelDiscreteGradient {
   // Positions and momenta are judged each by their own largest component. Derivatives of either may be zero
   // but for round-off, and are judged together.
   template <class T, class Z, class W>
-  static void judge(SettlingConvergence<T>& convergence, const Z& z, const W& w) {
-    Largest<T> moved, kicked, positions, momenta, all;
+  static void judge(CoordinateConvergence<T, SettlingConvergence<T>>& convergence, const Z& z, const W& w) {
+    VectorCorrections<T> moved(convergence.each()), kicked(convergence.each());
     for (std::size_t k = 0; k < w.n + w.r; ++k) {
       const T begin = at_start(z, w, k);
-      (k < w.n ? moved : kicked).add(w.next[k] - w.change[k]);
-      for (Largest<T>* scale : {k < w.n ? &positions : &momenta, &all}) {
-        scale->add(begin);
-        scale->add(w.next[k]);
+      auto &own = k < w.n ? moved : kicked, &other = k < w.n ? kicked : moved;
+      for (const T& x : {begin, w.next[k]}) {
+        own.against(x);
+        other.against_derivatives(x);
       }
+      own.add(w.next[k] - w.change[k], begin, w.next[k]);
     }
-    const T of_positions = scale_of(positions.get(), all.get()),
-            of_momenta = scale_of(momenta.get(), all.get());
-    convergence.add(moved.get(), of_positions);
-    convergence.add(kicked.get(), of_momenta);
-  }
-  template <class T>
-  static T scale_of(const T& own, const T& /*all*/) {
-    return own;
-  }
-  template <class T, int N>
-  static Dual<T, N> scale_of(const Dual<T, N>& own, const Dual<T, N>& all) {
-    Dual<T, N> scale = all;
-    scale.value = scale_of(own.value, all.value);
-    return scale;
+    convergence.add(moved);
+    convergence.add(kicked);
   }
 };
 

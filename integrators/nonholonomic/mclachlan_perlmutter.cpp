@@ -106,23 +106,24 @@ struct McLachlanPerlmutter {
                         Work<P>& w) {
     using T = Scalar<P>;
     const std::size_t n = w.n();
-    Convergence<T> convergence;
+    CoordinateConvergence<T> convergence;
     do {
       for (std::size_t k = 0; k < n; ++k) w.momentum[k] = z[n + k] + (w.impulse[k] + w.carry[n + k]);
       c.values(middle, w.position, w.momentum, w.residual);
       for (std::size_t i = 0; i < w.residual.size(); ++i) w.residual[i] = w.residual[i] + w.before[i];
       c.solve(w.residual, w.residual);
+      convergence.kick(w.residual);
       c.apply_transpose(w.residual, w.reaction);
-      Largest<T> correction, reference;
+      VectorCorrections<T> kicked(convergence.each());
       for (std::size_t k = 0; k < n; ++k) {
         w.impulse[k] = w.impulse[k] - w.reaction[k];
-        correction.add(w.reaction[k]);
-        reference.add(z[n + k]);
-        reference.add(w.impulse[k]);
+        kicked.against(z[n + k]);
+        kicked.against(w.impulse[k]);
+        kicked.add(w.reaction[k], z[n + k], w.impulse[k]);
       }
       if (w.linear) break;
       convergence.begin_iteration();
-      convergence.add(correction.get(), reference.get(), reference.get());
+      convergence.add(kicked);
     } while (!convergence.finished(50));
     for (std::size_t k = 0; k < n; ++k) w.momentum[k] = z[n + k] + (w.impulse[k] + w.carry[n + k]);
     return w.linear ? Status::converged : convergence.status();

@@ -16,8 +16,8 @@
 
 #include <pfaff/core/facets/problem.hpp>
 #include <pfaff/integrators/nonholonomic/energy_slopes.hpp>
+#include <pfaff/integrators/support/coordinate_convergence.hpp>
 #include <pfaff/integrators/support/difference_predictor.hpp>
-#include <pfaff/integrators/support/largest.hpp>
 #include <pfaff/integrators/support/remembered_contraction.hpp>
 #include <pfaff/integrators/support/settling_convergence.hpp>
 
@@ -53,9 +53,9 @@ class MiddlePoint {
                In<T> q_carry, In<T> p0, In<T> p_change) {
     predict(p, c, t, h, half, q0, q_carry, p0, p_change);
     const T middle = t + half;
-    SettlingConvergence<T> convergence;
+    CoordinateConvergence<T, SettlingConvergence<T>> convergence;
     do {
-      Largest<T> moved, positions, kicked, momenta;
+      VectorCorrections<T> moved(convergence.each()), kicked(convergence.each());
       ++p.counters().fields;
       const bool separable = slopes_.separable();
       if (separable) {
@@ -64,9 +64,9 @@ class MiddlePoint {
         slopes_(middle, position_, momentum_, velocity_, force_);
       }
       for (std::size_t k = 0; k < n(); ++k) {
-        const T next = q0[k] + (half * velocity_[k] + q_carry[k]);
-        moved.add(next - position_[k]);
-        positions.add(next);
+        const T change = half * velocity_[k] + q_carry[k], next = q0[k] + change;
+        moved.against(next);
+        moved.add(next - position_[k], next, change);
         position_[k] = next;
       }
       if (separable) slopes_.force(middle, position_, force_);
@@ -74,13 +74,13 @@ class MiddlePoint {
       for (std::size_t k = 0; k < n(); ++k) momentum_[k] = momentum_[k] + kick_[k];
       if (!multiplier_.empty()) react(c, middle, half);
       for (std::size_t k = 0; k < n(); ++k) {
-        kicked.add(kick_[k]);
-        momenta.add(momentum_[k]);
-        momenta.add(p0[k]);
+        kicked.against(momentum_[k]);
+        kicked.against(p0[k]);
+        kicked.add(kick_[k], momentum_[k], momentum_[k] - p0[k]);
       }
       convergence.begin_iteration();
-      convergence.add(moved.get(), positions.get());
-      convergence.add(kicked.get(), momenta.get());
+      convergence.add(moved);
+      convergence.add(kicked);
       ++p.counters().iterations;
     } while (!convergence.finished(100, contraction_));
     contraction_.remember_slowest(convergence.contraction());

@@ -39,8 +39,8 @@
 #include <pfaff/core/tape/replay.hpp>
 #include <pfaff/integrators/nonholonomic/energy_slopes.hpp>
 #include <pfaff/integrators/nonholonomic/mean_value.hpp>
+#include <pfaff/integrators/support/coordinate_convergence.hpp>
 #include <pfaff/integrators/support/difference_predictor.hpp>
-#include <pfaff/integrators/support/largest.hpp>
 #include <pfaff/integrators/support/remembered_contraction.hpp>
 #include <pfaff/integrators/support/settling_convergence.hpp>
 
@@ -126,20 +126,20 @@ struct MultiplierDiscreteGradient {
     const T energy = w.energy_at(middle_time, w.end);
     for (std::size_t k = 0; k < size; ++k) w.middle[k] = w.end[k] + w.change[k] / T(2);
     weigh(middle_time, z, w);
-    SettlingConvergence<T> convergence(Corrections::uneven);
+    CoordinateConvergence<T, SettlingConvergence<T>> convergence(Corrections::uneven);
     Status status = Status::converged;
     do {
       status = improve(p, t, h, energy, z, w);
       if (status != Status::converged) break;
       convergence.begin_iteration();
       for (const std::size_t begin : {std::size_t{0}, size / 2}) {
-        Largest<T> correction, reference;
+        VectorCorrections<T> corrections(convergence.each());
         for (std::size_t k = begin; k < begin + size / 2; ++k) {
-          correction.add(w.next[k] - w.change[k]);
-          reference.add(z[k]);
-          reference.add(w.next[k]);
+          corrections.against(z[k]);
+          corrections.against(w.next[k]);
+          corrections.add(w.next[k] - w.change[k], z[k], w.next[k]);
         }
-        convergence.add(correction.get(), reference.get());
+        convergence.add(corrections);
       }
       std::swap(w.change, w.next);
       ++p.counters().iterations;

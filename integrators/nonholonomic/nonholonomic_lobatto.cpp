@@ -94,23 +94,23 @@ struct NonholonomicLobatto {
         w.position[i * n + k] = z[k] + (w.displacement(h, i, k) + w.carry[k]);
         w.momentum[i * n + k] = w.momentum_of(h, z, i, k);
       }
-    Convergence<T> convergence(Corrections::uneven);
+    CoordinateConvergence<T> convergence(Corrections::uneven);
     do {
-      Largest<T> moved, positions, kicked, momenta;
-      move_stages(p, t, h, z, w, moved, positions);
+      VectorCorrections<T> moved(convergence.each()), kicked(convergence.each());
+      move_stages(p, t, h, z, w, moved);
       if (const Status status = push_stages(p, t, h, w); status != Status::converged) return status;
       react(t, h, z, w);
       for (std::size_t i = 0; i < s; ++i)
         for (std::size_t k = 0; k < n; ++k) {
           const T next = w.momentum_of(h, z, i, k);
-          kicked.add(next - w.momentum[i * n + k]);
-          momenta.add(next);
-          momenta.add(z[n + k]);
+          kicked.against(next);
+          kicked.against(z[n + k]);
+          kicked.add(next - w.momentum[i * n + k], next, next - z[n + k]);
           w.momentum[i * n + k] = next;
         }
       convergence.begin_iteration();
-      convergence.add(moved.get(), positions.get(), positions.get());
-      convergence.add(kicked.get(), momenta.get(), momenta.get());
+      convergence.add(moved);
+      convergence.add(kicked);
       ++p.counters().iterations;
     } while (!convergence.finished(100));
     // Iterates that overflow come from a step that is too large, and are reported as not converged, too.
@@ -120,7 +120,7 @@ struct NonholonomicLobatto {
   // Velocities at the stages, and the Q_i to which they lead.
   template <class P, class T = Scalar<P>>
   static void move_stages(const P& p, const T& t, const T& h, const State<P>& z, Work<P>& w,
-                          Largest<T>& moved, Largest<T>& positions) {
+                          VectorCorrections<T>& moved) {
     const std::size_t n = w.n(), s = w.s();
     for (std::size_t i = 0; i < s; ++i) {
       const T time = t + w.c[i] * h;
@@ -136,8 +136,8 @@ struct NonholonomicLobatto {
       for (std::size_t k = 0; k < n; ++k) {
         w.move[k] = w.displacement(h, i, k);
         const T next = z[k] + (w.move[k] + w.carry[k]);
-        moved.add(next - w.position[i * n + k]);
-        positions.add(next);
+        moved.against(next);
+        moved.add(next - w.position[i * n + k], next, w.move[k]);
         w.position[i * n + k] = next;
       }
   }

@@ -38,9 +38,10 @@ class VelocityShift {
   }
   /// Corrects the multipliers by what the constraints lack at (q, p). They act at both ends of the step, so
   /// that half the correction at each is enough. `kick` is what is to be taken from p.
-  void correct(Constraints& c, const T& t, In<T> q, In<T> p) {
+  void correct(Constraints& c, const T& t, In<T> q, In<T> p, const CoordinateConvergence<T>& convergence) {
     c.values(t, q, p, residual_);
     c.solve(residual_, residual_);
+    convergence.kick(residual_);
     for (std::size_t i = 0; i < residual_.size(); ++i) multiplier_[i] = multiplier_[i] - residual_[i] / T(2);
     c.apply_transpose(residual_, kick_);
   }

@@ -29,9 +29,9 @@ class SettlingConvergence {
     convergence_.begin_iteration();
     size_ = Number(0);
   }
-  /// One component's correction, judged against `reference`.
-  void add(const T& delta, const T& reference) {
-    const Number size = relative_size(delta, reference, reference);
+  /// One component's correction, judged as by Convergence.
+  void add(const T& delta, const T& reference, const T& change) {
+    const Number size = relative_size(delta, reference, change);
     convergence_.add(T(size), T(1), T(1));
     size_ = std::max(size_, size);
   }
@@ -50,6 +50,7 @@ class SettlingConvergence {
   }
   /// The contraction that this iteration has measured; see Convergence.
   [[nodiscard]] Number contraction() const { return convergence_.contraction(); }
+  [[nodiscard]] int iterations() const { return convergence_.iterations(); }
   [[nodiscard]] Status status() const { return status_; }
 
  private:

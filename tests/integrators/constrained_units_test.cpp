@@ -6,6 +6,7 @@
 #include <pfaff/core/system.hpp>
 #include <pfaff/core/tape/replay.hpp>
 #include <pfaff/runs/motion.hpp>
+#include <pfaff/runs/support/structure.hpp>
 
 #include "methods.hpp"
 
@@ -86,9 +87,8 @@ Ended ended(const char* method, const std::shared_ptr<const Model>& model,
   end.iterations = run.counters().iterations;
   return end;
 }
-Ended on_a_sphere(const char* method, int unit) {
-  const auto u = static_cast<double>(unit);
-  const auto model = make_model(
+std::shared_ptr<const Model> sphere(int unit) {
+  return make_model(
       SystemDescriptor{
           .name = "sphere-in-units",
           .title = "a bead on a sphere",
@@ -96,7 +96,10 @@ Ended on_a_sphere(const char* method, int unit) {
           .coordinates = {{"x", "m"}, {"y", "m"}, {"z", "m"}, {"px", ""}, {"py", ""}, {"pz", ""}},
           .initial = {Real(1) / Real(unit), 0, 0, 0, Real::fraction(7, 10), Real::fraction(1, 2)}},
       SphereInUnits{Real(unit)});
-  return ended(method, model, {u, 1, 1, 1 / u, 1, 1});
+}
+Ended on_a_sphere(const char* method, int unit) {
+  const auto u = static_cast<double>(unit);
+  return ended(method, sphere(unit), {u, 1, 1, 1 / u, 1, 1});
 }
 Ended of_beads(const char* method, int unit) {
   const auto u = static_cast<double>(unit);
@@ -136,6 +139,27 @@ TEST(ConstrainedUnits, StepsEndAtRoundOffInAnyUnits) {
           EXPECT_NEAR(other.z[k], alike.z[k], 2e-13) << "coordinate " << k;
         EXPECT_LE(other.iterations, alike.iterations + 3 * solves);
       }
+    }
+  }
+}
+
+TEST(ConstrainedUnits, DerivativesOfStepsConvergeInAnyUnits) {
+  for (const char* method : {"rattle", "shake", "lobatto-spark", "projected-rk4"}) {
+    const auto jacobian = [method](int unit) {
+      const auto model = sphere(unit);
+      const auto instance = method_named(method);
+      StepDifferentiator<double> differentiate(*instance, motion_for(*instance, model));
+      const auto step = differentiate(0.0, 0.0625, testing::initial_state<double>(*model));
+      EXPECT_EQ(step.status, Status::converged) << method << ", unit " << unit;
+      return step.jacobian;
+    };
+    const std::vector<double> alike = jacobian(1);
+    for (const int unit : {1024, 1048576, 1073741824}) {
+      const std::vector<double> other = jacobian(unit), scales{double(unit), 1, 1, 1.0 / unit, 1, 1};
+      for (std::size_t i = 0; i < 6; ++i)
+        for (std::size_t j = 0; j < 6; ++j)
+          EXPECT_NEAR(other[i * 6 + j] * scales[i] / scales[j], alike[i * 6 + j], 1e-13)
+              << method << ", unit " << unit << ", entry " << i << ", " << j;
     }
   }
 }

@@ -60,7 +60,7 @@ RememberedEnding remembered_ending(const std::vector<double>& corrections, doubl
   int taken = 0;
   for (const double correction : corrections) {
     convergence.begin_iteration();
-    convergence.add(correction, 1.0);
+    convergence.add(correction, 1.0, 1.0);
     ++taken;
     if (convergence.finished(100, contraction)) break;
   }
