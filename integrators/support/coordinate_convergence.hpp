@@ -13,8 +13,8 @@
 //   Rounding far above round-off of the coordinates, as of constants in phi: the radius of a circle whose
 //     lowest point is the origin. There corrections become no smaller, as they do where an iteration does not
 //     contract. An iteration that stagnates is therefore kicked away from where it is, by 16384 times its
-//     next correction. It has converged where it comes back by itself: what contracts in the large would
-//     contract in the small, were it not for rounding.
+//     next correction. It has converged where it comes back by itself in ten iterations: what contracts in
+//     the large would contract in the small, were it not for rounding.
 //
 // Refused although sound: rounding above 1/256 of the largest coordinate, as at rest in the origin, and
 // constraints that bend within 16384 times their rounding. Accepted although unsound: corrections of a small
@@ -176,11 +176,12 @@ class CoordinateConvergence {
  public:
   using Number = Value<T>;
 
-  explicit CoordinateConvergence(Corrections corrections = Corrections::even) : watch_(corrections) {}
+  explicit CoordinateConvergence(Corrections corrections = Corrections::even)
+      : watch_(corrections), corrections_(corrections) {}
 
-  /// Whether the next iteration needs corrections judged by their own coordinates: the first does, to see
-  /// whether any are small, and those after it only where some are.
-  [[nodiscard]] bool each() const { return unlike_ || watch_.iterations() == 0; }
+  /// Whether the next iteration needs corrections judged by their own coordinates: the first ones do, to see
+  /// whether any are small, and those after them only where some are.
+  [[nodiscard]] bool each() const { return unlike_ || early(); }
   /// Call before the corrections of an iteration are added.
   void begin_iteration() {
     if (!kicked()) watch_.begin_iteration();
@@ -202,8 +203,8 @@ class CoordinateConvergence {
   bool finished(int limit, const Known&... known) {
     if (!kicked() && !converged_) {
       const bool over = watch_.finished(limit, known...);
-      converged_ = settled_ || watch_.status() == Status::converged;
-      if (over && !converged_) return true;
+      if (over && watch_.status() != Status::converged) return true;
+      converged_ = settled_ || (over && !early());
     }
     if (!converged_ && (kicked() || watch_.iterations() > 6)) converged_ = returned();
     return isnan(size_) || (converged_ ? !(unlike_ && goes_on()) : kick_ == Kick::lost);
@@ -229,22 +230,27 @@ class CoordinateConvergence {
   enum class Kick { none, next, back, lost };
   [[nodiscard]] bool kicked() const { return kick_ == Kick::next || kick_ == Kick::back; }
 
+  // Before the first correction that tells something. Where one unknown lags an iteration behind another it
+  // is the second: the first may be zero, and a large one follow.
+  [[nodiscard]] bool early() const {
+    return watch_.iterations() < (corrections_ == Corrections::in_turns ? 2 : 1);
+  }
   // Finds where an iteration stagnates, kicks it, and returns true once it has come back.
   bool returned() {
+    const bool far = size_ > Number(kick_size / 64) * stagnant_;
     if (kick_ == Kick::next) {  // in vain where what stagnates is not what was kicked
-      kicked_size_ = size_;
-      kick_ = size_ > Number(kick_size / 64) * stagnant_ ? Kick::back : Kick::none;
+      kick_ = far ? Kick::back : Kick::none;
       idle_ = 0;
     } else if (kick_ == Kick::back) {
-      if (++idle_ > 1 && Number(512) * size_ <= kicked_size_) return true;
-      const bool comes_back =
-          idle_ > 1 || (size_ <= Number(4) * kicked_size_ && kicked_size_ <= Number(4) * size_);
-      if (idle_ > 8 || !comes_back) kick_ = Kick::lost;
+      if (idle_ > 0 && size_ <= Number(4) * stagnant_) return true;
+      if (++idle_ > 10 || (idle_ == 1 && !far)) kick_ = Kick::lost;
     } else {
       const bool falls = size_ < smallest_ * Number(0.9375);
       idle_ = falls ? 0 : idle_ + 1;
       stagnant_ = idle_ < 2 ? size_ : std::max(stagnant_, size_);
       if (falls) smallest_ = size_;
+      // So near to round-off the watch takes it for rounding, too, unless it still falls in its last digits.
+      if (idle_ >= 6 && stagnant_ <= Number(65536) * unit_roundoff<T>()) return true;
       if (idle_ >= 6 && Number(256) * stagnant_ <= Number(1)) kick_ = Kick::next;
     }
     return false;
@@ -252,7 +258,8 @@ class CoordinateConvergence {
   // Whether coordinates in unlike units are corrected by less and less, and have not come to round-off.
   bool goes_on() {
     const Number u = unit_roundoff<T>(), ratio = own_ / previous_;
-    const bool foretold = previous_ < std::numeric_limits<Number>::infinity() && ratio < Number(0.5) &&
+    const bool foretold = corrections_ == Corrections::even &&
+                          previous_ < std::numeric_limits<Number>::infinity() && ratio < Number(0.5) &&
                           ratio * own_ <= u / Number(64);
     own_idle_ = own_ < smallest_own_ / Number(2) ? 0 : own_idle_ + 1;
     smallest_own_ = std::min(smallest_own_, own_);
@@ -260,7 +267,8 @@ class CoordinateConvergence {
   }
 
   Watch watch_;
-  Number size_{0}, own_{0}, previous_{0}, stagnant_{0}, kicked_size_{0};
+  Corrections corrections_;
+  Number size_{0}, own_{0}, previous_{0}, stagnant_{0};
   Number smallest_ = std::numeric_limits<Number>::infinity(), smallest_own_ = smallest_;
   int idle_ = 0, own_idle_ = 0, more_ = 0;
   Kick kick_ = Kick::none;

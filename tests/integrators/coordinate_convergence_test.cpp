@@ -99,8 +99,8 @@ struct Motion {
 template <class T>
 Motion<T> run_of(const char* method, const std::shared_ptr<const Model>& model, int steps) {
   const auto instance = method_named(method);
-  Integration<T> run(start_with<T>(*instance, motion_for(*instance, model),
-                                   testing::initial_state<T>(*model), T(1) / T(128), T(0)));
+  Integration<T> run(start_with<T>(*instance, motion_for(*instance, model), testing::initial_state<T>(*model),
+                                   T(1) / T(128), T(0)));
   Motion<T> result;
   Replay<T> constraints(model->tape(Formula::holonomic));
   std::vector<T> phi(constraints.tape().outputs.size());
@@ -138,8 +138,9 @@ TEST(CoordinateConvergence, LeavesTheOriginFromRest) {
     }
 }
 
-// What is beside the pendulum does not change it: its motion differs by where iterations end in round-off. Not
-// that of projected-gauss, whose steps before their projection are of lower accuracy beside so large a number.
+// What is beside the pendulum does not change it: its motion differs by where iterations end in round-off.
+// Not that of projected-gauss, whose steps before their projection are of lower accuracy beside so large a
+// number.
 TEST(CoordinateConvergence, SolvesSmallCoordinatesBesideLargeOnes) {
   for (const char* method : {"rattle", "shake", "yoshida-rattle", "lobatto-spark", "projected-rk4"}) {
     const auto beside = [&](const Real& place) {
@@ -154,8 +155,8 @@ TEST(CoordinateConvergence, SolvesSmallCoordinatesBesideLargeOnes) {
 
 TEST(CoordinateConvergence, DoesNotConvergeWhereThereIsNoSolution) {
   for (const char* method : on_surfaces) {
-    const auto model = model_of(BesideFree{Real(20)}, {Real::fraction(3, 5), Real::fraction(-4, 5), 0,
-                                                       -6, 8, 0});
+    const auto model =
+        model_of(BesideFree{Real(20)}, {Real::fraction(3, 5), Real::fraction(-4, 5), 0, -6, 8, 0});
     const Motion<double> run = run_of<double>(method, model, 20);
     EXPECT_NE(run.status, Status::converged) << method;
   }
@@ -191,8 +192,8 @@ TEST(CoordinateConvergence, TellsRoundingFromStagnation) {
         << contraction;
   for (const double gap : {1e-6, 1e-3, 1.0}) {
     const double width = std::sqrt(gap);
-    EXPECT_NE(ended([&](double x) { return (x * x + gap) / (2 * x); }, 1.3 * width), Status::converged) << gap;
-    EXPECT_NE(ended([&](double x) { return (x * x + gap) / (2 * width); }, width), Status::converged) << gap;
+    EXPECT_NE(ended([gap](double x) { return (x * x + gap) / (2 * x); }, 1.3 * width), Status::converged);
+    EXPECT_NE(ended([&](double x) { return (x * x + gap) / (2 * width); }, width), Status::converged);
   }
   EXPECT_EQ(ended([](double) { return std::numeric_limits<double>::quiet_NaN(); }), Status::non_finite);
 }
