@@ -179,9 +179,9 @@ class CoordinateConvergence {
   explicit CoordinateConvergence(Corrections corrections = Corrections::even)
       : watch_(corrections), corrections_(corrections) {}
 
-  /// Whether the next iteration needs corrections judged by their own coordinates: the first ones do, to see
-  /// whether any are small, and those after them only where some are.
-  [[nodiscard]] bool each() const { return unlike_ || early(); }
+  /// Whether the next iteration needs corrections judged by their own coordinates: the first one that tells
+  /// something does, to see whether any are small, and those after it only where some are.
+  [[nodiscard]] bool each() const { return unlike_ || watch_.iterations() == untold(); }
   /// Call before the corrections of an iteration are added.
   void begin_iteration() {
     if (!kicked()) watch_.begin_iteration();
@@ -204,7 +204,7 @@ class CoordinateConvergence {
     if (!kicked() && !converged_) {
       const bool over = watch_.finished(limit, known...);
       if (over && watch_.status() != Status::converged) return true;
-      converged_ = settled_ || (over && !early());
+      converged_ = settled_ || (over && watch_.iterations() > untold());
     }
     if (!converged_ && (kicked() || watch_.iterations() > 6)) converged_ = returned();
     return isnan(size_) || (converged_ ? !(unlike_ && goes_on()) : kick_ == Kick::lost);
@@ -230,11 +230,9 @@ class CoordinateConvergence {
   enum class Kick { none, next, back, lost };
   [[nodiscard]] bool kicked() const { return kick_ == Kick::next || kick_ == Kick::back; }
 
-  // Before the first correction that tells something. Where one unknown lags an iteration behind another it
-  // is the second: the first may be zero, and a large one follow.
-  [[nodiscard]] bool early() const {
-    return watch_.iterations() < (corrections_ == Corrections::in_turns ? 2 : 1);
-  }
+  // How many of the first corrections tell nothing. Where one unknown lags an iteration behind another the
+  // first may be zero, and a large one follow.
+  [[nodiscard]] int untold() const { return corrections_ == Corrections::in_turns ? 1 : 0; }
   // Finds where an iteration stagnates, kicks it, and returns true once it has come back.
   bool returned() {
     const bool far = size_ > Number(kick_size / 64) * stagnant_;
