@@ -16,10 +16,10 @@
 //     next correction. It has converged where it comes back by itself in ten iterations: what contracts in
 //     the large would contract in the small, were it not for rounding.
 //
-// Refused although sound: rounding above 1/256 of the largest coordinate, as at rest in the origin, and
+// Refused although sound: rounding above 2^-20 of the largest coordinate, as at rest near the origin, and
 // constraints that bend within 16384 times their rounding. Accepted although unsound: corrections of a small
 // coordinate that do not contract where those of the largest have converged; three digits less for
-// coordinates that are not small enough; and what stagnates at a kink that is less than 1/256 of the largest
+// coordinates that are not small enough; and what stagnates at a kink that is less than 2^-20 of the largest
 // coordinate wide, in a constraint that is straight far beyond it.
 #pragma once
 
@@ -226,7 +226,7 @@ class CoordinateConvergence {
   }
 
  private:
-  static constexpr int kick_size = 16384;
+  static constexpr int kick_size = 16384, far_size = 256, largest_over_rounding = 1 << 20;
   enum class Kick { none, next, back, lost };
   [[nodiscard]] bool kicked() const { return kick_ == Kick::next || kick_ == Kick::back; }
 
@@ -235,7 +235,7 @@ class CoordinateConvergence {
   [[nodiscard]] int untold() const { return corrections_ == Corrections::in_turns ? 1 : 0; }
   // Finds where an iteration stagnates, kicks it, and returns true once it has come back.
   bool returned() {
-    const bool far = size_ > Number(kick_size / 64) * stagnant_;
+    const bool far = size_ > Number(far_size) * stagnant_;
     if (kick_ == Kick::next) {  // in vain where what stagnates is not what was kicked
       kick_ = far ? Kick::back : Kick::none;
       idle_ = 0;
@@ -249,7 +249,7 @@ class CoordinateConvergence {
       if (falls) smallest_ = size_;
       // So near to round-off the watch takes it for rounding, too, unless it still falls in its last digits.
       if (idle_ >= 6 && stagnant_ <= Number(65536) * unit_roundoff<T>()) return true;
-      if (idle_ >= 6 && Number(256) * stagnant_ <= Number(1)) kick_ = Kick::next;
+      if (idle_ >= 6 && Number(largest_over_rounding) * stagnant_ <= Number(1)) kick_ = Kick::next;
     }
     return false;
   }
