@@ -1,8 +1,4 @@
-// Largest: the measure of convergence for vectors whose components pass through zero.
-//
-// Positions on a constraint surface are corrected along the constraints' gradients, and a component may be
-// zero while its correction is not. Corrections are therefore judged by their largest component, against the
-// largest component of what they correct. Each derivative part of a dual is judged by itself.
+// Largest: the largest size in a vector, each derivative part of a dual by itself.
 #pragma once
 
 #include <algorithm>

@@ -56,30 +56,30 @@ def energy(system, method, step, steps, asked):
     return run.drift["energy"]
 
 
-def classes(say=lambda *_: None):
-    found = Counter()
+def classed():
+    """(system, method, step, number of steps, class, evidence) of every run that has seen all of a bounded error."""
     for system, asked, steps, methods in PROBLEMS:
         for method, parameters, factor in methods:
             for step in (h * factor for h in steps):
-                of = lambda n: energy(system, method, step, n, asked | parameters)
+                def of(n):
+                    return energy(system, method, step, n, asked | parameters)
+
                 whole, start = of(12000), of(2000)
                 if whole is None or whole["max"] > 1.6 * start["max"] or "round-off" in whole["class"]:
                     continue
                 for n in LENGTHS:
                     drift = of(n)
-                    if drift["max"] < 0.6 * whole["max"]:
-                        continue
-                    found[drift["class"]] += 1
-                    say(getattr(system, "name", system), method, step, n, drift["class"], drift["evidence"])
-    return found
+                    if drift["max"] >= 0.6 * whole["max"]:
+                        yield getattr(system, "name", system), method, step, n, drift["class"], drift["evidence"]
 
 
 def test_bounded_energies_are_seldom_called_anything_else():
-    odd = []
-    found = classes(lambda *row: odd.append(row) if row[4] not in ("bounded", "undetermined") else None)
-    count = sum(found.values())
-    print("\n", count, {name: round(100 * k / count, 1) for name, k in found.most_common()}, *odd, sep="\n")
-    assert count > 500
-    # The docs say .4 %, three series; ten are more than the roundings of another machine turn.
-    assert len(odd) <= 0.015 * count
-    assert found["bounded"] >= 0.7 * count
+    rows = list(classed())
+    found = Counter(row[4] for row in rows)
+    odd = [row for row in rows if row[4] not in ("bounded", "undetermined")]
+    print("", len(rows), {name: round(100 * k / len(rows), 1) for name, k in found.most_common()}, *odd, sep="\n")
+    assert len(rows) > 500
+    # The docs say .4 %, which are three. Without what the rules know of beats there are ten; two are left for the roundings
+    # of another machine.
+    assert len(odd) <= 5
+    assert found["bounded"] >= 0.7 * len(rows)

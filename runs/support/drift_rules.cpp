@@ -104,8 +104,8 @@ std::optional<Verdict> accepted_trend(const Facts& facts) {
   if (facts.jump < gate * facts.rest || faint)
     return bounded(told("trend of %.2g %% of the oscillation", 100 * facts.jump / facts.rest));
   const Shape::Kind kind = facts.shapes[facts.shape].kind;
-  if (kind != Shape::Kind::line && facts.jump < facts.rest &&
-      !(facts.jump > 0.3 * facts.rest && facts.evidence() > 15))
+  const bool small = facts.jump < facts.rest;
+  if (small && kind != Shape::Kind::line && !(facts.jump > 0.3 * facts.rest && facts.evidence() > 15))
     return {};
   const std::string moves = told("moves by %.2g = %.2g x oscillation; log evidence %.2g", facts.jump,
                                  facts.jump / facts.rest, facts.evidence());
@@ -128,10 +128,9 @@ std::optional<Verdict> accepted_trend(const Facts& facts) {
   }
   if (bent) return undetermined("a curve and no line; " + moves);
   if (facts.slope.low <= 0 && facts.slope.high >= 0) return {};
-  if (facts.jump < facts.rest && (swells(facts) || facts.modulation > facts.trend - 2))
+  if (small && (swells(facts) || facts.modulation > facts.trend - 2))
     return undetermined("the means move as the size of the oscillation does; " + moves);
-  if (facts.jump < facts.rest && facts.evidence() < 6)
-    return undetermined("too small a trend to be sure of; " + moves);
+  if (small && facts.evidence() < 6) return undetermined("too small a trend to be sure of; " + moves);
   return of_power(power.estimate, moves);
 }
 

@@ -89,7 +89,9 @@ void Scores::through(const Covariance& c, const std::vector<double>& values, dou
 
 Scores::Scores(const std::vector<double>& means, double resolution, double shape_resolution,
                const std::vector<double>& beside)
-    : models_(window_models(means.size())), shape_square_(shape_resolution * shape_resolution) {
+    : models_(window_models(means.size())),
+      shape_square_(shape_resolution * shape_resolution),
+      beside_(beside.empty() ? 0 : 1) {
   const std::size_t n = means.size(), columns = models_.column_count();
   const auto [low, high] = std::minmax_element(means.begin(), means.end());
   scale_ = *high > *low ? *high - *low : 1;
@@ -98,7 +100,7 @@ Scores::Scores(const std::vector<double>& means, double resolution, double shape
   for (const Covariance& c : models_.covariances) {
     Seen seen{std::vector<double>(columns), {}, 0, 2 * std::log(c.constant_norm), {}, {}};
     through(c, means, *low, data);
-    if (!beside.empty()) {
+    if (beside_ > 0) {
       through(c, beside, 0, along);
       if (const double square = product(along.data(), along.data(), n); square > 0) {
         for (double& x : along) x /= std::sqrt(square);
@@ -118,7 +120,6 @@ Scores::Scores(const std::vector<double>& means, double resolution, double shape
     seen.original = seen.data;
     seen_.push_back(std::move(seen));
   }
-  if (!beside.empty()) total_ = 1;
   rank_explanations();
   while (joined_.size() < std::min(most_lines, models_.windows / 6)) {
     const double before = best();
@@ -143,7 +144,8 @@ double Scores::score(std::size_t covariance, double square, double parameters) c
   const double v = std::max(
       {square / b, least_square_of(covariance), shape_square_ * models_.covariances[covariance].stiffness});
   return -0.5 * models_.covariances[covariance].log_determinant - 0.5 * b * std::log(v) -
-         0.5 * std::max(square, 0.0) / v - 0.5 * std::log(b) * (parameters + total_);
+         0.5 * std::max(square, 0.0) / v -
+         0.5 * std::log(b) * (parameters + double(beside_) + line_parameters * double(joined_.size()));
 }
 
 const std::vector<double>& Scores::products(std::size_t covariance) const {
@@ -251,7 +253,6 @@ void Scores::join(std::size_t frequency) {
     }
   }
   joined_.push_back(frequency);
-  total_ += line_parameters;
 }
 
 std::vector<double> Scores::frequencies() const {
@@ -284,8 +285,7 @@ Scores::Fit Scores::fit(const Explanation& explanation) const {
 }
 
 Slope Scores::slope() const {
-  const std::size_t beside = total_ > line_parameters * double(joined_.size()) ? 1 : 0;
-  const std::size_t freedom = models_.windows - 2 - 2 * joined_.size() - beside;
+  const std::size_t freedom = models_.windows - 2 - 2 * joined_.size() - beside_;
   std::array<double, 3> members{};
   for (const Covariance& c : models_.covariances) members[std::size_t(c.noise)] += 1;
   std::vector<double> value, width, weight;

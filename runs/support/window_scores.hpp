@@ -100,8 +100,8 @@ class Scores {
 
   const WindowModels& models_;
   double shape_square_;
-  double scale_ = 1, least_square_ = 0,
-         total_ = 0;  // unit of the data; smallest v; parameters of what joined
+  double scale_ = 1, least_square_ = 0;  // unit of the data; smallest v
+  std::size_t beside_ = 0;               // columns beside the constant: 1, or none
   std::vector<Seen> seen_;
   std::vector<std::size_t> joined_;  // slow lines, as indices of frequencies
   std::vector<Explanation> plain_, trend_;

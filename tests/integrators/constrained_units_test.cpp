@@ -4,16 +4,16 @@
 #include <cmath>
 
 #include <pfaff/core/system.hpp>
-#include <pfaff/core/tape/replay.hpp>
-#include <pfaff/runs/motion.hpp>
 #include <pfaff/runs/support/structure.hpp>
 
-#include "methods.hpp"
+#include "surface_motion.hpp"
 
 namespace pfaff {
 namespace {
 
 using testing::method_named;
+using testing::surface_motion;
+using testing::SurfaceMotion;
 
 // A bead on a sphere, of which the first position is counted in `unit` of the others, a power of two: what is
 // computed differs from that in one unit by the exponents of numbers alone.
@@ -63,29 +63,13 @@ struct BeadsInUnits {
   }
 };
 
-struct Ended {
-  std::vector<double> z;   // in the same units for all
-  double off_surface = 0;  // the largest |phi| after a step
-  std::int64_t iterations = 0;
-};
-
-// Coordinates times these are counted in one unit.
-Ended ended(const char* method, const std::shared_ptr<const Model>& model,
-            const std::vector<double>& scales) {
-  const auto instance = method_named(method);
-  Integration<double> run(start_with<double>(*instance, motion_for(*instance, model),
-                                             testing::initial_state<double>(*model), 0.0625, 0.0));
-  Ended end;
-  Replay<double> constraints(model->tape(Formula::holonomic));
-  std::vector<double> phi(constraints.tape().outputs.size());
-  for (int step = 0; step < 200; ++step) {
-    EXPECT_EQ(run.steps(1).status(), Status::converged) << method << ", step " << step;
-    constraints(run.time(), run.state().data(), phi.data());
-    for (const double x : phi) end.off_surface = std::max(end.off_surface, std::fabs(x));
-  }
-  for (std::size_t k = 0; k < scales.size(); ++k) end.z.push_back(run.state()[k] * scales[k]);
-  end.iterations = run.counters().iterations;
-  return end;
+// Coordinates times these are counted in one unit, as those of the result are.
+SurfaceMotion<double> ended(const char* method, const std::shared_ptr<const Model>& model,
+                            const std::vector<double>& scales) {
+  SurfaceMotion<double> run = surface_motion(method, model, 0.0625, 200);
+  EXPECT_EQ(run.status, Status::converged) << method;
+  for (std::size_t k = 0; k < scales.size(); ++k) run.z[k] *= scales[k];
+  return run;
 }
 std::shared_ptr<const Model> sphere(int unit) {
   return make_model(
@@ -97,11 +81,11 @@ std::shared_ptr<const Model> sphere(int unit) {
           .initial = {Real(1) / Real(unit), 0, 0, 0, Real::fraction(7, 10), Real::fraction(1, 2)}},
       SphereInUnits{Real(unit)});
 }
-Ended on_a_sphere(const char* method, int unit) {
+SurfaceMotion<double> on_a_sphere(const char* method, int unit) {
   const auto u = static_cast<double>(unit);
   return ended(method, sphere(unit), {u, 1, 1, 1 / u, 1, 1});
 }
-Ended of_beads(const char* method, int unit) {
+SurfaceMotion<double> of_beads(const char* method, int unit) {
   const auto u = static_cast<double>(unit);
   const auto model =
       make_model(SystemDescriptor{.name = "beads-in-units",
@@ -129,11 +113,11 @@ Ended of_beads(const char* method, int unit) {
 TEST(ConstrainedUnits, StepsEndAtRoundOffInAnyUnits) {
   for (const auto& [method, solves] : {std::pair("rattle", 200), std::pair("shake", 400)}) {
     for (const auto& of : {on_a_sphere, of_beads}) {
-      const Ended alike = of(method, 1);
+      const SurfaceMotion<double> alike = of(method, 1);
       for (const int unit : {1024, 1048576, 1073741824}) {
         SCOPED_TRACE(std::string(method) + (of == on_a_sphere ? " on a sphere" : " of beads") + ", unit " +
                      std::to_string(unit));
-        const Ended other = of(method, unit);
+        const SurfaceMotion<double> other = of(method, unit);
         EXPECT_LE(other.off_surface, 1e-15);
         for (std::size_t k = 0; k < other.z.size(); ++k)
           EXPECT_NEAR(other.z[k], alike.z[k], 2e-13) << "coordinate " << k;

@@ -7,16 +7,15 @@
 #include <functional>
 
 #include <pfaff/core/system.hpp>
-#include <pfaff/core/tape/replay.hpp>
 #include <pfaff/integrators/support/coordinate_convergence.hpp>
-#include <pfaff/runs/motion.hpp>
 
-#include "methods.hpp"
+#include "surface_motion.hpp"
 
 namespace pfaff {
 namespace {
 
-using testing::method_named;
+using testing::surface_motion;
+using testing::SurfaceMotion;
 
 constexpr std::array on_surfaces{"rattle",        "shake",           "yoshida-rattle",
                                  "lobatto-spark", "projected-gauss", "projected-rk4"};
@@ -111,26 +110,8 @@ std::shared_ptr<const Model> model_of(const System& system, std::vector<Real> in
 }
 
 template <class T>
-struct Motion {
-  std::vector<T> z;
-  Status status = Status::converged;
-  T off_surface{0};
-};
-template <class T>
-Motion<T> run_of(const char* method, const std::shared_ptr<const Model>& model, int steps) {
-  const auto instance = method_named(method);
-  Integration<T> run(start_with<T>(*instance, motion_for(*instance, model), testing::initial_state<T>(*model),
-                                   T(1) / T(128), T(0)));
-  Motion<T> result;
-  Replay<T> constraints(model->tape(Formula::holonomic));
-  std::vector<T> phi(constraints.tape().outputs.size());
-  for (int step = 0; step < steps && result.status == Status::converged; ++step) {
-    result.status = run.steps(1).status();
-    constraints(run.time(), run.state().data(), phi.data());
-    for (const T& x : phi) result.off_surface = std::max(result.off_surface, T(abs(x)));
-  }
-  result.z.assign(run.state().begin(), run.state().end());
-  return result;
+SurfaceMotion<T> run_of(const char* method, const std::shared_ptr<const Model>& model, int steps) {
+  return surface_motion<T>(method, model, T(1) / T(128), steps);
 }
 
 template <class T>
@@ -139,7 +120,7 @@ void ends_at_the_rounding_of_constants() {
     for (const int radius : {10, 1000, 1000000}) {
       SCOPED_TRACE(std::string(method) + ", radius " + std::to_string(radius));
       const auto model = model_of(FromLowestPoint{Real(radius)}, {0, 0, Real::fraction(1, 100), 0});
-      const Motion<T> run = run_of<T>(method, model, 50);
+      const SurfaceMotion<T> run = run_of<T>(method, model, 50);
       EXPECT_EQ(run.status, Status::converged);
       EXPECT_LE(run.off_surface, 4 * unit_roundoff<T>() * T(radius) * T(radius));
     }
@@ -152,7 +133,7 @@ TEST(CoordinateConvergence, EndsAtTheRoundingOfConstants) {
 TEST(CoordinateConvergence, LeavesTheOriginFromRest) {
   for (const char* method : on_surfaces)
     for (const Real& unit : {Real(1000000), Real(1) / Real(1000000), Real(1000000) * Real(1000000)}) {
-      const Motion<double> run = run_of<double>(method, model_of(PushedOff{unit}, {0, 0, 0, 0}), 50);
+      const SurfaceMotion<double> run = run_of<double>(method, model_of(PushedOff{unit}, {0, 0, 0, 0}), 50);
       EXPECT_EQ(run.status, Status::converged) << method;
       EXPECT_LE(run.off_surface, 1e-15) << method;
     }
@@ -167,7 +148,7 @@ TEST(CoordinateConvergence, SolvesSmallCoordinatesBesideLargeOnes) {
       const auto three = Real::fraction(3, 5), four = Real::fraction(4, 5);
       return run_of<double>(method, model_of(BesideFree{}, {three, -four, place, four, three, 1}), 100);
     };
-    const Motion<double> near = beside(0), far = beside(Real(1000000) * Real(1000000));
+    const SurfaceMotion<double> near = beside(0), far = beside(Real(1000000) * Real(1000000));
     for (const std::size_t k : {0, 1, 3, 4}) EXPECT_NEAR(far.z[k], near.z[k], 1e-13) << method;
     EXPECT_LE(far.off_surface, 4e-16) << method;
   }
@@ -177,7 +158,7 @@ TEST(CoordinateConvergence, DoesNotConvergeWhereThereIsNoSolution) {
   for (const char* method : on_surfaces) {
     const auto model =
         model_of(BesideFree{Real(20)}, {Real::fraction(3, 5), Real::fraction(-4, 5), 0, -6, 8, 0});
-    const Motion<double> run = run_of<double>(method, model, 20);
+    const SurfaceMotion<double> run = run_of<double>(method, model, 20);
     EXPECT_NE(run.status, Status::converged) << method;
   }
 }
@@ -190,7 +171,7 @@ TEST(CoordinateConvergence, DoesNotTakeACircleAboutACornerForRounding) {
       const Real half = Real::fraction(1, 2);
       const auto model =
           model_of(RoundedSquare{bend}, {Real::fraction(3, 5), Real::fraction(-2, 5), half, half});
-      const Motion<double> run = run_of<double>(method, model, 512);
+      const SurfaceMotion<double> run = run_of<double>(method, model, 512);
       EXPECT_LE(run.off_surface, 1e-15) << method;
     }
 }
