@@ -201,10 +201,12 @@ TEST(CoordinateConvergence, TellsRoundingFromStagnation) {
     EXPECT_EQ(ended([&](double x) { return (1 - contraction) * x + rounding(); }, 0), Status::converged);
   }
   // Controls: it turns around the solution, comes nearer too slowly, goes away from it, or there is none.
-  for (const double contraction : {-1.0, -0.95, 0.8, 0.99, 1.0, 1.01, 1.5})
-    EXPECT_NE(ended([&](double x) { return (1 - contraction) * x + 1e-10; }), Status::converged)
-        << contraction;
-  for (const double gap : {1e-6, 1e-3, 1.0}) {
+  // From 3e-8 on it stays below what may be rounding, and is kicked; from 1e-6 on it does not.
+  for (const double start : {3e-8, 1e-6})
+    for (const double contraction : {-1.0, -0.95, 0.8, 0.99, 1.0, 1.01, 1.5})
+      EXPECT_NE(ended([&](double x) { return (1 - contraction) * x + 1e-10; }, start), Status::converged)
+          << contraction << ", from " << start;
+  for (const double gap : {1e-16, 1e-6, 1e-3, 1.0}) {
     const double width = std::sqrt(gap);
     EXPECT_NE(ended([gap](double x) { return (x * x + gap) / (2 * x); }, 1.3 * width), Status::converged);
     EXPECT_NE(ended([&](double x) { return (x * x + gap) / (2 * width); }, width), Status::converged);
