@@ -73,7 +73,7 @@ class FirstOrderForm final : public CollocationForm<P> {
         p.field_jacobian(t + h / T(2), z, jacobian_);
         ++p.counters().factorisations;
         status = iteration_.solve_by_newton(
-            evaluate, jacobian_, scale_.data(), [&z](std::size_t k) { return z[k]; },
+            evaluate, jacobian_, scale_.data(), [&z](std::size_t k) { return z[k]; }, In<T>(z),
             p.counters().iterations);
       }
     if (status != Status::converged) {

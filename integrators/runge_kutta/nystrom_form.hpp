@@ -221,7 +221,7 @@ class NystromForm final : public CollocationForm<P> {
     ++p.counters().factorisations;
     return iteration_.solve_by_newton(
         evaluate, slopes_, scale_.data(), [&](std::size_t k) { return unit_mass_ ? z[k] : momentum_[k]; },
-        p.counters().iterations);
+        In<T>(z), p.counters().iterations);
   }
 
   void update(const P& p, const T& h, State<P>& z, bool compensated) {

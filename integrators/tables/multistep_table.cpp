@@ -116,9 +116,14 @@ struct MultistepTable {
         w.before[k] = w.rate[k];
       }
       p.field(t + h, w.point, w.rate);
+      for (std::size_t k = 0; k < n; ++k) w.before[k] = w.rate[k] - w.before[k];
+      // A kick moves the increment, and the rate that belongs to it with it.
+      if (convergence.kick(w.before))
+        for (std::size_t k = 0; k < n; ++k)
+          w.rate[k] = w.rate[k] + (w.before[k] - w.before[k] / T(Stagnation<T>::kick_factor));
       convergence.begin_iteration();
       for (std::size_t k = 0; k < n; ++k) {
-        const T correction = factor * (w.rate[k] - w.before[k]);
+        const T correction = factor * w.before[k];
         w.increment[k] = w.increment[k] + correction;
         convergence.add(correction, z[k], w.increment[k]);
       }

@@ -1,0 +1,154 @@
+// Motions that come to rest. Their momenta become smaller than what the forces round, which cancel each other
+// there: steps converge as elsewhere, and end where the forces vanish. An iteration that stagnates because it
+// has no solution does not converge there, either.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include <pfaff/core/system.hpp>
+#include <pfaff/runs/integrate.hpp>
+
+#include "method_files.hpp"
+#include "methods.hpp"
+
+namespace pfaff {
+namespace {
+
+using testing::method_named;
+using testing::shipped_tables;
+
+// A mass on a damped spring that carries its weight: at rest, q = -weight.
+struct HungUp {
+  static constexpr int dimension = 2;
+  template <class T>
+  T kinetic(const T& /*t*/, In<T> p) const {
+    return p[0] * p[0] / 2;
+  }
+  template <class T>
+  T potential(const T& /*t*/, In<T> q) const {
+    return q[0] * q[0] / 2 + T(Real::fraction(981, 100)) * q[0];
+  }
+  [[nodiscard]] Real damping() const { return Real::fraction(3, 10); }
+};
+// The same without damping, from rest almost where it stays.
+struct Hanging {
+  static constexpr int dimension = 2;
+  template <class T>
+  T kinetic(const T& t, In<T> p) const {
+    return HungUp().kinetic(t, p);
+  }
+  template <class T>
+  T potential(const T& t, In<T> q) const {
+    return HungUp().potential(t, q);
+  }
+};
+// A damped particle between two wells, whose positions are counted in `unit`: at rest, q = unit or -unit.
+struct TwoWells {
+  static constexpr int dimension = 2;
+  Real unit = 1;
+  template <class T>
+  void field(const T& /*t*/, In<T> z, Out<T> rate) const {
+    const T q = z[0] / T(unit);
+    rate[0] = T(unit) * z[1];
+    rate[1] = q - q * q * q - z[1];
+  }
+};
+// A mass that dry friction slows down: at rest its equation has no solution, since the friction jumps.
+struct DryFriction {
+  static constexpr int dimension = 2;
+  template <class T>
+  void field(const T& /*t*/, In<T> z, Out<T> rate) const {
+    rate[0] = z[1];
+    rate[1] = T(1) - select(z[1], T(3), T(-3));
+  }
+};
+
+template <class System>
+std::shared_ptr<const Model> model_of(const System& system, const Real& q, const Real& p) {
+  SystemDescriptor descriptor{.name = "at-rest", .title = "at rest", .reference = "landau-lifshitz1976"};
+  descriptor.coordinates = {{"q", ""}, {"p", ""}};
+  descriptor.initial = {q, p};
+  return make_model(descriptor, system);
+}
+
+// Every kind of implicit iteration. The last is the second-order backward differentiation formula.
+class ImplicitMethods {
+ public:
+  ImplicitMethods() {
+    const testing::TemporaryDirectory files;
+    std::ofstream(files / "backward.toml")
+        << "name = \"backward\"\nkind = \"multistep\"\norder = 2\ntitle = \"backward differentiation\"\n"
+           "reference = \"hairer-norsett-wanner1993 III.1\"\n"
+           "rho = [\"1/3\", \"-4/3\", 1]\nsigma = [0, 0, \"2/3\"]\n";
+    for (const char* stages : {"1", "2", "3", "4", "6"}) add(method_named("gauss", {{"stages", stages}}));
+    add(method_named("implicit-midpoint"));
+    for (const std::string& table :
+         {shipped_tables + "radau-iia-5.toml", shipped_tables + "symplectic-dirk-4.toml",
+          std::string(files / "backward.toml")}) {
+      tables_.push_back(read_method_table(table));
+      add(tables_.back()->make({}));
+    }
+  }
+  void add(std::shared_ptr<const MethodInstance> method) { methods_.push_back(std::move(method)); }
+  [[nodiscard]] auto begin() const { return methods_.begin(); }
+  [[nodiscard]] auto end() const { return methods_.end(); }
+
+ private:
+  std::vector<std::unique_ptr<const MethodTable>> tables_;  // which methods refer to
+  std::vector<std::shared_ptr<const MethodInstance>> methods_;
+};
+
+// The motion reaches its end and comes to where the forces vanish, within what they round there, or for
+// motions that are not damped as near as they begin.
+template <class T>
+void comes_to(const std::shared_ptr<const Model>& model, const std::shared_ptr<const MethodInstance>& method,
+              const T& h, double time, const T& place, const T& rounding) {
+  SCOPED_TRACE(method->called());
+  Integration<T> run = integrate<T>(model, method, h);
+  const auto steps = static_cast<std::int64_t>(time / static_cast<double>(h));
+  const Outcome outcome = run.steps(steps);
+  EXPECT_TRUE(outcome.reached()) << outcome.message();
+  EXPECT_LE(abs(T(run.state()[0] - place)), rounding);
+}
+
+template <class T>
+void every_method_comes_to_rest(double time) {
+  const T u = unit_roundoff<T>(), g = T(981) / T(100);
+  for (const auto& method : ImplicitMethods())
+    for (const T& h : {T(1) / T(8), T(2) / T(5)}) {
+      comes_to<T>(model_of(HungUp(), 0, 0), method, h, time, -g, 64 * u * g);
+      for (const int exponent : {-20, 0, 20}) {
+        const Real unit = Real(Quad(std::ldexp(1.0, exponent)));
+        comes_to<T>(model_of(TwoWells{unit}, Real::fraction(8, 5) * unit, Real::fraction(3, 10)), method, h,
+                    time, T(unit), 64 * u * T(unit));
+      }
+    }
+}
+TEST(Rest, EveryImplicitMethodComesToIt) { every_method_comes_to_rest<double>(400); }
+TEST(Rest, EveryImplicitMethodComesToItInQuad) { every_method_comes_to_rest<Quad>(800); }
+
+// Without damping the amplitude stays, far below round-off of the place.
+TEST(Rest, SmallOscillationsAboutAPlaceFarFromTheOrigin) {
+  ImplicitMethods methods;
+  for (const char* order : {"2", "4", "6"})
+    methods.add(method_named("generating-function", {{"order", order}}));
+  methods.add(method_named("gauss-darboux"));
+  for (const auto& method : methods)
+    for (const double amplitude : {1e-8, 1e-12, 1e-14, 0.0})
+      for (const double h : {0.1, 0.4}) {
+        const auto model = model_of(Hanging(), Real(Quad(-9.81) + Quad(amplitude)), 0);
+        comes_to<double>(model, method, h, 200, -9.81, 2 * amplitude + 64 * 9.81 * unit_roundoff<double>());
+      }
+}
+
+TEST(Rest, WhatHasNoSolutionDoesNotConverge) {
+  for (const auto& method : ImplicitMethods()) {
+    Integration<double> run = integrate<double>(model_of(DryFriction(), 0, 1), method, 0.125);
+    EXPECT_EQ(run.steps(100).status(), Status::not_converged) << method->called();
+    EXPECT_GE(run.state()[1], -1e-13) << method->called();
+  }
+}
+
+}  // namespace
+}  // namespace pfaff
