@@ -8,6 +8,7 @@ import html
 import json
 import os
 import pathlib
+import shutil
 import tempfile
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
@@ -228,8 +229,11 @@ def compare(
     if timing is not None and not timing > 0:
         raise InputError(f"timing: expected a time above 0 s, got {timing}")
     held = tempfile.TemporaryDirectory(prefix="pfaff-")
+    # An experiment that is a dictionary is left as a file beside its report, which names it.
+    written = ""
     if isinstance(experiment, Mapping):
         path = str(_written(experiment, pathlib.Path(held.name)))
+        written = os.path.basename(path)
     else:
         path = os.fspath(experiment)
     named = methods if isinstance(methods, Mapping) else {_label(method): method for method in methods}
@@ -240,11 +244,13 @@ def compare(
             f"out: expected a new directory, because runs of methods that are objects are not told apart from earlier ones, got {directory}"
         )
     try:
-        found = _pfaff.compare(path, objects, str(directory), quick, force, compile, report, timing)
+        found = _pfaff.compare(path, written, objects, str(directory), quick, force, compile, report, timing)
     except Interrupted:
         if out is not None:
             raise
         raise Interrupted("interrupted; its runs are gone, and with out= they would be there to be resumed") from None
+    if written:
+        shutil.copy(path, directory)
     report_path = found["report"] and pathlib.Path(found["report"])
     return Comparison(
         name=found["name"], title=found["title"], directory=directory, runs=found["runs"], resumed=found["resumed"],

@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include <pfaff/core/facets/tile_rows.hpp>
 #include <pfaff/python/src/arrays.hpp>
 #include <pfaff/python/src/bindings.hpp>
 #include <pfaff/python/src/interruption.hpp>
@@ -28,8 +29,8 @@ class RowWriterOf final : public Watcher<double> {
  public:
   void start(const Integration<double>& /*run*/) override {}
   void look(const Integration<double>& /*run*/, const Block<double>& block) override {
-    const std::size_t n = block.states.components();
-    for (std::size_t row = 0; row < block.rows; ++row, to += n) block.states.get(row, {to, n});
+    copy_rows(block.states, 0, block.rows, to);
+    to += block.rows * block.states.components();
   }
   double* to = nullptr;
 };

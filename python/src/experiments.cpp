@@ -35,9 +35,12 @@ void add_methods(Experiment& experiment, const NamedMethods& methods) {
   }
 }
 
-py::dict compared(const std::string& name, const NamedMethods& methods, const std::string& directory,
-                  bool quick, bool force, bool compile, bool report, std::optional<double> timing) {
+// `asked_for`, where it is not empty, is what the report calls the experiment.
+py::dict compared(const std::string& name, const std::string& asked_for, const NamedMethods& methods,
+                  const std::string& directory, bool quick, bool force, bool compile, bool report,
+                  std::optional<double> timing) {
   Experiment experiment = read_experiment(name, quick);
+  if (!asked_for.empty()) experiment.asked_for = asked_for;
   experiment.compile = experiment.compile || compile;
   add_methods(experiment, methods);
   ExperimentOutcome outcome;

@@ -17,6 +17,7 @@
 #include <pfaff/bench/runner/row_file.hpp>
 #include <pfaff/bench/runner/run_directory.hpp>
 #include <pfaff/bench/runner/settings.hpp>
+#include <pfaff/core/facets/tile_rows.hpp>
 #include <pfaff/python/src/arrays.hpp>
 #include <pfaff/python/src/bindings.hpp>
 #include <pfaff/python/src/interruption.hpp>
@@ -47,10 +48,12 @@ class Columns final : public SampleTaker {
   }
 
   void take(const SampleRows<double>& rows) override {
-    double* const times = t.extend(rows.count);
-    for (std::size_t k = 0; k < rows.count; ++k) times[k] = rows.block.time(rows.first + k);
-    put(y, rows.block.states, rows);
-    if (rows.invariants != nullptr) put(invariants, *rows.invariants, rows);
+    copy_times(rows.block, rows.first, rows.count, t.extend(rows.count));
+    const auto put_rows = [&](const Tiles<double>& from, Numbers& to) {
+      copy_rows(from, rows.first, rows.count, to.extend(from.components() * rows.count));
+    };
+    put_rows(rows.block.states, y);
+    if (rows.invariants != nullptr) put_rows(*rows.invariants, invariants);
     if (measured.structure)
       std::fill_n(structure.extend(rows.count), rows.count, std::numeric_limits<double>::quiet_NaN());
     if (also != nullptr) also->take(rows);
@@ -74,12 +77,6 @@ class Columns final : public SampleTaker {
   static void put(Numbers& to, const std::vector<T>& values) {
     double* place = to.extend(values.size());
     for (const T& x : values) *place++ = static_cast<double>(x);
-  }
-  static void put(Numbers& to, const Tiles<double>& from, const SampleRows<double>& rows) {
-    const std::size_t n = from.components();
-    double* place = to.extend(n * rows.count);
-    for (std::size_t row = rows.first; row < rows.first + rows.count; ++row, place += n)
-      from.get(row, {place, n});
   }
   template <class T>
   static void put(Numbers& to, const std::optional<T>& value) {

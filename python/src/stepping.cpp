@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include <pfaff/core/facets/tile_rows.hpp>
 #include <pfaff/core/formulation.hpp>
 #include <pfaff/python/src/interruption.hpp>
 #include <pfaff/python/src/scalars.hpp>
@@ -23,15 +24,8 @@ class Keeper final : public Watcher<T> {
   void look(const Integration<T>& /*run*/, const Block<T>& block) override {
     if (!keeps) return;
     const std::size_t n = block.states.components();
-    double *const times = t.extend(block.rows), *const rows = y.extend(n * block.rows);
-    for (std::size_t row = 0; row < block.rows; ++row) times[row] = static_cast<double>(block.time(row));
-    for (std::size_t first = 0; first < block.rows; first += lanes<T>) {
-      const T* const tile = block.states.tile(first / lanes<T>);
-      const std::size_t filled = std::min(lanes<T>, block.rows - first);
-      for (std::size_t lane = 0; lane < filled; ++lane)
-        for (std::size_t i = 0; i < n; ++i)
-          rows[(first + lane) * n + i] = static_cast<double>(tile[i * lanes<T> + lane]);
-    }
+    copy_times(block, 0, block.rows, t.extend(block.rows));
+    copy_rows(block.states, 0, block.rows, y.extend(n * block.rows));
   }
   bool keeps = false;
   Numbers t, y;

@@ -75,6 +75,8 @@ def test_a_system_of_python_and_a_report(tmp_path):
     experiment = {**SWING, "case": [{"name": "well", "system": well, "time": 4, "steps": [0.2, 0.1]}]}
     found = pfaff.compare(experiment, out=tmp_path / "out", report=True, timing=0.005)
     assert found.ok and found.report == tmp_path / "out" / "report.html" and found.sentences
+    assert "pfaff compare experiment.toml" in found.report.read_text()  # a file that is left beside it
+    assert pfaff.compare(found.directory / "experiment.toml", timing=0.005).runs == 4
     again = pfaff.compare(experiment, out=tmp_path / "out", timing=0.005)
     assert again.runs == 4 and json.loads((tmp_path / "out" / "experiment.json").read_text())["title"] == SWING["title"]
 
