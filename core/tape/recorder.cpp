@@ -45,6 +45,11 @@ Recorded operator+(const Recorded& a, const Recorded& b) {
   if (a.is(0)) return b;
   if (b.is(0)) return a;
   if (a.is_constant() && b.is_constant()) return Recorded(a.constant() + b.constant());
+  // Twice c x is (2 c) x with the same bits, since doubling rounds nothing: so are p / 2 + p / 2, which is
+  // the derivative of p p / 2, and p.
+  if (a.recorder() == b.recorder() && a.slot() == b.slot())
+    if (const auto multiple = a.recorder()->multiple_at(a.slot()))
+      return multiple->second * Recorded(multiple->first + multiple->first);
   return binary(Operation::add, a, b);
 }
 Recorded operator-(const Recorded& a, const Recorded& b) {
@@ -253,6 +258,18 @@ int Recorder::constant_index(const Real& value) {
   const auto [found, added] = constant_places_.try_emplace(value, static_cast<int>(constants_.size()));
   if (added) constants_.push_back(value);
   return found->second;
+}
+
+std::optional<std::pair<Real, Recorded>> Recorder::multiple_at(int slot) {
+  const Instruction& i = code_[static_cast<std::size_t>(slot)];
+  if (i.operation != Operation::multiply) return std::nullopt;
+  for (const auto& [one, other] : {std::pair(i.a, i.b), std::pair(i.b, i.a)})
+    if (const Instruction& factor = code_[static_cast<std::size_t>(one)];
+        factor.operation == Operation::constant) {
+      const Real& c = constants_[static_cast<std::size_t>(factor.a)];
+      if (!c.is(0)) return std::pair(c, Recorded(this, other));
+    }
+  return std::nullopt;
 }
 
 int Recorder::slot_of(const Recorded& x) {

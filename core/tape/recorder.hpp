@@ -1,7 +1,8 @@
 // The recording scalar and the recorder that turns a templated formula into a Tape.
 //
 // Recording folds constants exactly (fractions stay fractions), drops additions of zero and multiplications
-// by zero and one, shares common subexpressions, and keeps sine and cosine of one argument together.
+// by zero and one, doubles factors instead of sums, shares common subexpressions, and keeps sine and cosine
+// of one argument together.
 #pragma once
 
 #include <compare>
@@ -201,6 +202,8 @@ class Recorder {
   Recorded append_sine(int argument, bool cosine);
   Recorded append_nothing_of(int slot);
   std::vector<Recorded> append_solve(LinearSystem system);
+  /// c and x where a slot is a product c x with a constant other than zero.
+  std::optional<std::pair<Real, Recorded>> multiple_at(int slot);
   int constant_index(const Real& value);
 
   /// Removes what no output needs, orders by dependence and returns the tape.

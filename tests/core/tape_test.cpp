@@ -7,6 +7,7 @@
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/linear.hpp>
 #include <pfaff/core/tape/polynomial_degree.hpp>
+#include <pfaff/core/tape/replay.hpp>
 
 #include "random_formula.hpp"
 
@@ -48,6 +49,29 @@ TEST(Recording, FoldsSignsAndDivisionsByPowersOfTwo) {
   EXPECT_EQ(count(halved, Operation::divide), 0);
   EXPECT_TRUE(halved.constants[0] == Real::fraction(1, 8));
   EXPECT_EQ(count(tape_of([](auto&, auto& x, auto&) { return x / 3; }), Operation::divide), 1);
+}
+
+// A sum of two equal multiples is one multiple with the same bits, as a number that is twice a half is
+// itself.
+TEST(Recording, DoublesConstantFactors) {
+  const auto twice = [](const Recorded& x) { return x + x; };
+  const Tape whole = tape_of([&](auto&, auto& x, auto&) { return twice(x / 2); });
+  EXPECT_EQ(whole.code[static_cast<std::size_t>(whole.outputs[0])].operation, Operation::input);
+  const Tape thirds =
+      tape_of([&](auto&, auto& x, auto&) { return twice(x * Recorded(Real::fraction(1, 3))); });
+  EXPECT_EQ(count(thirds, Operation::add), 0);
+  EXPECT_TRUE(thirds.constants[0] == Real::fraction(2, 3));
+  Replay<double> replay(std::make_shared<const Tape>(thirds));
+  for (const double x : {0.1, -7.3, 1e300, 3e-300}) {
+    const double z[] = {x, 0};
+    double result = 0;
+    replay(0, z, &result);
+    EXPECT_EQ(result, x * (1.0 / 3) + x * (1.0 / 3));
+  }
+  // Not where there is no constant factor, and a product with zero that stands for a domain stays one.
+  EXPECT_EQ(count(tape_of([&](auto&, auto& x, auto& y) { return twice(x * y); }), Operation::add), 1);
+  const Tape domain = tape_of([&](auto&, auto& x, auto&) { return twice(nothing_of(sqrt(x))); });
+  EXPECT_EQ(count(domain, Operation::square_root), 1);
 }
 
 TEST(Recording, ConstantsFoldExactly) {
