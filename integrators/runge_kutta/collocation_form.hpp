@@ -25,6 +25,17 @@ class CollocationForm {
   virtual void restart() = 0;
   /// Where forms of the same kind take turns: gives `next` what sums have rounded off of the state.
   virtual void hand_over(CollocationForm& next) = 0;
+
+ protected:
+  /// What a fixed-point iteration or, where it has come to nothing, Newton's has ended with. Iterates of a
+  /// stiff motion may leave the range of numbers before they are seen to diverge; where the state itself is
+  /// next to its end, Newton's matrix is no better.
+  template <class Newton>
+  static Status or_by_newton(Status status, const Newton& newton) {
+    if (status != Status::not_converged && status != Status::non_finite) return status;
+    const Status by_newton = newton();
+    return status == Status::non_finite && by_newton == Status::singular ? status : by_newton;
+  }
 };
 
 /// Whether a form makes the Jacobian of the field and Newton's matrix at once, so that no step allocates.

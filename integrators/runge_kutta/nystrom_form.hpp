@@ -98,7 +98,7 @@ class NystromForm final : public CollocationForm<P> {
     };
     Status status = iteration_.template solve<Force::inlined>(evaluate, false, p.counters().iterations);
     if constexpr (HasFieldJacobian<P>)
-      if (status == Status::not_converged) status = correct_by_newton(p, t, h, z, evaluate);
+      status = this->or_by_newton(status, [&] { return correct_by_newton(p, t, h, z, evaluate); });
     if (status != Status::converged) {
       continuation_.forget();
       return status;
