@@ -128,10 +128,10 @@ TEST(Tuning, OrderSixForQuadraticKineticEnergiesAlone) {
   const auto model = system("pendulum");
   const SplittingLogarithm logarithm(6, Degrees::odd, Parts::quadratic_kinetic);
   const ShadowTerms terms(*model, logarithm, 0.8, states_along_the_motion(model, 200));
-  // One start of fifty leads to a method of order 6, that of this seed among them.
+  // Three starts of sixty lead to a method of order 6, that of this seed among them.
   const TunedSplitting tuned =
       tuned_splitting(logarithm, terms,
-                      {.order = 6, .stages = 11, .parts = Parts::quadratic_kinetic, .seed = 47, .starts = 1});
+                      {.order = 6, .stages = 11, .parts = Parts::quadratic_kinetic, .seed = 3, .starts = 1});
   EXPECT_EQ(tuned.flows.size(), 23U);
   const auto violated = [&](Parts parts) {
     const auto conditions = splitting_conditions(tuned.flows, 6, parts);

@@ -131,15 +131,16 @@ TEST(UnitsOfMeasures, ALoopHasTheSizeOfTheStart) {
   EXPECT_NE(table.ended, "");
 }
 
-// Scales are powers of two: every point of the loop is the same to the last bit.
+// Scales are powers of two: every point of the loop is the same to the last bit. No mass is 1, of which
+// gauss makes equations of its own.
 TEST(UnitsOfMeasures, DoNotChangeALoop) {
   for (const char* method : {"verlet", "rk4", "gauss"}) {
-    const MeasuredTable in_ones = table_of("poincare-loop", sprung<0, 0>(method)),
+    const MeasuredTable plain = table_of("poincare-loop", sprung<20, 60>(method)),
                         strange = table_of("poincare-loop", sprung<30, 100>(method));
-    ASSERT_EQ(strange.lines.size(), in_ones.lines.size()) << method << strange.ended;
-    ASSERT_GT(in_ones.lines.size(), 10U);
-    for (std::size_t k = 0; k < in_ones.lines.size(); ++k)
-      EXPECT_EQ(number(strange.lines[k], 0), number(in_ones.lines[k], 0)) << method << k;
+    ASSERT_EQ(strange.lines.size(), plain.lines.size()) << method << strange.ended;
+    ASSERT_GT(plain.lines.size(), 10U);
+    for (std::size_t k = 0; k < plain.lines.size(); ++k)
+      EXPECT_EQ(number(strange.lines[k], 0), number(plain.lines[k], 0)) << method << k;
   }
 }
 
