@@ -5,22 +5,44 @@
 // coordinate) are all solved to their own round-off. Derivative parts of duals are judged in the same way, so
 // that a differentiated step is the derivative of the converged step. An iteration ends when every correction
 // is well below one unit of round-off, or will be after the next contraction, or when corrections stagnate
-// near round-off, or further above it where a kick shows that this is rounding (stagnation.hpp). Iterations
-// that take long to converge ask in between whether the work was told to end.
+// near round-off. Iterations that take long to converge ask in between whether the work was told to end.
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <limits>
-#include <optional>
-#include <span>
 
 #include <pfaff/core/errors/budget.hpp>
 #include <pfaff/core/errors/status.hpp>
 #include <pfaff/core/numbers/dual.hpp>
-#include <pfaff/core/solve/relative_size.hpp>
-#include <pfaff/core/solve/stagnation.hpp>
 
 namespace pfaff {
+
+/// max over parts of |delta| / scale, where scale is the larger of two reference values, part by part.
+template <class T>
+Value<T> relative_size(const T& delta, const T& reference, const T& change) {
+  const Value<T> d = abs(value_of(delta));
+  const Value<T> scale = std::max(abs(value_of(reference)), abs(value_of(change)));
+  // A NaN must not vanish: it passes through the division and through the last line. A correction of zero is
+  // divided like any other, because the processor cannot predict which one is zero, and a wrong prediction
+  // costs more than the division.
+  if (scale > Value<T>(0)) return d / scale;
+  return d > Value<T>(0) ? std::numeric_limits<Value<T>>::infinity() : d;
+}
+template <class T, int N>
+Value<T> relative_size(const Dual<T, N>& delta, const Dual<T, N>& reference, const Dual<T, N>& change) {
+  Value<T> size = relative_size(delta.value, reference.value, change.value);
+  // One scale for all directions of a component: some of its derivatives may be zero or nearly so.
+  Value<T> scale(0), largest(0);
+  for (std::size_t k = 0; k < N; ++k) {
+    scale = std::max({scale, abs(value_of(reference.derivative[k])), abs(value_of(change.derivative[k]))});
+    largest = std::max(largest, abs(value_of(delta.derivative[k])));
+    if (isnan(value_of(delta.derivative[k]))) return value_of(delta.derivative[k]);
+  }
+  if (largest > Value<T>(0))
+    size = std::max(size, scale > Value<T>(0) ? largest / scale : std::numeric_limits<Value<T>>::infinity());
+  return size;
+}
 
 /// How the corrections of an iteration become smaller, and so what the last two foretell of the next one.
 enum class Corrections {
@@ -53,20 +75,11 @@ class Convergence {
     finite_ = true;
     ++iterations_;
   }
-  /// One component's correction; returns its relative size.
-  Number add(const T& delta, const T& reference, const T& change) {
+  /// One component's correction.
+  void add(const T& delta, const T& reference, const T& change) {
     const Number s = relative_size(delta, reference, change);
     if (isnan(s)) finite_ = false;
     if (s > size_) size_ = s;
-    if (stagnation_) [[unlikely]]
-      stagnation_->add(delta, reference, change);
-    return s;
-  }
-  /// Numbers that are not corrected, but belong to what is solved, as positions where momenta are the
-  /// unknowns: what rounding makes of corrections may be as large as it is of these (stagnation.hpp).
-  void beside(std::span<const T> components) {
-    if (stagnation_) [[unlikely]]
-      for (const T& x : components) stagnation_->beside(x);
   }
   /// True when the iteration should stop; `status()` then says how. Corrections already seen are to be
   /// applied. `known_contraction` is the ratio by which corrections shrank in earlier iterations like this
@@ -75,10 +88,7 @@ class Convergence {
   bool finished(int limit, const Number& known_contraction = Number(1)) {
     const Number u = unit_roundoff<T>();
     if (!finite_) return stop(Status::non_finite);
-    if (stagnation_ && stagnation_->kicked()) [[unlikely]]
-      return returned();
     idle_ = size_ < smallest_ ? 0 : idle_ + 1;
-    still_ = size_ < smallest_ * Number(0.9375) ? 0 : still_ + 1;
     smallest_ = std::min(smallest_, size_);
     if (size_ <= u / Number(8)) return stop(Status::converged);
     if (iterations_ == 1 && Number(100) * known_contraction * size_ <= u / Number(64))
@@ -97,20 +107,9 @@ class Convergence {
       foretold_ = foretold;
       if (lost_in_rounding()) return stop(Status::converged);
     }
-    if (still_ >= 3 || stagnation_) [[unlikely]]
-      watch_stagnation();
     if (iterations_ >= limit) return stop(Status::not_converged);
     if (iterations_ % 8 == 0) spend(0, 0);
     return false;
-  }
-  /// Call before corrections are added, with all that the next iterate is made of: makes a kick of them where
-  /// the iteration stagnates, and returns true then.
-  template <class Vector>
-  bool kick(Vector& corrections) const {
-    if (!stagnation_ || !stagnation_->kicks()) [[likely]]
-      return false;
-    for (T& x : corrections) x = T(Stagnation<T>::kick_factor) * x;
-    return true;
   }
   /// The last contraction ratio; 1 before two iterations are done.
   [[nodiscard]] Number ratio() const { return iterations_ < 2 ? Number(1) : size_ / previous_; }
@@ -125,16 +124,6 @@ class Convergence {
     status_ = status;
     return true;
   }
-  [[gnu::cold, gnu::noinline]] void watch_stagnation() {
-    if (stagnation_) stagnation_->end_iteration(still_ >= 6);
-    if (still_ == 0) stagnation_.reset();
-    if (still_ == 3) stagnation_.emplace();
-  }
-  [[gnu::cold, gnu::noinline]] bool returned() {
-    stagnation_->end_iteration(false);
-    if (stagnation_->returned()) return stop(Status::converged);
-    return stagnation_->lost() && stop(Status::not_converged);
-  }
   // What two iterations gain, in this one and in the one before, leaves nothing of the next correction.
   // Whether the correction is one of those that stall makes no difference to it.
   [[nodiscard]] bool foretold_by_pairs() const {
@@ -148,15 +137,13 @@ class Convergence {
   [[nodiscard]] bool lost_in_rounding() const {
     const Number u = unit_roundoff<T>();
     return (idle_ >= 1 && size_ <= Number(4) * u) || (idle_ >= 3 && size_ <= Number(256) * u) ||
-           (still_ >= 6 && size_ <= Number(65536) * u);
+           (idle_ >= 6 && size_ <= Number(65536) * u);
   }
   Number size_{0}, previous_{0}, older_{0}, oldest_{0};  // of the corrections, the last one first
   Number smallest_ = std::numeric_limits<Number>::infinity(), contraction_{0};
   int iterations_ = 0, idle_ = 0;  // idle: without a correction smaller than all before it
-  int still_ = 0;                  // the same, but for the last digits
   bool finite_ = true, foretold_ = false;
   Corrections corrections_ = Corrections::even;
-  std::optional<Stagnation<T>> stagnation_;  // from where the iteration begins to idle
   Status status_ = Status::not_converged;
 };
 

@@ -12,19 +12,16 @@ namespace pfaff {
 /// Solves residual(x) = 0 with corrections -matrix^-1 residual, the matrix being an approximate Jacobian that
 /// is factored already. T may be a dual over the matrix's numbers: derivatives converge with the values.
 /// `residual(x, r)` fills r. The correction of a component is judged by the larger of its `reference` and its
-/// own size (Convergence); `beside` are numbers of the problem that are none of the unknowns. `correction`
-/// and `r` are buffers of x's size. On return x is the last iterate and `iterations` their number.
+/// own size (Convergence). `correction` and `r` are buffers of x's size. On return x is the last iterate and
+/// `iterations` their number.
 template <class T, class Residual>
 Status newton(const LU<Value<T>>& matrix, Residual&& residual, std::span<T> x, std::span<const T> reference,
-              std::span<T> r, std::span<T> correction, int limit, int& iterations,
-              std::span<const T> beside = {}) {
+              std::span<T> r, std::span<T> correction, int limit, int& iterations) {
   Convergence<T> convergence;
   do {
     residual(x, r);
     matrix.solve(r.data(), correction.data());
-    convergence.kick(correction);
     convergence.begin_iteration();
-    convergence.beside(beside);
     for (std::size_t k = 0; k < x.size(); ++k) {
       x[k] = x[k] - correction[k];
       convergence.add(correction[k], reference[k], x[k]);

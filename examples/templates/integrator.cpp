@@ -37,11 +37,9 @@ struct TwoStage {  // parameters only: the object is shared between runs and nev
   // iterates to the round-off of its scalar, never a fixed number of times, and returns how that ended:
   //   Convergence<Scalar<P>> convergence(Corrections::uneven);      // core/solve/convergence.hpp
   //   do {
-  //     ...                                                          // makes w.correction
-  //     convergence.kick(w.correction);                              // where the iteration stagnates
   //     convergence.begin_iteration();
   //     ...                                                          // corrects w.next[k]
-  //     convergence.add(w.correction[k], z[k], w.next[k]);           // of each component
+  //     convergence.add(correction, z[k], w.next[k]);                // of each component
   //   } while (!convergence.finished(100));
   //   return convergence.status();
   // With a Jacobian: core/solve/newton.hpp.

@@ -159,7 +159,6 @@ class AlphaGradient {
       start_(t0_, pair_.data(), values_.data());
       for (std::size_t k = 0; k < n_; ++k) residual_[k] = w[k] - values_[n_ + k];
       diagonal_.solve(residual_.data(), correction_.data());
-      convergence.kick(correction_);
       convergence.begin_iteration();
       for (std::size_t k = 0; k < n_; ++k) {
         z_[k] = z_[k] + correction_[k];

@@ -212,7 +212,6 @@ struct GeneratingFunction {
       for (std::size_t k = 0; k < w.y.size(); ++k) w.residual[k] = w.share.row(k, w.psi.data()) - w.d[k];
       correct(p, t, h, w);
       if (w.factors()) w.secants.improve(w.correction, w.y, w.psi);
-      if (convergence.kick(w.correction)) w.secants.forget();
       convergence.begin_iteration();
       for (std::size_t k = 0; k < w.y.size(); ++k) {
         w.d[k] = w.d[k] + w.correction[k];

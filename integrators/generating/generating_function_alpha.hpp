@@ -147,7 +147,6 @@ struct GeneratingFunctionAlpha {
       p.counters().fields += static_cast<std::int64_t>(w.gradient.evaluations());
       for (std::size_t k = 0; k < w.n; ++k) w.residual[k] = w.psi[k] - w.values[k];
       w.newton.solve(w.residual.data(), w.correction.data());
-      convergence.kick(w.correction);
       convergence.begin_iteration();
       for (std::size_t k = 0; k < w.n; ++k) {
         w.pair[k] = w.pair[k] + w.correction[k];

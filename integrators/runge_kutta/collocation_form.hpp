@@ -16,6 +16,7 @@ template <class P>
 class CollocationForm {
  public:
   using T = Scalar<P>;
+  using Number = Value<T>;
   CollocationForm() = default;
   CollocationForm(const CollocationForm&) = delete;
   CollocationForm& operator=(const CollocationForm&) = delete;
@@ -29,6 +30,16 @@ class CollocationForm {
   virtual void hand_over(CollocationForm& next) = 0;
 
  protected:
+  /// What corrections of a component are measured against: x, and what the rate rounds that is added to it.
+  /// Where a motion comes to rest terms of a rate cancel that are large beside a momentum of nearly zero, and
+  /// each of them, about |dX/dz_j z_j|, is rounded. `slopes` are those of the rate at the `count` numbers of
+  /// z.
+  static T beside_rounding(const T& x, const T& h, const T* slopes, const T* z, std::size_t count) {
+    Number terms(0);
+    for (std::size_t j = 0; j < count; ++j) terms = terms + abs(value_of(slopes[j])) * abs(value_of(z[j]));
+    const T rounded(Number(abs(value_of(h)) * terms));
+    return value_of(x) < Number(0) ? x - rounded : x + rounded;
+  }
   /// What a fixed-point iteration or, where it has come to nothing, Newton's has ended with. Iterates of a
   /// stiff motion may leave the range of numbers before they are seen to diverge, and those of Newton's
   /// method at a step that is too large, too: that is not the end of the motion where `there`, what the

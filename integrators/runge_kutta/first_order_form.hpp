@@ -75,7 +75,10 @@ class FirstOrderForm final : public CollocationForm<P> {
             p.field_jacobian(t + h / T(2), z, jacobian_);
             ++p.counters().factorisations;
             return iteration_.solve_by_newton(
-                evaluate, jacobian_, scale_.data(), [&z](std::size_t k) { return z[k]; }, In<T>(z),
+                evaluate, jacobian_, scale_.data(),
+                [&](std::size_t k) {
+                  return this->beside_rounding(z[k], h, &jacobian_[k * p.size()], z.data(), p.size());
+                },
                 p.counters().iterations);
           },
           [&]() -> const State<P>& {

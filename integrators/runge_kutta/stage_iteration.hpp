@@ -122,11 +122,10 @@ class StageIteration : private StageLayout<T, Components, Stages> {
   }
 
   /// The same by simplified Newton iteration, where the rates' derivatives are scale_j G, G m x m and
-  /// row-major. Corrections of component k are measured by size(k), and `state` is that of the system.
+  /// row-major. Corrections of component k are measured by size(k).
   template <class Evaluate, class Size>
   [[gnu::noinline]] Status solve_by_newton(const Evaluate& evaluate, const std::vector<T>& slopes,
-                                           const T* scale, const Size& size, std::span<const T> state,
-                                           auto&& iterations) {
+                                           const T* scale, const Size& size, auto&& iterations) {
     const std::size_t s = stages(), m = components();
     if (!newton_) newton_ = std::make_unique<Newton>(s * m);
     Newton& w = *newton_;
@@ -159,7 +158,7 @@ class StageIteration : private StageLayout<T, Components, Stages> {
             for (std::size_t k = 0; k < m; ++k)
               residual[i * m + k] = unknowns[i * m + k] - stage(stage_, i, k);
         },
-        w.unknowns, w.reference, w.residual, w.correction, 100, count, state);
+        w.unknowns, w.reference, w.residual, w.correction, 100, count);
     iterations += count;
     if (status != Status::converged) return status;
     evaluate_there();

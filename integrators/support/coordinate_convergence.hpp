@@ -11,10 +11,16 @@
 //     its value, or of 32 times its change over the step where it passes through zero. Derivatives of a
 //     coordinate are taken in this size for unit, and each direction is judged by itself.
 //   Rounding far above round-off of the coordinates, as of constants in phi: the radius of a circle whose
-//     lowest point is the origin. Convergence recognises it by a kick (core/solve/stagnation.hpp).
+//     lowest point is the origin. There corrections become no smaller, as they do where an iteration does not
+//     contract. An iteration that stagnates is therefore kicked away from where it is, by 16384 times its
+//     next correction. It has converged where it comes back by itself in ten iterations: what contracts in
+//     the large would contract in the small, were it not for rounding.
 //
-// Accepted although unsound: corrections of a small coordinate that do not contract where those of the
-// largest have converged, and three digits less for coordinates that are not small enough.
+// Refused although sound: rounding above 2^-20 of the largest coordinate, as at rest near the origin, and
+// constraints that bend within 16384 times their rounding. Accepted although unsound: corrections of a small
+// coordinate that do not contract where those of the largest have converged; three digits less for
+// coordinates that are not small enough; and what stagnates at a kink that is less than 2^-20 of the largest
+// coordinate wide, in a constraint that is straight far beyond it.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +33,7 @@
 
 #include <pfaff/core/facets/scalars.hpp>
 #include <pfaff/core/solve/convergence.hpp>
-#include <pfaff/core/solve/largest.hpp>
+#include <pfaff/integrators/support/largest.hpp>
 
 namespace pfaff {
 
@@ -178,13 +184,13 @@ class CoordinateConvergence {
   [[nodiscard]] bool each() const { return unlike_ || watch_.iterations() == untold(); }
   /// Call before the corrections of an iteration are added.
   void begin_iteration() {
-    watch_.begin_iteration();
+    if (!kicked()) watch_.begin_iteration();
     previous_ = own_;
     size_ = own_ = Number(0);
   }
   void add(const VectorCorrections<T>& corrections) {
     const Number size = corrections.relative(), own = corrections.own();
-    watch_.add(T(size), T(1), T(1));
+    if (!kicked()) watch_.add(T(size), T(1), T(1));
     unlike_ = unlike_ || corrections.unlike();
     if (size > size_ || isnan(size)) size_ = size;
     own_ = std::max(own_, own);
@@ -195,17 +201,18 @@ class CoordinateConvergence {
   /// watch takes.
   template <class... Known>
   bool finished(int limit, const Known&... known) {
-    if (!converged_) {
+    if (!kicked() && !converged_) {
       const bool over = watch_.finished(limit, known...);
       if (over && watch_.status() != Status::converged) return true;
       converged_ = settled_ || (over && watch_.iterations() > untold());
     }
-    return isnan(size_) || (converged_ && !(unlike_ && goes_on()));
+    if (!converged_ && (kicked() || watch_.iterations() > 6)) converged_ = returned();
+    return isnan(size_) || (converged_ ? !(unlike_ && goes_on()) : kick_ == Kick::lost);
   }
-  /// Makes a kick of corrections where the iteration stagnates, see Convergence.
-  template <class Vector>
-  bool kick(Vector& corrections) const {
-    return watch_.kick(corrections);
+  /// Multiplies what the next correction is made of: it is a kick where the iteration stagnates.
+  void kick(Out<T> next) const {
+    if (kick_ == Kick::next)
+      for (T& x : next) x = T(-kick_size) * x;
   }
 
   /// The largest correction of the last iteration, relative to the largest coordinate.
@@ -219,9 +226,33 @@ class CoordinateConvergence {
   }
 
  private:
+  static constexpr int kick_size = 16384, far_size = 256, largest_over_rounding = 1 << 20;
+  enum class Kick { none, next, back, lost };
+  [[nodiscard]] bool kicked() const { return kick_ == Kick::next || kick_ == Kick::back; }
+
   // How many of the first corrections tell nothing. Where one unknown lags an iteration behind another the
   // first may be zero, and a large one follow.
   [[nodiscard]] int untold() const { return corrections_ == Corrections::in_turns ? 1 : 0; }
+  // Finds where an iteration stagnates, kicks it, and returns true once it has come back.
+  bool returned() {
+    const bool far = size_ > Number(far_size) * stagnant_;
+    if (kick_ == Kick::next) {  // in vain where what stagnates is not what was kicked
+      kick_ = far ? Kick::back : Kick::none;
+      idle_ = 0;
+    } else if (kick_ == Kick::back) {
+      if (idle_ > 0 && size_ <= Number(4) * stagnant_) return true;
+      if (++idle_ > 10 || (idle_ == 1 && !far)) kick_ = Kick::lost;
+    } else {
+      const bool falls = size_ < smallest_ * Number(0.9375);
+      idle_ = falls ? 0 : idle_ + 1;
+      stagnant_ = idle_ < 2 ? size_ : std::max(stagnant_, size_);
+      if (falls) smallest_ = size_;
+      // So near to round-off the watch takes it for rounding, too, unless it still falls in its last digits.
+      if (idle_ >= 6 && stagnant_ <= Number(65536) * unit_roundoff<T>()) return true;
+      if (idle_ >= 6 && Number(largest_over_rounding) * stagnant_ <= Number(1)) kick_ = Kick::next;
+    }
+    return false;
+  }
   // Whether coordinates in unlike units are corrected by less and less, and have not come to round-off.
   bool goes_on() {
     const Number u = unit_roundoff<T>(), ratio = own_ / previous_;
@@ -235,9 +266,10 @@ class CoordinateConvergence {
 
   Watch watch_;
   Corrections corrections_;
-  Number size_{0}, own_{0}, previous_{0};
-  Number smallest_own_ = std::numeric_limits<Number>::infinity();
-  int own_idle_ = 0, more_ = 0;
+  Number size_{0}, own_{0}, previous_{0}, stagnant_{0};
+  Number smallest_ = std::numeric_limits<Number>::infinity(), smallest_own_ = smallest_;
+  int idle_ = 0, own_idle_ = 0, more_ = 0;
+  Kick kick_ = Kick::none;
   bool converged_ = false, settled_ = false, unlike_ = false;
 };
 

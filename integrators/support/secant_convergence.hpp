@@ -34,12 +34,9 @@ class SecantConvergence {
   }
   /// One component's correction, judged as by Convergence.
   void add(const T& delta, const T& reference, const T& change) {
-    size_ = std::max(size_, convergence_.add(delta, reference, change));
-  }
-  /// Makes a kick of corrections where the iteration stagnates, see Convergence.
-  template <class Vector>
-  bool kick(Vector& corrections) const {
-    return convergence_.kick(corrections);
+    const Number size = relative_size(delta, reference, change);
+    convergence_.add(T(size), T(1), T(1));
+    size_ = std::max(size_, size);
   }
   /// True when the iteration should stop; `status()` then says how. `known_contraction` is the slowest ratio
   /// of the second correction to the first in earlier steps, 1 where none is known.

@@ -39,8 +39,8 @@ struct MultistepTable {
     MultistepHistory<T> increments, rates;  // of the last k - 1 and k states
     std::vector<T> increment, rate;         // of the step that is made
     State<P> before, point, carry;
-    std::size_t known = 0;  // states in a row, of which the rates are kept
-    Continuation<P> continuation;
+    std::size_t known = 0;                  // states in a row, of which the rates are kept
+    Continuation<P> continuation, failure;  // where the last step ended, and one failed
     pfaff::Work<Collocation<>, P> starting;
 
     Work(const MultistepTable& method, const P& p)
@@ -50,6 +50,7 @@ struct MultistepTable {
           point(p.make_state()),
           carry(p.make_state()),
           continuation(p),
+          failure(p),
           starting(method.starter, p) {
       const std::size_t k = method.steps, n = p.size();
       const T leading = T(Real(method.numbers[k - 1]));
@@ -64,6 +65,12 @@ struct MultistepTable {
   Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
     using T = Scalar<P>;
     const std::size_t n = z.size();
+    // A step that has failed is tried once more without the past, and would be one of the method for the
+    // start.
+    if (w.failure.holds(t, h, z)) {
+      w.failure.forget();
+      return Status::not_converged;
+    }
     if (!w.continuation.holds(t, h, z)) {
       w.known = 0;
       w.starting.restart();
@@ -75,6 +82,7 @@ struct MultistepTable {
     const Status status = w.known < steps ? starter.step(p, t, h, z, w.starting) : recur(p, t, h, z, w);
     if (status != Status::converged) {
       w.continuation.forget();
+      if (w.known == steps) w.failure.remember(t, h, z);
       return status;
     }
     if (w.known < steps)
@@ -116,14 +124,9 @@ struct MultistepTable {
         w.before[k] = w.rate[k];
       }
       p.field(t + h, w.point, w.rate);
-      for (std::size_t k = 0; k < n; ++k) w.before[k] = w.rate[k] - w.before[k];
-      // A kick moves the increment, and the rate that belongs to it with it.
-      if (convergence.kick(w.before))
-        for (std::size_t k = 0; k < n; ++k)
-          w.rate[k] = w.rate[k] + (w.before[k] - w.before[k] / T(Stagnation<T>::kick_factor));
       convergence.begin_iteration();
       for (std::size_t k = 0; k < n; ++k) {
-        const T correction = factor * w.before[k];
+        const T correction = factor * (w.rate[k] - w.before[k]);
         w.increment[k] = w.increment[k] + correction;
         convergence.add(correction, z[k], w.increment[k]);
       }

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 
 #include <pfaff/core/system.hpp>
 #include <pfaff/runs/integrate.hpp>
@@ -82,25 +81,18 @@ std::shared_ptr<const Model> model_of(const System& system, const Real& q, const
   return make_model(descriptor, system);
 }
 
-// Every kind of implicit iteration. The last is the second-order backward differentiation formula.
+// Every kind of implicit iteration for stages.
 class ImplicitMethods {
  public:
   ImplicitMethods() {
-    const testing::TemporaryDirectory files;
-    std::ofstream(files / "backward.toml")
-        << "name = \"backward\"\nkind = \"multistep\"\norder = 2\ntitle = \"backward differentiation\"\n"
-           "reference = \"hairer-norsett-wanner1993 III.1\"\n"
-           "rho = [\"1/3\", \"-4/3\", 1]\nsigma = [0, 0, \"2/3\"]\n";
-    for (const char* stages : {"1", "2", "3", "4", "6"}) add(method_named("gauss", {{"stages", stages}}));
-    add(method_named("implicit-midpoint"));
-    for (const std::string& table :
-         {shipped_tables + "radau-iia-5.toml", shipped_tables + "symplectic-dirk-4.toml",
-          std::string(files / "backward.toml")}) {
-      tables_.push_back(read_method_table(table));
-      add(tables_.back()->make({}));
+    for (const char* stages : {"1", "2", "3", "4", "6"})
+      methods_.push_back(method_named("gauss", {{"stages", stages}}));
+    methods_.push_back(method_named("implicit-midpoint"));
+    for (const char* table : {"radau-iia-5.toml", "symplectic-dirk-4.toml"}) {
+      tables_.push_back(read_method_table(shipped_tables + table));
+      methods_.push_back(tables_.back()->make({}));
     }
   }
-  void add(std::shared_ptr<const MethodInstance> method) { methods_.push_back(std::move(method)); }
   [[nodiscard]] auto begin() const { return methods_.begin(); }
   [[nodiscard]] auto end() const { return methods_.end(); }
 
@@ -141,11 +133,7 @@ TEST(Rest, EveryImplicitMethodComesToItInQuad) { every_method_comes_to_rest<Quad
 
 // Without damping the amplitude stays, far below round-off of the place.
 TEST(Rest, SmallOscillationsAboutAPlaceFarFromTheOrigin) {
-  ImplicitMethods methods;
-  for (const char* order : {"2", "4", "6"})
-    methods.add(method_named("generating-function", {{"order", order}}));
-  methods.add(method_named("gauss-darboux"));
-  for (const auto& method : methods)
+  for (const auto& method : ImplicitMethods())
     for (const double amplitude : {1e-8, 1e-12, 1e-14, 0.0})
       for (const double h : {0.1, 0.4}) {
         const auto model = model_of(Hanging(), Real(Quad(-9.81) + Quad(amplitude)), 0);
@@ -178,7 +166,6 @@ struct Ending {
 };
 TEST(Rest, IteratesThatRunAwayAreNoEndOfTheMotion) {
   for (const auto& method : ImplicitMethods()) {
-    if (method->called() == "backward") continue;  // which has no other iteration
     Integration<double> run = integrate<double>(model_of(RunningAway(), 0, 0), method, 1.0);
     EXPECT_EQ(run.steps(1).status(), Status::not_converged) << method->called();
   }
@@ -186,6 +173,56 @@ TEST(Rest, IteratesThatRunAwayAreNoEndOfTheMotion) {
       integrate<double>(model_of(Ending(), 0, 0), method_named("gauss", {{"stages", "2"}}), 1.0);
   EXPECT_EQ(ends.steps(1).status(), Status::converged);
   EXPECT_EQ(ends.steps(1).status(), Status::non_finite);
+}
+
+// A force that is bounded, so that iterates come back from anywhere at once, and steps at which they jump
+// about. What they are compared with takes no part in it.
+struct BesideFree {
+  static constexpr int dimension = 4;
+  template <class T>
+  void field(const T& /*t*/, In<T> z, Out<T> rate) const {
+    rate[0] = z[2] / sqrt(T(1) + z[2] * z[2]);
+    rate[1] = z[3];
+    rate[2] = -(z[0] / sqrt(T(1) + z[0] * z[0])) * 1000;
+    rate[3] = T(0);
+  }
+};
+TEST(Rest, ALargeNumberBesideDoesNotMakeChaosConverge) {
+  SystemDescriptor descriptor{.name = "beside-free", .title = "", .reference = "landau-lifshitz1976"};
+  descriptor.coordinates = {{"q", ""}, {"x", ""}, {"p", ""}, {"y", ""}};
+  const auto ends = [&](const std::shared_ptr<const MethodInstance>& method, int exponent) {
+    descriptor.initial = {Real::fraction(1, 2), Real(Quad(std::ldexp(1.0, exponent))), Real::fraction(1, 10),
+                          0};
+    Integration<double> run = integrate<double>(make_model(descriptor, BesideFree()), method, 0.7);
+    return run.steps(20).status();
+  };
+  int failing = 0;
+  for (const auto& method : ImplicitMethods()) {
+    const Status alone = ends(method, 0);
+    failing += alone == Status::not_converged ? 1 : 0;
+    for (const int exponent : {20, 30, 40})
+      EXPECT_EQ(ends(method, exponent), alone) << method->called() << ", 2^" << exponent;
+  }
+  EXPECT_GE(failing, 3);
+}
+
+struct Pendulum {
+  static constexpr int dimension = 2;
+  template <class T>
+  void field(const T& /*t*/, In<T> z, Out<T> rate) const {
+    rate[0] = z[1];
+    rate[1] = -sin(z[0]) * 100;
+  }
+};
+// Such a step is tried once more, and must not become one of the method by which the table starts.
+TEST(Rest, MultistepMethodsThatDoNotConvergeAreNoOthers) {
+  const auto table = read_method_table(shipped_tables + "milne-simpson.toml");
+  const auto model = model_of(Pendulum(), Real::fraction(1, 2), 0);
+  Integration<double> fine = integrate<double>(model, table->make({}), 0.125);
+  EXPECT_EQ(fine.steps(4).status(), Status::converged);  // the control
+  Integration<double> coarse = integrate<double>(model, table->make({}), 0.25);
+  EXPECT_EQ(coarse.steps(4).status(), Status::not_converged);
+  EXPECT_EQ(coarse.steps_taken(), 1);
 }
 
 TEST(Rest, WhatHasNoSolutionDoesNotConverge) {

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <limits>
 
-#include <pfaff/core/numbers/dual.hpp>
+#include <pfaff/core/facets/scalars.hpp>
 #include <pfaff/core/numbers/functions.hpp>
 
 namespace pfaff {
