@@ -75,7 +75,7 @@ class FirstOrderForm final : public CollocationForm<P> {
             p.field_jacobian(t + h / T(2), z, jacobian_);
             ++p.counters().factorisations;
             return iteration_.solve_by_newton(
-                evaluate, jacobian_, scale_.data(),
+                evaluate, jacobian_, scale_.data(), [&z](std::size_t k) { return z[k]; },
                 [&](std::size_t k) {
                   return this->beside_rounding(z[k], h, &jacobian_[k * p.size()], z.data(), p.size());
                 },

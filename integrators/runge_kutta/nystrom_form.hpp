@@ -225,7 +225,7 @@ class NystromForm final : public CollocationForm<P> {
       }
     ++p.counters().factorisations;
     return iteration_.solve_by_newton(
-        evaluate, slopes_, scale_.data(),
+        evaluate, slopes_, scale_.data(), [&](std::size_t k) { return unit_mass_ ? z[k] : momentum_[k]; },
         [&](std::size_t k) {
           return this->beside_rounding(unit_mass_ ? z[k] : momentum_[k], h * h, &jacobian_[(m + k) * n],
                                        z.data(), m);

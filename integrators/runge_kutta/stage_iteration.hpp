@@ -122,10 +122,11 @@ class StageIteration : private StageLayout<T, Components, Stages> {
   }
 
   /// The same by simplified Newton iteration, where the rates' derivatives are scale_j G, G m x m and
-  /// row-major. Corrections of component k are measured by size(k).
-  template <class Evaluate, class Size>
+  /// row-major. Corrections of component k are measured by size(k) or, in the end, rounding(k) (newton()).
+  template <class Evaluate, class Size, class Rounding>
   [[gnu::noinline]] Status solve_by_newton(const Evaluate& evaluate, const std::vector<T>& slopes,
-                                           const T* scale, const Size& size, auto&& iterations) {
+                                           const T* scale, const Size& size, const Rounding& rounding,
+                                           auto&& iterations) {
     const std::size_t s = stages(), m = components();
     if (!newton_) newton_ = std::make_unique<Newton>(s * m);
     Newton& w = *newton_;
@@ -141,6 +142,7 @@ class StageIteration : private StageLayout<T, Components, Stages> {
       for (std::size_t k = 0; k < m; ++k) {
         w.unknowns[i * m + k] = Lanes::get(at(line_, i, k), i % width);
         w.reference[i * m + k] = size(k);
+        w.rounding[i * m + k] = rounding(k);
       }
     const auto evaluate_there = [&] {
       for (std::size_t lane = 0; lane < blocks() * width; ++lane)
@@ -158,7 +160,7 @@ class StageIteration : private StageLayout<T, Components, Stages> {
             for (std::size_t k = 0; k < m; ++k)
               residual[i * m + k] = unknowns[i * m + k] - stage(stage_, i, k);
         },
-        w.unknowns, w.reference, w.residual, w.correction, 100, count);
+        w.unknowns, w.reference, w.residual, w.correction, 100, count, w.rounding);
     iterations += count;
     if (status != Status::converged) return status;
     evaluate_there();
@@ -180,9 +182,10 @@ class StageIteration : private StageLayout<T, Components, Stages> {
 
  private:
   struct Newton {
-    explicit Newton(std::size_t n) : matrix(n), unknowns(n), reference(n), residual(n), correction(n) {}
+    explicit Newton(std::size_t n)
+        : matrix(n), unknowns(n), reference(n), rounding(n), residual(n), correction(n) {}
     LU<Number> matrix;
-    std::vector<T> unknowns, reference, residual, correction;
+    std::vector<T> unknowns, reference, rounding, residual, correction;
   };
 
   // f(k) for every component, unrolled where they are few. What an iteration consists of is inlined by force:
