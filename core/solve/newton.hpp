@@ -14,13 +14,13 @@ namespace pfaff {
 /// `residual(x, r)` fills r. The correction of a component is judged by the larger of its `reference` and its
 /// own size (Convergence). `correction` and `r` are buffers of x's size. On return x is the last iterate and
 /// `iterations` their number. `rounding`, where it is not empty, has larger references, what the residuals
-/// are made of: after a dozen iterations in vain it is enough to have converged by these, since a component
+/// are made of: after forty iterations in vain it is enough to have converged by these, since a component
 /// may be smaller than what its residual rounds.
 template <class T, class Residual>
 Status newton(const LU<Value<T>>& matrix, Residual&& residual, std::span<T> x, std::span<const T> reference,
               std::span<T> r, std::span<T> correction, int limit, int& iterations,
               std::span<const T> rounding = {}) {
-  constexpr int in_vain = 12;
+  constexpr int in_vain = 40;
   Convergence<T> convergence, rounded;
   bool ends = false, by_rounding = false;
   do {
