@@ -136,9 +136,7 @@ void add_dirac_bracket(Point<T>& at, json& j) {
   if (!model.constrained() || model.constraint_names().size() > most_dense) return;
   const ConstraintBrackets<T> brackets = constraint_brackets(model, at.t, at.z);
   const std::size_t n = at.z.size(), count = brackets.values.size();
-  const Matrix<T> sharps = brackets.tensor * brackets.gradients.transposed();
-  j["dirac_bracket"] =
-      rows(brackets.tensor - sharps * (inverse(brackets.brackets) * (brackets.gradients * brackets.tensor)));
+  j["dirac_bracket"] = rows(dirac_tensor(brackets));
 
   const FormulationPlugin& dirac = dirac_formulation();
   const auto raw = unformulated(model);

@@ -12,6 +12,7 @@
 #include <pfaff/python/src/objects.hpp>
 #include <pfaff/runs/asked_for.hpp>
 #include <pfaff/runs/motion.hpp>
+#include <pfaff/runs/support/constraint_brackets.hpp>
 
 namespace py = pybind11;
 
@@ -50,7 +51,7 @@ std::vector<double> values_of(std::shared_ptr<const Tape> tape, double t, const 
   return values;
 }
 
-// {f, g} = df . Pi dg, with the tensor of the system, in its motion where it has constraints.
+// {f, g} = df . Pi dg, with the tensor of the system, or of Dirac's bracket where it has constraints.
 double bracket_of(const PySystem& system, const PyTape& f, const PyTape& g, double t,
                   const std::vector<double>& z) {
   return without_lock([&] {
@@ -61,11 +62,17 @@ double bracket_of(const PySystem& system, const PyTape& f, const PyTape& g, doub
     const auto gradient = [&](const PyTape& of) {
       return values_of(std::make_shared<const Tape>(jacobian_tape(*of.tape)), t, z);
     };
-    const std::vector<double> tensor = values_of(model->tape(Formula::poisson_tensor), t, z);
+    Matrix<double> tensor(z.size(), z.size());
+    if (model->constrained()) {
+      tensor = dirac_tensor(constraint_brackets<double>(*model, t, z));
+    } else {
+      const std::vector<double> entries = values_of(model->tape(Formula::poisson_tensor), t, z);
+      for (std::size_t k = 0; k < entries.size(); ++k) tensor(k / z.size(), k % z.size()) = entries[k];
+    }
     const std::vector<double> df = gradient(f), dg = gradient(g);
     double sum = 0;
     for (std::size_t i = 0; i < z.size(); ++i)
-      for (std::size_t j = 0; j < z.size(); ++j) sum += df[i] * tensor[i * z.size() + j] * dg[j];
+      for (std::size_t j = 0; j < z.size(); ++j) sum += df[i] * tensor(i, j) * dg[j];
     return sum;
   });
 }

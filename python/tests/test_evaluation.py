@@ -30,6 +30,13 @@ def test_constraints_have_a_dirac_bracket_that_is_skew():
     assert np.abs(tensor + tensor.T).max() < 1e-15  # sums of the same products in the other order
 
 
+def test_brackets_of_functions_are_dirac_s_where_there_are_constraints():
+    z = [0.6, 0.0, -0.8, 0.4, 0.9, 0.3]  # on the unit sphere, with p along it
+    of = lambda f, g: pfaff.bracket(f, g, z, on="spherical-pendulum")  # noqa: E731
+    assert of(lambda x: x, lambda p_x: p_x) == pytest.approx(1 - 0.6**2, abs=1e-15)
+    assert of(lambda p_x: p_x, lambda p_y: p_y) == pytest.approx(0 * 0.4 - 0.6 * 0.9, abs=1e-15)  # y p_x - x p_y
+
+
 def test_brackets_of_functions():
     z = [0.3, 0.4, 0.5, 0.6]
     # {q1 p2 - q2 p1, q1} = q2 and {H, q1} = -p1, by hand

@@ -26,4 +26,11 @@ struct ConstraintBrackets {
 template <class T>
 ConstraintBrackets<T> constraint_brackets(const Model& model, const T& t, const std::vector<T>& z);
 
+/// The tensor of Dirac's bracket, n x n: Pi - Pi dphi^T W^-1 dphi Pi. Not finite where W is singular.
+template <class T>
+Matrix<T> dirac_tensor(const ConstraintBrackets<T>& of) {
+  const Matrix<T> sharps = of.tensor * of.gradients.transposed();
+  return of.tensor - sharps * (inverse(of.brackets) * (of.gradients * of.tensor));
+}
+
 }  // namespace pfaff
