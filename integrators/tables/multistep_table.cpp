@@ -82,7 +82,7 @@ struct MultistepTable {
     const Status status = w.known < steps ? starter.step(p, t, h, z, w.starting) : recur(p, t, h, z, w);
     if (status != Status::converged) {
       w.continuation.forget();
-      if (w.known == steps) w.failure.remember(t, h, z);
+      if (w.known == steps && status == Status::not_converged) w.failure.remember(t, h, z);
       return status;
     }
     if (w.known < steps)
