@@ -138,12 +138,14 @@ class StageIteration : private StageLayout<T, Components, Stages> {
         w.matrix(row, column) = (row == column ? Number(1) : Number(0)) - value_of(coupling);
       }
     if (!w.matrix.factor()) return Status::singular;
-    for (std::size_t i = 0; i < s; ++i)
-      for (std::size_t k = 0; k < m; ++k) {
+    for (std::size_t k = 0; k < m; ++k) {
+      const T reference = size(k), larger = rounding(k);
+      for (std::size_t i = 0; i < s; ++i) {
         w.unknowns[i * m + k] = Lanes::get(at(line_, i, k), i % width);
-        w.reference[i * m + k] = size(k);
-        w.rounding[i * m + k] = rounding(k);
+        w.reference[i * m + k] = reference;
+        w.rounding[i * m + k] = larger;
       }
+    }
     const auto evaluate_there = [&] {
       for (std::size_t lane = 0; lane < blocks() * width; ++lane)
         for (std::size_t k = 0; k < m; ++k)

@@ -17,8 +17,8 @@ namespace {
 using testing::method_named;
 using testing::shipped_tables;
 
-// A mass on a damped spring that carries its weight: at rest, q = -weight.
-struct HungUp {
+// A mass on a spring that carries its weight: at rest, q = -weight.
+struct Hanging {
   static constexpr int dimension = 2;
   template <class T>
   T kinetic(const T& /*t*/, In<T> p) const {
@@ -28,19 +28,10 @@ struct HungUp {
   T potential(const T& /*t*/, In<T> q) const {
     return q[0] * q[0] / 2 + T(Real::fraction(981, 100)) * q[0];
   }
-  [[nodiscard]] Real damping() const { return Real(1); }
 };
-// The same without damping, from rest almost where it stays.
-struct Hanging {
-  static constexpr int dimension = 2;
-  template <class T>
-  T kinetic(const T& t, In<T> p) const {
-    return HungUp().kinetic(t, p);
-  }
-  template <class T>
-  T potential(const T& t, In<T> q) const {
-    return HungUp().potential(t, q);
-  }
+// The same with damping.
+struct DampedHanging : Hanging {
+  [[nodiscard]] Real damping() const { return Real(1); }
 };
 // A damped particle between two wells, whose positions are counted in `unit`: at rest, q = unit or -unit.
 struct TwoWells {
@@ -120,7 +111,7 @@ void every_method_comes_to_rest(std::vector<T> steps, double time) {
   const T u = unit_roundoff<T>(), g = T(981) / T(100);
   for (const auto& method : ImplicitMethods())
     for (const T& h : steps) {
-      comes_to<T>(model_of(HungUp(), 0, 0), method, h, time, -g, 64 * u * g);
+      comes_to<T>(model_of(DampedHanging(), 0, 0), method, h, time, -g, 64 * u * g);
       for (const int exponent : {-20, 0, 20}) {
         const Real unit = Real(Quad(std::ldexp(1.0, exponent)));
         comes_to<T>(model_of(TwoWells{unit}, Real::fraction(8, 5) * unit, Real::fraction(3, 10)), method, h,
@@ -175,8 +166,8 @@ TEST(Rest, IteratesThatRunAwayAreNoEndOfTheMotion) {
   EXPECT_EQ(ends.steps(1).status(), Status::non_finite);
 }
 
-// A force that is bounded, so that iterates come back from anywhere at once, and steps at which they jump
-// about. What they are compared with takes no part in it.
+// A bounded force between q and p, from whose iterates at long steps each next one may lie anywhere, and x
+// and y, which are free: their size must not decide whether q and p have converged.
 struct BesideFree {
   static constexpr int dimension = 4;
   template <class T>
