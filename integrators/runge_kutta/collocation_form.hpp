@@ -4,8 +4,6 @@
 // interface a step costs one virtual call.
 #pragma once
 
-#include <algorithm>
-
 #include <pfaff/core/errors/status.hpp>
 #include <pfaff/core/facets/problem.hpp>
 
@@ -41,19 +39,13 @@ class CollocationForm {
     return value_of(x) < Number(0) ? x - rounded : x + rounded;
   }
   /// What a fixed-point iteration or, where it has come to nothing, Newton's has ended with. Iterates of a
-  /// stiff motion may leave the range of numbers before they are seen to diverge, and those of Newton's
-  /// method at a step that is too large, too: that is not the end of the motion where `there`, what the
-  /// iterations evaluate, at the start of the step, is finite.
-  template <class Newton, class Evaluate>
-  static Status or_by_newton(Status status, const Newton& newton, const Evaluate& there) {
+  /// stiff motion may leave the range of numbers before they are seen to diverge, as those of a motion that
+  /// leaves it do, too: these are told apart by whether Newton's converge.
+  template <class Newton>
+  static Status or_by_newton(Status status, const Newton& newton) {
     if (status != Status::not_converged && status != Status::non_finite) return status;
     const Status by_newton = newton();
-    const bool overflows = status == Status::non_finite || by_newton == Status::non_finite;
-    if (by_newton == Status::converged || !overflows) return by_newton;
-    const auto& rates = there();
-    const bool finite =
-        std::all_of(rates.begin(), rates.end(), [](const T& x) { return isfinite(value_of(x)); });
-    return finite ? Status::not_converged : Status::non_finite;
+    return by_newton != Status::converged && status == Status::non_finite ? status : by_newton;
   }
 };
 

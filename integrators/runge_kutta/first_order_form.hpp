@@ -68,23 +68,17 @@ class FirstOrderForm final : public CollocationForm<P> {
     Status status =
         iteration_.template solve<Field::inlined>(evaluate, on_constraints(p), p.counters().iterations);
     if constexpr (HasFieldJacobian<P>)
-      status = this->or_by_newton(
-          status,
-          [&] {
-            jacobian_.resize(p.size() * p.size());  // of a large system, at the first use
-            p.field_jacobian(t + h / T(2), z, jacobian_);
-            ++p.counters().factorisations;
-            return iteration_.solve_by_newton(
-                evaluate, jacobian_, scale_.data(), [&z](std::size_t k) { return z[k]; },
-                [&](std::size_t k) {
-                  return this->beside_rounding(z[k], h, &jacobian_[k * p.size()], z.data(), p.size());
-                },
-                p.counters().iterations);
-          },
-          [&]() -> const State<P>& {
-            p.field(t, z, rate_);
-            return rate_;
-          });
+      status = this->or_by_newton(status, [&] {
+        jacobian_.resize(p.size() * p.size());  // of a large system, at the first use
+        p.field_jacobian(t + h / T(2), z, jacobian_);
+        ++p.counters().factorisations;
+        return iteration_.solve_by_newton(
+            evaluate, jacobian_, scale_.data(), [&z](std::size_t k) { return z[k]; },
+            [&](std::size_t k) {
+              return this->beside_rounding(z[k], h, &jacobian_[k * p.size()], z.data(), p.size());
+            },
+            p.counters().iterations);
+      });
     if (status != Status::converged) {
       iteration_.forget();
       return status;

@@ -98,12 +98,7 @@ class NystromForm final : public CollocationForm<P> {
     };
     Status status = iteration_.template solve<Force::inlined>(evaluate, false, p.counters().iterations);
     if constexpr (HasFieldJacobian<P>)
-      status = this->or_by_newton(
-          status, [&] { return correct_by_newton(p, t, h, z, evaluate); },
-          [&] {
-            p.force(t, In<T>(z.data(), degrees()), Out<T>(force_.data(), degrees()));
-            return In<T>(force_.data(), degrees());
-          });
+      status = this->or_by_newton(status, [&] { return correct_by_newton(p, t, h, z, evaluate); });
     if (status != Status::converged) {
       continuation_.forget();
       return status;

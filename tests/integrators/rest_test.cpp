@@ -138,34 +138,6 @@ TEST(Rest, StiffMotionsComeToIt) {
   comes_to<double>(model, radau->make({}), 0.125, 2, 1, 0.125 * 50000 * unit_roundoff<double>());
 }
 
-// Its iterates leave the range of numbers, fixed points as those with the Jacobian of the start, where it is
-// zero.
-struct RunningAway {
-  static constexpr int dimension = 2;
-  template <class T>
-  void field(const T& /*t*/, In<T> z, Out<T> rate) const {
-    for (std::size_t k = 0; k < 2; ++k) rate[k] = T(1) - z[k] * z[k] * z[k] * 1000000000;
-  }
-};
-// The control: a motion that ends at t = 1.
-struct Ending {
-  static constexpr int dimension = 2;
-  template <class T>
-  void field(const T& t, In<T> /*z*/, Out<T> rate) const {
-    rate[0] = rate[1] = T(1) / sqrt(T(1) - t);
-  }
-};
-TEST(Rest, IteratesThatRunAwayAreNoEndOfTheMotion) {
-  for (const auto& method : ImplicitMethods()) {
-    Integration<double> run = integrate<double>(model_of(RunningAway(), 0, 0), method, 1.0);
-    EXPECT_EQ(run.steps(1).status(), Status::not_converged) << method->called();
-  }
-  Integration<double> ends =
-      integrate<double>(model_of(Ending(), 0, 0), method_named("gauss", {{"stages", "2"}}), 1.0);
-  EXPECT_EQ(ends.steps(1).status(), Status::converged);
-  EXPECT_EQ(ends.steps(1).status(), Status::non_finite);
-}
-
 // A bounded force between q and p, from whose iterates at long steps each next one may lie anywhere, and x
 // and y, which are free: their size must not decide whether q and p have converged.
 struct BesideFree {
