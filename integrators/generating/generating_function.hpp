@@ -17,7 +17,9 @@
 // is y + psi(w) at the last w that was evaluated, and what its correction changes of psi. This
 // rounds as w - y doubled does, with a bias that docs/drift-and-cost.md measures. The structure holds only as
 // accurately as this equation is solved. The iteration therefore goes on to round-off in every component by
-// itself, because a chart such as (r, e^{nu t} p) mixes numbers forty decades apart.
+// itself, because a chart such as (r, e^{nu t} p) mixes numbers forty decades apart. Where a motion comes to
+// rest a component is smaller than what the forces that cancel there round (beside_rounding.hpp): after 25
+// iterations in vain it is enough to have converged by that, and secants of roundings are forgotten.
 #pragma once
 
 #include <algorithm>
@@ -32,6 +34,7 @@
 #include <pfaff/integrators/generating/expected_change.hpp>
 #include <pfaff/integrators/generating/extra_degrees.hpp>
 #include <pfaff/integrators/generating/gradient_evaluator.hpp>
+#include <pfaff/integrators/support/beside_rounding.hpp>
 #include <pfaff/integrators/support/continuation.hpp>
 #include <pfaff/integrators/support/remembered_contraction.hpp>
 #include <pfaff/integrators/support/secant_convergence.hpp>
@@ -43,6 +46,8 @@ namespace pfaff {
 struct GeneratingFunction {
   /// The largest number of coordinates for which the correction factors a matrix.
   static constexpr std::size_t largest_matrix = 8;
+  /// The most iterations of a step, and how many more there may be where roundings are all that is left.
+  static constexpr int own_iterations = 25, last_iterations = 50;
   int truncation = 4;
   std::string variant = "auto", form = "midpoint", extra = "auto";
   std::vector<Real> normal;
@@ -134,6 +139,7 @@ struct GeneratingFunction {
     std::array<Value<T>, 2> largest{};      // of the positions and of the momenta in the chart
     Continuation<P> continuation;
     RememberedContraction<Value<T>> contraction;  // of the corrections: the slowest since the start
+    std::vector<T> slopes, rounding;              // made by the first step that asks for them
 
     Work(const GeneratingFunction& m, const P& p) : Work(m, p, p.size()) {
       p.prepare(Formula::chart_field);
@@ -163,30 +169,47 @@ struct GeneratingFunction {
           continuation(p) {}
 
     [[nodiscard]] bool factors() const { return y.size() <= largest_matrix; }
+    // 0 for a position in the chart, 1 for a momentum.
+    [[nodiscard]] std::size_t kind(std::size_t k) const { return 2 * k < y.size() ? 0 : 1; }
     // What corrections of component k are measured by: the component, or 2^-26 of the largest position or
     // momentum, so that the front of a wave that enters a chain need not be known to its own last digit.
     // Derivatives are measured by those of the component.
     [[nodiscard]] T reference(std::size_t k) const {
-      const Value<T> least = largest[2 * k < y.size() ? 0 : 1] * Value<T>(0x1p-26);
+      const Value<T> least = largest[kind(k)] * Value<T>(0x1p-26);
       return abs(value_of(y[k])) < least ? T(least) + (y[k] - T(value_of(y[k]))) : y[k];
     }
     void measure() {
       largest = {};
       for (std::size_t k = 0; k < y.size(); ++k)
-        largest[2 * k < y.size() ? 0 : 1] =
-            std::max(largest[2 * k < y.size() ? 0 : 1], Value<T>(abs(value_of(y[k]))));
+        largest[kind(k)] = std::max(largest[kind(k)], Value<T>(abs(value_of(y[k]))));
+    }
+    // The references of roundings, for the step of size h whose middle is at this time.
+    void find_rounding(const P& p, const T& middle, const T& h) {
+      const std::size_t n = y.size();
+      slopes.resize(n * n);
+      rounding.resize(n);
+      p.chart_field_jacobian(middle, w, slopes);
+      for (std::size_t k = 0; k < n; ++k)
+        rounding[k] = beside_rounding(reference(k), h, &slopes[k * n], w.data(), n);
     }
     // True where positions or momenta ended four times as far from the prediction as they and their predicted
-    // change are large. At steps that are too long the equation has solutions far away, which a secant can
-    // hit and which are not the motion.
-    [[nodiscard]] bool on_another_branch() const {
+    // change are large, and 2^-26 of what the forces are made of: at rest these cancel. At steps that are too
+    // long the equation has solutions far away, which a secant can hit and which are not the motion.
+    [[nodiscard]] bool on_another_branch(const P& p, const T& middle, const T& h) {
       std::array<Value<T>, 2> gone{}, expected = largest;
       for (std::size_t k = 0; k < y.size(); ++k) {
-        const std::size_t kind = 2 * k < y.size() ? 0 : 1;
-        gone[kind] = std::max(gone[kind], Value<T>(abs(value_of(d[k]) - predicted[k])));
-        expected[kind] = std::max(expected[kind], Value<T>(abs(predicted[k])));
+        gone[kind(k)] = std::max(gone[kind(k)], Value<T>(abs(value_of(d[k]) - predicted[k])));
+        expected[kind(k)] = std::max(expected[kind(k)], Value<T>(abs(predicted[k])));
       }
-      return gone[0] > Value<T>(4) * expected[0] || gone[1] > Value<T>(4) * expected[1];
+      const auto far = [&] {
+        return gone[0] > Value<T>(4) * expected[0] || gone[1] > Value<T>(4) * expected[1];
+      };
+      if (!far()) return false;
+      find_rounding(p, middle, h);
+      for (std::size_t k = 0; k < y.size(); ++k)
+        expected[kind(k)] =
+            std::max(expected[kind(k)], Value<T>(abs(value_of(rounding[k]) * Value<T>(0x1p-26))));
+      return far();
     }
     // w = y + d, with what the sums so far have rounded off.
     void place() {
@@ -206,11 +229,7 @@ struct GeneratingFunction {
     w.secants.forget();
     SecantConvergence<T> convergence;
     do {
-      w.gradient(w.w.data(), w.psi.data());
-      ++p.counters().iterations;
-      p.counters().fields += static_cast<std::int64_t>(w.gradient.evaluations());
-      for (std::size_t k = 0; k < w.y.size(); ++k) w.residual[k] = w.share.row(k, w.psi.data()) - w.d[k];
-      correct(p, t, h, w);
+      find_correction(p, t, h, w);
       if (w.factors()) w.secants.improve(w.correction, w.y, w.psi);
       convergence.begin_iteration();
       for (std::size_t k = 0; k < w.y.size(); ++k) {
@@ -218,9 +237,11 @@ struct GeneratingFunction {
         convergence.add(w.correction[k], w.reference(k), w.psi[k]);
       }
       w.place();
-    } while (!convergence.finished(50, w.contraction.ratio()));
-    if (convergence.status() != Status::converged) return w.fail(convergence.status());
-    if (w.on_another_branch()) return w.fail(Status::not_converged);
+    } while (!convergence.finished(own_iterations, w.contraction.ratio()));
+    Status status = convergence.status();
+    if (status == Status::not_converged) status = begin_anew(p, t, h, w);
+    if (status != Status::converged) return w.fail(status);
+    if (w.on_another_branch(p, t + h / T(2), h)) return w.fail(Status::not_converged);
     w.contraction.remember_slowest(convergence.contraction());
 
     if (!w.midpoint) w.gradient(w.w.data(), w.psi.data());
@@ -257,6 +278,31 @@ struct GeneratingFunction {
     if (!w.factors()) return Status::converged;
     ++p.counters().factorisations;
     return w.matrix.factor(p, t, h, w.share, w.y, w.w, w.change);
+  }
+
+  // What the equation lacks at w, and by how much to correct w.
+  template <class P>
+  static void find_correction(const P& p, const Scalar<P>& t, const Scalar<P>& h, Work<P>& w) {
+    w.gradient(w.w.data(), w.psi.data());
+    ++p.counters().iterations;
+    p.counters().fields += static_cast<std::int64_t>(w.gradient.evaluations());
+    for (std::size_t k = 0; k < w.y.size(); ++k) w.residual[k] = w.share.row(k, w.psi.data()) - w.d[k];
+    correct(p, t, h, w);
+  }
+
+  // Begins anew without secants: roundings teach them nothing, and may have thrown w far away.
+  template <class P>
+  [[gnu::noinline]] static Status begin_anew(const P& p, const Scalar<P>& t, const Scalar<P>& h, Work<P>& w) {
+    for (std::size_t k = 0; k < w.y.size(); ++k) w.d[k] = Scalar<P>(w.predicted[k]);
+    w.place();
+    w.find_rounding(p, t + h / Scalar<P>(2), h);
+    const auto correct_once = [&] {
+      find_correction(p, t, h, w);
+      for (std::size_t k = 0; k < w.y.size(); ++k) w.d[k] = w.d[k] + w.correction[k];
+      w.place();
+      return Status::converged;
+    };
+    return end_by_rounding(last_iterations, correct_once, w.correction, w.rounding, w.psi);
   }
 
   // Solves (I - h P Y_y) correction = residual. Without a matrix it does so by a few iterations of

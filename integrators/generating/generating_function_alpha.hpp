@@ -28,6 +28,7 @@
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/integrators/generating/alpha_gradient.hpp>
 #include <pfaff/integrators/generating/generating_map_check.hpp>
+#include <pfaff/integrators/support/beside_rounding.hpp>
 #include <pfaff/integrators/support/difference_predictor.hpp>
 
 namespace pfaff {
@@ -72,7 +73,7 @@ struct GeneratingFunctionAlpha {
     AlphaGradient<T> gradient;
     Replay<T> alpha;
     Replay<Number> alpha_jacobian;
-    std::vector<T> pair, values, psi, residual, correction, rate, middle, jacobian, last_z;
+    std::vector<T> pair, values, psi, residual, correction, rounding, rate, middle, jacobian, last_z;
     std::vector<Number> numbers, blocks, flow, right, solved, newton_row;
     LU<Number> half_step, denominator, newton;
     DifferencePredictor<T, dynamic, dynamic> past;  // of z' - z
@@ -89,6 +90,7 @@ struct GeneratingFunctionAlpha {
           psi(n),
           residual(n),
           correction(n),
+          rounding(n),
           rate(n),
           middle(n),
           jacobian(n * n),
@@ -138,8 +140,7 @@ struct GeneratingFunctionAlpha {
     if (const Status status = factor(p, t, h, w); status != Status::converged) return status;
     w.gradient.set_step(t, h);
     w.gradient.search_from(w.middle, z);
-    Convergence<T> convergence;
-    do {
+    const auto correct = [&] {
       w.alpha(t + h, w.pair.data(), w.values.data());
       if (const Status status = w.gradient(w.values.data() + w.n, w.psi.data()); status != Status::converged)
         return status;
@@ -147,13 +148,22 @@ struct GeneratingFunctionAlpha {
       p.counters().fields += static_cast<std::int64_t>(w.gradient.evaluations());
       for (std::size_t k = 0; k < w.n; ++k) w.residual[k] = w.psi[k] - w.values[k];
       w.newton.solve(w.residual.data(), w.correction.data());
+      for (std::size_t k = 0; k < w.n; ++k) w.pair[k] = w.pair[k] + w.correction[k];
+      return Status::converged;
+    };
+    Convergence<T> convergence;
+    do {
+      if (const Status status = correct(); status != Status::converged) return status;
       convergence.begin_iteration();
-      for (std::size_t k = 0; k < w.n; ++k) {
-        w.pair[k] = w.pair[k] + w.correction[k];
-        convergence.add(w.correction[k], z[k], w.pair[k]);
-      }
+      for (std::size_t k = 0; k < w.n; ++k) convergence.add(w.correction[k], z[k], w.pair[k]);
     } while (!convergence.finished(50));
-    if (convergence.status() != Status::converged) return convergence.status();
+    Status status = convergence.status();
+    if (status == Status::not_converged) {
+      for (std::size_t k = 0; k < w.n; ++k)
+        w.rounding[k] = beside_rounding(z[k], h, &w.jacobian[k * w.n], z.data(), w.n);
+      status = end_by_rounding(50, correct, w.correction, w.rounding, w.pair);
+    }
+    if (status != Status::converged) return status;
 
     w.past.remember([&](std::size_t k) { return w.pair[k] - z[k]; });
     for (std::size_t k = 0; k < w.n; ++k) z[k] = w.last_z[k] = w.pair[k];

@@ -28,16 +28,6 @@ class CollocationForm {
   virtual void hand_over(CollocationForm& next) = 0;
 
  protected:
-  /// What corrections of a component are measured against: x, and what the rate rounds that is added to it.
-  /// Where a motion comes to rest terms of a rate cancel that are large beside a momentum of nearly zero, and
-  /// each of them, about |dX/dz_j z_j|, is rounded. `slopes` are those of the rate at the `count` numbers of
-  /// z.
-  static T beside_rounding(const T& x, const T& h, const T* slopes, const T* z, std::size_t count) {
-    Number terms(0);
-    for (std::size_t j = 0; j < count; ++j) terms = terms + abs(value_of(slopes[j])) * abs(value_of(z[j]));
-    const T rounded(Number(abs(value_of(h)) * terms));
-    return value_of(x) < Number(0) ? x - rounded : x + rounded;
-  }
   /// What a fixed-point iteration or, where it has come to nothing, Newton's has ended with. Iterates of a
   /// stiff motion may leave the range of numbers before they are seen to diverge, as those of a motion that
   /// leaves it do, too: these are told apart by whether Newton's converge.

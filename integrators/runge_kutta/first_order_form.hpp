@@ -15,6 +15,7 @@
 #include <pfaff/integrators/runge_kutta/collocation_form.hpp>
 #include <pfaff/integrators/runge_kutta/formula_in_lanes.hpp>
 #include <pfaff/integrators/runge_kutta/stage_iteration.hpp>
+#include <pfaff/integrators/support/beside_rounding.hpp>
 
 namespace pfaff {
 
@@ -75,7 +76,7 @@ class FirstOrderForm final : public CollocationForm<P> {
         return iteration_.solve_by_newton(
             evaluate, jacobian_, scale_.data(), [&z](std::size_t k) { return z[k]; },
             [&](std::size_t k) {
-              return this->beside_rounding(z[k], h, &jacobian_[k * p.size()], z.data(), p.size());
+              return beside_rounding(z[k], h, &jacobian_[k * p.size()], z.data(), p.size());
             },
             p.counters().iterations);
       });

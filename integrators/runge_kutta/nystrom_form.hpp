@@ -20,6 +20,7 @@
 #include <pfaff/integrators/runge_kutta/collocation_form.hpp>
 #include <pfaff/integrators/runge_kutta/formula_in_lanes.hpp>
 #include <pfaff/integrators/runge_kutta/stage_iteration.hpp>
+#include <pfaff/integrators/support/beside_rounding.hpp>
 #include <pfaff/integrators/support/continuation.hpp>
 
 namespace pfaff {
@@ -222,8 +223,8 @@ class NystromForm final : public CollocationForm<P> {
     return iteration_.solve_by_newton(
         evaluate, slopes_, scale_.data(), [&](std::size_t k) { return unit_mass_ ? z[k] : momentum_[k]; },
         [&](std::size_t k) {
-          return this->beside_rounding(unit_mass_ ? z[k] : momentum_[k], h * h, &jacobian_[(m + k) * n],
-                                       z.data(), m);
+          return beside_rounding(unit_mass_ ? z[k] : momentum_[k], h * h, &jacobian_[(m + k) * n], z.data(),
+                                 m);
         },
         p.counters().iterations);
   }
