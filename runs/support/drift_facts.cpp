@@ -108,11 +108,12 @@ void maxima_of(const Series& series, Facts& facts) {
 }
 
 void ranges_of(const Series& series, const std::vector<double>& means, Facts& facts) {
-  Range all, first, second, of_means, late_means, settled_means;
+  Range all, first, second, last_eighth, of_means, late_means, settled_means;
   for (std::size_t i = 0; i < series.blocks.size(); ++i) {
     const Block& block = series.blocks[i];
     all.add(block.minimum, block.maximum);
     (series.s[i] < 0.5 ? first : second).add(block.minimum, block.maximum);
+    if (series.s[i] > 0.875) last_eighth.add(block.minimum, block.maximum);
   }
   for (std::size_t j = 0; j < means.size(); ++j) {
     of_means.add(means[j], means[j]);
@@ -121,6 +122,7 @@ void ranges_of(const Series& series, const std::vector<double>& means, Facts& fa
   }
   facts.range = all.size();
   facts.first_half = first.size() / all.size();
+  facts.last_eighth = last_eighth.size() / all.size();
   facts.shared =
       Range{std::max(first.low, second.low), std::min(first.high, second.high)}.size() / all.size();
   facts.range_of_means = of_means.size();
@@ -223,8 +225,10 @@ Facts facts_of(const Observed& observed) {
   facts.curve = facts.turns < 16 && !(facts.slowest >= 2);
   const auto steps = double(observed.rises + observed.falls);
   facts.one_sided = double(std::max(observed.rises, observed.falls)) >= 0.85 * steps;
-  if (const double range = observed.round_off.own_range(); range > 0 && facts.periods < 2)
-    facts.lost = away_at_last(series, windows.mean, 0.25 * range) / range;
+  if (const double range = observed.round_off.own_range(); range > 0) {
+    facts.moved = facts.range / range;
+    if (facts.periods < 2) facts.lost = away_at_last(series, windows.mean, 0.25 * range) / range;
+  }
   return facts;
 }
 

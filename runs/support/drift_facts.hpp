@@ -35,6 +35,8 @@ struct Facts {
   windows::ExponentialFit maxima;  // of twentieths
   std::vector<double> spreads;     // in few_windows windows
   double lost = 0;                 // share of the quantity's own range by which the last eighth is away
+  double moved = 0;                // the range of e as a share of the quantity's own
+  double last_eighth = 0;          // of the run: its share of the range of e
 
   [[nodiscard]] bool accepted() const { return trend > noise + 4; }
   [[nodiscard]] double evidence() const { return trend - noise; }

@@ -291,6 +291,9 @@ Verdict judge(const Observed& observed) {
     return verdict;
   }
   if (facts.lost >= 0.5 && !is_trend(verdict.drift_class)) return of_lost(verdict, facts, observed);
+  if (verdict.drift_class == DriftClass::bounded && facts.moved > 0.001 && facts.last_eighth < 0.02)
+    return finished(undetermined(
+        told("an event: moves by %.2g %% of the quantity, in the last eighth hardly", 100 * facts.moved)));
   return verdict;
 }
 
