@@ -13,11 +13,12 @@ import itertools
 import math
 
 from assertion import Clause, labels, three
+from drift_sentence import drift, wheres
 from ensembles import growth_of
 from experiment import ROUND_OFF
 from frequencies import frequencies
 from recording import Recording, read_recording
-from sentence import name, names, quantity, wheres
+from sentence import name, names, quantity
 from verdict import TIE
 from wording import listed, size, text
 
@@ -49,6 +50,12 @@ def growth(verdict):
                    {r.label: wheres(verdict, found[r.label][0]) for r in rows},
                    {"groups": {words: labels(some) for words, some in groups.items()} | {"": labels(untold)},
                     "powers": {r.label: list(found[r.label][1:]) for r in rows}})]
+
+
+def drift_beside_growth(verdict):
+    """Who lets the quantity drift away, of those whose power of time `growth` does not tell: by its class of drift a walk that is no
+    more than round-off adds up to is kept."""
+    return drift(verdict, but=[label for clause in growth(verdict) for label in clause.subject])
 
 
 def constraints(verdict):

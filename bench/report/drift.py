@@ -14,6 +14,7 @@ import statistics
 from assertion import said
 from canvas import MID
 from curves import ranks
+from drift_sentence import drift
 from error_measure import some_rows
 from experiment import DIRECTIONS, UNIT_ROUND_OFF
 from families import FAMILIES, style
@@ -21,7 +22,6 @@ from figures import Drawing, heading, sentences, step_text, time_label
 from first_screen import finding
 from lines import Line, Panel, draw, in_grey
 from scales import ErrorAxis, envelope, logarithmic, time_axis
-from sentence import drift
 from wording import number, plain_text
 
 

@@ -41,7 +41,7 @@ class Judge(Files):
 
     def at_level(self, a):
         """Whether the runs cost what the words say, where they say that they cost the same."""
-        runs = [(m, self.rows[a["rows"][m][0]]) for m in a["subject"] + a["not"]] if a.get("level") else []
+        runs = [(m, self.rows[a["rows"][m][0]]) for m in a["subject"] + a["not"] if m not in a.get("own", [])] if a.get("level") else []
         costs = [number(r["level_ns"]) if "level_ns" in r else
                  {p[3]: p[1] for p in self.curve(a | {"columns": ["steps"]}, m)}[self.size(r)] for m, r in runs]
         return all(1 / 1.26 < c / a["level"] < 1.26 for c in costs)
