@@ -15,12 +15,13 @@ import math
 from assertion import Clause, labels, three
 from drift_sentence import drift, wheres
 from ensembles import growth_of
-from experiment import ROUND_OFF
+from experiment import ROUND_OFF, step_key
+from figures import step_text
 from frequencies import frequencies
 from recording import Recording, read_recording
-from sentence import name, names, quantity
+from sentence import name, names, quantity, some
 from verdict import TIE
-from wording import listed, size, text
+from wording import counted, listed, size, text
 
 AGREE, DIFFER, SHARP = 1e-3, 1e-2, 0.25
 POWERS = {0.5: "as a random walk", 1.0: "in proportion to time", 0.0: "not at all"}
@@ -76,10 +77,13 @@ def constraints(verdict):
         first = [r for r in off if spans[r.label][0] <= TIE * spans[off[0].label][1]]
         last = [r for r in off if TIE * spans[r.label][1] >= spans[off[-1].label][0]]
         kind = text(level.replace("-", " ")) + "s"
-        parts = [f"{names(on)} {'stays' if len(on) == 1 else 'stay'} on the {kind}" if on else f"no method stays on the {kind}"]
+        missing = [r for r in verdict.rivals if r not in rows]
+        none = f"of {counted(len(rows), 'method')} of which it is known none stays" if missing else "no method stays"
+        at = at_steps(verdict, [runs[r.label] for r in rows])
+        parts = [f"{at}{names(on)} {'stays' if len(on) == 1 else 'stay'} on the {kind}" if on else f"{at}{none} on the {kind}"]
 
-        def ends(some):
-            low, high = min(spans[r.label][0] for r in some), max(spans[r.label][1] for r in some)
+        def ends(rows):
+            low, high = min(spans[r.label][0] for r in rows), max(spans[r.label][1] for r in rows)
             return size(high) if size(low) == size(high) else f"{size(low)} to {size(high)}"
         if off and (set(labels(first)) & set(labels(last)) or len(first) + len(last) > 6):
             parts.append(f"{names(off) if len(off) <= 4 else f'{len(off)} methods'} {'leaves' if len(off) == 1 else 'leave'} them, "
@@ -88,11 +92,19 @@ def constraints(verdict):
         elif off:
             parts.append(f"{names(first)} {'leaves' if len(first) == 1 else 'leave'} them least, by {ends(first)}, and {names(last)} "
                          f"most, by {ends(last)}")
+        parts += [f"of {some(missing)} it is not known"] if missing else []
         return [Clause("; ".join(parts), "constraints", labels(on), [f"{level}:max"],
                        {r.label: wheres(verdict, runs[r.label]) for r in rows},
                        {"off": labels(off), "least": labels(first), "most": labels(last),
                         "spans": {r.label: list(spans[r.label]) for r in rows}})]
     return []
+
+
+def at_steps(verdict, runs):
+    """At the step that most methods share, where all runs are at it, or else at the nearest that a method has."""
+    common = verdict.experiment.common_step(verdict.case)
+    nearest = "" if all(step_key(r.step) == step_key(common) for r in runs) else " or the nearest that a method has"
+    return f"at {text(step_text(common, verdict.case))}{nearest}, "
 
 
 def motions(verdict):
@@ -191,7 +203,7 @@ def turning(verdict):
         worst = [r for r in rows if TIE * at[r.label] >= at[rows[-1].label]]
         if best[-1] is worst[0] or len(best) == len(rows):
             continue
-        unknown = [m for m in lines if m not in at]
+        unknown = [r.label for r in verdict.rivals if r.label not in at]
         scope = f", of {len(rows)}{'' if out else ' steady methods'}," if unknown else ""
         place = "" if step == said else f"at step {step:.4g} "
         said = step

@@ -70,7 +70,9 @@ def below(verdict):
     parts += [below] if whole else []
     others = [r for r in verdict.rows if r not in verdict.rivals]
     if others:
-        parts.append(f"{sentence.names(others)} {'is' if len(others) == 1 else 'are'} another motion, and no rival of the others.")
+        left_out = not any(r.label in clause.rows for r in others for clause in first(verdict) + second(verdict))
+        parts.append(f"{sentence.names(others)} {'is' if len(others) == 1 else 'are'} another motion, and no rival of the others"
+                     + (", of which alone the sentences speak." if left_out else "."))
     failing = [c for _, c in verdict.experiment.claims if c["case"] == verdict.case["name"] and c["holds"] != "yes"]
     if failing:
         parts.append(f"<strong>{counted(len(failing), 'finding')} that the experiment states "

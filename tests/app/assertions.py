@@ -36,7 +36,7 @@ class Judge(Files):
         seen = [(number(r["time"]) / (n := number(r["steps"])), number(r["structure_residual"]),
                  number(r.get(a["columns"][1])) / n) for r in rows if r["structure_residual"]]
         if any(claims) or not seen or max(s[1] for s in seen) > 1e5 * unit:
-            return max(s[1] for s in seen) <= 1e5 * unit if seen else any(claims) or None
+            return max(s[1] for s in seen) <= 1e5 * unit if seen else any(claims) and bool(rows) or None
         return False if max(seen)[1] > 1e3 * unit else True if max(seen)[2] > 1e3 * unit else None
 
     def at_level(self, a):
