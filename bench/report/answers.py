@@ -12,8 +12,9 @@ import functools
 import itertools
 import math
 
+from astray import astray
 from assertion import Clause, labels, three
-from drift_sentence import drift, wheres
+from drift_sentence import drift, not_counted, wheres
 from ensembles import growth_of
 from experiment import ROUND_OFF, step_key
 from figures import step_text
@@ -32,7 +33,8 @@ def growth(verdict):
     if not case.get("seeds") or verdict.expected != "conserved":
         return []
     found = {run.method: (run, p, half) for run, p, half in growth_of(verdict.experiment, case) if not math.isnan(half)}
-    rows = [r for r in verdict.rivals if r.label in found]
+    gone = {r.label: how for r in verdict.rivals if r.label in found and (how := astray(verdict, found[r.label][0]))}
+    rows = [r for r in verdict.rivals if r.label in found and r.label not in gone]
     groups = {}
     for row in rows:
         _, p, half = found[row.label]
@@ -46,7 +48,8 @@ def growth(verdict):
         return listed(f"{name(r)} (<i>t</i><sup>{found[r.label][1]:.2f} ± {found[r.label][2]:.2f}</sup>)" for r in some)
     words = (f"rms errors of {quantity(verdict)} over {case['seeds']} seeds grow "
              + "; ".join(f"{words} with {told(some)}" for words, some in groups.items())
-             + (f"; with {names(untold)} the power is not told" if untold else ""))
+             + (f"; with {names(untold)} the power is not told" if untold else "")
+             + not_counted(verdict, [r for r in verdict.rivals if r.label in gone], lambda r: gone[r.label]))
     return [Clause(words, "grows-as", labels(r for some in groups.values() for r in some), [case["conserved"]],
                    {r.label: wheres(verdict, found[r.label][0]) for r in rows},
                    {"groups": {words: labels(some) for words, some in groups.items()} | {"": labels(untold)},

@@ -4,7 +4,8 @@ losing   whether the cheapest let the conserved quantity drift away in the run t
 drift    who lets the conserved quantity drift away, or move against its direction: of each method its run at equal cost, and of one that
          cannot cost this its nearest run. "No method" is said where that is known of every rival, in whichever of these runs; where
          one lets the quantity drift, methods at equal cost and the others have a clause each, which says of whom it is.
-What two clauses say of one method in two of its runs they say of which run, so that they do not deny each other.
+A run that makes another motion (astray.py) is not counted, whatever its class of drift, and its method is named. What two clauses say
+of one method in two of its runs they say of which run, so that they do not deny each other.
 """
 import math
 
@@ -43,18 +44,32 @@ def drift(verdict, but=(), said=()):
     """Of all rivals but those with a label in `but`, of whom another clause tells it; of those in `said` another clause has said that
     they let it drift in the run that is nearest to the target."""
     rivals = [r for r in verdict.rivals if r.label not in but]
-    rows = [r for r in rivals if r.run]
+    rows = [r for r in rivals if r.run and not r.astray]
     grow, stay, _ = three(rows, lambda r: r.drifts)
     if not verdict.invariant or len(grow) + len(stay) < 2:
         return []
     level = comparable(rows)
     apart = [r for r in rows if r not in level and r.drifts is not None]
     groups = [[r for r in rows if r not in apart], apart] if apart and grow else [rows]
-    clauses = [clause(verdict, group, rivals, bool(but), said, apart) for group in groups]
+    clauses = [clause(verdict, group, rivals, bool(but) or group != rows, said, apart) for group in groups]
     clauses[0].words = begin(verdict) + clauses[0].words
     unfinished = [r for r in rivals if not r.run]
     clauses[-1].words += f"; no run of {some(unfinished)} finished" if unfinished else ""
+    gone = [r for r in rivals if r.astray]
+    clauses[-1].words += not_counted(verdict, gone, lambda r: r.astray)
+    clauses[-1].more["astray"] = {r.label: r.astray for r in gone}
+    clauses[-1].rows |= {r.label: wheres(verdict, r.run) for r in gone}
     return clauses
+
+
+def not_counted(verdict, rows, how):
+    """Who makes another motion, and how; empty where nobody does."""
+    out = ""
+    for kind, why in (("lost", f"by whom {quantity(verdict)} is off by half of its range or more"),
+                      ("escaped", "by whom the motion goes more than twice as far as it should")):
+        of = [r for r in rows if how(r) == kind]
+        out += f"; not counted {'is' if len(of) == 1 else 'are'} {some(of)}, {why}" if of else ""
+    return out
 
 
 def begin(verdict):
@@ -62,19 +77,18 @@ def begin(verdict):
     return f"{quantity(verdict)} is expected to {verb}, and " if verb else ""
 
 
-def clause(verdict, rows, rivals, others, said, apart):
-    """Of some of the rivals; `others` are told of elsewhere, and `apart` are those that are not at equal cost."""
+def clause(verdict, rows, rivals, part, said, apart):
+    """Of some of the rivals; in `part` where others are told of elsewhere, and `apart` are those that are not at equal cost."""
     directed = verdict.expected in DIRECTIONS
     grow, stay, unknown = three(rows, lambda r: r.drifts)
     own = [r for r in rows if r in apart] if len(rows) > len(apart) else []
-    whole, part = len(stay) == len(rivals) and not others, len(grow + stay + unknown) < len([r for r in rivals if r.run]) or others
     away = f"{'it' if directed else quantity(verdict)} " + (
         f"{DIRECTIONS[verdict.expected][1]} by more than round-off" if directed else "drift away")
     if grow:
         out = listed(moving(verdict, grow))
-        rest = f"the other{'' if len(stay) == 1 else f' {len(stay)}'}" if not unknown and not part else some(stay)
+        rest = f"the other{'' if len(stay) == 1 else f' {len(stay)}'}" if len(grow + stay) == len(rivals) else some(stay)
         out += f", {rest} {'does' if len(stay) == 1 else 'do'} not" if stay else ""
-    elif whole:
+    elif len(stay) == len(rivals) and not part:
         out = f"no method lets {away}"
     elif part:
         out = (f"{name(stay[0])} does not let {away}" if len(stay) == 1 else
