@@ -58,7 +58,7 @@ def drawings(verdict):
              if row.label in named and row.label in found and len(found[row.label].times) > 1]
     if not shown:
         return []
-    axis = ErrorAxis([one.deviations[1:] for _, one in shown], UNIT_ROUND_OFF[case["precision"]])
+    axis = ErrorAxis([one.deviations[1:] for _, one in shown], UNIT_ROUND_OFF[case["precision"]], bounded=True)
     steps = {one.step for _, one in shown}
     at = step_text(steps.pop(), case) if len(steps) == 1 else "the largest step at which each method finishes"
     title = f"{heading(case)}: contraction of areas"

@@ -46,7 +46,7 @@ def drawings(verdict):
     shown = [(rows[label], found[label]) for label in verdict.in_order(found) if len(found[label].times) > 2]
     if not shown:
         return []
-    axis = ErrorAxis([one.deviations[1:] for _, one in shown], UNIT_ROUND_OFF["double"])
+    axis = ErrorAxis([one.deviations[1:] for _, one in shown], UNIT_ROUND_OFF["double"], bounded=True)
     steps = {one.step for _, one in shown}
     at = "at " + (step_text(steps.pop(), case) if len(steps) == 1 else "the largest step at which each method finishes")
     told = sentences(

@@ -12,7 +12,7 @@ from figures import Drawing, sentences, with_unit
 from frames import Animation, Figure, duration, strip
 from labels import pushed_apart
 from portraits import panels, remarks
-from scales import ErrorAxis, envelope, time_axis
+from scales import ErrorAxis, envelope, remarks_of, time_axis
 from series import read_series, run_times
 from wording import counted
 
@@ -138,12 +138,11 @@ def quantities(recording):
     unit = UNIT_ROUND_OFF.get(precision, UNIT_ROUND_OFF["double"])
     colour = family_named(recording.summary.get("family")).light
     label = "t" if times is recording.times else "time since the start"
-    zeros = sorted({r for _, lines, log in shown if log
-                    for r in ErrorAxis([v for *_, v in lines], unit).remarks()})
+    told = remarks_of([ErrorAxis([v for *_, v in lines], unit) for _, lines, log in shown if log])
     return [drawing("quantities", "Against time", sentences(
         "Grey: unit round-off." if any(log for *_, log in shown) else "",
         "Lines join the largest values in short stretches of time." if any(log for *_, log in shown) else "",
-        f"Errors are measured{at}." if (at := at_rows(recording.summary.get("error_rows"))) else "", *zeros),
+        f"Errors are measured{at}." if (at := at_rows(recording.summary.get("error_rows"))) else "", *told),
         lambda wide: small_panels(shown, with_unit(label, recording.time_unit), unit, colour, wide))]
 
 
