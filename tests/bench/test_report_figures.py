@@ -75,6 +75,13 @@ class Names(Fresh):
         low, high = work_precision.drawings(said)[0].draw(True).axes[0].get_xlim()
         costs = [p.cost for c in said.curves if c.label in said.named() for p in c.measured()]
         self.assertTrue(low < min(costs) and max(costs) < high)
+        self.assertNotIn("leave the frame", work_precision.drawings(said)[0].caption)
+
+    def test_longer_runs_of_lines_in_grey_leave_the_frame_and_this_is_said(self):
+        synthetic(self.folder, extra_methods=9)
+        self.edit("cost.csv", "ns_per_step_min", lambda x: repr(1e4 * float(x)), lambda row: row[1] == "mid")
+        shown = reading.Experiment(self.folder)
+        self.assertIn("Longer runs leave the frame on the right.", work_precision.drawings(verdict.Verdict(shown, shown.cases[0]))[0].caption)
 
 
 class Steps(unittest.TestCase):

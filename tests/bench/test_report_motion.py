@@ -9,6 +9,7 @@ import bands  # noqa: E402
 import ensembles  # noqa: E402
 import moving  # noqa: E402
 import verdict  # noqa: E402
+import work_precision  # noqa: E402
 
 SEEDS = 4
 
@@ -268,6 +269,25 @@ class Spreads(Fresh):
         self.assertAlmostEqual(median[-1] / (2.5e-9 * 10), 1, places=5)  # halfway between the second and the third
         self.assertEqual([bands.quantile([4, 1, 3, 2], part) for part in (0, 0.5, 1)], [1, 2.5, 4])
         self.assertAlmostEqual(bands.quantile([1, 2, 3, 4], 0.1), 1.3)
+
+    def test_bands_have_the_unit_of_the_quantity(self):
+        shown = reading.Experiment(walks(self.folder))
+        drawing, = bands.drawings(verdict.Verdict(shown, shown.cases[0]))
+        self.assertEqual(drawing.draw(True).axes[0].get_ylabel(), "drift of energy [J]")
+        drawing, = work_precision.drawings(verdict.Verdict(shown, shown.cases[0]))
+        self.assertEqual(drawing.draw(True).axes[0].get_ylabel(), "largest drift of energy [J]")
+
+    def test_a_line_of_fewer_than_three_times_is_named_and_not_drawn(self):
+        """The seeds of `drift` chose their steps, and have the end alone in common."""
+        walks(self.folder)
+        for seed in range(1, SEEDS + 1):
+            path = self.folder / "runs" / f"drift-{seed}" / "series.csv"
+            rows = load(path)
+            save(path, rows[:2] + [[repr(float(t) + 0.01 * seed), x] for t, x in rows[2:-1]] + rows[-1:])
+        shown = reading.Experiment(self.folder)
+        drawing, = ensembles.drawings(verdict.Verdict(shown, shown.cases[0]))
+        self.assertIn("Left out is drift, whose seeds have no three times in common.", drawing.caption)
+        self.assertEqual({t.get_text() for t in drawing.draw(True).axes[0].texts} & {"walk", "drift"}, {"walk"})
 
     def test_power_needs_positive_values(self):
         self.assertTrue(math.isnan(ensembles.exponent([1, 2, 3, 4], [0, 0, 0, 0])))
