@@ -13,7 +13,7 @@ from experiment import UNIT_ROUND_OFF
 from families import style
 from figures import Drawing, heading, limits, sentences, step_text, time_label, with_unit
 from files import InputError, parse
-from lines import Line, Panel, fill
+from lines import Line, Panel, fill, name_width
 from recording import read_recording
 from scales import ErrorAxis, time_axis
 
@@ -104,7 +104,7 @@ def draw(verdict, shown, axis, title, wide):
             axes.tick_params(labelbottom=False)
         if column:
             axes.tick_params(labelleft=False)
-    deviations(canvas, verdict, shown, axis, (left, down + top, width - left - (120 if wide else 92), low_tall))
+    deviations(canvas, verdict, shown, axis, (left, down + top, width - left, low_tall))
     return canvas
 
 
@@ -127,5 +127,7 @@ def deviations(canvas, verdict, shown, axis, place):
 
     def unit_round_off(_, axes):
         axes.axhline(verdict.unit, color=MID, linewidth=0.8, linestyle=(0, (4, 2)), zorder=1)
-    fill(canvas, canvas.panel(*place), Panel(lines, axis, time_label(verdict.case), "|area / exact − 1|", lambda _, axes: time_axis(
+    left, top, across, tall = place
+    margin = max(name_width(canvas, line) for line in lines) + 28
+    fill(canvas, canvas.panel(left, top, across - margin, tall), Panel(lines, axis, time_label(verdict.case), "|area / exact − 1|", lambda _, axes: time_axis(
         axes, 0, max(one.times[-1] for _, one in shown)), more=unit_round_off))

@@ -71,6 +71,19 @@ class Contraction(Fresh):
             self.assertFalse(boxes[0].overlaps(boxes[1]))
             self.assertLessEqual(max(b.x1 for b in boxes), canvas.width)
 
+    def test_no_name_leaves_the_figure(self):
+        discs(self.folder)
+        for name in ("experiment.json", "results.csv", "cost.csv", "measures/contraction.csv"):
+            path = self.folder / name
+            path.write_text(path.read_text().replace('"mid"', '"a method of a long name"').replace(",mid,", ",a method of a long name,"))
+        shown = reading.Experiment(self.folder)
+        drawing, = contraction.drawings(verdict.Verdict(shown, shown.cases[0]))
+        for wide in (True, False):
+            canvas = drawing.draw(wide)
+            texts = canvas.axes[-1].texts
+            self.assertIn("a method of a long name", [t.get_text() for t in texts])
+            self.assertLessEqual(max(t.get_window_extent(canvas.renderer).x1 for t in texts), canvas.width)
+
     def test_a_case_without_a_law_has_no_figure(self):
         shown = self.shown()
         self.assertEqual(contraction.drawings(verdict.Verdict(shown, shown.cases[1])), [])
