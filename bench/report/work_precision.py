@@ -17,6 +17,7 @@ from labels import SIZE, right_of, sampled
 from scales import power_of_ten
 from wording import counted, listed, plain_text, short_count, short_time, tick_time
 
+PLACES = 16  # along a band at which its name may stand
 CLIPPED = 4.0  # where relative errors end: what is above says the same, that all is lost
 
 
@@ -188,11 +189,12 @@ def step_label(run):
 
 
 def band_text(canvas, text, box, side, small, every):
-    """What a band at the top or the bottom means, at that end of it which fewer lines cross."""
+    """What a band at the top or the bottom means, at that end of it which fewer lines cross, or between them where fewer still do."""
     width, height = canvas.measure(text, small)
     low = box.y1 - 3 - height if side == "top" else box.y0 + 2
-    ends = [(x - 2, low - 2, x + width + 2, low + height + 2) for x in (box.x0 + 4, box.x1 - 4 - width)]
-    found = min(ends, key=lambda end: inside(every, end))
+    left, right = box.x0 + 4, box.x1 - 4 - width
+    places = [left, right, *(left + (right - left) * k / PLACES for k in range(1, PLACES))]
+    found = min(((x - 2, low - 2, x + width + 2, low + height + 2) for x in places), key=lambda place: inside(every, place))
     canvas.write(canvas.axes[0], found[0] + 2, low, text, small, color=MID, va="bottom", ha="left")
 
 

@@ -84,6 +84,19 @@ class Names(Fresh):
         self.assertIn("Longer runs leave the frame on the right.", work_precision.drawings(verdict.Verdict(shown, shown.cases[0]))[0].caption)
 
 
+class Bands(unittest.TestCase):
+    def test_the_name_of_a_band_stands_where_no_line_crosses(self):
+        drawing = canvas.Canvas(400, 200, 11)
+        axes = drawing.panel(50, 10, 300, 150)
+        box = axes.get_window_extent(drawing.renderer)
+        at_ends = [(x, y) for y in range(200) for x in (box.x0 + 10, box.x0 + 40, box.x1 - 40, box.x1 - 10)]
+        for lines_at in ([], at_ends):
+            work_precision.band_text(drawing, "phase lost", box, "top", 0.88, lines_at)
+            text = axes.texts[-1].get_window_extent(drawing.renderer)
+            self.assertFalse(any(text.x0 <= x <= text.x1 and text.y0 <= y <= text.y1 for x, y in lines_at))
+            self.assertEqual(text.x0 < box.x0 + 8, not lines_at)  # at an end where there is room
+
+
 class Steps(unittest.TestCase):
     def labels(self, width, steps):
         """The boxes of the labels at an axis of steps, in pixels, from left to right."""
