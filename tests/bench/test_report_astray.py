@@ -10,6 +10,7 @@ from test_report_motion import walks
 import answers  # noqa: E402
 import astray  # noqa: E402
 import verdict  # noqa: E402
+import verdict_latex  # noqa: E402
 import verdict_table  # noqa: E402
 import wording  # noqa: E402
 
@@ -51,6 +52,9 @@ class Astray(Three):
         table = verdict_table.table(verdict.Verdict(shown, shown.cases[0]))
         self.assertEqual(table.count(", motion lost</small>"), 1)
         self.assertIn("Motion lost: the run makes another motion", table)
+        tex = verdict_latex.latex_table(verdict.Verdict(shown, shown.cases[0]))
+        self.assertEqual(tex.count(", motion lost"), 1)
+        self.assertIn("& drift of energy [J] &", tex)
 
     def test_a_lost_phase_is_not_another_motion(self):
         """It is late, and comes back; nor is one that goes away for a while, or one whose error is small."""
