@@ -12,14 +12,17 @@ import functools
 import itertools
 import math
 
+from astray import astray
 from assertion import Clause, labels, three
+from drift_sentence import drift, not_counted, wheres
 from ensembles import growth_of
-from experiment import ROUND_OFF
+from experiment import ROUND_OFF, step_key
+from figures import step_text
 from frequencies import frequencies
 from recording import Recording, read_recording
-from sentence import name, names, quantity, wheres
+from sentence import name, names, quantity, some
 from verdict import TIE
-from wording import listed, size, text
+from wording import counted, listed, size, text
 
 AGREE, DIFFER, SHARP = 1e-3, 1e-2, 0.25
 POWERS = {0.5: "as a random walk", 1.0: "in proportion to time", 0.0: "not at all"}
@@ -30,7 +33,8 @@ def growth(verdict):
     if not case.get("seeds") or verdict.expected != "conserved":
         return []
     found = {run.method: (run, p, half) for run, p, half in growth_of(verdict.experiment, case) if not math.isnan(half)}
-    rows = [r for r in verdict.rivals if r.label in found]
+    gone = {r.label: how for r in verdict.rivals if r.label in found and (how := astray(verdict, found[r.label][0]))}
+    rows = [r for r in verdict.rivals if r.label in found and r.label not in gone]
     groups = {}
     for row in rows:
         _, p, half = found[row.label]
@@ -44,11 +48,18 @@ def growth(verdict):
         return listed(f"{name(r)} (<i>t</i><sup>{found[r.label][1]:.2f} ± {found[r.label][2]:.2f}</sup>)" for r in some)
     words = (f"rms errors of {quantity(verdict)} over {case['seeds']} seeds grow "
              + "; ".join(f"{words} with {told(some)}" for words, some in groups.items())
-             + (f"; with {names(untold)} the power is not told" if untold else ""))
+             + (f"; with {names(untold)} the power is not told" if untold else "")
+             + not_counted(verdict, [r for r in verdict.rivals if r.label in gone], lambda r: gone[r.label]))
     return [Clause(words, "grows-as", labels(r for some in groups.values() for r in some), [case["conserved"]],
                    {r.label: wheres(verdict, found[r.label][0]) for r in rows},
                    {"groups": {words: labels(some) for words, some in groups.items()} | {"": labels(untold)},
                     "powers": {r.label: list(found[r.label][1:]) for r in rows}})]
+
+
+def drift_beside_growth(verdict):
+    """Who lets the quantity drift away, of those whose power of time `growth` does not tell: by its class of drift a walk that is no
+    more than round-off adds up to is kept."""
+    return drift(verdict, but=[label for clause in growth(verdict) for label in clause.subject])
 
 
 def constraints(verdict):
@@ -69,10 +80,13 @@ def constraints(verdict):
         first = [r for r in off if spans[r.label][0] <= TIE * spans[off[0].label][1]]
         last = [r for r in off if TIE * spans[r.label][1] >= spans[off[-1].label][0]]
         kind = text(level.replace("-", " ")) + "s"
-        parts = [f"{names(on)} {'stays' if len(on) == 1 else 'stay'} on the {kind}" if on else f"no method stays on the {kind}"]
+        missing = [r for r in verdict.rivals if r not in rows]
+        none = f"of {counted(len(rows), 'method')} of which it is known none stays" if missing else "no method stays"
+        at = at_steps(verdict, [runs[r.label] for r in rows])
+        parts = [f"{at}{names(on)} {'stays' if len(on) == 1 else 'stay'} on the {kind}" if on else f"{at}{none} on the {kind}"]
 
-        def ends(some):
-            low, high = min(spans[r.label][0] for r in some), max(spans[r.label][1] for r in some)
+        def ends(rows):
+            low, high = min(spans[r.label][0] for r in rows), max(spans[r.label][1] for r in rows)
             return size(high) if size(low) == size(high) else f"{size(low)} to {size(high)}"
         if off and (set(labels(first)) & set(labels(last)) or len(first) + len(last) > 6):
             parts.append(f"{names(off) if len(off) <= 4 else f'{len(off)} methods'} {'leaves' if len(off) == 1 else 'leave'} them, "
@@ -81,11 +95,19 @@ def constraints(verdict):
         elif off:
             parts.append(f"{names(first)} {'leaves' if len(first) == 1 else 'leave'} them least, by {ends(first)}, and {names(last)} "
                          f"most, by {ends(last)}")
+        parts += [f"of {some(missing)} it is not known"] if missing else []
         return [Clause("; ".join(parts), "constraints", labels(on), [f"{level}:max"],
                        {r.label: wheres(verdict, runs[r.label]) for r in rows},
                        {"off": labels(off), "least": labels(first), "most": labels(last),
                         "spans": {r.label: list(spans[r.label]) for r in rows}})]
     return []
+
+
+def at_steps(verdict, runs):
+    """At the step that most methods share, where all runs are at it, or else at the nearest that a method has."""
+    common = verdict.experiment.common_step(verdict.case)
+    nearest = "" if all(step_key(r.step) == step_key(common) for r in runs) else " or the nearest that a method has"
+    return f"at {text(step_text(common, verdict.case))}{nearest}, "
 
 
 def motions(verdict):
@@ -184,7 +206,7 @@ def turning(verdict):
         worst = [r for r in rows if TIE * at[r.label] >= at[rows[-1].label]]
         if best[-1] is worst[0] or len(best) == len(rows):
             continue
-        unknown = [m for m in lines if m not in at]
+        unknown = [r.label for r in verdict.rivals if r.label not in at]
         scope = f", of {len(rows)}{'' if out else ' steady methods'}," if unknown else ""
         place = "" if step == said else f"at step {step:.4g} "
         said = step

@@ -51,6 +51,7 @@ def drawing(verdict, curves):
 
 
 def draw(verdict, curves, axis, title, wide):
+    unit = verdict.experiment.expectation(verdict.case, verdict.invariant)[1]
     width, font = (1120, 12.5) if wide else (368, 11)
     left, top, right, below, between, tall = (72 if wide else 60), 24, 10, 46, 14, 210 if wide else 150
     columns = min(len(curves), 4 if wide else 2)
@@ -74,7 +75,7 @@ def draw(verdict, curves, axis, title, wide):
         axes.set_title(plain(row.label), fontsize=0.95 * font, color=colour, loc="left", pad=4)
         last = k + columns >= len(curves)
         canvas.labels(axes, time_label(verdict.case) if last else "",
-                      f"drift of {verdict.invariant}" if column == 0 else "")
+                      with_unit(f"drift of {verdict.invariant}", unit) if column == 0 else "")
         if not last:
             axes.tick_params(labelbottom=False)
         if column:

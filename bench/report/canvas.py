@@ -44,8 +44,9 @@ def sizes(wide):
 
 
 def plain(text):
-    """Text that matplotlib is not to read as mathematics."""
-    return str(text).replace("$", r"\$")
+    """Text that matplotlib is not to read as mathematics, with squares and cubes, as of units, raised."""
+    raised = re.sub(r"(?<=[A-Za-z])\^([23])(?![0-9.])", lambda power: "²³"[int(power[1]) - 2], str(text))
+    return raised.replace("$", r"\$")
 
 
 class Canvas:

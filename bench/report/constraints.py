@@ -13,7 +13,7 @@ from curves import ranks
 from families import style
 from figures import Drawing, heading, sentences, step_text, time_label, with_unit
 from lines import Line, Panel, draw, in_grey
-from scales import ErrorAxis, logarithmic, time_axis
+from scales import ErrorAxis, logarithmic, remarks_of, time_axis
 from wording import listed
 
 BINS = 60
@@ -42,7 +42,7 @@ def drawings(verdict):
     caption = sentences(
         what, steps, "Residuals have the units of the constraints as the system states them; a method on the constraint surface stays "
         "near unit round-off, the dashed line.", "A cross: the run ended early." if any(
-            line.ended for one in panels for line in one.lines) else "", in_grey(panels), *panels[0].axis.remarks())
+            line.ended for one in panels for line in one.lines) else "", in_grey(panels), *remarks_of([one.axis for one in panels]))
     title = f"{heading(case)}: errors against time" + (f", medians over {seeds} seeds" if seeds else "")
     return [Drawing("constraints", case, title, caption, lambda wide: draw(panels, wide, title), printed=True)]
 

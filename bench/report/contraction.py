@@ -11,9 +11,10 @@ from canvas import MID, Canvas, plain
 from curves import ranks
 from experiment import UNIT_ROUND_OFF
 from families import style
-from figures import Drawing, heading, limits, sentences, step_text, time_label
+from figures import Drawing, heading, limits, sentences, step_text, time_label, with_unit
 from files import InputError, parse
-from lines import Line, Panel, fill
+from lines import Line, Panel, fill, name_width
+from recording import read_recording
 from scales import ErrorAxis, time_axis
 
 MEASURE = "contraction"  # whose table it draws
@@ -58,7 +59,7 @@ def drawings(verdict):
              if row.label in named and row.label in found and len(found[row.label].times) > 1]
     if not shown:
         return []
-    axis = ErrorAxis([one.deviations[1:] for _, one in shown], UNIT_ROUND_OFF[case["precision"]])
+    axis = ErrorAxis([one.deviations[1:] for _, one in shown], UNIT_ROUND_OFF[case["precision"]], bounded=True)
     steps = {one.step for _, one in shown}
     at = step_text(steps.pop(), case) if len(steps) == 1 else "the largest step at which each method finishes"
     title = f"{heading(case)}: contraction of areas"
@@ -81,6 +82,7 @@ def draw(verdict, shown, axis, title, wide):
     down = rows * (top + tall) + below
     canvas = Canvas(width, down + top + low_tall + below, font)
     canvas.description = title
+    names = axes_of(verdict)
     frame = limits([tuple(sum((image[k] for image in one.images), []) for k in (1, 2)) for _, one in shown], FRAME)
     for k, (row, one) in enumerate(shown):
         line, column = divmod(k, columns)
@@ -97,13 +99,24 @@ def draw(verdict, shown, axis, title, wide):
             place(low - pad, high + pad)
         axes.locator_params(nbins=4)
         last = k + columns >= len(shown)
-        canvas.labels(axes, "position" if last else "", "momentum" if column == 0 else "")
+        canvas.labels(axes, names[0] if last else "", names[1] if column == 0 else "")
         if not last:
             axes.tick_params(labelbottom=False)
         if column:
             axes.tick_params(labelleft=False)
-    deviations(canvas, verdict, shown, axis, (left, down + top, width - left - (120 if wide else 92), low_tall))
+    deviations(canvas, verdict, shown, axis, (left, down + top, width - left, low_tall))
     return canvas
+
+
+def axes_of(verdict):
+    """What the axes are, with units, as a run of the case names its coordinates."""
+    experiment = verdict.experiment
+    left = [r for r in experiment.runs_of(verdict.case) if r.slug and (experiment.folder / r.path / "series.csv").exists()
+            and (experiment.folder / r.path / "summary.json").exists()]
+    recording = read_recording(experiment.folder / left[0].path) if left else None
+    if recording is None or len(recording.state) != 2:
+        return "position", "momentum"
+    return [with_unit(name, recording.units[name]) for name in recording.state]
 
 
 def deviations(canvas, verdict, shown, axis, place):
@@ -114,5 +127,7 @@ def deviations(canvas, verdict, shown, axis, place):
 
     def unit_round_off(_, axes):
         axes.axhline(verdict.unit, color=MID, linewidth=0.8, linestyle=(0, (4, 2)), zorder=1)
-    fill(canvas, canvas.panel(*place), Panel(lines, axis, time_label(verdict.case), "|area / exact − 1|", lambda _, axes: time_axis(
+    left, top, across, tall = place
+    margin = max(name_width(canvas, line) for line in lines) + 28
+    fill(canvas, canvas.panel(left, top, across - margin, tall), Panel(lines, axis, time_label(verdict.case), "|area / exact − 1|", lambda _, axes: time_axis(
         axes, 0, max(one.times[-1] for _, one in shown)), more=unit_round_off))

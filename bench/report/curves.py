@@ -72,14 +72,14 @@ class Curve:
     def kept(self):
         """Whether the structure is kept: True, False, or None where that is not known.
 
-        It is kept where the method claims it and no residual says otherwise, and where the residual is round-off at the
+        It is kept where the method claims it, a run finished and no residual says otherwise, and where the residual is round-off at the
         coarsest step although the error of a step is not: what truncation leaves of a residual is largest there, and of a
         step that is right to round-off a small residual is accuracy. At finer steps round-off may grow, because what a
         method solves for in a step is divided by the step."""
         if any(x > GROWN * self.unit for _, x in self.residuals):
             return False
         if self.claims:
-            return True
+            return True if self.points else None
         if not self.residuals:
             return None
         if max(self.residuals)[1] > ROUND_OFF * self.unit:

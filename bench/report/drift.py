@@ -5,8 +5,10 @@ stands the largest change in the quantity's own unit. A line joins the largest v
 families stand behind in the lightest grey. Dashed: a fitted trend, |slope| t, of methods whose class of drift is sized by a slope.
 Dotted: 2 u sqrt(n) after n steps, what round-off alone adds up to.
 
+Nothing is drawn below round-off u, which says nothing of a quantity of that scale.
+
 Of a quantity that is expected to decrease or to increase the error is drawn at equal cost, its difference from that of the
-reference solution, and at equal step its largest move in the other direction so far, which is zero where there is none.
+reference solution, and at equal step its largest move in the other direction so far, where any method moves so by more than round-off.
 """
 import math
 import statistics
@@ -14,6 +16,7 @@ import statistics
 from assertion import said
 from canvas import MID
 from curves import ranks
+from drift_sentence import drift
 from error_measure import some_rows
 from experiment import DIRECTIONS, UNIT_ROUND_OFF
 from families import FAMILIES, style
@@ -21,8 +24,9 @@ from figures import Drawing, heading, sentences, step_text, time_label
 from first_screen import finding
 from lines import Line, Panel, draw, in_grey
 from scales import ErrorAxis, envelope, logarithmic, time_axis
-from sentence import drift
 from wording import number, plain_text
+
+BESIDE = 8  # letters of a unit that stands beside each name; a longer one is said once, and leaves the panel its width
 
 
 def drawings(verdict):
@@ -57,6 +61,8 @@ def at_equal_step(verdict):
         what, told = f"|Δ {name}| / scale", f"Change of {name} since the start{over(verdict)}, at {at}."
         values = (lambda series: series.change)
     found = moved(verdict, [(row, runs[row.label]) for row in verdict.rows if row.label in runs], values)
+    if verdict.expected in DIRECTIONS and all(v <= verdict.unit for *_, sizes, _ in found for v in sizes):
+        return []  # what moves nowhere in the other direction is said in numbers; an empty panel says less
     lost = [row.label for row in verdict.rows if row.label in runs and row.label not in {r.label for r, *_ in found}]
     return drawn(verdict, "drift_at_equal_step", title, found,
                  sentences(told, f"No series for: {', '.join(lost)}." if lost else ""), what)
@@ -96,9 +102,10 @@ def drawn(verdict, kind, title, found, told, y):
     if not found:
         return []
     case, u = verdict.case, UNIT_ROUND_OFF[verdict.case["precision"]]
-    axis = ErrorAxis([values for *_, values, _ in found], u)
+    axis = ErrorAxis([values for *_, values, _ in found], u, bounded=True)
     begin, end = (pick(t for _, _, times, *_ in found for t in times) for pick in (min, max))
     rank, unit = ranks(verdict.curves), unit_of(verdict)
+    beside = unit if len(unit) <= BESIDE else ""
     panels = []
 
     def x_axis(_, axes):
@@ -107,7 +114,7 @@ def drawn(verdict, kind, title, found, told, y):
         own = [one for one in found if one[0].curve.family is family]
         lines = [Line(row.label, times, values, style(family, rank[row.label], row.curve.fill),
                       f"{row.label}, {step_text(run.step, case)}: {run.drift_class(verdict.invariant)} {most:.1e}",
-                      f"{number(float(f'{most:.1g}'))} {unit}".rstrip(), bool(row.drifts), run.failed)
+                      f"{number(float(f'{most:.1g}'))} {beside}".rstrip(), bool(row.drifts), run.failed)
                  for row, run, times, values, most in own]
         if lines:
             behind = [(times, values) for row, _, times, values, _ in found if row.curve.family is not family]
@@ -116,8 +123,8 @@ def drawn(verdict, kind, title, found, told, y):
                                 guides(verdict, own, begin, end, family)))
     what = "" if verdict.expected in DIRECTIONS else (
         "Flat is bounded, slope ½ on logarithmic axes is the growth of round-off, slope 1 a loss in proportion to time. Dashed: "
-        "the fitted trend; dotted: 2u√n, what n steps of round-off add up to.")
-    caption = sentences(told, "Beside the names: the largest, in the unit of the quantity.", what,
+        f"the fitted trend{'; dotted: 2u√n, what n steps of round-off add up to' if axis.seen else ''}.")
+    caption = sentences(told, f"Beside the names: the largest, in {'the unit of the quantity' if beside == unit else unit}.", what,
                         "A line joins the largest values in short stretches of time.",
                         "A cross: the run ended early." if any(run.failed for _, run, *_ in found) else "", in_grey(panels),
                         *axis.remarks())

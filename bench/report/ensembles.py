@@ -13,6 +13,7 @@ from families import style
 from figures import Drawing, heading, sentences, step_text, time_label, with_unit
 from lines import Line, Panel, draw, in_grey
 from scales import ErrorAxis, time_axis
+from wording import listed
 
 STUDENT = {1: 12.71, 2: 4.30, 3: 3.18, 4: 2.78, 5: 2.57, 7: 2.36, 10: 2.23, 15: 2.13, 20: 2.09, 30: 2.04, 60: 2.0}  # 95 %
 
@@ -91,7 +92,10 @@ def drawings(verdict):
     if not is_one(experiment, case):
         return []
     by_label = {curve[0].method: curve for curve in spreads(experiment, case)}
-    curves = [by_label[label] for label in verdict.in_order(by_label)]
+    curves = [by_label[label] for label in verdict.in_order(by_label) if len(by_label[label][1]) > 2]
+    short = [label for label in verdict.in_order(by_label) if len(by_label[label][1]) < 3]
+    if not curves:
+        return []
     rows, rank = {r.label: r for r in verdict.rows}, ranks(verdict.curves)
     axis = ErrorAxis([values for *_, values in curves], verdict.unit)
     begin, end = min(c[1][0] for c in curves), max(c[1][-1] for c in curves)
@@ -110,5 +114,7 @@ def drawings(verdict):
     title = f"{heading(case)}: rms error of {name} over {case['seeds']} seeds"
     return [Drawing("ensemble", case, title, sentences(
         f"Root mean square over the seeds that finished, {step_text(experiment.common_step(case), case)}. Independent errors without a "
-        "bias grow as t^0.5, dotted, errors with a bias as t^1, short dashes. Long dashes: unit round-off.", in_grey([panel]),
+        "bias grow as t^0.5, dotted, errors with a bias as t^1, short dashes. Long dashes: unit round-off.",
+        f"Left out {'is' if len(short) == 1 else 'are'} {listed(short)}, whose seeds have no three times in common." if short else "",
+        in_grey([panel]),
         *axis.remarks()), lambda wide: draw([panel], wide, title, tall=250), "Root mean square", printed=True)]

@@ -275,11 +275,14 @@ class Experiment:
 
     def entries(self, case, invariant):
         """What the summaries of the runs of a case state of an invariant, one after another."""
-        for run in self.runs_of(case):
-            path = self.folder / "runs" / run.slug / "summary.json"
-            if run.slug not in self._summaries:
-                self._summaries[run.slug] = invariants_of(path) if run.slug and path.exists() else []
-            yield from (entry for entry in self._summaries[run.slug] if entry.get("name") == invariant)
+        yield from filter(None, (self.entry(run, invariant) for run in self.runs_of(case)))
+
+    def entry(self, run, invariant):
+        """What the summary of a run states of an invariant; nothing where it does not."""
+        path = self.folder / run.path / "summary.json"
+        if run.path not in self._summaries:
+            self._summaries[run.path] = invariants_of(path) if run.slug and path.exists() else []
+        return next((entry for entry in self._summaries[run.path] if entry.get("name") == invariant), {})
 
     def expectation(self, case, invariant):
         """(expected, unit) of an invariant as the runs' summaries state them; conserved where none does."""

@@ -6,6 +6,7 @@ place. The third line says for what all of it holds. report.json has every sente
 import json
 
 import answers
+import drift_sentence
 import sentence
 from assertion import said
 from equation import prose
@@ -18,15 +19,16 @@ from wording import counted, plain_text, text
 # What answers a question, what stands in the second line, and what is said where the runs do not answer.
 RANKED = (sentence.cheapest, sentence.bounded)
 ANSWERS = {
-    "cost": ((sentence.cheapest, sentence.losing, sentence.structure), (sentence.bounded, sentence.dearer, sentence.drift), ""),
-    "energy": ((sentence.drift,), (sentence.structure, *RANKED, sentence.dearer),
+    "cost": ((sentence.cheapest, drift_sentence.losing, sentence.structure),
+             (sentence.bounded, sentence.dearer, drift_sentence.drift_beside_losing), ""),
+    "energy": ((drift_sentence.drift,), (sentence.structure, *RANKED, sentence.dearer),
                "which methods let the conserved quantity drift away"),
-    "structure": ((sentence.structure,), (sentence.drift, *RANKED, sentence.dearer), "which methods keep the structure"),
-    "growth": ((answers.growth,), (sentence.drift,), "with which power of time errors grow"),
-    "constraints": ((answers.constraints,), (sentence.drift, *RANKED), "which methods stay on the constraints"),
-    "agreement": ((answers.agreement_or_constraints,), (answers.constraints_beside_agreement, sentence.drift),
+    "structure": ((sentence.structure,), (drift_sentence.drift, *RANKED, sentence.dearer), "which methods keep the structure"),
+    "growth": ((answers.growth,), (answers.drift_beside_growth,), "with which power of time errors grow"),
+    "constraints": ((answers.constraints,), (drift_sentence.drift, *RANKED), "which methods stay on the constraints"),
+    "agreement": ((answers.agreement_or_constraints,), (answers.constraints_beside_agreement, drift_sentence.drift),
                   "whether formulations agree"),
-    "frequencies": ((answers.turning,), (sentence.drift, *RANKED), "which frequencies are right"),
+    "frequencies": ((answers.turning,), (drift_sentence.drift, *RANKED), "which frequencies are right"),
 }
 
 
@@ -68,7 +70,9 @@ def below(verdict):
     parts += [below] if whole else []
     others = [r for r in verdict.rows if r not in verdict.rivals]
     if others:
-        parts.append(f"{sentence.names(others)} {'is' if len(others) == 1 else 'are'} another motion, and no rival of the others.")
+        left_out = not any(r.label in clause.rows for r in others for clause in first(verdict) + second(verdict))
+        parts.append(f"{sentence.names(others)} {'is' if len(others) == 1 else 'are'} another motion, and no rival of the others"
+                     + (", of which alone the sentences speak." if left_out else "."))
     failing = [c for _, c in verdict.experiment.claims if c["case"] == verdict.case["name"] and c["holds"] != "yes"]
     if failing:
         parts.append(f"<strong>{counted(len(failing), 'finding')} that the experiment states "

@@ -59,7 +59,8 @@ def table(reported):
     return ('<h2 id="methods">Methods and problems</h2><p class="where">Numbers say how many times as much as the cheapest method a '
             "method costs at the error that the sentence of the report speaks of; there is none where its runs do not lie on both "
             "sides of that error. A filled mark: it keeps the structure; an open one: it does not; half of one: this is not known. "
-            "↗: at equal cost the conserved quantity drifts away. Pointed at, a cell tells more.</p>"
+            "↗: the conserved quantity drifts away at equal cost, or in the nearest run of a method that cannot cost this. Pointed at, a "
+            "cell tells more.</p>"
             '<div class="scroll" tabindex="0" role="region" aria-label="methods and problems">'
             f'<table class="overview"><thead><tr><th></th>{heads}</tr></thead><tbody>{"".join(body)}</tbody></table></div>')
 

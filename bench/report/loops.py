@@ -14,6 +14,7 @@ from families import style
 from figures import Drawing, heading, sentences, step_text, time_label
 from lines import Line, Panel, draw, in_grey
 from scales import ErrorAxis, time_axis
+from wording import counted
 
 MEASURE = "poincare-loop"  # whose table it draws
 RESOLVED = 1e-6
@@ -45,7 +46,7 @@ def drawings(verdict):
     shown = [(rows[label], found[label]) for label in verdict.in_order(found) if len(found[label].times) > 2]
     if not shown:
         return []
-    axis = ErrorAxis([one.deviations[1:] for _, one in shown], UNIT_ROUND_OFF["double"])
+    axis = ErrorAxis([one.deviations[1:] for _, one in shown], UNIT_ROUND_OFF["double"], bounded=True)
     steps = {one.step for _, one in shown}
     at = "at " + (step_text(steps.pop(), case) if len(steps) == 1 else "the largest step at which each method finishes")
     told = sentences(
@@ -61,7 +62,7 @@ def drawings(verdict):
     panel = Panel(lines, axis, time_label(case), "|∮F·dz over the first − 1|",
                   lambda _, axes: time_axis(axes, 0, max(one.times[-1] for _, one in shown)), more=unit_round_off)
     return [Drawing("loop", case, f"{heading(case)}: Poincaré's integral invariant", sentences(told, in_grey([panel])),
-                    lambda wide: draw([panel], wide, f"The integral moves most for {worst[0].label}, by "
+                    lambda wide: draw([panel], wide, f"Of {counted(len(shown), 'method')} the integral moves most for {worst[0].label}, by "
                                                      f"{max(worst[1].deviations):.1e} of itself.", tall=250))]
 
 

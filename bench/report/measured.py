@@ -80,6 +80,6 @@ def of_measure(verdict, measure):
         return []
     at = "" if over_step else f"At {step_text(steps.pop(), case)}." if len(steps) == 1 else \
         "At the largest step at which each method finishes."
-    told = sentences(measure.get("description", ""), at, *(remark for panel in panels for remark in panel.axis.remarks()), in_grey(panels))
+    told = sentences(measure.get("description", ""), at, *dict.fromkeys(remark for panel in panels for remark in panel.axis.remarks()), in_grey(panels))
     return [Drawing(f"measure-{measure['name']}", case, f"{heading(case)}: {measure['title']}", told,
                     lambda wide: draw(panels, wide, measure["title"]))]

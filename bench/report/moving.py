@@ -25,9 +25,9 @@ def drawings(verdict):
     found, out = stretches.followed(verdict), []
     rows = stretches.rows_of(found, chosen(verdict))
     if rows:
-        title = f"{heading(verdict.case)}: the motion, early and late"
+        title, unit = f"{heading(verdict.case)}: the motion, early and late", verdict.case.get("time_unit") or ""
         out.append(Drawing("motion", verdict.case, title, stretches.told(verdict, found, rows),
-                           lambda wide: described(stretches.draw(found, rows, wide), title), "Early and late"))
+                           lambda wide: described(stretches.draw(found, rows, wide, unit), title), "Early and late"))
     names = (names or shown[0][1].plane()) if shown else None
     if not names:
         return out
@@ -106,8 +106,8 @@ def portraits(verdict, shown, names):
     failed = [row.label for row, recording in shown if (recording.summary.get("status") or "converged") != "converged"]
     early = f"Ended early: {listed(failed)}." if failed else ""
     title = f"{heading(case)}: {names[1]} against {names[0]}"
-    told = sentences(common(verdict, shown), whose, remarks(tracks, units), seed, early)
-    return [Drawing("motion", case, title, told, lambda wide: described(panels(tracks, names, units, wide, exact), title), "Portrait")]
+    told, behind = sentences(common(verdict, shown), whose, remarks(tracks, units), seed, early), [exact] * len(tracks) if exact else None
+    return [Drawing("motion", case, title, told, lambda wide: described(panels(tracks, names, units, wide, behind), title), "Portrait")]
 
 
 def sections(verdict, shown):

@@ -156,7 +156,7 @@ def cheapest_table(verdict):
         return ""
     what = text(verdict.measure.noun)
     keeping = '<th colspan="2">keeping the structure</th>' if verdict.structured else ""
-    return (f'<table class="mini"><caption>Cheapest at each {what}</caption><thead><tr><th>{what}</th><th colspan="2">of all</th>'
+    return (f'<table class="mini"><caption>Cheapest at each {what}</caption><thead><tr><th>{what}</th><th colspan="2">of those ranked</th>'
             f'{keeping}</tr></thead><tbody>{"".join(rows)}</tbody></table>')
 
 

@@ -47,8 +47,8 @@ STEPS = {"linewidth": 0.9, "marker": ".", "markersize": 3.0, "markeredgewidth": 
 
 
 def panels(tracks, names, units, wide, behind=None, start=True, every_step=False):
-    """The tracks [(label, colour, xs, ys)] on a Canvas, each in a panel with the same axes, with the track (xs, ys) `behind`; sections
-    have no start. What has every step is joined, however far these lie apart."""
+    """The tracks [(label, colour, xs, ys)] on a Canvas, each in a panel with the same axes, with its track (xs, ys) of those `behind`;
+    sections have no start. What has every step is joined, however far these lie apart."""
     frame, look = Frame([t[2:] for t in tracks], units), sizes(wide)
     left, top, right, below, between = (x * look.unit for x in (72 if look.wide else 56, 24, 10, 46, 14))
     columns = min(len(tracks), (3 if len(tracks) in (3, 5, 6) else 4) if look.wide else 2)
@@ -65,9 +65,9 @@ def panels(tracks, names, units, wide, behind=None, start=True, every_step=False
         alone = {"linestyle": "none", "marker": ".", "markersize": 2.2, "markeredgewidth": 0}
         style = STEPS if every_step else alone if not start or coarse(x, y) else {"linewidth": 0.9}
         canvas.line(axes, x[::step], y[::step], label, color=colour, **style)
-        if behind:
-            axes.plot(*behind, color=GREY, zorder=1, **(
-                {"linestyle": "none", "marker": ".", "markersize": 3.5, "markeredgewidth": 0} if coarse(*behind) and not every_step else
+        if behind and len(behind[k][0]) > 1:
+            axes.plot(*behind[k], color=GREY, zorder=1, **(
+                {"linestyle": "none", "marker": ".", "markersize": 3.5, "markeredgewidth": 0} if coarse(*behind[k]) and not every_step else
                 {"linewidth": 3.0 * look.unit, "alpha": 0.55}))
         if start:
             axes.plot(x[:1], y[:1], marker="x", color=INK, markersize=6 * look.unit, markeredgewidth=1.4 * look.unit, zorder=5)

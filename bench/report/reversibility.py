@@ -95,7 +95,7 @@ def drawings(verdict):
     steps = {one.returns.step for one in shown}
     at = "at " + (step_text(steps.pop(), case) if len(steps) == 1 else "the largest step at which it finishes")
     told = sentences(
-        finding(shown),
+        finding(shown, verdict.rows),
         f"Each method goes forward to time t {at}, turns round and goes back as many steps: how far it then is from its start, over "
         "the size of the start.", way(shown),
         "A method that treats both directions of time alike comes back; others miss the start by about the error of their steps. "
@@ -107,7 +107,7 @@ def drawings(verdict):
         *axis.remarks())
     panel = panel_of(verdict, shown, middle, axis)
     return [Drawing("reversibility", case, f"{heading(case)}: reversibility along the run", sentences(told, in_grey([panel])),
-                    lambda wide: draw([panel], wide, finding(shown), tall=250))]
+                    lambda wide: draw([panel], wide, finding(shown, verdict.rows), tall=250))]
 
 
 def visible(one):
@@ -115,11 +115,12 @@ def visible(one):
     return [max(UNIT, d) for d in one.distances]
 
 
-def finding(shown):
-    """Who comes back, and by how much others miss the start."""
+def finding(shown, rows):
+    """Who comes back, of the rows of a verdict that were turned round, and by how much others miss the start."""
     back, gone = [one for one in shown if one.back], [one for one in shown if not one.back]
-    who = ("Every method comes" if len(back) == len(shown) > 1 else f"{back[0].label} comes" if len(back) == 1 else
-           f"{len(back)} of {len(shown)} methods come" if back else "No method comes")
+    turned = "" if len(shown) == len(rows) else " that was turned round"
+    who = (f"Every method{turned} comes" if len(back) == len(shown) > 1 else f"{back[0].label} comes" if len(back) == 1 else
+           f"{len(back)} of {len(shown)} methods come" if back else f"No method{turned} comes")
     if not gone:
         return f"{who} back to its start but for rounding."
     gone.sort(key=lambda one: -one.returns.farthest)

@@ -5,14 +5,14 @@ and the structure residual as they are.
 """
 import math
 
-from canvas import INK, MID, Canvas, sizes
+from canvas import INK, MID, Canvas, plain, sizes
 from experiment import DIRECTIONS, UNIT_ROUND_OFF
 from families import FAMILIES, family_named
 from figures import Drawing, sentences, with_unit
 from frames import Animation, Figure, duration, strip
 from labels import pushed_apart
 from portraits import panels, remarks
-from scales import ErrorAxis, envelope, time_axis
+from scales import ErrorAxis, envelope, remarks_of, time_axis
 from series import read_series, run_times
 from wording import counted
 
@@ -114,7 +114,9 @@ def quantities(recording):
     if not recording.points() and len(recording.state) <= COORDINATES:
         for unit in dict.fromkeys(recording.units[n] for n in recording.state):
             names = [n for n in recording.state if recording.units[n] == unit]
-            shown.append((with_unit("coordinates", unit), [(n, times, recording.columns[n]) for n in names], False))
+            alone = len(names) == 1  # it is named above the panel
+            lines = [("" if alone else n, times, recording.columns[n]) for n in names]
+            shown.append((with_unit(names[0] if alone else "coordinates", unit), lines, False))
     for entry in recording.summary.get("invariants") or []:
         name, unit = entry["name"], entry.get("unit") or ""
         if entry.get("expected") == "conserved":
@@ -138,12 +140,11 @@ def quantities(recording):
     unit = UNIT_ROUND_OFF.get(precision, UNIT_ROUND_OFF["double"])
     colour = family_named(recording.summary.get("family")).light
     label = "t" if times is recording.times else "time since the start"
-    zeros = sorted({r for _, lines, log in shown if log
-                    for r in ErrorAxis([v for *_, v in lines], unit).remarks()})
+    axes = [ErrorAxis([v for *_, v in lines], unit) for _, lines, log in shown if log]
     return [drawing("quantities", "Against time", sentences(
-        "Grey: unit round-off." if any(log for *_, log in shown) else "",
+        "Grey: unit round-off." if any(one.seen for one in axes) else "",
         "Lines join the largest values in short stretches of time." if any(log for *_, log in shown) else "",
-        f"Errors are measured{at}." if (at := at_rows(recording.summary.get("error_rows"))) else "", *zeros),
+        f"Errors are measured{at}." if (at := at_rows(recording.summary.get("error_rows"))) else "", *remarks_of(axes)),
         lambda wide: small_panels(shown, with_unit(label, recording.time_unit), unit, colour, wide))]
 
 
@@ -155,14 +156,17 @@ def at_rows(rows):
 def small_panels(shown, time_label, unit, colour, wide):
     look = sizes(wide)
     font, columns = look.font, min(len(shown), 3 if look.wide else 1)
-    left, top, between, right, below, tall, most = (x * look.unit for x in (66, 26, 76, 30, 46, 190, 420))
+    left, top, right, below, tall, most = (x * look.unit for x in (66, 26, 12, 46, 190, 420))
+    measure = Canvas(look.width, look.width, font, look.unit).measure
+    right = max([right, *(measure(label, 0.92)[0] + 10 * look.unit for _, lines, _ in shown for label, *_ in lines if label)])
+    between = left + right - 10 * look.unit
     each = min(most, (look.width - left - right - between * (columns - 1)) / columns)
     rows = math.ceil(len(shown) / columns)
     canvas = Canvas(left + columns * each + between * (columns - 1) + right, rows * (top + tall + below), font, look.unit)
     for k, (what, lines, log) in enumerate(shown):
         row, column = divmod(k, columns)
         axes = canvas.panel(left + column * (each + between), top + row * (top + tall + below), each, tall)
-        axes.set_title(what.replace("$", r"\$"), fontsize=font, color=INK, loc="left", pad=5 * look.unit)
+        axes.set_title(plain(what), fontsize=font, color=INK, loc="left", pad=5 * look.unit)
         axis = ErrorAxis([v for *_, v in lines], unit) if log else None
         ends = []
         for n, (label, times, values) in enumerate(lines):

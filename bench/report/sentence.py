@@ -1,21 +1,18 @@
-"""What a case shows of cost, structure and drift: clauses in HTML, each with its assertion as data (assertion.py).
+"""What a case shows of cost and structure: clauses in HTML, each with its assertion as data (assertion.py).
 
 cheapest    who is cheapest at the target, of the methods that are ranked there
 bounded     who is not ranked there and yet costs no more
-losing      whether the cheapest let the conserved quantity drift away in the run that is nearest to the target
 structure   who keeps the structure; "only", "all" and "no method" are said of those alone of which it is known
 dearer      what the cheapest method that keeps the structure costs, and what the experiment's subject, which is the family of
             the method it lists first, costs beside the Gauss method of equal order
-drift       who lets the conserved quantity drift away, or move against its direction
 A clause that the data do not make is not printed: properties have three values, and of two methods at least it must be known
 how they stand.
 """
 import math
 
 from assertion import Clause, labels, three
-from experiment import DIRECTIONS
 from verdict import TIE
-from wording import counted, listed, plain_text, power, size, text, two_digits
+from wording import listed, plain_text, power, text, two_digits
 
 
 def name(row):
@@ -101,26 +98,6 @@ def why_none_is_cheapest(verdict):
             "no two methods have runs on both sides of one error")
 
 
-def losing(verdict):
-    best = verdict.best(verdict.target) if verdict.target else []
-    if not best or best[0].curve.kept or not verdict.invariant or verdict.expected in DIRECTIONS:
-        return []
-    near = {r.label: min(r.curve.measured(), key=lambda p: abs(math.log(p.error / verdict.target))).run for r in best[:2]}
-    lost = [r for r in best[:2] if verdict.class_of(near[r.label])[1]
-            and near[r.label].drift(verdict.invariant, "max") > verdict.rounding(near[r.label])]
-    if not lost:
-        return []
-    kinds = dict.fromkeys(verdict.class_of(near[r.label])[0] for r in lost)
-    who = "" if len(best) == 1 else "both " if len(lost) == len(best) else f"{names(lost)} "
-    return [Clause(f"but {who}{'lets' if len(lost) == 1 else 'let'} {quantity(verdict)} drift ({listed(map(text, kinds))})",
-                   "drifts", labels(lost), [f"{verdict.invariant}:class"],
-                   {r.label: wheres(verdict, near[r.label]) for r in lost}, {"not": [], "unknown": []}, ", ")]
-
-
-def wheres(verdict, run):
-    return [r.where for r in verdict.experiment.ensemble_of(run) if not r.failed]
-
-
 def kept_split(verdict):
     """(rows that keep the structure, that do not, of which it is not known); none of the first two where no residual was
     measured at all, since what does not keep the structure could not be seen then."""
@@ -195,83 +172,3 @@ def dearer(verdict):
             out.append(ratio(verdict, dear, cheap, f"{name(dear)} costs {{}} times as much as {name(cheap)} of equal order "
                                                    f"({spent(verdict, dear)})"))
     return out
-
-
-def drift(verdict):
-    if not verdict.invariant:
-        return []
-    every = [r for r in verdict.rivals if r.run]
-    rows = comparable(every)
-    grow, stay, unknown = three(rows, lambda r: r.drifts)
-    if len(grow) + len(stay) < 2:
-        return []
-    known = len(grow) + len(stay)
-    directed = verdict.expected in DIRECTIONS
-    if directed:
-        verb, move = DIRECTIONS[verdict.expected]
-        begin = f"{quantity(verdict)} is expected to {verb}, and "
-        told = [f"{some(grow)} {'lets' if len(grow) == 1 else 'let'} it {move}"] if grow else []
-        away = f"it {move} by more than round-off"
-    else:
-        begin, told = "", drifting(verdict, grow)
-        away = f"{quantity(verdict)} drift away"
-    if told:
-        out = listed(told) + (f", the other{'' if len(stay) == 1 else f' {len(stay)}'} {'does' if len(stay) == 1 else 'do'} not"
-                              if stay and not unknown else "")
-    else:
-        out = (f"of {counted(known, 'method')} of which it is known none lets " if unknown else "no method lets ") + away
-    if unknown:
-        out += f"; of {some(unknown)} it is not known"
-    others = [r for r in every if r not in rows]
-    elsewhere = [r for r in others if r.drifts and not directed]
-    if len(others) > len(elsewhere):
-        out += f"; {some([r for r in others if r not in elsewhere])} had no run at that cost"
-    of_rows = {r.label: wheres(verdict, r.run) for r in rows}
-    clauses = [Clause(begin + at_cost(verdict, grow + stay) + out, "moves-against" if directed else "drifts", labels(grow),
-                      [verdict.invariant if directed else f"{verdict.invariant}:class"], of_rows,
-                      {"not": labels(stay), "unknown": labels(unknown)} | equal(verdict, grow + stay)
-                      | ({"expected": verdict.expected} if directed else {}))]
-    if elsewhere:
-        clauses.append(Clause(at_cost(verdict, elsewhere) + listed(drifting(verdict, elsewhere)), "drifts", labels(elsewhere),
-                              [f"{verdict.invariant}:class"], {r.label: wheres(verdict, r.run) for r in elsewhere},
-                              {"not": [], "unknown": []}))
-    return clauses
-
-
-def drifting(verdict, rows):
-    """What the rows let the quantity do, by class of drift; what is no more than round-off adds up to comes last."""
-    kinds, small = {}, [r for r in rows if r.drift <= verdict.rounding(r.run)]
-    for row in rows:
-        if row not in small:
-            kinds.setdefault(row.drift_class, []).append(row)
-    out = [f"{some(of)} {'lets' if len(of) == 1 else 'let'} {quantity(verdict)} drift ({text(kind)})" for kind, of in kinds.items()]
-    if small:
-        out.append(f"round-off alone grows with {some(small)} ({listed(dict.fromkeys(text(r.drift_class) for r in small))} of at most "
-                   f"{size(max(r.drift for r in small))})")
-    return out
-
-
-def comparable(rows):
-    """The rows whose runs are at equal cost, where these are at least half of the rows, half of those of which it is known if the
-    quantity drifts, and two of these; otherwise all rows."""
-    at_level = [r for r in rows if not r.off]
-    known, of_all = (sum(r.drifts is not None for r in some) for some in (at_level, rows))
-    return at_level if known >= 2 and 2 * known >= of_all and 2 * len(at_level) >= len(rows) else rows
-
-
-def equal(verdict, rows):
-    """Of an assertion on runs at equal cost: the level; null where their costs differ."""
-    agree = verdict.level > 0 and not any(r.off for r in rows)
-    return {"level": verdict.level if agree else None, "work": verdict.work}
-
-
-def at_cost(verdict, rows):
-    """In which runs: at equal cost where that is what they cost, otherwise each at its own step, with what it cost."""
-    if equal(verdict, rows)["level"]:
-        return f"at equal cost, {with_work(verdict, verdict.level)}, "
-    costs = sorted(r.cost for r in rows if r.cost > 0)
-    if not costs:
-        return f"{'each ' if len(rows) > 1 else ''}at its own step, "
-    ends = list(dict.fromkeys(with_work(verdict, x) for x in (costs[0], costs[-1])))
-    return f"{'each ' if len(rows) > 1 else ''}at its own step, for {' to '.join(ends)}, "
-

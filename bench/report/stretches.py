@@ -1,5 +1,6 @@
 """The motion early and late: every step of some stretches of a run, as measures/motion.csv has them, a row of panels for each method
-and a column for each stretch, with the exact motion behind. All panels have the same axes.
+and a column for each stretch, with the exact motion behind. All panels have the same axes. Above stand the times of the stretches: over
+the columns where they are those of all rows, otherwise over each panel, since a stretch is as long as the method takes for a turn.
 """
 import math
 
@@ -41,42 +42,55 @@ def rows_of(found, rows):
     return rows[:ROWS // 2] + rows[max(ROWS // 2, len(rows) - ROWS // 2):] if several else rows
 
 
-def draw(found, rows, wide):
+def draw(found, rows, wide, time_unit=""):
     """Of {method: Followed} those of the rows of a verdict, on a Canvas."""
     shown = [(row, found[row.label]) for row in rows]
     (names, units) = zip(*map(split_unit, shown[0][1].axes))
     if all(len(one.stretches) == 1 for _, one in shown):  # side by side
-        first = next(iter(shown[0][1].stretches.values()))
-        tracks = [(row.label, row.curve.family.light, *finite(*next(iter(one.stretches.values()))[1:3])) for row, one in shown]
-        behind = finite(*first[3:])
-        return panels(tracks, names, units, wide, behind if len(behind[0]) > 1 else None, every_step=True)
-    numbers = sorted({number for _, one in shown for number in one.stretches})
+        whole = [next(iter(one.stretches.values())) for _, one in shown]
+        spans = [span(stretch[0], time_unit) for stretch in whole]
+        titles = [row.label + ("" if len(set(spans)) == 1 else f", {when}") for (row, _), when in zip(shown, spans)]
+        tracks = [(title, row.curve.family.light, *finite(*stretch[1:3])) for title, (row, _), stretch in zip(titles, shown, whole)]
+        return panels(tracks, names, units, wide, [finite(*stretch[3:]) for stretch in whole], every_step=True)
     look = sizes(wide)
-    if not look.wide and len(numbers) > 3:
-        numbers = [numbers[0], numbers[len(numbers) // 2], numbers[-1]]
+    chosen = [some_of(sorted(one.stretches), look.wide) for _, one in shown]
+    columns = max(map(len, chosen))
     frame = Frame(tracks_of(shown), units)
     left, top, right, below, between = (x * look.unit for x in (72 if look.wide else 56, 24, 10, 46, 12))
-    each = min(200 * look.unit, (look.width - left - right - between * (len(numbers) - 1)) / len(numbers))
+    each = min(200 * look.unit, (look.width - left - right - between * (columns - 1)) / columns)
     tall = frame.height(each)
-    canvas = Canvas(left + len(numbers) * (each + between) - between + right, top + len(shown) * (top + tall) + below, look.font, look.unit)
+    times = [[span(one.stretches[number][0], time_unit) for number in numbers] for (_, one), numbers in zip(shown, chosen)]
+    alike = all(len({of[c] for of in times if c < len(of)}) == 1 for c in range(columns))
+    line = 0 if alike else 18 * look.unit  # between a name and its panels, where their times stand
+    canvas = Canvas(left + columns * (each + between) - between + right, top * alike + len(shown) * (top + line + tall) + below,
+                    look.font, look.unit)
     for k, (row, one) in enumerate(shown):
         colour = row.curve.family.light
-        for column, number in enumerate(numbers):
-            axes = canvas.panel(left + column * (each + between), top + k * (top + tall) + top, each, tall)
+        for column, number in enumerate(chosen[k]):
+            axes = canvas.panel(left + column * (each + between), top * alike + k * (top + line + tall) + top + line, each, tall)
             axes.grid(False)
             frame.apply(axes, 3)
-            outer(canvas, axes, names, units, last=k == len(shown) - 1, first=column == 0)
+            outer(canvas, axes, names, units, last=all(column >= len(of) for of in times[k + 1:]), first=column == 0)
             if column == 0:
-                axes.set_title(plain(row.label), fontsize=0.95 * look.font, color=colour, loc="left", pad=4 * look.unit)
-            if number not in one.stretches:
-                continue
-            times, x, y, exact_x, exact_y = one.stretches[number]
+                axes.set_title(plain(row.label), fontsize=0.95 * look.font, color=colour, loc="left", pad=4 * look.unit + line)
+            _, x, y, exact_x, exact_y = one.stretches[number]
             axes.plot(*finite(exact_x, exact_y), color=GREY, linewidth=2.6 * look.unit, alpha=0.6, zorder=1)
-            canvas.line(axes, *finite(x, y), f"{row.label}, t = {times[0]:g} to {times[-1]:g}", color=colour, **STEPS)
-            if k == 0:
-                box = axes.get_window_extent()
-                canvas.write(axes, box.x0, box.y1 + top, f"t = {times[0]:.4g} to {times[-1]:.4g}", 0.92, color=INK)
+            told, first = times[k][column], all(column >= len(of) for of in times[:k])
+            canvas.line(axes, *finite(x, y), f"{row.label}, {told}", color=colour, **STEPS)
+            if first or not alike:
+                box, size = axes.get_window_extent(), min(0.92, 0.92 * (each + between / 2) / canvas.measure(told, 0.92)[0])
+                canvas.write(axes, box.x0, box.y1 + (top + k * (top + tall) if alike else 5 * look.unit), told, size, color=INK)
     return canvas
+
+
+def some_of(numbers, wide):
+    """On a narrow screen the first, the one in the middle and the last."""
+    return numbers if wide or len(numbers) < 4 else [numbers[0], numbers[len(numbers) // 2], numbers[-1]]
+
+
+def span(times, unit):
+    """From when to when a stretch is, in words."""
+    return f"t = {times[0]:.4g} to {times[-1]:.4g} {unit}".rstrip()
 
 
 def tracks_of(shown):
@@ -89,10 +103,11 @@ def told(verdict, found, rows):
     shown = [(row, found[row.label]) for row in rows]
     steps = {one.step for _, one in shown}
     several = any(len(one.stretches) > 1 for _, one in shown)
+    spans = {span(s[0], verdict.case.get("time_unit") or "") for _, one in shown for s in one.stretches.values()}
     exact = any(math.isfinite(v) for _, one in shown for s in one.stretches.values() for v in s[3])
     return sentences(
         "Every step of the run, early and late: a stretch is one turn of the track, as far as it turns." if several else
-        "Every step of the run from its start.",
+        f"Every step of the run from its start{', ' + spans.pop() if len(spans) == 1 else ''}.",
         "Points are the steps.",
         f"At {step_text(steps.pop(), verdict.case)}." if len(steps) == 1 else "At the largest step at which each method finishes.",
         "Behind, in grey, the exact motion at the same times." if exact else "",

@@ -9,9 +9,11 @@ target   the error that the sentence speaks of: of the powers of ten the one tha
 rivals   the methods whose motion is that of the case: a formulation that makes another motion is no rival.
 """
 import dataclasses
+import functools
 import math
 import statistics
 
+from astray import astray, reach
 from curves import GROWN, ZERO, Curve, curves, front
 from error_measure import error_measure
 from experiment import DIRECTIONS, ROUND_OFF, UNIT_ROUND_OFF, Run
@@ -35,6 +37,7 @@ class Row:
     drift: float = math.nan  # of `run`: the largest change, or the largest move against the expected direction
     drift_class: str = ""
     drifts: bool | None = None  # in `run` the quantity drifts away, or moves against its direction; None: not known
+    astray: str = ""  # how `run` makes another motion; that its error stays is then no merit, and `drifts` not known
     times: dict = dataclasses.field(default_factory=dict)  # target -> (cost, at most)
 
     @property
@@ -131,6 +134,12 @@ class Verdict:
             row.drift = math.nan if any(map(math.isnan, sizes)) else statistics.median(sizes)
             if self.expected in DIRECTIONS:  # a move against the direction, by more than round-off
                 row.drifts = None if math.isnan(row.drift) else row.drift > ROUND_OFF * self.unit
+            row.astray = astray(self, row.run) if row.drifts is False else ""
+            row.drifts = None if row.astray else row.drifts
+
+    @functools.cached_property
+    def reach(self):
+        return reach(self.experiment, self.case)
 
     def rounding(self, run):
         """What round-off may add up to in a run: GROWN units of the quantity at the start; zero where that is not known."""

@@ -2,6 +2,7 @@
 import math
 
 from experiment import DIRECTIONS
+from figures import with_unit
 from verdict import TARGETS
 from wording import two_digits
 
@@ -28,8 +29,10 @@ def latex_table(verdict):
     if verdict.structured:
         columns.append(("l", "structure", structure))
     if verdict.invariant:
-        head = f"{DIRECTIONS[verdict.expected][1]} of " if verdict.expected in DIRECTIONS else "drift of "
-        columns.append(("l", escaped(head + verdict.invariant), lambda r: drift(verdict, r)))
+        unit = verdict.experiment.expectation(verdict.case, verdict.invariant)[1]
+        head = (f"{DIRECTIONS[verdict.expected][1]} of {verdict.invariant}" if verdict.expected in DIRECTIONS else
+                with_unit(f"drift of {verdict.invariant}", unit))
+        columns.append(("l", escaped(head), lambda r: drift(verdict, r)))
     if verdict.relative:
         columns.append(("r", escaped(verdict.measure.noun), lambda r: "phase lost" if r.error >= 0.5 and verdict.of_state
                         else size(r.error)))
@@ -68,7 +71,7 @@ def structure(row):
 
 def drift(verdict, row):
     kind = "" if verdict.expected in DIRECTIONS else escaped(row.drift_class) + " "
-    return kind + size(row.drift)
+    return kind + size(row.drift) + (", motion lost" if row.astray else "")
 
 
 def time(row, target, divisor):

@@ -116,8 +116,8 @@ def drift_cell(verdict, row):
                 f'<span class="cls">{move if row.drifts else "none"}</span> {size(row.drift)}{star(row)}', at_which(verdict, row))
     return ("bad" if row.drifts else "", sorted_by,
             f'<span class="cls">{text(row.drift_class or "–")}</span> '
-            f"{size(row.drift / verdict.experiment.scale(verdict.case, verdict.invariant))} <small>{size(row.drift)}</small>{star(row)}",
-            at_which(verdict, row))
+            f"{size(row.drift / verdict.experiment.scale(verdict.case, verdict.invariant))} <small>{size(row.drift)}"
+            f"{', motion lost' if row.astray else ''}</small>{star(row)}", at_which(verdict, row))
 
 
 def star(row):
@@ -201,6 +201,8 @@ def caption(verdict):
             "where that costs another."))
     if verdict.structured:
         parts.append("Filled marks keep the structure, open ones do not, and of those filled by half it is not known.")
+    if any(r.astray for r in verdict.rows):
+        parts.append("Motion lost: the run makes another motion, of which no class of drift is a merit.")
     if verdict.case.get("seeds"):
         parts.append(f"Medians over {verdict.case['seeds']} seeds, and their most frequent class.")
     if verdict.failures:

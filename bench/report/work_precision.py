@@ -12,11 +12,12 @@ from curves import LOST, ZERO, curves, front, ranks
 from error_measure import some_rows
 from families import style
 from first_screen import finding
-from figures import Drawing, heading, sentences, step_text
+from figures import Drawing, heading, sentences, step_text, with_unit
 from labels import SIZE, right_of, sampled
 from scales import power_of_ten
 from wording import counted, listed, plain_text, short_count, short_time, tick_time
 
+PLACES = 16  # along a band at which its name may stand
 CLIPPED = 4.0  # where relative errors end: what is above says the same, that all is lost
 
 
@@ -52,6 +53,7 @@ def drawing(verdict, work, some):
         else "",
         f"Steps of {named[0]}: {', '.join(step_label(p.run) for c in some if c.label == named[0] for p in c.measured())}." if named else "",
         f"In grey: {listed(grey)}." if grey else "",
+        "Longer runs leave the frame on the right." if any(p.cost > longest(some, named) for c in some for p in c.measured()) else "",
         f"Not drawn, because they failed: {listed(failed)}." if len(failed) <= 4 and failed else
         f"{counted(len(failed), 'run')} failed and {'is' if len(failed) == 1 else 'are'} not drawn." if failed else "",
         "Errors of zero stand at a tenth of round-off." if any(
@@ -99,7 +101,8 @@ def draw(verdict, work, some, named, wide):
             for p, e in zip(points, errors):
                 axes.plot([p.cost, p.slowest], [e, e], color=shown["color"], linewidth=0.7 * look.scale, zorder=2)
     words = {"time": "time of the run", "right-hand sides": "right-hand sides of the run", "steps": "steps of the run"}
-    canvas.labels(axes, words[work], verdict.measure.axis)
+    unit = "" if verdict.relative else verdict.experiment.expectation(verdict.case, verdict.invariant)[1]
+    canvas.labels(axes, words[work], with_unit(verdict.measure.axis, unit))
     ticks(canvas, axes, work)
     annotate(canvas, axes, verdict, some, named, lost, (low, high))
     return canvas
@@ -118,12 +121,16 @@ def frame(verdict, axes, some, named):
     errors = [e for c in some for p in c.measured() for e in clipped(verdict, [p.error])]
     low = 10.0 ** math.floor(math.log10(min(errors)) - 0.3)
     high = 2 * CLIPPED if verdict.of_state and max(errors) > LOST / 2 else 10.0 ** math.ceil(math.log10(max(errors)) + 0.1)
-    longest = sorted(max(p.cost for p in c.measured()) for c in some)
-    kept = max(longest[(3 * len(longest) - 1) // 4], *(p.cost for c in some if c.label in named for p in c.measured()))
-    kept = max(kept, max(p.cost for p in front(some)))
     begin = min(p.cost for c in some for p in c.measured())
-    axes.set(xscale="log", yscale="log", xlim=(begin / 1.35, kept * 1.35), ylim=(low, high))
+    axes.set(xscale="log", yscale="log", xlim=(begin / 1.35, longest(some, named)), ylim=(low, high))
     return low, high
+
+
+def longest(some, named):
+    """The cost at which the axis ends."""
+    ends = sorted(max(p.cost for p in c.measured()) for c in some)
+    kept = max(ends[(3 * len(ends) - 1) // 4], *(p.cost for c in some if c.label in named for p in c.measured()))
+    return 1.35 * max(kept, max(p.cost for p in front(some)))
 
 
 def ticks(canvas, axes, work):
@@ -182,11 +189,12 @@ def step_label(run):
 
 
 def band_text(canvas, text, box, side, small, every):
-    """What a band at the top or the bottom means, at that end of it which fewer lines cross."""
+    """What a band at the top or the bottom means, at that end of it which fewer lines cross, or between them where fewer still do."""
     width, height = canvas.measure(text, small)
     low = box.y1 - 3 - height if side == "top" else box.y0 + 2
-    ends = [(x - 2, low - 2, x + width + 2, low + height + 2) for x in (box.x0 + 4, box.x1 - 4 - width)]
-    found = min(ends, key=lambda end: inside(every, end))
+    left, right = box.x0 + 4, box.x1 - 4 - width
+    places = [left, right, *(left + (right - left) * k / PLACES for k in range(1, PLACES))]
+    found = min(((x - 2, low - 2, x + width + 2, low + height + 2) for x in places), key=lambda place: inside(every, place))
     canvas.write(canvas.axes[0], found[0] + 2, low, text, small, color=MID, va="bottom", ha="left")
 
 

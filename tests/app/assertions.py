@@ -36,12 +36,19 @@ class Judge(Files):
         seen = [(number(r["time"]) / (n := number(r["steps"])), number(r["structure_residual"]),
                  number(r.get(a["columns"][1])) / n) for r in rows if r["structure_residual"]]
         if any(claims) or not seen or max(s[1] for s in seen) > 1e5 * unit:
-            return max(s[1] for s in seen) <= 1e5 * unit if seen else any(claims) or None
+            return max(s[1] for s in seen) <= 1e5 * unit if seen else any(claims) and bool(rows) or None
         return False if max(seen)[1] > 1e3 * unit else True if max(seen)[2] > 1e3 * unit else None
+
+    def astray(self, a, label):
+        """Whether no run has a small error, and where the quantity is said to be lost, half of its range is."""
+        runs = [self.rows[w] for w in a["rows"][label]]
+        spans = [next(i.get("range") for i in self.summary(r)["invariants"] if f"{i['name']}:class" == a["columns"][0]) for r in runs]
+        far = [number(r[a["columns"][0].replace(":class", ":max")]) >= float(x or "inf") / 2 for r, x in zip(runs, spans)]
+        return not any(number(r["error_max"]) < 0.5 for r in runs) and (a["astray"][label] == "escaped" or 2 * sum(far) > len(far))
 
     def at_level(self, a):
         """Whether the runs cost what the words say, where they say that they cost the same."""
-        runs = [(m, self.rows[a["rows"][m][0]]) for m in a["subject"] + a["not"]] if a.get("level") else []
+        runs = [(m, self.rows[a["rows"][m][0]]) for m in a["subject"] + a["not"] if m not in a.get("own", [])] if a.get("level") else []
         costs = [number(r["level_ns"]) if "level_ns" in r else
                  {p[3]: p[1] for p in self.curve(a | {"columns": ["steps"]}, m)}[self.size(r)] for m, r in runs]
         return all(1 / 1.26 < c / a["level"] < 1.26 for c in costs)
@@ -74,7 +81,8 @@ class Judge(Files):
                     and ("than" in a or (best == set(said) and set(costs) == set(a["rows"]))))
         if relation in ("keeps", "drifts", "moves-against"):
             groups = ((True, said), (False, a["not"]), (None, a["unknown"]))
-            return self.at_level(a) and all(self.value(a, m) is x for x, of in groups for m in of)
+            return (self.at_level(a) and all(self.astray(a, m) for m in a.get("astray", {}))
+                    and all(self.value(a, m) is x for x, of in groups for m in of))
         if relation == "grows-as":
             return all(math.isclose(p, self.power([self.series(w, a["columns"]) for w in a["rows"][m]]), abs_tol=1e-6) and
                        ([x for x in (0, 0.5, 1.0) if abs(x - p) <= half] == POWERS[words] and half <= 0.25 if words else True)

@@ -27,6 +27,9 @@ class Files:
     def size(self, row):
         return float(row.get("tolerance") or row["step"])
 
+    def summary(self, row):
+        return json.loads((self.folder / ("equal-cost" if "level_ns" in row else "runs") / row["run"] / "summary.json").read_text("utf-8"))
+
     def series(self, where, columns):
         row = self.rows[where]
         with open(self.folder / ("equal-cost" if "level_ns" in row else "runs") / row["run"] / "series.csv", newline="") as file:

@@ -71,11 +71,11 @@ class Growth(Answers):
 class Constraints(Answers):
     def test_who_stays_and_who_leaves(self):
         ensemble(self.folder)
-        self.assertEqual(self.said("constraints"), "No method stays on the constraints; mild leaves them least, by 2·10^−8 to 6·10^−8, "
-                         "and wild most, by 4·10^−7 to 1·10^−6.")
+        self.assertEqual(self.said("constraints"), "At step 0.02 s, no method stays on the constraints; mild leaves them least, by "
+                         "2·10^−8 to 6·10^−8, and wild most, by 4·10^−7 to 1·10^−6.")
         self.edit("results.csv", "constraint:max", lambda x: "2e-16", lambda row: row[2] == "mild")
-        self.assertEqual(self.said("constraints"), "Mild stays on the constraints; wild leaves them, by 4·10^−7 to 1·10^−6."
-                         .replace("Mild", "mild"))
+        self.assertEqual(self.said("constraints"), "At step 0.02 s, mild stays on the constraints; wild leaves them, by 4·10^−7 "
+                         "to 1·10^−6.")
         self.denied(subject=["wild"])
 
     def test_differences_within_the_spread_are_ties(self):
@@ -99,6 +99,24 @@ class Constraints(Answers):
         head["methods"].append({"label": "meek"})
         (self.folder / "experiment.json").write_text(json.dumps(head))
         self.assertIn("mild and meek leave them least, by 2·10^−8 to 9·10^−8, and wild most", self.said("constraints"))
+
+    def test_one_of_which_nothing_is_known_is_named(self):
+        """A third method, whose runs have no residuals."""
+        ensemble(self.folder)
+        rows = load(self.folder / "results.csv")
+        method, size = (rows[0].index(name) for name in ("method", "constraint:max"))
+        third = [[*r] for r in rows if r[method] == "mild"]
+        for row in third:
+            row[method], row[size] = "third", ""
+        save(self.folder / "results.csv", rows + third)
+        head = json.loads((self.folder / "experiment.json").read_text())
+        head["methods"].append({"label": "third"})
+        (self.folder / "experiment.json").write_text(json.dumps(head))
+        said = self.said("constraints")
+        self.assertIn("At step 0.02 s, of 2 methods of which it is known none stays on the constraints", said)
+        self.assertIn("; of third it is not known", said)
+        self.edit("results.csv", "steps", lambda x: repr(float(x) / 2), lambda row: row[method] == "mild")  # which has a tolerance
+        self.assertIn(" or the nearest that a method has, of 2 methods", self.said("constraints"))
 
     def test_one_residual_is_no_comparison(self):
         ensemble(self.folder)
@@ -158,6 +176,8 @@ class Turning(Answers):
                          "and worst with mid, by 1·10^−3 rad per unit of time.")
         self.denied(subject=["mid"])
         self.assertEqual([c.more["unknown"] for c in answers.turning(self.verdict)], [["rk"]])
+        save(self.folder / "measures" / "frequency.csv", [r for r in rows if r[1] != "rk"])  # nor one of which there is no error at all
+        self.assertIn("phase, of 2 steady methods, turns best with bad", self.said("frequencies"))
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@ import unittest
 
 from synthetic import CLAIM_COLUMNS, Fresh, describe, load, parsed, reading, run, save, synthetic
 
+import drift_sentence  # noqa: E402
 import first_screen  # noqa: E402
 import sentence  # noqa: E402
 import verdict  # noqa: E402
@@ -76,7 +77,7 @@ class Two(Fresh):
                     for method, value in (("mid", mid), ("rk", rk)):
                         self.edit("results.csv", "energy:class", lambda x: unknown if value is None else name[value],
                                   lambda row: row[2] == method)
-                    words, made = self.said(sentence.drift)
+                    words, made = self.said(drift_sentence.drift)
                     if None in (mid, rk):
                         self.assertEqual((words, made), ("", []))
                     else:
@@ -98,7 +99,7 @@ class Two(Fresh):
                         change = 0.01 if value else -0.01
                         save(path, [whole[method, h][0]] + [[r[0], r[1], repr(1 + change * float(r[0])), *r[3:]]
                                                             for r in whole[method, h][1:]])
-                words, made = self.said(sentence.drift)
+                words, made = self.said(drift_sentence.drift)
                 if None in (mid, rk):
                     self.assertEqual((words, made), ("", []))
                 else:

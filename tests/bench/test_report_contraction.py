@@ -2,7 +2,7 @@
 import math
 import unittest
 
-from synthetic import Fresh, reading, run, measured, synthetic
+from synthetic import Fresh, load, reading, run, save, measured, synthetic
 
 import contraction  # noqa: E402
 import verdict  # noqa: E402
@@ -42,12 +42,23 @@ class Contraction(Fresh):
         self.assertLess(max(found["mid"].deviations), 1e-15)
         self.assertAlmostEqual(found["rk"].deviations[-1], 0.1, places=12)
 
+    def test_axes_are_the_coordinates_with_their_units(self):
+        discs(self.folder)
+        for path in self.folder.glob("runs/osc-*/series.csv"):
+            rows = load(path)
+            save(path, [[*rows[0][:2], "p [kg m^2/s]", *rows[0][2:]]] + [[*r[:2], "0", *r[2:]] for r in rows[1:]])
+        shown = reading.Experiment(self.folder)
+        drawing, = contraction.drawings(verdict.Verdict(shown, shown.cases[0]))
+        axes = drawing.draw(True).axes[0]
+        self.assertEqual((axes.get_xlabel(), axes.get_ylabel()), ("q [m]", "p [kg m²/s]"))
+
     def test_the_figure_names_methods_with_their_last_ratio(self):
         shown = self.shown()
         drawing, = contraction.drawings(verdict.Verdict(shown, shown.cases[0]))
         for wide in (True, False):
             canvas = drawing.draw(wide)
             self.assertEqual(sorted(a.get_title(loc="left") for a in canvas.axes), ["", "mid: 1", "rk: 1.1"])
+            self.assertEqual(canvas.axes[0].get_ylabel(), "momentum")  # where runs have one coordinate alone
             deviations = canvas.axes[-1]
             for panel in canvas.axes[:-1]:  # which hold every image
                 for line in panel.lines:
@@ -59,6 +70,19 @@ class Contraction(Fresh):
             self.assertEqual(len(boxes), 2)
             self.assertFalse(boxes[0].overlaps(boxes[1]))
             self.assertLessEqual(max(b.x1 for b in boxes), canvas.width)
+
+    def test_no_name_leaves_the_figure(self):
+        discs(self.folder)
+        for name in ("experiment.json", "results.csv", "cost.csv", "measures/contraction.csv"):
+            path = self.folder / name
+            path.write_text(path.read_text().replace('"mid"', '"a method of a long name"').replace(",mid,", ",a method of a long name,"))
+        shown = reading.Experiment(self.folder)
+        drawing, = contraction.drawings(verdict.Verdict(shown, shown.cases[0]))
+        for wide in (True, False):
+            canvas = drawing.draw(wide)
+            texts = canvas.axes[-1].texts
+            self.assertIn("a method of a long name", [t.get_text() for t in texts])
+            self.assertLessEqual(max(t.get_window_extent(canvas.renderer).x1 for t in texts), canvas.width)
 
     def test_a_case_without_a_law_has_no_figure(self):
         shown = self.shown()

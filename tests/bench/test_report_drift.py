@@ -99,6 +99,7 @@ class Directed(Fresh):
     def test_what_falls_may_fall(self):
         subject, sentence, items = self.expect("decreasing")
         self.assertEqual((subject, items), ("Decrease", ["never rises: mid, rk and bad"]))
+        self.assertEqual(drift.at_equal_step(verdict.Verdict(self.shown, self.shown.cases[1])), [])  # a panel of zeros says less
         self.assertIn("energy is expected to decrease", sentence)
 
     def test_what_falls_is_expected_to_increase(self):
@@ -176,6 +177,15 @@ class Scale(Fresh):
         canvas = drawn.draw(True)
         self.assertIn("1e-7 J", [t.get_text() for axes in canvas.axes for t in axes.texts])
         self.assertIn("over its scale, 4 J", drawn.caption)
+
+    def test_a_long_unit_is_said_once(self):
+        self.state(scale=(4.0, 4.0, 4.0))
+        for path in self.folder.glob("runs/osc-*/summary.json"):
+            path.write_text(path.read_text().replace('"J"', '"Msun au^2/d^2"'))
+        shown = reading.Experiment(self.folder)
+        drawn, = drift.at_equal_step(verdict.Verdict(shown, shown.cases[0]))
+        self.assertIn("Beside the names: the largest, in Msun au²/d².", drawn.caption)
+        self.assertIn("1e-7", [t.get_text() for axes in drawn.draw(True).axes for t in axes.texts])
 
 
 if __name__ == "__main__":

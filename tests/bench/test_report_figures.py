@@ -75,6 +75,26 @@ class Names(Fresh):
         low, high = work_precision.drawings(said)[0].draw(True).axes[0].get_xlim()
         costs = [p.cost for c in said.curves if c.label in said.named() for p in c.measured()]
         self.assertTrue(low < min(costs) and max(costs) < high)
+        self.assertNotIn("leave the frame", work_precision.drawings(said)[0].caption)
+
+    def test_longer_runs_of_lines_in_grey_leave_the_frame_and_this_is_said(self):
+        synthetic(self.folder, extra_methods=9)
+        self.edit("cost.csv", "ns_per_step_min", lambda x: repr(1e4 * float(x)), lambda row: row[1] == "mid")
+        shown = reading.Experiment(self.folder)
+        self.assertIn("Longer runs leave the frame on the right.", work_precision.drawings(verdict.Verdict(shown, shown.cases[0]))[0].caption)
+
+
+class Bands(unittest.TestCase):
+    def test_the_name_of_a_band_stands_where_no_line_crosses(self):
+        drawing = canvas.Canvas(400, 200, 11)
+        axes = drawing.panel(50, 10, 300, 150)
+        box = axes.get_window_extent(drawing.renderer)
+        at_ends = [(x, y) for y in range(200) for x in (box.x0 + 10, box.x0 + 40, box.x1 - 40, box.x1 - 10)]
+        for lines_at in ([], at_ends):
+            work_precision.band_text(drawing, "phase lost", box, "top", 0.88, lines_at)
+            text = axes.texts[-1].get_window_extent(drawing.renderer)
+            self.assertFalse(any(text.x0 <= x <= text.x1 and text.y0 <= y <= text.y1 for x, y in lines_at))
+            self.assertEqual(text.x0 < box.x0 + 8, not lines_at)  # at an end where there is room
 
 
 class Steps(unittest.TestCase):
@@ -123,10 +143,45 @@ class Numbers(Fresh):
     def test_zero_has_a_line_of_its_own(self):
         axis = scales.ErrorAxis([[0.0, 1e-12, math.nan], [1e-3, 1e9]], U)
         zero, small, gap = axis.place([0.0, 1e-12, math.nan])
-        self.assertTrue(0 < zero < U and small == 1e-12 and math.isnan(gap))
+        self.assertTrue(0 < zero < 1e-12 and small == 1e-12 and math.isnan(gap))
         self.assertLess(10.0**axis.high, 1e9)  # what exploded leaves the frame
-        self.assertEqual(len(axis.remarks()), 2)
-        self.assertEqual(scales.ErrorAxis([[1e-12]], U).remarks(), [])
+        self.assertEqual(len(axis.remarks()), 3)
+        self.assertEqual(scales.ErrorAxis([[1e-14]], U).remarks(), [])
+
+    def part(self, axis, values):
+        """The part of the panel, from its bottom, at which values stand."""
+        drawn = canvas.Canvas(300, 200, 11).panel(30, 10, 250, 150)
+        axis.apply(drawn)
+        low, high = (math.log10(y) for y in drawn.get_ylim())
+        return [(math.log10(v) - low) / (high - low) for v in axis.place(values)]
+
+    def test_tiny_first_samples_leave_no_panel_empty(self):
+        """Errors that grow from 1e-6 to 1e-3, but for three first ones of 1e-15, fill three quarters of the panel."""
+        line = [1e-15] * 3 + [10 ** (-6 + 3 * k / 40) for k in range(41)]
+        axis = scales.ErrorAxis([line], U)
+        filled = self.part(axis, line[3:])
+        self.assertGreater(max(filled) - min(filled), 0.75)
+        self.assertEqual(axis.remarks(), ["The smallest values leave the frame at the bottom.", "Unit round-off is below the frame."])
+        few = scales.ErrorAxis([line[2:10]], U)  # of few values, which may be all there is, none leaves it
+        self.assertGreater(self.part(few, line[2:10])[0], 0)
+
+    def test_round_off_is_seen_where_errors_come_near_it(self):
+        for error, seen in ((1e-14, True), (1e-11, False)):
+            axis = scales.ErrorAxis([[error, 1e-3]], U)
+            self.assertEqual((axis.seen, "Unit round-off is below the frame." in axis.remarks()), (seen, not seen))
+            self.assertEqual(self.part(axis, [U])[0] > 0, seen)
+        self.assertEqual(scales.remarks_of([scales.ErrorAxis([[x]], U) for x in (1e-14, 1e-3)]), [])  # one of them shows it
+
+    def test_what_is_bounded_by_round_off_has_no_line_for_zero(self):
+        axis = scales.ErrorAxis([[0.0, 1e-17, 1e-15], [1e-3]], U, bounded=True)
+        self.assertEqual(axis.place([0.0, 1e-17, 1e-15]), [U, U, 1e-15])
+        self.assertEqual(axis.remarks(), ["Nothing is drawn below unit round-off."])
+
+    def test_of_values_that_are_too_small_for_the_frame_beside_zeros(self):
+        axis = scales.ErrorAxis([[0.0] + [1e-30] + [1e-8] * 40], U)
+        zero, small, other = axis.place([0.0, 1e-30, 1e-8])
+        self.assertTrue(zero == small < other)
+        self.assertIn("Zeros, and what is too small to be in the frame, are drawn on the line labelled ≈ 0.", axis.remarks())
 
     def test_envelope_keeps_the_largest(self):
         times = [0.01 * k for k in range(5001)]

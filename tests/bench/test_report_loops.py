@@ -43,7 +43,7 @@ class Loops(Fresh):
         self.assertEqual(run(self.folder)[0], 0)
         page = (self.folder / "report.html").read_text(encoding="utf-8")
         self.assertIn("Poincaré's integral invariant", page.replace("&#x27;", "'"))
-        self.assertIn("The integral moves most for rk, by 7.0e-05 of itself.", page)
+        self.assertIn("Of 2 methods the integral moves most for rk, by 7.0e-05 of itself.", page)
         self.assertTrue((self.folder / "figures" / "loop_osc.svg").exists())
         self.assertFalse((self.folder / "figures" / "loop_damped.svg").exists())
 

@@ -9,6 +9,7 @@ import bands  # noqa: E402
 import ensembles  # noqa: E402
 import moving  # noqa: E402
 import verdict  # noqa: E402
+import work_precision  # noqa: E402
 
 SEEDS = 4
 
@@ -125,14 +126,15 @@ class Tracks(Fresh):
                 self.assertIn(told, said)
 
 
-def turning(folder, stretches=5, lost=1e3, more=0):
-    """`circles` with stretches of twelve steps: `round` on the exact unit circle, `small` on one of half its size, `lost` far away."""
+def turning(folder, stretches=5, lost=1e3, more=0, late=None):
+    """`circles` with stretches of twelve steps: `round` on the exact unit circle, `small` on one of half its size, `lost` far away. `late`
+    has by how much later the stretches of a method begin."""
     circles(folder, more=more)
     rows = [["case", "method", "step", "t", "x axis", "y axis", "stretch", "x", "y", "exact_x", "exact_y"]]
     for label, size in (("round", 1.0), ("small", 0.5), ("lost", lost), *((f"more {k}", 1.0) for k in range(more))):
-        for stretch in range(1, stretches + 1):
+        for stretch in range(1, (stretches[label] if isinstance(stretches, dict) else stretches) + 1):
             for k in range(13):
-                t = 20 * (stretch - 1) + k / 2
+                t = 20 * (stretch - 1) + k / 2 + (late or {}).get(label, 0)
                 cells = [size * math.cos(t), size * math.sin(t), math.cos(t), math.sin(t)]
                 rows.append(["ball", label, "0.5", repr(t), "x [m]", "y [m]", str(stretch), *map(repr, cells)])
     measured(folder, "motion", rows, texts=("x axis", "y axis"))
@@ -155,12 +157,35 @@ class Stretches(Fresh):
                 self.assertAlmostEqual(y, size * math.sin(begin + n / 2))
             self.assertAlmostEqual(exact.get_xdata()[3], math.cos(begin + 1.5))
         self.assertEqual([axes.get_title(loc="left") for axes in canvas.axes if axes.get_title(loc="left")], ["round", "small", "lost"])
-        self.assertEqual([text.get_text() for text in canvas.axes[1].texts], ["t = 20 to 26"])
+        self.assertEqual([text.get_text() for text in canvas.axes[1].texts], ["t = 20 to 26 s"])
         self.assertEqual(len({(axes.get_xlim(), axes.get_ylim()) for axes in canvas.axes}), 1)
 
     def test_a_narrow_screen_has_the_first_the_middle_and_the_last(self):
         canvas = self.drawing().draw(False)
-        self.assertEqual([text.get_text() for axes in canvas.axes for text in axes.texts], ["t = 0 to 6", "t = 40 to 46", "t = 80 to 86"])
+        self.assertEqual([text.get_text() for axes in canvas.axes for text in axes.texts], ["t = 0 to 6 s", "t = 40 to 46 s", "t = 80 to 86 s"])
+
+    def test_rows_of_other_times_have_headings_of_their_own(self):
+        drawing = self.drawing(late={"small": 0.5, "lost": 1.0})
+        for wide, columns in ((True, (0, 20, 40, 60, 80)), (False, (0, 40, 80))):
+            canvas = drawing.draw(wide)
+            self.assertEqual([[text.get_text() for text in axes.texts] for axes in canvas.axes],
+                             [[f"t = {late + t:g} to {late + t + 6:g} s"] for late in (0, 0.5, 1) for t in columns])
+            for axes in canvas.axes:  # above its panel, below the name of the method, and beside the next one
+                panel, text = axes.get_window_extent(), axes.texts[0].get_window_extent(canvas.renderer)
+                names = [t.get_window_extent(canvas.renderer) for t in axes.findobj(lambda a: hasattr(a, "get_text") and a.get_text() ==
+                                                                                  axes.get_title(loc="left") != "")]
+                self.assertGreaterEqual(text.y0, panel.y1)
+                self.assertTrue(all(text.y1 <= name.y0 + 1 for name in names))
+                self.assertLess(text.x1, panel.x1 + 12)
+
+    def test_a_run_of_fewer_stretches_has_fewer_panels(self):
+        drawing = self.drawing(stretches={"round": 4, "small": 5, "lost": 4}, lost=1.1)
+        canvas = drawing.draw(True)
+        self.assertEqual(len(canvas.axes), 13)
+        self.assertEqual([axes.texts[0].get_text() for axes in canvas.axes if axes.texts],
+                         ["t = 0 to 6 s", "t = 20 to 26 s", "t = 40 to 46 s", "t = 60 to 66 s", "t = 80 to 86 s"])
+        self.assertEqual([axes.get_xlabel() for axes in canvas.axes if axes.get_xlabel()], ["x [m]"] * 5)
+        self.assertEqual(len(drawing.draw(False).axes), 9)  # of each the first, one in the middle and the last
 
     def test_what_is_far_away_leaves_the_frame_and_is_named(self):
         drawing = self.drawing()
@@ -175,10 +200,19 @@ class Stretches(Fresh):
 
     def test_one_stretch_is_drawn_side_by_side(self):
         drawing = self.drawing(stretches=1)
-        self.assertIn("Every step of the run from its start.", drawing.caption)
+        self.assertIn("Every step of the run from its start, t = 0 to 6 s.", drawing.caption)
         axes = drawing.draw(True).axes
         self.assertEqual([one.get_title(loc="left") for one in axes], ["round", "small", "lost"])
         self.assertEqual({line.get_linestyle() for one in axes for line in one.lines[:2]}, {"-"})  # also where steps turn by half a radian
+
+    def test_side_by_side_each_has_its_times_and_the_exact_motion_at_these(self):
+        drawing = self.drawing(stretches=1, late={"small": 0.5}, lost=1.1)
+        self.assertIn("Every step of the run from its start.", drawing.caption)
+        axes = drawing.draw(True).axes
+        self.assertEqual([one.get_title(loc="left") for one in axes], [
+            "round, t = 0 to 6 s", "small, t = 0.5 to 6.5 s", "lost, t = 0 to 6 s"])
+        for one, begin in zip(axes, (0, 0.5, 0)):
+            self.assertAlmostEqual(min(one.lines, key=lambda line: line.get_zorder()).get_xdata()[0], math.cos(begin))
 
     def test_the_table_has_no_second_figure(self):
         self.assertEqual(run(turning(self.folder))[0], 0)
@@ -235,6 +269,25 @@ class Spreads(Fresh):
         self.assertAlmostEqual(median[-1] / (2.5e-9 * 10), 1, places=5)  # halfway between the second and the third
         self.assertEqual([bands.quantile([4, 1, 3, 2], part) for part in (0, 0.5, 1)], [1, 2.5, 4])
         self.assertAlmostEqual(bands.quantile([1, 2, 3, 4], 0.1), 1.3)
+
+    def test_bands_have_the_unit_of_the_quantity(self):
+        shown = reading.Experiment(walks(self.folder))
+        drawing, = bands.drawings(verdict.Verdict(shown, shown.cases[0]))
+        self.assertEqual(drawing.draw(True).axes[0].get_ylabel(), "drift of energy [J]")
+        drawing, = work_precision.drawings(verdict.Verdict(shown, shown.cases[0]))
+        self.assertEqual(drawing.draw(True).axes[0].get_ylabel(), "largest drift of energy [J]")
+
+    def test_a_line_of_fewer_than_three_times_is_named_and_not_drawn(self):
+        """The seeds of `drift` chose their steps, and have the end alone in common."""
+        walks(self.folder)
+        for seed in range(1, SEEDS + 1):
+            path = self.folder / "runs" / f"drift-{seed}" / "series.csv"
+            rows = load(path)
+            save(path, rows[:2] + [[repr(float(t) + 0.01 * seed), x] for t, x in rows[2:-1]] + rows[-1:])
+        shown = reading.Experiment(self.folder)
+        drawing, = ensembles.drawings(verdict.Verdict(shown, shown.cases[0]))
+        self.assertIn("Left out is drift, whose seeds have no three times in common.", drawing.caption)
+        self.assertEqual({t.get_text() for t in drawing.draw(True).axes[0].texts} & {"walk", "drift"}, {"walk"})
 
     def test_power_needs_positive_values(self):
         self.assertTrue(math.isnan(ensembles.exponent([1, 2, 3, 4], [0, 0, 0, 0])))

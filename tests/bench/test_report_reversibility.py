@@ -49,7 +49,7 @@ class Reversibility(Fresh):
         self.assertFalse(found["mid"].comes_back(None))
         early = self.write(lambda k: 1.05e-13)
         self.assertTrue(reversibility.returns(early, early.cases[0])["mid"].comes_back(None))
-        self.assertIn("No method comes back to the start", self.drawing(self.write(lambda k: 1.5e-13)).caption)
+        self.assertIn("No method that was turned round comes back to the start", self.drawing(self.write(lambda k: 1.5e-13)).caption)
 
     def test_methods_without_a_rounding_are_judged_by_the_one_in_the_middle(self):
         shown = self.write(rows=[["osc", "bad", "0.2", repr(0.2 * k), repr(5e-14 * k), "", "negative steps"] for k in (1, 2, 4, 8)])
@@ -79,11 +79,21 @@ class Reversibility(Fresh):
         def shown(*missed):
             return [reversibility.Shown(types.SimpleNamespace(label=f"m{k}, odd"), reversibility.Returns(0.1, "reversal", [1], [x], [x]),
                                         x < 1e-15) for k, x in enumerate(missed)]
-        self.assertEqual(reversibility.finding(shown(1e-6, 1e-2, 1e-3, 1e-5, 1e-4, 1e-16, 1e-16)),
+        some = shown(1e-6, 1e-2, 1e-3, 1e-5, 1e-4, 1e-16, 1e-16)
+        self.assertEqual(reversibility.finding(some, some),
                          "2 of 7 methods come back to the start but for rounding. The start is missed by m1, odd by up to 1.0e-02; "
                          "m2, odd by 1.0e-03; m4, odd by 1.0e-04; 2 more by less.")
-        self.assertEqual(reversibility.finding(shown(1e-16, 1e-16)), "Every method comes back to its start but for rounding.")
-        self.assertEqual(reversibility.finding(shown(1e-16)), "m0, odd comes back to its start but for rounding.")
+        self.assertEqual(reversibility.finding(shown(1e-16, 1e-16), range(2)), "Every method comes back to its start but for rounding.")
+        self.assertEqual(reversibility.finding(shown(1e-16), range(1)), "m0, odd comes back to its start but for rounding.")
+
+    def test_every_method_is_said_where_every_method_was_turned_round(self):
+        """One that chooses its steps is not."""
+        two = [reversibility.Shown(types.SimpleNamespace(label=label), reversibility.Returns(0.1, "reversal", [1], [x], [x]), back)
+               for label, x, back in (("a", 1e-16, True), ("b", 1e-16, True))]
+        self.assertEqual(reversibility.finding(two, range(3)), "Every method that was turned round comes back to its start but for rounding.")
+        for one in two:
+            one.back = False
+        self.assertIn("No method that was turned round comes back to the start", reversibility.finding(two, range(3)))
 
     def test_methods_of_which_nothing_is_known_are_named(self):
         caption = self.drawing(self.write()).caption

@@ -141,6 +141,20 @@ class Pages(Fresh):
         self.assertIn("q2 against q1", page)
         self.assertIn("Each point is one of 31 passages of q1 = 0 upwards.", page)
 
+    def test_names_have_room_beside_the_next_panel(self):
+        """A coordinate that has its unit alone is named above its panel."""
+        columns = ["t [s]", "x_of_the_sun [m]", "x_of_the_moon [m]", "angle [rad]", "p [kg m^2/s]", "energy [J]"]
+        run_directory(self.folder, columns, [[0.1 * k, 0.1 * k, -0.1 * k, 0.2 * k, 1.0, 1.0] for k in range(30)])
+        drawing = run_figures.quantities(recording.read_recording(self.folder))[0]
+        for wide in (True, False):
+            canvas = drawing.draw(wide)
+            self.assertEqual([a.get_title(loc="left") for a in canvas.axes][:3], ["coordinates [m]", "angle [rad]", "p [kg m²/s]"])
+            names = [t.get_window_extent(canvas.renderer) for t in canvas.axes[0].texts]
+            ends = [a.get_tightbbox(canvas.renderer).x0 for a in canvas.axes[1:2]] if wide else [canvas.width]
+            self.assertEqual(len(names), 2)
+            self.assertLess(max(box.x1 for box in names), ends[0])
+            self.assertFalse(canvas.axes[1].texts)
+
     def test_coordinates_and_figures_for_papers(self):
         folder = oscillators(self.folder)
         self.assertEqual(plotted(folder, "--coordinates", "q1,p1", "--figures", "pdf,png", "--width", "85mm"), (0, ""))

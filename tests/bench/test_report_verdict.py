@@ -91,6 +91,12 @@ class Said(Fresh):
         self.edit("results.csv", "structure_residual", lambda x: "1e-16")
         self.assertIn("all methods keep the symplectic structure", self.said())
 
+    def test_a_claim_of_a_method_of_which_no_run_finished_is_not_known_to_hold(self):
+        synthetic(self.folder)
+        self.assertIn("only mid keeps the symplectic structure", self.said())
+        self.edit("results.csv", "status", lambda x: "singular", lambda row: row[2] == "mid")
+        self.assertIn("of 2 methods of which it is known none keeps the symplectic structure; of mid it is not known", self.said())
+
     def test_no_claim_without_data(self):
         synthetic(self.folder)
         self.edit("results.csv", "structure_residual", lambda x: "")
@@ -233,7 +239,7 @@ class Said(Fresh):
         self.assertIn("of 2 methods of which it is known none lets the energy drift away; of rk it is not known", said)
         # What others are known to do is said beside it.
         self.edit("results.csv", "energy:class", lambda x: "drifting" if x else x, lambda row: row[2] == "bad")
-        self.assertIn("bad lets the energy drift (drifting); of rk it is not known", told())
+        self.assertIn("bad lets the energy drift (drifting), mid does not; of rk it is not known", told())
 
     def test_what_round_off_adds_up_to_is_told_apart(self):
         synthetic(self.folder)
@@ -254,7 +260,8 @@ class Said(Fresh):
             return wording.plain_text(first_screen.below(self.verdict()))
         self.assertIn("At equal cost, 10 µs, rk and bad let the energy drift (drifting), the other does not", told())
         self.edit("cost.csv", "ns_per_step_min", lambda x: "4000", lambda row: row[1] == "mid")
-        self.assertIn("at equal cost, 10 µs, rk and bad let the energy drift (drifting); mid had no run at that cost", told().lower())
+        self.assertIn("at equal cost, 10 µs, rk and bad let the energy drift (drifting); at its own step, for 400 µs, mid "
+                      "does not let the energy drift away", told().lower())
         self.edit("cost.csv", "ns_per_step_min", lambda x: "200", lambda row: row[1] == "bad")
         said = told()
         self.assertNotIn("equal cost", said)
@@ -285,7 +292,7 @@ class Said(Fresh):
         path.write_text(json.dumps(head))
         shown = self.verdict()
         self.assertEqual([r.label for r in shown.ranked(shown.target)], ["rk", "mid"])
-        self.assertIn("bad is another motion, and no rival of the others.", wording.plain_text(first_screen.below(shown)))
+        self.assertIn("bad is another motion, and no rival of the others, of which alone the sentences speak.", wording.plain_text(first_screen.below(shown)))
         self.assertNotIn("bad", self.said())
         self.assertIn("rk is cheapest, ", self.said())  # of all that it is compared with
 
