@@ -24,9 +24,7 @@ namespace {
 std::shared_ptr<const Model> motion_in(const std::shared_ptr<const Model>& model,
                                        const std::string& formulation) {
   if (formulation.empty()) return motion_of(model);
-  const FormulationPlugin& plugin = formulations().get(formulation, "formulation");
-  if (const std::string reason = plugin.refuses(*model); !reason.empty()) throw InputError(reason);
-  return plugin.apply(model, {});
+  return formulation_for(*model, formulation)->apply(model, {});
 }
 
 py::dict evaluated_at(const PySystem& system, const std::vector<std::string>& state, const std::string& t,

@@ -161,6 +161,25 @@ def test_bad_input_is_refused_without_options_of_the_command_line(settings, word
     assert "--" not in str(caught.value)
 
 
+@pytest.mark.parametrize("method", ["verlet", "rk4", "rattle"])
+@pytest.mark.parametrize("call", [
+    lambda method: pfaff.run("kepler", method, step=0.1, time=1, formulation="dirac"),
+    lambda method: pfaff.Integration("kepler", method, step=0.1, formulation="dirac"),
+    lambda method: pfaff.evaluate("kepler", formulation="dirac"),
+])
+def test_a_formulation_of_a_system_without_constraints_is_refused_as_by_the_program(call, method):
+    with pytest.raises(pfaff.InputError) as refused:
+        call(method)
+    assert str(refused.value) == "formulation: kepler has no constraints; expected none"
+
+
+def test_a_method_on_constraints_takes_no_formulation():
+    words = "rattle steps on the constraints of spherical-pendulum themselves; expected no formulation"
+    for call in (lambda **k: pfaff.run("spherical-pendulum", "rattle", step=0.1, time=1, **k), lambda **k: pfaff.Integration("spherical-pendulum", "rattle", step=0.1, **k)):
+        with pytest.raises(pfaff.InputError, match=words):
+            call(formulation="dirac")
+
+
 def test_names_that_both_know_are_asked_for(tmp_path):
     text = 'name = "one"\ncoordinates = ["q", "p"]\ninitial = [1, 0]\nparameters = { stages = 1 }\nkinetic = "p^2/2"\npotential = "stages*q^2/2"\n'
     path = tmp_path / "stages.toml"
