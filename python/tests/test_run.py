@@ -161,6 +161,12 @@ def test_bad_input_is_refused_without_options_of_the_command_line(settings, word
     assert "--" not in str(caught.value)
 
 
+def test_messages_of_runs_that_end_early_name_arguments():
+    with pytest.raises(pfaff.NotConverged, match="gave up at t = 1.1107.*in small ones, absolute says") as failed:
+        pfaff.run("kepler", "taylor", initial=[1, 0, 0, 0], tolerance=1e-9, time=2)  # a fall into the centre
+    assert "--" not in failed.value.run.message
+
+
 @pytest.mark.parametrize("method", ["verlet", "rk4", "rattle"])
 @pytest.mark.parametrize("call", [
     lambda method: pfaff.run("kepler", method, step=0.1, time=1, formulation="dirac"),
