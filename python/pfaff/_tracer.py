@@ -85,6 +85,8 @@ class Tracer:
         is_number, signature = FORMULAS[key]
         what = f"{place_of(member)}{key} of {self.definition.what}"
         times, ins = re.findall(r"const T& (\w+)", signature), re.findall(r"In<T> (\w+)", signature)
+        if self.n % 2 and not {"q", "p"}.isdisjoint(ins):
+            raise InputError(f"{what}: there are {self.n} coordinates; expected an even number, first all positions and then their momenta")
         inputs, _ = _pfaff.formula_size(key, self.sizes)
         each = (inputs - (len(times) - 1)) // len(ins)
 
