@@ -1,6 +1,7 @@
 """Tracing: a function is called once with numbers that record what is done with them."""
 from __future__ import annotations
 
+import functools
 import inspect
 import os
 import sys
@@ -36,7 +37,10 @@ def trace_error(message: str) -> TraceError:
 
 def place_of(function: Callable) -> str:
     """FILE:LINE of a function, with a colon behind it; empty where it has none."""
-    code = getattr(inspect.unwrap(function), "__code__", None)
+    own = inspect.unwrap(function)
+    while isinstance(own, functools.partial):
+        own = inspect.unwrap(own.func)
+    code = getattr(own, "__code__", None) or getattr(getattr(type(own), "__call__", None), "__code__", None)
     return f"{code.co_filename}:{code.co_firstlineno}: " if code else ""
 
 
