@@ -9,8 +9,10 @@ from typing import Any
 import numpy as np
 
 from . import _pfaff
+from ._arguments import function, real_array, whole
 from ._errors import InputError
-from ._integration import attach, whole, with_parameters
+from ._integration import attach, with_parameters
+from ._numbers import float_of_number
 
 
 @dataclass(slots=True)
@@ -56,12 +58,7 @@ def ensemble(system: Any, method: Any, states: Any, *, step: Any, steps: int, ev
     Whatever is raised, by the callback too, has the Ensemble so far as its attribute `run`.
     """
     base, tool = with_parameters(system, method, parameters, system_parameters, method_parameters)
-    if np.iscomplexobj(states):
-        raise InputError("states: expected real numbers, got complex ones")
-    try:
-        array = np.asarray(states, dtype=float)
-    except (TypeError, ValueError) as error:
-        raise InputError(f"states: expected numbers, an array of shape (N, {base.dimension}): {error}") from None
+    array = real_array(states, "states", f"real numbers, an array of shape (N, {base.dimension})")
     if array.ndim != 2 or array.shape[1] != base.dimension:
         raise InputError(f"states: expected shape (N, {base.dimension}), got {array.shape}")
     if not np.isfinite(array).all():
@@ -71,7 +68,9 @@ def ensemble(system: Any, method: Any, states: Any, *, step: Any, steps: int, ev
     if stride > count:
         raise InputError(f"every: expected at most {count}, the number of steps, got {stride}")
     workers = whole(threads, "threads", 1) if threads is not None else len(os.sched_getaffinity(0))
-    h, start = _number(step, "step"), _number(t0, "t0")
+    h, start = float_of_number(step, "step"), float_of_number(t0, "t0")
+    if callback is not None:
+        function(callback, "callback", "a function of the index of a trajectory")
     y = np.empty((len(array), 1 + count // stride, base.dimension))
     result = Ensemble(start + stride * np.arange(y.shape[1]) * h, y, {}, np.zeros(len(array), dtype=bool))
 
@@ -87,10 +86,3 @@ def ensemble(system: Any, method: Any, states: Any, *, step: Any, steps: int, ev
         attach(error, result)
         raise
     return result
-
-
-def _number(value: Any, what: str) -> float:
-    try:
-        return float(value)
-    except (TypeError, ValueError):
-        raise InputError(f"{what}: expected a number, got {value!r}") from None

@@ -1,22 +1,21 @@
 """Runs: a system integrated by a method, with all that is measured of it."""
 from __future__ import annotations
 
-import contextlib
 import functools
 import html
-import os
 import pickle
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from . import _pfaff
+from ._arguments import real_array, unknown
+from ._asked_run import asked_run, listed_measures
 from ._errors import InputError, NotConverged, RunFailed
-from ._integration import Integration, attach, whole, with_parameters
+from ._integration import Integration, attach, with_parameters
 from ._naming import kebab
-from ._numbers import text_of_number, texts_of_state
 from ._tables import data_frame, html_table, text_table
 from ._watched import Watched
 
@@ -106,8 +105,8 @@ class Run:
         is about 1e-20 of the third derivative, and the result as good as one of derivatives through the steps.
         """
         values = self.system.parameters
-        if parameter not in values:
-            raise InputError(_pfaff.unknown_name("parameter", parameter, list(values)) + f" (of {self.system.name})")
+        if not isinstance(parameter, str) or parameter not in values:
+            raise InputError(unknown("parameter", parameter, list(values)) + f" (of {self.system.name})")
         if self._asked["tolerance"]:
             raise InputError("sensitivity: expected a run with steps of one size")
         from fractions import Fraction
@@ -126,6 +125,8 @@ class Run:
                            precision=precision or self._asked["precision"], formulation=self._asked["formulation"])
 
     def __getitem__(self, name: str) -> np.ndarray:
+        if not isinstance(name, str):
+            raise KeyError(unknown("column", name, self.coordinates))
         if name in self.coordinates:
             return self.y[:, self.coordinates.index(name)]
         block = [k for k, one in enumerate(self.coordinates) if re.fullmatch(re.escape(name) + r"\d+", one)]
@@ -133,7 +134,7 @@ class Run:
             return self.y[:, block[0] : block[-1] + 1] if block == list(range(block[0], block[-1] + 1)) else self.y[:, block]
         if name in self.invariants:
             return self.invariants[name]
-        raise KeyError(_pfaff.unknown_name("column", name, [*self.coordinates, *self.invariants]))
+        raise KeyError(unknown("column", name, [*self.coordinates, *self.invariants]))
 
     def to_pandas(self) -> pandas.DataFrame:
         """A row for each sample: t, the coordinates, invariants, residuals of constraints, and the error where there is one."""
@@ -213,7 +214,7 @@ class Unavailable:
 
 def run(system: Any, method: Any, *, step: Any = None, tolerance: Any = None, time: Any = None, every: int = 0, initial: Any = None, initial_velocities: Any = None, t0: Any = 0,
         absolute: Any = (), precision: str = "double", reference: str | None = "exact", measures: Sequence[str | Callable[[Run], Any]] = (), structure: bool = True,
-        project_initial: bool = False, allow_inconsistent: bool = False, formulation: str = "", out: Any = None, system_parameters: Mapping[str, Any] | None = None,
+        project_initial: bool = False, allow_inconsistent: bool = False, formulation: str | None = None, out: Any = None, system_parameters: Mapping[str, Any] | None = None,
         method_parameters: Mapping[str, Any] | None = None, **parameters: Any) -> Run:
     """Runs a method on a system, and measures what drifts and what it costs, as `pfaff run` does.
 
@@ -260,33 +261,12 @@ def run(system: Any, method: Any, *, step: Any = None, tolerance: Any = None, ti
     base, tool = with_parameters(system, method, parameters, system_parameters, method_parameters)
     if time is None:
         raise InputError("time: expected the duration of the run")
-    wanted: list[str | Callable[[Run], Any]]
-    wanted = [measures] if isinstance(measures, str) or callable(measures) else list(measures)
-    for one in wanted:
-        if not isinstance(one, str) and not callable(one):
-            raise InputError(f"measures: expected names of measures and functions of the run, got {one!r}")
-    texts = lambda values, what: texts_of_state([values] if np.ndim(values) == 0 else values, what)  # noqa: E731
-    asked = {
-        "step": "" if step is None else text_of_number(step, "step"),
-        "tolerance": "" if tolerance is None else text_of_number(tolerance, "tolerance"),
-        "time": text_of_number(time, "time"),
-        "every": whole(every, "every", 0),
-        "initial": [] if initial is None else texts(initial, "initial"),
-        "initial_velocities": [] if initial_velocities is None else texts(initial_velocities, "initial_velocities"),
-        "t0": text_of_number(t0, "t0"),
-        "absolute": texts(absolute, "absolute"),
-        "precision": precision,
-        "reference": reference or "none",
-        "measures": [one for one in wanted if isinstance(one, str)],
-        "structure": bool(structure),
-        "project_initial": bool(project_initial),
-        "allow_inconsistent": bool(allow_inconsistent),
-        "formulation": formulation,
-        "out": "" if out is None else os.fspath(out),
-        **_written_as(base, tool, out),
-    }
-    with _words_of_python():
-        going = _pfaff.RunInProgress(base.model, tool.instance, asked)
+    wanted = listed_measures(measures)
+    asked = asked_run(
+        base, tool, step=step, tolerance=tolerance, time=time, every=every, initial=initial, initial_velocities=initial_velocities, t0=t0,
+        absolute=absolute, precision=precision, reference=reference, measures=wanted, structure=structure, project_initial=project_initial,
+        allow_inconsistent=allow_inconsistent, formulation=formulation, out=out)
+    going = _pfaff.RunInProgress(base.model, tool.instance, asked)
     try:
         going.execute()
     except InputError:
@@ -298,7 +278,7 @@ def run(system: Any, method: Any, *, step: Any = None, tolerance: Any = None, ti
     try:
         for function in wanted:
             if callable(function):
-                result.measures[kebab(function.__name__)] = _measured(function, result)
+                result.measures[_name_of(function)] = _measured(function, result)
     except BaseException as error:
         attach(error, result)
         raise
@@ -309,37 +289,18 @@ def run(system: Any, method: Any, *, step: Any = None, tolerance: Any = None, ti
     return result
 
 
+def _name_of(function: Callable[[Run], Any]) -> str:
+    return kebab(getattr(function, "__name__", type(function).__name__))
+
+
 def _measured(function: Callable[[Run], Any], result: Run) -> dict[str, Any]:
     """The table of a measure that is a function of the run."""
-    given = function(result)
-    columns = dict(given) if isinstance(given, Mapping) else {kebab(function.__name__): given}
+    given, measure = function(result), _name_of(function)
+    columns = dict(given) if isinstance(given, Mapping) else {measure: given}
     table = {"t": result.t}
     for name, values in columns.items():
-        table[name] = np.asarray(values, dtype=float)
+        expected = f"{len(result.t)} numbers of {name}, one for each sample"
+        table[name] = real_array(values, f"measure {measure}", expected)
         if table[name].shape != result.t.shape:
-            raise InputError(f"measure {kebab(function.__name__)}: expected {len(result.t)} numbers of {name}, one for each sample, got shape {table[name].shape}")
+            raise InputError(f"measure {measure}: expected {expected}, got shape {table[name].shape}")
     return table
-
-
-def _written_as(system: Any, method: Any, out: Any) -> dict[str, str]:
-    """What a config.toml calls a system and a method, both empty where one of them has no name; and the text of a system that is written in Python."""
-    names = {"system": "", "integrator": "", "system_text": ""}
-    if out is None or not method.registered_name:
-        return names
-    if system.registered_name:
-        return {**names, "system": system.registered_name, "integrator": method.registered_name}
-    try:
-        text = system.to_toml()
-    except InputError:  # its formulas are not written as text
-        return names
-    return {"system": os.path.join(os.path.abspath(os.fspath(out)), "system.toml"), "integrator": method.registered_name, "system_text": text}
-
-
-@contextlib.contextmanager
-def _words_of_python() -> Iterator[None]:
-    """Messages of the command line name options, --step; in Python these are arguments, step."""
-    try:
-        yield
-    except InputError as error:
-        words = re.sub(r"--set (\w+)=", r"\1=", str(error))
-        raise InputError(re.sub(r"--([a-z][a-z-]*)", lambda option: option[1].replace("-", "_"), words)) from None

@@ -33,8 +33,9 @@ py::dict evaluated_at(const PySystem& system, const std::vector<std::string>& st
   return python_value(without_lock([&] {
            EvaluationSettings settings;
            settings.at.model = motion_in(system.model, formulation);
-           settings.at.t = finite_number(t, "t");
-           settings.at.state = initial_state(*settings.at.model, {state, {}}, settings.at.t);
+           settings.at.t = finite_number(t, "time");
+           settings.at.state = state.empty() ? initial_state(*settings.at.model, {}, settings.at.t)
+                                             : state_numbers(*settings.at.model, state, "state");
            settings.precision = parse_precision(precision);
            if (centre) settings.centre = state_numbers(*settings.at.model, *centre, "centre");
            return evaluation(settings);
