@@ -28,7 +28,7 @@ class Outcome:
     steps: int
     """How many steps were taken."""
     t: np.ndarray = field(repr=False)
-    """The times of the states, shape (rows,); empty where none were asked for."""
+    """The times of the states, shape (rows,); empty where none were asked for. Arrays are of doubles, in quad precision too."""
     y: np.ndarray = field(repr=False)
     """The states, shape (rows, dimension); the one at which the call began is not among them."""
 

@@ -34,7 +34,7 @@ class Run:
         self._going = going  # for the summary
         self.system, self.method, self._asked = system, method, asked
         self.t: np.ndarray = of["t"]
-        """The times of the samples, shape (rows,)."""
+        """The times of the samples, shape (rows,). All arrays are of doubles, in quad precision too."""
         self.y: np.ndarray = of["y"]
         """The states, shape (rows, dimension)."""
         self.invariants: dict[str, np.ndarray] = dict(zip(of["invariant_names"], of["invariants"].T))
