@@ -219,6 +219,7 @@ class RunInProgress {
     result["steps"] = run_.steps;
     result["initial"] = texts_of(run_.initial);
     result["step"] = to_string(run_.step);
+    result["t0"] = to_string(run_.t0);
     result["status"] = record_ ? std::string(to_string(record_->status)) : "";
     result["message"] = record_ ? in_words_of_python(record_->message) : "";
     result["tables"] = tables_of_measures();
