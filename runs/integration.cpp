@@ -79,8 +79,10 @@ void Integration<T>::watch(Watcher<T>& watcher, std::int64_t every) {
 
 template <class T>
 Outcome Integration<T>::ended(std::int64_t begin, Outcome::End end, Status status) const {
-  const std::string where = end == Outcome::End::reached ? "" : place_of(Quad(value_of(time())), taken_);
-  return {end, status, taken_ - begin, where};
+  // Of steps that were chosen, those are counted that were taken, and not the intervals between two looks.
+  const std::int64_t step = adaptive() ? counters().steps : taken_;
+  const std::string where = end == Outcome::End::reached ? "" : place_of(Quad(value_of(time())), step);
+  return {end, status, taken_ - begin, where, adaptive()};
 }
 
 // The outcome of a loop that began at step `begin`. Where the flag is set, the budget of this call ends it

@@ -20,13 +20,27 @@ const FormulationPlugin& default_formulation(const Model& model) {
   return formulation_of_kind(model.nonholonomic());
 }
 
+namespace {
+// The formulation of that name; null for an empty one. It is refused where there are no constraints.
+const FormulationPlugin* named_formulation(const std::string& name, const std::string& system,
+                                           bool constrained) {
+  if (name.empty()) return nullptr;
+  const FormulationPlugin& named = formulations().get(spelled(name), "formulation");
+  if (!constrained) throw InputError("--formulation: " + system + " has no constraints; expected none");
+  return &named;
+}
+}  // namespace
+
 const FormulationPlugin* formulation_for(const SystemPlugin& system, const std::string& name) {
-  const FormulationPlugin* named = name.empty() ? nullptr : &formulations().get(spelled(name), "formulation");
-  if (system.constrained())
-    return named != nullptr ? named : &formulation_of_kind(system.constrains_velocities());
-  if (named != nullptr)
-    throw InputError("--formulation: " + system.name() + " has no constraints; expected none");
-  return nullptr;
+  const FormulationPlugin* named = named_formulation(name, system.name(), system.constrained());
+  if (named != nullptr || !system.constrained()) return named;
+  return &formulation_of_kind(system.constrains_velocities());
+}
+
+const FormulationPlugin* formulation_for(const Model& model, const std::string& name) {
+  const FormulationPlugin* named = named_formulation(name, model.name(), model.restricted());
+  if (named != nullptr || !model.restricted() || model.moves()) return named;
+  return &default_formulation(model);
 }
 
 std::shared_ptr<const Model> motion_of(const std::shared_ptr<const Model>& model) {

@@ -11,7 +11,7 @@ std::string place_of(const Quad& t, std::int64_t step) {
 std::string failure(Status status, const std::string& where) {
   switch (status) {
     case Status::not_converged:
-      return "the implicit solve did not converge " + where;
+      return "the step did not converge " + where;
     case Status::singular:
       return "a linear system was singular " + where;
     case Status::non_finite:
@@ -25,6 +25,10 @@ std::string failure(Status status, const std::string& where) {
 std::string Outcome::message() const {
   switch (end_) {
     case End::failed:
+      // What a method that chooses its steps calls so is that none is small enough: it may be an explicit
+      // one.
+      if (chosen_ && status_ == Status::not_converged)
+        return "the step control gave up " + where_ + ": no step meets the tolerance";
       return failure(status_, where_);
     case End::watcher:
       return "a watcher ended the integration " + where_;

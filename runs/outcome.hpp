@@ -19,8 +19,9 @@ class [[nodiscard]] Outcome {
     watcher,  // a watcher ended it
     asked     // the flag of stop_when() was set
   };
-  Outcome(End end, Status status, std::int64_t steps, std::string where)
-      : end_(end), status_(status), steps_(steps), where_(std::move(where)) {}
+  /// `chosen`: the method chose its steps.
+  Outcome(End end, Status status, std::int64_t steps, std::string where, bool chosen = false)
+      : end_(end), status_(status), steps_(steps), where_(std::move(where)), chosen_(chosen) {}
   [[nodiscard]] End end() const { return end_; }
   [[nodiscard]] bool reached() const { return end_ == End::reached; }
   [[nodiscard]] Status status() const { return status_; }
@@ -36,6 +37,7 @@ class [[nodiscard]] Outcome {
   Status status_;
   std::int64_t steps_;
   std::string where_;
+  bool chosen_;
 };
 
 /// "at t = 0.5 (step 5)", for messages.

@@ -283,12 +283,6 @@ void check_objects(ResolvedRun& run, const RunObjects& objects) {
   check_stated_identities(*objects.whole, run.t0, run.initial);
   resolve_steps(run);
 }
-
-// Whether an object has a surface that its states lie on and no motion yet.
-const FormulationPlugin* formulation_of(const Model& model, const std::string& name) {
-  if (!name.empty()) return &formulations().get(name, "formulation");
-  return model.restricted() && !model.moves() ? &default_formulation(model) : nullptr;
-}
 }  // namespace
 
 ResolvedState resolve_state(const RunSettings& settings) {
@@ -330,7 +324,7 @@ ResolvedRun resolve(const RunSettings& settings) {
       throw InputError("'" + settings.set.front().first +
                        "': expected the parameters of objects to be set where these are made");
     run.settings.system = settings.model->name();
-    objects.formulation = formulation_of(*settings.model, settings.formulation);
+    objects.formulation = formulation_for(*settings.model, settings.formulation);
   }
   if (method != nullptr)
     objects.method = method->make(with_absolute_paths(method->parameters(), std::move(split.integrator)));

@@ -18,6 +18,7 @@ from ._ensemble import Ensemble, ensemble
 from ._errors import InputError, Interrupted, NotConverged, RunFailed, TraceError
 from ._evaluation import Evaluation, bracket, evaluate
 from ._experiments import Comparison, Table, WorkPrecision, compare, experiments
+from ._falsification import Counterexample, Falsification, Falsifications, falsify
 from ._integration import Integration, Outcome
 from ._method import Method, method, methods, table
 from ._papers import Reproduced, Reproduction, papers, reproduce
@@ -26,7 +27,7 @@ from ._solve_ivp import solve_ivp
 from ._step import Problem
 from ._system import System, system, systems
 from ._tracing import solve, where
-from ._verification import Check, Checks, Counterexample, Falsification, Falsifications, falsify, verify
+from ._verification import Check, Checks, verify
 from ._watched import Watched
 
 if TYPE_CHECKING:

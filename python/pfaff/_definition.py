@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from . import _pfaff
+from ._arguments import dictionary, dictionary_or_none, function, shown, text, texts, unknown, whole
 from ._errors import InputError
 from ._numbers import text_of_constant, text_of_number
 from ._tracing import argument_names, array_of, place_of
@@ -35,7 +36,7 @@ class Coordinates:
             for block, count in of.items():
                 count = values.get(count, count) if isinstance(count, str) else count
                 if not isinstance(count, (int, np.integer)) or isinstance(count, bool) or count < 1:
-                    raise InputError(f"{what}: coordinates['{block}']: expected a whole number >= 1, or the name of a parameter that is one, got {count!r}")
+                    raise InputError(f"{what}: coordinates['{block}']: expected a whole number >= 1, or the name of a parameter that is one, got {shown(count)}")
                 self._take(block, slice(len(self.names), len(self.names) + int(count)), what)
                 self.names += [f"{block}{k}" for k in range(1, int(count) + 1)]
                 self.in_texts += [f"{block}[{k}]" for k in range(1, int(count) + 1)]
@@ -45,7 +46,7 @@ class Coordinates:
                 self.names.append(name)
                 self.in_texts.append(name)
         else:
-            raise InputError(f"{what}: coordinates: expected names, such as [\"q\", \"p\"], or blocks, such as {{\"q\": 2, \"p\": 2}}, got {of!r}")
+            raise InputError(f"{what}: coordinates: expected names, such as [\"q\", \"p\"], or blocks, such as {{\"q\": 2, \"p\": 2}}, got {shown(of)}")
         if len(set(self.names)) < len(self.names):
             raise InputError(f"{what}: coordinates: expected different names, got {', '.join(self.names)}")
         if not self.names:
@@ -53,7 +54,7 @@ class Coordinates:
 
     def _take(self, name: str, place: slice | int, what: str) -> None:
         if not isinstance(name, str) or not name.isidentifier() or name == "t" or name in self.blocks:
-            raise InputError(f"{what}: coordinates: expected names that are identifiers, each once and none of them t, got {name!r}")
+            raise InputError(f"{what}: coordinates: expected names that are identifiers, each once and none of them t, got {shown(name)}")
         self.blocks[name] = place
 
     def __len__(self) -> int:
@@ -85,17 +86,31 @@ class Definition:
                  parameters: Mapping[str, Any] | None = None, invariants: Any = None, title: str = "", units: Mapping[str, str] | None = None,
                  behaviours: Mapping[str, str] | None = None, time_unit: str = "s", part_names: Sequence[str] = (), small_part: int | None = None,
                  chart_coordinates: Sequence[str] = (), of_class: type | None = None) -> None:
-        self.name, self.title, self.what = name, title, f"system {name}"
-        self.coordinates, self.initial, self.members, self.invariants = coordinates, initial, dict(members), invariants
-        self.units, self.behaviours, self.time_unit = dict(units or {}), dict(behaviours or {}), time_unit
-        self.part_names, self.small_part, self.chart_coordinates = list(part_names), small_part, list(chart_coordinates)
-        self.of_class = of_class
+        self.name, self.what = name, f"system {name}"
+        self.coordinates, self.initial, self.members, self.of_class = coordinates, initial, dict(members), of_class
+        self.invariants = invariants if invariants is None or callable(invariants) else self._functions_by_name(invariants)
+        self.title, self.time_unit = text(title, f"{self.what}: title"), text(time_unit, f"{self.what}: time_unit")
+        self.units, self.behaviours = self._texts_by_name(units, "units"), self._texts_by_name(behaviours, "behaviours")
+        self.part_names = texts(part_names, f"{self.what}: part_names", '["kinetic", "potential"]')
+        self.chart_coordinates = texts(chart_coordinates, f"{self.what}: chart_coordinates", '["a", "b"]')
+        self.small_part = None if small_part is None else whole(small_part, f"{self.what}: small_part", 0)
+        for key, member in self.members.items():
+            if key != "damping" and not (key in BRACKETS and isinstance(member, str)):
+                function(member, f"{self.what}: {key}", "a function or the name of a bracket" if key in BRACKETS else "a function")
         self.parameters: dict[str, Any] = {}
         for key, value in (parameters or {}).items():
             self._take_parameter(key, value, self.what)
-        for function in self.functions():
-            for key, default in self._own_arguments(function).items():
-                self._take_parameter(key, default, place_of(function) + self.what)
+        for one in self.functions():
+            for key, default in self._own_arguments(one).items():
+                self._take_parameter(key, default, place_of(one) + self.what)
+
+    def _texts_by_name(self, given: Any, what: str) -> dict[str, str]:
+        found = dictionary_or_none(given, f"{self.what}: {what}", "a dictionary of names and texts")
+        return {key: text(value, f"{self.what}: {what}['{key}']") for key, value in found.items()}
+
+    def _functions_by_name(self, given: Any) -> dict[str, Callable]:
+        found = dictionary(given, f"{self.what}: invariants", "a dictionary of names and functions, or a function")
+        return {key: function(value, f"{self.what}: invariants['{key}']", "a function") for key, value in found.items()}
 
     def functions(self) -> list[Callable]:
         """The functions that are written without a class, whose arguments with defaults are parameters."""
@@ -110,7 +125,7 @@ class Definition:
 
     def _take_parameter(self, key: str, value: Any, what: str) -> None:
         if text_of_constant(value) is None:
-            raise InputError(f"{what}: parameter '{key}': expected a number, got {value!r}")
+            raise InputError(f"{what}: parameter '{key}': expected a number, got {shown(value)}")
         if key in self.parameters and self.parameters[key] != value:
             raise InputError(f"{what}: parameter '{key}' has the values {self.parameters[key]} and {value}; expected one")
         self.parameters[key] = value
@@ -120,12 +135,12 @@ class Definition:
         values = dict(self.parameters)
         for key, value in given.items():
             if key not in values:
-                raise InputError(_pfaff.unknown_name("parameter", key, list(values)) + f" (of {self.name})")
+                raise InputError(unknown("parameter", key, list(values)) + f" (of {self.name})")
             if isinstance(self.parameters[key], int):
                 if isinstance(value, (float, np.floating)) and float(value).is_integer():
                     value = int(value)
                 if not isinstance(value, (int, np.integer)) or isinstance(value, bool):
-                    raise InputError(f"parameter '{key}' of {self.name}: expected a whole number, got {value!r}")
+                    raise InputError(f"parameter '{key}' of {self.name}: expected a whole number, got {shown(value)}")
             elif not isinstance(value, str) or not value:
                 text_of_number(value, f"parameter '{key}' of {self.name}")
             values[key] = value
@@ -133,4 +148,8 @@ class Definition:
 
     def arguments(self, values: Mapping[str, Any]) -> dict[str, Any]:
         """Parameters as formulas see them: whole numbers, and exact constants of a recording."""
-        return {key: int(value) if isinstance(self.parameters[key], int) else _pfaff.constant(text_of_number(value, key)) for key, value in values.items()}
+        return {key: int(value) if isinstance(self.parameters[key], int) else self._constant(key, value) for key, value in values.items()}
+
+    def _constant(self, key: str, value: Any) -> Any:
+        what = f"parameter '{key}' of {self.name}"
+        return _pfaff.constant(text_of_number(value, what), what)

@@ -2,10 +2,12 @@
 from __future__ import annotations
 
 import html
+import os
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import _pfaff
+from ._arguments import text, texts, whole
 from ._numbers import text_of_setting
 from ._objects import as_system
 
@@ -37,7 +39,7 @@ class Equations:
 
     def text(self, language: str) -> str:
         """The equations in a language: "cpp", "latex", "sympy", "mathematica" or "julia"."""
-        return self._equations.written(language)
+        return self._equations.written(text(language, "language", 'the name of one, such as "latex"'))
 
     def to_sympy(self) -> dict[str, sympy.Expr]:
         """The rate of each coordinate as an expression of SymPy, by the coordinate's name, and what is further there.
@@ -92,8 +94,10 @@ def derive(
     >>> len(rates) == pfaff.System("magnetic-induction").dimension
     True
     """
-    chosen = (method, friction_form or "", order, list(elimination))
-    if isinstance(system, str):
-        values = [(key, text_of_setting(value, f"parameter '{key}' of {system}")) for key, value in parameters.items()]
-        return Equations(_pfaff.derive_named(system, values, *chosen))
+    friction = "" if friction_form is None else text(friction_form, "friction_form", "the name of one or None")
+    chosen = (text(method, "method", "the name of one"), friction, whole(order, "order", 1), texts(elimination, "elimination", '["phi1"]'))
+    if isinstance(system, (str, os.PathLike)):
+        name = os.fspath(system)
+        values = [(key, text_of_setting(value, f"parameter '{key}' of {name}")) for key, value in parameters.items()]
+        return Equations(_pfaff.derive_named(name, values, *chosen))
     return Equations(_pfaff.derive_object(as_system(system, **parameters).model, *chosen))

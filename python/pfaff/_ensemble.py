@@ -9,8 +9,10 @@ from typing import Any
 import numpy as np
 
 from . import _pfaff
+from ._arguments import function, real_array, unknown, whole
 from ._errors import InputError
-from ._integration import attach, whole, with_parameters
+from ._integration import attach, with_parameters
+from ._numbers import float_of_number
 
 
 @dataclass(slots=True)
@@ -28,7 +30,7 @@ class Ensemble:
 
 
 def ensemble(system: Any, method: Any, states: Any, *, step: Any, steps: int, every: int = 0, t0: Any = 0, threads: int | None = None,
-             callback: Callable[[int], Any] | None = None, system_parameters: Mapping[str, Any] | None = None,
+             callback: Callable[[int], Any] | None = None, precision: str = "double", system_parameters: Mapping[str, Any] | None = None,
              method_parameters: Mapping[str, Any] | None = None, **parameters: Any) -> Ensemble:
     """Takes `steps` steps from each of many initial states, over threads and without Python, in double precision.
 
@@ -46,6 +48,7 @@ def ensemble(system: Any, method: Any, states: Any, *, step: Any, steps: int, ev
         every: the steps between two rows; 0 keeps the start and the end alone.
         threads: how many; without it as many as the process may use.
         callback: called with the index of each trajectory that has ended, from any of the threads.
+        precision: "double" alone; an Integration from each state takes "quad".
         system_parameters, method_parameters: dictionaries, where both know a name.
         **parameters: of the system or the method, by their names.
 
@@ -56,12 +59,9 @@ def ensemble(system: Any, method: Any, states: Any, *, step: Any, steps: int, ev
     Whatever is raised, by the callback too, has the Ensemble so far as its attribute `run`.
     """
     base, tool = with_parameters(system, method, parameters, system_parameters, method_parameters)
-    if np.iscomplexobj(states):
-        raise InputError("states: expected real numbers, got complex ones")
-    try:
-        array = np.asarray(states, dtype=float)
-    except (TypeError, ValueError) as error:
-        raise InputError(f"states: expected numbers, an array of shape (N, {base.dimension}): {error}") from None
+    if not isinstance(precision, str) or precision != "double":
+        raise InputError(_other_precision(precision))
+    array = real_array(states, "states", f"real numbers, an array of shape (N, {base.dimension})")
     if array.ndim != 2 or array.shape[1] != base.dimension:
         raise InputError(f"states: expected shape (N, {base.dimension}), got {array.shape}")
     if not np.isfinite(array).all():
@@ -71,7 +71,9 @@ def ensemble(system: Any, method: Any, states: Any, *, step: Any, steps: int, ev
     if stride > count:
         raise InputError(f"every: expected at most {count}, the number of steps, got {stride}")
     workers = whole(threads, "threads", 1) if threads is not None else len(os.sched_getaffinity(0))
-    h, start = _number(step, "step"), _number(t0, "t0")
+    h, start = float_of_number(step, "step"), float_of_number(t0, "t0")
+    if callback is not None:
+        function(callback, "callback", "a function of the index of a trajectory")
     y = np.empty((len(array), 1 + count // stride, base.dimension))
     result = Ensemble(start + stride * np.arange(y.shape[1]) * h, y, {}, np.zeros(len(array), dtype=bool))
 
@@ -89,8 +91,7 @@ def ensemble(system: Any, method: Any, states: Any, *, step: Any, steps: int, ev
     return result
 
 
-def _number(value: Any, what: str) -> float:
-    try:
-        return float(value)
-    except (TypeError, ValueError):
-        raise InputError(f"{what}: expected a number, got {value!r}") from None
+def _other_precision(precision: Any) -> str:
+    if not isinstance(precision, str) or precision != "quad":
+        return unknown("precision", precision, ["double"])
+    return "precision: ensembles are in double, got 'quad'; expected pfaff.Integration(..., precision='quad') from each state"

@@ -11,7 +11,8 @@ class TraceError(TypeError):
 
 
 class NotConverged(RuntimeError):
-    """An iteration did not converge, or met a number that is not finite. `run` holds the samples up to there, or None."""
+    """A step did not converge, a linear system in it was singular, or no step meets the tolerance. `run` holds the samples up to
+    there, or None."""
 
     run: Any = None
 

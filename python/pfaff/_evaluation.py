@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 
 from . import _pfaff
+from ._arguments import function, real_array, shown, text, unknown
 from ._errors import InputError
-from ._numbers import text_of_number, texts_of_state
+from ._numbers import float_of_number, text_of_number, texts_of_coordinates
 from ._objects import as_system
 from ._system import System
 from ._tables import html_table, text_table
@@ -27,8 +28,8 @@ class Evaluation(Mapping[str, Any]):
         self._values = {key: _array(value) for key, value in values.items() if key != "schema"}
 
     def __getitem__(self, key: str) -> Any:
-        if key not in self._values:
-            raise InputError(_pfaff.unknown_name("quantity", key, list(self._values)))
+        if not isinstance(key, str) or key not in self._values:
+            raise InputError(unknown("quantity", key, list(self._values)))
         return self._values[key]
 
     def __iter__(self):
@@ -84,10 +85,12 @@ def evaluate(
     >>> at["status"], at["rhs"].shape
     ('converged', (2,))
     """
-    model = as_system(system, **parameters).model
-    numbers = [] if state is None else texts_of_state(state, "state")
-    about = None if centre is None else texts_of_state(centre, "centre")
-    return Evaluation(_pfaff.evaluate(model, numbers, text_of_number(time, "time"), formulation or "", precision, about))
+    base = as_system(system, **parameters)
+    numbers = [] if state is None else texts_of_coordinates(state, "state", base.coordinates)
+    about = None if centre is None else texts_of_coordinates(centre, "centre", base.coordinates)
+    named = "" if formulation is None else text(formulation, "formulation", "the name of a formulation")
+    scalar = text(precision, "precision", "'double' or 'quad'")
+    return Evaluation(_pfaff.evaluate(base.model, numbers, text_of_number(time, "time"), named, scalar, about))
 
 
 def bracket(
@@ -115,12 +118,14 @@ def bracket(
     >>> pfaff.bracket(lambda q: q, lambda p: p, [0.5, 0.2], on="pendulum")
     1.0
     """
-    model = as_system(on, **parameters).model
+    model = as_system(on, "on", **parameters).model
     names = [name for name, _ in model.coordinates]
-    state = np.asarray(z, float)
-    if state.shape != (len(names),):
-        raise InputError(f"z: expected shape ({len(names)},), a number for each of {', '.join(names)}, got {state.shape}")
-    return _pfaff.bracket(model, _tape(f, "f", names), _tape(g, "g", names), float(time), list(state))
+    expected = f"shape ({len(names)},), a finite number for each of {', '.join(names)}"
+    state = real_array(z, "z", expected)
+    if state.shape != (len(names),) or not np.isfinite(state).all():
+        raise InputError(f"z: expected {expected}, got {shown(z)}")
+    first, second = (_tape(function(one, what, "a function of the state"), what, names) for one, what in ((f, "f"), (g, "g")))
+    return _pfaff.bracket(model, first, second, float_of_number(time, "time"), list(state))
 
 
 def _tape(function: Callable[..., Any], what: str, names: Sequence[str]) -> _pfaff.Tape:

@@ -16,8 +16,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _pfaff
+from ._arguments import path as path_of
+from ._arguments import shown, unknown, yes_or_no
 from ._errors import InputError, Interrupted
 from ._naming import absolute
+from ._numbers import float_of_number
 from ._objects import as_method
 from ._system import System
 from ._tables import data_frame
@@ -49,7 +52,7 @@ class Table(Sequence[Mapping[str, Any]]):
         if not isinstance(key, str):
             return self._rows[key]
         if key not in self.columns:
-            raise InputError(_pfaff.unknown_name("column", key, list(self.columns)))
+            raise InputError(unknown("column", key, self.columns))
         values = [row[key] for row in self._rows]
         if all(value is None or isinstance(value, float) for value in values):
             return np.array([np.nan if value is None else value for value in values])
@@ -102,8 +105,8 @@ class WorkPrecision:
         if not self.curves:
             raise InputError("work-precision: no run of the experiment has both an error and a timing")
         case = next(iter(self.curves)) if case is None else case
-        if case not in self.curves:
-            raise InputError(_pfaff.unknown_name("case", case, list(self.curves)))
+        if not isinstance(case, str) or case not in self.curves:
+            raise InputError(unknown("case", case, list(self.curves)))
         from . import plots
 
         axes = plots.work_precision(self.curves[case], families=self._families, axes=axes)
@@ -226,8 +229,10 @@ def compare(
     >>> result.runs, result.failed, bool(result.table["error_max"][1] < result.table["error_max"][0])
     (2, 0, True)
     """
-    if timing is not None and not timing > 0:
-        raise InputError(f"timing: expected a time above 0 s, got {timing}")
+    seconds = None if timing is None else float_of_number(timing, "timing", "a time above 0 s", above=0)
+    for value, what in ((quick, "quick"), (report, "report"), (force, "force"), (compile, "compile")):
+        yes_or_no(value, what)
+    folder = None if out is None else path_of(out, "out")
     held = tempfile.TemporaryDirectory(prefix="pfaff-")
     # An experiment that is a dictionary is left as a file beside its report, which names it.
     written = ""
@@ -235,16 +240,15 @@ def compare(
         path = str(_written(experiment, pathlib.Path(held.name)))
         written = os.path.basename(path)
     else:
-        path = os.fspath(experiment)
-    named = methods if isinstance(methods, Mapping) else {_label(method): method for method in methods}
-    objects = [(label, as_method(method).instance) for label, method in named.items()]
-    directory = pathlib.Path(held.name) / "results" if out is None else pathlib.Path(out)
+        path = path_of(experiment, "experiment", "the name of one, the path of a file or a dictionary")
+    objects = [(label, as_method(method, "methods").instance) for label, method in _labelled(methods).items()]
+    directory = pathlib.Path(held.name) / "results" if folder is None else pathlib.Path(folder)
     if objects and out is not None and directory.exists() and any(directory.iterdir()):
         raise InputError(
             f"out: expected a new directory, because runs of methods that are objects are not told apart from earlier ones, got {directory}"
         )
     try:
-        found = _pfaff.compare(path, written, objects, str(directory), quick, force, compile, report, timing)
+        found = _pfaff.compare(path, written, objects, str(directory), quick, force, compile, report, seconds)
     except Interrupted:
         if out is not None:
             raise
@@ -260,9 +264,21 @@ def compare(
     )
 
 
+def _labelled(methods: Any) -> dict[str, Any]:
+    """Methods by their labels."""
+    if isinstance(methods, Mapping):
+        for label in methods:
+            if not isinstance(label, str) or not label:
+                raise InputError(f"methods: expected labels that are texts, got {shown(label)}")
+        return dict(methods)
+    if not isinstance(methods, (list, tuple)):
+        raise InputError(f"methods: expected a list of methods, or a dictionary of them by their labels, got {shown(methods)}")
+    return {_label(method): method for method in methods}
+
+
 def _label(method: Any) -> str:
     """The name of a method with the parameters that were given to it."""
-    made = as_method(method)
+    made = as_method(method, "methods")
     return " ".join([made.name, *(f"{key}={value}" for key, value in made._given.items())])
 
 
@@ -271,7 +287,10 @@ def _written(experiment: Mapping[str, Any], folder: pathlib.Path) -> pathlib.Pat
     document: dict[str, Any] = {"schema": 1, **experiment}
     for table, key in (("case", "system"), ("method", "integrator")):
         if table in document:
-            document[table] = [_with_path(one, key) for one in document[table]]
+            rows = document[table]
+            if not isinstance(rows, (list, tuple)) or not all(isinstance(one, Mapping) for one in rows):
+                raise InputError(f"experiment: {table}: expected a list of dictionaries, got {shown(rows)}")
+            document[table] = [_with_path(one, key) for one in rows]
     path = folder / "experiment.toml"
     path.write_text(toml_of(document, "experiment"), encoding="utf-8")
     return path

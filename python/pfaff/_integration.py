@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 
 from . import _pfaff
+from ._arguments import dictionary_or_none, function, text, unknown, whole
 from ._errors import InputError, NotConverged, RunFailed
-from ._numbers import text_of_number, texts_of_state
+from ._numbers import text_of_number, texts_of_coordinates, texts_of_tolerances
 from ._objects import as_method, as_system
 
 
@@ -27,7 +28,7 @@ class Outcome:
     steps: int
     """How many steps were taken."""
     t: np.ndarray = field(repr=False)
-    """The times of the states, shape (rows,); empty where none were asked for."""
+    """The times of the states, shape (rows,); empty where none were asked for. Arrays are of doubles, in quad precision too."""
     y: np.ndarray = field(repr=False)
     """The states, shape (rows, dimension); the one at which the call began is not among them."""
 
@@ -63,36 +64,34 @@ class Integration:
     """
 
     def __init__(self, system: Any, method: Any, *, step: Any = None, initial: Any = None, t0: Any = 0, tolerance: Any = None, absolute: Any = (),
-                 precision: str = "double", formulation: str = "", system_parameters: Mapping[str, Any] | None = None,
+                 precision: str = "double", formulation: str | None = None, system_parameters: Mapping[str, Any] | None = None,
                  method_parameters: Mapping[str, Any] | None = None, **parameters: Any) -> None:
         self.system, self.method = with_parameters(system, method, parameters, system_parameters, method_parameters)
-        if precision not in ("double", "quad"):
-            raise InputError(_pfaff.unknown_name("precision", str(precision), ["double", "quad"]))
+        if not isinstance(precision, str) or precision not in ("double", "quad"):
+            raise InputError(unknown("precision", precision, ["double", "quad"]))
         if step is None and tolerance is None:
             raise InputError("step: expected a number other than 0, or a tolerance for a method that chooses its steps")
         self.precision = precision
         asked = {
             "step": text_of_number(0 if step is None else step, "step"),
-            "initial": self._state(initial),
+            "initial": self._own_state() if initial is None else self._state(initial, "initial"),
             "t0": text_of_number(t0, "t0"),
             "tolerance": text_of_number(0 if tolerance is None else tolerance, "tolerance"),
-            "absolute": texts_of_state([absolute] if np.ndim(absolute) == 0 else absolute, "absolute"),
-            "formulation": formulation,
+            "absolute": texts_of_tolerances(absolute, "absolute"),
+            "formulation": "" if formulation is None else text(formulation, "formulation", "the name of a formulation"),
             "quad": precision == "quad",
         }
         self._it = _pfaff.Integration(self.system.model, self.method.instance, asked)
         self.outcome: Outcome | None = None
 
-    def _state(self, initial: Any) -> list[str]:
-        if initial is None:
-            texts = self.system.model.exact_initial
-            if not texts:
-                raise InputError(f"system {self.system.name} has no initial state of its own; expected initial=, {self.system.dimension} numbers")
-            return texts
-        texts = texts_of_state(initial, "initial")
-        if len(texts) != self.system.dimension:
-            raise InputError(f"initial: expected shape ({self.system.dimension},), a number for each of {', '.join(self.system.coordinates)}, got {len(texts)} numbers")
+    def _own_state(self) -> list[str]:
+        texts = self.system.model.exact_initial
+        if not texts:
+            raise InputError(f"system {self.system.name} has no initial state of its own; expected initial=, {self.system.dimension} numbers")
         return texts
+
+    def _state(self, state: Any, what: str = "state") -> list[str]:
+        return texts_of_coordinates(state, what, self.system.coordinates)
 
     def _around(self, it: _pfaff.Integration) -> Integration:
         other = object.__new__(Integration)
@@ -134,7 +133,7 @@ class Integration:
         """Takes `n` steps. With `every`, the states after each so many steps, counted from t0, are kept.
 
         Raises:
-            NotConverged: a step did not converge, or a linear system in it was singular.
+            NotConverged: a step did not converge, a linear system in it was singular, or no step meets the tolerance.
             RunFailed: a state is not finite.
             Interrupted: Ctrl-C was pressed.
 
@@ -168,9 +167,7 @@ class Integration:
         z is a copy, shape (dimension,). The integration ends at the state at which the callback gives True. What it
         raises ends it there too, and reaches who asked for the steps. Callbacks cannot step the integration.
         """
-        if not callable(callback):
-            raise InputError(f"watch: expected a function of (t, z), got {callback!r}")
-        self._it.watch(callback, whole(every, "every", 1))
+        self._it.watch(function(callback, "callback", "a function of (t, z)"), whole(every, "every", 1))
 
     def beside(self, state: Any) -> Integration:
         """The same method from another state, at the time reached and with the same step. It remembers nothing."""
@@ -214,13 +211,6 @@ class Integration:
         raise TypeError("an integration cannot be pickled, since its method may remember steps; expected its system, its method and its state")
 
 
-def whole(value: Any, what: str, least: int) -> int:
-    """A whole number that is `least` or more."""
-    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, np.integer)) or value < least:
-        raise InputError(f"{what}: expected a whole number >= {least}, got {value!r}")
-    return int(value)
-
-
 def attach(error: BaseException, run: Any) -> None:
     """Gives an exception the samples up to it, as its attribute `run`."""
     try:
@@ -234,15 +224,15 @@ def with_parameters(system: Any, method: Any, parameters: Mapping[str, Any], of_
 
     InputError for a name that neither knows, with the nearest, and for one that both know.
     """
+    split = (dictionary_or_none(of_system, "system_parameters"), dictionary_or_none(of_method, "method_parameters"))
     # Names are known before objects are made, since some systems cannot be made without their parameters.
     known = (_names_of(system, as_system, _pfaff.system_parameter_names), _names_of(method, as_method, _pfaff.method_parameter_names))
-    split: tuple[dict, dict] = (dict(of_system or {}), dict(of_method or {}))
     for key, value in parameters.items():
         owners = [k for k in (0, 1) if key in known[k] or key.split(".")[0] in known[k]]
         if len(owners) == 2:
             raise InputError(f"parameter '{key}' belongs to both the system and the method; expected it in system_parameters or method_parameters")
         if not owners:
-            raise InputError(_pfaff.unknown_name("parameter", key, [*known[0], *known[1]]) + " (of the system or the method)")
+            raise InputError(unknown("parameter", key, [*known[0], *known[1]]) + " (of the system or the method)")
         split[owners[0]][key] = value
     return as_system(system, **split[0]), as_method(method, **split[1])
 

@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from . import _pfaff
+from ._arguments import named_function, shown, text, texts, whole, yes_or_no
 from ._errors import InputError
 from ._naming import absolute, kebab
 from ._numbers import text_of_setting
@@ -34,7 +35,7 @@ class Method:
 
     def __init__(self, name: Any, /, **parameters: Any) -> None:
         if not isinstance(name, str) and not hasattr(name, "__fspath__"):
-            raise InputError(f"Method: expected the name of a method or the path of a table, got {name!r}")
+            raise InputError(f"name: expected the name of a method or the path of a table, got {shown(name)}")
         self._begin(RegisteredMethod(str(name)), parameters)
 
     def _begin(self, definition: Any, parameters: Mapping[str, Any]) -> None:
@@ -190,15 +191,19 @@ def method(*, order: int, preserves: Sequence[str] = (), needs: Sequence[str] = 
         InputError: unknown claims and facets, arguments that do not fit.
         TraceError: when it is first used on a system, where the function does something that cannot be recorded.
     """
+    claimed: dict[str, Any] = {
+        "title": text(title, "title") or f"a method of Python, of order {order}", "reference": text(reference, "reference"),
+        "order": whole(order, "order", 0), "preserves": texts(preserves, "preserves", '["symplectic"]'),
+        "needs": texts(needs, "needs", '["vector-field"]'),
+    }
+    own = text("" if name is None else name, "name")
+    how = (yes_or_no(traced, "traced"), yes_or_no(compiled, "compiled"))
+    kept: Callable[[int], int] | int = memory if callable(memory) else whole(memory, "memory", 0)
 
     def decorate(function: Callable) -> Method:
-        own = name or kebab(function.__name__)
-        for what, given in (("preserves", preserves), ("needs", needs)):
-            if isinstance(given, str):
-                raise InputError(f"method {own}: {what}: expected a list of names, such as [{given!r}]")
-        claims = {"name": own, "title": title or f"a method of Python, of order {order}", "reference": reference, "description": inspect.getdoc(function) or "",
-                  "order": int(order), "preserves": list(preserves), "needs": list(needs)}
-        definition = StepFunction(function, claims, traced, compiled, memory, (function.__module__, function.__qualname__))
+        named_function(function, "method", "a function of (problem, t, h, z)")
+        claims = {"name": own or kebab(function.__name__), "description": inspect.getdoc(function) or "", **claimed}
+        definition = StepFunction(function, claims, *how, kept, (function.__module__, function.__qualname__))
         made = Method._made(definition, {})
         made.__doc__ = function.__doc__
         return made

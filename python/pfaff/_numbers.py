@@ -4,13 +4,15 @@ from __future__ import annotations
 import contextlib
 import decimal
 import fractions
+import math
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
 
 from . import _pfaff
+from ._arguments import shown
 from ._errors import InputError
 
 
@@ -64,11 +66,25 @@ def text_of_constant(value: Any) -> str | None:
 
 
 def text_of_number(value: Any, what: str) -> str:
-    """The text of a number that is a setting: a number, or a text such as "1/3"."""
-    text = value if isinstance(value, str) else text_of_constant(value)
-    if text is None:
-        raise InputError(f"{what}: expected a number, got {value!r}")
+    """The text of a number that is a setting: a finite number, or a text such as "1/3"."""
+    text = value.strip() if isinstance(value, str) else text_of_constant(value)
+    if not text:
+        raise InputError(f"{what}: expected a number, got {shown(value)}")
+    if not isinstance(value, str) and not any(c.isdigit() for c in text):
+        raise InputError(f"{what}: expected a finite number, got {shown(value)}")
     return text
+
+
+def float_of_number(value: Any, what: str, expected: str = "a number", above: float | None = None) -> float:
+    """A finite number as a float, to which a text such as "1/3" is rounded; one `above` another where that is given."""
+    text = value if isinstance(value, str) else text_of_constant(value)
+    try:
+        found = float(fractions.Fraction(text)) if text is not None else math.nan
+    except (ValueError, ZeroDivisionError, OverflowError):
+        found = math.nan
+    if not math.isfinite(found) or above is not None and not found > above:
+        raise InputError(f"{what}: expected {expected}, got {shown(value)}")
+    return found
 
 
 def text_of_setting(value: Any, what: str) -> str:
@@ -77,7 +93,7 @@ def text_of_setting(value: Any, what: str) -> str:
         return "yes" if value else "no"
     if isinstance(value, str):
         return value
-    if isinstance(value, (list, tuple, np.ndarray)) and np.ndim(value) == 1:
+    if isinstance(value, (list, tuple, np.ndarray)) and _dimensions(value) == 1:
         return ",".join(text_of_setting(one, what) for one in value)
     if hasattr(value, "as_value"):  # another method, as of a composition
         return value.as_value()
@@ -85,12 +101,36 @@ def text_of_setting(value: Any, what: str) -> str:
     if text is None and hasattr(value, "__fspath__"):
         text = str(value)
     if text is None:
-        raise InputError(f"{what}: expected a number, a text, True or False, or a list of numbers, got {value!r}")
+        raise InputError(f"{what}: expected a number, a text, True or False, or a list of numbers, got {shown(value)}")
     return text
 
 
-def texts_of_state(values: Any, what: str) -> list[str]:
+def _dimensions(values: Any) -> int:
+    """Those of an array; -1 for rows of different lengths, which make none."""
+    try:
+        return np.ndim(values)
+    except ValueError:
+        return -1
+
+
+def texts_of_state(values: Any, what: str, expected: str = "a list or an array of one dimension") -> list[str]:
     """The texts of the numbers of a state, an array of one dimension."""
-    if isinstance(values, str) or np.ndim(values) != 1:
-        raise InputError(f"{what}: expected a list or an array of one dimension, got {values!r}")
+    if _dimensions(values) != 1:
+        several = "; pfaff.ensemble takes many initial states" if _dimensions(values) == 2 and what == "initial" else ""
+        raise InputError(f"{what}: expected {expected}, got {shown(values)}{several}")
     return [text_of_number(value, what) for value in values]
+
+
+def texts_of_tolerances(values: Any, what: str) -> list[str]:
+    """The texts of absolute tolerances: one number, or a list of them."""
+    return texts_of_state([values] if _dimensions(values) == 0 else values, what, "one number, or one for each coordinate")
+
+
+def texts_of_coordinates(values: Any, what: str, names: Sequence[str]) -> list[str]:
+    """The texts of a state that has a number for each of these coordinates."""
+    listed = ", ".join(names[:8]) + (", ..." if len(names) > 8 else "")
+    expected = f"shape ({len(names)},), a number for each of {listed}"
+    texts = texts_of_state(values, what, expected)
+    if len(texts) != len(names):
+        raise InputError(f"{what}: expected {expected}, got {len(texts)} number{'' if len(texts) == 1 else 's'}")
+    return texts

@@ -4,13 +4,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from ._arguments import shown
 from ._errors import InputError
 from ._method import Method, table
 from ._system import System
 
 
-def as_system(x: Any, /, **parameters: Any) -> System:
+def as_system(x: Any, what: str = "system", /, **parameters: Any) -> System:
     """The system of a registered name, the path of a text model, a System or a subclass of it, with these parameters.
+
+    `what` is the argument that it was given as.
 
     Raises:
         InputError: for anything else, unknown names and wrong values.
@@ -21,10 +24,10 @@ def as_system(x: Any, /, **parameters: Any) -> System:
         return x(**parameters)
     if isinstance(x, str) or hasattr(x, "__fspath__"):
         return System(str(x), **parameters)
-    raise InputError(f"expected a system: a name, the path of a text model, or a pfaff.System, got {x!r}")
+    raise InputError(f"{what}: expected a system, which is a name, the path of a text model or a pfaff.System, got {shown(x)}")
 
 
-def as_method(x: Any, /, **parameters: Any) -> Method:
+def as_method(x: Any, what: str = "method", /, **parameters: Any) -> Method:
     """The method of a registered name, the path of a table, a dictionary of coefficients or a Method, with these
     parameters.
 
@@ -37,4 +40,4 @@ def as_method(x: Any, /, **parameters: Any) -> Method:
         return Method(str(x), **parameters)
     if isinstance(x, Mapping):
         return table(x, **parameters)
-    raise InputError(f"expected a method: a name, the path of a table, a dictionary of coefficients or a pfaff.Method, got {x!r}")
+    raise InputError(f"{what}: expected a method, which is a name, the path of a table, a dictionary of coefficients or a pfaff.Method, got {shown(x)}")

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import _pfaff
+from ._arguments import text
 from ._errors import InputError
 from ._tables import data_frame, html_table, text_table
 
@@ -105,8 +106,9 @@ def reproduce(paper: str, section: str | None = None) -> Reproduction:
     >>> rows.ok, rows[0].status
     (True, 'erratum')
     """
-    if section == "":
-        raise InputError(f"section: expected the name of a section of {paper}, got ''")
-    found = _pfaff.reproduce(paper, section or "")
+    key = text(paper, "paper", "one of pfaff.papers()")
+    if section is not None and not text(section, "section", f"the name of a section of {key} or None"):
+        raise InputError(f"section: expected the name of a section of {key}, got ''")
+    found = _pfaff.reproduce(key, section or "")
     names = [field.name for field in dataclasses.fields(Reproduced)]
     return Reproduction(found["paper"], [Reproduced(**{name: row[name] for name in names}) for row in found["rows"]], found["ok"])

@@ -1,22 +1,24 @@
 """Runs: a system integrated by a method, with all that is measured of it."""
 from __future__ import annotations
 
-import contextlib
+import decimal
 import functools
 import html
-import os
 import pickle
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from . import _pfaff
+from ._arguments import real_array, unknown
+from ._asked_run import asked_run, listed_measures
 from ._errors import InputError, NotConverged, RunFailed
-from ._integration import Integration, attach, whole, with_parameters
+from ._integration import Integration, attach, with_parameters
 from ._naming import kebab
-from ._numbers import text_of_number, texts_of_state
+from ._objects import as_system
+from ._sensitivity import sensitivity_of
 from ._tables import data_frame, html_table, text_table
 from ._watched import Watched
 
@@ -35,7 +37,7 @@ class Run:
         self._going = going  # for the summary
         self.system, self.method, self._asked = system, method, asked
         self.t: np.ndarray = of["t"]
-        """The times of the samples, shape (rows,)."""
+        """The times of the samples, shape (rows,). All arrays are of doubles, in quad precision too."""
         self.y: np.ndarray = of["y"]
         """The states, shape (rows, dimension)."""
         self.invariants: dict[str, np.ndarray] = dict(zip(of["invariant_names"], of["invariants"].T))
@@ -54,7 +56,7 @@ class Run:
         """Why the run ended early; empty where it did not."""
         self.coordinates: list[str] = of["coordinates"]
         self.units: dict[str, str] = of["units"]
-        self._steps, self._initial, self._step = of["steps"], of["initial"], of["step"]
+        self._steps, self._initial, self._step, self._t0 = of["steps"], of["initial"], of["step"], of["t0"]
 
     @functools.cached_property
     def summary(self) -> dict[str, Any]:
@@ -97,35 +99,46 @@ class Run:
         """
         if self._asked["tolerance"]:
             raise InputError("jacobian: expected a run with steps of one size")
-        return self._integration().jacobian(self.summary.get("completed", self._steps))[1]
+        it = self._integration(self.system, self._initial, self._asked["precision"])
+        return it.jacobian(self.summary.get("completed", self._steps))[1]
 
     def sensitivity(self, parameter: str) -> np.ndarray:
-        """The derivative of the last state with respect to a parameter of the system, shape (dimension,).
+        """The derivative of the last state with respect to a parameter of the system, shape (dimension,), of the run as a whole.
 
-        It is a central difference of two runs in quad precision, of which 1e-10 of the parameter is the step: its error
-        is about 1e-20 of the third derivative, and the result as good as one of derivatives through the steps.
+        The state at the start moves along where it depends on the parameter: the system's own one, momenta of velocities, and
+        a state that is moved onto the constraints. What was given in numbers stays: a state, the times and the step.
+
+        It is a difference of two runs in quad precision, to both sides, of which 1e-10 of the parameter is the step: its error
+        is about 1e-20 of the third derivative, and the result as good as one of derivatives through the steps. At an end
+        of the parameter's range it is one to a single side, of three runs, which is as good.
+
+        >>> import pfaff
+        >>> run = pfaff.run("kepler", "gauss", eccentricity=0.3, step=0.05, time=5)
+        >>> more, less = (pfaff.run("kepler", "gauss", eccentricity=e, step=0.05, time=5).y[-1] for e in (0.3001, 0.2999))
+        >>> bool(abs(run.sensitivity("eccentricity") - (more - less) / 0.0002).max() < 1e-5)
+        True
+
+        Raises:
+            InputError: an unknown parameter, one that is no real number, and a run whose method chose its steps.
         """
-        values = self.system.parameters
-        if parameter not in values:
-            raise InputError(_pfaff.unknown_name("parameter", parameter, list(values)) + f" (of {self.system.name})")
         if self._asked["tolerance"]:
             raise InputError("sensitivity: expected a run with steps of one size")
-        from fractions import Fraction
+        return sensitivity_of(as_system(self.system), parameter, self._end_of)
 
-        value = Fraction(values[parameter])
-        change = (abs(value) or 1) * Fraction(1, 10**10)
-        ends = []
-        for moved in (value + change, value - change):
-            run = self._integration(self.system(**{parameter: f"{moved.numerator}/{moved.denominator}"}), precision="quad")
-            run.steps(self.summary.get("completed", self._steps))
-            ends.append([Fraction(x) for x in run.decimals])
-        return np.array([float((a - b) / (2 * change)) for a, b in zip(*ends)])
+    def _end_of(self, system: Any) -> tuple[decimal.Decimal, ...]:
+        """The last state that the run has with another system, in quad precision."""
+        asked = {**self._asked, "precision": "quad", "measures": [], "out": ""}
+        start = _pfaff.RunInProgress(system.model, self.method.instance, asked).samples()["initial"]
+        it = self._integration(system, start, "quad")
+        it.steps(self.summary.get("completed", self._steps))
+        return it.decimals
 
-    def _integration(self, system: Any = None, precision: str | None = None) -> Integration:
-        return Integration(system or self.system, self.method, step=self._step, initial=self._initial, t0=self._asked["t0"],
-                           precision=precision or self._asked["precision"], formulation=self._asked["formulation"])
+    def _integration(self, system: Any, start: list[str], precision: str) -> Integration:
+        return Integration(system, self.method, step=self._step, initial=start, t0=self._t0, precision=precision, formulation=self._asked["formulation"])
 
     def __getitem__(self, name: str) -> np.ndarray:
+        if not isinstance(name, str):
+            raise KeyError(unknown("column", name, self.coordinates))
         if name in self.coordinates:
             return self.y[:, self.coordinates.index(name)]
         block = [k for k, one in enumerate(self.coordinates) if re.fullmatch(re.escape(name) + r"\d+", one)]
@@ -133,7 +146,7 @@ class Run:
             return self.y[:, block[0] : block[-1] + 1] if block == list(range(block[0], block[-1] + 1)) else self.y[:, block]
         if name in self.invariants:
             return self.invariants[name]
-        raise KeyError(_pfaff.unknown_name("column", name, [*self.coordinates, *self.invariants]))
+        raise KeyError(unknown("column", name, [*self.coordinates, *self.invariants]))
 
     def to_pandas(self) -> pandas.DataFrame:
         """A row for each sample: t, the coordinates, invariants, residuals of constraints, and the error where there is one."""
@@ -210,10 +223,13 @@ class Unavailable:
     def __init__(self, name: str) -> None:
         self.name = name
 
+    def __repr__(self) -> str:
+        return f"<{self.name}, which was not pickled>"
+
 
 def run(system: Any, method: Any, *, step: Any = None, tolerance: Any = None, time: Any = None, every: int = 0, initial: Any = None, initial_velocities: Any = None, t0: Any = 0,
         absolute: Any = (), precision: str = "double", reference: str | None = "exact", measures: Sequence[str | Callable[[Run], Any]] = (), structure: bool = True,
-        project_initial: bool = False, allow_inconsistent: bool = False, formulation: str = "", out: Any = None, system_parameters: Mapping[str, Any] | None = None,
+        project_initial: bool = False, allow_inconsistent: bool = False, formulation: str | None = None, out: Any = None, system_parameters: Mapping[str, Any] | None = None,
         method_parameters: Mapping[str, Any] | None = None, **parameters: Any) -> Run:
     """Runs a method on a system, and measures what drifts and what it costs, as `pfaff run` does.
 
@@ -260,33 +276,12 @@ def run(system: Any, method: Any, *, step: Any = None, tolerance: Any = None, ti
     base, tool = with_parameters(system, method, parameters, system_parameters, method_parameters)
     if time is None:
         raise InputError("time: expected the duration of the run")
-    wanted: list[str | Callable[[Run], Any]]
-    wanted = [measures] if isinstance(measures, str) or callable(measures) else list(measures)
-    for one in wanted:
-        if not isinstance(one, str) and not callable(one):
-            raise InputError(f"measures: expected names of measures and functions of the run, got {one!r}")
-    texts = lambda values, what: texts_of_state([values] if np.ndim(values) == 0 else values, what)  # noqa: E731
-    asked = {
-        "step": "" if step is None else text_of_number(step, "step"),
-        "tolerance": "" if tolerance is None else text_of_number(tolerance, "tolerance"),
-        "time": text_of_number(time, "time"),
-        "every": whole(every, "every", 0),
-        "initial": [] if initial is None else texts(initial, "initial"),
-        "initial_velocities": [] if initial_velocities is None else texts(initial_velocities, "initial_velocities"),
-        "t0": text_of_number(t0, "t0"),
-        "absolute": texts(absolute, "absolute"),
-        "precision": precision,
-        "reference": reference or "none",
-        "measures": [one for one in wanted if isinstance(one, str)],
-        "structure": bool(structure),
-        "project_initial": bool(project_initial),
-        "allow_inconsistent": bool(allow_inconsistent),
-        "formulation": formulation,
-        "out": "" if out is None else os.fspath(out),
-        **_written_as(base, tool, out),
-    }
-    with _words_of_python():
-        going = _pfaff.RunInProgress(base.model, tool.instance, asked)
+    wanted = listed_measures(measures)
+    asked = asked_run(
+        base, tool, step=step, tolerance=tolerance, time=time, every=every, initial=initial, initial_velocities=initial_velocities, t0=t0,
+        absolute=absolute, precision=precision, reference=reference, measures=wanted, structure=structure, project_initial=project_initial,
+        allow_inconsistent=allow_inconsistent, formulation=formulation, out=out)
+    going = _pfaff.RunInProgress(base.model, tool.instance, asked)
     try:
         going.execute()
     except InputError:
@@ -298,7 +293,7 @@ def run(system: Any, method: Any, *, step: Any = None, tolerance: Any = None, ti
     try:
         for function in wanted:
             if callable(function):
-                result.measures[kebab(function.__name__)] = _measured(function, result)
+                result.measures[_name_of(function)] = _measured(function, result)
     except BaseException as error:
         attach(error, result)
         raise
@@ -309,37 +304,18 @@ def run(system: Any, method: Any, *, step: Any = None, tolerance: Any = None, ti
     return result
 
 
+def _name_of(function: Callable[[Run], Any]) -> str:
+    return kebab(getattr(function, "__name__", type(function).__name__))
+
+
 def _measured(function: Callable[[Run], Any], result: Run) -> dict[str, Any]:
     """The table of a measure that is a function of the run."""
-    given = function(result)
-    columns = dict(given) if isinstance(given, Mapping) else {kebab(function.__name__): given}
+    given, measure = function(result), _name_of(function)
+    columns = dict(given) if isinstance(given, Mapping) else {measure: given}
     table = {"t": result.t}
     for name, values in columns.items():
-        table[name] = np.asarray(values, dtype=float)
+        expected = f"{len(result.t)} numbers of {name}, one for each sample"
+        table[name] = real_array(values, f"measure {measure}", expected)
         if table[name].shape != result.t.shape:
-            raise InputError(f"measure {kebab(function.__name__)}: expected {len(result.t)} numbers of {name}, one for each sample, got shape {table[name].shape}")
+            raise InputError(f"measure {measure}: expected {expected}, got shape {table[name].shape}")
     return table
-
-
-def _written_as(system: Any, method: Any, out: Any) -> dict[str, str]:
-    """What a config.toml calls a system and a method, both empty where one of them has no name; and the text of a system that is written in Python."""
-    names = {"system": "", "integrator": "", "system_text": ""}
-    if out is None or not method.registered_name:
-        return names
-    if system.registered_name:
-        return {**names, "system": system.registered_name, "integrator": method.registered_name}
-    try:
-        text = system.to_toml()
-    except InputError:  # its formulas are not written as text
-        return names
-    return {"system": os.path.join(os.path.abspath(os.fspath(out)), "system.toml"), "integrator": method.registered_name, "system_text": text}
-
-
-@contextlib.contextmanager
-def _words_of_python() -> Iterator[None]:
-    """Messages of the command line name options, --step; in Python these are arguments, step."""
-    try:
-        yield
-    except InputError as error:
-        words = re.sub(r"--set (\w+)=", r"\1=", str(error))
-        raise InputError(re.sub(r"--([a-z][a-z-]*)", lambda option: option[1].replace("-", "_"), words)) from None

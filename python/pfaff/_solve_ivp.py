@@ -1,17 +1,22 @@
 """solve_ivp: SciPy's call, for any method of Pfaff."""
 from __future__ import annotations
 
+import inspect
 import math
+import os
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ._arguments import real_array, shown, yes_or_no
 from ._errors import InputError, NotConverged, RunFailed
 from ._integration import Integration
 from ._method import Method
+from ._numbers import float_of_number, texts_of_coordinates
 from ._objects import as_method, as_system
 from ._system import System
+from ._tracing import flat, place_of
 
 if TYPE_CHECKING:
     from scipy.integrate._ivp.ivp import OdeResult
@@ -59,6 +64,7 @@ def solve_ivp(
     Raises:
         InputError: wrong arguments, and a method that does not fit.
         TraceError: fun compares values, calls `math` or returns something else each time.
+        RunFailed: without `step`, no step meets the tolerances.
         ImportError: SciPy is not installed.
 
     >>> import pfaff
@@ -68,20 +74,19 @@ def solve_ivp(
     """
     result_type = _result_type()
     _refuse(dense_output, events)
+    yes_or_no(vectorized, "vectorized")
     begin, end = _span(t_span)
-    system = _system(fun, y0, args)
-    state = system.initial if y0 is None else np.asarray(y0, float)
+    system, state = _system_and_state(fun, y0, args)
     chosen = as_method(method, **parameters)
     times = None if t_eval is None else _times(t_eval, begin, end)
     relative, absolute = _tolerances(rtol, atol, len(state))
-    if step is not None and not step > 0:
-        raise InputError(f"step: expected a size above 0, got {step}")
-    if chosen.adaptive and step is None:
+    size = None if step is None else float_of_number(step, "step", "a size above 0", above=0)
+    if chosen.adaptive and size is None:
         return _adaptive(result_type, system, chosen, state, begin, end, times, relative, absolute)
-    if step is None:
+    if size is None:
         count = _steps(system, chosen, state, begin, end, relative, absolute)
     else:
-        count = max(1, math.ceil(abs(end - begin) / step * (1 - 1e-12)))
+        count = max(1, math.ceil(abs(end - begin) / size * (1 - 1e-12)))
     return _fixed(result_type, system, chosen, state, begin, end, times, count)
 
 
@@ -96,48 +101,82 @@ def _result_type() -> Any:
 def _refuse(dense_output: bool, events: Any) -> None:
     if events is not None:
         raise InputError("events: not there; expected pfaff.Integration with watch(callback), which ends where the callback gives True")
-    if dense_output:
+    if yes_or_no(dense_output, "dense_output"):
         raise InputError("dense_output: not there, since a polynomial between steps keeps nothing; expected t_eval, the times wanted")
 
 
 def _span(t_span: Sequence[float]) -> tuple[float, float]:
-    span = np.asarray(t_span, float)
+    span = real_array(t_span, "t_span", "two different finite times")
     if span.shape != (2,) or not np.isfinite(span).all() or span[0] == span[1]:
-        raise InputError(f"t_span: expected two different finite times, got {t_span!r}")
+        raise InputError(f"t_span: expected two different finite times, got {shown(t_span)}")
     return float(span[0]), float(span[1])
 
 
 def _times(t_eval: Sequence[float], begin: float, end: float) -> np.ndarray:
-    times = np.asarray(t_eval, float)
+    expected = f"times in {begin} .. {end}, shape (points,), in the order of the span, each once"
+    times = real_array(t_eval, "t_eval", expected)
     ahead = (times - begin) * np.sign(end - begin)
-    if times.ndim != 1 or (ahead < 0).any() or (ahead > abs(end - begin)).any() or (np.diff(ahead) <= 0).any():
-        raise InputError(f"t_eval: expected times in {begin} .. {end}, shape (points,), in the order of the span, each once")
+    if times.ndim != 1 or not ((ahead >= 0) & (ahead <= abs(end - begin))).all() or (np.diff(ahead) <= 0).any():
+        raise InputError(f"t_eval: expected {expected}, got {shown(t_eval)}")
     return times
 
 
 def _tolerances(rtol: float, atol: float | Sequence[float], size: int) -> tuple[float, np.ndarray]:
-    absolute = np.asarray(atol, float)
-    if not (isinstance(rtol, (int, float, np.floating)) and rtol > 0) or absolute.ndim > 1 or absolute.size not in (1, size) or not (absolute >= 0).all():
-        raise InputError(f"rtol, atol: expected rtol > 0 and atol >= 0, one number or {size}, got {rtol!r} and {atol!r}")
-    return float(rtol), np.broadcast_to(absolute, (size,))
+    relative, expected = float_of_number(rtol, "rtol", "a number above 0", above=0), f"a number >= 0, or {size} of them"
+    absolute = real_array(atol, "atol", expected)
+    if absolute.ndim > 1 or absolute.size not in (1, size) or not (np.isfinite(absolute) & (absolute >= 0)).all():
+        raise InputError(f"atol: expected {expected}, got {shown(atol)}")
+    return relative, np.broadcast_to(absolute, (size,))
 
 
-def _system(fun: Any, y0: Any, args: Sequence[Any] | None) -> System:
-    """The system itself, or that whose vector field the function is."""
-    if not callable(fun) or isinstance(fun, (System, type)):
-        if args is not None:
-            raise InputError("args: expected them beside a function alone; a system has parameters")
-        return as_system(fun)
-    state = np.asarray(y0 if y0 is not None else [])
-    if state.ndim != 1 or state.size == 0 or state.dtype.kind not in "iuf":
-        raise InputError(f"y0: expected real numbers, shape (n,), got {y0!r}")
-    extra = tuple(args) if args is not None else ()
+def _system_and_state(fun: Any, y0: Any, args: Any) -> tuple[System, np.ndarray]:
+    """The system itself, or that whose vector field the function is, and the state at the begin."""
+    if args is not None and not isinstance(args, (list, tuple)):
+        raise InputError(f"args: expected a tuple of further arguments of fun, such as (2.0,), got {shown(args)}")
+    if callable(fun) and not isinstance(fun, (System, type)):
+        expected = "real numbers, all finite, shape (n,)"
+        state = real_array(y0, "y0", expected)
+        if state.ndim != 1 or state.size == 0 or not np.isfinite(state).all():
+            raise InputError(f"y0: expected {expected}, got {shown(y0)}")
+        return _system_of(fun, state, tuple(args or ())), state
+    if not isinstance(fun, (str, os.PathLike, System, type)):
+        raise InputError(f"fun: expected a function of (t, y) or a system, got {shown(fun)}")
+    if args is not None:
+        raise InputError("args: expected them beside a function alone; a system has parameters")
+    system = as_system(fun, "fun")
+    if y0 is None and not len(system.initial):
+        raise InputError(f"y0: expected {system.dimension} numbers, because {system.name} has no initial state of its own")
+    if y0 is None:
+        return system, system.initial
+    return system, np.array([float_of_number(text, "y0") for text in texts_of_coordinates(y0, "y0", system.coordinates)])
+
+
+def _system_of(fun: Callable[..., Any], state: np.ndarray, extra: tuple[Any, ...]) -> System:
+    """The system whose vector field a function is."""
+    what = f"{place_of(fun)}fun"
+    try:
+        inspect.signature(fun).bind(0, state, *extra)
+    except TypeError as error:
+        further = f" and what args has, {len(extra)}" if extra else ""
+        raise InputError(f"{what}: expected a function of t and y{further}: {error}") from None
+    except ValueError:
+        pass  # some functions that are written in C do not tell their arguments
+
+    def field(self: Any, t: Any, z: Any) -> list:
+        rates = flat(fun(t, z, *extra), what)
+        if len(rates) != len(state):
+            raise InputError(f"{what} returned a list of length {len(rates)}; expected {len(state)}, a rate for each number of y0")
+        return rates
+
+    # What is said of the field names the line of the user's function; its arguments are those of the field.
+    for name, value in (("__signature__", inspect.signature(field)), ("__wrapped__", fun)):
+        setattr(field, name, value)
     members = {
         "__doc__": "The vector field of a call of solve_ivp.",
         "__module__": __name__,
         "coordinates": [f"y{k + 1}" for k in range(len(state))],
         "initial": [float(x) for x in state],
-        "field": lambda self, t, z: fun(t, z, *extra),
+        "field": field,
     }
     return type("SolveIvp", (System,), members)()
 
@@ -157,19 +196,24 @@ def _steps(
     order = method.order(system)
     if order < 1:
         raise InputError(f"step: expected one, because {method.name} claims no order on {system.name} by which it could be chosen")
-    count, before = _COMPARED, None
+    count, before, failure = _COMPARED, None, None
     while count <= _MOST_STEPS:
         integration = _integration(system, method, state, begin, step=(end - begin) / count)
         try:
-            now = integration.steps(count, every=count // _COMPARED).y
-        except (NotConverged, RunFailed):
-            now = None
+            now, failure = integration.steps(count, every=count // _COMPARED).y, None
+        except (NotConverged, RunFailed) as error:
+            now, failure = None, error
         if now is not None and before is not None:
             error = np.abs(now - before) / (2**order - 1)
             if (error <= atol + rtol * np.abs(now)).all():
                 return count
         count, before = 2 * count, now
-    raise RunFailed(f"solve_ivp: no step of {method.name} down to {abs(end - begin) / _MOST_STEPS:.3g} meets the tolerances; expected larger ones, or a step")
+    tried = f"step of {method.name} down to {abs(end - begin) / _MOST_STEPS:.3g}"
+    if failure is None:
+        raise RunFailed(f"solve_ivp: no {tried} meets rtol and atol; expected larger ones, or step=, the size that is to be taken")
+    raise RunFailed(
+        f"solve_ivp: {failure} with every {tried}; expected a t_span that ends before, another method, or step=, with which there are the "
+        "states up to the failure", failure.run)
 
 
 def _fixed(
@@ -208,6 +252,8 @@ def _adaptive(
     result_type: Any, system: System, method: Method, state: np.ndarray, begin: float, end: float, times: np.ndarray | None,
     rtol: float, atol: np.ndarray
 ) -> OdeResult:
+    if rtol > 1:
+        raise InputError(f"rtol: expected a number in (0, 1] for {method.name}, got {rtol}")
     if times is None:
         times = np.linspace(begin, end, 101)
     integration = _integration(system, method, state, begin, step=end - begin, tolerance=rtol, absolute=[float(x) for x in atol])

@@ -1,6 +1,7 @@
 """Steps that are functions of Python: what they are given, and how they become methods of the library."""
 from __future__ import annotations
 
+import fractions
 import functools
 import importlib
 import inspect
@@ -12,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from . import _pfaff
+from ._arguments import shown, unknown, whole
 from ._errors import InputError
 from ._numbers import noted_constants, text_of_constant, text_of_number, text_of_setting
 from ._tracing import argument_names, array_of, flat, place_of, recorded
@@ -40,7 +42,7 @@ class Problem:
         if name.startswith("_"):
             raise AttributeError(name)
         if name not in FORMULAS:
-            raise InputError("problem: " + _pfaff.unknown_name("formula", name, [key for key, (_, facets, _) in FORMULAS.items() if facets]))
+            raise InputError("problem: " + unknown("formula", name, [key for key, (_, facets, _) in FORMULAS.items() if facets]))
         _, facets, writes = FORMULAS[name]
         if not self._allowed.intersection(facets):
             raise InputError(f"problem.{name}: expected one of {', '.join(facets)} among what the method needs, needs=[...]")
@@ -70,7 +72,7 @@ class StepFunction:
         for key, value in names.items():
             if value is not inspect.Parameter.empty:
                 if text_of_constant(value) is None and not isinstance(value, (bool, str)):
-                    raise InputError(f"{place_of(function)}method {claims['name']}: parameter '{key}': expected a number, True, False or a text, got {value!r}")
+                    raise InputError(f"{place_of(function)}method {claims['name']}: parameter '{key}': expected a number, True, False or a text, got {shown(value)}")
                 self.parameters[key] = value
         self._instances: dict[tuple, _pfaff.MethodInstance] = {}
 
@@ -79,15 +81,9 @@ class StepFunction:
         values = dict(self.parameters)
         for key, value in parameters.items():
             if key not in values:
-                raise InputError(_pfaff.unknown_name("parameter", key, list(values)) + f" (of {self.claims['name']})")
-            own = values[key]
-            if isinstance(own, (bool, str)):
-                if type(value) is not type(own):
-                    raise InputError(f"parameter '{key}' of {self.claims['name']}: expected {'True or False' if isinstance(own, bool) else 'a text'}, got {value!r}")
-            else:
-                text_of_number(value, f"parameter '{key}' of {self.claims['name']}")
-            values[key] = value
-        texts = [(key, text_of_setting(value, key)) for key, value in values.items()]
+                raise InputError(unknown("parameter", key, list(values)) + f" (of {self.claims['name']})")
+            values[key] = self._value(key, value)
+        texts = [(key, text_of_setting(parameters.get(key, value), key)) for key, value in values.items()]
         if tuple(texts) not in self._instances:
             of = {**self.claims, "parameters": texts, "compiled": self.compiled}
             allowed = frozenset(self.claims["needs"])
@@ -95,13 +91,23 @@ class StepFunction:
             self._instances[tuple(texts)] = make(of, values, allowed, what)
         return self._instances[tuple(texts)]
 
+    def _value(self, key: str, value: Any) -> Any:
+        """The value of a parameter, of the kind of its own one: an exact text of a number becomes a fraction."""
+        own, place = self.parameters[key], f"parameter '{key}' of {self.claims['name']}"
+        if isinstance(own, (bool, str)):
+            if type(value) is not type(own):
+                raise InputError(f"{place}: expected {'True or False' if isinstance(own, bool) else 'a text'}, got {shown(value)}")
+            return value
+        _pfaff.constant(text_of_number(value, place), place)  # refuses texts that are no numbers
+        return fractions.Fraction(value) if isinstance(value, str) else value
+
     def _traced(self, of: dict, values: dict, allowed: frozenset[str], what: str) -> _pfaff.MethodInstance:
         place = place_of(self.function)
 
         def trace(system: _pfaff.Model) -> tuple[_pfaff.Tape, int, int]:
             n = system.dimension
-            kept = self.memory(n) if callable(self.memory) else int(self.memory)
-            given = {key: value if isinstance(value, (int, str)) else _pfaff.constant(text_of_number(value, key)) for key, value in values.items()}
+            kept = whole(self.memory(n), "memory", 0) if callable(self.memory) else self.memory
+            given = {key: value if isinstance(value, (int, str)) else _pfaff.constant(text_of_number(value, key), key) for key, value in values.items()}
             fields = 0
 
             def evaluate(name: str, t: Any, x: Any) -> np.ndarray:

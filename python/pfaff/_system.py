@@ -12,6 +12,7 @@ import numpy as np
 
 from . import _pfaff
 from ._definition import MEMBERS, Definition
+from ._arguments import named_function, shown, text, unknown, yes_or_no
 from ._errors import InputError
 from ._naming import absolute, kebab
 from ._numbers import text_of_setting
@@ -67,12 +68,12 @@ class System:
             raise InputError(f"{cls.__name__}: expected a class with formulas, such as hamiltonian")
         if cls is not System:
             if name is not None:
-                raise InputError(f"{cls.__name__}: expected parameters by their names, got {name!r}")
+                raise InputError(f"{cls.__name__}: expected parameters by their names, got {shown(name)}")
             definition = cls._definition
         elif isinstance(name, str) or hasattr(name, "__fspath__"):
             definition = Registered(str(name))
         else:
-            raise InputError(f"System: expected the name of a system or the path of a text model, got {name!r}")
+            raise InputError(f"name: expected the name of a system or the path of a text model, got {shown(name)}")
         self._begin(definition, parameters, compile)
 
     def __init_subclass__(cls, **keywords: Any) -> None:
@@ -86,7 +87,7 @@ class System:
     def _begin(self, definition: Any, parameters: Mapping[str, Any], compile: bool) -> None:
         self._definition = definition
         self._given = dict(parameters)
-        self._compile = bool(compile)
+        self._compile = yes_or_no(compile, "compile")
         self.model: _pfaff.Model = definition.model(parameters, self._compile)
 
     @classmethod
@@ -275,14 +276,13 @@ def _definition_of_class(cls: type) -> Traced:
             elif key in _DESCRIBING or key == "system_name":
                 described[key] = value
             elif inspect.isfunction(value) and not key.startswith("_"):
-                near = _pfaff.nearest(key, [*MEMBERS, "invariants", "initial"])
-                if near:
+                if near := _pfaff.nearest(key, [*MEMBERS, "invariants", "initial"]):
                     raise InputError(f"{place_of(value)}{cls.__name__}: unknown formula '{key}'; did you mean '{near}'? (a name of your own begins with _)")
     members = {key: value for key, value in members.items() if value is not None}
     coordinates, initial, invariants = (members.pop(key, None) for key in ("coordinates", "initial", "invariants"))
     if coordinates is None:
         raise InputError(f"{cls.__name__}: expected coordinates, such as coordinates = [\"q\", \"p\"]")
-    name = described.pop("system_name", kebab(cls.__name__))
+    name = text(described.pop("system_name", kebab(cls.__name__)), f"{cls.__name__}: system_name")
     definition = Definition(name, coordinates, members, initial=initial, invariants=invariants, parameters=parameters, of_class=cls, **described)
     return Traced(definition, (cls.__module__, cls.__qualname__))
 
@@ -325,14 +325,14 @@ def system(*, coordinates: Sequence[str] | Mapping[str, Any], initial: Any = Non
     """
     described = {key: members.pop(key) for key in _DESCRIBING if key in members}
     for key in (*members, formula):
-        if key not in MEMBERS:
-            raise InputError("system: " + _pfaff.unknown_name("formula", key, [*MEMBERS, *_DESCRIBING]))
+        if not isinstance(key, str) or key not in MEMBERS:
+            raise InputError("system: " + unknown("formula", key, [*MEMBERS, *_DESCRIBING]))
     if formula in members:
         raise InputError(f"system: '{formula}' is what the function gives; expected it once")
 
     def decorate(function: Callable) -> System:
-        argument_names(function)
-        own = name or kebab(function.__name__)
+        argument_names(named_function(function, "system", f"a function that gives the {formula}"))
+        own = text("" if name is None else name, "name") or kebab(function.__name__)
         definition = Definition(own, coordinates, {**members, formula: function}, initial=initial, invariants=invariants, **described)
         made = System._made(Traced(definition, (function.__module__, function.__qualname__)), {}, compile)
         made.__doc__ = function.__doc__

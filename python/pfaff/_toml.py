@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ._arguments import shown
 from ._errors import InputError
 from ._numbers import text_of_constant
 
@@ -17,13 +18,13 @@ def toml_of(values: Mapping[str, Any], what: str) -> str:
     Numbers other than floats and whole numbers become texts, which keep all their digits.
     """
     if not isinstance(values, Mapping):
-        raise InputError(f"{what}: expected a dictionary, got {values!r}")
+        raise InputError(f"{what}: expected a dictionary, got {shown(values)}")
     return "".join(f"{_key(key, what)} = {_value(value, f'{what}: {key}')}\n" for key, value in values.items())
 
 
 def _key(key: Any, what: str) -> str:
     if not isinstance(key, str):
-        raise InputError(f"{what}: expected keys that are texts, got {key!r}")
+        raise InputError(f"{what}: expected keys that are texts, got {shown(key)}")
     return json.dumps(key, ensure_ascii=False)
 
 
@@ -38,5 +39,5 @@ def _value(value: Any, what: str) -> str:
         return "[" + ", ".join(_value(one, what) for one in value) + "]"
     text = text_of_constant(value)
     if text is None:
-        raise InputError(f"{what}: expected a number, a text, a list or a dictionary, got {value!r}")
+        raise InputError(f"{what}: expected a number, a text, a list or a dictionary, got {shown(value)}")
     return text if isinstance(value, (int, float, np.integer)) else json.dumps(text)

@@ -7,6 +7,7 @@ from typing import Any
 
 from . import _pfaff
 from ._definition import BRACKETS, FORMULAS, Coordinates, Definition
+from ._arguments import shown, unknown
 from ._errors import InputError
 from ._numbers import text_of_number
 from ._tracing import argument_names, array_of, call_by_names, flat, place_of, recorded
@@ -85,6 +86,8 @@ class Tracer:
         is_number, signature = FORMULAS[key]
         what = f"{place_of(member)}{key} of {self.definition.what}"
         times, ins = re.findall(r"const T& (\w+)", signature), re.findall(r"In<T> (\w+)", signature)
+        if self.n % 2 and not {"q", "p"}.isdisjoint(ins):
+            raise InputError(f"{what}: there are {self.n} coordinates; expected an even number, first all positions and then their momenta")
         inputs, _ = _pfaff.formula_size(key, self.sizes)
         each = (inputs - (len(times) - 1)) // len(ins)
 
@@ -167,8 +170,8 @@ class Tracer:
             names[:] = values
             for name in names:
                 if not isinstance(name, str) or not _LABEL.match(name):
-                    raise InputError(f"invariants of {self.definition.what}: expected names without quotation marks and commas, got {name!r}")
-            return [flat(value, f"invariant {name}")[0] for name, value in values.items()]
+                    raise InputError(f"invariants of {self.definition.what}: expected names without quotation marks and commas, got {shown(name)}")
+            return [_only(flat(value, f"invariant {name}"), f"invariant {name}") for name, value in values.items()]
 
         tape = self.recorded(self.n, results, f"invariants of {self.definition.what}")
         d = self.definition
@@ -185,7 +188,7 @@ class Tracer:
             state: list[Any] = [0] * self.n
             for name, numbers in written.items():
                 if name not in self.coordinates.blocks:
-                    raise InputError(what + ": " + _pfaff.unknown_name("coordinate", name, list(self.coordinates.blocks)))
+                    raise InputError(what + ": " + unknown("coordinate", name, list(self.coordinates.blocks)))
                 place = self.coordinates.blocks[name]
                 values = flat(numbers, what)
                 if len(state[place] if isinstance(place, slice) else [0]) != len(values):
@@ -247,3 +250,10 @@ class Tracer:
             if half == 0 or len(values) % half or not values:
                 raise InputError(f"{what} returned {len(values)} results; expected rows of {half}, one number for each position")
             self.sizes["velocity_constraints"] = len(values) // half
+
+
+def _only(numbers: list, what: str) -> Any:
+    """The number of a list of one."""
+    if len(numbers) != 1:
+        raise InputError(f"{what} returned {len(numbers)} results; expected 1")
+    return numbers[0]

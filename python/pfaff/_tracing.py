@@ -1,6 +1,7 @@
 """Tracing: a function is called once with numbers that record what is done with them."""
 from __future__ import annotations
 
+import functools
 import inspect
 import os
 import sys
@@ -11,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from . import _pfaff
+from ._arguments import shown, unknown
 from ._errors import InputError, TraceError
 from ._numbers import text_of_constant
 
@@ -36,7 +38,10 @@ def trace_error(message: str) -> TraceError:
 
 def place_of(function: Callable) -> str:
     """FILE:LINE of a function, with a colon behind it; empty where it has none."""
-    code = getattr(inspect.unwrap(function), "__code__", None)
+    own = inspect.unwrap(function)
+    while isinstance(own, functools.partial):
+        own = inspect.unwrap(own.func)
+    code = getattr(own, "__code__", None) or getattr(getattr(type(own), "__call__", None), "__code__", None)
     return f"{code.co_filename}:{code.co_firstlineno}: " if code else ""
 
 
@@ -64,8 +69,7 @@ def call_by_names(function: Callable, known: Mapping[str, Any], what: str) -> An
         if name in known:
             arguments[name] = known[name]
         elif default is inspect.Parameter.empty:
-            problem = _pfaff.unknown_name("argument", name, sorted(known))
-            raise InputError(f"{what}: {problem}")
+            raise InputError(f"{what}: {unknown('argument', name, sorted(known))}")
     return function(**arguments)
 
 
@@ -81,7 +85,7 @@ def flat(results: Any, what: str) -> list:
         raise InputError(f"{what} returned rows of different lengths") from None
     for number in numbers:
         if not isinstance(number, _pfaff.Number) and text_of_constant(number) is None:
-            raise InputError(f"{what} returned {number!r}; expected numbers")
+            raise InputError(f"{what} returned {shown(number)}; expected numbers")
     return numbers
 
 
@@ -125,6 +129,8 @@ def where(condition: Any, positive: Any, otherwise: Any) -> Any:
     array([2, 3])
     """
     arguments = (condition, positive, otherwise)
+    for name, x in zip(("condition", "positive", "otherwise"), arguments):
+        _require_numbers(x, name)
     if not any(isinstance(x, _pfaff.Number) or np.asarray(x).dtype == object for x in arguments):
         return np.where(np.asarray(condition) > 0, positive, otherwise)
     if all(np.ndim(x) == 0 for x in arguments):
@@ -141,9 +147,24 @@ def solve(matrix: Any, right_hand_side: Any) -> np.ndarray:
     >>> solve([[2, 0], [0, 4]], [2, 2])
     array([1. , 0.5])
     """
+    _require_numbers(matrix, "matrix")
+    _require_numbers(right_hand_side, "right_hand_side")
     a, b = np.asarray(matrix), np.asarray(right_hand_side)
     if a.ndim != 2 or a.shape[0] != a.shape[1] or b.shape != a.shape[:1]:
-        raise InputError(f"solve: expected shapes (n, n) and (n,), got {a.shape} and {b.shape}")
+        raise InputError(f"solve: expected a matrix of shape (n, n) and a right_hand_side of shape (n,), got {a.shape} and {b.shape}")
     if object not in (a.dtype, b.dtype):
         return np.linalg.solve(a, b)
     return array_of(_pfaff.solve(list(a.ravel()), list(b)))
+
+
+def _require_numbers(x: Any, what: str) -> None:
+    """Refuses what is no number and no array of numbers, recorded ones or others."""
+    try:
+        entries = np.asarray(x)
+    except ValueError:  # rows of different lengths
+        entries = np.array(None)
+    if entries.dtype.kind in "biuf":
+        return
+    for one in entries.astype(object).ravel():
+        if not isinstance(one, _pfaff.Number) and text_of_constant(one) is None:
+            raise trace_error(f"{what}: expected a number or an array of numbers, got {shown(x)}")

@@ -1,22 +1,23 @@
-"""Verification of what plug-ins and objects claim, and the search for systems on which a claim fails."""
+"""Verification of what plug-ins and objects claim."""
 from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Iterator, Sequence
+import os
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import _pfaff
+from ._arguments import shown, yes_or_no
 from ._errors import InputError
+from ._method import Method
 from ._numbers import text_of_setting
 from ._objects import as_method, as_system
+from ._system import System
 from ._tables import bar, data_frame, html_table, text_table
 
 if TYPE_CHECKING:
     import pandas
-
-    from ._method import Method
-    from ._system import System
 
 
 @dataclasses.dataclass(frozen=True)
@@ -140,7 +141,8 @@ class Checks(Sequence[Check]):
         return data_frame(names, [[getattr(check, name) for name in names] for check in self._checks])
 
 
-def _assignments(parameters: dict[str, Any]) -> list[tuple[str, str]]:
+def assignments(parameters: dict[str, Any]) -> list[tuple[str, str]]:
+    """Parameters of a plug-in as texts."""
     return [(key, text_of_setting(value, f"parameter '{key}'")) for key, value in parameters.items()]
 
 
@@ -152,9 +154,26 @@ def _checks(result: tuple[Any, ...]) -> Checks:
 def _is_method(one: Any) -> bool:
     if isinstance(one, str):
         return one in _pfaff.method_names()
-    from ._method import Method
+    return isinstance(one, (Method, Mapping))
 
-    return isinstance(one, Method)
+
+def _claimant(one: Any) -> Any:
+    """A name, or an object that claims something."""
+    if isinstance(one, os.PathLike):
+        return os.fspath(one)
+    if not isinstance(one, (str, Mapping, Method, System)) and not (isinstance(one, type) and issubclass(one, System)):
+        raise InputError(f"claimants: expected names, pfaff.System and pfaff.Method objects, got {shown(one)}")
+    return one
+
+
+def _targets(on: Any) -> list[Any]:
+    """The models of the systems that methods are verified on."""
+    if on is None:
+        return []
+    systems = list(on) if isinstance(on, (list, tuple)) else [on]
+    if not systems:
+        raise InputError(f"on: expected a system or several, got {shown(on)}")
+    return [as_system(one, "on").model for one in systems]
 
 
 def verify(*claimants: str | System | Method, on: Any = None, full: bool = False, **parameters: Any) -> Checks:
@@ -180,160 +199,20 @@ def verify(*claimants: str | System | Method, on: Any = None, full: bool = False
     >>> checks.ok, len(checks.failed)
     (True, 0)
     """
-    if on is None and all(isinstance(one, str) for one in claimants):
-        return _checks(_pfaff.verify_names([str(one) for one in claimants], _assignments(parameters), full))
-    if not claimants:
+    whole_set, named, targets = yes_or_no(full, "full"), [_claimant(one) for one in claimants], _targets(on)
+    if on is None and all(isinstance(one, str) for one in named):
+        return _checks(_pfaff.verify_names(named, assignments(parameters), whole_set))
+    if not named:
         raise InputError("verify: expected a method whose claims are to be verified on the systems of `on`")
-    if full:
+    if whole_set:
         raise InputError("verify: `full` is for names alone; an object is verified with its own parameters")
-    if parameters and len(claimants) != 1:
+    if parameters and len(named) != 1:
         raise InputError("verify: expected parameters beside one method or system alone, whose they are")
     methods, systems = [], []
-    for one in claimants:
+    for one in named:
         if on is not None or _is_method(one):
-            method = as_method(one, **parameters)
+            method = as_method(one, "claimants", **parameters)
             methods.append((method.instance, list(method.parameters.items())))
         else:
-            systems.append(as_system(one, **parameters).model)
-    targets = [] if on is None else list(on) if isinstance(on, (list, tuple)) else [on]
-    return _checks(_pfaff.verify_objects(methods, systems, [as_system(target).model for target in targets]))
-
-
-@dataclasses.dataclass(frozen=True)
-class Counterexample:
-    """The smallest system found on which a claim fails.
-
-    Attributes:
-        name: of the system, such as "rk4-not-symplectic".
-        model: the system as a text model, which `pfaff.System` reads once it is a file.
-        dimension: the number of its coordinates.
-        step, steps, time: the claim was judged after so many steps from that time.
-        residuals: with the step h, h/2, h/4, ...
-        residual_in_double: with the step h, in double precision.
-        exponent: of the power of h as which the residual falls.
-    """
-
-    name: str
-    model: str
-    dimension: int
-    step: str
-    steps: int
-    time: str
-    residuals: list[float]
-    residual_in_double: float
-    exponent: float
-
-
-@dataclasses.dataclass(frozen=True)
-class Falsification:
-    """What became of one claim of a method.
-
-    Attributes:
-        method, parameters, claim: what was put to the test.
-        claimed: whether the method makes the claim.
-        tried: on how many random systems.
-        counterexample: the system on which it fails, or None where it held.
-    """
-
-    method: str
-    parameters: dict[str, str]
-    claim: str
-    claimed: bool
-    tried: int
-    counterexample: Counterexample | None
-
-    @property
-    def result(self) -> str:
-        """"falsified", "held", or "untested" where no system was in the scope of the claim."""
-        return "falsified" if self.counterexample else "held" if self.tried else "untested"
-
-
-class Falsifications(Sequence[Falsification]):
-    """A row for each claim that was put to the test.
-
-    Attributes:
-        ok: True where claims were tried and none was falsified.
-    """
-
-    _COLUMNS = ("method", "claim", "systems", "result", "residual", "step", "system")
-
-    def __init__(self, results: Sequence[Falsification]) -> None:
-        self._results = tuple(results)
-        self.ok = not self.failed and any(one.tried for one in results)
-
-    @property
-    def failed(self) -> tuple[Falsification, ...]:
-        """The claims that were falsified."""
-        return tuple(one for one in self._results if one.counterexample)
-
-    def __getitem__(self, index: Any) -> Any:
-        return self._results[index]
-
-    def __len__(self) -> int:
-        return len(self._results)
-
-    def __bool__(self) -> bool:
-        return self.ok
-
-    def _rows(self) -> list[tuple[Any, ...]]:
-        rows: list[tuple[Any, ...]] = []
-        for one in self._results:
-            found = one.counterexample
-            name = " ".join([one.method, *(f"{key}={value}" for key, value in one.parameters.items())])
-            rows.append((name, one.claim, one.tried, one.result, found.residuals[0] if found else None,
-                         found.step if found else None, found.name if found else None))
-        return rows
-
-    def __repr__(self) -> str:
-        tried = sum(one.tried for one in self._results)
-        line = f"{len(self)} claims on {tried} random systems: {len(self.failed)} falsified"
-        return text_table(self._COLUMNS, self._rows()) + "\n" + line
-
-    def _repr_html_(self) -> str:
-        return html_table(self._COLUMNS, self._rows())
-
-    def to_pandas(self) -> pandas.DataFrame:
-        """A data frame with a row for each claim."""
-        return data_frame(self._COLUMNS, self._rows())
-
-
-def falsify(
-    method: str | Method, claim: str | None = None, *, budget: float = 60.0, systems: int | None = None, seed: int = 1,
-    **parameters: Any
-) -> Falsifications:
-    """Searches random systems for one on which a claim of a method fails, and shrinks it to the smallest of its kind.
-
-    Args:
-        method: its name, the path of a table, or a `pfaff.Method`.
-        claim: the one claim that is put to the test, whether the method makes it or not; all that it makes without.
-        budget: how long to search, in seconds, for all claims together.
-        systems: at most so many systems for each claim, which makes results independent of the machine's speed.
-        seed: of the random systems.
-        **parameters: of the method; without, those that verification runs through.
-
-    Returns:
-        A row for each claim, with the counterexample where there is one.
-
-    Raises:
-        InputError: an unknown method or claim.
-        Interrupted: Ctrl-C.
-
-    >>> import pfaff
-    >>> found = pfaff.falsify("rk4", "symplectic", systems=5)
-    >>> found.ok, found[0].result
-    (False, 'falsified')
-    """
-    if not budget > 0:
-        raise InputError(f"budget: expected a time above 0 s, got {budget}")
-    how = (claim or "", budget, systems, seed)
-    if isinstance(method, str):
-        found = _pfaff.falsify(None, method, _assignments(parameters), *how)
-    else:
-        made = as_method(method, **parameters)
-        found = _pfaff.falsify(made.instance, "", list(made.parameters.items()), *how)
-    results = []
-    for one in found:
-        example = one.pop("counterexample")
-        one["parameters"] = dict(one["parameters"])
-        results.append(Falsification(**one, counterexample=Counterexample(**example) if example else None))
-    return Falsifications(results)
+            systems.append(as_system(one, "claimants", **parameters).model)
+    return _checks(_pfaff.verify_objects(methods, systems, targets))

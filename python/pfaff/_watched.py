@@ -4,7 +4,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from . import _pfaff
+from ._arguments import unknown
 
 
 class Watched(Mapping):
@@ -18,8 +18,8 @@ class Watched(Mapping):
         self._fields = dict(fields)
 
     def __getitem__(self, name: str) -> Any:
-        if name not in self._fields:
-            raise KeyError(_pfaff.unknown_name("field", name, list(self._fields)))
+        if not isinstance(name, str) or name not in self._fields:
+            raise KeyError(unknown("field", name, list(self._fields)))
         return self._fields[name]
 
     def __getattr__(self, name: str) -> Any:

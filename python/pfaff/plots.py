@@ -15,7 +15,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _pfaff
+from ._arguments import dictionary, dictionary_or_none, real_array, text, unknown, whole, yes_or_no
+from ._arguments import path as path_of
 from ._errors import InputError
+from ._numbers import float_of_number
+from ._plotted import given_axes, given_rods, given_series, given_states, given_times, label_of, pairs_of, places_of
 
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
@@ -66,30 +70,10 @@ def _styled(draw: Callable[..., Any]) -> Callable[..., Any]:
 
 def _axes(axes: Axes | None, size: tuple[float, float] = (6.4, 4.0), **keywords: Any) -> Axes:
     if axes is not None:
-        return axes
+        return given_axes(axes)
     from matplotlib import pyplot
 
     return pyplot.subplots(figsize=size, layout="constrained", **keywords)[1]
-
-
-def _arrays(t: Any, z: Any) -> tuple[np.ndarray, np.ndarray]:
-    times, states = np.asarray(t, float), np.asarray(z, float)
-    if times.ndim != 1 or states.ndim != 2 or len(times) != len(states):
-        raise InputError(f"plot: expected times of shape (n,) and states of shape (n, dimension), got {times.shape} and {states.shape}")
-    return times, states
-
-
-def _chosen(names: Sequence[str], chosen: str | Sequence[str] | None, default: Sequence[str]) -> list[int]:
-    """The numbers of the columns that are chosen by name."""
-    wanted = [chosen] if isinstance(chosen, str) else list(default if chosen is None else chosen)
-    for name in wanted:
-        if name not in names:
-            raise InputError(_pfaff.unknown_name("coordinate", name, list(names)))
-    return [list(names).index(name) for name in wanted]
-
-
-def _label(name: str, unit: str = "") -> str:
-    return f"{name} [{unit}]" if unit not in ("", "1") else name
 
 
 @_styled
@@ -106,11 +90,12 @@ def trajectory(
     >>> [line.get_label() for line in axes.get_lines()]
     ['q', 'p']
     """
-    times, states = _arrays(t, z)
-    axes = _axes(axes)
-    for k in _chosen(names, coordinates, names):
+    times, states, names = given_states(t, z, names)
+    places, label = places_of(names, coordinates, names), label_of("t", time_unit)
+    axes = _axes(axes)  # once all else is right, so that no empty figure is left
+    for k in places:
         axes.plot(times, states[:, k], label=names[k])
-    axes.set_xlabel(_label("t", time_unit))
+    axes.set_xlabel(label)
     if len(axes.get_lines()) > 1:
         axes.legend(frameon=False)
     else:
@@ -126,8 +111,8 @@ def phase_portrait(
 
     `coordinates` names two others, such as ["q1", "q2"].
     """
-    _, states = _arrays(t, z)
-    pair = _chosen(names, coordinates, [names[0], names[max(1, len(names) // 2)]] if len(names) > 1 else names)
+    _, states, names = given_states(t, z, names)
+    pair = places_of(names, coordinates, [names[0], names[max(1, len(names) // 2)]] if len(names) > 1 else names)
     if len(pair) != 2:
         raise InputError(f"phase portrait: expected two coordinates, got {len(pair)}")
     axes = _axes(axes, (4.6, 4.2))
@@ -146,17 +131,16 @@ def drift(t: Any, values: Mapping[str, Any], *, time_unit: str = "", relative: b
         values: arrays of shape (n,) by their names, such as run.invariants.
         relative: divided by |I(0)|, where that is not 0.
     """
-    times = np.asarray(t, float)
+    times, divided = given_times(t), yes_or_no(relative, "relative")
+    given = dictionary(values, "values", "a dictionary of arrays by their names")
+    listed, label = {name: given_series(one, times, f"values['{name}']") for name, one in given.items()}, label_of("t", time_unit)
     axes = _axes(axes)
-    for name, series in values.items():
-        series = np.asarray(series, float)
-        if series.shape != times.shape:
-            raise InputError(f"drift: expected {len(times)} values of {name}, got shape {series.shape}")
+    for name, series in listed.items():
         difference = np.abs(series - series[0])
-        if relative and series[0] != 0:
+        if divided and series[0] != 0:
             difference = difference / abs(series[0])
         _logarithmic(axes, times[1:], difference[1:], name)
-    axes.set(xlabel=_label("t", time_unit), ylabel="relative difference from the start" if relative else "difference from the start")
+    axes.set(xlabel=label, ylabel="relative difference from the start" if divided else "difference from the start")
     axes.legend(frameon=False)
     return axes
 
@@ -167,14 +151,15 @@ def measure(t: Any, values: Any, name: str, *, unit: str = "", time_unit: str = 
 
     What was not measured is not-a-number, and is left out.
     """
-    times, series = np.asarray(t, float), np.asarray(values, float)
+    times = given_times(t)
+    series, labels = given_series(values, times, "values"), (label_of("t", time_unit), label_of(text(name, "name"), unit, "unit"))
     known = np.isfinite(series)
     axes = _axes(axes)
     if known.any() and (series[known] >= 0).all() and (series[known] > 0).any():
         _logarithmic(axes, times[known], series[known], name)
     else:
         axes.plot(times[known], series[known], label=name)
-    axes.set(xlabel=_label("t", time_unit), ylabel=_label(name, unit))
+    axes.set(xlabel=labels[0], ylabel=labels[1])
     return axes
 
 
@@ -197,13 +182,15 @@ def work_precision(
         curves: (work, error), two arrays of one shape, by the label of the method.
         families: the family of each method, which gives its colour and its mark.
     """
+    given, labels = pairs_of(curves), {"xlabel": text(work, "work"), "ylabel": text(error, "error")}
+    of = {key: text(value, f"families['{key}']") for key, value in dictionary_or_none(families, "families").items()}
     axes = _axes(axes, (6.4, 4.6))
     ranks: dict[str, int] = {}
-    for label, (cost, errors) in curves.items():
-        family = _families()["family_named"]((families or {}).get(label, "other"))
+    for label, (cost, errors) in given.items():
+        family = _families()["family_named"](of.get(label, "other"))
         ranks[family.key] = ranks.get(family.key, -1) + 1
         axes.loglog(cost, errors, label=label, **_families()["style"](family, ranks[family.key], "full"))
-    axes.set(xlabel=work, ylabel=error)
+    axes.set(**labels)
     axes.legend(frameon=False, loc="center left", bbox_to_anchor=(1, 0.5))
     return axes
 
@@ -217,6 +204,8 @@ def of_run(run: Run, kind: str = "trajectory", **keywords: Any) -> Any:
     Raises:
         InputError: an unknown kind, with the nearest, and one that the run has nothing for.
     """
+    if not isinstance(kind, str):
+        raise InputError(unknown("kind", kind, ["trajectory"]))
     unit = run.units.get("t", "")
     series = {"error": run.error, "structure residual": run.structure}
     columns = {
@@ -249,7 +238,7 @@ def of_run(run: Run, kind: str = "trajectory", **keywords: Any) -> Any:
     known = ["trajectory", "phase portrait", "drift", "constraints", *series, "animation", *columns]
     if kind in known:
         raise InputError(f"plot: the run has no {kind}")
-    raise InputError(_pfaff.unknown_name("plot", kind, known))
+    raise InputError(unknown("plot", kind, known))
 
 
 def _animation_of(run: Run, **keywords: Any) -> FuncAnimation:
@@ -279,17 +268,17 @@ def bodies(
     from matplotlib import pyplot
     from matplotlib.animation import FuncAnimation
 
-    times, places = np.asarray(t, float), np.asarray(positions, float)
+    times, hangs, most = given_times(t), yes_or_no(origin, "origin"), whole(frames, "frames", 1)
+    lasts = float_of_number(seconds, "seconds", "a time above 0 s", above=0)
+    expected = f"positions of shape ({len(times)}, bodies, 2 or 3), as there are times"
+    places = real_array(positions, "positions", expected)
     if places.ndim != 3 or places.shape[2] not in (2, 3) or len(places) != len(times):
-        raise InputError(f"bodies: expected positions of shape (n, bodies, 2 or 3) beside {len(times)} times, got {places.shape}")
+        raise InputError(f"positions: expected {expected}, got shape {places.shape}")
     places = places[:, :, [0, -1]]
     count = places.shape[1]
-    pairs = rods if rods is not None else [(k - 1, k) for k in range(0 if origin else 1, count)]
-    for pair in pairs:
-        if not all(-1 <= k < count for k in pair):
-            raise InputError(f"bodies: expected rods between bodies 0 .. {count - 1}, or -1 for the origin, got {pair}")
+    pairs = given_rods(rods, count) if rods is not None else [(k - 1, k) for k in range(0 if hangs else 1, count)]
     pinned = np.concatenate([np.zeros((len(times), 1, 2)), places], axis=1)
-    shown = np.unique(np.linspace(0, len(times) - 1, min(frames, len(times))).astype(int))
+    shown = np.unique(np.linspace(0, len(times) - 1, min(most, len(times))).astype(int))
     figure, axes = pyplot.subplots(figsize=(4.6, 4.6), layout="constrained")
     joined = {k for pair in pairs for k in pair}
     extent = pinned if -1 in joined else places
@@ -309,7 +298,7 @@ def bodies(
         title.set_text(f"t = {times[frame]:.3g}")
         return [*lines, dots, title]
 
-    animation = FuncAnimation(figure, draw, frames=shown, interval=1000 * seconds / len(shown), blit=False)
+    animation = FuncAnimation(figure, draw, frames=shown, interval=1000 * lasts / len(shown), blit=False)
     pyplot.close(figure)  # a notebook would also show its first picture
     return animation
 
@@ -320,14 +309,14 @@ def svg(axes: Axes) -> str:
 
     from matplotlib import pyplot
 
-    text = io.StringIO()
+    written = io.StringIO()
     with _style():
-        axes.figure.savefig(text, format="svg")
+        given_axes(axes).figure.savefig(written, format="svg")
     pyplot.close(axes.figure)
-    return text.getvalue()[text.getvalue().index("<svg") :]
+    return written.getvalue()[written.getvalue().index("<svg") :]
 
 
 def save(axes: Axes, path: str | pathlib.Path) -> None:
     """Writes the figure to a file, whose ending says what kind it is: .svg, .pdf or .png."""
     with _style():
-        axes.figure.savefig(path)
+        given_axes(axes).figure.savefig(path_of(path, "path", "that of a file, such as 'run.svg'"))

@@ -51,7 +51,8 @@ py::array Formulas<P>::operator()(const std::string& name, const py::object& tim
     const auto tape = model.tape(row.formula);
     std::vector<T> x(static_cast<std::size_t>(tape->inputs)), out(tape->outputs.size());
     write_numbers(arguments, std::span<T>(x), name.c_str());
-    evaluate(*problem, row.formula, scalar_from<T>(time), In<T>(x), Out<T>(out));
+    const T t = scalar_from<T>(time, ("time of " + name).c_str());
+    evaluate(*problem, row.formula, t, In<T>(x), Out<T>(out));
     return array_of(std::span<const T>(out));
   }
   throw InputError("system " + model.name() + " offers no " + name);

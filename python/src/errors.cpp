@@ -1,10 +1,12 @@
 // Exceptions: those of the libraries as exceptions of Python, which stand in pfaff/_errors.py, where they
-// have their docstrings and what they carry besides a message. Notices of the libraries are warnings.
+// have their docstrings and what they carry besides a message, in words of Python. Notices of the libraries
+// are warnings.
 #include <pfaff/core/errors/budget.hpp>
 #include <pfaff/core/errors/errors.hpp>
 #include <pfaff/core/errors/notices.hpp>
 #include <pfaff/python/src/bindings.hpp>
 #include <pfaff/python/src/callbacks.hpp>
+#include <pfaff/python/src/words.hpp>
 
 namespace py = pybind11;
 
@@ -15,7 +17,7 @@ namespace {
 py::object error_class(const char* name) { return py::module_::import("pfaff._errors").attr(name); }
 
 void raise(const char* name, const std::exception& error) {
-  PyErr_SetString(error_class(name).ptr(), error.what());
+  PyErr_SetString(error_class(name).ptr(), in_words_of_python(error.what()).c_str());
 }
 }  // namespace
 

@@ -24,9 +24,7 @@ namespace {
 std::shared_ptr<const Model> motion_in(const std::shared_ptr<const Model>& model,
                                        const std::string& formulation) {
   if (formulation.empty()) return motion_of(model);
-  const FormulationPlugin& plugin = formulations().get(formulation, "formulation");
-  if (const std::string reason = plugin.refuses(*model); !reason.empty()) throw InputError(reason);
-  return plugin.apply(model, {});
+  return formulation_for(*model, formulation)->apply(model, {});
 }
 
 py::dict evaluated_at(const PySystem& system, const std::vector<std::string>& state, const std::string& t,
@@ -35,8 +33,9 @@ py::dict evaluated_at(const PySystem& system, const std::vector<std::string>& st
   return python_value(without_lock([&] {
            EvaluationSettings settings;
            settings.at.model = motion_in(system.model, formulation);
-           settings.at.t = finite_number(t, "t");
-           settings.at.state = initial_state(*settings.at.model, {state, {}}, settings.at.t);
+           settings.at.t = finite_number(t, "time");
+           settings.at.state = state.empty() ? initial_state(*settings.at.model, {}, settings.at.t)
+                                             : state_numbers(*settings.at.model, state, "state");
            settings.precision = parse_precision(precision);
            if (centre) settings.centre = state_numbers(*settings.at.model, *centre, "centre");
            return evaluation(settings);

@@ -130,6 +130,7 @@ PySystem traced_model(const py::dict& of) {
   if ((source.canonical || source.damping) && source.dimension % 2 != 0)
     throw InputError("system " + source.name + ": there are " + std::to_string(source.dimension) +
                      " coordinates; expected an even number, first all positions and then their momenta");
+  check_source(source);  // before its formulas are taken together
   take_separable_energy(source);
   leave_out_redundant(source);
   text::add_followed_quantities(source);

@@ -238,8 +238,9 @@ void bind_recording(py::module_& module) {
   });
   module.def("where", &where);
   module.def("solve", &solved);
-  module.def("constant",
-             [](const std::string& text) { return Number{Recorded(number_of(text, "constant"))}; });
+  module.def("constant", [](const std::string& text, const std::string& what) {
+    return Number{Recorded(number_of(text, what))};
+  });
 
   py::class_<Recording, std::shared_ptr<Recording>>(module, "Recording", "A formula that is being recorded.")
       .def(py::init<int>())

@@ -23,6 +23,7 @@
 #include <pfaff/python/src/interruption.hpp>
 #include <pfaff/python/src/json_value.hpp>
 #include <pfaff/python/src/objects.hpp>
+#include <pfaff/python/src/words.hpp>
 #include <pfaff/runs/measuring.hpp>
 #include <pfaff/runs/support/constraints.hpp>
 
@@ -218,8 +219,9 @@ class RunInProgress {
     result["steps"] = run_.steps;
     result["initial"] = texts_of(run_.initial);
     result["step"] = to_string(run_.step);
+    result["t0"] = to_string(run_.t0);
     result["status"] = record_ ? std::string(to_string(record_->status)) : "";
-    result["message"] = record_ ? record_->message : "";
+    result["message"] = record_ ? in_words_of_python(record_->message) : "";
     result["tables"] = tables_of_measures();
     return result;
   }

@@ -22,6 +22,10 @@ std::optional<Real> real_from(py::handle object) {
   if (PyFloat_Check(object.ptr()) != 0) return Real(Quad(PyFloat_AS_DOUBLE(object.ptr())));  // inf and nan
   return std::nullopt;
 }
+// What messages show of an object.
+std::string shown(py::handle object) {
+  return py::module_::import("pfaff._arguments").attr("shown")(object).cast<std::string>();
+}
 template <class T>
 std::optional<T> known_scalar(py::handle object) {
   if (py::isinstance<T>(object)) return object.cast<const T&>();
@@ -94,36 +98,36 @@ void bind_scalar(py::module_& module, const char* name, const char* meaning) {
 }  // namespace
 
 template <class T>
-T scalar_from(py::handle object) {
+T scalar_from(py::handle object, const char* what) {
   if constexpr (std::is_same_v<T, double>) {
     const double value = PyFloat_AsDouble(object.ptr());
-    if (PyErr_Occurred() != nullptr) throw py::error_already_set();
-    return value;
+    if (PyErr_Occurred() == nullptr) return value;
+    PyErr_Clear();
   } else {
     if (auto value = known_scalar<T>(object)) return *value;
-    throw py::type_error("expected a number, got " + py::str(py::type::of(object)).cast<std::string>());
   }
+  throw InputError(std::string(what) + ": expected a number, got " + shown(object));
 }
 
 template <class T>
 void write_numbers(const py::object& numbers, std::span<T> to, const char* what) {
   if (!py::isinstance<py::sequence>(numbers) && !py::isinstance<py::array>(numbers))
     throw InputError(std::string(what) + ": expected a list or an array of " + std::to_string(to.size()) +
-                     " numbers, got " + py::str(py::type::of(numbers)).cast<std::string>());
+                     " numbers, got " + shown(numbers));
   const std::size_t size = py::len(numbers);
   if (size != to.size())
     throw InputError(std::string(what) + ": expected " + std::to_string(to.size()) + " numbers, got " +
                      std::to_string(size));
   for (std::size_t k = 0; k < size; ++k) {
     const py::object one = numbers[py::int_(k)];
-    to[k] = scalar_from<T>(one);
+    to[k] = scalar_from<T>(one, what);
   }
 }
 
-template double scalar_from(py::handle);
-template Quad scalar_from(py::handle);
-template StepDual<double> scalar_from(py::handle);
-template StepDual<Quad> scalar_from(py::handle);
+template double scalar_from(py::handle, const char*);
+template Quad scalar_from(py::handle, const char*);
+template StepDual<double> scalar_from(py::handle, const char*);
+template StepDual<Quad> scalar_from(py::handle, const char*);
 template void write_numbers(const py::object&, std::span<double>, const char*);
 template void write_numbers(const py::object&, std::span<Quad>, const char*);
 template void write_numbers(const py::object&, std::span<StepDual<double>>, const char*);

@@ -27,19 +27,20 @@ pybind11::array array_of(std::span<const T> numbers) {
   }
 }
 
-/// The scalar that a number of Python is: one of its own kind, or any real number.
+/// The scalar that a number of Python is: one of its own kind, or any real number; InputError, which begins
+/// with `what`, for anything else.
 template <class T>
-T scalar_from(pybind11::handle object);
+T scalar_from(pybind11::handle object, const char* what);
 
 /// Writes the numbers of a list or an array; InputError, which begins with `what`, where they are not as
-/// many.
+/// many, or no numbers.
 template <class T>
 void write_numbers(const pybind11::object& numbers, std::span<T> to, const char* what);
 
-extern template double scalar_from(pybind11::handle);
-extern template Quad scalar_from(pybind11::handle);
-extern template StepDual<double> scalar_from(pybind11::handle);
-extern template StepDual<Quad> scalar_from(pybind11::handle);
+extern template double scalar_from(pybind11::handle, const char*);
+extern template Quad scalar_from(pybind11::handle, const char*);
+extern template StepDual<double> scalar_from(pybind11::handle, const char*);
+extern template StepDual<Quad> scalar_from(pybind11::handle, const char*);
 extern template void write_numbers(const pybind11::object&, std::span<double>, const char*);
 extern template void write_numbers(const pybind11::object&, std::span<Quad>, const char*);
 extern template void write_numbers(const pybind11::object&, std::span<StepDual<double>>, const char*);

@@ -222,9 +222,11 @@ std::shared_ptr<const Model> model_for(const MethodInstance& method,
                                        const std::shared_ptr<const Model>& model,
                                        const std::string& formulation) {
   if (formulation.empty()) return motion_for(method, model);
+  const FormulationPlugin* const named = formulation_for(*model, formulation);
   if (method.refuses(*model).empty())
-    throw InputError(method.called() + " steps on " + model->name() + " itself; expected no formulation");
-  return formulations().get(formulation, "formulation").apply(model, {});
+    throw InputError(method.called() + " steps on the constraints of " + model->name() +
+                     " themselves; expected no formulation");
+  return named->apply(model, {});
 }
 
 }  // namespace pfaff::python

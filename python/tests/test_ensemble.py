@@ -60,7 +60,7 @@ def test_callbacks_and_ctrl_c():
     [
         ([1, 2, 3, 4], {}, r"expected shape \(N, 4\), got \(4,\)"),
         ([[1, 2]], {}, r"got \(1, 2\)"),
-        ([["a", 1, 2, 3]], {}, "expected numbers"),
+        ([["a", 1, 2, 3]], {}, "expected real numbers"),
         ([[1j, 1, 2, 3]], {}, "expected real numbers"),
         ([[np.nan, 0, 0, 0]], {}, "expected finite numbers; state 0"),
         (STATES, {"steps": 0}, "steps: expected a whole number >= 1"),

@@ -60,7 +60,7 @@ def test_a_constraint_is_a_casimir_of_the_dirac_bracket():
 
 
 @pytest.mark.parametrize("call, words", [
-    (lambda: pfaff.evaluate("pendulum", [1]), "expected 2 numbers, got 1"),
+    (lambda: pfaff.evaluate("pendulum", [1]), "state: expected shape (2,), a number for each of q, p, got 1 number"),
     (lambda: pfaff.evaluate("pendulun"), "did you mean 'pendulum'?"),
     (lambda: pfaff.evaluate("pendulum", precision="single"), "double"),
     (lambda: pfaff.evaluate("pendulum")["rsh"], "did you mean 'rhs'?"),

@@ -81,6 +81,17 @@ def test_constants_that_a_float_has_rounded_are_warned_of():
     assert abs(order_of(thirds(Fraction(1, 3)), duffing) - 3) < 0.1
 
 
+@pytest.mark.parametrize("traced", [True, False])
+def test_parameters_may_be_exact_texts(traced):
+    @pfaff.method(order=1, traced=traced)
+    def relaxed(problem, t, h, z, part=0.5):
+        return z + part * h * problem.field(t, z)
+
+    assert np.array_equal(end(duffing, relaxed(part="1/4")), end(duffing, relaxed(part=0.25))) and relaxed(part="1/4").parameters == {"part": "1/4"}
+    with pytest.raises(pfaff.InputError, match="parameter 'part' of relaxed: expected a finite decimal number"):
+        relaxed(part="half")
+
+
 def test_parameters_and_memory():
     @pfaff.method(order=1)
     def theta(problem, t, h, z, weight=0.5):

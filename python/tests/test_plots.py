@@ -111,10 +111,10 @@ def test_figures_are_written_and_put_into_pages(tmp_path):
 
 
 @pytest.mark.parametrize("call, words", [
-    (lambda: plots.trajectory(T[1:], Z, ["q", "p"]), "expected times of shape (n,)"),
+    (lambda: plots.trajectory(T[1:], Z, ["q", "p"]), "z: expected states of shape (60, 2)"),
     (lambda: plots.trajectory(T, Z, ["q", "p"], coordinates="r"), "unknown coordinate 'r'"),
     (lambda: plots.phase_portrait(T, Z, ["q", "p"], coordinates=["q"]), "expected two coordinates"),
-    (lambda: plots.drift(T, {"energy": T[1:]}), "expected 61 values of energy"),
+    (lambda: plots.drift(T, {"energy": T[1:]}), "values['energy']: expected 61 numbers, one for each time"),
     (lambda: plots.bodies(T, Z), "expected positions of shape"),
     (lambda: plots.bodies(T, np.zeros((61, 2, 2)), rods=[(0, 2)]), "expected rods between bodies 0 .. 1"),
 ])

@@ -63,6 +63,68 @@ def test_gradients_have_their_closed_form():
         result.sensitivity("omga")
 
 
+def difference(of, h):
+    """The derivative of of(x) at 0, by a central difference."""
+    return (of(h) - of(-h)) / (2 * h)
+
+
+ON_A_SPHERE = {"project_initial": {"initial": [0.6, 0, -0.7, 0.4, 0.1, 0], "project_initial": True}, "own": {}}
+
+
+def test_gradients_move_the_start_along():
+    def kepler(e, **settings):
+        return pfaff.run("kepler", "gauss", stages=3, eccentricity=e, step=0.05, time=5, **settings)
+
+    # The truncation of a difference is its step squared times a sixth of the third derivative, here below 5; its rounding 1e-16 over the step.
+    total = kepler("0.3").sensitivity("eccentricity")
+    assert np.abs(total - difference(lambda h: kepler(0.3 + h).y[-1], 1e-5)).max() < 2e-9 and np.abs(total).min() > 0.1
+    # The range of the eccentricity begins at 0: a difference to one side, as good.
+    edge = kepler(0).sensitivity("eccentricity")
+    apart = [kepler(k * 1e-5).y[-1] for k in range(3)]
+    assert np.abs(edge - (4 * apart[1] - 3 * apart[0] - apart[2]) / 2e-5).max() < 2e-9
+    # A state that was given stays, and the field does not depend on the eccentricity.
+    assert not kepler(0.3, initial=[1, 0, 0, 1]).sensitivity("eccentricity").any()
+
+    @pfaff.system(coordinates=["q", "p"], initial=[0.5, 0])
+    def heavy(q, p, mass=4.0):
+        return p**2 / (2 * mass) + q**2 / 2
+
+    def thrown(mass):
+        return pfaff.run(heavy(mass=mass), pfaff.Method("gauss", stages=6), step=0.02, time=1, initial=[1], initial_velocities=[0.25])
+
+    # q = cos t/2 + sin(t/2)/2 for w = 1/sqrt(m) = 1/2: by hand, q = cos w t + v/w sin w t, and w' = -w/(2 m)
+    w, v, t, m = 0.5, 0.25, 1, 4
+    of_w = -t * math.sin(w * t) + v * (t * math.cos(w * t) / w - math.sin(w * t) / w**2)
+    assert abs(thrown("4").sensitivity("mass")[0] + of_w * w / (2 * m)) < 1e-13
+
+
+@pytest.mark.parametrize("start", ON_A_SPHERE)
+@pytest.mark.parametrize("method, formulation", [("rattle", None), ("rk4", "lmm")])
+def test_gradients_keep_the_start_on_the_constraints(method, formulation, start):
+    def swing(length):
+        return pfaff.run("spherical-pendulum", method, formulation=formulation, length=length, step=0.01, time=1, **ON_A_SPHERE[start])
+
+    total = swing(1).sensitivity("length")
+    assert np.abs(total - difference(lambda h: swing(1 + h).y[-1], 1e-5)).max() < 1e-9 and np.abs(total).max() > 1
+
+
+def test_gradients_that_do_not_exist_are_refused_in_one_line():
+    swing = pfaff.run("spherical-pendulum", "rattle", step=0.01, time=0.1, initial=[0.6, 0, -0.8, 0.4, 0.5, 0.3])
+    chain = pfaff.run("n-pendulum", "rattle", bobs=2, step=0.01, time=0.1)
+    chosen = pfaff.run("kepler", "taylor", tolerance=1e-9, time=1)
+    for run, parameter, words in ((swing, "length", "another 'length' does not fit: initial state of spherical-pendulum: constraint rod is off"),
+                                  (chain, "bobs", "no small change of 'bobs' makes a system: .* expected an integer"), (chosen, "eccentricity", "steps of one size"),
+                                  (pfaff.run("n-pendulum-angles", "gauss", step=0.01, time=0.1), 3, "parameter: expected a name, such as")):
+        with pytest.raises(pfaff.InputError, match=words) as refused:
+            run.sensitivity(parameter)
+        assert "\n" not in str(refused.value)
+
+
+def test_gradients_of_runs_whose_times_are_expressions():
+    late, never = (pfaff.run("driven-duffing", "gauss", step="pi/100", time="pi/10", t0=t0).jacobian for t0 in ("pi/3", math.pi / 3))
+    assert np.abs(late - never).max() < 1e-13 and np.abs(late - np.eye(len(late))).max() > 0.01
+
+
 def test_velocities_stand_for_momenta():
     @pfaff.system(coordinates=["q", "p"], initial=[0.5, 0])
     def heavy(q, p, mass=4.0):
@@ -145,7 +207,11 @@ def test_pandas_has_a_row_for_each_sample():
         ({"step": 0.1}, "time: expected the duration"),
         ({"time": 1}, "step is missing"),
         ({"step": 0.1, "time": 0}, "other than 0"),
-        ({"step": 0.1, "time": 1, "initial": [1]}, "expected 2 numbers, got 1"),
+        ({"step": 0.1, "time": 1, "initial": [1]}, r"initial: expected shape \(2,\), a number for each of q, p, got 1 number"),
+        ({"step": 0.1, "time": 1, "initial": np.eye(2)}, r"expected shape \(2,\), .* got an array of shape \(2, 2\); pfaff.ensemble takes many"),
+        ({"step": 0.1, "time": 1, "initial": [[1, 2], [3]]}, r"initial: expected shape \(2,\)"),
+        ({"step": 0.1, "time": 1, "t0": "then"}, "^t0: expected"),
+        ({"step": 1e-15, "time": 1}, "expected at most [0-9]+$"),
         ({"step": 0.1, "time": 1, "precision": "dubble"}, "did you mean 'double'"),
         ({"step": 0.1, "time": 1, "reference": "exat"}, "did you mean 'exact'"),
         ({"step": 0.1, "time": 1, "every": 1.5}, "whole number"),
@@ -159,6 +225,31 @@ def test_bad_input_is_refused_without_options_of_the_command_line(settings, word
     with pytest.raises(pfaff.InputError, match=words) as caught:
         pfaff.run(duffing, "verlet", **settings)
     assert "--" not in str(caught.value)
+
+
+def test_messages_of_runs_that_end_early_name_arguments():
+    with pytest.raises(pfaff.NotConverged, match="gave up at t = 1.1107.*in small ones, absolute says") as failed:
+        pfaff.run("kepler", "taylor", initial=[1, 0, 0, 0], tolerance=1e-9, time=2)  # a fall into the centre
+    assert "--" not in failed.value.run.message
+
+
+@pytest.mark.parametrize("method", ["verlet", "rk4", "rattle"])
+@pytest.mark.parametrize("call", [
+    lambda method: pfaff.run("kepler", method, step=0.1, time=1, formulation="dirac"),
+    lambda method: pfaff.Integration("kepler", method, step=0.1, formulation="dirac"),
+    lambda method: pfaff.evaluate("kepler", formulation="dirac"),
+])
+def test_a_formulation_of_a_system_without_constraints_is_refused_as_by_the_program(call, method):
+    with pytest.raises(pfaff.InputError) as refused:
+        call(method)
+    assert str(refused.value) == "formulation: kepler has no constraints; expected none"
+
+
+def test_a_method_on_constraints_takes_no_formulation():
+    words = "rattle steps on the constraints of spherical-pendulum themselves; expected no formulation"
+    for call in (lambda **k: pfaff.run("spherical-pendulum", "rattle", step=0.1, time=1, **k), lambda **k: pfaff.Integration("spherical-pendulum", "rattle", step=0.1, **k)):
+        with pytest.raises(pfaff.InputError, match=words):
+            call(formulation="dirac")
 
 
 def test_names_that_both_know_are_asked_for(tmp_path):

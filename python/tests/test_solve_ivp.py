@@ -1,5 +1,7 @@
 """solve_ivp against closed forms and SciPy's own."""
+import functools
 import math
+import sys
 
 import numpy as np
 import pytest
@@ -66,18 +68,74 @@ def test_a_run_that_fails_says_so_and_keeps_what_there_is():
     assert not result.success and result.status == -1 and result.message and 0.8 < result.t[-1] < 1.2
 
 
+def test_an_explicit_method_that_fails_says_what_failed():
+    result = pfaff.solve_ivp(lambda t, y: [y[0] ** 2], (0, 3), [1.0], "taylor")
+    assert not result.success and result.message.startswith("the step control gave up at t = 1.0000")
+    assert "implicit" not in result.message and "(step 0)" not in result.message and "no step meets the tolerance" in result.message
+
+
+@pytest.mark.parametrize("method", ["rk4", "gauss"])
+def test_where_no_step_is_found_it_is_said_what_to_give(method, monkeypatch):
+    monkeypatch.setattr(sys.modules["pfaff._solve_ivp"], "_MOST_STEPS", 2**10)
+    with pytest.raises(pfaff.RunFailed, match=f"at t = [01].* with every step of {method} down to .*expected a t_span that ends before, .*or step=") as failed:
+        pfaff.solve_ivp(lambda t, y: [y[0] ** 2], (0, 2), [1.0], method)  # the pole of y' = y^2 is at t = 1
+    assert "\n" not in str(failed.value) and 0.8 < failed.value.run.t[-1] < 1.1
+    with pytest.raises(pfaff.RunFailed, match=f"^solve_ivp: no step of {method} down to 0.0977 meets rtol and atol; expected larger ones, or step="):
+        pfaff.solve_ivp(oscillator, (0, 100), [1, 0], method, rtol=1e-12, atol=1e-12, args=(3.0,))
+
+
+def short(t, y):
+    return [y[1]]
+
+
+class Callable:
+    def __call__(self, t, y):
+        return [y[1]]
+
+
+@pytest.mark.parametrize("function", [short, functools.partial(short), Callable()])
+def test_what_is_wrong_with_a_function_is_said_with_its_line(function):
+    line = (Callable.__call__ if isinstance(function, Callable) else short).__code__.co_firstlineno
+    with pytest.raises(pfaff.InputError, match=rf"test_solve_ivp.py:{line}: fun returned a list of length 1; expected 2, a rate for each") as refused:
+        pfaff.solve_ivp(function, (0, 1), [1.0, 2.0])
+    assert "_solve_ivp.py:" not in str(refused.value).replace("test_solve_ivp.py:", "")
+
+
+def test_other_faults_of_a_function_have_its_line_too():
+    numbers = iter(range(100))
+    faults = {
+        "fun returned nothing; expected numbers": lambda t, y: None,
+        "fun returned 'abc'; expected numbers": lambda t, y: "abc",
+        "fun: expected a function of t and y: too many positional arguments": lambda t: [t],
+        "fun: expected a function of t and y: missing a required argument: 'a'": lambda t, y, a: [a],
+    }
+    for words, function in faults.items():
+        with pytest.raises(pfaff.InputError, match=rf"^[^ ]*test_solve_ivp.py:\d+: {words}$"):
+            pfaff.solve_ivp(function, (0, 1), [1.0])
+    with pytest.raises(pfaff.InputError, match="fun: expected a function of t and y and what args has, 2: missing"):
+        pfaff.solve_ivp(lambda t, y, a, b, c: [a], (0, 1), [1.0], args=(1, 2))
+    with pytest.raises(pfaff.TraceError, match=r"^[^ ]*test_solve_ivp.py:\d+: field of system solve-ivp is another formula each time"):
+        pfaff.solve_ivp(lambda t, y: [y[0] * next(numbers)], (0, 1), [1.0])
+
+
 @pytest.mark.parametrize("call, words", [
     (lambda: pfaff.solve_ivp(oscillator, (0, 1), [1, 0], events=lambda t, y: y[0]), "events: not there; expected pfaff.Integration"),
     (lambda: pfaff.solve_ivp(oscillator, (0, 1), [1, 0], dense_output=True), "dense_output: not there"),
     (lambda: pfaff.solve_ivp(oscillator, (0, 1), [1, 0], t_eval=[0, 2]), "t_eval: expected times in 0.0 .. 1.0"),
     (lambda: pfaff.solve_ivp(oscillator, (0, 0), [1, 0]), "t_span: expected two different"),
     (lambda: pfaff.solve_ivp(oscillator, (0, 1), [1j, 0]), "y0: expected real numbers"),
-    (lambda: pfaff.solve_ivp(oscillator, (0, 1), [1, 0], rtol=-1), "rtol, atol: expected"),
+    (lambda: pfaff.solve_ivp(oscillator, (0, 1), [1, 0], rtol=-1), "rtol: expected a number above 0"),
     (lambda: pfaff.solve_ivp(oscillator, (0, 1), [1, 0], "gaus"), "did you mean 'gauss'?"),
     (lambda: pfaff.solve_ivp(oscillator, (0, 1), [1, 0], "verlet"), "verlet needs separable"),
     (lambda: pfaff.solve_ivp(oscillator, (0, 1), [1, 0, 0]), "3"),
     (lambda: pfaff.solve_ivp("kepler", (0, 1), args=(1,)), "args: expected them beside a function alone"),
     (lambda: pfaff.solve_ivp(oscillator, (0, 1), [1, 0], step=-0.1), "step: expected a size above 0"),
+    (lambda: pfaff.solve_ivp(oscillator, (0, 1), [1, 0], args=3.0), "args: expected a tuple of further arguments of fun, such as (2.0,), got 3.0"),
+    (lambda: pfaff.solve_ivp(oscillator, (0, 1), [1, 0], "taylor", rtol=2), "rtol: expected a number in (0, 1] for taylor, got 2.0"),
+    (lambda: pfaff.solve_ivp(oscillator, (0, 1), [0, 0], "taylor", atol=0), "start at rest in zero has none; expected absolute beside it"),
+    (lambda: pfaff.solve_ivp(oscillator, (0, 1), np.eye(2)), "y0: expected real numbers, all finite, shape (n,), got an array of shape (2, 2)"),
+    (lambda: pfaff.solve_ivp(pfaff.system(coordinates=["q", "p"])(lambda q, p: q * p), (0, 1)), "y0: expected 2 numbers, because <lambda> has no initial state"),
+    (lambda: pfaff.solve_ivp("kepler", (0, 1), [1, 0]), "y0: expected shape (4,), a number for each of q1, q2, p1, p2, got 2 numbers"),
 ])
 def test_bad_input_is_refused_in_one_line(call, words):
     with pytest.raises(pfaff.InputError) as refused:

@@ -292,6 +292,8 @@ def test_a_counter_and_a_number_that_was_kept_are_found():
         (lambda: pfaff.system(coordinates=["q", "p"])(lambda q, p: None), "returned nothing"),
         (lambda: pfaff.system(coordinates=["q", "p"])(lambda q, p: "q"), "expected numbers"),
         (lambda: pfaff.system(coordinates=["q", "p", "r"])(lambda q, p: q), "even number"),
+        (lambda: pfaff.system(coordinates=["p"], formula="kinetic")(lambda p: p), "even number"),
+        (lambda: pfaff.system(coordinates=["q", "p"], formula="kinetic")(lambda p: p**2), "kinetic belongs together with potential"),
         (lambda: pfaff.system(coordinates=["q", "q"])(lambda q: q), "each once"),
         (lambda: pfaff.system(coordinates="qp")(lambda q, p: q), "expected names"),
         (lambda: pfaff.system(coordinates=["q", "p"], initial=[1])(lambda q, p: q * p), "expected 2 numbers"),

@@ -88,6 +88,18 @@ TEST(Integration, WatchersSeeTheirStepsWhateverTheCalls) {
     }
 }
 
+// A fall into the centre, which no step of an explicit method passes: it takes pi/(2 sqrt 2) of time.
+TEST(Integration, OfChosenStepsSaysThatTheControlGaveUp) {
+  auto run = integrate("kepler", {}, "taylor", {},
+                       {.step = "10", .initial = {"1", "0", "0", "0"}, .tolerance = "1e-9"});
+  const Outcome outcome = run.steps(1);
+  EXPECT_EQ(outcome.status(), Status::not_converged);
+  EXPECT_EQ(outcome.steps(), 0);
+  EXPECT_EQ(outcome.message(), "the step control gave up at t = 1.110720735 (step " +
+                                   std::to_string(run.counters().steps) + "): no step meets the tolerance");
+  EXPECT_GT(run.counters().steps, 100);
+}
+
 TEST(Integration, EndsAtTheRowThatAWatcherNames) {
   auto run = integrate("kepler", {}, "gauss", {}, {.step = "0.1"});
   Notes until(37);

@@ -42,6 +42,27 @@ TEST(Motion, FormulationIsTheOneNamed) {
   EXPECT_THROW((void)formulation_for(system_by_name("pendulum"), "lmm"), InputError);
 }
 
+TEST(Motion, FormulationOfAModelIsThatOfItsSystem) {
+  const auto constrained = system_by_name("spherical-pendulum").make({}),
+             sleigh = system_by_name("sleigh").make({}), pendulum = system_by_name("pendulum").make({});
+  EXPECT_EQ(formulation_for(*constrained, ""), &dirac_formulation());
+  EXPECT_EQ(formulation_for(*sleigh, ""), &nonholonomic_formulation());
+  EXPECT_EQ(formulation_for(*constrained, "LMM")->name(), "lmm");
+  EXPECT_EQ(formulation_for(*pendulum, ""), nullptr);
+  EXPECT_EQ(formulation_for(*motion_of(constrained), ""), nullptr);
+  // What has no constraints is refused in the same words, by its name and as an object.
+  const auto refusal = [](const auto& of) -> std::string {
+    try {
+      (void)formulation_for(of, "dirac");
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(refusal(*pendulum), "--formulation: pendulum has no constraints; expected none");
+  EXPECT_EQ(refusal(*pendulum), refusal(system_by_name("pendulum")));
+}
+
 // The reference of a run on the constraints is the motion of its model: RATTLE approaches it with the step.
 TEST(Motion, IsWhatRunsOnConstraintsAreComparedWith) {
   const auto error = [](const char* step) {
