@@ -56,8 +56,11 @@ TEST(DriftRules, LosingEverythingIsSaid) {
   const Drift lost = measure_scaled(2000, [](double t) { return std::expm1(-t / 400); });
   EXPECT_CLASS(lost, "linear");
   EXPECT_NE(lost.evidence.find("loses"), std::string::npos) << lost.evidence;
-  // Control: a shift that levels off within the quantity is bounded.
-  EXPECT_CLASS(measure_scaled(2000, [](double t) { return -0.1 * -std::expm1(-t / 100); }), "bounded");
+  // Controls: a shift within the quantity is none of its loss. It is bounded where the error goes on to
+  // oscillate, and where nothing moves any more not known to be.
+  const auto shift = [](double t) { return 0.1 * std::expm1(-t / 100); };
+  EXPECT_CLASS(measure_scaled(2000, [&](double t) { return shift(t) + 0.01 * std::sin(t); }), "bounded");
+  EXPECT_CLASS(measure_scaled(2000, shift), "undetermined");
 }
 
 TEST(DriftRules, BlowingUpIsNoWalk) {
