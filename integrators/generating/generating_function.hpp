@@ -19,7 +19,7 @@
 // accurately as this equation is solved. The iteration therefore goes on to round-off in every component by
 // itself, because a chart such as (r, e^{nu t} p) mixes numbers forty decades apart. Where a motion comes to
 // rest a component is smaller than what the forces that cancel there round (beside_rounding.hpp): after 25
-// iterations in vain it is enough to have converged by that, and secants of roundings are forgotten.
+// iterations in vain the step begins anew without secants, and is judged by that.
 #pragma once
 
 #include <algorithm>
@@ -46,7 +46,7 @@ namespace pfaff {
 struct GeneratingFunction {
   /// The largest number of coordinates for which the correction factors a matrix.
   static constexpr std::size_t largest_matrix = 8;
-  /// The most iterations of a step, and how many more there may be where roundings are all that is left.
+  /// The most iterations of a step, and the most of one that begins anew.
   static constexpr int own_iterations = 25, last_iterations = 50;
   int truncation = 4;
   std::string variant = "auto", form = "midpoint", extra = "auto";

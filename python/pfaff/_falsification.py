@@ -12,7 +12,7 @@ from ._arguments import text, whole
 from ._method import Method
 from ._numbers import float_of_number
 from ._objects import as_method
-from ._tables import data_frame, html_table, text_table
+from ._tables import Judged, data_frame, html_table, text_table
 from ._verification import assignments
 
 if TYPE_CHECKING:
@@ -68,7 +68,7 @@ class Falsification:
         return "falsified" if self.counterexample else "held" if self.tried else "untested"
 
 
-class Falsifications(Sequence[Falsification]):
+class Falsifications(Judged[Falsification]):
     """A row for each claim that was put to the test.
 
     Attributes:
@@ -78,26 +78,17 @@ class Falsifications(Sequence[Falsification]):
     _COLUMNS = ("method", "claim", "systems", "result", "residual", "step", "system")
 
     def __init__(self, results: Sequence[Falsification]) -> None:
-        self._results = tuple(results)
-        self.ok = not self.failed and any(one.tried for one in results)
+        falsified = any(one.counterexample for one in results)
+        super().__init__(results, not falsified and any(one.tried for one in results))
 
     @property
     def failed(self) -> tuple[Falsification, ...]:
         """The claims that were falsified."""
-        return tuple(one for one in self._results if one.counterexample)
-
-    def __getitem__(self, index: Any) -> Any:
-        return self._results[index]
-
-    def __len__(self) -> int:
-        return len(self._results)
-
-    def __bool__(self) -> bool:
-        return self.ok
+        return tuple(one for one in self._items if one.counterexample)
 
     def _rows(self) -> list[tuple[Any, ...]]:
         rows: list[tuple[Any, ...]] = []
-        for one in self._results:
+        for one in self._items:
             found = one.counterexample
             name = " ".join([one.method, *(f"{key}={value}" for key, value in one.parameters.items())])
             rows.append((name, one.claim, one.tried, one.result, found.residuals[0] if found else None,
@@ -105,7 +96,7 @@ class Falsifications(Sequence[Falsification]):
         return rows
 
     def __repr__(self) -> str:
-        tried = sum(one.tried for one in self._results)
+        tried = sum(one.tried for one in self._items)
         line = f"{len(self)} claims on {tried} random systems: {len(self.failed)} falsified"
         return text_table(self._COLUMNS, self._rows()) + "\n" + line
 

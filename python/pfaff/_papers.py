@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from . import _pfaff
 from ._arguments import text
 from ._errors import InputError
-from ._tables import data_frame, html_table, text_table
+from ._tables import Judged, frame_of_fields, html_table, text_table
 
 if TYPE_CHECKING:
     import pandas
@@ -39,7 +39,7 @@ class Reproduced:
     erratum: str
 
 
-class Reproduction(Sequence[Reproduced]):
+class Reproduction(Judged[Reproduced]):
     """The rows of a paper, in its order.
 
     Attributes:
@@ -50,26 +50,16 @@ class Reproduction(Sequence[Reproduced]):
     _COLUMNS = ("published", "printed", "ours", "difference", "status")
 
     def __init__(self, paper: str, rows: Sequence[Reproduced], ok: bool) -> None:
+        super().__init__(rows, ok)
         self.paper = paper
-        self.ok = ok
-        self._rows = tuple(rows)
-
-    def __getitem__(self, index: Any) -> Any:
-        return self._rows[index]
-
-    def __len__(self) -> int:
-        return len(self._rows)
-
-    def __bool__(self) -> bool:
-        return self.ok
 
     @property
     def counts(self) -> dict[str, int]:
         """How many rows have each status."""
-        return dict(Counter(row.status for row in self._rows))
+        return dict(Counter(row.status for row in self._items))
 
     def _shown(self) -> list[tuple]:
-        return [(row.id, row.printed, row.ours, row.difference, row.status) for row in self._rows]
+        return [(row.id, row.printed, row.ours, row.difference, row.status) for row in self._items]
 
     def __repr__(self) -> str:
         rows = [tuple(cell if not isinstance(cell, str) or len(cell) <= 30 else cell[:28] + ".." for cell in row) for row in self._shown()]
@@ -81,8 +71,7 @@ class Reproduction(Sequence[Reproduced]):
 
     def to_pandas(self) -> pandas.DataFrame:
         """A data frame with a row for each published value."""
-        names = [field.name for field in dataclasses.fields(Reproduced)]
-        return data_frame(names, [[getattr(row, name) for name in names] for row in self._rows])
+        return frame_of_fields(Reproduced, self._items)
 
 
 def papers() -> tuple[str, ...]:

@@ -1,12 +1,35 @@
 """Tables of results: rows that print as text and as HTML, and become pandas' data frames."""
 from __future__ import annotations
 
+import dataclasses
 import html
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any, TypeVar
 
 if TYPE_CHECKING:
     import pandas
+
+Item = TypeVar("Item")
+
+
+class Judged(Sequence[Item]):
+    """Results in a fixed order, which count as true where all of them together are as they should be."""
+
+    def __init__(self, items: Sequence[Item], ok: bool) -> None:
+        self._items = tuple(items)
+        self.ok = ok
+
+    def __getitem__(self, index: Any) -> Any:
+        return self._items[index]
+
+    def __len__(self) -> int:
+        return len(self._items)
+
+    def __iter__(self) -> Iterator[Item]:
+        return iter(self._items)
+
+    def __bool__(self) -> bool:
+        return self.ok
 
 
 def cell(value: Any) -> str:
@@ -57,3 +80,9 @@ def data_frame(columns: Sequence[str], rows: Sequence[Sequence[Any]]) -> pandas.
     except ImportError:
         raise ImportError("to_pandas() needs pandas, which is not installed (Debian's python3-pandas)") from None
     return pandas.DataFrame([list(row) for row in rows], columns=list(columns))
+
+
+def frame_of_fields(kind: Any, items: Sequence[Any]) -> pandas.DataFrame:
+    """A data frame of objects of a dataclass: a row for each, a column for each of its fields."""
+    names = [field.name for field in dataclasses.fields(kind)]
+    return data_frame(names, [[getattr(item, name) for name in names] for item in items])

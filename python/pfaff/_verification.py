@@ -4,7 +4,7 @@ from __future__ import annotations
 import dataclasses
 import math
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import _pfaff
@@ -14,7 +14,7 @@ from ._method import Method
 from ._numbers import text_of_setting
 from ._objects import as_method, as_system
 from ._system import System
-from ._tables import bar, data_frame, html_table, text_table
+from ._tables import Judged, bar, frame_of_fields, html_table, text_table
 
 if TYPE_CHECKING:
     import pandas
@@ -68,7 +68,7 @@ def _nearness(check: Check) -> float:
     return math.inf if math.isnan(size) else size
 
 
-class Checks(Sequence[Check]):
+class Checks(Judged[Check]):
     """The checks of a verification, in a fixed order, and what they come to.
 
     It is a sequence of `Check`, prints as a table with a row for each claim, and converts to pandas.
@@ -79,31 +79,18 @@ class Checks(Sequence[Check]):
     """
 
     def __init__(self, checks: Sequence[Check], ok: bool, verdict: str) -> None:
-        self._checks = tuple(checks)
-        self.ok = ok
+        super().__init__(checks, ok)
         self.verdict = verdict
 
     @property
     def failed(self) -> tuple[Check, ...]:
         """The checks that are not as they should be."""
-        return tuple(check for check in self._checks if not check.good)
-
-    def __getitem__(self, index: Any) -> Any:
-        return self._checks[index]
-
-    def __len__(self) -> int:
-        return len(self._checks)
-
-    def __iter__(self) -> Iterator[Check]:
-        return iter(self._checks)
-
-    def __bool__(self) -> bool:
-        return self.ok
+        return tuple(check for check in self._items if not check.good)
 
     def _rows(self) -> list[tuple[Any, ...]]:
         """(claim, holds, fails, not judged, the worst check or None) for every claim, in the order of the checks."""
         claims: dict[str, list[Check]] = {}
-        for check in self._checks:
+        for check in self._items:
             if not check.control and (check.result in ("pass", "fail") or check.not_judged):
                 claims.setdefault(check.claim, []).append(check)
         rows: list[tuple[Any, ...]] = []
@@ -137,8 +124,7 @@ class Checks(Sequence[Check]):
 
     def to_pandas(self) -> pandas.DataFrame:
         """A data frame with a row for each check and a column for each of its attributes."""
-        names = [field.name for field in dataclasses.fields(Check)]
-        return data_frame(names, [[getattr(check, name) for name in names] for check in self._checks])
+        return frame_of_fields(Check, self._items)
 
 
 def assignments(parameters: dict[str, Any]) -> list[tuple[str, str]]:

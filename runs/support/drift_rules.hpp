@@ -62,10 +62,10 @@
 // found in the whole run, the run is judged anew up to where half was lost, and, since a loss that slows down
 // is no line, up to where a tenth was: the first of them with a trend gives the class, the exponent, the rate
 // and the slope. Without one, as where less than 32 samples were taken before, it is undetermined in place of
-// bounded. Nor is an error bounded that moves by more than .1 % of the quantity's own range and in the last
-// eighth of the run by less than 2 % of that: the motion no longer tries the
-// quantity, as that of a planet that has escaped, or has come to rest. A run that ends in numbers that are
-// not finite, or a thousand times the range, after growing a thousandfold, is exponential.
+// bounded. Nor is an error bounded whose range is more than .1 % of the quantity's own, and in the last
+// eighth of the run less than 2 % of what it is in the whole: the motion no longer tries the quantity, as
+// that of a planet that has escaped, or has come to rest. A run that ends in numbers that are not finite, or
+// a thousand times the range, after growing a thousandfold, is exponential.
 //
 // Constants. 8 sqrt(N) u: walks of at most 3 u a step reach it at 2.5 standard deviations. 1 %: invisible
 // beside the oscillation. Log evidences of 4, 6, 8: odds of 50, 400, 3000. Of a line 2 are added and of an
