@@ -19,7 +19,8 @@
 // accurately as this equation is solved. The iteration therefore goes on to round-off in every component by
 // itself, because a chart such as (r, e^{nu t} p) mixes numbers forty decades apart. Where a motion comes to
 // rest a component is smaller than what the forces that cancel there round (beside_rounding.hpp): after 25
-// iterations in vain the step begins anew without secants, and is judged by that.
+// iterations in vain the step begins anew without secants, and is judged by that. A step so long that only
+// secants solve it, and slowly, does not converge in this way either, and is tried with them once more.
 #pragma once
 
 #include <algorithm>
@@ -47,7 +48,7 @@ struct GeneratingFunction {
   /// The largest number of coordinates for which the correction factors a matrix.
   static constexpr std::size_t largest_matrix = 8;
   /// The most iterations of a step, and the most of one that begins anew.
-  static constexpr int own_iterations = 25, last_iterations = 50;
+  static constexpr int first_iterations = 25, most_iterations = 50;
   int truncation = 4;
   std::string variant = "auto", form = "midpoint", extra = "auto";
   std::vector<Real> normal;
@@ -226,23 +227,10 @@ struct GeneratingFunction {
     using T = Scalar<P>;
     if (const Status status = start(p, t, h, z, w); status != Status::converged) return w.fail(status);
     w.gradient.set_step(t, h);
-    w.secants.forget();
-    SecantConvergence<T> convergence;
-    do {
-      find_correction(p, t, h, w);
-      if (w.factors()) w.secants.improve(w.correction, w.y, w.psi);
-      convergence.begin_iteration();
-      for (std::size_t k = 0; k < w.y.size(); ++k) {
-        w.d[k] = w.d[k] + w.correction[k];
-        convergence.add(w.correction[k], w.reference(k), w.psi[k]);
-      }
-      w.place();
-    } while (!convergence.finished(own_iterations, w.contraction.ratio()));
-    Status status = convergence.status();
+    Status status = iterate(p, t, h, w, first_iterations);
     if (status == Status::not_converged) status = begin_anew(p, t, h, w);
     if (status != Status::converged) return w.fail(status);
     if (w.on_another_branch(p, t + h / T(2), h)) return w.fail(Status::not_converged);
-    w.contraction.remember_slowest(convergence.contraction());
 
     if (!w.midpoint) w.gradient(w.w.data(), w.psi.data());
     for (std::size_t k = 0; k < w.y.size(); ++k) {
@@ -290,11 +278,34 @@ struct GeneratingFunction {
     correct(p, t, h, w);
   }
 
-  // Begins anew without secants: roundings teach them nothing, and may have thrown w far away.
+  // Iterates from w with secants, at most `limit` times.
+  template <class P>
+  static Status iterate(const P& p, const Scalar<P>& t, const Scalar<P>& h, Work<P>& w, int limit) {
+    w.secants.forget();
+    SecantConvergence<Scalar<P>> convergence;
+    do {
+      find_correction(p, t, h, w);
+      if (w.factors()) w.secants.improve(w.correction, w.y, w.psi);
+      convergence.begin_iteration();
+      for (std::size_t k = 0; k < w.y.size(); ++k) {
+        w.d[k] = w.d[k] + w.correction[k];
+        convergence.add(w.correction[k], w.reference(k), w.psi[k]);
+      }
+      w.place();
+    } while (!convergence.finished(limit, w.contraction.ratio()));
+    if (convergence.status() == Status::converged) w.contraction.remember_slowest(convergence.contraction());
+    return convergence.status();
+  }
+
+  // Begins anew without secants, as roundings teach them nothing and may have thrown w far away; where that
+  // is in vain, with them. What leaves the range of numbers in this way has not converged.
   template <class P>
   [[gnu::noinline]] static Status begin_anew(const P& p, const Scalar<P>& t, const Scalar<P>& h, Work<P>& w) {
-    for (std::size_t k = 0; k < w.y.size(); ++k) w.d[k] = Scalar<P>(w.predicted[k]);
-    w.place();
+    const auto return_to_prediction = [&w] {
+      for (std::size_t k = 0; k < w.y.size(); ++k) w.d[k] = Scalar<P>(w.predicted[k]);
+      w.place();
+    };
+    return_to_prediction();
     w.find_rounding(p, t + h / Scalar<P>(2), h);
     const auto correct_once = [&] {
       find_correction(p, t, h, w);
@@ -302,7 +313,11 @@ struct GeneratingFunction {
       w.place();
       return Status::converged;
     };
-    return end_by_rounding(last_iterations, correct_once, w.correction, w.rounding, w.psi);
+    if (end_by_rounding(most_iterations, correct_once, w.correction, w.rounding, w.psi) == Status::converged)
+      return Status::converged;
+    return_to_prediction();
+    const Status status = iterate(p, t, h, w, most_iterations);
+    return status == Status::converged ? status : Status::not_converged;
   }
 
   // Solves (I - h P Y_y) correction = residual. Without a matrix it does so by a few iterations of

@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include <pfaff/core/system.hpp>
+#include <pfaff/integrators/support/beside_rounding.hpp>
 #include <pfaff/runs/integrate.hpp>
 #include <pfaff/systems/birkhoffian/exponential_chart.hpp>
 
@@ -125,6 +127,27 @@ TEST(GeneratingRest, SchemesWithoutAChartComeToIt) {
     comes_to_rest<1, Quad>({{"order", order}}, Quad(1) / Quad(4), 400, "generating-function-alpha");
   }
   comes_to_rest<3, double>({{"order", "2"}}, 0.25, 200, "generating-function-alpha");
+}
+
+// A position of 1e-5 and a momentum of 1e-24, which change by their own size with each other: a derivative of
+// the momentum of 1e-19 is as large as one of 1 is.
+TEST(GeneratingRest, DerivativesAreCorrectedInTheUnitsOfTheirComponents) {
+  using T = Dual<double, 2>;
+  const auto number = [](double value, double by_position, double by_momentum) {
+    T x(value);
+    x.derivative = {by_position, by_momentum};
+    return x;
+  };
+  const std::vector<T> state{number(1e-5, 1, 1e19), number(1e-24, 1e-19, 1)};
+  const std::vector<T> still(2, T(0));
+  const auto of = [&](const T& position, const T& momentum) {
+    return largest_correction<T>(std::vector<T>{position, momentum}, state, still);
+  };
+  EXPECT_NEAR(of(number(0, 0, 0), number(0, 1e-22, 0)), 1e-3, 1e-15);
+  EXPECT_NEAR(of(number(0, 0, 1e16), number(0, 0, 0)), 1e-3, 1e-15);
+  EXPECT_NEAR(of(number(1e-8, 0, 0), number(0, 0, 0)), 1e-3, 1e-15);
+  EXPECT_TRUE(std::isnan(of(number(0, NAN, 0), number(0, 0, 0))));
+  EXPECT_TRUE(std::isnan(of(number(NAN, 0, 0), number(1, 0, 0))));
 }
 
 }  // namespace
