@@ -41,11 +41,11 @@ struct RoundOff {
   /// change, in units of round-off (output_gradients.hpp). Where it is unknown, `scale` stands for it.
   std::optional<double> propagated = std::nullopt;
   /// How much of the quantity can be lost, [e]: its distance from the equilibrium, or |I(0)|. Where it is
-  /// unknown, `scale` stands for it.
+  /// unknown, or 0 because every term is 0 at the start, `scale` stands for it.
   std::optional<double> range = std::nullopt;
 
   [[nodiscard]] double walk() const { return propagated.value_or(scale); }
-  [[nodiscard]] double own_range() const { return range.value_or(scale); }
+  [[nodiscard]] double own_range() const { return range.value_or(0) > 0 ? *range : scale; }
 };
 
 /// Units: [e] of the errors, [t] of the times.
