@@ -61,7 +61,11 @@ class Tracer:
             if key in d.members:
                 formulas[key] = self.formula(key, d.members[key])
         for key, row in BRACKETS.items():
-            if key in d.members:
+            if isinstance(name := d.members.get(key), str):
+                formulas[row], casimirs = _pfaff.named_bracket(name, self.n)
+                if key == "bracket" and casimirs is not None:
+                    formulas["casimirs"] = casimirs
+            elif key in d.members:
                 formulas[row] = self.bracket(d.members[key], key)
         if "casimirs" in d.members:
             formulas["casimirs"] = self.of_state(d.members["casimirs"], "casimirs", None)
@@ -132,8 +136,6 @@ class Tracer:
 
     def bracket(self, member: Any, key: str) -> _pfaff.Tape:
         """The tensor of a bracket: of its rows, or column by column of its map of covectors to vectors."""
-        if isinstance(member, str):
-            return _pfaff.bracket_tensor(member, self.n)
         if "covector" not in argument_names(member):
             return self.of_state(member, key, self.n**2)
         what = f"{place_of(member)}{key} of {self.definition.what}"

@@ -153,12 +153,14 @@ bool same_tape(const PyTape& a, const PyTape& b) {
                     b.tape->solves.end(), same_system);
 }
 
-// The tensor of a bracket that is named as in text models, "lie-poisson(algebra=so3)", row by row.
-PyTape bracket_tensor(const std::string& text, std::size_t dimension) {
+// The tensor, row by row, and the Casimirs of a bracket that is named as in text models,
+// "lie-poisson(algebra=so3)"; None for the Casimirs where it states none.
+py::tuple named_bracket(const std::string& text, std::size_t dimension) {
   const BracketInstance made = chosen_bracket(text, "").instance;
   if (const std::string reason = tensor_refused(made, dimension); !reason.empty())
     throw InputError("bracket " + text + ": " + reason);
-  return {recorded_tensor(made)};
+  return py::make_tuple(PyTape{recorded_tensor(made)},
+                        made.casimirs ? py::cast(PyTape{made.casimirs}) : py::none());
 }
 
 // A tape as plain data, for pickle.
@@ -236,7 +238,7 @@ void bind_model_source(py::module_& module) {
   module.def("traced_model", &traced_model);
   module.def("formula_rows", &formula_rows);
   module.def("count_rows", &count_rows);
-  module.def("bracket_tensor", &bracket_tensor);
+  module.def("named_bracket", &named_bracket);
   module.def("nearest", [](const std::string& name, const std::vector<std::string>& names) {
     return nearest(name, names);
   });

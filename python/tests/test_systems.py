@@ -94,7 +94,7 @@ def test_a_system_is_recorded_once_for_each_set_of_parameters_and_not_kept_for_e
     assert len(counted._definition._sources) == 64 and len(counted._definition._models) < 5
 
 
-def test_rows_of_the_library_can_be_written():
+def test_rows_of_the_library_can_be_written(tmp_path):
     class Top(pfaff.System):
         coordinates = ["x", "y", "z"]
         initial = [0.3, 0.4, 0.5]
@@ -122,13 +122,23 @@ def test_rows_of_the_library_can_be_written():
         def field(self, x, y, z):
             return [y * z / 3 - z * y / 2, z * x - x * z / 3, x * y / 2 - y * x]
 
-    class Named(Top):
+    class Named(pfaff.System):
+        coordinates = ["x", "y", "z"]
+        initial = [0.3, 0.4, 0.5]
         bracket = "lie-poisson(algebra=so3)"
+
+        def hamiltonian(self, x, y, z):
+            return x**2 / 2 + y**2 / 4 + z**2 / 6
 
     # Euler's equations x' = y z (1/c - 1/b), written out, as rows of the tensor and as a map of covectors. 1e-15 is some units of round-off.
     ends = [end(system(), "rk4", step=0.1) for system in (Top, Mapped, Rates)]
     assert max(np.abs(one - ends[-1]).max() for one in ends) < 1e-15 * 20
-    assert end(Named(), "rk4", step=0.1) == pytest.approx(ends[0], abs=1e-13) and Top().invariants["casimir1"] == "conserved"
+    assert end(Named(), "rk4", step=0.1) == pytest.approx(ends[0], abs=1e-13)
+    # The Casimir of a bracket that has a name comes with it, also in the text model.
+    assert Top().invariants["casimir1"] == Named().invariants["casimir1"] == "conserved"
+    assert pfaff.run(Named(), "rk4", step=0.1, time=1).invariants["casimir1"] == pytest.approx(0.5, abs=1e-4)
+    (tmp_path / "named.toml").write_text(Named().to_toml())
+    assert pfaff.System(str(tmp_path / "named.toml")).invariants == Named().invariants
     square = ends[0] @ ends[0]
     assert abs(square - 0.5) < 1e-4 and square != 0.5  # a Casimir, which rk4 keeps to its order alone
 
