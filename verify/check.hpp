@@ -93,7 +93,7 @@ std::vector<Check> check_method(const MethodInstance& method, const Assignments&
                                 const std::string& system, const std::shared_ptr<const Model>& model,
                                 bool along_runs = true);
 /// The method with one coefficient changed by 1e-6 must lose its order or its structure.
-std::vector<Check> check_changed_coefficient(const MethodPlugin& plugin, const Assignments& parameters,
+std::vector<Check> check_changed_coefficient(const MethodInstance& method, const Assignments& parameters,
                                              const SystemPlugin& system);
 /// The order conditions of the method's own coefficients, by trees, Lie words or whatever theory is known for
 /// it (integrators/order_conditions), with a control for each coefficient: the same conditions with 1e-9

@@ -45,23 +45,22 @@ Check check_order(MethodOnModel& on) {
                     order.exact ? "exact on this motion: no error is above round-off" : order.reason);
 }
 
-std::vector<Check> check_changed_coefficient(const MethodPlugin& plugin, const Assignments& parameters,
+std::vector<Check> check_changed_coefficient(const MethodInstance& method, const Assignments& parameters,
                                              const SystemPlugin& system) {
-  const auto method = plugin.make(parameters);
-  const auto model = motion_for(*method, system.make({}));
-  const bool history = MethodOnModel(*method, parameters, system.name(), model).history();
+  const auto model = motion_for(method, system.make({}));
+  const bool history = MethodOnModel(method, parameters, system.name(), model).history();
   std::vector<Check> checks;
-  for (std::size_t k = 0; k < method->coefficient_count(); ++k) {
-    const auto changed = method->with_changed_coefficient(k, Quad(1e-6));
+  for (std::size_t k = 0; k < method.coefficient_count(); ++k) {
+    const auto changed = method.with_changed_coefficient(k, Quad(1e-6));
     Check check;
-    check.plugin = plugin.name();
+    check.plugin = method.descriptor().name;
     check.claim = "order with coefficient " + std::to_string(k) + " changed by 1e-6";
     check.scope = "control";
     check.system = system.name();
     check.precision = "quad";
     check.parameters = parameters;
     check.control = true;
-    check.expected = method->order(*model);
+    check.expected = method.order(*model);
     check.tolerance = 0.1;
     check = within_budget(check, [&] {
       check.measured = order_at_small_steps(*changed, model, history);

@@ -33,6 +33,15 @@ std::string controlled_on(const MethodInstance& method) {
   return method.needs().has(Facet::velocity_constraints) ? "contact-oscillator" : "spherical-pendulum";
 }
 
+// Checks of a method on a system, and the controls of its coefficients where that is the system for them.
+std::vector<Check> with_control(std::vector<Check> checks, const MethodInstance& method,
+                                const Assignments& parameters, const SystemPlugin& system) {
+  if (system.name() == controlled_on(method))
+    for (Check& check : check_changed_coefficient(method, parameters, system))
+      checks.push_back(std::move(check));
+  return checks;
+}
+
 // Checks with parameters that nobody chose: with them the initial state may be outside the domain of a
 // formula, or off the constraints.
 std::vector<Check> inside_domain(std::vector<Check> checks) {
@@ -243,11 +252,8 @@ class Jobs {
       jobs_.push_back({called(method.name(), p) + " on " + on,
                        [=, &method, &system] {
                          const auto made = method.make(p);
-                         auto checks = check_method(*made, p, on, motion, along_runs);
-                         if (system.name() == controlled_on(*made))
-                           for (Check& check : check_changed_coefficient(method, p, system))
-                             checks.push_back(std::move(check));
-                         return checks;
+                         return with_control(check_method(*made, p, on, motion, along_runs), *made, p,
+                                             system);
                        },
                        {},
                        asked_as(system)});
@@ -287,9 +293,13 @@ std::vector<VerificationJob> verification_jobs(const std::vector<MethodToVerify>
     const auto& method = made;
     const auto& p = parameters;
     const std::string name = called(method->descriptor().name, p);
-    const auto add = [&](const std::shared_ptr<const Model>& motion, const std::string& asked_as) {
+    const auto add = [&](const std::shared_ptr<const Model>& motion, const std::string& asked_as,
+                         const SystemPlugin* system) {
       jobs.push_back({name + " on " + motion->name(),
-                      [=] { return check_method(*method, p, motion->name(), motion); },
+                      [=] {
+                        auto checks = check_method(*method, p, motion->name(), motion);
+                        return system ? with_control(std::move(checks), *method, p, *system) : checks;
+                      },
                       {},
                       asked_as});
     };
@@ -297,7 +307,7 @@ std::vector<VerificationJob> verification_jobs(const std::vector<MethodToVerify>
       const auto motion = motion_for(*method, model);
       if (const std::string reason = method->refuses(*motion); !reason.empty())
         throw InputError(reason + what_to_do(*method, *motion));
-      add(motion, as_object(*model));
+      add(motion, as_object(*model), nullptr);
     }
     if (!on.empty()) continue;
     jobs.push_back(
@@ -308,7 +318,7 @@ std::vector<VerificationJob> verification_jobs(const std::vector<MethodToVerify>
       if (model->initial().empty() || !method->refuses(*motion).empty()) continue;
       // What methods for vector fields do on constraints they claim nothing of.
       if (motion != model && !method->needs_constraints()) continue;
-      add(motion, system->name());
+      add(motion, system->name(), system);
     }
   }
   return jobs;

@@ -45,6 +45,12 @@ def test_names_are_verified_as_by_the_program():
     assert {check.precision for check in checks} >= {"double", "quad"}
 
 
+def test_coefficients_of_a_table_are_controlled():
+    ralston = pfaff.table({"kind": "runge-kutta", "name": "ralston", "order": 2, "a": [[], ["2/3"]], "b": ["1/4", "3/4"]})
+    checks = pfaff.verify(ralston)
+    assert checks.ok and [check.result for check in checks if check.control] == ["rejected"] * 2  # the two weights
+
+
 def test_a_method_of_python_is_verified_on_a_system_of_python(pendulum):
     checks = pfaff.verify(heun, on=pendulum)
     assert checks.ok and {check.system for check in checks} == {"swing"}

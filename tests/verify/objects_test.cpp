@@ -50,6 +50,19 @@ TEST(VerifyObjects, AFalseClaimFails) {
     EXPECT_TRUE(good(check) || check.claim.starts_with("symplectic")) << check.claim;
 }
 
+// Where they are verified on registered systems, as by name.
+TEST(VerifyObjects, CoefficientsOfMethodsHaveControls) {
+  int noticed = 0;
+  for (const Check& check : verify({{method_of("verlet")}}, {}, {})) {
+    if (!check.control) continue;
+    EXPECT_EQ(check.result, CheckResult::rejected) << check.claim;
+    EXPECT_EQ(check.plugin, "verlet");
+    ++noticed;
+  }
+  EXPECT_EQ(noticed, static_cast<int>(method_of("verlet")->coefficient_count()));
+  EXPECT_GT(noticed, 0);
+}
+
 TEST(VerifyObjects, WithoutModelsAMethodIsTriedOnRandomOnesAndOnAllThatItFits) {
   std::set<std::string> on;
   for (const Check& check : verify({{method_of("symplectic-euler")}}, {}, {})) on.insert(check.system);
