@@ -46,7 +46,10 @@ Integration<T> integrate(const std::string& system, const Assignments& system_pa
   for (const std::string& text : asked.initial) start.state.push_back(T(finite_number(text, "initial")));
   start.h = T(finite_number(asked.step, "step"));
   start.t0 = T(finite_number(asked.t0, "initial time"));
-  if (!asked.tolerance.empty()) start.tolerance = T(finite_number(asked.tolerance, "tolerance"));
+  if (!asked.tolerance.empty()) {
+    start.tolerance = T(finite_number(asked.tolerance, "tolerance"));
+    check_tolerances(*start.method, *start.model, Quad(start.tolerance), {});  // where it is 0, too
+  }
   for (const std::string& text : asked.absolute)
     start.absolute.push_back(T(finite_number(text, "absolute tolerance")));
   start.block_rows = asked.block_rows;

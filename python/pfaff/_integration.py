@@ -76,7 +76,7 @@ class Integration:
             "step": text_of_number(0 if step is None else step, "step"),
             "initial": self._own_state() if initial is None else self._state(initial, "initial"),
             "t0": text_of_number(t0, "t0"),
-            "tolerance": text_of_number(0 if tolerance is None else tolerance, "tolerance"),
+            "tolerance": "" if tolerance is None else text_of_number(tolerance, "tolerance"),
             "absolute": texts_of_tolerances(absolute, "absolute"),
             "formulation": "" if formulation is None else text(formulation, "formulation", "the name of a formulation"),
             "quad": precision == "quad",

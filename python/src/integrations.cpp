@@ -6,6 +6,7 @@
 #include <pfaff/python/src/interruption.hpp>
 #include <pfaff/python/src/objects.hpp>
 #include <pfaff/python/src/stepping.hpp>
+#include <pfaff/runs/start.hpp>
 
 namespace py = pybind11;
 
@@ -29,7 +30,10 @@ std::unique_ptr<Stepping> stepping_of(const PySystem& system, const PyMethod& me
   start.state = numbers_of(texts("initial"), "initial");
   start.h = number_of(text("step"), "step");
   start.t0 = number_of(text("t0"), "t0");
-  start.tolerance = number_of(text("tolerance"), "tolerance");
+  if (const std::string tolerance = text("tolerance"); !tolerance.empty()) {
+    start.tolerance = number_of(tolerance, "tolerance");
+    check_tolerances(*start.method, *start.model, start.tolerance.quad(), {});  // where it is 0, too
+  }
   start.absolute = numbers_of(texts("absolute"), "absolute");
   return make_stepping(start, asked["quad"].cast<bool>());
 }

@@ -178,6 +178,7 @@ def test_jacobians_of_the_map_have_their_closed_form():
         ({"step": 0.1, "initial": "1,2"}, r"expected shape \(2,\)"),
         ({"step": 0.1, "precision": "quadd"}, "did you mean 'quad'"),
         ({"step": 0.1, "tolerance": 1e-6}, "takes fixed steps only"),
+        ({"step": 0.1, "tolerance": 0}, r"tolerance: expected a number in \(0, 1\]"),
         ({"step": 0.1, "alpa": 1}, "did you mean 'alpha'"),
         ({"step": 0.1, "formulation": "dirak"}, "formulation"),
     ],
