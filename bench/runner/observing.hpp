@@ -160,7 +160,10 @@ class Observing final : public Watcher<T> {
         passed(block.step(row));
         continue;
       }
-      if (!keeps(step)) continue;
+      if (!keeps(step)) {
+        row += rows_to_next(block, step) - 1;
+        continue;
+      }
       record_.completed = step;  // also where what follows throws
       block.states.get(row, z_);
       invariants_.at_row(row);
@@ -175,6 +178,11 @@ class Observing final : public Watcher<T> {
     invariants_.take(block, block.rows);
     record_.completed = block.step(block.rows - 1);
     return block.rows;
+  }
+  // How many rows lie between a step of which no sample is kept and the next one of which there is one.
+  [[nodiscard]] std::size_t rows_to_next(const Block<T>& block, std::int64_t step) const {
+    const std::int64_t next = std::min(step - step % run_.every + run_.every, run_.steps);
+    return static_cast<std::size_t>((next - step + block.stride - 1) / block.stride);
   }
   // How many samples from a row on are passed on together, and counted: those of which each is the next state
   // and nothing is looked at but the invariants, which were evaluated.
