@@ -7,6 +7,7 @@ shares in docs/drift-and-cost.md are printed by `pytest -s python/tests/test_dri
 """
 
 from collections import Counter
+from random import Random
 
 import numpy as np
 
@@ -79,7 +80,19 @@ def test_bounded_energies_are_seldom_called_anything_else():
     odd = [row for row in rows if row[4] not in ("bounded", "undetermined")]
     print("", len(rows), {name: round(100 * k / len(rows), 1) for name, k in found.most_common()}, *odd, sep="\n")
     assert len(rows) > 500
-    # The docs say .4 %, which are three. Without what the rules know of beats there are ten; two are left for the roundings
+    # The docs say .2 %, which are two. Without what the rules know of beats there are ten; two are left for the roundings
     # of another machine.
-    assert len(odd) <= 5
+    assert len(odd) <= 4
     assert found["bounded"] >= 0.7 * len(rows)
+
+
+def test_energies_that_drift_are_seldom_called_bounded():
+    # RK4 loses energy near the perihelion, where these runs begin, and keeps it until the next one. Where a level alone was
+    # taken for a bound, 72 were. Of the two that are left for the docs one period and a little more is seen.
+    random, found = Random(5), Counter()
+    for _ in range(300):
+        asked = {"eccentricity": random.uniform(0.05, 0.8)}
+        step, steps = 10 ** random.uniform(-1.7, -0.7), random.choice([100, 120, 140, 200, 400])
+        found[energy("kepler", "rk4", step, steps, asked)["class"]] += 1
+    print("", dict(found))
+    assert found["bounded"] <= 4 and found["linear"] >= 50

@@ -57,15 +57,19 @@ std::size_t turns_of(const std::vector<double>& values, double least) {
   return turns;
 }
 
-/// The extremes of the blocks, in the order in which they were taken.
-std::vector<double> extremes_of(const Series& series) {
+/// The extremes of the blocks that begin at `first` (scaled time) or later, in the order in which they were
+/// taken.
+std::vector<double> extremes_of(const Series& series, double first = 0) {
   std::vector<double> extremes;
-  for (const Block& block : series.blocks)
+  for (std::size_t i = 0; i < series.blocks.size(); ++i) {
+    const Block& block = series.blocks[i];
+    if (series.s[i] < first) continue;
     if (block.minimum_first) {
       extremes.insert(extremes.end(), {block.minimum, block.maximum});
     } else {
       extremes.insert(extremes.end(), {block.maximum, block.minimum});
     }
+  }
   return extremes;
 }
 
@@ -108,12 +112,12 @@ void maxima_of(const Series& series, Facts& facts) {
 }
 
 void ranges_of(const Series& series, const std::vector<double>& means, Facts& facts) {
-  Range all, first, second, last_eighth, of_means, late_means, settled_means;
+  Range all, after_start, first, second, of_means, late_means, settled_means;
   for (std::size_t i = 0; i < series.blocks.size(); ++i) {
     const Block& block = series.blocks[i];
     all.add(block.minimum, block.maximum);
+    if (i > 0) after_start.add(block.minimum, block.maximum);
     (series.s[i] < 0.5 ? first : second).add(block.minimum, block.maximum);
-    if (series.s[i] > 0.875) last_eighth.add(block.minimum, block.maximum);
   }
   for (std::size_t j = 0; j < means.size(); ++j) {
     of_means.add(means[j], means[j]);
@@ -121,8 +125,8 @@ void ranges_of(const Series& series, const std::vector<double>& means, Facts& fa
     if (4 * j + 3 >= means.size()) settled_means.add(means[j], means[j]);
   }
   facts.range = all.size();
+  facts.range_after_start = after_start.size();
   facts.first_half = first.size() / all.size();
-  facts.last_eighth = last_eighth.size() / all.size();
   facts.shared =
       Range{std::max(first.low, second.low), std::min(first.high, second.high)}.size() / all.size();
   facts.range_of_means = of_means.size();
@@ -220,15 +224,17 @@ Facts facts_of(const Observed& observed) {
   maxima_of(series, facts);
   facts.spreads = spreads.spread;
   facts.turns = turns_of(extremes_of(series), 0.02 * facts.range);
+  const std::vector<double> late = extremes_of(series, 0.5);
+  Range late_range;
+  for (const double e : late) late_range.add(e, e);
+  facts.late_turns = turns_of(late, std::max(0.1 * late_range.size(), 0.001 * facts.range));
   facts.periods = periods_of(series, facts.range);
   facts.turns_of_means = turns_of(windows.mean, 0.2 * facts.range_of_means);
   facts.curve = facts.turns < 16 && !(facts.slowest >= 2);
   const auto steps = double(observed.rises + observed.falls);
   facts.one_sided = double(std::max(observed.rises, observed.falls)) >= 0.85 * steps;
-  if (const double range = observed.round_off.own_range(); range > 0) {
-    facts.moved = facts.range / range;
-    if (facts.periods < 2) facts.lost = away_at_last(series, windows.mean, 0.25 * range) / range;
-  }
+  if (const double range = observed.round_off.own_range(); range > 0 && facts.periods < 2)
+    facts.lost = away_at_last(series, windows.mean, 0.25 * range) / range;
   return facts;
 }
 

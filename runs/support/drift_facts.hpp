@@ -27,16 +27,16 @@ struct Facts {
   double range = 0, range_of_means = 0,
          late_range_of_means = 0,     // of e; of all means; of those of the second half
       settled_range_of_means = 0;     // of those after the first quarter
+  double range_after_start = 0;       // of e behind the first block
   double first_half = 0, shared = 0;  // shares of the range of e: of the first half; what both halves have
   std::size_t turns = 0,
               turns_of_means = 0;  // by more than 2 % of the range; of the means, by 20 % of theirs
+  std::size_t late_turns = 0;      // of the second half, by a tenth of its own range and .1 % of the whole
   std::size_t periods = 0;         // of a regular oscillation of the size of e
   bool curve = false, one_sided = false;
   windows::ExponentialFit maxima;  // of twentieths
   std::vector<double> spreads;     // in few_windows windows
   double lost = 0;                 // share of the quantity's own range by which the last eighth is away
-  double moved = 0;                // the range of e as a share of the quantity's own
-  double last_eighth = 0;          // of the run: its share of the range of e
 
   [[nodiscard]] bool accepted() const { return trend > noise + 4; }
   [[nodiscard]] double evidence() const { return trend - noise; }

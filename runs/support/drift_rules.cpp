@@ -134,6 +134,15 @@ std::optional<Verdict> accepted_trend(const Facts& facts) {
   return of_power(power.estimate, moves);
 }
 
+/// What levels off is bounded where it goes on to turn, or is one number from the start. Without that nothing
+/// may have tried the method since: RK4 loses energy once in a period of Kepler's motion, and keeps it in
+/// between.
+Verdict levelled(const Facts& facts) {
+  if (facts.late_turns >= 4 || facts.range_after_start == 0) return bounded("levels off");
+  return undetermined(
+      told("levels off and then turns %zu times: nothing has tried it again", facts.late_turns));
+}
+
 /// Whether what moves at first stays where it is: means move little in the second half, or little enough
 /// after the first quarter too, which an arc of a slow oscillation does not.
 bool settles(const Facts& facts) {
@@ -149,7 +158,7 @@ Verdict decide(const Facts& facts) {
                         facts.maxima.scatter, facts.maxima.power_scatter));
   if (auto verdict = growing_spread(facts)) return *verdict;
   if (facts.samples >= few_samples && facts.late_range_of_means < 0.1 * facts.range_of_means)
-    return bounded("levels off");
+    return levelled(facts);
   if (facts.slowest > 0 && facts.slowest < 2 && facts.jump < 50 * facts.oscillation)
     return undetermined(told("only %.3g periods of a slow oscillation", facts.slowest));
   const bool straight =
@@ -163,7 +172,7 @@ Verdict decide(const Facts& facts) {
   if (facts.range_of_means < 0.1 * facts.range)
     return bounded_throughout(
         facts, told("means wander by %.2g %% of the range", 100 * facts.range_of_means / facts.range));
-  if (facts.samples >= few_samples && settles(facts)) return bounded("levels off");
+  if (facts.samples >= few_samples && settles(facts)) return levelled(facts);
   if (facts.arc > std::max(facts.trend, facts.noise) + 6)
     return undetermined(told("less than a period of a slow oscillation; log evidence %.2g",
                              facts.arc - std::max(facts.trend, facts.noise)));
@@ -291,9 +300,6 @@ Verdict judge(const Observed& observed) {
     return verdict;
   }
   if (facts.lost >= 0.5 && !is_trend(verdict.drift_class)) return of_lost(verdict, facts, observed);
-  if (verdict.drift_class == DriftClass::bounded && facts.moved > 0.001 && facts.last_eighth < 0.02)
-    return finished(undetermined(
-        told("an event: moves by %.2g %% of the quantity, in the last eighth hardly", 100 * facts.moved)));
   return verdict;
 }
 

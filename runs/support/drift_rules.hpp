@@ -21,7 +21,7 @@
 //     at most min(n/4, 40) values, 4 u M apart or less         round-off        no trend, or at most 4 values
 //     maxima of twentieths of the run grow exponentially       exponential
 //     the spread grows threefold and exceeds jump/4            exponential, linear, polynomial, by its fit
-//     means move < 10 % in the second half                     bounded          levels off; n >= 96
+//     means move < 10 % in the second half                     bounded **       levels off; n >= 96
 //     0 < f < 2, jump < 50 times the oscillation               undetermined     too few periods
 //     a trend beats noise by more than 4:
 //         A beats the trend by more than 2                     undetermined     goes on below if by < 2 %
@@ -35,8 +35,8 @@
 //         exponential, rate 2 ... 16 a run                     exponential      not at its search's end
 //         exponential, rate < 2 a run                          linear, polynomial, by the best power
 //     range of means < 10 % of the range of e                  bounded *
-//     means move < 18 % in the second half                     bounded          levels off; n >= 96
-//     ... or < 22 %, and < 35 % after the first quarter        bounded          levels off; n >= 96
+//     means move < 18 % in the second half                     bounded **       levels off; n >= 96
+//     ... or < 22 %, and < 35 % after the first quarter        bounded **       levels off; n >= 96
 //     A beats every trend and noise by more than 6             undetermined     less than a period
 //     a trend of power < .75                                   undetermined     sublinear
 //     W > max(R, S - 5) - 6                                    bounded *
@@ -49,6 +49,10 @@
 //     R < S - 5, means turn 5 times, halves share >= 70 %      bounded *
 //     R >= S - 2                                               random-walk      else undetermined
 // * undetermined if the first half of the run covers less than half of the range: bursts, events.
+// ** undetermined if e turns less than 4 times in the second half, by a tenth of its range there and .1 % of
+// the whole, unless it is one number behind its first block: RK4 loses energy once in a period of Kepler's
+// motion, of which the run may be a part, and a planet that has escaped, or what has come to rest, no longer
+// tries the method.
 // Every class that grows as a power excludes no growth: its slope's interval, or that of its exponent for a
 // growing spread, does not contain 0; if it does, the class is undetermined.
 // A trend within one unit of round-off a step, max <= u M + u R N, is biased-round-off.
@@ -62,10 +66,8 @@
 // found in the whole run, the run is judged anew up to where half was lost, and, since a loss that slows down
 // is no line, up to where a tenth was: the first of them with a trend gives the class, the exponent, the rate
 // and the slope. Without one, as where less than 32 samples were taken before, it is undetermined in place of
-// bounded. Nor is an error bounded whose range is more than .1 % of the quantity's own, and in the last
-// eighth of the run less than 2 % of what it is in the whole: the motion no longer tries the quantity, as
-// that of a planet that has escaped, or has come to rest. A run that ends in numbers that are not finite, or
-// a thousand times the range, after growing a thousandfold, is exponential.
+// bounded. A run that ends in numbers that are not finite, or a thousand times the range, after growing a
+// thousandfold, is exponential.
 //
 // Constants. 8 sqrt(N) u: walks of at most 3 u a step reach it at 2.5 standard deviations. 1 %: invisible
 // beside the oscillation. Log evidences of 4, 6, 8: odds of 50, 400, 3000. Of a line 2 are added and of an

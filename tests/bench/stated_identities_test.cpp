@@ -2,11 +2,11 @@
 // follow one of them, and sound ones are not, whatever their size.
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <fstream>
 
 #include <pfaff/bench/runner/stated_identities.hpp>
 
+#include "../temporary_directory.hpp"
 #include "../verify/judged.hpp"
 #include "run_settings.hpp"
 
@@ -17,11 +17,9 @@ using pfaff::testing::settings_of;
 
 // Why a run of a text model is refused; empty where it is not.
 std::string complaint_about(const std::string& text) {
-  const auto path = std::filesystem::temp_directory_path() / "pfaff-stated-identities.toml";
-  std::ofstream(path) << text;
-  std::string said = complaint(settings_of(path.string(), "0.1", "1"));
-  std::filesystem::remove(path);
-  return said;
+  const testing::TemporaryDirectory files;
+  std::ofstream(files / "system.toml") << text;
+  return complaint(settings_of(files / "system.toml", "0.1", "1"));
 }
 
 const std::string oscillator =

@@ -157,8 +157,9 @@ TEST(MethodMaps, ClaimsAreJudged) {
   const auto map = read_method_table(shipped_tables + "damped-pendulum-map.toml");
   EXPECT_EQ(bad(check_method(*map, {}, systems().get("damped-pendulum", "system"))), Names{});
   // The constants of let are the coefficients, each of which is changed as a control.
-  const auto controls = check_changed_coefficient(*read_method_table(shipped_tables + "heun-3.toml"), {},
-                                                  systems().get("damped-pendulum", "system"));
+  const auto controls =
+      check_changed_coefficient(*read_method_table(shipped_tables + "heun-3.toml")->make({}), {},
+                                systems().get("damped-pendulum", "system"));
   EXPECT_EQ(controls.size(), 2U);
   for (const Check& control : controls) EXPECT_EQ(control.result, CheckResult::rejected) << control.claim;
 }
