@@ -72,10 +72,11 @@ class Tracer:
         invariants, tape = self.invariants()
         if tape is not None:
             formulas["invariants"] = tape
+        parts = self.parts()  # before the names below, to which it adds theirs
         return {"name": d.name, "time_unit": d.time_unit, "coordinates": self.coordinates_with_units(),
                 "initial": self.initial(), "parameters": [(key, text_of_number(value, key)) for key, value in self.values.items()],
                 "formulas": formulas, **self.names, "invariants": invariants, "damping": self.constant("damping"),
-                "parts": self.parts(), "small_part": d.small_part}
+                "parts": parts, "small_part": d.small_part}
 
     def coordinates_with_units(self) -> list[tuple[str, str]]:
         """Names and units; a block has one unit for all of its coordinates."""
@@ -221,6 +222,9 @@ class Tracer:
         names = self.definition.part_names
         if not names:
             raise InputError(f"part_flow of {self.definition.what}: expected part_names beside it, a name for each part")
+        small = self.definition.small_part
+        if small is not None and small >= len(names):
+            raise InputError(f"small_part of {self.definition.what}: expected the number of one of {len(names)} parts, counted from 0, got {small}")
         self.names["part_names"] = list(names)
 
         def change(part: int) -> Callable[[Any, list], list]:
