@@ -16,6 +16,13 @@ namespace py = pybind11;
 namespace pfaff::python {
 
 namespace {
+// Whether it is True, NumPy's own among them, which comparisons of its numbers give.
+bool is_true(const py::object& answer) {
+  if (answer.is(py::bool_(true))) return true;
+  static const py::handle kind = py::object(py::module_::import("numpy").attr("bool_")).release();
+  return py::isinstance(answer, kind) && answer.cast<bool>();
+}
+
 // Keeps the states that go by, while it is told to.
 template <class T>
 class Keeper final : public Watcher<T> {
@@ -51,7 +58,7 @@ class Caller final : public Watcher<T> {
                          [](const T& x) { return static_cast<double>(x); });
           const py::object answer = callback_.get()(static_cast<double>(block.time(row)),
                                                     array_of(std::span<const double>(in_double)));
-          if (answer.is(py::bool_(true))) return;
+          if (is_true(answer)) return;
         }
       });
     } catch (const PythonError&) {

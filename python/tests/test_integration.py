@@ -68,7 +68,7 @@ def test_callbacks_see_copies_and_may_end_the_integration():
     rows = it.steps(20, every=5)
     assert [t for t, _ in seen] == rows.t.tolist() and np.array_equal([z for _, z in seen], rows.y)
     ends = pfaff.Integration(duffing, "verlet", step=0.1)
-    ends.watch(lambda t, z: t > 0.95)
+    ends.watch(lambda t, z: np.float64(t) > 0.95)  # NumPy's True
     outcome = ends.steps(1000, every=1)
     assert not outcome.reached and "watcher" in outcome.message and outcome.steps == 10 == len(outcome.t) and ends.time == 1.0
 
