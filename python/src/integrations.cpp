@@ -62,6 +62,7 @@ void bind_integrations(py::module_& module) {
       .def("steps", &Stepping::steps)
       .def("to",
            [](Stepping& r, const std::string& t, std::int64_t every) { r.to(number_of(t, "t"), every); })
+      .def_property("allowed", &Stepping::allowed, &Stepping::allow)
       .def("taken", &taken_of)
       .def_property_readonly("time", &Stepping::time)
       .def_property_readonly("step", &Stepping::step)

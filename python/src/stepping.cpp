@@ -90,6 +90,11 @@ class SteppingIn final : public Stepping {
   void to(const Real& t, std::int64_t every) override {
     take(every, [&] { return run_.to(T(t)); });
   }
+  void allow(std::int64_t steps) override {
+    const Using use(*this);
+    allowed_ = steps;
+  }
+  std::int64_t allowed() const override { return allowed_; }
   StepsTaken taken() override { return std::move(last_); }
 
   double time() const override { return static_cast<double>(run_.time()); }
@@ -166,6 +171,19 @@ class SteppingIn final : public Stepping {
     SteppingIn& of_;
   };
 
+  // The budget of a call: what it takes is gone, however it ends.
+  class Allowance {
+   public:
+    explicit Allowance(std::int64_t& left) : left_(left), budget_({.steps = left}) {}
+    ~Allowance() { left_ -= budget_.steps(); }
+    Allowance(const Allowance&) = delete;
+    Allowance& operator=(const Allowance&) = delete;
+
+   private:
+    std::int64_t& left_;
+    Budget budget_;
+  };
+
   Keeper<T>& keeper_of(std::int64_t every) {
     auto& keeper = keepers_[every];
     if (keeper == nullptr) {
@@ -191,6 +209,7 @@ class SteppingIn final : public Stepping {
     };
     try {
       without_lock([&] {
+        Allowance allowance(allowed_);
         const Outcome outcome = steps();
         last_.reached = outcome.reached();
         last_.status = to_string(outcome.status());
@@ -209,6 +228,7 @@ class SteppingIn final : public Stepping {
   std::map<std::int64_t, std::unique_ptr<Keeper<T>>> keepers_;  // by their number of steps
   std::vector<std::unique_ptr<Caller<T>>> callers_;
   StepsTaken last_;
+  std::int64_t allowed_ = BudgetLimits::unlimited;
   bool in_use_ = false;  // under Python's lock
 };
 

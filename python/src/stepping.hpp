@@ -34,6 +34,11 @@ class Stepping {
   // taken(). `every` is 0 where no states are kept.
   virtual void steps(std::int64_t count, std::int64_t every) = 0;
   virtual void to(const Real& t, std::int64_t every) = 0;
+  /// From now on so many steps may be taken, tries of a method that chooses them among them; BudgetSpent
+  /// where they have run out.
+  virtual void allow(std::int64_t steps) = 0;
+  /// How many of them are left.
+  [[nodiscard]] virtual std::int64_t allowed() const = 0;
   /// The call that took steps last; its samples are moved out.
   [[nodiscard]] virtual StepsTaken taken() = 0;
 

@@ -83,7 +83,7 @@ CALLS = {
     "reproduce": (pfaff.reproduce, {"paper": "su-qin", "section": "2"}, {"paper": (), "section": {"nothing"}}),
     "solve_ivp": (pfaff.solve_ivp, {"fun": rates, "t_span": (0, 1), "y0": [1, 0]}, {
         "fun": (), "t_span": {"numbers"}, "y0": {"numbers"}, "method": (), "t_eval": {"nothing", "empty"}, "dense_output": (), "events": {"nothing"}, "vectorized": {"truth"},
-        "args": {"nothing", "empty"}, "rtol": {"number"}, "atol": {"number", "numbers"}, "step": {"nothing", "number"}, "stages": {"number"}}),
+        "args": {"nothing", "empty"}, "rtol": {"number"}, "atol": {"number", "numbers"}, "step": {"nothing", "number"}, "most_steps": {"nothing"}, "stages": {"number"}}),
     "System": (pfaff.System, {"name": "kepler"}, {"name": (), "compile": {"truth"}, "eccentricity": ()}),
     "system": (of_system, {}, {
         "function": (), "coordinates": (), "initial": {"nothing", "numbers", "empty dictionary", "function"}, "formula": (), "name": {"nothing", "empty text", "text"}, "compile": {"truth"},
