@@ -204,7 +204,7 @@ def test_formulations_make_motions_of_constraints():
 
 def test_calls_with_bad_numbers_are_refused():
     it = pfaff.Integration(duffing, "verlet", step=0.1)
-    for call in (lambda: it.steps(-1), lambda: it.steps(1.5), lambda: it.steps(5, every=-1), lambda: it.watch(3), lambda: it.watch(print, every=0),
+    for call in (lambda: it.steps(-1), lambda: it.steps(2**63), lambda: it.steps(1, every=2**70), lambda: it.steps(1.5), lambda: it.steps(5, every=-1), lambda: it.watch(3), lambda: it.watch(print, every=0),
                  lambda: it.to("x"), lambda: it.beside([1]), lambda: it.jacobian(-1)):
         with pytest.raises(pfaff.InputError):
             call()
