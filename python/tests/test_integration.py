@@ -241,3 +241,12 @@ time.sleep(0.2)
     paths = os.pathsep.join([os.path.dirname(__file__), *filter(None, sys.path)])
     ended = subprocess.run([sys.executable, "-B", "-c", code], env={**os.environ, "PYTHONPATH": paths}, capture_output=True, text=True, timeout=30)
     assert ended.returncode == 0 and not ended.stderr
+
+
+def test_ctrl_c_ends_a_compiler(tmp_path, monkeypatch):
+    if subprocess.run(["c++", "--version"], capture_output=True).returncode != 0:
+        pytest.skip("there is no compiler")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))  # where nothing is compiled already
+    chain = pfaff.system(coordinates={"q": 60, "p": 60})(lambda q, p: p @ p / 2 + sum(np.cos(q[i] - q[j]) for i in range(60) for j in range(i)))
+    _, late = interrupted_after(0.7, chain.compiled)
+    assert late < 0.3
