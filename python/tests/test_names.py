@@ -40,3 +40,14 @@ def test_a_method_has_no_order_where_it_cannot_step():
     with pytest.raises(pfaff.InputError, match="lincs needs"):
         pfaff.solve_ivp(lambda t, y: [y[1], -y[0]], (0, 1), [1, 0], "lincs")
     assert pfaff.Method("gauss").order("spherical-pendulum") == 4  # on the motion that its formulation makes
+
+
+@pytest.mark.parametrize("name, kebab", [("<lambda>", "lambda"), ("a__b", "a-b"), ("_2d", "d"), ("größe", "groe"), ("ψ", "unnamed"), ("MySystem2", "my-system2")])
+def test_names_of_functions_are_names_of_text_models(name, kebab, tmp_path):
+    def formula(q, p):
+        return p**2 / 2 + q**2 / 2
+
+    formula.__name__ = name
+    for system in (pfaff.system(coordinates=["q", "p"], initial=[1, 0])(formula), pfaff.system(coordinates=["q", "p"], initial=[1, 0], name=name)(formula)):
+        (tmp_path / "model.toml").write_text(system.to_toml())
+        assert pfaff.System(tmp_path / "model.toml").name == kebab
