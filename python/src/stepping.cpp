@@ -126,9 +126,10 @@ class SteppingIn final : public Stepping {
     const Using use(*this);
     run_.forget();
   }
-  void go_on_from(const std::vector<Real>& state, const Real& t0, const Real& h) override {
+  void go_on_from(const std::vector<Real>& state, const std::optional<Real>& t0,
+                  const std::optional<Real>& h) override {
     const Using use(*this);
-    run_.go_on_from(scalars_of<T>(state), T(t0), T(h));
+    run_.go_on_from(scalars_of<T>(state), t0 ? T(*t0) : run_.time(), h ? T(*h) : run_.step());
   }
   void watch(SharedObject callback, std::int64_t every) override {
     const Using use(*this);

@@ -5,6 +5,7 @@
 #include <pybind11/numpy.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -54,7 +55,9 @@ class Stepping {
   [[nodiscard]] virtual std::unique_ptr<Stepping> reversed() const = 0;
   virtual void turn() = 0;
   virtual void forget() = 0;
-  virtual void go_on_from(const std::vector<Real>& state, const Real& t0, const Real& h) = 0;
+  /// At the time that was reached and with the same step, in all digits, where others are not given.
+  virtual void go_on_from(const std::vector<Real>& state, const std::optional<Real>& t0,
+                          const std::optional<Real>& h) = 0;
   /// `callback`(t, z) is called after each `every` steps; the integration ends there where it gives True.
   virtual void watch(SharedObject callback, std::int64_t every) = 0;
   /// The state after so many steps from here, and its derivatives with respect to the state here, row-major.

@@ -250,3 +250,13 @@ def test_ctrl_c_ends_a_compiler(tmp_path, monkeypatch):
     chain = pfaff.system(coordinates={"q": 60, "p": 60})(lambda q, p: p @ p / 2 + sum(np.cos(q[i] - q[j]) for i in range(60) for j in range(i)))
     _, late = interrupted_after(0.7, chain.compiled)
     assert late < 0.3
+
+
+def test_going_on_keeps_all_digits_of_time_and_step():
+    driven = pfaff.system(coordinates=["q", "p"], initial=[1, 0])(lambda t, q, p: p**2 / 2 + q**2 / 2 * (1 + np.sin(t) / 3))
+    whole, parts = (pfaff.Integration(driven, "gauss", step="1/3", t0="1/7", precision="quad") for _ in range(2))
+    whole.steps(6)
+    parts.steps(3)
+    parts.go_on_from(parts.decimals)
+    parts.steps(3)
+    assert max(abs(x - y) for x, y in zip(whole.decimals, parts.decimals)) < 1e-32  # a step of a double is off by 2e-17
