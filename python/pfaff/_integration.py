@@ -44,7 +44,7 @@ class Integration:
     1.0
 
     Times are t0 + n h, computed from the number n of steps. A number that is a float stands for the decimal that it is
-    printed as.
+    printed as; one of float32, and of float16, for its value.
 
     Args:
         system: a name, the path of a text model, or a pfaff.System.

@@ -252,12 +252,13 @@ def _fixed(
         t, y = np.concatenate([[begin], outcome.t]), np.concatenate([state[None, :], outcome.y])
         return _result(result_type, t, y, message, integration, size)
     reached, rows, message = [], [], ""
+    near = 8 * np.finfo(float).eps * max(abs(begin), abs(end))  # what round-off makes of times
     for time in times:
         whole = min(count, math.floor((time - begin) / size * (1 + 1e-12)))
         try:
             integration.steps(whole - integration.steps_taken)
             row, rest = integration.state, time - (begin + whole * size)
-            if abs(rest) > 1e-9 * abs(size):
+            if abs(rest) > near:
                 beside = integration.beside(row)
                 beside.go_on_from(row, t0=begin + whole * size, step=rest)
                 beside.steps(1)

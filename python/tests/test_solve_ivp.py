@@ -169,3 +169,9 @@ def test_bad_input_is_refused_in_one_line(call, words):
 def test_a_function_that_compares_values_is_refused_with_its_line():
     with pytest.raises(pfaff.TraceError, match="test_solve_ivp.py"):
         pfaff.solve_ivp(lambda t, y: [y[0] if y[0] > 0 else 0], (0, 1), [1.0])
+
+
+def test_times_close_behind_a_step_have_their_own_states():
+    times = np.array([0, 9e-11, 0.1, 0.1 + 9e-11, 0.2])
+    result = pfaff.solve_ivp(lambda t, y: -y, (0, 1), [1.0], "gauss", times, stages=4, step=0.1)
+    assert np.abs(result.y[0] - np.exp(-times)).max() < 1e-15  # h^9 times 1e-9 and less, and round-off
