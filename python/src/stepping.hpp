@@ -19,7 +19,7 @@ namespace pfaff::python {
 /// How a call that takes steps ended, and the states that were asked for: rows (t, z) one behind the other.
 struct StepsTaken {
   bool reached = false;
-  std::string status, message;
+  std::string status = "converged", message;
   std::int64_t steps = 0;
   Numbers t, y;
 };

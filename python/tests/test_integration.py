@@ -252,6 +252,16 @@ def test_ctrl_c_ends_a_compiler(tmp_path, monkeypatch):
     assert late < 0.3
 
 
+def test_steps_before_something_was_raised_have_converged():
+    @pfaff.method(order=1, traced=False)
+    def fragile(problem, t, h, z):
+        return z * (1 / (t < 0.25))
+
+    with pytest.raises(ZeroDivisionError) as caught:
+        pfaff.Integration("kepler", fragile, step=0.1).steps(9, every=1)
+    assert caught.value.run.status == "converged" and len(caught.value.run.t) == 3 and not caught.value.run.reached
+
+
 def test_going_on_keeps_all_digits_of_time_and_step():
     driven = pfaff.system(coordinates=["q", "p"], initial=[1, 0])(lambda t, q, p: p**2 / 2 + q**2 / 2 * (1 + np.sin(t) / 3))
     whole, parts = (pfaff.Integration(driven, "gauss", step="1/3", t0="1/7", precision="quad") for _ in range(2))
