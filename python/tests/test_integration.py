@@ -270,3 +270,22 @@ def test_going_on_keeps_all_digits_of_time_and_step():
     parts.go_on_from(parts.decimals)
     parts.steps(3)
     assert max(abs(x - y) for x, y in zip(whole.decimals, parts.decimals)) < 1e-32  # a step of a double is off by 2e-17
+
+
+@pytest.mark.parametrize("work", [
+    lambda: pfaff.Integration("kepler", "gauss", step=1e-6).steps(10**9, every=1000), lambda: pfaff.run("kepler", "gauss", step=1e-6, time=1000),
+])
+def test_what_a_handler_of_ones_own_raises_passes_with_the_samples(work):
+    def handler(number, frame):
+        raise TimeoutError("enough")
+
+    before = signal.signal(signal.SIGINT, handler)
+    timer = threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT))
+    try:
+        timer.start()
+        with pytest.raises(TimeoutError, match="enough") as caught:
+            work()
+    finally:
+        timer.join()
+        signal.signal(signal.SIGINT, before)
+    assert len(caught.value.run.t) > 0
