@@ -8,10 +8,12 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
 
+#include <pfaff/core/errors/budget.hpp>
 #include <pfaff/core/errors/errors.hpp>
 
 namespace pfaff {
@@ -95,20 +97,24 @@ bool has_ended(pid_t child) {
          info.si_pid == child;
 }
 
+enum class Waited { ended, timed_out, stopped };
+
 // Reads the output until the child has ended. The pipe may end before, where the child closes it, and may not
-// end with the child, where another process holds it. False where the time is up before.
-bool read_to_its_end(pid_t child, int pipe, std::string& output, std::optional<Clock::time_point> end) {
+// end with the child, where another process holds it. Says whether the time was up before, or `stop` was set.
+Waited read_to_its_end(pid_t child, int pipe, std::string& output, std::optional<Clock::time_point> end,
+                       const std::atomic<bool>* stop) {
   constexpr int between = 20;  // milliseconds between two looks at a child that writes nothing
   bool open = true;
   while (!has_ended(child)) {
-    if (end && Clock::now() > *end) return false;
+    if (end && Clock::now() > *end) return Waited::timed_out;
+    if (stop != nullptr && stop->load()) return Waited::stopped;
     pollfd stream{open ? pipe : -1, POLLIN, 0};
     // Behind the end of its output a child has only its own end left to do.
     if (poll(&stream, 1, open ? between : 1) > 0) open = take(pipe, output);
   }
   pollfd stream{pipe, POLLIN, 0};
   while (open && poll(&stream, 1, 0) > 0) open = take(pipe, output);
-  return true;
+  return Waited::ended;
 }
 }  // namespace
 
@@ -129,22 +135,25 @@ ChildEnding run_program(const ChildProgram& program) {
   std::vector<std::string> words = program.words, variables = environment_of(program);
   const std::vector<char*> arguments = pointers_to(words), environment = pointers_to(variables);
   const char* directory = program.directory.empty() ? nullptr : program.directory.c_str();
+  const Budget* const budget = Budget::current();
+  const std::atomic<bool>* const stop = budget != nullptr ? budget->stop() : nullptr;
+  const bool grouped = program.limit || stop != nullptr;  // it may have to be killed with all that it started
   Pipe output, failure;
   const pid_t parent = getpid(), child = fork();
   if (child < 0) throw RunError("cannot start a process: " + std::string(std::strerror(errno)));
   if (child == 0)
-    become(arguments.data(), environment.data(), directory, parent, program.limit.has_value(), output.ends[1],
-           failure.ends[1]);
+    become(arguments.data(), environment.data(), directory, parent, grouped, output.ends[1], failure.ends[1]);
   output.close_end(1);
   failure.close_end(1);
   ChildEnding ending;
   const auto end = program.limit ? std::optional(Clock::now() + *program.limit) : std::nullopt;
-  const bool in_time = read_to_its_end(child, output.ends[0], ending.output, end);
+  const Waited waited = read_to_its_end(child, output.ends[0], ending.output, end, stop);
   // As long as the child is not waited for, its number is that of its group and nobody else's.
-  if (program.limit) kill(-child, SIGKILL);
+  if (grouped) kill(-child, SIGKILL);
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
-  if (!in_time) {
+  if (waited == Waited::stopped) throw BudgetSpent(BudgetSpent::Reason::stop, 0);
+  if (waited == Waited::timed_out) {
     ending.kind = ChildEnding::Kind::timed_out;
   } else if (read(failure.ends[0], &ending.status, sizeof ending.status) == sizeof ending.status) {
     ending.kind = ChildEnding::Kind::not_started;

@@ -33,7 +33,9 @@ struct ChildEnding {
   [[nodiscard]] std::string in_words() const;
 };
 
-/// Runs the program to its end. RunError where no process can be started.
+/// Runs the program to its end. RunError where no process can be started. Where the budget of this thread can
+/// be stopped, and is, the program and all that it started is killed, with BudgetSpent; it then has a process
+/// group of its own too.
 ChildEnding run_program(const ChildProgram& program);
 
 }  // namespace pfaff

@@ -88,10 +88,16 @@ def texts(value: Any, what: str, example: str) -> list[str]:
     return listed
 
 
+# The library counts in whole numbers of 64 bits.
+_LARGEST = 2**63 - 1
+
+
 def whole(value: Any, what: str, least: int) -> int:
     """A whole number that is `least` or more."""
     if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, np.integer)) or value < least:
         raise InputError(f"{what}: expected a whole number >= {least}, got {shown(value)}")
+    if value > _LARGEST:
+        raise InputError(f"{what}: expected a whole number of 64 bits, got {shown(value)}")
     return int(value)
 
 

@@ -17,6 +17,9 @@ from ._tracing import argument_names, array_of, place_of
 FORMULAS = {name: (is_number, signature) for name, is_number, signature, _ in _pfaff.formula_rows()}
 # Members that are formulas and stand in no row of their own: the two brackets, by the rows of their tensors.
 BRACKETS = {"bracket": "poisson_tensor", "symmetric_bracket": "symmetric_tensor"}
+# What describes a system, besides its name, and what its object has itself.
+DESCRIBING = ("units", "behaviours", "time_unit", "part_names", "small_part", "chart_coordinates", "title")
+TAKEN = ("compiled", "dimension", "facets", "model", "name", "parameters", "registered_name", "to_toml")
 # All that a class or a decorator may write, beside coordinates and what describes them.
 MEMBERS = (*FORMULAS, *BRACKETS, "casimirs", "damping", "part_flow")
 
@@ -124,6 +127,8 @@ class Definition:
         return {key: default for key, default in argument_names(function).items() if default is not inspect.Parameter.empty}
 
     def _take_parameter(self, key: str, value: Any, what: str) -> None:
+        if key == "compile":
+            raise InputError(f"{what}: parameter 'compile': expected another name, because a system is called with compile=True")
         if text_of_constant(value) is None:
             raise InputError(f"{what}: parameter '{key}': expected a number, got {shown(value)}")
         if key in self.parameters and self.parameters[key] != value:

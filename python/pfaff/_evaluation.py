@@ -8,12 +8,13 @@ import numpy as np
 
 from . import _pfaff
 from ._arguments import function, real_array, shown, text, unknown
+from ._definition import Coordinates
 from ._errors import InputError
 from ._numbers import float_of_number, text_of_number, texts_of_coordinates
 from ._objects import as_system
-from ._system import System
+from ._system import System, Traced
 from ._tables import html_table, text_table
-from ._tracing import array_of, call_by_names, flat, recorded
+from ._tracing import call_by_names, flat, recorded
 
 
 class Evaluation(Mapping[str, Any]):
@@ -52,10 +53,12 @@ class Evaluation(Mapping[str, Any]):
 
 
 def _array(value: Any) -> Any:
-    """Lists of numbers, and lists of such lists, as arrays."""
+    """Lists of numbers, and lists of such lists, as arrays; what is not finite, None among them, as NaN."""
     if isinstance(value, list) and value:
         try:
             array = np.array(value)
+            if array.dtype == object and all(x is None or isinstance(x, (int, float)) for x in array.ravel()):
+                array = array.astype(float)
         except ValueError:
             return value
         return array if array.dtype.kind == "f" or array.dtype.kind == "i" else value
@@ -102,9 +105,8 @@ def bracket(
     its default formulation.
 
     Args:
-        f, g: functions of the state: their arguments are coordinates by their names, the time `t` and, where no coordinate
-            has that name, the whole state `z`.
-            They are recorded once, as formulas of a system are.
+        f, g: functions of the state, recorded once. Their arguments are called as those of the formulas of a system are:
+            coordinates and blocks of them by their names, the time `t`, the whole state `z`, its halves `q` and `p`.
         z: the state, shape (dimension,).
         on: the system: a name, the path of a text model, or a `pfaff.System`.
         time: the time.
@@ -118,24 +120,33 @@ def bracket(
     >>> pfaff.bracket(lambda q: q, lambda p: p, [0.5, 0.2], on="pendulum")
     1.0
     """
-    model = as_system(on, "on", **parameters).model
-    names = [name for name, _ in model.coordinates]
+    system = as_system(on, "on", **parameters)
+    model, coordinates = system.model, _coordinates_of(system)
+    names = coordinates.names
     expected = f"shape ({len(names)},), a finite number for each of {', '.join(names)}"
     state = real_array(z, "z", expected)
     if state.shape != (len(names),) or not np.isfinite(state).all():
         raise InputError(f"z: expected {expected}, got {shown(z)}")
-    first, second = (_tape(function(one, what, "a function of the state"), what, names) for one, what in ((f, "f"), (g, "g")))
+    first, second = (_tape(function(one, what, "a function of the state"), what, coordinates) for one, what in ((f, "f"), (g, "g")))
     return _pfaff.bracket(model, first, second, float_of_number(time, "time"), list(state))
 
 
-def _tape(function: Callable[..., Any], what: str, names: Sequence[str]) -> _pfaff.Tape:
+def _coordinates_of(system: System) -> Coordinates:
+    """The coordinates as formulas of the system name them; one by one of a system that is not written here."""
+    if not isinstance(system._definition, Traced):
+        return Coordinates(system.coordinates, {}, f"system {system.name}")
+    written = system._definition.definition
+    return Coordinates(written.coordinates, written.arguments(written.values(system._given)), written.what)
+
+
+def _tape(function: Callable[..., Any], what: str, coordinates: Coordinates) -> _pfaff.Tape:
     """A function of the state as a tape with one output."""
 
     def formula(t: Any, inputs: Sequence[Any]) -> list[Any]:
-        known = {"t": t, "z": array_of(inputs), **dict(zip(names, inputs))}
+        known = {"t": t, **dict(zip(coordinates.names, inputs)), **coordinates.known(inputs)}
         values = flat(call_by_names(function, known, what), what)
         if len(values) != 1:
             raise InputError(f"{what}: expected a function that returns one number, got {len(values)}")
         return values
 
-    return recorded(len(names), formula, what)
+    return recorded(len(coordinates), formula, what)

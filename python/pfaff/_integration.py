@@ -44,7 +44,7 @@ class Integration:
     1.0
 
     Times are t0 + n h, computed from the number n of steps. A number that is a float stands for the decimal that it is
-    printed as.
+    printed as; one of float32, and of float16, for its value.
 
     Args:
         system: a name, the path of a text model, or a pfaff.System.
@@ -187,8 +187,7 @@ class Integration:
 
     def go_on_from(self, state: Any, *, t0: Any = None, step: Any = None) -> None:
         """Goes on from another state, with what the method remembers; steps are counted from there."""
-        time, size = self.time if t0 is None else t0, self.step if step is None else step
-        self._it.go_on_from(self._state(state), text_of_number(time, "t0"), text_of_number(size, "step"))
+        self._it.go_on_from(self._state(state), *("" if x is None else text_of_number(x, what) for x, what in ((t0, "t0"), (step, "step"))))
 
     def jacobian(self, n: int) -> tuple[np.ndarray, np.ndarray]:
         """The state after `n` steps from here, and its derivative M[i, k] = d z_i / d z_k with respect to the state here.

@@ -69,11 +69,11 @@ class Method:
         return self.instance.adaptive
 
     def order(self, system: Any) -> int:
-        """The order that the method claims on a system."""
+        """The order that the method claims on a system. InputError where it cannot step on it."""
         return self.instance.order(_model(system))
 
     def preserves(self, system: Any) -> tuple[str, ...]:
-        """What the method claims to keep on a system."""
+        """What the method claims to keep on a system. InputError where it cannot step on it."""
         return tuple(self.instance.preserves(_model(system)))
 
     def refuses(self, system: Any) -> str:

@@ -1,16 +1,19 @@
 """Names as plug-ins have them."""
 import os
+import re
+import unicodedata
 from typing import Any
 
 
 def kebab(name: str) -> str:
-    """A name in kebab-case: DampedPendulum and damped_pendulum are damped-pendulum.
+    """A name in kebab-case: DampedPendulum and damped_pendulum are damped-pendulum. Accents and signs are left out.
 
-    >>> kebab("DampedPendulum"), kebab("my_rule")
-    ('damped-pendulum', 'my-rule')
+    >>> kebab("DampedPendulum"), kebab("my_rule"), kebab("<lambda>")
+    ('damped-pendulum', 'my-rule', 'lambda')
     """
     words = "".join("-" + c if c.isupper() and k and not name[k - 1].isupper() else c for k, c in enumerate(name))
-    return words.lower().replace("_", "-").strip("-")
+    ascii_words = unicodedata.normalize("NFKD", words).encode("ascii", "ignore").decode().lower()
+    return re.sub("[^a-z0-9]+", "-", ascii_words).lstrip("-0123456789").rstrip("-") or "unnamed"
 
 
 def absolute(name: Any) -> Any:

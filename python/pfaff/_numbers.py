@@ -54,6 +54,8 @@ def text_of_constant(value: Any) -> str | None:
 
             _noted.list.append((place_of_caller(), text))
         return text
+    if isinstance(value, (np.half, np.single)):
+        return text_of_constant(float(value))  # its value, as arrays of it have when they become doubles
     if isinstance(value, np.floating):
         return str(value)
     if isinstance(value, fractions.Fraction):

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ._arguments import real_array, shown, yes_or_no
+from . import _pfaff
+from ._arguments import real_array, shown, whole, yes_or_no
 from ._errors import InputError, NotConverged, RunFailed
 from ._integration import Integration
 from ._method import Method
@@ -21,22 +22,24 @@ from ._tracing import flat, place_of
 if TYPE_CHECKING:
     from scipy.integrate._ivp.ivp import OdeResult
 
-# A step is chosen by comparing states at so many times, spread evenly.
-_COMPARED = 16
-# More steps than these are not tried when a step is chosen.
-_MOST_STEPS = 2**24
+# The first of the numbers of steps that are tried.
+_FEWEST_STEPS = 16
+# A step is chosen by comparing states at times that are spread evenly: at all of the steps, up to so many numbers.
+_COMPARED = 2**20
+# The steps that may be taken where nothing is said, fewer of fields of more operations than these: some minutes' work.
+_MOST_STEPS, _OPERATIONS = 2**24, 256
 
 
 def solve_ivp(
     fun: Callable[..., Any] | str | System, t_span: Sequence[float], y0: Sequence[float] | None = None, method: str | Method = "gauss",
     t_eval: Sequence[float] | None = None, dense_output: bool = False, events: Any = None, vectorized: bool = False,
     args: Sequence[Any] | None = None, *, rtol: float = 1e-3, atol: float | Sequence[float] = 1e-6, step: float | None = None,
-    **parameters: Any
+    most_steps: int | None = None, **parameters: Any
 ) -> OdeResult:
     """Solves y' = fun(t, y), y(t_span[0]) = y0, as scipy.integrate.solve_ivp does, by any method of Pfaff.
 
     Methods with fixed steps keep one step from beginning to end, on which the structure that they keep rests. Without
-    `step` it is chosen: it is halved until the error, estimated from two runs, meets the tolerances. A state at a time of
+    `step` it is chosen: it is halved until the error, estimated from three runs, meets the tolerances. A state at a time of
     `t_eval` between two steps is that after one shorter step from the last of them, beside the integration, which goes on
     in its own steps. Methods that choose their steps take `rtol` and `atol` as SciPy's do.
 
@@ -54,6 +57,8 @@ def solve_ivp(
         args: further arguments of fun.
         rtol, atol: the error of a component y_i is to be below atol + rtol |y_i|.
         step: the size of a fixed step; the end of the span is reached in whole steps of at most this size.
+        most_steps: how many steps a run may take, 16 or more. Without it 2**24, and of a field of more than 256 operations fewer. A
+            method that chooses its steps ends where it has taken them, and the result says so; no more fixed ones are tried.
         **parameters: of the method, such as stages=3.
 
     Returns:
@@ -64,7 +69,7 @@ def solve_ivp(
     Raises:
         InputError: wrong arguments, and a method that does not fit.
         TraceError: fun compares values, calls `math` or returns something else each time.
-        RunFailed: without `step`, no step meets the tolerances.
+        RunFailed: without `step`, no step meets the tolerances within `most_steps`.
         ImportError: SciPy is not installed.
 
     >>> import pfaff
@@ -81,12 +86,16 @@ def solve_ivp(
     times = None if t_eval is None else _times(t_eval, begin, end)
     relative, absolute = _tolerances(rtol, atol, len(state))
     size = None if step is None else float_of_number(step, "step", "a size above 0", above=0)
+    most = _most_steps(system) if most_steps is None else whole(most_steps, "most_steps", _FEWEST_STEPS)
     if chosen.adaptive and size is None:
-        return _adaptive(result_type, system, chosen, state, begin, end, times, relative, absolute)
+        return _adaptive(result_type, system, chosen, state, begin, end, times, relative, absolute, most)
     if size is None:
-        count = _steps(system, chosen, state, begin, end, relative, absolute)
+        count = _steps(system, chosen, state, begin, end, relative, absolute, most)
     else:
-        count = max(1, math.ceil(abs(end - begin) / size * (1 - 1e-12)))
+        wanted = abs(end - begin) / size * (1 - 1e-12)
+        if wanted > most:
+            raise InputError(f"step: {size} makes {wanted:.4g} steps, more than {most}; expected a larger one, or most_steps=, how many may be taken")
+        count = max(1, math.ceil(wanted))
     return _fixed(result_type, system, chosen, state, begin, end, times, count)
 
 
@@ -185,32 +194,45 @@ def _integration(system: System, method: Method, state: np.ndarray, begin: float
     return Integration(system, method, initial=[float(x) for x in state], t0=begin, **how)
 
 
-def _steps(
-    system: System, method: Method, state: np.ndarray, begin: float, end: float, rtol: float, atol: np.ndarray
-) -> int:
-    """The least number of steps, a power of two times _COMPARED, whose estimated error meets the tolerances.
+def _most_steps(system: System) -> int:
+    """The steps that may be taken where nothing is said."""
+    formulas = _pfaff.formulas_of_problems()["field"][1]
+    operations = _pfaff.formula_of(system.model, "field").operations if set(formulas) & set(system.facets) else 0
+    return max(1024, _MOST_STEPS * _OPERATIONS // max(_OPERATIONS, operations))
 
-    The error of the longer of two steps is 2^p/(2^p - 1) times what both differ by, and that of the shorter one 1/(2^p - 1)
-    times, p the order of the method.
+
+def _steps(
+    system: System, method: Method, state: np.ndarray, begin: float, end: float, rtol: float, atol: np.ndarray, most: int
+) -> int:
+    """The least number of steps, a power of two times _FEWEST_STEPS, whose estimated error meets the tolerances.
+
+    Where what two runs differ by becomes r times as much whenever the step is halved, the error of the second is r/(1 - r)
+    times that. The order p of the method lets expect 2^-p for r, which jumps and kinks of a field and stiffness raise, so
+    that r is measured, and taken as one half until it is.
     """
     order = method.order(system)
     if order < 1:
         raise InputError(f"step: expected one, because {method.name} claims no order on {system.name} by which it could be chosen")
-    count, before, failure = _COMPARED, None, None
-    while count <= _MOST_STEPS:
+    compared = 2 ** int(math.log2(max(_FEWEST_STEPS, _COMPARED // len(state))))
+    count, before, difference, failure = _FEWEST_STEPS, None, None, None
+    while count <= most:
         integration = _integration(system, method, state, begin, step=(end - begin) / count)
         try:
-            now, failure = integration.steps(count, every=count // _COMPARED).y, None
+            now, failure = integration.steps(count, every=max(1, count // compared)).y, None
         except (NotConverged, RunFailed) as error:
             now, failure = None, error
+        last, difference = difference, None
         if now is not None and before is not None:
-            error = np.abs(now - before) / (2**order - 1)
-            if (error <= atol + rtol * np.abs(now)).all():
+            same = now[1::2] if len(now) > len(before) else now  # those at the times of the run before
+            with np.errstate(divide="ignore", invalid="ignore"):
+                difference = float(np.nan_to_num(np.abs(same - before) / (atol + rtol * np.abs(same)), posinf=math.inf).max())
+            ratio = 0.5 if last is None else max(2.0**-order, min(difference / last if last > 0 else 0.5, 0.7))
+            if difference * ratio / (1 - ratio) <= 1:
                 return count
         count, before = 2 * count, now
-    tried = f"step of {method.name} down to {abs(end - begin) / _MOST_STEPS:.3g}"
+    tried = f"step of {method.name} down to {abs(end - begin) / (count // 2):.3g}"
     if failure is None:
-        raise RunFailed(f"solve_ivp: no {tried} meets rtol and atol; expected larger ones, or step=, the size that is to be taken")
+        raise RunFailed(f"solve_ivp: no {tried} meets rtol and atol; expected larger ones, step=, the size that is to be taken, or a larger most_steps=")
     raise RunFailed(
         f"solve_ivp: {failure} with every {tried}; expected a t_span that ends before, another method, or step=, with which there are the "
         "states up to the failure", failure.run)
@@ -230,12 +252,13 @@ def _fixed(
         t, y = np.concatenate([[begin], outcome.t]), np.concatenate([state[None, :], outcome.y])
         return _result(result_type, t, y, message, integration, size)
     reached, rows, message = [], [], ""
+    near = 8 * np.finfo(float).eps * max(abs(begin), abs(end))  # what round-off makes of times
     for time in times:
         whole = min(count, math.floor((time - begin) / size * (1 + 1e-12)))
         try:
             integration.steps(whole - integration.steps_taken)
             row, rest = integration.state, time - (begin + whole * size)
-            if abs(rest) > 1e-9 * abs(size):
+            if abs(rest) > near:
                 beside = integration.beside(row)
                 beside.go_on_from(row, t0=begin + whole * size, step=rest)
                 beside.steps(1)
@@ -250,13 +273,14 @@ def _fixed(
 
 def _adaptive(
     result_type: Any, system: System, method: Method, state: np.ndarray, begin: float, end: float, times: np.ndarray | None,
-    rtol: float, atol: np.ndarray
+    rtol: float, atol: np.ndarray, most: int
 ) -> OdeResult:
     if rtol > 1:
         raise InputError(f"rtol: expected a number in (0, 1] for {method.name}, got {rtol}")
     if times is None:
         times = np.linspace(begin, end, 101)
     integration = _integration(system, method, state, begin, step=end - begin, tolerance=rtol, absolute=[float(x) for x in atol])
+    integration._it.allowed = most
     reached, rows, message = [], [], ""
     for time in times:
         try:
@@ -264,6 +288,9 @@ def _adaptive(
                 integration.to(float(time))
         except (NotConverged, RunFailed) as error:
             message = str(error)
+            if integration._it.allowed == 0:
+                message = (f"{most} steps were taken by t = {integration.time:.10g}, as happens at a singularity; expected a t_span that "
+                           "ends before, larger rtol and atol, or most_steps=, how many may be taken")
             break
         reached.append(time)
         rows.append(integration.state)

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from . import _pfaff
-from ._definition import MEMBERS, Definition
+from ._definition import DESCRIBING, MEMBERS, TAKEN, Definition
 from ._arguments import named_function, shown, text, unknown, yes_or_no
 from ._errors import InputError
 from ._naming import absolute, kebab
@@ -259,21 +259,20 @@ def _frozen(source: dict, compile: bool) -> System:
     return System._made(Frozen(source), {}, compile)
 
 
-_DESCRIBING = ("units", "behaviours", "time_unit", "part_names", "small_part", "chart_coordinates", "title")
-
-
 def _definition_of_class(cls: type) -> Traced:
     parameters: dict[str, Any] = {}
     members: dict[str, Any] = {}
     described: dict[str, Any] = {}
     for base in reversed(cls.__mro__[: cls.__mro__.index(System)]):
         for key in inspect.get_annotations(base):
-            if key in vars(base) and key not in (*_DESCRIBING, *MEMBERS, "coordinates", "initial", "invariants"):
+            if key in vars(base) and key not in (*DESCRIBING, *MEMBERS, "coordinates", "initial", "invariants"):
                 parameters[key] = vars(base)[key]
         for key, value in (*vars(base).items(), *getattr(base, "_written", {}).items()):
+            if key in TAKEN:
+                raise InputError(f"{cls.__name__}: {key}: a system has this itself; expected {'system_name' if key == 'name' else 'another name'}")
             if key in MEMBERS or key in ("coordinates", "initial", "invariants"):
                 members[key] = value  # None takes back what a base class writes
-            elif key in _DESCRIBING or key == "system_name":
+            elif key in DESCRIBING or key == "system_name":
                 described[key] = value
             elif inspect.isfunction(value) and not key.startswith("_"):
                 if near := _pfaff.nearest(key, [*MEMBERS, "invariants", "initial"]):
@@ -323,10 +322,10 @@ def system(*, coordinates: Sequence[str] | Mapping[str, Any], initial: Any = Non
         InputError: formulas that do not belong together, wrong numbers of results, unknown names.
         TraceError: a formula does something that cannot be recorded.
     """
-    described = {key: members.pop(key) for key in _DESCRIBING if key in members}
+    described = {key: members.pop(key) for key in DESCRIBING if key in members}
     for key in (*members, formula):
         if not isinstance(key, str) or key not in MEMBERS:
-            raise InputError("system: " + unknown("formula", key, [*MEMBERS, *_DESCRIBING]))
+            raise InputError("system: " + unknown("formula", key, [*MEMBERS, *DESCRIBING]))
     if formula in members:
         raise InputError(f"system: '{formula}' is what the function gives; expected it once")
 

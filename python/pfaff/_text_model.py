@@ -8,6 +8,7 @@ from typing import Any
 from . import _pfaff
 from ._definition import FORMULAS
 from ._errors import InputError
+from ._naming import kebab
 from ._numbers import text_of_number
 from ._toml import toml_of
 from ._tracer import Tracer
@@ -74,7 +75,7 @@ class Writer:
         """What the text model says, key by key."""
         t, d = self.tracer, self.tracer.definition
         names, n = t.coordinates.in_texts, t.n
-        keys: dict[str, Any] = {"name": d.name, "title": d.title or d.name, "time_unit": d.time_unit}
+        keys: dict[str, Any] = {"name": kebab(d.name), "title": d.title or d.name, "time_unit": d.time_unit}
         keys["parameters"] = {key: text_of_number(t.values[key], key) for key in t.symbols}
         keys["coordinates"] = self.coordinates()
         keys["initial"] = self.source["initial"]

@@ -1,6 +1,7 @@
 """Records the formulas of a system that is written in Python."""
 from __future__ import annotations
 
+import inspect
 import re
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -30,6 +31,10 @@ class Tracer:
         self.definition, self.values = definition, dict(values)
         self.given = definition.arguments(values)
         self.coordinates = Coordinates(definition.coordinates, self.given, definition.what)
+        for key in self.values:
+            if key in ("t", *self.coordinates.blocks, *self.coordinates.names):
+                meaning = "the time" if key == "t" else "a coordinate"
+                raise InputError(f"{definition.what}: parameter '{key}': formulas call {meaning} so; expected another name, or the argument {key} without a default")
         self.n = len(self.coordinates)
         self.sizes = {"n": self.n}
         self.names: dict[str, list[str]] = {member: [] for _, member, _ in COUNTS.values()}
@@ -50,7 +55,10 @@ class Tracer:
 
     def called(self, member: Any, known: Mapping[str, Any], what: str) -> Any:
         function = member.__get__(self.owner) if self.owner is not None and hasattr(member, "__get__") else member
-        known = dict(known) if self.owner is not None else {**self.given, **known}
+        if self.owner is None:
+            # An argument with a default is a parameter, also where a half of the state could be called so.
+            own = {key: self.given[key] for key, default in argument_names(function).items() if default is not inspect.Parameter.empty and key in self.given}
+            known = {**self.given, **known, **own}
         return call_by_names(function, known, what)
 
     def source(self) -> dict[str, Any]:
@@ -72,10 +80,11 @@ class Tracer:
         invariants, tape = self.invariants()
         if tape is not None:
             formulas["invariants"] = tape
+        parts = self.parts()  # before the names below, to which it adds theirs
         return {"name": d.name, "time_unit": d.time_unit, "coordinates": self.coordinates_with_units(),
                 "initial": self.initial(), "parameters": [(key, text_of_number(value, key)) for key, value in self.values.items()],
                 "formulas": formulas, **self.names, "invariants": invariants, "damping": self.constant("damping"),
-                "parts": self.parts(), "small_part": d.small_part}
+                "parts": parts, "small_part": d.small_part}
 
     def coordinates_with_units(self) -> list[tuple[str, str]]:
         """Names and units; a block has one unit for all of its coordinates."""
@@ -221,6 +230,9 @@ class Tracer:
         names = self.definition.part_names
         if not names:
             raise InputError(f"part_flow of {self.definition.what}: expected part_names beside it, a name for each part")
+        small = self.definition.small_part
+        if small is not None and small >= len(names):
+            raise InputError(f"small_part of {self.definition.what}: expected the number of one of {len(names)} parts, counted from 0, got {small}")
         self.names["part_names"] = list(names)
 
         def change(part: int) -> Callable[[Any, list], list]:

@@ -83,7 +83,9 @@ def flat(results: Any, what: str) -> list:
         numbers = list(np.asarray(results, dtype=object).ravel())
     except ValueError:
         raise InputError(f"{what} returned rows of different lengths") from None
-    for number in numbers:
+    for k, number in enumerate(numbers):
+        if isinstance(number, np.ndarray) and number.ndim == 0:  # as numpy.real and numpy.tensordot give
+            numbers[k] = number = number.item()
         if not isinstance(number, _pfaff.Number) and text_of_constant(number) is None:
             raise InputError(f"{what} returned {shown(number)}; expected numbers")
     return numbers
@@ -100,9 +102,8 @@ def recorded(inputs: int, formula: Callable[[Any, list], list], what: str) -> _p
         recording = _pfaff.Recording(inputs)
         try:
             tapes.append(recording.finish(formula(recording.time, recording.inputs)))
-        except TypeError as error:
-            # NumPy's own refusals of numbers that are no floats.
-            if isinstance(error, TraceError) or "ufunc" not in str(error):
+        except (TypeError, AttributeError) as error:
+            if isinstance(error, TraceError) or not _refused_by_numpy(error):
                 raise
             raise TraceError(
                 f"{what}: NumPy cannot do this with numbers that are recorded ({error}); expected "
@@ -116,6 +117,14 @@ def recorded(inputs: int, formula: Callable[[Any, list], list], what: str) -> _p
             "that depends on its arguments alone, since it is recorded once"
         )
     return tapes[0]
+
+
+def _refused_by_numpy(error: TypeError | AttributeError) -> bool:
+    """Whether NumPy refused numbers that are no floats: its functions of arrays of objects call the methods of the first
+    argument that have their names, numpy.arctan2(1.0, x) for one 1.0.arctan2(x)."""
+    if isinstance(error, AttributeError):
+        return isinstance(error.obj, (_pfaff.Number, int, float)) and hasattr(np, error.name)
+    return "ufunc" in str(error) or "einsum" in str(error)
 
 
 def where(condition: Any, positive: Any, otherwise: Any) -> Any:

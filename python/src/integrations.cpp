@@ -66,6 +66,7 @@ void bind_integrations(py::module_& module) {
       .def("steps", &Stepping::steps)
       .def("to",
            [](Stepping& r, const std::string& t, std::int64_t every) { r.to(number_of(t, "t"), every); })
+      .def_property("allowed", &Stepping::allowed, &Stepping::allow)
       .def("taken", &taken_of)
       .def_property_readonly("time", &Stepping::time)
       .def_property_readonly("step", &Stepping::step)
@@ -81,7 +82,10 @@ void bind_integrations(py::module_& module) {
       .def("forget", &Stepping::forget)
       .def("go_on_from",
            [](Stepping& r, const std::vector<std::string>& z, const std::string& t0, const std::string& h) {
-             r.go_on_from(numbers_of(z, "state"), number_of(t0, "t0"), number_of(h, "step"));
+             const auto given = [](const std::string& text, const char* what) {
+               return text.empty() ? std::nullopt : std::optional(number_of(text, what));
+             };
+             r.go_on_from(numbers_of(z, "state"), given(t0, "t0"), given(h, "step"));
            })
       .def("watch", [](Stepping& r, py::object callback,
                        std::int64_t every) { r.watch(SharedObject(std::move(callback)), every); })

@@ -59,8 +59,12 @@ const std::atomic<bool>& Interruption::stop() const {
 
 bool Interruption::taken() const {
   if (!stop().load()) return false;
-  // Where a handler of the user's own raises nothing, the work has ended all the same.
-  if (PyErr_CheckSignals() != 0) PyErr_Clear();
+  // Where a handler of the user's own raises nothing, the work has ended all the same; what else it raises
+  // passes.
+  if (PyErr_CheckSignals() != 0) {
+    if (PyErr_ExceptionMatches(PyExc_KeyboardInterrupt) == 0) throw py::error_already_set();
+    PyErr_Clear();
+  }
   return true;
 }
 

@@ -26,7 +26,8 @@ class Interruption {
   /// The flag that work looks at; on other threads one that is set when the interpreter ends.
   [[nodiscard]] const std::atomic<bool>& stop() const;
   /// True where Ctrl-C has come; its exception is then taken from Python, so that the caller can raise
-  /// Interrupted with what was done by then. With Python's lock held.
+  /// Interrupted with what was done by then; another exception of a handler of the user's own is thrown. With
+  /// Python's lock held.
   [[nodiscard]] bool taken() const;
 
  private:

@@ -8,6 +8,7 @@
 #include <pfaff/python/src/called_method.hpp>
 #include <pfaff/python/src/interruption.hpp>
 #include <pfaff/python/src/objects.hpp>
+#include <pfaff/python/src/stepping.hpp>
 #include <pfaff/runs/asked_for.hpp>
 #include <pfaff/runs/tape_method.hpp>
 
@@ -103,6 +104,14 @@ PyTape formula_of(const PySystem& system, const std::string& name) {
       return {system.model->tape(row.formula)};
   throw InputError("system " + system.model->name() + " offers no " + name);
 }
+
+// The model that a method steps on, the usual motion of one with constraints. InputError where it refuses
+// it: what it claims is then asked of a model that has not what it needs.
+std::shared_ptr<const Model> stepped_model(const PyMethod& method, const PySystem& system) {
+  auto model = model_for(*method.method, system.model, "");
+  if (const std::string reason = method.method->refuses(*model); !reason.empty()) throw InputError(reason);
+  return model;
+}
 }  // namespace
 
 void bind_methods(py::module_& module) {
@@ -112,11 +121,13 @@ void bind_methods(py::module_& module) {
       .def_property_readonly("parameters", [](const PyMethod& m) { return m.method->parameters(); })
       .def_property_readonly("needs", [](const PyMethod& m) { return names_of(m.method->needs()); })
       .def_property_readonly("adaptive", [](const PyMethod& m) { return m.method->adaptive(); })
-      .def("order", [](const PyMethod& m, const PySystem& s) { return m.method->order(*s.model); })
+      .def("order",
+           [](const PyMethod& m, const PySystem& s) { return m.method->order(*stepped_model(m, s)); })
       .def("preserves",
            [](const PyMethod& m, const PySystem& s) {
              std::vector<std::string> names;
-             for (const Claim claim : m.method->preserves(*s.model)) names.emplace_back(to_string(claim));
+             for (const Claim claim : m.method->preserves(*stepped_model(m, s)))
+               names.emplace_back(to_string(claim));
              return names;
            })
       .def("refuses", [](const PyMethod& m, const PySystem& s) { return m.method->refuses(*s.model); });

@@ -123,6 +123,9 @@ PySystem traced_model(const py::dict& of) {
   if (const auto parts = of["parts"].cast<std::vector<PyTape>>(); !parts.empty()) {
     std::vector<std::shared_ptr<const Tape>> changes;
     for (const PyTape& part : parts) changes.push_back(part.tape);
+    if (source.part_names.size() != changes.size())
+      throw InputError("system " + source.name + ": expected a name for each of its " +
+                       std::to_string(changes.size()) + " parts");
     source.flows = std::make_shared<const TapedFlowsFactory>(std::move(changes));
   }
   if (!of["small_part"].is_none()) source.small_part = of["small_part"].cast<std::size_t>();

@@ -100,9 +100,12 @@ void bind_scalar(py::module_& module, const char* name, const char* meaning) {
 template <class T>
 T scalar_from(py::handle object, const char* what) {
   if constexpr (std::is_same_v<T, double>) {
-    const double value = PyFloat_AsDouble(object.ptr());
-    if (PyErr_Occurred() == nullptr) return value;
-    PyErr_Clear();
+    // A complex number of NumPy becomes a float too, by losing its imaginary part.
+    if (PyComplex_Check(object.ptr()) == 0) {
+      const double value = PyFloat_AsDouble(object.ptr());
+      if (PyErr_Occurred() == nullptr) return value;
+      PyErr_Clear();
+    }
   } else {
     if (auto value = known_scalar<T>(object)) return *value;
   }

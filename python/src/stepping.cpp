@@ -16,6 +16,13 @@ namespace py = pybind11;
 namespace pfaff::python {
 
 namespace {
+// Whether it is True, NumPy's own among them, which comparisons of its numbers give.
+bool is_true(const py::object& answer) {
+  if (answer.is(py::bool_(true))) return true;
+  static const py::handle kind = py::object(py::module_::import("numpy").attr("bool_")).release();
+  return py::isinstance(answer, kind) && answer.cast<bool>();
+}
+
 // Keeps the states that go by, while it is told to.
 template <class T>
 class Keeper final : public Watcher<T> {
@@ -51,7 +58,7 @@ class Caller final : public Watcher<T> {
                          [](const T& x) { return static_cast<double>(x); });
           const py::object answer = callback_.get()(static_cast<double>(block.time(row)),
                                                     array_of(std::span<const double>(in_double)));
-          if (answer.is(py::bool_(true))) return;
+          if (is_true(answer)) return;
         }
       });
     } catch (const PythonError&) {
@@ -83,6 +90,11 @@ class SteppingIn final : public Stepping {
   void to(const Real& t, std::int64_t every) override {
     take(every, [&] { return run_.to(T(t)); });
   }
+  void allow(std::int64_t steps) override {
+    const Using use(*this);
+    allowed_ = steps;
+  }
+  std::int64_t allowed() const override { return allowed_; }
   StepsTaken taken() override { return std::move(last_); }
 
   double time() const override { return static_cast<double>(run_.time()); }
@@ -114,9 +126,10 @@ class SteppingIn final : public Stepping {
     const Using use(*this);
     run_.forget();
   }
-  void go_on_from(const std::vector<Real>& state, const Real& t0, const Real& h) override {
+  void go_on_from(const std::vector<Real>& state, const std::optional<Real>& t0,
+                  const std::optional<Real>& h) override {
     const Using use(*this);
-    run_.go_on_from(scalars_of<T>(state), T(t0), T(h));
+    run_.go_on_from(scalars_of<T>(state), t0 ? T(*t0) : run_.time(), h ? T(*h) : run_.step());
   }
   void watch(SharedObject callback, std::int64_t every) override {
     const Using use(*this);
@@ -159,6 +172,19 @@ class SteppingIn final : public Stepping {
     SteppingIn& of_;
   };
 
+  // The budget of a call: what it takes is gone, however it ends.
+  class Allowance {
+   public:
+    explicit Allowance(std::int64_t& left) : left_(left), budget_({.steps = left}) {}
+    ~Allowance() { left_ -= budget_.steps(); }
+    Allowance(const Allowance&) = delete;
+    Allowance& operator=(const Allowance&) = delete;
+
+   private:
+    std::int64_t& left_;
+    Budget budget_;
+  };
+
   Keeper<T>& keeper_of(std::int64_t every) {
     auto& keeper = keepers_[every];
     if (keeper == nullptr) {
@@ -184,6 +210,7 @@ class SteppingIn final : public Stepping {
     };
     try {
       without_lock([&] {
+        Allowance allowance(allowed_);
         const Outcome outcome = steps();
         last_.reached = outcome.reached();
         last_.status = to_string(outcome.status());
@@ -202,6 +229,7 @@ class SteppingIn final : public Stepping {
   std::map<std::int64_t, std::unique_ptr<Keeper<T>>> keepers_;  // by their number of steps
   std::vector<std::unique_ptr<Caller<T>>> callers_;
   StepsTaken last_;
+  std::int64_t allowed_ = BudgetLimits::unlimited;
   bool in_use_ = false;  // under Python's lock
 };
 

@@ -5,6 +5,7 @@
 #include <pybind11/numpy.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,7 @@ namespace pfaff::python {
 /// How a call that takes steps ended, and the states that were asked for: rows (t, z) one behind the other.
 struct StepsTaken {
   bool reached = false;
-  std::string status, message;
+  std::string status = "converged", message;
   std::int64_t steps = 0;
   Numbers t, y;
 };
@@ -34,6 +35,11 @@ class Stepping {
   // taken(). `every` is 0 where no states are kept.
   virtual void steps(std::int64_t count, std::int64_t every) = 0;
   virtual void to(const Real& t, std::int64_t every) = 0;
+  /// From now on so many steps may be taken, tries of a method that chooses them among them; BudgetSpent
+  /// where they have run out.
+  virtual void allow(std::int64_t steps) = 0;
+  /// How many of them are left.
+  [[nodiscard]] virtual std::int64_t allowed() const = 0;
   /// The call that took steps last; its samples are moved out.
   [[nodiscard]] virtual StepsTaken taken() = 0;
 
@@ -49,7 +55,9 @@ class Stepping {
   [[nodiscard]] virtual std::unique_ptr<Stepping> reversed() const = 0;
   virtual void turn() = 0;
   virtual void forget() = 0;
-  virtual void go_on_from(const std::vector<Real>& state, const Real& t0, const Real& h) = 0;
+  /// At the time that was reached and with the same step, in all digits, where others are not given.
+  virtual void go_on_from(const std::vector<Real>& state, const std::optional<Real>& t0,
+                          const std::optional<Real>& h) = 0;
   /// `callback`(t, z) is called after each `every` steps; the integration ends there where it gives True.
   virtual void watch(SharedObject callback, std::int64_t every) = 0;
   /// The state after so many steps from here, and its derivatives with respect to the state here, row-major.

@@ -83,7 +83,7 @@ CALLS = {
     "reproduce": (pfaff.reproduce, {"paper": "su-qin", "section": "2"}, {"paper": (), "section": {"nothing"}}),
     "solve_ivp": (pfaff.solve_ivp, {"fun": rates, "t_span": (0, 1), "y0": [1, 0]}, {
         "fun": (), "t_span": {"numbers"}, "y0": {"numbers"}, "method": (), "t_eval": {"nothing", "empty"}, "dense_output": (), "events": {"nothing"}, "vectorized": {"truth"},
-        "args": {"nothing", "empty"}, "rtol": {"number"}, "atol": {"number", "numbers"}, "step": {"nothing", "number"}, "stages": {"number"}}),
+        "args": {"nothing", "empty"}, "rtol": {"number"}, "atol": {"number", "numbers"}, "step": {"nothing", "number"}, "most_steps": {"nothing"}, "stages": {"number"}}),
     "System": (pfaff.System, {"name": "kepler"}, {"name": (), "compile": {"truth"}, "eccentricity": ()}),
     "system": (of_system, {}, {
         "function": (), "coordinates": (), "initial": {"nothing", "numbers", "empty dictionary", "function"}, "formula": (), "name": {"nothing", "empty text", "text"}, "compile": {"truth"},
@@ -228,7 +228,7 @@ def test_what_functions_and_dictionaries_give_is_refused_in_one_line(name):
     (lambda: pfaff.run(duffing, "verlet", step=0.1, time=1, system_parameters=3), "system_parameters: expected a dictionary of names and values, got 3"),
     (lambda: pfaff.run(duffing, "verlet", step=0.1, time=1, out=5), "out: expected the path of a directory, got 5"),
     (lambda: pfaff.run(duffing, "verlet", step=0.1, time=1, initial=np.eye(3)), "got an array of shape (3, 3); pfaff.ensemble takes many initial states"),
-    (lambda: pfaff.run(duffing, "verlet", step=0.1, time=1, measures=[lambda run: "x"]), "expected 11 numbers of <lambda>, one for each sample, got 'x'"),
+    (lambda: pfaff.run(duffing, "verlet", step=0.1, time=1, measures=[lambda run: "x"]), "expected 11 numbers of lambda, one for each sample, got 'x'"),
     (lambda: pfaff.ensemble(henon_heiles, "verlet", [[1, 2, 3, 4]], step=0.1, steps=1, precision="quad"), "expected pfaff.Integration(..., precision='quad') from each state"),
     (lambda: pfaff.ensemble(henon_heiles, "verlet", [[1, 2], [3]], step=0.1, steps=1), "states: expected real numbers, an array of shape (N, 4)"),
     (lambda: pfaff.evaluate(duffing, ["x", 1]), "state q of duffing: expected a finite decimal number or a/b, got 'x'"),

@@ -80,3 +80,11 @@ def test_arrays_of_any_layout_are_taken():
     assert np.array_equal(strided.y, pfaff.ensemble(henon_heiles, "verlet", STATES, step=0.05, steps=10).y)
     with pytest.raises(pfaff.InputError, match="verlet needs separable"):
         pfaff.ensemble("lotka-volterra", "verlet", [[1, 2]], step=0.05, steps=10)
+
+
+def test_states_of_float32_are_the_same_alone_and_in_an_ensemble():
+    states = np.array([[0.1, -0.2, 0.3, 0.15]], dtype=np.float32)
+    alone = pfaff.Integration("henon-heiles", "verlet", step=0.1, initial=states[0])
+    assert np.array_equal(alone.state, states[0].astype(float))
+    together = pfaff.ensemble("henon-heiles", "verlet", states, step=0.1, steps=10)
+    assert np.array_equal(alone.steps(10, every=10).y[0], together.y[0, -1])

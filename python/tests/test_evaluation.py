@@ -114,3 +114,14 @@ def test_a_paper_is_reproduced():
     assert "su-qin" in pfaff.papers() and "erratum" in repr(rows) and "<table>" in rows._repr_html_()
     pytest.importorskip("pandas")
     assert len(rows.to_pandas()) == len(rows)
+
+
+def test_what_is_not_finite_is_nan_in_an_array():
+    at = pfaff.evaluate("kepler", [0, 0, 1, 2])
+    assert at["status"] == "non_finite" and np.array_equal(at["rhs"], [1, 2, np.nan, np.nan], equal_nan=True)
+
+
+def test_brackets_take_functions_as_systems_take_formulas():
+    assert pfaff.bracket(lambda q: q[1], lambda p: p @ p, [1, 2, 3, 4], on="kepler") == 8
+    plane = pfaff.system(coordinates={"x": 2, "u": 2})(lambda x, u: u @ u / 2 + x @ x)
+    assert pfaff.bracket(lambda x: x @ x, lambda u, u2: u[0] + u2, [1, 2, 3, 4], on=plane) == 6

@@ -68,7 +68,7 @@ def test_callbacks_see_copies_and_may_end_the_integration():
     rows = it.steps(20, every=5)
     assert [t for t, _ in seen] == rows.t.tolist() and np.array_equal([z for _, z in seen], rows.y)
     ends = pfaff.Integration(duffing, "verlet", step=0.1)
-    ends.watch(lambda t, z: t > 0.95)
+    ends.watch(lambda t, z: np.float64(t) > 0.95)  # NumPy's True
     outcome = ends.steps(1000, every=1)
     assert not outcome.reached and "watcher" in outcome.message and outcome.steps == 10 == len(outcome.t) and ends.time == 1.0
 
@@ -205,7 +205,7 @@ def test_formulations_make_motions_of_constraints():
 
 def test_calls_with_bad_numbers_are_refused():
     it = pfaff.Integration(duffing, "verlet", step=0.1)
-    for call in (lambda: it.steps(-1), lambda: it.steps(1.5), lambda: it.steps(5, every=-1), lambda: it.watch(3), lambda: it.watch(print, every=0),
+    for call in (lambda: it.steps(-1), lambda: it.steps(2**63), lambda: it.steps(1, every=2**70), lambda: it.steps(1.5), lambda: it.steps(5, every=-1), lambda: it.watch(3), lambda: it.watch(print, every=0),
                  lambda: it.to("x"), lambda: it.beside([1]), lambda: it.jacobian(-1)):
         with pytest.raises(pfaff.InputError):
             call()
@@ -242,3 +242,51 @@ time.sleep(0.2)
     paths = os.pathsep.join([os.path.dirname(__file__), *filter(None, sys.path)])
     ended = subprocess.run([sys.executable, "-B", "-c", code], env={**os.environ, "PYTHONPATH": paths}, capture_output=True, text=True, timeout=30)
     assert ended.returncode == 0 and not ended.stderr
+
+
+def test_ctrl_c_ends_a_compiler(tmp_path, monkeypatch):
+    if subprocess.run(["c++", "--version"], capture_output=True).returncode != 0:
+        pytest.skip("there is no compiler")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))  # where nothing is compiled already
+    chain = pfaff.system(coordinates={"q": 60, "p": 60})(lambda q, p: p @ p / 2 + sum(np.cos(q[i] - q[j]) for i in range(60) for j in range(i)))
+    _, late = interrupted_after(0.7, chain.compiled)
+    assert late < 0.3
+
+
+def test_steps_before_something_was_raised_have_converged():
+    @pfaff.method(order=1, traced=False)
+    def fragile(problem, t, h, z):
+        return z * (1 / (t < 0.25))
+
+    with pytest.raises(ZeroDivisionError) as caught:
+        pfaff.Integration("kepler", fragile, step=0.1).steps(9, every=1)
+    assert caught.value.run.status == "converged" and len(caught.value.run.t) == 3 and not caught.value.run.reached
+
+
+def test_going_on_keeps_all_digits_of_time_and_step():
+    driven = pfaff.system(coordinates=["q", "p"], initial=[1, 0])(lambda t, q, p: p**2 / 2 + q**2 / 2 * (1 + np.sin(t) / 3))
+    whole, parts = (pfaff.Integration(driven, "gauss", step="1/3", t0="1/7", precision="quad") for _ in range(2))
+    whole.steps(6)
+    parts.steps(3)
+    parts.go_on_from(parts.decimals)
+    parts.steps(3)
+    assert max(abs(x - y) for x, y in zip(whole.decimals, parts.decimals)) < 1e-32  # a step of a double is off by 2e-17
+
+
+@pytest.mark.parametrize("work", [
+    lambda: pfaff.Integration("kepler", "gauss", step=1e-6).steps(10**9, every=1000), lambda: pfaff.run("kepler", "gauss", step=1e-6, time=1000),
+])
+def test_what_a_handler_of_ones_own_raises_passes_with_the_samples(work):
+    def handler(number, frame):
+        raise TimeoutError("enough")
+
+    before = signal.signal(signal.SIGINT, handler)
+    timer = threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT))
+    try:
+        timer.start()
+        with pytest.raises(TimeoutError, match="enough") as caught:
+            work()
+    finally:
+        timer.join()
+        signal.signal(signal.SIGINT, before)
+    assert len(caught.value.run.t) > 0

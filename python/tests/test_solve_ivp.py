@@ -1,7 +1,7 @@
 """solve_ivp against closed forms and SciPy's own."""
 import functools
 import math
-import sys
+import time
 
 import numpy as np
 import pytest
@@ -75,13 +75,34 @@ def test_an_explicit_method_that_fails_says_what_failed():
 
 
 @pytest.mark.parametrize("method", ["rk4", "gauss"])
-def test_where_no_step_is_found_it_is_said_what_to_give(method, monkeypatch):
-    monkeypatch.setattr(sys.modules["pfaff._solve_ivp"], "_MOST_STEPS", 2**10)
+def test_where_no_step_is_found_it_is_said_what_to_give(method):
     with pytest.raises(pfaff.RunFailed, match=f"at t = [01].* with every step of {method} down to .*expected a t_span that ends before, .*or step=") as failed:
-        pfaff.solve_ivp(lambda t, y: [y[0] ** 2], (0, 2), [1.0], method)  # the pole of y' = y^2 is at t = 1
+        pfaff.solve_ivp(lambda t, y: [y[0] ** 2], (0, 2), [1.0], method, most_steps=2**10)  # the pole of y' = y^2 is at t = 1
     assert "\n" not in str(failed.value) and 0.8 < failed.value.run.t[-1] < 1.1
-    with pytest.raises(pfaff.RunFailed, match=f"^solve_ivp: no step of {method} down to 0.0977 meets rtol and atol; expected larger ones, or step="):
-        pfaff.solve_ivp(oscillator, (0, 100), [1, 0], method, rtol=1e-12, atol=1e-12, args=(3.0,))
+    with pytest.raises(pfaff.RunFailed, match=f"^solve_ivp: no step of {method} down to 0.0977 meets rtol and atol; expected larger ones, step=, .*or a larger most_steps="):
+        pfaff.solve_ivp(oscillator, (0, 100), [1, 0], method, rtol=1e-12, atol=1e-12, args=(3.0,), most_steps=2**10)
+
+
+def test_a_motion_that_never_gets_on_ends_with_its_steps():
+    # y = sqrt(1 - 2 t) ends at t = 1/2, behind which steps rattle about zero.
+    begin = time.perf_counter()
+    result = pfaff.solve_ivp(lambda t, y: [-1 / y[0]], (0, 3), [1.0], "taylor", most_steps=20000)
+    assert not result.success and result.status == -1 and 0.4 < result.t[-1] < 0.7 and result.nfev <= 20000
+    assert result.message.startswith("20000 steps were taken by t = 0.5") and "most_steps=" in result.message
+    times = pfaff.solve_ivp(lambda t, y: [-1 / y[0]], (0, 3), [1.0], "taylor", np.linspace(0, 3, 7), most_steps=20000)
+    assert list(times.t) == [0, 0.5] and not times.success
+    assert pfaff.solve_ivp(lambda t, y: [-1 / y[0]], (0, 0.4), [1.0], "taylor", most_steps=20000).success
+    assert time.perf_counter() - begin < 5
+
+
+@pytest.mark.parametrize("method, settings", [("gauss", {"stages": 3}), ("gauss", {"stages": 6}), ("rk4", {})])
+def test_the_error_is_as_asked_where_the_order_is_not_that_of_the_method(method, settings):
+    tolerance = 1e-4
+    # A jump of the field, behind which steps have the order one, and a transient of a thousandth of the span.
+    jump = pfaff.solve_ivp(lambda t, y: [pfaff.where(t - 1 / 3, 1, -1)], (0, 1), [0.0], method, rtol=tolerance, atol=tolerance, **settings)
+    assert np.abs(jump.y[0] - (np.abs(jump.t - 1 / 3) - 1 / 3)).max() < tolerance
+    fast = pfaff.solve_ivp(lambda t, y: [-1000 * y[0]], (0, 1), [1.0], method, rtol=tolerance, atol=tolerance, **settings)
+    assert np.abs(fast.y[0] - np.exp(-1000 * fast.t)).max() < tolerance
 
 
 def short(t, y):
@@ -130,11 +151,13 @@ def test_other_faults_of_a_function_have_its_line_too():
     (lambda: pfaff.solve_ivp(oscillator, (0, 1), [1, 0, 0]), "3"),
     (lambda: pfaff.solve_ivp("kepler", (0, 1), args=(1,)), "args: expected them beside a function alone"),
     (lambda: pfaff.solve_ivp(oscillator, (0, 1), [1, 0], step=-0.1), "step: expected a size above 0"),
+    (lambda: pfaff.solve_ivp(oscillator, (0, 1), [1, 0], step=1e-12), "step: 1e-12 makes 1e+12 steps, more than 16777216; expected a larger one, or most_steps="),
+    (lambda: pfaff.solve_ivp(oscillator, (0, 1), [1, 0], most_steps=0), "most_steps: expected a whole number >= 16, got 0"),
     (lambda: pfaff.solve_ivp(oscillator, (0, 1), [1, 0], args=3.0), "args: expected a tuple of further arguments of fun, such as (2.0,), got 3.0"),
     (lambda: pfaff.solve_ivp(oscillator, (0, 1), [1, 0], "taylor", rtol=2), "rtol: expected a number in (0, 1] for taylor, got 2.0"),
     (lambda: pfaff.solve_ivp(oscillator, (0, 1), [0, 0], "taylor", atol=0), "start at rest in zero has none; expected absolute beside it"),
     (lambda: pfaff.solve_ivp(oscillator, (0, 1), np.eye(2)), "y0: expected real numbers, all finite, shape (n,), got an array of shape (2, 2)"),
-    (lambda: pfaff.solve_ivp(pfaff.system(coordinates=["q", "p"])(lambda q, p: q * p), (0, 1)), "y0: expected 2 numbers, because <lambda> has no initial state"),
+    (lambda: pfaff.solve_ivp(pfaff.system(coordinates=["q", "p"])(lambda q, p: q * p), (0, 1)), "y0: expected 2 numbers, because lambda has no initial state"),
     (lambda: pfaff.solve_ivp("kepler", (0, 1), [1, 0]), "y0: expected shape (4,), a number for each of q1, q2, p1, p2, got 2 numbers"),
 ])
 def test_bad_input_is_refused_in_one_line(call, words):
@@ -146,3 +169,9 @@ def test_bad_input_is_refused_in_one_line(call, words):
 def test_a_function_that_compares_values_is_refused_with_its_line():
     with pytest.raises(pfaff.TraceError, match="test_solve_ivp.py"):
         pfaff.solve_ivp(lambda t, y: [y[0] if y[0] > 0 else 0], (0, 1), [1.0])
+
+
+def test_times_close_behind_a_step_have_their_own_states():
+    times = np.array([0, 9e-11, 0.1, 0.1 + 9e-11, 0.2])
+    result = pfaff.solve_ivp(lambda t, y: -y, (0, 1), [1.0], "gauss", times, stages=4, step=0.1)
+    assert np.abs(result.y[0] - np.exp(-times)).max() < 1e-15  # h^9 times 1e-9 and less, and round-off

@@ -4,9 +4,12 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstdlib>
+#include <thread>
 
+#include <pfaff/core/errors/budget.hpp>
 #include <pfaff/core/process/child_program.hpp>
 
 #include "../processes.hpp"
@@ -77,4 +80,17 @@ TEST(ChildProgram, EndsWithItsTimeAndTakesWhatItStartedAlong) {
   EXPECT_TRUE(gone(process_in(files / "number")));
 }
 
+// As where somebody who waits for a compiler presses Ctrl-C.
+TEST(ChildProgram, EndsWithAllThatItStartedWhereTheBudgetIsStopped) {
+  std::atomic<bool> stop{false};
+  const Budget budget({}, &stop);
+  std::thread later([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    stop = true;
+  });
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_THROW((void)run_program(shell("sleep 30 & wait")), BudgetSpent);
+  later.join();
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
+}
 }  // namespace
