@@ -26,6 +26,17 @@ TaylorExpansion<Quad> expanded(const Model& motion, const Real& t, const std::ve
   return expansion;
 }
 
+// For each coordinate the sum of the magnitudes of what its rate is made of.
+std::vector<Quad> terms_of_rates(const Model& motion, const Real& t, const std::vector<Real>& z) {
+  std::vector<WithRounding<Quad>> at, rates(z.size());
+  for (const Real& x : z) at.emplace_back(x.quad(), abs(x.quad()));
+  Replay<WithRounding<Quad>> field(motion.tape(Formula::field));
+  field(WithRounding<Quad>(t.quad(), abs(t.quad())), at.data(), rates.data());
+  std::vector<Quad> terms;
+  for (const WithRounding<Quad>& rate : rates) terms.push_back(rate.error);
+  return terms;
+}
+
 // The largest rate at which a coordinate changes in units of its size, from the terms of the degrees first,
 // ..., degrees; coordinates of size zero are left out. Zero where nothing changes.
 double largest_rate(const TaylorExpansion<Quad>& expansion, int first, const std::vector<double>& sizes) {
@@ -64,9 +75,11 @@ std::vector<double> coordinate_scales(const Model& motion, const Real& t, const 
   for (std::size_t k = 0; k < n; ++k) known[k] = is_zero(z[k]) ? 0 : scales[k];
   const double rate = largest_rate(expansion, 1, known);
   if (rate == 0) return scales;
+  const std::vector<Quad> terms = terms_of_rates(motion, t, z);
   for (std::size_t k = 0; k < n; ++k) {
     if (!is_zero(z[k])) continue;
-    Quad size(0), power(1);
+    // Where the terms of a rate cancel, as far from what moves, they tell the size: not what they round.
+    Quad size = terms[k] / Quad(64 * rate), power(1);
     for (int degree = 1; degree <= degrees; ++degree) {
       power = power / Quad(rate);
       size = std::max(size, abs(expansion.coefficients()[static_cast<std::size_t>(degree) * n + k]) * power);

@@ -28,8 +28,9 @@ auto largest_of(const State& z) {
 /// 64 of one are taken as one, so that offsets and steps of ordinary systems are the same for all of them.
 std::vector<double> coordinate_scales(const std::vector<Real>& centre);
 /// The same at a state z at time t, with better sizes for coordinates that are zero: what the motion from
-/// there makes of each in its own time, by the Taylor series. A coordinate that stays zero, and every one
-/// where the motion has no series that is_short, has the size that it has above.
+/// there makes of each in its own time, by the Taylor series, and at least a 64th of what it would make of it
+/// if the terms of its rate did not cancel. A coordinate that stays zero, and every one where the motion has
+/// no series that is_short, has the size that it has above.
 std::vector<double> coordinate_scales(const Model& motion, const Real& t, const std::vector<Real>& z);
 
 /// Those at the initial state of a model, by its motion where it has one.

@@ -17,7 +17,7 @@ using pfaff::testing::settings_of;
 
 // Why a run of a text model is refused; empty where it is not.
 std::string complaint_about(const std::string& text) {
-  const testing::TemporaryDirectory files;
+  const pfaff::testing::TemporaryDirectory files;
   std::ofstream(files / "system.toml") << text;
   return complaint(settings_of(files / "system.toml", "0.1", "1"));
 }
