@@ -314,7 +314,8 @@ TEST(Integration, RefusesWhatDoesNotFit) {
   expect_refused(kepler({.step = "0.1", .initial = {"1", "2"}}), "kepler: expected 4 numbers, got 2");
   expect_refused(kepler({.step = "0.1", .t0 = "nan"}), "initial time");
   expect_refused(kepler({.step = "0.1", .tolerance = "1e-9"}), "verlet takes fixed steps only");
-  expect_refused(kepler({.step = "0.1", .tolerance = "0"}, "taylor"), "tolerance: expected a number in (0, 1]");
+  expect_refused(kepler({.step = "0.1", .tolerance = "0"}, "taylor"),
+                 "tolerance: expected a number in (0, 1]");
   expect_refused(kepler({.step = "0.1", .formulation = "dirac"}), "kepler has no constraints");
   expect_refused(kepler({.step = "0.1"}, "verlot"), "did you mean 'verlet'");
   expect_refused([] { (void)integrate("damped-oscillator", {}, "verlet", {}, {.step = "0.1"}); }, "verlet");
