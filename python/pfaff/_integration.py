@@ -165,7 +165,8 @@ class Integration:
         """Calls callback(t, z) with the state after each `every` steps, counted from t0, from now on.
 
         z is a copy, shape (dimension,). The integration ends at the state at which the callback gives True. What it
-        raises ends it there too, and reaches who asked for the steps. Callbacks cannot step the integration.
+        raises ends it there too, and reaches who asked for the steps. Callbacks cannot step the integration, whose own time
+        and state may be ahead of t and z by then: steps are taken many at a time.
         """
         self._it.watch(function(callback, "callback", "a function of (t, z)"), whole(every, "every", 1))
 
