@@ -32,6 +32,7 @@
 
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/integrators/generating/correction_matrix.hpp>
+#include <pfaff/integrators/generating/correction_without_matrix.hpp>
 #include <pfaff/integrators/generating/expected_change.hpp>
 #include <pfaff/integrators/generating/extra_degrees.hpp>
 #include <pfaff/integrators/generating/gradient_evaluator.hpp>
@@ -131,11 +132,12 @@ struct GeneratingFunction {
     ShareMatrix<T> share;
     bool midpoint;
     GradientEvaluator<T> gradient;
-    State<P> y, carry, d, w, psi, residual, correction, moved, rate, start;
+    State<P> y, carry, d, w, psi, residual, correction;
     State<P> change;  // of y: what is expected of it, and in the end what it is
     ExpectedChange<P> forecast;
     SecantUpdates<T, P::extent> secants;
     CorrectionMatrix<P> matrix;
+    CorrectionWithoutMatrix<P> without_matrix;
     Vector<Value<T>, P::extent> predicted;  // of d
     std::array<Value<T>, 2> largest{};      // of the positions and of the momenta in the chart
     Continuation<P> continuation;
@@ -159,13 +161,11 @@ struct GeneratingFunction {
           psi(n),
           residual(n),
           correction(n),
-          moved(n),
-          rate(n),
-          start(n),
           change(n),
           forecast(p, m.truncation + m.extra_degrees(), gradient.evaluations()),
           secants(n),
           matrix(factors() ? n : 0, m.truncation + m.extra_degrees() > 2),
+          without_matrix(n),
           predicted(n),
           continuation(p) {}
 
@@ -320,33 +320,13 @@ struct GeneratingFunction {
     return status == Status::converged ? status : Status::not_converged;
   }
 
-  // Solves (I - h P Y_y) correction = residual. Without a matrix it does so by a few iterations of
-  // correction = residual + h P (Y(w + correction) - Y(w)). Both take h Y_y for the Jacobian of psi, which is
-  // wrong by O(h^3).
+  // Solves (I - h P Y_y) correction = residual, with a matrix or without one.
   template <class P>
   static void correct(const P& p, const Scalar<P>& t, const Scalar<P>& h, Work<P>& w) {
-    using T = Scalar<P>;
     if (w.factors()) return w.matrix.solve(w.share, w.residual, w.correction);
-    const T middle = t + h / T(2);
-    p.chart_field(middle, w.w, w.start);
-    w.correction = w.residual;
-    Value<T> last = std::numeric_limits<Value<T>>::infinity();
-    for (int iteration = 0; iteration < 12; ++iteration) {
-      for (std::size_t k = 0; k < w.y.size(); ++k) w.moved[k] = w.w[k] + w.correction[k];
-      p.chart_field(middle, w.moved, w.rate);
-      for (std::size_t k = 0; k < w.y.size(); ++k) w.moved[k] = w.rate[k] - w.start[k];
-      Value<T> change(0), size(0);
-      for (std::size_t k = 0; k < w.y.size(); ++k) {
-        const T next = w.residual[k] + h * w.share.row(k, w.moved.data());
-        change = std::max(change, relative_size(T(next - w.correction[k]), w.reference(k), w.psi[k]));
-        size = std::max(size, relative_size(next, w.reference(k), w.psi[k]));
-        w.correction[k] = next;
-      }
-      // Enough where the correction is more accurate than the next evaluation of psi can tell, or where it no
-      // longer improves because the differences of the field are down to round-off.
-      if (!(change > Value<T>(1e-3) * size) || !(change < last)) return;
-      last = change;
-    }
+    w.without_matrix.solve(
+        p, t, h, w.share, w.w, w.residual, [&w](std::size_t k) { return w.reference(k); }, w.psi,
+        w.correction);
   }
 };
 
