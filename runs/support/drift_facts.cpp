@@ -126,6 +126,7 @@ void ranges_of(const Series& series, const std::vector<double>& means, Facts& fa
   }
   facts.range = all.size();
   facts.range_after_start = after_start.size();
+  facts.late_turns = turns_of(extremes_of(series, 0.5), std::max(0.1 * second.size(), 0.001 * all.size()));
   facts.first_half = first.size() / all.size();
   facts.shared =
       Range{std::max(first.low, second.low), std::min(first.high, second.high)}.size() / all.size();
@@ -224,10 +225,6 @@ Facts facts_of(const Observed& observed) {
   maxima_of(series, facts);
   facts.spreads = spreads.spread;
   facts.turns = turns_of(extremes_of(series), 0.02 * facts.range);
-  const std::vector<double> late = extremes_of(series, 0.5);
-  Range late_range;
-  for (const double e : late) late_range.add(e, e);
-  facts.late_turns = turns_of(late, std::max(0.1 * late_range.size(), 0.001 * facts.range));
   facts.periods = periods_of(series, facts.range);
   facts.turns_of_means = turns_of(windows.mean, 0.2 * facts.range_of_means);
   facts.curve = facts.turns < 16 && !(facts.slowest >= 2);
