@@ -26,14 +26,17 @@ TaylorExpansion<Quad> expanded(const Model& motion, const Real& t, const std::ve
   return expansion;
 }
 
-// For each coordinate the sum of the magnitudes of what its rate is made of.
-std::vector<Quad> terms_of_rates(const Model& motion, const Real& t, const std::vector<Real>& z) {
-  std::vector<WithRounding<Quad>> at, rates(z.size());
-  for (const Real& x : z) at.emplace_back(x.quad(), abs(x.quad()));
-  Replay<WithRounding<Quad>> field(motion.tape(Formula::field));
-  field(WithRounding<Quad>(t.quad(), abs(t.quad())), at.data(), rates.data());
-  std::vector<Quad> terms;
-  for (const WithRounding<Quad>& rate : rates) terms.push_back(rate.error);
+// For each coordinate the sum of the magnitudes of what its rate is made of, in units of round-off of
+// coordinates of these sizes.
+template <class T>
+std::vector<T> terms_of_rates(const Model& motion, const T& t, const std::vector<T>& z,
+                              const std::vector<T>& sizes) {
+  Replay<WithRounding<T>> field(motion.tape(Formula::field));
+  std::vector<WithRounding<T>> at, rates(z.size());
+  for (std::size_t k = 0; k < z.size(); ++k) at.emplace_back(z[k], sizes[k]);
+  field(WithRounding<T>(t, T(abs(t))), at.data(), rates.data());
+  std::vector<T> terms;
+  for (const WithRounding<T>& rate : rates) terms.push_back(rate.error);
   return terms;
 }
 
@@ -75,7 +78,9 @@ std::vector<double> coordinate_scales(const Model& motion, const Real& t, const 
   for (std::size_t k = 0; k < n; ++k) known[k] = is_zero(z[k]) ? 0 : scales[k];
   const double rate = largest_rate(expansion, 1, known);
   if (rate == 0) return scales;
-  const std::vector<Quad> terms = terms_of_rates(motion, t, z);
+  std::vector<Quad> at, sizes;
+  for (const Real& x : z) at.push_back(x.quad()), sizes.push_back(abs(x.quad()));
+  const std::vector<Quad> terms = terms_of_rates(motion, t.quad(), at, sizes);
   for (std::size_t k = 0; k < n; ++k) {
     if (!is_zero(z[k])) continue;
     // Where the terms of a rate cancel, as far from what moves, they tell the size: not what they round.
@@ -123,11 +128,8 @@ std::vector<T> step_scales(const Model& motion, const T& t, const T& h, const st
     scales.assign(n, largest);
     return scales;
   }
-  Replay<WithRounding<T>> field(motion.tape(Formula::field));
-  std::vector<WithRounding<T>> z, rate(n);
-  for (std::size_t k = 0; k < n; ++k) z.emplace_back(start[k], scales[k]);
-  field(WithRounding<T>(t, T(abs(t))), z.data(), rate.data());
-  for (std::size_t k = 0; k < n; ++k) scales[k] = scales[k] + T(abs(h)) * rate[k].error;
+  const std::vector<T> terms = terms_of_rates(motion, t, start, scales);
+  for (std::size_t k = 0; k < n; ++k) scales[k] = scales[k] + T(abs(h)) * terms[k];
   // A coordinate that is zero and stays zero has no size of its own; it takes that of the largest one.
   const T largest = *std::max_element(scales.begin(), scales.end());
   for (T& x : scales)

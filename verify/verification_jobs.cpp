@@ -298,7 +298,8 @@ std::vector<VerificationJob> verification_jobs(const std::vector<MethodToVerify>
       jobs.push_back({name + " on " + motion->name(),
                       [=] {
                         auto checks = check_method(*method, p, motion->name(), motion);
-                        return system ? with_control(std::move(checks), *method, p, *system) : checks;
+                        if (system == nullptr) return checks;
+                        return with_control(std::move(checks), *method, p, *system);
                       },
                       {},
                       asked_as});
