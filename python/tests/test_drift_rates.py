@@ -87,8 +87,9 @@ def test_bounded_energies_are_seldom_called_anything_else():
 
 
 def test_energies_that_drift_are_seldom_called_bounded():
-    # RK4 loses energy near the perihelion, where these runs begin, and keeps it until the next one. Where a level alone was
-    # taken for a bound, 72 were. Of the two that are left for the docs one period and a little more is seen.
+    # RK4 loses energy near the perihelion, where these runs begin, and keeps it until the next one. Where a level alone is
+    # taken for a bound, 72 are. The docs say .7 %, which are two, in which a little more than a period is seen; two are left
+    # for the roundings of another machine.
     random, found = Random(5), Counter()
     for _ in range(300):
         asked = {"eccentricity": random.uniform(0.05, 0.8)}

@@ -240,60 +240,6 @@ def test_invariants_are_followed_and_quadratic_ones_found():
     assert np.ptp(result.invariants["turn"]) < 1e-13 < 1e-6 < np.ptp(result.invariants["energy"])
 
 
-def test_numpy_works_on_the_numbers():
-    @pfaff.system(coordinates={"q": 3, "p": 3}, initial=[1, 2, 3, 4, 5, 6])
-    def energy(q, p):
-        m = np.array([[2.0, 1.0, 0.0], [1.0, 3.0, 0.5], [0.0, 0.5, 1.0]])
-        turned = np.cross(q, p)
-        size = np.linalg.norm(q) + np.sqrt(p.dot(p)) + np.hypot(q[0], p[0])
-        return p @ pfaff.solve(m, p) / 2 + turned.sum() + size + np.exp(-q).mean() + np.arctan2(q[0], q[1]) + pfaff.where(q[0], q[1] ** 2, q[2]) + np.tanh(q).sum() + abs(q[2])
-
-    def value(q, p):
-        m = np.array([[2.0, 1.0, 0.0], [1.0, 3.0, 0.5], [0.0, 0.5, 1.0]])
-        return p @ np.linalg.solve(m, p) / 2 + np.cross(q, p).sum() + np.linalg.norm(q) + np.sqrt(p @ p) + np.hypot(q[0], p[0]) + np.exp(-q).mean() + np.arctan2(q[0], q[1]) + (q[1] ** 2 if q[0] > 0 else q[2]) + np.tanh(q).sum() + abs(q[2])
-
-    tape = pfaff._pfaff.formula_of(energy.model, "hamiltonian")
-    for z in ([1, 2, 3, 4, 5, 6], [-1, 0.5, -2, 0.1, 3, -7]):
-        expected = value(np.array(z[:3], float), np.array(z[3:], float))
-        assert tape(0, z)[0] == pytest.approx(expected, rel=1e-15 * 8)  # some units of round-off
-
-
-@pytest.mark.parametrize(
-    "formula, words",
-    [
-        (lambda q, p: math.sin(q) + p, "numpy.sin"),
-        (lambda q, p: p if q > 0 else q, r"pfaff\.where\(x - y, a, b\)"),
-        (lambda q, p: p if q else q, r"pfaff\.where"),
-        (lambda q, p: p if q == p else q, r"pfaff\.where"),
-        (lambda q, p: q % 2 + p, "remainders"),
-        (lambda q, p: np.floor(q) + p, "remainders"),
-        (lambda q, p: np.maximum(q, p), r"pfaff\.where"),
-        (lambda q, p: q + np.random.rand(), "recorded once"),
-        (lambda q, p: np.linalg.inv(np.array([[q, p], [p, q]]))[0, 0], r"pfaff\.solve"),
-    ],
-)
-def test_what_cannot_be_recorded_is_refused_with_the_line(formula, words):
-    with pytest.raises(pfaff.TraceError, match=words) as caught:
-        pfaff.system(coordinates=["q", "p"], name="refused")(formula)
-    assert f"test_systems.py:{formula.__code__.co_firstlineno}" in str(caught.value)
-
-
-def test_a_counter_and_a_number_that_was_kept_are_found():
-    count, kept = [0], []
-
-    def counting(q, p):
-        count[0] += 1
-        return p**2 / 2 + count[0] * q**2
-
-    def keeping(q, p):
-        kept.append(q)
-        return p**2 / 2 + kept[0] ** 2
-
-    for formula, words in ((counting, "recorded once"), (keeping, "not kept")):
-        with pytest.raises(pfaff.TraceError, match=words):
-            pfaff.system(coordinates=["q", "p"])(formula)
-
-
 @pytest.mark.parametrize(
     "make, words",
     [

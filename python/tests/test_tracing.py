@@ -1,4 +1,6 @@
-"""What NumPy does with numbers that are recorded, and what it refuses."""
+"""What NumPy does with numbers that are recorded, and what is refused."""
+import math
+
 import numpy as np
 import pytest
 
@@ -8,6 +10,60 @@ import pfaff
 def value(formula):
     system = pfaff.system(coordinates=["x", "y"], formula="field")(lambda z: [formula(z), 0])
     return pfaff.evaluate(system, [0.3, 0.4])["rhs"][0]
+
+
+def test_numpy_works_on_the_numbers():
+    @pfaff.system(coordinates={"q": 3, "p": 3}, initial=[1, 2, 3, 4, 5, 6])
+    def energy(q, p):
+        m = np.array([[2.0, 1.0, 0.0], [1.0, 3.0, 0.5], [0.0, 0.5, 1.0]])
+        turned = np.cross(q, p)
+        size = np.linalg.norm(q) + np.sqrt(p.dot(p)) + np.hypot(q[0], p[0])
+        return p @ pfaff.solve(m, p) / 2 + turned.sum() + size + np.exp(-q).mean() + np.arctan2(q[0], q[1]) + pfaff.where(q[0], q[1] ** 2, q[2]) + np.tanh(q).sum() + abs(q[2])
+
+    def value(q, p):
+        m = np.array([[2.0, 1.0, 0.0], [1.0, 3.0, 0.5], [0.0, 0.5, 1.0]])
+        return p @ np.linalg.solve(m, p) / 2 + np.cross(q, p).sum() + np.linalg.norm(q) + np.sqrt(p @ p) + np.hypot(q[0], p[0]) + np.exp(-q).mean() + np.arctan2(q[0], q[1]) + (q[1] ** 2 if q[0] > 0 else q[2]) + np.tanh(q).sum() + abs(q[2])
+
+    tape = pfaff._pfaff.formula_of(energy.model, "hamiltonian")
+    for z in ([1, 2, 3, 4, 5, 6], [-1, 0.5, -2, 0.1, 3, -7]):
+        expected = value(np.array(z[:3], float), np.array(z[3:], float))
+        assert tape(0, z)[0] == pytest.approx(expected, rel=1e-15 * 8)  # some units of round-off
+
+
+@pytest.mark.parametrize(
+    "formula, words",
+    [
+        (lambda q, p: math.sin(q) + p, "numpy.sin"),
+        (lambda q, p: p if q > 0 else q, r"pfaff\.where\(x - y, a, b\)"),
+        (lambda q, p: p if q else q, r"pfaff\.where"),
+        (lambda q, p: p if q == p else q, r"pfaff\.where"),
+        (lambda q, p: q % 2 + p, "remainders"),
+        (lambda q, p: np.floor(q) + p, "remainders"),
+        (lambda q, p: np.maximum(q, p), r"pfaff\.where"),
+        (lambda q, p: q + np.random.rand(), "recorded once"),
+        (lambda q, p: np.linalg.inv(np.array([[q, p], [p, q]]))[0, 0], r"pfaff\.solve"),
+    ],
+)
+def test_what_cannot_be_recorded_is_refused_with_the_line(formula, words):
+    with pytest.raises(pfaff.TraceError, match=words) as caught:
+        pfaff.system(coordinates=["q", "p"], name="refused")(formula)
+    assert f"test_tracing.py:{formula.__code__.co_firstlineno}" in str(caught.value)
+
+
+def test_a_counter_and_a_number_that_was_kept_are_found():
+    count, kept = [0], []
+
+    def counting(q, p):
+        count[0] += 1
+        return p**2 / 2 + count[0] * q**2
+
+    def keeping(q, p):
+        kept.append(q)
+        return p**2 / 2 + kept[0] ** 2
+
+    for formula, words in ((counting, "recorded once"), (keeping, "not kept")):
+        with pytest.raises(pfaff.TraceError, match=words):
+            pfaff.system(coordinates=["q", "p"])(formula)
 
 
 def test_arrays_of_no_dimension_are_numbers():
