@@ -41,9 +41,9 @@ class CorrectionWithoutMatrix {
       for (std::size_t k = 0; k < w.size(); ++k) moved_[k] = rate_[k] - start_[k];
       Number change(0), size(0);
       for (std::size_t k = 0; k < w.size(); ++k) {
-        const T next = residual[k] + h * share.row(k, moved_.data());
-        change = std::max(change, relative_size(T(next - correction[k]), reference(k), psi[k]));
-        size = std::max(size, relative_size(next, reference(k), psi[k]));
+        const T next = residual[k] + h * share.row(k, moved_.data()), against = reference(k);
+        change = std::max(change, relative_size(T(next - correction[k]), against, psi[k]));
+        size = std::max(size, relative_size(next, against, psi[k]));
         correction[k] = next;
       }
       // Enough where the correction is more accurate than the next evaluation of psi can tell, or where it no
