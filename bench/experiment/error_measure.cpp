@@ -65,7 +65,7 @@ std::string error_refused(const ExperimentCase& one, const ResolvedRun& run) {
   Replay<double> replay(tape);
   replay(run.t0.value(), z.data(), values.data());
   TermMagnitudes magnitudes(tape);
-  magnitudes.add(run.t0.value(), z);
+  magnitudes.add(run.t0.value(), std::vector<Pack<8>>(z.begin(), z.end()).data());
   if (std::abs(values[which]) > least_part * magnitudes.largest()[which]) return {};
   return "expected a quantity that is not zero at the start, where errors are relative to it, and '" +
          one.error + "' is";

@@ -153,15 +153,17 @@ class Observing final : public Watcher<T> {
   [[nodiscard]] std::size_t together(const Integration<T>& run, const Block<T>& block) {
     for (std::size_t row = 0; row < block.rows; ++row) {
       const std::int64_t step = block.step(row);
-      if (const std::size_t rows = plain_rows(block, row); rows > 0) {
-        record_.completed = step;
-        sampler_.sample({block, invariants_.rows(), row, rows});
-        row += rows - 1;
-        passed(block.step(row));
-        continue;
-      }
       if (!keeps(step)) {
         row += rows_to_next(block, step) - 1;
+        continue;
+      }
+      if (const ChosenRows rows = plain_rows(block, row); rows.count > 0) {
+        record_.completed = step;
+        invariants_.sample(block, rows);
+        sampler_.sample({block, invariants_.rows(), rows});
+        row_ += static_cast<std::int64_t>(rows.count);
+        row = rows.last();
+        passed(block.step(row));
         continue;
       }
       record_.completed = step;  // also where what follows throws
@@ -184,17 +186,17 @@ class Observing final : public Watcher<T> {
     const std::int64_t next = std::min(step - step % run_.every + run_.every, run_.steps);
     return static_cast<std::size_t>((next - step + block.stride - 1) / block.stride);
   }
-  // How many samples from a row on are passed on together, and counted: those of which each is the next state
-  // and nothing is looked at but the invariants, which were evaluated.
-  [[nodiscard]] std::size_t plain_rows(const Block<T>& block, std::size_t row) {
-    if (run_.every != block.stride || !sampler_.takes_rows()) return 0;
-    std::size_t count = 0;
-    for (; row + count < block.rows; ++count) {
-      if (sampler_.measures_structure() && structure_next(block.step(row + count))) break;
-      if (!invariants_.sample(block, row + count)) break;
-      ++row_;
-    }
-    return count;
+  // The samples, from a row on at which there is one, that are passed on together: those of which nothing is
+  // looked at but the invariants, which were evaluated. The last one of a run may be nearer than the others
+  // are to each other.
+  [[nodiscard]] ChosenRows plain_rows(const Block<T>& block, std::size_t row) const {
+    if (!sampler_.takes_rows() || block.step(row) % run_.every != 0) return {};
+    ChosenRows rows{row, 1, static_cast<std::size_t>(run_.every / block.stride)};
+    rows.count += (block.rows - 1 - row) / rows.apart;
+    if (!sampler_.measures_structure()) return rows;
+    if (block.step(rows.last()) == run_.steps) --rows.count;  // with a residual of the structure
+    rows.count = std::min(rows.count, static_cast<std::size_t>(structure_rows_ - 1 - row_ % structure_rows_));
+    return rows;
   }
   [[nodiscard]] std::size_t one_by_one(const Integration<T>& run, const Block<T>& block) {
     for (std::size_t row = 0; row < block.rows; ++row) {

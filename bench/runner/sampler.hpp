@@ -65,10 +65,10 @@ class Sampler {
   [[nodiscard]] bool takes_rows() const { return begun_ && !errors_; }
   [[nodiscard]] bool measures_structure() const { return structure_ != nullptr; }
   /// Makes samples of rows.
-  void sample(const SampleRows<T>& rows) {
-    if (taker_ != nullptr) taker_->take(rows);
-    record_.last_sample = Quad(rows.block.time(rows.first + rows.count - 1));
-    record_.sample_count += static_cast<std::int64_t>(rows.count);
+  void sample(const SampleRows<T>& samples) {
+    if (taker_ != nullptr) taker_->take(samples);
+    record_.last_sample = Quad(samples.block.time(samples.rows.last()));
+    record_.sample_count += static_cast<std::int64_t>(samples.rows.count);
   }
 
   /// Passes on what waits, and puts into the record what follows from all samples.

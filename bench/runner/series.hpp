@@ -7,6 +7,7 @@
 #include <pfaff/bench/runner/row_writer.hpp>
 #include <pfaff/bench/runner/settings.hpp>
 #include <pfaff/core/facets/block.hpp>
+#include <pfaff/core/facets/tile_rows.hpp>
 #include <pfaff/core/numbers/quad.hpp>
 
 namespace pfaff {
@@ -21,12 +22,12 @@ struct Sample {
   std::vector<Quad> invariant_errors;  // of those that are not conserved: I(z) less that of the reference
 };
 
-/// Samples at `count` rows of a block from `first` on, of which nothing is measured beside.
+/// Samples at some rows of a block, of which nothing is measured beside.
 template <class T>
 struct SampleRows {
   const Block<T>& block;
   const Tiles<T>* invariants;  // at the rows of the block; null where the system has none
-  std::size_t first, count;
+  ChosenRows rows;
 };
 
 /// What the samples of a run hold beside states, invariants and residuals of constraints; some of them.
@@ -42,20 +43,21 @@ class SampleTaker {
   virtual void begin(const MeasuredBeside& measured) = 0;
   virtual void take(const Sample<double>& sample) = 0;
   virtual void take(const Sample<Quad>& sample) = 0;
-  /// Many samples at once, in runs of which each state is one: the same as one after another.
-  virtual void take(const SampleRows<double>& rows) { one_by_one(rows); }
-  virtual void take(const SampleRows<Quad>& rows) { one_by_one(rows); }
+  /// Many samples at once: the same as one after another.
+  virtual void take(const SampleRows<double>& samples) { one_by_one(samples); }
+  virtual void take(const SampleRows<Quad>& samples) { one_by_one(samples); }
 
  protected:
   template <class T>
-  void one_by_one(const SampleRows<T>& rows) {
+  void one_by_one(const SampleRows<T>& samples) {
     Sample<T> sample;
-    sample.state.resize(rows.block.states.components());
-    sample.invariants.resize(rows.invariants == nullptr ? 0 : rows.invariants->components());
-    for (std::size_t row = rows.first; row < rows.first + rows.count; ++row) {
-      sample.t = rows.block.time(row);
-      rows.block.states.get(row, sample.state);
-      if (rows.invariants != nullptr) rows.invariants->get(row, sample.invariants);
+    sample.state.resize(samples.block.states.components());
+    sample.invariants.resize(samples.invariants == nullptr ? 0 : samples.invariants->components());
+    for (std::size_t k = 0; k < samples.rows.count; ++k) {
+      const std::size_t row = samples.rows[k];
+      sample.t = samples.block.time(row);
+      samples.block.states.get(row, sample.state);
+      if (samples.invariants != nullptr) samples.invariants->get(row, sample.invariants);
       take(sample);
     }
   }

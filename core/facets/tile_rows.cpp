@@ -13,21 +13,25 @@ void copy_tile(const double* tile, std::size_t components, double* to) {
 }
 
 template <class T>
-void copy_one_by_one(const Tiles<T>& from, std::size_t first, std::size_t count, double* to) {
-  for (std::size_t row = first; row < first + count; ++row)
-    for (std::size_t i = 0; i < from.components(); ++i) *to++ = static_cast<double>(from.at(row, i));
+void copy_one_by_one(const Tiles<T>& from, const ChosenRows& rows, double* to) {
+  for (std::size_t k = 0; k < rows.count; ++k)
+    for (std::size_t i = 0; i < from.components(); ++i) *to++ = static_cast<double>(from.at(rows[k], i));
 }
 
 template <class T>
-void times_of(const Block<T>& of, std::size_t first, std::size_t count, double* to) {
-  for (std::size_t row = first; row < first + count; ++row) *to++ = static_cast<double>(of.time(row));
+void times_of(const Block<T>& of, const ChosenRows& rows, double* to) {
+  for (std::size_t k = 0; k < rows.count; ++k) *to++ = static_cast<double>(of.time(rows[k]));
 }
 }  // namespace
 
-void copy_rows(const Tiles<double>& from, std::size_t first, std::size_t count, double* to) {
-  const std::size_t n = from.components();
+void copy_rows(const Tiles<double>& from, const ChosenRows& rows, double* to) {
+  if (rows.apart != 1) {
+    copy_one_by_one(from, rows, to);
+    return;
+  }
+  const std::size_t n = from.components(), first = rows.first, count = rows.count;
   const std::size_t before = std::min(count, (lanes<double> - first % lanes<double>) % lanes<double>);
-  copy_one_by_one(from, first, before, to);
+  copy_one_by_one(from, {first, before}, to);
   std::size_t row = first + before;
   const auto copy = n == 1   ? copy_tile<1>
                     : n == 2 ? copy_tile<2>
@@ -36,16 +40,12 @@ void copy_rows(const Tiles<double>& from, std::size_t first, std::size_t count, 
                              : copy_tile<0>;
   for (; row + lanes<double> <= first + count; row += lanes<double>)
     copy(from.tile(row / lanes<double>), n, to + (row - first) * n);
-  copy_one_by_one(from, row, first + count - row, to + (row - first) * n);
+  copy_one_by_one(from, {row, first + count - row}, to + (row - first) * n);
 }
-void copy_rows(const Tiles<Quad>& from, std::size_t first, std::size_t count, double* to) {
-  copy_one_by_one(from, first, count, to);
+void copy_rows(const Tiles<Quad>& from, const ChosenRows& rows, double* to) {
+  copy_one_by_one(from, rows, to);
 }
-void copy_times(const Block<double>& of, std::size_t first, std::size_t count, double* to) {
-  times_of(of, first, count, to);
-}
-void copy_times(const Block<Quad>& of, std::size_t first, std::size_t count, double* to) {
-  times_of(of, first, count, to);
-}
+void copy_times(const Block<double>& of, const ChosenRows& rows, double* to) { times_of(of, rows, to); }
+void copy_times(const Block<Quad>& of, const ChosenRows& rows, double* to) { times_of(of, rows, to); }
 
 }  // namespace pfaff

@@ -7,11 +7,19 @@
 
 namespace pfaff {
 
-/// Writes the numbers of `count` rows from `first` on, as doubles: components() of them for each row.
-void copy_rows(const Tiles<double>& from, std::size_t first, std::size_t count, double* to);
-void copy_rows(const Tiles<Quad>& from, std::size_t first, std::size_t count, double* to);
+/// Some of the rows of a block: `count` of them from `first` on, so far apart.
+struct ChosenRows {
+  std::size_t first = 0, count = 0, apart = 1;
+  [[nodiscard]] std::size_t operator[](std::size_t k) const { return first + k * apart; }
+  /// Of these, where there are any.
+  [[nodiscard]] std::size_t last() const { return (*this)[count - 1]; }
+};
+
+/// Writes the numbers of these rows, as doubles: components() of them for each row.
+void copy_rows(const Tiles<double>& from, const ChosenRows& rows, double* to);
+void copy_rows(const Tiles<Quad>& from, const ChosenRows& rows, double* to);
 /// Writes the times of these rows of a block.
-void copy_times(const Block<double>& of, std::size_t first, std::size_t count, double* to);
-void copy_times(const Block<Quad>& of, std::size_t first, std::size_t count, double* to);
+void copy_times(const Block<double>& of, const ChosenRows& rows, double* to);
+void copy_times(const Block<Quad>& of, const ChosenRows& rows, double* to);
 
 }  // namespace pfaff

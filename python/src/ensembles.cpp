@@ -29,7 +29,7 @@ class RowWriterOf final : public Watcher<double> {
  public:
   void start(const Integration<double>& /*run*/) override {}
   void look(const Integration<double>& /*run*/, const Block<double>& block) override {
-    copy_rows(block.states, 0, block.rows, to);
+    copy_rows(block.states, {.count = block.rows}, to);
     to += block.rows * block.states.components();
   }
   double* to = nullptr;

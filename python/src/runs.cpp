@@ -48,16 +48,17 @@ class Columns final : public SampleTaker {
     if (also != nullptr) also->take(sample);
   }
 
-  void take(const SampleRows<double>& rows) override {
-    copy_times(rows.block, rows.first, rows.count, t.extend(rows.count));
+  void take(const SampleRows<double>& samples) override {
+    const ChosenRows& rows = samples.rows;
+    copy_times(samples.block, rows, t.extend(rows.count));
     const auto put_rows = [&](const Tiles<double>& from, Numbers& to) {
-      copy_rows(from, rows.first, rows.count, to.extend(from.components() * rows.count));
+      copy_rows(from, rows, to.extend(from.components() * rows.count));
     };
-    put_rows(rows.block.states, y);
-    if (rows.invariants != nullptr) put_rows(*rows.invariants, invariants);
+    put_rows(samples.block.states, y);
+    if (samples.invariants != nullptr) put_rows(*samples.invariants, invariants);
     if (measured.structure)
       std::fill_n(structure.extend(rows.count), rows.count, std::numeric_limits<double>::quiet_NaN());
-    if (also != nullptr) also->take(rows);
+    if (also != nullptr) also->take(samples);
   }
   using SampleTaker::take;
 

@@ -31,8 +31,8 @@ class Keeper final : public Watcher<T> {
   void look(const Integration<T>& /*run*/, const Block<T>& block) override {
     if (!keeps) return;
     const std::size_t n = block.states.components();
-    copy_times(block, 0, block.rows, t.extend(block.rows));
-    copy_rows(block.states, 0, block.rows, y.extend(n * block.rows));
+    copy_times(block, {.count = block.rows}, t.extend(block.rows));
+    copy_rows(block.states, {.count = block.rows}, y.extend(n * block.rows));
   }
   bool keeps = false;
   Numbers t, y;

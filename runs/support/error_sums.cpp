@@ -22,18 +22,16 @@ void take(Sums& sums, double low, double high, std::size_t at_low, std::size_t a
   if (high > sums.high || (high == sums.high && at_high < sums.first_high))
     sums.high = high, sums.first_high = at_high;
 }
-}  // namespace
 
-Sums of(std::span<const double> errors, double before) {
+// Takes the errors from the second on, eight at a time, into sums that hold the first alone; returns how many
+// errors are taken then.
+std::size_t take_eights(std::span<const double> errors, Sums& sums) {
   const double* const e = errors.data();
-  const std::size_t n = errors.size();
-  Sums sums{.shift = e[0], .low = e[0], .high = e[0], .count = n};
-  sums.rises = e[0] > before ? 1 : 0, sums.falls = e[0] < before ? 1 : 0;
   std::size_t k = 1;
   Numbers sum{}, square{}, ramp{}, low = Numbers{} + e[0], high = low, at_low{}, at_high{},
                                    index{1, 2, 3, 4, 5, 6, 7, 8};
   Counts up{}, down{};
-  for (; k + width <= n; k += width) {
+  for (; k + width <= errors.size(); k += width) {
     const Numbers x = load(e + k), previous = load(e + k - 1), d = x - sums.shift;
     sum += d;
     square += d * d;
@@ -51,6 +49,16 @@ Sums of(std::span<const double> errors, double before) {
     take(sums, low[j], high[j], static_cast<std::size_t>(at_low[j]), static_cast<std::size_t>(at_high[j]));
     sums.rises += static_cast<std::size_t>(up[j]), sums.falls += static_cast<std::size_t>(down[j]);
   }
+  return k;
+}
+}  // namespace
+
+Sums of(std::span<const double> errors, double before) {
+  const double* const e = errors.data();
+  const std::size_t n = errors.size();
+  Sums sums{.shift = e[0], .low = e[0], .high = e[0], .count = n};
+  sums.rises = e[0] > before ? 1 : 0, sums.falls = e[0] < before ? 1 : 0;
+  std::size_t k = n > width ? take_eights(errors, sums) : 1;
   for (; k < n; ++k) {
     const double d = e[k] - sums.shift;
     sums.sum += d, sums.square += d * d, sums.ramp += static_cast<double>(k) * d;

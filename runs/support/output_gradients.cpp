@@ -7,7 +7,8 @@
 
 namespace pfaff {
 
-OutputGradients::OutputGradients(const Tape& tape) {
+template <class T>
+OutputGradients<T>::OutputGradients(const Tape& tape) {
   Recorder recorder(tape.inputs);
   std::vector<Recorded> slopes;
   const auto rows = sparse_gradients(tape, recorder.time(), recorder.inputs(), std::size_t(tape.inputs));
@@ -20,20 +21,25 @@ OutputGradients::OutputGradients(const Tape& tape) {
   values_.resize(slopes.size());
 }
 
-const std::vector<double>& OutputGradients::values(double t, const std::vector<double>& z) {
-  (*replay_)(t, z.data(), values_.data());
+template <class T>
+const std::vector<T>& OutputGradients<T>::values(const T& t, const T* z) {
+  (*replay_)(t, z, values_.data());
   return values_;
 }
 
-void PropagatedRoundings::add(double t, const std::vector<double>& z) {
-  const std::vector<double>& slopes = gradients_.values(t, z);
+template class OutputGradients<double>;
+template class OutputGradients<Pack<8>>;
+
+void PropagatedRoundings::add(const Pack<8>& t, const Pack<8>* z) {
+  const std::vector<Pack<8>>& slopes = gradients_.values(t, z);
   const auto& entries = gradients_.entries();
   for (std::size_t e = 0; e < entries.size();) {
     const std::size_t output = entries[e].output;
-    double sum = 0;
+    Pack<8> sum = 0;
     for (; e < entries.size() && entries[e].output == output; ++e)
-      sum += std::abs(slopes[e] * z[entries[e].input]);
-    if (std::isfinite(sum)) largest_[output] = std::max(largest_[output], sum);
+      sum = sum + abs(slopes[e] * z[entries[e].input]);
+    for (std::size_t lane = 0; lane < 8; ++lane)
+      if (std::isfinite(sum[lane])) largest_[output] = std::max(largest_[output], sum[lane]);
   }
 }
 

@@ -11,18 +11,16 @@
 #include <optional>
 #include <vector>
 
+#include <pfaff/core/numbers/pack.hpp>
 #include <pfaff/core/tape/replay.hpp>
 
 namespace pfaff {
 
-/// The gradients in the state of every output of a tape.
+/// The gradients in the state of every output of a tape, in the scalar T: double, or eight of them.
+template <class T>
 class OutputGradients {
  public:
   explicit OutputGradients(const Tape& tape);
-
-  /// Whether the gradients of a tape are taken: those of formulas of more than 100 000 operations are not,
-  /// because recording them would take longer than many a run.
-  static bool applies(const Tape& tape) { return tape.code.size() <= 100000; }
 
   /// One entry of a gradient that is not zero by construction.
   struct Entry {
@@ -30,27 +28,34 @@ class OutputGradients {
   };
   /// By output; their values at the last state are those of `values`, in the same order.
   [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
-  const std::vector<double>& values(double t, const std::vector<double>& z);
+  const std::vector<T>& values(const T& t, const T* z);
 
  private:
   std::vector<Entry> entries_;
-  std::optional<Replay<double>> replay_;
-  std::vector<double> values_;
+  std::optional<Replay<T>> replay_;
+  std::vector<T> values_;
 };
+
+extern template class OutputGradients<double>;
+extern template class OutputGradients<Pack<8>>;
+
+/// Whether the gradients of a tape are taken: those of formulas of more than 100 000 operations are not,
+/// because recording them would take longer than many a run.
+inline bool takes_gradients(const Tape& tape) { return tape.code.size() <= 100000; }
 
 /// The largest R of every output along a run.
 class PropagatedRoundings {
  public:
   explicit PropagatedRoundings(const Tape& tape) : gradients_(tape), largest_(tape.outputs.size()) {}
 
-  /// Takes a state. What is not finite is left out.
-  void add(double t, const std::vector<double>& z);
+  /// Takes eight states, one in every lane. What is not finite is left out.
+  void add(const Pack<8>& t, const Pack<8>* z);
 
   /// For every output.
   [[nodiscard]] const std::vector<double>& largest() const { return largest_; }
 
  private:
-  OutputGradients gradients_;
+  OutputGradients<Pack<8>> gradients_;
   std::vector<double> largest_;
 };
 

@@ -67,7 +67,7 @@ class Descent {
   }
   std::vector<double> gradient(const std::vector<double>& z, double sign) {
     std::vector<double> slope(z.size());
-    const std::vector<double>& slopes = gradients_.values(t_, z);
+    const std::vector<double>& slopes = gradients_.values(t_, z.data());
     const auto& entries = gradients_.entries();
     for (std::size_t e = 0; e < entries.size(); ++e)
       if (entries[e].output == output_)
@@ -106,7 +106,7 @@ class Descent {
   const std::vector<double>& extents_;
   std::vector<double> values_;
   Replay<double> replay_;
-  OutputGradients gradients_;
+  OutputGradients<double> gradients_;
 };
 
 }  // namespace
@@ -114,7 +114,7 @@ class Descent {
 std::vector<double> own_ranges(const Model& model, const StartOfMotion& start) {
   const std::shared_ptr<const Tape> tape = model.tape(Formula::invariants);
   std::optional<Descent> descent;
-  if (!model.restricted() && OutputGradients::applies(*tape)) descent.emplace(tape, start.t, start.extents);
+  if (!model.restricted() && takes_gradients(*tape)) descent.emplace(tape, start.t, start.extents);
   std::vector<double> ranges;
   for (std::size_t k = 0; k < start.values.size(); ++k) {
     double range = std::abs(start.values[k]);

@@ -7,8 +7,10 @@
 // M = |x| for everything else: states, time, constants, and functions such as sines, whose values are terms.
 #pragma once
 
+#include <memory>
 #include <vector>
 
+#include <pfaff/core/numbers/pack.hpp>
 #include <pfaff/core/tape/replay.hpp>
 
 namespace pfaff {
@@ -18,15 +20,16 @@ class TermMagnitudes {
  public:
   explicit TermMagnitudes(std::shared_ptr<const Tape> tape);
 
-  /// Takes a state. What is not finite is left out.
-  void add(double t, const std::vector<double>& z);
+  /// Takes eight states, one in every lane. What is not finite is left out.
+  void add(const Pack<8>& t, const Pack<8>* z);
 
   /// For every output.
   [[nodiscard]] const std::vector<double>& largest() const { return largest_; }
 
  private:
-  Replay<double> replay_;
-  std::vector<double> outputs_, magnitudes_, largest_;
+  Replay<Pack<8>> replay_;
+  std::vector<Pack<8>> outputs_, magnitudes_;
+  std::vector<double> largest_;
 };
 
 }  // namespace pfaff

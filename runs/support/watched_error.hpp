@@ -51,32 +51,53 @@ class WatchedError {
 };
 
 /// What roundings do to the outputs of a tape along a run: the magnitudes of their terms, and what steps
-/// propagate of the roundings of the state, where that is not too dear to find.
+/// propagate of the roundings of the state, where that is not too dear to find. States wait until there are
+/// eight, which are looked at together.
 class RoundingSizes {
  public:
   explicit RoundingSizes(std::shared_ptr<const Tape> tape) : terms_(tape) {
-    if (OutputGradients::applies(*tape)) propagated_.emplace(*tape);
+    if (takes_gradients(*tape)) propagated_.emplace(*tape);
   }
   void add(double t, const std::vector<double>& z) {
-    terms_.add(t, z);
-    if (propagated_) propagated_->add(t, z);
+    waiting_.resize(z.size());
+    times_.set(count_, t);
+    for (std::size_t i = 0; i < z.size(); ++i) waiting_[i].set(count_, z[i]);
+    if (++count_ == 8) take_waiting();
   }
-  [[nodiscard]] const std::vector<double>& terms() const { return terms_.largest(); }
+  [[nodiscard]] const std::vector<double>& terms() {
+    take_waiting();
+    return terms_.largest();
+  }
   /// Of the outputs first, first + stride, ...: the largest of each.
-  [[nodiscard]] RoundOff largest(double unit, std::int64_t steps, std::size_t first,
-                                 std::size_t stride) const {
+  [[nodiscard]] RoundOff largest(double unit, std::int64_t steps, std::size_t first, std::size_t stride) {
+    take_waiting();
     RoundOff result{unit, 0, steps};
     if (propagated_) result.propagated = 0;
-    for (std::size_t k = first; k < terms().size(); k += stride) {
-      result.scale = std::max(result.scale, terms()[k]);
+    for (std::size_t k = first; k < terms_.largest().size(); k += stride) {
+      result.scale = std::max(result.scale, terms_.largest()[k]);
       if (propagated_) result.propagated = std::max(*result.propagated, propagated_->largest()[k]);
     }
     return result;
   }
 
  private:
+  // In lanes behind the last state that waits stand copies of it.
+  void take_waiting() {
+    if (count_ == 0) return;
+    for (std::size_t lane = count_; lane < 8; ++lane) {
+      times_.set(lane, times_[count_ - 1]);
+      for (Pack<8>& x : waiting_) x.set(lane, x[count_ - 1]);
+    }
+    terms_.add(times_, waiting_.data());
+    if (propagated_) propagated_->add(times_, waiting_.data());
+    count_ = 0;
+  }
+
   TermMagnitudes terms_;
   std::optional<PropagatedRoundings> propagated_;
+  Pack<8> times_ = 0;
+  std::vector<Pack<8>> waiting_;
+  std::size_t count_ = 0;  // of those that wait
 };
 
 }  // namespace pfaff

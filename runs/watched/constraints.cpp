@@ -31,7 +31,7 @@ void WatchedConstraints<T>::sample(double t, double elapsed, const std::vector<d
 
 // Constraints and hidden ones stand by turns.
 template <class T>
-ConstraintsLeft WatchedConstraints<T>::left(std::int64_t steps) const {
+ConstraintsLeft WatchedConstraints<T>::left(std::int64_t steps) {
   ConstraintsLeft left;
   const double unit = std::is_same_v<T, Quad> ? 0x1p-113 : 0x1p-53;
   for (std::size_t i = 0; i < drift_.size(); ++i) {

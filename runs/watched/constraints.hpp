@@ -36,7 +36,7 @@ class WatchedConstraints {
   void sample(double t, double elapsed, const std::vector<double>& z);
 
   /// After so many steps.
-  [[nodiscard]] ConstraintsLeft left(std::int64_t steps) const;
+  [[nodiscard]] ConstraintsLeft left(std::int64_t steps);
 
  private:
   std::vector<std::string> names_;

@@ -75,7 +75,7 @@ void WatchedInvariants<T>::at_row(std::size_t row) {
 
 template <class T>
 void WatchedInvariants<T>::sample(double t, const std::vector<double>& z) {
-  if (roundings_ && samples_ % apart_ == 0) roundings_->add(t, z);
+  if (looks_at_roundings()) roundings_->add(t, z);
   count_sample();
   extents_.add(z);
   if (!first_state_.empty()) return;
@@ -85,16 +85,18 @@ void WatchedInvariants<T>::sample(double t, const std::vector<double>& z) {
 }
 
 template <class T>
-bool WatchedInvariants<T>::sample(const Block<T>& block, std::size_t row) {
-  if (first_state_.empty() || (roundings_ && samples_ % apart_ == 0)) return false;
-  if (extents_.looks()) {
-    at_row_.resize(first_state_.size());
-    for (std::size_t i = 0; i < at_row_.size(); ++i)
-      at_row_[i] = static_cast<double>(block.states.at(row, i));
+void WatchedInvariants<T>::sample(const Block<T>& block, const ChosenRows& rows) {
+  at_row_.resize(first_state_.size());
+  for (std::size_t k = 0; k < rows.count; ++k) {
+    const std::size_t row = rows[k];
+    const bool roundings = looks_at_roundings();
+    if (roundings || extents_.looks())
+      for (std::size_t i = 0; i < at_row_.size(); ++i)
+        at_row_[i] = static_cast<double>(block.states.at(row, i));
+    if (roundings) roundings_->add(static_cast<double>(block.time(row)), at_row_);
+    extents_.add(at_row_);
+    count_sample();
   }
-  extents_.add(at_row_);
-  count_sample();
-  return true;
 }
 
 template <class T>
@@ -113,7 +115,7 @@ std::vector<double> WatchedInvariants<T>::ranges() const {
 }
 
 template <class T>
-InvariantsLeft WatchedInvariants<T>::left(std::int64_t steps) const {
+InvariantsLeft WatchedInvariants<T>::left(std::int64_t steps) {
   InvariantsLeft left;
   const double unit = std::is_same_v<T, Quad> ? 0x1p-113 : 0x1p-53;
   const std::vector<double> own = ranges();

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <pfaff/core/facets/problem.hpp>
+#include <pfaff/core/facets/tile_rows.hpp>
 #include <pfaff/runs/block_values.hpp>
 #include <pfaff/runs/support/early_extents.hpp>
 #include <pfaff/runs/support/setback.hpp>
@@ -51,15 +52,15 @@ class WatchedInvariants {
 
   /// Samples a state, of which values() are the invariants.
   void sample(double t, const std::vector<double>& z);
-  /// Samples a row of a block at which roundings are not looked at; false where they are, and it has to be
-  /// sampled as above.
-  [[nodiscard]] bool sample(const Block<T>& block, std::size_t row);
+  /// Samples rows of a block, behind the first sample.
+  void sample(const Block<T>& block, const ChosenRows& rows);
 
   /// After so many steps.
-  [[nodiscard]] InvariantsLeft left(std::int64_t steps) const;
+  [[nodiscard]] InvariantsLeft left(std::int64_t steps);
 
  private:
   [[nodiscard]] std::vector<double> ranges() const;
+  [[nodiscard]] bool looks_at_roundings() const { return roundings_ && (samples_ & (apart_ - 1)) == 0; }
   void count_sample();
 
   std::shared_ptr<const Model> model_;
@@ -72,7 +73,8 @@ class WatchedInvariants {
   std::vector<WatchedError> drift_;
   std::vector<Setback<T>> setbacks_;
   static constexpr std::size_t most_roundings = 1024;  // at one distance
-  std::size_t samples_ = 0, apart_ = 1;  // the distance, in samples, of those at which roundings are found
+  std::size_t samples_ = 0;
+  std::size_t apart_ = 1;  // the distance, in samples, of those at which roundings are found; a power of two
   EarlyExtents extents_;
   double first_time_ = 0;
   std::vector<double> at_row_;                     // the state
