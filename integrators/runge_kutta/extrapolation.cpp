@@ -12,7 +12,9 @@
 // With a tolerance, step and number of columns are chosen together, by the work per unit of time that each
 // number of columns is expected to take (the same, II.9, "order and step size control"). The error of a step
 // is estimated by T_kk - T_{k,k-1}, and judged by the scales of the coordinates (core/facets/tolerance.hpp).
-// Where round-off leaves no step that is good enough the status says so. No structure is kept.
+// Rows do not look at the ends of a step, where the field may have jumped: a step is taken only if they lead
+// to the slopes there (slope_prediction.hpp). Where round-off leaves no step that is good enough the status
+// says so. No structure is kept.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,6 +23,7 @@
 #include <vector>
 
 #include <pfaff/core/integrator.hpp>
+#include <pfaff/integrators/runge_kutta/slope_prediction.hpp>
 
 namespace {
 using namespace pfaff;
@@ -76,8 +79,10 @@ struct Extrapolation {
     using T = Scalar<P>;
     std::array<State<P>, most_columns> table;  // row by row, the newest diagonal
     State<P> rate, slope, point, older, newer, carry;
+    State<P> end, end_carry, end_rate;  // of the step that is tried
     std::vector<T> weights;
     CoordinateScales<P> scales;
+    SlopePrediction<P, most_columns> at_start, at_end;
     // What the choice of steps keeps from one step to the next and, for each number of columns, makes of one.
     T next_step{0};
     int target = 0;
@@ -90,7 +95,12 @@ struct Extrapolation {
           older(p.make_state()),
           newer(p.make_state()),
           carry(p.make_state()),
-          scales(p) {
+          end(p.make_state()),
+          end_carry(p.make_state()),
+          end_rate(p.make_state()),
+          scales(p),
+          at_start(p),
+          at_end(p) {
       for (State<P>& row : table) row = p.make_state();
       for (const Quad& x : method.weights) weights.push_back(T(Real(x)));
     }
@@ -99,8 +109,8 @@ struct Extrapolation {
   template <HasVectorField P>
   Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
     p.field(t, z, w.rate);
-    for (int j = 1; j <= columns; ++j) add_row(p, t, h, z, w, j);
-    for (std::size_t k = 0; k < z.size(); ++k) add_to(z[k], w.carry[k], w.table[0][k], compensated);
+    for (int j = 1; j <= columns; ++j) add_row(p, t, h, z, w, j, [](int /*substep*/) {});
+    add(w, z, w.carry);
     return Status::converged;
   }
 
@@ -112,9 +122,9 @@ struct Extrapolation {
     Status failure = Status::not_converged;
     int rejections = 0;
     detail::AllowedSteps<P> steps(p);
+    if (t != end) p.field(t, z, w.rate);
     for (std::int64_t taken = 0; t != end;) {
       if (rejections == 0 && steps.next(1) == 0) break;
-      if (rejections == 0) p.field(t, z, w.rate);
       if (w.target == 0) begin(p, t, end, tolerance, z, w);
       const bool last = abs(end - t) <= w.next_step;
       const T after = last ? end : end < t ? t - w.next_step : t + w.next_step;
@@ -126,7 +136,7 @@ struct Extrapolation {
         continue;
       }
       w.scales.keep();
-      for (std::size_t k = 0; k < z.size(); ++k) add_to(z[k], w.carry[k], w.table[0][k], compensated);
+      std::swap(z, w.end), std::swap(w.carry, w.end_carry), std::swap(w.rate, w.end_rate);
       t = after;
       choose_next(accepted, last, rejections > 0, w);
       failure = Status::not_converged;
@@ -138,11 +148,18 @@ struct Extrapolation {
   }
 
  private:
-  // Row j of the table, j = 1, 2, ...: the increment with 2 j substeps, and what the rows before make of it.
-  // Afterwards table[0] is T_jj and table[1] is T_{j,j-1}.
+  // Adds the increment of a step to z.
   template <class P>
+  void add(const Work<P>& w, State<P>& z, State<P>& carry) const {
+    for (std::size_t k = 0; k < z.size(); ++k) add_to(z[k], carry[k], w.table[0][k], compensated);
+  }
+
+  // Row j of the table, j = 1, 2, ...: the increment with 2 j substeps, and what the rows before make of it.
+  // Afterwards table[0] is T_jj and table[1] is T_{j,j-1}. `look` is called for each substep, with the slope
+  // there.
+  template <class P, class Look>
   static void add_row(const P& p, const Scalar<P>& t, const Scalar<P>& h, const State<P>& z, Work<P>& w,
-                      int j) {
+                      int j, const Look& look) {
     using T = Scalar<P>;
     const T sub = h / T(2 * j), twice = T(2) * sub;
     for (std::size_t k = 0; k < z.size(); ++k) {
@@ -152,6 +169,7 @@ struct Extrapolation {
     for (int m = 1; m < 2 * j; ++m) {
       for (std::size_t k = 0; k < z.size(); ++k) w.point[k] = z[k] + w.newer[k];
       p.field(t + T(m) * sub, w.point, w.slope);
+      look(m);
       for (std::size_t k = 0; k < z.size(); ++k) {
         const T next = w.older[k] + twice * w.slope[k];
         w.older[k] = w.newer[k];
@@ -192,17 +210,37 @@ struct Extrapolation {
     return w.scales.judge(tolerance, w.slope);
   }
 
-  // One step of size h, in table[0]: the number of columns with which it is good enough, or 0, with the size
-  // for the next attempt in next_step, and `failure` where it is not finite.
+  // Whether a step with so many columns leads to the slopes at its ends; that at its second end is found
+  // here.
   template <class P>
-  static int attempt(const P& p, const Scalar<P>& t, const Scalar<P>& h,
-                     const Tolerance<Scalar<P>>& tolerance, const State<P>& z, Work<P>& w, Status& failure) {
+  bool leads_to_its_ends(const P& p, const Scalar<P>& t, const Scalar<P>& h, int columns_now,
+                         const Tolerance<Scalar<P>>& tolerance, const State<P>& z, Work<P>& w) const {
+    w.end = z, w.end_carry = w.carry;
+    add(w, w.end, w.end_carry);
+    p.field(t + h, w.end, w.end_rate);
+    const auto scales = w.scales.get();
+    return w.at_start.leads_to(w.rate, columns_now, h, tolerance.relative, scales) &&
+           w.at_end.leads_to(w.end_rate, columns_now, h, tolerance.relative, scales);
+  }
+
+  // One step of size h, to the state w.end: the number of columns with which it is good enough, or 0, with
+  // the size for the next attempt in next_step, and `failure` where it is not finite.
+  template <class P>
+  int attempt(const P& p, const Scalar<P>& t, const Scalar<P>& h, const Tolerance<Scalar<P>>& tolerance,
+              const State<P>& z, Work<P>& w, Status& failure) const {
     using T = Scalar<P>;
     const double size = static_cast<double>(T(abs(h)));
     int j = 1;
-    add_row(p, t, h, z, w, j);
+    const auto add_next_row = [&] {
+      add_row(p, t, h, z, w, j, [&](int substep) {
+        if (substep == 1) w.at_start.take(j, w.slope);
+        if (substep == 2 * j - 1) w.at_end.take(j, w.slope);
+      });
+    };
+    add_next_row();
     while (j <= w.target) {
-      add_row(p, t, h, z, w, ++j);
+      ++j;
+      add_next_row();
       const double error = error_of<P>(tolerance, z, h, w);
       if (!std::isfinite(error)) {
         failure = Status::non_finite;
@@ -214,7 +252,12 @@ struct Extrapolation {
       w.step_for[column] = size * std::clamp(factor, least_factor, most_factor);
       w.work_for[column] = cost(j) / w.step_for[column];
       if (j < w.target - 1) continue;
-      if (error <= 1) return j;
+      if (error <= 1) {
+        if (leads_to_its_ends(p, t, h, j, tolerance, z, w)) return j;
+        failure = Status::not_converged;
+        w.next_step = abs(h) / T(2);
+        return 0;
+      }
       // Each further row n divides the error by (n/n_1)^2 or so; where that will not do the step is given up.
       double hope = 1;
       for (int row = j + 1; row <= w.target + 1; ++row) hope *= static_cast<double>(row) * row;

@@ -67,6 +67,58 @@ TEST(Extrapolation, MeetsTolerancesInQuad) {
   extrapolation_meets_tolerances<Quad>({1e-10, 1e-16, 1e-22, 1e-28, 1e-30});
 }
 
+// q'' = -q, and from the time c on 1 - q: from (1, 0), q = cos t, and 1 - cos(t - c) more behind c.
+struct Switched {
+  static constexpr int dimension = 2;
+  Real c = 0;
+  template <class T>
+  void field(const T& t, In<T> z, Out<T> rate) const {
+    rate[0] = z[1];
+    rate[1] = select(t - T(c), T(1), T(0)) - z[0];
+  }
+};
+// Rows that do not look where the field jumps agree on a wrong step: the error was .01 whatever the
+// tolerance. A step ends within what is allowed of the jump at best, and so many of them are tried near it.
+template <class T>
+void sees_jumps(double tolerance) {
+  for (int k = 0; k < 40; ++k) {
+    const Real c = Real::fraction(513 + 225 * k, 1000);
+    SystemDescriptor descriptor{.name = "switched", .title = "", .reference = "landau-lifshitz1976"};
+    descriptor.coordinates = {{"q", ""}, {"p", ""}};
+    descriptor.initial = {1, 0};
+    const auto stepper = extrapolation()->stepper(make_model(descriptor, Switched{c}), T());
+    std::vector<T> z{T(1), T(0)};
+    T t(0);
+    ASSERT_EQ(stepper->advance_to(t, T(10), T(tolerance), z), Status::converged);
+    const Quad end(10), right = cos(end) + Quad(1) - cos(end - c.quad());
+    EXPECT_LE(static_cast<double>(abs(Quad(z[0]) - right)), 1000 * tolerance) << c.value();
+  }
+}
+TEST(Extrapolation, SeesWhereAFieldJumps) { sees_jumps<double>(1e-8); }
+TEST(Extrapolation, SeesWhereAFieldJumpsInQuad) { sees_jumps<Quad>(1e-16); }
+
+struct Pole {
+  static constexpr int dimension = 1;
+  Real c = 0;
+  template <class T>
+  void field(const T& t, In<T> /*z*/, Out<T> rate) const {
+    rate[0] = T(1) / (t - T(c));
+  }
+};
+TEST(Extrapolation, DoesNotStepOverPoles) {
+  for (int k = 0; k < 40; ++k) {
+    SystemDescriptor descriptor{.name = "pole", .title = "", .reference = "landau-lifshitz1976"};
+    descriptor.coordinates = {{"z", ""}};
+    descriptor.initial = {1};
+    const Real c = Real::fraction(2013 + 637 * k, 10000);
+    const auto stepper = extrapolation()->stepper(make_model(descriptor, Pole{c}), 0.0);
+    std::vector<double> z{1};
+    double t = 0;
+    EXPECT_NE(stepper->advance_to(t, 3, 1e-6, z), Status::converged) << c.value();
+    EXPECT_NEAR(t, c.value(), 1e-3);
+  }
+}
+
 TEST(Extrapolation, RefusesInDouble) { expect_refused_tolerances<double>(*extrapolation()); }
 TEST(Extrapolation, RefusesInQuad) { expect_refused_tolerances<Quad>(*extrapolation()); }
 
