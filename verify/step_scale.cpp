@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <pfaff/core/numbers/with_rounding.hpp>
-#include <pfaff/core/tape/replay.hpp>
+#include <pfaff/core/tape/rounded_terms.hpp>
 #include <pfaff/core/tape/taylor_expansion.hpp>
 #include <pfaff/runs/support/scales.hpp>
 #include <pfaff/verify/check.hpp>
@@ -24,20 +23,6 @@ TaylorExpansion<Quad> expanded(const Model& motion, const Real& t, const std::ve
   for (const Real& x : z) at.push_back(x.quad());
   expansion.expand(t.quad(), at.data());
   return expansion;
-}
-
-// For each coordinate the sum of the magnitudes of what its rate is made of, in units of round-off of
-// coordinates of these sizes.
-template <class T>
-std::vector<T> terms_of_rates(const Model& motion, const T& t, const std::vector<T>& z,
-                              const std::vector<T>& sizes) {
-  Replay<WithRounding<T>> field(motion.tape(Formula::field));
-  std::vector<WithRounding<T>> at, rates(z.size());
-  for (std::size_t k = 0; k < z.size(); ++k) at.emplace_back(z[k], sizes[k]);
-  field(WithRounding<T>(t, T(abs(t))), at.data(), rates.data());
-  std::vector<T> terms;
-  for (const WithRounding<T>& rate : rates) terms.push_back(rate.error);
-  return terms;
 }
 
 // The largest rate at which a coordinate changes in units of its size, from the terms of the degrees first,
@@ -80,7 +65,8 @@ std::vector<double> coordinate_scales(const Model& motion, const Real& t, const 
   if (rate == 0) return scales;
   std::vector<Quad> at, sizes;
   for (const Real& x : z) at.push_back(x.quad()), sizes.push_back(abs(x.quad()));
-  const std::vector<Quad> terms = terms_of_rates(motion, t.quad(), at, sizes);
+  RoundedTerms<Quad> terms_of_rates(motion.tape(Formula::field));
+  const std::vector<Quad>& terms = terms_of_rates(t.quad(), at, sizes);
   for (std::size_t k = 0; k < n; ++k) {
     if (!is_zero(z[k])) continue;
     // Where the terms of a rate cancel, as far from what moves, they tell the size: not what they round.
@@ -128,7 +114,8 @@ std::vector<T> step_scales(const Model& motion, const T& t, const T& h, const st
     scales.assign(n, largest);
     return scales;
   }
-  const std::vector<T> terms = terms_of_rates(motion, t, start, scales);
+  RoundedTerms<T> terms_of_rates(motion.tape(Formula::field));
+  const std::vector<T> terms = terms_of_rates(t, start, scales);
   for (std::size_t k = 0; k < n; ++k) scales[k] = scales[k] + T(abs(h)) * terms[k];
   // A coordinate that is zero and stays zero has no size of its own; it takes that of the largest one.
   const T largest = *std::max_element(scales.begin(), scales.end());

@@ -123,6 +123,13 @@ class StaticProblem {
     field_of<Pack<W>>(t, z, rate);
   }
 
+  /// The tape of the field.
+  [[nodiscard]] std::shared_ptr<const Tape> field_tape() const requires has_field {
+    return std::make_shared<const Tape>(
+        record(extent, extent, [&](const Recorded& t, std::span<const Recorded> z, std::span<Recorded> rate) {
+          field_of<Recorded>(t, z, rate);
+        }));
+  }
   /// The tape of the velocity.
   [[nodiscard]] std::shared_ptr<const Tape> velocity_tape() const requires separable {
     return std::make_shared<const Tape>(
@@ -150,10 +157,7 @@ class StaticProblem {
     field_jacobian(t, y, matrix);
   }
   [[nodiscard]] std::shared_ptr<const Tape> chart_field_tape() const requires canonical {
-    return std::make_shared<const Tape>(
-        record(extent, extent, [&](const Recorded& t, std::span<const Recorded> y, std::span<Recorded> rate) {
-          field_of<Recorded>(t, y, rate);
-        }));
+    return field_tape();
   }
   [[nodiscard]] BoundSeries chart_field_series() const requires canonical {
     if constexpr (detail::CompilesChartField<S>) return {&compiled_series<S>(), &system_};

@@ -142,7 +142,9 @@ struct GeneratingFunction {
     std::array<Value<T>, 2> largest{};      // of the positions and of the momenta in the chart
     Continuation<P> continuation;
     RememberedContraction<Value<T>> contraction;  // of the corrections: the slowest since the start
-    std::vector<T> slopes, rounding;              // made by the first step that asks for them
+    RoundedRates<T> rounded;
+    std::vector<Value<T>> sizes;  // of what the rates round over a step, and
+    std::vector<T> rounding;      // references with it; made by the first step that asks for them
 
     Work(const GeneratingFunction& m, const P& p) : Work(m, p, p.size()) {
       p.prepare(Formula::chart_field);
@@ -184,14 +186,11 @@ struct GeneratingFunction {
       for (std::size_t k = 0; k < y.size(); ++k)
         largest[kind(k)] = std::max(largest[kind(k)], Value<T>(abs(value_of(y[k]))));
     }
-    // The references of roundings, for the step of size h whose middle is at this time.
-    void find_rounding(const P& p, const T& middle, const T& h) {
-      const std::size_t n = y.size();
-      slopes.resize(n * n);
-      rounding.resize(n);
-      p.chart_field_jacobian(middle, w, slopes);
-      for (std::size_t k = 0; k < n; ++k)
-        rounding[k] = beside_rounding(reference(k), h, &slopes[k * n], w.data(), n);
+    // What the rates round, for the step of size h whose middle is at this time.
+    void find_rounded(const P& p, const T& middle, const T& h) {
+      sizes.resize(y.size());
+      rounded.find(p.chart_field_tape(), middle, w);
+      for (std::size_t k = 0; k < y.size(); ++k) sizes[k] = rounded.over(h, k);
     }
     // True where positions or momenta ended four times as far from the prediction as they and their predicted
     // change are large, and 2^-26 of what the forces are made of: at rest these cancel. At steps that are too
@@ -206,10 +205,10 @@ struct GeneratingFunction {
         return gone[0] > Value<T>(4) * expected[0] || gone[1] > Value<T>(4) * expected[1];
       };
       if (!far()) return false;
-      find_rounding(p, middle, h);
+      find_rounded(p, middle, h);
       for (std::size_t k = 0; k < y.size(); ++k)
-        expected[kind(k)] =
-            std::max(expected[kind(k)], Value<T>(abs(value_of(rounding[k]) * Value<T>(0x1p-26))));
+        expected[kind(k)] = std::max(expected[kind(k)],
+                                     Value<T>((abs(value_of(reference(k))) + sizes[k]) * Value<T>(0x1p-26)));
       return far();
     }
     // w = y + d, with what the sums so far have rounded off.
@@ -306,7 +305,10 @@ struct GeneratingFunction {
       w.place();
     };
     return_to_prediction();
-    w.find_rounding(p, t + h / Scalar<P>(2), h);
+    w.find_rounded(p, t + h / Scalar<P>(2), h);
+    w.rounding.resize(w.y.size());
+    for (std::size_t k = 0; k < w.y.size(); ++k) w.rounding[k] = w.reference(k);
+    add_rounding(w.rounding, w.sizes, w.residual, w.correction, [&] { correct(p, t, h, w); });
     const auto correct_once = [&] {
       find_correction(p, t, h, w);
       for (std::size_t k = 0; k < w.y.size(); ++k) w.d[k] = w.d[k] + w.correction[k];

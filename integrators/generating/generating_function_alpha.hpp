@@ -75,6 +75,7 @@ struct GeneratingFunctionAlpha {
     Replay<Number> alpha_jacobian;
     std::vector<T> pair, values, psi, residual, correction, rounding, rate, middle, jacobian, last_z;
     std::vector<Number> numbers, blocks, flow, right, solved, newton_row;
+    RoundedRates<T> rounded;
     LU<Number> half_step, denominator, newton;
     DifferencePredictor<T, dynamic, dynamic> past;  // of z' - z
     T last_t{0}, last_h{0};
@@ -134,6 +135,7 @@ struct GeneratingFunctionAlpha {
   template <HasGeneratingMap P>
   Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
     using T = Scalar<P>;
+    using Number = Value<T>;
     const bool continued = w.continued(t, h, z);
     w.continues = false;
     predict(p, t, h, z, continued, w);
@@ -159,8 +161,12 @@ struct GeneratingFunctionAlpha {
     } while (!convergence.finished(50));
     Status status = convergence.status();
     if (status == Status::not_converged) {
-      for (std::size_t k = 0; k < w.n; ++k)
-        w.rounding[k] = beside_rounding(z[k], h, &w.jacobian[k * w.n], z.data(), w.n);
+      w.rounded.find(p.field_tape(), t + h / T(2), z);
+      std::vector<Number> sizes(w.n);
+      for (std::size_t k = 0; k < w.n; ++k) sizes[k] = w.rounded.over(h, k);
+      std::copy(z.begin(), z.end(), w.rounding.begin());
+      add_rounding(w.rounding, sizes, w.residual, w.correction,
+                   [&w] { w.newton.solve(w.residual.data(), w.correction.data()); });
       status = end_by_rounding(50, correct, w.correction, w.rounding, w.pair);
     }
     if (status != Status::converged) return status;

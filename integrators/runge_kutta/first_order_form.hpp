@@ -75,8 +75,9 @@ class FirstOrderForm final : public CollocationForm<P> {
         ++p.counters().factorisations;
         return iteration_.solve_by_newton(
             evaluate, jacobian_, scale_.data(), [&z](std::size_t k) { return z[k]; },
-            [&](std::size_t k) {
-              return beside_rounding(z[k], h, &jacobian_[k * p.size()], z.data(), p.size());
+            [&](std::span<Value<T>> sizes) {
+              rounded_.find(p.field_tape(), t + h / T(2), z);
+              for (std::size_t k = 0; k < sizes.size(); ++k) sizes[k] = rounded_.over(h, k);
             },
             p.counters().iterations);
       });
@@ -167,6 +168,7 @@ class FirstOrderForm final : public CollocationForm<P> {
   Field field_in_lanes_;
   Point there_, rates_;
   std::vector<T> jacobian_;
+  RoundedRates<T> rounded_;
   T last_h_{0};
 };
 

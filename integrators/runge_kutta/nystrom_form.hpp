@@ -220,11 +220,12 @@ class NystromForm final : public CollocationForm<P> {
         slopes_[i * m + j] = sum;
       }
     ++p.counters().factorisations;
+    const auto size = [&](std::size_t k) { return unit_mass_ ? z[k] : momentum_[k]; };
     return iteration_.solve_by_newton(
-        evaluate, slopes_, scale_.data(), [&](std::size_t k) { return unit_mass_ ? z[k] : momentum_[k]; },
-        [&](std::size_t k) {
-          return beside_rounding(unit_mass_ ? z[k] : momentum_[k], h * h, &jacobian_[(m + k) * n], z.data(),
-                                 m);
+        evaluate, slopes_, scale_.data(), size,
+        [&](std::span<Value<T>> sizes) {
+          rounded_.find(p.field_tape(), t + h / T(2), z);
+          for (std::size_t k = 0; k < m; ++k) sizes[k] = rounded_.over(h * h, m + k);
         },
         p.counters().iterations);
   }
@@ -263,6 +264,7 @@ class NystromForm final : public CollocationForm<P> {
   bool in_lanes_;
   Point there_, here_;
   std::vector<T> jacobian_, slopes_;
+  RoundedRates<T> rounded_;
   Continuation<P> continuation_;
 };
 

@@ -122,10 +122,11 @@ class StageIteration : private StageLayout<T, Components, Stages> {
   }
 
   /// The same by simplified Newton iteration, where the rates' derivatives are scale_j G, G m x m and
-  /// row-major. Corrections of component k are measured by size(k) or, in the end, rounding(k) (newton()).
-  template <class Evaluate, class Size, class Rounding>
+  /// row-major. Corrections of component k are measured by size(k) or, in the end, by what is rounded:
+  /// rounded(sizes) fills that in for the components (newton()).
+  template <class Evaluate, class Size, class Rounded>
   [[gnu::noinline]] Status solve_by_newton(const Evaluate& evaluate, const std::vector<T>& slopes,
-                                           const T* scale, const Size& size, const Rounding& rounding,
+                                           const T* scale, const Size& size, const Rounded& rounded,
                                            auto&& iterations) {
     const std::size_t s = stages(), m = components();
     if (!newton_) newton_ = std::make_unique<Newton>(s * m);
@@ -139,11 +140,10 @@ class StageIteration : private StageLayout<T, Components, Stages> {
       }
     if (!w.matrix.factor()) return Status::singular;
     for (std::size_t k = 0; k < m; ++k) {
-      const T reference = size(k), larger = rounding(k);
+      const T reference = size(k);
       for (std::size_t i = 0; i < s; ++i) {
         w.unknowns[i * m + k] = Lanes::get(at(line_, i, k), i % width);
         w.reference[i * m + k] = reference;
-        w.rounding[i * m + k] = larger;
       }
     }
     const auto evaluate_there = [&] {
@@ -162,7 +162,16 @@ class StageIteration : private StageLayout<T, Components, Stages> {
             for (std::size_t k = 0; k < m; ++k)
               residual[i * m + k] = unknowns[i * m + k] - stage(stage_, i, k);
         },
-        w.unknowns, w.reference, w.residual, w.correction, 100, count, w.rounding);
+        w.unknowns, w.reference, w.residual, w.correction, 100, count,
+        [&]() -> std::span<const T> {
+          std::vector<Number> sizes(s * m);
+          rounded(std::span<Number>(sizes).first(m));
+          for (std::size_t k = m; k < s * m; ++k) sizes[k] = sizes[k % m];
+          w.rounding = w.reference;
+          add_rounding(w.rounding, sizes, w.residual, w.correction,
+                       [&w] { w.matrix.solve(w.residual.data(), w.correction.data()); });
+          return w.rounding;
+        });
     iterations += count;
     if (status != Status::converged) return status;
     evaluate_there();
@@ -184,10 +193,10 @@ class StageIteration : private StageLayout<T, Components, Stages> {
 
  private:
   struct Newton {
-    explicit Newton(std::size_t n)
-        : matrix(n), unknowns(n), reference(n), rounding(n), residual(n), correction(n) {}
+    explicit Newton(std::size_t n) : matrix(n), unknowns(n), reference(n), residual(n), correction(n) {}
     LU<Number> matrix;
-    std::vector<T> unknowns, reference, rounding, residual, correction;
+    std::vector<T> unknowns, reference, residual, correction;
+    std::vector<T> rounding;  // made by the first step that asks for it
   };
 
   // f(k) for every component, unrolled where they are few. What an iteration consists of is inlined by force:

@@ -2,24 +2,69 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include <pfaff/core/solve/convergence.hpp>
+#include <pfaff/core/tape/rounded_terms.hpp>
 
 namespace pfaff {
 
-/// What corrections of a component are measured against: x, and what the rate rounds that is added to it.
-/// Where a motion comes to rest terms of a rate cancel that are large beside a momentum of nearly zero, and
-/// each of them, about |dX/dz_j z_j|, is rounded. `slopes` are those of the rate at the `count` numbers of z,
-/// h the step. Derivatives are measured by those of x.
+/// What is rounded in the rates of a problem. Where a motion comes to rest terms cancel that are large beside
+/// a momentum of nearly zero, and each of them is rounded. They are found only by steps that are in vain
+/// without them.
 template <class T>
-T beside_rounding(const T& x, const T& h, const T* slopes, const T* z, std::size_t count) {
+class RoundedRates {
+ public:
   using Number = Value<T>;
-  Number terms(0);
-  for (std::size_t j = 0; j < count; ++j) terms = terms + abs(value_of(slopes[j])) * abs(value_of(z[j]));
-  const T rounded(Number(abs(value_of(h)) * terms));
-  return value_of(x) < Number(0) ? x - rounded : x + rounded;
+  /// Finds it for those of `tape` at the state z. The tape has to be the same at every call.
+  void find(const std::shared_ptr<const Tape>& tape, const T& t, std::span<const T> z) {
+    if (!terms_) terms_.emplace(tape);
+    state_.resize(z.size()), sizes_.resize(z.size());
+    std::transform(z.begin(), z.end(), state_.begin(), [](const T& x) { return value_of(x); });
+    std::transform(state_.begin(), state_.end(), sizes_.begin(), [](const Number& x) { return abs(x); });
+    found_ = &(*terms_)(value_of(t), state_, sizes_);
+  }
+  /// Of the rate of a number, over a step h: so many units of round-off of this are lost at most.
+  [[nodiscard]] Number over(const T& h, std::size_t rate) const { return abs(value_of(h)) * (*found_)[rate]; }
+
+ private:
+  std::optional<RoundedTerms<Number>> terms_;
+  std::vector<Number> state_, sizes_;
+  const std::vector<Number>* found_ = nullptr;
+};
+
+/// A number with the sign of x that is larger by this size. Derivatives are those of x.
+template <class T>
+T larger_by(const T& x, const Value<T>& size) {
+  return value_of(x) < Value<T>(0) ? x - T(size) : x + T(size);
+}
+
+/// Makes of what corrections of single numbers are measured against, `references`, what they are measured
+/// against where residuals are lost in rounding: larger by what the latter makes of corrections. `rounded`
+/// are the sizes of what residuals round, and solve(residual, correction) finds the corrections of the
+/// residuals in a buffer: of a position, say, those that the roundings of momenta bring. They are found for
+/// several choices of signs.
+template <class T, class Sizes, class Vector, class Solve>
+void add_rounding(std::vector<T>& references, const Sizes& rounded, Vector& residual, Vector& correction,
+                  const Solve& solve) {
+  constexpr std::size_t choices = 8;
+  std::vector<Value<T>> largest(references.size(), Value<T>(0));
+  for (std::size_t choice = 0; choice < choices; ++choice) {
+    for (std::size_t k = 0; k < references.size(); ++k) {
+      const std::size_t mixed = (k * 0x9E3779B97F4A7C15U) >> 61U;  // three bits
+      residual[k] = T(std::popcount(mixed & choice) % 2 == 0 ? rounded[k] : -rounded[k]);
+    }
+    solve();
+    for (std::size_t k = 0; k < references.size(); ++k)
+      largest[k] = std::max(largest[k], Value<T>(abs(value_of(correction[k]))));
+  }
+  for (std::size_t k = 0; k < references.size(); ++k)
+    references[k] = larger_by(references[k], std::max(largest[k], Value<T>(rounded[k])));
 }
 
 /// The largest of these corrections: of values beside the larger of `references` and `changes`, of

@@ -34,6 +34,10 @@ class InChart : public ProblemView<P> {
   void field(const Scalar& t, In<Scalar> y, Out<Scalar> rate) const requires HasDarbouxChart<P> {
     this->problem().chart_field(t, y, rate);
   }
+  /// The tape of Y.
+  [[nodiscard]] std::shared_ptr<const Tape> field_tape() const requires HasDarbouxChart<P> {
+    return this->problem().chart_field_tape();
+  }
   /// matrix[i n + j] = dY_i / dy_j.
   void field_jacobian(const Scalar& t, In<Scalar> y, Out<Scalar> matrix) const requires HasDarbouxChart<P> {
     this->problem().chart_field_jacobian(t, y, matrix);

@@ -28,7 +28,8 @@ Solution<T> solve(const std::vector<Value<T>>& matrix, const std::vector<T>& sta
   Solution<T> s{Status::singular, 0, start};
   if (!lu.factor()) return s;
   std::vector<T> reference = start, r(n), correction(n);
-  s.status = newton<T>(lu, residual, s.x, reference, r, correction, limit, s.iterations);
+  s.status = newton<T>(lu, residual, s.x, reference, r, correction, limit, s.iterations,
+                       [] { return std::span<const T>(); });
   return s;
 }
 

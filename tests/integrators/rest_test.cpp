@@ -33,6 +33,26 @@ struct Hanging {
 struct DampedHanging : Hanging {
   [[nodiscard]] Real damping() const { return Real(1); }
 };
+// A damped particle in Morse's well: at rest, q = 0, and the numbers that cancel in the force are no products
+// of q.
+struct DampedMorse : Hanging {
+  template <class T>
+  T potential(const T& /*t*/, In<T> q) const {
+    const T away = T(1) - exp(-q[0]);
+    return away * away / 2;
+  }
+  [[nodiscard]] Real damping() const { return Real(1); }
+};
+// The same well beside friction that does not exceed a bound, as a field.
+struct MorseWithFriction {
+  static constexpr int dimension = 2;
+  template <class T>
+  void field(const T& /*t*/, In<T> z, Out<T> rate) const {
+    const T e = exp(-z[0]), fast = exp(T(2) * z[1]);
+    rate[0] = z[1];
+    rate[1] = (e - T(1)) * e - (fast - T(1)) / (fast + T(1));
+  }
+};
 // A damped particle between two wells, whose positions are counted in `unit`: at rest, q = unit or -unit.
 struct TwoWells {
   static constexpr int dimension = 2;
@@ -112,6 +132,8 @@ void every_method_comes_to_rest(std::vector<T> steps, double time) {
   for (const auto& method : ImplicitMethods())
     for (const T& h : steps) {
       comes_to<T>(model_of(DampedHanging(), 0, 0), method, h, time, -g, 64 * u * g);
+      comes_to<T>(model_of(DampedMorse(), Real::fraction(1, 2), 0), method, h, time, 0, 64 * u);
+      comes_to<T>(model_of(MorseWithFriction(), Real::fraction(1, 2), 0), method, h, time, 0, 64 * u);
       for (const int exponent : {-20, 0, 20}) {
         const Real unit = Real(Quad(std::ldexp(1.0, exponent)));
         comes_to<T>(model_of(TwoWells{unit}, Real::fraction(8, 5) * unit, Real::fraction(3, 10)), method, h,

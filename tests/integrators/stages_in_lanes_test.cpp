@@ -34,6 +34,7 @@ class StageAfterStage : public ProblemView<Problem<double>> {
     problem().chart_field_jacobian(t, y, m);
   }
   [[nodiscard]] std::shared_ptr<const Tape> chart_field_tape() const { return problem().chart_field_tape(); }
+  [[nodiscard]] std::shared_ptr<const Tape> field_tape() const { return problem().field_tape(); }
   [[nodiscard]] std::shared_ptr<const Tape> velocity_tape() const { return separable_velocity(problem()); }
 };
 
