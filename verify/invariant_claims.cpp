@@ -36,7 +36,7 @@ double quadratic_invariants_residual(MeasuredStep<T>& step) {
     // Where the flag of an invariant is wrong, the check of the system says so, and no method is blamed for
     // it.
     return invariant.quadratic && invariant.behaviour == Behaviour::conserved &&
-           is_quadratic(*step.model(), k);
+           is_quadratic(step.model(), k);
   });
 }
 

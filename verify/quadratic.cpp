@@ -1,4 +1,8 @@
 // Whether an invariant that is called quadratic is a polynomial of degree two in the state.
+#include <map>
+#include <memory>
+#include <mutex>
+
 #include <pfaff/verify/residuals.hpp>
 
 namespace pfaff {
@@ -16,9 +20,17 @@ std::shared_ptr<const Tape> third_difference(const Tape& values, std::size_t k) 
   });
 }
 
-bool is_quadratic(const Model& model, std::size_t invariant) {
-  const auto difference = third_difference(*model.tape(Formula::invariants), invariant);
-  return largest<Quad>(difference, model.initial()) <= residual_tolerance<Quad>();
+bool is_quadratic(const std::shared_ptr<const Model>& model, std::size_t invariant) {
+  // Claims ask it at every step of a run. A weak pointer tells a model from a later one in its place.
+  static std::mutex mutex;
+  static std::map<std::weak_ptr<const Model>, std::map<std::size_t, bool>, std::owner_less<>> known;
+  const std::lock_guard lock(mutex);
+  std::erase_if(known, [](const auto& of_one) { return of_one.first.expired(); });
+  auto& of_model = known[model];
+  const auto found = of_model.find(invariant);
+  if (found != of_model.end()) return found->second;
+  const auto difference = third_difference(*model->tape(Formula::invariants), invariant);
+  return of_model[invariant] = largest<Quad>(difference, model->initial()) <= residual_tolerance<Quad>();
 }
 
 }  // namespace pfaff

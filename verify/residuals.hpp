@@ -236,8 +236,8 @@ std::shared_ptr<const Tape> sharp_of_casimirs(const Tape& tensor, const Tape& ca
 /// direction d with unequal components: one number, zero where the output is a polynomial of degree two in
 /// the state.
 std::shared_ptr<const Tape> third_difference(const Tape& values, std::size_t k);
-/// True where it is, at random states near the initial one.
-bool is_quadratic(const Model& model, std::size_t invariant);
+/// True where it is, at random states near the initial one; computed once for a model.
+bool is_quadratic(const std::shared_ptr<const Model>& model, std::size_t invariant);
 
 /// Y_z^T K_c Y_z - K with K_c = [[0, -I], [I, 0]], for the chart Y and the structure K: zero where the chart
 /// is Darboux's.

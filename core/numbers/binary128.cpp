@@ -1,4 +1,4 @@
-#include <emmintrin.h>
+#include <immintrin.h>
 
 #include <algorithm>
 #include <bit>
@@ -148,6 +148,14 @@ __float128 binary128_product(__float128 a, __float128 b) noexcept {
 
 namespace {
 
+// Of a number in memory, whose halves are loaded one by one.
+[[gnu::always_inline]] inline Encoded encoded_at(const __float128* x) {
+  Encoded halves;
+  __builtin_memcpy(&halves.low, x, sizeof(Half));
+  __builtin_memcpy(&halves.high, reinterpret_cast<const char*>(x) + sizeof(Half), sizeof(Half));
+  return halves;
+}
+
 // The exponents of products.
 struct Exponents {
   unsigned largest = 0;  // the sum of both
@@ -164,10 +172,34 @@ struct Exponents {
   }
 };
 
-// The sum of numbers of 256 bits; those of negative sign are summed by themselves.
+// A number of 256 bits, the lowest first.
+struct Halves {
+  unsigned long long parts[4] = {};
+  [[gnu::always_inline]] unsigned long long& operator[](int k) { return parts[k]; }
+  [[gnu::always_inline]] unsigned long long operator[](int k) const { return parts[k]; }
+};
+
+[[gnu::always_inline]] inline Halves halves_of_product(Encoded m, Encoded n) {
+  const Whole lowest = Whole{m.low} * n.low, middle = Whole{m.low} * n.high,
+              also_middle = Whole{m.high} * n.low, highest = Whole{m.high} * n.high;
+  const auto low = [](Whole x) { return static_cast<unsigned long long>(x); };
+  const auto high = [](Whole x) { return static_cast<unsigned long long>(x >> 64); };
+  Halves p;
+  p[0] = low(lowest);
+  unsigned char carry = _addcarry_u64(0, low(middle), high(lowest), &p[1]);
+  carry = _addcarry_u64(carry, high(middle), 0, &p[2]);
+  carry = _addcarry_u64(0, p[1], low(also_middle), &p[1]);
+  carry = _addcarry_u64(carry, p[2], high(also_middle), &p[2]);
+  _addcarry_u64(carry, high(highest), 0, &p[3]);
+  carry = _addcarry_u64(0, p[2], low(highest), &p[2]);
+  _addcarry_u64(carry, p[3], 0, &p[3]);
+  return p;
+}
+
+// The sum of numbers of 256 bits, in two's complement.
 class Accumulator {
  public:
-  explicit Accumulator(unsigned largest) : largest_(largest) {}
+  [[gnu::always_inline]] explicit Accumulator(unsigned largest) : largest_(largest) {}
 
   // Adds x y. The largest product that is added lies between 2^240 and 2^242, this one is 2^below times
   // smaller than by its significands; so there is room for 2^13 products, and what is dropped of each is less
@@ -176,28 +208,26 @@ class Accumulator {
     const unsigned x_exponent = exponent_of(x.high), y_exponent = exponent_of(y.high);
     const unsigned below = largest_ - x_exponent - y_exponent;
     if (x_exponent == 0 || y_exponent == 0 || below >= 256) return;
-    const Product p = product_of(significand(x, 15), significand(y, 1));
-    parts_[0] = static_cast<Half>(p.lower);
-    parts_[1] = static_cast<Half>(p.lower >> 64);
-    parts_[2] = static_cast<Half>(p.upper);
-    parts_[3] = static_cast<Half>(p.upper >> 64);
-    const Half* from = parts_ + below / 64;
+    Halves p = halves_of_product(significand(x, 15), significand(y, 1));
+    // By whole halves first, which terms of the sums of series seldom are smaller by.
+    for (unsigned k = below / 64; k > 0; --k) [[unlikely]] p = {p[1], p[2], p[3], 0};
     const unsigned right = below % 64, left = 63 - right;
-    const auto part = [&](int k) { return (from[k] >> right) | ((from[k + 1] << 1) << left); };
-    const Whole lower = Whole{part(1)} << 64 | part(0), upper = Whole{part(3)} << 64 | part(2);
-    Product& sum = sums_[(x.high ^ y.high) >> 63];
-    sum.lower += lower;
-    sum.upper += upper + static_cast<Half>(sum.lower < lower);
+    const Half all = -((x.high ^ y.high) >> 63);  // ones if the product is negative
+    const auto part = [&](Half low, Half high) { return ((low >> right) | ((high << 1) << left)) ^ all; };
+    add({part(p[0], p[1]), part(p[1], p[2]), part(p[2], p[3]), (p[3] >> right) ^ all}, all & 1);
   }
+  // Twice the sum so far.
+  [[gnu::always_inline]] void redouble() { add(sum_, 0); }
 
   // The number nearest to the sum, where products of the exponent `largest` lie between 2^240 and 2^242.
   // False where that is not a normal number.
   [[gnu::always_inline]] bool rounded_to(__float128& result) const {
-    const Product &plus = sums_[0], &minus = sums_[1];
-    const bool negative = plus.upper < minus.upper || (plus.upper == minus.upper && plus.lower < minus.lower);
-    const Product &more = sums_[negative], &less = sums_[!negative];
-    Whole upper = more.upper - less.upper - static_cast<Half>(more.lower < less.lower),
-          lower = more.lower - less.lower;
+    const bool negative = sum_[3] >> 63 != 0;
+    Whole upper = Whole{sum_[3]} << 64 | sum_[2], lower = Whole{sum_[1]} << 64 | sum_[0];
+    if (negative) {
+      lower = -lower;
+      upper = ~upper + static_cast<Half>(lower == 0);
+    }
     result = 0;
     if ((upper | lower) == 0) return true;
     int zeros = 0;
@@ -222,9 +252,13 @@ class Accumulator {
   }
 
  private:
+  [[gnu::always_inline]] void add(Halves x, Half carry) {
+    unsigned char carried = static_cast<unsigned char>(carry);
+    for (int k = 0; k < 4; ++k) carried = _addcarry_u64(carried, sum_[k], x[k], &sum_[k]);
+  }
+
   unsigned largest_;
-  Product sums_[2] = {};
-  Half parts_[8] = {};  // the product, lowest first, and zeros
+  Halves sum_ = {};
 };
 
 constexpr Encoded one{static_cast<Half>(exponent_bias) << 48, 0};
@@ -236,15 +270,25 @@ __float128 binary128_sum_of_products(__float128 start, const __float128* a, std:
                                      const __float128* b, std::ptrdiff_t b_step, std::size_t count) noexcept {
   __float128 result = 0;
   if (count >= 2 && count < most_products) [[likely]] {
-    const auto a_at = [&](std::size_t k) { return encoded(a[static_cast<std::ptrdiff_t>(k) * a_step]); };
-    const auto b_at = [&](std::size_t k) { return encoded(b[static_cast<std::ptrdiff_t>(k) * b_step]); };
+    const auto last = static_cast<std::ptrdiff_t>(count - 1);
+    // The products of a square are the same from both ends.
+    const bool square = a_step == -b_step && b == a + last * a_step;
+    const std::size_t different = square ? count / 2 : count;
+    const auto each = [&](std::size_t begin, std::size_t end, auto&& take) {
+      const __float128 *x = a + static_cast<std::ptrdiff_t>(begin) * a_step,
+                       *y = b + static_cast<std::ptrdiff_t>(begin) * b_step;
+      for (std::size_t k = begin; k < end; ++k, x += a_step, y += b_step) take(encoded_at(x), encoded_at(y));
+    };
+    const std::size_t looked_at = square ? different + count % 2 : count;
     Exponents exponents;
     exponents.look_at(encoded(start), one);
-    for (std::size_t k = 0; k < count; ++k) exponents.look_at(a_at(k), b_at(k));
+    each(0, looked_at, [&](Encoded x, Encoded y) { exponents.look_at(x, y); });
     if (exponents.finite_and_not_subnormal) [[likely]] {
       Accumulator sum(exponents.largest);
+      each(0, different, [&](Encoded x, Encoded y) { sum.add(x, y); });
+      if (square) sum.redouble();
+      each(different, looked_at, [&](Encoded x, Encoded y) { sum.add(x, y); });
       sum.add(encoded(start), one);
-      for (std::size_t k = 0; k < count; ++k) sum.add(a_at(k), b_at(k));
       if (sum.rounded_to(result)) return result;
     }
   }

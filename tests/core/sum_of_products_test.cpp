@@ -134,6 +134,19 @@ TEST(SumOfProducts, DropsOnlyWhatIsFarBelowTheLargest) {
   }
 }
 
+// A square is known by its place in memory; the same numbers in two places have the same sum.
+TEST(SumOfProducts, OfASquareIsThatOfTheSameNumbersElsewhere) {
+  std::mt19937_64 random(1811);
+  for (int k = 0; k < 50'000; ++k) {
+    const Products of(random, k % 2 == 0 ? 8 : 300);
+    const std::vector<Quad> same = of.a;
+    const auto square = [&](const std::vector<Quad>& other) {
+      return sum_of_products(of.start, of.a.data(), 2, other.data() + 2 * (of.count - 1), -2, of.count);
+    };
+    ASSERT_TRUE(square(of.a) == square(same)) << k << ": " << to_string(square(of.a));
+  }
+}
+
 // What has no normal numbers is computed as it is without it.
 TEST(SumOfProducts, BordersOfTheRangeAreThoseOfSumsAndProducts) {
   const Quad largest = of_exponent(0x7ffe), none = Quad(0) / Quad(0), tiny = of_exponent(1);
