@@ -13,7 +13,8 @@ constexpr std::string_view julia_reserved =
     "function "
     "global if import in isa let local macro module mutable new outer primitive public quote return struct "
     "true "
-    "try type using where while sqrt exp log sin cos atan erf ifelse pi im Inf NaN state parameters rates "
+    "try type using where while sqrt exp log sin cos atan erf sinh tanh ifelse pi im Inf NaN state "
+    "parameters rates "
     "nothing "
     "missing "
     "big";

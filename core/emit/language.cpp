@@ -22,7 +22,17 @@ std::string_view usual_name(const Instruction& function) {
     case Operation::cosine:
       return "cos";
     case Operation::special:
-      return static_cast<SpecialFunction>(function.c) == SpecialFunction::arctangent ? "atan" : "erf";
+      switch (static_cast<SpecialFunction>(function.c)) {
+        case SpecialFunction::arctangent:
+          return "atan";
+        case SpecialFunction::error_function:
+          return "erf";
+        case SpecialFunction::hyperbolic_sine:
+          return "sinh";
+        case SpecialFunction::hyperbolic_tangent:
+          return "tanh";
+      }
+      [[fallthrough]];
     default:
       throw std::logic_error("usual_name: not a function of one argument");
   }

@@ -89,6 +89,8 @@ template <class P> inline P sin(const P& x) { return each_lane(x, [](double a) {
 template <class P> inline P cos(const P& x) { return each_lane(x, [](double a) { return cos(a); }); }
 template <class P> inline P atan(const P& x) { return each_lane(x, [](double a) { return atan(a); }); }
 template <class P> inline P erf(const P& x) { return each_lane(x, [](double a) { return erf(a); }); }
+template <class P> inline P sinh(const P& x) { return each_lane(x, [](double a) { return sinh(a); }); }
+template <class P> inline P tanh(const P& x) { return each_lane(x, [](double a) { return tanh(a); }); }
 template <class P> inline P pow(const P& x, double y) { return each_lane(x, [y](double a) { return pow(a, y); }); }
 template <class P, class A, class B> inline P choose_lanes(const P& condition, const A& positive, const B& otherwise) {
   P r;
@@ -102,7 +104,8 @@ const std::string library_functions =
     "extern \"C\" {\ndouble sqrt(double) noexcept;\ndouble exp(double) noexcept;\ndouble log(double) "
     "noexcept;\n"
     "double sin(double) noexcept;\ndouble cos(double) noexcept;\ndouble atan(double) noexcept;\n"
-    "double erf(double) noexcept;\ndouble pow(double, double) noexcept;\n}\n\n";
+    "double erf(double) noexcept;\ndouble sinh(double) noexcept;\ndouble tanh(double) noexcept;\n"
+    "double pow(double, double) noexcept;\n}\n\n";
 
 std::string symbol_of(Formula formula, const std::string& lanes = "") {
   return "pfaff_" + std::string(row_of(formula).name) + lanes;

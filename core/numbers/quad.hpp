@@ -23,6 +23,8 @@ void sincosq(__float128, __float128*, __float128*) noexcept;
 __float128 powq(__float128, __float128) noexcept;
 __float128 atanq(__float128) noexcept;
 __float128 erfq(__float128) noexcept;
+__float128 sinhq(__float128) noexcept;
+__float128 tanhq(__float128) noexcept;
 }
 
 namespace pfaff {

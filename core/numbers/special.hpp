@@ -13,13 +13,33 @@
 
 namespace pfaff {
 
-enum class SpecialFunction { arctangent, error_function };
+enum class SpecialFunction { arctangent, error_function, hyperbolic_sine, hyperbolic_tangent };
 
 inline double special(SpecialFunction which, double x, double /*slope*/) {
-  return which == SpecialFunction::arctangent ? std::atan(x) : std::erf(x);
+  switch (which) {
+    case SpecialFunction::arctangent:
+      return std::atan(x);
+    case SpecialFunction::error_function:
+      return std::erf(x);
+    case SpecialFunction::hyperbolic_sine:
+      return std::sinh(x);
+    case SpecialFunction::hyperbolic_tangent:
+      break;
+  }
+  return std::tanh(x);
 }
 inline Quad special(SpecialFunction which, Quad x, Quad /*slope*/) {
-  return Quad(which == SpecialFunction::arctangent ? atanq(x.native()) : erfq(x.native()));
+  switch (which) {
+    case SpecialFunction::arctangent:
+      return Quad(atanq(x.native()));
+    case SpecialFunction::error_function:
+      return Quad(erfq(x.native()));
+    case SpecialFunction::hyperbolic_sine:
+      return Quad(sinhq(x.native()));
+    case SpecialFunction::hyperbolic_tangent:
+      break;
+  }
+  return Quad(tanhq(x.native()));
 }
 
 using std::acos;
@@ -55,21 +75,21 @@ T max(const T& x, const T& y) requires(requires { select(x, x, y); }) {
   return select(x - y, x, y);
 }
 
-/// Hyperbolic functions by exponentials: their errors are a few units of round-off of the larger of 1 and the
-/// result.
-template <BeyondDouble T>
-T sinh(const T& x) {
-  const T e = exp(x);
-  return (e - T(1) / e) / T(2);
-}
+/// By exponentials, of which the odd hyperbolic functions would lose their digits near zero.
 template <BeyondDouble T>
 T cosh(const T& x) {
   const T e = exp(x);
   return (e + T(1) / e) / T(2);
 }
 template <BeyondDouble T>
+T sinh(const T& x) {
+  return special(SpecialFunction::hyperbolic_sine, x, cosh(x));
+}
+/// The slope is (1 - tanh x) (1 + tanh x).
+template <BeyondDouble T>
 T tanh(const T& x) {
-  return T(1) - T(2) / (exp(T(2) * x) + T(1));
+  const T below = T(2) / (exp(T(2) * x) + T(1));
+  return special(SpecialFunction::hyperbolic_tangent, x, below * (T(2) - below));
 }
 
 template <BeyondDouble T>

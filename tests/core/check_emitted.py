@@ -185,7 +185,7 @@ def check_mathematica(path, sample):
         if name[0].isupper():
             raise ValueError(f"{name} may be Mathematica's own")
     assignments.append(([], module.group(3)))
-    structure(text, [], known, assignments, r"[A-Za-z]\w*", {"Sqrt", "Exp", "Log", "Sin", "Cos", "ArcTan", "Erf", "If", "LinearSolve"})
+    structure(text, [], known, assignments, r"[A-Za-z]\w*", {"Sqrt", "Exp", "Log", "Sin", "Cos", "ArcTan", "Erf", "Sinh", "Tanh", "If", "LinearSolve"})
     if module.group(3).count(",\n") + 1 != len(sample["outputs"]):
         raise ValueError("not as many results as there should be")
 

@@ -26,6 +26,9 @@ constexpr std::array<const char*, 18> operation_names{
     "constant", "time", "input", "negate", "add",   "subtract", "multiply", "divide", "sqrt",
     "exp",      "log",  "sin",   "cos",    "power", "special",  "select",   "solve",  "solve_next"};
 
+// In the order of SpecialFunction.
+constexpr std::array<const char*, 4> special_names{"atan", "erf", "sinh", "tanh"};
+
 // A tape with points at which to evaluate it, for a reader that is no C++.
 nlohmann::json described(const Equations& equations, bool rational) {
   const Tape& tape = equations.tape;
@@ -33,10 +36,9 @@ nlohmann::json described(const Equations& equations, bool rational) {
   j["code"] = j["constants"] = j["solves"] = j["points"] = nlohmann::json::array();
   bool irrational = false;
   for (const Instruction& i : tape.code)
-    j["code"].push_back({i.operation != Operation::special
-                             ? operation_names.at(static_cast<std::size_t>(i.operation))
-                         : static_cast<SpecialFunction>(i.c) == SpecialFunction::arctangent ? "atan"
-                                                                                            : "erf",
+    j["code"].push_back({i.operation == Operation::special
+                             ? special_names.at(static_cast<std::size_t>(i.c))
+                             : operation_names.at(static_cast<std::size_t>(i.operation)),
                          i.a, i.b, i.c});
   for (const Real& c : tape.constants) {
     j["constants"].push_back(exact(c));

@@ -5,7 +5,8 @@ from fractions import Fraction
 import mpmath
 
 FUNCTIONS = {"sqrt": mpmath.sqrt, "exp": mpmath.exp, "log": mpmath.log, "ln": mpmath.log, "sin": mpmath.sin,
-             "cos": mpmath.cos, "atan": mpmath.atan, "arctan": mpmath.atan, "erf": mpmath.erf}
+             "cos": mpmath.cos, "atan": mpmath.atan, "arctan": mpmath.atan, "erf": mpmath.erf,
+             "sinh": mpmath.sinh, "tanh": mpmath.tanh}
 
 
 def number(text, rational):
