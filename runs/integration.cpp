@@ -36,6 +36,7 @@ Integration<StepDual<Of>> Integration<T>::differentiated(std::size_t first) cons
   Start<StepDual<Of>> start{start_.model, start_.method, {state_.begin(), state_.end()},
                             start_.h,     time(),        start_.tolerance};
   start.absolute.assign(start_.absolute.begin(), start_.absolute.end());
+  start.tolerance_forgets = start_.tolerance_forgets;
   for (std::size_t k = 0; k < step_directions && first + k < state_.size(); ++k)
     start.state[first + k].derivative[k] = T(1);
   return Integration<StepDual<Of>>(std::move(start));
@@ -259,7 +260,8 @@ Outcome Integration<T>::steps(std::int64_t count) {
 
 template <class T>
 Status Integration<T>::advance_to(const T& t) {
-  return stepper_->advance_to(reached_, t, {start_.tolerance, start_.absolute}, state_);
+  return stepper_->advance_to(reached_, t, {start_.tolerance, start_.absolute, start_.tolerance_forgets},
+                              state_);
 }
 
 // With a tolerance, to a time at which nobody looks.

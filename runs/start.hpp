@@ -19,9 +19,10 @@ struct Start {
   std::vector<T> state;  // a number for each coordinate of the model
   T h{0};                // the step, of either sign; with a tolerance the time between the states looked at
   T t0{0};
-  T tolerance{0};              // > 0: the method chooses its steps, see Tolerance
-  std::vector<T> absolute{};   // absolute tolerances beside it: none, one, or one for each coordinate
-  std::size_t block_rows = 0;  // the most states that watchers see at once; 0: chosen by their size
+  T tolerance{0};                  // > 0: the method chooses its steps, see Tolerance
+  std::vector<T> absolute{};       // absolute tolerances beside it: none, one, or one for each coordinate
+  bool tolerance_forgets = false;  // see Tolerance
+  std::size_t block_rows = 0;      // the most states that watchers see at once; 0: chosen by their size
 };
 
 /// The start of an integration by a method that outlives it.

@@ -12,6 +12,9 @@
 // number enters that is not the motion's own: the steps are the same in all units, and to the last bit where
 // units differ by powers of two.
 //
+// A method may be told to forget the motion so far: the scale is then max(|z_i|, |z'_i|), of the ends of the
+// step alone, and an error that was small beside a past size may be large beside what is left of it.
+//
 // A motion that starts at rest in zero has no scale, and an absolute tolerance must say what counts there.
 // What the rounding of the state makes of the field, h n_i, is allowed as well, since no step is better: a
 // coordinate whose rate is a difference of large numbers could otherwise hold up the motion for ever.
@@ -30,15 +33,17 @@
 namespace pfaff {
 
 /// The error that a step may make: in coordinate i, `relative` times the scale of the coordinate and
-/// absolute[i] besides. `absolute` is empty, or has one number >= 0 for each coordinate, in its unit.
+/// absolute[i] besides. `absolute` is empty, or has one number >= 0 for each coordinate, in its unit. With
+/// `forgets` the scales are those of the step alone.
 template <class T>
 struct Tolerance {
   // Not explicit: a number is a relative tolerance.
   // NOLINTNEXTLINE(google-explicit-constructor)
-  Tolerance(T relative_one, std::span<const T> absolute_ones = {})
-      : relative(std::move(relative_one)), absolute(absolute_ones) {}
+  Tolerance(T relative_one, std::span<const T> absolute_ones = {}, bool forgets_motion = false)
+      : relative(std::move(relative_one)), absolute(absolute_ones), forgets(forgets_motion) {}
   T relative;
   std::span<const T> absolute;
+  bool forgets;
 };
 
 /// So many steps rejected one after the other may be the fault of rounding errors: see find_noise().
@@ -63,9 +68,11 @@ class CoordinateScales {
   void find(const Tolerance<T>& tolerance, std::span<const T> z, std::span<const T> rate, const T& h,
             std::span<const T> end = {}) {
     const T step = abs(h);
+    forgets_ = tolerance.forgets;
     bool known = size() == 0;
     for (std::size_t i = 0; i < size(); ++i) {
-      own_[i] = std::max({past_[i], T(abs(z[i])), T(step * abs(rate[i]))});
+      own_[i] = tolerance.forgets ? std::max(T(abs(z[i])), end.empty() ? T(0) : T(abs(end[i])))
+                                  : std::max({past_[i], T(abs(z[i])), T(step * abs(rate[i]))});
       known = known || own_[i] > T(0) || abs(rate[i]) > T(0) || amount(tolerance, i) > T(0);
     }
     if (!known)
@@ -78,7 +85,7 @@ class CoordinateScales {
       if (group == T(0) && !end.empty()) group = largest(end, from, to);
       const T zero = unit * unit * group;  // what no rounding error of the others could be told from
       for (std::size_t i = from; i < to; ++i)
-        scale_[i] = (own_[i] > zero ? own_[i] : group) +
+        scale_[i] = (own_[i] > zero || (tolerance.forgets && amount(tolerance, i) > T(0)) ? own_[i] : group) +
                     (amount(tolerance, i) + step * noise_[i]) / tolerance.relative;
     }
   }
@@ -109,7 +116,10 @@ class CoordinateScales {
     return static_cast<double>(largest_ratio);
   }
   /// Remembers the step that was looked at last as one of the motion.
-  void keep() { past_ = own_; }
+  void keep() {
+    past_ = own_;
+    if (forgets_) std::fill(noise_.begin(), noise_.end(), T(0));
+  }
 
   /// A step to begin with from z at t, where the field is `rate`, at most to `end`: one in which no
   /// coordinate bends by more than a few hundredths of its scale. The bending f' = X_t + X_z f follows from a
@@ -164,6 +174,7 @@ class CoordinateScales {
 
   State<P> past_, own_, scale_;  // over the steps kept; the same with the step looked at; what judges it
   State<P> noise_;               // of the rates
+  bool forgets_ = false;         // the motion behind the step that is looked at
   std::size_t positions_;        // the coordinates before the momenta, or all of them
 };
 

@@ -14,6 +14,7 @@
 #include <boost/numeric/odeint/algebra/range_algebra.hpp>
 
 #include <pfaff/core/integrator.hpp>
+#include <pfaff/core/numbers/sum_of_two.hpp>
 
 namespace pfaff {
 
@@ -104,14 +105,17 @@ Status controlled_steps(const P& p, double& t, double end, const Tolerance<doubl
   double h = direction * w.next_step;
   constexpr std::int64_t budget = 1000000000;
   std::int64_t taken = 0;
+  double lost = 0;  // of the time, in rounding: the state moves by all of a step
   Status failure = Status::not_converged;
   for (int rejected = 0; direction * (end - t) > 0;) {
     if (rejected == 0 && steps.next(1) == 0) break;
     const bool clipped = direction * (t + h - end) >= 0;
-    if (clipped) h = end - t;
-    const double last = h;
+    if (clipped) h = (end - t) - lost;
+    const double last = h, before = t;
     if (t + last == t || taken == budget) return failure;
     if (try_step(h)) {
+      const double step = last + lost;
+      two_sum(before, step, t, lost);
       w.scales.keep();
       std::copy(w.end.begin(), w.end.end(), w.from.begin());
       std::copy(w.end.begin(), w.end.end(), z.begin());

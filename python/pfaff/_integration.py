@@ -54,6 +54,8 @@ class Integration:
         t0: the time at the start.
         tolerance: the relative error allowed in a step, for methods that choose their steps.
         absolute: absolute tolerances beside it, one number or one for each coordinate.
+        scales: the size of a coordinate to which `tolerance` is relative: "motion", the largest that it has had so far, or
+            "step", that at the ends of the step alone.
         precision: "double", or "quad" with 113 bits; arrays are of doubles in both, `decimals` has all digits.
         formulation: of a system with constraints, for a method that needs a vector field; without it the usual one.
         system_parameters, method_parameters: dictionaries, where both know a name; others are given as **parameters.
@@ -64,13 +66,15 @@ class Integration:
     """
 
     def __init__(self, system: Any, method: Any, *, step: Any = None, initial: Any = None, t0: Any = 0, tolerance: Any = None, absolute: Any = (),
-                 precision: str = "double", formulation: str | None = None, system_parameters: Mapping[str, Any] | None = None,
+                 scales: str = "motion", precision: str = "double", formulation: str | None = None, system_parameters: Mapping[str, Any] | None = None,
                  method_parameters: Mapping[str, Any] | None = None, **parameters: Any) -> None:
         self.system, self.method = with_parameters(system, method, parameters, system_parameters, method_parameters)
         if not isinstance(precision, str) or precision not in ("double", "quad"):
             raise InputError(unknown("precision", precision, ["double", "quad"]))
         if step is None and tolerance is None:
             raise InputError("step: expected a number other than 0, or a tolerance for a method that chooses its steps")
+        if not isinstance(scales, str) or scales not in ("motion", "step"):
+            raise InputError(unknown("scales", scales, ["motion", "step"]))
         self.precision = precision
         asked = {
             "step": text_of_number(0 if step is None else step, "step"),
@@ -78,6 +82,7 @@ class Integration:
             "t0": text_of_number(t0, "t0"),
             "tolerance": "" if tolerance is None else text_of_number(tolerance, "tolerance"),
             "absolute": texts_of_tolerances(absolute, "absolute"),
+            "scales": scales,
             "formulation": "" if formulation is None else text(formulation, "formulation", "the name of a formulation"),
             "quad": precision == "quad",
         }

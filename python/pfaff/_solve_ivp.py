@@ -279,7 +279,7 @@ def _adaptive(
         raise InputError(f"rtol: expected a number in (0, 1] for {method.name}, got {rtol}")
     if times is None:
         times = np.linspace(begin, end, 101)
-    integration = _integration(system, method, state, begin, step=end - begin, tolerance=rtol, absolute=[float(x) for x in atol])
+    integration = _integration(system, method, state, begin, step=end - begin, tolerance=rtol, absolute=[float(x) for x in atol], scales="step")
     integration._it.allowed = most
     reached, rows, message = [], [], ""
     for time in times:

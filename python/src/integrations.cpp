@@ -35,6 +35,7 @@ std::unique_ptr<Stepping> stepping_of(const PySystem& system, const PyMethod& me
     check_tolerances(*start.method, *start.model, start.tolerance.quad(), {});  // where it is 0, too
   }
   start.absolute = numbers_of(texts("absolute"), "absolute");
+  start.tolerance_forgets = asked["scales"].cast<std::string>() == "step";
   return make_stepping(start, asked["quad"].cast<bool>());
 }
 

@@ -238,6 +238,7 @@ std::unique_ptr<Stepping> made(const AskedStepping& asked) {
   Start<T> start{asked.model, asked.method, scalars_of<T>(asked.state),
                  T(asked.h),  T(asked.t0),  T(asked.tolerance)};
   start.absolute = scalars_of<T>(asked.absolute);
+  start.tolerance_forgets = asked.tolerance_forgets;
   return std::make_unique<SteppingIn<T>>(begun(std::move(start)));
 }
 }  // namespace

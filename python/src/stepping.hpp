@@ -73,6 +73,7 @@ struct AskedStepping {
   std::vector<Real> state;
   Real h, t0, tolerance;
   std::vector<Real> absolute{};
+  bool tolerance_forgets = false;
 };
 
 /// InputError where what is asked for does not fit together, and where the state is not one to begin at.

@@ -175,3 +175,22 @@ def test_times_close_behind_a_step_have_their_own_states():
     times = np.array([0, 9e-11, 0.1, 0.1 + 9e-11, 0.2])
     result = pfaff.solve_ivp(lambda t, y: -y, (0, 1), [1.0], "gauss", times, stages=4, step=0.1)
     assert np.abs(result.y[0] - np.exp(-times)).max() < 1e-15  # h^9 times 1e-9 and less, and round-off
+
+
+@pytest.mark.parametrize("method", ["extrapolation", "taylor", "odeint-dopri5", "odeint-bulirsch-stoer"])
+def test_tolerances_are_relative_to_the_state_as_scipys_are(method):
+    """From 1 down to e^-30 and back to 1: an error that is small beside the 1 of the beginning is large beside e^-30."""
+    def field(t, y):
+        return [-3 * np.sin(t / 5) * y[0]]
+
+    result = pfaff.solve_ivp(field, (0, 10 * math.pi), [1.0], method, rtol=1e-9, atol=1e-30)
+    assert result.success and abs(result.y[0, -1] - 1) < 1e-6  # a few hundred steps of 1e-9 each; 2e-2 relative to the largest
+    loose = pfaff.Integration(result_system(field), "odeint-dopri5", step=10 * math.pi, initial=[1.0], tolerance=1e-9)
+    loose.steps(1)
+    assert abs(loose.state[0] - 1) > 1e-4
+    with pytest.raises(pfaff.InputError, match="unknown scales 'state'.*motion.*step"):
+        pfaff.Integration(result_system(field), "taylor", step=1, initial=[1.0], tolerance=1e-9, scales="state")
+
+
+def result_system(field):
+    return pfaff.system(coordinates=["y"], initial=[1.0], formula="field", name="down-and-up")(lambda t, y: field(t, [y]))
