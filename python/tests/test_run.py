@@ -284,3 +284,16 @@ def test_out_leaves_what_the_run_is_made_again_from(tmp_path):
 
     pfaff.run(quartic, kick, step=0.05, time=1, out=tmp_path / "method")
     assert not (tmp_path / "method" / "config.toml").exists()
+
+
+@pytest.mark.parametrize("size, rate, words", [(1.1, 1, "does not begin at the state that it is asked for: q is 1.1 instead of 1"),
+                                               (1, 1.01, "does not follow its equations: at the start p changes by -1.01 a unit of time instead of -1")])
+def test_errors_are_not_measured_against_another_motion(size, rate, words):
+    def solution(elapsed, q, p):
+        c, s = np.cos(rate * elapsed), np.sin(rate * elapsed)
+        return [size * (q * c + p * s), size * (p * c - q * s)]
+
+    said = pfaff.system(coordinates=["q", "p"], initial=[1, 0], exact_solution=solution, name="said")(lambda q, p: p**2 / 2 + q**2 / 2)
+    with pytest.raises(pfaff.InputError, match=words):
+        pfaff.run(said, "gauss", step=0.05, time=20)
+    assert pfaff.run(said, "gauss", step=0.05, time=20, reference=None).error is None

@@ -43,7 +43,8 @@ class ReferenceSolution {
   /// first of these is: the end of the domain of the formulas, a singularity, the time from which the two
   /// series agree in less than 20 digits, a million steps, 2^26 stored numbers (a gigabyte), the end of the
   /// budget of the thread, of which a step of either series spends one. BudgetSpent where that was asked to
-  /// stop.
+  /// stop. InputError for a closed form that is beyond doubt, from its value and its rate at the start, not
+  /// the solution.
   ReferenceSolution(std::shared_ptr<const Model> model, Quad t0, std::vector<Quad> initial, Quad duration);
 
   /// "exact" for a closed form; of Taylor series, in how many digits of each coordinate the two agree,
@@ -73,7 +74,7 @@ class ReferenceSolution {
   Quad t0_;
   std::vector<Quad> initial_;
   bool backwards_;
-  std::shared_ptr<const Problem<Quad>> problem_;  // closed form only
+  bool exact_ = false;  // it is a closed form
   std::vector<Piece> pieces_;
   Quad end_;              // of the last piece
   Quad disagreement_{0};  // of the two series, relative; the largest

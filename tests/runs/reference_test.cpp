@@ -50,6 +50,58 @@ TEST(Reference, TaylorFlowAgreesWithEveryExactSolution) {
   EXPECT_GE(systems_seen, 3);
 }
 
+// An oscillator and what is said to be its solution.
+enum class Closed { right, elsewhere, faster, in_doubles, none_at_zero };
+template <Closed closed>
+struct SaidToBeSolved {
+  static constexpr int dimension = 2;
+  template <class T>
+  T hamiltonian(const T& /*t*/, In<T> z) const {
+    return (z[0] * z[0] + z[1] * z[1]) / 2;
+  }
+  template <class T>
+  void exact_solution(const T& elapsed, const T& /*t0*/, In<T> z0, Out<T> z) const {
+    const T rate = closed == Closed::faster       ? T(1.001_r)
+                   : closed == Closed::in_doubles ? T(1.0000000000000002_r)
+                                                  : T(1);
+    const T size = closed == Closed::elsewhere      ? T(1.001_r)
+                   : closed == Closed::none_at_zero ? elapsed / elapsed
+                                                    : T(1);
+    const T c = cos(rate * elapsed), s = sin(rate * elapsed);
+    z[0] = size * (z0[0] * c + z0[1] * s);
+    z[1] = size * (z0[1] * c - z0[0] * s);
+  }
+};
+template <Closed closed>
+std::string refusal_of_solution(double duration) {
+  const auto model = make_model({.name = "said",
+                                 .title = "",
+                                 .reference = "",
+                                 .coordinates = {{"q", ""}, {"p", ""}},
+                                 .initial = {1, 0}},
+                                SaidToBeSolved<closed>());
+  try {
+    const ReferenceSolution solution(model, Quad(3), start_of(*model), Quad(duration));
+    return solution.kind();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+TEST(Reference, AClosedFormOfAnotherMotionIsRefused) {
+  for (const double duration : {1e-3, 20.0, -20.0, 1e7, 1e12}) {
+    SCOPED_TRACE(duration);
+    EXPECT_EQ(refusal_of_solution<Closed::right>(duration), "exact");
+    EXPECT_EQ(refusal_of_solution<Closed::in_doubles>(duration), "exact");
+    EXPECT_EQ(refusal_of_solution<Closed::none_at_zero>(duration),
+              "exact");  // what is no number is said later
+    EXPECT_NE(refusal_of_solution<Closed::elsewhere>(duration).find("q is 1.001 instead of 1"),
+              std::string::npos);
+    EXPECT_NE(refusal_of_solution<Closed::faster>(duration).find(
+                  "p changes by -1.001 a unit of time instead of -1"),
+              std::string::npos);
+  }
+}
+
 TEST(Reference, TaylorFlowAgreesWithTheGoldenFlow) {
   std::ifstream file(PFAFF_GOLDEN "/damped_pendulum.json");
   const auto golden = nlohmann::json::parse(file)["exact_flow"];
