@@ -148,3 +148,39 @@ def test_a_method_is_not_blamed_for_a_system_that_is_wrong(tmp_path):
     checks = pfaff.verify("verlet", on=str(file))
     assert not checks.ok
     assert {check.plugin for check in checks.failed} == {"turned"}
+
+
+def conformal_splitting(kick_at_end):
+    """A splitting for friction whose second kick is at the end of the step, or at its start, as if the force had no time."""
+    @pfaff.method(order=2, preserves=["conformal"], needs=["conformal", "vector-field"], name=f"kick-at-{kick_at_end}")
+    def split(problem, t, h, z):
+        n = problem.size // 2
+        q, p = z[:n], z[n:]
+        none = 0 * p
+
+        def force(t, q):
+            return problem.field(t, np.concatenate([q, none]))[n:]
+
+        rate = force(t, q)[0] - problem.field(t, np.concatenate([q, none + 1]))[n]
+        p = p * np.exp(-rate * h / 2) + h / 2 * force(t, q)
+        q = q + h * problem.field(t + h / 2, np.concatenate([q, p]))[:n]
+        return np.concatenate([q, (p + h / 2 * force(t + kick_at_end * h, q)) * np.exp(-rate * h / 2)])
+
+    return split
+
+
+def test_a_splitting_that_forgets_the_time_of_a_force_is_found_out():
+    checks = pfaff.verify(conformal_splitting(0))
+    assert not checks.ok and {check.claim for check in checks.failed} == {"order", "order conditions"}
+    assert pfaff.verify(conformal_splitting(1)).ok
+
+
+def test_a_start_of_floats_is_on_its_constraints():
+    def pendulum(angle, digits):
+        start = [round(float(np.sin(angle)), digits), round(float(-np.cos(angle)), digits), 0, 0]
+        return pfaff.system(coordinates={"q": 2, "p": 2}, initial=start, holonomic=lambda q: q @ q - 1, name="rod")(lambda q, p: p @ p / 2 + 9.81 * q[1])
+
+    for angle in np.random.default_rng(5).uniform(-3, 3, 5):
+        assert pfaff.verify(pendulum(angle, 17)).ok
+    coarse = pfaff.verify(pendulum(0.3, 10))
+    assert {check.claim for check in coarse.failed} == {"initial state is on the constraints"}

@@ -237,4 +237,45 @@ TEST(JudgedSystems, ExactSolutionsOnSurfacesThatMove) {
   EXPECT_EQ(bad(check_system(carried)), Names{});
 }
 
+// A pendulum on a rod whose length is a power of ten, and whose start somebody computed in doubles.
+template <int exponent>
+struct Rod {
+  static constexpr int dimension = 4, constraint_count = 1;
+  static Real length() { return exponent < 0 ? 1e-9_r : exponent > 0 ? 1e9_r : Real(1); }
+  template <class T>
+  T kinetic(const T& /*t*/, In<T> p) const {
+    return (p[0] * p[0] + p[1] * p[1]) / 2;
+  }
+  template <class T>
+  T potential(const T& /*t*/, In<T> q) const {
+    return q[1];
+  }
+  template <class T>
+  void holonomic(const T& /*t*/, In<T> q, Out<T> phi) const {
+    phi[0] = q[0] * q[0] + q[1] * q[1] - T(length() * length());
+  }
+};
+// Whether a rod that begins there is found not to begin on its constraint.
+template <int exponent>
+bool begins_off(const char* name, const Real& x, const Real& y) {
+  static std::vector<std::unique_ptr<const SystemPlugin>> kept;
+  SystemDescriptor descriptor{.name = name, .title = "", .reference = ""};
+  descriptor.coordinates = {{"x", ""}, {"y", ""}, {"p_x", ""}, {"p_y", ""}};
+  descriptor.initial = {Rod<exponent>::length() * x, Rod<exponent>::length() * y, 0, 0};
+  kept.push_back(std::make_unique<System<Rod<exponent>>>(descriptor));
+  const Names faults = bad(check_system(*kept.back()));
+  return std::find(faults.begin(), faults.end(), "initial state is on the constraints") != faults.end();
+}
+TEST(JudgedSystems, StartsThatWereComputedInDoublesAreOnTheSurfaceToTheirDigits) {
+  const Real x = 0.29552020666133955_r,
+             y = -0.955336489125606_r;  // sin .3 and -cos .3, as a double prints them
+  EXPECT_FALSE(begins_off<0>("rod-in-doubles", x, y));
+  EXPECT_TRUE(begins_off<0>("rod-in-few-digits", 0.2955202066_r, y));
+  EXPECT_TRUE(begins_off<0>("rod-moved", 0.29552020666143955_r, y));
+  // A start that is off by a thousandth is, in all units of length.
+  EXPECT_TRUE(begins_off<-9>("rod-off-small", 0.296_r, y));
+  EXPECT_TRUE(begins_off<0>("rod-off", 0.296_r, y));
+  EXPECT_TRUE(begins_off<9>("rod-off-large", 0.296_r, y));
+}
+
 }  // namespace

@@ -140,7 +140,8 @@ class Drawing {
     return sum;
   }
 
-  // A mass matrix that couples where there are two momenta, and powers of momenta beyond the second.
+  // A mass matrix that couples where there are two momenta, and powers of momenta beyond the second. Of half
+  // of the systems with friction, drawn by chance, the forces depend on time.
   void energies(std::size_t d) {
     dimension(2 * d);
     SparsePolynomial kinetic = squares(d), potential = terms(d, 2, 4, 2 + size_);
@@ -148,7 +149,9 @@ class Drawing {
     if (size_ > 0 && below(2) == 0) kinetic = kinetic + Real::fraction(1, 4) * terms(d, 3, 4, 1);
     const bool breathing = recipe_.kind == SystemKind::breathing;
     if (breathing) kinetic = driven(kinetic, 2, 3);
-    if (breathing || recipe_.kind == SystemKind::driven) potential = driven(potential, 1, 3);
+    const bool damped_and_driven = recipe_.kind == SystemKind::damped && below(2) == 0;
+    if (breathing || damped_and_driven || recipe_.kind == SystemKind::driven)
+      potential = driven(potential, 1, 3);
     recipe_.parts = {{kinetic}, {potential}};
   }
   // One function of a momentum and, with the size, more of positions, each in a term of its own beside those
