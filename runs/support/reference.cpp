@@ -156,12 +156,16 @@ struct ExactSolution {
   // Whether a closed form is right to its last digit is a question for verification; here it is refused
   // (InputError) where it is another one beyond doubt, near the start. What is not finite there is no
   // solution, which is said elsewhere.
+  // What a number is off by is relative to its size, or to as small a part of the largest one: a momentum of
+  // zero is what rounding leaves of it.
   static constexpr double beyond_doubt = 1e-6;
 
   void check_start() const {
     const std::vector<Quad> start = after(Quad(0));
+    const Quad rounded = Quad(beyond_doubt) * largest(initial);
     for (std::size_t k = 0; k < start.size(); ++k)
-      if (abs(start[k] - initial[k]) > Quad(beyond_doubt) * std::max(abs(start[k]), abs(initial[k])))
+      if (abs(start[k] - initial[k]) >
+          Quad(beyond_doubt) * std::max({abs(start[k]), abs(initial[k]), rounded}))
         refuse("does not begin at the state that it is asked for: " + name(k) + " is " +
                to_string(start[k], 6) + " instead of " + to_string(initial[k], 6));
   }
@@ -171,6 +175,7 @@ struct ExactSolution {
     std::vector<Quad> field(initial.size());
     Problem<Quad>(model).field(t0, initial, field);
     const std::vector<Quad> start = after(Quad(0));
+    const Quad rounded = Quad(beyond_doubt) * std::max(largest(field), abs(largest(initial) / duration));
     for (const int exponent : {-40, -55, -70}) {
       const Quad s = duration * Quad(std::ldexp(1.0, exponent));
       if (s == Quad(0)) return;
@@ -183,7 +188,7 @@ struct ExactSolution {
         };
         const Quad near = rate_over(quarter, 4), far = rate_over(half, 2), farther = rate_over(whole, 1);
         const Quad rate = Quad(2) * near - far, bend = abs(far - near);
-        const Quad size = std::max(abs(field[k]), abs(initial[k] / duration));
+        const Quad size = std::max({abs(field[k]), abs(initial[k] / duration), rounded});
         const bool bends_evenly = abs(farther - far - Quad(2) * (far - near)) <= bend / Quad(10);
         straight = straight && (bends_evenly || bend <= Quad(beyond_doubt) * size / Quad(1000));
         if (wrong.empty() && abs(rate - field[k]) > Quad(beyond_doubt) * size + bend)
@@ -197,6 +202,11 @@ struct ExactSolution {
   }
 
  private:
+  static Quad largest(const std::vector<Quad>& numbers) {
+    Quad most(0);
+    for (const Quad& x : numbers) most = std::max(most, abs(x));
+    return most;
+  }
   [[nodiscard]] std::string name(std::size_t k) const { return model->coordinates()[k].name; }
   [[noreturn]] void refuse(const std::string& what) const {
     throw InputError("the exact solution of " + model->name() + " " + what +
