@@ -187,6 +187,8 @@ class Run:
     _COLUMNS = ("quantity", "class", "max", "slope", "slope_low", "slope_high")
 
     def __repr__(self) -> str:
+        if "reference_ended" in self.summary:
+            error += f", {'errors end early' if error else 'no errors'}: {self.summary['reference_ended']}"
         rows = self._rows()
         return self._head() + ("\n" + text_table(self._COLUMNS, rows) if rows else "")
 
