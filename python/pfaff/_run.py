@@ -243,7 +243,8 @@ def run(system: Any, method: Any, *, step: Any = None, tolerance: Any = None, ti
     Args:
         system: a name, the path of a text model, or a pfaff.System.
         method: a name, the path of a table, a dictionary of coefficients, or a pfaff.Method.
-        step: the step, > 0; or `tolerance`, the relative error of a step of a method that chooses its steps.
+        step: the step, > 0; or `tolerance`, for a method that chooses its steps: the error of a step in each coordinate,
+            relative to the largest size that the coordinate has had so far in the motion.
         time: the duration; a negative one goes back in time.
         every: the steps between two samples; 0 chooses for about a thousand samples.
         initial: the state, shape (dimension,); without it the system's own.
